@@ -1,0 +1,59 @@
+// Front door of the kinematics: where the sled hangs, and how much chain holds it there.
+#pragma once
+
+#include "machine.h"
+
+namespace kinematics {
+
+/// How a search or a request ended.
+enum class Found : uint8_t {
+  kYes,
+  kOutOfReach,    ///< no sled can hang there: beside or above the motors, inside a sprocket, NaN,
+                  ///< or chains too short to meet
+  kTooManyTries,  ///< the search did not settle; the place it holds is not to be used
+};
+
+/// What inverse() answers: lengths are zero unless found is kYes.
+template <class Real>
+struct PaidOut {
+  Chains<Real> chains;  ///< [mm] from 12 o'clock
+  Found found;
+};
+
+/// What forward() answers: the sled's place, to be used only if found is kYes.
+template <class Real>
+struct Place {
+  Point<Real> sled;  ///< [mm] where the bit is
+  Found found;
+  uint8_t tries;     ///< rounds it took
+};
+
+/// Both strands of a hanging sled.
+template <class Real>
+struct Hanging {
+  Strand<Real> strand[kSideCount];
+  Real sine_of_sum;  ///< [1] of both strands' angles below the horizontal added together
+  Found found;
+};
+
+/// Works out the constants of a machine; about 6,000 cycles on the board, once per change.
+template <class Real>
+Machine<Real> prepare(const Frame<Real>& frame, const EffectParams<Real>& effects);
+
+/// Both strands, with forces where an effect needs them, for a bit at `bit` [mm].
+template <class Real>
+Hanging<Real> hang(const Machine<Real>& machine, Point<Real> bit);
+
+/// Chain to pay out on each side, from 12 o'clock, so that the bit is at `bit` [mm].
+template <class Real>
+PaidOut<Real> inverse(const Machine<Real>& machine, Point<Real> bit);
+
+/// Where the bit is when `chains` [mm] are paid out, searched from the straight-chain solution.
+template <class Real>
+Place<Real> forward(const Machine<Real>& machine, Chains<Real> chains);
+
+/// The same, searched from a place `guess` [mm] nearby, as when following the encoders.
+template <class Real>
+Place<Real> forward(const Machine<Real>& machine, Chains<Real> chains, Point<Real> guess);
+
+}  // namespace kinematics

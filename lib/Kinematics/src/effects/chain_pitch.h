@@ -1,0 +1,37 @@
+// Chain pitch: links made, or worn, longer than nominal, so fewer of them reach the same distance.
+#pragma once
+
+#include "../effect.h"
+
+namespace kinematics {
+
+/// Free chain of length L is L / (1 + strain) nominal lengths of chain; left and right differ.
+///
+/// Only free chain: the sprocket's teeth hold its links at their own pitch, and the ring's arm is
+/// no chain at all. (The published firmware divides the arm as well, 0.28 mm at 0.2 %.)
+template <class Real>
+struct ChainPitch : Effect<Real> {
+  enum { kLeftStrain, kRightStrain, kParamCount };
+
+  static EffectInfo info() {
+    return {"chain_pitch", "each chain's links are longer than nominal, by manufacture or wear",
+            "both alike: everything grows in x and drops; one alone: that side's far edge drifts",
+            "tape_scale, frame_flex, chain_zero",
+            "measure 100 links of each chain under the same pull, or use a certified length"};
+  }
+  static ParamInfo param(uint8_t i) {
+    if (i == kLeftStrain) return {"left", "1", -0.001, 0.006, 0.001, "strain of the left chain"};
+    return {"right", "1", -0.001, 0.006, 0.001, "strain of the right chain"};
+  }
+
+  /// A length L becomes L + L * c with c = -strain / (1 + strain): no division on the way.
+  static void prepare(const Real* parameter, uint8_t count, Real* c) {
+    for (uint8_t i = 0; i < count; ++i) c[i] = -(parameter[i] / (Real(1) + parameter[i]));
+  }
+
+  static void adjustLength(const Real* c, Strand<Real>& strand) {
+    strand.extra += c[strand.side] * (strand.free + strand.extra);
+  }
+};
+
+}  // namespace kinematics

@@ -1,0 +1,56 @@
+// The words of the trade: a place, the frame, and one strand of chain from sprocket to sled.
+#pragma once
+
+#include <stdint.h>
+
+namespace kinematics {
+
+/// A place on the sheet; the origin is the sheet's middle, x to the right, y up.
+template <class Real>
+struct Point {
+  Real x, y;  ///< [mm]
+};
+
+/// Chain paid out past 12 o'clock of each sprocket, in nominal links (one pitch is one pitch).
+template <class Real>
+struct Chains {
+  Real left, right;  ///< [mm]
+};
+
+/// Which side of its sprocket a chain leaves by on its way to the sled.
+enum class Feed : uint8_t { kOverTop, kOffBottom };
+
+/// Left and right, used as an index.
+enum Side : uint8_t { kLeft, kRight, kSideCount };
+
+/// What every hanging machine has, whatever effects it suffers from.
+template <class Real>
+struct Frame {
+  Real motor_gap;        ///< [mm] between the sprocket centres
+  Real motor_height;     ///< [mm] sprocket centres above the middle of the sheet
+  Real motor_center_x;   ///< [mm] middle of the sprockets right of the middle of the sheet
+  Real rotation_radius;  ///< [mm] bit to the end of the chain: the ring and its link, no chain
+  Real sprocket_radius;  ///< [mm] chain fed per radian: teeth * pitch / (2 pi)
+  Real sled_weight;      ///< [N] sled, router and bricks, in the plane of the sheet
+  Real chain_weight;     ///< [N/mm] of chain
+  Feed feed;             ///< how the chains leave the sprockets
+};
+
+/// One chain between its sprocket and the bit, drawn straight, and what it carries.
+///
+/// "Straight" is the line that touches the sprocket and passes through the bit. The last
+/// rotation_radius of it is the ring's arm, the rest is free chain.
+template <class Real>
+struct Strand {
+  Side side;
+  Real straight;      ///< [mm] paid out if the chain were a straight, rigid line
+  Real free;          ///< [mm] straight chain between sprocket and arm
+  Real free_share;    ///< [1] free / (free + arm)
+  Real per_distance;  ///< [1/mm] one over the distance from the sprocket's centre to the bit
+  Real sine, cosine;  ///< [1] of the straight line's angle below the horizontal
+  Real tension;       ///< [N] mean pull of the chain; only where an effect asks for forces
+  Real bend;          ///< [1] sled weight * cosine / tension: how easily own weight bends it
+  Real extra;         ///< [mm] nominal links beyond the straight line's: what effects adjust
+};
+
+}  // namespace kinematics

@@ -1,0 +1,97 @@
+// Chain lengths against the judge's exact catenaries, and against geometry done by hand.
+#include <gtest/gtest.h>
+#include <math.h>
+
+#include "machines.h"
+
+using namespace kinematics;
+
+class EveryMachine : public testing::TestWithParam<Tried> {};
+INSTANTIATE_TEST_SUITE_P(Inverse, EveryMachine, testing::ValuesIn(triedMachines()), NameOfTried());
+
+namespace {
+
+/// Worst difference [mm] of either chain's length from the judge's, over sheet and border.
+double worstAgainstJudge(const Tried& tried) {
+  const Machine<double> machine = lawsOf<double>(tried);
+  const reference::Machine judge = judgeOf(tried);
+  double worst = 0;
+  for (const Point<double>& place : sheetPlaces<double>()) {
+    const PaidOut<double> paid = inverse(machine, place);
+    const reference::Hang truth = reference::hangAt(judge, {place.x, place.y});
+    EXPECT_TRUE(truth.solved);
+    EXPECT_EQ(Found::kYes, paid.found);
+    worst = fmax(worst, fabs(paid.chains.left - truth.paid_out[0]));
+    worst = fmax(worst, fabs(paid.chains.right - truth.paid_out[1]));
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST(Inverse, IsWithinFiveMicrometresOfExactStaticsOnTheDefaultMachine) {
+  EXPECT_LT(worstAgainstJudge(triedMachines()[0]), 0.005);
+}
+
+TEST_P(EveryMachine, LengthsAgreeWithExactStatics) {
+  // A light sled lets the chain hang so deep that the closed form's next order shows.
+  const bool deep = GetParam().sled_weight < 80;
+  EXPECT_LT(worstAgainstJudge(GetParam()), deep ? 0.05 : 0.03);
+}
+
+TEST_P(EveryMachine, FloatAgreesWithDouble) {
+  const Machine<float> single = lawsOf<float>(GetParam());
+  const Machine<double> twice = lawsOf<double>(GetParam());
+  for (const Point<float>& place : sheetPlaces<float>()) {
+    const PaidOut<float> rounded = inverse(single, place);
+    const PaidOut<double> exact = inverse(twice, Point<double>{place.x, place.y});
+    ASSERT_EQ(Found::kYes, rounded.found);
+    EXPECT_NEAR(exact.chains.left, double(rounded.chains.left), 0.0012);
+    EXPECT_NEAR(exact.chains.right, double(rounded.chains.right), 0.0012);
+  }
+}
+
+TEST(Inverse, PaysOutTheStraightTangentWithoutEffects) {
+  // By hand, right angles everywhere: the bit hangs 400 right of and 300 below the left axis.
+  Frame<double> frame = {800, 300, 0, 0, 10, 100, 0, Feed::kOverTop};
+  const EffectParams<double> none = {};
+  const double between = 500, tangent = sqrt(500.0 * 500 - 100);
+  const double slope = atan2(300, 400), lift = asin(10 / between);
+  const PaidOut<double> over = inverse(prepare(frame, none), Point<double>{0, 0});
+  EXPECT_NEAR(tangent + 10 * (slope + lift), over.chains.left, 0.0009);
+  EXPECT_NEAR(over.chains.left, over.chains.right, 1e-9);
+  frame.feed = Feed::kOffBottom;
+  const PaidOut<double> under = inverse(prepare(frame, none), Point<double>{0, 0});
+  EXPECT_NEAR(tangent + 10 * (3.141592653589793 - slope + lift), under.chains.left, 0.0009);
+}
+
+TEST(Inverse, MovesWithTheMotors) {
+  Tried tried;
+  const Machine<double> centered = lawsOf<double>(tried);
+  Frame<double> frame = centered.frame;
+  frame.motor_center_x = 12.5;
+  EffectParams<double> effects = {{8.2e-12, 5e-6, 0.001, 0.002}};
+  const PaidOut<double> moved = inverse(prepare(frame, effects), Point<double>{312.5, -100});
+  frame.motor_center_x = 0;
+  const PaidOut<double> still = inverse(prepare(frame, effects), Point<double>{300, -100});
+  EXPECT_NEAR(still.chains.left, moved.chains.left, 1e-9);
+  EXPECT_NEAR(still.chains.right, moved.chains.right, 1e-9);
+}
+
+TEST(Inverse, StepsSmoothlyInFloat) {
+  // Along a slow cut the length of each step must not jitter by a tenth of an encoder count.
+  const Machine<float> single = lawsOf<float>(triedMachines()[0]);
+  const Machine<double> twice = lawsOf<double>(triedMachines()[0]);
+  double worst = 0;
+  float before = 0;
+  double exact_before = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Point<float> place = {-300 + 0.15f * float(i), -500 + 0.01f * float(i)};
+    const float now = inverse(single, place).chains.left;
+    const double exact = inverse(twice, Point<double>{place.x, place.y}).chains.left;
+    if (i > 0) worst = fmax(worst, fabs(double(now - before) - (exact - exact_before)));
+    before = now;
+    exact_before = exact;
+  }
+  EXPECT_LT(worst, 0.0015);
+}
