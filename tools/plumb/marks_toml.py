@@ -1,0 +1,179 @@
+"""`marks.toml`: marks and distances by name, with how they were made."""
+
+from __future__ import annotations
+
+import tomllib
+from os import PathLike
+from typing import Any
+
+from plumb.checks import number, one_of, pair, refuse_unknown, text_of, within
+from plumb.errors import naming, refusal
+from plumb.marks_checks import Sheet, to_machine
+from plumb.marks_model import CONTROLLERS, Distance, Mark, Measurements, Point
+from plumb.text_files import read_text
+
+FRAMES = ("sheet-top-left", "machine")
+HEAD_KEYS = ("frame", "controller", "tape_sigma_mm", "sled_weight_n", "mark", "distance")
+MARK_KEYS = ("name", "target", "measured", "approach", "sled_weight_n", "chains")
+DISTANCE_KEYS = ("between", "mm")
+SLED_WEIGHT_RANGE = (30.0, 1000.0)  # [N] below it somebody wrote kilograms or pounds
+TAPE_SIGMA_RANGE = (0.001, 50.0)  # [mm]
+CHAIN_RANGE = (0.0, 20000.0)  # [mm]
+
+
+def read_marks_toml(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
+    """The marks and distances of a marks.toml, moved to the machine frame."""
+    try:
+        head = tomllib.loads(read_text(path))
+    except tomllib.TOMLDecodeError as error:
+        raise refusal(path, f"is not valid TOML: {error}", remedy="mend that line") from None
+    with naming(path, "at the top"):
+        refuse_unknown(head, HEAD_KEYS)
+    if "frame" not in head:
+        raise refusal(
+            path, "frame is missing", remedy='write frame = "sheet-top-left" or frame = "machine"'
+        )
+    with naming(path, "frame"):
+        top_left = one_of(head["frame"], FRAMES) == "sheet-top-left"
+    weight = _optional_weight(path, "sled_weight_n", head)
+    marks = _marks(path, head, sheet=sheet if top_left else None, weight=weight)
+    return Measurements(
+        marks=marks,
+        distances=_distances(path, head),
+        controller=_controller(path, head),
+        tape_sigma=_tape_sigma(path, head),
+        sled_weight=weight,
+        source=str(path),
+    )
+
+
+def _controller(path: str | PathLike[str], head: dict[str, Any]) -> str | None:
+    if "controller" not in head:
+        return None
+    with naming(path, "controller"):
+        return one_of(head["controller"], CONTROLLERS)
+
+
+def _tape_sigma(path: str | PathLike[str], head: dict[str, Any]) -> float | None:
+    if "tape_sigma_mm" not in head:
+        return None
+    with naming(path, "tape_sigma_mm"):
+        return within(number(head["tape_sigma_mm"]), *TAPE_SIGMA_RANGE)
+
+
+def _optional_weight(path: str | PathLike[str], place: str, table: dict[str, Any]) -> float | None:
+    """The sled weight [N] a table gives."""
+    if "sled_weight_n" not in table:
+        return None
+    with naming(path, place):
+        return sled_weight_in_newtons(number(table["sled_weight_n"]))
+
+
+def sled_weight_in_newtons(weight: float) -> float:
+    """The weight [N], if a sled can weigh that much."""
+    low, high = SLED_WEIGHT_RANGE
+    if not low <= weight <= high:
+        raise ValueError(
+            f"a sled of {weight:g} N is not possible; "
+            "newtons are needed: 9.81 times kilograms, 4.448 times pounds"
+        )
+    return weight
+
+
+def _tables(path: str | PathLike[str], head: dict[str, Any], key: str) -> list[dict[str, Any]]:
+    """All tables [[key]] of the file."""
+    found = head.get(key, [])
+    if not isinstance(found, list) or not all(isinstance(one, dict) for one in found):
+        raise refusal(path, f"[{key}] needs double brackets", remedy=f"write [[{key}]]")
+    return found
+
+
+def _marks(
+    path: str | PathLike[str], head: dict[str, Any], *, sheet: Sheet | None, weight: float | None
+) -> tuple[Mark, ...]:
+    """All marks, moved to the machine frame if a sheet is given."""
+    marks: list[Mark] = []
+    names: dict[Point, str] = {}
+    for index, table in enumerate(_tables(path, head, "mark"), 1):
+        place = f"[[mark]] number {index}"
+        with naming(path, place):
+            refuse_unknown(table, MARK_KEYS)
+            if "target" not in table:
+                raise ValueError("target is missing; write target = [x, y] in mm")
+            name = _name(table["name"]) if "name" in table else None
+        place = f"mark {name}" if name else place
+        target = _place(path, place, table, "target", sheet)
+        name = name or names.setdefault(target, str(index))
+        own_weight = _optional_weight(path, f"{place} sled_weight_n", table)
+        marks.append(
+            Mark(
+                name=name,
+                target=target,
+                measured=_place(path, place, table, "measured", sheet),
+                approach=_approach(path, place, table, sheet),
+                sled_weight=weight if own_weight is None else own_weight,
+                chains=_chains(path, place, table),
+            )
+        )
+    return tuple(marks)
+
+
+def _name(value: object) -> str:
+    """A mark's name; a whole number will do."""
+    name = str(value) if isinstance(value, int) and not isinstance(value, bool) else text_of(value)
+    if not name.strip():
+        raise ValueError("the name is empty; leave it out or fill it in")
+    return name.strip()
+
+
+def _place(
+    path: str | PathLike[str], place: str, table: dict[str, Any], key: str, sheet: Sheet | None
+) -> Point | None:
+    if key not in table:
+        return None
+    with naming(path, f"{place} {key}"):
+        point = pair(table[key])
+    return point if sheet is None else to_machine(point, sheet=sheet)
+
+
+def _approach(
+    path: str | PathLike[str], place: str, table: dict[str, Any], sheet: Sheet | None
+) -> Point | None:
+    """The direction of the last move; in the top-left frame y runs down here as well."""
+    if "approach" not in table:
+        return None
+    with naming(path, f"{place} approach"):
+        along, across = pair(table["approach"])
+        if along == across == 0:
+            raise ValueError("[0, 0] is no direction; leave approach out if it is not known")
+    return (along, across) if sheet is None else (along, -across)
+
+
+def _chains(path: str | PathLike[str], place: str, table: dict[str, Any]) -> Point | None:
+    if "chains" not in table:
+        return None
+    with naming(path, f"{place} chains"):
+        left, right = pair(table["chains"])
+        return within(left, *CHAIN_RANGE), within(right, *CHAIN_RANGE)
+
+
+def _distances(path: str | PathLike[str], head: dict[str, Any]) -> tuple[Distance, ...]:
+    """All distances, as read."""
+    distances: list[Distance] = []
+    for index, table in enumerate(_tables(path, head, "distance"), 1):
+        with naming(path, f"[[distance]] number {index}"):
+            refuse_unknown(table, DISTANCE_KEYS)
+            for key in DISTANCE_KEYS:
+                if key not in table:
+                    raise ValueError(f'{key} is missing; write between = ["1", "2"] and mm = 500.0')
+            ends = table["between"]
+            if not isinstance(ends, list) or len(ends) != 2:
+                raise ValueError('between needs two names, as ["1", "2"]')
+            first, second = _name(ends[0]), _name(ends[1])
+            if first == second:
+                raise ValueError(f"'{first}' is named twice; two different marks are needed")
+            length = number(table["mm"])
+            if length <= 0:
+                raise ValueError(f"mm = {length:g}; a distance is above zero")
+            distances.append(Distance((first, second), length))
+    return tuple(distances)

@@ -1,0 +1,61 @@
+"""Reading measured marks, whatever the file's form; the front door to the marks_* modules."""
+
+from __future__ import annotations
+
+import re
+from os import PathLike
+from pathlib import Path
+
+from plumb.errors import refusal
+from plumb.marks_checks import Sheet, checked
+from plumb.marks_csv import NEEDED, read_marks_csv
+from plumb.marks_ini import read_marks_ini
+from plumb.marks_model import CONTROLLERS, Distance, Mark, Measurements, join_measurements
+from plumb.marks_toml import read_marks_toml
+from plumb.text_files import read_bytes
+
+__all__ = [
+    "CONTROLLERS",
+    "Distance",
+    "Mark",
+    "Measurements",
+    "join_measurements",
+    "read_marks",
+]
+
+
+def read_marks(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
+    """The marks of one file, in the machine frame [mm]; sheet is its width and height [mm]."""
+    form = _form_of(path)
+    if form == "ini":
+        found = read_marks_ini(path, sheet=sheet)
+    elif form == "toml":
+        found = read_marks_toml(path, sheet=sheet)
+    else:
+        found = read_marks_csv(path)
+    return checked(found, sheet=sheet)
+
+
+def _form_of(path: str | PathLike[str]) -> str:
+    """`ini`, `toml` or `csv`, by what the file says first and by its ending second."""
+    text = read_bytes(path).decode("utf-8-sig", "replace").lower()
+    lines = [line.strip() for line in text.splitlines()]
+    lines = [line for line in lines if line and line[0] not in "#;"]
+    if any(line.startswith("[maslow settings]") for line in lines):
+        raise refusal(path, "holds settings, not marks", remedy="give SETTINGS first, then MARKS")
+    if any(re.match(r"\[(sheet|effects\..*)\]", line) for line in lines):
+        raise refusal(path, "holds settings, not marks", remedy="give SETTINGS first, then MARKS")
+    if any(re.match(r"numpositions\s*[=:]", line) for line in lines):
+        return "ini"
+    if any(re.match(r"\[\[(mark|distance)\]\]|frame\s*=", line) for line in lines):
+        return "toml"
+    if lines and any(column in lines[0] for column in NEEDED):
+        return "csv"
+    ending = Path(path).suffix.lower().lstrip(".")
+    if ending in ("ini", "toml", "csv"):
+        return ending
+    raise refusal(
+        path,
+        "is none of the known forms of marks",
+        remedy="give a Calibration Measurements.ini, a marks.toml or a marks.csv",
+    )
