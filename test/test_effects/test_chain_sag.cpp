@@ -12,8 +12,8 @@ namespace {
 const double kChainWeight = 0.00137293, kSledWeight = 97.9;  // [N/mm], [N]
 
 Machine<double> sagging(double weight_ratio_squared, double rotation_radius, double gap) {
-  const Frame<double> frame = {gap,         1072.6,       0,             rotation_radius,
-                               10.10634,    kSledWeight,  kChainWeight,  Feed::kOverTop};
+  const Frame<double> frame = {
+      gap, 1072.6, 0, rotation_radius, 10.10634, kSledWeight, kChainWeight, Feed::kOverTop};
   const EffectParams<double> effects = {{weight_ratio_squared}};
   return prepare(frame, effects);
 }
@@ -36,9 +36,10 @@ TEST(ChainSag, AddsWhatExactCatenariesAdd) {
     judge.sprocket_radius = 10.10634;
     judge.left.weight = judge.right.weight = kChainWeight;
     const Point<double> corner = {1150, -550};
-    const double extra = inverse(machine, corner).chains.left - inverse(straight, corner).chains.left;
-    const double exact = reference::hangAt(judge, {1150, -550}).paid_out[0] -
-                         inverse(straight, corner).chains.left;
+    const double extra =
+        inverse(machine, corner).chains.left - inverse(straight, corner).chains.left;
+    const double exact =
+        reference::hangAt(judge, {1150, -550}).paid_out[0] - inverse(straight, corner).chains.left;
     EXPECT_NEAR(exact, extra, radius > 0 ? 0.004 : 0.012);
     EXPECT_GT(extra, 3);
   }

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include <algorithm>
-
 #include <string>
 #include <vector>
 
@@ -88,7 +87,8 @@ TEST_P(EveryParam, IsFeltFromZero) {
 }
 
 TEST_P(EveryParam, TypicalSizeIsSeenButNotAbsurd) {
-  const double mean = effectOf(GetParam(), GetParam().info.typical) / (2.0 * double(places<double>().size()));
+  const double mean =
+      effectOf(GetParam(), GetParam().info.typical) / (2.0 * double(places<double>().size()));
   EXPECT_GT(mean, 0.005) << "mm of chain";
   EXPECT_LT(mean, 50) << "mm of chain";
 }
@@ -143,9 +143,9 @@ TEST(Registry, PublishedNumbersKeepTheirMeaning) {
   std::vector<std::string> numbers;
   for (const AnyParam& any : everyParam())
     numbers.push_back(std::to_string(any.setting) + " " + any.effect + "." + any.info.name);
-  const std::vector<std::string> released = {
-      "100 chain_sag.weight_ratio_squared", "110 chain_stretch.compliance",
-      "120 chain_pitch.left", "121 chain_pitch.right"};
+  const std::vector<std::string> released = {"100 chain_sag.weight_ratio_squared",
+                                             "110 chain_stretch.compliance", "120 chain_pitch.left",
+                                             "121 chain_pitch.right"};
   for (const std::string& number : released)
     EXPECT_NE(numbers.end(), std::find(numbers.begin(), numbers.end(), number)) << number;
 }

@@ -11,13 +11,13 @@
 /// A machine in plain numbers.
 struct Tried {
   const char* name;
-  double motor_gap = 2978.4;        // [mm]
-  double motor_offset = 463;        // [mm] above the sheet's top edge
-  double rotation_radius = 139.1;   // [mm]
-  double sled_weight = 97.9;        // [N]
+  double motor_gap = 2978.4;       // [mm]
+  double motor_offset = 463;       // [mm] above the sheet's top edge
+  double rotation_radius = 139.1;  // [mm]
+  double sled_weight = 97.9;       // [N]
   bool over_top = true;
-  double chain_weight = 0.00137293; // [N/mm] 0.14 kg/m
-  double compliance = 5.17e-6;      // [1/N]
+  double chain_weight = 0.00137293;  // [N/mm] 0.14 kg/m
+  double compliance = 5.17e-6;       // [1/N]
   double left_pitch = 0.0012;
   double right_pitch = 0.0004;
 };
@@ -58,9 +58,8 @@ kinematics::Machine<Real> lawsOf(const Tried& tried) {
   frame.chain_weight = Real(tried.chain_weight);
   frame.feed = tried.over_top ? kinematics::Feed::kOverTop : kinematics::Feed::kOffBottom;
   const double ratio = tried.chain_weight / tried.sled_weight;
-  kinematics::EffectParams<Real> effects = {
-      {Real(ratio * ratio / 24), Real(tried.compliance), Real(tried.left_pitch),
-       Real(tried.right_pitch)}};
+  kinematics::EffectParams<Real> effects = {{Real(ratio * ratio / 24), Real(tried.compliance),
+                                             Real(tried.left_pitch), Real(tried.right_pitch)}};
   return prepare(frame, effects);
 }
 

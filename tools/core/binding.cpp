@@ -114,8 +114,7 @@ nb::tuple slopes(const Values& values, bool over_top, const Pairs& points) {
     found[i] = static_cast<uint8_t>(paid.found);
     const Slopes* side[2] = {&paid.chains.left, &paid.chains.right};
     for (size_t k = 0; k < 2; ++k) {
-      std::copy_n(side[k]->slope.begin(), +kSettingCount,
-                  by_setting + (2 * i + k) * kSettingCount);
+      std::copy_n(side[k]->slope.begin(), +kSettingCount, by_setting + (2 * i + k) * kSettingCount);
       std::copy_n(side[k]->slope.begin() + kSettingCount, 2, by_place + (2 * i + k) * 2);
     }
   }
@@ -128,7 +127,7 @@ nb::dict strands(const Values& values, bool over_top, const Pairs& points) {
   machine.forces = true;
   static const struct {
     const char* name;
-    double Strand<double>::* member;
+    double Strand<double>::*member;
   } kShown[] = {{"free", &Strand<double>::free},         {"sine", &Strand<double>::sine},
                 {"cosine", &Strand<double>::cosine},     {"tension", &Strand<double>::tension},
                 {"straight", &Strand<double>::straight}, {"extra", &Strand<double>::extra}};

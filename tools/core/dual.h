@@ -41,10 +41,10 @@ Dual<Count> chain(const Dual<Count>& a, const Dual<Count>& b, double f, double d
 }
 
 // Friends of arithmetic; a plain number converts on either side.
-#define PLUMB_DUAL_OPERATOR(sign, f, da, db)                             \
-  template <int Count>                                                   \
+#define PLUMB_DUAL_OPERATOR(sign, f, da, db)                              \
+  template <int Count>                                                    \
   Dual<Count> operator sign(const Dual<Count>& a, const Dual<Count>& b) { \
-    return chain(a, b, f, da, db);                                       \
+    return chain(a, b, f, da, db);                                        \
   }
 PLUMB_DUAL_OPERATOR(+, a.value + b.value, 1.0, 1.0)
 PLUMB_DUAL_OPERATOR(-, a.value - b.value, 1.0, -1.0)

@@ -199,8 +199,7 @@ Place<Real> forward(const Machine<Real>& machine, Chains<Real> chains, Point<Rea
   for (place.tries = 1; place.tries <= kMostTries; ++place.tries) {
     const Hanging<Real> hanging = hang(machine, place.sled);
     const Chains<Real> now = paidOut(hanging);
-    const Point<Real> step =
-        stepTowards(hanging, chains.left - now.left, chains.right - now.right);
+    const Point<Real> step = stepTowards(hanging, chains.left - now.left, chains.right - now.right);
     const Point<Real> next = {place.sled.x + clampStep(step.x), place.sled.y + clampStep(step.y)};
     place.sled = insideReach(machine, next);
     held = place.sled.x != next.x || place.sled.y != next.y;

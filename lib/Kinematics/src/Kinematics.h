@@ -25,7 +25,7 @@ template <class Real>
 struct Place {
   Point<Real> sled;  ///< [mm] where the bit is
   Found found;
-  uint8_t tries;     ///< rounds it took
+  uint8_t tries;  ///< rounds it took
 };
 
 /// Both strands of a hanging sled.

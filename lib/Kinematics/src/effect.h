@@ -9,11 +9,11 @@ namespace kinematics {
 
 /// What people are told of an effect. Only host tools ask; no such text reaches the board.
 struct EffectInfo {
-  const char* name;        ///< snake_case, the word used in files and on screen
-  const char* summary;     ///< the cause, in one sentence
-  const char* pattern;     ///< what it does to marks on the sheet
-  const char* look_alikes; ///< effects with a similar pattern, separated by ", "
-  const char* remedy;      ///< how to tell it apart or cure it
+  const char* name;         ///< snake_case, the word used in files and on screen
+  const char* summary;      ///< the cause, in one sentence
+  const char* pattern;      ///< what it does to marks on the sheet
+  const char* look_alikes;  ///< effects with a similar pattern, separated by ", "
+  const char* remedy;       ///< how to tell it apart or cure it
 };
 
 /// What people are told of one parameter.

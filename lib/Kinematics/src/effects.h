@@ -11,10 +11,7 @@ namespace kinematics {
 
 // From the straight line to links counted by the sprocket: the hanging chain is longer than the
 // line, shorter when its load is taken off, and fewer links when its links are long.
-using Effects = Registry<
-    At<100, ChainSag>,
-    At<110, ChainStretch>,
-    At<120, ChainPitch>>;
+using Effects = Registry<At<100, ChainSag>, At<110, ChainStretch>, At<120, ChainPitch>>;
 
 /// How many numbers describe all effects together.
 enum { kEffectParamCount = Effects::For<float>::kParamCount };

@@ -10,7 +10,7 @@ template <class Real>
 struct FrameField {
   const char* name;
   const char* unit;
-  Real Frame<Real>::* member;
+  Real Frame<Real>::*member;
   double usual;      ///< the published default
   double low, high;  ///< outside these a value is taken for a mistake
   const char* summary;

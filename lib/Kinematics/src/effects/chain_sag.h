@@ -1,4 +1,5 @@
-// Chain sag: a chain that carries its own weight hangs in a curve and is longer than the straight line.
+// Chain sag: a chain that carries its own weight hangs in a curve and is longer than the straight
+// line.
 #pragma once
 
 #include "../effect.h"
@@ -24,13 +25,18 @@ struct ChainSag : Effect<Real> {
   enum { kNeedsForces = 1 };
 
   static EffectInfo info() {
-    return {"chain_sag", "the chain's own weight makes it hang in a curve, longer than a straight line",
+    return {"chain_sag",
+            "the chain's own weight makes it hang in a curve, longer than a straight line",
             "lower corners move inward by millimetres and a little up; the middle column stays",
             "frame_flex, tape_scale, chain_pitch",
             "weigh the sled and one metre of chain: the size follows from the two weights"};
   }
   static ParamInfo param(uint8_t) {
-    return {"weight_ratio_squared", "1/mm^2", 0, 4e-11, 8.2e-12,
+    return {"weight_ratio_squared",
+            "1/mm^2",
+            0,
+            4e-11,
+            8.2e-12,
             "(chain weight per mm / sled weight)^2 / 24; 1e12 times it is chainSagCorrection"};
   }
 

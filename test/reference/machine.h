@@ -1,0 +1,65 @@
+// A hanging machine as it really is: the numbers that the judge's mechanics start from.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+namespace reference {
+
+/// One chain with the motor it hangs from. Zero in any field means that the effect is absent.
+/// Weight and compliance are per mm of the chain as it is, long links included.
+struct ChainSide {
+  double weight = 0;      ///< [N/mm] of chain without load on it
+  double compliance = 0;  ///< [1/N] strain per newton of local tension
+  double pitch = 0;       ///< [strain] of the links against their nominal length, without load
+  double zero = 0;        ///< [mm] of chain past 12 o'clock when the count reads zero
+  double inward = 0;      ///< [mm/N] the mount gives towards the other one, per horizontal pull
+  double downward = 0;    ///< [mm/N] the mount gives downwards, per vertical pull
+
+  /// [mm] from the axis to the sprocket's own centre, as seen (x, y) when the count reads zero.
+  Eigen::Vector2d eccentricity = Eigen::Vector2d::Zero();
+};
+
+/// Frame, sled and both chains. Origin mid sheet, x right, y up along the sheet, z off the sheet.
+struct Machine {
+  double motor_gap = 2978.4;     ///< [mm] between the sprocket axes
+  double motor_height = 1072.6;  ///< [mm] mean of both axes above the middle of the sheet
+  double motor_center_x = 0;     ///< [mm] midpoint of the axes right of the middle of the sheet
+  double height_difference = 0;  ///< [mm] right axis minus left axis
+  double sprocket_radius = 63.5 / (2 * M_PI);  ///< [mm] feed radius: chain per turn / (2 pi)
+  double rotation_radius = 139.1;              ///< [mm] from the bit to where the free chain ends
+  double sled_weight = 97.9;                   ///< [N] the whole of it, also on a leaning frame
+  bool over_top = true;  ///< the chain leaves over the sprocket, else under it
+  double lean = 0;       ///< [rad] of the sheet from the vertical, top away from the sled
+  double plane_gap = 0;  ///< [mm] sprockets farther from the sheet than the ring
+
+  /// [N] force on the sled within the sheet besides weight and chains, such as friction.
+  Eigen::Vector2d push = Eigen::Vector2d::Zero();
+
+  ChainSide left, right;
+};
+
+/// Which way along x leads from a motor to the middle.
+enum class Hand { kLeft = +1, kRight = -1 };
+
+/// +1 for the left chain, -1 for the right one: multiplies x to make it point inwards.
+inline double inwardSign(Hand hand) { return hand == Hand::kLeft ? 1.0 : -1.0; }
+
+/// That side's chain and motor.
+inline const ChainSide& sideOf(const Machine& machine, Hand hand) {
+  return hand == Hand::kLeft ? machine.left : machine.right;
+}
+
+/// [1] unit vector along which weight acts, in the sheet's frame.
+inline Eigen::Vector3d downOf(const Machine& machine) {
+  return {0, -std::cos(machine.lean), -std::sin(machine.lean)};
+}
+
+/// [mm] where a sprocket's axis stands while nothing pulls on it.
+inline Eigen::Vector3d axisAtRest(const Machine& machine, Hand hand) {
+  const double sign = inwardSign(hand);
+  return {machine.motor_center_x - sign * machine.motor_gap / 2,
+          machine.motor_height - sign * machine.height_difference / 2, machine.plane_gap};
+}
+
+}  // namespace reference

@@ -1,0 +1,83 @@
+// From lengths back to the place, and what happens where no sled can hang.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "machines.h"
+
+using Eigen::Vector2d;
+using reference::Machine;
+
+namespace {
+
+TEST(Settle, FindsTheSledThatHung) {
+  for (bool over_top : {true, false}) {
+    Machine machine = defaultMachine();
+    machine.over_top = over_top;
+    for (const Vector2d& bit : gridOver(13, 7, 10)) {
+      const reference::Hang hang = reference::hangAt(machine, bit);
+      const reference::Settled settled = reference::settle(machine, hang.paid_out);
+      ASSERT_TRUE(settled.solved) << bit.transpose();
+      EXPECT_LT((settled.bit - bit).norm(), 1e-9);
+      EXPECT_LT((settled.hang.paid_out - hang.paid_out).norm(), 1e-9);
+    }
+  }
+}
+
+TEST(Settle, FindsItOnAnyMachineFromAnywhere) {
+  Lottery lottery;
+  for (int i = 0; i < 1000; ++i) {
+    const bool plane = i % 2 == 0;
+    const Machine machine = plane ? lottery.drawMachine() : lottery.drawFullMachine();
+    const Vector2d bit = lottery.drawPlace(), start = lottery.drawPlace();
+    const reference::Hang hang = reference::hangAt(machine, bit);
+    ASSERT_TRUE(hang.solved) << i;
+    const reference::Settled settled = reference::settle(machine, hang.paid_out, start);
+    ASSERT_TRUE(settled.solved) << i;
+    EXPECT_LT((settled.bit - bit).norm(), 1e-8) << i;
+  }
+}
+
+TEST(Settle, LongerLeftChainMovesTheSledRightAndDown) {
+  const Machine machine = defaultMachine();
+  const Vector2d more(1, 0);
+  // Published for straight chains in the middle: (+0.62, -0.85) per mm.
+  const Vector2d paid_out = reference::hangAt(machine, {0, 0}).paid_out;
+  const Vector2d moved = reference::settle(machine, paid_out + more).bit;
+  EXPECT_NEAR(0.62, moved.x(), 0.03);
+  EXPECT_NEAR(-0.85, moved.y(), 0.03);
+}
+
+TEST(Settle, RefusesChainsThatDoNotMeet) {
+  // An elastic chain would meet at any price; it breaks at a few thousand newtons.
+  for (const Machine& machine : {Machine(), defaultMachine()}) {
+    EXPECT_FALSE(reference::settle(machine, {1000, 1000}).solved);
+    EXPECT_FALSE(reference::settle(machine, {100, 2500}).solved);
+    EXPECT_FALSE(reference::settle(machine, {-50, 2000}).solved);
+  }
+}
+
+TEST(Settle, RefusesWhatIsNoNumber) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const Machine machine = defaultMachine();
+  EXPECT_FALSE(reference::settle(machine, {none, 1700}).solved);
+  EXPECT_FALSE(reference::settle(machine, {1700, 1700}, {none, 0}).solved);
+  EXPECT_FALSE(reference::hangAt(machine, {0, none}).solved);
+}
+
+TEST(Hang, RefusesPlacesWhereNothingCanHang) {
+  const Machine machine = defaultMachine();
+  const double height = machine.motor_height;
+  EXPECT_FALSE(reference::hangAt(machine, {0, height}).solved);
+  EXPECT_FALSE(reference::hangAt(machine, {0, height + 200}).solved);
+  EXPECT_FALSE(reference::hangAt(machine, {2000, 0}).solved);
+  EXPECT_FALSE(reference::hangAt(machine, {-machine.motor_gap / 2 + 50, height - 40}).solved);
+}
+
+TEST(Hang, RefusesAWeightlessSled) {
+  Machine machine = defaultMachine();
+  machine.sled_weight = 0;
+  EXPECT_FALSE(reference::hangAt(machine, {0, 0}).solved);
+}
+
+}  // namespace

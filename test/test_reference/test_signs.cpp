@@ -1,0 +1,85 @@
+// Which way each property of a chain changes the length that must be paid out.
+#include <gtest/gtest.h>
+
+#include "machines.h"
+
+using Eigen::Vector2d;
+using reference::Machine;
+
+namespace {
+
+Vector2d lengthsOf(const Machine& machine, const Vector2d& bit) {
+  const reference::Hang hang = reference::hangAt(machine, bit);
+  EXPECT_TRUE(hang.solved);
+  return hang.paid_out;
+}
+
+TEST(Signs, SagNeedsMoreChain) {
+  for (const Vector2d& bit : gridOver(7, 5)) {
+    const Vector2d more =
+        lengthsOf(withChains(Machine(), 0.0014, 0), bit) - lengthsOf(Machine(), bit);
+    EXPECT_GT(more[0], 1e-4);
+    EXPECT_GT(more[1], 1e-4);
+  }
+}
+
+TEST(Signs, StretchNeedsLessChain) {
+  for (const Vector2d& bit : gridOver(7, 5)) {
+    const Vector2d more =
+        lengthsOf(withChains(Machine(), 0, 5e-6), bit) - lengthsOf(Machine(), bit);
+    EXPECT_LT(more[0], -0.1);
+    EXPECT_LT(more[1], -0.1);
+  }
+}
+
+TEST(Signs, LongLinksNeedFewerOfThemBetweenSprocketAndRingOnly) {
+  Machine machine;
+  machine.left.pitch = 0.002;
+  for (const Vector2d& bit : gridOver(7, 5)) {
+    const reference::Hang plain = reference::hangAt(Machine(), bit);
+    const Vector2d paid_out = lengthsOf(machine, bit);
+    EXPECT_NEAR(plain.left.wrap + plain.left.free_length / 1.002, paid_out[0], 1e-9);
+    EXPECT_NEAR(plain.paid_out[1], paid_out[1], 1e-9);
+  }
+}
+
+TEST(Signs, ChainAlreadyOutNeedNotBeCounted) {
+  Machine machine = defaultMachine();
+  machine.right.zero = 6.35;
+  const Vector2d bit(300, -100);
+  const Vector2d change = lengthsOf(machine, bit) - lengthsOf(defaultMachine(), bit);
+  EXPECT_NEAR(0, change[0], 1e-9);
+  EXPECT_NEAR(-6.35, change[1], 1e-9);
+}
+
+TEST(Signs, LowerFeedNeedsHalfATurnMoreLessTheSlope) {
+  Machine machine;
+  const Vector2d bit(0, 0);
+  const double over = lengthsOf(machine, bit)[0];
+  const reference::Hang hang = reference::hangAt(machine, bit);
+  machine.over_top = false;
+  const double angle = hang.left.departure_angle;
+  const double turn = machine.sprocket_radius * (M_PI - 2 * angle);
+  // The two tangents differ in slope by 2 r / distance, which moves the wrap by 2 r^2 / distance.
+  EXPECT_NEAR(over + turn, lengthsOf(machine, bit)[0], 0.2);
+}
+
+TEST(Signs, MirroredMachineHangsMirrored) {
+  Lottery lottery;
+  for (int i = 0; i < 100; ++i) {
+    Machine machine = lottery.drawFullMachine();
+    const Vector2d bit = lottery.drawPlace();
+    const Vector2d there = lengthsOf(machine, bit);
+    std::swap(machine.left, machine.right);
+    machine.motor_center_x = -machine.motor_center_x;
+    machine.height_difference = -machine.height_difference;
+    machine.push.x() = -machine.push.x();
+    for (reference::ChainSide* side : {&machine.left, &machine.right})
+      side->eccentricity.x() = -side->eccentricity.x();
+    const Vector2d mirrored = lengthsOf(machine, {-bit.x(), bit.y()});
+    EXPECT_NEAR(there[0], mirrored[1], 1e-8);
+    EXPECT_NEAR(there[1], mirrored[0], 1e-8);
+  }
+}
+
+}  // namespace

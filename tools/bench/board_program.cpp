@@ -1,0 +1,88 @@
+// Runs the kinematics over the sheet on the (simulated) Mega, with a mark around each call.
+// The marks are writes to GPIOR0, a register nothing else uses: case + 1 before, zero after.
+#include <avr/io.h>
+
+#include "Kinematics.h"
+#include "cases.h"
+
+using namespace kinematics;
+
+namespace {
+
+// The compiler must not move work across a mark.
+#define BARRIER() __asm__ __volatile__("" ::: "memory")
+
+volatile float sink;
+
+/// Fills in the typical size of each effect that a case wants.
+struct TypicalSizes {
+  bench::Present present;
+  float* next;
+
+  template <class Own>
+  void effect(int first_setting) {
+    for (uint8_t i = 0; i < Own::kParamCount; ++i)
+      *next++ = bench::isPresent(present, first_setting) ? float(Own::param(i).typical) : 0.0f;
+  }
+};
+
+Machine<float> machineFor(const bench::Case& wanted) {
+  const Frame<float> frame = {2978.4f,     609.6f + 463.0f,
+                              0.0f,        139.1f,
+                              10.1063f,    97.9f,
+                              0.00137293f, wanted.off_bottom ? Feed::kOffBottom : Feed::kOverTop};
+  EffectParams<float> effects;
+  TypicalSizes sizes = {wanted.present, effects.value};
+  Effects::For<float>::visit(sizes);
+  return prepare(frame, effects);
+}
+
+Point<float> gridPlace(uint8_t column, uint8_t row) {
+  return {-1219.2f + 2438.4f * column / (bench::kColumns - 1),
+          -609.6f + 1219.2f * row / (bench::kRows - 1)};
+}
+
+void timeOne(uint8_t number, const Machine<float>& machine, Point<float> place) {
+  const Chains<float> chains = inverse(machine, place).chains;
+  const Point<float> far = {place.x > 0 ? -1219.2f : 1219.2f, place.y > 0 ? -609.6f : 609.6f};
+  const Point<float> near = {place.x + 0.1f, place.y - 0.1f};
+  const bench::What what = bench::kCases[number].what;
+  if (what == bench::kInverse) {
+    BARRIER();
+    GPIOR0 = number + 1;
+    BARRIER();
+    sink = inverse(machine, place).chains.left;
+  } else if (what == bench::kForward) {
+    BARRIER();
+    GPIOR0 = number + 1;
+    BARRIER();
+    sink = forward(machine, chains).sled.x;
+  } else if (what == bench::kForwardFar || what == bench::kForwardNear) {
+    const Point<float> guess = what == bench::kForwardFar ? far : near;
+    BARRIER();
+    GPIOR0 = number + 1;
+    BARRIER();
+    sink = forward(machine, chains, guess).sled.x;
+  } else {
+    BARRIER();
+    GPIOR0 = number + 1;
+    BARRIER();
+    sink = place.x;
+  }
+  BARRIER();
+  GPIOR0 = 0;
+  BARRIER();
+}
+
+}  // namespace
+
+int main() {
+  for (uint8_t i = 0; i < bench::kCaseCount; ++i) {
+    const Machine<float> machine = machineFor(bench::kCases[i]);
+    for (uint8_t column = 0; column < bench::kColumns; ++column)
+      for (uint8_t row = 0; row < bench::kRows; ++row) timeOne(i, machine, gridPlace(column, row));
+  }
+  GPIOR0 = bench::kFinished;
+  for (;;) {
+  }
+}

@@ -1,0 +1,82 @@
+// Runs board_program on a simulated Mega and prints, per case, the exact cycles between marks.
+// One line of JSON: {"name": [minimum, median, maximum], ...}
+#include <simavr/sim_avr.h>
+#include <simavr/sim_elf.h>
+#include <simavr/sim_io.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <vector>
+
+#include "cases.h"
+
+namespace {
+
+const avr_io_addr_t kMarkRegister = 0x3E;  // GPIOR0 in the data space of the ATmega2560
+
+struct Clock {
+  int running = 0;
+  avr_cycle_count_t started = 0;
+  bool finished = false;
+  std::vector<avr_cycle_count_t> cycles[bench::kCaseCount];
+};
+
+void onMark(avr_t* avr, avr_io_addr_t address, uint8_t mark, void* parameter) {
+  Clock& clock = *static_cast<Clock*>(parameter);
+  avr->data[address] = mark;
+  if (mark == bench::kFinished) {
+    clock.finished = true;
+  } else if (mark != 0) {
+    clock.running = mark;
+    clock.started = avr->cycle;
+  } else if (clock.running != 0) {
+    clock.cycles[clock.running - 1].push_back(avr->cycle - clock.started);
+    clock.running = 0;
+  }
+}
+
+void print(Clock& clock) {
+  // What two marks with nothing between them cost is not the kinematics'.
+  const avr_cycle_count_t marks = clock.cycles[0][0];
+  std::printf("{");
+  for (int i = 1; i < bench::kCaseCount; ++i) {
+    std::vector<avr_cycle_count_t>& all = clock.cycles[i];
+    std::sort(all.begin(), all.end());
+    std::printf("%s\"%s\": [%llu, %llu, %llu]", i > 1 ? ", " : "", bench::kCases[i].name,
+                (unsigned long long)(all.front() - marks),
+                (unsigned long long)(all[all.size() / 2] - marks),
+                (unsigned long long)(all.back() - marks));
+  }
+  std::printf("}\n");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "count_cycles: give the board program's ELF file\n");
+    return 2;
+  }
+  elf_firmware_t firmware;
+  std::memset(&firmware, 0, sizeof firmware);
+  if (elf_read_firmware(argv[1], &firmware) != 0) {
+    std::fprintf(stderr, "count_cycles: cannot read %s; build it with avr-g++\n", argv[1]);
+    return 2;
+  }
+  avr_t* avr = avr_make_mcu_by_name("atmega2560");
+  avr_init(avr);
+  avr->frequency = 16000000;
+  avr_load_firmware(avr, &firmware);
+  Clock clock;
+  avr_register_io_write(avr, kMarkRegister, onMark, &clock);
+  while (!clock.finished) {
+    const int state = avr_run(avr);
+    if (state == cpu_Done || state == cpu_Crashed) {
+      std::fprintf(stderr, "count_cycles: the simulated board stopped before its last case\n");
+      return 1;
+    }
+  }
+  print(clock);
+  return 0;
+}

@@ -1,0 +1,100 @@
+"""Who may include whom: an include that the table below does not name is refused."""
+
+import ast
+import re
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import tree
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
+
+# Headers that avr-libc has too; the laws and the pin tables may use no others from outside.
+C_HEADERS = r"(math|stdint|stddef|string|stdlib|stdio|limits|float|ctype|inttypes|stdbool)\.h"
+ARDUINO = C_HEADERS + r"|(Arduino|EEPROM)\.h|(avr|util)/\w+\.h"
+HOST = r"[a-z_0-9]+|" + C_HEADERS
+ANYTHING = r".*"
+
+# Part of the project: the other parts it may include, and what it may include from outside.
+ARROWS = {
+    "lib/*": ([], C_HEADERS),
+    "include": ([], C_HEADERS),
+    "src": (["include", "lib/*"], ARDUINO),
+    "test/reference": ([], HOST + r"|(unsupported/)?Eigen/\w+"),
+    "test/vm": (["test/reference"], ANYTHING),
+    "test/test_*": (["test/reference", "test/vm", "lib/*"], ANYTHING),
+    "tools/core": (["lib/Kinematics"], ANYTHING),
+    "tools/bench": (["lib/*", "test/reference"], ANYTHING),
+}
+# Folders in which an include is looked up after the folder of the file itself.
+SEARCHED = ["include", "src", "lib/*/src", "lib/*", "test", "test/*", "tools/core"]
+
+STANDARD_LIBRARY_ONLY = "tools/calibration_grid.py"
+
+
+def violations(root: Path) -> Iterator[str]:
+    """Each forbidden include and import, one line each."""
+    for path in tree.own_files(root):
+        name = path.relative_to(root)
+        part, rule = part_of(name)
+        if path.suffix in tree.CXX and rule:
+            for line, header in includes(path):
+                why = refusal(root, path, part, rule, header)
+                if why:
+                    yield f"{name}:{line}: {part} may not include {header}: {why}"
+        elif str(name) == STANDARD_LIBRARY_ONLY:
+            for line, module in imports(path):
+                if module not in sys.stdlib_module_names:
+                    yield f"{name}:{line}: imports {module}, not of the standard library"
+
+
+def part_of(name: Path) -> tuple[str, str | None]:
+    """The part in which a file lies (`lib/Motion`) and the row of the table for it."""
+    for rule in ARROWS:
+        depth = rule.count("/") + 1
+        part = Path(*name.parts[:depth])
+        if len(name.parts) > depth and part.match(rule):
+            return part.as_posix(), rule
+    return name.parts[0], None
+
+
+def includes(path: Path) -> Iterator[tuple[int, str]]:
+    """Line number and name of each header that a file includes."""
+    text = tree.text_of(path)
+    for match in INCLUDE.finditer(text):
+        yield text.count("\n", 0, match.start(1)) + 1, match[1]
+
+
+def imports(path: Path) -> Iterator[tuple[int, str]]:
+    """Line number and top-level name of each module that a Python file imports."""
+    for node in ast.walk(ast.parse(tree.text_of(path))):
+        if isinstance(node, ast.Import):
+            yield from ((node.lineno, alias.name.partition(".")[0]) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            yield node.lineno, (node.module or ".").partition(".")[0] if not node.level else "."
+
+
+def refusal(root: Path, path: Path, part: str, rule: str, header: str) -> str | None:
+    """Why a file of this part may not include the header; None if it may."""
+    allowed, outside = ARROWS[rule]
+    parts = {part_of(found.relative_to(root))[0] for found in candidates(root, path, header)}
+    if not parts:
+        return None if re.fullmatch(outside, header) else "not in the list for this part"
+    if part in parts or any(Path(to).match(each) for to in parts for each in allowed):
+        return None
+    return f"that is {', '.join(sorted(parts))}"
+
+
+def candidates(root: Path, path: Path, header: str) -> list[Path]:
+    """What an include may mean: the file beside, else any in the searched folders."""
+    beside = (path.parent / header).resolve()
+    if beside.is_file() and beside.is_relative_to(root):
+        return [beside]
+    folders = [folder for pattern in SEARCHED for folder in root.glob(pattern)]
+    found = [(folder / header).resolve() for folder in folders]
+    return [each for each in found if each.is_file() and each.is_relative_to(root)]
+
+
+if __name__ == "__main__":
+    tree.run(violations, "arrows: every include and import is allowed")

@@ -1,0 +1,69 @@
+"""C++ as clang-format leaves it, Python as ruff leaves it; `--fix` rewrites the files."""
+
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import tree
+
+TOOLS = Path(sys.executable).parent
+CONCISE = ["--output-format", "concise"]
+
+
+def violations(root: Path) -> Iterator[str]:
+    """The first place in each file that the formatters or the linter would change."""
+    cxx, python = both_kinds(root)
+    if cxx:
+        yield from first_in_each_file([*clang_format(), "--dry-run", "--Werror", *cxx], root)
+    if python:
+        yield from first_in_each_file([*ruff("check"), *CONCISE, *python], root)
+        yield from first_in_each_file([*ruff("format"), "--check", *CONCISE, *python], root)
+
+
+def fix(root: Path) -> None:
+    """Rewrites all files in the house's format."""
+    cxx, python = both_kinds(root)
+    if cxx:
+        subprocess.run([*clang_format(), "-i", *cxx], check=True)
+    if python:
+        subprocess.run([*ruff("check"), "--fix", "--exit-zero", *python], check=True)
+        subprocess.run([*ruff("format"), *python], check=True)
+
+
+def both_kinds(root: Path) -> tuple[list[Path], list[Path]]:
+    """The project's C++ files and its Python files."""
+    files = tree.own_files(root)
+    return [f for f in files if f.suffix in tree.CXX], [f for f in files if tree.is_python(f)]
+
+
+def clang_format() -> list:
+    """The formatter of the .venv with the project's own style."""
+    return [TOOLS / "clang-format", f"--style=file:{tree.ROOT / '.clang-format'}"]
+
+
+def ruff(verb: str) -> list:
+    """The linter (`check`) or the formatter (`format`) of the .venv."""
+    return [TOOLS / "ruff", verb, "--no-cache", "--config", tree.ROOT / "tools/ruff.toml"]
+
+
+def first_in_each_file(command: list, root: Path) -> Iterator[str]:
+    """The first line about each file that a failing command prints, else its last words."""
+    done = subprocess.run(command, cwd=root, capture_output=True, text=True)
+    if not done.returncode:
+        return
+    lines = (done.stdout + done.stderr).strip().replace(f"{root}/", "").splitlines()
+    first: dict[str, str] = {}
+    for line in lines:
+        place = re.match(r"(\S+?):\d+:\d+: ", line)
+        if place:
+            first.setdefault(place[1], line)
+    yield from first.values() or lines[-1:] or [f"{command[0]} failed"]
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["--fix"]:
+        fix(tree.ROOT)
+    else:
+        tree.run(violations, "formatting: clang-format and ruff have nothing to say")

@@ -1,0 +1,58 @@
+"""What the checks share: the project's own files, and how a violation is told."""
+
+import subprocess
+import sys
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+CXX = {".h", ".hpp", ".cpp"}
+
+
+def own_files(root: Path) -> list[Path]:
+    """Files below `root` that belong to the project: tracked by git, or new and not ignored."""
+    listing = subprocess.run(
+        ["git", "-C", root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        capture_output=True,
+        text=True,
+    )
+    if listing.returncode == 0:
+        found = {root / name for name in listing.stdout.split("\0") if name}
+    else:
+        found = set(root.rglob("*"))
+    return sorted(path for path in found if path.is_file())
+
+
+def text_of(path: Path) -> str:
+    """The text of a file; empty if it is none."""
+    try:
+        return path.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        return ""
+
+
+def is_python(path: Path) -> bool:
+    """Whether a file is Python, by its name or its first line."""
+    return path.suffix == ".py" or first_line(path).endswith("python3")
+
+
+def is_shell(path: Path) -> bool:
+    """Whether a file is a shell script, by its name or its first line."""
+    return path.suffix == ".sh" or first_line(path).endswith("bash")
+
+
+def first_line(path: Path) -> str:
+    """The line that names the interpreter, or nothing."""
+    line = text_of(path).partition("\n")[0] if not path.suffix else ""
+    return line if line.startswith("#!") else ""
+
+
+def run(find: Callable[[Path], Iterable[str]], good: str) -> None:
+    """Prints what `find` finds in the project and exits 1, or prints `good`.
+
+    An argument on the command line names another folder.
+    """
+    root = Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else ROOT
+    violations = list(find(root))
+    print(*violations or [good], sep="\n")
+    sys.exit(bool(violations))

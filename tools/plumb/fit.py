@@ -1,0 +1,300 @@
+"""Fitting the model to what was measured: parameters with priors, intervals and honest errors.
+
+The frame is held by stated priors: nine marks cannot tell spacing, rotation radius and chain
+zeros apart, so what was measured on the machine stays near its measured value. The radius is a
+solid part and is not fitted at all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import least_squares
+from scipy.stats import t as student
+
+from plumb.machine_settings import MachineSettings
+from plumb.observations import Observations
+from plumb.predict import (
+    FOUND,
+    NAMES,
+    Array,
+    library,
+    parameter_names,
+    places_with_slopes,
+    settings_of,
+    values_of,
+)
+
+SHEET_ROTATION = "sheet_rotation"  # [rad] the sheet as measured, turned against the machine
+USUAL_SIGMA = 0.5  # [mm] of one coordinate read with a tape by hand
+# Standard deviations of what an owner states: spacing by tape or pulled chain; the sheet may lie
+# anywhere near where it was meant to.
+PRIORS: Mapping[str, float] = {
+    "motor_gap": 3.0,
+    "motor_height": 20.0,
+    "motor_center_x": 20.0,
+    SHEET_ROTATION: 0.02,
+}
+UNREACHABLE = 1e6  # residual of a trial machine on which the sled could not hang
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """One fitted number: its value, 95 % interval, and what was known of it before."""
+
+    name: str
+    value: float
+    low: float
+    high: float
+    before: float
+    prior_sigma: float | None  # None: free
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A model fitted to observations."""
+
+    settings: MachineSettings
+    sheet_rotation: float  # [rad]
+    estimates: tuple[Estimate, ...]
+    predicted: Array  # (k, 2) [mm] of the marks, on the sheet
+    errors: Array  # (k, 2) [mm] measured - predicted
+    left_out_errors: Array  # (k, 2) [mm] of each mark when it takes no part in the fit
+    distance_errors: Array  # (m,) [mm]
+    left_out_distance_errors: Array  # (m,) [mm]
+    spent: float  # how many numbers the fit took from the data
+    sigma: float  # [mm] of one number, stated or estimated
+    sigma_from: str  # "stated" or "residuals"
+
+    @property
+    def rms(self) -> float:
+        """Root mean square error of the marks (as vectors), or of distances if there are no marks."""
+        return rms(self.errors if len(self.errors) else self.distance_errors)
+
+    @property
+    def left_out_rms(self) -> float:
+        """The same for marks that took no part: what to expect at a new place."""
+        own = self.left_out_errors if len(self.errors) else self.left_out_distance_errors
+        return rms(own)
+
+    @property
+    def priced_rms(self) -> float:
+        """The fit's error scaled up for the numbers it took from the data."""
+        count = self.errors.size + self.distance_errors.size
+        return self.rms * float(np.sqrt(count / max(count - self.spent, 1e-9)))
+
+
+def rms(errors: Array) -> float:
+    """Root mean square length of errors (n, 2), or of numbers (n,) [mm]."""
+    if len(errors) == 0:
+        return float("nan")
+    return float(np.sqrt(np.mean(np.sum(np.atleast_2d(errors.T).T ** 2, axis=1))))
+
+
+def fit(
+    settings: MachineSettings,
+    observations: Observations,
+    *,
+    effects: Iterable[str] = (),
+    priors: Mapping[str, float] = PRIORS,
+    sigma: float | None = None,
+) -> Fit:
+    """Fit the frame within its priors and the parameters of `effects` to the observations.
+
+    `settings` is the model to start from; sigma [mm] of one coordinate, estimated if None.
+    """
+    problem = _Problem.of(settings, observations, effects, priors, sigma or USUAL_SIGMA)
+    solution = least_squares(
+        problem.residuals,
+        np.zeros(len(problem.names)),
+        jac=problem.slopes,
+        x_scale=1.0,
+        xtol=1e-12,
+        ftol=1e-12,
+        gtol=1e-10,
+        max_nfev=100,
+    )
+    return problem.result(solution.x, sigma)
+
+
+@dataclass(frozen=True)
+class _Problem:
+    """Least squares in scaled unknowns u: value = start + scale * u."""
+
+    settings: MachineSettings
+    observations: Observations
+    names: tuple[str, ...]
+    start: Array
+    scale: Array  # typical size, or the prior's standard deviation
+    held: Array  # True where a prior holds the unknown
+    sigma: float
+
+    @staticmethod
+    def of(
+        settings: MachineSettings,
+        observations: Observations,
+        effects: Iterable[str],
+        priors: Mapping[str, float],
+        sigma: float,
+    ) -> _Problem:
+        typical = {
+            f"{one['name']}.{p['name']}": p["typical"]
+            for one in library()
+            for p in one["parameters"]
+        }
+        free = [name for effect in effects for name in parameter_names(effect)]
+        kept = [name for name in priors if priors[name] > 0]
+        names = (*kept, *free)
+        values = dict(zip(NAMES, values_of(settings), strict=True)) | {SHEET_ROTATION: 0.0}
+        return _Problem(
+            settings=settings,
+            observations=observations,
+            names=names,
+            start=np.array([values[name] for name in names]),
+            scale=np.array([priors[name] for name in kept] + [typical[name] for name in free]),
+            held=np.array([True] * len(kept) + [False] * len(free)),
+            sigma=sigma,
+        )
+
+    def values(self, unknowns: Array) -> tuple[Array, float]:
+        """The model's values array and the sheet's rotation [rad]."""
+        values = values_of(self.settings)
+        rotation = 0.0
+        for name, value in zip(self.names, self.start + self.scale * unknowns, strict=True):
+            if name == SHEET_ROTATION:
+                rotation = float(value)
+            else:
+                values[NAMES.index(name)] = value
+        return values, rotation
+
+    def predict(self, unknowns: Array) -> tuple[Array, Array, bool]:
+        """Places on the sheet (r, 2) [mm], their slopes by the unknowns (r, 2, u), and success."""
+        values, rotation = self.values(unknowns)
+        rows = self.observations
+        where = np.zeros((len(rows.chains), 2))
+        slopes = np.zeros((len(rows.chains), 2, len(NAMES)))
+        reached = True
+        for weight in np.unique(rows.sled_weights):
+            mine = rows.sled_weights == weight
+            own, factors = loaded(values, weight, self.settings.sled_weight)
+            where[mine], of_mine, found = places_with_slopes(
+                own, over_top=self.settings.feed == "top", chains=rows.chains[mine]
+            )
+            slopes[mine] = of_mine * factors
+            reached &= bool((found == FOUND).all())
+        cosine, sine = np.cos(rotation), np.sin(rotation)
+        turn = np.array([[cosine, -sine], [sine, cosine]])
+        turned = where @ turn.T
+        columns = [
+            np.stack([-turned[:, 1], turned[:, 0]], axis=1)
+            if name == SHEET_ROTATION
+            else slopes[:, :, NAMES.index(name)] @ turn.T
+            for name in self.names
+        ]
+        return turned, np.stack(columns, axis=2) * self.scale, reached
+
+    def errors(self, where: Array) -> tuple[Array, Array]:
+        """Measured less predicted: marks (k, 2) and distances (m,) [mm]."""
+        rows = self.observations
+        ends = where[rows.distance_rows]
+        spans = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        return rows.measured - where[rows.mark_rows], rows.distances - spans
+
+    def residuals(self, unknowns: Array) -> Array:
+        """Errors over sigma, then how far held unknowns left their priors, in theirs."""
+        where, _, reached = self.predict(unknowns)
+        if not reached:
+            return np.full(self.observations.count + int(self.held.sum()), UNREACHABLE)
+        marks, distances = self.errors(where)
+        return np.concatenate(
+            [marks.ravel() / self.sigma, distances / self.sigma, unknowns[self.held]]
+        )
+
+    def slopes(self, unknowns: Array) -> Array:
+        """Exact slopes of the residuals by the unknowns."""
+        where, by_unknown, _ = self.predict(unknowns)
+        return np.vstack(
+            [-self.data_slopes(where, by_unknown) / self.sigma, np.eye(len(self.names))[self.held]]
+        )
+
+    def data_slopes(self, where: Array, by_unknown: Array) -> Array:
+        """Slopes of all predicted numbers by the unknowns, (2k + m, u) [mm]."""
+        rows = self.observations
+        marks = by_unknown[rows.mark_rows].reshape(-1, len(self.names))
+        ends, own = where[rows.distance_rows], by_unknown[rows.distance_rows]
+        along = ends[:, 1] - ends[:, 0]
+        along = along / np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-9)
+        return np.vstack([marks, np.einsum("mi,miu->mu", along, own[:, 1] - own[:, 0])])
+
+    def result(self, unknowns: Array, stated: float | None) -> Fit:
+        """The finished fit with its intervals and left-out errors."""
+        where, by_unknown, _ = self.predict(unknowns)
+        marks, distances = self.errors(where)
+        slopes = self.data_slopes(where, by_unknown) / self.sigma
+        normal = slopes.T @ slopes + np.diag(self.held.astype(float))
+        covariance = np.linalg.pinv(normal, hermitian=True)
+        leverage = slopes @ covariance @ slopes.T
+        spent = float(np.trace(leverage))
+        errors = np.concatenate([marks.ravel(), distances])
+        spare = max(len(errors) - spent, 1e-9)
+        sigma = stated or float(np.sqrt(errors @ errors / spare))
+        width = student.ppf(0.975, spare) if stated is None else 1.96
+        # Unknowns held by priors do not grow wider when the marks turn out noisy.
+        deviation = np.sqrt(np.diag(covariance)) * self.scale
+        deviation *= np.where(self.held, 1.0, sigma / self.sigma)
+        values = self.start + self.scale * unknowns
+        left_marks, left_distances = _left_out(marks, distances, leverage)
+        fitted, rotation = self.values(unknowns)
+        return Fit(
+            settings=settings_of(fitted, like=self.settings),
+            sheet_rotation=rotation,
+            estimates=tuple(
+                Estimate(
+                    name,
+                    float(v),
+                    float(v - width * d),
+                    float(v + width * d),
+                    float(b),
+                    float(s) if h else None,
+                )
+                for name, v, d, b, s, h in zip(
+                    self.names, values, deviation, self.start, self.scale, self.held, strict=True
+                )
+            ),
+            predicted=where[self.observations.mark_rows],
+            errors=marks,
+            left_out_errors=left_marks,
+            distance_errors=distances,
+            left_out_distance_errors=left_distances,
+            spent=spent,
+            sigma=sigma,
+            sigma_from="residuals" if stated is None else "stated",
+        )
+
+
+def loaded(values: Array, weight: float, usual: float) -> tuple[Array, Array]:
+    """The values for a sled of another weight [N], and each value's slope by the usual one's.
+
+    The sag parameter is a ratio to the sled's weight, so it follows that weight's square.
+    """
+    own, factors = values.copy(), np.ones(len(values))
+    if weight == usual:
+        return own, factors
+    own[NAMES.index("sled_weight")] = weight
+    factors[NAMES.index("sled_weight")] = 0.0
+    sag = NAMES.index("chain_sag.weight_ratio_squared")
+    factors[sag] = (usual / weight) ** 2
+    own[sag] *= factors[sag]
+    return own, factors
+
+
+def _left_out(marks: Array, distances: Array, leverage: Array) -> tuple[Array, Array]:
+    """Errors of each mark or distance in a fit without it: (1 - its own leverage)^-1 error."""
+    left_marks = np.zeros_like(marks)
+    for i, error in enumerate(marks):
+        own = leverage[2 * i : 2 * i + 2, 2 * i : 2 * i + 2]
+        left_marks[i] = np.linalg.solve(np.eye(2) - own + 1e-12 * np.eye(2), error)
+    own = np.diag(leverage)[2 * len(marks) :]
+    return left_marks, distances / np.maximum(1 - own, 1e-12)

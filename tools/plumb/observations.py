@@ -1,0 +1,71 @@
+"""What a fit has to explain: chains that were paid out, and where the sled was found."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from plumb.errors import InputError
+from plumb.machine_settings import MachineSettings
+from plumb.measurements import Measurements
+from plumb.predict import believed_lengths
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class Observations:
+    """Rows of chains paid out, and what was measured of the places they led to.
+
+    A row is one visit of the sled. Marks are rows whose place was measured; distances join the
+    places of two rows.
+    """
+
+    chains: Array  # (r, 2) [mm] paid out, by what the machine believed
+    sled_weights: Array  # (r,) [N]
+    mark_rows: Array  # (k,) the row of each measured mark
+    measured: Array  # (k, 2) [mm]
+    targets: Array  # (k, 2) [mm]
+    names: tuple[str, ...]  # (k,) of the marks
+    distance_rows: Array  # (m, 2) the rows at both ends
+    distances: Array  # (m,) [mm]
+
+    @property
+    def count(self) -> int:
+        """How many numbers were measured."""
+        return 2 * len(self.measured) + len(self.distances)
+
+
+def observe(
+    settings: MachineSettings, measurements: Measurements, *, controller: str | None = None
+) -> Observations:
+    """The observations of a board cut with these settings; raises InputError for a bad target."""
+    whose = controller or measurements.controller or settings.controller
+    marks = measurements.marks
+    targets = np.array([mark.target for mark in marks], dtype=float).reshape(-1, 2)
+    try:
+        chains = believed_lengths(settings, targets, controller=whose)
+    except ValueError as error:
+        raise InputError(
+            f"{measurements.source}: {error}; check the target, or the settings it was cut with"
+        ) from None
+    for i, mark in enumerate(marks):
+        if mark.chains is not None:
+            chains[i] = mark.chains
+    rows = [i for i, mark in enumerate(marks) if mark.measured is not None]
+    first: dict[str, int] = {}
+    for i, mark in enumerate(marks):
+        first.setdefault(mark.name, i)
+    ends = [[first[name] for name in one.between] for one in measurements.distances]
+    usual = measurements.sled_weight or settings.sled_weight
+    return Observations(
+        chains=chains,
+        sled_weights=np.array([mark.sled_weight or usual for mark in marks], dtype=float),
+        mark_rows=np.array(rows, dtype=int),
+        measured=measurements.measured,
+        targets=targets[rows],
+        names=tuple(marks[i].name for i in rows),
+        distance_rows=np.array(ends, dtype=int).reshape(-1, 2),
+        distances=measurements.distance_lengths,
+    )
