@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <math.h>
 
+#include "params.h"
+
 using namespace kinematics;
 
 namespace {
@@ -10,7 +12,7 @@ namespace {
 const Frame<double> kFrame = {2978.4, 1072.6, 0, 139.1, 10.1063, 97.9, 0.00137293, Feed::kOverTop};
 
 Chains<double> lengths(double left, double right, Point<double> place) {
-  const EffectParams<double> effects = {{0, 0, left, right}};
+  const EffectParams<double> effects = withEffects({{180, left}, {181, right}});
   return inverse(prepare(kFrame, effects), place).chains;
 }
 
@@ -34,7 +36,7 @@ TEST(ChainPitch, LeftAndRightMirrorEachOther) {
 
 TEST(ChainPitch, MovesTheSledByThePublishedAmount) {
   // Both chains 0.1 % long and the machine not told: independent figures for the landing.
-  const EffectParams<double> none = {}, both = {{0, 0, 0.001, 0.001}};
+  const EffectParams<double> none = {}, both = withEffects({{180, 0.001}, {181, 0.001}});
   const Chains<double> sent = inverse(prepare(kFrame, none), Point<double>{1150, -550}).chains;
   const Place<double> landed = forward(prepare(kFrame, both), sent);
   EXPECT_NEAR(2.31, landed.sled.x - 1150, 0.15);

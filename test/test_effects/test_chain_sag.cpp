@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <math.h>
 
+#include "params.h"
 #include "reference/reference.h"
 
 using namespace kinematics;
@@ -14,7 +15,7 @@ const double kChainWeight = 0.00137293, kSledWeight = 97.9;  // [N/mm], [N]
 Machine<double> sagging(double weight_ratio_squared, double rotation_radius, double gap) {
   const Frame<double> frame = {
       gap, 1072.6, 0, rotation_radius, 10.10634, kSledWeight, kChainWeight, Feed::kOverTop};
-  const EffectParams<double> effects = {{weight_ratio_squared}};
+  const EffectParams<double> effects = withEffects({{160, weight_ratio_squared}});
   return prepare(frame, effects);
 }
 

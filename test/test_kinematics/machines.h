@@ -58,8 +58,11 @@ kinematics::Machine<Real> lawsOf(const Tried& tried) {
   frame.chain_weight = Real(tried.chain_weight);
   frame.feed = tried.over_top ? kinematics::Feed::kOverTop : kinematics::Feed::kOffBottom;
   const double ratio = tried.chain_weight / tried.sled_weight;
-  kinematics::EffectParams<Real> effects = {{Real(ratio * ratio / 24), Real(tried.compliance),
-                                             Real(tried.left_pitch), Real(tried.right_pitch)}};
+  kinematics::EffectParams<Real> effects = {};
+  effects.set(160, Real(ratio * ratio / 24));
+  effects.set(170, Real(tried.compliance));
+  effects.set(180, Real(tried.left_pitch));
+  effects.set(181, Real(tried.right_pitch));
   return prepare(frame, effects);
 }
 

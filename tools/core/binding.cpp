@@ -123,20 +123,19 @@ nb::tuple slopes(const Values& values, bool over_top, const Pairs& points) {
 
 /// What sketches of new effects may look at: each (n, 2), left and right.
 nb::dict strands(const Values& values, bool over_top, const Pairs& points) {
-  Machine<double> machine = machineOf(numbers<double>(values), over_top);
-  machine.forces = true;
+  const Machine<double> machine = machineOf(numbers<double>(values), over_top);
   static const struct {
     const char* name;
     double Strand<double>::*member;
-  } kShown[] = {{"free", &Strand<double>::free},         {"sine", &Strand<double>::sine},
-                {"cosine", &Strand<double>::cosine},     {"tension", &Strand<double>::tension},
-                {"straight", &Strand<double>::straight}, {"extra", &Strand<double>::extra}};
+  } kShown[] = {{"free", &Strand<double>::free},     {"sine", &Strand<double>::sine},
+                {"cosine", &Strand<double>::cosine}, {"pull", &Strand<double>::pull},
+                {"wrap", &Strand<double>::wrap},     {"length", &Strand<double>::length}};
   nb::dict result;
   for (const auto& shown : kShown) {
     double* value;
     auto array = newArray<double>({points.shape(0), 2}, &value);
     for (size_t i = 0; i < points.shape(0); ++i) {
-      const Hanging<double> hanging = hang(machine, Point<double>{points(i, 0), points(i, 1)});
+      const Hanging<double> hanging = hang(machine, Point<double>{points(i, 0), points(i, 1)}, true);
       value[2 * i] = hanging.strand[kLeft].*shown.member;
       value[2 * i + 1] = hanging.strand[kRight].*shown.member;
     }

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include <array>
+#include <cmath>
 
 namespace dual {
 
@@ -86,6 +87,15 @@ Dual<Count> sin(const Dual<Count>& a) {
 template <int Count>
 Dual<Count> cos(const Dual<Count>& a) {
   return chain(a, ::cos(a.value), -::sin(a.value));
+}
+
+template <int Count>
+bool isfinite(const Dual<Count>& a) {
+  return std::isfinite(a.value);
+}
+template <int Count>
+bool signbit(const Dual<Count>& a) {
+  return std::signbit(a.value);
 }
 
 /// Zero for good: no value and no way to get one. A zero with a slope must still be computed.

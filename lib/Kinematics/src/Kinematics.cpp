@@ -8,48 +8,81 @@ namespace kinematics {
 
 namespace {
 
+const double kQuarterPi = 0.78539816339744831;
+const double kPi = 3.14159265358979324;
+
 // wrap of a chain towards a direction with sine s and cosine c below the horizontal is
 // radius * angle, and angle = pi/4 + asin((s - c) / sqrt(2)). On |s - c| <= 0.92, which holds all
 // sheets and frames in use, these odd coefficients give it within 0.000075 rad: 0.0008 mm.
-const double kQuarterPi = 0.78539816339744831;
-const double kPi = 3.14159265358979324;
-const double kArc[3] = {0.70765381748407, 0.05426413800989, 0.02263918070638};
+const double kArc[3] = {0.70749505, 0.05527136, 0.02142412};
 
-// Flatter strands than this would carry over thirty times the sled's weight: no machine does.
-const float kFlattest = 1.0f / 64;
+// The line of the motors is kept clear by this share of their gap.
+const float kFlattest = 1.0f / 128;
 
 const uint8_t kMostTries = 20;
 // The slopes leave out that sag and stretch change along a step. What a step misses for this is
-// 2 to 8 per cent of it on the sheet, so after a step this short less than 0.005 mm is missing.
-const float kLastStep = 0.06f;  // [mm]
-// Longer steps than this leave the neighbourhood in which the slopes mean anything.
+// 2 to 5 per cent of it, 12 at worst under a light sled; after this one that is an encoder count.
+const float kLastStep = 0.15f;  // [mm]
+// Steps up to this length need no care; longer ones are kept among the places that have slopes,
+// and those longer than the next leave the neighbourhood in which slopes mean anything.
+const float kSafeStep = 10.0f;      // [mm]
 const float kLongestStep = 400.0f;  // [mm]
 
-/// The straight line from one sprocket to the bit, and what it would take of rigid chain.
 template <class Real>
-void drawStraight(const Machine<Real>& machine, Point<Real> bit, Strand<Real>& strand) {
-  const Point<Real> center = machine.sprocket[strand.side].center;
-  const Real run = strand.side == kLeft ? bit.x - center.x : center.x - bit.x;
-  const Real drop = center.y - bit.y;
-  const Real distance = sqrt(run * run + drop * drop);
+void drawStraight(const Machine<Real>& machine, Real run, Real drop, Real drop_squared,
+                  bool directed, Strand<Real>& strand) {
+  const Real distance = sqrt(run * run + drop_squared);
+  strand.free = distance - machine.rotation_radius;
+  strand.length = strand.free;
   const Real per_distance = Real(1) / distance;
-  strand.per_distance = per_distance;
-  const Real sine = drop * per_distance;
-  const Real cosine = run * per_distance;
-  const Real u = sine - cosine;
+  Real u;
+  if (directed) {
+    const Real sine = drop * per_distance;
+    const Real cosine = run * per_distance;
+    u = sine - cosine;
+    // Line of centres to tangent line: the chain leaves the sprocket r / d steeper.
+    const Real turn = machine.feed_radius * per_distance;
+    strand.sine = sine + cosine * turn;
+    strand.cosine = cosine - sine * turn;
+  } else {
+    u = (drop - run) * per_distance;
+  }
   const Real v = u * u;
-  const Real* k = machine.wrap_slope;
-  // Straight line sqrt(d^2 - r^2) and wrap r * (angle of centres + asin(r / d)): the series of
-  // both give d + r^2 / (2 d) + r * angle; what is left out is below 0.00001 mm.
-  strand.straight = distance + machine.half_radius_squared * per_distance +
-                    (machine.wrap_less_arm + u * (k[0] + v * (k[1] + v * k[2])));
-  strand.free = distance - machine.frame.rotation_radius;  // within 0.1 mm: scales corrections
-  strand.free_share = strand.free * per_distance;
-  // Line of centres to tangent line: the chain leaves the sprocket r / d steeper.
-  const Real turn = machine.feed_radius * per_distance;
-  strand.sine = sine + cosine * turn;
-  strand.cosine = cosine - sine * turn;
-  strand.extra = Real(0);
+  strand.wrap = machine.wrap_middle +
+                u * (machine.wrap_slope + v * (machine.wrap_cubic + v * machine.wrap_quintic));
+}
+
+/// Both strands, straight; their directions only if they are asked for.
+template <class Real>
+void drawBoth(const Machine<Real>& machine, Point<Real> bit, bool directed,
+              Hanging<Real>& hanging) {
+  Real drop = machine.sprocket[kLeft].y - bit.y;
+  Real drop_squared = drop * drop + machine.radius_squared;
+  hanging.found = bit.y < machine.highest ? Found::kYes : Found::kOutOfReach;
+  for (uint8_t side = kLeft; side < kSideCount; ++side) {
+    const Real center = machine.sprocket[side].x;
+    const Real run = side == kLeft ? bit.x - center : center - bit.x;
+    if (signbit(run)) hanging.found = Found::kOutOfReach;
+    if (side == kRight && !machine.level) {
+      drop = machine.sprocket[kRight].y - bit.y;
+      drop_squared = drop * drop + machine.radius_squared;
+    }
+    hanging.strand[side].side = Side(side);
+    drawStraight(machine, run, drop, drop_squared, directed, hanging.strand[side]);
+  }
+}
+
+/// What the second order of sag needs besides: see deep.h.
+template <class Real>
+void lookDeeper(const Machine<Real>& machine, Strand<Real>& left, Strand<Real>& right) {
+  const Real left_slack = Real(1) / left.pull;
+  const Real right_slack = Real(1) / right.pull;
+  left.bend = left.cosine * left_slack;
+  right.bend = right.cosine * right_slack;
+  left.lean = left.sine * left_slack;
+  right.lean = right.sine * right_slack;
+  left.ease = right.ease =
+      machine.ease * (left.free * left.free * left.lean + right.free * right.free * right.lean);
 }
 
 /// Tensions of two strands that hold the sled and half their own weight (moments about the
@@ -59,32 +92,24 @@ template <class Real>
 void shareLoad(const Machine<Real>& machine, Hanging<Real>& hanging) {
   Strand<Real>& left = hanging.strand[kLeft];
   Strand<Real>& right = hanging.strand[kRight];
-  const Real carried = left.free * left.free_share + right.free * right.free_share;
-  const Real load = Real(1) + machine.half_weight_ratio * carried;
-  const Real cosines = left.cosine * right.cosine;
-  const Real pull = load / hanging.sine_of_sum;       // tension / (weight * other cosine)
-  const Real slackness = Real(1) / (pull * cosines);  // weight / horizontal pull
-  left.bend = left.cosine * left.cosine * slackness;
-  right.bend = right.cosine * right.cosine * slackness;
-  const Real newtons = pull * machine.frame.sled_weight;
-  left.tension = newtons * right.cosine;
-  right.tension = newtons * left.cosine;
-}
-
-template <class Real>
-bool canHang(const Machine<Real>& machine, const Hanging<Real>& hanging) {
-  for (uint8_t side = kLeft; side < kSideCount; ++side) {
-    const Strand<Real>& strand = hanging.strand[side];
-    // Written so that a NaN anywhere fails.
-    if (!(strand.cosine > Real(0) && strand.free > machine.frame.sprocket_radius)) return false;
+  hanging.sine_of_sum = left.sine * right.cosine + left.cosine * right.sine;
+  const Real load = machine.load_at_nothing + machine.load_slope * (left.free + right.free);
+  const Real scale = load / hanging.sine_of_sum;
+  left.pull = scale * right.cosine;
+  right.pull = scale * left.cosine;
+  left.deep = right.deep = machine.deep;
+  if (machine.deep) {
+    lookDeeper(machine, left, right);
+  } else {
+    left.bend = left.cosine / left.pull;
+    right.bend = right.cosine / right.pull;
   }
-  return hanging.sine_of_sum > Real(kFlattest);
 }
 
 template <class Real>
 Chains<Real> paidOut(const Hanging<Real>& hanging) {
-  return {hanging.strand[kLeft].straight + hanging.strand[kLeft].extra,
-          hanging.strand[kRight].straight + hanging.strand[kRight].extra};
+  return {hanging.strand[kLeft].wrap + hanging.strand[kLeft].length,
+          hanging.strand[kRight].wrap + hanging.strand[kRight].length};
 }
 
 template <class Real>
@@ -93,20 +118,25 @@ Real clamp(Real value, Real low, Real high) {
   return value > low ? value : low;  // a NaN ends here too
 }
 
-template <class Real>
-Real clampStep(Real step) {
-  return clamp(step, Real(-kLongestStep), Real(kLongestStep));
-}
-
 /// The nearest place that has slopes: below the motors and between them.
 template <class Real>
 Point<Real> insideReach(const Machine<Real>& machine, Point<Real> place) {
-  const Point<Real> left = machine.sprocket[kLeft].center;
-  const Point<Real> right = machine.sprocket[kRight].center;
-  const Real margin = machine.frame.motor_gap * Real(kFlattest);
-  const Real top = left.y < right.y ? left.y : right.y;
-  return {clamp(place.x, left.x + margin, right.x - margin),
-          clamp(place.y, top - Real(4) * machine.frame.motor_gap, top - margin)};
+  return {clamp(place.x, machine.leftmost, machine.rightmost),
+          clamp(place.y, machine.lowest, machine.highest)};
+}
+
+/// Adds a step to a place, cut where it leaves the neighbourhood in which slopes mean anything.
+template <class Real>
+Point<Real> stepFrom(const Machine<Real>& machine, Point<Real> place, Point<Real> step) {
+  const Real most = Real(kLongestStep);
+  return insideReach(machine, Point<Real>{place.x + clamp(step.x, -most, most),
+                                          place.y + clamp(step.y, -most, most)});
+}
+
+/// True where both parts of a step are shorter than `length`.
+template <class Real>
+bool isShort(Point<Real> step, float length) {
+  return fabs(step.x) < Real(length) && fabs(step.y) < Real(length);
 }
 
 /// One Newton step [mm]: the slopes of both lengths are the directions of the strands.
@@ -130,15 +160,31 @@ bool canMeet(const Machine<Real>& machine, Chains<Real> chains) {
 /// Where two straight chains meet whose wrap is that of a 45 degree strand.
 template <class Real>
 Point<Real> meetStraight(const Machine<Real>& machine, Chains<Real> chains) {
-  const Real more = machine.frame.rotation_radius - machine.wrap_middle;
+  const Real more = machine.rotation_radius - machine.wrap_middle;
   const Real left = chains.left + more;
   const Real right = chains.right + more;
+  const Point<Real> from = machine.sprocket[kLeft];
   const Real gap = machine.frame.motor_gap;
-  const Point<Real> center = machine.sprocket[kLeft].center;
   const Real run = (gap + (left - right) * (left + right) / gap) * Real(0.5);
   const Real drop_squared = left * left - run * run;
   const Real drop = drop_squared > Real(0) ? sqrt(drop_squared) : Real(0);
-  return {center.x + run, center.y - drop};
+  return {from.x + run, from.y - drop};
+}
+
+/// Strands between ends that effects have moved: drawn once to ask them, and once more.
+template <class Real>
+PLUMB_RARE void drawMoved(const Machine<Real>& machine, Point<Real> bit, Hanging<Real>& hanging) {
+  Machine<Real> moved = machine;
+  moved.present = 0;
+  hanging = hang(moved, bit, true);
+  Point<Real> span[kSideCount] = {{Real(0), Real(0)}, {Real(0), Real(0)}};
+  Effects::For<Real>::moveEnds(machine.coefficient, machine.present, hanging.strand, span);
+  moved.sprocket[kLeft].x -= span[kLeft].x;
+  moved.sprocket[kRight].x += span[kRight].x;
+  moved.sprocket[kLeft].y += span[kLeft].y;
+  moved.sprocket[kRight].y += span[kRight].y;
+  moved.level = false;
+  hanging = hang(moved, bit, true);
 }
 
 }  // namespace
@@ -148,46 +194,68 @@ Machine<Real> prepare(const Frame<Real>& frame, const EffectParams<Real>& effect
   Machine<Real> machine;
   machine.frame = frame;
   const Real half_gap = frame.motor_gap * Real(0.5);
-  machine.sprocket[kLeft].center = {frame.motor_center_x - half_gap, frame.motor_height};
-  machine.sprocket[kRight].center = {frame.motor_center_x + half_gap, frame.motor_height};
+  machine.sprocket[kLeft] = {frame.motor_center_x - half_gap, frame.motor_height};
+  machine.sprocket[kRight] = {frame.motor_center_x + half_gap, frame.motor_height};
+  // Off the bottom everything about the sprocket is mirrored, and the chain first goes half round.
   const bool over_top = frame.feed == Feed::kOverTop;
-  machine.feed_radius = over_top ? frame.sprocket_radius : -frame.sprocket_radius;
-  machine.half_radius_squared = frame.sprocket_radius * frame.sprocket_radius * Real(0.5);
-  // Off the bottom the chain first goes round from 12 to 6 o'clock.
-  machine.wrap_middle = machine.feed_radius * Real(kQuarterPi);
+  const Real radius = over_top ? frame.sprocket_radius : -frame.sprocket_radius;
+  machine.feed_radius = radius;
+  machine.radius_squared = radius * radius;
+  machine.wrap_middle = radius * Real(kQuarterPi);
   if (!over_top) machine.wrap_middle += frame.sprocket_radius * Real(kPi);
-  for (uint8_t i = 0; i < 3; ++i) machine.wrap_slope[i] = machine.feed_radius * Real(kArc[i]);
-  machine.wrap_less_arm = machine.wrap_middle - frame.rotation_radius;
-  machine.half_weight_ratio = frame.chain_weight / frame.sled_weight * Real(0.5);
+  machine.wrap_slope = radius * Real(kArc[0]);
+  machine.wrap_cubic = radius * Real(kArc[1]);
+  machine.wrap_quintic = radius * Real(kArc[2]);
+  machine.rotation_radius = frame.rotation_radius;
+  // Half of each chain's weight, as far as its middle is towards the bit: free^2 / reach of it.
+  // That is free - radius + radius^2 / reach, the last one small: taken at a middling reach.
+  const Real half_ratio = frame.chain_weight / frame.sled_weight * Real(0.5);
+  const Real lever =
+      frame.rotation_radius * (frame.rotation_radius / (frame.motor_gap * Real(0.64)) - Real(1));
+  machine.load_slope = half_ratio;
+  machine.load_at_nothing = Real(1) + half_ratio * (lever + lever);
+  // So near the line of the motors the chains would carry many times the sled's weight; and
+  // farther below it than the ring is wide there is free chain on both sides.
+  const Real margin = frame.motor_gap * Real(kFlattest);
+  machine.highest = frame.motor_height - frame.rotation_radius - frame.sprocket_radius - margin;
+  machine.lowest = frame.motor_height - Real(4) * frame.motor_gap;
+  machine.leftmost = machine.sprocket[kLeft].x + margin;
+  machine.rightmost = machine.sprocket[kRight].x - margin;
+  machine.deep = isDeep(frame);
+  machine.ease = easeOf(frame);
   typedef Effects::For<Real> All;
   machine.present = All::presentMask(effects.value);
   machine.forces = (machine.present & All::kForceMask) != 0;
-  All::prepare(effects.value, machine.coefficient);
+  All::prepare(frame, effects.value, machine.coefficient);
+  All::moveSprocket(machine.coefficient, machine.present, machine.sprocket);
+  machine.level = isZero(machine.sprocket[kRight].y - machine.sprocket[kLeft].y);
   return machine;
 }
 
 template <class Real>
-Hanging<Real> hang(const Machine<Real>& machine, Point<Real> bit) {
+Hanging<Real> hang(const Machine<Real>& machine, Point<Real> bit, bool directed) {
   Hanging<Real> hanging;
-  Strand<Real>& left = hanging.strand[kLeft];
-  Strand<Real>& right = hanging.strand[kRight];
-  left.side = kLeft;
-  right.side = kRight;
-  drawStraight(machine, bit, left);
-  drawStraight(machine, bit, right);
-  hanging.sine_of_sum = left.sine * right.cosine + left.cosine * right.sine;
-  if (machine.forces) shareLoad(machine, hanging);
+  typedef Effects::For<Real> All;
+  if (machine.present & All::kMoveMask) {
+    drawMoved(machine, bit, hanging);
+  } else {
+    drawBoth(machine, bit, directed || machine.forces, hanging);
+    if (directed || machine.forces) shareLoad(machine, hanging);
+    if (machine.present == 0) return hanging;
+  }
   for (uint8_t side = kLeft; side < kSideCount; ++side)
-    Effects::For<Real>::adjustLength(machine.coefficient, machine.present, hanging.strand[side]);
-  hanging.found = canHang(machine, hanging) ? Found::kYes : Found::kOutOfReach;
+    All::adjustLength(machine.coefficient, machine.present, hanging.strand[side]);
   return hanging;
 }
 
 template <class Real>
 PaidOut<Real> inverse(const Machine<Real>& machine, Point<Real> bit) {
-  const Hanging<Real> hanging = hang(machine, bit);
-  if (hanging.found != Found::kYes) return {{Real(0), Real(0)}, hanging.found};
-  return {paidOut(hanging), Found::kYes};
+  const Hanging<Real> hanging = hang(machine, bit, false);
+  const Chains<Real> chains = paidOut(hanging);
+  // Places that are no numbers, or too far for one, end here.
+  if (hanging.found == Found::kYes && isfinite(chains.left) && isfinite(chains.right))
+    return {chains, Found::kYes};
+  return {{Real(0), Real(0)}, Found::kOutOfReach};
 }
 
 template <class Real>
@@ -195,18 +263,17 @@ Place<Real> forward(const Machine<Real>& machine, Chains<Real> chains, Point<Rea
   Place<Real> place = {guess, Found::kOutOfReach, 0};
   if (!canMeet(machine, chains)) return place;
   place.sled = insideReach(machine, guess);
-  bool held = false;
   for (place.tries = 1; place.tries <= kMostTries; ++place.tries) {
-    const Hanging<Real> hanging = hang(machine, place.sled);
+    const Hanging<Real> hanging = hang(machine, place.sled, true);
     const Chains<Real> now = paidOut(hanging);
     const Point<Real> step = stepTowards(hanging, chains.left - now.left, chains.right - now.right);
-    const Point<Real> next = {place.sled.x + clampStep(step.x), place.sled.y + clampStep(step.y)};
-    place.sled = insideReach(machine, next);
-    held = place.sled.x != next.x || place.sled.y != next.y;
-    place.found = hanging.found;
-    if (fabs(step.x) < Real(kLastStep) && fabs(step.y) < Real(kLastStep)) return place;
+    const Point<Real> next = {place.sled.x + step.x, place.sled.y + step.y};
+    if (isShort(step, kLastStep)) return {next, hanging.found, place.tries};
+    place.sled = isShort(step, kSafeStep) ? next : stepFrom(machine, place.sled, step);
   }
   // A search that ends pressed against the edge of what can hang was sent beyond it.
+  const bool held = !(place.sled.x > machine.leftmost && place.sled.x < machine.rightmost &&
+                      place.sled.y > machine.lowest && place.sled.y < machine.highest);
   place.found = held ? Found::kOutOfReach : Found::kTooManyTries;
   return place;
 }
@@ -217,14 +284,14 @@ Place<Real> forward(const Machine<Real>& machine, Chains<Real> chains) {
 }
 
 template Machine<float> prepare(const Frame<float>&, const EffectParams<float>&);
-template Hanging<float> hang(const Machine<float>&, Point<float>);
+template Hanging<float> hang(const Machine<float>&, Point<float>, bool);
 template PaidOut<float> inverse(const Machine<float>&, Point<float>);
 template Place<float> forward(const Machine<float>&, Chains<float>);
 template Place<float> forward(const Machine<float>&, Chains<float>, Point<float>);
 
 // The lab's instance; the linker drops it from the board, where nobody calls it.
 template Machine<double> prepare(const Frame<double>&, const EffectParams<double>&);
-template Hanging<double> hang(const Machine<double>&, Point<double>);
+template Hanging<double> hang(const Machine<double>&, Point<double>, bool);
 template PaidOut<double> inverse(const Machine<double>&, Point<double>);
 template Place<double> forward(const Machine<double>&, Chains<double>);
 template Place<double> forward(const Machine<double>&, Chains<double>, Point<double>);

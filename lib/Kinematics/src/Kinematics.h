@@ -31,18 +31,19 @@ struct Place {
 /// Both strands of a hanging sled.
 template <class Real>
 struct Hanging {
-  Strand<Real> strand[kSideCount];
-  Real sine_of_sum;  ///< [1] of both strands' angles below the horizontal added together
   Found found;
+  Real sine_of_sum;  ///< [1] of both strands' angles below the horizontal added together
+  Strand<Real> strand[kSideCount];
 };
 
 /// Works out the constants of a machine; about 6,000 cycles on the board, once per change.
 template <class Real>
 Machine<Real> prepare(const Frame<Real>& frame, const EffectParams<Real>& effects);
 
-/// Both strands, with forces where an effect needs them, for a bit at `bit` [mm].
+/// Both strands for a bit at `bit` [mm]; directions and forces if `directed` or if an effect needs
+/// them.
 template <class Real>
-Hanging<Real> hang(const Machine<Real>& machine, Point<Real> bit);
+Hanging<Real> hang(const Machine<Real>& machine, Point<Real> bit, bool directed);
 
 /// Chain to pay out on each side, from 12 o'clock, so that the bit is at `bit` [mm].
 template <class Real>

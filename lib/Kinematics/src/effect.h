@@ -3,7 +3,12 @@
 
 #include <stdint.h>
 
+#include "deep.h"
 #include "strand.h"
+
+// For hooks of effects that most machines do not have: kept out of line, they leave the board's few
+// registers to the others (200 cycles an inverse).
+#define PLUMB_RARE __attribute__((noinline))
 
 namespace kinematics {
 
@@ -27,20 +32,27 @@ struct ParamInfo {
 
 /// Base of all effects: every hook does nothing until an effect hides it with its own.
 ///
-/// A hook gets the effect's coefficients c (see prepare) and changes only what it is given.
+/// An effect must have
+///   enum { ..., kParamCount };        its parameters, which are settings
+///   enum { ..., kCoefficientCount };  the numbers its hooks read, worked out by
+///   static void prepare(const Frame<Real>&, const Real* parameter, Real* c);
+/// once, when settings change. A hook gets these c and changes only what it is given.
+///
 /// Two laws hold for each effect and are tested for all: with every parameter zero no bit of any
 /// length changes, and every parameter has a slope at zero.
 template <class Real>
 struct Effect {
-  enum { kNeedsForces = 0 };  ///< 1 where a hook reads tension or bend
+  enum { kNeedsForces = 0 };  ///< 1 where a hook reads pull or bend
+  enum { kMovesEnds = 0 };    ///< 1 where moveEnds does anything
 
-  /// Turns parameters into the coefficients the hooks read; runs once, when settings change.
-  /// Coefficients are as many as parameters, and zero exactly where the parameter is.
-  static void prepare(const Real* parameter, uint8_t count, Real* c) {
-    for (uint8_t i = 0; i < count; ++i) c[i] = parameter[i];
-  }
+  /// Moves the sprockets' centres [mm], left and right, for good: runs once, like prepare.
+  static void moveSprocket(const Real*, Point<Real>*) {}
 
-  /// Changes strand.extra; the free chain is strand.free + strand.extra long so far.
+  /// Adds to `span` [mm], for both strands, what moves the bit's end away from the sprocket's: x
+  /// inward, y down. The strands, first drawn without, are then drawn anew with all such moves.
+  static void moveEnds(const Real*, const Strand<Real>*, Point<Real>*) {}
+
+  /// Changes strand.length, the free chain in nominal links; it comes in as strand.free.
   static void adjustLength(const Real*, Strand<Real>&) {}
 };
 

@@ -9,28 +9,35 @@ namespace kinematics {
 template <class Real>
 struct EffectParams {
   Real value[kEffectParamCount];
-};
 
-/// Constants of one sprocket.
-template <class Real>
-struct Sprocket {
-  Point<Real> center;  ///< [mm]
+  /// Sets the parameter with that $-setting; false if there is none.
+  bool set(int setting, Real size) {
+    const int index = Effects::For<Real>::indexOf(setting);
+    if (index >= 0) value[index] = size;
+    return index >= 0;
+  }
 };
 
 /// Settings turned into the constants that inverse() and forward() read. Made by prepare().
+/// What each call reads comes first: the board reaches the first 63 bytes fastest.
 template <class Real>
 struct Machine {
+  Point<Real> sprocket[kSideCount];           ///< [mm] centres
+  Real radius_squared;                        ///< [mm^2] of the sprocket
+  Real rotation_radius;                       ///< [mm] as in the frame
+  Real feed_radius;                           ///< [mm] sprocket's, negative off the bottom
+  Real wrap_middle;                           ///< [mm] wrap of a chain at 45 degrees
+  Real wrap_slope, wrap_cubic, wrap_quintic;  ///< [mm] see kArc in Kinematics.cpp
+  Real load_at_nothing;                       ///< [1] load / sled weight for chains without length
+  Real load_slope;                            ///< [1/mm] and how it grows with the length of both
+  Real ease;                                  ///< [1/mm^2] see easeOf in deep.h
+  bool deep;                                  ///< the second order of sag counts
+  bool level;                                 ///< both sprockets are equally high
+  bool forces;                                ///< some present effect asks for tensions
+  uint16_t present;                           ///< a bit for each effect that is not zero
+  Real coefficient[kEffectCoefficientCount];
+  Real highest, lowest, leftmost, rightmost;  ///< [mm] between these a sled can hang
   Frame<Real> frame;
-  Sprocket<Real> sprocket[kSideCount];
-  Real feed_radius;          ///< [mm] sprocket_radius, negative for chain off the bottom
-  Real half_radius_squared;  ///< [mm^2] sprocket_radius^2 / 2
-  Real wrap_middle;          ///< [mm] wrap towards a bit 45 degrees below the sprocket
-  Real wrap_less_arm;        ///< [mm] wrap_middle - rotation_radius
-  Real wrap_slope[3];        ///< [mm] odd coefficients of the wrap, see kArc
-  Real half_weight_ratio;    ///< [1/mm] chain weight per mm / sled weight / 2
-  Real coefficient[kEffectParamCount];
-  uint16_t present;  ///< a bit for each effect that is not zero
-  bool forces;       ///< some present effect asks for tensions
 };
 
 }  // namespace kinematics

@@ -21,28 +21,40 @@ inline bool isZero(float value) { return value == 0.0f; }
 inline bool isZero(double value) { return value == 0.0; }
 
 template <class Real, uint8_t Index, class... Entries>
-struct Chain;
+struct Listed;
 
 /// End of the list.
 template <class Real, uint8_t Index>
-struct Chain<Real, Index> {
-  enum { kParamCount = 0, kLowestSetting = 256, kForceMask = 0 };
+struct Listed<Real, Index> {
+  enum {
+    kParamCount = 0,
+    kCoefficientCount = 0,
+    kLowestSetting = 256,
+    kForceMask = 0,
+    kMoveMask = 0
+  };
   static uint16_t presentMask(const Real*) { return 0; }
-  static void prepare(const Real*, Real*) {}
+  static void prepare(const Frame<Real>&, const Real*, Real*) {}
+  static void moveSprocket(const Real*, uint16_t, Point<Real>*) {}
+  static void moveEnds(const Real*, uint16_t, const Strand<Real>*, Point<Real>*) {}
   static void adjustLength(const Real*, uint16_t, Strand<Real>&) {}
+  static int indexOf(int) { return -1; }
   template <class Visitor>
   static void visit(Visitor&) {}
 };
 
 template <class Real, uint8_t Index, class First, class... Rest>
-struct Chain<Real, Index, First, Rest...> {
+struct Listed<Real, Index, First, Rest...> {
   typedef typename First::template Type<Real> Own;
-  typedef Chain<Real, Index + 1, Rest...> Next;
+  typedef Listed<Real, Index + 1, Rest...> Next;
   enum {
     kOwnCount = Own::kParamCount,
     kParamCount = kOwnCount + Next::kParamCount,
+    kOwnCoefficients = Own::kCoefficientCount,
+    kCoefficientCount = kOwnCoefficients + Next::kCoefficientCount,
     kLowestSetting = First::kFirstSetting,
-    kForceMask = (Own::kNeedsForces << Index) | Next::kForceMask
+    kForceMask = (Own::kNeedsForces << Index) | Next::kForceMask,
+    kMoveMask = (Own::kMovesEnds << Index) | Next::kMoveMask
   };
   static_assert(Index < 16, "the mask of present effects has 16 bits");
   static_assert(kLowestSetting >= 100 && kLowestSetting + kOwnCount <= 256,
@@ -56,14 +68,33 @@ struct Chain<Real, Index, First, Rest...> {
     return uint16_t((present ? 1u << Index : 0u) | Next::presentMask(parameter + kOwnCount));
   }
 
-  static void prepare(const Real* parameter, Real* c) {
-    Own::prepare(parameter, kOwnCount, c);
-    Next::prepare(parameter + kOwnCount, c + kOwnCount);
+  static void prepare(const Frame<Real>& frame, const Real* parameter, Real* c) {
+    Own::prepare(frame, parameter, c);
+    Next::prepare(frame, parameter + kOwnCount, c + kOwnCoefficients);
+  }
+
+  static void moveSprocket(const Real* c, uint16_t present, Point<Real>* sprocket) {
+    if (present & (1u << Index)) Own::moveSprocket(c, sprocket);
+    Next::moveSprocket(c + kOwnCoefficients, present, sprocket);
+  }
+
+  static void moveEnds(const Real* c, uint16_t present, const Strand<Real>* strand,
+                       Point<Real>* span) {
+    if (present & (1u << Index)) Own::moveEnds(c, strand, span);
+    Next::moveEnds(c + kOwnCoefficients, present, strand, span);
   }
 
   static void adjustLength(const Real* c, uint16_t present, Strand<Real>& strand) {
     if (present & (1u << Index)) Own::adjustLength(c, strand);
-    Next::adjustLength(c + kOwnCount, present, strand);
+    Next::adjustLength(c + kOwnCoefficients, present, strand);
+  }
+
+  /// Where the parameter with that $-setting stands among all parameters, or -1.
+  static int indexOf(int setting) {
+    const int own = setting - First::kFirstSetting;
+    if (own >= 0 && own < kOwnCount) return own;
+    const int next = Next::indexOf(setting);
+    return next < 0 ? next : kOwnCount + next;
   }
 
   /// Calls visitor.template effect<Own>(first setting) for each effect, in order.
@@ -78,7 +109,7 @@ struct Chain<Real, Index, First, Rest...> {
 template <class... Entries>
 struct Registry {
   template <class Real>
-  using For = Chain<Real, 0, Entries...>;
+  using For = Listed<Real, 0, Entries...>;
   enum { kEffectCount = sizeof...(Entries) };
 };
 

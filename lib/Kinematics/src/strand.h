@@ -43,14 +43,15 @@ struct Frame {
 template <class Real>
 struct Strand {
   Side side;
-  Real straight;      ///< [mm] paid out if the chain were a straight, rigid line
+  bool deep;          ///< the chains hang so deep that the second order of sag counts
   Real free;          ///< [mm] straight chain between sprocket and arm
-  Real free_share;    ///< [1] free / (free + arm)
-  Real per_distance;  ///< [1/mm] one over the distance from the sprocket's centre to the bit
+  Real length;        ///< [mm] free chain in nominal links: what the effects adjust
+  Real wrap;          ///< [mm] chain between 12 o'clock and the straight line
+  Real pull;          ///< [1] tension / sled weight; only where an effect asks for forces
+  Real bend;          ///< [1] cosine / pull: how easily its own weight bends the chain
   Real sine, cosine;  ///< [1] of the straight line's angle below the horizontal
-  Real tension;       ///< [N] mean pull of the chain; only where an effect asks for forces
-  Real bend;          ///< [1] sled weight * cosine / tension: how easily own weight bends it
-  Real extra;         ///< [mm] nominal links beyond the straight line's: what effects adjust
+  Real lean;          ///< [1] sine / pull; only on deep machines
+  Real ease;          ///< [1] share by which deep chains pull less; only on deep machines
 };
 
 }  // namespace kinematics

@@ -12,6 +12,7 @@ namespace kinematics {
 template <class Real>
 struct ChainPitch : Effect<Real> {
   enum { kLeftStrain, kRightStrain, kParamCount };
+  enum { kCoefficientCount = kSideCount };
 
   static EffectInfo info() {
     return {"chain_pitch", "each chain's links are longer than nominal, by manufacture or wear",
@@ -25,12 +26,12 @@ struct ChainPitch : Effect<Real> {
   }
 
   /// A length L becomes L + L * c with c = -strain / (1 + strain): no division on the way.
-  static void prepare(const Real* parameter, uint8_t count, Real* c) {
-    for (uint8_t i = 0; i < count; ++i) c[i] = -(parameter[i] / (Real(1) + parameter[i]));
+  static void prepare(const Frame<Real>&, const Real* parameter, Real* c) {
+    for (uint8_t i = 0; i < kParamCount; ++i) c[i] = -(parameter[i] / (Real(1) + parameter[i]));
   }
 
   static void adjustLength(const Real* c, Strand<Real>& strand) {
-    strand.extra += c[strand.side] * (strand.free + strand.extra);
+    strand.length += c[strand.side] * strand.length;
   }
 };
 

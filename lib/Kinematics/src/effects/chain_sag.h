@@ -22,6 +22,7 @@ namespace kinematics {
 template <class Real>
 struct ChainSag : Effect<Real> {
   enum { kWeightRatioSquared, kParamCount };
+  enum { kPerCurl, kPerCurlAndLength, kLean, kLeanAndCurl, kCurl, kCoefficientCount };
   enum { kNeedsForces = 1 };
 
   static EffectInfo info() {
@@ -40,10 +41,24 @@ struct ChainSag : Effect<Real> {
             "(chain weight per mm / sled weight)^2 / 24; 1e12 times it is chainSagCorrection"};
   }
 
+  static void prepare(const Frame<Real>& frame, const Real* parameter, Real* c) {
+    const SagByLength<Real> sag = sagByLength(frame);
+    c[kPerCurl] = parameter[kWeightRatioSquared] * sag.constant;
+    c[kPerCurlAndLength] = parameter[kWeightRatioSquared] * sag.slope;
+    const DeepSag<Real> deep = deepSagOf(frame);
+    c[kLean] = deep.lean;
+    c[kLeanAndCurl] = deep.lean_and_curl;
+    c[kCurl] = deep.curl;
+  }
+
   static void adjustLength(const Real* c, Strand<Real>& strand) {
     const Real curl = strand.bend * strand.free;
-    strand.extra += c[kWeightRatioSquared] * (curl * curl) *
-                    (strand.free * (Real(4) - Real(3) * strand.free_share));
+    Real extra = curl * curl * (c[kPerCurl] + c[kPerCurlAndLength] * strand.free);
+    if (strand.deep) {
+      const Real lean = strand.lean * strand.free;
+      extra += extra * (strand.ease + lean * (c[kLean] + c[kLeanAndCurl] * curl) + c[kCurl] * curl);
+    }
+    strand.length += extra;
   }
 };
 

@@ -7,12 +7,13 @@ namespace kinematics {
 
 /// Loaded free chain of length L measures links * (1 + compliance * tension).
 ///
-/// Solved for the links to second order, L * (1 - x + x^2) with x = compliance * tension: x is
-/// below 0.002 on any machine that holds together, so the next term is under 0.00002 mm.
-/// The chain on the sprocket does not count: its links sit one to a tooth whatever they carry.
+/// Solved for the links to first order; the next one, under 0.001 mm, belongs to terms of sag and
+/// direction that are left out with it. The chain on the sprocket does not count: its links sit
+/// one to a tooth whatever they carry.
 template <class Real>
 struct ChainStretch : Effect<Real> {
   enum { kCompliance, kParamCount };
+  enum { kPerPull, kCoefficientCount };
   enum { kNeedsForces = 1 };
 
   static EffectInfo info() {
@@ -25,8 +26,12 @@ struct ChainStretch : Effect<Real> {
     return {"compliance", "1/N", 0, 2e-5, 5.2e-6, "strain per newton of tension"};
   }
 
+  static void prepare(const Frame<Real>& frame, const Real* parameter, Real* c) {
+    c[kPerPull] = parameter[kCompliance] * frame.sled_weight;
+  }
+
   static void adjustLength(const Real* c, Strand<Real>& strand) {
-    strand.extra -= c[kCompliance] * strand.tension * strand.free;
+    strand.length -= c[kPerPull] * strand.pull * strand.length;
   }
 };
 

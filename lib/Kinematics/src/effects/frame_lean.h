@@ -1,0 +1,45 @@
+// Frame lean: a leaning frame lets the chains droop towards the sheet as well as down along it.
+#pragma once
+
+#include "../effect.h"
+
+namespace kinematics {
+
+/// On a frame that leans by an angle a, gravity along the sheet is reduced for sled and chain
+/// alike, so their ratio and the sag along the sheet stay. Across it the chain carries w * sin(a):
+/// against the reduced w * cos(a) of the frame's chain_weight that is tan(a), whatever the chain's
+/// slope. Both droops stand square to each other, so the squares of their loads add up: cosine^2 of
+/// ChainSag becomes cosine^2 + tan(a)^2.
+template <class Real>
+struct FrameLean : Effect<Real> {
+  enum { kTangentSquared, kParamCount };
+  enum { kPerSlack, kCoefficientCount };
+  enum { kNeedsForces = 1 };
+
+  static EffectInfo info() {
+    return {"frame_lean", "on a leaning frame the chains droop towards the sheet too",
+            "like a tenth more of chain sag, and a little where chains are steep",
+            "chain_sag, sled_swing",
+            "measure the frame's angle from the vertical; enter its tangent squared"};
+  }
+  static ParamInfo param(uint8_t) {
+    return {"tangent_squared",
+            "1",
+            0,
+            0.2,
+            0.072,
+            "square of the tangent of the frame's angle from the vertical"};
+  }
+
+  static void prepare(const Frame<Real>& frame, const Real* parameter, Real* c) {
+    const Real ratio = weightRatio(frame);
+    c[kPerSlack] = parameter[kTangentSquared] * (ratio * ratio / Real(24));
+  }
+
+  PLUMB_RARE static void adjustLength(const Real* c, Strand<Real>& strand) {
+    const Real slack = strand.free / strand.pull;
+    strand.length += c[kPerSlack] * slack * slack * strand.free;
+  }
+};
+
+}  // namespace kinematics

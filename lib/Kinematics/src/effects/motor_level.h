@@ -1,0 +1,37 @@
+// Motor level: the beam is not horizontal, so one sprocket hangs higher than the other.
+#pragma once
+
+#include "../effect.h"
+
+namespace kinematics {
+
+/// Moves the right sprocket up and the left one down by half the difference each.
+///
+/// It turns everything about the middle of the motors by difference / gap, which marks on one sheet
+/// cannot tell from a sheet that lies askew: only gravity knows, and says it very softly.
+template <class Real>
+struct MotorLevel : Effect<Real> {
+  enum { kHeightDifference, kParamCount };
+  enum { kHalf, kCoefficientCount };
+
+  static EffectInfo info() {
+    return {"motor_level", "the motors are not level: the right one is higher, or lower",
+            "everything turns about the middle of the motors; sizes stay right",
+            "sheet_rotation, chain_zero",
+            "lay a spirit level or a water hose across the sprockets' axes"};
+  }
+  static ParamInfo param(uint8_t) {
+    return {"height_difference", "mm", -30, 30, 4, "right sprocket above the left one"};
+  }
+
+  static void prepare(const Frame<Real>&, const Real* parameter, Real* c) {
+    c[kHalf] = parameter[kHeightDifference] * Real(0.5);
+  }
+
+  static void moveSprocket(const Real* c, Point<Real>* sprocket) {
+    sprocket[kLeft].y -= c[kHalf];
+    sprocket[kRight].y += c[kHalf];
+  }
+};
+
+}  // namespace kinematics

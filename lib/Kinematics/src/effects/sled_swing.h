@@ -1,0 +1,64 @@
+// Sled swing: the bit is off the ring's centre while the sled turns with its chains.
+#pragma once
+
+#include <math.h>
+
+#include "../effect.h"
+
+namespace kinematics {
+
+/// A sled that turns as its chains do, by half the difference f of their angles, carries its bit
+/// around the point where the chains meet. With the bit `right` and `up` of that point on the
+/// upright sled, the point lies at bit - R(f) (right, up), and moves by
+///     m = (right, up) - R(f) (right, up)
+/// against where it is on an upright sled. (The part that stays, while the sled stays upright,
+/// moves all marks alike: it belongs to the sheet's position.)
+///
+/// cos(2f) and sin(2f) come from the straight strands' directions, the half angle by a square root;
+/// then f is turned by what the hanging chains' ends are flatter than the straight lines: their
+/// curvature (w / W) bend over half their length (the arm's share of it taken at a long chain).
+template <class Real>
+struct SledSwing : Effect<Real> {
+  enum { kBitRight, kBitUp, kParamCount };
+  enum { kEndTurn = kParamCount, kCoefficientCount };
+  enum { kNeedsForces = 1 };  // for the directions
+  enum { kMovesEnds = 1 };
+
+  static EffectInfo info() {
+    return {
+        "sled_swing", "the bit is off the ring's centre while the sled turns with the chains",
+        "marks at the sides move against those in the middle, up on one side, down on the other",
+        "motor_level, sheet_skew, chain_pitch",
+        "turn the sled by hand on its ring and see whether the bit draws a circle"};
+  }
+  static ParamInfo param(uint8_t i) {
+    if (i == kBitRight) return {"right", "mm", -10, 10, 2, "bit right of the ring's centre"};
+    return {"up", "mm", -10, 10, 2, "bit above the ring's centre"};
+  }
+
+  static void prepare(const Frame<Real>& frame, const Real* parameter, Real* c) {
+    c[kBitRight] = parameter[kBitRight];
+    c[kBitUp] = parameter[kBitUp];
+    // Half the curvature's length, and half the difference of both ends.
+    c[kEndTurn] = weightRatio(frame) * (Real(1) - armShare(frame)) * Real(0.25);
+  }
+
+  PLUMB_RARE static void moveEnds(const Real* c, const Strand<Real>* strand, Point<Real>* span) {
+    const Strand<Real>& left = strand[kLeft];
+    const Strand<Real>& right = strand[kRight];
+    const Real twice = left.cosine * right.cosine + left.sine * right.sine;
+    const Real half = sqrt((Real(1) + twice) * Real(0.5));
+    const Real half_sine = (right.sine * left.cosine - right.cosine * left.sine) / (half + half);
+    const Real flatter = c[kEndTurn] * (right.bend * right.free - left.bend * left.free);
+    const Real sine = half_sine - half * flatter;
+    const Real cosine = half + half_sine * flatter;
+    const Real x = c[kBitRight] - (cosine * c[kBitRight] - sine * c[kBitUp]);
+    const Real y = c[kBitUp] - (sine * c[kBitRight] + cosine * c[kBitUp]);
+    span[kLeft].x += x;
+    span[kRight].x -= x;
+    span[kLeft].y -= y;
+    span[kRight].y -= y;
+  }
+};
+
+}  // namespace kinematics
