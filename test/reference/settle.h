@@ -51,20 +51,13 @@ inline Hang settleFrom(const Machine& machine, const Hang& start, const Eigen::V
 }
 
 /// The place where the sled rests on chains of `paid_out` [mm left, right], looked for from
-/// `start` [mm]. If one leap fails, the lengths are changed in more and smaller portions.
+/// `start` [mm], which must be a place where it could hang.
 inline Settled settle(const Machine& machine, const Eigen::Vector2d& paid_out,
                       const Eigen::Vector2d& start = Eigen::Vector2d::Zero()) {
   const Hang first = hangAt(machine, start);
-  if (!first.solved || !paid_out.allFinite()) return Settled();
-  for (int portions : {1, 4, 16, 64}) {
-    Hang hang = first;
-    for (int i = 1; i <= portions && hang.solved; ++i) {
-      const double share = double(i) / portions;
-      hang = settleFrom(machine, hang, first.paid_out + share * (paid_out - first.paid_out));
-    }
-    if (hang.solved) return {true, hang.bit, hang};
-  }
-  return Settled();
+  if (!first.solved) return Settled();
+  const Hang hang = settleFrom(machine, first, paid_out);
+  return {hang.solved, hang.bit, hang};
 }
 
 }  // namespace reference

@@ -74,6 +74,13 @@ TEST(Hang, RefusesPlacesWhereNothingCanHang) {
   EXPECT_FALSE(reference::hangAt(machine, {-machine.motor_gap / 2 + 50, height - 40}).solved);
 }
 
+TEST(Hang, RefusesAChainThatReachesOutwards) {
+  Machine machine = defaultMachine();
+  machine.push = {200, 0};
+  EXPECT_TRUE(reference::hangAt(machine, {1400, 0}).solved);
+  EXPECT_FALSE(reference::hangAt(machine, {1800, 0}).solved);
+}
+
 TEST(Hang, RefusesAWeightlessSled) {
   Machine machine = defaultMachine();
   machine.sled_weight = 0;
