@@ -29,21 +29,23 @@ const Case kCases[] = {
     {"forward, guess 0.1 mm off (tracking)", kForwardNear, kSagStretchPitch, false},
 };
 
+// Every second place of the published measurements' grid, borders included: all of them take four
+// times as long, change no median by 0.1 % and no extreme by 2 %.
 enum : uint8_t {
   kCaseCount = sizeof kCases / sizeof kCases[0],
-  kColumns = 49,
-  kRows = 25,
+  kColumns = 25,
+  kRows = 13,
   kFinished = 255,
 };
 
 inline bool isPresent(Present present, int first_setting) {
   switch (present) {
     case kSag:
-      return first_setting == 100;
+      return first_setting == 160;
     case kSagStretch:
-      return first_setting == 100 || first_setting == 110;
+      return first_setting == 160 || first_setting == 170;
     case kSagStretchPitch:
-      return first_setting <= 120;
+      return first_setting >= 160 && first_setting <= 180;
     case kAll:
       return true;
     default:

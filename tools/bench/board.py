@@ -1,0 +1,118 @@
+"""What the kinematics costs on the Mega: cycles and stack by simulation, bytes by the linker."""
+
+import json
+import os
+import re
+import subprocess
+from pathlib import Path
+
+from costs import Bytes, Costs, Cycles
+
+ROOT = Path(__file__).resolve().parents[2]
+BENCH = ROOT / "tools/bench"
+BUILD = ROOT / ".build/bench"
+FIRMWARE = ROOT / ".pio/build/megaatmega2560/firmware.elf"
+KINEMATICS = ROOT / "lib/Kinematics/src"
+INCLUDES = [f"-I{KINEMATICS}", f"-I{BENCH}"]
+# As PlatformIO builds the firmware.
+AVR_FLAGS = [
+    "-mmcu=atmega2560",
+    "-Os",
+    "-flto",
+    "-mrelax",
+    "-fno-split-wide-types",
+    "-fno-move-loop-invariants",
+    "-fno-tree-ter",
+    "-std=gnu++11",
+    "-fno-exceptions",
+    "-ffunction-sections",
+    "-fdata-sections",
+    "-Wl,--gc-sections",
+]
+# Rows of the table and the sum of parts that part_program.cpp knows them by.
+PARTS = {"prepare": 1, "inverse": 2, "forward": 4, "all three": 7, "constants of one machine": 8}
+
+
+class ToolError(Exception):
+    """A compiler or the simulator refused."""
+
+
+def measure() -> Costs:
+    """Builds every program and measures it."""
+    BUILD.mkdir(parents=True, exist_ok=True)
+    compiler = output("avr-gcc", "-dumpversion")
+    cycles, stack = simulated()
+    return Costs(f"avr-gcc {compiler}", cycles, {**parts(stack), **firmware(compiler)})
+
+
+def simulated() -> tuple[dict[str, Cycles], dict[str, int]]:
+    """Cycles of every case, and the deepest stack of inverse and of forward."""
+    elf, simulator = BUILD / "board_program.elf", BUILD / "count_cycles"
+    output("avr-g++", *AVR_FLAGS, *INCLUDES, *sources("board_program.cpp"), "-o", elf)
+    symbols = output("avr-nm", "-C", elf)
+    stack = {}
+    for part in ("inverse", "forward"):
+        # A function dissolved into its caller would have no stack of its own to measure.
+        if not re.search(rf"kinematics::{part}<float>", symbols):
+            raise ToolError(f"board_program.cpp: the compiler dissolved {part}() into its caller")
+    libraries = ["-lsimavr", "-lelf"]
+    output("g++", "-O2", *INCLUDES, BENCH / "count_cycles.cpp", "-o", simulator, *libraries)
+    found = json.loads(output(simulator, elf).splitlines()[-1])
+    for name, cost in found.items():
+        part = name.partition(",")[0]
+        stack[part] = max(stack.get(part, 0), cost["stack"])
+    return {name: Cycles(*cost["cycles"]) for name, cost in found.items()}, stack
+
+
+def parts(stack: dict[str, int]) -> dict[str, Bytes]:
+    """What each part adds to a program that already has the four operations and the root."""
+    base = linked(0)
+    found = {}
+    for name, number in PARTS.items():
+        flash, ram = (more - less for more, less in zip(linked(number), base, strict=True))
+        found[name] = Bytes(flash, ram, stack.get(name))
+    # The harness's own way of naming its storage; a machine's constants lie in RAM alone.
+    found["constants of one machine"] = Bytes(None, found["constants of one machine"].ram, None)
+    return found
+
+
+def linked(number: int) -> tuple[int, int]:
+    """Flash and static RAM of part_program.cpp with these parts."""
+    elf = BUILD / f"part_program_{number}.elf"
+    source = sources("part_program.cpp")
+    output("avr-g++", *AVR_FLAGS, *INCLUDES, f"-DPARTS={number}", *source, "-o", elf)
+    return sizes(elf)
+
+
+def firmware(compiler: str) -> dict[str, Bytes]:
+    """The whole firmware as it is flashed; left out if another compiler built it."""
+    pio = ROOT / ".venv/bin/pio"
+    output(pio, "run", "--silent", "--project-dir", ROOT, "--environment", "megaatmega2560")
+    if compiler not in output("avr-readelf", "-p", ".comment", FIRMWARE):
+        return {}
+    return {"whole firmware": Bytes(*sizes(FIRMWARE), None)}
+
+
+def sizes(elf: Path) -> tuple[int, int]:
+    """Flash and static RAM of a linked program."""
+    text, data, bss = map(int, output("avr-size", elf).splitlines()[-1].split()[:3])
+    return text + data, data + bss
+
+
+def sources(program: str) -> list[Path]:
+    """One program of this folder and the kinematics."""
+    return [BENCH / program, KINEMATICS / "Kinematics.cpp"]
+
+
+def output(*command: str | Path) -> str:
+    """What a command prints; a ToolError with its first complaint if it fails."""
+    environment = {**os.environ, "PLATFORMIO_DISABLE_UPGRADE_CHECK": "true"}
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, env=environment)
+    except FileNotFoundError:
+        raise ToolError(f"{command[0]} is missing; run tools/setup") from None
+    if done.returncode:
+        said = (done.stderr + done.stdout).splitlines()
+        why = next((line for line in said if "error" in line.lower()), *said[-1:])
+        raise ToolError(f"{Path(command[0]).name}: {why}" if said else f"{command[0]} failed")
+    return done.stdout.strip()

@@ -1,0 +1,45 @@
+"""Whether the figures may stand: against the recorded ones, and against the budgets."""
+
+from collections.abc import Mapping
+
+from costs import Costs
+
+MOST_RISE = 0.02
+
+
+def risen(now: Costs, recorded: Costs | None) -> list[str]:
+    """One line for each figure that rose too far above its record, vanished or was never recorded.
+
+    Figures of different compilers are not compared.
+    """
+    if recorded is None:
+        return ["CHANGELOG.md has no table of costs"]
+    if now.compiler != recorded.compiler:
+        return []
+    old, new = recorded.figures(), now.figures()
+    told = []
+    for name in old | new:
+        if name not in new:
+            told.append(f"{name}: recorded, but no longer measured")
+        elif name not in old:
+            told.append(f"{name}: measured, but not recorded")
+        elif new[name] > old[name] * (1 + MOST_RISE):
+            told.append(f"{name} rose from {old[name]:,} to {new[name]:,}{percent(old, new, name)}")
+    return told
+
+
+def percent(old: Mapping[str, int], new: Mapping[str, int], name: str) -> str:
+    """The rise in per cent, where there is something to divide by."""
+    return f" ({new[name] / old[name] - 1:+.1%})" if old[name] else ""
+
+
+def over_budget(now: Costs, budgets: Mapping[str, int]) -> list[str]:
+    """One line for each case whose median is over its budget, or that does not exist."""
+    told = []
+    for name, most in budgets.items():
+        if name not in now.cycles:
+            told.append(f"{name}: has a budget, but no such case is measured")
+        elif now.cycles[name].median > most:
+            median = now.cycles[name].median
+            told.append(f"{name}: {median:,} cycles, the budget is {most:,}")
+    return told

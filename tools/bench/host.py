@@ -1,0 +1,58 @@
+"""Times on the computer at hand: the kinematics by a C++ loop, the lab's work by Python."""
+
+import json
+import time
+from collections.abc import Callable
+
+import numpy as np
+from board import BENCH, BUILD, INCLUDES, output, sources
+from plumb import predict
+from plumb.fit import fit
+from plumb.measurements import read_marks
+from plumb.observations import observe
+from plumb.settings_file import read_settings
+
+EXAMPLE = BENCH.parent / "plumb/examples/mibproj"
+ROUNDS = 7  # the best of these counts
+
+
+def measure() -> tuple[dict[str, float], float]:
+    """Times [ns] by name, and the time of one multiply-add [ns] on the same computer."""
+    program = BUILD / "host_times"
+    flags = ["-O2", "-std=c++17", "-ffp-contract=off"]
+    output("g++", *flags, *INCLUDES, *sources("host_times.cpp"), "-o", program)
+    times = json.loads(output(program))
+    unit = times.pop("multiply-add")
+    return {**times, **lab_times()}, unit
+
+
+def lab_times() -> dict[str, float]:
+    """The lab's own work, on the example of nine marks and on a hundred places [ns]."""
+    settings = read_settings(EXAMPLE / "groundcontrol.ini", known=predict.known_effects())
+    sheet = (settings.sheet_width, settings.sheet_height)
+    marks = read_marks(EXAMPLE / "Calibration Measurements.ini", sheet=sheet)
+    rows = observe(settings, marks)
+    x, y = np.meshgrid(np.linspace(-1200, 1200, 10), np.linspace(-600, 600, 10))
+    places = np.stack([x.ravel(), y.ravel()], axis=1)
+    values = predict.values_of(settings)
+    chains, _ = predict.lengths(settings, places)
+    return {
+        "lab: lengths of 100 places": best(lambda: predict.lengths(settings, places)),
+        "lab: exact slopes of 100 places": best(
+            lambda: predict.places_with_slopes(values, over_top=True, chains=chains)
+        ),
+        f"lab: fit of {len(rows.measured)} marks, frame alone": best(lambda: fit(settings, rows)),
+        f"lab: fit of {len(rows.measured)} marks, with sag and stretch": best(
+            lambda: fit(settings, rows, effects=["chain_sag", "chain_stretch"])
+        ),
+    }
+
+
+def best(work: Callable[[], object]) -> float:
+    """Nanoseconds of the fastest of some rounds."""
+    taken = []
+    for _ in range(ROUNDS):
+        start = time.perf_counter_ns()
+        work()
+        taken.append(time.perf_counter_ns() - start)
+    return float(min(taken))

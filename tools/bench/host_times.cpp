@@ -1,0 +1,89 @@
+// Times the kinematics on this computer, beside a fixed loop that tells how fast the computer is.
+// One line of JSON: {"multiply-add": nanoseconds, "inverse, double": ..., ...}
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "Kinematics.h"
+
+using namespace kinematics;
+
+namespace {
+
+const int kRounds = 7;  // the best of these counts: everything else is another program's doing
+const int kPlaces = 20000;
+const int kMultiplyAdds = 10000000;
+
+volatile double sink;
+
+/// Nanoseconds of one of `count` calls of `work(i)`, which returns a number.
+template <class Work>
+double best(int count, Work work) {
+  double least = 1e300;
+  for (int round = 0; round < kRounds; ++round) {
+    const auto start = std::chrono::steady_clock::now();
+    double sum = 0;
+    for (int i = 0; i < count; ++i) sum += work(i);
+    sink = sum;
+    const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - start;
+    least = std::min(least, taken.count() / count);
+  }
+  return least;
+}
+
+/// Fills in the typical size of every effect.
+template <class Real>
+struct TypicalSizes {
+  Real* next;
+
+  template <class Own>
+  void effect(int) {
+    for (uint8_t i = 0; i < Own::kParamCount; ++i) *next++ = Real(Own::param(i).typical);
+  }
+};
+
+template <class Real>
+Machine<Real> machine() {
+  const Frame<Real> frame = {Real(2978.4),  Real(1072.6), Real(0),          Real(139.1),
+                             Real(10.1063), Real(97.9),   Real(0.00137293), Feed::kOverTop};
+  EffectParams<Real> effects;
+  TypicalSizes<Real> sizes = {effects.value};
+  Effects::For<Real>::visit(sizes);
+  return prepare(frame, effects);
+}
+
+/// Place number i of a walk over the sheet that comes back to no place soon.
+template <class Real>
+Point<Real> place(int i) {
+  return {Real(-1200 + i * 37 % 2400), Real(-600 + i * 53 % 1200)};
+}
+
+/// One number after the other, each waiting for the last; no clever compiler can skip any.
+double multiplyAdd() {
+  volatile double factor = 0.999999, term = 1e-6;
+  const double by = factor, more = term;
+  double value = 1;
+  return best(kMultiplyAdds, [&](int) { return value = value * by + more; });
+}
+
+template <class Real>
+void print(const char* number) {
+  const Machine<Real> own = machine<Real>();
+  std::printf(", \"inverse, %s\": %.3f", number, best(kPlaces, [&](int i) {
+                return double(inverse(own, place<Real>(i)).chains.left);
+              }));
+  // Chains of a coarser walk, so that finding them takes no part in the time.
+  Chains<Real> chains[64];
+  for (int i = 0; i < 64; ++i) chains[i] = inverse(own, place<Real>(i * 311)).chains;
+  std::printf(", \"forward, %s\": %.3f", number,
+              best(kPlaces, [&](int i) { return double(forward(own, chains[i % 64]).sled.x); }));
+}
+
+}  // namespace
+
+int main() {
+  std::printf("{\"multiply-add\": %.4f", multiplyAdd());
+  print<float>("float");
+  print<double>("double");
+  std::printf("}\n");
+}

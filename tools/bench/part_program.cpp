@@ -1,0 +1,37 @@
+// A program with some parts of the kinematics and nothing else: the linker tells what each adds.
+// PARTS, given to the compiler, is the sum of the parts wanted; 0 is what any program has.
+#include <math.h>
+
+#include "Kinematics.h"
+
+using namespace kinematics;
+
+namespace {
+
+enum { kPrepare = 1, kInverse = 2, kForward = 4, kStorage = 8 };
+
+struct Given {
+  const Frame<float>* frame;
+  const EffectParams<float>* effects;
+  Machine<float>* machine;
+  const Point<float>* bit;
+  const Chains<float>* chains;
+  PaidOut<float>* paid_out;
+  Place<float>* place;
+};
+
+// Volatile: the compiler must take every number for unknown and every result for wanted.
+volatile float number;
+volatile Given given;
+Machine<float> storage;
+
+}  // namespace
+
+int main() {
+  number = sqrt(number + number * number / number);
+  given.machine = 0;
+  if (PARTS & kStorage) given.machine = &storage;
+  if (PARTS & kPrepare) *given.machine = prepare(*given.frame, *given.effects);
+  if (PARTS & kInverse) *given.paid_out = inverse(*given.machine, *given.bit);
+  if (PARTS & kForward) *given.place = forward(*given.machine, *given.chains);
+}
