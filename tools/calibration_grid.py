@@ -343,8 +343,8 @@ def from_arguments(arguments):
     return grid, Machine(**{n: v for n, v in {**found, **given}.items() if n in Machine._fields})
 
 
-def run(arguments):
-    """Does what the parsed options ask; 0 done, 2 refused with one line on stderr."""
+def run(arguments, name="calibration grid"):
+    """Does what the parsed options ask; 0 done, 2 refused with one line of that name on stderr."""
     try:
         grid, machine = from_arguments(arguments)
         text = program(grid, machine)
@@ -357,7 +357,7 @@ def run(arguments):
             files[arguments.marks] = marks_list(grid, machine)
         _write(files)
     except GridError as refusal:
-        print(f"calibration grid: {refusal}", file=sys.stderr)
+        print(f"{name}: {refusal}", file=sys.stderr)
         return 2
     if arguments.preview:
         sys.stdout.write(preview(grid, machine))

@@ -12,8 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import least_squares
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
+from plumb.errors import InputError
 from plumb.machine_settings import MachineSettings
 from plumb.observations import Observations
 from plumb.predict import (
@@ -22,10 +23,10 @@ from plumb.predict import (
     Array,
     library,
     parameter_names,
-    places_with_slopes,
     settings_of,
     values_of,
 )
+from plumb.visits import visited
 
 SHEET_ROTATION = "sheet_rotation"  # [rad] the sheet as measured, turned against the machine
 USUAL_SIGMA = 0.5  # [mm] of one coordinate read with a tape by hand
@@ -37,6 +38,7 @@ PRIORS: Mapping[str, float] = {
     "motor_center_x": 20.0,
     SHEET_ROTATION: 0.02,
 }
+SMALLEST_SIGMA = 1e-9  # [mm] for marks that a model explains completely
 UNREACHABLE = 1e6  # residual of a trial machine on which the sled could not hang
 
 
@@ -67,10 +69,11 @@ class Fit:
     spent: float  # how many numbers the fit took from the data
     sigma: float  # [mm] of one number, stated or estimated
     sigma_from: str  # "stated" or "residuals"
+    settled: bool  # False: the search stopped at its limit of tries
 
     @property
     def rms(self) -> float:
-        """Root mean square error of the marks (as vectors), or of distances if there are no marks."""
+        """Root mean square error of the marks (as vectors), or of distances without marks."""
         return rms(self.errors if len(self.errors) else self.distance_errors)
 
     @property
@@ -106,6 +109,8 @@ def fit(
     `settings` is the model to start from; sigma [mm] of one coordinate, estimated if None.
     """
     problem = _Problem.of(settings, observations, effects, priors, sigma or USUAL_SIGMA)
+    if not problem.names:
+        return problem.result(np.zeros(0), sigma, settled=True)
     solution = least_squares(
         problem.residuals,
         np.zeros(len(problem.names)),
@@ -116,7 +121,7 @@ def fit(
         gtol=1e-10,
         max_nfev=100,
     )
-    return problem.result(solution.x, sigma)
+    return problem.result(solution.x, sigma, settled=solution.status > 0)
 
 
 @dataclass(frozen=True)
@@ -173,27 +178,22 @@ class _Problem:
         """Places on the sheet (r, 2) [mm], their slopes by the unknowns (r, 2, u), and success."""
         values, rotation = self.values(unknowns)
         rows = self.observations
-        where = np.zeros((len(rows.chains), 2))
-        slopes = np.zeros((len(rows.chains), 2, len(NAMES)))
-        reached = True
-        for weight in np.unique(rows.sled_weights):
-            mine = rows.sled_weights == weight
-            own, factors = loaded(values, weight, self.settings.sled_weight)
-            where[mine], of_mine, found = places_with_slopes(
-                own, over_top=self.settings.feed == "top", chains=rows.chains[mine]
-            )
-            slopes[mine] = of_mine * factors
-            reached &= bool((found == FOUND).all())
+        where, slopes, found = visited(
+            values,
+            rows,
+            over_top=self.settings.feed == "top",
+            usual_weight=self.settings.sled_weight,
+        )
         cosine, sine = np.cos(rotation), np.sin(rotation)
         turn = np.array([[cosine, -sine], [sine, cosine]])
         turned = where @ turn.T
-        columns = [
-            np.stack([-turned[:, 1], turned[:, 0]], axis=1)
-            if name == SHEET_ROTATION
-            else slopes[:, :, NAMES.index(name)] @ turn.T
-            for name in self.names
-        ]
-        return turned, np.stack(columns, axis=2) * self.scale, reached
+        columns = np.zeros((*turned.shape, len(self.names)))
+        for i, name in enumerate(self.names):
+            if name == SHEET_ROTATION:
+                columns[:, :, i] = np.stack([-turned[:, 1], turned[:, 0]], axis=1)
+            else:
+                columns[:, :, i] = slopes[:, :, NAMES.index(name)] @ turn.T
+        return turned, columns * self.scale, bool((found == FOUND).all())
 
     def errors(self, where: Array) -> tuple[Array, Array]:
         """Measured less predicted: marks (k, 2) and distances (m,) [mm]."""
@@ -222,15 +222,17 @@ class _Problem:
     def data_slopes(self, where: Array, by_unknown: Array) -> Array:
         """Slopes of all predicted numbers by the unknowns, (2k + m, u) [mm]."""
         rows = self.observations
-        marks = by_unknown[rows.mark_rows].reshape(-1, len(self.names))
+        marks = by_unknown[rows.mark_rows].reshape(rows.measured.size, len(self.names))
         ends, own = where[rows.distance_rows], by_unknown[rows.distance_rows]
         along = ends[:, 1] - ends[:, 0]
         along = along / np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-9)
         return np.vstack([marks, np.einsum("mi,miu->mu", along, own[:, 1] - own[:, 0])])
 
-    def result(self, unknowns: Array, stated: float | None) -> Fit:
+    def result(self, unknowns: Array, stated: float | None, *, settled: bool) -> Fit:
         """The finished fit with its intervals and left-out errors."""
-        where, by_unknown, _ = self.predict(unknowns)
+        where, by_unknown, reached = self.predict(unknowns)
+        if not reached:
+            raise InputError("with these settings the sled cannot hang where the marks were sent")
         marks, distances = self.errors(where)
         slopes = self.data_slopes(where, by_unknown) / self.sigma
         normal = slopes.T @ slopes + np.diag(self.held.astype(float))
@@ -239,13 +241,13 @@ class _Problem:
         spent = float(np.trace(leverage))
         errors = np.concatenate([marks.ravel(), distances])
         spare = max(len(errors) - spent, 1e-9)
-        sigma = stated or float(np.sqrt(errors @ errors / spare))
-        width = student.ppf(0.975, spare) if stated is None else 1.96
-        # Unknowns held by priors do not grow wider when the marks turn out noisy.
-        deviation = np.sqrt(np.diag(covariance)) * self.scale
-        deviation *= np.where(self.held, 1.0, sigma / self.sigma)
+        sigma = stated or max(float(np.sqrt(errors @ errors / spare)), SMALLEST_SIGMA)
+        width = float(stdtrit(spare, 0.975)) if stated is None else 1.96
+        # Intervals for the noise that was found; what a prior holds grows no wider than the prior.
+        found = slopes.T @ slopes * (self.sigma / sigma) ** 2 + np.diag(self.held.astype(float))
+        deviation = np.sqrt(np.diag(np.linalg.pinv(found, hermitian=True))) * self.scale
         values = self.start + self.scale * unknowns
-        left_marks, left_distances = _left_out(marks, distances, leverage)
+        left_marks, left_distances = _left_out(self.observations.names, marks, distances, leverage)
         fitted, rotation = self.values(unknowns)
         return Fit(
             settings=settings_of(fitted, like=self.settings),
@@ -271,30 +273,22 @@ class _Problem:
             spent=spent,
             sigma=sigma,
             sigma_from="residuals" if stated is None else "stated",
+            settled=settled,
         )
 
 
-def loaded(values: Array, weight: float, usual: float) -> tuple[Array, Array]:
-    """The values for a sled of another weight [N], and each value's slope by the usual one's.
+def _left_out(
+    names: tuple[str, ...], marks: Array, distances: Array, leverage: Array
+) -> tuple[Array, Array]:
+    """Errors of each mark or distance in a fit without it: (1 - its own leverage)^-1 error.
 
-    The sag parameter is a ratio to the sled's weight, so it follows that weight's square.
+    Repeats of a mark are left out together, or each would be predicted by its twin.
     """
-    own, factors = values.copy(), np.ones(len(values))
-    if weight == usual:
-        return own, factors
-    own[NAMES.index("sled_weight")] = weight
-    factors[NAMES.index("sled_weight")] = 0.0
-    sag = NAMES.index("chain_sag.weight_ratio_squared")
-    factors[sag] = (usual / weight) ** 2
-    own[sag] *= factors[sag]
-    return own, factors
-
-
-def _left_out(marks: Array, distances: Array, leverage: Array) -> tuple[Array, Array]:
-    """Errors of each mark or distance in a fit without it: (1 - its own leverage)^-1 error."""
     left_marks = np.zeros_like(marks)
-    for i, error in enumerate(marks):
-        own = leverage[2 * i : 2 * i + 2, 2 * i : 2 * i + 2]
-        left_marks[i] = np.linalg.solve(np.eye(2) - own + 1e-12 * np.eye(2), error)
+    for name in set(names):
+        own = np.flatnonzero(np.array(names) == name)
+        block = np.stack([2 * own, 2 * own + 1], axis=1).ravel()
+        kept = np.eye(len(block)) * (1 + 1e-12) - leverage[np.ix_(block, block)]
+        left_marks[own] = np.linalg.solve(kept, marks[own].ravel()).reshape(-1, 2)
     own = np.diag(leverage)[2 * len(marks) :]
     return left_marks, distances / np.maximum(1 - own, 1e-12)

@@ -38,9 +38,16 @@ class Observations:
 
 
 def observe(
-    settings: MachineSettings, measurements: Measurements, *, controller: str | None = None
+    settings: MachineSettings,
+    measurements: Measurements,
+    *,
+    controller: str | None = None,
+    sled_weight: float | None = None,
 ) -> Observations:
-    """The observations of a board cut with these settings; raises InputError for a bad target."""
+    """The observations of a board cut with these settings; raises InputError for a bad target.
+
+    sled_weight [N] is that of marks whose file does not say it: by default what the settings say.
+    """
     whose = controller or measurements.controller or settings.controller
     marks = measurements.marks
     targets = np.array([mark.target for mark in marks], dtype=float).reshape(-1, 2)
@@ -58,7 +65,7 @@ def observe(
     for i, mark in enumerate(marks):
         first.setdefault(mark.name, i)
     ends = [[first[name] for name in one.between] for one in measurements.distances]
-    usual = measurements.sled_weight or settings.sled_weight
+    usual = measurements.sled_weight or sled_weight or settings.sled_weight
     return Observations(
         chains=chains,
         sled_weights=np.array([mark.sled_weight or usual for mark in marks], dtype=float),
@@ -69,3 +76,22 @@ def observe(
         distance_rows=np.array(ends, dtype=int).reshape(-1, 2),
         distances=measurements.distance_lengths,
     )
+
+
+def model_and_observations(
+    settings: MachineSettings,
+    measurements: Measurements,
+    *,
+    cut_with: MachineSettings | None = None,
+    controller: str | None = None,
+) -> tuple[MachineSettings, Observations]:
+    """Our model of `settings`, and the observations of marks cut with `cut_with` (default: them).
+
+    Published settings mean what the controller made of them; ours mean what they say.
+    """
+    in_force = cut_with or settings
+    whose = controller or measurements.controller or in_force.controller
+    published = settings.controller != "plumb" and whose != "plumb"
+    model = settings.as_plumb_model(controller=whose if published else None)
+    rows = observe(in_force, measurements, controller=whose, sled_weight=model.sled_weight)
+    return model, rows

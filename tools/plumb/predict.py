@@ -19,7 +19,7 @@ FOUND_WORDS = ("yes", "out of reach", "too many tries")
 
 
 def library() -> list[dict[str, Any]]:
-    """Every effect of the firmware, in the order applied: words, and parameters with their units."""
+    """Every effect of the firmware, in the order applied: words, parameters and units."""
     return _core.effects()
 
 
@@ -95,7 +95,7 @@ def believed_lengths(
     whose = controller or settings.controller
     if whose != "plumb":
         return chain_lengths(settings, targets, controller=whose)
-    chains, found = lengths(settings, targets)
+    chains, found = lengths(settings.as_plumb_model(), targets)
     for i in np.flatnonzero(found != FOUND)[:1]:
         raise ValueError(f"target ({targets[i, 0]:g}, {targets[i, 1]:g}) is out of reach")
     return chains

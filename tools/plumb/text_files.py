@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import stat
 import tempfile
+from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
 
@@ -55,23 +56,32 @@ def read_text(path: str | PathLike[str]) -> str:
 
 def write_whole(path: str | PathLike[str], content: bytes) -> None:
     """Replace a file in one step: after a crash the old or the new one is there, never half."""
-    target = Path(os.path.realpath(path))
+    write_all({path: content})
+
+
+def write_all(files: Mapping[str | PathLike[str], bytes]) -> None:
+    """Replace several files: if one of them cannot be written, none is."""
+    staged: dict[str | PathLike[str], tuple[str, Path]] = {}
+    path: str | PathLike[str] = ""
     try:
-        handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+        for path, content in files.items():
+            target = Path(os.path.realpath(path))
+            if target.is_dir():
+                raise refusal(path, "is a folder", remedy="name a file inside it")
+            handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+            staged[path] = name, target
+            with os.fdopen(handle, "wb") as file:
+                file.write(content)
+                file.flush()
+                os.fsync(file.fileno())
+            os.chmod(name, _mode_for(target))
+        for path in staged:
+            os.replace(*staged[path])
     except OSError as error:
         raise refusal(path, f"cannot be written ({error.strerror})") from None
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        os.chmod(name, _mode_for(target))
-        os.replace(name, target)
-    except BaseException as error:
-        Path(name).unlink(missing_ok=True)
-        if isinstance(error, OSError):
-            raise refusal(path, f"cannot be written ({error.strerror})") from None
-        raise
+    finally:
+        for name, _ in staged.values():
+            Path(name).unlink(missing_ok=True)
 
 
 def _mode_for(target: Path) -> int:

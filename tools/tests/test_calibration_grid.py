@@ -6,6 +6,7 @@ import math
 import re
 import subprocess
 import sys
+import tomllib
 from collections import Counter, namedtuple
 from itertools import pairwise
 from pathlib import Path
@@ -312,7 +313,6 @@ def test_unusable_settings_are_named_with_their_file_and_key(old, new, hint, tmp
 
 
 def test_the_list_of_marks_holds_every_target_and_approach_in_the_sheet_frame():
-    tomllib = pytest.importorskip("tomllib")
     grid, machine = grids.Grid(approach=(10.0, 30.0)), grids.Machine()
     listed = tomllib.loads(grids.marks_list(grid, machine))
     assert listed["frame"] == "sheet-top-left"

@@ -1,11 +1,12 @@
 """Whole files in and out."""
 
 import os
+import re
 
 import pytest
 from plumb import text_files
 from plumb.errors import InputError
-from plumb.text_files import read_text, write_whole
+from plumb.text_files import read_text, write_all, write_whole
 
 
 def test_unreadable_files_are_refused_by_name(tmp_path):
@@ -77,3 +78,14 @@ def test_write_keeps_rights_and_follows_links(tmp_path):
 def test_write_into_a_missing_folder_is_refused(tmp_path):
     with pytest.raises(InputError, match="cannot be written"):
         write_whole(tmp_path / "no" / "file", b"x")
+
+
+def test_of_several_files_all_are_written_or_none(tmp_path):
+    first, second = tmp_path / "first", tmp_path / "second"
+    write_all({first: b"1", second: b"2"})
+    assert (first.read_bytes(), second.read_bytes()) == (b"1", b"2")
+    for impossible in (tmp_path / "nowhere" / "third", tmp_path):
+        with pytest.raises(InputError, match=re.escape(str(impossible))):
+            write_all({first: b"new", impossible: b"3"})
+        assert first.read_bytes() == b"1"
+    assert sorted(tmp_path.iterdir()) == [first, second]

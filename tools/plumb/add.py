@@ -1,0 +1,246 @@
+"""Adding effects to a machine: the fit before and after, and what to think of the numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from plumb.checks import refuse_unknown
+from plumb.compare import Comparison, compare
+from plumb.errors import InputError
+from plumb.fit import PRIORS, SHEET_ROTATION, Estimate, Fit, fit, rms
+from plumb.machine_settings import FRAME_FIELDS, MachineSettings
+from plumb.measurements import Measurements
+from plumb.observations import Observations, model_and_observations
+from plumb.predict import frame_words, known_effects, library, parameter_names
+from plumb.shape import best_pose
+
+FAR = 2.0  # [prior sigmas] a stated number that moved farther was probably measured wrongly
+
+
+@dataclass(frozen=True)
+class Quality:
+    """How good a fit is [mm]; left out: each mark predicted by a fit that did not see it."""
+
+    fit_rms: float
+    priced_rms: float
+    left_out_rms: float
+    worst: float
+    shape_rms: float | None
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One fitted number with its 95 % interval, and the range that a real machine can have."""
+
+    name: str
+    value: float
+    low: float
+    high: float
+    unit: str
+    before: float
+    prior_sigma: float | None  # None: free
+    possible_low: float | None  # None: no limit is known
+    possible_high: float | None
+
+    @property
+    def plausible(self) -> bool:
+        """Whether a real machine can have this value."""
+        above = self.possible_low is None or self.value >= self.possible_low
+        return above and (self.possible_high is None or self.value <= self.possible_high)
+
+    @property
+    def might_be_plausible(self) -> bool:
+        """Whether the interval reaches values that a real machine can have."""
+        above = self.possible_low is None or self.high >= self.possible_low
+        return above and (self.possible_high is None or self.low <= self.possible_high)
+
+
+@dataclass(frozen=True)
+class Addition:
+    """A machine before and after its effects were added."""
+
+    raw: Comparison  # as the settings stand
+    before: Quality  # frame fitted only
+    after: Quality  # effects fitted too
+    before_fit: Fit
+    after_fit: Fit
+    parameters: tuple[Parameter, ...]
+    effects_added: tuple[str, ...]
+    warnings: tuple[str, ...]
+
+    @property
+    def settings(self) -> MachineSettings:
+        """The new machine."""
+        return self.after_fit.settings
+
+    @property
+    def sheet_rise(self) -> float:
+        """How far to raise the sheet's right end [mm] to undo its rotation; no setting holds it."""
+        return float(np.tan(self.after_fit.sheet_rotation)) * self.settings.sheet_width
+
+    @property
+    def pays(self) -> bool:
+        """Whether the effects predict marks better that the fit did not see."""
+        return self.after.left_out_rms < self.before.left_out_rms
+
+
+def add(
+    settings: MachineSettings,
+    measurements: Measurements,
+    *,
+    effects: Sequence[str],
+    cut_with: MachineSettings | None = None,
+    controller: str | None = None,
+    priors: Mapping[str, float] = PRIORS,
+    sigma: float | None = None,
+) -> Addition:
+    """Fit frame and effects to the marks; effects that the settings have already stay as they are.
+
+    Raises InputError for unknown effects, too few marks, and marks that cannot be reached.
+    """
+    names = tuple(dict.fromkeys(effects))
+    _refuse_unknown_effects(names)
+    raw = compare(settings, measurements, cut_with=cut_with, controller=controller)
+    model, rows = model_and_observations(
+        settings, measurements, cut_with=cut_with, controller=controller
+    )
+    _refuse_too_few(measurements, rows, names, priors)
+    noise = sigma or measurements.tape_sigma
+    before_fit = fit(model, rows, priors=priors, sigma=noise)
+    after_fit = fit(model, rows, effects=names, priors=priors, sigma=noise) if names else before_fit
+    before, after = quality_of(before_fit, rows), quality_of(after_fit, rows)
+    parameters = tuple(_parameter(one) for one in after_fit.estimates)
+    return Addition(
+        raw=raw,
+        before=before,
+        after=after,
+        before_fit=before_fit,
+        after_fit=after_fit,
+        parameters=parameters,
+        effects_added=tuple(
+            name for name in names if not any(model.effects.get(name, {}).values())
+        ),
+        warnings=(
+            *raw.warnings,
+            *_unsettled(after_fit),
+            *_surprises(parameters),
+            *_bad_bargains(before, after),
+        ),
+    )
+
+
+def priors_with(changes: Iterable[tuple[str, float]]) -> dict[str, float]:
+    """The usual priors with some standard deviations changed; 0 holds a number where it is."""
+    priors = dict(PRIORS)
+    for name, sigma in changes:
+        try:
+            refuse_unknown([name], (*FRAME_FIELDS, SHEET_ROTATION))
+        except ValueError as error:
+            raise InputError(f"--prior {name}: {error}") from None
+        priors[name] = sigma
+    return priors
+
+
+def quality_of(fitted: Fit, rows: Observations) -> Quality:
+    """How good a fit is."""
+    marks = len(fitted.errors) > 0
+    lengths = (
+        np.hypot(fitted.errors[:, 0], fitted.errors[:, 1])
+        if marks
+        else np.abs(fitted.distance_errors)
+    )
+    pose = best_pose(fitted.predicted, rows.measured)
+    return Quality(
+        fit_rms=fitted.rms,
+        priced_rms=fitted.priced_rms,
+        left_out_rms=fitted.left_out_rms,
+        worst=float(lengths.max()),
+        shape_rms=rms(pose.errors) if pose else None,
+    )
+
+
+def _refuse_unknown_effects(names: Sequence[str]) -> None:
+    known = known_effects()
+    for name in names:
+        if name not in known:
+            raise InputError(
+                f"--effect {name}: there is no effect of that name; known are {', '.join(known)}"
+            )
+
+
+def _refuse_too_few(
+    measurements: Measurements,
+    rows: Observations,
+    effects: Sequence[str],
+    priors: Mapping[str, float],
+) -> None:
+    """Repeats do not count: they tell of the noise, not of another place."""
+    spans = {frozenset(one.between) for one in measurements.distances}
+    count = 2 * len(set(rows.names)) + len(spans)
+    frame = sum(sigma > 0 for sigma in priors.values())
+    free = sum(len(parameter_names(name)) for name in effects)
+    if count < frame + free:
+        raise InputError(
+            f"{measurements.source}: {count} measured numbers cannot settle {frame + free} unknowns"
+            f" ({frame} of frame and sheet, {free} of the effects); measure more marks, add fewer "
+            "effects, or hold numbers that you know with --prior NAME=0"
+        )
+
+
+def _parameter(estimate: Estimate) -> Parameter:
+    words = {one["name"]: one for one in frame_words()}
+    words |= {f"{e['name']}.{p['name']}": p for e in library() for p in e["parameters"]}
+    own = words.get(estimate.name, {"unit": "rad", "low": None, "high": None})
+    return Parameter(
+        name=estimate.name,
+        value=estimate.value,
+        low=estimate.low,
+        high=estimate.high,
+        unit=own["unit"],
+        before=estimate.before,
+        prior_sigma=estimate.prior_sigma,
+        possible_low=own["low"],
+        possible_high=own["high"],
+    )
+
+
+def _unsettled(fitted: Fit) -> list[str]:
+    if fitted.settled:
+        return []
+    return ["the fit did not come to rest: do not trust these numbers; add fewer effects at once"]
+
+
+def _surprises(parameters: Sequence[Parameter]) -> list[str]:
+    """Sentences about numbers that no real machine has, that moved too far, or that may be zero."""
+    said = []
+    for one in parameters:
+        moved = one.value - one.before
+        if one.prior_sigma is None and one.low < 0 < one.high and one.before == 0:
+            impossible = "" if one.plausible else f" ({one.value:.3g} {one.unit} is impossible)"
+            said.append(f"{one.name}{impossible} may as well be zero: its interval contains it")
+        elif not one.plausible:
+            reaches = "reaches that" if one.might_be_plausible else "does not reach that either"
+            said.append(
+                f"{one.name} = {one.value:.3g} {one.unit} is impossible for a real machine, which "
+                f"has {one.possible_low:g} to {one.possible_high:g} (the interval {reaches}): it "
+                "stands in for something else; check which settings were in force and the signs of "
+                "the marks"
+            )
+        if one.prior_sigma and abs(moved) > FAR * one.prior_sigma:
+            said.append(
+                f"{one.name} moved by {moved:+.3g} {one.unit} from the stated {one.before:g}, more "
+                f"than twice the {one.prior_sigma:g} it was trusted to: measure it again"
+            )
+    return said
+
+
+def _bad_bargains(before: Quality, after: Quality) -> list[str]:
+    if after.fit_rms < before.fit_rms and after.left_out_rms > before.left_out_rms:
+        return [
+            f"the fit got better but the left-out error rose from {before.left_out_rms:.2f} to "
+            f"{after.left_out_rms:.2f} mm: the effects follow the noise, do not keep them"
+        ]
+    return []

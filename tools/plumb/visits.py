@@ -1,0 +1,52 @@
+"""Where the sled went on each visit: our model under the sled's weight on that visit."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from plumb.machine_settings import MachineSettings
+from plumb.observations import Observations
+from plumb.predict import NAMES, Array, lengths, places_with_slopes, settings_of, values_of
+
+
+def loaded(values: Array, weight: float, usual: float) -> tuple[Array, Array]:
+    """The values for a sled of another weight [N], and each value's slope by the usual one's.
+
+    The sag parameter is a ratio to the sled's weight, so it follows that weight's square.
+    """
+    own, factors = values.copy(), np.ones(len(values))
+    if weight == usual:
+        return own, factors
+    own[NAMES.index("sled_weight")] = weight
+    factors[NAMES.index("sled_weight")] = 0.0
+    sag = NAMES.index("chain_sag.weight_ratio_squared")
+    factors[sag] = (usual / weight) ** 2
+    own[sag] *= factors[sag]
+    return own, factors
+
+
+def visited(
+    values: Array, rows: Observations, *, over_top: bool, usual_weight: float
+) -> tuple[Array, Array, Array]:
+    """Places (r, 2) [mm] of all visits, their slopes by the values (r, 2, v), and FOUND (r,)."""
+    where = np.zeros((len(rows.chains), 2))
+    slopes = np.zeros((len(rows.chains), 2, len(NAMES)))
+    found = np.zeros(len(rows.chains), dtype=int)
+    for weight in np.unique(rows.sled_weights):
+        mine = rows.sled_weights == weight
+        own, factors = loaded(values, weight, usual_weight)
+        where[mine], of_mine, found[mine] = places_with_slopes(
+            own, over_top=over_top, chains=rows.chains[mine]
+        )
+        slopes[mine] = of_mine * factors
+    return where, slopes, found
+
+
+def chains_to(model: MachineSettings, points: Array, weights: Array) -> tuple[Array, Array]:
+    """Chain (n, 2) [mm] to places (n, 2) [mm] for sleds of these weights (n,) [N], and FOUND."""
+    chains, found = np.zeros((len(points), 2)), np.zeros(len(points), dtype=int)
+    for weight in np.unique(weights):
+        mine = weights == weight
+        own, _ = loaded(values_of(model), weight, model.sled_weight)
+        chains[mine], found[mine] = lengths(settings_of(own, like=model), points[mine])
+    return chains, found
