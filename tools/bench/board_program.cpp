@@ -16,23 +16,22 @@ volatile float sink, other_sink;
 
 /// Fills in the typical size of each effect that a case wants.
 struct TypicalSizes {
-  bench::Present present;
+  const bench::Case& wanted;
   float* next;
 
   template <class Own>
   void effect(int first_setting) {
     for (uint8_t i = 0; i < Own::kParamCount; ++i)
-      *next++ = bench::isPresent(present, first_setting) ? float(Own::param(i).typical) : 0.0f;
+      *next++ = bench::isPresent(wanted, first_setting) ? float(Own::param(i).typical) : 0.0f;
   }
 };
 
 Machine<float> machineFor(const bench::Case& wanted) {
-  const Frame<float> frame = {2978.4f,     609.6f + 463.0f,
-                              0.0f,        139.1f,
-                              10.1063f,    97.9f,
-                              0.00137293f, wanted.off_bottom ? Feed::kOffBottom : Feed::kOverTop};
+  const float sled = wanted.rig == bench::kLightSled ? 60.0f : 97.9f;
+  const Feed feed = wanted.rig == bench::kOffBottom ? Feed::kOffBottom : Feed::kOverTop;
+  const Frame<float> frame = {2978.4f, 1072.6f, 0, 139.1f, 10.1063f, sled, 0.00137293f, feed};
   EffectParams<float> effects;
-  TypicalSizes sizes = {wanted.present, effects.value};
+  TypicalSizes sizes = {wanted, effects.value};
   Effects::For<float>::visit(sizes);
   return prepare(frame, effects);
 }

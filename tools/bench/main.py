@@ -4,8 +4,10 @@ import argparse
 import sys
 import tomllib
 
+import absent
 import board
 import compare
+import effects
 import host
 import table
 from costs import Costs
@@ -28,12 +30,14 @@ def measure(*, write: bool) -> int:
     """Prints the table; records it or compares it. 0 if it may stand."""
     text = CHANGELOG.read_text(encoding="utf-8")
     costs = board.measure()
+    costs.cycles[absent.ROW] = absent.cost(costs.cycles[absent.CASE])
     shown = table.exact_part(costs, load("published.toml"))
     shown += "\n\n" + table.host_part(*host.measure())
     print(shown, end="\n\n")
     refused = compare.over_budget(costs, load("budgets.toml"))
     if write:
-        CHANGELOG.write_text(table.replaced(text, shown), encoding="utf-8")
+        text = effects.replaced(table.replaced(text, shown), effects.table(costs))
+        CHANGELOG.write_text(text, encoding="utf-8")
         print("bench: wrote the table in CHANGELOG.md")
     else:
         refused += against_record(costs, table.recorded(text))

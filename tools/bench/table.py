@@ -20,7 +20,7 @@ class TableError(Exception):
 def exact_part(costs: Costs, published: Published) -> str:
     """The figures of the board as two tables, the published firmware's beside them."""
     cycles = [
-        f"On the Mega at 16 MHz, {costs.compiler} -Os -flto: least / median / most over the sheet.",
+        f"On the Mega at 16 MHz, {costs.compiler}, flags of platformio.ini: least / median / most.",
         "",
         "| cycles | Plumb | median | published firmware | ratio of medians |",
         "|---|---|---|---|---|",

@@ -1,0 +1,102 @@
+"""What each effect costs the board, and how near the judge's mechanics it comes."""
+
+import json
+import re
+import shutil
+from pathlib import Path
+
+import board
+from costs import Costs
+
+BEGIN, END = "<!-- effects: begin; written by tools/bench/run --write -->", "<!-- effects: end -->"
+BASE = "inverse, sag, stretch and pitch"
+STEPS = {
+    "chain_sag": ("inverse, sag", "inverse, rigid"),
+    "chain_stretch": ("inverse, sag and stretch", "inverse, sag"),
+    "chain_pitch": (BASE, "inverse, sag and stretch"),
+}
+EIGEN = board.ROOT / ".pio/libdeps/native/ArduinoEigen/ArduinoEigen"
+
+
+def table(costs: Costs) -> str:
+    """The table of all effects, in the registry's order."""
+    errors = judge_errors()
+    head = (
+        "| effect | cycles when present | flash | chain error against the judge | without it |\n"
+        "|---|---|---|---|---|"
+    )
+    rows = [row(name, costs, errors) for name in names()]
+    both = errors["nothing"]
+    note = (
+        f"With sag and stretch alone the chains differ from the judge's by {both[0]:.4f} mm at\n"
+        "worst; the other effects are hidden beside these two. Worst over the sheet, in mm. Cycles\n"
+        "are the medians' difference; flash is what a board saves without the effect in the list,\n"
+        "and may be negative where the compiler then chooses to inline more."
+    )
+    return "\n".join([head, *rows, "", note])
+
+
+def row(name: str, costs: Costs, errors: dict[str, list[float]]) -> str:
+    present, absent = STEPS.get(name, (f"inverse, the same and {name}", BASE))
+    cycles = costs.cycles[present].median - costs.cycles[absent].median
+    own = [value for key, value in errors.items() if key.startswith(name)]
+    if name in ("chain_sag", "chain_stretch"):
+        with_it, without = f"{errors['nothing'][0]:.4f}", "–"
+    else:
+        with_it = f"{max(value[0] for value in own):.4f}"
+        without = f"{max(value[1] for value in own):.2f}"
+    return f"| {name} | {cycles:,} | {flash(name):,} B | {with_it} | {without} |"
+
+
+def names() -> list[str]:
+    """Every effect of the registry, as files name it."""
+    entries = re.findall(r"At<\d+, (\w+)>", registry())
+    return [re.sub(r"(?<!^)(?=[A-Z])", "_", entry).lower() for entry in entries]
+
+
+def registry() -> str:
+    return (board.KINEMATICS / "effects.h").read_text(encoding="utf-8")
+
+
+def flash(name: str) -> int:
+    """Bytes of flash that a board saves without that effect in the list."""
+    return built(registry()) - built(without(registry(), name))
+
+
+def without(text: str, name: str) -> str:
+    """The registry without one effect."""
+    camel = "".join(word.capitalize() for word in name.split("_"))
+    text = re.sub(rf"\s*At<\d+, {camel}>(,|(?=>;))", "", text)
+    return text.replace(",>;", ">;")
+
+
+def built(text: str) -> int:
+    """Flash of prepare, inverse and forward with that registry."""
+    copy = board.BUILD / "other_effects"
+    shutil.rmtree(copy, ignore_errors=True)
+    shutil.copytree(board.KINEMATICS, copy)
+    (copy / "effects.h").write_text(text, encoding="utf-8")
+    elf = board.BUILD / "other_effects.elf"
+    includes = [f"-I{copy}", f"-I{board.BENCH}"]
+    sources = [board.BENCH / "part_program.cpp", copy / "Kinematics.cpp"]
+    board.output("avr-g++", *board.AVR_FLAGS, *includes, "-DPARTS=7", *sources, "-o", elf)
+    return board.sizes(elf)[0]
+
+
+def judge_errors() -> dict[str, list[float]]:
+    program = board.BUILD / "judge_errors"
+    test: Path = board.ROOT / "test"
+    includes = [f"-I{board.KINEMATICS}", f"-I{test}", f"-I{test / 'test_effects'}"]
+    sources = [board.BENCH / "judge_errors.cpp", board.KINEMATICS / "Kinematics.cpp"]
+    command = ["g++", "-std=c++17", "-O2", *includes, "-isystem", EIGEN, *sources, "-o", program]
+    board.output(*command)
+    return json.loads(board.output(program))
+
+
+def replaced(text: str, shown: str) -> str:
+    """CHANGELOG.md with this table between its marks."""
+    before, _, rest = text.partition(BEGIN)
+    _, found, after = rest.partition(END)
+    if not found:
+        raise board.ToolError(f"CHANGELOG.md: the marks of the effects' table are missing: {BEGIN}")
+    return f"{before}{BEGIN}\n{shown}\n{END}{after}"
