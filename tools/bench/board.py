@@ -13,6 +13,7 @@ BENCH = ROOT / "tools/bench"
 BUILD = ROOT / ".build/bench"
 FIRMWARE = ROOT / ".pio/build/megaatmega2560/firmware.elf"
 KINEMATICS = ROOT / "lib/Kinematics/src"
+MOTION = ROOT / "lib/Motion/src"
 INCLUDES = [f"-I{KINEMATICS}", f"-I{BENCH}"]
 # As PlatformIO builds the firmware.
 AVR_FLAGS = [
@@ -42,6 +43,7 @@ def measure() -> Costs:
     BUILD.mkdir(parents=True, exist_ok=True)
     compiler = output("avr-gcc", "-dumpversion")
     cycles, stack = simulated()
+    cycles.update(motion())
     return Costs(f"avr-gcc {compiler}", cycles, {**parts(stack), **firmware(compiler)})
 
 
@@ -55,13 +57,27 @@ def simulated() -> tuple[dict[str, Cycles], dict[str, int]]:
         # A function dissolved into its caller would have no stack of its own to measure.
         if not re.search(rf"kinematics::{part}<float>", symbols):
             raise ToolError(f"board_program.cpp: the compiler dissolved {part}() into its caller")
-    libraries = ["-lsimavr", "-lelf"]
-    output("g++", "-O2", *INCLUDES, BENCH / "count_cycles.cpp", "-o", simulator, *libraries)
-    found = json.loads(output(simulator, elf).splitlines()[-1])
+    found = counted(elf, simulator)
     for name, cost in found.items():
         part = name.partition(",")[0]
         stack[part] = max(stack.get(part, 0), cost["stack"])
     return {name: Cycles(*cost["cycles"]) for name, cost in found.items()}, stack
+
+
+def motion() -> dict[str, Cycles]:
+    """Cycles of every case of motion_cases.h."""
+    elf = BUILD / "motion_program.elf"
+    source = sources("motion_program.cpp")
+    output("avr-g++", *AVR_FLAGS, *INCLUDES, f"-I{MOTION}", *source, "-o", elf)
+    found = counted(elf, BUILD / "count_motion_cycles", '-DCASES="motion_cases.h"')
+    return {name: Cycles(*cost["cycles"]) for name, cost in found.items()}
+
+
+def counted(elf: Path, simulator: Path, *cases: str) -> dict:
+    """What the simulator, built for these cases, says of a program."""
+    source, libraries = BENCH / "count_cycles.cpp", ["-lsimavr", "-lelf"]
+    output("g++", "-O2", *INCLUDES, *cases, source, "-o", simulator, *libraries)
+    return json.loads(output(simulator, elf).splitlines()[-1])
 
 
 def parts(stack: dict[str, int]) -> dict[str, Bytes]:

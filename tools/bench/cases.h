@@ -51,6 +51,9 @@ enum : uint8_t {
   kFinished = 255,
 };
 
+/// Into how many equal parts the cycles between two marks are divided.
+inline unsigned partsOf(const Case&) { return 1; }
+
 inline bool isPresent(const Case& wanted, int first_setting) {
   if (wanted.extra != 0 && first_setting == wanted.extra) return true;
   switch (wanted.present) {

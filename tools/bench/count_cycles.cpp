@@ -1,5 +1,6 @@
-// Runs board_program on a simulated Mega: per case, the exact cycles between marks and the deepest
-// stack. The last line is JSON: {"name": {"cycles": [minimum, median, maximum], "stack": bytes},
+// Runs board_program or motion_program on a simulated Mega: per case, the exact cycles between
+// marks and the deepest stack. The last line is JSON: {"name": {"cycles": [minimum, median,
+// maximum], "stack": bytes},
 // ...}
 #include <simavr/sim_avr.h>
 #include <simavr/sim_elf.h>
@@ -10,7 +11,11 @@
 #include <cstring>
 #include <vector>
 
-#include "cases.h"
+// Another program's cases are named by the compiler's command line.
+#ifndef CASES
+#define CASES "cases.h"
+#endif
+#include CASES
 
 namespace {
 
@@ -71,10 +76,11 @@ void print(Clock& clock) {
   for (int i = 1; i < bench::kCaseCount; ++i) {
     std::vector<avr_cycle_count_t>& all = clock.cycles[i];
     std::sort(all.begin(), all.end());
+    const unsigned parts = bench::partsOf(bench::kCases[i]);
     std::printf("%s\"%s\": {\"cycles\": [%llu, %llu, %llu], \"stack\": %d}", i > 1 ? ", " : "",
-                bench::kCases[i].name, (unsigned long long)(all.front() - marks),
-                (unsigned long long)(all[all.size() / 2] - marks),
-                (unsigned long long)(all.back() - marks), clock.deepest[i]);
+                bench::kCases[i].name, (unsigned long long)((all.front() - marks) / parts),
+                (unsigned long long)((all[all.size() / 2] - marks) / parts),
+                (unsigned long long)((all.back() - marks) / parts), clock.deepest[i]);
   }
   std::printf("}\n");
 }

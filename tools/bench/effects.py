@@ -30,8 +30,8 @@ def table(costs: Costs) -> str:
     note = (
         f"With sag and stretch alone the chains differ from the judge's by {both[0]:.4f} mm at\n"
         "worst; the other effects are hidden beside these two. Worst over the sheet, in mm.\n"
-        "Cycles are the medians' difference; flash is what a board saves without the effect in the list,\n"
-        "and may be negative where the compiler then chooses to inline more."
+        "Cycles are the medians' difference. Flash is what a board saves without the effect in\n"
+        "the list; it may be negative where the compiler then chooses to inline more."
     )
     return "\n".join([head, *rows, "", note])
 

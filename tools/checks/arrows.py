@@ -25,7 +25,7 @@ ARROWS = {
     "test/vm": (["test/reference"], ANYTHING),
     "test/test_*": (["test/reference", "test/vm", "lib/*"], ANYTHING),
     "tools/core": (["lib/Kinematics"], ANYTHING),
-    "tools/bench": (["lib/*", "test/reference"], ANYTHING),
+    "tools/bench": (["lib/*", "test/reference", "test/test_effects"], ANYTHING),
 }
 # Folders in which an include is looked up after the folder of the file itself.
 SEARCHED = ["include", "src", "lib/*/src", "lib/*", "test", "test/*", "tools/core"]

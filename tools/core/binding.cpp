@@ -135,7 +135,8 @@ nb::dict strands(const Values& values, bool over_top, const Pairs& points) {
     double* value;
     auto array = newArray<double>({points.shape(0), 2}, &value);
     for (size_t i = 0; i < points.shape(0); ++i) {
-      const Hanging<double> hanging = hang(machine, Point<double>{points(i, 0), points(i, 1)}, true);
+      const Hanging<double> hanging =
+          hang(machine, Point<double>{points(i, 0), points(i, 1)}, true);
       value[2 * i] = hanging.strand[kLeft].*shown.member;
       value[2 * i + 1] = hanging.strand[kRight].*shown.member;
     }
