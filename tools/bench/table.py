@@ -116,7 +116,7 @@ def read(cell: str, line: str) -> int | None:
     plain = cell.strip().replace(",", "")
     if plain == NOTHING:
         return None
-    if not plain.removeprefix("-").isdecimal():
+    if not plain.isdecimal():
         raise TableError(f"CHANGELOG.md: {cell.strip()!r} is no number, in: {line}")
     return int(plain)
 
