@@ -31,7 +31,7 @@ struct Place {
 /// Both strands of a hanging sled.
 template <class Real>
 struct Hanging {
-  Found found;
+  Found found;       ///< never kYes above or beside the motors; a NaN shows in the lengths
   Real sine_of_sum;  ///< [1] of both strands' angles below the horizontal added together
   Strand<Real> strand[kSideCount];
 };

@@ -46,7 +46,7 @@ struct Strand {
   bool deep;          ///< the chains hang so deep that the second order of sag counts
   Real free;          ///< [mm] straight chain between sprocket and arm
   Real length;        ///< [mm] free chain in nominal links: what the effects adjust
-  Real wrap;          ///< [mm] chain between 12 o'clock and the straight line
+  Real wrap;          ///< [mm] sprocket_radius * angle: chain on the teeth, but for r^2 / d
   Real pull;          ///< [1] tension / sled weight; only where an effect asks for forces
   Real bend;          ///< [1] cosine / pull: how easily its own weight bends the chain
   Real sine, cosine;  ///< [1] of the straight line's angle below the horizontal
