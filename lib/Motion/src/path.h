@@ -1,0 +1,144 @@
+// The path of one move over the sheet: a straight line or an arc of a circle, and where it passes.
+#pragma once
+
+#include <math.h>
+#include <stdint.h>
+
+#include "point.h"
+
+namespace motion {
+
+/// Whether a path could be drawn.
+enum class Drawn : uint8_t {
+  kYes,
+  kNoNumber,   ///< NaN, or so far away that it is none
+  kNoLength,   ///< it ends where it begins; only a full circle may
+  kNoRadius,   ///< an arc around its own start or end
+  kEndOffArc,  ///< start and end lie on different circles around the centre
+};
+
+/// Which way round its centre an arc goes, seen from the front of the sheet.
+enum class Turn : uint8_t { kClockwise, kCounterclockwise };
+
+// Start and end of an arc come as decimal text, rounded one by one. So their radii may differ by
+// this, and the arc changes from one to the other evenly.
+const float kMostOffArc = 0.05f;         // [mm]
+const float kMostOffArcShare = 0.001f;   // [1] of the radius, where that is more
+const float kMostOffArcSlope = 0.0312f;  // [1] of the arc's length, always: no spirals
+
+/// A path from a place to another; made by line() or arc().
+template <class Real>
+struct Path {
+  Drawn drawn;
+  Point<Real> from, to;  ///< [mm]
+  Point<Real> centre;    ///< [mm] of an arc
+  Real sweep;            ///< [rad] turned by an arc, counterclockwise positive; zero: a line
+  Real grows;            ///< [mm] by which an arc's end is farther from its centre than its start
+  Real radius;           ///< [mm] of an arc, middle of start's and end's
+  Real length;           ///< [mm] along the path
+
+  /// [1/mm] of a line it is zero.
+  Real curvature() const { return sweep == Real(0) ? Real(0) : Real(1) / radius; }
+};
+
+namespace path_detail {
+
+template <class Real>
+Real distance(Point<Real> a, Point<Real> b) {
+  const Real dx = a.x - b.x, dy = a.y - b.y;
+  return sqrt(dx * dx + dy * dy);
+}
+
+/// Angle [rad] from start to end of an arc; a full turn if they are one place.
+template <class Real>
+Real sweepOf(Point<Real> from, Point<Real> to, Point<Real> centre, Turn turn) {
+  const Real kFullTurn = Real(6.283185307179586);
+  const bool left_round = turn == Turn::kCounterclockwise;
+  if (from.x == to.x && from.y == to.y) return left_round ? kFullTurn : -kFullTurn;
+  const Point<Real> start = {from.x - centre.x, from.y - centre.y};
+  const Point<Real> end = {to.x - centre.x, to.y - centre.y};
+  // The chord, not the end, in the cross product: short arcs must keep their sign.
+  const Real cross = start.x * (to.y - from.y) - start.y * (to.x - from.x);
+  const Real angle = atan2(cross, start.x * end.x + start.y * end.y);
+  if (left_round) return angle > Real(0) ? angle : angle + kFullTurn;
+  return angle < Real(0) ? angle : angle - kFullTurn;
+}
+
+/// Place of an arc: its start turned about the centre, farther out by a share of `grows`.
+template <class Real>
+Point<Real> onArc(const Path<Real>& path, Real share) {
+  const Real x = path.from.x - path.centre.x, y = path.from.y - path.centre.y;
+  const Real start_radius = path.radius - path.grows * Real(0.5);
+  const Real scale = Real(1) + path.grows * share / start_radius;
+  const Real turned = path.sweep * share;
+  const Real along = scale * cos(turned), across = scale * sin(turned);
+  return {path.centre.x + x * along - y * across, path.centre.y + x * across + y * along};
+}
+
+}  // namespace path_detail
+
+/// A straight line between two places [mm].
+template <class Real>
+Path<Real> line(Point<Real> from, Point<Real> to) {
+  const Real length = path_detail::distance(from, to);
+  Drawn drawn = Drawn::kYes;
+  if (!isfinite(length))
+    drawn = Drawn::kNoNumber;
+  else if (!(length > Real(0)))
+    drawn = Drawn::kNoLength;
+  return {drawn, from, to, from, Real(0), Real(0), Real(0), length};
+}
+
+/// An arc around a centre [mm]; a full circle if it ends where it begins.
+template <class Real>
+Path<Real> arc(Point<Real> from, Point<Real> to, Point<Real> centre, Turn turn) {
+  const Real start_radius = path_detail::distance(from, centre);
+  const Real end_radius = path_detail::distance(to, centre);
+  const Real radius = (start_radius + end_radius) * Real(0.5);
+  const Real sweep = path_detail::sweepOf(from, to, centre, turn);
+  const Real length = radius * fabs(sweep);
+  const Real grows = end_radius - start_radius;
+  const Real off = fabs(grows);
+  Drawn drawn = Drawn::kYes;
+  if (!isfinite(length))
+    drawn = Drawn::kNoNumber;
+  else if (!(start_radius > Real(0) && end_radius > Real(0)))
+    drawn = Drawn::kNoRadius;
+  else if (!((off <= Real(kMostOffArc) || off <= radius * Real(kMostOffArcShare)) &&
+             off <= length * Real(kMostOffArcSlope)))
+    drawn = Drawn::kEndOffArc;
+  return {drawn, from, to, centre, sweep, grows, radius, length};
+}
+
+/// Place [mm] at a share [1] of the path's length: 0 is its start, 1 its end, both to the last bit.
+template <class Real>
+Point<Real> placeOn(const Path<Real>& path, Real share) {
+  if (share >= Real(1)) return path.to;
+  if (path.sweep != Real(0)) return path_detail::onArc(path, share);
+  return {path.from.x + (path.to.x - path.from.x) * share,
+          path.from.y + (path.to.y - path.from.y) * share};
+}
+
+/// Distance [mm] from a place that the path keeps at least.
+///
+/// Of a line, it is the distance. An arc keeps as far from the place as its circle does; and any
+/// path of a length keeps (start's distance + end's distance - length) / 2.
+template <class Real>
+Real clearance(const Path<Real>& path, Point<Real> place) {
+  const Real from = path_detail::distance(path.from, place);
+  const Real to = path_detail::distance(path.to, place);
+  const Real by_ends = (from + to - path.length) * Real(0.5);
+  if (path.sweep != Real(0)) {
+    const Real by_circle = fabs(path_detail::distance(path.centre, place) - path.radius) -
+                           fabs(path.grows) * Real(0.5);
+    return by_circle > by_ends ? by_circle : by_ends;
+  }
+  const Real ex = (path.to.x - path.from.x) / path.length;
+  const Real ey = (path.to.y - path.from.y) / path.length;
+  const Real px = place.x - path.from.x, py = place.y - path.from.y;
+  const Real along = px * ex + py * ey;
+  if (along > Real(0) && along < path.length) return fabs(py * ex - px * ey);
+  return from < to ? from : to;
+}
+
+}  // namespace motion

@@ -1,0 +1,123 @@
+// A piece of a path between exact knots: set-points by two additions a tick, without any drift.
+#pragma once
+
+#include <stdint.h>
+
+#include "fixed.h"
+
+namespace motion {
+
+// Ticks of one segment, at most; with more, halves of the last bit would add up (see stepsThrough).
+enum : uint8_t { kMostTicks = 181 };
+static_assert(1L * kMostTicks * kMostTicks <= 32767L, "the square must be a divisor of divide()");
+
+// Knots of one segment are nearer than this, or the sums below could overflow.
+const int32_t kMostRise = 512 * kCountsPerMm;
+
+/// Counts with 16 more binary digits, 2^-32 mm: whole + fraction / 65536.
+struct Fine {
+  int32_t whole;      ///< [counts]
+  uint16_t fraction;  ///< [counts / 65536]
+};
+
+// always_inline, twice: every tick adds four times, and as calls they cost half as much again.
+
+/// Adds a fine number to another.
+__attribute__((always_inline)) inline void add(Fine& sum, const Fine& more) {
+  const uint16_t fraction = uint16_t(sum.fraction + more.fraction);
+  int32_t whole = sum.whole + more.whole;
+  // A branch: on the board a bit is carried from 16 to 32 bits no faster.
+  if (fraction < more.fraction) ++whole;
+  sum.whole = whole;
+  sum.fraction = fraction;
+}
+
+/// One fine number less another.
+inline Fine differenceOf(const Fine& one, const Fine& other) {
+  const bool borrow = one.fraction < other.fraction;
+  return {one.whole - other.whole - borrow, uint16_t(one.fraction - other.fraction)};
+}
+
+/// Counts / divisor, rounded down to 2^-16 counts, whatever the sign; divisors up to 32767.
+inline Fine divide(int32_t counts, uint16_t divisor) {
+  int32_t whole = counts / int32_t(divisor);
+  int32_t rest = counts % int32_t(divisor);
+  if (rest < 0) {
+    rest += int32_t(divisor);
+    --whole;
+  }
+  return {whole, uint16_t((uint32_t(rest) << 16) / divisor)};
+}
+
+/// A fine number times half a factor, rounded down.
+inline Fine timesHalf(const Fine& number, uint8_t factor) {
+  const uint32_t low = uint32_t(number.fraction) * factor;
+  const int32_t whole = number.whole * factor + int32_t(low >> 16);
+  const uint16_t odd = whole & 1 ? 0x8000 : 0;
+  return {whole >> 1, uint16_t(uint16_t(uint16_t(low) >> 1) | odd)};
+}
+
+/// One chain on its way through a segment of n ticks, as a quadratic through three exact lengths.
+///
+/// With bend = 2 * (from - 2 middle + to), the quadratic's second difference is 2 * bend / n^2,
+/// and the first difference that leads to the end is (to - from) / n - second * (n - 1) / 2.
+struct Steps {
+  Fine length;  ///< the set-point now, half a count ahead: its whole part is rounded
+  Fine first;   ///< what the next tick adds to it
+  Fine second;  ///< what each tick adds to `first`
+
+  /// The next tick's set-point.
+  __attribute__((always_inline)) void advance() {
+    add(length, first);
+    add(first, second);
+  }
+};
+
+/// The quadratic from one length to another [counts] in n ticks, through `middle` at half time.
+///
+/// The end is met to the count: `first` is worked out from `second` as rounded, so only its own
+/// last digit is left, and n of those are less than 0.006 counts. In between, `second` is less than
+/// a last digit too small: n^2 / 8 of those are 0.06 counts.
+inline Steps stepsThrough(int32_t from, int32_t middle, int32_t to, uint8_t ticks) {
+  const int32_t rise = to - from;
+  const int32_t bend = 2 * rise - 4 * (middle - from);
+  const Fine second = divide(2 * bend, uint16_t(uint16_t(ticks) * ticks));
+  const Fine first = differenceOf(divide(rise, ticks), timesHalf(second, uint8_t(ticks - 1)));
+  return {{from, 0x8000}, first, second};
+}
+
+/// Both chains between two knots.
+struct Segment {
+  Steps left, right;
+  uint8_t ticks_left;  ///< set-points still to come
+
+  /// The next tick's set-points; at the last tick they are the end's knot, to the count.
+  void advance() {
+    left.advance();
+    right.advance();
+    --ticks_left;
+  }
+
+  /// The set-points now.
+  Knot at() const { return {left.length.whole, right.length.whole}; }
+};
+
+/// A segment that stands still.
+inline Segment standing(Knot at) {
+  const Fine none = {0, 0};
+  return {{{at.left, 0}, none, none}, {{at.right, 0}, none, none}, 0};
+}
+
+/// The segment through three knots, `middle` at half time, in 1 ... kMostTicks ticks.
+inline Segment segmentThrough(Knot from, Knot middle, Knot to, uint8_t ticks) {
+  return {stepsThrough(from.left, middle.left, to.left, ticks),
+          stepsThrough(from.right, middle.right, to.right, ticks), ticks};
+}
+
+/// Whether two knots are near enough for one segment.
+inline bool areNear(Knot one, Knot other) {
+  const int32_t left = one.left - other.left, right = one.right - other.right;
+  return left < kMostRise && left > -kMostRise && right < kMostRise && right > -kMostRise;
+}
+
+}  // namespace motion
