@@ -172,19 +172,6 @@ def _stops(grid, machine):
     return [*stops, ("the end", (0.0, 0.0))]
 
 
-def check(grid, machine):
-    """Refuses a grid that leaves the sheet, or whose chains would be too tight or too slack."""
-    stops = _stops(grid, machine)
-    for what, place in stops:
-        _check_place(grid, machine, what, *place)
-    # The way between two top corners passes the tightest place of all, marks or not.
-    x, y = stops[0][1]
-    for what, end in stops[1:]:
-        for steps in range(math.ceil(math.dist((x, y), end) / WAY_STEP), 0, -1):
-            x, y = x + (end[0] - x) / steps, y + (end[1] - y) / steps
-            _check_place(grid, machine, f"the way to {what}", x, y)
-
-
 def _check_place(grid, machine, what, x, y):
     """Refuses a place [mm] that the sled must not go to."""
     what = f"{what} at x {x:.1f} y {y:.1f}"
@@ -203,6 +190,19 @@ def _check_place(grid, machine, what, x, y):
     slack = f"{what} leaves {min(pulls):.1f} N on the {side} chain, less than --min-tension "
     slack += f"{grid.min_tension:g}: raise --margin or move the motors apart"
     _demand(min(pulls) >= grid.min_tension, slack)
+
+
+def check(grid, machine, ask=_check_place):
+    """Asks about all places that the sled passes; refuses what leaves the sheet or its limits."""
+    stops = _stops(grid, machine)
+    for what, place in stops:
+        ask(grid, machine, what, *place)
+    # The way between two top corners passes the tightest place of all, marks or not.
+    x, y = stops[0][1]
+    for what, end in stops[1:]:
+        for steps in range(math.ceil(math.dist((x, y), end) / WAY_STEP), 0, -1):
+            x, y = x + (end[0] - x) / steps, y + (end[1] - y) / steps
+            ask(grid, machine, f"the way to {what}", x, y)
 
 
 def program(grid, machine):

@@ -31,7 +31,14 @@ AVR_FLAGS = [
     "-Wl,--gc-sections",
 ]
 # Rows of the table and the sum of parts that part_program.cpp knows them by.
-PARTS = {"prepare": 1, "inverse": 2, "forward": 4, "all three": 7, "constants of one machine": 8}
+PARTS = {
+    "prepare": 1,
+    "inverse": 2,
+    "forward": 4,
+    "reach": 16,
+    "all three": 7,
+    "constants of one machine": 8,
+}
 
 
 class ToolError(Exception):
@@ -43,17 +50,18 @@ def measure() -> Costs:
     BUILD.mkdir(parents=True, exist_ok=True)
     compiler = output("avr-gcc", "-dumpversion")
     cycles, stack = simulated()
+    cycles.update(two_brackets())
     cycles.update(motion())
     return Costs(f"avr-gcc {compiler}", cycles, {**parts(stack), **firmware(compiler)})
 
 
 def simulated() -> tuple[dict[str, Cycles], dict[str, int]]:
-    """Cycles of every case, and the deepest stack of inverse and of forward."""
+    """Cycles of every case, and the deepest stack of inverse, of forward and of reach."""
     elf, simulator = BUILD / "board_program.elf", BUILD / "count_cycles"
     output("avr-g++", *AVR_FLAGS, *INCLUDES, *sources("board_program.cpp"), "-o", elf)
     symbols = output("avr-nm", "-C", elf)
     stack = {}
-    for part in ("inverse", "forward"):
+    for part in ("inverse", "forward", "reach"):
         # A function dissolved into its caller would have no stack of its own to measure.
         if not re.search(rf"kinematics::{part}<float>", symbols):
             raise ToolError(f"board_program.cpp: the compiler dissolved {part}() into its caller")
@@ -62,6 +70,15 @@ def simulated() -> tuple[dict[str, Cycles], dict[str, int]]:
         part = name.partition(",")[0]
         stack[part] = max(stack.get(part, 0), cost["stack"])
     return {name: Cycles(*cost["cycles"]) for name, cost in found.items()}, stack
+
+
+def two_brackets() -> dict[str, Cycles]:
+    """Cycles of every case of quadrilateral_cases.h."""
+    elf = BUILD / "quadrilateral_program.elf"
+    source = [BENCH / "quadrilateral_program.cpp", KINEMATICS / "quadrilateral.cpp"]
+    output("avr-g++", *AVR_FLAGS, *INCLUDES, *source, "-o", elf)
+    found = counted(elf, BUILD / "count_quadrilateral", '-DCASES="quadrilateral_cases.h"')
+    return {name: Cycles(*cost["cycles"]) for name, cost in found.items()}
 
 
 def motion() -> dict[str, Cycles]:
@@ -117,7 +134,7 @@ def sizes(elf: Path) -> tuple[int, int]:
 
 def sources(program: str) -> list[Path]:
     """One program of this folder and the kinematics."""
-    return [BENCH / program, KINEMATICS / "Kinematics.cpp"]
+    return [BENCH / program, KINEMATICS / "Kinematics.cpp", KINEMATICS / "reach.cpp"]
 
 
 def output(*command: str | Path) -> str:

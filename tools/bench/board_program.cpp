@@ -4,6 +4,7 @@
 
 #include "Kinematics.h"
 #include "cases.h"
+#include "reach.h"
 
 using namespace kinematics;
 
@@ -13,6 +14,9 @@ namespace {
 #define BARRIER() __asm__ __volatile__("" ::: "memory")
 
 volatile float sink, other_sink;
+// Called in one place only, it would dissolve there.
+Reached<float> (*volatile const askReach)(const Machine<float>&, Point<float>,
+                                          const ReachLimits<float>&) = reach<float>;
 
 /// Fills in the typical size of each effect that a case wants.
 struct TypicalSizes {
@@ -64,6 +68,14 @@ void timeOne(uint8_t number, const Machine<float>& machine, Point<float> place) 
     GPIOR0 = number + 1;
     BARRIER();
     sink = forward(machine, chains, guess).sled.x;
+  } else if (what == bench::kReach) {
+    const ReachLimits<float> limits;
+    BARRIER();
+    GPIOR0 = number + 1;
+    BARRIER();
+    const Reached<float> here = askReach(machine, place, limits);
+    sink = here.give.xx;
+    other_sink = float(here.verdict);
   } else {
     BARRIER();
     GPIOR0 = number + 1;

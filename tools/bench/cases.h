@@ -5,7 +5,7 @@
 
 namespace bench {
 
-enum What : uint8_t { kNothing, kInverse, kForward, kForwardFar, kForwardNear };
+enum What : uint8_t { kNothing, kInverse, kForward, kForwardFar, kForwardNear, kReach };
 
 // Which effects are present, by the number of their first setting.
 enum Present : uint8_t { kNone, kSag, kSagStretch, kSagStretchPitch, kAll };
@@ -40,6 +40,7 @@ const Case kCases[] = {
     {"forward, no guess", kForward, kSagStretchPitch, kUsual, 0},
     {"forward, guess in the far corner", kForwardFar, kSagStretchPitch, kUsual, 0},
     {"forward, guess 0.1 mm off (tracking)", kForwardNear, kSagStretchPitch, kUsual, 0},
+    {"reach, sag, stretch and pitch", kReach, kSagStretchPitch, kUsual, 0},
 };
 
 // Every second place of the published measurements' grid, borders included: all of them take four

@@ -78,7 +78,7 @@ def built(text: str) -> int:
     (copy / "effects.h").write_text(text, encoding="utf-8")
     elf = board.BUILD / "other_effects.elf"
     includes = [f"-I{copy}", f"-I{board.BENCH}"]
-    sources = [board.BENCH / "part_program.cpp", copy / "Kinematics.cpp"]
+    sources = [board.BENCH / "part_program.cpp", copy / "Kinematics.cpp", copy / "reach.cpp"]
     board.output("avr-g++", *board.AVR_FLAGS, *includes, "-DPARTS=7", *sources, "-o", elf)
     return board.sizes(elf)[0]
 

@@ -3,12 +3,13 @@
 #include <math.h>
 
 #include "Kinematics.h"
+#include "reach.h"
 
 using namespace kinematics;
 
 namespace {
 
-enum { kPrepare = 1, kInverse = 2, kForward = 4, kStorage = 8 };
+enum { kPrepare = 1, kInverse = 2, kForward = 4, kStorage = 8, kReach = 16 };
 
 struct Given {
   const Frame<float>* frame;
@@ -18,6 +19,8 @@ struct Given {
   const Chains<float>* chains;
   PaidOut<float>* paid_out;
   Place<float>* place;
+  const ReachLimits<float>* limits;
+  Reached<float>* reached;
 };
 
 // Volatile: the compiler must take every number for unknown and every result for wanted.
@@ -34,4 +37,5 @@ int main() {
   if (PARTS & kPrepare) *given.machine = prepare(*given.frame, *given.effects);
   if (PARTS & kInverse) *given.paid_out = inverse(*given.machine, *given.bit);
   if (PARTS & kForward) *given.place = forward(*given.machine, *given.chains);
+  if (PARTS & kReach) *given.reached = reach(*given.machine, *given.bit, *given.limits);
 }

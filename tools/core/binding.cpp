@@ -11,6 +11,7 @@
 // The definitions, not only the declarations: they are instantiated here for dual numbers too.
 #include "Kinematics.cpp"
 #include "frame_info.h"
+#include "reach.cpp"
 
 namespace nb = nanobind;
 using namespace kinematics;
@@ -145,6 +146,43 @@ nb::dict strands(const Values& values, bool over_top, const Pairs& points) {
   return result;
 }
 
+/// Verdicts (n,), tensions (n, 2) [N] and compliance (n, 2, 2) [mm/N] of places (n, 2) [mm].
+nb::dict reachOf(const Values& values, bool over_top, const Pairs& points, double most_tension,
+                 double least_tension, double least_free, double most_give) {
+  const Machine<double> machine = machineOf(numbers<double>(values), over_top);
+  ReachLimits<double> limits;
+  limits.most_tension = most_tension;
+  limits.least_tension = least_tension;
+  limits.least_free = least_free;
+  limits.most_give = most_give;
+  uint8_t* verdict;
+  double *tension, *give;
+  const size_t count = points.shape(0);
+  nb::dict result;
+  result["verdict"] = newArray<uint8_t>({count}, &verdict);
+  result["tension"] = newArray<double>({count, 2}, &tension);
+  result["compliance"] = newArray<double>({count, 2, 2}, &give);
+  for (size_t i = 0; i < count; ++i) {
+    const Reached<double> here = reach(machine, Point<double>{points(i, 0), points(i, 1)}, limits);
+    verdict[i] = static_cast<uint8_t>(here.verdict);
+    std::copy_n(here.tension, 2, tension + 2 * i);
+    const double own[4] = {here.give.xx, here.give.xy, here.give.xy, here.give.yy};
+    std::copy_n(own, 4, give + 4 * i);
+  }
+  return result;
+}
+
+/// The limits of reach() that stand if none are given.
+nb::dict reachLimits() {
+  const ReachLimits<double> usual;
+  nb::dict result;
+  result["most_tension"] = usual.most_tension;
+  result["least_tension"] = usual.least_tension;
+  result["least_free"] = usual.least_free;
+  result["most_give"] = usual.most_give;
+  return result;
+}
+
 struct Lister {
   nb::list effects;
 
@@ -223,4 +261,16 @@ NB_MODULE(_core, module) {
              "Exact slopes of lengths by setting (n, 2, m), by place (n, 2, 2), found (n,).");
   module.def("strands", &strands, nb::arg("values"), nb::arg("over_top"), nb::arg("points"),
              "Each strand's free length, direction, tension, straight and extra chain, (n, 2).");
+  const ReachLimits<double> usual;
+  module.def(
+      "reach", &reachOf, nb::arg("values"), nb::arg("over_top"), nb::arg("points"), nb::kw_only(),
+      nb::arg("most_tension") = usual.most_tension, nb::arg("least_tension") = usual.least_tension,
+      nb::arg("least_free") = usual.least_free, nb::arg("most_give") = usual.most_give,
+      "Where places (n, 2) [mm] are usable: verdict (n,) (0 usable, 1 too tight, 2 too slack,\n"
+      "3 too vertical, 4 cannot hang), tension (n, 2) [N] of left and right chain at its\n"
+      "sprocket, compliance (n, 2, 2) [mm/N] of the sled, [[xx, xy], [xy, yy]].");
+  module.def(
+      "reach_limits", &reachLimits,
+      "The usual limits: most_tension and least_tension [N], least_free [mm] of chain between\n"
+      "ring and sprocket, most_give [mm/N] in the direction in which the sled gives most.");
 }

@@ -7,14 +7,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from plumb.catalogue import NO_FIRMWARE, effect_names, parameter_names, parameter_words
 from plumb.checks import refuse_unknown
 from plumb.compare import Comparison, compare
 from plumb.errors import InputError
 from plumb.fit import PRIORS, SHEET_ROTATION, Estimate, Fit, fit, rms
+from plumb.lab_effects import LAB_EFFECTS
+from plumb.lab_effects.lab_effect import EDGES, SLED, TAPE
 from plumb.machine_settings import FRAME_FIELDS, MachineSettings
 from plumb.measurements import Measurements
 from plumb.observations import Observations, model_and_observations
-from plumb.predict import frame_words, known_effects, library, parameter_names
+from plumb.predict import frame_words
 from plumb.shape import best_pose
 
 FAR = 2.0  # [prior sigmas] a stated number that moved farther was probably measured wrongly
@@ -68,13 +71,20 @@ class Addition:
     before_fit: Fit
     after_fit: Fit
     parameters: tuple[Parameter, ...]
-    effects_added: tuple[str, ...]
+    effects_added: tuple[str, ...]  # those of the lab too
     warnings: tuple[str, ...]
 
     @property
     def settings(self) -> MachineSettings:
         """The new machine."""
         return self.after_fit.settings
+
+    @property
+    def cures(self) -> tuple[str, ...]:
+        """A sentence for each lab effect that was fitted: no setting holds it."""
+        return tuple(
+            _cure(name, parameters) for name, parameters in self.after_fit.lab_effects.items()
+        )
 
     @property
     def sheet_rise(self) -> float:
@@ -108,6 +118,7 @@ def add(
         settings, measurements, cut_with=cut_with, controller=controller
     )
     _refuse_too_few(measurements, rows, names, priors)
+    _refuse_unfelt(measurements, rows, names)
     noise = sigma or measurements.tape_sigma
     before_fit = fit(model, rows, priors=priors, sigma=noise)
     after_fit = fit(model, rows, effects=names, priors=priors, sigma=noise) if names else before_fit
@@ -163,7 +174,7 @@ def quality_of(fitted: Fit, rows: Observations) -> Quality:
 
 
 def _refuse_unknown_effects(names: Sequence[str]) -> None:
-    known = known_effects()
+    known = effect_names()
     for name in names:
         if name not in known:
             raise InputError(
@@ -190,9 +201,30 @@ def _refuse_too_few(
         )
 
 
+def _refuse_unfelt(measurements: Measurements, rows: Observations, effects: Sequence[str]) -> None:
+    """Refuse a lab effect that changes none of the measured numbers."""
+    approached = bool(rows.approaches[[*rows.mark_rows, *rows.distance_rows.ravel()]].any())
+    felt = {SLED: approached, EDGES: len(rows.mark_rows) > 0, TAPE: True}
+    for one in LAB_EFFECTS:
+        if one.name in effects and not felt[one.acts_on]:
+            raise InputError(
+                f"{measurements.source}: {one.name} needs {one.needs}: nothing here depends on it"
+            )
+
+
+def _cure(name: str, parameters: Mapping[str, float]) -> str:
+    """What to do about a lab effect that was fitted."""
+    own = next(one for one in LAB_EFFECTS if one.name == name)
+    found = ", ".join(
+        f"{one.name} = {parameters[one.name]:.3g} {one.unit}".removesuffix(" 1")
+        for one in own.parameters
+    )
+    return f"{name} ({found}): {NO_FIRMWARE}, and no setting holds it: {own.remedy}"
+
+
 def _parameter(estimate: Estimate) -> Parameter:
     words = {one["name"]: one for one in frame_words()}
-    words |= {f"{e['name']}.{p['name']}": p for e in library() for p in e["parameters"]}
+    words |= parameter_words()
     own = words.get(estimate.name, {"unit": "rad", "low": None, "high": None})
     return Parameter(
         name=estimate.name,

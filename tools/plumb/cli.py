@@ -8,7 +8,14 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import NoReturn
 
-from plumb import cli_add, cli_compare, cli_effects, cli_grid, cli_kinematics
+from plumb import (
+    cli_add,
+    cli_compare,
+    cli_effects,
+    cli_grid,
+    cli_kinematics,
+    cli_reach,
+)
 from plumb.errors import InputError
 
 DESCRIPTION = "Find and cure the errors of a hanging CNC: grid, compare, add."
@@ -45,7 +52,11 @@ def build_parser() -> Parser:
     commands = parser.add_subparsers(metavar="COMMAND", required=True, title="commands")
     kinematics = cli_kinematics
     _enter(commands, "grid", cli_grid.HELP, cli_grid.EXIT, cli_grid.add_arguments, cli_grid.run)
-    for name, module in (("compare", cli_compare), ("add", cli_add), ("effects", cli_effects)):
+    for name, module in (
+        ("compare", cli_compare),
+        ("add", cli_add),
+        ("effects", cli_effects),
+    ):
         _enter(commands, name, module.HELP, module.EXIT, module.add_arguments, module.run)
     _enter(
         commands,
@@ -63,6 +74,8 @@ def build_parser() -> Parser:
         kinematics.add_forward_arguments,
         kinematics.run_forward,
     )
+    reach = cli_reach
+    _enter(commands, "reach", reach.HELP, reach.EXIT, reach.add_arguments, reach.run)
     return parser
 
 

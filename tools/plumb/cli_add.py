@@ -7,6 +7,7 @@ import math
 from typing import Any
 
 from plumb.add import Addition, Parameter, Quality, add, priors_with
+from plumb.catalogue import effect_names
 from plumb.cli_compare import panel_of
 from plumb.cli_files import (
     Inputs,
@@ -21,7 +22,6 @@ from plumb.cli_files import (
 from plumb.cli_text import about, millimetres, number, print_json, sentences, table
 from plumb.errors import InputError, refusal
 from plumb.picture import Panel, draw
-from plumb.predict import known_effects
 from plumb.settings_file import changed_ini, groundcontrol_changes, machine_toml
 
 HELP = "fit the frame and the named effects to the marks, and write the new settings"
@@ -40,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         action="extend",
         required=True,
-        help=f"effects to fit, after the marks: {', '.join(known_effects())}; those that SETTINGS "
+        help=f"effects to fit, after the marks: {', '.join(effect_names())}; those that SETTINGS "
         "have and that are not named stay as they are",
     )
     parser.add_argument("-o", "--output", metavar="FILE", help="write the machine.toml")
@@ -84,7 +84,7 @@ def run(arguments: argparse.Namespace) -> int:
     if "auto" in arguments.effect:
         raise InputError(
             "--effect auto is not built yet; name the effects yourself, of "
-            f"{', '.join(known_effects())}"
+            f"{', '.join(effect_names())}"
         )
     refuse_twins(arguments.output, arguments.groundcontrol, arguments.picture)
     inputs = inputs_of(arguments)
@@ -152,6 +152,7 @@ def toml_of(result: Addition, *, source: str) -> bytes:
         f"(priced {result.after.priced_rms:.2f}, left out {result.after.left_out_rms:.2f}), "
         f"{result.raw.rms:.2f} mm before.",
         turn_sentence(result),
+        *result.cures,
         *result.warnings,
     ]
     return machine_toml(result.settings, comment="\n".join(lines)).encode()
@@ -194,6 +195,8 @@ def as_json(result: Addition) -> dict[str, Any]:
         "parameters": [_parameter_json(one) for one in result.parameters],
         "effects_added": result.effects_added,
         "effects": result.settings.effects,
+        "lab_effects": result.after_fit.lab_effects,
+        "cures": result.cures,
         "frame": result.settings.frame,
         "sheet_rotation": result.after_fit.sheet_rotation,
         "sheet_rise_mm": result.sheet_rise,
@@ -244,7 +247,7 @@ def as_text(result: Addition) -> str:
         "predicted\nby a fit that did not see it. Intervals: 95 %, for a reading error of "
         f"{sigma.sigma:.2f} mm ({origin})."
     )
-    parts.append(sentences([turn_sentence(result), *result.warnings]))
+    parts.append(sentences([turn_sentence(result), *result.cures, *result.warnings]))
     return "\n\n".join(parts)
 
 

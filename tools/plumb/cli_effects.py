@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import argparse
 
+from plumb.catalogue import NO_FIRMWARE, every_effect
 from plumb.cli_files import add_json
 from plumb.cli_text import number, print_json, sentences, table
-from plumb.predict import library
 
 HELP = "the library of effects: what each does, its units, and what looks like it"
 EXIT = "Exit: 0 done."
@@ -19,13 +19,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the library."""
-    effects = library()
+    effects = every_effect()
     if arguments.json:
         print_json({"effects": effects})
         return 0
-    print(f"{len(effects)} effects can be added to the machine, in the order they are applied.")
+    own = sum(one["where"] == "firmware" for one in effects)
+    print(f"{own} effects can be added to the machine, in the order they are applied; then")
+    print(f"{len(effects) - own} of the lab, which act on what is measured: {NO_FIRMWARE}.")
     for effect in effects:
-        print(f"\n{effect['name']}")
+        print(f"\n{effect['name']}" + (" (lab)" if effect["where"] == "lab" else ""))
         for label, fact in (
             ("what it is", effect["summary"]),
             ("what it does", effect["pattern"]),
@@ -39,7 +41,7 @@ def run(arguments: argparse.Namespace) -> int:
                 number(own["typical"]),
                 f"{number(own['low'])} .. {number(own['high'])}",
                 own["unit"],
-                f"${own['setting']}",
+                "none" if own["setting"] is None else f"${own['setting']}",
             ]
             for own in effect["parameters"]
         ]

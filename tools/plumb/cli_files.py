@@ -72,6 +72,14 @@ def length(text: str) -> float:
     return value
 
 
+def limit(text: str) -> float:
+    """A limit of zero or more."""
+    value = float(text)
+    if not (math.isfinite(value) and value >= 0):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number of zero or more")
+    return value
+
+
 def settings_in(path: str) -> MachineSettings:
     """The settings of a file, with effects of our library only."""
     return read_settings(path, known=known_effects())
@@ -104,9 +112,9 @@ def refuse_twins(*paths: str | None) -> None:
             raise refusal(path, "is the name of two results", remedy="give each its own")
 
 
-def picture_form(path: str) -> str:
+def picture_form(path: str, *, option: str = "--picture") -> str:
     """The form of a picture by its name's ending."""
     form = Path(path).suffix.lower().lstrip(".")
     if form not in FORMATS:
-        raise InputError(f"--picture {path}: end the name with .{', .'.join(FORMATS)}")
+        raise InputError(f"{option} {path}: end the name with .{', .'.join(FORMATS)}")
     return form

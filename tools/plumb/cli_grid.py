@@ -6,10 +6,18 @@ import argparse
 import contextlib
 import importlib.util
 import io
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 
+import numpy as np
+
+from plumb.cli_files import limit, settings_in
 from plumb.cli_text import print_json
+from plumb.errors import InputError
+from plumb.machine_settings import MachineSettings
+from plumb.predict import CANNOT_HANG, REACH_LIMITS, TOO_SLACK, TOO_TIGHT, USABLE, reach
+from plumb.reach import with_soft_chains
 
 HELP = "the G-code for a grid of calibration marks"
 EXIT = "Exit: 0 done; 2 the grid cannot be made, and nothing was written."
@@ -30,11 +38,19 @@ grids = _load()
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of `plumb grid`: those of the tool, and --json."""
     grids.add_arguments(parser)
+    parser.add_argument(
+        "--most-give",
+        metavar="MM_PER_N",
+        type=limit,
+        default=REACH_LIMITS["most_give"],
+        help="how far a newton may move the sled; see plumb reach [%(default)g]",
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object and no more")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Make the grid as the tool does."""
+    """Make the grid as the tool does, unless the machine's own model refuses a place."""
+    refuse_out_of_reach(arguments)
     if not arguments.json:
         return grids.run(arguments, "plumb")
     said = io.StringIO()
@@ -55,3 +71,54 @@ def run(arguments: argparse.Namespace) -> int:
         }
     )
     return 0
+
+
+def refuse_out_of_reach(arguments: argparse.Namespace) -> None:
+    """Refuse a grid that the tool allows, but our model of the machine does not.
+
+    The tool knows straight chains without weight; the model knows all that the settings say.
+    """
+    passed: list[tuple[str, float, float]] = []
+    try:
+        grid, machine = grids.from_arguments(arguments)
+        grids.check(grid, machine)
+        grids.check(grid, machine, lambda _grid, _machine, *place: passed.append(place))
+    except grids.GridError:
+        return  # the tool tells it when it is run
+    points = np.array([place[1:] for place in passed])
+    found = reach(
+        _settings_of(arguments.settings, machine),
+        points,
+        most_tension=grid.max_tension,
+        least_tension=grid.min_tension,
+        least_free=grids.MIN_FREE_CHAIN,
+        most_give=arguments.most_give,
+    )
+    for i in np.flatnonzero(found.verdict != USABLE)[:1]:
+        what, x, y = passed[i]
+        why = _reason(int(found.verdict[i]), found.tension[i], float(found.give[i]))
+        raise InputError(f"{what} at x {x:.1f} y {y:.1f} {why}; see plumb reach")
+
+
+def _settings_of(path: str | None, machine: tuple) -> MachineSettings:
+    """The machine of the settings file, with the numbers that the tool goes by."""
+    numbers = {
+        "motor_gap": machine.motor_spacing,
+        "motor_height": machine.sheet_height / 2 + machine.motor_offset,
+        "rotation_radius": machine.rotation_radius,
+        "sheet_width": machine.sheet_width,
+        "sheet_height": machine.sheet_height,
+        "sled_weight": machine.sled_weight_n,
+    }
+    own = settings_in(path).as_plumb_model() if path else MachineSettings(**numbers, feed="top")
+    return with_soft_chains(replace(own, **numbers))[0]
+
+
+def _reason(verdict: int, tension: np.ndarray, give: float) -> str:
+    if verdict == CANNOT_HANG:
+        return "is a place where no sled can hang: raise --margin"
+    if verdict == TOO_TIGHT:
+        return f"puts {max(tension):.0f} N on a chain: raise --margin or lighten the sled"
+    if verdict == TOO_SLACK:
+        return f"leaves {min(tension):.1f} N on a chain: raise --margin or move the motors apart"
+    return f"lets every newton move the sled {give:.2f} mm: raise --margin or --most-give"

@@ -14,21 +14,13 @@ import numpy as np
 from scipy.optimize import least_squares
 from scipy.special import stdtrit
 
+from plumb.catalogue import parameter_names, parameter_words
 from plumb.errors import InputError
 from plumb.machine_settings import MachineSettings
 from plumb.observations import Observations
-from plumb.predict import (
-    FOUND,
-    NAMES,
-    Array,
-    library,
-    parameter_names,
-    settings_of,
-    values_of,
-)
-from plumb.visits import visited
+from plumb.predict import FOUND, NAMES, Array, settings_of, values_of
+from plumb.sighting import LAB_NAMES, SHEET_ROTATION, Sighting, sighted
 
-SHEET_ROTATION = "sheet_rotation"  # [rad] the sheet as measured, turned against the machine
 USUAL_SIGMA = 0.5  # [mm] of one coordinate read with a tape by hand
 # Standard deviations of what an owner states: spacing by tape or pulled chain; the sheet may lie
 # anywhere near where it was meant to.
@@ -60,6 +52,7 @@ class Fit:
 
     settings: MachineSettings
     sheet_rotation: float  # [rad]
+    lab_effects: Mapping[str, Mapping[str, float]]  # fitted, but of what was measured: no setting
     estimates: tuple[Estimate, ...]
     predicted: Array  # (k, 2) [mm] of the marks, on the sheet
     errors: Array  # (k, 2) [mm] measured - predicted
@@ -108,7 +101,7 @@ def fit(
 
     `settings` is the model to start from; sigma [mm] of one coordinate, estimated if None.
     """
-    problem = _Problem.of(settings, observations, effects, priors, sigma or USUAL_SIGMA)
+    problem = Problem.of(settings, observations, effects, priors, sigma or USUAL_SIGMA)
     if not problem.names:
         return problem.result(np.zeros(0), sigma, settled=True)
     solution = least_squares(
@@ -125,7 +118,7 @@ def fit(
 
 
 @dataclass(frozen=True)
-class _Problem:
+class Problem:
     """Least squares in scaled unknowns u: value = start + scale * u."""
 
     settings: MachineSettings
@@ -143,98 +136,87 @@ class _Problem:
         effects: Iterable[str],
         priors: Mapping[str, float],
         sigma: float,
-    ) -> _Problem:
-        typical = {
-            f"{one['name']}.{p['name']}": p["typical"]
-            for one in library()
-            for p in one["parameters"]
-        }
+    ) -> Problem:
+        typical = {name: own["typical"] for name, own in parameter_words().items()}
         free = [name for effect in effects for name in parameter_names(effect)]
         kept = [name for name in priors if priors[name] > 0]
         names = (*kept, *free)
-        values = dict(zip(NAMES, values_of(settings), strict=True)) | {SHEET_ROTATION: 0.0}
-        return _Problem(
+        values = dict(zip(NAMES, values_of(settings), strict=True))
+        return Problem(
             settings=settings,
             observations=observations,
             names=names,
-            start=np.array([values[name] for name in names]),
+            start=np.array([values.get(name, 0.0) for name in names]),
             scale=np.array([priors[name] for name in kept] + [typical[name] for name in free]),
             held=np.array([True] * len(kept) + [False] * len(free)),
             sigma=sigma,
         )
 
-    def values(self, unknowns: Array) -> tuple[Array, float]:
-        """The model's values array and the sheet's rotation [rad]."""
+    def values(self, unknowns: Array) -> tuple[Array, dict[str, float]]:
+        """The model's values array, and what lies outside of the machine by name."""
         values = values_of(self.settings)
-        rotation = 0.0
+        outside = {}
         for name, value in zip(self.names, self.start + self.scale * unknowns, strict=True):
-            if name == SHEET_ROTATION:
-                rotation = float(value)
-            else:
+            if name in NAMES:
                 values[NAMES.index(name)] = value
-        return values, rotation
+            else:
+                outside[name] = float(value)
+        return values, outside
 
-    def predict(self, unknowns: Array) -> tuple[Array, Array, bool]:
-        """Places on the sheet (r, 2) [mm], their slopes by the unknowns (r, 2, u), and success."""
-        values, rotation = self.values(unknowns)
-        rows = self.observations
-        where, slopes, found = visited(
+    def predict(self, unknowns: Array) -> tuple[Sighting, bool]:
+        """What should have been measured, with slopes by the values of `names`, and success."""
+        values, outside = self.values(unknowns)
+        found = sighted(
             values,
-            rows,
+            outside,
+            self.observations,
             over_top=self.settings.feed == "top",
             usual_weight=self.settings.sled_weight,
+            names=self.names,
         )
-        cosine, sine = np.cos(rotation), np.sin(rotation)
-        turn = np.array([[cosine, -sine], [sine, cosine]])
-        turned = where @ turn.T
-        columns = np.zeros((*turned.shape, len(self.names)))
-        for i, name in enumerate(self.names):
-            if name == SHEET_ROTATION:
-                columns[:, :, i] = np.stack([-turned[:, 1], turned[:, 0]], axis=1)
-            else:
-                columns[:, :, i] = slopes[:, :, NAMES.index(name)] @ turn.T
-        return turned, columns * self.scale, bool((found == FOUND).all())
+        return found, bool((found.found == FOUND).all())
 
-    def errors(self, where: Array) -> tuple[Array, Array]:
+    def errors(self, predicted: Sighting) -> tuple[Array, Array]:
         """Measured less predicted: marks (k, 2) and distances (m,) [mm]."""
         rows = self.observations
-        ends = where[rows.distance_rows]
+        ends = predicted.taped.where[rows.distance_rows]
         spans = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-        return rows.measured - where[rows.mark_rows], rows.distances - spans
+        return rows.measured - predicted.read.where[rows.mark_rows], rows.distances - spans
 
     def residuals(self, unknowns: Array) -> Array:
         """Errors over sigma, then how far held unknowns left their priors, in theirs."""
-        where, _, reached = self.predict(unknowns)
+        predicted, reached = self.predict(unknowns)
         if not reached:
             return np.full(self.observations.count + int(self.held.sum()), UNREACHABLE)
-        marks, distances = self.errors(where)
+        marks, distances = self.errors(predicted)
         return np.concatenate(
             [marks.ravel() / self.sigma, distances / self.sigma, unknowns[self.held]]
         )
 
     def slopes(self, unknowns: Array) -> Array:
         """Exact slopes of the residuals by the unknowns."""
-        where, by_unknown, _ = self.predict(unknowns)
+        predicted, _ = self.predict(unknowns)
         return np.vstack(
-            [-self.data_slopes(where, by_unknown) / self.sigma, np.eye(len(self.names))[self.held]]
+            [-self.data_slopes(predicted) / self.sigma, np.eye(len(self.names))[self.held]]
         )
 
-    def data_slopes(self, where: Array, by_unknown: Array) -> Array:
+    def data_slopes(self, predicted: Sighting) -> Array:
         """Slopes of all predicted numbers by the unknowns, (2k + m, u) [mm]."""
-        rows = self.observations
-        marks = by_unknown[rows.mark_rows].reshape(rows.measured.size, len(self.names))
-        ends, own = where[rows.distance_rows], by_unknown[rows.distance_rows]
+        rows, taped = self.observations, predicted.taped
+        marks = predicted.read.slopes[rows.mark_rows].reshape(rows.measured.size, len(self.names))
+        ends, own = taped.where[rows.distance_rows], taped.slopes[rows.distance_rows]
         along = ends[:, 1] - ends[:, 0]
         along = along / np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-9)
-        return np.vstack([marks, np.einsum("mi,miu->mu", along, own[:, 1] - own[:, 0])])
+        spans = np.einsum("mi,miu->mu", along, own[:, 1] - own[:, 0])
+        return np.vstack([marks, spans]) * self.scale
 
     def result(self, unknowns: Array, stated: float | None, *, settled: bool) -> Fit:
         """The finished fit with its intervals and left-out errors."""
-        where, by_unknown, reached = self.predict(unknowns)
+        predicted, reached = self.predict(unknowns)
         if not reached:
             raise InputError("with these settings the sled cannot hang where the marks were sent")
-        marks, distances = self.errors(where)
-        slopes = self.data_slopes(where, by_unknown) / self.sigma
+        marks, distances = self.errors(predicted)
+        slopes = self.data_slopes(predicted) / self.sigma
         normal = slopes.T @ slopes + np.diag(self.held.astype(float))
         covariance = np.linalg.pinv(normal, hermitian=True)
         leverage = slopes @ covariance @ slopes.T
@@ -248,10 +230,11 @@ class _Problem:
         deviation = np.sqrt(np.diag(np.linalg.pinv(found, hermitian=True))) * self.scale
         values = self.start + self.scale * unknowns
         left_marks, left_distances = _left_out(self.observations.names, marks, distances, leverage)
-        fitted, rotation = self.values(unknowns)
+        fitted, outside = self.values(unknowns)
         return Fit(
             settings=settings_of(fitted, like=self.settings),
-            sheet_rotation=rotation,
+            sheet_rotation=outside.get(SHEET_ROTATION, 0.0),
+            lab_effects=_by_effect(outside),
             estimates=tuple(
                 Estimate(
                     name,
@@ -265,7 +248,7 @@ class _Problem:
                     self.names, values, deviation, self.start, self.scale, self.held, strict=True
                 )
             ),
-            predicted=where[self.observations.mark_rows],
+            predicted=predicted.read.where[self.observations.mark_rows],
             errors=marks,
             left_out_errors=left_marks,
             distance_errors=distances,
@@ -275,6 +258,16 @@ class _Problem:
             sigma_from="residuals" if stated is None else "stated",
             settled=settled,
         )
+
+
+def _by_effect(outside: Mapping[str, float]) -> dict[str, dict[str, float]]:
+    """Parameters of lab effects by effect and name."""
+    found: dict[str, dict[str, float]] = {}
+    for name in LAB_NAMES:
+        if name in outside:
+            effect, _, parameter = name.rpartition(".")
+            found.setdefault(effect, {})[parameter] = outside[name]
+    return found
 
 
 def _left_out(

@@ -30,6 +30,7 @@ class Observations:
     names: tuple[str, ...]  # (k,) of the marks
     distance_rows: Array  # (m, 2) the rows at both ends
     distances: Array  # (m,) [mm]
+    approaches: Array  # (r, 2) unit vectors of the last move of each visit; zero if not known
 
     @property
     def count(self) -> int:
@@ -75,7 +76,15 @@ def observe(
         names=tuple(marks[i].name for i in rows),
         distance_rows=np.array(ends, dtype=int).reshape(-1, 2),
         distances=measurements.distance_lengths,
+        approaches=_directions([mark.approach or (0.0, 0.0) for mark in marks]),
     )
+
+
+def _directions(moves: list[tuple[float, float]]) -> Array:
+    """Unit vectors (r, 2) of moves of any length; zero stays zero."""
+    rows = np.array(moves, dtype=float).reshape(-1, 2)
+    lengths = np.hypot(rows[:, 0], rows[:, 1])[:, np.newaxis]
+    return rows / np.where(lengths > 0, lengths, 1.0)
 
 
 def model_and_observations(

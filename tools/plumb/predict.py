@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,23 @@ Array = np.ndarray
 NAMES: tuple[str, ...] = tuple(_core.settings())  # of the values array, in its order
 FOUND, OUT_OF_REACH, TOO_MANY_TRIES = 0, 1, 2  # what the kinematics says of a place or length
 FOUND_WORDS = ("yes", "out of reach", "too many tries")
+USABLE, TOO_TIGHT, TOO_SLACK, TOO_VERTICAL, CANNOT_HANG = range(5)  # what it says of a place's use
+REACH_WORDS = ("usable", "too tight", "too slack", "too vertical", "cannot hang")
+REACH_LIMITS: Mapping[str, float] = _core.reach_limits()  # the usual ones, by name [N, mm, mm/N]
+
+
+@dataclass(frozen=True)
+class Reached:
+    """What n places are good for; a place where nothing hangs has zeros."""
+
+    verdict: Array  # (n,) USABLE ...
+    tension: Array  # (n, 2) [N] of left and right chain at their sprockets
+    compliance: Array  # (n, 2, 2) [mm/N] of the sled by a force along the sheet, symmetric
+
+    @property
+    def give(self) -> Array:
+        """Compliance (n,) [mm/N] in the direction in which the sled gives most."""
+        return np.linalg.eigvalsh(self.compliance)[:, -1]
 
 
 def library() -> list[dict[str, Any]]:
@@ -67,6 +84,12 @@ def lengths(
 def places(settings: MachineSettings, chains: Array) -> tuple[Array, Array]:
     """Places (n, 2) [mm] for chains paid out (n, 2) [mm] by our model, and FOUND (n,)."""
     return _core.places(values_of(settings), settings.feed == "top", _pairs(chains))
+
+
+def reach(settings: MachineSettings, points: Array, **limits: float) -> Reached:
+    """Whether places (n, 2) [mm] are usable, by our model; limits as in REACH_LIMITS."""
+    found = _core.reach(values_of(settings), settings.feed == "top", _pairs(points), **limits)
+    return Reached(**found)
 
 
 def places_with_slopes(

@@ -6,16 +6,17 @@ import sys
 
 import numpy as np
 import pytest
+from plumb.catalogue import effect_names
 from plumb.cli import main
 from plumb.cli_grid import grids
 from plumb.cli_text import plain, table
 from plumb.demo import MARKS, SETTINGS
 from plumb.measurements import read_marks
-from plumb.predict import known_effects, lengths
+from plumb.predict import lengths
 from plumb.settings_file import read_settings, write_machine_toml
 from synthetic import BELIEVED, SHEET, TRUE, grid, marks_on
 
-COMMANDS = ("grid", "compare", "add", "effects", "inverse", "forward")
+COMMANDS = ("grid", "compare", "add", "effects", "inverse", "forward", "reach")
 BOARD = [str(SETTINGS), str(MARKS)]
 EFFECTS = ["--effect", "chain_pitch", "chain_sag"]
 ADDED = ("chain_pitch", "chain_sag", "chain_stretch")
@@ -35,7 +36,7 @@ def test_the_installed_command_runs():
         [sys.executable, "-m", "plumb.cli", "effects", "--json"], capture_output=True, text=True
     )
     assert done.returncode == 0 and done.stderr == ""
-    assert [one["name"] for one in json.loads(done.stdout)["effects"]] == list(known_effects())
+    assert [one["name"] for one in json.loads(done.stdout)["effects"]] == list(effect_names())
 
 
 def test_compare_begins_with_its_conclusion(run):
@@ -198,7 +199,16 @@ def test_places_off_the_sheet_are_moved_to_its_edge_and_that_is_said(ask, run, f
 def test_effects_names_every_effect_with_its_look_alikes(run):
     code, said, _ = run("effects")
     assert code == 0
-    assert all(name in said for name in known_effects()) and said.count("looks like") >= 3
+    assert all(name in said for name in effect_names())
+    assert said.count("looks like") == len(effect_names())
+
+
+def test_effects_marks_those_of_the_lab(run, ask):
+    said = run("effects")[1]
+    assert "tape_scale (lab)" in said and "chain_sag (lab)" not in said
+    lab = [one for one in ask("effects")[1]["effects"] if one["where"] == "lab"]
+    assert [one["name"] for one in lab] == ["sled_friction", "sheet_skew", "tape_scale"]
+    assert all(own["setting"] is None for one in lab for own in one["parameters"])
 
 
 def test_grid_is_the_tool_beside_the_package(run, ask, tmp_path, capsys):

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plumb.errors import InputError
-from plumb.fit import PRIORS, SHEET_ROTATION, _Problem, fit, rms
+from plumb.fit import PRIORS, SHEET_ROTATION, Problem, fit, rms
 from plumb.measurements import Measurements
 from plumb.observations import observe
 from synthetic import BELIEVED, EFFECTS, TRUE, distances_between, grid, marks_on
@@ -179,7 +179,7 @@ def test_the_slopes_of_all_residuals_are_those_of_finite_differences():
     heavy = marks_on(TRUE, BELIEVED, grid(3, 2), sled_weight=150.0, prefix="heavy ")
     board = Measurements(light + heavy, distances_between(light).distances)
     priors = {**PRIORS, "sled_weight": 5.0}
-    problem = _Problem.of(TRUE, observe(BELIEVED, board), tuple(EFFECTS), priors, 0.5)
+    problem = Problem.of(TRUE, observe(BELIEVED, board), tuple(EFFECTS), priors, 0.5)
     # The sheet is turned by a fifth of a radian, so that nothing about turning is small.
     place = np.where(np.array(problem.names) == SHEET_ROTATION, 10.0, 0.3)
     slopes = problem.slopes(place)

@@ -29,7 +29,7 @@ struct ChainSag : Effect<Real> {
     return {"chain_sag",
             "the chain's own weight makes it hang in a curve, longer than a straight line",
             "lower corners move inward by millimetres and a little up; the middle column stays",
-            "frame_flex, tape_scale, chain_pitch",
+            "frame_lean, sled_friction, frame_flex",
             "weigh the sled and one metre of chain: the size follows from the two weights"};
   }
   static ParamInfo param(uint8_t) {

@@ -19,7 +19,7 @@ struct ChainStretch : Effect<Real> {
   static EffectInfo info() {
     return {"chain_stretch", "the loaded chain is longer than its links were when slack",
             "top centre drops by millimetres: horizontal lines bow down, most at the top",
-            "frame_flex, chain_plane",
+            "frame_flex, chain_zero, rotation_radius",
             "mark again with a heavier sled, or hang a known weight on a measured chain"};
   }
   static ParamInfo param(uint8_t) {

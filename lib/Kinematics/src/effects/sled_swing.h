@@ -28,7 +28,7 @@ struct SledSwing : Effect<Real> {
     return {
         "sled_swing", "the bit is off the ring's centre while the sled turns with the chains",
         "marks at the sides move against those in the middle, up on one side, down on the other",
-        "motor_level, sheet_skew, chain_pitch",
+        "chain_pitch, sheet_skew, tape_scale",
         "turn the sled by hand on its ring and see whether the bit draws a circle"};
   }
   static ParamInfo param(uint8_t i) {

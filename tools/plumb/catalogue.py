@@ -1,0 +1,38 @@
+"""Every effect that can be fitted: those of the firmware, then those of the lab."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from plumb.lab_effects import LAB_EFFECTS
+from plumb.predict import library
+
+NO_FIRMWARE = "no firmware can cure this"
+
+
+def every_effect() -> list[dict[str, Any]]:
+    """The words of every effect; `where` is "firmware" or "lab"."""
+    firmware = [{**one, "where": "firmware"} for one in library()]
+    return firmware + [one.words for one in LAB_EFFECTS]
+
+
+def effect_names() -> tuple[str, ...]:
+    """The names of all effects."""
+    return tuple(one["name"] for one in every_effect())
+
+
+def is_lab(effect: str) -> bool:
+    """Whether the effect acts on what is measured only."""
+    return any(one.name == effect for one in LAB_EFFECTS)
+
+
+def parameter_words() -> dict[str, dict[str, Any]]:
+    """The words of each parameter by its full name, `effect.parameter`."""
+    return {
+        f"{one['name']}.{own['name']}": own for one in every_effect() for own in one["parameters"]
+    }
+
+
+def parameter_names(effect: str) -> tuple[str, ...]:
+    """The full names of one effect's parameters."""
+    return tuple(name for name in parameter_words() if name.startswith(f"{effect}."))
