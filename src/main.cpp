@@ -7,6 +7,7 @@
 #include "default_machine.h"
 #include "line.h"
 #include "question.h"
+#include "shield.h"
 
 using namespace kinematics;
 
@@ -54,6 +55,14 @@ void answer(const Question& question) {
 void setup() {
   Serial.begin(kBaud);
   machine = defaultMachine();
+  const board::Shield* shield = detectShield();
+  if (shield) {
+    Serial.print(F("PCB v1."));
+    Serial.print(shield->version);
+    Serial.println(F(" Detected"));
+  } else {
+    Serial.println(F("error: no motor shield has these straps on pins 22 to 27"));
+  }
   Serial.println(F("Plumb, firmware for the Maslow CNC"));
 }
 
