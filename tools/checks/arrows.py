@@ -23,6 +23,7 @@ ARROWS = {
     "src": (["include", "lib/*"], ARDUINO),
     "test/reference": ([], HOST + r"|(unsupported/)?Eigen/\w+"),
     "test/vm": (["test/reference"], ANYTHING),
+    "test/hidden": (["test/reference"], ANYTHING),
     "test/test_*": (["test/reference", "test/vm", "lib/*"], ANYTHING),
     "tools/core": (["lib/Kinematics"], ANYTHING),
     "tools/bench": (["lib/*", "test/reference", "test/test_effects"], ANYTHING),

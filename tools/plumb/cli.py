@@ -11,6 +11,7 @@ from typing import NoReturn
 from plumb import (
     cli_add,
     cli_compare,
+    cli_diagnose,
     cli_effects,
     cli_grid,
     cli_kinematics,
@@ -18,7 +19,7 @@ from plumb import (
 )
 from plumb.errors import InputError
 
-DESCRIPTION = "Find and cure the errors of a hanging CNC: grid, compare, add."
+DESCRIPTION = "Find and cure the errors of a hanging CNC: grid, compare, diagnose, add."
 EPILOG = "Lengths are mm, forces N, angles rad. plumb COMMAND --help explains each command."
 
 
@@ -54,6 +55,7 @@ def build_parser() -> Parser:
     _enter(commands, "grid", cli_grid.HELP, cli_grid.EXIT, cli_grid.add_arguments, cli_grid.run)
     for name, module in (
         ("compare", cli_compare),
+        ("diagnose", cli_diagnose),
         ("add", cli_add),
         ("effects", cli_effects),
     ):

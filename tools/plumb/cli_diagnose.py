@@ -1,0 +1,274 @@
+"""`plumb diagnose`: which effect the settings miss, as far as the marks can prove it."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from plumb.add import priors_with
+from plumb.catalogue import every_effect, is_lab
+from plumb.cli_add import prior
+from plumb.cli_files import add_json, add_marks, inputs_of, length
+from plumb.cli_text import millimetres, number, print_json, sentences, table
+from plumb.diagnose import Diagnosis, diagnose
+from plumb.diagnose.diagnosis import Ranked, Together
+from plumb.diagnose.sizes import Size
+
+HELP = "which effect the settings miss, as far as the marks can prove it"
+EXIT = (
+    "Exit: 0 done; 1 done, but a mark should be measured again or no effect of the library "
+    "explains the marks; 2 an input cannot be used."
+)
+BAD_NEWS = ("slip", "not_in_library")
+SHOWN = 8  # suspects and hiding effects that people are shown; --json has all
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb diagnose`."""
+    add_marks(parser)
+    parser.add_argument(
+        "--prior",
+        metavar="NAME=SIGMA",
+        action="append",
+        type=prior,
+        default=[],
+        help="how far (one sigma; mm, rad) a stated number of the frame may be wrong; 0 holds it",
+    )
+    parser.add_argument(
+        "--sigma",
+        metavar="MM",
+        type=length,
+        help="reading error of one coordinate [repeats, else tape_sigma_mm of MARKS, else 0.5]",
+    )
+    add_json(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Diagnose, print, and return the exit code."""
+    inputs = inputs_of(arguments)
+    found = diagnose(
+        inputs.settings,
+        inputs.measurements,
+        cut_with=inputs.cut_with,
+        controller=arguments.controller,
+        priors=priors_with(arguments.prior),
+        sigma=arguments.sigma,
+    )
+    if arguments.json:
+        print_json(as_json(found))
+    else:
+        print(as_text(found))
+    return int(found.verdict in BAD_NEWS)
+
+
+def as_json(found: Diagnosis) -> dict[str, Any]:
+    """The diagnosis by the names of the interface."""
+    return {
+        "verdict": found.verdict,
+        "sentence": verdict_sentence(found),
+        "sigma_mm": found.noise.sigma,
+        "sigma_from": found.noise.source,
+        "sigma_degrees": found.noise.degrees,  # null: it was not estimated
+        "rms_mm": found.rms_before,
+        "suspects": found.suspects,
+        "explanations": [
+            {
+                "effects": one.effects,
+                "rms_after_mm": one.rms_after,
+                "parameters": [
+                    {"effect": name, **_size_json(size)}
+                    for name in one.effects
+                    for size in one.sizes[name]
+                ],
+            }
+            for one in found.explanations
+        ],
+        "ranking": [_ranked_json(one) for one in found.ranking],
+        "slips": [
+            {
+                "name": one.name,
+                "offset_mm": one.offset,
+                "sigma_mm": one.sigma,
+                "read": one.read,
+                "expected": one.expected,
+                "guess": one.guess,
+                "sentence": one.sentence,
+            }
+            for one in found.slips
+        ],
+        "could_hide": [
+            {
+                "effect": one.effect,
+                "mm": one.mm,
+                "parameters": [
+                    {"name": name, "largest": largest, "unit": unit}
+                    for name, largest, unit in one.limits
+                ],
+            }
+            for one in found.could_hide
+        ],
+        "next": [],
+        "warnings": found.warnings,
+    }
+
+
+def _ranked_json(one: Ranked) -> dict[str, Any]:
+    return {
+        "effect": one.effect,
+        "where": "lab" if is_lab(one.effect) else "firmware",
+        "gain": one.gain,
+        "surprise": one.surprise,
+        "parameters": [_size_json(size) for size in one.sizes],
+        "rms_after_mm": one.rms_after,
+        "hidden_share": one.hidden_share,
+        "plausible": one.plausible,
+    }
+
+
+def _size_json(one: Size) -> dict[str, Any]:
+    return {
+        "name": one.name,
+        "value": one.value,
+        "low": one.low,
+        "high": one.high,
+        "unit": one.unit,
+        "plausible": one.plausible,
+    }
+
+
+def as_text(found: Diagnosis) -> str:
+    """The diagnosis for people, its verdict first."""
+    parts = [sentences([verdict_sentence(found)], mark="")]
+    if found.slips:
+        parts.append(sentences([one.sentence for one in found.slips]))
+    if found.explanations:
+        parts.append(_explanation_table(found))
+        if found.verdict == "cannot_tell":
+            parts.append(_reasons(found))
+        parts.append(_remedies(found))
+    parts.append(_noise_sentence(found))
+    parts.append(_hiding(found))
+    if found.warnings:
+        parts.append(sentences(found.warnings))
+    return "\n\n".join(parts)
+
+
+def verdict_sentence(found: Diagnosis) -> str:
+    """The verdict in one sentence."""
+    rest = f"{found.rms_before:.2f} mm RMS are left with the frame fitted"
+    several = ", ".join(" + ".join(one.effects) for one in found.explanations[:SHOWN])
+    if found.verdict == "slip":
+        names = ", ".join(one.name for one in found.slips)
+        which = "One reading disagrees" if len(found.slips) == 1 else "Some readings disagree"
+        return f"{which} with every explanation: look at {names} again before anything else."
+    if found.verdict == "nothing_provable":
+        return f"Nothing is provable: {rest}, and noise alone could look like that."
+    if found.verdict == "not_in_library":
+        more = " (unless more than three act at once)" if found.library_fits else ""
+        return (
+            f"No effect of the library explains these marks, alone or up to three together{more}: "
+            f"{rest}, more than noise."
+        )
+    if found.verdict == "one_suspect":
+        first = found.explanations[0]
+        who = (
+            f"One suspect: {several}"
+            if len(first.effects) == 1
+            else f"Several effects at once: {several}"
+        )
+        return (
+            f"{who}. The error falls from {found.rms_before:.2f} to {first.rms_after:.2f} mm RMS."
+        )
+    more = len(found.explanations) - SHOWN
+    others = f" or {more} more" if more > 0 else ""
+    return f"Something is missing ({rest}), but the marks cannot tell which: {several}{others}."
+
+
+def _explanation_table(found: Diagnosis) -> str:
+    rows = []
+    for one in found.explanations[:SHOWN]:
+        for name in one.effects:
+            rows += _size_rows(one, name)
+    header = ["suspect", "size", "interval", "unit", "error falls to", ""]
+    return table(header, rows)
+
+
+def _size_rows(one: Together, name: str) -> list[list[str]]:
+    rows = []
+    for i, size in enumerate(one.sizes[name]):
+        first = i == 0 and name == one.effects[0]
+        interval = "-" if size.low is None else f"{number(size.low)} .. {number(size.high)}"
+        rows.append(
+            [
+                f"{'' if name == one.effects[0] else '+ '}{name}.{size.name}",
+                number(size.value),
+                interval,
+                size.unit,
+                f"{millimetres(one.rms_after)} mm" if first else "",
+                "" if size.plausible else "impossible: a stand-in for something else",
+            ]
+        )
+    return rows
+
+
+def _reasons(found: Diagnosis) -> str:
+    """Why suspects cannot be told apart: how little their arrows differ."""
+    said = []
+    for (i, j), apart in sorted(found.differences.items(), key=lambda one: one[1]):
+        if j >= SHOWN or len(said) == 3:
+            continue
+        names = [" + ".join(found.explanations[k].effects) for k in (i, j)]
+        said.append(
+            f"{names[0]} and {names[1]} draw nearly the same arrows on these marks: they differ by "
+            f"{apart:.2f} mm RMS, the noise is {found.noise.sigma:.2f} mm"
+        )
+    return sentences(said)
+
+
+def _remedies(found: Diagnosis) -> str:
+    words = {one["name"]: one for one in every_effect()}
+    said = [
+        f"{name}{' (lab)' if is_lab(name) else ''}: {words[name]['summary']}. To be sure: "
+        f"{words[name]['remedy']}"
+        for name in found.suspects[:SHOWN]
+    ]
+    return sentences(said)
+
+
+def _noise_sentence(found: Diagnosis) -> str:
+    noise = found.noise
+    origin = {
+        "stated": "as stated",
+        "repeats": f"from repeats, {noise.degrees:.0f} degrees of freedom",
+        "scatter": "from the marks' own scatter",
+        "default": "a tape's usual one",
+    }[noise.source]
+    return f"Noise of one reading: {noise.sigma:.2f} mm ({origin}). Intervals: 95 %."
+
+
+def _hiding(found: Diagnosis) -> str:
+    """How large effects that are not proved could still be."""
+    unproved = [one for one in found.could_hide if one.effect not in found.suspects]
+    hiding = sorted((one for one in unproved if one.mm), key=lambda one: -one.mm)
+    shares = {one.effect: one.hidden_share for one in found.ranking}
+    rows = [
+        [
+            one.effect,
+            f"{millimetres(one.mm, 1)} mm",
+            "-" if shares[one.effect] is None else f"{100 * shares[one.effect]:.0f} %",
+            ", ".join(_limit(name, largest, unit) for name, largest, unit in one.limits),
+        ]
+        for one in hiding[:SHOWN]
+    ]
+    blind = [one.effect for one in unproved if one.mm is None]
+    parts = []
+    if rows:
+        header = ["could still hide", "up to", "in the frame", "each at most"]
+        parts.append(table(header, rows))
+    if blind:
+        parts.append(sentences([f"these marks say nothing of {', '.join(blind)}"]))
+    return "\n".join(parts)
+
+
+def _limit(name: str, largest: float | None, unit: str) -> str:
+    return f"{name} {number(largest)} {unit}".removesuffix(" 1") if largest is not None else name

@@ -1,0 +1,219 @@
+"""The diagnosis: slips first, then the gate, the suspects, and what could still hide."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from plumb.catalogue import effect_names
+from plumb.diagnose.explanation import Board, Explanation, explain
+from plumb.diagnose.gain import Search, search
+from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
+from plumb.diagnose.misfit import misfit_chance
+from plumb.diagnose.noise import Noise
+from plumb.diagnose.sizes import Room, Size, hidden_share, room_for, sizes_of
+from plumb.diagnose.slip_guess import Slip, described
+from plumb.diagnose.slips import clear_slips
+from plumb.diagnose.suspects import Suspects, evidence, find_suspects
+from plumb.errors import InputError
+from plumb.fit import PRIORS, USUAL_SIGMA
+from plumb.machine_settings import MachineSettings
+from plumb.measurements import Measurements
+from plumb.observations import Observations, model_and_observations
+
+Array = np.ndarray
+FEWEST_NUMBERS = 6  # three marks: below that the frame explains everything
+VERDICTS = ("nothing_provable", "one_suspect", "cannot_tell", "not_in_library", "slip")
+
+
+@dataclass(frozen=True)
+class Ranked:
+    """One effect of the library by itself."""
+
+    effect: str
+    gain: float  # drop of chi-square when it is added to the frame and all is refitted
+    surprise: float  # -log of the chance of that gain from noise: the order of the ranking
+    sizes: tuple[Size, ...]
+    rms_after: float  # [mm]
+    hidden_share: float | None
+
+    @property
+    def plausible(self) -> bool:
+        """Whether a real machine can have these sizes."""
+        return all(one.plausible for one in self.sizes)
+
+
+@dataclass(frozen=True)
+class Together:
+    """An explanation that stood its test: one effect, or several that act at once."""
+
+    effects: tuple[str, ...]
+    sizes: Mapping[str, tuple[Size, ...]]
+    rms_after: float  # [mm]
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """What the marks prove, and what they do not."""
+
+    verdict: str  # one of VERDICTS
+    noise: Noise
+    limit: float  # of the gate: the surprise that noise hardly ever exceeds (gain.LEVEL)
+    rms_before: float  # [mm] with the frame fitted
+    explanations: tuple[Together, ...]  # best first
+    differences: Mapping[tuple[int, int], float]  # [mm] RMS between two explanations' marks
+    ranking: tuple[Ranked, ...]
+    library_fits: bool  # whether all effects of the library at once could draw the marks
+    slips: tuple[Slip, ...]
+    could_hide: tuple[Room, ...]
+    warnings: tuple[str, ...]
+
+    @property
+    def suspects(self) -> tuple[str, ...]:
+        """The effects in the explanations, best first."""
+        return tuple(dict.fromkeys(name for one in self.explanations for name in one.effects))
+
+
+def diagnose(
+    settings: MachineSettings,
+    measurements: Measurements,
+    *,
+    cut_with: MachineSettings | None = None,
+    controller: str | None = None,
+    priors: Mapping[str, float] = PRIORS,
+    sigma: float | None = None,
+) -> Diagnosis:
+    """Find what the model of these settings misses in the marks.
+
+    Raises InputError for too few marks, and marks that cannot be reached.
+    """
+    model, rows = model_and_observations(
+        settings, measurements, cut_with=cut_with, controller=controller
+    )
+    _refuse_too_few(measurements, rows)
+    stated = sigma or measurements.tape_sigma
+    first = Board.of(model, rows, sigma=stated or USUAL_SIGMA, priors=priors)
+    felt = felt_effects(explain(first))
+    cleared = clear_slips(first, felt, stated=stated)
+    noise = cleared.noise
+    board = Board.of(model, cleared.rows, sigma=noise.sigma, priors=priors)
+    frame = explain(board)
+    singles = {name: explain(board, (name,), start=frame) for name in effect_names()}
+    gate = search(frame, felt, noise)
+    slips = tuple(described(one, measurements, settings.sheet) for one in cleared.slips)
+    suspects, verdict = Suspects((), True), "slip"
+    if not slips:
+        suspects, verdict = _judge(frame, [singles[name] for name in felt], gate, noise)
+    kept = tuple(one.explanation for one in suspects.survivors)
+    possible = not kept or any(one.possible for one in suspects.survivors)
+    ranking = _ranking(frame, singles, noise)
+    return Diagnosis(
+        verdict=verdict,
+        noise=noise,
+        limit=gate.limit,
+        rms_before=frame.rms,
+        explanations=tuple(_together(one, noise) for one in kept),
+        differences=_differences(kept),
+        ranking=ranking,
+        library_fits=suspects.library_fits,
+        slips=slips,
+        could_hide=tuple(room_for(name, kept or (frame,), noise) for name in effect_names()),
+        warnings=(
+            *noise.notes,
+            *([] if possible else [_IMPOSSIBLE]),
+            *_warnings(frame, gate, ranking, kept),
+        ),
+    )
+
+
+_IMPOSSIBLE = (
+    "every explanation needs sizes that no real machine has, so each stands in for something else: "
+    "check which settings were in force, the signs of the marks and the stated frame"
+)
+
+
+def felt_effects(frame: Explanation) -> tuple[str, ...]:
+    """Effects that change any of the measured numbers."""
+    board = frame.board
+    return tuple(name for name in effect_names() if np.any(frame.slopes[:, board.columns([name])]))
+
+
+def _judge(
+    frame: Explanation, singles: list[Explanation], gate: Search, noise: Noise
+) -> tuple[Suspects, str]:
+    """Suspects and verdict where no slip is in the way."""
+    if not gate.proved:
+        missing = misfit_chance(frame, noise) <= MISFIT_LEVEL
+        return Suspects((), not missing), "not_in_library" if missing else "nothing_provable"
+    felt = [one.effects[0] for one in singles]
+    suspects = find_suspects(frame, singles, felt, noise)
+    if not suspects.survivors:
+        return suspects, "not_in_library"
+    return suspects, "one_suspect" if len(suspects.survivors) == 1 else "cannot_tell"
+
+
+def _refuse_too_few(measurements: Measurements, rows: Observations) -> None:
+    """Repeats do not count: they tell of the noise, not of another place."""
+    spans = {frozenset(one.between) for one in measurements.distances}
+    count = 2 * len(set(rows.names)) + len(spans)
+    if count < FEWEST_NUMBERS:
+        raise InputError(
+            f"{measurements.source}: {count} measured numbers are too few for a diagnosis; measure "
+            "at least three marks, better nine or more all over the sheet"
+        )
+
+
+def _ranking(
+    frame: Explanation, singles: Mapping[str, Explanation], noise: Noise
+) -> tuple[Ranked, ...]:
+    ranked = [
+        Ranked(
+            effect=name,
+            gain=max(frame.cost - single.cost, 0.0),
+            surprise=evidence(single, frame, noise),
+            sizes=sizes_of(single, name, noise),
+            rms_after=single.rms,
+            hidden_share=hidden_share(frame, name),
+        )
+        for name, single in singles.items()
+    ]
+    return tuple(sorted(ranked, key=lambda one: -one.surprise))
+
+
+def _together(explanation: Explanation, noise: Noise) -> Together:
+    return Together(
+        effects=explanation.effects,
+        sizes={name: sizes_of(explanation, name, noise) for name in explanation.effects},
+        rms_after=explanation.rms,
+    )
+
+
+def _differences(kept: tuple[Explanation, ...]) -> dict[tuple[int, int], float]:
+    """RMS between what two explanations leave of the readings [mm]."""
+    found = {}
+    for i, one in enumerate(kept):
+        for j in range(i):
+            apart = one.numbers - kept[j].numbers
+            marks = one.board.rows.measured.size
+            own = apart[:marks] if marks else apart
+            count = len(one.board.rows.measured) or len(own)
+            found[j, i] = float(np.sqrt(own @ own / count))
+    return found
+
+
+def _warnings(
+    frame: Explanation, gate: Search, ranking: tuple[Ranked, ...], kept: tuple[Explanation, ...]
+) -> list[str]:
+    said = []
+    if gate.gains and gate.proved and gate.gains[0].effect != ranking[0].effect:
+        said.append(
+            f"the full refit puts {ranking[0].effect} before {gate.gains[0].effect}, which the "
+            "slopes at the frame's fit put first: the error is large; fit one and diagnose again"
+        )
+    unsettled = [" + ".join(one.effects) for one in (frame, *kept) if not one.settled]
+    if unsettled:
+        names = ", ".join(name or "frame" for name in unsettled)
+        said.append(f"the fit did not come to rest: {names}")
+    return said

@@ -1,0 +1,98 @@
+"""The max-gain test: whether any effect adds more to an explanation than noise would.
+
+Each effect's gain (drop of chi-square when it is added and all is refitted) is turned into the
+chance of as much from noise, given its number of parameters; the smallest chance is compared with
+the smallest that pure noise reaches on this very layout, among these very effects. So neither
+searching many effects nor having many parameters is an advantage. A simulated point for each effect
+by itself would do the same; the chance scale needs no simulation for it, and it is exact here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from plumb.diagnose.explanation import Explanation, span
+from plumb.diagnose.noise import Noise
+from plumb.diagnose.significance import surprise, surprises
+
+Array = np.ndarray
+DRAWS = 4000  # of noise: its LEVEL is then right to about 0.3 % in chance
+# With one in a hundred each for slips and for misfit, five in a hundred together.
+LEVEL = 0.035
+SEED = 20180902  # any number: the same marks shall always give the same answer
+
+
+@dataclass(frozen=True)
+class Gain:
+    """What one effect adds to an explanation."""
+
+    effect: str
+    drop: float  # of chi-square
+    visible: int  # parameters that the layout lets one see beside what is fitted already
+    surprise: float  # -log of the chance of as much from noise
+
+
+@dataclass(frozen=True)
+class Search:
+    """All that could be added to an explanation, and what noise alone would reach."""
+
+    gains: tuple[Gain, ...]  # largest surprise first
+    limit: float  # surprise that the best of noise exceeds in LEVEL of all cases
+
+    @property
+    def proved(self) -> bool:
+        """Whether something adds more than noise would."""
+        return bool(self.gains) and self.gains[0].surprise > self.limit
+
+    def of(self, effect: str) -> Gain:
+        """The gain of one effect."""
+        return next(one for one in self.gains if one.effect == effect)
+
+
+def search(explanation: Explanation, candidates: Sequence[str], noise: Noise) -> Search:
+    """What each candidate outside the explanation would add to it."""
+    bases = bases_beside(explanation, candidates)
+    gains = []
+    for effect, basis in bases.items():
+        drop = float(np.sum((basis.T @ explanation.residual) ** 2))
+        visible = basis.shape[1]
+        gains.append(Gain(effect, drop, visible, surprise(drop, visible, noise.degrees)))
+    gains.sort(key=lambda one: -one.surprise)
+    return Search(tuple(gains), limit_of_noise(bases, noise))
+
+
+def bases_beside(explanation: Explanation, candidates: Sequence[str]) -> dict[str, Array]:
+    """Orthonormal columns of each candidate that the explanation cannot imitate."""
+    fitted = explanation.basis
+    others = [name for name in candidates if name not in explanation.effects]
+    return {
+        name: span(
+            explanation.beside([name], fitted),
+            against=explanation.slopes[:, explanation.board.columns([name])],
+        )
+        for name in others
+    }
+
+
+def limit_of_noise(bases: Mapping[str, Array], noise: Noise) -> float:
+    """The surprise that the best effect reaches on noise alone in LEVEL of all cases.
+
+    Noise is drawn in the space of all bases together: outside of it no effect feels it.
+    """
+    seen = [basis for basis in bases.values() if basis.shape[1]]
+    if not seen:
+        return float("inf")
+    together = span(np.hstack(seen))
+    source = np.random.default_rng(SEED)
+    drawn = source.standard_normal((DRAWS, together.shape[1]))
+    scale = np.ones(DRAWS)
+    if np.isfinite(noise.degrees):
+        scale = source.chisquare(noise.degrees, DRAWS) / noise.degrees
+    best = np.zeros(DRAWS)
+    for basis in seen:
+        gains = np.sum((drawn @ (together.T @ basis)) ** 2, axis=1) / scale
+        best = np.maximum(best, surprises(gains, basis.shape[1], noise.degrees))
+    return float(np.quantile(best, 1 - LEVEL))

@@ -1,0 +1,59 @@
+"""Lack of fit: whether an explanation leaves more of the measured numbers than noise would."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from plumb.diagnose.explanation import Explanation, span
+from plumb.diagnose.noise import Noise
+from plumb.diagnose.significance import tail
+
+Array = np.ndarray
+LEVEL = 0.01  # chance at which noise alone is called a misfit
+
+
+def misfit_chance(explanation: Explanation, noise: Noise) -> float:
+    """Chance that noise alone leaves as much as this explanation does; 1 if nothing can tell.
+
+    Chi-square for a known sigma. With sigma from repeats, F of what is left between places over
+    what is left within repeats, which is what sigma was made of.
+    """
+    left, spare = _left(explanation, explanation.basis, explanation.residual)
+    return _chance(left, spare, noise)
+
+
+def library_misfit_chance(explanation: Explanation, noise: Noise) -> float:
+    """The same beside everything that all effects of the library could draw at once."""
+    return _chance(*beside_library(explanation), noise)
+
+
+def beside_library(explanation: Explanation) -> tuple[float, float]:
+    """Chi-square that no combination of effects takes away, and its degrees of freedom."""
+    basis = library_basis(explanation)
+    rest = explanation.residual - basis @ (basis.T @ explanation.residual)
+    return _left(explanation, basis, rest)
+
+
+def library_basis(explanation: Explanation) -> Array:
+    """Orthonormal columns of what was fitted and of every effect of the library."""
+    raw = explanation.slopes[:, explanation.board.columns(explanation.board.own)]
+    fitted = explanation.basis
+    return np.hstack([fitted, span(raw - fitted @ (fitted.T @ raw), against=raw)])
+
+
+def _left(explanation: Explanation, basis: Array, residual: Array) -> tuple[float, float]:
+    """Chi-square of the measured numbers alone, and the numbers less those that the fit took.
+
+    The priors' own rows do not count: how near the frame is to what was stated says nothing of how
+    well the marks are explained.
+    """
+    count = explanation.board.rows.count
+    return float(residual[:count] @ residual[:count]), count - float(np.sum(basis[:count] ** 2))
+
+
+def _chance(left: float, spare: float, noise: Noise) -> float:
+    if noise.source == "repeats":
+        spare, left = spare - noise.degrees, left - noise.degrees
+    if spare < 0.5 or not noise.testable:
+        return 1.0
+    return float(tail(left, spare, noise.degrees))

@@ -1,0 +1,160 @@
+"""Sizes of effects: fitted with intervals, hidden in the frame, and how large they could be."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import chdtri, stdtrit
+
+from plumb.catalogue import parameter_words
+from plumb.diagnose.explanation import Explanation, span
+from plumb.diagnose.noise import Noise
+
+Array = np.ndarray
+MARGIN = 1.5  # times the catalogue's range: that is what was met in workshops, not a wall
+
+
+@dataclass(frozen=True)
+class Size:
+    """One parameter of an effect, fitted, with its 95 % interval."""
+
+    name: str  # without the effect's
+    value: float
+    low: float | None  # None: these marks say nothing of it
+    high: float | None
+    unit: str
+    plausible: bool  # whether a real machine can have the value
+    might_be_plausible: bool  # whether the interval reaches what is nearly so
+
+
+@dataclass(frozen=True)
+class Room:
+    """How large an effect that is not proved may still be."""
+
+    effect: str
+    limits: tuple[tuple[str, float | None, str], ...]  # parameter, largest size, unit
+    mm: float | None  # RMS of what it would do to the marks before the frame is refitted
+
+
+def sizes_of(explanation: Explanation, effect: str, noise: Noise) -> tuple[Size, ...]:
+    """The fitted parameters of one effect of an explanation."""
+    problem, words = explanation.board.problem, parameter_words()
+    free = explanation.free
+    covariance = _covariance(explanation.slopes[:, free])
+    found = []
+    for column in explanation.board.columns([effect]):
+        name, scale = problem.names[column], problem.scale[column]
+        value = float(problem.start[column] + scale * explanation.unknowns[column])
+        variance = covariance[list(free).index(column), list(free).index(column)]
+        half = noise.quantile * float(np.sqrt(variance)) * scale
+        own = words[name]
+        felt = bool(np.any(explanation.slopes[:, column]))
+        found.append(
+            Size(
+                name=name.partition(".")[2],
+                value=value,
+                low=float(value - half) if felt else None,
+                high=float(value + half) if felt else None,
+                unit=own["unit"],
+                plausible=bool(own["low"] <= value <= own["high"]),
+                might_be_plausible=bool(
+                    value + half >= MARGIN * own["low"] and value - half <= MARGIN * own["high"]
+                ),
+            )
+        )
+    return tuple(found)
+
+
+def hidden_share(frame: Explanation, effect: str) -> float | None:
+    """Share of an effect's variance that the refitted frame swallows; None if nothing feels it.
+
+    Parameters count in their typical sizes.
+    """
+    own = frame.slopes[:, frame.board.columns([effect])]
+    whole = float(np.sum(own**2))
+    return 1 - float(np.sum(frame.beside([effect]) ** 2)) / whole if whole else None
+
+
+def room_for(effect: str, explanations: Sequence[Explanation], noise: Noise) -> Room:
+    """The largest size that any of these explanations leaves to an effect (95 % upper limit), or
+    what a real machine can have if that is less.
+
+    Where the effect is part of the explanation it is its own size there, else what could be added.
+    """
+    rooms = [_room(effect, one, noise) for one in explanations]
+    if any(one.mm is None for one in rooms):
+        return next(one for one in rooms if one.mm is None)
+    limits = tuple(
+        (name, max(one.limits[i][1] for one in rooms), unit)
+        for i, (name, _, unit) in enumerate(rooms[0].limits)
+    )
+    return Room(effect, limits, max(one.mm for one in rooms))
+
+
+def _room(effect: str, explanation: Explanation, noise: Noise) -> Room:
+    board, words = explanation.board, parameter_words()
+    columns = board.columns([effect])
+    names = [board.problem.names[i] for i in columns]
+    free = np.array([i for i in explanation.free if i not in columns], dtype=int)
+    raw = explanation.slopes[:, columns]
+    if not np.any(raw):
+        nothing = tuple((name.partition(".")[2], None, words[name]["unit"]) for name in names)
+        return Room(effect, nothing, None)
+    fitted = span(explanation.slopes[:, free])
+    beside = raw - fitted @ (fitted.T @ raw)
+    covariance = _covariance(beside)
+    start = explanation.unknowns[columns]
+    middle = start + np.linalg.lstsq(beside, explanation.residual, rcond=1e-10)[0]
+    total = board.problem.start[columns] / board.problem.scale[columns] + middle
+    reach = _one_sided(noise) * np.sqrt(np.diag(covariance))
+    limits = []
+    for i, name in enumerate(names):
+        # What cannot be negative can only be as large as its upper end.
+        ends = (
+            [total[i] + reach[i]]
+            if words[name]["low"] >= 0
+            else [total[i] + reach[i], -(total[i] - reach[i])]
+        )
+        possible = max(abs(words[name]["low"]), abs(words[name]["high"]))
+        largest = min(max(0.0, *ends) * board.problem.scale[columns[i]], possible)
+        limits.append((name.partition(".")[2], float(largest), words[name]["unit"]))
+    if len(columns) == 1:
+        whole = np.abs(raw) * limits[0][1] / board.problem.scale[columns[0]]
+        return Room(effect, tuple(limits), _per_reading(explanation, whole[:, 0]))
+    return Room(effect, tuple(limits), _largest(explanation, raw, total, covariance))
+
+
+def _largest(explanation: Explanation, raw: Array, total: Array, covariance: Array) -> float:
+    """RMS over the readings of the largest effect of several parameters [mm]."""
+    # |E v| over the ellipsoid of v is at most |E middle| + its radius times the longest axis.
+    values, directions = np.linalg.eigh(covariance)
+    axes = raw @ (directions * np.sqrt(np.maximum(values, 0.0)))
+    radius = np.sqrt(chdtri(raw.shape[1], 0.10))
+    middle = _per_reading(explanation, raw @ total)
+    return middle + radius * max(_per_reading(explanation, axis) for axis in _main_axes(axes))
+
+
+def _main_axes(columns: Array) -> Array:
+    """Columns turned so that the first is the longest (as rows)."""
+    left, sizes, _ = np.linalg.svd(columns, full_matrices=False)
+    return (left * sizes).T
+
+
+def _per_reading(explanation: Explanation, whitened: Array) -> float:
+    """RMS over the marks (as vectors), or over distances without marks [mm]."""
+    rows = explanation.board.rows
+    counted = whitened[: rows.measured.size] if len(rows.measured) else whitened[: rows.count]
+    count = len(rows.measured) or rows.count
+    return float(np.linalg.norm(counted) * explanation.board.sigma / np.sqrt(count))
+
+
+def _one_sided(noise: Noise) -> float:
+    """Deviations to a 95 % upper limit."""
+    return 1.645 if np.isinf(noise.degrees) else float(stdtrit(noise.degrees, 0.95))
+
+
+def _covariance(columns: Array) -> Array:
+    """Of unknowns with these whitened columns."""
+    return np.linalg.pinv(columns.T @ columns, rcond=1e-12, hermitian=True)

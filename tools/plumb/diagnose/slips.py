@@ -1,0 +1,191 @@
+"""Slips: single readings that disagree with every explanation, looked for before any effect.
+
+A reading is free to be shifted (two numbers for a mark, one for a distance). It is named when that
+adds more than noise would to the frame and to each effect by itself, and when the rest then fits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from plumb.diagnose.explanation import Board, Explanation, explain
+from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
+from plumb.diagnose.misfit import beside_library, library_basis, misfit_chance
+from plumb.diagnose.noise import Noise, Spread, noise_of, repeats_of
+from plumb.diagnose.significance import tail
+from plumb.observations import Observations
+
+Array = np.ndarray
+LEVEL = 0.01  # chance at which noise alone makes a slip of one of all readings
+READINGS_PER_SLIP = 12  # with more slips than one in so many readings the slips are not the story
+
+
+@dataclass(frozen=True)
+class Reading:
+    """One reading: a mark's place or a distance, by its index among its kind."""
+
+    index: int
+    is_mark: bool
+
+    @property
+    def size(self) -> int:
+        """How many numbers were read."""
+        return 2 if self.is_mark else 1
+
+    def numbers(self, rows: Observations) -> Array:
+        """Its entries among all measured numbers."""
+        if self.is_mark:
+            return np.array([2 * self.index, 2 * self.index + 1])
+        return np.array([rows.measured.size + self.index])
+
+
+@dataclass(frozen=True)
+class Shift:
+    """How far a reading is off by one explanation."""
+
+    reading: Reading
+    offset: Array  # (2,) or (1,) [mm] read less what the rest says
+    sigma: Array  # of each [mm]
+    drop: float  # of chi-square when the reading is set free
+
+
+@dataclass(frozen=True)
+class Cleared:
+    """The readings to look at again, and what is left without them."""
+
+    slips: tuple[Shift, ...]  # their readings counted among all
+    rows: Observations
+    noise: Noise
+
+
+def readings_of(rows: Observations) -> list[Reading]:
+    """All readings."""
+    marks = [Reading(i, True) for i in range(len(rows.measured))]
+    return marks + [Reading(i, False) for i in range(len(rows.distances))]
+
+
+def shifts(explanation: Explanation) -> list[Shift]:
+    """What each reading is off by when it takes no part in the fit.
+
+    With P = 1 - basis basis^T and r = P y, setting the numbers b free lowers chi-square by
+    r_b^T (P_bb)^-1 r_b and moves them by (P_bb)^-1 r_b.
+    """
+    board, basis = explanation.board, explanation.basis
+    found = []
+    for reading in readings_of(board.rows):
+        own = reading.numbers(board.rows)
+        kept = np.eye(reading.size) - basis[own] @ basis[own].T
+        inverse = np.linalg.pinv(kept, rcond=1e-6, hermitian=True)
+        offset = inverse @ explanation.residual[own]
+        drop = float(explanation.residual[own] @ offset)
+        sigma = np.sqrt(np.diag(inverse))
+        found.append(Shift(reading, offset * board.sigma, sigma * board.sigma, drop))
+    return found
+
+
+def without(rows: Observations, reading: Reading) -> Observations:
+    """The observations without one reading; the visit itself stays."""
+    if not reading.is_mark:
+        return replace(
+            rows,
+            distance_rows=np.delete(rows.distance_rows, reading.index, axis=0),
+            distances=np.delete(rows.distances, reading.index),
+        )
+    return replace(
+        rows,
+        mark_rows=np.delete(rows.mark_rows, reading.index),
+        measured=np.delete(rows.measured, reading.index, axis=0),
+        targets=np.delete(rows.targets, reading.index, axis=0),
+        names=rows.names[: reading.index] + rows.names[reading.index + 1 :],
+    )
+
+
+def noise_on(board: Board, stated: float | None) -> Noise:
+    """The noise of what was measured on a board."""
+    left, spare = beside_library(explain(board))
+    scatter = Spread(left * board.sigma**2, max(spare, 0.0))
+    return noise_of(repeats_of(board.rows), scatter, stated=stated)
+
+
+def clear_slips(board: Board, candidates: Sequence[str], *, stated: float | None) -> Cleared:
+    """Set slips aside one after the other, worst first, if the rest then fits."""
+    start = noise_on(board, stated)
+    rows, noise, slips = board.rows, start, []
+    indices = readings_of(rows)  # of the readings still there, among all
+    most = max(1, len(indices) // READINGS_PER_SLIP)
+    while len(slips) <= most:
+        trial = _with(board, rows, noise.sigma)
+        found = _worst(trial, candidates, stated)
+        if found is None:
+            break
+        slips.append(replace(found, reading=indices.pop(_place(rows, found.reading))))
+        rows = without(rows, found.reading)
+        noise = noise_on(_with(board, rows, noise.sigma), stated)
+    if not slips:
+        return Cleared((), board.rows, start)
+    fits = len(slips) <= most and _fits(_with(board, rows, noise.sigma), candidates, noise)
+    return Cleared(tuple(slips), rows, noise) if fits else Cleared((), board.rows, start)
+
+
+def _worst(board: Board, candidates: Sequence[str], stated: float | None) -> Shift | None:
+    """The reading that no single effect explains, with its shift by the frame alone or the best
+    effect; None if there is none.
+
+    The noise is that of all others: a slip must not hide in what it makes of the noise.
+    """
+    explanations = _single(board, candidates)
+    by_explanation = [shifts(one) for one in explanations]
+    drops = np.array([[one.drop for one in own] for own in by_explanation])
+    if drops.shape[1] < 4:
+        return None
+    everything = _beside_everything(explanations[0])
+    # What remains by the explanation that needs the slip least, or by all effects at once.
+    least = np.maximum(drops.min(axis=0), everything)
+    sizes = np.array([one.reading.size for one in by_explanation[0]])
+    chances = np.array([tail(g, s, np.inf) for g, s in zip(least, sizes, strict=True)])
+    worst = int(np.lexsort((-least, chances))[0])
+    reading = by_explanation[0][worst].reading
+    others = noise_on(_with(board, without(board.rows, reading), board.sigma), stated)
+    drop = least[worst] * (board.sigma / others.sigma) ** 2
+    if tail(drop, reading.size, others.degrees) * len(least) > LEVEL:
+        return None
+    costs = [
+        one.cost - own[worst].drop for one, own in zip(explanations, by_explanation, strict=True)
+    ]
+    return by_explanation[int(np.argmin(costs))][worst]
+
+
+def _beside_everything(explanation: Explanation) -> Array:
+    """Each reading's drop of chi-square beside all effects of the library at once."""
+    basis = library_basis(explanation)
+    left = explanation.residual - basis @ (basis.T @ explanation.residual)
+    drops = []
+    for reading in readings_of(explanation.board.rows):
+        own = reading.numbers(explanation.board.rows)
+        kept = np.eye(reading.size) - basis[own] @ basis[own].T
+        drops.append(left[own] @ np.linalg.pinv(kept, rcond=1e-3, hermitian=True) @ left[own])
+    return np.array(drops)
+
+
+def _single(board: Board, candidates: Sequence[str]) -> list[Explanation]:
+    """The frame alone, then with each effect."""
+    frame = explain(board)
+    return [frame, *(explain(board, (name,), start=frame) for name in candidates)]
+
+
+def _fits(board: Board, candidates: Sequence[str], noise: Noise) -> bool:
+    """Whether the frame alone or with one effect leaves no more than noise."""
+    return any(misfit_chance(one, noise) > MISFIT_LEVEL for one in _single(board, candidates))
+
+
+def _with(board: Board, rows: Observations, sigma: float) -> Board:
+    """The same machine with other observations."""
+    return replace(board, problem=replace(board.problem, observations=rows, sigma=sigma))
+
+
+def _place(rows: Observations, reading: Reading) -> int:
+    """The reading's place among all readings."""
+    return reading.index if reading.is_mark else len(rows.measured) + reading.index

@@ -1,0 +1,131 @@
+"""Suspects: explanations to which nothing else in the library adds more than noise would.
+
+Single effects are tried first, then two at once, then three, until one stands whose sizes a real
+machine can have. Impossible ones stay in the list, marked: they are the sign of a stand-in.
+
+This is the max-gain test turned round. Whatever the truth is, it stays in the set in about 95 % of
+all cases; look-alikes protect each other, so they stay together; better data make the set
+smaller.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from plumb.diagnose.explanation import Explanation, explain, span
+from plumb.diagnose.gain import LEVEL, Search, bases_beside, search
+from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
+from plumb.diagnose.misfit import library_misfit_chance, misfit_chance
+from plumb.diagnose.noise import Noise
+from plumb.diagnose.significance import surprise, tail
+from plumb.diagnose.sizes import sizes_of
+
+MOST_REFITTED = 12  # combinations that are refitted in full, the best by the frame's slopes
+MOST_TOGETHER = 3  # effects at once; the marks of one sheet hardly carry more
+
+
+@dataclass(frozen=True)
+class Survivor:
+    """An explanation that stood its test."""
+
+    explanation: Explanation
+    search: Search  # what could still be added to it
+    possible: bool  # whether the intervals of all its sizes reach what a real machine can have
+
+
+@dataclass(frozen=True)
+class Suspects:
+    """All explanations that stood their tests, best first."""
+
+    survivors: tuple[Survivor, ...]
+    library_fits: bool  # whether all effects together could explain the marks
+
+    @property
+    def effects(self) -> tuple[str, ...]:
+        """The effects in them, best first."""
+        return tuple(dict.fromkeys(e for one in self.survivors for e in one.explanation.effects))
+
+
+def find_suspects(
+    frame: Explanation, singles: Sequence[Explanation], felt: Sequence[str], noise: Noise
+) -> Suspects:
+    """Single effects, then pairs, then three at once, until a possible one stands."""
+    survivors = _standing(singles, felt, noise)
+    library_fits = library_misfit_chance(frame, noise) > MISFIT_LEVEL
+    for size in range(2, MOST_TOGETHER + 1):
+        if any(one.possible for one in survivors) or not library_fits:
+            break
+        together = [
+            explain(frame.board, effects, start=frame)
+            for effects in _promising(frame, felt, size, noise)
+        ]
+        standing = _standing(together, felt, noise)
+        # More effects draw anything better: beside fewer they count only if they are possible.
+        alone = not survivors
+        survivors += [one for one in standing if one.possible or alone]
+    survivors.sort(key=lambda one: not one.possible)
+    return Suspects(tuple(survivors), library_fits)
+
+
+def _standing(
+    explanations: Sequence[Explanation], felt: Sequence[str], noise: Noise
+) -> list[Survivor]:
+    """Explanations that leave no misfit and to which nothing can be added, best first."""
+    standing = []
+    for one in explanations:
+        found = search(one, felt, noise)
+        if not found.proved and misfit_chance(one, noise) > MISFIT_LEVEL:
+            standing.append(Survivor(one, found, _possible(one, noise)))
+    return sorted(standing, key=lambda one: _misfit_order(one.explanation))
+
+
+def _possible(explanation: Explanation, noise: Noise) -> bool:
+    """Whether a real machine can have such sizes, as far as their intervals reach."""
+    return all(
+        size.might_be_plausible
+        for name in explanation.effects
+        for size in sizes_of(explanation, name, noise)
+    )
+
+
+def _misfit_order(explanation: Explanation) -> float:
+    """What is left, with what the parameters would take from noise alone added."""
+    return explanation.cost + 2 * len(explanation.board.columns(explanation.effects))
+
+
+def _promising(
+    frame: Explanation, felt: Sequence[str], size: int, noise: Noise
+) -> list[tuple[str, ...]]:
+    """Combinations that might stand, by the slopes at the frame's fit; best first.
+
+    Their limit is Bonferroni's, which is wider than the simulated one that decides later.
+    """
+    bases = bases_beside(frame, felt)
+    limit = LEVEL / len(felt) / 10
+    promising = []
+    for effects in combinations(felt, size):
+        fitted = span(np.hstack([bases[name] for name in effects]))
+        left = frame.residual - fitted @ (fitted.T @ frame.residual)
+        worst = 1.0
+        for name in felt:
+            if name in effects:
+                continue
+            own = bases[name] - fitted @ (fitted.T @ bases[name])
+            more = span(own)
+            gain = float(np.sum((more.T @ left) ** 2))
+            worst = min(worst, float(tail(gain, max(more.shape[1], 1), noise.degrees)))
+            if worst < limit:
+                break
+        if worst >= limit:
+            promising.append((float(left @ left) + 2 * fitted.shape[1], effects))
+    return [effects for _, effects in sorted(promising)[:MOST_REFITTED]]
+
+
+def evidence(single: Explanation, frame: Explanation, noise: Noise) -> float:
+    """How surprising the effect's gain over the frame is after its full refit."""
+    visible = single.basis.shape[1] - frame.basis.shape[1]
+    return surprise(frame.cost - single.cost, visible, noise.degrees)
