@@ -44,11 +44,6 @@ class Suspects:
     survivors: tuple[Survivor, ...]
     library_fits: bool  # whether all effects together could explain the marks
 
-    @property
-    def effects(self) -> tuple[str, ...]:
-        """The effects in them, best first."""
-        return tuple(dict.fromkeys(e for one in self.survivors for e in one.explanation.effects))
-
 
 def find_suspects(
     frame: Explanation, singles: Sequence[Explanation], felt: Sequence[str], noise: Noise
