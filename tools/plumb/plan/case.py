@@ -55,7 +55,6 @@ class Case:
     frame: Explanation
     singles: Mapping[str, Explanation]  # each felt effect by itself, refitted
     hypotheses: tuple[Hypothesis, ...]  # most probable first
-    left_open: int  # explanations that stand, or effects that could hide
 
     @property
     def usual_weight(self) -> float:
@@ -107,7 +106,6 @@ def case_of(
         frame=frame,
         singles=singles,
         hypotheses=hypotheses,
-        left_open=len(standing) or len(effect_names()),
     )
 
 

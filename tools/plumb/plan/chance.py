@@ -27,6 +27,7 @@ from plumb.plan.visits import Visits
 Array = np.ndarray
 DRAWS = 240  # of all hypotheses together: a chance is then right to about 3 in 100
 FEWEST = 12  # draws of one hypothesis
+LIGHT = 0.02  # hypotheses less probable than this are left out
 HOPELESS = 12.0  # above the limit by so much surprise, an explanation does not come back
 SEED = 1847
 CONFIRMED = 2.0  # deviations from zero at which a second measurement confirms a size
@@ -37,38 +38,36 @@ _TINY = 1e-8  # share of a column's squared length below which its rest is round
 class Outlook:
     """What to expect after a measurement."""
 
-    chance: float  # that it settles the question
-    left: float  # explanations on average
+    chance: float  # that it settles, confirms or finds
+    left: float | None  # explanations on average; None where they are not counted
 
 
 def outlook(
     case: Case, visits: Visits, checks: Sequence[Check] = (), *, draws: int = DRAWS
 ) -> Outlook:
-    """What to expect of these visits and checks."""
+    """What to expect of these visits and checks.
+
+    Several suspects: the chance that the true one is left alone. One: that its size is confirmed.
+    Nothing provable: that an effect of its usual size would be proved, if one is there.
+    """
     if case.verdict == "one_suspect":
-        return Outlook(_confirms(case.hypotheses[0], visits, checks), 1.0)
-    hypotheses = [one for one in case.hypotheses if one.weight > 0.02]
+        return Outlook(_confirms(case.hypotheses[0], visits, checks), None)
+    hypotheses = [one for one in case.hypotheses if one.weight > LIGHT]
     total = sum(one.weight for one in hypotheses)
-    tables: dict[int, _Test] = {}
+    noise = noise_after(case, visits)
+    tests: dict[int, _Test] = {}
     settled = left = 0.0
     for number, one in enumerate(hypotheses):
-        test = tables.get(id(one.at))
-        if test is None:
-            rows = ahead(one.at, visits, checks)
-            twin = next(iter(tables.values()), None)
-            test = tables[id(one.at)] = _Test(case, rows, noise_after(case, visits), twin)
-        count = max(FEWEST, round(draws * one.weight / total))
+        if id(one.at) not in tests:
+            twin = next(iter(tests.values()), None)
+            tests[id(one.at)] = _Test(case, ahead(one.at, visits, checks), noise, twin)
+        share = one.weight / total
         source = np.random.default_rng([SEED, number])
-        standing, proved, names = test.repeated(one, source, count)
-        truth = names.index(one.effects)
-        counts = standing.sum(axis=0)
-        if case.verdict == "cannot_tell":
-            hits = proved & standing[truth] & (counts == 1)
-        else:
-            hits = proved & standing[truth]
-        settled += one.weight / total * hits.mean()
-        left += one.weight / total * np.where(proved, np.maximum(counts, 1), case.left_open).mean()
-    return Outlook(float(settled), float(left))
+        boards = tests[id(one.at)].boards(one, source, max(FEWEST, round(draws * share)))
+        right, count = tests[id(one.at)].judged(one, boards, alone=case.verdict == "cannot_tell")
+        settled += share * right
+        left += share * count
+    return Outlook(float(settled), float(left) if case.verdict == "cannot_tell" else None)
 
 
 def _confirms(suspect: Hypothesis, visits: Visits, checks: Sequence[Check]) -> float:
@@ -95,6 +94,7 @@ class _Test:
         self.rows, self.board = rows, board
         self.noise = noise
         self.frame = span(rows.slopes[:, board.frame])
+        self.nothing = len(board.own)  # explanations left where nothing is proved
         self.felt = [name for name in board.own if rows.slopes[:, board.columns([name])].any()]
         several = [one.effects for one in case.hypotheses if len(one.effects) > 1]
         self.names = [*((name,) for name in self.felt), *several]
@@ -108,20 +108,24 @@ class _Test:
             bases[name] = span(raw - self.frame @ (self.frame.T @ raw), against=raw)
         return limit_of_noise(bases, self.noise)
 
-    def repeated(
-        self, truth: Hypothesis, source: np.random.Generator, count: int
-    ) -> tuple[Array, Array, list[tuple[str, ...]]]:
-        """Which explanations (e, count) stand on boards drawn from a truth, whether the gate was
-        passed (count,), and the effects of each explanation."""
+    def boards(self, truth: Hypothesis, source: np.random.Generator, count: int) -> Array:
+        """Whitened readings (rows, count) of boards drawn from a truth: those so far as they are."""
         rows = self.rows
-        new = rows.slopes[rows.so_far :, truth.columns]
-        drawn = new @ truth.drawn(source, count)
+        drawn = rows.slopes[rows.so_far :, truth.columns] @ truth.drawn(source, count)
         drawn += source.standard_normal(drawn.shape)
-        readings = np.vstack([np.repeat(truth.data[:, np.newaxis], count, axis=1), drawn])
-        best, _ = self._gains(self.frame, (), readings)
-        proved = best > self.limit
-        standing = np.array([self._stands(effects, readings) for effects in self.names])
-        return standing, proved, self.names
+        return np.vstack([np.repeat(truth.data[:, np.newaxis], count, axis=1), drawn])
+
+    def judged(self, truth: Hypothesis, boards: Array, *, alone: bool) -> tuple[float, float]:
+        """On what share of boards the truth is proved (alone among all), and how many explanations
+        stand on average."""
+        proved = self._gains(self.frame, (), boards)[0] > self.limit
+        stands = self._stands(truth.effects, boards)
+        if not alone:
+            return float((proved & stands).mean()), float("nan")
+        others = [self._stands(one, boards) for one in self.names if one != truth.effects]
+        counts = stands + np.sum(others, axis=0)
+        left = np.where(proved, np.maximum(counts, 1), self.nothing)
+        return float((proved & stands & (counts == 1)).mean()), float(left.mean())
 
     def _stands(self, effects: tuple[str, ...], readings: Array) -> Array:
         """Whether nothing is to be added to an explanation, and it fits (count,)."""

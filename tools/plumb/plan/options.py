@@ -41,6 +41,10 @@ class Option:
 def options(case: Case) -> list[Option]:
     """Everything worth a thought for this case."""
     shop = _Shop(case)
+    if case.verdict == "one_suspect":
+        # Repeats share every systematic error with what they repeat: they confirm nothing.
+        own = [*shop.ordinary(), *shop.heavier(), *shop.swapped()]
+        return own + [one for one in checks_for(case) if one.kind == "check"]
     found = [*shop.ordinary(), shop.repeats(), *shop.heavier(), *shop.sides(), *shop.swapped()]
     return [one for one in found if one is not None] + checks_for(case)
 
