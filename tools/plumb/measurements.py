@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import re
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 
@@ -21,19 +23,42 @@ __all__ = [
     "Measurements",
     "join_measurements",
     "read_marks",
+    "read_plan",
 ]
 
 
 def read_marks(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
     """The marks of one file, in the machine frame [mm]; sheet is its width and height [mm]."""
+    return checked(_read(path, sheet), sheet=sheet)
+
+
+def read_plan(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
+    """The marks of a file as they are planned: each as if it were found where it was sent. A mark
+    that has no reading and is the end of a distance stays without."""
+    found = _read(path, sheet)
+    ends = {name for one in found.distances for name in one.between}
+    marks = tuple(
+        replace(mark, measured=mark.target)
+        if mark.measured is not None or mark.name not in ends
+        else mark
+        for mark in found.marks
+    )
+    meant = replace(found, marks=marks)
+    spans = tuple(
+        replace(one, length=math.dist(*(meant.target_of(name) for name in one.between)))
+        for one in found.distances
+        if all(any(mark.name == name for mark in marks) for name in one.between)
+    )
+    return checked(replace(meant, distances=spans), sheet=sheet)
+
+
+def _read(path: str | PathLike[str], sheet: Sheet) -> Measurements:
     form = _form_of(path)
     if form == "ini":
-        found = read_marks_ini(path, sheet=sheet)
-    elif form == "toml":
-        found = read_marks_toml(path, sheet=sheet)
-    else:
-        found = read_marks_csv(path)
-    return checked(found, sheet=sheet)
+        return read_marks_ini(path, sheet=sheet)
+    if form == "toml":
+        return read_marks_toml(path, sheet=sheet)
+    return read_marks_csv(path)
 
 
 def _form_of(path: str | PathLike[str]) -> str:

@@ -96,7 +96,7 @@ def case_of(
         all(size.might_be_plausible for own in one.sizes.values() for size in own)
         for one in found.explanations
     ]
-    hypotheses = _standing(standing, possible) if standing else _hidden(frame)
+    hypotheses = _standing(standing, possible) if standing else hidden_hypotheses(frame)
     return Case(
         settings=in_force,
         controller=controller or measurements.controller or in_force.controller,
@@ -136,7 +136,7 @@ def _as_fitted(one: Explanation, weight: float) -> Hypothesis:
     )
 
 
-def _hidden(frame: Explanation) -> tuple[Hypothesis, ...]:
+def hidden_hypotheses(frame: Explanation) -> tuple[Hypothesis, ...]:
     """Where nothing is proved: each effect there with about its typical size, all as probable.
 
     A standard normal of each parameter in typical sizes, and then what the marks say of it.
