@@ -241,7 +241,7 @@ def _stable(kept: int, of: int) -> str:
 def _table(answer: Next) -> str:
     question = answer.proposals[0].question
     header = ["", "other ways" if question != EXPLORE else "", "minutes", HEADS[question]]
-    counted = question == SETTLE
+    counted = question in (SETTLE, CONFIRM)
     rows = [_row(f"{i}", one, counted) for i, one in enumerate(answer.proposals[:SHOWN], 1)]
     if answer.blind:
         rows.append(_row("-", answer.blind, counted))
@@ -286,8 +286,9 @@ def _how(answer: Next) -> str:
         )
     if question == CONFIRM:
         return (
-            "The chance is that the new readings alone show the suspect's size to differ from zero. "
-            f"Direct checks come first; then the order is chance per minute, {again}."
+            "Chances are simulated as if the effects that failed their test narrowly might be the "
+            "truth: confirmed means that the true one is left alone. Direct checks come first; then "
+            f"the order is chance per minute, {again}."
         )
     if question == FIND:
         return f"The order is the millimetres of doubt removed per minute, {again}."

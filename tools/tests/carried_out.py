@@ -92,7 +92,7 @@ class Bench:
 
     def _read(self, visits: Visits, number: int) -> np.ndarray:
         own = Plan(visits.targets, visits.approaches, visits.sled_weights)
-        where = places_with(self.effect, self.size, own, self.frame)
+        where = places_with(self.effect, self.size, own, self.frame).reshape(-1, 2)
         if visits.swapped.any() and self.effect == "chain_pitch":
             numbers = HIDDEN["chain_pitch"](self.size)
             other = {"left.pitch": numbers["right.pitch"], "right.pitch": numbers["left.pitch"]}

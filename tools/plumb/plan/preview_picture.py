@@ -13,7 +13,7 @@ from plumb.plan.preview import APART, Preview
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-TITLE, LEFT, TOP, FOOT, GAP = 0.55, 1.55, 1.35, 0.75, 0.25  # [inch]
+TITLE, LEFT, TOP, FOOT, GAP = 0.55, 1.55, 1.35, 0.3, 0.25  # [inch]
 SHEET = 2.0  # [inch] of the sheet with the planned marks, to the right of the cells
 MOST = 6.0  # [sigmas] from which a cell is as green as it gets
 
@@ -25,7 +25,7 @@ def draw_preview(found: Preview, *, sheet: tuple[float, float], form: str = "png
     from matplotlib.colors import LinearSegmentedColormap
     from matplotlib.figure import Figure
 
-    side = WIDTH - LEFT - GAP
+    side = WIDTH - LEFT - 2 * GAP
     low = SHEET * sheet[1] / sheet[0]
     tall = TITLE + TOP + side + FOOT + low + GAP
     figure = Figure(figsize=(WIDTH, tall))
@@ -39,10 +39,10 @@ def draw_preview(found: Preview, *, sheet: tuple[float, float], form: str = "png
     small = figure.add_axes((LEFT / WIDTH, GAP / tall, SHEET / WIDTH, low / tall))
     _draw_targets(small, found.targets, sheet)
     said = (
-        "number: how many reading errors the row's effect, in its usual size,",
-        "draws that neither the frame nor the column's effect can imitate",
+        "number: reading errors of what the row's effect, in its usual",
+        "size, draws and neither frame nor column's effect can imitate",
         "on the diagonal: beside the frame alone",
-        f"told apart from about {APART:g} on",
+        f"told apart: {APART:g} or more",
     )
     for i, line in enumerate(said):
         y = (GAP + low - 0.05 - 0.25 * i) / tall

@@ -123,7 +123,7 @@ def _weighed(case: Case, option: Option, rooms: Sequence[Room]) -> Proposal:
     """An option with what to expect of it."""
     expected = outlook(case, option.visits, option.checks)
     question = QUESTIONS[case.verdict]
-    parts = _parted(case, option) if question == SETTLE else ()
+    parts = _parted(case, option) if question != FIND else ()
     then = _rooms(case, option, rooms) if question == FIND else ()
     return Proposal(option, question, expected.chance, expected.left, parts, then)
 
