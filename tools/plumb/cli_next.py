@@ -116,7 +116,9 @@ def progress_bar() -> Callable[[float], None]:
         shown = True
         done = round(BAR * share)
         end = "\r" + " " * (BAR + 12) + "\r" if share >= 1 else ""
-        print(f"\r[{'#' * done}{'.' * (BAR - done)}] {100 * share:3.0f} %", end=end, file=sys.stderr)
+        print(
+            f"\r[{'#' * done}{'.' * (BAR - done)}] {100 * share:3.0f} %", end=end, file=sys.stderr
+        )
         sys.stderr.flush()
 
     return show
@@ -198,6 +200,8 @@ def as_text(found: Diagnosis, answer: Next) -> str:
         ]
         parts.append(sentences(told, mark=""))
     parts.append(sentences([_how(answer)], mark=""))
+    if found.warnings:
+        parts.append(sentences(found.warnings))
     return "\n\n".join(parts)
 
 
@@ -212,7 +216,7 @@ def _first(best: Proposal) -> str:
         terms = " ".join(
             f"--checked {own.name}=VALUE+-{number(own.sigma)}" for own in best.option.checks
         )
-        said.append(f"Then run this again with {terms}")
+        said.append(f"Then run this again with {terms}; VALUE: {best.option.value}.")
     elif len(best.option.visits):
         said.append("Then give the new marks as one more file; --marks FILE writes it to fill in.")
     return sentences(said[:1], mark="") + "\n" + sentences(said[1:], mark="  ")
@@ -232,9 +236,8 @@ def _promise(best: Proposal) -> str:
 
 
 def _stable(kept: int, of: int) -> str:
-    return (
-        f"Leaving out any one mark keeps the suspect in {kept} of {of} cases"
-        + (": it does not hang on a single reading." if kept == of else ": it hangs on single ones.")
+    return f"Leaving out any one mark keeps the suspect in {kept} of {of} cases" + (
+        ": it does not hang on a single reading." if kept == of else ": it hangs on single ones."
     )
 
 
@@ -280,8 +283,8 @@ def _how(answer: Next) -> str:
     again = f"{AGAIN:.0f} minutes added for one more round"
     if question == SETTLE:
         return (
-            "Chances are simulated: each suspect is taken for the truth as often as it is probable, "
-            "new readings are drawn with their noise, and the diagnosis is repeated. The order is "
+            "Chances are simulated: each suspect is taken for the truth as often as it is "
+            "probable, new readings are drawn with their noise, and the diagnosis is repeated. The order is "
             f"chance per minute, {again}."
         )
     if question == CONFIRM:

@@ -1,4 +1,4 @@
-"""Planned visits: where the sled would be sent, with what weight, from which side, by which chain."""
+"""Planned visits: where the sled would be sent, how heavy, from which side, by which chain."""
 
 from __future__ import annotations
 
