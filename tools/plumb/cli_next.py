@@ -284,14 +284,14 @@ def _how(answer: Next) -> str:
     if question == SETTLE:
         return (
             "Chances are simulated: each suspect is taken for the truth as often as it is "
-            "probable, new readings are drawn with their noise, and the diagnosis is repeated. The order is "
-            f"chance per minute, {again}."
+            "probable, new readings are drawn with their noise, and the diagnosis is repeated. "
+            f"The order is chance per minute, {again}."
         )
     if question == CONFIRM:
         return (
             "Chances are simulated as if the effects that failed their test narrowly might be the "
-            "truth: confirmed means that the true one is left alone. Direct checks come first; then "
-            f"the order is chance per minute, {again}."
+            "truth: confirmed means that the true one is left alone. Direct checks come first; "
+            f"then the order is chance per minute, {again}."
         )
     if question == FIND:
         return f"The order is the millimetres of doubt removed per minute, {again}."

@@ -130,7 +130,7 @@ class _Test:
     def _gains(self, fitted: Array, effects: tuple[str, ...], readings: Array) -> tuple:
         """The largest surprise of any other effect (count,), and what the fit leaves."""
         left = readings - fitted @ (fitted.T @ readings)
-        slopes, board = self.rows.slopes, self.board
+        slopes = self.rows.slopes
         beside = slopes - fitted @ (fitted.T @ slopes)
         gram, along = beside.T @ beside, beside.T @ left
         lengths = np.einsum("ru,ru->u", slopes, slopes)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -120,7 +120,8 @@ class _Shop:
         if not self.known:
             return None
         old = joined(*[self.old()] * READ_AGAIN)
-        do = f"Read each of the {len(self.known)} marks {READ_AGAIN} more times with a newly laid tape."
+        times = f"{READ_AGAIN} more times with a newly laid tape"
+        do = f"Read each of the {len(self.known)} marks {times}."
         return Option("repeats", "every mark read again", (do,), ROUND + READING * len(old), old)
 
     def heavier(self) -> list[Option]:
