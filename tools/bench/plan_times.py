@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from plumb.diagnose import diagnose
@@ -32,9 +33,9 @@ def plan_times(best: Callable[[Callable[[], object]], float]) -> dict[str, float
         found = diagnose(BELIEVED, marks, sigma=SIGMA)
         left = len(found.explanations)
         name = f"lab: next after {side * side} marks, {left} suspects left"
-        times[name] = best(lambda: propose(found, BELIEVED, marks))
+        times[name] = best(partial(propose, found, BELIEVED, marks))
     plan = board(6, 0.0)
-    times["lab: preview of 36 marks"] = best(lambda: preview(BELIEVED, plan, sigma=SIGMA))
+    times["lab: preview of 36 marks"] = best(partial(preview, BELIEVED, plan, sigma=SIGMA))
     return times
 
 

@@ -298,6 +298,7 @@ def _how(answer: Next) -> str:
     if question == REREAD:
         return "A slip hides what else the marks could say, so nothing else is proposed yet."
     return (
-        "No chance can be told for an effect that is not known. Also fit the left and right, or the "
-        "upper and lower, half of the marks by themselves: where numbers differ, something is local."
+        "No chance can be told for an effect that is not known. Also fit the left and right, or "
+        "the upper and lower, half of the marks by themselves: where their numbers differ, "
+        "something is local."
     )

@@ -167,8 +167,8 @@ class _Shop:
         both = {twin for i in chosen for twin in (i, (i // count ^ 1) * count + i % count)}
         visits = pool.taken(sorted(both, key=lambda i: (i % count, i)))
         do = (
-            "Touch two marks beside each other from opposite sides, the last 100 mm straight towards "
-            f"the mark, at {spots(visits)}; write down the approach."
+            "Touch two marks beside each other from opposite sides, the last 100 mm straight "
+            f"towards the mark, at {spots(visits)}; write down the approach."
         )
         return [_marks("approach", "marks from opposite sides", do, visits)]
 
