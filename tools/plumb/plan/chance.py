@@ -48,12 +48,12 @@ def outlook(
     """
     alone = case.verdict != "nothing_provable"
     noise = noise_after(case, visits)
-    tests: dict[int, _Test] = {}
+    tests: dict[int, Rediagnosis] = {}
     settled = left = 0.0
     for number, one in enumerate(case.hypotheses):
         if id(one.at) not in tests:
             twin = next(iter(tests.values()), None)
-            tests[id(one.at)] = _Test(case, ahead(one.at, visits, checks), noise, twin)
+            tests[id(one.at)] = Rediagnosis(case, ahead(one.at, visits, checks), noise, twin)
         source = np.random.default_rng([SEED, number])
         boards = tests[id(one.at)].boards(one, source, max(FEWEST, round(draws * one.weight)))
         right, count = tests[id(one.at)].judged(one, boards, alone=alone)
@@ -62,10 +62,10 @@ def outlook(
     return Outlook(float(settled), float(left) if alone else None)
 
 
-class _Test:
+class Rediagnosis:
     """The diagnosis of many simulated boards with the same rows."""
 
-    def __init__(self, case: Case, rows: Ahead, noise: Noise, twin: _Test | None) -> None:
+    def __init__(self, case: Case, rows: Ahead, noise: Noise, twin: Rediagnosis | None) -> None:
         """`twin`: the same rows by another explanation's slopes, whose limit serves here too."""
         board = case.board
         self.rows, self.board = rows, board
