@@ -163,6 +163,8 @@ class _Shop:
             for i, side in enumerate(SIDES)
         ]
         pool, count = joined(*groups), len(self.known)
+        if len(pool) < len(SIDES) * count:
+            return []
         chosen = Chooser(self.case, pool).best(range(len(pool)), FEW // 2)
         both = {twin for i in chosen for twin in (i, (i // count ^ 1) * count + i % count)}
         visits = pool.taken(sorted(both, key=lambda i: (i % count, i)))
@@ -225,14 +227,18 @@ class _Shop:
             gaps = np.linalg.norm(places[:, np.newaxis] - self.old_targets, axis=2)
             own = np.array(list(self.known.values()))[gaps.argmin(axis=1)]
             approaches = self.rows.approaches[own]
-        return sent(
-            self.case.settings,
-            places,
-            controller=self.case.controller,
-            sled_weight=weight,
-            approaches=approaches,
-            swapped=swapped,
-        )
+        try:
+            return sent(
+                self.case.settings,
+                places,
+                controller=self.case.controller,
+                sled_weight=weight,
+                approaches=approaches,
+                swapped=swapped,
+            )
+        except ValueError:
+            # A controller that cannot go there is not asked to.
+            return nowhere()
 
 
 # Half sheets: the corners, and three along the top with one below.
