@@ -31,6 +31,14 @@ class Observations:
     distance_rows: Array  # (m, 2) the rows at both ends
     distances: Array  # (m,) [mm]
     approaches: Array  # (r, 2) unit vectors of the last move of each visit; zero if not known
+    swapped: Array | None = (
+        None  # (r,) whether each chain hung on the other's sprocket; None: never
+    )
+
+    @property
+    def exchanged(self) -> Array:
+        """Whether the chains were swapped on each visit (r,)."""
+        return np.zeros(len(self.chains), dtype=bool) if self.swapped is None else self.swapped
 
     @property
     def count(self) -> int:
@@ -77,6 +85,7 @@ def observe(
         distance_rows=np.array(ends, dtype=int).reshape(-1, 2),
         distances=measurements.distance_lengths,
         approaches=_directions([mark.approach or (0.0, 0.0) for mark in marks]),
+        swapped=np.array([mark.chains_swapped for mark in marks], dtype=bool),
     )
 
 

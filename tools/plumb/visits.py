@@ -8,6 +8,10 @@ from plumb.machine_settings import MachineSettings
 from plumb.observations import Observations
 from plumb.predict import NAMES, Array, lengths, places_with_slopes, settings_of, values_of
 
+# What belongs to a chain and goes with it to the other sprocket.
+OF_A_CHAIN = {"chain_pitch.left": "chain_pitch.right", "chain_pitch.right": "chain_pitch.left"}
+EXCHANGED = np.array([NAMES.index(OF_A_CHAIN.get(name, name)) for name in NAMES])
+
 
 def loaded(values: Array, weight: float, usual: float) -> tuple[Array, Array]:
     """The values for a sled of another weight [N], and each value's slope by the usual one's.
@@ -29,16 +33,18 @@ def visited(
     values: Array, rows: Observations, *, over_top: bool, usual_weight: float
 ) -> tuple[Array, Array, Array]:
     """Places (r, 2) [mm] of all visits, their slopes by the values (r, 2, v), and FOUND (r,)."""
+    swapped = rows.exchanged
     where = np.zeros((len(rows.chains), 2))
     slopes = np.zeros((len(rows.chains), 2, len(NAMES)))
     found = np.zeros(len(rows.chains), dtype=int)
-    for weight in np.unique(rows.sled_weights):
-        mine = rows.sled_weights == weight
+    for weight, exchanged in {*zip(rows.sled_weights, swapped, strict=True)}:
+        mine = (rows.sled_weights == weight) & (swapped == exchanged)
         own, factors = loaded(values, weight, usual_weight)
+        order = EXCHANGED if exchanged else slice(None)
         where[mine], of_mine, found[mine] = places_with_slopes(
-            own, over_top=over_top, chains=rows.chains[mine]
+            own[order], over_top=over_top, chains=rows.chains[mine]
         )
-        slopes[mine] = of_mine * factors
+        slopes[mine] = of_mine[:, :, order] * factors
     return where, slopes, found
 
 

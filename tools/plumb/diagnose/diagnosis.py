@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from plumb.catalogue import effect_names
-from plumb.diagnose.explanation import Board, Explanation, explain
+from plumb.diagnose.explanation import Board, Checked, Explanation, explain
 from plumb.diagnose.gain import Search, search
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
 from plumb.diagnose.misfit import misfit_chance
@@ -84,8 +84,9 @@ def diagnose(
     controller: str | None = None,
     priors: Mapping[str, float] = PRIORS,
     sigma: float | None = None,
+    checked: Sequence[Checked] = (),
 ) -> Diagnosis:
-    """Find what the model of these settings misses in the marks.
+    """Find what the model of these settings misses in the marks, and in numbers checked directly.
 
     Raises InputError for too few marks, and marks that cannot be reached.
     """
@@ -94,11 +95,11 @@ def diagnose(
     )
     _refuse_too_few(measurements, rows)
     stated = sigma or measurements.tape_sigma
-    first = Board.of(model, rows, sigma=stated or USUAL_SIGMA, priors=priors)
+    first = Board.of(model, rows, sigma=stated or USUAL_SIGMA, priors=priors, checked=checked)
     felt = felt_effects(explain(first))
     cleared = clear_slips(first, felt, stated=stated)
     noise = cleared.noise
-    board = Board.of(model, cleared.rows, sigma=noise.sigma, priors=priors)
+    board = Board.of(model, cleared.rows, sigma=noise.sigma, priors=priors, checked=checked)
     frame = explain(board)
     singles = {name: explain(board, (name,), start=frame) for name in effect_names()}
     gate = search(frame, felt, noise)

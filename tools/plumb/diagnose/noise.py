@@ -57,7 +57,8 @@ def repeats_of(rows: Observations) -> Spread:
     """The spread of readings that were taken of the same mark or distance in the same way."""
     marks: dict[tuple, list[int]] = {}
     for i, row in enumerate(rows.mark_rows):
-        alike = (*rows.chains[row], rows.sled_weights[row], *rows.approaches[row])
+        side = (*rows.approaches[row], rows.exchanged[row])
+        alike = (*rows.chains[row], rows.sled_weights[row], *side)
         marks.setdefault((rows.names[i], *alike), []).append(i)
     spans: dict[frozenset, list[int]] = {}
     for i, ends in enumerate(rows.distance_rows.tolist()):
