@@ -18,6 +18,7 @@ from plumb.machine_settings import FRAME_FIELDS, MachineSettings
 from plumb.measurements import Measurements
 from plumb.observations import Observations, model_and_observations
 from plumb.predict import frame_words
+from plumb.rounds import unit_of
 from plumb.shape import best_pose
 
 FAR = 2.0  # [prior sigmas] a stated number that moved farther was probably measured wrongly
@@ -225,7 +226,8 @@ def _cure(name: str, parameters: Mapping[str, float]) -> str:
 def _parameter(estimate: Estimate) -> Parameter:
     words = {one["name"]: one for one in frame_words()}
     words |= parameter_words()
-    own = words.get(estimate.name, {"unit": "rad", "low": None, "high": None})
+    unit = unit_of(estimate.name) or "rad"
+    own = words.get(estimate.name, {"unit": unit, "low": None, "high": None})
     return Parameter(
         name=estimate.name,
         value=estimate.value,

@@ -20,6 +20,14 @@ EXIT = (
     "explains the marks; 2 an input cannot be used."
 )
 BAD_NEWS = ("slip", "not_in_library")
+UNKNOWN_ADVICE = (
+    "is it such a machine? The library is that of a sled on one ring or linkage; on two brackets "
+    "(quadrilateral) it leans and draws another pattern",
+    "were these settings in force when the marks were cut? If not, name those by --cut-with, or as "
+    "cut_with in the marks.toml",
+    "does y run the way the file says, and are all numbers of one kind? Measure one mark again",
+    "if all that is so, look where the errors are: plumb compare ... --picture errors.png",
+)
 SHOWN = 8  # suspects and hiding effects that people are shown; --json has all
 
 
@@ -141,6 +149,8 @@ def as_text(found: Diagnosis) -> str:
     parts = [sentences([verdict_sentence(found)], mark="")]
     if found.slips:
         parts.append(sentences([one.sentence for one in found.slips]))
+    if found.verdict == "not_in_library":
+        parts.append(sentences(UNKNOWN_ADVICE))
     if found.explanations:
         parts.append(_explanation_table(found))
         if found.verdict == "cannot_tell":

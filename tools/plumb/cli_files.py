@@ -91,7 +91,8 @@ def inputs_of(arguments: argparse.Namespace) -> Inputs:
     cut_with = settings_in(arguments.cut_with) if arguments.cut_with else None
     # Marks count from the edges of the sheet on which they were cut.
     sheet = (cut_with or settings).sheet
-    parts = [read_marks(path, sheet=sheet) for path in arguments.marks]
+    known = known_effects()
+    parts = [read_marks(path, sheet=sheet, known=known) for path in arguments.marks]
     return Inputs(settings, cut_with, join_measurements(parts))
 
 

@@ -154,7 +154,8 @@ def _warnings(
     controller: str | None,
 ) -> tuple[str, ...]:
     whose = controller or measurements.controller
-    if cut_with or settings.controller != "plumb" or whose in (None, "plumb"):
+    known = cut_with or all(one.cut_with for one in measurements.rounds)
+    if known or settings.controller != "plumb" or whose in (None, "plumb"):
         return ()
     return (
         f"the marks were cut by the {whose} controller, but these settings are of plumb: give the "

@@ -19,6 +19,7 @@ from plumb.errors import InputError
 from plumb.machine_settings import MachineSettings
 from plumb.observations import Observations
 from plumb.predict import FOUND, NAMES, Array, settings_of, values_of
+from plumb.rounds import round_priors
 from plumb.sighting import LAB_NAMES, SHEET_ROTATION, Sighting, sighted
 
 USUAL_SIGMA = 0.5  # [mm] of one coordinate read with a tape by hand
@@ -139,6 +140,7 @@ class Problem:
     ) -> Problem:
         typical = {name: own["typical"] for name, own in parameter_words().items()}
         free = [name for effect in effects for name in parameter_names(effect)]
+        priors = {**priors, **round_priors(observations)}
         kept = [name for name in priors if priors[name] > 0]
         names = (*kept, *free)
         values = dict(zip(NAMES, values_of(settings), strict=True))

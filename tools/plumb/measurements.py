@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 
@@ -10,7 +11,8 @@ from plumb.errors import refusal
 from plumb.marks_checks import Sheet, checked
 from plumb.marks_csv import NEEDED, read_marks_csv
 from plumb.marks_ini import read_marks_ini
-from plumb.marks_model import CONTROLLERS, Distance, Mark, Measurements, join_measurements
+from plumb.marks_join import join_measurements
+from plumb.marks_model import CONTROLLERS, Distance, Mark, Measurements, Round
 from plumb.marks_toml import read_marks_toml
 from plumb.text_files import read_bytes
 
@@ -19,18 +21,30 @@ __all__ = [
     "Distance",
     "Mark",
     "Measurements",
+    "Round",
     "join_measurements",
     "read_marks",
 ]
 
 
-def read_marks(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
-    """The marks of one file, in the machine frame [mm]; sheet is its width and height [mm]."""
+def read_marks(
+    path: str | PathLike[str],
+    *,
+    sheet: Sheet,
+    known: Mapping[str, Sequence[str]] | None = None,
+) -> Measurements:
+    """The marks of one file, in the machine frame [mm]; sheet is its width and height [mm].
+
+    A file that names the settings it was cut with lies on the sheet of these; `known` lists each
+    effect's parameters for them.
+    """
     form = _form_of(path)
     if form == "ini":
         found = read_marks_ini(path, sheet=sheet)
     elif form == "toml":
-        found = read_marks_toml(path, sheet=sheet)
+        found = read_marks_toml(path, sheet=sheet, known=known)
+        own = found.rounds[0].cut_with
+        sheet = own.sheet if own else sheet
     else:
         found = read_marks_csv(path)
     return checked(found, sheet=sheet)

@@ -131,7 +131,8 @@ def diagnose(
 
 _IMPOSSIBLE = (
     "every explanation needs sizes that no real machine has, so each stands in for something else: "
-    "check which settings were in force, the signs of the marks and the stated frame"
+    "check which settings were in force, the signs of the marks, the stated frame, and that the "
+    "sled hangs on one ring, not on two brackets"
 )
 
 

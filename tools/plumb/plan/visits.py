@@ -48,6 +48,9 @@ class Visits:
             distance_rows=np.zeros((0, 2), dtype=int),
             distances=np.zeros(0),
             approaches=self.approaches,
+            # As the first round: nobody zeroes the chains or takes another sheet for a few more marks.
+            zero_groups=np.zeros(count, dtype=int),
+            sheet_groups=np.zeros(count, dtype=int),
             swapped=self.swapped,
         )
 
