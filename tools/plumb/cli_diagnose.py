@@ -182,6 +182,11 @@ def verdict_sentence(found: Diagnosis) -> str:
             f"No effect of the library explains these marks, alone or up to three together{more}: "
             f"{rest}, more than noise."
         )
+    if not any(one.possible for one in found.explanations):
+        return (
+            f"Something is missing ({rest}), but only sizes that no real machine has would explain "
+            f"it: {several}. Look for another cause first."
+        )
     if found.verdict == "one_suspect":
         first = found.explanations[0]
         who = (

@@ -54,6 +54,11 @@ class Together:
     sizes: Mapping[str, tuple[Size, ...]]
     rms_after: float  # [mm]
 
+    @property
+    def possible(self) -> bool:
+        """Whether the intervals of all sizes reach what a real machine can have."""
+        return all(one.might_be_plausible for own in self.sizes.values() for one in own)
+
 
 @dataclass(frozen=True)
 class Diagnosis:
