@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from plumb.benchmark import Score, score_of
 from plumb.catalogue import NO_FIRMWARE, effect_names, parameter_names, parameter_words
 from plumb.checks import refuse_unknown
 from plumb.compare import Comparison, compare
@@ -74,6 +75,7 @@ class Addition:
     parameters: tuple[Parameter, ...]
     effects_added: tuple[str, ...]  # those of the lab too
     warnings: tuple[str, ...]
+    benchmark_after: Score | None = None  # of the community's test: what the fit leaves of it
 
     @property
     def settings(self) -> MachineSettings:
@@ -141,6 +143,7 @@ def add(
             *_surprises(parameters),
             *_bad_bargains(before, after),
         ),
+        benchmark_after=score_of(measurements, after_fit.distance_errors),
     )
 
 

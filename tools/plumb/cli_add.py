@@ -8,7 +8,7 @@ from typing import Any
 
 from plumb.add import Addition, Parameter, Quality, add, priors_with
 from plumb.catalogue import effect_names
-from plumb.cli_compare import panel_of
+from plumb.cli_compare import panel_of, score_json
 from plumb.cli_files import (
     Inputs,
     add_json,
@@ -202,6 +202,10 @@ def as_json(result: Addition) -> dict[str, Any]:
         "sheet_rise_mm": result.sheet_rise,
         "sigma_mm": result.after_fit.sigma,
         "sigma_from": result.after_fit.sigma_from,
+        "benchmark": {
+            "before": score_json(result.raw.benchmark),
+            "after": score_json(result.benchmark_after),
+        },
         "warnings": result.warnings,
     }
 
@@ -240,6 +244,8 @@ def as_text(result: Addition) -> str:
         f"{after.left_out_rms:.2f} mm)."
     )
     parts = [sentences([first], mark=""), _quality_table(result), _parameter_table(result)]
+    if result.benchmark_after:
+        parts.insert(1, _benchmark_sentence(result))
     sigma = result.after_fit
     origin = "as stated" if sigma.sigma_from == "stated" else "from the residuals"
     parts.append(
@@ -249,6 +255,15 @@ def as_text(result: Addition) -> str:
     )
     parts.append(sentences([turn_sentence(result), *result.cures, *result.warnings]))
     return "\n\n".join(parts)
+
+
+def _benchmark_sentence(result: Addition) -> str:
+    """The community's score before, and what to expect of the next cut."""
+    said = (
+        f"Calibration Benchmark Score: {result.raw.benchmark} as cut; {result.benchmark_after} to "
+        "expect when it is cut again with the new settings, if nothing else changes."
+    )
+    return sentences([said], mark="")
 
 
 def turn_sentence(result: Addition) -> str:

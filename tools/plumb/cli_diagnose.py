@@ -115,6 +115,7 @@ def as_json(found: Diagnosis) -> dict[str, Any]:
             }
             for one in found.could_hide
         ],
+        "disagreements": found.disagreements,
         "next": [],
         "warnings": found.warnings,
     }
@@ -149,7 +150,9 @@ def as_text(found: Diagnosis) -> str:
     parts = [sentences([verdict_sentence(found)], mark="")]
     if found.slips:
         parts.append(sentences([one.sentence for one in found.slips]))
-    if found.verdict == "not_in_library":
+    if found.disagreements:
+        parts.append(sentences(found.disagreements))
+    elif found.verdict == "not_in_library":
         parts.append(sentences(UNKNOWN_ADVICE))
     if found.explanations:
         parts.append(_explanation_table(found))
@@ -178,6 +181,11 @@ def verdict_sentence(found: Diagnosis) -> str:
         return (
             f"No effect of the library explains these marks, alone or up to three together{more}: "
             f"{rest}, more than noise."
+        )
+    if not any(one.possible for one in found.explanations):
+        return (
+            f"Something is missing ({rest}), but only sizes that no real machine has would explain "
+            f"it: {several}. Look for another cause first."
         )
     if found.verdict == "one_suspect":
         first = found.explanations[0]

@@ -10,6 +10,7 @@ from typing import Any
 
 from plumb.checks import number, one_of, pair, refuse_unknown, text_of, within
 from plumb.errors import naming, refusal
+from plumb.marks_benchmark import read_benchmark
 from plumb.marks_checks import Sheet, to_machine
 from plumb.marks_model import CONTROLLERS, Distance, Mark, Measurements, Point, Round
 from plumb.settings_file import read_settings
@@ -27,6 +28,7 @@ HEAD_KEYS = (
     *ROUND_FLAGS,
     "mark",
     "distance",
+    "benchmark",
 )
 MARK_KEYS = ("name", "target", "measured", "approach", "sled_weight_n", "chains", "chains_swapped")
 DISTANCE_KEYS = ("between", "mm")
@@ -58,9 +60,13 @@ def read_marks_toml(
     own = _round(path, head, known)
     sheet = own.cut_with.sheet if own.cut_with else sheet
     marks = _marks(path, head, sheet=sheet if top_left else None, weight=weight)
+    distances = _distances(path, head)
+    if "benchmark" in head:
+        more = read_benchmark(path, head["benchmark"], weight=weight)
+        marks, distances = (*marks, *more[0]), (*distances, *more[1])
     return Measurements(
         marks=marks,
-        distances=_distances(path, head),
+        distances=distances,
         controller=_controller(path, head),
         tape_sigma=_tape_sigma(path, head),
         sled_weight=weight,

@@ -31,6 +31,7 @@ class Observations:
     distance_rows: Array  # (m, 2) the rows at both ends
     distances: Array  # (m,) [mm]
     approaches: Array  # (r, 2) unit vectors of the last move of each visit; zero if not known
+    rounds: Array  # (r,) int: the file of each visit
     zero_groups: Array  # (r,) int: visits with equal numbers have the chains' zeros in common
     sheet_groups: Array  # (r,) int: visits with equal numbers lie on one sheet
     swapped: Array | None = (
@@ -82,6 +83,7 @@ def observe(
         distances=measurements.distance_lengths,
         approaches=_directions([mark.approach or (0.0, 0.0) for mark in marks]),
         swapped=np.array([mark.chains_swapped for mark in marks], dtype=bool),
+        rounds=_rounds(measurements),
         zero_groups=_of_rounds(measurements, "zero_group"),
         sheet_groups=_of_rounds(measurements, "sheet_group"),
     )

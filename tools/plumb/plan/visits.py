@@ -49,6 +49,7 @@ class Visits:
             distances=np.zeros(0),
             approaches=self.approaches,
             # As the first round: nobody zeroes the chains or takes another sheet for a few more marks.
+            rounds=np.zeros(count, dtype=int),
             zero_groups=np.zeros(count, dtype=int),
             sheet_groups=np.zeros(count, dtype=int),
             swapped=self.swapped,
