@@ -22,6 +22,7 @@ from plumb.observations import model_and_observations
 
 Array = np.ndarray
 MOST_HYPOTHESES = 8  # the best of them; more would only cost time
+LIGHT = 0.01  # explanations less probable than this are left out
 IMPOSSIBLE = 0.1  # weight of an explanation whose sizes no real machine has
 
 
@@ -55,7 +56,6 @@ class Case:
     frame: Explanation
     singles: Mapping[str, Explanation]  # each felt effect by itself, refitted
     hypotheses: tuple[Hypothesis, ...]  # most probable first
-    left_open: int  # explanations that stand, or effects that could hide
 
     @property
     def usual_weight(self) -> float:
@@ -87,17 +87,12 @@ def case_of(
     felt = felt_effects(frame)
     singles = {name: explain(board, (name,), start=frame) for name in felt}
     in_force = cut_with or settings
-    standing = [
-        singles[one.effects[0]]
-        if len(one.effects) == 1
-        else explain(board, one.effects, start=frame)
-        for one in found.explanations
-    ]
-    possible = [
-        all(size.might_be_plausible for own in one.sizes.values() for size in own)
-        for one in found.explanations
-    ]
-    hypotheses = _standing(standing, possible) if standing else _hidden(frame)
+    if found.explanations:
+        several = [one for one in found.explanations if len(one.effects) > 1]
+        together = [explain(board, one.effects, start=frame) for one in several]
+        hypotheses = _weighed([*singles.values(), *together], _possible(found))
+    else:
+        hypotheses = hidden_hypotheses(frame)
     return Case(
         settings=in_force,
         controller=controller or measurements.controller or in_force.controller,
@@ -107,19 +102,32 @@ def case_of(
         frame=frame,
         singles=singles,
         hypotheses=hypotheses,
-        left_open=len(standing) or len(effect_names()),
     )
 
 
-def _standing(explanations: Sequence[Explanation], possible: Sequence[bool]) -> tuple:
-    """Hypotheses of explanations that stand: each as it fits, weighed by how well it does.
+def _possible(found: Diagnosis) -> set[tuple[str, ...]]:
+    """The explanations whose sizes a real machine can have, or nearly so."""
+    sizes = {(one.effect,): one.sizes for one in found.ranking}
+    for one in found.explanations:
+        sizes[one.effects] = tuple(size for own in one.sizes.values() for size in own)
+    return {
+        effects for effects, own in sizes.items() if all(size.might_be_plausible for size in own)
+    }
 
-    The weight is exp(-(chi-square + 2 parameters) / 2), the order of the diagnosis itself.
+
+def _weighed(
+    explanations: Sequence[Explanation], possible: set[tuple[str, ...]]
+) -> tuple[Hypothesis, ...]:
+    """Hypotheses as they fit, weighed by how well they do; what is hardly probable is left out.
+
+    The weight is exp(-(chi-square + 2 parameters) / 2), the order of the diagnosis itself. Effects
+    that did not stand their test take part: one in twenty of them is the truth all the same.
     """
     prices = [one.cost + 2 * len(one.board.columns(one.effects)) for one in explanations]
     weights = np.exp(-(np.array(prices) - min(prices)) / 2)
-    weights *= np.where(possible, 1.0, IMPOSSIBLE)
+    weights *= [1.0 if one.effects in possible else IMPOSSIBLE for one in explanations]
     best = np.argsort(-weights, kind="stable")[:MOST_HYPOTHESES]
+    best = best[weights[best] > LIGHT * weights.sum()]
     return tuple(_as_fitted(explanations[i], weights[i] / weights[best].sum()) for i in best)
 
 
@@ -138,7 +146,7 @@ def _as_fitted(one: Explanation, weight: float) -> Hypothesis:
     )
 
 
-def _hidden(frame: Explanation) -> tuple[Hypothesis, ...]:
+def hidden_hypotheses(frame: Explanation) -> tuple[Hypothesis, ...]:
     """Where nothing is proved: each effect there with about its typical size, all as probable.
 
     A standard normal of each parameter in typical sizes, and then what the marks say of it.

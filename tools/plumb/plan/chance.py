@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import erf, sqrt
 
 import numpy as np
 
@@ -21,15 +20,13 @@ from plumb.diagnose.noise import FEW_REPEATS, Noise, repeats_of
 from plumb.diagnose.significance import surprises, tail
 from plumb.plan.ahead import Ahead, Check, ahead
 from plumb.plan.case import Case, Hypothesis
-from plumb.plan.separation import drawn_by
 from plumb.plan.visits import Visits
 
 Array = np.ndarray
 DRAWS = 240  # of all hypotheses together: a chance is then right to about 3 in 100
 FEWEST = 12  # draws of one hypothesis
-HOPELESS = 12.0  # above the limit by so much surprise, an explanation does not come back
+HOPELESS = 5.0  # above the limit by so much surprise, an explanation does not come back
 SEED = 1847
-CONFIRMED = 2.0  # deviations from zero at which a second measurement confirms a size
 _TINY = 1e-8  # share of a column's squared length below which its rest is rounding
 
 
@@ -37,53 +34,32 @@ _TINY = 1e-8  # share of a column's squared length below which its rest is round
 class Outlook:
     """What to expect after a measurement."""
 
-    chance: float  # that it settles the question
-    left: float  # explanations on average
+    chance: float  # that it settles the question, or finds what is hidden
+    left: float | None  # explanations on average; None where they are not counted
 
 
 def outlook(
     case: Case, visits: Visits, checks: Sequence[Check] = (), *, draws: int = DRAWS
 ) -> Outlook:
-    """What to expect of these visits and checks."""
-    if case.verdict == "one_suspect":
-        return Outlook(_confirms(case.hypotheses[0], visits, checks), 1.0)
-    hypotheses = [one for one in case.hypotheses if one.weight > 0.02]
-    total = sum(one.weight for one in hypotheses)
-    tables: dict[int, _Test] = {}
-    settled = left = 0.0
-    for number, one in enumerate(hypotheses):
-        test = tables.get(id(one.at))
-        if test is None:
-            rows = ahead(one.at, visits, checks)
-            twin = next(iter(tables.values()), None)
-            test = tables[id(one.at)] = _Test(case, rows, noise_after(case, visits), twin)
-        count = max(FEWEST, round(draws * one.weight / total))
-        source = np.random.default_rng([SEED, number])
-        standing, proved, names = test.repeated(one, source, count)
-        truth = names.index(one.effects)
-        counts = standing.sum(axis=0)
-        if case.verdict == "cannot_tell":
-            hits = proved & standing[truth] & (counts == 1)
-        else:
-            hits = proved & standing[truth]
-        settled += one.weight / total * hits.mean()
-        left += one.weight / total * np.where(proved, np.maximum(counts, 1), case.left_open).mean()
-    return Outlook(float(settled), float(left))
+    """What to expect of these visits and checks.
 
-
-def _confirms(suspect: Hypothesis, visits: Visits, checks: Sequence[Check]) -> float:
-    """Chance that the new readings by themselves show the suspect's size to differ from zero.
-
-    Old and new rows get a column of the suspect each, so only the frame is shared.
+    Suspects: the chance that the true one is left alone. Nothing provable: that an effect of its
+    usual size would be proved, if one is there.
     """
-    rows = ahead(suspect.at, visits, checks)
-    drawn = rows.slopes @ drawn_by(suspect)
-    before, after = drawn.copy(), drawn.copy()
-    before[rows.so_far :] = 0.0
-    after[: rows.so_far] = 0.0
-    fitted = span(np.hstack([rows.slopes[:, suspect.at.board.frame], before]))
-    rest = after - fitted @ (fitted.T @ after)
-    return 0.5 * (1 + erf((float(np.linalg.norm(rest)) - CONFIRMED) / sqrt(2)))
+    alone = case.verdict != "nothing_provable"
+    noise = noise_after(case, visits)
+    tests: dict[int, _Test] = {}
+    settled = left = 0.0
+    for number, one in enumerate(case.hypotheses):
+        if id(one.at) not in tests:
+            twin = next(iter(tests.values()), None)
+            tests[id(one.at)] = _Test(case, ahead(one.at, visits, checks), noise, twin)
+        source = np.random.default_rng([SEED, number])
+        boards = tests[id(one.at)].boards(one, source, max(FEWEST, round(draws * one.weight)))
+        right, count = tests[id(one.at)].judged(one, boards, alone=alone)
+        settled += one.weight * right
+        left += one.weight * count
+    return Outlook(float(settled), float(left) if alone else None)
 
 
 class _Test:
@@ -95,45 +71,56 @@ class _Test:
         self.rows, self.board = rows, board
         self.noise = noise
         self.frame = span(rows.slopes[:, board.frame])
+        self.nothing = len(board.own)  # explanations left where nothing is proved
         self.felt = [name for name in board.own if rows.slopes[:, board.columns([name])].any()]
         several = [one.effects for one in case.hypotheses if len(one.effects) > 1]
         self.names = [*((name,) for name in self.felt), *several]
         self.names += [one.effects for one in case.hypotheses if one.effects not in self.names]
-        self.limit = twin.limit if twin else self._limit()
+        self.limits = twin.limits if twin else {}
 
-    def _limit(self) -> float:
-        bases = {}
-        for name in self.felt:
-            raw = self.rows.slopes[:, self.board.columns([name])]
-            bases[name] = span(raw - self.frame @ (self.frame.T @ raw), against=raw)
-        return limit_of_noise(bases, self.noise)
+    def _limit(self, fitted: Array, effects: tuple[str, ...]) -> float:
+        """The surprise that noise hardly exceeds beside an explanation."""
+        if effects not in self.limits:
+            bases = {}
+            for name in self.felt:
+                if name not in effects:
+                    raw = self.rows.slopes[:, self.board.columns([name])]
+                    bases[name] = span(raw - fitted @ (fitted.T @ raw), against=raw)
+            self.limits[effects] = limit_of_noise(bases, self.noise)
+        return self.limits[effects]
 
-    def repeated(
-        self, truth: Hypothesis, source: np.random.Generator, count: int
-    ) -> tuple[Array, Array, list[tuple[str, ...]]]:
-        """Which explanations (e, count) stand on boards drawn from a truth, whether the gate was
-        passed (count,), and the effects of each explanation."""
+    def boards(self, truth: Hypothesis, source: np.random.Generator, count: int) -> Array:
+        """Whitened readings (rows, count) of boards drawn from a truth: those so far as they are."""
         rows = self.rows
-        new = rows.slopes[rows.so_far :, truth.columns]
-        drawn = new @ truth.drawn(source, count)
+        drawn = rows.slopes[rows.so_far :, truth.columns] @ truth.drawn(source, count)
         drawn += source.standard_normal(drawn.shape)
-        readings = np.vstack([np.repeat(truth.data[:, np.newaxis], count, axis=1), drawn])
-        best, _ = self._gains(self.frame, (), readings)
-        proved = best > self.limit
-        standing = np.array([self._stands(effects, readings) for effects in self.names])
-        return standing, proved, self.names
+        return np.vstack([np.repeat(truth.data[:, np.newaxis], count, axis=1), drawn])
+
+    def judged(self, truth: Hypothesis, boards: Array, *, alone: bool) -> tuple[float, float]:
+        """On what share of boards the truth is proved (alone among all), and how many explanations
+        stand on average."""
+        proved = self._gains(self.frame, (), boards)[0] > self._limit(self.frame, ())
+        stands = self._stands(truth.effects, boards)
+        if not alone:
+            return float((proved & stands).mean()), float("nan")
+        others = [self._stands(one, boards) for one in self.names if one != truth.effects]
+        counts = stands + np.sum(others, axis=0)
+        left = np.where(proved, np.maximum(counts, 1), self.nothing)
+        return float((proved & stands & (counts == 1)).mean()), float(left.mean())
 
     def _stands(self, effects: tuple[str, ...], readings: Array) -> Array:
         """Whether nothing is to be added to an explanation, and it fits (count,)."""
         own = np.concatenate([self.board.frame, self.board.columns(effects)])
         fitted = span(self.rows.slopes[:, own])
         sample = readings[:, :: max(1, readings.shape[1] // FEWEST)]
-        if self._gains(fitted, effects, sample)[0].min() > self.limit + HOPELESS:
+        usual = self._limit(self.frame, ())
+        if self._gains(fitted, effects, sample)[0].min() > usual + HOPELESS:
             return np.zeros(readings.shape[1], dtype=bool)
+        limit = self._limit(fitted, effects)
         best, left = self._gains(fitted, effects, readings)
         read = self.rows.marks
         spare = read.sum() - np.sum(fitted[read] ** 2)
-        return (best <= self.limit) & (self._misfit(left[read], spare) > MISFIT_LEVEL)
+        return (best <= limit) & (self._misfit(left[read], spare) > MISFIT_LEVEL)
 
     def _misfit(self, left: Array, spare: float) -> Array:
         squares = np.sum(left**2, axis=0)

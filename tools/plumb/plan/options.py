@@ -17,12 +17,14 @@ from plumb.plan.visits import Visits, joined, nowhere, sent
 Array = np.ndarray
 NEWTON = 9.81  # [N] of a kilogram
 EXTRA_KILOGRAMS = (2.5, 5.0, 10.0)  # what a maker finds to hang on a sled
-FEW, MANY_GRID = 4, (7, 4)  # marks of a proposal; the 28 it is compared with
+FEW = 4  # marks of a proposal
+MANY_GRID, MANY_MARGIN = (7, 4), (0.07, 0.12)  # the 28 marks that it is compared with
 READ_AGAIN = 3  # times each mark is read again
 MOST_AGAIN = 12  # marks that are all visited again with another weight
 # Minutes: a round at the machine, a mark cut and read, a mark read once more, a change of weight,
 # chains swapped and brought to 12 o'clock again.
 ROUND, MARK, READING, HANGING, SWAPPING = 3.0, 1.5, 0.75, 4.0, 15.0
+BESIDE = 20.0  # [mm] inwards of a mark is room for a second one; in the same hole nothing is read
 SIDES = np.array([(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)])
 
 
@@ -41,6 +43,10 @@ class Option:
 def options(case: Case) -> list[Option]:
     """Everything worth a thought for this case."""
     shop = _Shop(case)
+    if case.verdict == "one_suspect":
+        # Repeats share every systematic error with what they repeat: they confirm nothing.
+        own = [*shop.ordinary(), *shop.heavier(), *shop.swapped()]
+        return own + [one for one in checks_for(case) if one.kind == "check"]
     found = [*shop.ordinary(), shop.repeats(), *shop.heavier(), *shop.sides(), *shop.swapped()]
     return [one for one in found if one is not None] + checks_for(case)
 
@@ -86,12 +92,12 @@ class _Shop:
         pool = self.pool(self.case.usual_weight)
         if len(pool) < FEW:
             return []
-        chosen = Chooser(self.case, pool).best(range(len(pool)), FEW)
-        do = f"Cut and read {FEW} marks more, at {spots(pool.taken(chosen))}."
-        return [_marks("marks", f"{FEW} more marks", do, pool.taken(chosen))]
+        visits = pool.taken(self.spread(pool))
+        do = f"Cut and read {FEW} marks more, at {spots(visits)}."
+        return [_marks("marks", f"{FEW} more marks", do, visits)]
 
     def many(self) -> Option | None:
-        places = grid(self.case.settings.sheet, *MANY_GRID)
+        places = grid(self.case.settings.sheet, *MANY_GRID, margin=MANY_MARGIN)
         places = places[usable(self.case.settings, places, self.case.usual_weight)]
         if not len(places):
             return None
@@ -119,9 +125,9 @@ class _Shop:
                 continue
             visits = pool.taken(self.spread(pool))
             found.append(_heavier(f"{FEW} marks", kilograms, visits))
-            old = self.old(weight)
-            if kilograms == EXTRA_KILOGRAMS[1] and FEW < len(old) <= MOST_AGAIN:
-                found.append(_heavier(f"all {len(old)} marks again", kilograms, old))
+            beside = self.visits(self.beside(BESIDE), weight)
+            if kilograms == EXTRA_KILOGRAMS[1] and FEW < len(beside) <= MOST_AGAIN:
+                found.append(_heavier(f"{len(beside)} marks beside the old", kilograms, beside))
         return found
 
     def spread(self, pool: Visits) -> list[int]:
@@ -136,26 +142,22 @@ class _Shop:
         return max((one for one in tries if len(set(one)) == FEW), key=chooser.worth)
 
     def sides(self) -> list[Option]:
-        """The same few marks touched from opposite sides, where friction is not ruled out."""
+        """Two marks close together, touched from opposite sides, where friction may play a part."""
         if "sled_friction" not in self.case.effects or not self.known:
             return []
-        weight = self.case.usual_weight
-        pool = joined(
-            *[
-                self.visits(self.old_targets, weight, names=list(self.known), sides=side)
-                for side in SIDES
-            ]
-        )
-        chosen = Chooser(self.case, pool).best(range(len(pool)), FEW)
-        # Both sides of each place: the difference is friction's alone.
-        opposite = [
-            (i + len(self.known) * (1 if side % 2 == 0 else -1))
-            for i, side in ((i, i // len(self.known)) for i in chosen)
+        weight, near, far = self.case.usual_weight, self.beside(BESIDE), self.beside(2 * BESIDE)
+        # Which of both is touched from where is all the same: one pool for each pair of sides.
+        groups = [
+            self.visits(near if i % 2 == 0 else far, weight, sides=side)
+            for i, side in enumerate(SIDES)
         ]
-        visits = pool.taken(sorted({*chosen, *opposite}))
+        pool, count = joined(*groups), len(self.known)
+        chosen = Chooser(self.case, pool).best(range(len(pool)), FEW // 2)
+        both = {twin for i in chosen for twin in (i, (i // count ^ 1) * count + i % count)}
+        visits = pool.taken(sorted(both, key=lambda i: (i % count, i)))
         do = (
-            "Touch these marks from the sides shown, the last 100 mm straight towards the mark, "
-            "and read both: " + spots(visits)
+            "Touch two marks beside each other from opposite sides, the last 100 mm straight towards "
+            f"the mark, at {spots(visits)}; write down the approach."
         )
         return [_marks("approach", "marks from opposite sides", do, visits)]
 
@@ -166,7 +168,7 @@ class _Shop:
         pool = self.pool(self.case.usual_weight, swapped=True)
         if len(pool) < FEW:
             return []
-        visits = pool.taken(Chooser(self.case, pool).best(range(len(pool)), FEW))
+        visits = pool.taken(self.spread(pool))
         do = (
             "Hang each chain on the other's sprocket with the same link at 12 o'clock, and cut and "
             f"read {FEW} marks, at {spots(visits)}."
@@ -174,26 +176,26 @@ class _Shop:
         return [_marks("swap", f"chains swapped, {FEW} marks", do, visits, more=SWAPPING)]
 
     def pool(self, weight: float, *, swapped: bool = False) -> Visits:
-        """Marks there are and new places, as far as they are usable with that weight."""
-        places = self.new_targets[usable(self.case.settings, self.new_targets, weight)]
-        new = self.visits(places, weight, swapped=swapped)
-        if not self.known:
-            return new
-        fine = usable(self.case.settings, self.old_targets, weight)
-        return joined(self.old(weight, swapped=swapped).taken(np.flatnonzero(fine)), new)
+        """Places beside the marks there are and new ones, as far as they are usable so loaded."""
+        places = np.vstack([self.beside(BESIDE), self.new_targets])
+        places = places[usable(self.case.settings, places, weight)]
+        return self.visits(places, weight, swapped=swapped)
 
-    def old(self, weight: float | None = None, *, swapped: bool = False) -> Visits:
-        """The marks there are, visited again."""
+    def beside(self, millimetres: float) -> Array:
+        """Places (n, 2) so far inwards of the marks there are."""
+        return self.old_targets - millimetres * np.where(self.old_targets > 0, 1.0, -1.0)
+
+    def old(self) -> Visits:
+        """The marks there are, as they were visited."""
         rows, own = self.rows, list(self.known.values())
         first = [rows.names.index(name) for name in self.known]
-        kept = rows.sled_weights[own]
         return Visits(
             tuple(self.known),
             rows.targets[first],
             rows.chains[own],
-            kept if weight is None else np.full(len(own), weight),
+            rows.sled_weights[own],
             rows.approaches[own],
-            rows.exchanged[own] if not swapped else np.ones(len(own), dtype=bool),
+            rows.exchanged[own],
         )
 
     def visits(
@@ -201,7 +203,6 @@ class _Shop:
         places: Array,
         weight: float,
         *,
-        names: Sequence[str] | None = None,
         sides: Array | None = None,
         swapped: bool = False,
     ) -> Visits:
@@ -218,7 +219,6 @@ class _Shop:
             places,
             controller=self.case.controller,
             sled_weight=weight,
-            names=names,
             approaches=approaches,
             swapped=swapped,
         )
@@ -246,11 +246,9 @@ def _heavier(which: str, kilograms: float, visits: Visits) -> Option:
 
 
 def spots(visits: Visits) -> str:
-    """The places for people; a mark that is there already by its name."""
-    said = dict.fromkeys(
-        _spot(name, at) for name, at in zip(visits.names, visits.targets, strict=True)
-    )
-    return ", ".join(said)
+    """The places for people [mm], each once; a mark that is there already by its name."""
+    named = zip(visits.names, visits.targets, strict=True)
+    return ", ".join(dict.fromkeys(_spot(name, at) for name, at in named))
 
 
 def _spot(name: str, at: Array) -> str:

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from math import erf, sqrt
 
 import numpy as np
 
 from plumb.diagnose.diagnosis import Diagnosis
 from plumb.diagnose.explanation import Checked, span
+from plumb.diagnose.sizes import Room
 from plumb.fit import PRIORS
 from plumb.machine_settings import MachineSettings
 from plumb.measurements import Measurements
 from plumb.plan.ahead import ahead
 from plumb.plan.case import Case, case_of
-from plumb.plan.chance import Outlook, outlook
-from plumb.plan.options import ROUND, Option, many_marks, options
+from plumb.plan.chance import outlook
+from plumb.plan.options import Option, many_marks, options
 from plumb.plan.separation import ENOUGH, apart, drawn_by
 from plumb.plan.strangers import for_slips, near_the_worst
 
@@ -26,7 +26,16 @@ SETTLE, CONFIRM, FIND, REREAD, EXPLORE = "settle", "confirm", "find", "reread", 
 AGAIN = 10.0  # minutes that one more round costs when this one did not settle it
 TOLD_APART = 0.75 * ENOUGH  # lambda from which a pair counts as told apart
 MOST_PARTED = 6
-OPEN_TO = 3  # hidden effects whose room is told
+QUESTIONS = {"cannot_tell": SETTLE, "one_suspect": CONFIRM, "nothing_provable": FIND}
+
+
+@dataclass(frozen=True)
+class RoomThen:
+    """How large an effect could hide, RMS over the marks: by the marks so far, and afterwards."""
+
+    effect: str
+    now: float  # [mm]
+    then: float  # [mm]
 
 
 @dataclass(frozen=True)
@@ -36,14 +45,16 @@ class Proposal:
     option: Option
     question: str  # SETTLE ...
     chance: float | None  # None: nothing can be computed
-    left: float  # explanations that will be left on average
-    parts: tuple[tuple[str, str], ...]  # pairs that it tells apart and the marks so far do not
-    opens: Mapping[str, float]  # effects that are hidden now: interval after over interval now
+    left: float | None  # suspects that will be left on average
+    parts: tuple[tuple[str, str], ...] = ()  # pairs told apart then, and not by the marks so far
+    rooms: tuple[RoomThen, ...] = ()  # what the largest hidden effects could then still be
 
     @property
     def rate(self) -> float:
-        """Chance per minute, one more round in case of failure included: the order."""
-        return (self.chance or 0.0) / (self.option.minutes + AGAIN)
+        """The order: chance (or millimetres of doubt removed, where nothing is provable) per
+        minute, with one more round added in case it fails."""
+        gained = sum(one.now - one.then for one in self.rooms) if self.rooms else self.chance or 0.0
+        return gained / (self.option.minutes + AGAIN)
 
 
 @dataclass(frozen=True)
@@ -83,35 +94,38 @@ def propose(
     )
     if found.verdict == "slip":
         own = [
-            Proposal(option, REREAD, chance, float("nan"), (), {})
+            Proposal(option, REREAD, chance, None)
             for option, chance in for_slips(case, found.slips)
         ]
         return Next(found.verdict, case, tuple(own), None, None)
     if found.verdict == "not_in_library":
-        own = [
-            Proposal(option, EXPLORE, None, float("nan"), (), {}) for option in near_the_worst(case)
-        ]
+        own = [Proposal(option, EXPLORE, None, None) for option in near_the_worst(case)]
         return Next(found.verdict, case, tuple(own), None, None)
     several = options(case)
     blind = many_marks(case)
     everything = [*several, *([blind] if blind else [])]
     weighed = []
     for number, option in enumerate(everything):
-        weighed.append(_weighed(case, option))
+        weighed.append(_weighed(case, option, found.could_hide))
         progress((number + 1) / len(everything))
     against = weighed.pop() if blind else None
-    ranked = tuple(sorted(weighed, key=lambda one: (-one.rate, one.left)))
+    ranked = tuple(sorted(weighed, key=_order))
     stable = _stability(case) if found.verdict == "one_suspect" else None
     return Next(found.verdict, case, ranked, against, stable)
 
 
-def _weighed(case: Case, option: Option) -> Proposal:
+def _order(one: Proposal) -> tuple[bool, float]:
+    """Best first; one suspect is confirmed best by what measures the cause itself."""
+    return one.question == CONFIRM and one.option.kind != "check", -one.rate
+
+
+def _weighed(case: Case, option: Option, rooms: Sequence[Room]) -> Proposal:
     """An option with what to expect of it."""
-    found: Outlook = outlook(case, option.visits, option.checks)
-    question = {"one_suspect": CONFIRM, "nothing_provable": FIND}.get(case.verdict, SETTLE)
-    parts = _parted(case, option) if question == SETTLE else ()
-    opens = _opened(case, option) if question == FIND else {}
-    return Proposal(option, question, found.chance, found.left, parts, opens)
+    expected = outlook(case, option.visits, option.checks)
+    question = QUESTIONS[case.verdict]
+    parts = _parted(case, option) if question != FIND else ()
+    then = _rooms(case, option, rooms) if question == FIND else ()
+    return Proposal(option, question, expected.chance, expected.left, parts, then)
 
 
 def _parted(case: Case, option: Option) -> tuple[tuple[str, str], ...]:
@@ -139,17 +153,22 @@ def _name(effects: Sequence[str]) -> str:
     return " + ".join(effects)
 
 
-def _opened(case: Case, option: Option) -> dict[str, float]:
-    """Effects whose interval shrinks most: its length afterwards over its length now."""
-    frame, shrunk = case.frame, {}
+def _rooms(case: Case, option: Option, rooms: Sequence[Room]) -> tuple[RoomThen, ...]:
+    """What could hide afterwards, the largest change first.
+
+    About: the interval of an effect's least visible direction shrinks by so much, and with it what
+    the diagnosis says could hide.
+    """
+    frame, found = case.frame, []
     rows = ahead(frame, option.visits, option.checks)
-    for name in case.board.own:
-        own = case.board.columns([name])
+    for room in rooms:
+        if room.mm is None:
+            continue
+        own = case.board.columns([room.effect])
         now = _smallest(frame.slopes, own, case.board.frame)
         then = _smallest(rows.slopes, own, case.board.frame)
-        shrunk[name] = now / then if then > 0 else 1.0
-    best = sorted(shrunk, key=lambda name: shrunk[name])[:OPEN_TO]
-    return {name: float(shrunk[name]) for name in best if shrunk[name] < 0.8}
+        found.append(RoomThen(room.effect, room.mm, room.mm * (now / then if then > 0 else 1.0)))
+    return tuple(sorted(found, key=lambda one: one.then - one.now))
 
 
 def _smallest(slopes: Array, own: Array, frame: Array) -> float:
@@ -186,11 +205,3 @@ def _readings(case: Case) -> list[Array]:
     marks = [np.flatnonzero(names == name) for name in dict.fromkeys(rows.names)]
     groups = [np.concatenate([2 * own, 2 * own + 1]) for own in marks]
     return groups + [np.array([rows.measured.size + i]) for i in range(len(rows.distances))]
-
-
-def chance_beyond(size: float, sigma: float, deviations: float) -> float:
-    """Chance that a number of that size, read with that sigma, is so many deviations from zero."""
-    return 0.5 * (1 + erf((abs(size) / sigma - deviations) / sqrt(2)))
-
-
-__all__ = ["AGAIN", "ROUND", "Next", "Proposal", "propose"]

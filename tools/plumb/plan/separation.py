@@ -37,17 +37,20 @@ def pairs_of(case: Case) -> list[Pair]:
     """Every suspect against every other; where nothing is proved, every effect against the frame
     alone."""
     board, truths = case.board, case.hypotheses[:MOST_TRUTHS]
-    if case.verdict == "cannot_tell":
+    if case.verdict == "nothing_provable":
         return [
-            Pair(one.at, drawn_by(one), _fitted(board, other.effects), one.weight + other.weight)
-            for one in truths
-            for other in truths
-            if one is not other
+            Pair(one.at, drawn_by(one), board.frame, one.weight) for one in case.hypotheses
         ]
-    if case.verdict == "one_suspect":
-        rivals = [name for name in case.singles if name not in truths[0].effects]
-        return [Pair(truths[0].at, drawn_by(truths[0]), _fitted(board, (r,)), 1.0) for r in rivals]
-    return [Pair(one.at, drawn_by(one), board.frame, one.weight) for one in case.hypotheses]
+    if len(truths) == 1:
+        one = truths[0]
+        rivals = [name for name in case.singles if name not in one.effects]
+        return [Pair(one.at, drawn_by(one), _fitted(board, (rival,)), 1.0) for rival in rivals]
+    return [
+        Pair(one.at, drawn_by(one), _fitted(board, other.effects), one.weight + other.weight)
+        for one in truths
+        for other in truths
+        if one is not other
+    ]
 
 
 def drawn_by(one: Hypothesis) -> Array:
@@ -102,16 +105,21 @@ class Chooser:
         return float(self._worths(list(chosen), none)[0])
 
     def best(self, allowed: Sequence[int], count: int) -> list[int]:
-        """So many visits of those allowed: one after the other, then each exchanged once."""
+        """So many visits of those allowed, none twice: one after the other, then each exchanged
+        once."""
         options, chosen = np.array(allowed, dtype=int), []
         for _ in range(count):
-            chosen.append(int(options[np.argmax(self._worths(chosen, options))]))
+            chosen.append(self._best_beside(chosen, options))
         for i in range(count):
             others = chosen[:i] + chosen[i + 1 :]
-            worths = self._worths(others, options)
-            if worths.max() > self.worth(chosen) + 1e-9:
-                chosen = [*others, int(options[np.argmax(worths)])]
+            other = self._best_beside(others, options)
+            if self.worth([*others, other]) > self.worth(chosen) + 1e-9:
+                chosen = [*others, other]
         return chosen
+
+    def _best_beside(self, chosen: list[int], options: Array) -> int:
+        left = options[~np.isin(options, chosen)]
+        return int(left[np.argmax(self._worths(chosen, left))])
 
     def _worths(self, chosen: list[int], options: Array) -> Array:
         """The worth of the chosen visits with each of the options, or without any."""

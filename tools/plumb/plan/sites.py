@@ -17,9 +17,15 @@ MARGIN = (0.05, 0.09)  # of the sheet's width and height: beside it the sled wou
 NEAR = 60.0  # [mm] nearer than this a new mark is an old one
 
 
-def grid(sheet: tuple[float, float], columns: int = COLUMNS, rows: int = ROWS) -> Array:
+def grid(
+    sheet: tuple[float, float],
+    columns: int = COLUMNS,
+    rows: int = ROWS,
+    *,
+    margin: tuple[float, float] = MARGIN,
+) -> Array:
     """Places (n, 2) [mm] spread over the sheet, from the top left, in whole 10 mm."""
-    reach_x, reach_y = ((0.5 - own) * side for own, side in zip(MARGIN, sheet, strict=True))
+    reach_x, reach_y = ((0.5 - own) * side for own, side in zip(margin, sheet, strict=True))
     across = np.linspace(-reach_x, reach_x, columns) if columns > 1 else np.zeros(1)
     up = np.linspace(reach_y, -reach_y, rows) if rows > 1 else np.zeros(1)
     return np.round(np.array([(x, y) for y in up for x in across]), -1)
