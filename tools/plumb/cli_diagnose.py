@@ -7,9 +7,8 @@ from typing import Any
 
 from plumb.add import priors_with
 from plumb.catalogue import every_effect, is_lab
-from plumb.cli_add import prior
 from plumb.cli_checked import add_checked, usable_checks
-from plumb.cli_files import add_json, add_marks, inputs_of, length
+from plumb.cli_files import add_json, add_marks, inputs_of, length, prior
 from plumb.cli_text import millimetres, number, print_json, sentences, table
 from plumb.diagnose import Diagnosis, diagnose
 from plumb.diagnose.diagnosis import Ranked, Together

@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from plumb.add import priors_with
-from plumb.cli_add import prior
 from plumb.cli_checked import add_checked, usable_checks
 from plumb.cli_diagnose import proposal_json, verdict_sentence
 from plumb.cli_files import (
@@ -21,6 +20,7 @@ from plumb.cli_files import (
     inputs_of,
     length,
     picture_form,
+    prior,
     refuse_twins,
     write_outputs,
 )
@@ -116,7 +116,9 @@ def progress_bar() -> Callable[[float], None]:
         shown = True
         done = round(BAR * share)
         end = "\r" + " " * (BAR + 12) + "\r" if share >= 1 else ""
-        print(f"\r[{'#' * done}{'.' * (BAR - done)}] {100 * share:3.0f} %", end=end, file=sys.stderr)
+        print(
+            f"\r[{'#' * done}{'.' * (BAR - done)}] {100 * share:3.0f} %", end=end, file=sys.stderr
+        )
         sys.stderr.flush()
 
     return show
@@ -232,9 +234,8 @@ def _promise(best: Proposal) -> str:
 
 
 def _stable(kept: int, of: int) -> str:
-    return (
-        f"Leaving out any one mark keeps the suspect in {kept} of {of} cases"
-        + (": it does not hang on a single reading." if kept == of else ": it hangs on single ones.")
+    return f"Leaving out any one mark keeps the suspect in {kept} of {of} cases" + (
+        ": it does not hang on a single reading." if kept == of else ": it hangs on single ones."
     )
 
 

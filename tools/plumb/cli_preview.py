@@ -6,13 +6,13 @@ import argparse
 from typing import Any
 
 from plumb.add import priors_with
-from plumb.cli_add import prior
 from plumb.cli_files import (
     add_controller,
     add_json,
     add_settings,
     length,
     picture_form,
+    prior,
     settings_in,
     write_outputs,
 )
@@ -94,7 +94,9 @@ def _plan(arguments: argparse.Namespace, settings: MachineSettings) -> Measureme
     asked = {name: value for name, value in given.items() if value is not None}
     if arguments.plan:
         for name in asked:
-            raise InputError(f"--{name} is of a grid, and PLAN says where the marks are: leave one out")
+            raise InputError(
+                f"--{name} is of a grid, and PLAN says where the marks are: leave one out"
+            )
         return read_plan(arguments.plan, sheet=settings.sheet)
     grid = grids.Grid(**{"columns": COLUMNS, "rows": ROWS, **asked})
     machine = grids.Machine()._replace(

@@ -22,7 +22,9 @@ def marks_file(
         lines.append(f"sled_weight_n = {visits.sled_weights[i]:.1f}")
         side = visits.approaches[i]
         if side.any():
-            lines.append(f"approach = [{side[0] + 0.0:.3f}, {-side[1] + 0.0:.3f}]  # y down here too")
+            lines.append(
+                f"approach = [{side[0] + 0.0:.3f}, {-side[1] + 0.0:.3f}]  # y down here too"
+            )
         if visits.swapped[i]:
             lines.append("chains_swapped = true")
         lines.append("# measured = [, ]")

@@ -38,9 +38,7 @@ def pairs_of(case: Case) -> list[Pair]:
     alone."""
     board, truths = case.board, case.hypotheses[:MOST_TRUTHS]
     if case.verdict == "nothing_provable":
-        return [
-            Pair(one.at, drawn_by(one), board.frame, one.weight) for one in case.hypotheses
-        ]
+        return [Pair(one.at, drawn_by(one), board.frame, one.weight) for one in case.hypotheses]
     if len(truths) == 1:
         one = truths[0]
         rivals = [name for name in case.singles if name not in one.effects]

@@ -27,7 +27,9 @@ def for_slips(case: Case, slips: Sequence[Slip]) -> list[tuple[Option, float]]:
         # Two readings with the same noise differ by its square root of two.
         chance = 0.5 * (1 + erf((slip.length / (sqrt(2) * case.noise.sigma) - SURE) / sqrt(2)))
         do = f"Read {slip.name} again with a newly laid tape, before anything else."
-        found.append((Option("reread", f"{slip.name} again", (do,), 2.0, _old(case, slip.name)), chance))
+        found.append(
+            (Option("reread", f"{slip.name} again", (do,), 2.0, _old(case, slip.name)), chance)
+        )
     return found
 
 
@@ -81,9 +83,7 @@ def _around(case: Case, places: Sequence[Array]) -> Visits:
     targets = targets[usable(case.settings, targets, case.usual_weight)]
     if not len(targets):
         return nowhere()
-    return sent(
-        case.settings, targets, controller=case.controller, sled_weight=case.usual_weight
-    )
+    return sent(case.settings, targets, controller=case.controller, sled_weight=case.usual_weight)
 
 
 def _old(case: Case, name: str) -> Visits:
