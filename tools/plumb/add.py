@@ -8,7 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from plumb.benchmark import Score, score_of
-from plumb.catalogue import NO_FIRMWARE, effect_names, parameter_names, parameter_words
+from plumb.catalogue import (
+    NO_FIRMWARE,
+    effect_names,
+    is_sketch,
+    parameter_names,
+    parameter_words,
+)
 from plumb.checks import refuse_unknown
 from plumb.compare import Comparison, compare
 from plumb.errors import InputError
@@ -21,6 +27,7 @@ from plumb.observations import Observations, model_and_observations
 from plumb.predict import frame_words
 from plumb.rounds import unit_of
 from plumb.shape import best_pose
+from plumb.sketches import SKETCHES
 
 FAR = 2.0  # [prior sigmas] a stated number that moved farther was probably measured wrongly
 
@@ -94,7 +101,7 @@ class Addition:
 
     @property
     def cures(self) -> tuple[str, ...]:
-        """A sentence for each lab effect that was fitted: no setting holds it."""
+        """A sentence for each lab effect or sketch that was fitted: no setting holds it."""
         return tuple(
             _cure(name, parameters) for name, parameters in self.after_fit.lab_effects.items()
         )
@@ -234,12 +241,14 @@ def _refuse_unfelt(measurements: Measurements, rows: Observations, effects: Sequ
 
 
 def _cure(name: str, parameters: Mapping[str, float]) -> str:
-    """What to do about a lab effect that was fitted."""
-    own = next(one for one in LAB_EFFECTS if one.name == name)
+    """What to do about a lab effect or sketch that was fitted."""
+    own = next(one for one in (*LAB_EFFECTS, *SKETCHES) if one.name == name)
     found = ", ".join(
         f"{one.name} = {parameters[one.name]:.3g} {one.unit}".removesuffix(" 1")
         for one in own.parameters
     )
+    if is_sketch(name):
+        return f"{name} ({found}): a sketch, which no firmware has until it is written in C++"
     return f"{name} ({found}): {NO_FIRMWARE}, and no setting holds it: {own.remedy}"
 
 

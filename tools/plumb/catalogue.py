@@ -1,4 +1,4 @@
-"""Every effect that can be fitted: those of the firmware, then those of the lab."""
+"""Every effect that can be fitted: those of the firmware, of the lab, then sketches."""
 
 from __future__ import annotations
 
@@ -6,14 +6,15 @@ from typing import Any
 
 from plumb.lab_effects import LAB_EFFECTS
 from plumb.predict import library
+from plumb.sketches import SKETCHES
 
 NO_FIRMWARE = "no firmware can cure this"
 
 
 def every_effect() -> list[dict[str, Any]]:
-    """The words of every effect; `where` is "firmware" or "lab"."""
+    """The words of every effect; `where` is "firmware", "lab" or "sketch"."""
     firmware = [{**one, "where": "firmware"} for one in library()]
-    return firmware + [one.words for one in LAB_EFFECTS]
+    return firmware + [one.words for one in (*LAB_EFFECTS, *SKETCHES)]
 
 
 def effect_names() -> tuple[str, ...]:
@@ -24,6 +25,25 @@ def effect_names() -> tuple[str, ...]:
 def is_lab(effect: str) -> bool:
     """Whether the effect acts on what is measured only."""
     return any(one.name == effect for one in LAB_EFFECTS)
+
+
+def is_sketch(effect: str) -> bool:
+    """Whether the effect is on trial in Python, so that no firmware has it."""
+    return any(one.name == effect for one in SKETCHES)
+
+
+def place_of(effect: str) -> str:
+    """Where the effect is told of: "firmware", "lab" or "sketch"."""
+    if is_sketch(effect):
+        return "sketch"
+    return "lab" if is_lab(effect) else "firmware"
+
+
+def label(effect: str) -> str:
+    """The effect's name, marked where no firmware has it."""
+    if is_sketch(effect):
+        return f"{effect} (sketch, not in the firmware)"
+    return f"{effect} (lab)" if is_lab(effect) else effect
 
 
 def parameter_words() -> dict[str, dict[str, Any]]:

@@ -8,7 +8,7 @@ from typing import Any
 
 from plumb.add import Addition, Parameter, Quality, add, priors_with
 from plumb.auto import AutoAddition, add_auto, without_marks
-from plumb.catalogue import effect_names
+from plumb.catalogue import effect_names, is_sketch
 from plumb.cli_add_text import as_text, auto_text, turn_sentence
 from plumb.cli_compare import panel_of, score_json
 from plumb.cli_files import (
@@ -124,11 +124,26 @@ def _written(
     arguments: argparse.Namespace, inputs: Inputs, result: Addition
 ) -> tuple[list[str], list[str]]:
     """Write the files; their names, and what the groundcontrol.ini cannot hold."""
+    _refuse_sketches(arguments, result)
     files = _files(arguments, inputs, result)
     read = [arguments.settings, *arguments.marks]
     read += [arguments.cut_with] if arguments.cut_with else []
     write_outputs(files, inputs=read)
     return list(files), unsaid_of(result) if arguments.groundcontrol else []
+
+
+def _refuse_sketches(arguments: argparse.Namespace, result: Addition) -> None:
+    """A machine.toml that leaves out what was fitted along would be a silent lie."""
+    for name in filter(is_sketch, result.after_fit.lab_effects):
+        for option, path in (
+            ("-o", arguments.output),
+            ("--groundcontrol", arguments.groundcontrol),
+        ):
+            if path:
+                raise InputError(
+                    f"{option} {path}: {name} is a sketch, which no firmware has; write it in C++ "
+                    f"first (docs/new-effect.md), or leave {option} away to look at the fit"
+                )
 
 
 def _print_written(files: list[str], unsaid: list[str]) -> None:
