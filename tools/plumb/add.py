@@ -24,6 +24,7 @@ from plumb.lab_effects.lab_effect import EDGES, SLED, TAPE
 from plumb.machine_settings import FRAME_FIELDS, MachineSettings
 from plumb.measurements import Measurements
 from plumb.observations import Observations, model_and_observations
+from plumb.patch import PATCH, best_patch
 from plumb.predict import frame_words
 from plumb.rounds import unit_of
 from plumb.shape import best_pose
@@ -65,6 +66,11 @@ class Parameter:
     prior_sigma: float | None  # None: free
     possible_low: float | None  # None: no limit is known
     possible_high: float | None
+
+    @property
+    def of_patch(self) -> bool:
+        """Whether it is a term of the residual patch, which means nothing by itself."""
+        return self.name.startswith(f"{PATCH}.")
 
     @property
     def plausible(self) -> bool:
@@ -126,8 +132,11 @@ def add(
     controller: str | None = None,
     priors: Mapping[str, float] = PRIORS,
     sigma: float | None = None,
+    patch: bool = False,
 ) -> Addition:
     """Fit frame and effects to the marks; effects that the settings have already stay as they are.
+
+    patch: beside them a residual patch, if marks left out are then predicted better.
 
     Raises InputError for unknown effects, too few marks, and marks that cannot be reached.
     """
@@ -148,6 +157,14 @@ def add(
     ]
     steps = _steps(names, before, [quality_of(one, rows) for one in fits])
     after_fit = fits[-1] if fits else before_fit
+    if patch:
+        told = {"effects": names, "priors": priors, "sigma": noise}
+        patched = best_patch(model, rows, **told, without=after_fit)
+        if patched:
+            after_fit, names = patched.fit, (*names, PATCH)
+            steps += _steps(
+                [PATCH], steps[-1].quality if steps else before, [quality_of(after_fit, rows)]
+            )
     after = steps[-1].quality if steps else before
     parameters = tuple(_parameter(one) for one in after_fit.estimates)
     return Addition(
@@ -204,6 +221,10 @@ def quality_of(fitted: Fit, rows: Observations) -> Quality:
 def _refuse_unknown_effects(names: Sequence[str]) -> None:
     known = effect_names()
     for name in names:
+        if name == PATCH:
+            raise InputError(
+                f"--effect {name}: it is no effect; give --patch to choose it knowingly"
+            )
         if name not in known:
             raise InputError(
                 f"--effect {name}: there is no effect of that name; known are {', '.join(known)}"
@@ -292,7 +313,7 @@ def _surprises(parameters: Sequence[Parameter]) -> list[str]:
                 "stands in for something else; check which settings were in force and the signs of "
                 "the marks"
             )
-        if one.prior_sigma and abs(moved) > FAR * one.prior_sigma:
+        if one.prior_sigma and not one.of_patch and abs(moved) > FAR * one.prior_sigma:
             said.append(
                 f"{one.name} moved by {moved:+.3g} {one.unit} from the stated {one.before:g}, more "
                 f"than twice the {one.prior_sigma:g} it was trusted to: measure it again"

@@ -12,9 +12,14 @@ NO_FIRMWARE = "no firmware can cure this"
 
 
 def every_effect() -> list[dict[str, Any]]:
-    """The words of every effect; `where` is "firmware", "lab" or "sketch"."""
-    firmware = [{**one, "where": "firmware"} for one in library()]
+    """The words of every effect that may be a cause; `where` is "firmware", "lab" or "sketch"."""
+    firmware = [{**one, "where": "firmware"} for one in library() if not one["empirical"]]
     return firmware + [one.words for one in (*LAB_EFFECTS, *SKETCHES)]
+
+
+def empirical_effects() -> list[dict[str, Any]]:
+    """The words of what the firmware can apply that is a mere fit and never a suspect."""
+    return [{**one, "where": "firmware"} for one in library() if one["empirical"]]
 
 
 def effect_names() -> tuple[str, ...]:
@@ -49,7 +54,9 @@ def label(effect: str) -> str:
 def parameter_words() -> dict[str, dict[str, Any]]:
     """The words of each parameter by its full name, `effect.parameter`."""
     return {
-        f"{one['name']}.{own['name']}": own for one in every_effect() for own in one["parameters"]
+        f"{one['name']}.{own['name']}": own
+        for one in (*every_effect(), *empirical_effects())
+        for own in one["parameters"]
     }
 
 

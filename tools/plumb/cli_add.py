@@ -43,10 +43,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="NAME",
         nargs="+",
         action="extend",
-        required=True,
+        default=[],
         help="effects to fit, after the marks, or auto: what plumb diagnose proves. Effects are "
         f"{', '.join(effect_names())}; those that SETTINGS have and that are not named stay as "
         "they are",
+    )
+    parser.add_argument(
+        "--patch",
+        action="store_true",
+        help="also fit a smooth map of what is left: no physics, for when no effect explains it",
     )
     parser.add_argument(
         "--without",
@@ -92,6 +97,9 @@ def run(arguments: argparse.Namespace) -> int:
         "priors": priors_with(arguments.prior),
         "sigma": arguments.sigma,
     }
+    told["patch"] = arguments.patch
+    if not arguments.effect and not arguments.patch:
+        raise InputError("nothing to add: name effects with --effect, or give --effect auto")
     if "auto" in arguments.effect:
         return _run_auto(arguments, inputs, told)
     result = add(inputs.settings, inputs.measurements, effects=arguments.effect, **told)
@@ -99,7 +107,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json({**as_json(result), "written": files, "unsaid": unsaid})
     else:
-        print(as_text(result))
+        print(as_text(result, asked_patch=arguments.patch))
         _print_written(files, unsaid)
     return int(not result.pays)
 
@@ -262,6 +270,7 @@ def auto_json(result: AutoAddition) -> dict[str, Any]:
         "rivals": result.rivals,
         "slips": [one.name for one in result.found.slips],
         "reason": result.reason,
+        "patch_offer_mm": result.offer,
     }
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from collections import Counter
 
-from plumb.catalogue import NO_FIRMWARE, every_effect, label
+from plumb.catalogue import NO_FIRMWARE, empirical_effects, every_effect, label
 from plumb.cli_files import add_json
 from plumb.cli_text import number, print_json, sentences, table
 
@@ -51,4 +51,8 @@ def run(arguments: argparse.Namespace) -> int:
             for own in effect["parameters"]
         ]
         print(table(["  parameter", "usual", "possible", "unit", "setting"], rows))
+    for one in empirical_effects():
+        first, last = (one["parameters"][i]["setting"] for i in (0, -1))
+        print(f"\n{one['name']} (${first} to ${last}): no cause, and never a suspect (--patch)")
+        print(sentences([one["summary"], one["remedy"]], mark="  "))
     return 0

@@ -93,5 +93,6 @@ class LabEffect:
             "pattern": self.pattern,
             "look_alikes": self.look_alikes,
             "remedy": self.remedy,
+            "empirical": False,
             "parameters": [one.words for one in self.parameters],
         }

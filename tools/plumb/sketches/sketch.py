@@ -54,5 +54,6 @@ class Sketch:
             "pattern": self.pattern,
             "look_alikes": self.look_alikes,
             "remedy": self.remedy,
+            "empirical": False,
             "parameters": [one.words for one in self.parameters],
         }
