@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from plumb.benchmark import Score
 from plumb.cli_files import (
     add_json,
     add_marks,
@@ -94,13 +95,29 @@ def as_json(found: Comparison) -> dict[str, Any]:
             }
             for one in found.distances
         ],
+        "benchmark": score_json(found.benchmark),
+        "benchmark_left": score_json(found.benchmark_left),
         "warnings": found.warnings,
+    }
+
+
+def score_json(score: Score | None) -> dict[str, Any] | None:
+    """A benchmark score by the names of the interface."""
+    if score is None:
+        return None
+    return {
+        "long_mm": score.long,
+        "small_mm": score.small,
+        "long_count": score.long_count,
+        "small_count": score.small_count,
     }
 
 
 def as_text(found: Comparison, *, sheet_width: float) -> str:
     """The comparison for people, its conclusion first."""
     parts = [_conclusion(found, sheet_width)]
+    if found.benchmark:
+        parts.append(sentences([benchmark_sentence(found)], mark=""))
     if found.warnings:
         parts.append(sentences(found.warnings))
     if found.marks:
@@ -121,6 +138,15 @@ def as_text(found: Comparison, *, sheet_width: float) -> str:
         ]
         parts.append(table(["distance", "predicted", "measured", "error"], rows))
     return "\n\n".join(parts)
+
+
+def benchmark_sentence(found: Comparison) -> str:
+    """The community's score for people."""
+    part = "" if found.benchmark.complete else " (of a part of its readings)"
+    return (
+        f"Calibration Benchmark Score{part}: {found.benchmark} as cut (mean error of the long "
+        f"spans and of the 100 mm squares); these settings leave {found.benchmark_left} open."
+    )
 
 
 def _conclusion(found: Comparison, sheet_width: float) -> str:

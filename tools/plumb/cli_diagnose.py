@@ -6,10 +6,9 @@ import argparse
 from typing import Any
 
 from plumb.add import priors_with
-from plumb.catalogue import every_effect, is_lab
-from plumb.cli_add import prior
+from plumb.catalogue import every_effect, label, place_of
 from plumb.cli_checked import add_checked, usable_checks
-from plumb.cli_files import add_json, add_marks, inputs_of, length
+from plumb.cli_files import add_json, add_marks, inputs_of, length, prior
 from plumb.cli_text import millimetres, number, print_json, sentences, table
 from plumb.diagnose import Diagnosis, diagnose
 from plumb.diagnose.diagnosis import Ranked, Together
@@ -22,6 +21,14 @@ EXIT = (
     "explains the marks; 2 an input cannot be used."
 )
 BAD_NEWS = ("slip", "not_in_library")
+UNKNOWN_ADVICE = (
+    "is it such a machine? The library is that of a sled on one ring or linkage; on two brackets "
+    "(quadrilateral) it leans and draws another pattern",
+    "were these settings in force when the marks were cut? If not, name those by --cut-with, or as "
+    "cut_with in the marks.toml",
+    "does y run the way the file says, and are all numbers of one kind? Measure one mark again",
+    "if all that is so, look where the errors are: plumb compare ... --picture errors.png",
+)
 SHOWN = 8  # suspects and hiding effects that people are shown; --json has all
 
 
@@ -111,6 +118,7 @@ def as_json(found: Diagnosis) -> dict[str, Any]:
             }
             for one in found.could_hide
         ],
+        "disagreements": found.disagreements,
         "warnings": found.warnings,
     }
 
@@ -118,7 +126,7 @@ def as_json(found: Diagnosis) -> dict[str, Any]:
 def _ranked_json(one: Ranked) -> dict[str, Any]:
     return {
         "effect": one.effect,
-        "where": "lab" if is_lab(one.effect) else "firmware",
+        "where": place_of(one.effect),
         "gain": one.gain,
         "surprise": one.surprise,
         "parameters": [_size_json(size) for size in one.sizes],
@@ -173,6 +181,10 @@ def as_text(found: Diagnosis) -> str:
     parts = [sentences([verdict_sentence(found)], mark="")]
     if found.slips:
         parts.append(sentences([one.sentence for one in found.slips]))
+    if found.disagreements:
+        parts.append(sentences(found.disagreements))
+    elif found.verdict == "not_in_library":
+        parts.append(sentences(UNKNOWN_ADVICE))
     if found.explanations:
         parts.append(_explanation_table(found))
         if found.verdict == "cannot_tell":
@@ -201,6 +213,11 @@ def verdict_sentence(found: Diagnosis) -> str:
         return (
             f"No effect of the library explains these marks, alone or up to three together{more}: "
             f"{rest}, more than noise."
+        )
+    if not any(one.possible for one in found.explanations):
+        return (
+            f"Something is missing ({rest}), but only sizes that no real machine has would explain "
+            f"it: {several}. Look for another cause first."
         )
     if found.verdict == "one_suspect":
         first = found.explanations[0]
@@ -261,8 +278,7 @@ def _reasons(found: Diagnosis) -> str:
 def _remedies(found: Diagnosis) -> str:
     words = {one["name"]: one for one in every_effect()}
     said = [
-        f"{name}{' (lab)' if is_lab(name) else ''}: {words[name]['summary']}. To be sure: "
-        f"{words[name]['remedy']}"
+        f"{label(name)}: {words[name]['summary']}. To be sure: {words[name]['remedy']}"
         for name in found.suspects[:SHOWN]
     ]
     return sentences(said)

@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from plumb.add import priors_with
-from plumb.cli_add import prior
 from plumb.cli_checked import add_checked, usable_checks
 from plumb.cli_diagnose import proposal_json, verdict_sentence
 from plumb.cli_files import (
@@ -21,6 +20,7 @@ from plumb.cli_files import (
     inputs_of,
     length,
     picture_form,
+    prior,
     refuse_twins,
     write_outputs,
 )

@@ -6,13 +6,13 @@ import argparse
 from typing import Any
 
 from plumb.add import priors_with
-from plumb.cli_add import prior
 from plumb.cli_files import (
     add_controller,
     add_json,
     add_settings,
     length,
     picture_form,
+    prior,
     settings_in,
     write_outputs,
 )

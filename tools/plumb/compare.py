@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from plumb.benchmark import Score, score_as_cut, score_of
 from plumb.errors import InputError
 from plumb.fit import rms
 from plumb.machine_settings import MachineSettings
@@ -59,6 +60,8 @@ class Comparison:
     shift: Point | None  # [mm] that best shift
     rotation: float | None  # [rad] and rotation, counter-clockwise
     warnings: tuple[str, ...] = ()
+    benchmark: Score | None = None  # of the community's test, as cut
+    benchmark_left: Score | None = None  # and what these settings do not explain of it
 
 
 def compare(
@@ -92,6 +95,8 @@ def compare(
         shift=pose.shift if pose else None,
         rotation=pose.rotation if pose else None,
         warnings=_warnings(settings, measurements, cut_with, controller),
+        benchmark=score_as_cut(measurements),
+        benchmark_left=score_of(measurements, spans),
     )
 
 
@@ -154,7 +159,8 @@ def _warnings(
     controller: str | None,
 ) -> tuple[str, ...]:
     whose = controller or measurements.controller
-    if cut_with or settings.controller != "plumb" or whose in (None, "plumb"):
+    known = cut_with or all(one.cut_with for one in measurements.rounds)
+    if known or settings.controller != "plumb" or whose in (None, "plumb"):
         return ()
     return (
         f"the marks were cut by the {whose} controller, but these settings are of plumb: give the "

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -12,7 +13,8 @@ from plumb.errors import refusal
 from plumb.marks_checks import Sheet, checked
 from plumb.marks_csv import NEEDED, read_marks_csv
 from plumb.marks_ini import read_marks_ini
-from plumb.marks_model import CONTROLLERS, Distance, Mark, Measurements, join_measurements
+from plumb.marks_join import join_measurements
+from plumb.marks_model import CONTROLLERS, Distance, Mark, Measurements, Round
 from plumb.marks_toml import read_marks_toml
 from plumb.text_files import read_bytes
 
@@ -21,15 +23,26 @@ __all__ = [
     "Distance",
     "Mark",
     "Measurements",
+    "Round",
     "join_measurements",
     "read_marks",
     "read_plan",
 ]
 
 
-def read_marks(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
-    """The marks of one file, in the machine frame [mm]; sheet is its width and height [mm]."""
-    return checked(_read(path, sheet), sheet=sheet)
+def read_marks(
+    path: str | PathLike[str],
+    *,
+    sheet: Sheet,
+    known: Mapping[str, Sequence[str]] | None = None,
+) -> Measurements:
+    """The marks of one file, in the machine frame [mm]; sheet is its width and height [mm].
+
+    A file that names the settings it was cut with lies on the sheet of these; `known` lists each
+    effect's parameters for them.
+    """
+    found = _read(path, sheet, known)
+    return checked(found, sheet=_sheet_of(found, sheet))
 
 
 def read_plan(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
@@ -53,16 +66,25 @@ def read_plan(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
         else one
         for one in found.distances
     )
-    return checked(replace(found, marks=tuple(marks), distances=spans), sheet=sheet)
+    meant = replace(found, marks=tuple(marks), distances=spans)
+    return checked(meant, sheet=_sheet_of(found, sheet))
 
 
-def _read(path: str | PathLike[str], sheet: Sheet) -> Measurements:
+def _read(
+    path: str | PathLike[str], sheet: Sheet, known: Mapping[str, Sequence[str]] | None = None
+) -> Measurements:
     form = _form_of(path)
     if form == "ini":
         return read_marks_ini(path, sheet=sheet)
     if form == "toml":
-        return read_marks_toml(path, sheet=sheet)
+        return read_marks_toml(path, sheet=sheet, known=known)
     return read_marks_csv(path)
+
+
+def _sheet_of(found: Measurements, sheet: Sheet) -> Sheet:
+    """The sheet of the settings that a file names, else the usual one."""
+    own = found.rounds[0].cut_with if found.rounds else None
+    return own.sheet if own else sheet
 
 
 def _form_of(path: str | PathLike[str]) -> str:

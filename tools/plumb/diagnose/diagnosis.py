@@ -10,6 +10,7 @@ import numpy as np
 from plumb.catalogue import effect_names
 from plumb.diagnose.explanation import Board, Checked, Explanation, explain
 from plumb.diagnose.gain import Search, search
+from plumb.diagnose.halves import half_warnings, round_warnings
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
 from plumb.diagnose.misfit import misfit_chance
 from plumb.diagnose.noise import Noise
@@ -53,6 +54,11 @@ class Together:
     sizes: Mapping[str, tuple[Size, ...]]
     rms_after: float  # [mm]
 
+    @property
+    def possible(self) -> bool:
+        """Whether the intervals of all sizes reach what a real machine can have."""
+        return all(one.might_be_plausible for own in self.sizes.values() for one in own)
+
 
 @dataclass(frozen=True)
 class Diagnosis:
@@ -69,6 +75,7 @@ class Diagnosis:
     slips: tuple[Slip, ...]
     could_hide: tuple[Room, ...]
     warnings: tuple[str, ...]
+    disagreements: tuple[str, ...] = ()  # rounds, or halves of the sheet, that do not go together
 
     @property
     def suspects(self) -> tuple[str, ...]:
@@ -126,12 +133,16 @@ def diagnose(
             *([] if possible else [_IMPOSSIBLE]),
             *_warnings(frame, gate, ranking, kept),
         ),
+        disagreements=()
+        if slips
+        else _parts_that_differ(kept[0] if kept else frame, noise, measurements),
     )
 
 
 _IMPOSSIBLE = (
     "every explanation needs sizes that no real machine has, so each stands in for something else: "
-    "check which settings were in force, the signs of the marks and the stated frame"
+    "check which settings were in force, the signs of the marks, the stated frame, and that the "
+    "sled hangs on one ring, not on two brackets"
 )
 
 
@@ -189,6 +200,14 @@ def _together(explanation: Explanation, noise: Noise) -> Together:
         sizes={name: sizes_of(explanation, name, noise) for name in explanation.effects},
         rms_after=explanation.rms,
     )
+
+
+def _parts_that_differ(
+    best: Explanation, noise: Noise, measurements: Measurements
+) -> tuple[str, ...]:
+    """Rounds that do not go together, else halves of the sheet."""
+    rounds = round_warnings(best, noise, [one.name for one in measurements.rounds])
+    return tuple(rounds or half_warnings(best, noise))
 
 
 def _differences(kept: tuple[Explanation, ...]) -> dict[tuple[int, int], float]:

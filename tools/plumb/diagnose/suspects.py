@@ -19,12 +19,13 @@ import numpy as np
 from plumb.diagnose.explanation import Explanation, explain, span
 from plumb.diagnose.gain import LEVEL, Search, bases_beside, search
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
-from plumb.diagnose.misfit import library_misfit_chance, misfit_chance
+from plumb.diagnose.misfit import library_misfit_chance, misfit_chance, spare_numbers
 from plumb.diagnose.noise import Noise
 from plumb.diagnose.significance import surprise, tail
 from plumb.diagnose.sizes import sizes_of
 
 MOST_REFITTED = 12  # combinations that are refitted in full, the best by the frame's slopes
+FEWEST_SPARE = 1.5  # measured numbers that an explanation must leave over to count as one
 MOST_TOGETHER = 3  # effects at once; the marks of one sheet hardly carry more
 
 
@@ -72,6 +73,8 @@ def _standing(
     """Explanations that leave no misfit and to which nothing can be added, best first."""
     standing = []
     for one in explanations:
+        if spare_numbers(one) < FEWEST_SPARE:
+            continue  # as many unknowns as numbers explain anything
         found = search(one, felt, noise)
         if not found.proved and misfit_chance(one, noise) > MISFIT_LEVEL:
             standing.append(Survivor(one, found, _possible(one, noise)))

@@ -48,6 +48,10 @@ class Visits:
             distance_rows=np.zeros((0, 2), dtype=int),
             distances=np.zeros(0),
             approaches=self.approaches,
+            # As the first round: for a few more marks nobody zeroes chains or takes another sheet.
+            rounds=np.zeros(count, dtype=int),
+            zero_groups=np.zeros(count, dtype=int),
+            sheet_groups=np.zeros(count, dtype=int),
             swapped=self.swapped,
         )
 
