@@ -20,6 +20,7 @@ from plumb.plan.sites import usable
 from plumb.plan.trial import blind, cost, proposed
 from plumb.plan.visits import nowhere, sent
 from plumb.predict import FOUND, lengths
+from synthetic import BELIEVED, distances_between, grid, marks_on
 
 NINE = plan(3, 3)
 NOISE = 0.5
@@ -244,6 +245,21 @@ def test_what_nobody_explains_is_looked_at_where_it_is_worst():
     near = next(one for one in answer.proposals if one.option.kind == "near").option.visits
     gaps = np.linalg.norm(near.targets[:, np.newaxis] - worst, axis=2).min(axis=1)
     assert gaps.max() <= 450
+
+
+def test_distances_that_nobody_explains_are_measured_again():
+    true = replace(BELIEVED, motor_gap=2980.0)
+    board_now = distances_between(marks_on(true, BELIEVED, grid(4, 3)))
+    odd = [
+        replace(one, length=one.length + (6.0 if i % 5 == 0 else 0.0))
+        for i, one in enumerate(board_now.distances)
+    ]
+    own = replace(board_now, distances=tuple(odd))
+    found = diagnose(BELIEVED, own, sigma=0.3)
+    assert found.verdict in ("not_in_library", "slip")
+    answer = propose(found, BELIEVED, own)
+    told = " ".join(answer.proposals[0].option.do)
+    assert any(" - ".join(one.between) in told for one in odd)
 
 
 def test_checks_are_of_numbers_that_exist():

@@ -56,6 +56,7 @@ class Case:
     frame: Explanation
     singles: Mapping[str, Explanation]  # each felt effect by itself, refitted
     hypotheses: tuple[Hypothesis, ...]  # most probable first
+    spans: tuple[str, ...] = ()  # the names of both ends of each distance
 
     @property
     def usual_weight(self) -> float:
@@ -103,6 +104,7 @@ def case_of(
         frame=frame,
         singles=singles,
         hypotheses=hypotheses,
+        spans=tuple(" - ".join(one.between) for one in measurements.distances),
     )
 
 
