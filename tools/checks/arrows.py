@@ -24,7 +24,8 @@ ARROWS = {
     "test/reference": ([], HOST + r"|(unsupported/)?Eigen/\w+"),
     "test/vm": (["test/reference"], ANYTHING),
     "test/hidden": (["test/reference"], ANYTHING),
-    "test/test_*": (["test/reference", "test/vm", "lib/*"], ANYTHING),
+    "test/test_*": (["test/reference", "test/vm", "test/settings_host", "src", "include", "lib/*"], ANYTHING),
+    "test/settings_host": (["src", "include", "lib/*"], ANYTHING),
     "tools/core": (["lib/Kinematics"], ANYTHING),
     "tools/bench": (["lib/*", "test/reference", "test/test_effects"], ANYTHING),
 }
