@@ -109,8 +109,8 @@
 #define PLUMB_OWN_SETTINGS(ROW) \
   ROW(kSledWeight, 62, "sled_weight, N", kReal, kAnyValue, 97.9f, 30, 1000, \
       "", "Sled, router and bricks, as far as the chains carry them; $46=... of WebControl sets it too.", "new") \
-  ROW(kChainWeight, 63, "chain_weight, N/mm", kReal, kAnyValue, 0.00137293f, 0, 0.02f, \
-      "", "One millimetre of chain.", "new") \
+  ROW(kChainWeight, 63, "chain_weight, N/mm", kReal, kAnyValue, 0, 0, 0.02f, \
+      "", "One millimetre of chain, 0.00137293 for the usual one; 0: the sled alone loads the chains, as in the published model.", "new") \
   ROW(kMotorCenterX, 64, "motor_center_x, mm", kReal, kAnyValue, 0, -5000, 5000, \
       "", "Middle between the sprockets, right of the middle of the sheet.", "new") \
   ROW(kAccelerationXy, 65, "acceleration_xy, mm/s^2", kReal, kAnyValue, 100, 1, 5000, \

@@ -26,7 +26,7 @@ ARROWS = {
     "test/hidden": (["test/reference"], ANYTHING),
     "test/test_*": (["test/reference", "test/vm", "test/settings_host", "src", "include", "lib/*"], ANYTHING),
     "test/settings_host": (["src", "include", "lib/*"], ANYTHING),
-    "tools/core": (["lib/Kinematics"], ANYTHING),
+    "tools/core": (["lib/Kinematics", "lib/Settings", "src", "test/settings_host"], ANYTHING),
     "tools/bench": (["lib/*", "test/reference", "test/test_effects"], ANYTHING),
 }
 # Folders in which an include is looked up after the folder of the file itself.
