@@ -42,7 +42,7 @@ def test_geometry_is_that_of_the_published_firmware(numbers, feed):
 @pytest.mark.parametrize(("left", "right"), [(0.3, -0.1), (-0.25, 0.0), (0.0, 0.5)])
 def test_tolerances_are_those_of_the_published_firmware(left, right, feed):
     published, ours = both({8: 139.1, 38: feed, 40: left, 41: right})
-    assert ours == pytest.approx(published, abs=0.0015)
+    assert ours == pytest.approx(published, abs=0.002)
 
 
 @pytest.mark.parametrize("feed", [1, 2])
