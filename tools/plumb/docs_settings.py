@@ -160,10 +160,11 @@ What the EEPROM holds, by address: 0 to 543 nothing (what the published firmware
 invalid), 544 and 1344 the copies, 2144 to 4093 the ring."""
 
 COMING = """\
-At the first start (motors wait 2.5 s) the settings of firmware 1.24 to 1.29 (version 5 of its EEPROM, with or without Z
-limits) and its position are taken over, all or nothing, and then marked invalid there: should you
-flash it again, it starts with defaults and no position, and does not trust a place the sled has
-left long ago. What it stores from then on is taken over once more when you come back.
+At the first start (motors wait 2.5 s) the settings of firmware 1.24 to 1.29 (version 5 of its
+EEPROM, with or without Z limits) and its position are taken over, all or nothing, and then marked
+invalid there: should you flash it again, it starts with defaults and no position, and does not
+trust a place the sled has left long ago. What it stores from then on is taken over once more when
+you come back.
 
 Firmware 1.00 to 1.23 and the holey, optical and beta releases store other versions; these are not
 read. The firmware says so, and GroundControl or WebControl send their settings anyway; set the
