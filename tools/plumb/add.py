@@ -37,6 +37,15 @@ class Quality:
 
 
 @dataclass(frozen=True)
+class Step:
+    """The fit after one more effect."""
+
+    effect: str
+    quality: Quality
+    only_fit: bool  # the fit got better, what it did not see got worse
+
+
+@dataclass(frozen=True)
 class Parameter:
     """One fitted number with its 95 % interval, and the range that a real machine can have."""
 
@@ -75,6 +84,7 @@ class Addition:
     parameters: tuple[Parameter, ...]
     effects_added: tuple[str, ...]  # those of the lab too
     warnings: tuple[str, ...]
+    steps: tuple[Step, ...]  # effect by effect, in the order given; the last one is `after`
     benchmark_after: Score | None = None  # of the community's test: what the fit leaves of it
 
     @property
@@ -124,8 +134,14 @@ def add(
     _refuse_unfelt(measurements, rows, names)
     noise = sigma or measurements.tape_sigma
     before_fit = fit(model, rows, priors=priors, sigma=noise)
-    after_fit = fit(model, rows, effects=names, priors=priors, sigma=noise) if names else before_fit
-    before, after = quality_of(before_fit, rows), quality_of(after_fit, rows)
+    before = quality_of(before_fit, rows)
+    fits = [
+        fit(model, rows, effects=names[: i + 1], priors=priors, sigma=noise)
+        for i in range(len(names))
+    ]
+    steps = _steps(names, before, [quality_of(one, rows) for one in fits])
+    after_fit = fits[-1] if fits else before_fit
+    after = steps[-1].quality if steps else before
     parameters = tuple(_parameter(one) for one in after_fit.estimates)
     return Addition(
         raw=raw,
@@ -141,8 +157,9 @@ def add(
             *raw.warnings,
             *_unsettled(after_fit),
             *_surprises(parameters),
-            *_bad_bargains(before, after),
+            *_bad_bargains(before, after, steps),
         ),
+        steps=steps,
         benchmark_after=score_of(measurements, after_fit.distance_errors),
     )
 
@@ -274,10 +291,28 @@ def _surprises(parameters: Sequence[Parameter]) -> list[str]:
     return said
 
 
-def _bad_bargains(before: Quality, after: Quality) -> list[str]:
+def _steps(names: Sequence[str], before: Quality, qualities: Sequence[Quality]) -> tuple[Step, ...]:
+    earlier = [before, *qualities]
+    return tuple(
+        Step(
+            name,
+            now,
+            only_fit=now.fit_rms < then.fit_rms and now.left_out_rms > then.left_out_rms,
+        )
+        for name, then, now in zip(names, earlier, qualities, strict=False)
+    )
+
+
+def _bad_bargains(before: Quality, after: Quality, steps: Sequence[Step]) -> list[str]:
+    """Sentences about effects that serve the fit alone."""
     if after.fit_rms < before.fit_rms and after.left_out_rms > before.left_out_rms:
         return [
             f"the fit got better but the left-out error rose from {before.left_out_rms:.2f} to "
             f"{after.left_out_rms:.2f} mm: the effects follow the noise, do not keep them"
         ]
-    return []
+    return [
+        f"with {one.effect} only the fit got better; marks left out of it are predicted worse "
+        f"({one.quality.left_out_rms:.2f} mm): it may follow the noise"
+        for one in steps
+        if one.only_fit
+    ]

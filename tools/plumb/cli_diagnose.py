@@ -7,12 +7,13 @@ from typing import Any
 
 from plumb.add import priors_with
 from plumb.catalogue import every_effect, is_lab
-from plumb.cli_add import prior
-from plumb.cli_files import add_json, add_marks, inputs_of, length
+from plumb.cli_checked import add_checked, usable_checks
+from plumb.cli_files import add_json, add_marks, inputs_of, length, prior
 from plumb.cli_text import millimetres, number, print_json, sentences, table
 from plumb.diagnose import Diagnosis, diagnose
 from plumb.diagnose.diagnosis import Ranked, Together
 from plumb.diagnose.sizes import Size
+from plumb.plan import Proposal, propose
 
 HELP = "which effect the settings miss, as far as the marks can prove it"
 EXIT = (
@@ -48,22 +49,24 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=length,
         help="reading error of one coordinate [repeats, else tape_sigma_mm of MARKS, else 0.5]",
     )
+    add_checked(parser)
     add_json(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Diagnose, print, and return the exit code."""
     inputs = inputs_of(arguments)
-    found = diagnose(
-        inputs.settings,
-        inputs.measurements,
-        cut_with=inputs.cut_with,
-        controller=arguments.controller,
-        priors=priors_with(arguments.prior),
-        sigma=arguments.sigma,
-    )
+    priors = priors_with(arguments.prior)
+    told = {
+        "cut_with": inputs.cut_with,
+        "controller": arguments.controller,
+        "priors": priors,
+        "checked": usable_checks(arguments.checked, priors),
+    }
+    found = diagnose(inputs.settings, inputs.measurements, sigma=arguments.sigma, **told)
     if arguments.json:
-        print_json(as_json(found))
+        answer = propose(found, inputs.settings, inputs.measurements, **told)
+        print_json({**as_json(found), "next": [proposal_json(one) for one in answer.proposals]})
     else:
         print(as_text(found))
     return int(found.verdict in BAD_NEWS)
@@ -116,7 +119,6 @@ def as_json(found: Diagnosis) -> dict[str, Any]:
             for one in found.could_hide
         ],
         "disagreements": found.disagreements,
-        "next": [],
         "warnings": found.warnings,
     }
 
@@ -142,6 +144,35 @@ def _size_json(one: Size) -> dict[str, Any]:
         "high": one.high,
         "unit": one.unit,
         "plausible": one.plausible,
+    }
+
+
+def proposal_json(one: Proposal) -> dict[str, Any]:
+    """One proposal for the next measurement by the names of the interface."""
+    visits = one.option.visits
+    return {
+        "kind": one.option.kind,
+        "title": one.option.title,
+        "do": one.option.do,
+        "minutes": one.option.minutes,
+        "chance": one.chance,
+        "chance_to": one.question,
+        "suspects_left": one.left,
+        "parts": one.parts,
+        "could_hide": [
+            {"effect": own.effect, "now_mm": own.now, "then_mm": own.then} for own in one.rooms
+        ],
+        "marks": [
+            {
+                "name": visits.names[i],
+                "target": visits.targets[i],
+                "sled_weight_n": visits.sled_weights[i],
+                "approach": visits.approaches[i] if visits.approaches[i].any() else None,
+                "chains_swapped": bool(visits.swapped[i]),
+            }
+            for i in range(len(visits))
+        ],
+        "checks": [{"name": own.name, "sigma": own.sigma} for own in one.option.checks],
     }
 
 

@@ -80,6 +80,18 @@ def limit(text: str) -> float:
     return value
 
 
+def prior(text: str) -> tuple[str, float]:
+    """One NAME=SIGMA."""
+    name, separator, value = text.partition("=")
+    try:
+        sigma = float(value)
+    except ValueError:
+        sigma = -1.0
+    if not (separator and math.isfinite(sigma) and sigma >= 0):
+        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=SIGMA, like motor_gap=1.5")
+    return name, sigma
+
+
 def settings_in(path: str) -> MachineSettings:
     """The settings of a file, with effects of our library only."""
     return read_settings(path, known=known_effects())

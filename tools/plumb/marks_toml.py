@@ -30,7 +30,7 @@ HEAD_KEYS = (
     "distance",
     "benchmark",
 )
-MARK_KEYS = ("name", "target", "measured", "approach", "sled_weight_n", "chains")
+MARK_KEYS = ("name", "target", "measured", "approach", "sled_weight_n", "chains", "chains_swapped")
 DISTANCE_KEYS = ("between", "mm")
 SLED_WEIGHT_RANGE = (30.0, 1000.0)  # [N] below it somebody wrote kilograms or pounds
 TAPE_SIGMA_RANGE = (0.001, 50.0)  # [mm]
@@ -157,6 +157,7 @@ def _marks(
                 approach=_approach(path, place, table, sheet),
                 sled_weight=weight if own_weight is None else own_weight,
                 chains=_chains(path, place, table),
+                chains_swapped=_yes_or_no(path, place, table, "chains_swapped"),
             )
         )
     return tuple(marks)
@@ -199,6 +200,14 @@ def _chains(path: str | PathLike[str], place: str, table: dict[str, Any]) -> Poi
     with naming(path, f"{place} chains"):
         left, right = pair(table["chains"])
         return within(left, *CHAIN_RANGE), within(right, *CHAIN_RANGE)
+
+
+def _yes_or_no(path: str | PathLike[str], place: str, table: dict[str, Any], key: str) -> bool:
+    value = table.get(key, False)
+    with naming(path, f"{place} {key}"):
+        if not isinstance(value, bool):
+            raise ValueError(f"{value!r} is neither true nor false")
+    return value
 
 
 def _distances(path: str | PathLike[str], head: dict[str, Any]) -> tuple[Distance, ...]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 
@@ -24,6 +26,7 @@ __all__ = [
     "Round",
     "join_measurements",
     "read_marks",
+    "read_plan",
 ]
 
 
@@ -38,16 +41,45 @@ def read_marks(
     A file that names the settings it was cut with lies on the sheet of these; `known` lists each
     effect's parameters for them.
     """
+    found = _read(path, sheet, known)
+    return checked(found, sheet=_sheet_of(found, sheet))
+
+
+def read_plan(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
+    """The marks of a file as they are planned: each as if it were found where it was sent. A mark
+    that has no reading and is the end of a distance stays without."""
+    found = _read(path, sheet)
+    ends = {name for one in found.distances for name in one.between}
+    marks = tuple(
+        replace(mark, measured=mark.target)
+        if mark.measured is not None or mark.name not in ends
+        else mark
+        for mark in found.marks
+    )
+    meant = replace(found, marks=marks)
+    spans = tuple(
+        replace(one, length=math.dist(*(meant.target_of(name) for name in one.between)))
+        for one in found.distances
+        if all(any(mark.name == name for mark in marks) for name in one.between)
+    )
+    return checked(replace(meant, distances=spans), sheet=_sheet_of(found, sheet))
+
+
+def _read(
+    path: str | PathLike[str], sheet: Sheet, known: Mapping[str, Sequence[str]] | None = None
+) -> Measurements:
     form = _form_of(path)
     if form == "ini":
-        found = read_marks_ini(path, sheet=sheet)
-    elif form == "toml":
-        found = read_marks_toml(path, sheet=sheet, known=known)
-        own = found.rounds[0].cut_with
-        sheet = own.sheet if own else sheet
-    else:
-        found = read_marks_csv(path)
-    return checked(found, sheet=sheet)
+        return read_marks_ini(path, sheet=sheet)
+    if form == "toml":
+        return read_marks_toml(path, sheet=sheet, known=known)
+    return read_marks_csv(path)
+
+
+def _sheet_of(found: Measurements, sheet: Sheet) -> Sheet:
+    """The sheet of the settings that a file names, else the usual one."""
+    own = found.rounds[0].cut_with if found.rounds else None
+    return own.sheet if own else sheet
 
 
 def _form_of(path: str | PathLike[str]) -> str:

@@ -34,6 +34,14 @@ class Observations:
     rounds: Array  # (r,) int: the file of each visit
     zero_groups: Array  # (r,) int: visits with equal numbers have the chains' zeros in common
     sheet_groups: Array  # (r,) int: visits with equal numbers lie on one sheet
+    swapped: Array | None = (
+        None  # (r,) whether each chain hung on the other's sprocket; None: never
+    )
+
+    @property
+    def exchanged(self) -> Array:
+        """Whether the chains were swapped on each visit (r,)."""
+        return np.zeros(len(self.chains), dtype=bool) if self.swapped is None else self.swapped
 
     @property
     def count(self) -> int:
@@ -74,6 +82,7 @@ def observe(
         distance_rows=np.array(ends, dtype=int).reshape(-1, 2),
         distances=measurements.distance_lengths,
         approaches=_directions([mark.approach or (0.0, 0.0) for mark in marks]),
+        swapped=np.array([mark.chains_swapped for mark in marks], dtype=bool),
         rounds=_rounds(measurements),
         zero_groups=_of_rounds(measurements, "zero_group"),
         sheet_groups=_of_rounds(measurements, "sheet_group"),

@@ -9,6 +9,9 @@ from plumb.observations import Observations
 from plumb.predict import NAMES, Array, lengths, places_with_slopes, settings_of, values_of
 
 ZERO_COLUMNS = (NAMES.index("chain_zero.left"), NAMES.index("chain_zero.right"))
+# What belongs to a chain and goes with it to the other sprocket.
+OF_A_CHAIN = {"chain_pitch.left": "chain_pitch.right", "chain_pitch.right": "chain_pitch.left"}
+EXCHANGED = np.array([NAMES.index(OF_A_CHAIN.get(name, name)) for name in NAMES])
 
 
 def loaded(values: Array, weight: float, usual: float) -> tuple[Array, Array]:
@@ -42,15 +45,21 @@ def visited(
     where = np.zeros((len(rows.chains), 2))
     slopes = np.zeros((len(rows.chains), 2, len(NAMES)))
     found = np.zeros(len(rows.chains), dtype=int)
-    for weight, group in {*zip(rows.sled_weights.tolist(), rows.zero_groups.tolist(), strict=True)}:
-        mine = (rows.sled_weights == weight) & (rows.zero_groups == group)
+    alike = {*zip(rows.sled_weights, rows.zero_groups, rows.exchanged, strict=True)}
+    for weight, group, exchanged in alike:
+        mine = (
+            (rows.sled_weights == weight)
+            & (rows.zero_groups == group)
+            & (rows.exchanged == exchanged)
+        )
         own, factors = loaded(values, weight, usual_weight)
         if zeros is not None:
             own[list(ZERO_COLUMNS)] += zeros[group]
+        order = EXCHANGED if exchanged else slice(None)
         where[mine], of_mine, found[mine] = places_with_slopes(
-            own, over_top=over_top, chains=rows.chains[mine]
+            own[order], over_top=over_top, chains=rows.chains[mine]
         )
-        slopes[mine] = of_mine * factors
+        slopes[mine] = of_mine[:, :, order] * factors
     return where, slopes, found
 
 

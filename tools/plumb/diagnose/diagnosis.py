@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from plumb.catalogue import effect_names
 from plumb.diagnose.exchanged import exchange_slips, find_exchanged
-from plumb.diagnose.explanation import Board, Explanation, explain
+from plumb.diagnose.explanation import Board, Checked, Explanation, explain
 from plumb.diagnose.gain import Search, search
 from plumb.diagnose.halves import half_warnings, round_warnings
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
@@ -93,8 +93,9 @@ def diagnose(
     controller: str | None = None,
     priors: Mapping[str, float] = PRIORS,
     sigma: float | None = None,
+    checked: Sequence[Checked] = (),
 ) -> Diagnosis:
-    """Find what the model of these settings misses in the marks.
+    """Find what the model of these settings misses in the marks, and in numbers checked directly.
 
     Raises InputError for too few marks, and marks that cannot be reached.
     """
@@ -103,12 +104,12 @@ def diagnose(
     )
     _refuse_too_few(measurements, rows)
     stated = sigma or measurements.tape_sigma
-    first = Board.of(model, rows, sigma=stated or USUAL_SIGMA, priors=priors)
+    first = Board.of(model, rows, sigma=stated or USUAL_SIGMA, priors=priors, checked=checked)
     felt = felt_effects(explain(first))
     exchanged = find_exchanged(first)
     cleared = clear_slips(exchanged.board, felt, stated=stated)
     noise = cleared.noise
-    board = Board.of(model, cleared.rows, sigma=noise.sigma, priors=priors)
+    board = Board.of(model, cleared.rows, sigma=noise.sigma, priors=priors, checked=checked)
     frame = explain(board)
     singles = {name: explain(board, (name,), start=frame) for name in effect_names()}
     gate = search(frame, felt, noise)

@@ -21,7 +21,8 @@ def mark_spread(rows: Observations) -> tuple[float, float]:
     """Sum of squares [mm^2] and degrees of freedom of marks made and read in the same way."""
     groups: dict[tuple, list[int]] = {}
     for i, row in enumerate(rows.mark_rows):
-        alike = (*rows.chains[row], rows.sled_weights[row], *rows.approaches[row])
+        side = (*rows.approaches[row], rows.exchanged[row])
+        alike = (*rows.chains[row], rows.sled_weights[row], *side)
         groups.setdefault((rows.names[i], *alike), []).append(i)
     repeated = [own for own in groups.values() if len(own) > 1]
     if not repeated:

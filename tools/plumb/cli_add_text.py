@@ -1,0 +1,92 @@
+"""What `plumb add` says to people."""
+
+from __future__ import annotations
+
+from plumb.add import Addition
+from plumb.auto import AutoAddition
+from plumb.cli_diagnose import verdict_sentence
+from plumb.cli_text import millimetres, number, sentences, table
+
+
+def auto_text(result: AutoAddition) -> str:
+    """What was found and chosen, for people, then the addition."""
+    said = [sentences([verdict_sentence(result.found)], mark="")]
+    said += [sentences([one.sentence for one in result.found.slips])] if result.found.slips else []
+    reason = result.reason[0].upper() + result.reason[1:] + "."
+    said.append(sentences([reason], mark=""))
+    if result.addition:
+        said.append(as_text(result.addition))
+    return "\n\n".join(said)
+
+
+def as_text(result: Addition) -> str:
+    """The addition for people, its conclusion first."""
+    raw, before, after = result.raw, result.before, result.after
+    verdict = "better" if result.pays else "NOT better"
+    first = f"From {raw.rms:.2f} to {after.fit_rms:.2f} mm RMS"
+    if result.steps:
+        first += (
+            f"; marks left out of the fit are predicted {verdict} with the effects "
+            f"({before.left_out_rms:.2f} to {after.left_out_rms:.2f} mm)"
+        )
+    first += "."
+    parts = [sentences([first], mark=""), _quality_table(result), _parameter_table(result)]
+    if result.benchmark_after:
+        parts.insert(1, _benchmark_sentence(result))
+    sigma = result.after_fit
+    origin = "as stated" if sigma.sigma_from == "stated" else "from the residuals"
+    parts.append(
+        "Priced: scaled up for the numbers the fit took from the data. Left out: each mark "
+        "predicted\nby a fit that did not see it. Intervals: 95 %, for a reading error of "
+        f"{sigma.sigma:.2f} mm ({origin})."
+    )
+    parts.append(sentences([turn_sentence(result), *result.cures, *result.warnings]))
+    return "\n\n".join(parts)
+
+
+def _benchmark_sentence(result: Addition) -> str:
+    """The community's score before, and what to expect of the next cut."""
+    said = (
+        f"Calibration Benchmark Score: {result.raw.benchmark} as cut; {result.benchmark_after} to "
+        "expect when it is cut again with the new settings, if nothing else changes."
+    )
+    return sentences([said], mark="")
+
+
+def turn_sentence(result: Addition) -> str:
+    """What to do about the sheet's rotation."""
+    rise = result.sheet_rise
+    which = "raise" if rise > 0 else "lower"
+    return (
+        f"no setting holds the sheet's rotation: {which} its right end by {abs(rise):.2f} mm over "
+        f"its width of {result.settings.sheet_width:.0f} mm"
+    )
+
+
+def _quality_table(result: Addition) -> str:
+    raw = result.raw
+    rows = [["as the settings are", raw.rms, None, None, raw.worst, raw.shape_rms]]
+    named = [("frame fitted", result.before)]
+    named += [(f"+ {one.effect}", one.quality) for one in result.steps]
+    for name, own in named:
+        rows.append([name, own.fit_rms, own.priced_rms, own.left_out_rms, own.worst, own.shape_rms])
+    header = ["error in mm", "RMS", "priced", "left out", "worst", "shape"]
+    return table(header, [[name, *map(millimetres, values)] for name, *values in rows])
+
+
+def _parameter_table(result: Addition) -> str:
+    rows = []
+    for one in result.parameters:
+        trusted = "free" if one.prior_sigma is None else number(one.prior_sigma)
+        rows.append(
+            [
+                one.name,
+                number(one.value),
+                f"{number(one.low)} .. {number(one.high)}",
+                number(one.before),
+                trusted,
+                one.unit,
+                "" if one.plausible else "impossible",
+            ]
+        )
+    return table(["number", "value", "interval", "before", "trusted to", "unit", ""], rows)
