@@ -236,6 +236,7 @@ def verdict_sentence(found: Diagnosis) -> str:
 def _explanation_table(found: Diagnosis) -> str:
     rows = []
     for one in found.explanations[:SHOWN]:
+        rows += [["or"] + [""] * 5] if rows else []
         for name in one.effects:
             rows += _size_rows(one, name)
     header = ["suspect", "size", "interval", "unit", "error falls to", ""]
