@@ -138,3 +138,9 @@ def test_a_whole_file_mixed_up_is_refused_with_the_likely_reason(file, change, h
     marks = marks_on(PITCH, BELIEVED, grid(5, 3))
     with pytest.raises(InputError, match=hint):
         read_marks(file("m.toml", toml(marks, change)), sheet=SHEET)
+
+
+def test_where_everything_fits_nothing_is_called_exchanged():
+    for seed in range(5):
+        few = board(marks_on(PITCH, BELIEVED, grid(2, 2), noise=0.5, seed=seed))
+        assert diagnose(BELIEVED, few, sigma=0.5).slips == ()
