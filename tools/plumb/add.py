@@ -19,7 +19,7 @@ from plumb.machine_settings import FRAME_FIELDS, MachineSettings
 from plumb.measurements import Measurements
 from plumb.observations import Observations, model_and_observations
 from plumb.predict import frame_words
-from plumb.rounds import unit_of
+from plumb.rounds import notes_on, unit_of
 from plumb.shape import best_pose
 
 FAR = 2.0  # [prior sigmas] a stated number that moved farther was probably measured wrongly

@@ -212,3 +212,19 @@ def test_compare_tells_the_error_of_each_file(run, ask, file):
     assert calm["rms_mm"] < 0.3 < 2 < wild["rms_mm"] and wild["distance_rms_mm"] is None
     assert "distances, RMS" in run("compare", *paths)[1]
     assert ask("compare", *paths[:2])[1]["rounds"] == []
+
+
+def test_add_says_what_the_numbers_of_a_round_mean(run, file):
+    paths = [file("machine.toml", machine_toml(BELIEVED))]
+    for name, machine, line in (
+        ("may", TRUE, ""),
+        ("june", zeroed(TRUE, 6.0, -3.0), "chains_rezeroed = true\nnew_sheet = true"),
+    ):
+        lines = ['frame = "machine"', line]
+        for mark in marks_on(machine, BELIEVED, grid(3, 3), noise=0.1, seed=len(paths)):
+            place = np.round(mark.measured, 2).tolist()
+            lines += ["[[mark]]", f"target = {list(mark.target)}", f"measured = {place}"]
+        paths.append(file(f"{name}.toml", "\n".join(lines)))
+    _, said, _ = run("add", *paths, "--effect", "chain_pitch")
+    assert "zero2.left" in said and "sheet2.rotation" in said
+    assert "- zero2: how much more chain is out" in said and "- sheet2: how the new" in said
