@@ -208,6 +208,7 @@ struct Lister {
     entry["pattern"] = info.pattern;
     entry["look_alikes"] = info.look_alikes;
     entry["remedy"] = info.remedy;
+    entry["empirical"] = bool(Own::kEmpirical);
     entry["parameters"] = parameters;
     effects.append(entry);
   }

@@ -8,7 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from plumb.benchmark import Score, score_of
-from plumb.catalogue import NO_FIRMWARE, effect_names, parameter_names, parameter_words
+from plumb.catalogue import (
+    NO_FIRMWARE,
+    effect_names,
+    is_sketch,
+    parameter_names,
+    parameter_words,
+)
 from plumb.checks import refuse_unknown
 from plumb.compare import Comparison, compare
 from plumb.errors import InputError
@@ -18,9 +24,11 @@ from plumb.lab_effects.lab_effect import EDGES, SLED, TAPE
 from plumb.machine_settings import FRAME_FIELDS, MachineSettings
 from plumb.measurements import Measurements
 from plumb.observations import Observations, model_and_observations
+from plumb.patch import PATCH, best_patch
 from plumb.predict import frame_words
 from plumb.rounds import notes_on, unit_of
 from plumb.shape import best_pose
+from plumb.sketches import SKETCHES
 
 FAR = 2.0  # [prior sigmas] a stated number that moved farther was probably measured wrongly
 
@@ -60,6 +68,11 @@ class Parameter:
     possible_high: float | None
 
     @property
+    def of_patch(self) -> bool:
+        """Whether it is a term of the residual patch, which means nothing by itself."""
+        return self.name.startswith(f"{PATCH}.")
+
+    @property
     def plausible(self) -> bool:
         """Whether a real machine can have this value."""
         above = self.possible_low is None or self.value >= self.possible_low
@@ -94,7 +107,7 @@ class Addition:
 
     @property
     def cures(self) -> tuple[str, ...]:
-        """A sentence for each lab effect that was fitted: no setting holds it."""
+        """A sentence for each lab effect or sketch that was fitted: no setting holds it."""
         return tuple(
             _cure(name, parameters) for name, parameters in self.after_fit.lab_effects.items()
         )
@@ -119,8 +132,11 @@ def add(
     controller: str | None = None,
     priors: Mapping[str, float] = PRIORS,
     sigma: float | None = None,
+    patch: bool = False,
 ) -> Addition:
     """Fit frame and effects to the marks; effects that the settings have already stay as they are.
+
+    patch: beside them a residual patch, if marks left out are then predicted better.
 
     Raises InputError for unknown effects, too few marks, and marks that cannot be reached.
     """
@@ -141,6 +157,14 @@ def add(
     ]
     steps = _steps(names, before, [quality_of(one, rows) for one in fits])
     after_fit = fits[-1] if fits else before_fit
+    if patch:
+        told = {"effects": names, "priors": priors, "sigma": noise}
+        patched = best_patch(model, rows, **told, without=after_fit)
+        if patched:
+            after_fit, names = patched.fit, (*names, PATCH)
+            steps += _steps(
+                [PATCH], steps[-1].quality if steps else before, [quality_of(after_fit, rows)]
+            )
     after = steps[-1].quality if steps else before
     parameters = tuple(_parameter(one) for one in after_fit.estimates)
     return Addition(
@@ -156,6 +180,7 @@ def add(
         warnings=(
             *raw.warnings,
             *_unsettled(after_fit),
+            *notes_on(one.name for one in parameters),
             *_surprises(parameters),
             *_bad_bargains(before, after, steps),
         ),
@@ -197,6 +222,10 @@ def quality_of(fitted: Fit, rows: Observations) -> Quality:
 def _refuse_unknown_effects(names: Sequence[str]) -> None:
     known = effect_names()
     for name in names:
+        if name == PATCH:
+            raise InputError(
+                f"--effect {name}: it is no effect; give --patch to choose it knowingly"
+            )
         if name not in known:
             raise InputError(
                 f"--effect {name}: there is no effect of that name; known are {', '.join(known)}"
@@ -234,12 +263,14 @@ def _refuse_unfelt(measurements: Measurements, rows: Observations, effects: Sequ
 
 
 def _cure(name: str, parameters: Mapping[str, float]) -> str:
-    """What to do about a lab effect that was fitted."""
-    own = next(one for one in LAB_EFFECTS if one.name == name)
+    """What to do about a lab effect or sketch that was fitted."""
+    own = next(one for one in (*LAB_EFFECTS, *SKETCHES) if one.name == name)
     found = ", ".join(
         f"{one.name} = {parameters[one.name]:.3g} {one.unit}".removesuffix(" 1")
         for one in own.parameters
     )
+    if is_sketch(name):
+        return f"{name} ({found}): a sketch, which no firmware has until it is written in C++"
     return f"{name} ({found}): {NO_FIRMWARE}, and no setting holds it: {own.remedy}"
 
 
@@ -283,7 +314,7 @@ def _surprises(parameters: Sequence[Parameter]) -> list[str]:
                 "stands in for something else; check which settings were in force and the signs of "
                 "the marks"
             )
-        if one.prior_sigma and abs(moved) > FAR * one.prior_sigma:
+        if one.prior_sigma and not one.of_patch and abs(moved) > FAR * one.prior_sigma:
             said.append(
                 f"{one.name} moved by {moved:+.3g} {one.unit} from the stated {one.before:g}, more "
                 f"than twice the {one.prior_sigma:g} it was trusted to: measure it again"

@@ -23,6 +23,7 @@ class AutoAddition:
     rivals: tuple[tuple[str, ...], ...]  # explanations that the marks allow as well
     addition: Addition | None  # None for a slip: nothing is fitted to a wrong reading
     reason: str  # one sentence
+    offer: tuple[float, float] | None = None  # [mm] left-out error without a patch, and with one
 
     @property
     def done(self) -> bool:
@@ -38,8 +39,11 @@ def add_auto(
     controller: str | None = None,
     priors: Mapping[str, float] = PRIORS,
     sigma: float | None = None,
+    patch: bool = False,
 ) -> AutoAddition:
     """Diagnose the marks and add the best explanation that a real machine can have.
+
+    Where the library has none, a residual patch is offered, and added only if `patch` asks for it.
 
     An explanation has stood the test that nothing else in the library adds more to it than noise
     would; so with its effects nothing more is provable. Several of them: the first of the
@@ -55,7 +59,12 @@ def add_auto(
     rivals = tuple(possible[1:])
     noise = sigma if found.noise.source == "default" else found.noise.sigma
     addition = add(settings, measurements, effects=chosen, sigma=noise, **told)
-    return AutoAddition(found, chosen, rivals, addition, _reason(found, chosen, rivals))
+    reason, offer = _reason(found, chosen, rivals), None
+    if found.verdict == "not_in_library":
+        patched = add(settings, measurements, effects=(), sigma=noise, patch=True, **told)
+        offer = addition.after.left_out_rms, patched.after.left_out_rms
+        addition = patched if patch else addition
+    return AutoAddition(found, chosen, rivals, addition, reason, offer)
 
 
 def without_marks(measurements: Measurements, names: Iterable[str]) -> Measurements:
@@ -89,8 +98,8 @@ def _reason(found: Diagnosis, chosen: tuple[str, ...], rivals: tuple[tuple[str, 
         return "the marks prove no effect: only the frame was fitted"
     if found.verdict == "not_in_library":
         return (
-            "what the marks show is not in the library: only the frame was fitted; read the worst "
-            "marks again, then see plumb diagnose"
+            "what the marks show is not in the library, so no effect was added; read the worst marks "
+            "again, and see plumb next for what to measure"
         )
     if not chosen:
         tried = "; ".join(" + ".join(one.effects) for one in found.explanations)

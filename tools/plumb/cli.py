@@ -20,6 +20,7 @@ from plumb import (
     cli_reach,
 )
 from plumb.errors import InputError
+from plumb.sketches import BROKEN
 
 DESCRIPTION = "Find and cure the errors of a hanging CNC: grid, compare, diagnose, next, add."
 EPILOG = "Lengths are mm, forces N, angles rad. plumb COMMAND --help explains each command."
@@ -37,6 +38,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code."""
     try:
         parsed = build_parser().parse_args(arguments)
+        for line in BROKEN:
+            raise InputError(f"sketch {line}")
         code = parsed.run(parsed)
         sys.stdout.flush()
         return code

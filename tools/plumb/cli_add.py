@@ -8,7 +8,7 @@ from typing import Any
 
 from plumb.add import Addition, Parameter, Quality, add, priors_with
 from plumb.auto import AutoAddition, add_auto, without_marks
-from plumb.catalogue import effect_names
+from plumb.catalogue import effect_names, is_sketch
 from plumb.cli_add_text import as_text, auto_text, turn_sentence
 from plumb.cli_compare import panel_of, score_json
 from plumb.cli_files import (
@@ -43,10 +43,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="NAME",
         nargs="+",
         action="extend",
-        required=True,
+        default=[],
         help="effects to fit, after the marks, or auto: what plumb diagnose proves. Effects are "
         f"{', '.join(effect_names())}; those that SETTINGS have and that are not named stay as "
         "they are",
+    )
+    parser.add_argument(
+        "--patch",
+        action="store_true",
+        help="also fit a smooth map of what is left: no physics, for when no effect explains it",
     )
     parser.add_argument(
         "--without",
@@ -92,6 +97,9 @@ def run(arguments: argparse.Namespace) -> int:
         "priors": priors_with(arguments.prior),
         "sigma": arguments.sigma,
     }
+    told["patch"] = arguments.patch
+    if not arguments.effect and not arguments.patch:
+        raise InputError("nothing to add: name effects with --effect, or give --effect auto")
     if "auto" in arguments.effect:
         return _run_auto(arguments, inputs, told)
     result = add(inputs.settings, inputs.measurements, effects=arguments.effect, **told)
@@ -99,7 +107,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json({**as_json(result), "written": files, "unsaid": unsaid})
     else:
-        print(as_text(result))
+        print(as_text(result, asked_patch=arguments.patch))
         _print_written(files, unsaid)
     return int(not result.pays)
 
@@ -124,11 +132,26 @@ def _written(
     arguments: argparse.Namespace, inputs: Inputs, result: Addition
 ) -> tuple[list[str], list[str]]:
     """Write the files; their names, and what the groundcontrol.ini cannot hold."""
+    _refuse_sketches(arguments, result)
     files = _files(arguments, inputs, result)
     read = [arguments.settings, *arguments.marks]
     read += [arguments.cut_with] if arguments.cut_with else []
     write_outputs(files, inputs=read)
     return list(files), unsaid_of(result) if arguments.groundcontrol else []
+
+
+def _refuse_sketches(arguments: argparse.Namespace, result: Addition) -> None:
+    """A machine.toml that leaves out what was fitted along would be a silent lie."""
+    for name in filter(is_sketch, result.after_fit.lab_effects):
+        for option, path in (
+            ("-o", arguments.output),
+            ("--groundcontrol", arguments.groundcontrol),
+        ):
+            if path:
+                raise InputError(
+                    f"{option} {path}: {name} is a sketch, which no firmware has; write it in C++ "
+                    f"first (docs/new-effect.md), or leave {option} away to look at the fit"
+                )
 
 
 def _print_written(files: list[str], unsaid: list[str]) -> None:
@@ -247,6 +270,7 @@ def auto_json(result: AutoAddition) -> dict[str, Any]:
         "rivals": result.rivals,
         "slips": [one.name for one in result.found.slips],
         "reason": result.reason,
+        "patch_offer_mm": result.offer,
     }
 
 

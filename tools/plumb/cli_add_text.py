@@ -6,6 +6,7 @@ from plumb.add import Addition
 from plumb.auto import AutoAddition
 from plumb.cli_diagnose import verdict_sentence
 from plumb.cli_text import millimetres, number, sentences, table
+from plumb.patch import PATCH
 
 
 def auto_text(result: AutoAddition) -> str:
@@ -14,12 +15,31 @@ def auto_text(result: AutoAddition) -> str:
     said += [sentences([one.sentence for one in result.found.slips])] if result.found.slips else []
     reason = result.reason[0].upper() + result.reason[1:] + "."
     said.append(sentences([reason], mark=""))
+    if result.offer:
+        said.append(sentences([_offer_sentence(result)], mark=""))
     if result.addition:
         said.append(as_text(result.addition))
     return "\n\n".join(said)
 
 
-def as_text(result: Addition) -> str:
+def _offer_sentence(result: AutoAddition) -> str:
+    """What a residual patch would buy, or has bought."""
+    without, with_it = result.offer
+    if with_it >= without:
+        return f"A residual patch would buy nothing ({without:.2f} mm for marks left out)."
+    bought = f"{without:.2f} to {with_it:.2f} mm for marks left out"
+    if PATCH in result.addition.effects_added:
+        return f"The residual patch bought {bought}. {PATCH_WARNING}"
+    return f"A residual patch (--patch) would buy {bought}. {PATCH_WARNING}"
+
+
+PATCH_WARNING = (
+    "It is no physics: a smooth map that holds for this machine, sled and sheet as they are, and "
+    "only where marks were measured."
+)
+
+
+def as_text(result: Addition, *, asked_patch: bool = False) -> str:
     """The addition for people, its conclusion first."""
     raw, before, after = result.raw, result.before, result.after
     verdict = "better" if result.pays else "NOT better"
@@ -40,7 +60,12 @@ def as_text(result: Addition) -> str:
         "predicted\nby a fit that did not see it. Intervals: 95 %, for a reading error of "
         f"{sigma.sigma:.2f} mm ({origin})."
     )
-    parts.append(sentences([turn_sentence(result), *result.cures, *result.warnings]))
+    said = [turn_sentence(result), *result.cures, *result.warnings]
+    if PATCH in result.effects_added:
+        said.append(PATCH_WARNING)
+    elif asked_patch:
+        said.append("a residual patch would predict marks left out no better, so none was added")
+    parts.append(sentences(said))
     return "\n\n".join(parts)
 
 
@@ -77,6 +102,8 @@ def _quality_table(result: Addition) -> str:
 def _parameter_table(result: Addition) -> str:
     rows = []
     for one in result.parameters:
+        if one.of_patch:
+            continue
         trusted = "free" if one.prior_sigma is None else number(one.prior_sigma)
         rows.append(
             [

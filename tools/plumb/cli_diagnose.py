@@ -6,7 +6,7 @@ import argparse
 from typing import Any
 
 from plumb.add import priors_with
-from plumb.catalogue import every_effect, is_lab
+from plumb.catalogue import every_effect, label, place_of
 from plumb.cli_checked import add_checked, usable_checks
 from plumb.cli_files import add_json, add_marks, inputs_of, length, prior
 from plumb.cli_text import millimetres, number, print_json, sentences, table
@@ -126,7 +126,7 @@ def as_json(found: Diagnosis) -> dict[str, Any]:
 def _ranked_json(one: Ranked) -> dict[str, Any]:
     return {
         "effect": one.effect,
-        "where": "lab" if is_lab(one.effect) else "firmware",
+        "where": place_of(one.effect),
         "gain": one.gain,
         "surprise": one.surprise,
         "parameters": [_size_json(size) for size in one.sizes],
@@ -290,8 +290,7 @@ def _reasons(found: Diagnosis) -> str:
 def _remedies(found: Diagnosis) -> str:
     words = {one["name"]: one for one in every_effect()}
     said = [
-        f"{name}{' (lab)' if is_lab(name) else ''}: {words[name]['summary']}. To be sure: "
-        f"{words[name]['remedy']}"
+        f"{label(name)}: {words[name]['summary']}. To be sure: {words[name]['remedy']}"
         for name in found.suspects[:SHOWN]
     ]
     return sentences(said)

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from plumb.catalogue import NO_FIRMWARE, every_effect
+from plumb.catalogue import NO_FIRMWARE, empirical_effects, every_effect
 from plumb.errors import InputError
 from plumb.fingerprint_picture import Picture, drawing
 from plumb.fingerprints import (
@@ -110,6 +110,7 @@ def page(effects: Sequence[Mapping[str, Any]], fields: Fields) -> str:
     """The text of docs/effects.md."""
     parts = [HEAD, table_of_all(effects, fields), "## How to read this page", READING]
     parts += [section(effect, fields) for effect in effects]
+    parts += [no_cause(one) for one in empirical_effects()]
     return "\n\n".join(parts) + "\n"
 
 
@@ -174,6 +175,22 @@ def section(effect: Mapping[str, Any], fields: Fields) -> str:
             f"![{name}: arrows over the sheet](pictures/effects/{name}.svg)",
             f"**Look-alikes**: {_alike(name, fields)}. In words: {effect['look_alikes']}.",
             f"**To be sure, or to cure it**: {effect['remedy']}.",
+        ]
+    )
+
+
+def no_cause(one: Mapping[str, Any]) -> str:
+    """What the firmware can apply though it is no effect."""
+    own = one["parameters"]
+    return "\n\n".join(
+        [
+            f"## {one['name']}",
+            f"**No cause, and never a suspect**: {one['summary'].partition(': ')[2]}. "
+            f"`plumb add --patch` fits it, knowingly; {one['remedy']}.",
+            f"Its {len(own)} numbers (${own[0]['setting']} to ${own[-1]['setting']}, {own[0]['unit']}) "
+            "are the sizes of smooth terms over the sheet, for the left chain and for the right: "
+            + ", ".join(f"`{p['name']}`" for p in own)
+            + ". Each x or y stands for one degree in that direction.",
         ]
     )
 

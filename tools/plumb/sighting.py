@@ -13,10 +13,12 @@ from plumb.lab_effects.lab_effect import EDGES, SLED, Array, LabEffect, Seen
 from plumb.observations import Observations
 from plumb.predict import NAMES, frame_words, library
 from plumb.rounds import pose_of, poses_of, zero_of, zeros_of
+from plumb.sketched import SKETCH_NAMES, with_sketches
 from plumb.visits import ZERO_COLUMNS, loaded, visited
 
 SHEET_ROTATION = "sheet_rotation"  # [rad] the sheet as measured, turned against the machine
 LAB_NAMES = tuple(name for effect in LAB_EFFECTS for name in effect.parameter_names)
+OUTSIDE_NAMES = (*LAB_NAMES, *SKETCH_NAMES)  # fitted, though no setting holds them
 # A step for differences of the compliance, of each value's usual size: small against how it bends.
 _STEP = 1e-3
 
@@ -48,20 +50,30 @@ def sighted(
     names: Sequence[str],
 ) -> Sighting:
     """What is measured of a machine with `values` on a board with `outside`: SHEET_ROTATION and
-    parameters of lab effects, zero if not named. Slopes are exact, by `names` of any kind."""
+    parameters of lab effects and sketches, zero if not named. Slopes are by `names` of any kind,
+    exact as long as no sketch is present."""
     view = _View(values, outside, rows, over_top, usual_weight, tuple(names))
     zeros = zeros_of(outside, rows)
-    hung, by_value, found = visited(
-        values, rows, over_top=over_top, usual_weight=usual_weight, zeros=zeros
+    machine = {"over_top": over_top, "usual_weight": usual_weight}
+    hung = with_sketches(
+        values,
+        outside,
+        rows,
+        lambda paid: visited(values, paid, zeros=zeros, **machine),
+        names=names,
+        **machine,
     )
-    slopes = np.zeros((*hung.shape, len(names)))
+    by_value = hung.by_value
+    slopes = np.zeros((*hung.where.shape, len(names)))
     for i, name in enumerate(names):
         if name in NAMES:
             slopes[:, :, i] = by_value[:, :, NAMES.index(name)]
+        elif name in hung.by_name:
+            slopes[:, :, i] = hung.by_name[name]
         elif (own := zero_of(name)) is not None:
             mine = rows.zero_groups == own.group
             slopes[mine, :, i] = by_value[mine][:, :, ZERO_COLUMNS[own.axis]]
-    places = Places(hung, slopes)
+    places = Places(hung.where, slopes)
     for effect in LAB_EFFECTS:
         if effect.acts_on == SLED:
             places = view.on_sled(effect, places)
@@ -70,7 +82,7 @@ def sighted(
         if effect.acts_on != SLED:
             read = view.on_sheet(effect, read)
             taped = taped if effect.acts_on == EDGES else view.on_sheet(effect, taped)
-    return Sighting(read, taped, found)
+    return Sighting(read, taped, hung.found)
 
 
 @dataclass(frozen=True)

@@ -44,6 +44,7 @@ template <class Real>
 struct Effect {
   enum { kNeedsForces = 0 };  ///< 1 where a hook reads pull or bend
   enum { kMovesEnds = 0 };    ///< 1 where moveEnds does anything
+  enum { kEmpirical = 0 };    ///< 1 where it is a mere fit and no cause: never a suspect
 
   /// Moves the sprockets' centres [mm], left and right, for good: runs once, like prepare.
   static void moveSprocket(const Real*, Point<Real>*) {}
