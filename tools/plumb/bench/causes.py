@@ -25,6 +25,7 @@ _BARE = MachineSettings(
     feed="top",
 )
 SLED = _BARE.sled_weight  # [N]
+HALF = np.array([1219.2, 609.6])  # [mm] of the sheet
 _SAG = (WEIGHT / SLED) ** 2 / 24
 # What the maker believes: the judge's chain, so that only what is hidden is missing.
 MAKER = replace(
@@ -182,33 +183,33 @@ class Hidden:
 
 
 def _bump(targets: Array, source: np.random.Generator) -> Array:
-    """A bump of 430 mm width somewhere on the sheet, in some direction."""
-    middle = source.uniform([-900, -400], [900, 400])
-    shape = np.exp(-np.sum((targets - middle) ** 2, axis=1) / (2 * 430.0**2))
+    """A bump as wide as 0.35 half sheets each way, somewhere on the sheet, in some direction."""
+    middle = source.uniform(-0.8, 0.8, 2)
+    shape = np.exp(-np.sum((targets / HALF - middle) ** 2, axis=1) / (2 * 0.35**2))
     turn = source.uniform(0, 2 * np.pi)
     return shape[:, np.newaxis] * np.array([np.cos(turn), np.sin(turn)])
 
 
 def _cubic(targets: Array, source: np.random.Generator) -> Array:
-    """A polynomial of the third degree in x and y, with coefficients of equal size."""
-    x, y = targets[:, 0] / 1219.2, targets[:, 1] / 609.6
-    terms = [x**i * y**j for i in range(4) for j in range(4 - i)]
+    """A polynomial of second and third degree in x and y, with coefficients of equal size.
+
+    Shifts, turns, scales and skews are left out: the frame and the library have those.
+    """
+    x, y = (targets / HALF).T
+    terms = [x**i * y**j for i in range(4) for j in range(4) if 2 <= i + j <= 3]
     return np.stack(terms, axis=1) @ source.standard_normal((len(terms), 2))
 
 
 def _tipping(targets: Array, source: np.random.Generator) -> Array:
-    """A sled that tips off the sheet where its chains pull harder than at some height.
+    """A sled that hangs over one edge of the sheet, where nothing holds it, and tips.
 
-    The bit then leans up or down by what the pull exceeds that of its own weight; rigid statics of
-    two straight chains, tension = W cos(other) / sin(sum of both angles).
+    Its bit then leans outward or inward, and up or down, by how far the sled of 230 mm stands out.
     """
-    height = MAKER.motor_height - targets[:, 1]
-    left = np.arctan2(height, MAKER.motor_gap / 2 + targets[:, 0])
-    right = np.arctan2(height, MAKER.motor_gap / 2 - targets[:, 0])
-    pull = (np.cos(left) + np.cos(right)) / np.sin(left + right)
-    start = np.quantile(pull, source.uniform(0.3, 0.7))
-    lifted = np.maximum(pull - start, 0.0) * source.choice([-1.0, 1.0])
-    return np.stack([0 * lifted, lifted], axis=1)
+    side = int(source.integers(4))
+    axis, sign = side % 2, 1 - 2 * (side // 2)
+    out = np.maximum(sign * targets[:, axis] + 230.0 - HALF[axis], 0.0)
+    turn = source.uniform(0, 2 * np.pi)
+    return out[:, np.newaxis] * np.array([np.cos(turn), np.sin(turn)])
 
 
 OUTSIDE: Mapping[str, Callable[[Array, np.random.Generator], Array]] = {

@@ -16,13 +16,14 @@ from itertools import combinations
 
 import numpy as np
 
+from plumb.diagnose.chance import BELIEVABLE, chance_of_imitation
 from plumb.diagnose.explanation import Explanation, explain, span
 from plumb.diagnose.gain import LEVEL, Search, bases_beside, search
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
 from plumb.diagnose.misfit import library_misfit_chance, misfit_chance
 from plumb.diagnose.noise import Noise
 from plumb.diagnose.significance import surprise, tail
-from plumb.diagnose.sizes import sizes_of
+from plumb.diagnose.sizes import possible
 
 MOST_REFITTED = 12  # combinations that are refitted in full, the best by the frame's slopes
 MOST_TOGETHER = 3  # effects at once; the marks of one sheet hardly carry more
@@ -43,6 +44,12 @@ class Suspects:
 
     survivors: tuple[Survivor, ...]
     library_fits: bool  # whether all effects together could explain the marks
+    chance: float = 0.0  # that as many effects would also explain what none of them made
+
+    @property
+    def believable(self) -> bool:
+        """Whether something stood that is not of a kind that fits anything."""
+        return bool(self.survivors) and self.chance <= BELIEVABLE
 
 
 def find_suspects(
@@ -51,6 +58,7 @@ def find_suspects(
     """Single effects, then pairs, then three at once, until a possible one stands."""
     survivors = _standing(singles, felt, noise)
     library_fits = library_misfit_chance(frame, noise) > MISFIT_LEVEL
+    chance = 0.0
     for size in range(2, MOST_TOGETHER + 1):
         if any(one.possible for one in survivors) or not library_fits:
             break
@@ -62,8 +70,13 @@ def find_suspects(
         # More effects draw anything better: beside fewer they count only if they are possible.
         alone = not survivors
         survivors += [one for one in standing if one.possible or alone]
+        if any(one.possible for one in survivors):
+            chance = chance_of_imitation(frame, felt, size, noise, real=True)
     survivors.sort(key=lambda one: not one.possible)
-    return Suspects(tuple(survivors), library_fits)
+    if survivors and not survivors[0].possible:
+        most = max(len(one.explanation.effects) for one in survivors)
+        chance = chance_of_imitation(frame, felt, most, noise, real=False)
+    return Suspects(tuple(survivors), library_fits, chance)
 
 
 def _standing(
@@ -74,17 +87,8 @@ def _standing(
     for one in explanations:
         found = search(one, felt, noise)
         if not found.proved and misfit_chance(one, noise) > MISFIT_LEVEL:
-            standing.append(Survivor(one, found, _possible(one, noise)))
+            standing.append(Survivor(one, found, possible(one, noise)))
     return sorted(standing, key=lambda one: _misfit_order(one.explanation))
-
-
-def _possible(explanation: Explanation, noise: Noise) -> bool:
-    """Whether a real machine can have such sizes, as far as their intervals reach."""
-    return all(
-        size.might_be_plausible
-        for name in explanation.effects
-        for size in sizes_of(explanation, name, noise)
-    )
 
 
 def _misfit_order(explanation: Explanation) -> float:
