@@ -111,17 +111,13 @@ def cut(
     )
     where = _read(machine, own)
     if hidden.outside:
-        where = where + hidden.outside_mm * _unit(
-            OUTSIDE[hidden.outside](own.targets, source)
-        )
+        where = where + hidden.outside_mm * _unit(OUTSIDE[hidden.outside](own.targets, source))
     return BoardCut(machine, _measured(where, own, source, noise, tape_sigma))
 
 
 def _read(machine: Machine, own: Plan) -> Array:
     """Where marks would be read (n, 2) [mm] without noise."""
-    where = machine.sleds(
-        chains_for(own), approaches=own.approaches, weights=own.sled_weights
-    )
+    where = machine.sleds(chains_for(own), approaches=own.approaches, weights=own.sled_weights)
     if not np.isfinite(where).all():
         raise ValueError("the judge's sled cannot hang at some mark")
     turn = machine.turn
@@ -163,7 +159,7 @@ def _measured(
     else:
         marks += [
             replace(
-                marks[i], measured=tuple(where[i] + noise * source.standard_normal(2).tolist())
+                marks[i], measured=tuple((where[i] + noise * source.standard_normal(2)).tolist())
             )
             for i in own.again
         ]

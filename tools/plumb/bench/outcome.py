@@ -53,7 +53,7 @@ def outcome_of(
         named=named,
         right_first=set(first) == truth or (len(truth) == 1 and set(first) <= truth | alike),
         exactly_first=set(first) == truth,
-        inside=held if named else found.verdict == "nothing_provable" and all(own_limits),
+        inside=held or (found.verdict == "nothing_provable" and all(own_limits)),
         both=bool(truth) and truth <= set(found.suspects),
         slip_named=found.verdict == "slip" and {one.name for one in found.slips} == set(slipped),
         intervals=_intervals(found, hidden),

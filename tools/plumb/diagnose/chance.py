@@ -88,9 +88,7 @@ def _fields(frame: Explanation) -> Array:
     for width in WIDTHS:
         values, axes = np.linalg.eigh(np.exp(-squares / (2 * width**2)))
         root = axes * np.sqrt(np.maximum(values, 0.0))
-        moved = np.einsum(
-            "ij,jcd->icd", root, source.standard_normal((len(places), 2, DRAWS))
-        )
+        moved = np.einsum("ij,jcd->icd", root, source.standard_normal((len(places), 2, DRAWS)))
         marks = moved[rows.mark_rows].reshape(-1, DRAWS)
         ends = moved[rows.distance_rows]
         along = places[rows.distance_rows]

@@ -182,7 +182,9 @@ def _single(board: Board, candidates: Sequence[str], noise: Noise) -> list[Expla
 
 def _fits(board: Board, candidates: Sequence[str], noise: Noise) -> bool:
     """Whether the frame alone or with one effect leaves no more than noise."""
-    return any(misfit_chance(one, noise) > MISFIT_LEVEL for one in _single(board, candidates, noise))
+    return any(
+        misfit_chance(one, noise) > MISFIT_LEVEL for one in _single(board, candidates, noise)
+    )
 
 
 def _with(board: Board, rows: Observations, sigma: float) -> Board:

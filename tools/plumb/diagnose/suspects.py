@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
+from scipy.special import gammaln
 
 from plumb.diagnose.chance import BELIEVABLE, chance_of_imitation
 from plumb.diagnose.explanation import Explanation, explain, span
@@ -72,7 +73,7 @@ def find_suspects(
         survivors += [one for one in standing if one.possible or alone]
         if any(one.possible for one in survivors):
             chance = chance_of_imitation(frame, felt, size, noise, real=True)
-    survivors.sort(key=lambda one: not one.possible)
+    survivors.sort(key=lambda one: (not one.possible, -worth(one.explanation)))
     if survivors and not survivors[0].possible:
         most = max(len(one.explanation.effects) for one in survivors)
         chance = chance_of_imitation(frame, felt, most, noise, real=False)
@@ -88,12 +89,30 @@ def _standing(
         found = search(one, felt, noise)
         if not found.proved and misfit_chance(one, noise) > MISFIT_LEVEL:
             standing.append(Survivor(one, found, possible(one, noise)))
-    return sorted(standing, key=lambda one: _misfit_order(one.explanation))
+    return sorted(standing, key=lambda one: -worth(one.explanation))
 
 
-def _misfit_order(explanation: Explanation) -> float:
-    """What is left, with what the parameters would take from noise alone added."""
-    return explanation.cost + 2 * len(explanation.board.columns(explanation.effects))
+def worth(explanation: Explanation) -> float:
+    """Logarithm of how likely the marks are by an explanation, over all sizes that it might have.
+
+    Sizes are taken to be spread like Cauchy's distribution about zero, half of them below the
+    typical: that favours usual sizes and forbids none. The integral over sizes is Laplace's.
+    """
+    board, effects = explanation.board, explanation.effects
+    own = explanation.slopes[:, board.columns(effects)]
+    fitted = span(explanation.slopes[:, board.frame])
+    own = own - fitted @ (fitted.T @ own)
+    count = own.shape[1]
+    spread = np.linalg.slogdet(np.eye(count) + own.T @ own)[1]
+    prior = sum(_log_cauchy(explanation.unknowns[board.columns([name])]) for name in effects)
+    return float(prior - (explanation.cost + spread - count * np.log(2 * np.pi)) / 2)
+
+
+def _log_cauchy(sizes: np.ndarray) -> float:
+    """Logarithm of the density of sizes in typical ones."""
+    half = (1 + len(sizes)) / 2
+    constant = gammaln(half) - gammaln(0.5) - len(sizes) / 2 * np.log(np.pi)
+    return float(constant - half * np.log1p(sizes @ sizes))
 
 
 def _promising(
