@@ -188,8 +188,8 @@ def no_cause(one: Mapping[str, Any]) -> str:
             f"**No cause, and never a suspect**: {one['summary'].partition(': ')[2]}. "
             f"`plumb add --patch` fits it, knowingly; {one['remedy']}.",
             f"Its {len(own)} numbers ({_range(own)}, {own[0]['unit']}) are the sizes of smooth "
-            f"terms over the sheet, for the left chain and for the right: {_names(own)}. Each x or y "
-            "stands for one degree in that direction.",
+            f"terms over the sheet, for the left chain and for the right: {_names(own)}. Each x "
+            "or y stands for one degree in that direction.",
         ]
     )
 
