@@ -270,6 +270,7 @@ def auto_json(result: AutoAddition) -> dict[str, Any]:
         "rivals": result.rivals,
         "slips": [one.name for one in result.found.slips],
         "reason": result.reason,
+        "settled_by": result.settled_by,
         "patch_offer_mm": result.offer,
     }
 

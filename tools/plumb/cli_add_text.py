@@ -15,6 +15,8 @@ def auto_text(result: AutoAddition) -> str:
     said += [sentences([one.sentence for one in result.found.slips])] if result.found.slips else []
     reason = result.reason[0].upper() + result.reason[1:] + "."
     said.append(sentences([reason], mark=""))
+    if result.settled_by:
+        said.append("To be sure which it is:\n" + sentences(result.settled_by))
     if result.offer:
         said.append(sentences([_offer_sentence(result)], mark=""))
     if result.addition:
