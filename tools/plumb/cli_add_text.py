@@ -31,7 +31,7 @@ def _offer_sentence(result: AutoAddition) -> str:
         return f"A residual patch would buy nothing ({without:.2f} mm for marks left out)."
     bought = f"{without:.2f} to {with_it:.2f} mm for marks left out"
     if PATCH in result.addition.effects_added:
-        return f"The residual patch bought {bought}. {PATCH_WARNING}"
+        return f"The residual patch bought {bought}."
     return f"A residual patch (--patch) would buy {bought}. {PATCH_WARNING}"
 
 

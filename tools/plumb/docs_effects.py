@@ -188,8 +188,8 @@ def no_cause(one: Mapping[str, Any]) -> str:
             f"**No cause, and never a suspect**: {one['summary'].partition(': ')[2]}. "
             f"`plumb add --patch` fits it, knowingly; {one['remedy']}.",
             f"Its {len(own)} numbers (${own[0]['setting']} to ${own[-1]['setting']}, "
-            f"{own[0]['unit']}) are the sizes of smooth terms over the sheet, for the left chain and "
-            "for the right: "
+            f"{own[0]['unit']}) are the sizes of smooth terms over the sheet, for the left chain "
+            "and for the right: "
             + ", ".join(f"`{p['name']}`" for p in own)
             + ". Each x or y stands for one degree in that direction.",
         ]
