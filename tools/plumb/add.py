@@ -26,7 +26,7 @@ from plumb.measurements import Measurements
 from plumb.observations import Observations, model_and_observations
 from plumb.patch import PATCH, best_patch
 from plumb.predict import frame_words
-from plumb.rounds import unit_of
+from plumb.rounds import notes_on, unit_of
 from plumb.shape import best_pose
 from plumb.sketches import SKETCHES
 
@@ -180,6 +180,7 @@ def add(
         warnings=(
             *raw.warnings,
             *_unsettled(after_fit),
+            *notes_on(one.name for one in parameters),
             *_surprises(parameters),
             *_bad_bargains(before, after, steps),
         ),

@@ -95,6 +95,16 @@ def as_json(found: Comparison) -> dict[str, Any]:
             }
             for one in found.distances
         ],
+        "rounds": [
+            {
+                "name": one.name,
+                "date": one.date,
+                "count": one.count,
+                "rms_mm": one.rms,
+                "distance_rms_mm": one.distance_rms,
+            }
+            for one in found.rounds
+        ],
         "benchmark": score_json(found.benchmark),
         "benchmark_left": score_json(found.benchmark_left),
         "warnings": found.warnings,
@@ -120,6 +130,8 @@ def as_text(found: Comparison, *, sheet_width: float) -> str:
         parts.append(sentences([benchmark_sentence(found)], mark=""))
     if found.warnings:
         parts.append(sentences(found.warnings))
+    if found.rounds:
+        parts.append(_rounds_table(found))
     if found.marks:
         parts.append(_marks_table(found))
         parts.append(
@@ -172,6 +184,14 @@ def _conclusion(found: Comparison, sheet_width: float) -> str:
     if found.distance_rms is not None:
         lines.append(f"The distances between marks are {found.distance_rms:.2f} mm RMS off.")
     return "\n".join(lines)
+
+
+def _rounds_table(found: Comparison) -> str:
+    rows = [
+        [one.name, str(one.count), millimetres(one.rms), millimetres(one.distance_rms), one.date]
+        for one in found.rounds
+    ]
+    return table(["file", "readings", "marks, RMS", "distances, RMS", "date"], rows)
 
 
 def _marks_table(found: Comparison) -> str:

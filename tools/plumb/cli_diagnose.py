@@ -184,7 +184,7 @@ def as_text(found: Diagnosis) -> str:
     if found.disagreements:
         parts.append(sentences(found.disagreements))
     elif found.verdict == "not_in_library":
-        parts.append(sentences(UNKNOWN_ADVICE))
+        parts.append(sentences(_unknown_advice(found)))
     if found.explanations:
         parts.append(_explanation_table(found))
         if found.verdict == "cannot_tell":
@@ -194,7 +194,20 @@ def as_text(found: Diagnosis) -> str:
     parts.append(_hiding(found))
     if found.warnings:
         parts.append(sentences(found.warnings))
+    parts.append("What to measure next: plumb next, with the same files.")
     return "\n\n".join(parts)
+
+
+def _unknown_advice(found: Diagnosis) -> list[str]:
+    """What to look at when nothing in the library fits."""
+    if found.noise.source != "default":
+        return list(UNKNOWN_ADVICE)
+    doubt = (
+        f"are the readings good to {found.noise.sigma:.1f} mm? Nothing says so; holes that wander "
+        "and a coarse tape look just like this. Read some marks again, or state what you trust "
+        "them to by --sigma"
+    )
+    return [doubt, *UNKNOWN_ADVICE]
 
 
 def verdict_sentence(found: Diagnosis) -> str:
@@ -236,6 +249,7 @@ def verdict_sentence(found: Diagnosis) -> str:
 def _explanation_table(found: Diagnosis) -> str:
     rows = []
     for one in found.explanations[:SHOWN]:
+        rows += [["or"] + [""] * 5] if rows else []
         for name in one.effects:
             rows += _size_rows(one, name)
     header = ["suspect", "size", "interval", "unit", "error falls to", ""]

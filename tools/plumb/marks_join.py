@@ -9,6 +9,8 @@ from pathlib import Path
 from plumb.errors import refusal
 from plumb.marks_model import Mark, Measurements, Round
 
+FEWEST_COPIED = 5  # readings that agree to the last digit before a file passes for a copy
+
 
 def join_measurements(parts: Iterable[Measurements]) -> Measurements:
     """Several files as one board, in the order in which they were cut.
@@ -25,6 +27,7 @@ def join_measurements(parts: Iterable[Measurements]) -> Measurements:
     joined: list[Measurements] = []
     for number, part in enumerate(several):
         rounds.append(_next_round(part, labels[number], rounds))
+        _refuse_a_copy(part, several[:number])
         own = replace(part, marks=tuple(replace(mark, round=number) for mark in part.marks))
         made = [(mark.name, _made(mark, rounds[number])) for mark in own.marks]
         clash = any(known.get(name, how) != how for name, how in made)
@@ -41,11 +44,42 @@ def join_measurements(parts: Iterable[Measurements]) -> Measurements:
     )
 
 
+def _refuse_a_copy(part: Measurements, before: tuple[Measurements, ...]) -> None:
+    """Refuse a file that only repeats another one's numbers: it would pass for no noise at all."""
+    for other in before:
+        same = _readings(part).items() & _readings(other).items()
+        common = _readings(part).keys() & _readings(other).keys()
+        if len(same) == len(common) >= FEWEST_COPIED:
+            raise refusal(
+                part.source,
+                f"its {len(same)} readings are those of {other.source} to the last digit",
+                remedy="a copy is no repeat: leave one of the files out",
+            )
+
+
+def _readings(part: Measurements) -> dict[tuple, tuple]:
+    """What was read, by targets and sled weight: the first reading of each."""
+    found: dict[tuple, tuple] = {}
+    for mark in part.measured_marks:
+        read = tuple(round(one, 6) for one in mark.measured)
+        found.setdefault((_rounded(mark.target), mark.sled_weight), read)
+    for one in part.distances:
+        ends = frozenset(_rounded(part.target_of(name)) for name in one.between)
+        found.setdefault((ends, part.sled_weight), (one.length,))
+    return found
+
+
+def _rounded(point: tuple[float, float]) -> tuple[float, float]:
+    return round(point[0], 3), round(point[1], 3)
+
+
 def _labels(parts: tuple[Measurements, ...]) -> list[str]:
     """A short name of each file, no two alike."""
     paths = [Path(part.source) for part in parts]
     labels = [path.stem for path in paths]
-    if len(set(labels)) < len(labels):
+    if len(set(labels)) == 1:
+        labels = [path.parent.name or path.stem for path in paths]
+    elif len(set(labels)) < len(labels):
         labels = [f"{path.parent.name}/{path.stem}" for path in paths]
     if len(set(labels)) < len(labels):
         labels = [f"{label} {number}" for number, label in enumerate(labels, 1)]

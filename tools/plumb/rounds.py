@@ -7,7 +7,7 @@ moved, or how the sheet lies against the first one.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -51,6 +51,16 @@ def unit_of(name: str) -> str | None:
     if own is None:
         return None
     return "rad" if name.endswith(".rotation") else "mm"
+
+
+def notes_on(names: Iterable[str]) -> list[str]:
+    """A sentence for each group of round unknowns among these names."""
+    groups = sorted({name.partition(".")[0] for name in names if unit_of(name)})
+    meaning = {
+        "zero": "how much more chain is out at 12 o'clock since the chains were zeroed anew",
+        "sheet": "how the new sheet lies against the first",
+    }
+    return [f"{own}: {meaning[own.rstrip('0123456789')]}; no setting holds it" for own in groups]
 
 
 def zero_of(name: str) -> RoundUnknown | None:

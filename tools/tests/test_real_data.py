@@ -107,3 +107,10 @@ def test_the_page_shows_every_set_and_is_checked(tmp_path, capsys):
 def test_both_signs_of_the_doubtful_set_are_tried():
     assert SETTINGS.exists() and MARKS.exists()
     assert "as published" in pages()[PAGE] and "y the other way" in pages()[PAGE]
+
+
+def test_eight_distances_carry_no_seven_parameters_and_hide_no_miles():
+    found = SETS[HOLES[0]].diagnosed()
+    for one in found.explanations:
+        assert sum(len(own) for own in one.sizes.values()) < 7
+    assert all(one.mm is None or one.mm < 30 for one in found.could_hide)

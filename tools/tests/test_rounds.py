@@ -109,7 +109,7 @@ def test_files_of_one_name_are_told_apart_by_their_folders():
         board([Mark("A", (0.0, y), (0.0, y))], source=f"{folder}/marks.toml")
         for folder, y in (("spring", 0.0), ("autumn", 9.0))
     ]
-    assert join_measurements(parts).marks[1].name == "autumn/marks:A"
+    assert join_measurements(parts).marks[1].name == "autumn:A"
 
 
 def test_a_moved_frame_is_refused_with_advice():
@@ -167,7 +167,7 @@ def test_slopes_by_what_a_round_has_of_its_own_are_exact():
 def test_distances_alone_do_not_ask_where_a_later_sheet_lies():
     parts = [
         replace(
-            distances_between(marks_on(TRUE, BELIEVED, grid(3, 2))),
+            distances_between(marks_on(TRUE, BELIEVED, grid(3, 2), noise=0.1, seed=ord(name))),
             source=f"{name}.toml",
             rounds=(Round(new_sheet=name == "b"),),
         )
@@ -185,3 +185,46 @@ def test_a_round_of_its_own_zeros_does_not_hide_the_effect():
     found = diagnose(BELIEVED, both, sigma=0.3)
     assert "chain_pitch" in found.suspects and found.verdict in ("one_suspect", "cannot_tell")
     assert found.explanations[0].rms_after < 0.6
+
+
+def test_a_copy_of_a_file_is_no_repeat():
+    one = board(marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.5), source="a.toml")
+    with pytest.raises(InputError, match=r"b\.csv: its 9 readings are those of a\.toml .* a copy"):
+        join_measurements([one, replace(one, source="b.csv")])
+    spans = distances_between(one.marks)
+    with pytest.raises(InputError, match="a copy is no repeat"):
+        join_measurements([spans, replace(spans, source="b.toml")])
+    again = board(marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.5, seed=2), source="b.toml")
+    assert len(join_measurements([one, again]).repeats) == 9
+
+
+def test_compare_tells_the_error_of_each_file(run, ask, file):
+    paths = [file("machine.toml", machine_toml(BELIEVED))]
+    for name, machine in (("calm", BELIEVED), ("wild", TRUE)):
+        lines = ['frame = "machine"', "date = 2026-05-01"]
+        for mark in marks_on(machine, BELIEVED, grid(3, 3), noise=0.1, seed=len(paths)):
+            place = np.round(mark.measured, 2).tolist()
+            lines += ["[[mark]]", f"target = {list(mark.target)}", f"measured = {place}"]
+        paths.append(file(f"{name}.toml", "\n".join(lines)))
+    _, found = ask("compare", *paths)
+    calm, wild = found["rounds"]
+    assert (calm["name"], calm["count"], calm["date"]) == ("calm", 9, "2026-05-01")
+    assert calm["rms_mm"] < 0.3 < 2 < wild["rms_mm"] and wild["distance_rms_mm"] is None
+    assert "distances, RMS" in run("compare", *paths)[1]
+    assert ask("compare", *paths[:2])[1]["rounds"] == []
+
+
+def test_add_says_what_the_numbers_of_a_round_mean(run, file):
+    paths = [file("machine.toml", machine_toml(BELIEVED))]
+    for name, machine, line in (
+        ("may", TRUE, ""),
+        ("june", zeroed(TRUE, 6.0, -3.0), "chains_rezeroed = true\nnew_sheet = true"),
+    ):
+        lines = ['frame = "machine"', line]
+        for mark in marks_on(machine, BELIEVED, grid(3, 3), noise=0.1, seed=len(paths)):
+            place = np.round(mark.measured, 2).tolist()
+            lines += ["[[mark]]", f"target = {list(mark.target)}", f"measured = {place}"]
+        paths.append(file(f"{name}.toml", "\n".join(lines)))
+    _, said, _ = run("add", *paths, "--effect", "chain_pitch")
+    assert "zero2.left" in said and "sheet2.rotation" in said
+    assert "- zero2: how much more chain is out" in said and "- sheet2: how the new" in said

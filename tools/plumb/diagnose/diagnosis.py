@@ -8,12 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from plumb.catalogue import effect_names
+from plumb.diagnose.exchanged import exchange_slips, find_exchanged
 from plumb.diagnose.explanation import Board, Checked, Explanation, explain
 from plumb.diagnose.gain import Search, search
 from plumb.diagnose.halves import half_warnings, round_warnings
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
 from plumb.diagnose.misfit import misfit_chance
 from plumb.diagnose.noise import Noise
+from plumb.diagnose.signs import sign_warning
 from plumb.diagnose.sizes import Room, Size, hidden_share, room_for, sizes_of
 from plumb.diagnose.slip_guess import Slip, described
 from plumb.diagnose.slips import clear_slips
@@ -72,6 +74,7 @@ class Diagnosis:
     differences: Mapping[tuple[int, int], float]  # [mm] RMS between two explanations' marks
     ranking: tuple[Ranked, ...]
     library_fits: bool  # whether all effects of the library at once could draw the marks
+    chance: float  # that so many effects at once would explain what none of them made
     slips: tuple[Slip, ...]
     could_hide: tuple[Room, ...]
     warnings: tuple[str, ...]
@@ -104,13 +107,17 @@ def diagnose(
     stated = sigma or measurements.tape_sigma
     first = Board.of(model, rows, sigma=stated or USUAL_SIGMA, priors=priors, checked=checked)
     felt = felt_effects(explain(first))
-    cleared = clear_slips(first, felt, stated=stated)
+    exchanged = find_exchanged(first)
+    cleared = clear_slips(exchanged.board, felt, stated=stated)
     noise = cleared.noise
     board = Board.of(model, cleared.rows, sigma=noise.sigma, priors=priors, checked=checked)
     frame = explain(board)
     singles = {name: explain(board, (name,), start=frame) for name in effect_names()}
     gate = search(frame, felt, noise)
-    slips = tuple(described(one, measurements, settings.sheet) for one in cleared.slips)
+    slips = (
+        *exchange_slips(exchanged, measurements),
+        *(described(one, measurements, settings.sheet) for one in cleared.slips),
+    )
     suspects, verdict = Suspects((), True), "slip"
     if not slips:
         suspects, verdict = _judge(frame, [singles[name] for name in felt], gate, noise)
@@ -126,12 +133,14 @@ def diagnose(
         differences=_differences(kept),
         ranking=ranking,
         library_fits=suspects.library_fits,
+        chance=suspects.chance,
         slips=slips,
         could_hide=tuple(room_for(name, kept or (frame,), noise) for name in effect_names()),
         warnings=(
             *noise.notes,
             *([] if possible else [_IMPOSSIBLE]),
             *_warnings(frame, gate, ranking, kept),
+            *_signs(board, felt, noise, kept, verdict),
         ),
         disagreements=()
         if slips
@@ -161,7 +170,7 @@ def _judge(
         return Suspects((), not missing), "not_in_library" if missing else "nothing_provable"
     felt = [one.effects[0] for one in singles]
     suspects = find_suspects(frame, singles, felt, noise)
-    if not suspects.survivors:
+    if not suspects.believable:
         return suspects, "not_in_library"
     return suspects, "one_suspect" if len(suspects.survivors) == 1 else "cannot_tell"
 
@@ -200,6 +209,20 @@ def _together(explanation: Explanation, noise: Noise) -> Together:
         sizes={name: sizes_of(explanation, name, noise) for name in explanation.effects},
         rms_after=explanation.rms,
     )
+
+
+def _signs(
+    board: Board,
+    felt: tuple[str, ...],
+    noise: Noise,
+    kept: tuple[Explanation, ...],
+    verdict: str,
+) -> list[str]:
+    """What the other sign of y would change, where the verdict leaves doubts."""
+    if verdict in ("slip", "nothing_provable"):
+        return []
+    said = sign_warning(board, felt, noise, kept)
+    return [said] if said else []
 
 
 def _parts_that_differ(

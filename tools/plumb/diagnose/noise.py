@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import chdtrc, stdtrit
 
-from plumb.diagnose.repeats import distance_spread, mark_spread
+from plumb.diagnose.repeats import distance_spread, mark_spread, rounding_sigma
 from plumb.diagnose.significance import KNOWN
 from plumb.fit import USUAL_SIGMA
 from plumb.observations import Observations
@@ -57,7 +57,9 @@ class Spread:
 def repeats_of(rows: Observations) -> Spread:
     """The spread of readings that were taken of the same mark or distance in the same way."""
     marks, spans = mark_spread(rows), distance_spread(rows)
-    return Spread(marks[0] + spans[0], marks[1] + spans[1])
+    found = Spread(marks[0] + spans[0], marks[1] + spans[1])
+    least = rounding_sigma(rows) ** 2 * found.degrees if found.degrees else 0.0
+    return Spread(max(found.squares, least), found.degrees)
 
 
 def noise_of(repeats: Spread, scatter: Spread, *, stated: float | None) -> Noise:

@@ -13,6 +13,7 @@ from plumb.observations import Observations
 
 Array = np.ndarray
 SURE = 0.0027  # chance at which noise alone would move a round as a whole as much: 3 sigma
+STEPS = (1.0, 0.5, 0.25, 0.1)  # [mm] to which people read a tape, coarsest first
 FEWEST_LEFT = 2.0  # degrees of freedom that must be left to judge by
 
 
@@ -48,6 +49,20 @@ def distance_spread(rows: Observations) -> tuple[float, float]:
         squares += float(np.sum((rows.distances[own] - rows.distances[own].mean()) ** 2))
         degrees += len(own) - 1
     return squares, degrees
+
+
+def rounding_sigma(rows: Observations) -> float:
+    """Standard deviation [mm] of rounding to the step in which all numbers were written.
+
+    Readings to whole millimetres that agree exactly say no more than that.
+    """
+    whole = [rows.measured - rows.measured[:1]] if len(rows.measured) else []
+    whole += [rows.distances - rows.distances[:1]] if len(rows.distances) else []
+    numbers = np.concatenate([one.ravel() for one in whole])
+    for step in STEPS:
+        if np.allclose(numbers, step * np.round(numbers / step), atol=1e-6, rtol=0):
+            return float(step / np.sqrt(12))
+    return 0.0
 
 
 def _round_columns(rows: Observations, picked: Array) -> Array:
