@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from plumb.add import Addition, add
+from plumb.catalogue import every_effect
 from plumb.checks import refuse_unknown
 from plumb.diagnose import Diagnosis, diagnose
 from plumb.errors import InputError
@@ -24,6 +25,7 @@ class AutoAddition:
     addition: Addition | None  # None for a slip: nothing is fitted to a wrong reading
     reason: str  # one sentence
     offer: tuple[float, float] | None = None  # [mm] left-out error without a patch, and with one
+    settled_by: tuple[str, ...] = ()  # what would tell the chosen from their rivals, one each
 
     @property
     def done(self) -> bool:
@@ -64,7 +66,19 @@ def add_auto(
         patched = add(settings, measurements, effects=(), sigma=noise, patch=True, **told)
         offer = addition.after.left_out_rms, patched.after.left_out_rms
         addition = patched if patch else addition
-    return AutoAddition(found, chosen, rivals, addition, reason, offer)
+    settled_by = _settled_by(chosen, rivals)
+    return AutoAddition(found, chosen, rivals, addition, reason, offer, settled_by)
+
+
+def _settled_by(chosen: tuple[str, ...], rivals: tuple[tuple[str, ...], ...]) -> tuple[str, ...]:
+    """How to look directly at each effect that is in some explanations only."""
+    if not rivals:
+        return ()
+    all_of_them = (chosen, *rivals)
+    names = dict.fromkeys(name for one in all_of_them for name in one)
+    remedies = {one["name"]: one["remedy"] for one in every_effect()}
+    open_ones = (name for name in names if not all(name in one for one in all_of_them))
+    return tuple(f"{name}: {remedies[name]}" for name in open_ones)
 
 
 def without_marks(measurements: Measurements, names: Iterable[str]) -> Measurements:

@@ -9,7 +9,7 @@ from typing import Any
 from plumb.add import Addition, Parameter, Quality, add, priors_with
 from plumb.auto import AutoAddition, add_auto, without_marks
 from plumb.catalogue import effect_names, is_sketch
-from plumb.cli_add_text import as_text, auto_text, turn_sentence
+from plumb.cli_add_text import PATCH_WARNING, as_text, auto_text, turn_sentence
 from plumb.cli_compare import panel_of, score_json
 from plumb.cli_files import (
     Inputs,
@@ -24,6 +24,7 @@ from plumb.cli_files import (
 )
 from plumb.cli_text import about, print_json, sentences
 from plumb.errors import InputError, refusal
+from plumb.patch import PATCH
 from plumb.picture import Panel, draw
 from plumb.settings_file import changed_ini, groundcontrol_changes, machine_toml
 
@@ -201,6 +202,7 @@ def toml_of(result: Addition, *, source: str) -> bytes:
         f"{result.raw.rms:.2f} mm before.",
         turn_sentence(result),
         *result.cures,
+        *([f"residual_patch: {PATCH_WARNING}"] if PATCH in result.effects_added else []),
         *result.warnings,
     ]
     return machine_toml(result.settings, comment="\n".join(lines)).encode()
@@ -270,6 +272,7 @@ def auto_json(result: AutoAddition) -> dict[str, Any]:
         "rivals": result.rivals,
         "slips": [one.name for one in result.found.slips],
         "reason": result.reason,
+        "settled_by": result.settled_by,
         "patch_offer_mm": result.offer,
     }
 

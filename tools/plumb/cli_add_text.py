@@ -15,6 +15,8 @@ def auto_text(result: AutoAddition) -> str:
     said += [sentences([one.sentence for one in result.found.slips])] if result.found.slips else []
     reason = result.reason[0].upper() + result.reason[1:] + "."
     said.append(sentences([reason], mark=""))
+    if result.settled_by:
+        said.append("To be sure which it is:\n" + sentences(result.settled_by))
     if result.offer:
         said.append(sentences([_offer_sentence(result)], mark=""))
     if result.addition:
@@ -29,7 +31,7 @@ def _offer_sentence(result: AutoAddition) -> str:
         return f"A residual patch would buy nothing ({without:.2f} mm for marks left out)."
     bought = f"{without:.2f} to {with_it:.2f} mm for marks left out"
     if PATCH in result.addition.effects_added:
-        return f"The residual patch bought {bought}. {PATCH_WARNING}"
+        return f"The residual patch bought {bought}."
     return f"A residual patch (--patch) would buy {bought}. {PATCH_WARNING}"
 
 

@@ -10,6 +10,7 @@ from hidden_boards import MAKER, board, build, plan, size_for
 from plumb.auto import add_auto, without_marks
 from plumb.cli import main
 from plumb.demo import MARKS, SETTINGS
+from plumb.diagnose import diagnose
 from plumb.errors import InputError
 from plumb.measurements import read_marks
 from plumb.settings_file import read_settings
@@ -49,6 +50,28 @@ def test_two_hidden_effects_are_added_step_by_step():
     for earlier, later in pairwise(steps):
         assert later.left_out_rms < earlier.left_out_rms
         assert later.priced_rms < earlier.priced_rms
+
+
+def test_the_new_machine_leaves_nothing_to_prove_and_a_second_round_adds_nothing():
+    sizes = {name: size_for(name, WIDE, 6.0) for name in ("chain_pitch", "chain_plane")}
+    measured = board(sizes, WIDE, seed=5)
+    first = add_auto(MAKER, measured)
+    assert diagnose(first.addition.settings, measured, cut_with=MAKER).verdict == "nothing_provable"
+    again = add_auto(first.addition.settings, measured, cut_with=MAKER)
+    assert again.chosen == () and again.done
+    assert again.addition.settings.effects == first.addition.settings.effects
+
+
+def test_a_choice_is_said_to_be_one_with_what_would_settle_it():
+    # On nine marks several effects draw nearly the same arrows.
+    few = plan(3, 3)
+    size = size_for("frame_flex", few, 3.0)
+    result = add_auto(MAKER, board({"frame_flex": size}, few, seed=2))
+    assert result.found.verdict == "cannot_tell" and result.rivals and result.done
+    assert result.reason.startswith("a choice: ") and "plumb next" in result.reason
+    open_ones = {*result.chosen}.union(*result.rivals)
+    told = [one.partition(":")[0] for one in result.settled_by]
+    assert told and {*told} <= open_ones and len(told) == len({*told})
 
 
 def test_nothing_is_added_where_nothing_is_hidden():

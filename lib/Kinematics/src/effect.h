@@ -7,8 +7,9 @@
 #include "strand.h"
 
 // For hooks of effects that most machines do not have: kept out of line, they leave the board's few
-// registers to the others (200 cycles an inverse).
-#define PLUMB_RARE __attribute__((noinline))
+// registers to the others (200 cycles an inverse); cold, they stand apart, so that the others stay
+// within the reach of short calls (80 cycles).
+#define PLUMB_RARE __attribute__((noinline, cold))
 
 namespace kinematics {
 
