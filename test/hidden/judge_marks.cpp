@@ -6,7 +6,9 @@
 //                         is the judge's own default; left.NAME and right.NAME are of one side
 //   place LEFT RIGHT X Y  chains paid out [mm] and a push on the sled [N]; prints "x y" [mm]
 //   paid X Y              a place [mm]; prints the chains "left right" [mm] that hold the sled
-// A sled that cannot hang prints "nan nan". An unknown name ends the program with 2.
+//   usual                 every number as the judge has it by default; prints nothing
+// A sled that cannot hang prints "nan nan". An unknown name ends the program with 2. Each answer is
+// sent at once, so that one program can serve many boards.
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -72,6 +74,7 @@ void print(bool solved, const Eigen::Vector2d& pair) {
     std::printf("%.12g %.12g\n", pair.x(), pair.y());
   else
     std::printf("nan nan\n");
+  std::fflush(stdout);
 }
 
 void answerPlace(Hidden hidden, std::istream& line) {
@@ -97,7 +100,9 @@ int main() {
     std::istringstream line(text);
     std::string word;
     if (!(line >> word)) continue;
-    if (word == "place") {
+    if (word == "usual") {
+      hidden = Hidden();
+    } else if (word == "place") {
       answerPlace(hidden, line);
     } else if (word == "paid") {
       answerPaid(hidden, line);

@@ -24,8 +24,12 @@ ARROWS = {
     "test/reference": ([], HOST + r"|(unsupported/)?Eigen/\w+"),
     "test/vm": (["test/reference"], ANYTHING),
     "test/hidden": (["test/reference"], ANYTHING),
-    "test/test_*": (["test/reference", "test/vm", "lib/*"], ANYTHING),
-    "tools/core": (["lib/Kinematics"], ANYTHING),
+    "test/test_*": (
+        ["test/reference", "test/vm", "test/settings_host", "src", "include", "lib/*"],
+        ANYTHING,
+    ),
+    "test/settings_host": (["src", "include", "lib/*"], ANYTHING),
+    "tools/core": (["lib/Kinematics", "lib/Settings", "src", "test/settings_host"], ANYTHING),
     "tools/bench": (["lib/*", "test/reference", "test/test_effects"], ANYTHING),
 }
 # Folders in which an include is looked up after the folder of the file itself.

@@ -98,8 +98,8 @@ def _reason(found: Diagnosis, chosen: tuple[str, ...], rivals: tuple[tuple[str, 
         return "the marks prove no effect: only the frame was fitted"
     if found.verdict == "not_in_library":
         return (
-            "what the marks show is not in the library, so no effect was added; read the worst marks "
-            "again, and see plumb next for what to measure"
+            "what the marks show is not in the library, so no effect was added; read the worst "
+            "marks again, and see plumb next for what to measure"
         )
     if not chosen:
         tried = "; ".join(" + ".join(one.effects) for one in found.explanations)

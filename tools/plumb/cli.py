@@ -10,6 +10,7 @@ from typing import NoReturn
 
 from plumb import (
     cli_add,
+    cli_bench,
     cli_compare,
     cli_diagnose,
     cli_effects,
@@ -65,6 +66,7 @@ def build_parser() -> Parser:
         ("next", cli_next),
         ("add", cli_add),
         ("effects", cli_effects),
+        ("bench", cli_bench),
     ):
         _enter(commands, name, module.HELP, module.EXIT, module.add_arguments, module.run)
     _enter(

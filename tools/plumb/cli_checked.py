@@ -47,8 +47,8 @@ def usable_checks(checks: list[Checked], priors: dict[str, float]) -> list[Check
         if one.name not in known:
             frame = ", ".join(name for name in PRIORS)
             raise InputError(
-                f"--checked {one.name}: no such number is fitted; give a parameter as plumb effects "
-                f"names it, like tape_scale.strain, or of the frame {frame}"
+                f"--checked {one.name}: no such number is fitted; give a parameter as plumb "
+                f"effects names it, like tape_scale.strain, or of the frame {frame}"
             )
     if len({one.name for one in checks}) < len(checks):
         raise InputError("--checked: a number is given twice; give the mean of both")

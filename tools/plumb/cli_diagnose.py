@@ -194,6 +194,7 @@ def as_text(found: Diagnosis) -> str:
     parts.append(_hiding(found))
     if found.warnings:
         parts.append(sentences(found.warnings))
+    parts.append("What to measure next: plumb next, with the same files.")
     return "\n\n".join(parts)
 
 

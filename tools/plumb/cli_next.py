@@ -200,6 +200,8 @@ def as_text(found: Diagnosis, answer: Next) -> str:
         ]
         parts.append(sentences(told, mark=""))
     parts.append(sentences([_how(answer)], mark=""))
+    if found.warnings:
+        parts.append(sentences(found.warnings))
     return "\n\n".join(parts)
 
 
@@ -214,7 +216,7 @@ def _first(best: Proposal) -> str:
         terms = " ".join(
             f"--checked {own.name}=VALUE+-{number(own.sigma)}" for own in best.option.checks
         )
-        said.append(f"Then run this again with {terms}")
+        said.append(f"Then run this again with {terms}; VALUE: {best.option.value}.")
     elif len(best.option.visits):
         said.append("Then give the new marks as one more file; --marks FILE writes it to fill in.")
     return sentences(said[:1], mark="") + "\n" + sentences(said[1:], mark="  ")
@@ -281,21 +283,22 @@ def _how(answer: Next) -> str:
     again = f"{AGAIN:.0f} minutes added for one more round"
     if question == SETTLE:
         return (
-            "Chances are simulated: each suspect is taken for the truth as often as it is probable, "
-            "new readings are drawn with their noise, and the diagnosis is repeated. The order is "
-            f"chance per minute, {again}."
+            "Chances are simulated: each suspect is taken for the truth as often as it is "
+            "probable, new readings are drawn with their noise, and the diagnosis is repeated. "
+            f"The order is chance per minute, {again}."
         )
     if question == CONFIRM:
         return (
             "Chances are simulated as if the effects that failed their test narrowly might be the "
-            "truth: confirmed means that the true one is left alone. Direct checks come first; then "
-            f"the order is chance per minute, {again}."
+            "truth: confirmed means that the true one is left alone. Direct checks come first; "
+            f"then the order is chance per minute, {again}."
         )
     if question == FIND:
         return f"The order is the millimetres of doubt removed per minute, {again}."
     if question == REREAD:
         return "A slip hides what else the marks could say, so nothing else is proposed yet."
     return (
-        "No chance can be told for an effect that is not known. Also fit the left and right, or the "
-        "upper and lower, half of the marks by themselves: where numbers differ, something is local."
+        "No chance can be told for an effect that is not known. Also fit the left and right, or "
+        "the upper and lower, half of the marks by themselves: where their numbers differ, "
+        "something is local."
     )

@@ -187,12 +187,19 @@ def no_cause(one: Mapping[str, Any]) -> str:
             f"## {one['name']}",
             f"**No cause, and never a suspect**: {one['summary'].partition(': ')[2]}. "
             f"`plumb add --patch` fits it, knowingly; {one['remedy']}.",
-            f"Its {len(own)} numbers (${own[0]['setting']} to ${own[-1]['setting']}, {own[0]['unit']}) "
-            "are the sizes of smooth terms over the sheet, for the left chain and for the right: "
-            + ", ".join(f"`{p['name']}`" for p in own)
-            + ". Each x or y stands for one degree in that direction.",
+            f"Its {len(own)} numbers ({_range(own)}, {own[0]['unit']}) are the sizes of smooth "
+            f"terms over the sheet, for the left chain and for the right: {_names(own)}. Each x "
+            "or y stands for one degree in that direction.",
         ]
     )
+
+
+def _range(parameters: Sequence[Mapping[str, Any]]) -> str:
+    return f"${parameters[0]['setting']} to ${parameters[-1]['setting']}"
+
+
+def _names(parameters: Sequence[Mapping[str, Any]]) -> str:
+    return ", ".join(f"`{one['name']}`" for one in parameters)
 
 
 def _parameters(effect: Mapping[str, Any]) -> str:

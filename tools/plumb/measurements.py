@@ -46,23 +46,28 @@ def read_marks(
 
 
 def read_plan(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
-    """The marks of a file as they are planned: each as if it were found where it was sent. A mark
-    that has no reading and is the end of a distance stays without."""
+    """The marks of a file as they are planned: each as if it were found where it was sent.
+
+    A mark without reading that is the end of a distance stays without. A mark that is made again
+    beside itself, as plumb grid repeats it, is another mark here.
+    """
     found = _read(path, sheet)
     ends = {name for one in found.distances for name in one.between}
-    marks = tuple(
-        replace(mark, measured=mark.target)
-        if mark.measured is not None or mark.name not in ends
-        else mark
-        for mark in found.marks
-    )
-    meant = replace(found, marks=marks)
+    marks = []
+    for mark in found.marks:
+        read = mark.measured is not None or mark.name not in ends
+        beside = mark.target != found.target_of(mark.name)
+        name = f"{mark.name} at {mark.target[0]:g}/{mark.target[1]:g}" if beside else mark.name
+        marks.append(replace(mark, name=name, measured=mark.target if read else None))
+    known = {mark.name for mark in marks}
     spans = tuple(
-        replace(one, length=math.dist(*(meant.target_of(name) for name in one.between)))
+        replace(one, length=math.dist(*(found.target_of(name) for name in one.between)))
+        if known.issuperset(one.between)
+        else one
         for one in found.distances
-        if all(any(mark.name == name for mark in marks) for name in one.between)
     )
-    return checked(replace(meant, distances=spans), sheet=_sheet_of(found, sheet))
+    meant = replace(found, marks=tuple(marks), distances=spans)
+    return checked(meant, sheet=_sheet_of(found, sheet))
 
 
 def _read(

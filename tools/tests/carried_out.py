@@ -1,4 +1,4 @@
-"""Carrying out what `plumb next` proposes, on machines of the judge: marks, weights, swaps, checks."""
+"""Carrying out what `plumb next` proposes on the judge's machines: marks, weights, checks."""
 
 from __future__ import annotations
 
@@ -80,7 +80,9 @@ class Bench:
         """What direct measurements would find."""
         source = np.random.default_rng([self.seed, 2])
         return [
-            Checked(one.name, self._truth(one.name) + one.sigma * source.standard_normal(), one.sigma)
+            Checked(
+                one.name, self._truth(one.name) + one.sigma * source.standard_normal(), one.sigma
+            )
             for one in checks
         ]
 

@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -45,7 +46,7 @@ def test_two_hidden_effects_are_added_step_by_step():
     assert set(result.chosen) == set(sizes)
     steps = [result.addition.before, *(one.quality for one in result.addition.steps)]
     assert [one.effect for one in result.addition.steps] == list(result.chosen)
-    for earlier, later in zip(steps, steps[1:], strict=False):
+    for earlier, later in pairwise(steps):
         assert later.left_out_rms < earlier.left_out_rms
         assert later.priced_rms < earlier.priced_rms
 

@@ -74,6 +74,7 @@ class Diagnosis:
     differences: Mapping[tuple[int, int], float]  # [mm] RMS between two explanations' marks
     ranking: tuple[Ranked, ...]
     library_fits: bool  # whether all effects of the library at once could draw the marks
+    chance: float  # that so many effects at once would explain what none of them made
     slips: tuple[Slip, ...]
     could_hide: tuple[Room, ...]
     warnings: tuple[str, ...]
@@ -132,6 +133,7 @@ def diagnose(
         differences=_differences(kept),
         ranking=ranking,
         library_fits=suspects.library_fits,
+        chance=suspects.chance,
         slips=slips,
         could_hide=tuple(room_for(name, kept or (frame,), noise) for name in effect_names()),
         warnings=(
@@ -168,7 +170,7 @@ def _judge(
         return Suspects((), not missing), "not_in_library" if missing else "nothing_provable"
     felt = [one.effects[0] for one in singles]
     suspects = find_suspects(frame, singles, felt, noise)
-    if not suspects.survivors:
+    if not suspects.believable:
         return suspects, "not_in_library"
     return suspects, "one_suspect" if len(suspects.survivors) == 1 else "cannot_tell"
 

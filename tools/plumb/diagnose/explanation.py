@@ -1,7 +1,8 @@
 """An explanation: the frame and some effects refitted together, and the slopes at that fit.
 
 All is whitened: rows are measured numbers over sigma, then the priors of the frame, then what was
-checked directly; columns are unknowns in their typical sizes. Then noise alone is a vector of independent standard normals.
+checked directly; columns are unknowns in their typical sizes. Then noise alone is a vector of
+independent standard normals.
 """
 
 from __future__ import annotations

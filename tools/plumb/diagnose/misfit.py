@@ -9,7 +9,7 @@ from plumb.diagnose.noise import Noise
 from plumb.diagnose.significance import tail
 
 Array = np.ndarray
-LEVEL = 0.01  # chance at which noise alone is called a misfit
+LEVEL = 0.015  # chance at which noise alone is called a misfit
 
 
 def misfit_chance(explanation: Explanation, noise: Noise) -> float:

@@ -67,6 +67,15 @@ def sizes_of(explanation: Explanation, effect: str, noise: Noise) -> tuple[Size,
     return tuple(found)
 
 
+def possible(explanation: Explanation, noise: Noise) -> bool:
+    """Whether a real machine can have such sizes, as far as their intervals reach."""
+    return all(
+        size.might_be_plausible
+        for name in explanation.effects
+        for size in sizes_of(explanation, name, noise)
+    )
+
+
 def hidden_share(frame: Explanation, effect: str) -> float | None:
     """Share of an effect's variance that the refitted frame swallows; None if nothing feels it.
 

@@ -16,6 +16,7 @@ from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
 from plumb.diagnose.misfit import beside_library, library_basis, misfit_chance
 from plumb.diagnose.noise import Noise, Spread, noise_of, repeats_of
 from plumb.diagnose.significance import tail
+from plumb.diagnose.sizes import possible
 from plumb.observations import Observations
 
 Array = np.ndarray
@@ -118,7 +119,7 @@ def clear_slips(board: Board, candidates: Sequence[str], *, stated: float | None
     most = max(1, len(indices) // READINGS_PER_SLIP)
     while len(slips) <= most:
         trial = _with(board, rows, noise.sigma)
-        found = _worst(trial, candidates, stated)
+        found = _worst(trial, candidates, stated, noise)
         if found is None:
             break
         slips.append(replace(found, reading=indices.pop(_place(rows, found.reading))))
@@ -130,13 +131,15 @@ def clear_slips(board: Board, candidates: Sequence[str], *, stated: float | None
     return Cleared(tuple(slips), rows, noise) if fits else Cleared((), board.rows, start)
 
 
-def _worst(board: Board, candidates: Sequence[str], stated: float | None) -> Shift | None:
+def _worst(
+    board: Board, candidates: Sequence[str], stated: float | None, noise: Noise
+) -> Shift | None:
     """The reading that no single effect explains, with its shift by the frame alone or the best
     effect; None if there is none.
 
-    The noise is that of all others: a slip must not hide in what it makes of the noise.
+    An effect that would need a size that no real machine has explains nothing here. The noise is that of all others: a slip must not hide in what it makes of the noise.
     """
-    explanations = _single(board, candidates)
+    explanations = _single(board, candidates, noise)
     by_explanation = [shifts(one) for one in explanations]
     drops = np.array([[one.drop for one in own] for own in by_explanation])
     if drops.shape[1] < 4:
@@ -170,15 +173,18 @@ def _beside_everything(explanation: Explanation) -> Array:
     return np.array(drops)
 
 
-def _single(board: Board, candidates: Sequence[str]) -> list[Explanation]:
-    """The frame alone, then with each effect."""
+def _single(board: Board, candidates: Sequence[str], noise: Noise) -> list[Explanation]:
+    """The frame alone, then with each effect that fits with a possible size."""
     frame = explain(board)
-    return [frame, *(explain(board, (name,), start=frame) for name in candidates)]
+    singles = (explain(board, (name,), start=frame) for name in candidates)
+    return [frame, *(one for one in singles if possible(one, noise))]
 
 
 def _fits(board: Board, candidates: Sequence[str], noise: Noise) -> bool:
     """Whether the frame alone or with one effect leaves no more than noise."""
-    return any(misfit_chance(one, noise) > MISFIT_LEVEL for one in _single(board, candidates))
+    return any(
+        misfit_chance(one, noise) > MISFIT_LEVEL for one in _single(board, candidates, noise)
+    )
 
 
 def _with(board: Board, rows: Observations, sigma: float) -> Board:

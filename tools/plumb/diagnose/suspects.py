@@ -15,14 +15,16 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
+from scipy.special import gammaln
 
+from plumb.diagnose.chance import BELIEVABLE, chance_of_imitation
 from plumb.diagnose.explanation import Explanation, explain, span
 from plumb.diagnose.gain import LEVEL, Search, bases_beside, search
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
 from plumb.diagnose.misfit import library_misfit_chance, misfit_chance, spare_numbers
 from plumb.diagnose.noise import Noise
 from plumb.diagnose.significance import surprise, tail
-from plumb.diagnose.sizes import sizes_of
+from plumb.diagnose.sizes import possible
 
 MOST_REFITTED = 12  # combinations that are refitted in full, the best by the frame's slopes
 FEWEST_SPARE = 1.5  # measured numbers that an explanation must leave over to count as one
@@ -44,6 +46,12 @@ class Suspects:
 
     survivors: tuple[Survivor, ...]
     library_fits: bool  # whether all effects together could explain the marks
+    chance: float = 0.0  # that as many effects would also explain what none of them made
+
+    @property
+    def believable(self) -> bool:
+        """Whether something stood that is not of a kind that fits anything."""
+        return bool(self.survivors) and self.chance <= BELIEVABLE
 
 
 def find_suspects(
@@ -52,6 +60,7 @@ def find_suspects(
     """Single effects, then pairs, then three at once, until a possible one stands."""
     survivors = _standing(singles, felt, noise)
     library_fits = library_misfit_chance(frame, noise) > MISFIT_LEVEL
+    chance = 0.0
     for size in range(2, MOST_TOGETHER + 1):
         if any(one.possible for one in survivors) or not library_fits:
             break
@@ -63,8 +72,13 @@ def find_suspects(
         # More effects draw anything better: beside fewer they count only if they are possible.
         alone = not survivors
         survivors += [one for one in standing if one.possible or alone]
-    survivors.sort(key=lambda one: not one.possible)
-    return Suspects(tuple(survivors), library_fits)
+        if any(one.possible for one in survivors):
+            chance = chance_of_imitation(frame, felt, size, noise, real=True)
+    survivors.sort(key=lambda one: (not one.possible, -worth(one.explanation)))
+    if survivors and not survivors[0].possible:
+        most = max(len(one.explanation.effects) for one in survivors)
+        chance = chance_of_imitation(frame, felt, most, noise, real=False)
+    return Suspects(tuple(survivors), library_fits, chance)
 
 
 def _standing(
@@ -77,22 +91,31 @@ def _standing(
             continue  # as many unknowns as numbers explain anything
         found = search(one, felt, noise)
         if not found.proved and misfit_chance(one, noise) > MISFIT_LEVEL:
-            standing.append(Survivor(one, found, _possible(one, noise)))
-    return sorted(standing, key=lambda one: _misfit_order(one.explanation))
+            standing.append(Survivor(one, found, possible(one, noise)))
+    return sorted(standing, key=lambda one: -worth(one.explanation))
 
 
-def _possible(explanation: Explanation, noise: Noise) -> bool:
-    """Whether a real machine can have such sizes, as far as their intervals reach."""
-    return all(
-        size.might_be_plausible
-        for name in explanation.effects
-        for size in sizes_of(explanation, name, noise)
-    )
+def worth(explanation: Explanation) -> float:
+    """Logarithm of how likely the marks are by an explanation, over all sizes that it might have.
+
+    Sizes are taken to be spread like Cauchy's distribution about zero, half of them below the
+    typical: that favours usual sizes and forbids none. The integral over sizes is Laplace's.
+    """
+    board, effects = explanation.board, explanation.effects
+    own = explanation.slopes[:, board.columns(effects)]
+    fitted = span(explanation.slopes[:, board.frame])
+    own = own - fitted @ (fitted.T @ own)
+    count = own.shape[1]
+    spread = np.linalg.slogdet(np.eye(count) + own.T @ own)[1]
+    prior = sum(_log_cauchy(explanation.unknowns[board.columns([name])]) for name in effects)
+    return float(prior - (explanation.cost + spread - count * np.log(2 * np.pi)) / 2)
 
 
-def _misfit_order(explanation: Explanation) -> float:
-    """What is left, with what the parameters would take from noise alone added."""
-    return explanation.cost + 2 * len(explanation.board.columns(explanation.effects))
+def _log_cauchy(sizes: np.ndarray) -> float:
+    """Logarithm of the density of sizes in typical ones."""
+    half = (1 + len(sizes)) / 2
+    constant = gammaln(half) - gammaln(0.5) - len(sizes) / 2 * np.log(np.pi)
+    return float(constant - half * np.log1p(sizes @ sizes))
 
 
 def _promising(

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from plumb.diagnose.explanation import Explanation
-from plumb.errors import InputError
 from plumb.plan.visits import Visits
+from plumb.predict import FOUND
 
 Array = np.ndarray
 
@@ -44,15 +44,15 @@ def ahead(at: Explanation, visits: Visits, checks: Sequence[Check] = ()) -> Ahea
 
 
 def visit_slopes(at: Explanation, visits: Visits) -> Array:
-    """Whitened slopes (n, 2, u) of visits at an explanation."""
+    """Whitened slopes (n, 2, u) of visits at an explanation; zero, so that nothing is expected of
+    it, for a visit where the explanation's sled could not hang."""
     problem = replace(at.board.problem, observations=visits.rows())
     width = len(problem.names)
     if not len(visits):
         return np.zeros((0, 2, width))
-    sighting, reached = problem.predict(at.unknowns)
-    if not reached:
-        raise InputError("the sled cannot hang where the planned marks would be")
-    return (problem.data_slopes(sighting) / problem.sigma).reshape(-1, 2, width)
+    sighting, _ = problem.predict(at.unknowns)
+    slopes = (problem.data_slopes(sighting) / problem.sigma).reshape(-1, 2, width)
+    return np.where((sighting.found == FOUND)[:, np.newaxis, np.newaxis], slopes, 0.0)
 
 
 def check_slopes(at: Explanation, checks: Sequence[Check]) -> Array:

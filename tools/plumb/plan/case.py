@@ -56,6 +56,7 @@ class Case:
     frame: Explanation
     singles: Mapping[str, Explanation]  # each felt effect by itself, refitted
     hypotheses: tuple[Hypothesis, ...]  # most probable first
+    spans: tuple[str, ...] = ()  # the names of both ends of each distance
 
     @property
     def usual_weight(self) -> float:
@@ -86,7 +87,8 @@ def case_of(
     frame = explain(board)
     felt = felt_effects(frame)
     singles = {name: explain(board, (name,), start=frame) for name in felt}
-    in_force = cut_with or settings
+    # New marks belong to the first round: its settings, its zeros and its sheet.
+    in_force = measurements.rounds[0].cut_with or cut_with or settings
     if found.explanations:
         several = [one for one in found.explanations if len(one.effects) > 1]
         together = [explain(board, one.effects, start=frame) for one in several]
@@ -102,6 +104,7 @@ def case_of(
         frame=frame,
         singles=singles,
         hypotheses=hypotheses,
+        spans=tuple(" - ".join(one.between) for one in measurements.distances),
     )
 
 

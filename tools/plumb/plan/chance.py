@@ -48,12 +48,12 @@ def outlook(
     """
     alone = case.verdict != "nothing_provable"
     noise = noise_after(case, visits)
-    tests: dict[int, _Test] = {}
+    tests: dict[int, Rediagnosis] = {}
     settled = left = 0.0
     for number, one in enumerate(case.hypotheses):
         if id(one.at) not in tests:
             twin = next(iter(tests.values()), None)
-            tests[id(one.at)] = _Test(case, ahead(one.at, visits, checks), noise, twin)
+            tests[id(one.at)] = Rediagnosis(case, ahead(one.at, visits, checks), noise, twin)
         source = np.random.default_rng([SEED, number])
         boards = tests[id(one.at)].boards(one, source, max(FEWEST, round(draws * one.weight)))
         right, count = tests[id(one.at)].judged(one, boards, alone=alone)
@@ -62,35 +62,34 @@ def outlook(
     return Outlook(float(settled), float(left) if alone else None)
 
 
-class _Test:
+class Rediagnosis:
     """The diagnosis of many simulated boards with the same rows."""
 
-    def __init__(self, case: Case, rows: Ahead, noise: Noise, twin: _Test | None) -> None:
+    def __init__(self, case: Case, rows: Ahead, noise: Noise, twin: Rediagnosis | None) -> None:
         """`twin`: the same rows by another explanation's slopes, whose limit serves here too."""
         board = case.board
         self.rows, self.board = rows, board
         self.noise = noise
         self.frame = span(rows.slopes[:, board.frame])
         self.nothing = len(board.own)  # explanations left where nothing is proved
-        self.felt = [name for name in board.own if rows.slopes[:, board.columns([name])].any()]
+        self.columns = {name: board.columns([name]) for name in board.own}
+        self.felt = [name for name, own in self.columns.items() if rows.slopes[:, own].any()]
         several = [one.effects for one in case.hypotheses if len(one.effects) > 1]
         self.names = [*((name,) for name in self.felt), *several]
         self.names += [one.effects for one in case.hypotheses if one.effects not in self.names]
-        self.limits = twin.limits if twin else {}
+        # Beside an explanation it is lower by so little that the chances stay the same.
+        self.limit = twin.limit if twin else self._limit()
 
-    def _limit(self, fitted: Array, effects: tuple[str, ...]) -> float:
-        """The surprise that noise hardly exceeds beside an explanation."""
-        if effects not in self.limits:
-            bases = {}
-            for name in self.felt:
-                if name not in effects:
-                    raw = self.rows.slopes[:, self.board.columns([name])]
-                    bases[name] = span(raw - fitted @ (fitted.T @ raw), against=raw)
-            self.limits[effects] = limit_of_noise(bases, self.noise)
-        return self.limits[effects]
+    def _limit(self) -> float:
+        """The surprise that noise hardly exceeds beside the frame."""
+        bases = {}
+        for name in self.felt:
+            raw = self.rows.slopes[:, self.board.columns([name])]
+            bases[name] = span(raw - self.frame @ (self.frame.T @ raw), against=raw)
+        return limit_of_noise(bases, self.noise)
 
     def boards(self, truth: Hypothesis, source: np.random.Generator, count: int) -> Array:
-        """Whitened readings (rows, count) of boards drawn from a truth: those so far as they are."""
+        """Whitened readings (rows, count) of boards drawn from a truth; those so far stay."""
         rows = self.rows
         drawn = rows.slopes[rows.so_far :, truth.columns] @ truth.drawn(source, count)
         drawn += source.standard_normal(drawn.shape)
@@ -99,7 +98,7 @@ class _Test:
     def judged(self, truth: Hypothesis, boards: Array, *, alone: bool) -> tuple[float, float]:
         """On what share of boards the truth is proved (alone among all), and how many explanations
         stand on average."""
-        proved = self._gains(self.frame, (), boards)[0] > self._limit(self.frame, ())
+        proved = self._gains(self.frame, (), boards)[0] > self.limit
         stands = self._stands(truth.effects, boards)
         if not alone:
             return float((proved & stands).mean()), float("nan")
@@ -113,14 +112,12 @@ class _Test:
         own = np.concatenate([self.board.frame, self.board.columns(effects)])
         fitted = span(self.rows.slopes[:, own])
         sample = readings[:, :: max(1, readings.shape[1] // FEWEST)]
-        usual = self._limit(self.frame, ())
-        if self._gains(fitted, effects, sample)[0].min() > usual + HOPELESS:
+        if self._gains(fitted, effects, sample)[0].min() > self.limit + HOPELESS:
             return np.zeros(readings.shape[1], dtype=bool)
-        limit = self._limit(fitted, effects)
         best, left = self._gains(fitted, effects, readings)
         read = self.rows.marks
         spare = read.sum() - np.sum(fitted[read] ** 2)
-        return (best <= limit) & (self._misfit(left[read], spare) > MISFIT_LEVEL)
+        return (best <= self.limit) & (self._misfit(left[read], spare) > MISFIT_LEVEL)
 
     def _misfit(self, left: Array, spare: float) -> Array:
         squares = np.sum(left**2, axis=0)
@@ -133,25 +130,37 @@ class _Test:
     def _gains(self, fitted: Array, effects: tuple[str, ...], readings: Array) -> tuple:
         """The largest surprise of any other effect (count,), and what the fit leaves."""
         left = readings - fitted @ (fitted.T @ readings)
-        slopes, board = self.rows.slopes, self.board
+        slopes = self.rows.slopes
         beside = slopes - fitted @ (fitted.T @ slopes)
         gram, along = beside.T @ beside, beside.T @ left
-        best = np.zeros(readings.shape[1])
+        lengths = np.einsum("ru,ru->u", slopes, slopes)
+        # Among effects with as many parameters the largest drop is the largest surprise.
+        drops: dict[int, Array] = {}
         for name in self.felt:
             if name in effects:
                 continue
-            own = board.columns([name])
-            raw = np.linalg.norm(slopes[:, own], axis=0)
-            own = own[raw > 0]
-            scale = raw[raw > 0]
-            values, turned = np.linalg.eigh(gram[np.ix_(own, own)] / np.outer(scale, scale))
-            seen = values > _TINY
-            if not seen.any():
-                continue
-            parts = turned[:, seen].T @ (along[own] / scale[:, np.newaxis])
-            drops = np.sum(parts**2 / values[seen, np.newaxis], axis=0)
-            best = np.maximum(best, surprises(drops, int(seen.sum()), self.noise.degrees))
+            own = self.columns[name]
+            own = own[lengths[own] > 0]
+            seen, drop = _drop(gram[np.ix_(own, own)], along[own], np.sqrt(lengths[own]))
+            if seen:
+                drops[seen] = np.maximum(drops.get(seen, 0.0), drop)
+        best = np.zeros(readings.shape[1])
+        for seen, drop in drops.items():
+            best = np.maximum(best, surprises(drop, seen, self.noise.degrees))
         return best, left
+
+
+def _drop(gram: Array, along: Array, lengths: Array) -> tuple[int, Array | float]:
+    """How many parameters of an effect are seen beside what is fitted, and the drop of chi-square
+    (count,) that they bring."""
+    if len(lengths) == 1:
+        if gram[0, 0] <= _TINY * lengths[0] ** 2:
+            return 0, 0.0
+        return 1, along[0] ** 2 / gram[0, 0]
+    values, turned = np.linalg.eigh(gram / np.outer(lengths, lengths))
+    seen = values > _TINY
+    parts = turned[:, seen].T @ (along / lengths[:, np.newaxis])
+    return int(seen.sum()), np.sum(parts**2 / values[seen, np.newaxis], axis=0)
 
 
 def noise_after(case: Case, visits: Visits) -> Noise:

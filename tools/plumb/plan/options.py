@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from plumb.plan.ahead import Check
 from plumb.plan.case import Case
-from plumb.plan.checks import CHECKS, FRAME_CHECKS
+from plumb.plan.checks import CHECKS, FRAME_CHECKS, DirectCheck
 from plumb.plan.separation import Chooser
 from plumb.plan.sites import grid, new_places, usable
 from plumb.plan.visits import Visits, joined, nowhere, sent
@@ -18,6 +19,7 @@ NEWTON = 9.81  # [N] of a kilogram
 EXTRA_KILOGRAMS = (2.5, 5.0, 10.0)  # what a maker finds to hang on a sled
 FEW = 4  # marks of a proposal
 MANY_GRID, MANY_MARGIN = (7, 4), (0.07, 0.12)  # the 28 marks that it is compared with
+SHARPER = 1.5  # times better than what is known: else a check is not worth the way
 READ_AGAIN = 3  # times each mark is read again
 MOST_AGAIN = 12  # marks that are all visited again with another weight
 # Minutes: a round at the machine, a mark cut and read, a mark read once more, a change of weight,
@@ -37,6 +39,7 @@ class Option:
     minutes: float
     visits: Visits
     checks: tuple[Check, ...] = ()
+    value: str = ""  # how the checks' values follow from what was measured
 
 
 def options(case: Case) -> list[Option]:
@@ -56,21 +59,29 @@ def many_marks(case: Case) -> Option | None:
 
 
 def checks_for(case: Case) -> list[Option]:
-    """Direct measurements of the suspects and of the frame's numbers."""
-    suspects = [name for name in CHECKS if name in case.effects]
+    """Direct measurements of the suspects and of the frame's numbers that were not made yet."""
+    problem, made = case.board.problem, {one.name: one.sigma for one in case.board.checked}
+    held = np.flatnonzero(problem.held)
+    known = {problem.names[i]: float(problem.scale[i]) for i in held} | made
     found = []
-    for name in suspects:
-        own = CHECKS[name]
+    for name, own in CHECKS.items():
         each = tuple(Check(f"{name}.{part}", sigma) for part, sigma in own.sigmas.items())
-        found.append(Option("check", own.title, (own.do,), own.minutes, nowhere(), each))
-    priors = dict(zip(case.board.problem.names, case.board.problem.scale, strict=True))
-    held = dict(zip(case.board.problem.names, case.board.problem.held, strict=True))
+        if name in case.effects and any(_sharper(one, known) for one in each):
+            found.append(_check("check", own, each))
     for name, own in FRAME_CHECKS.items():
-        sigma = own.sigmas[name]
-        if held.get(name) and priors[name] > 1.5 * sigma:
-            each = (Check(name, sigma),)
-            found.append(Option("frame", own.title, (own.do,), own.minutes, nowhere(), each))
+        one = Check(name, own.sigmas[name])
+        if name in known and _sharper(one, known):
+            found.append(_check("frame", own, (one,)))
     return found
+
+
+def _sharper(check: Check, known: Mapping[str, float]) -> bool:
+    """Whether it says more than what is known already."""
+    return known.get(check.name, np.inf) > SHARPER * check.sigma
+
+
+def _check(kind: str, own: DirectCheck, each: tuple[Check, ...]) -> Option:
+    return Option(kind, own.title, (own.do,), own.minutes, nowhere(), each, own.value)
 
 
 class _Shop:
@@ -109,7 +120,8 @@ class _Shop:
         if not self.known:
             return None
         old = joined(*[self.old()] * READ_AGAIN)
-        do = f"Read each of the {len(self.known)} marks {READ_AGAIN} more times with a newly laid tape."
+        times = f"{READ_AGAIN} more times with a newly laid tape"
+        do = f"Read each of the {len(self.known)} marks {times}."
         return Option("repeats", "every mark read again", (do,), ROUND + READING * len(old), old)
 
     def heavier(self) -> list[Option]:
@@ -151,12 +163,14 @@ class _Shop:
             for i, side in enumerate(SIDES)
         ]
         pool, count = joined(*groups), len(self.known)
+        if len(pool) < len(SIDES) * count:
+            return []
         chosen = Chooser(self.case, pool).best(range(len(pool)), FEW // 2)
         both = {twin for i in chosen for twin in (i, (i // count ^ 1) * count + i % count)}
         visits = pool.taken(sorted(both, key=lambda i: (i % count, i)))
         do = (
-            "Touch two marks beside each other from opposite sides, the last 100 mm straight towards "
-            f"the mark, at {spots(visits)}; write down the approach."
+            "Touch two marks beside each other from opposite sides, the last 100 mm straight "
+            f"towards the mark, at {spots(visits)}; write down the approach."
         )
         return [_marks("approach", "marks from opposite sides", do, visits)]
 
@@ -213,14 +227,18 @@ class _Shop:
             gaps = np.linalg.norm(places[:, np.newaxis] - self.old_targets, axis=2)
             own = np.array(list(self.known.values()))[gaps.argmin(axis=1)]
             approaches = self.rows.approaches[own]
-        return sent(
-            self.case.settings,
-            places,
-            controller=self.case.controller,
-            sled_weight=weight,
-            approaches=approaches,
-            swapped=swapped,
-        )
+        try:
+            return sent(
+                self.case.settings,
+                places,
+                controller=self.case.controller,
+                sled_weight=weight,
+                approaches=approaches,
+                swapped=swapped,
+            )
+        except ValueError:
+            # A controller that cannot go there is not asked to.
+            return nowhere()
 
 
 # Half sheets: the corners, and three along the top with one below.

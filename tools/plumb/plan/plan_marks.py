@@ -27,5 +27,5 @@ def marks_file(
             )
         if visits.swapped[i]:
             lines.append("chains_swapped = true")
-        lines.append("# measured = [, ]")
+        lines.append("# measured = [ , ]")
     return "\n".join(lines) + "\n"

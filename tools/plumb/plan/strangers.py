@@ -7,6 +7,7 @@ from math import erf, sqrt
 
 import numpy as np
 
+from plumb.diagnose.explanation import Explanation
 from plumb.diagnose.slip_guess import Slip
 from plumb.plan.case import Case
 from plumb.plan.options import MARK, READING, ROUND, Option, spots
@@ -26,7 +27,8 @@ def for_slips(case: Case, slips: Sequence[Slip]) -> list[tuple[Option, float]]:
     for slip in slips:
         # Two readings with the same noise differ by its square root of two.
         chance = 0.5 * (1 + erf((slip.length / (sqrt(2) * case.noise.sigma) - SURE) / sqrt(2)))
-        do = f"Read {slip.name} again with a newly laid tape, before anything else."
+        what = slip.name if slip.name in case.board.rows.names else f"the distance {slip.name}"
+        do = f"Read {what} again with a newly laid tape, before anything else."
         found.append(
             (Option("reread", f"{slip.name} again", (do,), 2.0, _old(case, slip.name)), chance)
         )
@@ -36,12 +38,12 @@ def for_slips(case: Case, slips: Sequence[Slip]) -> list[tuple[Option, float]]:
 def near_the_worst(case: Case) -> list[Option]:
     """Marks around the places that are explained worst, then readings of these once more."""
     rows = case.board.rows
-    if not len(rows.measured):
-        return []
     best = min(
         [case.frame, *case.singles.values()],
         key=lambda one: one.cost + 2 * len(case.board.columns(one.effects)),
     )
+    if not len(rows.measured):
+        return [_worst_distances(case, best)]
     errors = best.numbers[: rows.measured.size].reshape(-1, 2)
     worst = np.argsort(-np.linalg.norm(errors, axis=1), kind="stable")
     places: dict[str, Array] = {}
@@ -63,12 +65,21 @@ def near_the_worst(case: Case) -> list[Option]:
     ]
     if len(near):
         do = (
-            f"Cut and read marks around {names}, where the error is worst, at {spots(near)}: what is "
-            "local (a bent frame, a bump in the sheet, a sticking chain) shows itself here."
+            f"Cut and read marks around {names}, where the error is worst, at {spots(near)}: what "
+            "is local (a bent frame, a bump in the sheet, a sticking chain) shows itself here."
         )
         minutes = ROUND + MARK * len(near)
         found.append(Option("near", "marks around the worst places", (do,), minutes, near))
     return found
+
+
+def _worst_distances(case: Case, best: Explanation) -> Option:
+    """The distances that are explained worst, to be measured again."""
+    worst = np.argsort(-np.abs(best.numbers), kind="stable")[: 2 * WORST]
+    said = ", ".join(case.spans[i] for i in worst)
+    do = f"Measure the distances {said} {READ_AGAIN} more times: this tells a slip from more."
+    minutes = ROUND + READING * READ_AGAIN * len(worst)
+    return Option("repeats", "the worst distances again", (do,), minutes, nowhere())
 
 
 def _around(case: Case, places: Sequence[Array]) -> Visits:

@@ -1,4 +1,4 @@
-"""Planned visits: where the sled would be sent, with what weight, from which side, by which chain."""
+"""Planned visits: where the sled would be sent, how heavy, from which side, by which chain."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Visits:
             distance_rows=np.zeros((0, 2), dtype=int),
             distances=np.zeros(0),
             approaches=self.approaches,
-            # As the first round: nobody zeroes the chains or takes another sheet for a few more marks.
+            # As the first round: for a few more marks nobody zeroes chains or takes another sheet.
             rounds=np.zeros(count, dtype=int),
             zero_groups=np.zeros(count, dtype=int),
             sheet_groups=np.zeros(count, dtype=int),

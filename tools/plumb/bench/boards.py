@@ -1,0 +1,199 @@
+"""Boards with something hidden: sent by the maker's settings, but the judge says where the sled went."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import combinations
+from math import cos
+
+import numpy as np
+
+from plumb.bench.causes import COMPLIANCE, MAKER, OUTSIDE, SLED, WEIGHT, Cause, Hidden, Plan
+from plumb.bench.judge import judge
+from plumb.measurements import Distance, Mark, Measurements
+from plumb.predict import FOUND, lengths
+
+Array = np.ndarray
+SIDES = np.array([(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)])
+GAP_SIGMA, POSE_SIGMA, TURN_SIGMA = 3.0, 5.0, 0.002  # [mm, mm, rad] how far the frame is off
+WIDTH, HEIGHT = 2200.0, 1000.0  # [mm] that a plan covers of the sheet
+
+
+def plan(
+    columns: int,
+    rows: int,
+    *,
+    approached: bool = True,
+    sled_weight: float = SLED,
+    times: int = 1,
+    repeats: bool = False,
+    spans: bool = False,
+) -> Plan:
+    """A grid over the sheet, cut so many times; with `repeats` three marks are read three times."""
+    across = np.linspace(-WIDTH / 2, WIDTH / 2, columns)
+    up = np.linspace(HEIGHT / 2, -HEIGHT / 2, rows)
+    once = np.array([(x, y) for y in up for x in across])
+    targets = np.tile(once, (times, 1))
+    sides = np.tile(SIDES[(np.arange(len(once)) * 7 // 3) % 4], (times, 1))
+    chosen = (0, len(once) // 2, len(once) - 2) * 2 if repeats else ()
+    return Plan(
+        targets,
+        sides if approached else 0 * sides,
+        np.full(len(targets), float(sled_weight)),
+        again=chosen,
+        spans=spans,
+        name=f"{columns}x{rows}",
+    )
+
+
+def joined(*plans: Plan) -> Plan:
+    """Several plans as one board."""
+    parts = ("targets", "approaches", "sled_weights")
+    return Plan(*(np.concatenate([getattr(p, part) for p in plans]) for part in parts))
+
+
+@dataclass(frozen=True)
+class Machine:
+    """The true machine: the maker's with its frame off, and what is hidden."""
+
+    hidden: Hidden
+    motor_gap: float = MAKER.motor_gap
+    motor_height: float = MAKER.motor_height
+    motor_center_x: float = 0.0
+    turn: float = 0.0  # [rad] of the sheet
+
+    def sleds(
+        self, chains: Array, *, approaches: Array | None = None, weights: Array | None = None
+    ) -> Array:
+        """Where the sled comes to rest (n, 2) [mm]; without approaches nothing rubs."""
+        numbers = {
+            "sprocket_radius": MAKER.sprocket_radius,
+            "motor_gap": self.motor_gap,
+            "motor_height": self.motor_height,
+            "motor_center_x": self.motor_center_x,
+            "rotation_radius": MAKER.rotation_radius,
+            "left.weight": WEIGHT,
+            "right.weight": WEIGHT,
+            "left.compliance": COMPLIANCE,
+            "right.compliance": COMPLIANCE,
+            "sled_weight": SLED,
+            **self.hidden.numbers,
+        }
+        heavier = numbers["sled_weight"] / SLED
+        still = np.zeros_like(chains)
+        return judge().places(
+            numbers,
+            chains,
+            pushes=still if approaches is None else -self.hidden.drag * approaches,
+            weights=heavier * (np.full(len(chains), SLED) if weights is None else weights),
+        )
+
+
+@dataclass(frozen=True)
+class BoardCut:
+    """A board, and the machine that cut it."""
+
+    machine: Machine
+    measurements: Measurements
+
+
+def cut(
+    hidden: Hidden, own: Plan, *, seed: int, noise: float = 0.5, tape_sigma: float | None = 0.5
+) -> BoardCut:
+    """A board as measured; frame and sheet lie off by chance. noise, tape_sigma [mm]."""
+    source = np.random.default_rng(seed)
+    machine = Machine(
+        hidden,
+        motor_gap=MAKER.motor_gap + GAP_SIGMA * source.standard_normal(),
+        motor_height=MAKER.motor_height + POSE_SIGMA * source.standard_normal(),
+        motor_center_x=POSE_SIGMA * source.standard_normal(),
+        turn=TURN_SIGMA * source.standard_normal(),
+    )
+    where = _read(machine, own)
+    if hidden.outside:
+        where = where + hidden.outside_mm * _unit(OUTSIDE[hidden.outside](own.targets, source))
+    return BoardCut(machine, _measured(where, own, source, noise, tape_sigma))
+
+
+def _read(machine: Machine, own: Plan) -> Array:
+    """Where marks would be read (n, 2) [mm] without noise."""
+    where = machine.sleds(chains_for(own), approaches=own.approaches, weights=own.sled_weights)
+    if not np.isfinite(where).all():
+        raise ValueError("the judge's sled cannot hang at some mark")
+    turn = machine.turn
+    turned = where @ np.array([[cos(turn), turn], [-turn, cos(turn)]])
+    return machine.hidden.read(turned)
+
+
+def _measured(
+    where: Array, own: Plan, source: np.random.Generator, noise: float, tape_sigma: float | None
+) -> Measurements:
+    """What is written down of places (n, 2) [mm]."""
+    marks = [
+        Mark(
+            name=f"{target[0]:.0f}/{target[1]:.0f}",
+            target=tuple(target),
+            measured=None if own.spans else tuple(place),
+            approach=tuple(side) if any(side) else None,
+            sled_weight=weight,
+        )
+        for target, place, side, weight in zip(
+            own.targets.tolist(),
+            (where + noise * source.standard_normal(where.shape)).tolist(),
+            own.approaches.tolist(),
+            own.sled_weights.tolist(),
+            strict=True,
+        )
+    ]
+    spans: tuple[Distance, ...] = ()
+    if own.spans:
+        ends = list(combinations(range(len(marks)), 2))
+        ends += ends[:: len(ends) // 6][:6] * 2 if own.again else []
+        spans = tuple(
+            Distance(
+                (marks[i].name, marks[j].name),
+                float(np.linalg.norm(where[i] - where[j]) + noise * source.standard_normal()),
+            )
+            for i, j in ends
+        )
+    else:
+        marks += [
+            replace(
+                marks[i], measured=tuple((where[i] + noise * source.standard_normal(2)).tolist())
+            )
+            for i in own.again
+        ]
+    return Measurements(tuple(marks), spans, tape_sigma=tape_sigma, source="hidden")
+
+
+def _unit(moved: Array) -> Array:
+    """A field of unit RMS."""
+    return moved / max(float(np.sqrt(np.mean(np.sum(moved**2, axis=1)))), 1e-9)
+
+
+def chains_for(own: Plan) -> Array:
+    """What the maker's machine pays out (n, 2) [mm]."""
+    chains, found = lengths(MAKER, own.targets)
+    if not (found == FOUND).all():
+        raise ValueError("a plan reaches beyond the machine")
+    return chains
+
+
+def raw_field(cause: Cause, size: float, own: Plan) -> Array:
+    """How far marks (n, 2) [mm] move by a cause of so many typical sizes, nothing refitted."""
+    return _read(Machine(Hidden(((cause, size),))), own) - _read(Machine(Hidden()), own)
+
+
+_SIZES: dict[tuple, float] = {}
+
+
+def size_for(cause: Cause, own: Plan, millimetres: float) -> float:
+    """How many typical sizes move the marks by so much RMS, before anything is refitted."""
+    key = (cause.effect, cause.label, own.targets.tobytes(), own.approaches.tobytes(), millimetres)
+    if key not in _SIZES:
+        size = 1.0
+        for _ in range(3):
+            moved = raw_field(cause, size, own)
+            size *= millimetres / np.sqrt(np.mean(np.sum(moved**2, axis=1)))
+        _SIZES[key] = float(size)
+    return _SIZES[key]

@@ -1,0 +1,76 @@
+"""What a diagnosis is worth at the sled: the shape error over the whole sheet before and after."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from plumb.bench.boards import BoardCut, Machine
+from plumb.bench.causes import HALF, MAKER
+from plumb.diagnose import Diagnosis
+from plumb.fit import fit
+from plumb.machine_settings import MachineSettings
+from plumb.measurements import Measurements
+from plumb.observations import observe
+from plumb.predict import FOUND, lengths
+from plumb.shape import best_pose
+
+COLUMNS, ROWS = 15, 9  # places of the sheet at which the sled is asked for
+MARGIN = 50.0  # [mm] of the sheet's edge that is left out
+
+
+@dataclass(frozen=True)
+class Cure:
+    """RMS shape errors [mm] of the judge's sled over the whole sheet."""
+
+    before: float  # by the maker's settings
+    frame: float  # by a fit of the frame alone
+    after: float  # by a fit with what was named
+    known: float  # by a fit with what was hidden
+
+
+def sheet() -> np.ndarray:
+    """Places (n, 2) [mm] all over the sheet."""
+    across = np.linspace(-HALF[0] + MARGIN, HALF[0] - MARGIN, COLUMNS)
+    up = np.linspace(-HALF[1] + MARGIN, HALF[1] - MARGIN, ROWS)
+    return np.array([(x, y) for y in up for x in across])
+
+
+def shape_error(machine: Machine, settings: MachineSettings) -> float:
+    """How far the judge's sled, sent by these settings, is from the sheet's places once the sheet is
+    laid at its best: RMS [mm]. Nothing rubs: friction is of the last move, not of the settings."""
+    wanted = sheet()
+    chains, found = lengths(settings, wanted)
+    if not (found == FOUND).all():
+        return float("inf")
+    there = machine.sleds(chains)
+    errors = best_pose(wanted, there).errors
+    return float(np.sqrt(np.mean(np.sum(errors**2, axis=1))))
+
+
+def refitted(measurements: Measurements, effects: Sequence[str], sigma: float) -> MachineSettings:
+    """The maker's settings with the frame and these effects fitted, as `plumb add` does it."""
+    return fit(MAKER, observe(MAKER, measurements), effects=effects, sigma=sigma).settings
+
+
+def effects_to_add(found: Diagnosis) -> tuple[str, ...]:
+    """What to add by a diagnosis: its best explanation.
+
+    Where none is proved, nothing; where none fits well, the effect that stands out most, since a
+    proved part is better than none.
+    """
+    if found.verdict in ("slip", "nothing_provable"):
+        return ()
+    return found.explanations[0].effects if found.explanations else (found.ranking[0].effect,)
+
+
+def cure_of(board: BoardCut, effects: Sequence[str], *, sigma: float) -> Cure:
+    """What naming these effects is worth on a board; sigma [mm] as the diagnosis took it."""
+    truth = board.machine.hidden.effects
+    fits = {
+        own: shape_error(board.machine, refitted(board.measurements, own, sigma))
+        for own in {(), tuple(effects), truth}
+    }
+    return Cure(shape_error(board.machine, MAKER), fits[()], fits[tuple(effects)], fits[truth])

@@ -1,0 +1,118 @@
+"""What is hidden in the boards of a scenario, one board after the other, and slips of the pen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
+
+from plumb.bench.boards import BoardCut, size_for
+from plumb.bench.causes import CAUSES, IN_THE_FRAME, OUTSIDE, Cause, Hidden, Plan
+
+LARGEST_DRAG = 1.5  # typical sizes of friction beyond which lower corners stick for centimetres
+SLIP_MM = 5.0
+
+# What is hidden in board number i of a scenario, on this plan.
+Hide = Callable[[int, Plan], Hidden]
+UNREAL = ("frame_lean", "sprocket_runout")  # no real machine moves marks by millimetres with these
+REAL = tuple(one for one in CAUSES if one.effect not in (*UNREAL, *IN_THE_FRAME, "sled_friction"))
+HUGE = tuple(one for one in CAUSES if one.effect in UNREAL)
+SMALL = tuple(one for one in CAUSES if one.effect not in IN_THE_FRAME)
+
+
+def nothing(index: int, own: Plan) -> Hidden:
+    """Only the frame is off."""
+    return Hidden()
+
+
+def by_effect(causes: tuple[Cause, ...]) -> tuple[tuple[Cause, ...], ...]:
+    """The causes of each effect."""
+    return tuple(
+        tuple(one for one in causes if one.effect == effect)
+        for effect in dict.fromkeys(one.effect for one in causes)
+    )
+
+
+def _turns(causes: tuple[Cause, ...], index: int) -> Cause:
+    """Effects take turns, and so do the causes of each."""
+    effects = by_effect(causes)
+    own = effects[index % len(effects)]
+    return own[index // len(effects) % len(own)]
+
+
+def raw(millimetres: float, causes: tuple[Cause, ...]) -> Hide:
+    """One cause after the other, as large as moves marks by so much RMS before any refit."""
+
+    def hide(index: int, own: Plan) -> Hidden:
+        cause = _turns(causes, index)
+        return Hidden(((cause, size_for(cause, own, millimetres)),))
+
+    return hide
+
+
+def typical(low: float, high: float, causes: tuple[Cause, ...]) -> Hide:
+    """One cause after the other, of some typical sizes."""
+
+    def hide(index: int, own: Plan) -> Hidden:
+        cause = _turns(causes, index)
+        share = np.random.default_rng(index).uniform()
+        size = low + (high - low) * share
+        return Hidden(((cause, min(size, LARGEST_DRAG) if cause.drag else size),))
+
+    return hide
+
+
+def pairs(millimetres: float, causes: tuple[Cause, ...]) -> Hide:
+    """Two effects at once, each of so much RMS; all pairs take turns."""
+    both = list(combinations(causes, 2))
+    both = [both[i] for i in np.random.default_rng(7).permutation(len(both))]
+    both = [(a, b) for a, b in both if a.effect != b.effect]
+
+    def hide(index: int, own: Plan) -> Hidden:
+        return Hidden(
+            tuple((one, size_for(one, own, millimetres)) for one in both[index % len(both)])
+        )
+
+    return hide
+
+
+def outside(millimetres: float) -> Hide:
+    """What the library has no word for."""
+
+    def hide(index: int, own: Plan) -> Hidden:
+        return Hidden(outside=list(OUTSIDE)[index % len(OUTSIDE)], outside_mm=millimetres)
+
+    return hide
+
+
+def slip(
+    board: BoardCut, kind: str, source: np.random.Generator
+) -> tuple[BoardCut, tuple[str, ...]]:
+    """The board with one reading written down wrongly, and the mark's name."""
+    marks = list(board.measurements.marks)
+    index = int(source.integers(len(marks)))
+    x, y = marks[index].measured
+    if kind == "axes":
+        moved = (y, x)
+    elif kind == "digits":
+        moved = (_digits_swapped(x, source), y)
+    else:
+        turn = source.uniform(0, 2 * np.pi)
+        moved = (x + SLIP_MM * np.cos(turn), y + SLIP_MM * np.sin(turn))
+    marks[index] = replace(marks[index], measured=moved)
+    return replace(board, measurements=replace(board.measurements, marks=tuple(marks))), (
+        marks[index].name,
+    )
+
+
+def _digits_swapped(number: float, source: np.random.Generator) -> float:
+    """Two neighbouring digits before the point exchanged, so that the number changes."""
+    digits = list(f"{abs(number):.0f}".zfill(3))
+    places = [i for i in range(len(digits) - 1) if digits[i] != digits[i + 1]] or [0]
+    i = int(source.choice(places))
+    digits[i], digits[i + 1] = digits[i + 1], digits[i]
+    if digits[i] == digits[i + 1]:
+        digits[-1] = str((int(digits[-1]) + 5) % 10)
+    return float(np.copysign(float("".join(digits)), number))

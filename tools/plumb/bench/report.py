@@ -1,0 +1,175 @@
+"""The bench run through, and its table of rates beside the lines, for people and for docs/bench.md."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from plumb.bench.cure import Cure
+from plumb.bench.outcome import Outcome
+from plumb.bench.rates import Line, Rate, rate_of
+from plumb.bench.scenarios import CURE, Scenario
+from plumb.bench.trial import Trial, run_one
+
+Progress = Callable[[Scenario, int], None]  # told of each board that is done
+
+
+@dataclass(frozen=True)
+class Row:
+    """One rate of one scenario; line and judged are empty where there is nothing to reach."""
+
+    scenario: Scenario
+    rate: Rate
+    line: Line | None
+    judged: str  # of Line.judge
+
+
+@dataclass(frozen=True)
+class Cured:
+    """Mean errors [mm] of the judge's sled over the sheet, over the boards of a scenario."""
+
+    scenario: str
+    boards: int
+    before: float
+    frame: float
+    after: float
+    known: float
+
+    @property
+    def ratio(self) -> Rate:
+        """Error with what was named over that with the truth known."""
+        return Rate(CURE.name, self.after / self.known, self.error, self.boards)
+
+    error: float = 0.0
+
+
+@dataclass(frozen=True)
+class Report:
+    """All rates."""
+
+    rows: tuple[Row, ...]
+    by_kind: tuple[tuple[str, str, Rate], ...]  # scenario, what was hidden, share that was right
+    cures: tuple[Cured, ...]  # the last is that of all boards together
+    boards: int  # of each scenario
+    seed: int
+
+    @property
+    def missed(self) -> tuple[Row, ...]:
+        """Rates that miss their lines by more than chance."""
+        return tuple(row for row in self.rows if row.judged == "missed")
+
+    @property
+    def cure_judged(self) -> str:
+        """How all cures together stand against their line; empty if none was measured."""
+        return CURE.judge(self.cures[-1].ratio) if self.cures else ""
+
+
+def run(scenarios: Sequence[Scenario], *, boards: int, seed: int, progress: Progress) -> Report:
+    """Diagnose so many boards of each scenario."""
+    rows: list[Row] = []
+    kinds: list[tuple[str, str, Rate]] = []
+    cures: list[tuple[str, list[Cure]]] = []
+    for scenario in scenarios:
+        trials: list[Trial] = []
+        for index in range(boards):
+            trials.append(run_one(scenario, index, seed=seed))
+            progress(scenario, index + 1)
+        outcomes = [one.outcome for one in trials]
+        rows += rows_of(scenario, outcomes)
+        kinds += _by_kind(scenario, outcomes)
+        if scenario.cured:
+            cures.append((scenario.name, [one.cure for one in trials if one.cure]))
+    if len(cures) > 1:
+        cures.append(("all of these", [cure for _, own in cures for cure in own]))
+    return Report(
+        tuple(rows), tuple(kinds), tuple(_cured(name, own) for name, own in cures), boards, seed
+    )
+
+
+def rows_of(scenario: Scenario, outcomes: Sequence[Outcome]) -> list[Row]:
+    """The rates of a scenario, those with a line first."""
+    rows = []
+    for line in scenario.lines:
+        rate = rate_of(line.name, outcomes)
+        rows.append(Row(scenario, rate, line, line.judge(rate)))
+    return rows + [Row(scenario, rate_of(name, outcomes), None, "") for name in scenario.shown]
+
+
+def _by_kind(scenario: Scenario, outcomes: Sequence[Outcome]) -> list[tuple[str, str, Rate]]:
+    """The first rate with a line, by what was hidden."""
+    causes = dict.fromkeys(one.cause.partition(",")[0] for one in outcomes)
+    if not scenario.lines or len(causes) < 2 or scenario.name.startswith("pairs"):
+        return []
+    name = scenario.lines[0].name
+    return [
+        (
+            scenario.name,
+            cause,
+            rate_of(name, [one for one in outcomes if one.cause.partition(",")[0] == cause]),
+        )
+        for cause in causes
+    ]
+
+
+def _cured(name: str, cures: Sequence[Cure]) -> Cured:
+    own = np.array([(one.before, one.frame, one.after, one.known) for one in cures])
+    before, frame, after, known = own.mean(axis=0).tolist()
+    apart = own[:, 2] - after / known * own[:, 3]
+    error = float(np.sqrt(np.sum(apart**2))) / (len(own) * known)
+    return Cured(name, len(own), before, frame, after, known, error)
+
+
+def value_words(rate: Rate) -> str:
+    """A rate with its uncertainty."""
+    if not rate.count:
+        return "-"
+    if rate.name in ("suspects", CURE.name):
+        return f"{rate.value:.2f} +- {rate.error:.2f}"
+    return f"{100 * rate.value:.1f} +- {100 * rate.error:.1f} %"
+
+
+def line_words(line: Line | None) -> str:
+    """A line to be reached."""
+    if line is None:
+        return ""
+    if line.name in ("suspects", CURE.name):
+        return line.words
+    ends = [(">=", line.least), ("<=", line.most)]
+    given = [f"{sign} {100 * end:g} %" for sign, end in ends if end is not None]
+    return ", ".join(given)
+
+
+HEADER = ("scenario", "hidden", "marks", "noise", "rate", "seen", "line", "")
+CURE_HEADER = ("scenario", "boards", "before", "frame only", "after", "truth known", "ratio")
+
+
+def cells(report: Report) -> list[list[str]]:
+    """The rows of the table."""
+    return [
+        [
+            row.scenario.name,
+            row.scenario.what,
+            f"{row.scenario.marks}{' spans' if row.scenario.spans else ''}",
+            row.scenario.noise_words,
+            row.rate.name,
+            value_words(row.rate),
+            line_words(row.line),
+            row.judged,
+        ]
+        for row in report.rows
+    ]
+
+
+def cure_cells(report: Report) -> list[list[str]]:
+    """The rows of the table of errors at the sled."""
+    return [
+        [
+            one.scenario,
+            str(one.boards),
+            *(f"{value:.2f} mm" for value in (one.before, one.frame, one.after, one.known)),
+            value_words(one.ratio),
+        ]
+        for one in report.cures
+    ]

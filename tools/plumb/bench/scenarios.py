@@ -1,0 +1,147 @@
+"""The scenarios of the bench, and the lines that a diagnosis should reach in each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from plumb.bench.boards import plan
+from plumb.bench.causes import CAUSES, Plan
+from plumb.bench.hiding import HUGE, REAL, SMALL, Hide, nothing, outside, pairs, raw, typical
+from plumb.bench.rates import Line
+
+GRIDS = {9: (3, 3), 15: (5, 3), 25: (5, 5), 35: (7, 5)}
+QUIET = Line("false naming", most=0.05)
+INSIDE = Line("truth inside", least=0.935, most=0.965)
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """Boards of one kind."""
+
+    name: str
+    what: str  # is hidden, in a few words
+    hide: Hide
+    lines: tuple[Line, ...] = ()  # to be reached
+    marks: int = 25
+    noise: float = 0.5  # [mm]
+    stated: float | None = 0.5  # [mm] what the file says of it
+    repeats: bool = False  # three marks are read three times, which gives 12 degrees of freedom
+    spans: bool = False  # distances between all marks instead of places
+    slip: str = ""  # "turned": 5 mm in any direction; "digits"; "axes"
+    shown: tuple[str, ...] = ()  # rates without a line that are worth a look
+    cured: bool = False  # whether the sled is measured too, with what was named added
+
+    @property
+    def plan(self) -> Plan:
+        """Its marks."""
+        return plan(*GRIDS[self.marks], repeats=self.repeats, spans=self.spans)
+
+    @property
+    def noise_words(self) -> str:
+        """Its noise, and where the lab has it from."""
+        if self.repeats:
+            said = "from repeats" if self.stated is None else f"{self.stated:g} stated, repeats"
+        else:
+            said = "stated" if self.stated == self.noise else f"{self.stated:g} stated"
+        return f"{self.noise:g} mm, {said}"
+
+
+def _first(least: float, most: float) -> tuple[Line, ...]:
+    return (Line("right class first", least=least), Line("suspects", most=most), INSIDE)
+
+
+def _unknown(least: float) -> tuple[Line, ...]:
+    return (Line("flagged", least=least),)
+
+
+_ONE = "one effect of 3 mm"
+_MORE = ("named", "interval holds", "limit holds")
+_SLIP = (Line("slip named", least=0.99), Line("effect named first", most=0.01))
+
+SCENARIOS: tuple[Scenario, ...] = (
+    Scenario("none-9", "nothing", nothing, (QUIET,), marks=9, shown=("silent",)),
+    Scenario("none-15", "nothing", nothing, (QUIET,), marks=15, shown=("silent",)),
+    Scenario("none-25", "nothing", nothing, (QUIET,), shown=("silent",), cured=True),
+    Scenario("none-35", "nothing", nothing, (QUIET,), marks=35, shown=("silent",)),
+    Scenario(
+        "none-repeats", "nothing", nothing, (QUIET,), stated=None, repeats=True, shown=("silent",)
+    ),
+    Scenario("none-quiet", "nothing", nothing, (QUIET,), noise=0.2, stated=0.2),
+    Scenario("none-loud", "nothing", nothing, (QUIET,), noise=1.0, stated=1.0),
+    Scenario("none-spans", "nothing", nothing, (QUIET,), marks=9, spans=True),
+    Scenario("none-wrong", "nothing", nothing, (QUIET,), stated=0.33, repeats=True),
+    Scenario("none-wrong-blind", "nothing", nothing, stated=0.33, shown=("false naming", "silent")),
+    Scenario("one-9", _ONE, raw(3.0, REAL), _first(0.87, 2.4), marks=9, shown=_MORE, cured=True),
+    Scenario("one-15", _ONE, raw(3.0, REAL), (INSIDE,), marks=15, shown=("right class first",)),
+    Scenario("one-25", _ONE, raw(3.0, REAL), _first(0.93, 1.8), shown=_MORE, cured=True),
+    Scenario("one-35", _ONE, raw(3.0, REAL), (INSIDE,), marks=35, shown=("right class first",)),
+    Scenario(
+        "one-repeats",
+        _ONE,
+        raw(3.0, REAL),
+        (INSIDE,),
+        stated=None,
+        repeats=True,
+        shown=("right class first", "suspects"),
+    ),
+    Scenario("one-quiet", _ONE, raw(3.0, REAL), (INSIDE,), noise=0.2, stated=0.2),
+    Scenario(
+        "one-loud",
+        _ONE,
+        raw(3.0, REAL),
+        (INSIDE,),
+        noise=1.0,
+        stated=1.0,
+        shown=("right class first", "suspects"),
+    ),
+    Scenario(
+        "one-spans",
+        _ONE,
+        raw(3.0, tuple(one for one in REAL if one.effect != "sheet_skew")),
+        (INSIDE,),
+        marks=9,
+        spans=True,
+        shown=("right class first", "suspects"),
+    ),
+    Scenario(
+        "huge-25",
+        "lean or runout of 3 mm, which no machine has",
+        raw(3.0, HUGE),
+        (INSIDE,),
+        shown=("right class first", "suspects"),
+    ),
+    Scenario(
+        "typical-9", "1 to 3 usual sizes", typical(1, 3, CAUSES), (INSIDE,), marks=9, cured=True
+    ),
+    Scenario(
+        "typical-25", "1 to 3 usual sizes", typical(1, 3, SMALL), (INSIDE,), shown=_MORE, cured=True
+    ),
+    Scenario(
+        "pairs-25",
+        "two effects of 6 mm",
+        pairs(6.0, REAL),
+        (Line("both", least=0.90),),
+        shown=("named", "truth inside"),
+        cured=True,
+    ),
+    Scenario("unknown-9", "2 mm of no effect", outside(2.0), _unknown(0.92), marks=9),
+    Scenario("unknown-15", "2 mm of no effect", outside(2.0), _unknown(0.97), marks=15),
+    Scenario("unknown-25", "2 mm of no effect", outside(2.0), _unknown(0.97)),
+    Scenario("slip-9", "a slip of 5 mm", nothing, _SLIP, marks=9, slip="turned"),
+    Scenario("slip-25", "a slip of 5 mm", nothing, _SLIP, slip="turned"),
+    Scenario("slip-digits", "two digits exchanged", nothing, _SLIP, slip="digits"),
+    Scenario("slip-axes", "x and y exchanged", nothing, _SLIP, slip="axes"),
+    Scenario(
+        "slip-one-25", "a slip of 5 mm, an effect of 3 mm", raw(3.0, REAL), _SLIP, slip="turned"
+    ),
+    Scenario(
+        "slip-one-9",
+        "a slip of 5 mm, an effect of 3 mm",
+        raw(3.0, REAL),
+        marks=9,
+        slip="turned",
+        shown=("slip named", "effect named first"),
+    ),
+)
+NAMES = tuple(one.name for one in SCENARIOS)
+CURE = Line("error over that of the known truth", most=1.3)

@@ -1,0 +1,44 @@
+"""One board of a scenario: made, diagnosed, and judged."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from plumb.bench.boards import cut
+from plumb.bench.causes import MAKER
+from plumb.bench.cure import Cure, cure_of, effects_to_add
+from plumb.bench.hiding import slip
+from plumb.bench.outcome import Outcome, look_alikes, outcome_of
+from plumb.bench.scenarios import Scenario
+from plumb.diagnose import diagnose
+
+SEEDS = 1_000_003  # boards of one seed before those of the next
+
+
+@dataclass(frozen=True)
+class Trial:
+    """What came of one board."""
+
+    outcome: Outcome
+    cure: Cure | None  # where the sled was measured too
+
+
+def run_one(scenario: Scenario, index: int, *, seed: int) -> Trial:
+    """Board number `index` of a scenario."""
+    own = scenario.plan
+    hidden = scenario.hide(index, own)
+    number = SEEDS * seed + index
+    board = cut(hidden, own, seed=number, noise=scenario.noise, tape_sigma=scenario.stated)
+    slipped: tuple[str, ...] = ()
+    if scenario.slip:
+        board, slipped = slip(board, scenario.slip, np.random.default_rng(number + 17))
+    found = diagnose(MAKER, board.measurements)
+    alike: frozenset[str] = frozenset()
+    if len(hidden.causes) == 1:
+        alike = look_alikes(*hidden.causes[0], own, scenario.noise)
+    cure = None
+    if scenario.cured:
+        cure = cure_of(board, effects_to_add(found), sigma=found.noise.sigma)
+    return Trial(outcome_of(found, board, alike=alike, slipped=slipped), cure)
