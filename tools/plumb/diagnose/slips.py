@@ -137,7 +137,8 @@ def _worst(
     """The reading that no single effect explains, with its shift by the frame alone or the best
     effect; None if there is none.
 
-    An effect that would need a size that no real machine has explains nothing here. The noise is that of all others: a slip must not hide in what it makes of the noise.
+    An effect that would need a size that no real machine has explains nothing here. The noise is
+    that of all others: a slip must not hide in what it makes of the noise.
     """
     explanations = _single(board, candidates, noise)
     by_explanation = [shifts(one) for one in explanations]
