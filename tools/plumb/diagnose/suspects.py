@@ -19,7 +19,7 @@ from scipy.special import gammaln
 
 from plumb.diagnose.chance import BELIEVABLE, chance_of_imitation
 from plumb.diagnose.explanation import Explanation, explain, span
-from plumb.diagnose.gain import LEVEL, Search, bases_beside, search
+from plumb.diagnose.gain import LEVEL, bases_beside, complete
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
 from plumb.diagnose.misfit import library_misfit_chance, misfit_chance
 from plumb.diagnose.noise import Noise
@@ -36,7 +36,6 @@ class Survivor:
     """An explanation that stood its test."""
 
     explanation: Explanation
-    search: Search  # what could still be added to it
     possible: bool  # whether the intervals of all its sizes reach what a real machine can have
 
     @property
@@ -92,9 +91,8 @@ def _standing(
     """Explanations that leave no misfit and to which nothing can be added, best first."""
     standing = []
     for one in explanations:
-        found = search(one, felt, noise)
-        if not found.proved and misfit_chance(one, noise) > MISFIT_LEVEL:
-            standing.append(Survivor(one, found, possible(one, noise)))
+        if misfit_chance(one, noise) > MISFIT_LEVEL and complete(one, felt, noise):
+            standing.append(Survivor(one, possible(one, noise)))
     return sorted(standing, key=lambda one: -one.worth)
 
 
