@@ -99,10 +99,12 @@ def diagnose(
     first = Board.of(model, rows, sigma=stated or USUAL_SIGMA, priors=priors)
     felt = felt_effects(explain(first))
     cleared = clear_slips(first, felt, stated=stated)
-    noise = cleared.noise
-    board = Board.of(model, cleared.rows, sigma=noise.sigma, priors=priors)
-    frame = explain(board)
-    singles = {name: explain(board, (name,), start=frame) for name in effect_names()}
+    noise, frame = cleared.noise, cleared.frame
+    singles = {one.effects[0]: one for one in cleared.singles}
+    for name in effect_names():
+        # What the marks do not feel needs no search, but is listed too.
+        if name not in singles:
+            singles[name] = explain(frame.board, (name,), start=frame)
     gate = search(frame, felt, noise)
     slips = tuple(described(one, measurements, settings.sheet) for one in cleared.slips)
     suspects, verdict = Suspects((), True), "slip"
