@@ -50,6 +50,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--fast", action="store_true", help=f"{FAST} boards of each scenario")
     parser.add_argument("--seed", metavar="S", type=int, default=1, help="other boards [1]")
+    parser.add_argument("--jobs", metavar="N", type=_count, default=1, help="programs at once [1]")
     parser.add_argument("--write", metavar="FILE", help="write the page with all rates (markdown)")
     add_json(parser)
 
@@ -57,7 +58,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def _count(text: str) -> int:
     count = int(text) if text.isdecimal() else 0
     if count < 1:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a number of boards, like 100")
+        raise argparse.ArgumentTypeError(f"'{text}' is not a whole number, like 100")
     return count
 
 
@@ -67,7 +68,9 @@ def run(arguments: argparse.Namespace) -> int:
     build()
     boards = arguments.boards or (FAST if arguments.fast else BOARDS)
     bar = _Bar(len(chosen) * boards)
-    report = run_bench(chosen, boards=boards, seed=arguments.seed, progress=bar.step)
+    report = run_bench(
+        chosen, boards=boards, seed=arguments.seed, progress=bar.step, jobs=arguments.jobs
+    )
     bar.clear()
     if arguments.write:
         write_outputs({arguments.write: page(report).encode()}, inputs=[])
@@ -98,13 +101,13 @@ class _Bar:
         self._total, self._done = total, 0
         self._shown = sys.stderr.isatty()
 
-    def step(self, scenario: Scenario, index: int) -> None:
-        """One board more."""
-        self._done += 1
+    def step(self, name: str, boards: int) -> None:
+        """So many boards more of a scenario."""
+        self._done += boards
         if self._shown:
             filled = BAR * self._done // self._total
             bar = "#" * filled + "." * (BAR - filled)
-            sys.stderr.write(f"\r{bar} {self._done}/{self._total} {scenario.name:<18}")
+            sys.stderr.write(f"\r{bar} {self._done}/{self._total} {name:<18}")
             sys.stderr.flush()
 
     def clear(self) -> None:

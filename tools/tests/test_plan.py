@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from carried_out import TRUE_VALUES, Bench
-from hidden_boards import MAKER, SLED, board, build, plan, size_for
+from hidden_boards import MAKER, board, build, plan, size_for
+from plumb.bench.causes import SLED
 from plumb.catalogue import effect_names, parameter_words
 from plumb.diagnose import Checked, diagnose
 from plumb.fit import PRIORS

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hidden_boards import COMPLIANCE, MAKER, board, build, plan
+from hidden_boards import MAKER, board, build, plan
+from plumb.bench.causes import COMPLIANCE
 from plumb.settings_file import machine_toml
 from plumb.sketches import SKETCHES, Strands
 from plumb.sketches.loader import load

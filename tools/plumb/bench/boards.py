@@ -1,4 +1,4 @@
-"""Boards with something hidden: sent by the maker's settings, but the judge says where the sled went."""
+"""Boards with something hidden: cut by the maker's settings, the sled hung by the judge."""
 
 from __future__ import annotations
 

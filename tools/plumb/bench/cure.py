@@ -9,7 +9,6 @@ import numpy as np
 
 from plumb.bench.boards import BoardCut, Machine
 from plumb.bench.causes import HALF, MAKER
-from plumb.diagnose import Diagnosis
 from plumb.fit import fit
 from plumb.machine_settings import MachineSettings
 from plumb.measurements import Measurements
@@ -39,8 +38,8 @@ def sheet() -> np.ndarray:
 
 
 def shape_error(machine: Machine, settings: MachineSettings) -> float:
-    """How far the judge's sled, sent by these settings, is from the sheet's places once the sheet is
-    laid at its best: RMS [mm]. Nothing rubs: friction is of the last move, not of the settings."""
+    """RMS [mm] of how far the judge's sled, sent by these settings to places all over the sheet,
+    is from them once the sheet is laid at its best. Nothing rubs: no setting knows of friction."""
     wanted = sheet()
     chains, found = lengths(settings, wanted)
     if not (found == FOUND).all():
@@ -53,17 +52,6 @@ def shape_error(machine: Machine, settings: MachineSettings) -> float:
 def refitted(measurements: Measurements, effects: Sequence[str], sigma: float) -> MachineSettings:
     """The maker's settings with the frame and these effects fitted, as `plumb add` does it."""
     return fit(MAKER, observe(MAKER, measurements), effects=effects, sigma=sigma).settings
-
-
-def effects_to_add(found: Diagnosis) -> tuple[str, ...]:
-    """What to add by a diagnosis: its best explanation.
-
-    Where none is proved, nothing; where none fits well, the effect that stands out most, since a
-    proved part is better than none.
-    """
-    if found.verdict in ("slip", "nothing_provable"):
-        return ()
-    return found.explanations[0].effects if found.explanations else (found.ranking[0].effect,)
 
 
 def cure_of(board: BoardCut, effects: Sequence[str], *, sigma: float) -> Cure:

@@ -19,6 +19,12 @@ Hide = Callable[[int, Plan], Hidden]
 UNREAL = ("frame_lean", "sprocket_runout")  # no real machine moves marks by millimetres with these
 REAL = tuple(one for one in CAUSES if one.effect not in (*UNREAL, *IN_THE_FRAME, "sled_friction"))
 HUGE = tuple(one for one in CAUSES if one.effect in UNREAL)
+# Those that a real machine can have at 6 mm: no bit is 20 mm off, no tape 7 mm in a metre.
+LARGE = tuple(
+    one
+    for one in REAL
+    if one.effect not in ("sled_swing", "sheet_skew", "tape_scale") or one.label == "right and up"
+)
 SMALL = tuple(one for one in CAUSES if one.effect not in IN_THE_FRAME)
 
 

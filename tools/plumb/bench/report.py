@@ -1,8 +1,10 @@
-"""The bench run through, and its table of rates beside the lines, for people and for docs/bench.md."""
+"""The bench run through, and the tables of its rates beside the lines to be reached."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import ExitStack
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,10 +12,11 @@ import numpy as np
 from plumb.bench.cure import Cure
 from plumb.bench.outcome import Outcome
 from plumb.bench.rates import Line, Rate, rate_of
-from plumb.bench.scenarios import CURE, Scenario
+from plumb.bench.scenarios import CURE, SCENARIOS, Scenario
 from plumb.bench.trial import Trial, run_one
 
-Progress = Callable[[Scenario, int], None]  # told of each board that is done
+Progress = Callable[[str, int], None]  # told of each scenario how many more boards are done
+AT_ONCE = 4  # boards between two steps of the progress
 
 
 @dataclass(frozen=True)
@@ -66,21 +69,47 @@ class Report:
         return CURE.judge(self.cures[-1].ratio) if self.cures else ""
 
 
-def run(scenarios: Sequence[Scenario], *, boards: int, seed: int, progress: Progress) -> Report:
-    """Diagnose so many boards of each scenario."""
+def run(
+    scenarios: Sequence[Scenario], *, boards: int, seed: int, progress: Progress, jobs: int = 1
+) -> Report:
+    """Diagnose so many boards of each scenario, in so many programs at once."""
+    tasks = [
+        (scenario.name, tuple(range(start, min(start + AT_ONCE, boards))), seed)
+        for scenario in scenarios
+        for start in range(0, boards, AT_ONCE)
+    ]
+    trials: dict[str, list[Trial]] = {scenario.name: [] for scenario in scenarios}
+    with ExitStack() as stack:
+        if jobs > 1:
+            done = stack.enter_context(ProcessPoolExecutor(jobs)).map(_some, tasks)
+        else:
+            done = map(_some, tasks)
+        for (name, indices, _), found in zip(tasks, done, strict=True):
+            trials[name] += found
+            progress(name, len(indices))
+    return _report(scenarios, trials, boards, seed)
+
+
+def _some(task: tuple[str, tuple[int, ...], int]) -> list[Trial]:
+    """Some boards of the scenario of a name."""
+    name, indices, seed = task
+    scenario = next(one for one in SCENARIOS if one.name == name)
+    return [run_one(scenario, index, seed=seed) for index in indices]
+
+
+def _report(
+    scenarios: Sequence[Scenario], trials: Mapping[str, Sequence[Trial]], boards: int, seed: int
+) -> Report:
     rows: list[Row] = []
     kinds: list[tuple[str, str, Rate]] = []
     cures: list[tuple[str, list[Cure]]] = []
     for scenario in scenarios:
-        trials: list[Trial] = []
-        for index in range(boards):
-            trials.append(run_one(scenario, index, seed=seed))
-            progress(scenario, index + 1)
-        outcomes = [one.outcome for one in trials]
+        outcomes = [one.outcome for one in trials[scenario.name]]
         rows += rows_of(scenario, outcomes)
         kinds += _by_kind(scenario, outcomes)
         if scenario.cured:
-            cures.append((scenario.name, [one.cure for one in trials if one.cure]))
+            own = [one.cure for one in trials[scenario.name] if one.cure]
+            cures.append((scenario.name, own))
     if len(cures) > 1:
         cures.append(("all of these", [cure for _, own in cures for cure in own]))
     return Report(

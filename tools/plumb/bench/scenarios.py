@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from plumb.bench.boards import plan
 from plumb.bench.causes import CAUSES, Plan
-from plumb.bench.hiding import HUGE, REAL, SMALL, Hide, nothing, outside, pairs, raw, typical
+from plumb.bench.hiding import HUGE, LARGE, REAL, SMALL, Hide, nothing, outside, pairs, raw, typical
 from plumb.bench.rates import Line
 
 GRIDS = {9: (3, 3), 15: (5, 3), 25: (5, 5), 35: (7, 5)}
@@ -119,10 +119,17 @@ SCENARIOS: tuple[Scenario, ...] = (
     Scenario(
         "pairs-25",
         "two effects of 6 mm",
-        pairs(6.0, REAL),
+        pairs(6.0, LARGE),
         (Line("both", least=0.90),),
         shown=("named", "truth inside"),
         cured=True,
+    ),
+    Scenario(
+        "pairs-huge",
+        "the same, also sizes that no machine has",
+        pairs(6.0, REAL),
+        (Line("both", least=0.90),),
+        shown=("named", "truth inside"),
     ),
     Scenario("unknown-9", "2 mm of no effect", outside(2.0), _unknown(0.92), marks=9),
     Scenario("unknown-15", "2 mm of no effect", outside(2.0), _unknown(0.97), marks=15),

@@ -8,7 +8,7 @@ import numpy as np
 
 from plumb.bench.boards import cut
 from plumb.bench.causes import MAKER
-from plumb.bench.cure import Cure, cure_of, effects_to_add
+from plumb.bench.cure import Cure, cure_of
 from plumb.bench.hiding import slip
 from plumb.bench.outcome import Outcome, look_alikes, outcome_of
 from plumb.bench.scenarios import Scenario
@@ -40,5 +40,5 @@ def run_one(scenario: Scenario, index: int, *, seed: int) -> Trial:
         alike = look_alikes(*hidden.causes[0], own, scenario.noise)
     cure = None
     if scenario.cured:
-        cure = cure_of(board, effects_to_add(found), sigma=found.noise.sigma)
+        cure = cure_of(board, found.to_add, sigma=found.noise.sigma)
     return Trial(outcome_of(found, board, alike=alike, slipped=slipped), cure)

@@ -19,7 +19,7 @@ from plumb.diagnose.signs import sign_warning
 from plumb.diagnose.sizes import Room, Size, hidden_share, room_for, sizes_of
 from plumb.diagnose.slip_guess import Slip, described
 from plumb.diagnose.slips import clear_slips
-from plumb.diagnose.suspects import Suspects, evidence, find_suspects
+from plumb.diagnose.suspects import Suspects, best_at_hand, evidence, find_suspects
 from plumb.errors import InputError
 from plumb.fit import PRIORS, USUAL_SIGMA
 from plumb.machine_settings import MachineSettings
@@ -75,6 +75,7 @@ class Diagnosis:
     ranking: tuple[Ranked, ...]
     library_fits: bool  # whether all effects of the library at once could draw the marks
     chance: float  # that so many effects at once would explain what none of them made
+    to_add: tuple[str, ...]  # effects to go on with: the first explanation, or the best at hand
     slips: tuple[Slip, ...]
     could_hide: tuple[Room, ...]
     warnings: tuple[str, ...]
@@ -109,10 +110,12 @@ def diagnose(
     felt = felt_effects(explain(first))
     exchanged = find_exchanged(first)
     cleared = clear_slips(exchanged.board, felt, stated=stated)
-    noise = cleared.noise
-    board = Board.of(model, cleared.rows, sigma=noise.sigma, priors=priors, checked=checked)
-    frame = explain(board)
-    singles = {name: explain(board, (name,), start=frame) for name in effect_names()}
+    noise, frame = cleared.noise, cleared.frame
+    singles = {one.effects[0]: one for one in cleared.singles}
+    for name in effect_names():
+        # What the marks do not feel needs no search, but is listed too.
+        if name not in singles:
+            singles[name] = explain(frame.board, (name,), start=frame)
     gate = search(frame, felt, noise)
     slips = (
         *exchange_slips(exchanged, measurements),
@@ -134,13 +137,14 @@ def diagnose(
         ranking=ranking,
         library_fits=suspects.library_fits,
         chance=suspects.chance,
+        to_add=_to_add(frame, felt, kept, verdict),
         slips=slips,
         could_hide=tuple(room_for(name, kept or (frame,), noise) for name in effect_names()),
         warnings=(
             *noise.notes,
             *([] if possible else [_IMPOSSIBLE]),
             *_warnings(frame, gate, ranking, kept),
-            *_signs(board, felt, noise, kept, verdict),
+            *_signs(frame.board, felt, noise, kept, verdict),
         ),
         disagreements=()
         if slips
@@ -173,6 +177,15 @@ def _judge(
     if not suspects.believable:
         return suspects, "not_in_library"
     return suspects, "one_suspect" if len(suspects.survivors) == 1 else "cannot_tell"
+
+
+def _to_add(
+    frame: Explanation, felt: tuple[str, ...], kept: tuple[Explanation, ...], verdict: str
+) -> tuple[str, ...]:
+    """What to add to the machine; nothing where a slip comes first or nothing is provable."""
+    if verdict in ("slip", "nothing_provable"):
+        return ()
+    return kept[0].effects if kept else best_at_hand(frame, felt)
 
 
 def _refuse_too_few(measurements: Measurements, rows: Observations) -> None:

@@ -60,6 +60,8 @@ class Cleared:
     slips: tuple[Shift, ...]  # their readings counted among all
     rows: Observations
     noise: Noise
+    frame: Explanation  # of what is left
+    singles: tuple[Explanation, ...]  # the same with each candidate
 
 
 def readings_of(rows: Observations) -> list[Reading]:
@@ -117,29 +119,28 @@ def clear_slips(board: Board, candidates: Sequence[str], *, stated: float | None
     rows, noise, slips = board.rows, start, []
     indices = readings_of(rows)  # of the readings still there, among all
     most = max(1, len(indices) // READINGS_PER_SLIP)
+    whole = fitted = _single(_with(board, rows, noise.sigma), candidates)
     while len(slips) <= most:
-        trial = _with(board, rows, noise.sigma)
-        found = _worst(trial, candidates, stated, noise)
+        found = _worst(fitted, stated, noise)
         if found is None:
             break
         slips.append(replace(found, reading=indices.pop(_place(rows, found.reading))))
         rows = without(rows, found.reading)
         noise = noise_on(_with(board, rows, noise.sigma), stated)
-    if not slips:
-        return Cleared((), board.rows, start)
-    fits = len(slips) <= most and _fits(_with(board, rows, noise.sigma), candidates, noise)
-    return Cleared(tuple(slips), rows, noise) if fits else Cleared((), board.rows, start)
+        fitted = _single(_with(board, rows, noise.sigma), candidates)
+    if slips and len(slips) <= most and _fits(fitted, noise):
+        return Cleared(tuple(slips), rows, noise, fitted[0], tuple(fitted[1:]))
+    return Cleared((), board.rows, start, whole[0], tuple(whole[1:]))
 
 
-def _worst(
-    board: Board, candidates: Sequence[str], stated: float | None, noise: Noise
-) -> Shift | None:
+def _worst(fitted: Sequence[Explanation], stated: float | None, noise: Noise) -> Shift | None:
     """The reading that no single effect explains, with its shift by the frame alone or the best
     effect; None if there is none.
 
-    An effect that would need a size that no real machine has explains nothing here. The noise is that of all others: a slip must not hide in what it makes of the noise.
+    An effect that would need a size that no real machine has explains nothing here. The noise is
+    that of all others: a slip must not hide in what it makes of the noise.
     """
-    explanations = _single(board, candidates, noise)
+    explanations, board = _possible(fitted, noise), fitted[0].board
     by_explanation = [shifts(one) for one in explanations]
     drops = np.array([[one.drop for one in own] for own in by_explanation])
     if drops.shape[1] < 4:
@@ -173,18 +174,20 @@ def _beside_everything(explanation: Explanation) -> Array:
     return np.array(drops)
 
 
-def _single(board: Board, candidates: Sequence[str], noise: Noise) -> list[Explanation]:
-    """The frame alone, then with each effect that fits with a possible size."""
+def _single(board: Board, candidates: Sequence[str]) -> list[Explanation]:
+    """The frame alone, then with each effect."""
     frame = explain(board)
-    singles = (explain(board, (name,), start=frame) for name in candidates)
-    return [frame, *(one for one in singles if possible(one, noise))]
+    return [frame, *(explain(board, (name,), start=frame) for name in candidates)]
 
 
-def _fits(board: Board, candidates: Sequence[str], noise: Noise) -> bool:
+def _possible(fitted: Sequence[Explanation], noise: Noise) -> list[Explanation]:
+    """Those of sizes that a real machine can have; the frame alone is the first."""
+    return [one for one in fitted if possible(one, noise)]
+
+
+def _fits(fitted: Sequence[Explanation], noise: Noise) -> bool:
     """Whether the frame alone or with one effect leaves no more than noise."""
-    return any(
-        misfit_chance(one, noise) > MISFIT_LEVEL for one in _single(board, candidates, noise)
-    )
+    return any(misfit_chance(one, noise) > MISFIT_LEVEL for one in _possible(fitted, noise))
 
 
 def _with(board: Board, rows: Observations, sigma: float) -> Board:

@@ -19,7 +19,7 @@ from scipy.special import gammaln
 
 from plumb.diagnose.chance import BELIEVABLE, chance_of_imitation
 from plumb.diagnose.explanation import Explanation, explain, span
-from plumb.diagnose.gain import LEVEL, Search, bases_beside, search
+from plumb.diagnose.gain import LEVEL, bases_beside, complete
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
 from plumb.diagnose.misfit import library_misfit_chance, misfit_chance, spare_numbers
 from plumb.diagnose.noise import Noise
@@ -28,6 +28,7 @@ from plumb.diagnose.sizes import possible
 
 MOST_REFITTED = 12  # combinations that are refitted in full, the best by the frame's slopes
 FEWEST_SPARE = 1.5  # measured numbers that an explanation must leave over to count as one
+UNHEARD = np.log(0.01)  # of the chance that a machine is beyond all that the catalogue knows
 MOST_TOGETHER = 3  # effects at once; the marks of one sheet hardly carry more
 
 
@@ -36,8 +37,12 @@ class Survivor:
     """An explanation that stood its test."""
 
     explanation: Explanation
-    search: Search  # what could still be added to it
     possible: bool  # whether the intervals of all its sizes reach what a real machine can have
+
+    @property
+    def worth(self) -> float:
+        """How much is to be thought of it: the marks' word, and what is known of real machines."""
+        return worth(self.explanation) + (0.0 if self.possible else UNHEARD)
 
 
 @dataclass(frozen=True)
@@ -74,8 +79,8 @@ def find_suspects(
         survivors += [one for one in standing if one.possible or alone]
         if any(one.possible for one in survivors):
             chance = chance_of_imitation(frame, felt, size, noise, real=True)
-    survivors.sort(key=lambda one: (not one.possible, -worth(one.explanation)))
-    if survivors and not survivors[0].possible:
+    survivors.sort(key=lambda one: -one.worth)
+    if survivors and not any(one.possible for one in survivors):
         most = max(len(one.explanation.effects) for one in survivors)
         chance = chance_of_imitation(frame, felt, most, noise, real=False)
     return Suspects(tuple(survivors), library_fits, chance)
@@ -89,10 +94,28 @@ def _standing(
     for one in explanations:
         if spare_numbers(one) < FEWEST_SPARE:
             continue  # as many unknowns as numbers explain anything
-        found = search(one, felt, noise)
-        if not found.proved and misfit_chance(one, noise) > MISFIT_LEVEL:
-            standing.append(Survivor(one, found, possible(one, noise)))
-    return sorted(standing, key=lambda one: -worth(one.explanation))
+        if misfit_chance(one, noise) > MISFIT_LEVEL and complete(one, felt, noise):
+            standing.append(Survivor(one, possible(one, noise)))
+    return sorted(standing, key=lambda one: -one.worth)
+
+
+def best_at_hand(frame: Explanation, felt: Sequence[str]) -> tuple[str, ...]:
+    """Effects to go on with where no explanation stands: added one by one while they are worth it.
+
+    Leaving a large effect out because a small one is unknown would help nobody.
+    """
+    best, chosen = worth(frame), frame
+    while len(chosen.effects) < MOST_TOGETHER:
+        more = [
+            explain(frame.board, (*chosen.effects, name), start=chosen)
+            for name in felt
+            if name not in chosen.effects
+        ]
+        values = [worth(one) for one in more]
+        if not more or max(values) <= best:
+            break
+        best, chosen = max(values), more[int(np.argmax(values))]
+    return chosen.effects
 
 
 def worth(explanation: Explanation) -> float:
