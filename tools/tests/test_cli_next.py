@@ -176,7 +176,9 @@ def test_a_sharper_tape_and_more_marks_tell_more(ask, maker):
     _, sharp = ask(*wide, "--sigma", 0.2)
     assert nine["pairs_told_apart"] < more["pairs_told_apart"] < sharp["pairs_told_apart"]
     seen = [[one["smallest"] for one in found["outlines"]] for found in (nine, more, sharp)]
-    assert all(a >= b >= c for a, b, c in zip(*seen, strict=True) if None not in (a, b, c))
+    for a, b, c in zip(*seen, strict=True):
+        # The gate of a wider layout is a little higher, so what few marks feel may lose by it.
+        assert None in (a, b, c) or (1.1 * a >= b and 1.1 * b >= c)
 
 
 def test_what_grid_writes_is_a_plan(run, ask, maker, tmp_path):
