@@ -220,6 +220,11 @@ def verdict_sentence(found: Diagnosis) -> str:
         return f"{which} with every explanation: look at {names} again before anything else."
     if found.verdict == "nothing_provable":
         return f"Nothing is provable: {rest}, and noise alone could look like that."
+    if found.verdict == "not_in_library" and found.explanations:
+        return (
+            f"Nothing in the library explains these marks convincingly ({rest}, more than noise): "
+            f"{several} would, but so many free numbers fit nearly anything."
+        )
     if found.verdict == "not_in_library":
         more = " (unless more than three act at once)" if found.library_fits else ""
         return (
