@@ -1,22 +1,22 @@
 """Writes the G-code for a grid of calibration marks, each one approached in the same direction.
 
-It is no part of the lab: it needs only Python 3.9 and imports nothing from the project.
+It is no part of the lab: it needs only Python 3.9 (--pattern benchmark: benchmark_pattern.py too).
 Frame: origin in the middle of the sheet, x right, y up. Lengths are mm, forces N, feeds mm/min.
 """
 
 import argparse
 import configparser
+import importlib
 import math
 import os
 import sys
 from collections import namedtuple
 
 DEPTH = {"touch": 0.5, "drill": 5.0}  # [mm] a scratch that a tape can find; a hole for a pin
-# Friction turns round with the sled, and moves it by up to 5 mm in a lower corner. Twice that is
-# the shortest lead-in over which the sled forgets from where it came.
+# Twice what friction moves a sled in a lower corner: after it, the way before is forgotten.
 MIN_LEAD_IN = 10.0  # [mm]
 MIN_FREE_CHAIN = 100.0  # [mm] between ring and sprocket, so that the carriage stays clear
-# Numbers that are not in the list: 0.1 to 10000. A 3/4 inch sheet ends at 19 mm of depth.
+# Others: 0.1 to 10000. A 3/4 inch sheet ends at 19 mm of depth.
 LIMITS = {"columns": (2, 31), "rows": (2, 31), "margin": (0, 10000), "repeats": (0, 9)}
 LIMITS |= {"repeat_spacing": (0, 1000), "depth": (0.1, 19), "safe_height": (1, 50)}
 LIMITS |= {"min_tension": (0, 1000)}
@@ -36,15 +36,14 @@ def pair(text):
 
 # Name, default, kind or choices, meaning.
 GRID_OPTIONS = (
+    ("pattern", "grid", ("grid", "benchmark"), "benchmark: the community's test, places fixed"),
     ("columns", 5, int, "marks side by side, 2 to 31"),
     ("rows", 3, int, "marks one above the other, 2 to 31"),
     ("margin", 100.0, float, "mm from the outer marks to the sheet's edge"),
     ("order", "snake", ("snake", "rows", "columns"), "there and back, by rows, or by columns"),
-    # Straight up, friction pulls where the sled is stiff: at most 0.4 mm in a lower corner,
-    # against 2.5 mm sideways. Both motors wind in, and no chain gets slacker than at rest.
+    # Upwards friction moves a sled least: 0.4 mm in a lower corner, against 2.5 mm sideways.
     ("approach", (0.0, 40.0), pair, "DX,DY in mm, the way into every mark (--approach=-9,9)"),
     ("repeats", 1, int, "times that corners and middles of edges are made again, 0 to 9"),
-    # A second hole in the same place cannot be measured.
     ("repeat_spacing", 20.0, float, "mm from a mark inwards to its repeat; 0 hits it again"),
     ("mode", "touch", tuple(DEPTH), "touch with the router off, or drill"),
     ("depth", None, float, "mm below the surface (touch 0.5, drill 5)"),
@@ -52,10 +51,9 @@ GRID_OPTIONS = (
     ("feed", 700.0, float, "mm/min sideways"),
     ("plunge_feed", 40.0, float, "mm/min downwards"),
     ("units", "mm", ("mm", "inch"), "of the program; options and comments stay in mm"),
-    # A third of the motors' stall is kept for starting, for friction and for the hose.
+    # A third of the motors' stall is kept for friction and for the hose.
     ("max_tension", 200.0, float, "N, the tightest chain allowed; motors stall near 290 N"),
-    # Below the pull of a slack-side bungee the gears change sides, and the far chain is so soft
-    # that friction alone moves the sled by millimetres.
+    # Below a slack-side bungee's pull the gears change sides, and the far chain is too soft.
     ("min_tension", 18.0, float, "N, the slackest chain allowed; a bungee pulls about 18 N"),
 )
 # Name, default, section and key of groundcontrol.ini, meaning.
@@ -93,6 +91,8 @@ def tensions(machine, x, y):
 def marks(grid, machine):
     """Every touch in the order in which it is made; names count by rows from the top left."""
     _check_numbers(grid, machine)
+    if grid.pattern == "benchmark":
+        return [Mark(*place, 0) for place in _benchmark().places()]
     width = machine.sheet_width - 2 * grid.margin
     height = machine.sheet_height - 2 * grid.margin
     places = _places(grid)
@@ -113,6 +113,12 @@ def marks(grid, machine):
     return touches
 
 
+def _benchmark():
+    """The module beside this one that knows the community's test; no other pattern needs it."""
+    sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+    return importlib.import_module("benchmark_pattern")
+
+
 def _places(grid):
     """Pairs of row and column in the order of the visit."""
     rows, columns = range(grid.rows), range(grid.columns)
@@ -123,8 +129,7 @@ def _places(grid):
 
 
 def _is_extreme(grid, row, column):
-    """True for the corners and, where there is one, the middle of each edge."""
-    # 0 and 2 are the two ends, 1 is the exact middle.
+    """True for the corners and, where there is one, the middle of each edge (1; ends: 0, 2)."""
     across, down = 2 * column / (grid.columns - 1), 2 * row / (grid.rows - 1)
     return across in (0, 1, 2) and down in (0, 1, 2) and (across, down) != (1, 1)
 
@@ -166,10 +171,10 @@ def _lead_in(grid, mark):
 
 def _stops(grid, machine):
     """Names and places [mm] of all ends of sideways moves."""
-    stops = [("the start", (0.0, 0.0))]
+    stops = []
     for mark in marks(grid, machine):
         stops += [(f"the lead-in of {mark}", _lead_in(grid, mark)), (str(mark), (mark.x, mark.y))]
-    return [*stops, ("the end", (0.0, 0.0))]
+    return [("the start", (0.0, 0.0)), *stops, ("the end", (0.0, 0.0))]
 
 
 def _check_place(grid, machine, what, x, y):
@@ -197,8 +202,7 @@ def check(grid, machine, ask=_check_place):
     stops = _stops(grid, machine)
     for what, place in stops:
         ask(grid, machine, what, *place)
-    # The way between two top corners passes the tightest place of all, marks or not.
-    x, y = stops[0][1]
+    x, y = stops[0][1]  # the way between two top corners passes the tightest place of all
     for what, end in stops[1:]:
         for steps in range(math.ceil(math.dist((x, y), end) / WAY_STEP), 0, -1):
             x, y = x + (end[0] - x) / steps, y + (end[1] - y) / steps
@@ -219,10 +223,9 @@ def program(grid, machine):
     up = f"G0 {word('Z', grid.safe_height)}"
     lines = [
         "(Plumb calibration grid)",
-        f"({grid.columns} columns, {grid.rows} rows, {len(touches)} marks with repeats)",
-        "(X0 Y0 is the middle of the sheet, Z0 its surface)",
+        f"(pattern: {grid.pattern}, {len(touches)} marks with repeats)",
+        "(X0 Y0 middle of sheet, Z0 surface, comments in mm)",
         f"({grid.mode} {_depth(grid):g} mm deep: {router})",
-        "(comments are in mm)",
         "G21" if grid.units == "mm" else "G20",
         "G90",
         up,
@@ -279,6 +282,8 @@ def _picture(machine, touches):
 
 def marks_list(grid, machine):
     """The text of a marks.toml that waits for the tape's readings."""
+    if grid.pattern == "benchmark":
+        return _benchmark().form(grid.approach)
     lines = [
         "# Calibration marks, mm from the sheet's top left corner; x right, y down, approach too.",
         "# Fill in each measured line and take away its #; delete a [[mark]] that you cannot read.",
@@ -340,6 +345,7 @@ def from_arguments(arguments):
     found = read_settings(arguments.settings) if arguments.settings else {}
     given = {name: value for name, value in vars(arguments).items() if value is not None}
     grid = Grid(**{name: given[name] for name in Grid._fields if name in given})
+    grid = grid._replace(repeats=0) if grid.pattern == "benchmark" else grid
     return grid, Machine(**{n: v for n, v in {**found, **given}.items() if n in Machine._fields})
 
 
@@ -351,7 +357,7 @@ def run(arguments, name="calibration grid"):
         files = {arguments.output: text} if arguments.output else {}
         if arguments.marks:
             _demand(arguments.marks != arguments.output, "--marks and --output are the same file")
-            # Readings that took an hour with the tape must not be lost to a second run.
+            # Readings that took an hour must not be lost to a second run.
             kept = f"{arguments.marks} exists: move it away or give --marks another name"
             _demand(not os.path.exists(arguments.marks), kept)
             files[arguments.marks] = marks_list(grid, machine)
@@ -381,16 +387,11 @@ def _write(files):
         raise GridError(f"cannot write {path}: {error.strerror}: give another name") from None
 
 
-class _Parser(argparse.ArgumentParser):
-    """Complains in one line."""
-
-    def error(self, message):
-        self.exit(2, f"calibration grid: {message}; --help lists the options\n")
-
-
 def main(argv=None):
     """The command line; returns the exit code."""
-    parser = _Parser(description="Writes the G-code for a grid of calibration marks.")
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    complaint = "calibration grid: {}; --help lists the options\n"
+    parser.error = lambda message: parser.exit(2, complaint.format(message))
     add_arguments(parser)
     return run(parser.parse_args(argv))
 

@@ -158,7 +158,10 @@ TEST(Registry, PublishedNumbersKeepTheirMeaning) {
                                              "192 sprocket_runout.right_sine",
                                              "193 sprocket_runout.right_cosine",
                                              "200 chain_zero.left",
-                                             "201 chain_zero.right"};
+                                             "201 chain_zero.right",
+                                             "210 residual_patch.left_x",
+                                             "219 residual_patch.right_x",
+                                             "227 residual_patch.right_yyy"};
   for (const std::string& number : released)
     EXPECT_NE(numbers.end(), std::find(numbers.begin(), numbers.end(), number)) << number;
 }

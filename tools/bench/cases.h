@@ -36,6 +36,7 @@ const Case kCases[] = {
     {"inverse, the same and frame_lean", kInverse, kSagStretchPitch, kUsual, 150},
     {"inverse, the same and sprocket_runout", kInverse, kSagStretchPitch, kUsual, 190},
     {"inverse, the same and chain_zero", kInverse, kSagStretchPitch, kUsual, 200},
+    {"inverse, the same and residual_patch", kInverse, kSagStretchPitch, kUsual, 210},
     {"inverse, all effects", kInverse, kAll, kUsual, 0},
     {"forward, no guess", kForward, kSagStretchPitch, kUsual, 0},
     {"forward, guess in the far corner", kForwardFar, kSagStretchPitch, kUsual, 0},

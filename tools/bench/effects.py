@@ -42,6 +42,8 @@ def row(name: str, costs: Costs, errors: dict[str, list[float]]) -> str:
     own = [value for key, value in errors.items() if key.startswith(name)]
     if name in ("chain_sag", "chain_stretch"):
         with_it, without = f"{errors['nothing'][0]:.4f}", "–"
+    elif not own:  # the residual patch: the judge has no cause for it
+        with_it = without = "–"
     else:
         with_it = f"{max(value[0] for value in own):.4f}"
         without = f"{max(value[1] for value in own):.2f}"

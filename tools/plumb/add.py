@@ -7,7 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.catalogue import NO_FIRMWARE, effect_names, parameter_names, parameter_words
+from plumb.benchmark import Score, score_of
+from plumb.catalogue import (
+    NO_FIRMWARE,
+    effect_names,
+    is_sketch,
+    parameter_names,
+    parameter_words,
+)
 from plumb.checks import refuse_unknown
 from plumb.compare import Comparison, compare
 from plumb.errors import InputError
@@ -17,8 +24,11 @@ from plumb.lab_effects.lab_effect import EDGES, SLED, TAPE
 from plumb.machine_settings import FRAME_FIELDS, MachineSettings
 from plumb.measurements import Measurements
 from plumb.observations import Observations, model_and_observations
+from plumb.patch import PATCH, best_patch
 from plumb.predict import frame_words
+from plumb.rounds import notes_on, unit_of
 from plumb.shape import best_pose
+from plumb.sketches import SKETCHES
 
 FAR = 2.0  # [prior sigmas] a stated number that moved farther was probably measured wrongly
 
@@ -35,6 +45,15 @@ class Quality:
 
 
 @dataclass(frozen=True)
+class Step:
+    """The fit after one more effect."""
+
+    effect: str
+    quality: Quality
+    only_fit: bool  # the fit got better, what it did not see got worse
+
+
+@dataclass(frozen=True)
 class Parameter:
     """One fitted number with its 95 % interval, and the range that a real machine can have."""
 
@@ -47,6 +66,11 @@ class Parameter:
     prior_sigma: float | None  # None: free
     possible_low: float | None  # None: no limit is known
     possible_high: float | None
+
+    @property
+    def of_patch(self) -> bool:
+        """Whether it is a term of the residual patch, which means nothing by itself."""
+        return self.name.startswith(f"{PATCH}.")
 
     @property
     def plausible(self) -> bool:
@@ -73,6 +97,8 @@ class Addition:
     parameters: tuple[Parameter, ...]
     effects_added: tuple[str, ...]  # those of the lab too
     warnings: tuple[str, ...]
+    steps: tuple[Step, ...]  # effect by effect, in the order given; the last one is `after`
+    benchmark_after: Score | None = None  # of the community's test: what the fit leaves of it
 
     @property
     def settings(self) -> MachineSettings:
@@ -81,7 +107,7 @@ class Addition:
 
     @property
     def cures(self) -> tuple[str, ...]:
-        """A sentence for each lab effect that was fitted: no setting holds it."""
+        """A sentence for each lab effect or sketch that was fitted: no setting holds it."""
         return tuple(
             _cure(name, parameters) for name, parameters in self.after_fit.lab_effects.items()
         )
@@ -106,8 +132,11 @@ def add(
     controller: str | None = None,
     priors: Mapping[str, float] = PRIORS,
     sigma: float | None = None,
+    patch: bool = False,
 ) -> Addition:
     """Fit frame and effects to the marks; effects that the settings have already stay as they are.
+
+    patch: beside them a residual patch, if marks left out are then predicted better.
 
     Raises InputError for unknown effects, too few marks, and marks that cannot be reached.
     """
@@ -121,8 +150,22 @@ def add(
     _refuse_unfelt(measurements, rows, names)
     noise = sigma or measurements.tape_sigma
     before_fit = fit(model, rows, priors=priors, sigma=noise)
-    after_fit = fit(model, rows, effects=names, priors=priors, sigma=noise) if names else before_fit
-    before, after = quality_of(before_fit, rows), quality_of(after_fit, rows)
+    before = quality_of(before_fit, rows)
+    fits = [
+        fit(model, rows, effects=names[: i + 1], priors=priors, sigma=noise)
+        for i in range(len(names))
+    ]
+    steps = _steps(names, before, [quality_of(one, rows) for one in fits])
+    after_fit = fits[-1] if fits else before_fit
+    if patch:
+        told = {"effects": names, "priors": priors, "sigma": noise}
+        patched = best_patch(model, rows, **told, without=after_fit)
+        if patched:
+            after_fit, names = patched.fit, (*names, PATCH)
+            steps += _steps(
+                [PATCH], steps[-1].quality if steps else before, [quality_of(after_fit, rows)]
+            )
+    after = steps[-1].quality if steps else before
     parameters = tuple(_parameter(one) for one in after_fit.estimates)
     return Addition(
         raw=raw,
@@ -137,9 +180,12 @@ def add(
         warnings=(
             *raw.warnings,
             *_unsettled(after_fit),
+            *notes_on(one.name for one in parameters),
             *_surprises(parameters),
-            *_bad_bargains(before, after),
+            *_bad_bargains(before, after, steps),
         ),
+        steps=steps,
+        benchmark_after=score_of(measurements, after_fit.distance_errors),
     )
 
 
@@ -176,6 +222,10 @@ def quality_of(fitted: Fit, rows: Observations) -> Quality:
 def _refuse_unknown_effects(names: Sequence[str]) -> None:
     known = effect_names()
     for name in names:
+        if name == PATCH:
+            raise InputError(
+                f"--effect {name}: it is no effect; give --patch to choose it knowingly"
+            )
         if name not in known:
             raise InputError(
                 f"--effect {name}: there is no effect of that name; known are {', '.join(known)}"
@@ -213,19 +263,22 @@ def _refuse_unfelt(measurements: Measurements, rows: Observations, effects: Sequ
 
 
 def _cure(name: str, parameters: Mapping[str, float]) -> str:
-    """What to do about a lab effect that was fitted."""
-    own = next(one for one in LAB_EFFECTS if one.name == name)
+    """What to do about a lab effect or sketch that was fitted."""
+    own = next(one for one in (*LAB_EFFECTS, *SKETCHES) if one.name == name)
     found = ", ".join(
         f"{one.name} = {parameters[one.name]:.3g} {one.unit}".removesuffix(" 1")
         for one in own.parameters
     )
+    if is_sketch(name):
+        return f"{name} ({found}): a sketch, which no firmware has until it is written in C++"
     return f"{name} ({found}): {NO_FIRMWARE}, and no setting holds it: {own.remedy}"
 
 
 def _parameter(estimate: Estimate) -> Parameter:
     words = {one["name"]: one for one in frame_words()}
     words |= parameter_words()
-    own = words.get(estimate.name, {"unit": "rad", "low": None, "high": None})
+    unit = unit_of(estimate.name) or "rad"
+    own = words.get(estimate.name, {"unit": unit, "low": None, "high": None})
     return Parameter(
         name=estimate.name,
         value=estimate.value,
@@ -261,7 +314,7 @@ def _surprises(parameters: Sequence[Parameter]) -> list[str]:
                 "stands in for something else; check which settings were in force and the signs of "
                 "the marks"
             )
-        if one.prior_sigma and abs(moved) > FAR * one.prior_sigma:
+        if one.prior_sigma and not one.of_patch and abs(moved) > FAR * one.prior_sigma:
             said.append(
                 f"{one.name} moved by {moved:+.3g} {one.unit} from the stated {one.before:g}, more "
                 f"than twice the {one.prior_sigma:g} it was trusted to: measure it again"
@@ -269,10 +322,28 @@ def _surprises(parameters: Sequence[Parameter]) -> list[str]:
     return said
 
 
-def _bad_bargains(before: Quality, after: Quality) -> list[str]:
+def _steps(names: Sequence[str], before: Quality, qualities: Sequence[Quality]) -> tuple[Step, ...]:
+    earlier = [before, *qualities]
+    return tuple(
+        Step(
+            name,
+            now,
+            only_fit=now.fit_rms < then.fit_rms and now.left_out_rms > then.left_out_rms,
+        )
+        for name, then, now in zip(names, earlier, qualities, strict=False)
+    )
+
+
+def _bad_bargains(before: Quality, after: Quality, steps: Sequence[Step]) -> list[str]:
+    """Sentences about effects that serve the fit alone."""
     if after.fit_rms < before.fit_rms and after.left_out_rms > before.left_out_rms:
         return [
             f"the fit got better but the left-out error rose from {before.left_out_rms:.2f} to "
             f"{after.left_out_rms:.2f} mm: the effects follow the noise, do not keep them"
         ]
-    return []
+    return [
+        f"with {one.effect} only the fit got better; marks left out of it are predicted worse "
+        f"({one.quality.left_out_rms:.2f} mm): it may follow the noise"
+        for one in steps
+        if one.only_fit
+    ]

@@ -16,11 +16,14 @@ from plumb import (
     cli_effects,
     cli_grid,
     cli_kinematics,
+    cli_next,
+    cli_preview,
     cli_reach,
 )
 from plumb.errors import InputError
+from plumb.sketches import BROKEN
 
-DESCRIPTION = "Find and cure the errors of a hanging CNC: grid, compare, diagnose, add."
+DESCRIPTION = "Find and cure the errors of a hanging CNC: grid, compare, diagnose, next, add."
 EPILOG = "Lengths are mm, forces N, angles rad. plumb COMMAND --help explains each command."
 
 
@@ -36,6 +39,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code."""
     try:
         parsed = build_parser().parse_args(arguments)
+        for line in BROKEN:
+            raise InputError(f"sketch {line}")
         code = parsed.run(parsed)
         sys.stdout.flush()
         return code
@@ -55,8 +60,10 @@ def build_parser() -> Parser:
     kinematics = cli_kinematics
     _enter(commands, "grid", cli_grid.HELP, cli_grid.EXIT, cli_grid.add_arguments, cli_grid.run)
     for name, module in (
+        ("preview", cli_preview),
         ("compare", cli_compare),
         ("diagnose", cli_diagnose),
+        ("next", cli_next),
         ("add", cli_add),
         ("effects", cli_effects),
         ("bench", cli_bench),

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import argparse
-import math
+from dataclasses import replace
 from typing import Any
 
 from plumb.add import Addition, Parameter, Quality, add, priors_with
-from plumb.catalogue import effect_names
-from plumb.cli_compare import panel_of
+from plumb.auto import AutoAddition, add_auto, without_marks
+from plumb.catalogue import effect_names, is_sketch
+from plumb.cli_add_text import PATCH_WARNING, as_text, auto_text, turn_sentence
+from plumb.cli_compare import panel_of, score_json
 from plumb.cli_files import (
     Inputs,
     add_json,
@@ -16,18 +18,21 @@ from plumb.cli_files import (
     inputs_of,
     length,
     picture_form,
+    prior,
     refuse_twins,
     write_outputs,
 )
-from plumb.cli_text import about, millimetres, number, print_json, sentences, table
+from plumb.cli_text import about, print_json, sentences
 from plumb.errors import InputError, refusal
+from plumb.patch import PATCH
 from plumb.picture import Panel, draw
 from plumb.settings_file import changed_ini, groundcontrol_changes, machine_toml
 
 HELP = "fit the frame and the named effects to the marks, and write the new settings"
 EXIT = (
     "Exit: 0 done; 1 done, but marks left out of the fit are not predicted better than without the "
-    "effects; 2 an input cannot be used, and nothing was written."
+    "effects, or auto cannot explain the marks (nothing is written for a slip); 2 an input cannot "
+    "be used, and nothing was written."
 )
 
 
@@ -39,9 +44,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="NAME",
         nargs="+",
         action="extend",
-        required=True,
-        help=f"effects to fit, after the marks: {', '.join(effect_names())}; those that SETTINGS "
-        "have and that are not named stay as they are",
+        default=[],
+        help="effects to fit, after the marks, or auto: what plumb diagnose proves. Effects are "
+        f"{', '.join(effect_names())}; those that SETTINGS have and that are not named stay as "
+        "they are",
+    )
+    parser.add_argument(
+        "--patch",
+        action="store_true",
+        help="also fit a smooth map of what is left: no physics, for when no effect explains it",
+    )
+    parser.add_argument(
+        "--without",
+        metavar="MARK",
+        action="append",
+        default=[],
+        help="leave this mark out, say because its reading was a slip",
     )
     parser.add_argument("-o", "--output", metavar="FILE", help="write the machine.toml")
     parser.add_argument(
@@ -67,51 +85,82 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_json(parser)
 
 
-def prior(text: str) -> tuple[str, float]:
-    """One NAME=SIGMA."""
-    name, separator, value = text.partition("=")
-    try:
-        sigma = float(value)
-    except ValueError:
-        sigma = -1.0
-    if not (separator and math.isfinite(sigma) and sigma >= 0):
-        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=SIGMA, like motor_gap=1.5")
-    return name, sigma
-
-
 def run(arguments: argparse.Namespace) -> int:
     """Fit, write, print, and return the exit code."""
-    if "auto" in arguments.effect:
-        raise InputError(
-            "--effect auto is not built yet; name the effects yourself, of "
-            f"{', '.join(effect_names())}"
-        )
     refuse_twins(arguments.output, arguments.groundcontrol, arguments.picture)
     inputs = inputs_of(arguments)
-    result = add(
-        inputs.settings,
-        inputs.measurements,
-        effects=arguments.effect,
-        cut_with=inputs.cut_with,
-        controller=arguments.controller,
-        priors=priors_with(arguments.prior),
-        sigma=arguments.sigma,
-    )
+    if arguments.without:
+        marks = without_marks(inputs.measurements, arguments.without)
+        inputs = replace(inputs, measurements=marks)
+    told = {
+        "cut_with": inputs.cut_with,
+        "controller": arguments.controller,
+        "priors": priors_with(arguments.prior),
+        "sigma": arguments.sigma,
+    }
+    told["patch"] = arguments.patch
+    if not arguments.effect and not arguments.patch:
+        raise InputError("nothing to add: name effects with --effect, or give --effect auto")
+    if "auto" in arguments.effect:
+        return _run_auto(arguments, inputs, told)
+    result = add(inputs.settings, inputs.measurements, effects=arguments.effect, **told)
+    files, unsaid = _written(arguments, inputs, result)
+    if arguments.json:
+        print_json({**as_json(result), "written": files, "unsaid": unsaid})
+    else:
+        print(as_text(result, asked_patch=arguments.patch))
+        _print_written(files, unsaid)
+    return int(not result.pays)
+
+
+def _run_auto(arguments: argparse.Namespace, inputs: Inputs, told: dict[str, Any]) -> int:
+    if len(arguments.effect) > 1:
+        raise InputError("--effect auto finds the effects itself; name no others beside it")
+    result = add_auto(inputs.settings, inputs.measurements, **told)
+    files, unsaid = [], []
+    if result.addition:
+        files, unsaid = _written(arguments, inputs, result.addition)
+    if arguments.json:
+        own = as_json(result.addition) if result.addition else {}
+        print_json({**own, "auto": auto_json(result), "written": files, "unsaid": unsaid})
+    else:
+        print(auto_text(result))
+        _print_written(files, unsaid)
+    return int(not result.done)
+
+
+def _written(
+    arguments: argparse.Namespace, inputs: Inputs, result: Addition
+) -> tuple[list[str], list[str]]:
+    """Write the files; their names, and what the groundcontrol.ini cannot hold."""
+    _refuse_sketches(arguments, result)
     files = _files(arguments, inputs, result)
     read = [arguments.settings, *arguments.marks]
     read += [arguments.cut_with] if arguments.cut_with else []
     write_outputs(files, inputs=read)
-    unsaid = unsaid_of(result) if arguments.groundcontrol else []
-    if arguments.json:
-        print_json({**as_json(result), "written": list(files), "unsaid": unsaid})
-    else:
-        print(as_text(result))
-        if files:
-            print(f"\nWritten: {', '.join(files)}")
-        if unsaid:
-            print("\nWhat the published firmware cannot do with the groundcontrol.ini:")
-            print(sentences(unsaid))
-    return int(not result.pays)
+    return list(files), unsaid_of(result) if arguments.groundcontrol else []
+
+
+def _refuse_sketches(arguments: argparse.Namespace, result: Addition) -> None:
+    """A machine.toml that leaves out what was fitted along would be a silent lie."""
+    for name in filter(is_sketch, result.after_fit.lab_effects):
+        for option, path in (
+            ("-o", arguments.output),
+            ("--groundcontrol", arguments.groundcontrol),
+        ):
+            if path:
+                raise InputError(
+                    f"{option} {path}: {name} is a sketch, which no firmware has; write it in C++ "
+                    f"first (docs/new-effect.md), or leave {option} away to look at the fit"
+                )
+
+
+def _print_written(files: list[str], unsaid: list[str]) -> None:
+    if files:
+        print(f"\nWritten: {', '.join(files)}")
+    if unsaid:
+        print("\nWhat the published firmware cannot do with the groundcontrol.ini:")
+        print(sentences(unsaid))
 
 
 def _files(arguments: argparse.Namespace, inputs: Inputs, result: Addition) -> dict[str, bytes]:
@@ -153,6 +202,7 @@ def toml_of(result: Addition, *, source: str) -> bytes:
         f"{result.raw.rms:.2f} mm before.",
         turn_sentence(result),
         *result.cures,
+        *([f"residual_patch: {PATCH_WARNING}"] if PATCH in result.effects_added else []),
         *result.warnings,
     ]
     return machine_toml(result.settings, comment="\n".join(lines)).encode()
@@ -192,6 +242,10 @@ def as_json(result: Addition) -> dict[str, Any]:
         },
         "before": _quality_json(result.before),
         "after": _quality_json(result.after),
+        "steps": [
+            {"effect": one.effect, "only_fit": one.only_fit, **_quality_json(one.quality)}
+            for one in result.steps
+        ],
         "parameters": [_parameter_json(one) for one in result.parameters],
         "effects_added": result.effects_added,
         "effects": result.settings.effects,
@@ -202,7 +256,24 @@ def as_json(result: Addition) -> dict[str, Any]:
         "sheet_rise_mm": result.sheet_rise,
         "sigma_mm": result.after_fit.sigma,
         "sigma_from": result.after_fit.sigma_from,
+        "benchmark": {
+            "before": score_json(result.raw.benchmark),
+            "after": score_json(result.benchmark_after),
+        },
         "warnings": result.warnings,
+    }
+
+
+def auto_json(result: AutoAddition) -> dict[str, Any]:
+    """How the effects were chosen."""
+    return {
+        "verdict": result.found.verdict,
+        "chosen": result.chosen,
+        "rivals": result.rivals,
+        "slips": [one.name for one in result.found.slips],
+        "reason": result.reason,
+        "settled_by": result.settled_by,
+        "patch_offer_mm": result.offer,
     }
 
 
@@ -228,61 +299,3 @@ def _parameter_json(one: Parameter) -> dict[str, Any]:
         "possible": [one.possible_low, one.possible_high],
         "plausible": one.plausible,
     }
-
-
-def as_text(result: Addition) -> str:
-    """The addition for people, its conclusion first."""
-    raw, before, after = result.raw, result.before, result.after
-    verdict = "better" if result.pays else "NOT better"
-    first = (
-        f"From {raw.rms:.2f} to {after.fit_rms:.2f} mm RMS; marks left out of the fit are "
-        f"predicted {verdict} with the effects ({before.left_out_rms:.2f} to "
-        f"{after.left_out_rms:.2f} mm)."
-    )
-    parts = [sentences([first], mark=""), _quality_table(result), _parameter_table(result)]
-    sigma = result.after_fit
-    origin = "as stated" if sigma.sigma_from == "stated" else "from the residuals"
-    parts.append(
-        "Priced: scaled up for the numbers the fit took from the data. Left out: each mark "
-        "predicted\nby a fit that did not see it. Intervals: 95 %, for a reading error of "
-        f"{sigma.sigma:.2f} mm ({origin})."
-    )
-    parts.append(sentences([turn_sentence(result), *result.cures, *result.warnings]))
-    return "\n\n".join(parts)
-
-
-def turn_sentence(result: Addition) -> str:
-    """What to do about the sheet's rotation."""
-    rise = result.sheet_rise
-    which = "raise" if rise > 0 else "lower"
-    return (
-        f"no setting holds the sheet's rotation: {which} its right end by {abs(rise):.2f} mm over "
-        f"its width of {result.settings.sheet_width:.0f} mm"
-    )
-
-
-def _quality_table(result: Addition) -> str:
-    raw = result.raw
-    rows = [["as the settings are", raw.rms, None, None, raw.worst, raw.shape_rms]]
-    for name, own in (("frame fitted", result.before), ("with the effects", result.after)):
-        rows.append([name, own.fit_rms, own.priced_rms, own.left_out_rms, own.worst, own.shape_rms])
-    header = ["error in mm", "RMS", "priced", "left out", "worst", "shape"]
-    return table(header, [[name, *map(millimetres, values)] for name, *values in rows])
-
-
-def _parameter_table(result: Addition) -> str:
-    rows = []
-    for one in result.parameters:
-        trusted = "free" if one.prior_sigma is None else number(one.prior_sigma)
-        rows.append(
-            [
-                one.name,
-                number(one.value),
-                f"{number(one.low)} .. {number(one.high)}",
-                number(one.before),
-                trusted,
-                one.unit,
-                "" if one.plausible else "impossible",
-            ]
-        )
-    return table(["number", "value", "interval", "before", "trusted to", "unit", ""], rows)

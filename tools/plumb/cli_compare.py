@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from plumb.benchmark import Score
 from plumb.cli_files import (
     add_json,
     add_marks,
@@ -94,15 +95,43 @@ def as_json(found: Comparison) -> dict[str, Any]:
             }
             for one in found.distances
         ],
+        "rounds": [
+            {
+                "name": one.name,
+                "date": one.date,
+                "count": one.count,
+                "rms_mm": one.rms,
+                "distance_rms_mm": one.distance_rms,
+            }
+            for one in found.rounds
+        ],
+        "benchmark": score_json(found.benchmark),
+        "benchmark_left": score_json(found.benchmark_left),
         "warnings": found.warnings,
+    }
+
+
+def score_json(score: Score | None) -> dict[str, Any] | None:
+    """A benchmark score by the names of the interface."""
+    if score is None:
+        return None
+    return {
+        "long_mm": score.long,
+        "small_mm": score.small,
+        "long_count": score.long_count,
+        "small_count": score.small_count,
     }
 
 
 def as_text(found: Comparison, *, sheet_width: float) -> str:
     """The comparison for people, its conclusion first."""
     parts = [_conclusion(found, sheet_width)]
+    if found.benchmark:
+        parts.append(sentences([benchmark_sentence(found)], mark=""))
     if found.warnings:
         parts.append(sentences(found.warnings))
+    if found.rounds:
+        parts.append(_rounds_table(found))
     if found.marks:
         parts.append(_marks_table(found))
         parts.append(
@@ -121,6 +150,15 @@ def as_text(found: Comparison, *, sheet_width: float) -> str:
         ]
         parts.append(table(["distance", "predicted", "measured", "error"], rows))
     return "\n\n".join(parts)
+
+
+def benchmark_sentence(found: Comparison) -> str:
+    """The community's score for people."""
+    part = "" if found.benchmark.complete else " (of a part of its readings)"
+    return (
+        f"Calibration Benchmark Score{part}: {found.benchmark} as cut (mean error of the long "
+        f"spans and of the 100 mm squares); these settings leave {found.benchmark_left} open."
+    )
 
 
 def _conclusion(found: Comparison, sheet_width: float) -> str:
@@ -146,6 +184,14 @@ def _conclusion(found: Comparison, sheet_width: float) -> str:
     if found.distance_rms is not None:
         lines.append(f"The distances between marks are {found.distance_rms:.2f} mm RMS off.")
     return "\n".join(lines)
+
+
+def _rounds_table(found: Comparison) -> str:
+    rows = [
+        [one.name, str(one.count), millimetres(one.rms), millimetres(one.distance_rms), one.date]
+        for one in found.rounds
+    ]
+    return table(["file", "readings", "marks, RMS", "distances, RMS", "date"], rows)
 
 
 def _marks_table(found: Comparison) -> str:

@@ -6,13 +6,14 @@ import argparse
 from typing import Any
 
 from plumb.add import priors_with
-from plumb.catalogue import every_effect, is_lab
-from plumb.cli_add import prior
-from plumb.cli_files import add_json, add_marks, inputs_of, length
+from plumb.catalogue import every_effect, label, place_of
+from plumb.cli_checked import add_checked, usable_checks
+from plumb.cli_files import add_json, add_marks, inputs_of, length, prior
 from plumb.cli_text import millimetres, number, print_json, sentences, table
 from plumb.diagnose import Diagnosis, diagnose
 from plumb.diagnose.diagnosis import Ranked, Together
 from plumb.diagnose.sizes import Size
+from plumb.plan import Proposal, propose
 
 HELP = "which effect the settings miss, as far as the marks can prove it"
 EXIT = (
@@ -20,6 +21,14 @@ EXIT = (
     "explains the marks; 2 an input cannot be used."
 )
 BAD_NEWS = ("slip", "not_in_library")
+UNKNOWN_ADVICE = (
+    "is it such a machine? The library is that of a sled on one ring or linkage; on two brackets "
+    "(quadrilateral) it leans and draws another pattern",
+    "were these settings in force when the marks were cut? If not, name those by --cut-with, or as "
+    "cut_with in the marks.toml",
+    "does y run the way the file says, and are all numbers of one kind? Measure one mark again",
+    "if all that is so, look where the errors are: plumb compare ... --picture errors.png",
+)
 SHOWN = 8  # suspects and hiding effects that people are shown; --json has all
 
 
@@ -40,22 +49,24 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=length,
         help="reading error of one coordinate [repeats, else tape_sigma_mm of MARKS, else 0.5]",
     )
+    add_checked(parser)
     add_json(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Diagnose, print, and return the exit code."""
     inputs = inputs_of(arguments)
-    found = diagnose(
-        inputs.settings,
-        inputs.measurements,
-        cut_with=inputs.cut_with,
-        controller=arguments.controller,
-        priors=priors_with(arguments.prior),
-        sigma=arguments.sigma,
-    )
+    priors = priors_with(arguments.prior)
+    told = {
+        "cut_with": inputs.cut_with,
+        "controller": arguments.controller,
+        "priors": priors,
+        "checked": usable_checks(arguments.checked, priors),
+    }
+    found = diagnose(inputs.settings, inputs.measurements, sigma=arguments.sigma, **told)
     if arguments.json:
-        print_json(as_json(found))
+        answer = propose(found, inputs.settings, inputs.measurements, **told)
+        print_json({**as_json(found), "next": [proposal_json(one) for one in answer.proposals]})
     else:
         print(as_text(found))
     return int(found.verdict in BAD_NEWS)
@@ -109,7 +120,7 @@ def as_json(found: Diagnosis) -> dict[str, Any]:
             }
             for one in found.could_hide
         ],
-        "next": [],
+        "disagreements": found.disagreements,
         "warnings": found.warnings,
     }
 
@@ -117,7 +128,7 @@ def as_json(found: Diagnosis) -> dict[str, Any]:
 def _ranked_json(one: Ranked) -> dict[str, Any]:
     return {
         "effect": one.effect,
-        "where": "lab" if is_lab(one.effect) else "firmware",
+        "where": place_of(one.effect),
         "gain": one.gain,
         "surprise": one.surprise,
         "parameters": [_size_json(size) for size in one.sizes],
@@ -138,11 +149,44 @@ def _size_json(one: Size) -> dict[str, Any]:
     }
 
 
+def proposal_json(one: Proposal) -> dict[str, Any]:
+    """One proposal for the next measurement by the names of the interface."""
+    visits = one.option.visits
+    return {
+        "kind": one.option.kind,
+        "title": one.option.title,
+        "do": one.option.do,
+        "minutes": one.option.minutes,
+        "chance": one.chance,
+        "chance_to": one.question,
+        "suspects_left": one.left,
+        "parts": one.parts,
+        "could_hide": [
+            {"effect": own.effect, "now_mm": own.now, "then_mm": own.then} for own in one.rooms
+        ],
+        "marks": [
+            {
+                "name": visits.names[i],
+                "target": visits.targets[i],
+                "sled_weight_n": visits.sled_weights[i],
+                "approach": visits.approaches[i] if visits.approaches[i].any() else None,
+                "chains_swapped": bool(visits.swapped[i]),
+            }
+            for i in range(len(visits))
+        ],
+        "checks": [{"name": own.name, "sigma": own.sigma} for own in one.option.checks],
+    }
+
+
 def as_text(found: Diagnosis) -> str:
     """The diagnosis for people, its verdict first."""
     parts = [sentences([verdict_sentence(found)], mark="")]
     if found.slips:
         parts.append(sentences([one.sentence for one in found.slips]))
+    if found.disagreements:
+        parts.append(sentences(found.disagreements))
+    elif found.verdict == "not_in_library":
+        parts.append(sentences(_unknown_advice(found)))
     if found.explanations:
         parts.append(_explanation_table(found))
         if found.verdict == "cannot_tell":
@@ -152,7 +196,20 @@ def as_text(found: Diagnosis) -> str:
     parts.append(_hiding(found))
     if found.warnings:
         parts.append(sentences(found.warnings))
+    parts.append("What to measure next: plumb next, with the same files.")
     return "\n\n".join(parts)
+
+
+def _unknown_advice(found: Diagnosis) -> list[str]:
+    """What to look at when nothing in the library fits."""
+    if found.noise.source != "default":
+        return list(UNKNOWN_ADVICE)
+    doubt = (
+        f"are the readings good to {found.noise.sigma:.1f} mm? Nothing says so; holes that wander "
+        "and a coarse tape look just like this. Read some marks again, or state what you trust "
+        "them to by --sigma"
+    )
+    return [doubt, *UNKNOWN_ADVICE]
 
 
 def verdict_sentence(found: Diagnosis) -> str:
@@ -180,6 +237,11 @@ def verdict_sentence(found: Diagnosis) -> str:
             f"No effect of the library explains these marks, alone or up to three together{more}: "
             f"{rest}, more than noise."
         )
+    if not any(one.possible for one in found.explanations):
+        return (
+            f"Something is missing ({rest}), but only sizes that no real machine has would explain "
+            f"it: {several}. Look for another cause first."
+        )
     if found.verdict == "one_suspect":
         first = found.explanations[0]
         who = (
@@ -198,6 +260,7 @@ def verdict_sentence(found: Diagnosis) -> str:
 def _explanation_table(found: Diagnosis) -> str:
     rows = []
     for one in found.explanations[:SHOWN]:
+        rows += [["or"] + [""] * 5] if rows else []
         for name in one.effects:
             rows += _size_rows(one, name)
     header = ["suspect", "size", "interval", "unit", "error falls to", ""]
@@ -239,8 +302,7 @@ def _reasons(found: Diagnosis) -> str:
 def _remedies(found: Diagnosis) -> str:
     words = {one["name"]: one for one in every_effect()}
     said = [
-        f"{name}{' (lab)' if is_lab(name) else ''}: {words[name]['summary']}. To be sure: "
-        f"{words[name]['remedy']}"
+        f"{label(name)}: {words[name]['summary']}. To be sure: {words[name]['remedy']}"
         for name in found.suspects[:SHOWN]
     ]
     return sentences(said)

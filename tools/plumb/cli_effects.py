@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import argparse
+from collections import Counter
 
-from plumb.catalogue import NO_FIRMWARE, every_effect
+from plumb.catalogue import NO_FIRMWARE, empirical_effects, every_effect, label
 from plumb.cli_files import add_json
 from plumb.cli_text import number, print_json, sentences, table
 
@@ -23,18 +24,22 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json({"effects": effects})
         return 0
-    own = sum(one["where"] == "firmware" for one in effects)
-    print(f"{own} effects can be added to the machine, in the order they are applied; then")
-    print(f"{len(effects) - own} of the lab, which act on what is measured: {NO_FIRMWARE}.")
+    count = Counter(one["where"] for one in effects)
+    print(
+        f"{count['firmware']} effects can be added to the machine, in the order they are applied;"
+    )
+    print(f"then {count['lab']} of the lab, which act on what is measured: {NO_FIRMWARE}.")
+    if count["sketch"]:
+        print(f"Last, sketches ({count['sketch']}), which no firmware has until they are in C++.")
     for effect in effects:
-        print(f"\n{effect['name']}" + (" (lab)" if effect["where"] == "lab" else ""))
-        for label, fact in (
+        print(f"\n{label(effect['name'])}")
+        for word, fact in (
             ("what it is", effect["summary"]),
             ("what it does", effect["pattern"]),
             ("looks like", effect["look_alikes"]),
             ("to be sure", effect["remedy"]),
         ):
-            print(sentences([fact], mark=f"  {label:<14}"))
+            print(sentences([fact], mark=f"  {word:<14}"))
         rows = [
             [
                 f"  {own['name']}",
@@ -46,4 +51,8 @@ def run(arguments: argparse.Namespace) -> int:
             for own in effect["parameters"]
         ]
         print(table(["  parameter", "usual", "possible", "unit", "setting"], rows))
+    for one in empirical_effects():
+        first, last = (one["parameters"][i]["setting"] for i in (0, -1))
+        print(f"\n{one['name']} (${first} to ${last}): no cause, and never a suspect (--patch)")
+        print(sentences([one["summary"], one["remedy"]], mark="  "))
     return 0

@@ -80,6 +80,18 @@ def limit(text: str) -> float:
     return value
 
 
+def prior(text: str) -> tuple[str, float]:
+    """One NAME=SIGMA."""
+    name, separator, value = text.partition("=")
+    try:
+        sigma = float(value)
+    except ValueError:
+        sigma = -1.0
+    if not (separator and math.isfinite(sigma) and sigma >= 0):
+        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=SIGMA, like motor_gap=1.5")
+    return name, sigma
+
+
 def settings_in(path: str) -> MachineSettings:
     """The settings of a file, with effects of our library only."""
     return read_settings(path, known=known_effects())
@@ -91,8 +103,20 @@ def inputs_of(arguments: argparse.Namespace) -> Inputs:
     cut_with = settings_in(arguments.cut_with) if arguments.cut_with else None
     # Marks count from the edges of the sheet on which they were cut.
     sheet = (cut_with or settings).sheet
-    parts = [read_marks(path, sheet=sheet) for path in arguments.marks]
+    _refuse_the_same_twice(arguments.marks)
+    known = known_effects()
+    parts = [read_marks(path, sheet=sheet, known=known) for path in arguments.marks]
     return Inputs(settings, cut_with, join_measurements(parts))
+
+
+def _refuse_the_same_twice(paths: Sequence[str]) -> None:
+    """A file given twice would pass for readings that repeat without any noise."""
+    seen: set[str] = set()
+    for path in paths:
+        real = os.path.realpath(path)
+        if real in seen:
+            raise refusal(path, "is given twice", remedy="name each file of marks once")
+        seen.add(real)
 
 
 def write_outputs(files: Mapping[str, bytes], *, inputs: Sequence[str]) -> None:

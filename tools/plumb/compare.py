@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from plumb.benchmark import Score, score_as_cut, score_of
 from plumb.errors import InputError
 from plumb.fit import rms
 from plumb.machine_settings import MachineSettings
@@ -47,6 +48,17 @@ class ComparedDistance:
 
 
 @dataclass(frozen=True)
+class ComparedRound:
+    """One file of several: its errors [mm]; None where it has no such readings."""
+
+    name: str
+    date: str
+    count: int  # of marks, or of distances if it has no marks
+    rms: float | None
+    distance_rms: float | None
+
+
+@dataclass(frozen=True)
 class Comparison:
     """Settings compared with marks."""
 
@@ -59,6 +71,9 @@ class Comparison:
     shift: Point | None  # [mm] that best shift
     rotation: float | None  # [rad] and rotation, counter-clockwise
     warnings: tuple[str, ...] = ()
+    rounds: tuple[ComparedRound, ...] = ()  # if there are several files
+    benchmark: Score | None = None  # of the community's test, as cut
+    benchmark_left: Score | None = None  # and what these settings do not explain of it
 
 
 def compare(
@@ -92,7 +107,34 @@ def compare(
         shift=pose.shift if pose else None,
         rotation=pose.rotation if pose else None,
         warnings=_warnings(settings, measurements, cut_with, controller),
+        rounds=_rounds(measurements, errors, spans),
+        benchmark=score_as_cut(measurements),
+        benchmark_left=score_of(measurements, spans),
     )
+
+
+def _rounds(
+    measurements: Measurements, errors: np.ndarray, spans: np.ndarray
+) -> tuple[ComparedRound, ...]:
+    """Each file by itself, if there are several."""
+    if len(measurements.rounds) < 2:
+        return ()
+    of_name = {mark.name: mark.round for mark in measurements.marks}
+    marks = np.array([mark.round for mark in measurements.measured_marks], dtype=int)
+    distances = np.array([of_name[one.between[0]] for one in measurements.distances], dtype=int)
+    found = []
+    for number, own in enumerate(measurements.rounds):
+        of_marks, of_spans = errors[marks == number], spans[distances == number]
+        found.append(
+            ComparedRound(
+                name=own.name,
+                date=own.date,
+                count=len(of_marks) or len(of_spans),
+                rms=rms(of_marks) if len(of_marks) else None,
+                distance_rms=rms(of_spans) if len(of_spans) else None,
+            )
+        )
+    return tuple(found)
 
 
 def predicted_places(
@@ -154,7 +196,8 @@ def _warnings(
     controller: str | None,
 ) -> tuple[str, ...]:
     whose = controller or measurements.controller
-    if cut_with or settings.controller != "plumb" or whose in (None, "plumb"):
+    known = cut_with or all(one.cut_with for one in measurements.rounds)
+    if known or settings.controller != "plumb" or whose in (None, "plumb"):
         return ()
     return (
         f"the marks were cut by the {whose} controller, but these settings are of plumb: give the "

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from plumb.catalogue import NO_FIRMWARE, every_effect
+from plumb.catalogue import NO_FIRMWARE, empirical_effects, every_effect
 from plumb.errors import InputError
 from plumb.fingerprint_picture import Picture, drawing
 from plumb.fingerprints import (
@@ -110,6 +110,7 @@ def page(effects: Sequence[Mapping[str, Any]], fields: Fields) -> str:
     """The text of docs/effects.md."""
     parts = [HEAD, table_of_all(effects, fields), "## How to read this page", READING]
     parts += [section(effect, fields) for effect in effects]
+    parts += [no_cause(one) for one in empirical_effects()]
     return "\n\n".join(parts) + "\n"
 
 
@@ -176,6 +177,29 @@ def section(effect: Mapping[str, Any], fields: Fields) -> str:
             f"**To be sure, or to cure it**: {effect['remedy']}.",
         ]
     )
+
+
+def no_cause(one: Mapping[str, Any]) -> str:
+    """What the firmware can apply though it is no effect."""
+    own = one["parameters"]
+    return "\n\n".join(
+        [
+            f"## {one['name']}",
+            f"**No cause, and never a suspect**: {one['summary'].partition(': ')[2]}. "
+            f"`plumb add --patch` fits it, knowingly; {one['remedy']}.",
+            f"Its {len(own)} numbers ({_range(own)}, {own[0]['unit']}) are the sizes of smooth "
+            f"terms over the sheet, for the left chain and for the right: {_names(own)}. Each x "
+            "or y stands for one degree in that direction.",
+        ]
+    )
+
+
+def _range(parameters: Sequence[Mapping[str, Any]]) -> str:
+    return f"${parameters[0]['setting']} to ${parameters[-1]['setting']}"
+
+
+def _names(parameters: Sequence[Mapping[str, Any]]) -> str:
+    return ", ".join(f"`{one['name']}`" for one in parameters)
 
 
 def _parameters(effect: Mapping[str, Any]) -> str:

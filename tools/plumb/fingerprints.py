@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from plumb.catalogue import every_effect, is_lab, parameter_words
+from plumb.catalogue import every_effect, is_lab, is_sketch, parameter_words
 from plumb.fit import rms
 from plumb.lab_effects import LAB_EFFECTS
 from plumb.lab_effects.lab_effect import SLED
@@ -120,7 +120,7 @@ def _machines(case: Case) -> tuple[MachineSettings, MachineSettings, dict[str, f
         effect, _, parameter = name.rpartition(".")
         if not effect:
             true = replace(true, **{name: getattr(true, name) + value})
-        elif is_lab(effect):
+        elif is_lab(effect) or is_sketch(effect):
             outside[name] = value
         elif effect in PRESENT:
             others = {key: own for key, own in believed.effects.items() if key != effect}

@@ -19,7 +19,8 @@ from plumb.errors import InputError
 from plumb.machine_settings import MachineSettings
 from plumb.observations import Observations
 from plumb.predict import FOUND, NAMES, Array, settings_of, values_of
-from plumb.sighting import LAB_NAMES, SHEET_ROTATION, Sighting, sighted
+from plumb.rounds import round_priors
+from plumb.sighting import OUTSIDE_NAMES, SHEET_ROTATION, Sighting, sighted
 
 USUAL_SIGMA = 0.5  # [mm] of one coordinate read with a tape by hand
 # Standard deviations of what an owner states: spacing by tape or pulled chain; the sheet may lie
@@ -52,7 +53,9 @@ class Fit:
 
     settings: MachineSettings
     sheet_rotation: float  # [rad]
-    lab_effects: Mapping[str, Mapping[str, float]]  # fitted, but of what was measured: no setting
+    lab_effects: Mapping[
+        str, Mapping[str, float]
+    ]  # fitted, but no setting holds them; sketches too
     estimates: tuple[Estimate, ...]
     predicted: Array  # (k, 2) [mm] of the marks, on the sheet
     errors: Array  # (k, 2) [mm] measured - predicted
@@ -139,6 +142,7 @@ class Problem:
     ) -> Problem:
         typical = {name: own["typical"] for name, own in parameter_words().items()}
         free = [name for effect in effects for name in parameter_names(effect)]
+        priors = {**priors, **round_priors(observations)}
         kept = [name for name in priors if priors[name] > 0]
         names = (*kept, *free)
         values = dict(zip(NAMES, values_of(settings), strict=True))
@@ -261,9 +265,9 @@ class Problem:
 
 
 def _by_effect(outside: Mapping[str, float]) -> dict[str, dict[str, float]]:
-    """Parameters of lab effects by effect and name."""
+    """Parameters of lab effects and sketches by effect and name."""
     found: dict[str, dict[str, float]] = {}
-    for name in LAB_NAMES:
+    for name in OUTSIDE_NAMES:
         if name in outside:
             effect, _, parameter = name.rpartition(".")
             found.setdefault(effect, {})[parameter] = outside[name]

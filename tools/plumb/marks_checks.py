@@ -108,7 +108,9 @@ def _refuse_far(measurements: Measurements, mark: Mark, sheet: Sheet) -> None:
     if mark.measured is None:
         return
     error = math.dist(mark.target, mark.measured)
-    mistake = _likely_mistake(mark, sheet) if error > SUSPICIOUS else ""
+    mistake = _exchanged(measurements, mark) if error > SUSPICIOUS else ""
+    if error > SUSPICIOUS and not mistake:
+        mistake = _likely_mistake(mark, sheet)
     if mistake or error > MOST_ERROR:
         raise refusal(
             measurements.source,
@@ -117,6 +119,22 @@ def _refuse_far(measurements: Measurements, mark: Mark, sheet: Sheet) -> None:
             remedy=mistake
             or "check the frame (top-left corner with y down, or middle with y up) and the numbers",
         )
+
+
+def _exchanged(measurements: Measurements, mark: Mark) -> str:
+    """A hint if another mark was read where this one should be, and the other way round."""
+    near = math.dist(mark.target, mark.measured) / 5
+    marks = measurements.measured_marks
+    far = [one for one in marks if math.dist(one.target, one.measured) > SUSPICIOUS]
+    # Where most are far the whole file is turned round, and marks only seem exchanged.
+    for other in marks if 2 * len(far) <= len(marks) else ():
+        there, back = (
+            math.dist(other.target, mark.measured),
+            math.dist(mark.target, other.measured),
+        )
+        if other.target != mark.target and max(there, back) < min(TOO_CLOSE, near):
+            return f"the readings of {mark.name} and {other.name} may be exchanged"
+    return ""
 
 
 def _likely_mistake(mark: Mark, sheet: Sheet) -> str:

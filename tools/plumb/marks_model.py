@@ -5,16 +5,28 @@ Machine frame: origin in the middle of the sheet, x right, y up, mm.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
-from pathlib import Path
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from plumb.errors import refusal
+from plumb.machine_settings import MachineSettings
 
 Point = tuple[float, float]
 CONTROLLERS = ("stock", "holey", "plumb")
+
+
+@dataclass(frozen=True)
+class Round:
+    """How the marks of one file were cut, beyond what each mark says itself."""
+
+    name: str = ""  # of the file, for messages
+    date: str = ""
+    cut_with: MachineSettings | None = None  # in force; None: what the command line says
+    chains_rezeroed: bool = False  # since the file before
+    new_sheet: bool = False  # or the old one lies elsewhere since the file before
+    frame_moved: bool = False  # since the file before: a motor, the beam or the sled
+    zero_group: int = 0  # counts how often the chains were zeroed anew
+    sheet_group: int = 0  # counts the sheets
 
 
 @dataclass(frozen=True)
@@ -27,6 +39,8 @@ class Mark:
     approach: Point | None = None  # direction of the last move, any length
     sled_weight: float | None = None  # [N]
     chains: Point | None = None  # [mm] left and right paid out, if the machine reported them
+    chains_swapped: bool = False  # each chain hung on the other's sprocket
+    round: int = 0  # index into the rounds
 
 
 @dataclass(frozen=True)
@@ -47,6 +61,7 @@ class Measurements:
     tape_sigma: float | None = None  # [mm] reading error of one coordinate or distance
     sled_weight: float | None = None  # [N] of the whole file; each mark carries its own already
     source: str = ""  # the path, for messages
+    rounds: tuple[Round, ...] = (Round(),)  # one for each file
     _by_name: dict[str, Mark] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -95,61 +110,5 @@ class Measurements:
         return self._by_name[name].target
 
 
-def join_measurements(parts: Iterable[Measurements]) -> Measurements:
-    """Several files as one board: a name with the same target is a repeat, one with another target
-    is a new mark and gets its file's name in front."""
-    several = tuple(parts)
-    if len(several) == 1:
-        return several[0]
-    known: dict[str, Point] = {}
-    marks: list[Mark] = []
-    distances: list[Distance] = []
-    for part in several:
-        clash = any(known.get(mark.name, mark.target) != mark.target for mark in part.marks)
-        own = _renamed(part, f"{Path(part.source).stem}:") if clash else part
-        for mark in own.marks:
-            known[mark.name] = mark.target
-        marks += own.marks
-        distances += own.distances
-    return Measurements(
-        marks=tuple(marks),
-        distances=tuple(distances),
-        controller=_agreed(several, "controller", "controller"),
-        tape_sigma=_agreed(several, "tape_sigma", "tape_sigma_mm"),
-        sled_weight=_one_weight(several),
-        source=" + ".join(part.source for part in several),
-    )
-
-
 def _rows(points: list[Point | None]) -> np.ndarray:
     return np.array(points, dtype=float).reshape(-1, 2)
-
-
-def _renamed(part: Measurements, prefix: str) -> Measurements:
-    return replace(
-        part,
-        marks=tuple(replace(mark, name=prefix + mark.name) for mark in part.marks),
-        distances=tuple(
-            replace(one, between=(prefix + one.between[0], prefix + one.between[1]))
-            for one in part.distances
-        ),
-    )
-
-
-def _agreed(parts: tuple[Measurements, ...], name: str, key: str) -> str | float | None:
-    """What all files that say anything about it say."""
-    said = [(part, getattr(part, name)) for part in parts if getattr(part, name) is not None]
-    for part, value in said[1:]:
-        if value != said[0][1]:
-            raise refusal(
-                part.source,
-                f"{key} is {value} here and {said[0][1]} in {said[0][0].source}",
-                remedy="make them equal, or use the files one at a time",
-            )
-    return said[0][1] if said else None
-
-
-def _one_weight(parts: tuple[Measurements, ...]) -> float | None:
-    """The sled weight [N] of the files if they all share it; each mark carries its own."""
-    weights = {part.sled_weight for part in parts}
-    return weights.pop() if len(weights) == 1 else None

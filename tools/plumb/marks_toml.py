@@ -3,25 +3,46 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Mapping, Sequence
 from os import PathLike
+from pathlib import Path
 from typing import Any
 
 from plumb.checks import number, one_of, pair, refuse_unknown, text_of, within
 from plumb.errors import naming, refusal
+from plumb.marks_benchmark import read_benchmark
 from plumb.marks_checks import Sheet, to_machine
-from plumb.marks_model import CONTROLLERS, Distance, Mark, Measurements, Point
+from plumb.marks_model import CONTROLLERS, Distance, Mark, Measurements, Point, Round
+from plumb.settings_file import read_settings
 from plumb.text_files import read_text
 
 FRAMES = ("sheet-top-left", "machine")
-HEAD_KEYS = ("frame", "controller", "tape_sigma_mm", "sled_weight_n", "mark", "distance")
-MARK_KEYS = ("name", "target", "measured", "approach", "sled_weight_n", "chains")
+ROUND_FLAGS = ("chains_rezeroed", "new_sheet", "frame_moved")
+HEAD_KEYS = (
+    "frame",
+    "date",
+    "cut_with",
+    "controller",
+    "tape_sigma_mm",
+    "sled_weight_n",
+    *ROUND_FLAGS,
+    "mark",
+    "distance",
+    "benchmark",
+)
+MARK_KEYS = ("name", "target", "measured", "approach", "sled_weight_n", "chains", "chains_swapped")
 DISTANCE_KEYS = ("between", "mm")
 SLED_WEIGHT_RANGE = (30.0, 1000.0)  # [N] below it somebody wrote kilograms or pounds
 TAPE_SIGMA_RANGE = (0.001, 50.0)  # [mm]
 CHAIN_RANGE = (0.0, 20000.0)  # [mm]
 
 
-def read_marks_toml(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
+def read_marks_toml(
+    path: str | PathLike[str],
+    *,
+    sheet: Sheet,
+    known: Mapping[str, Sequence[str]] | None = None,
+) -> Measurements:
     """The marks and distances of a marks.toml, moved to the machine frame."""
     try:
         head = tomllib.loads(read_text(path))
@@ -36,15 +57,38 @@ def read_marks_toml(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
     with naming(path, "frame"):
         top_left = one_of(head["frame"], FRAMES) == "sheet-top-left"
     weight = _optional_weight(path, "sled_weight_n", head)
+    own = _round(path, head, known)
+    sheet = own.cut_with.sheet if own.cut_with else sheet
     marks = _marks(path, head, sheet=sheet if top_left else None, weight=weight)
+    distances = _distances(path, head)
+    if "benchmark" in head:
+        more = read_benchmark(path, head["benchmark"], weight=weight)
+        marks, distances = (*marks, *more[0]), (*distances, *more[1])
     return Measurements(
         marks=marks,
-        distances=_distances(path, head),
+        distances=distances,
         controller=_controller(path, head),
         tape_sigma=_tape_sigma(path, head),
         sled_weight=weight,
         source=str(path),
+        rounds=(own,),
     )
+
+
+def _round(
+    path: str | PathLike[str], head: dict[str, Any], known: Mapping[str, Sequence[str]] | None
+) -> Round:
+    """How the file's marks were cut; settings are looked for beside the file."""
+    flags = {}
+    for name in ROUND_FLAGS:
+        flags[name] = head.get(name, False)
+        if not isinstance(flags[name], bool):
+            raise refusal(path, f"{name} is neither true nor false", remedy="write one of them")
+    cut_with = None
+    if "cut_with" in head:
+        with naming(path, "cut_with"):
+            cut_with = read_settings(Path(path).parent / text_of(head["cut_with"]), known=known)
+    return Round(date=str(head.get("date", "")), cut_with=cut_with, **flags)
 
 
 def _controller(path: str | PathLike[str], head: dict[str, Any]) -> str | None:
@@ -113,6 +157,7 @@ def _marks(
                 approach=_approach(path, place, table, sheet),
                 sled_weight=weight if own_weight is None else own_weight,
                 chains=_chains(path, place, table),
+                chains_swapped=_yes_or_no(path, place, table, "chains_swapped"),
             )
         )
     return tuple(marks)
@@ -155,6 +200,14 @@ def _chains(path: str | PathLike[str], place: str, table: dict[str, Any]) -> Poi
     with naming(path, f"{place} chains"):
         left, right = pair(table["chains"])
         return within(left, *CHAIN_RANGE), within(right, *CHAIN_RANGE)
+
+
+def _yes_or_no(path: str | PathLike[str], place: str, table: dict[str, Any], key: str) -> bool:
+    value = table.get(key, False)
+    with naming(path, f"{place} {key}"):
+        if not isinstance(value, bool):
+            raise ValueError(f"{value!r} is neither true nor false")
+    return value
 
 
 def _distances(path: str | PathLike[str], head: dict[str, Any]) -> tuple[Distance, ...]:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 
@@ -10,7 +13,8 @@ from plumb.errors import refusal
 from plumb.marks_checks import Sheet, checked
 from plumb.marks_csv import NEEDED, read_marks_csv
 from plumb.marks_ini import read_marks_ini
-from plumb.marks_model import CONTROLLERS, Distance, Mark, Measurements, join_measurements
+from plumb.marks_join import join_measurements
+from plumb.marks_model import CONTROLLERS, Distance, Mark, Measurements, Round
 from plumb.marks_toml import read_marks_toml
 from plumb.text_files import read_bytes
 
@@ -19,21 +23,68 @@ __all__ = [
     "Distance",
     "Mark",
     "Measurements",
+    "Round",
     "join_measurements",
     "read_marks",
+    "read_plan",
 ]
 
 
-def read_marks(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
-    """The marks of one file, in the machine frame [mm]; sheet is its width and height [mm]."""
+def read_marks(
+    path: str | PathLike[str],
+    *,
+    sheet: Sheet,
+    known: Mapping[str, Sequence[str]] | None = None,
+) -> Measurements:
+    """The marks of one file, in the machine frame [mm]; sheet is its width and height [mm].
+
+    A file that names the settings it was cut with lies on the sheet of these; `known` lists each
+    effect's parameters for them.
+    """
+    found = _read(path, sheet, known)
+    return checked(found, sheet=_sheet_of(found, sheet))
+
+
+def read_plan(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
+    """The marks of a file as they are planned: each as if it were found where it was sent.
+
+    A mark without reading that is the end of a distance stays without. A mark that is made again
+    beside itself, as plumb grid repeats it, is another mark here.
+    """
+    found = _read(path, sheet)
+    ends = {name for one in found.distances for name in one.between}
+    marks = []
+    for mark in found.marks:
+        read = mark.measured is not None or mark.name not in ends
+        beside = mark.target != found.target_of(mark.name)
+        name = f"{mark.name} at {mark.target[0]:g}/{mark.target[1]:g}" if beside else mark.name
+        marks.append(replace(mark, name=name, measured=mark.target if read else None))
+    known = {mark.name for mark in marks}
+    spans = tuple(
+        replace(one, length=math.dist(*(found.target_of(name) for name in one.between)))
+        if known.issuperset(one.between)
+        else one
+        for one in found.distances
+    )
+    meant = replace(found, marks=tuple(marks), distances=spans)
+    return checked(meant, sheet=_sheet_of(found, sheet))
+
+
+def _read(
+    path: str | PathLike[str], sheet: Sheet, known: Mapping[str, Sequence[str]] | None = None
+) -> Measurements:
     form = _form_of(path)
     if form == "ini":
-        found = read_marks_ini(path, sheet=sheet)
-    elif form == "toml":
-        found = read_marks_toml(path, sheet=sheet)
-    else:
-        found = read_marks_csv(path)
-    return checked(found, sheet=sheet)
+        return read_marks_ini(path, sheet=sheet)
+    if form == "toml":
+        return read_marks_toml(path, sheet=sheet, known=known)
+    return read_marks_csv(path)
+
+
+def _sheet_of(found: Measurements, sheet: Sheet) -> Sheet:
+    """The sheet of the settings that a file names, else the usual one."""
+    own = found.rounds[0].cut_with if found.rounds else None
+    return own.sheet if own else sheet
 
 
 def _form_of(path: str | PathLike[str]) -> str:

@@ -31,6 +31,17 @@ class Observations:
     distance_rows: Array  # (m, 2) the rows at both ends
     distances: Array  # (m,) [mm]
     approaches: Array  # (r, 2) unit vectors of the last move of each visit; zero if not known
+    rounds: Array  # (r,) int: the file of each visit
+    zero_groups: Array  # (r,) int: visits with equal numbers have the chains' zeros in common
+    sheet_groups: Array  # (r,) int: visits with equal numbers lie on one sheet
+    swapped: Array | None = (
+        None  # (r,) whether each chain hung on the other's sprocket; None: never
+    )
+
+    @property
+    def exchanged(self) -> Array:
+        """Whether the chains were swapped on each visit (r,)."""
+        return np.zeros(len(self.chains), dtype=bool) if self.swapped is None else self.swapped
 
     @property
     def count(self) -> int:
@@ -49,15 +60,9 @@ def observe(
 
     sled_weight [N] is that of marks whose file does not say it: by default what the settings say.
     """
-    whose = controller or measurements.controller or settings.controller
     marks = measurements.marks
     targets = np.array([mark.target for mark in marks], dtype=float).reshape(-1, 2)
-    try:
-        chains = believed_lengths(settings, targets, controller=whose)
-    except ValueError as error:
-        raise InputError(
-            f"{measurements.source}: {error}; check the target, or the settings it was cut with"
-        ) from None
+    chains = _paid_out(settings, measurements, targets, controller)
     for i, mark in enumerate(marks):
         if mark.chains is not None:
             chains[i] = mark.chains
@@ -77,7 +82,41 @@ def observe(
         distance_rows=np.array(ends, dtype=int).reshape(-1, 2),
         distances=measurements.distance_lengths,
         approaches=_directions([mark.approach or (0.0, 0.0) for mark in marks]),
+        swapped=np.array([mark.chains_swapped for mark in marks], dtype=bool),
+        rounds=_rounds(measurements),
+        zero_groups=_of_rounds(measurements, "zero_group"),
+        sheet_groups=_of_rounds(measurements, "sheet_group"),
     )
+
+
+def _paid_out(
+    settings: MachineSettings, measurements: Measurements, targets: Array, controller: str | None
+) -> Array:
+    """Chain (r, 2) [mm] paid out for each target by the settings in force in its round."""
+    chains = np.zeros_like(targets)
+    number = _rounds(measurements)
+    for i, own in enumerate(measurements.rounds):
+        in_force = own.cut_with or settings
+        whose = controller or measurements.controller or in_force.controller
+        mine = number == i
+        try:
+            chains[mine] = believed_lengths(in_force, targets[mine], controller=whose)
+        except ValueError as error:
+            raise InputError(
+                f"{measurements.source}: {error}; check the target, or the settings it was cut with"
+            ) from None
+    return chains
+
+
+def _rounds(measurements: Measurements) -> Array:
+    """The round of each visit (r,)."""
+    return np.array([mark.round for mark in measurements.marks], dtype=int)
+
+
+def _of_rounds(measurements: Measurements, name: str) -> Array:
+    """A number of each visit's round (r,)."""
+    own = np.array([getattr(one, name) for one in measurements.rounds], dtype=int)
+    return own[_rounds(measurements)]
 
 
 def _directions(moves: list[tuple[float, float]]) -> Array:

@@ -99,10 +99,10 @@ def _refuse_other_kinematics(ini: IniText) -> None:
     if kind == "quadrilateral":
         raise refusal(
             ini.source,
-            "Quadrilateral is not this machine's kinematics (two brackets on the sled)",
+            "Quadrilateral means a sled on two brackets, and that is not the machine the lab knows",
             place=_place_of(ini, "kinematics"),
-            remedy="plumb knows the triangular kits (ring, linkage) only: kinematicsType = "
-            "Triangular",
+            remedy="its effects are those of a sled on one ring or linkage; only if yours has one, "
+            "write kinematicsType = Triangular",
         )
 
 

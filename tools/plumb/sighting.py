@@ -12,10 +12,13 @@ from plumb.lab_effects import LAB_EFFECTS
 from plumb.lab_effects.lab_effect import EDGES, SLED, Array, LabEffect, Seen
 from plumb.observations import Observations
 from plumb.predict import NAMES, frame_words, library
-from plumb.visits import loaded, visited
+from plumb.rounds import pose_of, poses_of, zero_of, zeros_of
+from plumb.sketched import SKETCH_NAMES, with_sketches
+from plumb.visits import ZERO_COLUMNS, loaded, visited
 
 SHEET_ROTATION = "sheet_rotation"  # [rad] the sheet as measured, turned against the machine
 LAB_NAMES = tuple(name for effect in LAB_EFFECTS for name in effect.parameter_names)
+OUTSIDE_NAMES = (*LAB_NAMES, *SKETCH_NAMES)  # fitted, though no setting holds them
 # A step for differences of the compliance, of each value's usual size: small against how it bends.
 _STEP = 1e-3
 
@@ -47,14 +50,30 @@ def sighted(
     names: Sequence[str],
 ) -> Sighting:
     """What is measured of a machine with `values` on a board with `outside`: SHEET_ROTATION and
-    parameters of lab effects, zero if not named. Slopes are exact, by `names` of any kind."""
+    parameters of lab effects and sketches, zero if not named. Slopes are by `names` of any kind,
+    exact as long as no sketch is present."""
     view = _View(values, outside, rows, over_top, usual_weight, tuple(names))
-    hung, by_value, found = visited(values, rows, over_top=over_top, usual_weight=usual_weight)
-    slopes = np.zeros((*hung.shape, len(names)))
+    zeros = zeros_of(outside, rows)
+    machine = {"over_top": over_top, "usual_weight": usual_weight}
+    hung = with_sketches(
+        values,
+        outside,
+        rows,
+        lambda paid: visited(values, paid, zeros=zeros, **machine),
+        names=names,
+        **machine,
+    )
+    by_value = hung.by_value
+    slopes = np.zeros((*hung.where.shape, len(names)))
     for i, name in enumerate(names):
         if name in NAMES:
             slopes[:, :, i] = by_value[:, :, NAMES.index(name)]
-    places = Places(hung, slopes)
+        elif name in hung.by_name:
+            slopes[:, :, i] = hung.by_name[name]
+        elif (own := zero_of(name)) is not None:
+            mine = rows.zero_groups == own.group
+            slopes[mine, :, i] = by_value[mine][:, :, ZERO_COLUMNS[own.axis]]
+    places = Places(hung.where, slopes)
     for effect in LAB_EFFECTS:
         if effect.acts_on == SLED:
             places = view.on_sled(effect, places)
@@ -63,7 +82,7 @@ def sighted(
         if effect.acts_on != SLED:
             read = view.on_sheet(effect, read)
             taped = taped if effect.acts_on == EDGES else view.on_sheet(effect, taped)
-    return Sighting(read, taped, found)
+    return Sighting(read, taped, hung.found)
 
 
 @dataclass(frozen=True)
@@ -78,16 +97,22 @@ class _View:
     names: tuple[str, ...]
 
     def turned(self, places: Places) -> Places:
-        """Turned with the sheet."""
-        rotation = self.outside.get(SHEET_ROTATION, 0.0)
+        """Turned with the sheet, and moved where a later sheet lies elsewhere."""
+        moved = poses_of(self.outside, self.rows)[self.rows.sheet_groups]
+        rotation = self.outside.get(SHEET_ROTATION, 0.0) + moved[:, 2]
         cosine, sine = np.cos(rotation), np.sin(rotation)
         turn = np.array([[cosine, -sine], [sine, cosine]])
-        where = places.where @ turn.T
-        slopes = np.einsum("ij,njk->nik", turn, places.slopes)
-        if SHEET_ROTATION in self.names:
-            across = np.stack([-where[:, 1], where[:, 0]], axis=1)
-            slopes[:, :, self.names.index(SHEET_ROTATION)] += across
-        return Places(where, slopes)
+        where = np.einsum("ijn,nj->ni", turn, places.where)
+        slopes = np.einsum("ijn,njk->nik", turn, places.slopes)
+        across = np.stack([-where[:, 1], where[:, 0]], axis=1)
+        for i, name in enumerate(self.names):
+            if name == SHEET_ROTATION:
+                slopes[:, :, i] += across
+            elif (own := pose_of(name)) is not None:
+                mine = self.rows.sheet_groups == own.group
+                by_axis = across[mine] if own.axis == 2 else np.eye(2)[own.axis]
+                slopes[mine, :, i] += by_axis
+        return Places(where + moved[:, :2], slopes)
 
     def on_sheet(self, effect: LabEffect, places: Places) -> Places:
         """Read by way of an effect of edges or tape."""

@@ -8,6 +8,11 @@ from plumb.machine_settings import MachineSettings
 from plumb.observations import Observations
 from plumb.predict import NAMES, Array, lengths, places_with_slopes, settings_of, values_of
 
+ZERO_COLUMNS = (NAMES.index("chain_zero.left"), NAMES.index("chain_zero.right"))
+# What belongs to a chain and goes with it to the other sprocket.
+OF_A_CHAIN = {"chain_pitch.left": "chain_pitch.right", "chain_pitch.right": "chain_pitch.left"}
+EXCHANGED = np.array([NAMES.index(OF_A_CHAIN.get(name, name)) for name in NAMES])
+
 
 def loaded(values: Array, weight: float, usual: float) -> tuple[Array, Array]:
     """The values for a sled of another weight [N], and each value's slope by the usual one's.
@@ -26,19 +31,35 @@ def loaded(values: Array, weight: float, usual: float) -> tuple[Array, Array]:
 
 
 def visited(
-    values: Array, rows: Observations, *, over_top: bool, usual_weight: float
+    values: Array,
+    rows: Observations,
+    *,
+    over_top: bool,
+    usual_weight: float,
+    zeros: Array | None = None,
 ) -> tuple[Array, Array, Array]:
-    """Places (r, 2) [mm] of all visits, their slopes by the values (r, 2, v), and FOUND (r,)."""
+    """Places (r, 2) [mm] of all visits, their slopes by the values (r, 2, v), and FOUND (r,).
+
+    zeros (groups, 2) [mm] is what each zero group adds to left and right `chain_zero`.
+    """
     where = np.zeros((len(rows.chains), 2))
     slopes = np.zeros((len(rows.chains), 2, len(NAMES)))
     found = np.zeros(len(rows.chains), dtype=int)
-    for weight in np.unique(rows.sled_weights):
-        mine = rows.sled_weights == weight
-        own, factors = loaded(values, weight, usual_weight)
-        where[mine], of_mine, found[mine] = places_with_slopes(
-            own, over_top=over_top, chains=rows.chains[mine]
+    alike = {*zip(rows.sled_weights, rows.zero_groups, rows.exchanged, strict=True)}
+    for weight, group, exchanged in alike:
+        mine = (
+            (rows.sled_weights == weight)
+            & (rows.zero_groups == group)
+            & (rows.exchanged == exchanged)
         )
-        slopes[mine] = of_mine * factors
+        own, factors = loaded(values, weight, usual_weight)
+        if zeros is not None:
+            own[list(ZERO_COLUMNS)] += zeros[group]
+        order = EXCHANGED if exchanged else slice(None)
+        where[mine], of_mine, found[mine] = places_with_slopes(
+            own[order], over_top=over_top, chains=rows.chains[mine]
+        )
+        slopes[mine] = of_mine[:, :, order] * factors
     return where, slopes, found
 
 

@@ -74,11 +74,14 @@ def test_compare_above_the_limit_is_bad_news(run):
     assert run("compare", *BOARD, "--limit", 8)[0] == 0
 
 
-def test_several_files_of_marks_are_one_board(ask):
+def test_several_files_of_marks_are_one_board(ask, file):
+    header = "target_x_mm,target_y_mm,measured_x_mm,measured_y_mm\n"
+    more = file("more.csv", f"{header}-1150,550,-1152.4,557.1\n300,100,298,103\n")
     _, once = ask("compare", *BOARD)
-    _, twice = ask("compare", *BOARD, MARKS)
-    assert len(twice["marks"]) == 2 * len(once["marks"])
-    assert twice["rms_mm"] == pytest.approx(once["rms_mm"])
+    _, both = ask("compare", *BOARD, more)
+    assert both["marks"][:9] == once["marks"] and len(both["marks"]) == 11
+    assert [one["count"] for one in both["rounds"]] == [9, 2]
+    assert both["rounds"][0]["rms_mm"] == pytest.approx(once["rms_mm"])
 
 
 def test_add_writes_settings_that_explain_the_marks(ask, tmp_path):

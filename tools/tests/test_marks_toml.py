@@ -1,5 +1,6 @@
 """marks.toml."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -168,3 +169,16 @@ def test_repeats_of_one_mark_are_no_inches(tmp_path):
     for offset in (0.0, 0.1, 0.2, 0.3):
         text += f'[[mark]]\nname = "A"\ntarget = [0, 0]\nmeasured = [{offset}, 0]\n'
     assert read(tmp_path, text).repeats == {"A": (0, 1, 2, 3)}
+
+
+def test_the_examples_in_the_docs_can_be_read(tmp_path):
+    root = Path(__file__).resolve().parents[2]
+    (tmp_path / "groundcontrol.ini").write_bytes(
+        (root / "tools/plumb/examples/mibproj/groundcontrol.ini").read_bytes()
+    )
+    texts = re.findall(r"```toml\n(.*?)```", (root / "docs/marks.md").read_text(), re.DOTALL)
+    assert len(texts) == 2
+    for i, text in enumerate(texts):
+        path = tmp_path / f"{i}.toml"
+        path.write_text(text)
+        assert read_marks(path, sheet=SHEET).distances

@@ -110,7 +110,11 @@ def test_foreign_bytes_in_a_file_name_do_no_harm(tmp_path):
         ("chainsagcorrection = 0", "chainsagcorrection = 1e9", "chainsagcorrection: 1e.09"),
         ("sledcg = 79", "sledcg = 79\nsledweight = 22", "sledweight: 22 N .*pounds"),
         ("chainoversprocket = Top", "chainoversprocket = 1", "'1' is not known; write Top or Bott"),
-        ("kinematicstype = Triangular", "kinematicstype = Quadrilateral", "not this machine's kin"),
+        (
+            "kinematicstype = Triangular",
+            "kinematicstype = Quadrilateral",
+            "not the machine the lab knows",
+        ),
         ("kinematicstype = Triangular", "kinematicstype = Tri", "write Triangular or Quadr"),
         ("[Maslow Settings]\n", "", "line 4: a value stands before the first .section."),
     ],

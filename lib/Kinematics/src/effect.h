@@ -7,8 +7,9 @@
 #include "strand.h"
 
 // For hooks of effects that most machines do not have: kept out of line, they leave the board's few
-// registers to the others (200 cycles an inverse).
-#define PLUMB_RARE __attribute__((noinline))
+// registers to the others (200 cycles an inverse); cold, they stand apart, so that the others stay
+// within the reach of short calls (80 cycles).
+#define PLUMB_RARE __attribute__((noinline, cold))
 
 namespace kinematics {
 
@@ -44,6 +45,7 @@ template <class Real>
 struct Effect {
   enum { kNeedsForces = 0 };  ///< 1 where a hook reads pull or bend
   enum { kMovesEnds = 0 };    ///< 1 where moveEnds does anything
+  enum { kEmpirical = 0 };    ///< 1 where it is a mere fit and no cause: never a suspect
 
   /// Moves the sprockets' centres [mm], left and right, for good: runs once, like prepare.
   static void moveSprocket(const Real*, Point<Real>*) {}

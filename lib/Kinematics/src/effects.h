@@ -10,6 +10,7 @@
 #include "effects/frame_flex.h"
 #include "effects/frame_lean.h"
 #include "effects/motor_level.h"
+#include "effects/residual_patch.h"
 #include "effects/sled_swing.h"
 #include "effects/sprocket_runout.h"
 #include "registry.h"
@@ -29,7 +30,8 @@ using Effects = Registry<
     At<170, ChainStretch>,
     At<180, ChainPitch>,
     At<190, SprocketRunout>,
-    At<200, ChainZero>>;
+    At<200, ChainZero>,
+    At<210, ResidualPatch>>;
 // clang-format on
 
 /// How many numbers describe all effects together, and how many their hooks read.

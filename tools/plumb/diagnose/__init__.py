@@ -1,5 +1,6 @@
 """What the marks prove: slips, suspects, and what could still hide."""
 
 from plumb.diagnose.diagnosis import VERDICTS, Diagnosis, diagnose
+from plumb.diagnose.explanation import Checked
 
-__all__ = ["VERDICTS", "Diagnosis", "diagnose"]
+__all__ = ["VERDICTS", "Checked", "Diagnosis", "diagnose"]

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from plumb.catalogue import effect_names
-from plumb.diagnose.explanation import Board, Explanation, explain
+from plumb.diagnose.exchanged import exchange_slips, find_exchanged
+from plumb.diagnose.explanation import Board, Checked, Explanation, explain
 from plumb.diagnose.gain import Search, search
+from plumb.diagnose.halves import half_warnings, round_warnings
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
 from plumb.diagnose.misfit import misfit_chance
 from plumb.diagnose.noise import Noise
+from plumb.diagnose.signs import sign_warning
 from plumb.diagnose.sizes import Room, Size, hidden_share, room_for, sizes_of
 from plumb.diagnose.slip_guess import Slip, described
 from plumb.diagnose.slips import clear_slips
@@ -53,6 +56,11 @@ class Together:
     sizes: Mapping[str, tuple[Size, ...]]
     rms_after: float  # [mm]
 
+    @property
+    def possible(self) -> bool:
+        """Whether the intervals of all sizes reach what a real machine can have."""
+        return all(one.might_be_plausible for own in self.sizes.values() for one in own)
+
 
 @dataclass(frozen=True)
 class Diagnosis:
@@ -71,6 +79,7 @@ class Diagnosis:
     slips: tuple[Slip, ...]
     could_hide: tuple[Room, ...]
     warnings: tuple[str, ...]
+    disagreements: tuple[str, ...] = ()  # rounds, or halves of the sheet, that do not go together
 
     @property
     def suspects(self) -> tuple[str, ...]:
@@ -86,8 +95,9 @@ def diagnose(
     controller: str | None = None,
     priors: Mapping[str, float] = PRIORS,
     sigma: float | None = None,
+    checked: Sequence[Checked] = (),
 ) -> Diagnosis:
-    """Find what the model of these settings misses in the marks.
+    """Find what the model of these settings misses in the marks, and in numbers checked directly.
 
     Raises InputError for too few marks, and marks that cannot be reached.
     """
@@ -96,17 +106,22 @@ def diagnose(
     )
     _refuse_too_few(measurements, rows)
     stated = sigma or measurements.tape_sigma
-    first = Board.of(model, rows, sigma=stated or USUAL_SIGMA, priors=priors)
+    first = Board.of(model, rows, sigma=stated or USUAL_SIGMA, priors=priors, checked=checked)
     felt = felt_effects(explain(first))
-    cleared = clear_slips(first, felt, stated=stated)
+    exchanged = find_exchanged(first)
+    cleared = clear_slips(exchanged.board, felt, stated=stated)
     noise, frame = cleared.noise, cleared.frame
+    board = frame.board
     singles = {one.effects[0]: one for one in cleared.singles}
     for name in effect_names():
         # What the marks do not feel needs no search, but is listed too.
         if name not in singles:
-            singles[name] = explain(frame.board, (name,), start=frame)
+            singles[name] = explain(board, (name,), start=frame)
     gate = search(frame, felt, noise)
-    slips = tuple(described(one, measurements, settings.sheet) for one in cleared.slips)
+    slips = (
+        *exchange_slips(exchanged, measurements),
+        *(described(one, measurements, settings.sheet) for one in cleared.slips),
+    )
     suspects, verdict = Suspects((), True), "slip"
     if not slips:
         suspects, verdict = _judge(frame, [singles[name] for name in felt], gate, noise)
@@ -130,13 +145,18 @@ def diagnose(
             *noise.notes,
             *([] if possible else [_IMPOSSIBLE]),
             *_warnings(frame, gate, ranking, kept),
+            *_signs(board, felt, noise, kept, verdict),
         ),
+        disagreements=()
+        if slips
+        else _parts_that_differ(kept[0] if kept else frame, noise, measurements),
     )
 
 
 _IMPOSSIBLE = (
     "every explanation needs sizes that no real machine has, so each stands in for something else: "
-    "check which settings were in force, the signs of the marks and the stated frame"
+    "check which settings were in force, the signs of the marks, the stated frame, and that the "
+    "sled hangs on one ring, not on two brackets"
 )
 
 
@@ -203,6 +223,28 @@ def _together(explanation: Explanation, noise: Noise) -> Together:
         sizes={name: sizes_of(explanation, name, noise) for name in explanation.effects},
         rms_after=explanation.rms,
     )
+
+
+def _signs(
+    board: Board,
+    felt: tuple[str, ...],
+    noise: Noise,
+    kept: tuple[Explanation, ...],
+    verdict: str,
+) -> list[str]:
+    """What the other sign of y would change, where the verdict leaves doubts."""
+    if verdict in ("slip", "nothing_provable"):
+        return []
+    said = sign_warning(board, felt, noise, kept)
+    return [said] if said else []
+
+
+def _parts_that_differ(
+    best: Explanation, noise: Noise, measurements: Measurements
+) -> tuple[str, ...]:
+    """Rounds that do not go together, else halves of the sheet."""
+    rounds = round_warnings(best, noise, [one.name for one in measurements.rounds])
+    return tuple(rounds or half_warnings(best, noise))
 
 
 def _differences(kept: tuple[Explanation, ...]) -> dict[tuple[int, int], float]:

@@ -1,12 +1,13 @@
 """An explanation: the frame and some effects refitted together, and the slopes at that fit.
 
-All is whitened: rows are measured numbers over sigma, then the priors of the frame; columns are
-unknowns in their typical sizes. Then noise alone is a vector of independent standard normals.
+All is whitened: rows are measured numbers over sigma, then the priors of the frame, then what was
+checked directly; columns are unknowns in their typical sizes. Then noise alone is a vector of
+independent standard normals.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,11 +25,21 @@ INVISIBLE = 1e-5  # share of a column's length below which its rest is rounding
 
 
 @dataclass(frozen=True)
+class Checked:
+    """A number of the machine that was measured directly, like the tape against a steel rule."""
+
+    name: str  # of a parameter or of the frame
+    value: float  # [its unit]
+    sigma: float  # [its unit]
+
+
+@dataclass(frozen=True)
 class Board:
     """What is diagnosed: a model, what was measured, and the sigma [mm] that whitens it."""
 
     problem: Problem  # of the frame and every effect
     own: Mapping[str, tuple[int, ...]]  # columns of each effect, in the catalogue's order
+    checked: tuple[Checked, ...] = ()  # each is one more row, after those of the priors
 
     @staticmethod
     def of(
@@ -37,6 +48,7 @@ class Board:
         *,
         sigma: float,
         priors: Mapping[str, float] = PRIORS,
+        checked: Sequence[Checked] = (),
     ) -> Board:
         """A board with every effect of the catalogue as an unknown."""
         problem = Problem.of(settings, rows, effect_names(), priors, sigma)
@@ -44,7 +56,7 @@ class Board:
             effect: tuple(problem.names.index(name) for name in parameter_names(effect))
             for effect in effect_names()
         }
-        return Board(problem, own)
+        return Board(problem, own, tuple(checked))
 
     @property
     def rows(self) -> Observations:
@@ -60,6 +72,20 @@ class Board:
     def frame(self) -> Array:
         """Columns of the frame and the sheet's pose, which every explanation refits."""
         return np.flatnonzero(self.problem.held)
+
+    def checks(self, unknowns: Array) -> tuple[Array, Array]:
+        """What is left of the direct measurements (c,), and their slopes (c, u), both whitened."""
+        problem = self.problem
+        slopes, left = (
+            np.zeros((len(self.checked), len(problem.names))),
+            np.zeros(len(self.checked)),
+        )
+        for i, one in enumerate(self.checked):
+            column = problem.names.index(one.name)
+            slopes[i, column] = problem.scale[column] / one.sigma
+            value = problem.start[column] + problem.scale[column] * unknowns[column]
+            left[i] = (one.value - value) / one.sigma
+        return left, slopes
 
     def columns(self, effects: Iterable[str]) -> Array:
         """Columns of these effects' parameters."""
@@ -165,12 +191,13 @@ def _look(board: Board, effects: tuple[str, ...], unknowns: Array) -> Explanatio
     marks, distances = problem.errors(sighting)
     errors = np.concatenate([marks.ravel(), distances]) / problem.sigma
     priors = np.eye(len(problem.names))[problem.held]
+    left, by_check = board.checks(unknowns)
     return Explanation(
         board=board,
         effects=effects,
         unknowns=unknowns,
-        residual=np.concatenate([errors, -unknowns[problem.held]]),
-        slopes=np.vstack([problem.data_slopes(sighting) / problem.sigma, priors]),
+        residual=np.concatenate([errors, -unknowns[problem.held], left]),
+        slopes=np.vstack([problem.data_slopes(sighting) / problem.sigma, priors, by_check]),
         predicted=sighting.read.where[problem.observations.mark_rows],
         settled=True,
     )

@@ -22,6 +22,11 @@ def misfit_chance(explanation: Explanation, noise: Noise) -> float:
     return _chance(left, spare, noise)
 
 
+def spare_numbers(explanation: Explanation) -> float:
+    """How many measured numbers the fit left over."""
+    return _left(explanation, explanation.basis, explanation.residual)[1]
+
+
 def library_misfit_chance(explanation: Explanation, noise: Noise) -> float:
     """The same beside everything that all effects of the library could draw at once."""
     return _chance(*beside_library(explanation), noise)

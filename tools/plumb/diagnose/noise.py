@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import chdtrc, stdtrit
 
+from plumb.diagnose.repeats import distance_spread, mark_spread, rounding_sigma
 from plumb.diagnose.significance import KNOWN
 from plumb.fit import USUAL_SIGMA
 from plumb.observations import Observations
@@ -55,19 +56,10 @@ class Spread:
 
 def repeats_of(rows: Observations) -> Spread:
     """The spread of readings that were taken of the same mark or distance in the same way."""
-    marks: dict[tuple, list[int]] = {}
-    for i, row in enumerate(rows.mark_rows):
-        alike = (*rows.chains[row], rows.sled_weights[row], *rows.approaches[row])
-        marks.setdefault((rows.names[i], *alike), []).append(i)
-    spans: dict[frozenset, list[int]] = {}
-    for i, ends in enumerate(rows.distance_rows.tolist()):
-        spans.setdefault(frozenset(ends), []).append(i)
-    squares, degrees = 0.0, 0
-    for readings, groups, size in ((rows.measured, marks, 2), (rows.distances, spans, 1)):
-        for own in groups.values():
-            squares += float(np.sum((readings[own] - readings[own].mean(axis=0)) ** 2))
-            degrees += size * (len(own) - 1)
-    return Spread(squares, degrees)
+    marks, spans = mark_spread(rows), distance_spread(rows)
+    found = Spread(marks[0] + spans[0], marks[1] + spans[1])
+    least = rounding_sigma(rows) ** 2 * found.degrees if found.degrees else 0.0
+    return Spread(max(found.squares, least), found.degrees)
 
 
 def noise_of(repeats: Spread, scatter: Spread, *, stated: float | None) -> Noise:

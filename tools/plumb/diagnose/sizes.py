@@ -132,7 +132,12 @@ def _room(effect: str, explanation: Explanation, noise: Noise) -> Room:
     if len(columns) == 1:
         whole = np.abs(raw) * limits[0][1] / board.problem.scale[columns[0]]
         return Room(effect, tuple(limits), _per_reading(explanation, whole[:, 0]))
-    return Room(effect, tuple(limits), _largest(explanation, raw, total, covariance))
+    # Where little is measured the ellipsoid is boundless, but what is possible is not.
+    sizes = np.array([one[1] for one in limits]) / board.problem.scale[columns]
+    at_limits = sum(_per_reading(explanation, column) for column in (raw * sizes).T)
+    return Room(
+        effect, tuple(limits), min(_largest(explanation, raw, total, covariance), at_limits)
+    )
 
 
 def _largest(explanation: Explanation, raw: Array, total: Array, covariance: Array) -> float:

@@ -21,13 +21,14 @@ from plumb.diagnose.chance import BELIEVABLE, chance_of_imitation
 from plumb.diagnose.explanation import Explanation, explain, span
 from plumb.diagnose.gain import LEVEL, bases_beside, complete
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
-from plumb.diagnose.misfit import library_misfit_chance, misfit_chance
+from plumb.diagnose.misfit import library_misfit_chance, misfit_chance, spare_numbers
 from plumb.diagnose.noise import Noise
 from plumb.diagnose.significance import surprise, tail
 from plumb.diagnose.sizes import possible
 
 MOST_REFITTED = 12  # combinations that are refitted in full, the best by the frame's slopes
 UNHEARD = np.log(0.01)  # of the chance that a machine is beyond all that the catalogue knows
+FEWEST_SPARE = 1.5  # measured numbers that an explanation must leave over to count as one
 MOST_TOGETHER = 3  # effects at once; the marks of one sheet hardly carry more
 
 
@@ -91,6 +92,8 @@ def _standing(
     """Explanations that leave no misfit and to which nothing can be added, best first."""
     standing = []
     for one in explanations:
+        if spare_numbers(one) < FEWEST_SPARE:
+            continue  # as many unknowns as numbers explain anything
         if misfit_chance(one, noise) > MISFIT_LEVEL and complete(one, felt, noise):
             standing.append(Survivor(one, possible(one, noise)))
     return sorted(standing, key=lambda one: -one.worth)

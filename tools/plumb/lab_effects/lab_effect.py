@@ -46,6 +46,19 @@ class LabParameter:
     typical: float  # size met in real workshops
     summary: str
 
+    @property
+    def words(self) -> dict[str, Any]:
+        """The parameter as the firmware's library describes its own; no setting holds it."""
+        return {
+            "name": self.name,
+            "setting": None,
+            "unit": self.unit,
+            "low": self.low,
+            "high": self.high,
+            "typical": self.typical,
+            "summary": self.summary,
+        }
+
 
 @dataclass(frozen=True)
 class LabEffect:
@@ -80,16 +93,6 @@ class LabEffect:
             "pattern": self.pattern,
             "look_alikes": self.look_alikes,
             "remedy": self.remedy,
-            "parameters": [
-                {
-                    "name": one.name,
-                    "setting": None,
-                    "unit": one.unit,
-                    "low": one.low,
-                    "high": one.high,
-                    "typical": one.typical,
-                    "summary": one.summary,
-                }
-                for one in self.parameters
-            ],
+            "empirical": False,
+            "parameters": [one.words for one in self.parameters],
         }

@@ -1,0 +1,90 @@
+"""The spread of repeated readings, without what moved a whole round against another.
+
+Two rounds of the same marks repeat each other only if nothing changed in between. Where a later
+round lies shifted, turned or stretched as a whole, that is no noise of reading: it is taken out.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from plumb.diagnose.significance import tail
+from plumb.observations import Observations
+
+Array = np.ndarray
+SURE = 0.0027  # chance at which noise alone would move a round as a whole as much: 3 sigma
+STEPS = (1.0, 0.5, 0.25, 0.1)  # [mm] to which people read a tape, coarsest first
+FEWEST_LEFT = 2.0  # degrees of freedom that must be left to judge by
+
+
+def mark_spread(rows: Observations) -> tuple[float, float]:
+    """Sum of squares [mm^2] and degrees of freedom of marks made and read in the same way."""
+    groups: dict[tuple, list[int]] = {}
+    for i, row in enumerate(rows.mark_rows):
+        side = (*rows.approaches[row], rows.exchanged[row])
+        alike = (*rows.chains[row], rows.sled_weights[row], *side)
+        groups.setdefault((rows.names[i], *alike), []).append(i)
+    repeated = [own for own in groups.values() if len(own) > 1]
+    if not repeated:
+        return 0.0, 0.0
+    picked = np.concatenate(repeated)
+    belongs = np.repeat(np.arange(len(repeated)), [len(own) for own in repeated])
+    means = (belongs[:, np.newaxis] == np.arange(len(repeated))).astype(float)
+    readings = rows.measured[picked]
+    plain = _left(means, readings)
+    whole = _round_columns(rows, picked)
+    moved = _left(np.hstack([means, whole]), readings)
+    if whole.shape[1] and moved[1] >= FEWEST_LEFT and _is_sure(plain, moved):
+        return moved
+    return plain
+
+
+def distance_spread(rows: Observations) -> tuple[float, float]:
+    """The same of distances between the same two marks."""
+    spans: dict[frozenset, list[int]] = {}
+    for i, ends in enumerate(rows.distance_rows.tolist()):
+        spans.setdefault(frozenset(ends), []).append(i)
+    squares, degrees = 0.0, 0.0
+    for own in spans.values():
+        squares += float(np.sum((rows.distances[own] - rows.distances[own].mean()) ** 2))
+        degrees += len(own) - 1
+    return squares, degrees
+
+
+def rounding_sigma(rows: Observations) -> float:
+    """Standard deviation [mm] of rounding to the step in which all numbers were written.
+
+    Readings to whole millimetres that agree exactly say no more than that.
+    """
+    whole = [rows.measured - rows.measured[:1]] if len(rows.measured) else []
+    whole += [rows.distances - rows.distances[:1]] if len(rows.distances) else []
+    numbers = np.concatenate([one.ravel() for one in whole])
+    for step in STEPS:
+        if np.allclose(numbers, step * np.round(numbers / step), atol=1e-6, rtol=0):
+            return float(step / np.sqrt(12))
+    return 0.0
+
+
+def _round_columns(rows: Observations, picked: Array) -> Array:
+    """Columns that move each later round as a whole: 1, x and y of the target (metres)."""
+    number = rows.rounds[rows.mark_rows[picked]]
+    linear = np.column_stack([np.ones(len(picked)), rows.targets[picked] / 1000])
+    later = sorted(set(number.tolist()))[1:]
+    if not later:
+        return np.zeros((len(picked), 0))
+    return np.hstack([linear * (number == one)[:, np.newaxis] for one in later])
+
+
+def _left(columns: Array, readings: Array) -> tuple[float, float]:
+    """What columns leave of both coordinates, and its degrees of freedom."""
+    fitted, _, rank, _ = np.linalg.lstsq(columns, readings, rcond=1e-9)
+    return float(np.sum((readings - columns @ fitted) ** 2)), 2.0 * (len(readings) - rank)
+
+
+def _is_sure(plain: tuple[float, float], moved: tuple[float, float]) -> bool:
+    """Whether rounds moved as a whole, by the F-test."""
+    more = plain[1] - moved[1]
+    if more <= 0 or moved[0] <= 0:
+        return more > 0 and plain[0] > 0
+    gain = (plain[0] - moved[0]) / (moved[0] / moved[1])
+    return bool(tail(gain, more, moved[1]) < SURE)

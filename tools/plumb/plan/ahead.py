@@ -1,0 +1,65 @@
+"""What a planned measurement would add: rows of slopes below those of the marks so far."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from plumb.diagnose.explanation import Explanation
+from plumb.plan.visits import Visits
+from plumb.predict import FOUND
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class Check:
+    """A number of the machine that would be measured directly."""
+
+    name: str  # of a parameter or of the frame
+    sigma: float  # [its unit]
+
+
+@dataclass(frozen=True)
+class Ahead:
+    """All rows there would be, whitened: those so far, planned marks, planned checks."""
+
+    slopes: Array  # (rows, u)
+    so_far: int  # rows there are already
+    marks: Array  # (rows,) True for what is read of marks and distances, false for priors, checks
+
+
+def ahead(at: Explanation, visits: Visits, checks: Sequence[Check] = ()) -> Ahead:
+    """The rows after a planned measurement, by the slopes of an explanation."""
+    marks, checked = visit_slopes(at, visits), check_slopes(at, checks)
+    read = np.zeros(len(at.slopes), dtype=bool)
+    read[: at.board.rows.count] = True
+    return Ahead(
+        slopes=np.vstack([at.slopes, marks.reshape(-1, at.slopes.shape[1]), checked]),
+        so_far=len(at.slopes),
+        marks=np.concatenate([read, np.full(2 * len(visits), True), np.full(len(checks), False)]),
+    )
+
+
+def visit_slopes(at: Explanation, visits: Visits) -> Array:
+    """Whitened slopes (n, 2, u) of visits at an explanation; zero, so that nothing is expected of
+    it, for a visit where the explanation's sled could not hang."""
+    problem = replace(at.board.problem, observations=visits.rows())
+    width = len(problem.names)
+    if not len(visits):
+        return np.zeros((0, 2, width))
+    sighting, _ = problem.predict(at.unknowns)
+    slopes = (problem.data_slopes(sighting) / problem.sigma).reshape(-1, 2, width)
+    return np.where((sighting.found == FOUND)[:, np.newaxis, np.newaxis], slopes, 0.0)
+
+
+def check_slopes(at: Explanation, checks: Sequence[Check]) -> Array:
+    """Whitened slopes (c, u) of numbers that are measured directly."""
+    problem = at.board.problem
+    rows = np.zeros((len(checks), len(problem.names)))
+    for i, one in enumerate(checks):
+        column = problem.names.index(one.name)
+        rows[i, column] = problem.scale[column] / one.sigma
+    return rows

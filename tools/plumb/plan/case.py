@@ -1,0 +1,177 @@
+"""What is known before the next measurement: the explanations that stand, and how far each is open.
+
+A hypothesis is one effect (or several at once) with the numbers it may have, given the marks so
+far: a mean and a covariance of the frame and its own parameters, by the slopes at its fit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from plumb.catalogue import effect_names
+from plumb.diagnose.diagnosis import Diagnosis, felt_effects
+from plumb.diagnose.explanation import Board, Checked, Explanation, explain
+from plumb.diagnose.noise import Noise
+from plumb.fit import PRIORS
+from plumb.machine_settings import MachineSettings
+from plumb.measurements import Measurements
+from plumb.observations import model_and_observations
+
+Array = np.ndarray
+MOST_HYPOTHESES = 8  # the best of them; more would only cost time
+LIGHT = 0.01  # explanations less probable than this are left out
+IMPOSSIBLE = 0.1  # weight of an explanation whose sizes no real machine has
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """One account of the marks so far, and what it leaves open."""
+
+    effects: tuple[str, ...]
+    at: Explanation  # whose slopes it goes by
+    data: Array  # (rows,) whitened readings so far, less what the frame alone predicts there
+    columns: Array  # of the unknowns it is free in
+    mean: Array  # (f,) of these, as offsets from `at` for the frame, whole for the effects
+    root: Array  # (f, f) root @ root.T is their covariance
+    weight: float  # how probable it is among all
+
+    def drawn(self, source: np.random.Generator, count: int) -> Array:
+        """So many possible sets of the unknowns (f, count)."""
+        noise = source.standard_normal((self.root.shape[1], count))
+        return self.mean[:, np.newaxis] + self.root @ noise
+
+
+@dataclass(frozen=True)
+class Case:
+    """A diagnosed board, and the machine that will cut the next marks."""
+
+    settings: MachineSettings  # in force when the next marks are cut
+    controller: str
+    verdict: str
+    board: Board
+    noise: Noise
+    frame: Explanation
+    singles: Mapping[str, Explanation]  # each felt effect by itself, refitted
+    hypotheses: tuple[Hypothesis, ...]  # most probable first
+    spans: tuple[str, ...] = ()  # the names of both ends of each distance
+
+    @property
+    def usual_weight(self) -> float:
+        """The sled's [N] when nothing extra hangs on it."""
+        return float(np.median(self.board.rows.sled_weights))
+
+    @property
+    def effects(self) -> tuple[str, ...]:
+        """The effects of all hypotheses, most probable first."""
+        return tuple(dict.fromkeys(name for one in self.hypotheses for name in one.effects))
+
+
+def case_of(
+    found: Diagnosis,
+    settings: MachineSettings,
+    measurements: Measurements,
+    *,
+    cut_with: MachineSettings | None = None,
+    controller: str | None = None,
+    priors: Mapping[str, float] = PRIORS,
+    checked: Sequence[Checked] = (),
+) -> Case:
+    """The case of a diagnosis, with the inputs it was made of."""
+    model, rows = model_and_observations(
+        settings, measurements, cut_with=cut_with, controller=controller
+    )
+    board = Board.of(model, rows, sigma=found.noise.sigma, priors=priors, checked=checked)
+    frame = explain(board)
+    felt = felt_effects(frame)
+    singles = {name: explain(board, (name,), start=frame) for name in felt}
+    # New marks belong to the first round: its settings, its zeros and its sheet.
+    in_force = measurements.rounds[0].cut_with or cut_with or settings
+    if found.explanations:
+        several = [one for one in found.explanations if len(one.effects) > 1]
+        together = [explain(board, one.effects, start=frame) for one in several]
+        hypotheses = _weighed([*singles.values(), *together], _possible(found))
+    else:
+        hypotheses = hidden_hypotheses(frame)
+    return Case(
+        settings=in_force,
+        controller=controller or measurements.controller or in_force.controller,
+        verdict=found.verdict,
+        board=board,
+        noise=found.noise,
+        frame=frame,
+        singles=singles,
+        hypotheses=hypotheses,
+        spans=tuple(" - ".join(one.between) for one in measurements.distances),
+    )
+
+
+def _possible(found: Diagnosis) -> set[tuple[str, ...]]:
+    """The explanations whose sizes a real machine can have, or nearly so."""
+    sizes = {(one.effect,): one.sizes for one in found.ranking}
+    for one in found.explanations:
+        sizes[one.effects] = tuple(size for own in one.sizes.values() for size in own)
+    return {
+        effects for effects, own in sizes.items() if all(size.might_be_plausible for size in own)
+    }
+
+
+def _weighed(
+    explanations: Sequence[Explanation], possible: set[tuple[str, ...]]
+) -> tuple[Hypothesis, ...]:
+    """Hypotheses as they fit, weighed by how well they do; what is hardly probable is left out.
+
+    The weight is exp(-(chi-square + 2 parameters) / 2), the order of the diagnosis itself. Effects
+    that did not stand their test take part: one in twenty of them is the truth all the same.
+    """
+    prices = [one.cost + 2 * len(one.board.columns(one.effects)) for one in explanations]
+    weights = np.exp(-(np.array(prices) - min(prices)) / 2)
+    weights *= [1.0 if one.effects in possible else IMPOSSIBLE for one in explanations]
+    best = np.argsort(-weights, kind="stable")[:MOST_HYPOTHESES]
+    best = best[weights[best] > LIGHT * weights.sum()]
+    return tuple(_as_fitted(explanations[i], weights[i] / weights[best].sum()) for i in best)
+
+
+def _as_fitted(one: Explanation, weight: float) -> Hypothesis:
+    own = one.board.columns(one.effects)
+    columns = np.concatenate([one.board.frame, own])
+    mean = np.concatenate([np.zeros(len(one.board.frame)), one.unknowns[own]])
+    return Hypothesis(
+        effects=one.effects,
+        at=one,
+        data=one.residual + one.slopes[:, own] @ one.unknowns[own],
+        columns=columns,
+        mean=mean,
+        root=_root(one.slopes[:, columns]),
+        weight=float(weight),
+    )
+
+
+def hidden_hypotheses(frame: Explanation) -> tuple[Hypothesis, ...]:
+    """Where nothing is proved: each effect there with about its typical size, all as probable.
+
+    A standard normal of each parameter in typical sizes, and then what the marks say of it.
+    """
+    board, found = frame.board, []
+    names = effect_names()
+    for name in names:
+        own = board.columns([name])
+        columns = np.concatenate([board.frame, own])
+        usual = np.zeros((len(own), len(columns)))
+        usual[:, len(board.frame) :] = np.eye(len(own))
+        slopes = np.vstack([frame.slopes[:, columns], usual])
+        data = np.concatenate([frame.residual, np.zeros(len(own))])
+        mean = np.linalg.lstsq(slopes, data, rcond=1e-10)[0]
+        own_data, share = frame.residual, 1 / len(names)
+        found.append(Hypothesis((name,), frame, own_data, columns, mean, _root(slopes), share))
+    return tuple(found)
+
+
+def _root(slopes: Array) -> Array:
+    """A root of the covariance of unknowns with these whitened slopes; what is not felt is not
+    drawn."""
+    _, sizes, turned = np.linalg.svd(slopes, full_matrices=False)
+    felt = sizes > 1e-6 * sizes[0]
+    return turned[felt].T / sizes[felt]

@@ -1,0 +1,181 @@
+"""The chance that a planned measurement settles the question, by simulating what it would bring.
+
+Each hypothesis is taken for the truth as often as it is probable. Its frame and sizes are drawn
+from what the marks so far leave open, new readings are drawn with noise, and the diagnosis is
+repeated on all rows by the slopes at hand: gate, max-gain test of every single effect (and of the
+combinations that stand now), lack of fit. It is settled when one explanation is left, the true one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from plumb.diagnose.explanation import span
+from plumb.diagnose.gain import limit_of_noise
+from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
+from plumb.diagnose.noise import FEW_REPEATS, Noise, repeats_of
+from plumb.diagnose.significance import surprises, tail
+from plumb.plan.ahead import Ahead, Check, ahead
+from plumb.plan.case import Case, Hypothesis
+from plumb.plan.visits import Visits
+
+Array = np.ndarray
+DRAWS = 240  # of all hypotheses together: a chance is then right to about 3 in 100
+FEWEST = 12  # draws of one hypothesis
+HOPELESS = 5.0  # above the limit by so much surprise, an explanation does not come back
+SEED = 1847
+_TINY = 1e-8  # share of a column's squared length below which its rest is rounding
+
+
+@dataclass(frozen=True)
+class Outlook:
+    """What to expect after a measurement."""
+
+    chance: float  # that it settles the question, or finds what is hidden
+    left: float | None  # explanations on average; None where they are not counted
+
+
+def outlook(
+    case: Case, visits: Visits, checks: Sequence[Check] = (), *, draws: int = DRAWS
+) -> Outlook:
+    """What to expect of these visits and checks.
+
+    Suspects: the chance that the true one is left alone. Nothing provable: that an effect of its
+    usual size would be proved, if one is there.
+    """
+    alone = case.verdict != "nothing_provable"
+    noise = noise_after(case, visits)
+    tests: dict[int, Rediagnosis] = {}
+    settled = left = 0.0
+    for number, one in enumerate(case.hypotheses):
+        if id(one.at) not in tests:
+            twin = next(iter(tests.values()), None)
+            tests[id(one.at)] = Rediagnosis(case, ahead(one.at, visits, checks), noise, twin)
+        source = np.random.default_rng([SEED, number])
+        boards = tests[id(one.at)].boards(one, source, max(FEWEST, round(draws * one.weight)))
+        right, count = tests[id(one.at)].judged(one, boards, alone=alone)
+        settled += one.weight * right
+        left += one.weight * count
+    return Outlook(float(settled), float(left) if alone else None)
+
+
+class Rediagnosis:
+    """The diagnosis of many simulated boards with the same rows."""
+
+    def __init__(self, case: Case, rows: Ahead, noise: Noise, twin: Rediagnosis | None) -> None:
+        """`twin`: the same rows by another explanation's slopes, whose limit serves here too."""
+        board = case.board
+        self.rows, self.board = rows, board
+        self.noise = noise
+        self.frame = span(rows.slopes[:, board.frame])
+        self.nothing = len(board.own)  # explanations left where nothing is proved
+        self.columns = {name: board.columns([name]) for name in board.own}
+        self.felt = [name for name, own in self.columns.items() if rows.slopes[:, own].any()]
+        several = [one.effects for one in case.hypotheses if len(one.effects) > 1]
+        self.names = [*((name,) for name in self.felt), *several]
+        self.names += [one.effects for one in case.hypotheses if one.effects not in self.names]
+        # Beside an explanation it is lower by so little that the chances stay the same.
+        self.limit = twin.limit if twin else self._limit()
+
+    def _limit(self) -> float:
+        """The surprise that noise hardly exceeds beside the frame."""
+        bases = {}
+        for name in self.felt:
+            raw = self.rows.slopes[:, self.board.columns([name])]
+            bases[name] = span(raw - self.frame @ (self.frame.T @ raw), against=raw)
+        return limit_of_noise(bases, self.noise)
+
+    def boards(self, truth: Hypothesis, source: np.random.Generator, count: int) -> Array:
+        """Whitened readings (rows, count) of boards drawn from a truth; those so far stay."""
+        rows = self.rows
+        drawn = rows.slopes[rows.so_far :, truth.columns] @ truth.drawn(source, count)
+        drawn += source.standard_normal(drawn.shape)
+        return np.vstack([np.repeat(truth.data[:, np.newaxis], count, axis=1), drawn])
+
+    def judged(self, truth: Hypothesis, boards: Array, *, alone: bool) -> tuple[float, float]:
+        """On what share of boards the truth is proved (alone among all), and how many explanations
+        stand on average."""
+        proved = self._gains(self.frame, (), boards)[0] > self.limit
+        stands = self._stands(truth.effects, boards)
+        if not alone:
+            return float((proved & stands).mean()), float("nan")
+        others = [self._stands(one, boards) for one in self.names if one != truth.effects]
+        counts = stands + np.sum(others, axis=0)
+        left = np.where(proved, np.maximum(counts, 1), self.nothing)
+        return float((proved & stands & (counts == 1)).mean()), float(left.mean())
+
+    def _stands(self, effects: tuple[str, ...], readings: Array) -> Array:
+        """Whether nothing is to be added to an explanation, and it fits (count,)."""
+        own = np.concatenate([self.board.frame, self.board.columns(effects)])
+        fitted = span(self.rows.slopes[:, own])
+        sample = readings[:, :: max(1, readings.shape[1] // FEWEST)]
+        if self._gains(fitted, effects, sample)[0].min() > self.limit + HOPELESS:
+            return np.zeros(readings.shape[1], dtype=bool)
+        best, left = self._gains(fitted, effects, readings)
+        read = self.rows.marks
+        spare = read.sum() - np.sum(fitted[read] ** 2)
+        return (best <= self.limit) & (self._misfit(left[read], spare) > MISFIT_LEVEL)
+
+    def _misfit(self, left: Array, spare: float) -> Array:
+        squares = np.sum(left**2, axis=0)
+        if self.noise.source == "repeats":
+            spare, squares = spare - self.noise.degrees, squares - self.noise.degrees
+        if spare < 0.5 or not self.noise.testable:
+            return np.ones(left.shape[1])
+        return tail(squares, spare, self.noise.degrees)
+
+    def _gains(self, fitted: Array, effects: tuple[str, ...], readings: Array) -> tuple:
+        """The largest surprise of any other effect (count,), and what the fit leaves."""
+        left = readings - fitted @ (fitted.T @ readings)
+        slopes = self.rows.slopes
+        beside = slopes - fitted @ (fitted.T @ slopes)
+        gram, along = beside.T @ beside, beside.T @ left
+        lengths = np.einsum("ru,ru->u", slopes, slopes)
+        # Among effects with as many parameters the largest drop is the largest surprise.
+        drops: dict[int, Array] = {}
+        for name in self.felt:
+            if name in effects:
+                continue
+            own = self.columns[name]
+            own = own[lengths[own] > 0]
+            seen, drop = _drop(gram[np.ix_(own, own)], along[own], np.sqrt(lengths[own]))
+            if seen:
+                drops[seen] = np.maximum(drops.get(seen, 0.0), drop)
+        best = np.zeros(readings.shape[1])
+        for seen, drop in drops.items():
+            best = np.maximum(best, surprises(drop, seen, self.noise.degrees))
+        return best, left
+
+
+def _drop(gram: Array, along: Array, lengths: Array) -> tuple[int, Array | float]:
+    """How many parameters of an effect are seen beside what is fitted, and the drop of chi-square
+    (count,) that they bring."""
+    if len(lengths) == 1:
+        if gram[0, 0] <= _TINY * lengths[0] ** 2:
+            return 0, 0.0
+        return 1, along[0] ** 2 / gram[0, 0]
+    values, turned = np.linalg.eigh(gram / np.outer(lengths, lengths))
+    seen = values > _TINY
+    parts = turned[:, seen].T @ (along / lengths[:, np.newaxis])
+    return int(seen.sum()), np.sum(parts**2 / values[seen, np.newaxis], axis=0)
+
+
+def noise_after(case: Case, visits: Visits) -> Noise:
+    """The noise as it will be known: marks that are visited again in the same way tell of it."""
+    rows, noise = case.board.rows, case.noise
+    known = {
+        (name, *rows.chains[row], rows.sled_weights[row], rows.exchanged[row])
+        for name, row in zip(rows.names, rows.mark_rows, strict=True)
+    }
+    planned = zip(visits.names, visits.chains, visits.sled_weights, visits.swapped, strict=True)
+    again = sum(
+        (name, *chains, weight, swapped) in known for name, chains, weight, swapped in planned
+    )
+    before = noise.degrees if noise.source == "repeats" else repeats_of(rows).degrees
+    degrees = before + 2 * again
+    if not again or degrees < FEW_REPEATS:
+        return noise
+    return Noise(noise.sigma, degrees, "repeats")

@@ -1,0 +1,273 @@
+"""What could be measured next: marks, repeats, heavier sleds, sides, swapped chains, checks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from plumb.plan.ahead import Check
+from plumb.plan.case import Case
+from plumb.plan.checks import CHECKS, FRAME_CHECKS, DirectCheck
+from plumb.plan.separation import Chooser
+from plumb.plan.sites import grid, new_places, usable
+from plumb.plan.visits import Visits, joined, nowhere, sent
+
+Array = np.ndarray
+NEWTON = 9.81  # [N] of a kilogram
+EXTRA_KILOGRAMS = (2.5, 5.0, 10.0)  # what a maker finds to hang on a sled
+FEW = 4  # marks of a proposal
+MANY_GRID, MANY_MARGIN = (7, 4), (0.07, 0.12)  # the 28 marks that it is compared with
+SHARPER = 1.5  # times better than what is known: else a check is not worth the way
+READ_AGAIN = 3  # times each mark is read again
+MOST_AGAIN = 12  # marks that are all visited again with another weight
+# Minutes: a round at the machine, a mark cut and read, a mark read once more, a change of weight,
+# chains swapped and brought to 12 o'clock again.
+ROUND, MARK, READING, HANGING, SWAPPING = 3.0, 1.5, 0.75, 4.0, 15.0
+BESIDE = 20.0  # [mm] inwards of a mark is room for a second one; in the same hole nothing is read
+SIDES = np.array([(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)])
+
+
+@dataclass(frozen=True)
+class Option:
+    """One thing that could be measured."""
+
+    kind: str
+    title: str
+    do: tuple[str, ...]  # what to do, in sentences
+    minutes: float
+    visits: Visits
+    checks: tuple[Check, ...] = ()
+    value: str = ""  # how the checks' values follow from what was measured
+
+
+def options(case: Case) -> list[Option]:
+    """Everything worth a thought for this case."""
+    shop = _Shop(case)
+    if case.verdict == "one_suspect":
+        # Repeats share every systematic error with what they repeat: they confirm nothing.
+        own = [*shop.ordinary(), *shop.heavier(), *shop.swapped()]
+        return own + [one for one in checks_for(case) if one.kind == "check"]
+    found = [*shop.ordinary(), shop.repeats(), *shop.heavier(), *shop.sides(), *shop.swapped()]
+    return [one for one in found if one is not None] + checks_for(case)
+
+
+def many_marks(case: Case) -> Option | None:
+    """What blind diligence would do: a fine grid of ordinary marks."""
+    return _Shop(case).many()
+
+
+def checks_for(case: Case) -> list[Option]:
+    """Direct measurements of the suspects and of the frame's numbers that were not made yet."""
+    problem, made = case.board.problem, {one.name: one.sigma for one in case.board.checked}
+    held = np.flatnonzero(problem.held)
+    known = {problem.names[i]: float(problem.scale[i]) for i in held} | made
+    found = []
+    for name, own in CHECKS.items():
+        each = tuple(Check(f"{name}.{part}", sigma) for part, sigma in own.sigmas.items())
+        if name in case.effects and any(_sharper(one, known) for one in each):
+            found.append(_check("check", own, each))
+    for name, own in FRAME_CHECKS.items():
+        one = Check(name, own.sigmas[name])
+        if name in known and _sharper(one, known):
+            found.append(_check("frame", own, (one,)))
+    return found
+
+
+def _sharper(check: Check, known: Mapping[str, float]) -> bool:
+    """Whether it says more than what is known already."""
+    return known.get(check.name, np.inf) > SHARPER * check.sigma
+
+
+def _check(kind: str, own: DirectCheck, each: tuple[Check, ...]) -> Option:
+    return Option(kind, own.title, (own.do,), own.minutes, nowhere(), each, own.value)
+
+
+class _Shop:
+    """Makes options for one case."""
+
+    def __init__(self, case: Case) -> None:
+        self.case, self.rows = case, case.board.rows
+        known: dict[str, int] = {}
+        for name, row in zip(self.rows.names, self.rows.mark_rows, strict=True):
+            known.setdefault(name, int(row))
+        self.known = known
+        first = [self.rows.names.index(name) for name in known]
+        self.old_targets = self.rows.targets[first].reshape(-1, 2)
+        self.new_targets = new_places(case.settings.sheet, self.old_targets)
+
+    def ordinary(self) -> list[Option]:
+        """A few more marks with the sled as it is."""
+        pool = self.pool(self.case.usual_weight)
+        if len(pool) < FEW:
+            return []
+        visits = pool.taken(self.spread(pool))
+        do = f"Cut and read {FEW} marks more, at {spots(visits)}."
+        return [_marks("marks", f"{FEW} more marks", do, visits)]
+
+    def many(self) -> Option | None:
+        places = grid(self.case.settings.sheet, *MANY_GRID, margin=MANY_MARGIN)
+        places = places[usable(self.case.settings, places, self.case.usual_weight)]
+        if not len(places):
+            return None
+        visits = self.visits(places, self.case.usual_weight)
+        do = f"Cut and read {len(places)} marks more all over the sheet."
+        return _marks("many", f"{len(places)} more marks", do, visits)
+
+    def repeats(self) -> Option | None:
+        """All marks read again."""
+        if not self.known:
+            return None
+        old = joined(*[self.old()] * READ_AGAIN)
+        times = f"{READ_AGAIN} more times with a newly laid tape"
+        do = f"Read each of the {len(self.known)} marks {times}."
+        return Option("repeats", "every mark read again", (do,), ROUND + READING * len(old), old)
+
+    def heavier(self) -> list[Option]:
+        """Marks under a sled on which more hangs: as chosen best, in fixed patterns, and all."""
+        found = []
+        for kilograms in EXTRA_KILOGRAMS:
+            weight = self.case.usual_weight + kilograms * NEWTON
+            if weight > 2.05 * self.case.usual_weight:
+                continue
+            pool = self.pool(weight)
+            if len(pool) < FEW:
+                continue
+            visits = pool.taken(self.spread(pool))
+            found.append(_heavier(f"{FEW} marks", kilograms, visits))
+            beside = self.visits(self.beside(BESIDE), weight)
+            if kilograms == EXTRA_KILOGRAMS[1] and FEW < len(beside) <= MOST_AGAIN:
+                found.append(_heavier(f"{len(beside)} marks beside the old", kilograms, beside))
+        return found
+
+    def spread(self, pool: Visits) -> list[int]:
+        """The best few of a pool: as chosen one by one, or one of the patterns that often do."""
+        chooser = Chooser(self.case, pool)
+        tries = [chooser.best(range(len(pool)), FEW)]
+        width, height = self.case.settings.sheet
+        for pattern in PATTERNS:
+            wanted = np.array(pattern) * (width / 2, height / 2)
+            gaps = np.linalg.norm(pool.targets[:, np.newaxis] - wanted, axis=2)
+            tries.append([int(i) for i in gaps.argmin(axis=0)])
+        return max((one for one in tries if len(set(one)) == FEW), key=chooser.worth)
+
+    def sides(self) -> list[Option]:
+        """Two marks close together, touched from opposite sides, where friction may play a part."""
+        if "sled_friction" not in self.case.effects or not self.known:
+            return []
+        weight, near, far = self.case.usual_weight, self.beside(BESIDE), self.beside(2 * BESIDE)
+        # Which of both is touched from where is all the same: one pool for each pair of sides.
+        groups = [
+            self.visits(near if i % 2 == 0 else far, weight, sides=side)
+            for i, side in enumerate(SIDES)
+        ]
+        pool, count = joined(*groups), len(self.known)
+        if len(pool) < len(SIDES) * count:
+            return []
+        chosen = Chooser(self.case, pool).best(range(len(pool)), FEW // 2)
+        both = {twin for i in chosen for twin in (i, (i // count ^ 1) * count + i % count)}
+        visits = pool.taken(sorted(both, key=lambda i: (i % count, i)))
+        do = (
+            "Touch two marks beside each other from opposite sides, the last 100 mm straight "
+            f"towards the mark, at {spots(visits)}; write down the approach."
+        )
+        return [_marks("approach", "marks from opposite sides", do, visits)]
+
+    def swapped(self) -> list[Option]:
+        """Marks with each chain on the other's sprocket."""
+        if "chain_pitch" not in self.case.effects:
+            return []
+        pool = self.pool(self.case.usual_weight, swapped=True)
+        if len(pool) < FEW:
+            return []
+        visits = pool.taken(self.spread(pool))
+        do = (
+            "Hang each chain on the other's sprocket with the same link at 12 o'clock, and cut and "
+            f"read {FEW} marks, at {spots(visits)}."
+        )
+        return [_marks("swap", f"chains swapped, {FEW} marks", do, visits, more=SWAPPING)]
+
+    def pool(self, weight: float, *, swapped: bool = False) -> Visits:
+        """Places beside the marks there are and new ones, as far as they are usable so loaded."""
+        places = np.vstack([self.beside(BESIDE), self.new_targets])
+        places = places[usable(self.case.settings, places, weight)]
+        return self.visits(places, weight, swapped=swapped)
+
+    def beside(self, millimetres: float) -> Array:
+        """Places (n, 2) so far inwards of the marks there are."""
+        return self.old_targets - millimetres * np.where(self.old_targets > 0, 1.0, -1.0)
+
+    def old(self) -> Visits:
+        """The marks there are, as they were visited."""
+        rows, own = self.rows, list(self.known.values())
+        first = [rows.names.index(name) for name in self.known]
+        return Visits(
+            tuple(self.known),
+            rows.targets[first],
+            rows.chains[own],
+            rows.sled_weights[own],
+            rows.approaches[own],
+            rows.exchanged[own],
+        )
+
+    def visits(
+        self,
+        places: Array,
+        weight: float,
+        *,
+        sides: Array | None = None,
+        swapped: bool = False,
+    ) -> Visits:
+        """Visits of new places, from where the nearest mark was approached unless told."""
+        approaches = np.zeros((len(places), 2))
+        if sides is not None:
+            approaches = np.tile(sides, (len(places), 1))
+        elif len(self.old_targets) and len(places):
+            gaps = np.linalg.norm(places[:, np.newaxis] - self.old_targets, axis=2)
+            own = np.array(list(self.known.values()))[gaps.argmin(axis=1)]
+            approaches = self.rows.approaches[own]
+        try:
+            return sent(
+                self.case.settings,
+                places,
+                controller=self.case.controller,
+                sled_weight=weight,
+                approaches=approaches,
+                swapped=swapped,
+            )
+        except ValueError:
+            # A controller that cannot go there is not asked to.
+            return nowhere()
+
+
+# Half sheets: the corners, and three along the top with one below.
+PATTERNS = (
+    ((-0.9, 0.82), (0.9, 0.82), (-0.9, -0.82), (0.9, -0.82)),
+    ((-0.9, 0.82), (0.0, 0.82), (0.9, 0.82), (0.0, -0.82)),
+)
+
+
+def _marks(kind: str, title: str, do: str, visits: Visits, *, more: float = 0.0) -> Option:
+    return Option(kind, title, (do,), ROUND + MARK * len(visits) + more, visits)
+
+
+def _heavier(which: str, kilograms: float, visits: Visits) -> Option:
+    places = spots(visits)
+    do = (
+        f"Hang {kilograms:g} kg more on the sled, low and in the middle, change nothing else, and "
+        f"cut and read {len(visits)} marks, at {places}. Weigh what you hang."
+    )
+    title = f"{which} with {kilograms:g} kg more"
+    return _marks("weight", title, do, visits, more=HANGING)
+
+
+def spots(visits: Visits) -> str:
+    """The places for people [mm], each once; a mark that is there already by its name."""
+    named = zip(visits.names, visits.targets, strict=True)
+    return ", ".join(dict.fromkeys(_spot(name, at) for name, at in named))
+
+
+def _spot(name: str, at: Array) -> str:
+    place = f"({at[0] + 0.0:.0f}, {at[1] + 0.0:.0f})"
+    return place if "/" in name else f"{name} {place}"

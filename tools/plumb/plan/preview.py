@@ -1,0 +1,204 @@
+"""What a plan could tell apart before any hole is drilled: effect against effect, in sigmas.
+
+Each effect is there in its typical size. A cell is the length of what the row's effect draws and
+neither the refitted frame nor the column's effect can imitate, over the reading error. With several
+parameters it is the root of their squares, so no sign or mixture of them is preferred.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.special import chdtri, chndtrinc
+
+from plumb.catalogue import effect_names, parameter_words
+from plumb.diagnose.diagnosis import FEWEST_NUMBERS, felt_effects
+from plumb.diagnose.explanation import Board, Explanation, explain
+from plumb.diagnose.gain import search
+from plumb.diagnose.noise import Noise
+from plumb.diagnose.significance import KNOWN
+from plumb.diagnose.sizes import hidden_share
+from plumb.errors import InputError
+from plumb.fit import PRIORS
+from plumb.machine_settings import MachineSettings
+from plumb.measurements import Measurements
+from plumb.observations import model_and_observations
+from plumb.plan.ahead import ahead
+from plumb.plan.case import Case, hidden_hypotheses
+from plumb.plan.options import Option, many_marks, options
+from plumb.plan.proposal import AGAIN
+from plumb.plan.separation import ENOUGH, apart
+
+Array = np.ndarray
+POWER = 0.8  # chance with which the smallest size that counts as found is found
+APART = 3.0  # sigmas from which two effects are told apart in most cases
+
+
+@dataclass(frozen=True)
+class Outline:
+    """One effect by itself under a plan."""
+
+    effect: str
+    raw: float  # [mm] RMS of what its typical size draws, before the frame is refitted
+    hidden_share: float | None  # None: nothing that is measured feels it
+    seen: float  # [sigmas] of its typical size beside the frame
+    smallest: float | None  # times typical, found with POWER
+    parameters: tuple[tuple[str, float | None, str], ...]  # name, that smallest size, unit
+    alike: tuple[str, ...]  # effects it would be taken for
+
+
+@dataclass(frozen=True)
+class Addition:
+    """What could be added to the plan, and what that brings."""
+
+    option: Option
+    pairs: int  # cells of the matrix that then reach APART
+    worth: float  # rise of the capped squares of all cells
+
+    @property
+    def rate(self) -> float:
+        """The order: worth per minute."""
+        return self.worth / (self.option.minutes + AGAIN)
+
+
+@dataclass(frozen=True)
+class Preview:
+    """What a plan could tell."""
+
+    sigma: float  # [mm]
+    marks: int
+    distances: int
+    effects: tuple[str, ...]
+    matrix: Array  # (e, e) [sigmas] of the row beside frame and column; diagonal beside the frame
+    outlines: tuple[Outline, ...]  # in the order of the effects
+    additions: tuple[Addition, ...]  # best first
+    targets: Array  # (k, 2) [mm]
+
+    @property
+    def pairs(self) -> int:
+        """Cells of the matrix that reach APART."""
+        return _reached(self.matrix)
+
+
+def preview(
+    settings: MachineSettings,
+    plan: Measurements,
+    *,
+    sigma: float,
+    controller: str | None = None,
+    priors: Mapping[str, float] = PRIORS,
+) -> Preview:
+    """What marks at the targets of a plan could tell; sigma [mm] of one coordinate or distance."""
+    frame = _as_planned(settings, plan, sigma, controller, priors)
+    names, felt = effect_names(), felt_effects(frame)
+    noise = Noise(sigma, KNOWN, "stated")
+    limit = search(frame, felt, noise).limit
+    matrix = _matrix(frame, frame.slopes)
+    case = Case(
+        settings=settings,
+        controller=controller or plan.controller or settings.controller,
+        verdict="nothing_provable",
+        board=frame.board,
+        noise=noise,
+        frame=frame,
+        singles={},
+        hypotheses=hidden_hypotheses(frame),
+    )
+    rows = frame.board.rows
+    return Preview(
+        sigma=sigma,
+        marks=len(rows.measured),
+        distances=len(rows.distances),
+        effects=names,
+        matrix=matrix,
+        outlines=tuple(_outline(frame, i, matrix, limit) for i in range(len(names))),
+        additions=_additions(case, matrix),
+        targets=rows.targets,
+    )
+
+
+def _as_planned(
+    settings: MachineSettings,
+    plan: Measurements,
+    sigma: float,
+    controller: str | None,
+    priors: Mapping[str, float],
+) -> Explanation:
+    """The frame's explanation of readings that are just what the model says."""
+    model, rows = model_and_observations(settings, plan, controller=controller)
+    if 2 * len(set(rows.names)) + len(rows.distances) < FEWEST_NUMBERS:
+        raise InputError(f"{plan.source}: too few marks for a diagnosis; plan at least three")
+    board = Board.of(model, rows, sigma=sigma, priors=priors)
+    sighting, _ = board.problem.predict(np.zeros(len(board.problem.names)))
+    ends = sighting.taped.where[rows.distance_rows]
+    exact = replace(
+        rows,
+        measured=sighting.read.where[rows.mark_rows],
+        distances=np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1),
+    )
+    return explain(Board.of(model, exact, sigma=sigma, priors=priors))
+
+
+def _matrix(frame: Explanation, slopes: Array) -> Array:
+    """Sigmas of each effect (row) beside the frame and each other one (column)."""
+    board, names = frame.board, effect_names()
+    found = np.zeros((len(names), len(names)))
+    for i, one in enumerate(names):
+        drawn = np.eye(slopes.shape[1])[:, board.columns([one])]
+        for j, other in enumerate(names):
+            beside = board.columns([other]) if i != j else np.zeros(0, dtype=int)
+            found[i, j] = apart(slopes, drawn, np.concatenate([board.frame, beside]))
+    return np.sqrt(found)
+
+
+def _outline(frame: Explanation, i: int, matrix: Array, limit: float) -> Outline:
+    names, words = effect_names(), parameter_words()
+    name, seen = names[i], float(matrix[i, i])
+    own = frame.board.columns([name])
+    count = frame.board.rows.count
+    places = len(frame.board.rows.measured) or count
+    raw = float(np.linalg.norm(frame.slopes[:count, own])) * frame.board.sigma / np.sqrt(places)
+    smallest = _needed(len(own), limit) / seen if seen > 0.01 else None
+    typical = [words[frame.board.problem.names[column]] for column in own]
+    alike = [
+        (matrix[i, j], other)
+        for j, other in enumerate(names)
+        if j != i and matrix[i, j] < min(APART, 0.7 * seen)
+    ]
+    return Outline(
+        effect=name,
+        raw=raw,
+        hidden_share=hidden_share(frame, name),
+        seen=seen,
+        smallest=smallest,
+        parameters=tuple(
+            (one["name"], None if smallest is None else smallest * abs(one["typical"]), one["unit"])
+            for one in typical
+        ),
+        alike=tuple(other for _, other in sorted(alike)),
+    )
+
+
+def _needed(parameters: int, limit: float) -> float:
+    """Sigmas that an effect must draw to pass the gate in POWER of all cases."""
+    gate = float(chdtri(parameters, np.exp(-limit)))
+    return float(np.sqrt(chndtrinc(gate, parameters, 1 - POWER)))
+
+
+def _additions(case: Case, matrix: Array) -> tuple[Addition, ...]:
+    """Everything that could be added, by what it does for all cells."""
+    blind = many_marks(case)
+    found = []
+    for option in [*options(case), *([blind] if blind else [])]:
+        if option.kind == "repeats":
+            continue
+        then = _matrix(case.frame, ahead(case.frame, option.visits, option.checks).slopes)
+        worth = float(np.sum(np.minimum(then**2, ENOUGH) - np.minimum(matrix**2, ENOUGH)))
+        found.append(Addition(option, _reached(then), worth))
+    return tuple(sorted(found, key=lambda one: -one.rate))
+
+
+def _reached(matrix: Array) -> int:
+    return int((matrix >= APART).sum())

@@ -1,0 +1,207 @@
+"""What to measure next, best first: chance to settle the question against the minutes it costs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from plumb.diagnose.diagnosis import Diagnosis
+from plumb.diagnose.explanation import Checked, span
+from plumb.diagnose.sizes import Room
+from plumb.fit import PRIORS
+from plumb.machine_settings import MachineSettings
+from plumb.measurements import Measurements
+from plumb.plan.ahead import ahead
+from plumb.plan.case import Case, case_of
+from plumb.plan.chance import outlook
+from plumb.plan.options import Option, many_marks, options
+from plumb.plan.separation import ENOUGH, apart, drawn_by
+from plumb.plan.strangers import for_slips, near_the_worst
+
+Array = np.ndarray
+# A question: what the chance is the chance of.
+SETTLE, CONFIRM, FIND, REREAD, EXPLORE = "settle", "confirm", "find", "reread", "explore"
+AGAIN = 10.0  # minutes that one more round costs when this one did not settle it
+TOLD_APART = 0.75 * ENOUGH  # lambda from which a pair counts as told apart
+MOST_PARTED = 6
+QUESTIONS = {"cannot_tell": SETTLE, "one_suspect": CONFIRM, "nothing_provable": FIND}
+
+
+@dataclass(frozen=True)
+class RoomThen:
+    """How large an effect could hide, RMS over the marks: by the marks so far, and afterwards."""
+
+    effect: str
+    now: float  # [mm]
+    then: float  # [mm]
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """One thing to measure, and what to expect of it."""
+
+    option: Option
+    question: str  # SETTLE ...
+    chance: float | None  # None: nothing can be computed
+    left: float | None  # suspects that will be left on average
+    parts: tuple[tuple[str, str], ...] = ()  # pairs told apart then, and not by the marks so far
+    rooms: tuple[RoomThen, ...] = ()  # what the largest hidden effects could then still be
+
+    @property
+    def rate(self) -> float:
+        """The order: chance (or millimetres of doubt removed, where nothing is provable) per
+        minute, with one more round added in case it fails."""
+        gained = sum(one.now - one.then for one in self.rooms) if self.rooms else self.chance or 0.0
+        return gained / (self.option.minutes + AGAIN)
+
+
+@dataclass(frozen=True)
+class Next:
+    """All that is worth measuring, best first, and what blind diligence would bring instead."""
+
+    verdict: str
+    case: Case | None
+    proposals: tuple[Proposal, ...]
+    blind: Proposal | None  # as many more marks as patience allows
+    stable: tuple[int, int] | None  # of one suspect: deletions of a mark that keep it, of how many
+
+
+def propose(
+    found: Diagnosis,
+    settings: MachineSettings,
+    measurements: Measurements,
+    *,
+    cut_with: MachineSettings | None = None,
+    controller: str | None = None,
+    priors: Mapping[str, float] = PRIORS,
+    checked: Sequence[Checked] = (),
+    progress: Callable[[float], None] = lambda share: None,
+) -> Next:
+    """The next measurements for a diagnosis, given the inputs it was made of.
+
+    `progress` is told the share of the work that is done.
+    """
+    case = case_of(
+        found,
+        settings,
+        measurements,
+        cut_with=cut_with,
+        controller=controller,
+        priors=priors,
+        checked=checked,
+    )
+    if found.verdict == "slip":
+        own = [
+            Proposal(option, REREAD, chance, None)
+            for option, chance in for_slips(case, found.slips)
+        ]
+        return Next(found.verdict, case, tuple(own), None, None)
+    if found.verdict == "not_in_library":
+        own = [Proposal(option, EXPLORE, None, None) for option in near_the_worst(case)]
+        return Next(found.verdict, case, tuple(own), None, None)
+    several = options(case)
+    blind = many_marks(case)
+    everything = [*several, *([blind] if blind else [])]
+    weighed = []
+    for number, option in enumerate(everything):
+        weighed.append(_weighed(case, option, found.could_hide))
+        progress((number + 1) / len(everything))
+    against = weighed.pop() if blind else None
+    ranked = tuple(sorted(weighed, key=_order))
+    stable = _stability(case) if found.verdict == "one_suspect" else None
+    return Next(found.verdict, case, ranked, against, stable)
+
+
+def _order(one: Proposal) -> tuple[bool, float]:
+    """Best first; one suspect is confirmed best by what measures the cause itself."""
+    return one.question == CONFIRM and one.option.kind != "check", -one.rate
+
+
+def _weighed(case: Case, option: Option, rooms: Sequence[Room]) -> Proposal:
+    """An option with what to expect of it."""
+    expected = outlook(case, option.visits, option.checks)
+    question = QUESTIONS[case.verdict]
+    parts = _parted(case, option) if question != FIND else ()
+    then = _rooms(case, option, rooms) if question == FIND else ()
+    return Proposal(option, question, expected.chance, expected.left, parts, then)
+
+
+def _parted(case: Case, option: Option) -> tuple[tuple[str, str], ...]:
+    """Pairs of suspects that are told apart afterwards and are not now, most probable first."""
+    lambdas: dict[frozenset, list[float]] = {}
+    for one in case.hypotheses:
+        rows, drawn = ahead(one.at, option.visits, option.checks), drawn_by(one)
+        for other in case.hypotheses:
+            if other is one:
+                continue
+            fitted = np.concatenate([case.board.frame, case.board.columns(other.effects)])
+            pair = frozenset((_name(one.effects), _name(other.effects)))
+            now, then = lambdas.setdefault(pair, [np.inf, np.inf])
+            lambdas[pair] = [
+                min(now, apart(one.at.slopes, drawn, fitted)),
+                min(then, apart(rows.slopes, drawn, fitted)),
+            ]
+    parted = [pair for pair, (now, then) in lambdas.items() if then >= TOLD_APART > now]
+    order = [_name(one.effects) for one in case.hypotheses]
+    named = [tuple(sorted(pair, key=order.index)) for pair in parted]
+    return tuple(sorted(named, key=lambda pair: [order.index(name) for name in pair])[:MOST_PARTED])
+
+
+def _name(effects: Sequence[str]) -> str:
+    return " + ".join(effects)
+
+
+def _rooms(case: Case, option: Option, rooms: Sequence[Room]) -> tuple[RoomThen, ...]:
+    """What could hide afterwards, the largest change first.
+
+    About: the interval of an effect's least visible direction shrinks by so much, and with it what
+    the diagnosis says could hide.
+    """
+    frame, found = case.frame, []
+    rows = ahead(frame, option.visits, option.checks)
+    for room in rooms:
+        if room.mm is None:
+            continue
+        own = case.board.columns([room.effect])
+        now = _smallest(frame.slopes, own, case.board.frame)
+        then = _smallest(rows.slopes, own, case.board.frame)
+        found.append(RoomThen(room.effect, room.mm, room.mm * (now / then if then > 0 else 1.0)))
+    return tuple(sorted(found, key=lambda one: one.then - one.now))
+
+
+def _smallest(slopes: Array, own: Array, frame: Array) -> float:
+    """Visible length of the least visible direction of an effect beside the frame."""
+    fitted = span(slopes[:, frame])
+    beside = slopes[:, own] - fitted @ (fitted.T @ slopes[:, own])
+    return float(np.linalg.svd(beside, compute_uv=False)[-1])
+
+
+def _stability(case: Case) -> tuple[int, int]:
+    """In how many of all deletions of one reading the suspect remains the best single effect."""
+    suspect = case.hypotheses[0]
+    if len(suspect.effects) > 1:
+        return 0, 0
+    board, frame = case.board, case.frame
+    groups = _readings(case)
+    kept = 0
+    for own in groups:
+        rows = np.setdiff1d(np.arange(len(frame.slopes)), own)
+        costs = {}
+        for name in case.singles:
+            columns = np.concatenate([board.frame, board.columns([name])])
+            fitted = span(frame.slopes[np.ix_(rows, columns)])
+            left = frame.residual[rows] - fitted @ (fitted.T @ frame.residual[rows])
+            costs[name] = float(left @ left) + 2 * len(board.columns([name]))
+        kept += min(costs, key=costs.__getitem__) == suspect.effects[0]
+    return kept, len(groups)
+
+
+def _readings(case: Case) -> list[Array]:
+    """The rows of each mark (its repeats with it) and of each distance."""
+    rows = case.board.rows
+    names = np.array(rows.names)
+    marks = [np.flatnonzero(names == name) for name in dict.fromkeys(rows.names)]
+    groups = [np.concatenate([2 * own, 2 * own + 1]) for own in marks]
+    return groups + [np.array([rows.measured.size + i]) for i in range(len(rows.distances))]

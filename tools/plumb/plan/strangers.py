@@ -1,0 +1,114 @@
+"""What to measure where no effect is in question: readings that disagree, marks nobody explains."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import erf, sqrt
+
+import numpy as np
+
+from plumb.diagnose.explanation import Explanation
+from plumb.diagnose.slip_guess import Slip
+from plumb.plan.case import Case
+from plumb.plan.options import MARK, READING, ROUND, Option, spots
+from plumb.plan.sites import usable
+from plumb.plan.visits import Visits, joined, nowhere, sent
+
+Array = np.ndarray
+SURE = 3.0  # deviations by which a second reading shows that the first was wrong
+WORST = 2  # places around which marks are proposed
+BESIDE = 200.0  # [mm] from such a place
+READ_AGAIN = 3
+
+
+def for_slips(case: Case, slips: Sequence[Slip]) -> list[tuple[Option, float]]:
+    """Reading those marks or distances again, with the chance that it shows the slip."""
+    found = []
+    for slip in slips:
+        # Two readings with the same noise differ by its square root of two.
+        chance = 0.5 * (1 + erf((slip.length / (sqrt(2) * case.noise.sigma) - SURE) / sqrt(2)))
+        what = slip.name if slip.name in case.board.rows.names else f"the distance {slip.name}"
+        do = f"Read {what} again with a newly laid tape, before anything else."
+        found.append(
+            (Option("reread", f"{slip.name} again", (do,), 2.0, _old(case, slip.name)), chance)
+        )
+    return found
+
+
+def near_the_worst(case: Case) -> list[Option]:
+    """Marks around the places that are explained worst, then readings of these once more."""
+    rows = case.board.rows
+    best = min(
+        [case.frame, *case.singles.values()],
+        key=lambda one: one.cost + 2 * len(case.board.columns(one.effects)),
+    )
+    if not len(rows.measured):
+        return [_worst_distances(case, best)]
+    errors = best.numbers[: rows.measured.size].reshape(-1, 2)
+    worst = np.argsort(-np.linalg.norm(errors, axis=1), kind="stable")
+    places: dict[str, Array] = {}
+    for i in worst:
+        places.setdefault(rows.names[i], rows.targets[i])
+        if len(places) == WORST:
+            break
+    near = _around(case, list(places.values()))
+    names = ", ".join(places)
+    again = joined(*[_old(case, name) for name in places for _ in range(READ_AGAIN)])
+    found = [
+        Option(
+            "repeats",
+            "the worst marks read again",
+            (f"Read {names} {READ_AGAIN} more times: this tells a slip from something real.",),
+            ROUND + READING * len(again),
+            again,
+        )
+    ]
+    if len(near):
+        do = (
+            f"Cut and read marks around {names}, where the error is worst, at {spots(near)}: what "
+            "is local (a bent frame, a bump in the sheet, a sticking chain) shows itself here."
+        )
+        minutes = ROUND + MARK * len(near)
+        found.append(Option("near", "marks around the worst places", (do,), minutes, near))
+    return found
+
+
+def _worst_distances(case: Case, best: Explanation) -> Option:
+    """The distances that are explained worst, to be measured again."""
+    worst = np.argsort(-np.abs(best.numbers), kind="stable")[: 2 * WORST]
+    said = ", ".join(case.spans[i] for i in worst)
+    do = f"Measure the distances {said} {READ_AGAIN} more times: this tells a slip from more."
+    minutes = ROUND + READING * READ_AGAIN * len(worst)
+    return Option("repeats", "the worst distances again", (do,), minutes, nowhere())
+
+
+def _around(case: Case, places: Sequence[Array]) -> Visits:
+    """Two new marks beside each place, on the sheet."""
+    half = np.array(case.settings.sheet) / 2 - 50.0
+    wanted = [
+        np.round(np.clip(at + side, -half, half), -1)
+        for at in places
+        for side in ((-np.sign(at[0] or 1) * BESIDE, 0.0), (0.0, -np.sign(at[1] or 1) * BESIDE))
+    ]
+    targets = np.array(wanted).reshape(-1, 2)
+    targets = targets[usable(case.settings, targets, case.usual_weight)]
+    if not len(targets):
+        return nowhere()
+    return sent(case.settings, targets, controller=case.controller, sled_weight=case.usual_weight)
+
+
+def _old(case: Case, name: str) -> Visits:
+    """One visit of a mark that is there; nothing for a distance."""
+    rows = case.board.rows
+    if name not in rows.names:
+        return nowhere()
+    i = rows.names.index(name)
+    row = [int(rows.mark_rows[i])]
+    return Visits(
+        (name,),
+        rows.targets[[i]],
+        rows.chains[row],
+        rows.sled_weights[row],
+        rows.approaches[row],
+        rows.exchanged[row],
+    )

@@ -1,0 +1,96 @@
+"""A trial of the proposals: an owner who carries out what is proposed, and one who cuts more marks.
+
+The owner is whoever can answer: a made-up machine in the tests and the bench.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from plumb.catalogue import effect_names
+from plumb.diagnose import Checked, Diagnosis, diagnose
+from plumb.machine_settings import MachineSettings
+from plumb.measurements import Measurements
+from plumb.plan.ahead import Check
+from plumb.plan.options import Option
+from plumb.plan.proposal import Proposal, propose
+from plumb.plan.visits import Visits
+
+MEASUREMENTS = 4  # marks and checks together
+
+
+class Owner(Protocol):
+    """Who measures a machine."""
+
+    def measured(self, *several: Visits) -> Measurements:
+        """The marks of groups of visits; a group reads the same whatever follows it."""
+
+    def checked(self, checks: Sequence[Check]) -> list[Checked]:
+        """What direct measurements find."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """How a board was judged, and what was measured for it."""
+
+    found: Diagnosis
+    done: tuple[Proposal, ...]
+
+    def right(self, effect: str) -> bool:
+        """Whether the effect comes first."""
+        return self.found.suspects[:1] == (effect,)
+
+    def settled(self, effect: str) -> bool:
+        """Whether the effect alone is left."""
+        return self.found.verdict == "one_suspect" and self.found.suspects == (effect,)
+
+    @property
+    def left(self) -> int:
+        """Explanations that stand; every effect where nothing is proved or known."""
+        return len(self.found.explanations) or len(effect_names())
+
+
+def cost(option: Option) -> int:
+    """How many measurements an option is: its marks, and one for a check."""
+    return len(option.visits) + (1 if option.checks else 0)
+
+
+def proposed(
+    owner: Owner,
+    settings: MachineSettings,
+    first: Visits,
+    *,
+    most: int = MEASUREMENTS,
+    with_checks: bool = True,
+) -> Trial:
+    """The owner carries out the best proposals, one after the other, until the measurements are
+    used up; one suspect that is left over early is put to the proof."""
+    visits, checked, done = [first], [], []
+    while True:
+        board = owner.measured(*visits)
+        found = diagnose(settings, board, checked=checked)
+        room = most - sum(cost(one.option) for one in done)
+        if not room:
+            return Trial(found, tuple(done))
+        answer = propose(found, settings, board, checked=checked)
+        fitting = [
+            one
+            for one in answer.proposals
+            if 0 < cost(one.option) <= room
+            and (with_checks or not one.option.checks)
+            and one.option.title not in {own.option.title for own in done}
+        ]
+        if not fitting:
+            return Trial(found, tuple(done))
+        best = fitting[0]
+        done.append(best)
+        if len(best.option.visits):
+            visits.append(best.option.visits)
+        checked += owner.checked(best.option.checks)
+
+
+def blind(owner: Owner, settings: MachineSettings, first: Visits, more: Visits) -> Trial:
+    """The owner cuts more marks, wherever."""
+    return Trial(diagnose(settings, owner.measured(first, more)), ())
