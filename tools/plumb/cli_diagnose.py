@@ -82,6 +82,8 @@ def as_json(found: Diagnosis) -> dict[str, Any]:
         "sigma_degrees": found.noise.degrees,  # null: it was not estimated
         "rms_mm": found.rms_before,
         "suspects": found.suspects,
+        "to_add": found.to_add,
+        "chance": found.chance,  # that so many effects explain what none of them made
         "explanations": [
             {
                 "effects": one.effects,
@@ -221,9 +223,13 @@ def verdict_sentence(found: Diagnosis) -> str:
     if found.verdict == "nothing_provable":
         return f"Nothing is provable: {rest}, and noise alone could look like that."
     if found.verdict == "not_in_library" and found.explanations:
+        least = min(len(one.effects) for one in found.explanations)
+        kind = "one effect" if least == 1 else f"{least} effects at once"
         return (
-            f"Nothing in the library explains these marks convincingly ({rest}, more than noise): "
-            f"{several} would, but so many free numbers fit nearly anything."
+            f"No single effect of the library explains these marks as it should ({rest}). "
+            f"{several} would, but that proves nothing: on these marks {kind} would "
+            f"explain {100 * found.chance:.0f} % of all smooth errors of this size that none of "
+            "them made. More marks tell."
         )
     if found.verdict == "not_in_library":
         more = " (unless more than three act at once)" if found.library_fits else ""

@@ -37,8 +37,8 @@ def value(rate, of):
 
 
 def test_nothing_is_named_where_nothing_is_hidden():
-    # 2 of 60 expected; without the price of searching 13 effects about 20.
-    found = outcomes("none-9", 30) + outcomes("none-25", 30)
+    # 2 of 55 expected.
+    found = outcomes("none-9", 40) + outcomes("none-25", 15)
     assert value("false naming", found) <= 0.1
     assert value("silent", found) >= 0.85
 
@@ -48,45 +48,45 @@ def test_noise_from_few_repeats_invents_nothing():
     few = Scenario("few", "nothing", nothing, stated=None, marks=9)
     own = replace(few.plan, again=(0, 4, 8))
     named = 0
-    for seed in range(40):
+    for seed in range(30):
         measured = cut(Hidden(), own, seed=seed, tape_sigma=None).measurements
         named += diagnose(MAKER, measured).verdict in ("one_suspect", "cannot_tell")
-    assert named <= 5
+    assert named <= 4
 
 
 def test_an_effect_of_three_millimetres_is_named_first_and_with_few_others():
-    found = outcomes("one-25", 32)
+    found = outcomes("one-25", 24)
     assert value("right class first", found) >= 0.87
-    assert value("suspects", found) <= 1.9
+    assert value("suspects", found) <= 2.2
     assert value("truth inside", found) >= 0.87
 
 
 def test_nine_marks_still_name_most():
-    found = outcomes("one-9", 24)
+    found = outcomes("one-9", 20)
     assert value("right class first", found) >= 0.75
     assert value("suspects", found) <= 2.7
     assert value("truth inside", found) >= 0.83
 
 
 def test_what_the_library_does_not_know_is_flagged():
-    assert value("flagged", outcomes("unknown-25", 12)) >= 0.9
-    assert value("flagged", outcomes("unknown-9", 18)) >= 0.7
+    assert value("flagged", outcomes("unknown-25", 6)) >= 0.9
+    assert value("flagged", outcomes("unknown-9", 10)) >= 0.7
 
 
 def test_a_slip_is_named_before_any_effect():
     for name in ("slip-9", "slip-one-25", "slip-digits"):
-        found = outcomes(name, 10)
+        found = outcomes(name, 8)
         assert value("slip named", found) >= 0.9
         assert value("effect named first", found) <= 0.1
 
 
 def test_two_effects_are_both_named():
-    assert value("both", outcomes("pairs-25", 10)) >= 0.8
+    assert value("both", outcomes("pairs-25", 6)) >= 0.8
 
 
 def test_what_is_added_brings_the_sled_near_to_the_known_truth():
     scenario = next(one for one in SCENARIOS if one.name == "one-25")
-    cures = [run_one(scenario, index, seed=SEED).cure for index in range(16)]
+    cures = [run_one(scenario, index, seed=SEED).cure for index in range(10)]
     before, frame, after, known = (
         np.mean([getattr(one, part) for one in cures])
         for part in ("before", "frame", "after", "known")

