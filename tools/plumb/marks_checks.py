@@ -9,6 +9,7 @@ from plumb.errors import refusal
 from plumb.marks_model import Mark, Measurements, Point
 
 MOST_ERROR = 500.0  # [mm] farther from its target a mark is a slip of the pen
+BESIDE = 100.0  # [mm] a repeat may be made beside the first mark, whose hole is used up
 OUTSIDE = 100.0  # [mm] a target may lie beyond the sheet's edge by this much
 INCH = 25.4  # [mm]
 # [mm] marks closer together than this on a sheet ten times as wide were not spread on purpose
@@ -58,12 +59,19 @@ def _refuse_empty(measurements: Measurements) -> None:
                 place=f"mark {mark.name}",
                 remedy="add measured = [x, y], or remove the mark",
             )
-        if mark.target != first[mark.name].target:
+        if math.dist(mark.target, first[mark.name].target) > BESIDE:
             raise refusal(
                 measurements.source,
-                "the same name stands twice with different targets",
+                "the same name stands twice with targets far apart",
                 place=f"mark {mark.name}",
-                remedy="give another name, or for a repeat the same target",
+                remedy=f"give another name, or for a repeat a target within {BESIDE:g} mm",
+            )
+        if mark.name in ends and mark.target != first[mark.name].target:
+            raise refusal(
+                measurements.source,
+                "a distance goes to this name, but it has two places",
+                place=f"mark {mark.name}",
+                remedy="give the second place a name of its own",
             )
 
 

@@ -23,16 +23,17 @@ def join_measurements(parts: Iterable[Measurements]) -> Measurements:
         return several[0]
     labels = _labels(several)
     rounds: list[Round] = []
-    known: dict[str, tuple] = {}
+    known: dict[str, list[tuple]] = {}
     joined: list[Measurements] = []
     for number, part in enumerate(several):
         rounds.append(_next_round(part, labels[number], rounds))
         _refuse_a_copy(part, several[:number])
         own = replace(part, marks=tuple(replace(mark, round=number) for mark in part.marks))
         made = [(mark.name, _made(mark, rounds[number])) for mark in own.marks]
-        clash = any(known.get(name, how) != how for name, how in made)
+        clash = any(how not in known.get(name, [how]) for name, how in made)
         joined.append(_renamed(own, f"{labels[number]}:") if clash else own)
-        known |= {mark.name: how for mark, (_, how) in zip(joined[-1].marks, made, strict=True)}
+        for mark, (_, how) in zip(joined[-1].marks, made, strict=True):
+            known.setdefault(mark.name, []).append(how)
     return Measurements(
         marks=tuple(mark for part in joined for mark in part.marks),
         distances=tuple(one for part in joined for one in part.distances),

@@ -13,7 +13,7 @@ from plumb.diagnose.significance import KNOWN, surprise, surprises, tail
 from plumb.diagnose.sizes import hidden_share, room_for, sizes_of
 from plumb.diagnose.slips import readings_of, shifts, without
 from plumb.fit import fit
-from plumb.measurements import Measurements
+from plumb.measurements import Measurements, Round
 from plumb.observations import observe
 from scipy import stats
 from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
@@ -53,6 +53,18 @@ def test_surprise_is_the_logarithm_of_the_chance_and_never_runs_out(parameters, 
     assert surprises(gains, parameters, degrees) == pytest.approx(np.negative(wanted), rel=2e-3)
     far = [surprise(g, parameters, degrees) for g in (150.0, 199.9, 200.1, 400.0, 1e4, 1e6)]
     assert np.all(np.diff(far) > 0) and np.isfinite(far).all()
+
+
+def test_repeats_may_be_made_beside_the_first_mark():
+    marks = marks_on(BELIEVED, BELIEVED, grid(3, 3) + np.array([[20.0, 0.0]]), noise=0.3, seed=9)
+    first = marks_on(BELIEVED, BELIEVED, grid(3, 3), noise=0.3, seed=8)
+    beside = tuple(replace(one, name=own.name) for one, own in zip(marks, first, strict=True))
+    found = repeats_of(observe(BELIEVED, Measurements((*first, *beside))))
+    assert found.degrees == 18 and found.sigma == pytest.approx(0.3, rel=0.4)
+    # Settings that were changed in between move the mark: that is no noise.
+    rounds = tuple(replace(one, round=1) for one in beside)
+    joined = Measurements((*first, *rounds), rounds=(Round(), Round()))
+    assert repeats_of(observe(BELIEVED, joined)).degrees == 0
 
 
 def test_repeats_count_only_what_was_done_alike():

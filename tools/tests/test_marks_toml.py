@@ -126,8 +126,8 @@ def test_distances_alone_are_measurements_too():
         ('[[distance]]\nbetween = ["A", 2]\nmm = 1119.5', "", "mark 2: has no measured position"),
         (
             "target = [200, 100]\nmeasured = [201.0",
-            "target = [210, 100]\nmeasured = [201.0",
-            "mark A: the same name stands twice with different targets",
+            "target = [320, 100]\nmeasured = [201.0",
+            "mark A: the same name stands twice with targets far apart",
         ),
         (
             "target = [1200.0, 600.0]",

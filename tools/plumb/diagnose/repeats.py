@@ -19,24 +19,41 @@ FEWEST_LEFT = 2.0  # degrees of freedom that must be left to judge by
 
 def mark_spread(rows: Observations) -> tuple[float, float]:
     """Sum of squares [mm^2] and degrees of freedom of marks made and read in the same way."""
-    groups: dict[tuple, list[int]] = {}
-    for i, row in enumerate(rows.mark_rows):
-        side = (*rows.approaches[row], rows.exchanged[row])
-        alike = (*rows.chains[row], rows.sled_weights[row], *side)
-        groups.setdefault((rows.names[i], *alike), []).append(i)
-    repeated = [own for own in groups.values() if len(own) > 1]
+    repeated = [own for own in _alike(rows) if len(own) > 1]
     if not repeated:
         return 0.0, 0.0
     picked = np.concatenate(repeated)
     belongs = np.repeat(np.arange(len(repeated)), [len(own) for own in repeated])
     means = (belongs[:, np.newaxis] == np.arange(len(repeated))).astype(float)
-    readings = rows.measured[picked]
+    # Repeats may be made beside each other: what they share is how far they are off.
+    readings = rows.measured[picked] - rows.targets[picked]
     plain = _left(means, readings)
     whole = _round_columns(rows, picked)
     moved = _left(np.hstack([means, whole]), readings)
     if whole.shape[1] and moved[1] >= FEWEST_LEFT and _is_sure(plain, moved):
         return moved
     return plain
+
+
+def _alike(rows: Observations) -> list[list[int]]:
+    """Marks of one name, made in the same way: by the same chains, or in the same round beside."""
+    made: dict[tuple, dict[tuple, list[int]]] = {}
+    for i, row in enumerate(rows.mark_rows):
+        side = (*rows.approaches[row], rows.exchanged[row])
+        way = (rows.names[i], rows.sled_weights[row], *side)
+        made.setdefault(way, {}).setdefault(tuple(rows.chains[row]), []).append(i)
+    found = []
+    for by_chains in made.values():
+        groups: list[list[int]] = []
+        for own in by_chains.values():
+            rounds = set(rows.rounds[rows.mark_rows[own]].tolist())
+            beside = [
+                one for one in groups if rounds & set(rows.rounds[rows.mark_rows[one]].tolist())
+            ]
+            groups = [one for one in groups if one not in beside]
+            groups.append([*(i for one in beside for i in one), *own])
+        found += groups
+    return found
 
 
 def distance_spread(rows: Observations) -> tuple[float, float]:
