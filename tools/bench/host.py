@@ -8,6 +8,9 @@ import numpy as np
 from board import BENCH, BUILD, INCLUDES, output, sources
 from plan_times import plan_times
 from plumb import predict
+from plumb.bench.boards import cut, plan
+from plumb.bench.causes import MAKER, Hidden, causes_of
+from plumb.diagnose import diagnose
 from plumb.fit import fit
 from plumb.measurements import read_marks
 from plumb.observations import observe
@@ -37,7 +40,9 @@ def lab_times() -> dict[str, float]:
     places = np.stack([x.ravel(), y.ravel()], axis=1)
     values = predict.values_of(settings)
     chains, _ = predict.lengths(settings, places)
+    board = cut(Hidden(((causes_of("chain_pitch")[0], 1.5),)), plan(6, 6), seed=1).measurements
     return {
+        "lab: verdict on 36 marks, the whole library": best(lambda: diagnose(MAKER, board)),
         "lab: lengths of 100 places": best(lambda: predict.lengths(settings, places)),
         "lab: exact slopes of 100 places": best(
             lambda: predict.places_with_slopes(values, over_top=True, chains=chains)

@@ -181,7 +181,7 @@ def test_noise_that_nobody_stated_is_taken_from_the_scatter():
 
 def test_friction_needs_approaches():
     own = plan(5, 3)
-    found = diagnose(MAKER, board({"sled_friction": 1.5}, own, seed=1, noise=0.2), sigma=0.3)
+    found = diagnose(MAKER, board({"sled_friction": 1.0}, own, seed=1, noise=0.2), sigma=0.3)
     assert found.suspects[:1] == ("sled_friction",)
     blind = diagnose(MAKER, board({}, plan(5, 3, approached=False), seed=1))
     room = next(one for one in blind.could_hide if one.effect == "sled_friction")
