@@ -7,7 +7,7 @@
 #include "default_machine.h"
 #include "line.h"
 #include "question.h"
-#include "shield.h"
+#include "board/shield.h"
 
 using namespace kinematics;
 
