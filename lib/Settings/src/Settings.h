@@ -1,0 +1,7 @@
+// Front door of the settings: values in RAM, their table, and what survives a power cut.
+#pragma once
+
+#include "format.h"
+#include "memory.h"
+#include "text.h"
+#include "values.h"

@@ -1,0 +1,86 @@
+// Everything that survives a power cut: what is found at the start, and who writes next.
+#pragma once
+
+#include "copies.h"
+#include "position.h"
+#include "published.h"
+
+namespace settings {
+
+/// Where the settings in force come from.
+enum class Source : uint8_t {
+  kOwn,           ///< our own copies
+  kOwnInPart,     ///< the same, but a value beyond today's limits became its default
+  kImported,      ///< the published firmware's, taken over whole
+  kDefaults,      ///< nothing readable was there
+  kOtherVersion,  ///< defaults (or our own): other firmware left data that is not read
+  kBadValue,      ///< defaults (or our own): a published setting cannot be right
+};
+
+/// What the machine learns at power-on.
+struct Started {
+  Source source;
+  uint8_t version;  ///< of the foreign data, with kOtherVersion; 0: before 1.00
+  uint8_t number;   ///< the bad setting, with kBadValue
+  Known known;
+  Position position;  ///< meaningful unless known is kNothing
+  bool same_scale;    ///< $12, $13, $19 and $20 are as they were when the position was kept
+};
+
+/// What $RST erases.
+enum class Reset : uint8_t {
+  kSettings,             ///< $RST=$
+  kSettingsAndPosition,  ///< $RST=#
+  kEverything,           ///< $RST=*
+};
+
+/// The EEPROM as a whole: settings, position, and the published firmware's remains.
+///
+/// Nothing blocks: step() writes at most one byte, and values are in force at once.
+class Memory {
+ public:
+  enum : uint16_t { kFirstCopy = 544, kApart = 800, kFirstSlot = 2144 };
+  enum : uint8_t { kSlots = 65 };
+
+  Memory(Bytes& bytes, Values& values);
+
+  /// Reads everything. The only call that takes long: about 50 ms, 60 ms with an import.
+  Started start();
+
+  /// Does a little of what is to be done; writes at most one byte. To be called often.
+  void step();
+
+  /// Sets a listed setting by number; what is not refused is in force and will be stored.
+  Refusal set(uint8_t number, float value);
+
+  /// The same for a row, hidden or not.
+  Refusal setRow(uint8_t index, float value);
+
+  void reset(Reset what);
+
+  /// The machine stands here; `position.scale` is filled in. Also after settings have changed.
+  void keepPosition(Position position);
+
+  /// The machine is about to move: call before each motion after rest, then wait for mayMove().
+  void beginMoving();
+
+  /// True once a power cut would be noticed. Until then no motor may turn.
+  bool mayMove() const;
+
+  /// True once the settings in force are stored.
+  bool settingsStored() const { return copies_.isStored(); }
+
+  /// True when nothing is left to write.
+  bool isIdle() const { return !retiring_ && !copies_.isBusy() && !slots_.isBusy(); }
+
+ private:
+  uint16_t scale() const;
+
+  Bytes& bytes_;
+  Values& values_;
+  Copies copies_;
+  PositionSlots slots_;
+  bool retiring_;
+};
+
+}  // namespace settings

@@ -1,0 +1,65 @@
+// What settings there are: the laws walk over a table and know no setting by heart, but for those
+// few of the published firmware that published.h names.
+#pragma once
+
+#include <stdint.h>
+
+namespace settings {
+
+/// How a value was stored by the published firmware, and how it is written down.
+enum class Kind : uint8_t { kBool, kByte, kWord, kReal };
+
+/// Whether a client may see and set a number.
+enum class Access : uint8_t {
+  kListed,  ///< in the dump, and set by $n=value
+  kHidden,  ///< kept like any other, but only the machine's own commands set it
+};
+
+/// Instead of a step: any value within the limits, or any but zero.
+enum : uint8_t { kAnyValue = 0, kAnyButZero = 255 };
+
+/// One row: what a setting may hold.
+struct Entry {
+  uint8_t number;  ///< the n of $n
+  Kind kind;
+  Access access;
+  uint8_t step;  ///< whole values count from low in steps of this; or kAnyValue, kAnyButZero
+  float usual;   ///< the default
+  float low, high;
+};
+
+/// Texts that a table keeps for its reader, by name.
+enum class Word : uint8_t {
+  kUnknown,   ///< after "$n": it is no setting
+  kHidden,    ///< after "$n": other commands set it
+  kNoNumber,  ///< after "$n": the value is no number
+  kZero,      ///< after "$n": it cannot be zero
+  kFrom,      ///< after "$n": before the lowest value
+  kTo,        ///< between the lowest and the highest
+  kWhole,     ///< after the limits: whole numbers only
+  kSteps,     ///< after the limits: before the step
+  kCount
+};
+
+/// The settings, their comments for the dump, and the words of refusals. Numbers rise from row to
+/// row. The board keeps all of it in flash, which only this interface knows.
+class Table {
+ public:
+  virtual uint8_t count() const = 0;
+  virtual Entry at(uint8_t index) const = 0;
+  /// A letter of the row's comment; 0 after the last.
+  virtual char comment(uint8_t index, uint8_t letter) const = 0;
+  /// A letter of a word; 0 after the last.
+  virtual char word(Word which, uint8_t letter) const = 0;
+
+ protected:
+  ~Table() {}
+};
+
+/// No row: what a search that finds nothing answers.
+const uint8_t kNoIndex = 255;
+
+/// The row with that $-number, or kNoIndex; half a millisecond on the board.
+uint8_t indexOf(const Table& table, uint8_t number);
+
+}  // namespace settings

@@ -1,0 +1,154 @@
+// Every $-number of the firmware but the effects': name, unit, default, limits, sentence.
+// The effects' numbers come from their registry, lib/Kinematics/src/effects.h.
+//
+// A list of macro calls, because flash on the board and plain memory on the host keep the same rows
+// in different ways (settings_flash.h; test/test_settings/plain_table.h). Each row:
+//   name in C++, number, "name, unit", kind, step, default, lowest, highest,
+//   section and key of the published programs, or "", sentence,
+//   what is not as in the published firmware, or ""
+// A number that was once released keeps its meaning for ever. Free: 14, 47 to 61, 70 to 84. Never
+// to be used: 85 to 98 and 144, which WebControl gives a meaning of its own.
+#pragma once
+
+#include <Kinematics.h>
+#include <Settings.h>
+
+// clang-format off
+#define PLUMB_PUBLISHED_SETTINGS(ROW) \
+  ROW(kSheetWidth, 0, "sheet_width, mm", kReal, kAnyValue, 2438.4f, 200, 20000, \
+      "Maslow: bedWidth", "Width of the sheet; the origin is its middle.", "") \
+  ROW(kSheetHeight, 1, "sheet_height, mm", kReal, kAnyValue, 1219.2f, 100, 20000, \
+      "Maslow: bedHeight", "Height of the sheet.", "") \
+  ROW(kMotorGap, 2, "motor_gap, mm", kReal, kAnyValue, 2978.4f, 400, 20000, \
+      "Maslow: motorSpacingX", "Distance between the sprocket centres.", "") \
+  ROW(kMotorOffset, 3, "motor_offset, mm", kReal, kAnyValue, 463, 1, 20000, \
+      "Maslow: motorOffsetY", "Sprocket centres above the sheet's top edge.", "") \
+  ROW(kMountGap, 4, "mount_gap, mm", kReal, kAnyValue, 310, 1, 2000, \
+      "Maslow: sledWidth", "Between the two brackets of a sled without ring.", "") \
+  ROW(kMountHeight, 5, "mount_height, mm", kReal, kAnyValue, 139, -2000, 2000, \
+      "Maslow: sledHeight", "Brackets above the bit.", "") \
+  ROW(kCenterDepth, 6, "center_depth, mm", kReal, kAnyValue, 79, -2000, 2000, \
+      "Maslow: sledCG", "Centre of gravity of that sled below the bit.", "") \
+  ROW(kKinematics, 7, "kinematics", kByte, 1, 1, 1, 2, \
+      "Computed: kinematicsTypeComputed", "1: quadrilateral, a sled with two brackets; 2: triangular, a sled with a ring.", "") \
+  ROW(kRotationRadius, 8, "rotation_radius, mm", kReal, kAnyValue, 250, 0, 2000, \
+      "Advanced: rotationRadius", "From the bit to the end of each chain (triangular).", "") \
+  ROW(kIdleTime, 9, "idle_time, ms", kWord, 1, 2000, 0, 65535, \
+      "", "Rest after which the motors are switched off and the position is kept.", "") \
+  ROW(kChainLength, 10, "chain_length, mm", kWord, 1, 3360, 0, 65535, \
+      "Advanced: chainLength", "Length of each chain; no more is paid out.", "") \
+  ROW(kExtendLength, 11, "extend_length, mm", kWord, 1, 1651, 0, 65535, \
+      "Advanced: chainExtendLength", "Chain paid out for hooking on the sled.", "") \
+  ROW(kEncoderCounts, 12, "encoder_counts, counts/turn", kReal, kAnyValue, 8113.73f, 1, 1e6f, \
+      "Advanced: encoderSteps", "Encoder counts for one turn of a sprocket.", "") \
+  ROW(kChainPerTurn, 13, "chain_per_turn, mm", kReal, kAnyValue, 63.5f, 1, 1000, \
+      "Computed: distPerRot", "Chain for one turn of a sprocket: teeth times pitch.", "") \
+  ROW(kGreatestFeed, 15, "greatest_feed, mm/min", kWord, 1, 900, 1, 65535, \
+      "Advanced: maxFeedrate", "Greatest feed, and that of G0.", "") \
+  ROW(kZMotor, 16, "z_motor", kBool, 1, 1, 0, 1, \
+      "Maslow: zAxis", "1: the z axis has a motor; 0: it is set by hand.", "") \
+  ROW(kSpindle, 17, "spindle", kByte, 1, 0, 0, 3, \
+      "Advanced: spindleAutomate", "0: not switched; 1: servo; 2: relay, on when high; 3: relay, on when low.", "") \
+  ROW(kZSpeed, 18, "z_speed, turns/min", kReal, kAnyValue, 12.6f, 0.01f, 1000, \
+      "", "Greatest speed of the z axis.", "") \
+  ROW(kZPerTurn, 19, "z_per_turn, mm", kReal, kAnyButZero, 3.17f, -1000, 1000, \
+      "Maslow: zDistPerRot", "Travel of z for one turn; negative: it runs the other way.", "") \
+  ROW(kZCounts, 20, "z_counts, counts/turn", kReal, kAnyButZero, 7560, -1e6f, 1e6f, \
+      "Advanced: zEncoderSteps", "Encoder counts for one turn of z; negative: motor or encoder is wired the other way.", "") \
+  ROW(kMainPositionP, 21, "main_position_p", kReal, kAnyValue, 1300, 0, 1e6f, \
+      "Computed: KpPosMain", "Chain motors, position loop: proportional gain.", "") \
+  ROW(kMainPositionI, 22, "main_position_i", kReal, kAnyValue, 0, 0, 1e6f, \
+      "Computed: KiPosMain", "Integral gain.", "") \
+  ROW(kMainPositionD, 23, "main_position_d", kReal, kAnyValue, 34, 0, 1e6f, \
+      "Computed: KdPosMain", "Derivative gain.", "") \
+  ROW(kMainPositionWeight, 24, "main_position_weight", kReal, kAnyValue, 1, 0, 1, \
+      "Computed: propWeightMain", "Share of the proportional part that acts on the error.", "") \
+  ROW(kMainSpeedP, 25, "main_speed_p", kReal, kAnyValue, 5, 0, 1e6f, \
+      "Computed: KpVMain", "Chain motors, speed loop: proportional gain.", "") \
+  ROW(kMainSpeedI, 26, "main_speed_i", kReal, kAnyValue, 0, 0, 1e6f, \
+      "Computed: KiVMain", "Integral gain.", "") \
+  ROW(kMainSpeedD, 27, "main_speed_d", kReal, kAnyValue, 0.28f, 0, 1e6f, \
+      "Computed: KdVMain", "Derivative gain.", "") \
+  ROW(kMainSpeedWeight, 28, "main_speed_weight", kReal, kAnyValue, 1, 0, 1, \
+      "", "Share of the proportional part that acts on the error.", "") \
+  ROW(kZPositionP, 29, "z_position_p", kReal, kAnyValue, 0, 0, 1e6f, \
+      "Computed: KpPosZ", "Z motor, position loop: proportional gain. The published default of 0 keeps z still until a client sends its 1300.", "") \
+  ROW(kZPositionI, 30, "z_position_i", kReal, kAnyValue, 0, 0, 1e6f, \
+      "Computed: KiPosZ", "Integral gain.", "") \
+  ROW(kZPositionD, 31, "z_position_d", kReal, kAnyValue, 34, 0, 1e6f, \
+      "Computed: KdPosZ", "Derivative gain.", "") \
+  ROW(kZPositionWeight, 32, "z_position_weight", kReal, kAnyValue, 1, 0, 1, \
+      "Computed: propWeightZ", "Share of the proportional part that acts on the error.", "") \
+  ROW(kZSpeedP, 33, "z_speed_p", kReal, kAnyValue, 5, 0, 1e6f, \
+      "Computed: KpVZ", "Z motor, speed loop: proportional gain.", "") \
+  ROW(kZSpeedI, 34, "z_speed_i", kReal, kAnyValue, 0, 0, 1e6f, \
+      "Computed: KiVZ", "Integral gain.", "") \
+  ROW(kZSpeedD, 35, "z_speed_d", kReal, kAnyValue, 0.28f, 0, 1e6f, \
+      "Computed: KdVZ", "Derivative gain.", "") \
+  ROW(kZSpeedWeight, 36, "z_speed_weight", kReal, kAnyValue, 1, 0, 1, \
+      "", "Share of the proportional part that acts on the error.", "") \
+  ROW(kSagCorrection, 37, "sag_correction, 1e-12/mm^2", kReal, kAnyValue, 0, -1e5f, 1e5f, \
+      "Advanced: chainSagCorrection", "Chain sag as the published programs fit it; added to $160.", "") \
+  ROW(kFeedSide, 38, "feed", kByte, 1, 1, 1, 2, \
+      "Computed: chainOverSprocketComputed", "1: chains leave over the top of their sprockets; 2: off the bottom.", "") \
+  ROW(kPwmFrequency, 39, "pwm_frequency", kByte, 1, 3, 1, 3, \
+      "Computed: fPWMComputed", "Motor PWM: 1 is 31 kHz, 2 is 4 kHz, 3 is 490 Hz, as far as the driver allows.", "") \
+  ROW(kLeftTolerance, 40, "left_tolerance, %", kReal, kAnyValue, 0, -5, 5, \
+      "Advanced: leftChainTolerance", "By how much the left chain's links are longer than nominal; added to $180.", "") \
+  ROW(kRightTolerance, 41, "right_tolerance, %", kReal, kAnyValue, 0, -5, 5, \
+      "Advanced: rightChainTolerance", "The same for the right chain; added to $181.", "") \
+  ROW(kPositionErrorLimit, 42, "position_error_limit, mm", kReal, kAnyValue, 2, 0.01f, 100000, \
+      "Advanced: positionErrorLimit", "A chain this far from where it should be stops the machine.", "")
+
+#define PLUMB_HIDDEN_SETTINGS(ROW) \
+  ROW(kZUpperLimit, 43, "z_upper_limit, mm", kReal, kAnyValue, 10000, -10000, 10000, \
+      "", "Highest z, set by B17; 10000: none.", "") \
+  ROW(kZLowerLimit, 44, "z_lower_limit, mm", kReal, kAnyValue, -10000, -10000, 10000, \
+      "", "Lowest z, set by B18; -10000: none.", "")
+
+#define PLUMB_OWN_SETTINGS(ROW) \
+  ROW(kSledWeight, 62, "sled_weight, N", kReal, kAnyValue, 97.9f, 30, 1000, \
+      "", "Sled, router and bricks, as far as the chains carry them; $46=... of WebControl sets it too.", "new") \
+  ROW(kChainWeight, 63, "chain_weight, N/mm", kReal, kAnyValue, 0.00137293f, 0, 0.02f, \
+      "", "One millimetre of chain.", "new") \
+  ROW(kMotorCenterX, 64, "motor_center_x, mm", kReal, kAnyValue, 0, -5000, 5000, \
+      "", "Middle between the sprockets, right of the middle of the sheet.", "new") \
+  ROW(kAccelerationXy, 65, "acceleration_xy, mm/s^2", kReal, kAnyValue, 100, 1, 5000, \
+      "", "Greatest acceleration along the sheet.", "new") \
+  ROW(kAccelerationZ, 66, "acceleration_z, mm/s^2", kReal, kAnyValue, 10, 0.1f, 5000, \
+      "", "Greatest acceleration of z.", "new") \
+  ROW(kCornerDeviation, 67, "corner_deviation, mm", kReal, kAnyValue, 0.05f, 0, 10, \
+      "", "How far from a corner the sled may pass without stopping; 0: it stops.", "new") \
+  ROW(kChainSpeed, 68, "chain_speed, mm/min", kReal, kAnyValue, 1200, 10, 10000, \
+      "", "Greatest speed of a chain; moves are slowed to keep it.", "new") \
+  ROW(kLoopRate, 69, "loop_rate, Hz", kByte, 100, 100, 100, 200, \
+      "", "How often the motors are controlled: 100 or 200.", "new")
+
+#define PLUMB_KEPT_SETTINGS(ROW) \
+  ROW(kSimulatedMotors, 99, "simulated_motors", kBool, 1, 0, 0, 1, \
+      "", "1: the machine runs without motors, as B99 ON asks; kept by all but $RST=*.", "")
+
+#define PLUMB_SETTINGS(LISTED, HIDDEN) \
+  PLUMB_PUBLISHED_SETTINGS(LISTED) \
+  PLUMB_HIDDEN_SETTINGS(HIDDEN) \
+  PLUMB_OWN_SETTINGS(LISTED) \
+  PLUMB_KEPT_SETTINGS(HIDDEN)
+// clang-format on
+
+/// The rows by name; the effects' parameters follow in the registry's order.
+#define PLUMB_NAME(name, ...) name,
+enum Setting : uint8_t {
+  PLUMB_SETTINGS(PLUMB_NAME, PLUMB_NAME) kFirstEffectSetting,
+  kSettingCount = kFirstEffectSetting + kinematics::kEffectParamCount
+};
+#undef PLUMB_NAME
+
+// Two copies and the ring of positions must fit, and 255 says "none".
+static_assert(10 + 5 * kSettingCount <= settings::Memory::kApart, "a copy has no room");
+static_assert(kSettingCount < settings::kNoIndex, "too many settings");
+
+/// The number that a client means: WebControl's chain elasticity and sled weight are ours.
+inline uint8_t meantBy(uint8_t number) {
+  if (number == 45) return 170;  // chain_stretch.compliance
+  return number == 46 ? 62 : number;
+}
