@@ -89,7 +89,8 @@ void Stage::passMillisecond() {
   out_queue_ = std::max(0, out_queue_ - int(now_ms_ % 8 == 0 ? 5 : 6));
   byte_credit_ = std::min(byte_credit_ + kBytesPerMs, 256.0);
   for (SimulatedMotor& motor : motor_) motor.advance(0.001);
-  if (now_ms_ % kTickMs == 0) tick(firmware);
+  eeprom.advance(1000);
+  if (now_ms_ % kTickMs == 0) tick();
   if (now_ms_ - last_line_ms_ > kLongestGapMs) fail("silence for over 1.5 s");
 }
 

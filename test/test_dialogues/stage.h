@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "machine/ports.h"
 #include "reference/machine.h"
 #include "script.h"
+#include "simulated_eeprom.h"
 #include "simulated_motor.h"
 
 /// What went wrong, with the line of the dialogue.
@@ -46,15 +48,13 @@ class Stage : public machine::Wire,
   void holdTicks() override {}
   void releaseTicks() override {}
 
-  /// Where the firmware's control tick is called, and its EEPROM.
-  void (*tick)(void* firmware) = nullptr;
-  void* firmware = nullptr;
-  std::vector<uint8_t> eeprom = std::vector<uint8_t>(4096, 0xff);
+  /// Called every control tick, as the interrupt would be.
+  std::function<void()> tick = [] {};
+  SimulatedEeprom eeprom;
   uint8_t servo = machine::kNoServo;
 
   /// What is left after a power cut.
   void restart();
-  int cut_after_writes = -1;  ///< EEPROM bytes until the power goes; negative: it stays
 
  private:
   void passMillisecond();

@@ -1,0 +1,38 @@
+// Moves of one axis alone, in its own length: calibration moves and the probe.
+#include "machine.h"
+#include "ramp.h"
+
+namespace machine {
+namespace {
+
+int32_t& partOf(SetPoint& point, Axis axis) {
+  if (axis == kLeftAxis) return point.left;
+  return axis == kRightAxis ? point.right : point.z;
+}
+
+}  // namespace
+
+bool Machine::moveAxis(Axis axis, float goal, float feed, bool until_probe) {
+  if (!drain() || !wakeMotors()) return false;
+  SetPoint point = axes.setPoint();
+  int32_t& part = partOf(point, axis);
+  const float gain = values.at(axis == kZAxis ? kAccelerationZ : kAccelerationXy);
+  Ramp ramp(motion::toMm<float>(part), goal, feed / 60, gain);
+  const float tick = axes.secondsPerTick();
+  bool touched = false;
+  while (!ramp.isThere() && !touched && !isHalted()) {
+    if (stopping_) ramp.brake();
+    if (axes.hasRoom()) {
+      part = motion::toCounts(ramp.advance(tick));
+      axes.push(point);
+    }
+    touched = until_probe && aux.probeTouches();
+    service();
+  }
+  if (touched) axes.dropSetPoints();
+  while (!axes.isEmpty() && !isHalted()) service();
+  mover.standAt(place_, axes.setPoint());
+  return !stopping_ && (touched || !until_probe);
+}
+
+}  // namespace machine
