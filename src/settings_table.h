@@ -2,7 +2,7 @@
 // The effects' numbers come from their registry, lib/Kinematics/src/effects.h.
 //
 // A list of macro calls, because flash on the board and plain memory on the host keep the same rows
-// in different ways (settings_flash.h; test/test_settings/plain_table.h). Each row:
+// in different ways (settings_flash.h; test/settings_host/plain_table.h). Each row:
 //   name in C++, number, "name, unit", kind, step, default, lowest, highest,
 //   section and key of the published programs, or "", sentence,
 //   what is not as in the published firmware, or ""
@@ -128,17 +128,37 @@
   ROW(kSimulatedMotors, 99, "simulated_motors", kBool, 1, 0, 0, 1, \
       "", "1: the machine runs without motors, as B99 ON asks; kept by all but $RST=*.", "")
 
-#define PLUMB_SETTINGS(LISTED, HIDDEN) \
+#define PLUMB_SETTINGS(LISTED, HIDDEN, KEPT) \
   PLUMB_PUBLISHED_SETTINGS(LISTED) \
   PLUMB_HIDDEN_SETTINGS(HIDDEN) \
   PLUMB_OWN_SETTINGS(LISTED) \
-  PLUMB_KEPT_SETTINGS(HIDDEN)
+  PLUMB_KEPT_SETTINGS(KEPT)
+// clang-format on
+
+// What is said of settings: for $n=v that is refused, and at the start. See Word in Settings.h.
+// clang-format off
+#define PLUMB_SETTINGS_WORDS(WORD) \
+  WORD(kUnknown, "is no setting") \
+  WORD(kHidden, "is set by B codes only (Z limits: B17, B18, B19)") \
+  WORD(kNoNumber, "needs a number") \
+  WORD(kZero, "must not be zero") \
+  WORD(kFrom, "must be from ") \
+  WORD(kTo, " to ") \
+  WORD(kWhole, ", a whole number") \
+  WORD(kSteps, ", in steps of ") \
+  WORD(kInPart, "error: EEPROM: a setting was beyond its limits and has its default now; check $$.") \
+  WORD(kImported, "Settings of the published firmware taken over.") \
+  WORD(kDefaults, "error: EEPROM read fail. Using default settings.") \
+  WORD(kOther, "error: EEPROM has data of another firmware (settings version ") \
+  WORD(kOtherEnd, "), which is not read: send the settings again and set the chains.") \
+  WORD(kBadValue, "error: EEPROM: $") \
+  WORD(kBadValueEnd, " of the published firmware cannot be right; none of its settings is taken over.")
 // clang-format on
 
 /// The rows by name; the effects' parameters follow in the registry's order.
 #define PLUMB_NAME(name, ...) name,
 enum Setting : uint8_t {
-  PLUMB_SETTINGS(PLUMB_NAME, PLUMB_NAME) kFirstEffectSetting,
+  PLUMB_SETTINGS(PLUMB_NAME, PLUMB_NAME, PLUMB_NAME) kFirstEffectSetting,
   kSettingCount = kFirstEffectSetting + kinematics::kEffectParamCount
 };
 #undef PLUMB_NAME

@@ -70,17 +70,23 @@ class Memory {
   /// True once the settings in force are stored.
   bool settingsStored() const { return copies_.isStored(); }
 
+  /// True if a copy of the settings does not keep what is written: the EEPROM wears out.
+  bool isWorn() const { return copies_.isWorn(); }
+
   /// True when nothing is left to write.
   bool isIdle() const { return !retiring_ && !copies_.isBusy() && !slots_.isBusy(); }
 
  private:
   uint16_t scale() const;
+  void takeOver(const Recognised& found, Started& started);
+  void storeSettings();
 
   Bytes& bytes_;
   Values& values_;
   Copies copies_;
   PositionSlots slots_;
-  bool retiring_;
+  bool remains_;   ///< data of other firmware may still look valid
+  bool retiring_;  ///< and is to be overwritten
 };
 
 }  // namespace settings

@@ -17,14 +17,28 @@ struct Position {
 enum class Known : uint8_t {
   kNothing,  ///< never saved, or forgotten on request: chains must be set
   kAtRest,   ///< the machine stood there when power went
-  kMoving,   ///< power went in motion: this is where that motion began
+  kMoving,   ///< power went in motion (or other firmware ran): where the machine was before
 };
+
+/// Whether kept counts and kept place still say the same.
+enum class Agreement : uint8_t {
+  kAgrees,
+  kScaleChanged,  ///< $12, $13, $19 or $20 are others: the counts mean other lengths now
+  kPlaceDiffers,  ///< today's settings put the sled elsewhere
+};
+
+/// From here on [mm] two places are not the same; settings in force put it within 0.02 mm.
+const float kSamePlace = 0.5f;
+
+/// Compares a kept position with today's scale and with the place (x, y) [mm] that forward
+/// kinematics finds for its counts today.
+Agreement compare(const Position& kept, uint16_t scale, float x, float y);
 
 /// Records in a ring of slots, so that no cell is written often.
 ///
 /// A record is written beside the newest one and counts once its checksum is whole. One byte of the
-/// newest record, outside the checksum, says that the machine has begun to move. Per round of the
-/// ring that byte is written twice, any other at most once.
+/// newest record, outside the checksum, says that the machine has begun to move. In one round of
+/// the ring that byte is written twice, any other at most once.
 class PositionSlots {
  public:
   enum : uint8_t { kBytesPerSlot = 30 };
@@ -34,39 +48,50 @@ class PositionSlots {
   /// Finds the newest record; reads all slots.
   Known load(Position& position);
 
-  /// Keeps a position at rest; replaces one that is still being written.
+  /// Keeps a position at rest, instead of one that is still being written.
   void keep(const Position& position);
 
   /// Keeps that nothing is known.
   void forget();
 
-  /// Marks the newest record as left behind; gives up one that is still being written.
+  /// Marks the newest record as left behind, instead of one that is still being written.
   void beginMoving();
 
-  /// Takes the mark back while nothing has moved: something else made the position doubtful.
-  bool isMarkedMoving() const { return mark_ == kMoved; }
-
   /// True while something is to be written.
-  bool isBusy() const { return writing_ || mark_wanted_ != mark_; }
+  bool isBusy() const { return writing_ || (moving_ && mark_ != kMoved); }
 
-  /// True once the mark of beginMoving is stored.
-  bool mayMove() const { return !writing_ && mark_wanted_ == kMoved && mark_ == kMoved; }
+  /// True once beginMoving() has done its work.
+  bool mayMove() const { return moving_ && !isBusy(); }
 
-  /// Writes at most one byte; false if there was nothing to write. To be called while ready.
-  bool step();
+  /// Goes on writing, by one byte at most. To be called while the bytes are ready.
+  void step();
 
  private:
   enum : uint8_t { kMoved = 0, kRests = 0x5A };
 
+  uint16_t addressOf(uint8_t slot) const { return uint16_t(first_ + slot * kBytesPerSlot); }
+  uint8_t after(uint8_t slot) const { return slot + 1 < slots_ ? uint8_t(slot + 1) : uint8_t(0); }
+  bool isValid(uint8_t slot) const;
+  void readNewest();
+  void begin(const uint8_t* record, uint8_t mark);
+  void writeRecord();
+  void writeMark();
+
   Bytes& bytes_;
   uint16_t first_;
   uint8_t slots_;
-  uint8_t newest_;  ///< slot of the newest record
-  uint8_t mark_, mark_wanted_;
-  uint16_t sequence_;
-  bool writing_;
-  uint8_t done_;                   ///< bytes of the record that are written
-  uint8_t record_[kBytesPerSlot];  ///< what is being written
+  uint8_t newest_;     ///< slot of the newest record
+  uint8_t mark_;       ///< of the newest record
+  uint16_t sequence_;  ///< of the newest record
+  bool moving_;        ///< the mark should say so
+  bool tried_;         ///< the mark has been written, and is not there yet
+  bool writing_;       ///< a record
+  bool maybe_whole_;   ///< its checksum has been begun, so it could already count
+  bool holds_newest_;  ///< record_ is the newest record, not one that was given up
+  uint8_t target_;     ///< slot being written
+  uint8_t failed_;     ///< how many slots before it would not take the record
+  uint8_t done_;       ///< bytes of it that are right
+  uint8_t record_[kBytesPerSlot];
 };
 
 }  // namespace settings

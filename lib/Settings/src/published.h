@@ -10,32 +10,37 @@ namespace settings {
 /// Whose data lies where the published firmware keeps its own.
 enum class Foreign : uint8_t {
   kNone,
-  kVersion5,      ///< firmware 1.24 to 1.29, both layouts
+  kVersion5,      ///< firmware 1.24 to 1.29, with or without Z limits
   kPositionOnly,  ///< the same, its settings erased
   kOther,         ///< another version: 1 to 4 (firmware 1.00 to 1.23), 6 (holey, beta, optical) ...
   kBeforeOne,     ///< positions of firmware before 1.00
 };
 
+/// What recognise() found.
 struct Recognised {
   Foreign foreign;
-  uint8_t version;  ///< as the data says; 0 if it does not
-  bool has_limits;  ///< version 5 with Z limits
-  bool has_position;
+  uint8_t version;    ///< as the data says; 0 if it does not
+  bool has_z_limits;  ///< the later layout of version 5
+  bool has_position;  ///< counts that may be used; only with kVersion5 and kPositionOnly
 };
 
+/// Whose data it is, by its version and markers.
 Recognised recognise(const Bytes& bytes);
 
-/// The raw value of a published setting in a version 5 block; 0..13 and 15..44.
+/// The value of a published setting (0..13, 15..44) in a version 5 block, as it stands there.
 float publishedValue(const Bytes& bytes, uint8_t number);
 
-/// Takes all settings over, or none: the number of the first that cannot be right, else kNoIndex.
+/// Takes all settings of a version 5 block over, or none: kNoIndex, or the number of the first
+/// setting that cannot be right.
 uint8_t importSettings(const Bytes& bytes, const Recognised& found, Values& values);
 
-/// The counts it kept.
+/// The counts of the published firmware; place and scale are not known.
 Position importPosition(const Bytes& bytes);
 
-/// The next byte to overwrite so that no published firmware finds its data again, or kNothingLeft.
+/// The next byte to overwrite with kErased so that no published firmware takes its own data for
+/// valid, or kNothingLeft. In an order that a power cut cannot harm.
 uint16_t nextToRetire(const Bytes& bytes);
+
 const uint16_t kNothingLeft = 0xFFFF;
 const uint8_t kErased = 0xFF;
 

@@ -13,6 +13,7 @@ enum class Kind : uint8_t { kBool, kByte, kWord, kReal };
 enum class Access : uint8_t {
   kListed,  ///< in the dump, and set by $n=value
   kHidden,  ///< kept like any other, but only the machine's own commands set it
+  kKept,    ///< the same, and no reset but that of everything changes it
 };
 
 /// Instead of a step: any value within the limits, or any but zero.
@@ -28,16 +29,25 @@ struct Entry {
   float low, high;
 };
 
-/// Texts that a table keeps for its reader, by name.
+/// Texts that a table keeps for its reader, by what they are for.
 enum class Word : uint8_t {
-  kUnknown,   ///< after "$n": it is no setting
-  kHidden,    ///< after "$n": other commands set it
-  kNoNumber,  ///< after "$n": the value is no number
-  kZero,      ///< after "$n": it cannot be zero
-  kFrom,      ///< after "$n": before the lowest value
+  // After "$n ", why a value is refused.
+  kUnknown,   ///< it is no setting
+  kHidden,    ///< other commands set it
+  kNoNumber,  ///< the value is no number
+  kZero,      ///< it cannot be zero
+  kFrom,      ///< before the lowest value
   kTo,        ///< between the lowest and the highest
   kWhole,     ///< after the limits: whole numbers only
   kSteps,     ///< after the limits: before the step
+  // Whole lines about what was found at the start.
+  kInPart,       ///< a value beyond its limits became its default
+  kImported,     ///< the published firmware's settings were taken over
+  kDefaults,     ///< nothing was found
+  kOther,        ///< before the number of a version that is not read
+  kOtherEnd,     ///< after it
+  kBadValue,     ///< before the number of a published setting that cannot be right
+  kBadValueEnd,  ///< after it
   kCount
 };
 

@@ -40,8 +40,8 @@ class Values {
   /// Sets a row, hidden or not, for the machine's own commands and for loading.
   Refusal setRow(uint8_t index, float value);
 
-  /// Every listed setting, and the hidden ones below `first_kept`, back to its default.
-  void reset(uint8_t first_kept_hidden);
+  /// Every setting back to its default, those that are kept only on request.
+  void reset(bool also_kept);
 
  private:
   const Table& table_;

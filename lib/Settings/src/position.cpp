@@ -1,0 +1,215 @@
+// The ring of position records.
+//
+// A record: sequence (2 bytes), what is known (1), counts of left, right and z (4 each), x and y (a
+// float each), scale (2), mark (1), CRC-32 of all but the mark (4); low bytes first.
+#include "position.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "checksum.h"
+
+namespace settings {
+
+namespace {
+
+enum : uint8_t { kKnownAt = 2, kCountsAt = 3, kPlaceAt = 15, kScaleAt = 23, kMarkAt = 25, kSumAt };
+enum : uint8_t { kIsKnown = 1, kHasPlace = 2 };
+const uint8_t kIdentity[3] = {'P', 'p', 1};
+
+uint32_t sumOf(const uint8_t* record) {
+  Checksum sum;
+  for (uint8_t each : kIdentity) sum.add(each);
+  for (uint8_t i = 0; i < kMarkAt; ++i) sum.add(record[i]);
+  return sum.value();
+}
+
+void store(uint8_t* at, uint32_t number, uint8_t bytes) {
+  for (uint8_t i = 0; i < bytes; ++i) at[i] = uint8_t(number >> (8 * i));
+}
+
+void storeFloat(uint8_t* at, float value) {
+  uint32_t bits;
+  memcpy(&bits, &value, sizeof bits);
+  store(at, bits, 4);
+}
+
+uint32_t fetch(const uint8_t* at, uint8_t bytes) {
+  uint32_t number = 0;
+  for (uint8_t i = 0; i < bytes; ++i) number |= uint32_t(at[i]) << (8 * i);
+  return number;
+}
+
+float fetchFloat(const uint8_t* at) {
+  const uint32_t bits = fetch(at, 4);
+  float value;
+  memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+Position positionIn(const uint8_t* record) {
+  Position position;
+  position.left = int32_t(fetch(record + kCountsAt, 4));
+  position.right = int32_t(fetch(record + kCountsAt + 4, 4));
+  position.z = int32_t(fetch(record + kCountsAt + 8, 4));
+  position.x = fetchFloat(record + kPlaceAt);
+  position.y = fetchFloat(record + kPlaceAt + 4);
+  position.scale = uint16_t(fetch(record + kScaleAt, 2));
+  position.has_place = record[kKnownAt] & kHasPlace;
+  return position;
+}
+
+}  // namespace
+
+Agreement compare(const Position& kept, uint16_t scale, float x, float y) {
+  if (kept.scale != scale) return Agreement::kScaleChanged;
+  const float dx = x - kept.x, dy = y - kept.y;
+  // Written so that a NaN differs.
+  const bool same = !kept.has_place || sqrt(dx * dx + dy * dy) < kSamePlace;
+  return same ? Agreement::kAgrees : Agreement::kPlaceDiffers;
+}
+
+PositionSlots::PositionSlots(Bytes& bytes, uint16_t first_address, uint8_t slots)
+    : bytes_(bytes),
+      first_(first_address),
+      slots_(slots),
+      newest_(uint8_t(slots - 1)),
+      mark_(kMoved),
+      sequence_(0),
+      moving_(false),
+      tried_(false),
+      writing_(false),
+      maybe_whole_(false),
+      holds_newest_(false),
+      target_(0),
+      failed_(0),
+      done_(0),
+      record_() {}
+
+bool PositionSlots::isValid(uint8_t slot) const {
+  uint8_t record[kBytesPerSlot];
+  for (uint8_t i = 0; i < kBytesPerSlot; ++i)
+    record[i] = bytes_.read(uint16_t(addressOf(slot) + i));
+  return sumOf(record) == fetch(record + kSumAt, 4);
+}
+
+Known PositionSlots::load(Position& position) {
+  bool found = false;
+  for (uint8_t slot = 0; slot < slots_; ++slot) {
+    if (!isValid(slot)) continue;
+    const uint16_t start = addressOf(slot);
+    const uint16_t number = uint16_t(bytes_.read(start) | bytes_.read(uint16_t(start + 1)) << 8);
+    if (found && int16_t(number - sequence_) < 0) continue;
+    found = true;
+    sequence_ = number;
+    newest_ = slot;
+  }
+  if (!found) return Known::kNothing;
+  readNewest();
+  mark_ = record_[kMarkAt] == kRests ? kRests : kMoved;
+  position = positionIn(record_);
+  if (!(record_[kKnownAt] & kIsKnown)) return Known::kNothing;
+  return mark_ == kRests ? Known::kAtRest : Known::kMoving;
+}
+
+void PositionSlots::readNewest() {
+  for (uint8_t i = 0; i < kBytesPerSlot; ++i)
+    record_[i] = bytes_.read(uint16_t(addressOf(newest_) + i));
+  holds_newest_ = true;
+}
+
+void PositionSlots::begin(const uint8_t* record, uint8_t mark) {
+  memmove(record_, record, kMarkAt);
+  store(record_, uint16_t(sequence_ + 1), 2);
+  record_[kMarkAt] = mark;
+  store(record_ + kSumAt, sumOf(record_), 4);
+  if (!writing_) maybe_whole_ = false;
+  writing_ = true;
+  tried_ = false;
+  target_ = after(newest_);
+  failed_ = 0;
+  done_ = 0;
+}
+
+void PositionSlots::keep(const Position& position) {
+  uint8_t fresh[kMarkAt] = {};
+  fresh[kKnownAt] = uint8_t(kIsKnown | (position.has_place ? kHasPlace : 0));
+  store(fresh + kCountsAt, uint32_t(position.left), 4);
+  store(fresh + kCountsAt + 4, uint32_t(position.right), 4);
+  store(fresh + kCountsAt + 8, uint32_t(position.z), 4);
+  storeFloat(fresh + kPlaceAt, position.x);
+  storeFloat(fresh + kPlaceAt + 4, position.y);
+  store(fresh + kScaleAt, position.scale, 2);
+  moving_ = false;
+  // Nothing new costs no writing.
+  const bool there = (writing_ || holds_newest_) && record_[kMarkAt] == kRests &&
+                     !memcmp(record_ + kKnownAt, fresh + kKnownAt, kMarkAt - kKnownAt);
+  if (!there) begin(fresh, kRests);
+}
+
+void PositionSlots::forget() {
+  const uint8_t nothing[kMarkAt] = {};
+  moving_ = false;
+  begin(nothing, kRests);
+}
+
+void PositionSlots::beginMoving() {
+  moving_ = true;
+  // A record without its checksum is none, and the one before it says more. One that could be
+  // whole is finished first, so that there is no doubt which one is the newest.
+  if (!writing_ || maybe_whole_) return;
+  writing_ = false;
+  holds_newest_ = false;
+}
+
+void PositionSlots::step() {
+  if (writing_) {
+    writeRecord();
+  } else if (moving_ && mark_ != kMoved) {
+    writeMark();
+  }
+}
+
+void PositionSlots::writeRecord() {
+  while (done_ < kBytesPerSlot) {
+    const uint16_t address = uint16_t(addressOf(target_) + done_);
+    const uint8_t byte = record_[done_];
+    if (done_ >= kSumAt) maybe_whole_ = true;
+    ++done_;
+    if (bytes_.read(address) == byte) continue;
+    bytes_.write(address, byte);
+    return;
+  }
+  bool right = true;
+  for (uint8_t i = 0; i < kBytesPerSlot; ++i)
+    right &= bytes_.read(uint16_t(addressOf(target_) + i)) == record_[i];
+  if (!right && ++failed_ < slots_) {
+    // A worn cell: the next slot may do.
+    target_ = after(target_);
+    done_ = 0;
+    return;
+  }
+  writing_ = false;
+  holds_newest_ = true;
+  newest_ = target_;
+  ++sequence_;
+  mark_ = record_[kMarkAt];
+}
+
+void PositionSlots::writeMark() {
+  const uint16_t address = uint16_t(addressOf(newest_) + kMarkAt);
+  if (bytes_.read(address) == kMoved) {
+    mark_ = kMoved;
+    if (holds_newest_) record_[kMarkAt] = kMoved;
+    tried_ = false;
+  } else if (!tried_) {
+    bytes_.write(address, kMoved);
+    tried_ = true;
+  } else {
+    // A worn cell: a record elsewhere, moving from the first.
+    readNewest();
+    begin(record_, kMoved);
+  }
+}
+
+}  // namespace settings

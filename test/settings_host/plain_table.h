@@ -1,0 +1,55 @@
+// The table of settings in plain memory, with all its words, for programs on the host.
+#pragma once
+
+#include "../../src/settings_effects.h"
+#include "../../src/settings_table.h"
+
+namespace settings_host {
+
+/// What people are told of a row.
+struct RowText {
+  const char* name;   ///< in C++
+  const char* label;  ///< "name, unit"
+  const char* key;    ///< section and key of the published programs, or ""
+  const char* sentence;
+  const char* change;  ///< against the published firmware, or ""
+};
+
+using namespace settings;
+
+#define PLUMB_ROW(access, name, number, label, kind, step, usual, low, high, ...) \
+  {number, Kind::kind, Access::access, step, usual, low, high},
+#define PLUMB_LISTED(...) PLUMB_ROW(kListed, __VA_ARGS__)
+#define PLUMB_HIDDEN(...) PLUMB_ROW(kHidden, __VA_ARGS__)
+#define PLUMB_KEPT(...) PLUMB_ROW(kKept, __VA_ARGS__)
+const Entry kRows[] = {PLUMB_SETTINGS(PLUMB_LISTED, PLUMB_HIDDEN, PLUMB_KEPT)};
+#undef PLUMB_ROW
+#undef PLUMB_LISTED
+#undef PLUMB_HIDDEN
+#undef PLUMB_KEPT
+
+#define PLUMB_TEXT(name, number, label, kind, step, usual, low, high, key, sentence, change) \
+  {#name, label, key, sentence, change},
+const RowText kTexts[] = {PLUMB_SETTINGS(PLUMB_TEXT, PLUMB_TEXT, PLUMB_TEXT)};
+#undef PLUMB_TEXT
+
+#define PLUMB_WORD(name, text) text,
+const char* const kWords[] = {PLUMB_SETTINGS_WORDS(PLUMB_WORD)};
+#undef PLUMB_WORD
+static_assert(sizeof kWords / sizeof kWords[0] == uint8_t(Word::kCount), "a word is missing");
+
+/// Rows, comments and words.
+class PlainTable : public Table {
+ public:
+  uint8_t count() const override { return kSettingCount; }
+  Entry at(uint8_t index) const override {
+    return index < kFirstEffectSetting ? kRows[index]
+                                       : effectRow(uint8_t(index - kFirstEffectSetting));
+  }
+  char comment(uint8_t index, uint8_t letter) const override {
+    return index < kFirstEffectSetting ? kTexts[index].label[letter] : "effect"[letter];
+  }
+  char word(Word which, uint8_t letter) const override { return kWords[uint8_t(which)][letter]; }
+};
+
+}  // namespace settings_host
