@@ -59,8 +59,7 @@ bool Machine::pullChain(Axis axis, int16_t duty, float seconds) {
 }
 
 void Machine::afterOpenDrive() {
-  axes.standStill();
-  mover.standAt(place_, axes.setPoint());
+  searchPlace();
   keepPosition();
 }
 

@@ -20,26 +20,34 @@ void Machine::sayLengths() {
   out.fixed(axes.length(kRightAxis), 2);
 }
 
-bool Machine::findPlace() {
-  out.line(FLASH("[Forward Calculating Position]"));
+bool Machine::searchPlace() {
   const motion::Point<float> guess = {place_.x, place_.y};
   const FoundPlace found =
       geometry.forward(axes.length(kLeftAxis), axes.length(kRightAxis), guess);
   axes.standStill();
-  is_place_known_ = found.found;
-  if (found.found) {
-    place_.x = found.at.x;
-    place_.y = found.at.y;
-    sayPlace(place_.x, place_.y);
-  } else {
-    place_.x = place_.y = 0;
-    out << FLASH("Message: Unable to find valid machine position for chain lengths ");
-    sayLengths();
-    out.line(FLASH(" . Please set the chains to a known length (Actions -> Set Chain Lengths)"));
-  }
+  is_place_known_ = found.found && is_chains_known_;
+  place_.x = found.found ? found.at.x : 0;
+  place_.y = found.found ? found.at.y : 0;
+  standHere();
+  return found.found;
+}
+
+void Machine::standHere() {
+  place_.z = axes.length(kZAxis);
   mover.standAt(place_, axes.setPoint());
-  modal.moveTo({place_.x, place_.y, axes.length(kZAxis)});
-  return is_place_known_;
+  modal.moveTo({place_.x, place_.y, place_.z});
+}
+
+bool Machine::findPlace() {
+  out.line(FLASH("[Forward Calculating Position]"));
+  if (searchPlace()) {
+    sayPlace(place_.x, place_.y);
+    return true;
+  }
+  out << FLASH("Message: Unable to find valid machine position for chain lengths ");
+  sayLengths();
+  out.line(FLASH(" . Please set the chains to a known length (Actions -> Set Chain Lengths)"));
+  return false;
 }
 
 void Machine::restorePosition(const settings::Started& started) {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "line_match.h"
+#include "vm/line_match.h"
 #include "machine/ports.h"
 #include "reference/machine.h"
-#include "script.h"
+#include "vm/script.h"
 #include "simulated_eeprom.h"
 #include "simulated_motor.h"
 

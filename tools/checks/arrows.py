@@ -29,7 +29,10 @@ ARROWS = {
     # Stands in on the host for a header of avr-libc that src/machine includes.
     "test/avr": ([], C_HEADERS),
     "test/test_board": (["include", "src/board", "src/machine"], ANYTHING),
-    "test/test_dialogues": (["test/reference", "src", "src/machine", "lib/*"], ANYTHING),
+    "test/test_dialogues": (
+        ["test/reference", "test/vm", "src", "src/machine", "lib/*"],
+        ANYTHING,
+    ),
     "test/test_*": (["test/reference", "test/vm", "lib/*"], ANYTHING),
     "tools/core": (["lib/Kinematics"], ANYTHING),
     "tools/bench": (["lib/*", "test/reference", "test/test_effects"], ANYTHING),
