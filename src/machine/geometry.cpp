@@ -77,6 +77,15 @@ void Geometry::prepare(const Values& values) {
     prepareBrackets(values, frame);
   else
     prepareRing(values, frame);
+  is_sheet_reachable_ = isSheetReachable();
+}
+
+bool Geometry::isSheetReachable() const {
+  // Where a corner cannot be reached, or the middle of the top, each target is asked for.
+  for (int8_t x = -1; x <= 1; ++x)
+    for (int8_t y = -1; y <= 1; y = int8_t(y + 2))
+      if (!inverse({float(x) * half_width_, float(y) * half_height_}).reachable) return false;
+  return true;
 }
 
 void Geometry::prepareRing(const Values& values, const kinematics::Frame<float>& frame) {

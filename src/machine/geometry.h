@@ -30,10 +30,16 @@ class Geometry {
   /// A place brought back to the sheet's edge.
   motion::Point<float> clamped(motion::Point<float> place) const;
 
+  /// Whether a sled can hang at a place, or at the sheet's edge if it is beyond.
+  bool isReachable(motion::Point<float> place) const {
+    return is_sheet_reachable_ || inverse(place).reachable;
+  }
+
   /// How far [mm] a path may go until the bound of segments must be asked again.
   motion::Surroundings<float> surroundings(const motion::Path<float>& path) const;
 
  private:
+  bool isSheetReachable() const;
   void prepareRing(const settings::Values& values, const kinematics::Frame<float>& frame);
   void prepareBrackets(const settings::Values& values, const kinematics::Frame<float>& frame);
 
@@ -44,6 +50,7 @@ class Geometry {
   float half_width_, half_height_;
   float chain_length_;
   bool has_brackets_;
+  bool is_sheet_reachable_;  ///< all of it
 };
 
 }  // namespace machine

@@ -10,7 +10,7 @@ const uint16_t kRampMs = 500, kHoldMs = 2000;
 }  // namespace
 
 bool Machine::driveFor(Axis axis, int16_t duty, uint32_t ms) {
-  axes.driveOpen(axis, duty);
+  axes_.driveOpen(axis, duty);
   const bool completed = waitFor(ms);
   return completed;
 }
@@ -26,13 +26,13 @@ bool Machine::rampMotor(Axis axis, int8_t sign) {
 }
 
 bool Machine::testDirection(Axis axis, int8_t direction) {
-  const int32_t before = axes.counts(axis);
+  const int32_t before = axes_.counts(axis);
   const int8_t sign = direction == 1 ? 1 : -1;
   if (!rampMotor(axis, sign)) return false;
   // Positive drive winds in and must lower the count.
-  const int32_t wound = (before - axes.counts(axis)) * sign;
-  out << FLASH("Direction ") << int32_t(direction);
-  out.line(wound > kPassCounts ? FLASH(" - Pass") : FLASH(" - Fail"));
+  const int32_t wound = (before - axes_.counts(axis)) * sign;
+  out_ << FLASH("Direction ") << int32_t(direction);
+  out_.line(wound > kPassCounts ? FLASH(" - Pass") : FLASH(" - Fail"));
   return true;
 }
 
@@ -40,12 +40,12 @@ bool Machine::testMotors() {
   if (!drain() || !wakeMotors()) return false;
   bool completed = true;
   for (uint8_t i = 0; i < kAxisCount && completed; ++i) {
-    out << FLASH("Testing ") << (i == kLeftAxis ? 'L' : i == kRightAxis ? 'R' : 'Z');
-    out.line(FLASH(" motor:"));
+    out_ << FLASH("Testing ") << (i == kLeftAxis ? 'L' : i == kRightAxis ? 'R' : 'Z');
+    out_.line(FLASH(" motor:"));
     completed = testDirection(Axis(i), 1) && testDirection(Axis(i), 2);
-    axes.release(Axis(i));
+    axes_.release(Axis(i));
   }
-  if (completed) out.line(FLASH("Tests complete."));
+  if (completed) out_.line(FLASH("Tests complete."));
   afterOpenDrive();
   return completed;
 }
@@ -53,7 +53,7 @@ bool Machine::testMotors() {
 bool Machine::pullChain(Axis axis, int16_t duty, float seconds) {
   if (!drain() || !wakeMotors()) return false;
   const bool completed = driveFor(axis, duty, uint32_t(seconds * 1000));
-  axes.release(axis);
+  axes_.release(axis);
   afterOpenDrive();
   return completed;
 }

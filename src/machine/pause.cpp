@@ -4,7 +4,7 @@
 namespace machine {
 
 bool Machine::pause() {
-  out.line(FLASH("Maslow Paused"));
+  out_.line(FLASH("Maslow Paused"));
   pausing_ = true;
   while (!stopping_ && !resumed_) service();
   pausing_ = resumed_ = false;
@@ -21,29 +21,29 @@ bool Machine::pauseAfterMoves() {
 }
 
 bool Machine::changeTool(uint16_t tool) {
-  if (tool == modal.tool_in_spindle) return true;
+  if (tool == modal_.tool_in_spindle) return true;
   resumed_ = false;
   expects_resume_ = true;
   const bool ready = drain() && switchSpindle(false);
   expects_resume_ = false;
   if (!ready) return false;
-  out << FLASH("Tool Change: Please insert tool ") << int32_t(tool);
-  out.end();
-  modal.tool_in_spindle = tool;
+  out_ << FLASH("Tool Change: Please insert tool ") << int32_t(tool);
+  out_.end();
+  modal_.tool_in_spindle = tool;
   return pause();
 }
 
 bool Machine::setZByHand(float z) {
-  const bool inches = modal.inInches();
+  const bool inches = modal_.inches;
   if (!drain()) return false;
   const float shown = inches ? z / 25.4f : z;
-  out << FLASH("Message: Please adjust Z-Axis to a depth of ");
-  if (shown > 0) out << '+';
-  out.fixed(shown, 2).line(inches ? FLASH(" in") : FLASH(" mm"));
+  out_ << FLASH("Message: Please adjust Z-Axis to a depth of ");
+  if (shown > 0) out_ << '+';
+  out_.fixed(shown, 2).line(inches ? FLASH(" in") : FLASH(" mm"));
   if (!pause()) return false;
-  axes.declare(kZAxis, z);
-  axes.standStill();
-  mover.standAt(place_, axes.setPoint());
+  axes_.declare(kZAxis, z);
+  aim_.z = z;
+  mover_.standAt(axes_.setPoint());
   return waitFor(1000);
 }
 

@@ -10,17 +10,17 @@ const float kProbeFeed = 60;  // [mm/min]
 }  // namespace
 
 bool Machine::probe(float target) {
-  if (values.at(kZMotor) == 0) {
-    out.line(FLASH("G38.2 needs a z motor; ignored."));
+  if (values_.at(kZMotor) == 0) {
+    out_.line(FLASH("G38.2 needs a z motor; ignored."));
     return true;
   }
   if (!drain()) return false;
-  out.line(FLASH("probing for z axis zero"));
-  out << FLASH("max depth ");
-  out.fixed(inUnits(target), 2).line(modal.inInches() ? FLASH(" in.") : FLASH(" mm."));
+  out_.line(FLASH("probing for z axis zero"));
+  out_ << FLASH("max depth ");
+  out_.fixed(inUnits(target), 2).line(modal_.inches ? FLASH(" in.") : FLASH(" mm."));
   const float feed = mostZFeed() < kProbeFeed ? mostZFeed() : kProbeFeed;
-  out << FLASH("feedrate ");
-  out.fixed(inUnits(feed), 2).line(modal.inInches() ? FLASH(" in per min.") : FLASH(" mm per min."));
+  out_ << FLASH("feedrate ");
+  out_.fixed(inUnits(feed), 2).line(modal_.inches ? FLASH(" in per min.") : FLASH(" mm per min."));
   const bool touched = moveAxis(kZAxis, target, feed, true);
   if (stopping_) return false;
   if (!touched) {
@@ -28,7 +28,7 @@ bool Machine::probe(float target) {
     return refuse(FLASH("probe did not connect"));
   }
   declareZ(0);
-  out.line(FLASH("z axis zeroed"));
+  out_.line(FLASH("z axis zeroed"));
   return true;
 }
 

@@ -6,18 +6,19 @@ namespace machine {
 
 void Machine::service() {
   readWire();
-  mover.fill(axes, geometry);
+  if (mover_.fill(axes_, geometry_) == Moved::kOutOfReach)
+    raiseAlarm(FLASH("No sled can hang on the way; the machine has halted. Press Stop."));
   watchAxes();
   refreshGeometryWhenQuiet();
   restWhenIdle();
-  memory.step();
+  memory_.step();
   reportWhenDue();
-  clock.idle();
+  clock_.idle();
 }
 
 bool Machine::waitFor(uint32_t ms) {
-  const uint32_t start = clock.milliseconds();
-  while (!stopping_ && clock.milliseconds() - start < ms) service();
+  const uint32_t start = clock_.milliseconds();
+  while (!stopping_ && clock_.milliseconds() - start < ms) service();
   return !stopping_;
 }
 
@@ -26,58 +27,110 @@ bool Machine::drain() {
   return !stopping_;
 }
 
+void Machine::readWire() {
+  for (;;) {
+    const int16_t character = wire_.read();
+    if (character < 0) return;
+    switch (input_.put(char(character))) {
+      case Quick::kNone:
+        break;
+      case Quick::kStop:
+        out_.line(FLASH("ok"));
+        stopNow();
+        break;
+      case Quick::kResume:
+        out_.line(FLASH("ok"));
+        if (pausing_ || expects_resume_) resumed_ = true;
+        break;
+      case Quick::kReset:
+        resetSoftly();
+        break;
+      case Quick::kOverflow:
+        raiseAlarm(FLASH("Buffer overflow: more lines came than there is room for. Press Stop."));
+        break;
+    }
+  }
+}
+
 void Machine::stopNow() {
   stopping_ = true;
-  pausing_ = resumed_ = expects_resume_ = false;
-  input.clear();
+  is_locked_ = resumed_ = false;
+  input_.clear();
   // At once, whatever else the stop has to wait for.
-  aux.set(Output::kLaser, false);
+  aux_.set(Output::kLaser, false);
   restSpindle();
-  mover.stop();
-  if (halt_ == Halt::kAlarm) halt_ = Halt::kNone;
+  mover_.stop();
 }
 
 void Machine::finishStop() {
   while (isMoving()) service();
-  axes.stopOpenDrives();
   // A new stop may come meanwhile; it is answered, and this one goes on.
   stopping_ = false;
+  if (is_locked_) {
+    searchPlace();
+    switchSpindle(false);
+    return;
+  }
   switchSpindle(false);
-  out.line(FLASH("Laser off"));
-  if (is_chains_known_) findPlace();
-  if (resetting_) keepPosition();
-  resetting_ = false;
+  out_.line(FLASH("Laser off"));
+  if (is_chains_known_)
+    findPlace();
+  else
+    searchPlace();
+  if (!axes_.isPowered()) keepPosition();
 }
 
 void Machine::resetSoftly() {
-  resetting_ = true;
-  out.end();
-  out.line(FLASH("soft reset commanded"));
-  greet(false);
+  stopNow();
+  out_.end();
+  out_.line(FLASH("soft reset commanded"));
+  greet();
+  sayReady();
 }
 
 void Machine::raiseAlarm(FlashText text) {
-  if (halt_ == Halt::kAlarm) return;
+  if (is_locked_) return;
   stopNow();
-  halt_ = Halt::kAlarm;
-  axes.halt();
-  mover.forget();
-  out << FLASH("ALARM: ");
-  out.line(text);
+  is_locked_ = true;
+  axes_.releaseAll();
+  mover_.forget();
+  axes_.standStill();
+  out_ << FLASH("ALARM: ");
+  out_.line(text);
 }
 
 void Machine::watchAxes() {
-  if (uint8_t(wire.lost()) != 0)
-    raiseAlarm(FLASH("Characters were lost on the serial line; the job is stopped. Press Stop."));
-  switch (axes.trouble()) {
-    case Trouble::kNone:
-      return;
-    default:
-      break;
+  if (wire_.lost() != 0)
+    raiseAlarm(FLASH("Characters were lost on the serial line. Press Stop."));
+  const Trouble trouble = axes_.trouble();
+  if (trouble == Trouble::kLeftBehind)
+    raiseAlarm(
+        FLASH("The sled is not keeping up with its expected position and has halted. Press Stop, "
+              "then look for what holds it."));
+  if (trouble == Trouble::kEncoder)
+    raiseAlarm(
+        FLASH("The sled is not keeping up with its expected position: a motor is driven and its "
+              "encoder stands still. Check the cables, press Stop, set the chain lengths."));
+}
+
+bool Machine::wakeMotors() {
+  if (!axes_.isPowered() && !axes_.isSimulated()) {
+    memory_.beginMoving();
+    while (!stopping_ && !memory_.mayMove()) service();
+    if (stopping_) return false;
   }
-  raiseAlarm(
-      FLASH("The sled is not keeping up with its expected position and has halted. Press Stop, "
-            "check chains, motors and encoder cables, then set the chain lengths if they slipped."));
+  axes_.follow();
+  last_motion_ms_ = clock_.milliseconds();
+  return true;
+}
+
+void Machine::restWhenIdle() {
+  const uint32_t now = clock_.milliseconds();
+  if (isMoving() || axes_.isDriven()) last_motion_ms_ = now;
+  if (!axes_.isPowered() || now - last_motion_ms_ < uint32_t(values_.at(kIdleTime))) return;
+  if (isMoving() || axes_.isDriven()) return;
+  axes_.releaseAll();
+  keepPosition();
 }
 
 }  // namespace machine

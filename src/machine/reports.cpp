@@ -6,7 +6,7 @@ namespace machine {
 const uint32_t kReportInterval = 200;  // [ms] clients give up after 2 s of silence
 
 void Machine::reportWhenDue() {
-  const uint32_t now = clock.milliseconds();
+  const uint32_t now = clock_.milliseconds();
   if (now - last_report_ms_ < kReportInterval) return;
   last_report_ms_ = now;
   reportStatus();
@@ -15,22 +15,28 @@ void Machine::reportWhenDue() {
 
 void Machine::reportStatus() {
   const Place place = placeNow();
-  const float scale = modal.inInches() ? 1 / 25.4f : 1.0f;
-  const uint8_t decimals = modal.inInches() ? 4 : 2;
-  out << '<' << (pausing_ ? FLASH("Pause") : isHalted() ? FLASH("Stop") : FLASH("Idle"));
-  out << FLASH(",MPos:");
-  out.fixed(place.x * scale, decimals) << ',';
-  out.fixed(place.y * scale, decimals) << ',';
-  out.fixed(place.z * scale, decimals);
-  out.line(FLASH(",WPos:0.000,0.000,0.000>"));
+  const uint8_t decimals = modal_.inches ? 4 : 2;
+  out_ << '<' << (pausing_ ? FLASH("Pause") : isHalted() ? FLASH("Stop") : FLASH("Idle"));
+  out_ << FLASH(",MPos:");
+  out_.fixed(inUnits(place.x), decimals) << ',';
+  out_.fixed(inUnits(place.y), decimals) << ',';
+  out_.fixed(inUnits(place.z), decimals);
+  out_.line(FLASH(",WPos:0.000,0.000,0.000>"));
 }
 
 void Machine::reportErrors() {
-  out << FLASH("[PE:");
-  out.fixed(axes.error(kLeftAxis), 2) << ',';
-  out.fixed(axes.error(kRightAxis), 2) << ',';
-  out << int32_t(incoming.room()) << ']';
-  out.end();
+  out_ << FLASH("[PE:");
+  out_.fixed(axes_.error(kLeftAxis), 2) << ',';
+  out_.fixed(axes_.error(kRightAxis), 2) << ',';
+  out_ << int32_t(input_.room()) << ']';
+  out_.end();
+}
+
+bool Machine::refuse(FlashText why) {
+  out_ << FLASH("error: ");
+  out_.line(why);
+  is_answered_ = true;
+  return false;
 }
 
 }  // namespace machine

@@ -14,24 +14,24 @@ int32_t& partOf(SetPoint& point, Axis axis) {
 
 bool Machine::moveAxis(Axis axis, float goal, float feed, bool until_probe) {
   if (!drain() || !wakeMotors()) return false;
-  SetPoint point = axes.setPoint();
+  SetPoint point = axes_.setPoint();
   int32_t& part = partOf(point, axis);
-  const float gain = values.at(axis == kZAxis ? kAccelerationZ : kAccelerationXy);
+  const float gain = values_.at(axis == kZAxis ? kAccelerationZ : kAccelerationXy);
   Ramp ramp(motion::toMm<float>(part), goal, feed / 60, gain);
-  const float tick = axes.secondsPerTick();
+  const float tick = axes_.secondsPerTick();
   bool touched = false;
   while (!ramp.isThere() && !touched && !isHalted()) {
     if (stopping_) ramp.brake();
-    if (axes.hasRoom()) {
+    if (axes_.hasRoom()) {
       part = motion::toCounts(ramp.advance(tick));
-      axes.push(point);
+      axes_.push(point);
     }
-    touched = until_probe && aux.probeTouches();
+    touched = until_probe && aux_.probeTouches();
     service();
   }
-  if (touched) axes.dropSetPoints();
-  while (!axes.isEmpty() && !isHalted()) service();
-  mover.standAt(place_, axes.setPoint());
+  if (touched) axes_.dropSetPoints();
+  while (!axes_.isEmpty() && !isHalted()) service();
+  mover_.standAt(axes_.setPoint());
   return !stopping_ && (touched || !until_probe);
 }
 

@@ -16,33 +16,33 @@ bool Machine::turnServo(uint8_t angle) {
   const uint8_t angles[] = {kIdleAngle, angle, kIdleAngle};
   bool completed = true;
   for (uint8_t i = 0; i < 3 && completed; ++i) {
-    aux.turnServo(angles[i]);
+    aux_.turnServo(angles[i]);
     completed = waitFor(kServoMs);
   }
-  aux.turnServo(kNoServo);
+  aux_.turnServo(kNoServo);
   return completed;
 }
 
 bool Machine::switchSpindle(bool on) {
-  const SpindleKind kind = SpindleKind(values.at(kSpindle));
+  const SpindleKind kind = SpindleKind(values_.at(kSpindle));
   if (kind == kNone) return true;
-  out.line(on ? FLASH("Turning Spindle On") : FLASH("Turning Spindle Off"));
+  out_.line(on ? FLASH("Turning Spindle On") : FLASH("Turning Spindle Off"));
   if (kind == kServo) {
     if (!turnServo(on ? kOnAngle : kOffAngle)) return false;
   } else {
-    aux.set(Output::kSpindle, on == (kind == kRelayHigh));
+    aux_.set(Output::kSpindle, on == (kind == kRelayHigh));
   }
   return waitFor(kSwitchedMs);
 }
 
 void Machine::restSpindle() {
-  const SpindleKind kind = SpindleKind(values.at(kSpindle));
-  if (kind == kRelayHigh || kind == kRelayLow) aux.set(Output::kSpindle, kind == kRelayLow);
+  const SpindleKind kind = SpindleKind(values_.at(kSpindle));
+  if (kind == kRelayHigh || kind == kRelayLow) aux_.set(Output::kSpindle, kind == kRelayLow);
 }
 
 void Machine::switchLaser(bool on) {
-  aux.set(Output::kLaser, on);
-  out.line(on ? FLASH("Laser on") : FLASH("Laser off"));
+  aux_.set(Output::kLaser, on);
+  out_.line(on ? FLASH("Laser on") : FLASH("Laser off"));
 }
 
 }  // namespace machine

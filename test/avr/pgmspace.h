@@ -9,3 +9,4 @@
 #define pgm_read_byte(at) (*reinterpret_cast<const uint8_t*>(at))
 #define pgm_read_ptr(at) (*reinterpret_cast<const void* const*>(at))
 #define memcpy_P memcpy
+#define strncmp_P strncmp

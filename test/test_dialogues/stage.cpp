@@ -163,6 +163,6 @@ bool Stage::skipTo(const Step& step) {
 
 void Stage::fail(const std::string& why) const {
   const std::size_t at = std::min(at_, steps_.size() - 1);
-  throw Failure("line " + std::to_string(steps_[at].line) + ": " + steps_[at].text + "\n  " + why +
+  throw Failure(steps_[at].place + ": " + steps_[at].text + "\n  " + why +
                 "\n  at " + std::to_string(now_ms_) + " ms; " + latest_status_ + latest_errors_);
 }

@@ -1,5 +1,6 @@
 // What a dialogue may ask of the simulated machine, and do to it.
 #include <cmath>
+#include <cstdio>
 #include <sstream>
 
 #include "reference/reference.h"
@@ -56,6 +57,8 @@ bool Stage::change(const std::string& verb, const std::string& rest) {
   const auto is = [&](const char* other) { return verb == other; };
   if (is("hang"))
     hang(rest);
+  else if (is("declare"))
+    declare();
   else if (is("block") || is("free"))
     motorNamed(rest).stuck = is("block");
   else if (is("unplug") || is("plug"))
@@ -108,6 +111,13 @@ void Stage::hang(const std::string& place) {
   if (!hung.solved) fail("no sled can hang there");
   motor_[kLeftAxis].travel = hung.paid_out.x();
   motor_[kRightAxis].travel = hung.paid_out.y();
+}
+
+void Stage::declare() {
+  char words[60];
+  std::snprintf(words, sizeof words, "B06 L%.4f R%.4f\n", motor_[kLeftAxis].travel,
+                motor_[kRightAxis].travel);
+  input_ += words;
 }
 
 void Stage::tellOr(bool holds, const std::string& what) {

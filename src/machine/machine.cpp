@@ -1,0 +1,33 @@
+// How the machine is put together, and what it does once after power-on.
+#include "machine.h"
+
+namespace machine {
+
+Machine::Machine(const Ports& ports, const BoardName& board)
+    : wire_(ports.wire),
+      drives_(ports.drives),
+      aux_(ports.aux),
+      clock_(ports.clock),
+      board_(board),
+      out_(ports.wire),
+      values_(table_, value_room_),
+      memory_(ports.bytes, values_),
+      axes_(ports.drives, ports.clock) {}
+
+void Machine::begin() {
+  const settings::Started started = memory_.start();
+  axes_.simulate(values_.at(kSimulatedMotors) != 0);
+  axes_.prepare(values_);
+  mover_.prepare(values_, axes_.secondsPerTick());
+  geometry_.prepare(values_);
+  arrangeDrives();
+  restSpindle();
+  modal_.feed = values_.at(kGreatestFeed) / 2;
+  greet();
+  sayMotors();
+  saySource(started);
+  sayReady();
+  restorePosition(started);
+}
+
+}  // namespace machine
