@@ -34,7 +34,7 @@
   ROW(kRotationRadius, 8, "rotation_radius, mm", kReal, kAnyValue, 250, 0, 2000, \
       "Advanced: rotationRadius", "From the bit to the end of each chain (triangular).", "") \
   ROW(kIdleTime, 9, "idle_time, ms", kWord, 1, 2000, 0, 65535, \
-      "", "Rest after which the motors are switched off and the position is kept.", "") \
+      "", "Rest after which the motors are switched off and the position is kept.", "the position is kept in a ring of 65 places, with a mark while the machine moves") \
   ROW(kChainLength, 10, "chain_length, mm", kWord, 1, 3360, 0, 65535, \
       "Advanced: chainLength", "Length of each chain; no more is paid out.", "") \
   ROW(kExtendLength, 11, "extend_length, mm", kWord, 1, 1651, 0, 65535, \
@@ -42,7 +42,7 @@
   ROW(kEncoderCounts, 12, "encoder_counts, counts/turn", kReal, kAnyValue, 8113.73f, 1, 1e6f, \
       "Advanced: encoderSteps", "Encoder counts for one turn of a sprocket.", "") \
   ROW(kChainPerTurn, 13, "chain_per_turn, mm", kReal, kAnyValue, 63.5f, 1, 1000, \
-      "Computed: distPerRot", "Chain for one turn of a sprocket: teeth times pitch.", "") \
+      "Computed: distPerRot", "Chain for one turn of a sprocket: teeth times pitch.", "the published sprocket has a radius of 10.1 mm until this is written") \
   ROW(kGreatestFeed, 15, "greatest_feed, mm/min", kWord, 1, 900, 1, 65535, \
       "Advanced: maxFeedrate", "Greatest feed, and that of G0.", "") \
   ROW(kZMotor, 16, "z_motor", kBool, 1, 1, 0, 1, \
@@ -58,43 +58,43 @@
   ROW(kMainPositionP, 21, "main_position_p", kReal, kAnyValue, 1300, 0, 1e6f, \
       "Computed: KpPosMain", "Chain motors, position loop: proportional gain.", "") \
   ROW(kMainPositionI, 22, "main_position_i", kReal, kAnyValue, 0, 0, 1e6f, \
-      "Computed: KiPosMain", "Integral gain.", "") \
+      "Computed: KiPosMain", "Chain motors, position loop: integral gain.", "") \
   ROW(kMainPositionD, 23, "main_position_d", kReal, kAnyValue, 34, 0, 1e6f, \
-      "Computed: KdPosMain", "Derivative gain.", "") \
+      "Computed: KdPosMain", "Chain motors, position loop: derivative gain.", "") \
   ROW(kMainPositionWeight, 24, "main_position_weight", kReal, kAnyValue, 1, 0, 1, \
-      "Computed: propWeightMain", "Share of the proportional part that acts on the error.", "") \
+      "Computed: propWeightMain", "Chain motors, position loop: share of the proportional part that acts on the error.", "") \
   ROW(kMainSpeedP, 25, "main_speed_p", kReal, kAnyValue, 5, 0, 1e6f, \
       "Computed: KpVMain", "Chain motors, speed loop: proportional gain.", "") \
   ROW(kMainSpeedI, 26, "main_speed_i", kReal, kAnyValue, 0, 0, 1e6f, \
-      "Computed: KiVMain", "Integral gain.", "") \
+      "Computed: KiVMain", "Chain motors, speed loop: integral gain.", "") \
   ROW(kMainSpeedD, 27, "main_speed_d", kReal, kAnyValue, 0.28f, 0, 1e6f, \
-      "Computed: KdVMain", "Derivative gain.", "") \
+      "Computed: KdVMain", "Chain motors, speed loop: derivative gain.", "") \
   ROW(kMainSpeedWeight, 28, "main_speed_weight", kReal, kAnyValue, 1, 0, 1, \
-      "", "Share of the proportional part that acts on the error.", "") \
+      "", "Chain motors, speed loop: share of the proportional part that acts on the error.", "") \
   ROW(kZPositionP, 29, "z_position_p", kReal, kAnyValue, 0, 0, 1e6f, \
       "Computed: KpPosZ", "Z motor, position loop: proportional gain. The published default of 0 keeps z still until a client sends its 1300.", "") \
   ROW(kZPositionI, 30, "z_position_i", kReal, kAnyValue, 0, 0, 1e6f, \
-      "Computed: KiPosZ", "Integral gain.", "") \
+      "Computed: KiPosZ", "Z motor, position loop: integral gain.", "") \
   ROW(kZPositionD, 31, "z_position_d", kReal, kAnyValue, 34, 0, 1e6f, \
-      "Computed: KdPosZ", "Derivative gain.", "") \
+      "Computed: KdPosZ", "Z motor, position loop: derivative gain.", "") \
   ROW(kZPositionWeight, 32, "z_position_weight", kReal, kAnyValue, 1, 0, 1, \
-      "Computed: propWeightZ", "Share of the proportional part that acts on the error.", "") \
+      "Computed: propWeightZ", "Z motor, position loop: share of the proportional part that acts on the error.", "") \
   ROW(kZSpeedP, 33, "z_speed_p", kReal, kAnyValue, 5, 0, 1e6f, \
       "Computed: KpVZ", "Z motor, speed loop: proportional gain.", "") \
   ROW(kZSpeedI, 34, "z_speed_i", kReal, kAnyValue, 0, 0, 1e6f, \
-      "Computed: KiVZ", "Integral gain.", "") \
+      "Computed: KiVZ", "Z motor, speed loop: integral gain.", "") \
   ROW(kZSpeedD, 35, "z_speed_d", kReal, kAnyValue, 0.28f, 0, 1e6f, \
-      "Computed: KdVZ", "Derivative gain.", "") \
+      "Computed: KdVZ", "Z motor, speed loop: derivative gain.", "") \
   ROW(kZSpeedWeight, 36, "z_speed_weight", kReal, kAnyValue, 1, 0, 1, \
-      "", "Share of the proportional part that acts on the error.", "") \
+      "", "Z motor, speed loop: share of the proportional part that acts on the error.", "") \
   ROW(kSagCorrection, 37, "sag_correction, 1e-12/mm^2", kReal, kAnyValue, 0, -1e5f, 1e5f, \
-      "Advanced: chainSagCorrection", "Chain sag as the published programs fit it; added to $160.", "") \
+      "Advanced: chainSagCorrection", "Chain sag as the published programs fit it; added to $160.", "the same chains within 0.3 % of the sag") \
   ROW(kFeedSide, 38, "feed", kByte, 1, 1, 1, 2, \
       "Computed: chainOverSprocketComputed", "1: chains leave over the top of their sprockets; 2: off the bottom.", "") \
   ROW(kPwmFrequency, 39, "pwm_frequency", kByte, 1, 3, 1, 3, \
       "Computed: fPWMComputed", "Motor PWM: 1 is 31 kHz, 2 is 4 kHz, 3 is 490 Hz, as far as the driver allows.", "") \
   ROW(kLeftTolerance, 40, "left_tolerance, %", kReal, kAnyValue, 0, -5, 5, \
-      "Advanced: leftChainTolerance", "By how much the left chain's links are longer than nominal; added to $180.", "") \
+      "Advanced: leftChainTolerance", "By how much the left chain's links are longer than nominal; added to $180.", "the same chains; the ring, which is no chain, is not stretched by $180") \
   ROW(kRightTolerance, 41, "right_tolerance, %", kReal, kAnyValue, 0, -5, 5, \
       "Advanced: rightChainTolerance", "The same for the right chain; added to $181.", "") \
   ROW(kPositionErrorLimit, 42, "position_error_limit, mm", kReal, kAnyValue, 2, 0.01f, 100000, \
@@ -102,15 +102,15 @@
 
 #define PLUMB_HIDDEN_SETTINGS(ROW) \
   ROW(kZUpperLimit, 43, "z_upper_limit, mm", kReal, kAnyValue, 10000, -10000, 10000, \
-      "", "Highest z, set by B17; 10000: none.", "") \
+      "", "Highest z, set by B17; 10000: none.", "writing to it is refused; none is 10000, not a NaN") \
   ROW(kZLowerLimit, 44, "z_lower_limit, mm", kReal, kAnyValue, -10000, -10000, 10000, \
-      "", "Lowest z, set by B18; -10000: none.", "")
+      "", "Lowest z, set by B18; -10000: none.", "writing to it is refused; none is -10000, not a NaN")
 
 #define PLUMB_OWN_SETTINGS(ROW) \
   ROW(kSledWeight, 62, "sled_weight, N", kReal, kAnyValue, 97.9f, 30, 1000, \
       "", "Sled, router and bricks, as far as the chains carry them; $46=... of WebControl sets it too.", "new") \
-  ROW(kChainWeight, 63, "chain_weight, N/mm", kReal, kAnyValue, 0.00137293f, 0, 0.02f, \
-      "", "One millimetre of chain.", "new") \
+  ROW(kChainWeight, 63, "chain_weight, N/mm", kReal, kAnyValue, 0, 0, 0.02f, \
+      "", "One millimetre of chain, 0.00137293 for the usual one; 0: the sled alone loads the chains, as in the published model.", "new") \
   ROW(kMotorCenterX, 64, "motor_center_x, mm", kReal, kAnyValue, 0, -5000, 5000, \
       "", "Middle between the sprockets, right of the middle of the sheet.", "new") \
   ROW(kAccelerationXy, 65, "acceleration_xy, mm/s^2", kReal, kAnyValue, 100, 1, 5000, \
@@ -126,7 +126,7 @@
 
 #define PLUMB_KEPT_SETTINGS(ROW) \
   ROW(kSimulatedMotors, 99, "simulated_motors", kBool, 1, 0, 0, 1, \
-      "", "1: the machine runs without motors, as B99 ON asks; kept by all but $RST=*.", "")
+      "", "1: the machine runs without motors, as B99 ON asks; kept by all but $RST=*.", "the published firmware keeps it at address 4095")
 
 #define PLUMB_SETTINGS(LISTED, HIDDEN, KEPT) \
   PLUMB_PUBLISHED_SETTINGS(LISTED) \

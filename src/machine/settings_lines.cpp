@@ -109,15 +109,15 @@ void Machine::refreshGeometry() {
   if (!is_geometry_stale_) return;
   is_geometry_stale_ = false;
   geometry_.prepare(values_);
-  if (!is_chains_known_) return;
-  findPlace();
+  searchPlace();
   keepPosition();
 }
 
 void Machine::refreshGeometryWhenQuiet() {
-  if (is_geometry_stale_ && !isMoving() &&
-      clock_.milliseconds() - geometry_changed_ms_ > kQuietMs)
-    refreshGeometry();
+  if (!is_geometry_stale_ || isMoving() || clock_.milliseconds() - geometry_changed_ms_ < kQuietMs)
+    return;
+  refreshGeometry();
+  if (is_chains_known_) findPlace();
 }
 
 void Machine::restoreDefaults(settings::Reset what) {

@@ -26,15 +26,23 @@ ARROWS = {
     "test/reference": ([], HOST + r"|(unsupported/)?Eigen/\w+"),
     "test/vm": (["test/reference"], ANYTHING),
     "test/hidden": (["test/reference"], ANYTHING),
-    # Stands in on the host for a header of avr-libc that src/machine includes.
+    # Stands in on the host for a header of avr-libc that src includes.
     "test/avr": ([], C_HEADERS),
-    "test/test_board": (["include", "src/board", "src/machine"], ANYTHING),
-    "test/test_dialogues": (
-        ["test/reference", "test/vm", "src", "src/machine", "lib/*"],
+    "test/settings_host": (["src", "include", "lib/*"], ANYTHING),
+    "test/test_*": (
+        [
+            "test/reference",
+            "test/vm",
+            "test/settings_host",
+            "src",
+            "src/machine",
+            "src/board",
+            "include",
+            "lib/*",
+        ],
         ANYTHING,
     ),
-    "test/test_*": (["test/reference", "test/vm", "lib/*"], ANYTHING),
-    "tools/core": (["lib/Kinematics"], ANYTHING),
+    "tools/core": (["lib/Kinematics", "lib/Settings", "src", "test/settings_host"], ANYTHING),
     "tools/bench": (["lib/*", "test/reference", "test/test_effects"], ANYTHING),
 }
 # Folders in which an include is looked up after the folder of the file itself.

@@ -8,7 +8,7 @@ from pathlib import Path
 import tree
 
 # Commands for the .venv's Python; with --check each exits 1 when its page is stale.
-GENERATORS = [["-m", "plumb.docs_effects"]]
+GENERATORS = [["-m", "plumb.docs_effects"], ["-m", "plumb.docs_settings"]]
 
 
 def violations(root: Path, generators: Sequence[list[str]] = tuple(GENERATORS)) -> Iterator[str]:

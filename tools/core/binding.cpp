@@ -12,6 +12,7 @@
 #include "Kinematics.cpp"
 #include "frame_info.h"
 #include "reach.cpp"
+#include "settings_binding.h"
 
 namespace nb = nanobind;
 using namespace kinematics;
@@ -273,4 +274,5 @@ NB_MODULE(_core, module) {
       "reach_limits", &reachLimits,
       "The usual limits: most_tension and least_tension [N], least_free [mm] of chain between\n"
       "ring and sprocket, most_give [mm/N] in the direction in which the sled gives most.");
+  addSettings(module);
 }

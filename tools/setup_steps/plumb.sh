@@ -2,7 +2,9 @@
 
 # A change in one of these needs a new build; other Python files are used where they stand.
 plumb_sources=(
-  tools/pyproject.toml tools/CMakeLists.txt tools/core lib/Kinematics tools/requirements.txt
+  tools/pyproject.toml tools/CMakeLists.txt tools/core lib/Kinematics lib/Settings
+  src/settings_table.h src/settings_effects.h src/effective.h test/settings_host/plain_table.h
+  tools/requirements.txt
 )
 
 setup_plumb() {

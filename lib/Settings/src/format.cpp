@@ -7,9 +7,9 @@ namespace settings {
 
 namespace {
 
-const uint8_t kMostDigits = 9;    // enough to tell any two floats apart
-const uint8_t kFewestDigits = 7;  // what the clients need
-const uint32_t kNineDigits = 100000000;
+const uint8_t kMostDigits = 9;           // enough to tell any two floats apart
+const uint8_t kFewestDigits = 7;         // what the clients need
+const uint32_t kNineDigits = 100000000;  // the smallest number of nine digits
 
 /// A positive number: mantissa * 2^binary * 10^-decimal.
 struct Scaled {
@@ -17,11 +17,11 @@ struct Scaled {
   int16_t binary, decimal;
 };
 
-/// Nine digits of a float, and by how much they may change before another float is nearer.
+/// A float's digits, and by how much they may change before another float is nearer.
 struct Digits {
-  uint32_t number;   ///< from kNineDigits on, less than ten times that
-  uint32_t room;     ///< half of the step to the next float, in units of number
-  int16_t exponent;  ///< the first digit stands for 10^exponent
+  uint32_t quarters;  ///< of the ninth digit: from 4 * kNineDigits on, less than ten times that
+  uint32_t room;      ///< half of the step to the next float, in quarters
+  int16_t exponent;   ///< the first digit stands for 10^exponent
 };
 
 // Multiplications leave 56 or more correct bits, so forty of them are far from the ninth digit.
@@ -52,11 +52,16 @@ Scaled overTen(Scaled s) {
   return s;
 }
 
-uint32_t whole(const Scaled& s) { return uint32_t(((s.mantissa >> (-s.binary - 1)) + 1) >> 1); }
+/// Quarters of the number, rounded; right for binary exponents of -33 to -30.
+uint32_t quartersOf(const Scaled& s) {
+  return uint32_t(((s.mantissa >> (-s.binary - 3)) + 1) >> 1);
+}
 
 // A mantissa is at least 2^59, so nine digits need a binary exponent of -33 to -30.
-bool isTooSmall(const Scaled& s) { return s.binary < -33 || whole(s) < kNineDigits; }
-bool isTooLarge(const Scaled& s) { return s.binary > -30 || whole(s) >= 10 * kNineDigits; }
+bool isTooSmall(const Scaled& s) { return s.binary < -33 || quartersOf(s) < 4 * kNineDigits; }
+bool isTooLarge(const Scaled& s) {
+  return s.binary > -30 || (s.binary >= -33 && quartersOf(s) >= 40 * kNineDigits);
+}
 
 Digits digitsOf(uint32_t bits) {
   const uint8_t power = uint8_t(bits >> 23);
@@ -69,7 +74,7 @@ Digits digitsOf(uint32_t bits) {
   }
   while (isTooLarge(s)) s = overTen(s);
   while (isTooSmall(s)) s = timesTen(s);
-  const uint32_t number = whole(s);
+  const uint32_t number = quartersOf(s);
   // Below a power of two the steps are half as large.
   const uint32_t steps = fraction == 0x800000 ? 4 : 2;
   return {number, number / fraction / steps, int16_t(kMostDigits - 1 - s.decimal)};
@@ -81,22 +86,17 @@ uint32_t tensOf(uint8_t digits) {
   return ten;
 }
 
-/// The shortest number of digits that reads back as the same float; always nine places are kept.
-Digits shortened(Digits d) {
+/// The first of nine digits, as few of them not zero as read back as the same float.
+uint32_t shortened(const Digits& digits) {
   for (uint8_t kept = kFewestDigits; kept < kMostDigits; ++kept) {
-    const uint32_t unit = tensOf(uint8_t(kMostDigits - kept));
-    const uint32_t rounded = (d.number + unit / 2) / unit * unit;
-    const uint32_t change = rounded > d.number ? rounded - d.number : d.number - rounded;
-    // Two less, as number and room are themselves rounded.
-    if (change + 2 > d.room && change != 0) continue;
-    d.number = rounded;
-    break;
+    const uint32_t unit = 4 * tensOf(uint8_t(kMostDigits - kept));
+    const uint32_t rounded = (digits.quarters + unit / 2) / unit * unit;
+    const uint32_t change =
+        rounded > digits.quarters ? rounded - digits.quarters : digits.quarters - rounded;
+    // Two more, as quarters and room are themselves rounded.
+    if (change + 2 <= digits.room || change == 0) return rounded / 4;
   }
-  if (d.number >= 10 * kNineDigits) {
-    d.number /= 10;
-    ++d.exponent;
-  }
-  return d;
+  return (digits.quarters + 2) / 4;
 }
 
 /// Writes text from its front.
@@ -128,6 +128,18 @@ void putExponent(Writer& out, int16_t exponent) {
   out.put(char('0' + size % 10));
 }
 
+void putPositive(Writer& out, const Digits& digits) {
+  uint32_t number = shortened(digits);
+  int16_t exponent = digits.exponent;
+  if (number >= 10 * kNineDigits) {
+    number /= 10;
+    ++exponent;
+  }
+  const bool plain = exponent >= -4 && exponent < kMostDigits;
+  putDigits(out, number, plain ? int8_t(exponent + 1) : int8_t(1));
+  if (!plain) putExponent(out, exponent);
+}
+
 }  // namespace
 
 ValueText formatValue(float value) {
@@ -146,10 +158,7 @@ ValueText formatValue(float value) {
     } else if (!bits) {
       out.put('0');
     } else {
-      const Digits digits = shortened(digitsOf(bits));
-      const bool plain = digits.exponent >= -4 && digits.exponent < kMostDigits;
-      putDigits(out, digits.number, plain ? int8_t(digits.exponent + 1) : int8_t(1));
-      if (!plain) putExponent(out, digits.exponent);
+      putPositive(out, digitsOf(bits));
     }
   }
   out.put('\0');

@@ -44,7 +44,7 @@ class Memory {
 
   Memory(Bytes& bytes, Values& values);
 
-  /// Reads everything. The only call that takes long: about 50 ms, 60 ms with an import.
+  /// Reads everything. The only call that takes long: 70 ms.
   Started start();
 
   /// Does a little of what is to be done; writes at most one byte. To be called often.

@@ -76,6 +76,7 @@ PositionSlots::PositionSlots(Bytes& bytes, uint16_t first_address, uint8_t slots
       newest_(uint8_t(slots - 1)),
       mark_(kMoved),
       sequence_(0),
+      exists_(false),
       moving_(false),
       tried_(false),
       writing_(false),
@@ -104,6 +105,7 @@ Known PositionSlots::load(Position& position) {
     sequence_ = number;
     newest_ = slot;
   }
+  exists_ = found;
   if (!found) return Known::kNothing;
   readNewest();
   mark_ = record_[kMarkAt] == kRests ? kRests : kMoved;
@@ -155,9 +157,9 @@ void PositionSlots::forget() {
 
 void PositionSlots::beginMoving() {
   moving_ = true;
-  // A record without its checksum is none, and the one before it says more. One that could be
+  // A record without its checksum is none, and the one before it says enough. One that could be
   // whole is finished first, so that there is no doubt which one is the newest.
-  if (!writing_ || maybe_whole_) return;
+  if (!writing_ || maybe_whole_ || !exists_) return;
   writing_ = false;
   holds_newest_ = false;
 }
@@ -191,6 +193,7 @@ void PositionSlots::writeRecord() {
   }
   writing_ = false;
   holds_newest_ = true;
+  exists_ = true;
   newest_ = target_;
   ++sequence_;
   mark_ = record_[kMarkAt];

@@ -83,6 +83,7 @@ class PositionSlots {
   uint8_t newest_;     ///< slot of the newest record
   uint8_t mark_;       ///< of the newest record
   uint16_t sequence_;  ///< of the newest record
+  bool exists_;        ///< there is one
   bool moving_;        ///< the mark should say so
   bool tried_;         ///< the mark has been written, and is not there yet
   bool writing_;       ///< a record

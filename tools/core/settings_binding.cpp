@@ -1,0 +1,128 @@
+// The firmware's table of settings seen from Python: rows, texts, and what numbers mean together.
+#include "settings_binding.h"
+
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/string.h>
+
+#include <array>
+#include <map>
+#include <string>
+
+#include "../../src/effective.h"
+#include "../../test/settings_host/plain_table.h"
+
+namespace nb = nanobind;
+using namespace settings;
+using settings_host::PlainTable;
+
+namespace {
+
+using Room = std::array<float, kSettingCount>;
+
+const char* const kKinds[] = {"bool", "u8", "u16", "float"};
+const char* const kAccesses[] = {"listed", "hidden", "kept"};
+
+/// Words of effects' parameters by their $-number.
+struct EffectTexts {
+  std::map<int, nb::dict> rows;
+
+  template <class Own>
+  void effect(int first_setting) {
+    for (uint8_t i = 0; i < Own::kParamCount; ++i) {
+      const kinematics::ParamInfo param = Own::param(i);
+      nb::dict row;
+      row["name"] = std::string(Own::info().name) + "." + param.name;
+      row["unit"] = param.unit;
+      row["key"] = "";
+      row["sentence"] = param.summary;
+      row["change"] = "new";
+      rows[first_setting + i] = row;
+    }
+  }
+};
+
+nb::dict ownTexts(uint8_t index) {
+  const settings_host::RowText& text = settings_host::kTexts[index];
+  const std::string label = text.label;
+  const size_t comma = label.find(", ");
+  nb::dict row;
+  row["name"] = label.substr(0, comma);
+  row["unit"] = comma == std::string::npos ? "" : label.substr(comma + 2);
+  row["key"] = text.key;
+  row["sentence"] = text.sentence;
+  row["change"] = text.change;
+  return row;
+}
+
+nb::list table() {
+  const PlainTable rows;
+  EffectTexts effects;
+  kinematics::Effects::For<float>::visit(effects);
+  nb::list result;
+  for (uint8_t i = 0; i < rows.count(); ++i) {
+    const Entry entry = rows.at(i);
+    nb::dict row = i < kFirstEffectSetting ? ownTexts(i) : effects.rows.at(entry.number);
+    row["number"] = entry.number;
+    row["kind"] = kKinds[int(entry.kind)];
+    row["access"] = kAccesses[int(entry.access)];
+    row["usual"] = entry.usual;
+    row["low"] = entry.low;
+    row["high"] = entry.high;
+    row["step"] = entry.step;
+    result.append(row);
+  }
+  return result;
+}
+
+/// Takes {number: value} into values; throws with the firmware's own words for what it refuses.
+void setAll(Values& values, const std::map<int, double>& given) {
+  for (const auto& [number, value] : given) {
+    if (number < 0 || number > 255)
+      throw nb::value_error(("$" + std::to_string(number) + " is no setting").c_str());
+    const Refusal why = values.set(meantBy(uint8_t(number)), float(value));
+    if (why == Refusal::kNone) continue;
+    std::string text;
+    const auto put = [&](char c) { text += c; };
+    putRefusal(values.table(), meantBy(uint8_t(number)), why, put);
+    throw nb::value_error(text.c_str());
+  }
+}
+
+/// Frame and effects that the firmware computes with when these settings are not at their defaults.
+nb::dict effective(const std::map<int, double>& given) {
+  const PlainTable rows;
+  Room room;
+  Values values(rows, room.data());
+  setAll(values, given);
+  const Geometry geometry = geometryOf(values);
+  nb::dict frame, effects, result;
+  frame["motor_gap"] = geometry.frame.motor_gap;
+  frame["motor_height"] = geometry.frame.motor_height;
+  frame["motor_center_x"] = geometry.frame.motor_center_x;
+  frame["rotation_radius"] = geometry.frame.rotation_radius;
+  frame["sprocket_radius"] = geometry.frame.sprocket_radius;
+  frame["sled_weight"] = geometry.frame.sled_weight;
+  frame["chain_weight"] = geometry.frame.chain_weight;
+  EffectTexts texts;
+  kinematics::Effects::For<float>::visit(texts);
+  int index = 0;
+  for (auto& [number, row] : texts.rows) effects[row["name"]] = geometry.effects.value[index++];
+  result["frame"] = frame;
+  result["effects"] = effects;
+  result["over_top"] = geometry.frame.feed == kinematics::Feed::kOverTop;
+  return result;
+}
+
+std::string format(double value) { return formatValue(float(value)).text; }
+
+}  // namespace
+
+void addSettings(nb::module_& module) {
+  module.def("settings_table", &table,
+             "The firmware's settings in the order of its dump: number, name, unit, kind, access,\n"
+             "usual, low, high, step, key of the published programs, sentence, change.");
+  module.def("effective", &effective, nb::arg("settings"),
+             "Frame, effects and over_top [mm, N, rad] that the firmware computes with, given\n"
+             "{number: value} for what is not at its default.");
+  module.def("format_value", &format, nb::arg("value"), "A value as the firmware's dump has it.");
+}
