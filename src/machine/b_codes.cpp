@@ -95,11 +95,9 @@ bool Machine::runTestCode(uint8_t code, const Words& words) {
     case 11:
       return pullByWords(words);
     case 13:
-      return testSpeeds(test);
     case 14:
-      return testLengths(test);
     case 16:
-      return testDuties(test);
+      return testLoop(code, test);
     case 17:
     case 18:
       return setZLimit(code == 17);

@@ -118,9 +118,14 @@ bool Machine::runG(uint16_t tenths, const Words& words) {
       return declareZByWord(words);
     case 382:
       return probe(targetOf(words).z);
+    // What is so in any case.
     case 170:
     case 400:
+    case 490:
+    case 540:
+    case 800:
     case 911:
+    case 940:
       return true;
     case 180:
     case 190:

@@ -1,7 +1,7 @@
 // Settings in the published meaning become the frame and the effects of the kinematics.
 #include "geometry.h"
 
-#include "settings_table.h"
+#include "effective.h"
 
 namespace machine {
 namespace {
@@ -9,37 +9,10 @@ namespace {
 using kinematics::Found;
 using settings::Values;
 
-const float kFullTurn = 6.2831853f;
-
 // What the bound of segments allows for where the exact inverse cannot tell: the slopes of a sled
 // that tilts, and of sag on a machine whose lower corners are out of reach.
 const motion::Slopes<float> kBracketSlopes = {0.3f, 5e-4f, 5e-6f};
 const float kUnknownSag = 20;  // [mm]
-
-kinematics::Frame<float> frameOf(const Values& values) {
-  kinematics::Frame<float> frame;
-  frame.motor_gap = values.at(kMotorGap);
-  frame.motor_height = values.at(kSheetHeight) / 2 + values.at(kMotorOffset);
-  frame.motor_center_x = values.at(kMotorCenterX);
-  frame.rotation_radius = values.at(kRotationRadius);
-  frame.sprocket_radius = values.at(kChainPerTurn) / kFullTurn;
-  frame.sled_weight = values.at(kSledWeight);
-  frame.chain_weight = values.at(kChainWeight);
-  frame.feed = values.at(kFeedSide) == 1 ? kinematics::Feed::kOverTop : kinematics::Feed::kOffBottom;
-  return frame;
-}
-
-/// The effects' own numbers, and those that published numbers add to.
-kinematics::EffectParams<float> effectsOf(const Values& values) {
-  kinematics::EffectParams<float> effects;
-  for (uint8_t i = 0; i < kinematics::kEffectParamCount; ++i)
-    effects.value[i] = values.at(uint8_t(kFirstEffectSetting + i));
-  typedef kinematics::Effects::For<float> List;
-  effects.value[List::indexOf(160)] += values.at(kSagCorrection) * 1e-12f;
-  effects.value[List::indexOf(180)] += values.at(kLeftTolerance) / 100;
-  effects.value[List::indexOf(181)] += values.at(kRightTolerance) / 100;
-  return effects;
-}
 
 /// A machine without what bends chains or moves with the sprockets' turn: for telling sag apart.
 kinematics::EffectParams<float> withoutSag(kinematics::EffectParams<float> effects) {
@@ -89,7 +62,7 @@ bool Geometry::isSheetReachable() const {
 }
 
 void Geometry::prepareRing(const Values& values, const kinematics::Frame<float>& frame) {
-  const kinematics::EffectParams<float> effects = effectsOf(values);
+  const kinematics::EffectParams<float> effects = geometryOf(values).effects;
   const kinematics::Point<float> corner = {half_width_, -half_height_};
   ring_ = kinematics::prepare(frame, withoutSag(effects));
   const kinematics::PaidOut<float> straight = kinematics::inverse(ring_, corner);
@@ -111,13 +84,7 @@ void Geometry::prepareRing(const Values& values, const kinematics::Frame<float>&
 }
 
 void Geometry::prepareBrackets(const Values& values, const kinematics::Frame<float>& frame) {
-  const kinematics::BracketSled<float> sled = {values.at(kMountGap), values.at(kMountHeight),
-                                               values.at(kCenterDepth)};
-  const kinematics::EffectParams<float> effects = effectsOf(values);
-  typedef kinematics::Effects::For<float> List;
-  const kinematics::PitchStrain<float> pitch = {effects.value[List::indexOf(180)],
-                                                effects.value[List::indexOf(181)]};
-  brackets_ = kinematics::prepare(frame, sled, pitch);
+  brackets_ = kinematics::prepare(frame, bracketSledOf(values), pitchOf(values));
   slopes_ = kBracketSlopes;
 }
 

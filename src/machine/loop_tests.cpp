@@ -27,6 +27,15 @@ void Machine::sayGains(Axis axis, bool position) {
   out_.end();
 }
 
+bool Machine::testLoop(uint8_t code, const LoopTest& test) {
+  is_testing_ = true;
+  const bool completed = code == 13   ? testSpeeds(test)
+                         : code == 14 ? testLengths(test)
+                                      : testDuties(test);
+  is_testing_ = false;
+  return completed;
+}
+
 bool Machine::sampleSpeed(Axis axis, float rpm, uint8_t version) {
   axes_.turn(axis, rpm);
   for (uint16_t ms = 0; ms < kStepMs; ms += kSampleMs) {

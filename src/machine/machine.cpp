@@ -10,6 +10,7 @@ Machine::Machine(const Ports& ports, const BoardName& board)
       clock_(ports.clock),
       board_(board),
       out_(ports.wire),
+      table_(ports.table),
       values_(table_, value_room_),
       memory_(ports.bytes, values_),
       axes_(ports.drives, ports.clock) {}

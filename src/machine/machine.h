@@ -9,7 +9,7 @@
 #include "mover.h"
 #include "ports.h"
 #include "printer.h"
-#include "settings_flash.h"
+#include "settings_table.h"
 #include "words.h"
 
 namespace machine {
@@ -21,6 +21,7 @@ struct Ports {
   Aux& aux;
   Clock& clock;
   settings::Bytes& bytes;
+  const settings::Table& table;
 };
 
 /// Which motor shield was found; without one no motor is ever driven.
@@ -61,6 +62,9 @@ class Machine {
   /// The control tick; called by an interrupt, a hundred or two hundred times a second.
   void tick() { axes_.tick(); }
 
+  /// Takes the spindle's relay back; also from an interrupt.
+  void restSpindle();
+
   bool wantsFastTicks() const { return values_.at(kLoopRate) > 100; }
 
  private:
@@ -68,6 +72,7 @@ class Machine {
   void service();
   bool waitFor(uint32_t ms);
   bool drain();
+  void settle();
   void readWire();
   void stopNow();
   void finishStop();
@@ -140,7 +145,6 @@ class Machine {
   bool setZByHand(float z);
   bool turnServo(uint8_t angle);
   bool switchSpindle(bool on);
-  void restSpindle();
   void switchLaser(bool on);
   bool probe(float target);
   float mostZFeed() const;
@@ -172,6 +176,7 @@ class Machine {
   void afterOpenDrive();
   void sayGains(Axis axis, bool position);
   bool sampleSpeed(Axis axis, float rpm, uint8_t version);
+  bool testLoop(uint8_t code, const LoopTest& test);
   bool testSpeeds(const LoopTest& test);
   bool sampleLength(Axis axis, float goal, uint16_t ms, uint8_t version);
   bool testLengths(const LoopTest& test);
@@ -183,7 +188,7 @@ class Machine {
   Clock& clock_;
   BoardName board_;
   Printer out_;
-  FlashTable table_;
+  const settings::Table& table_;
   float value_room_[kSettingCount];
   settings::Values values_;
   settings::Memory memory_;
@@ -200,6 +205,7 @@ class Machine {
   bool pausing_ = false, resumed_ = false;
   bool expects_resume_ = false;    ///< a `~` that comes now is meant for the pause to come
   bool is_answered_ = false;       ///< the line in execution has got its answer
+  bool is_testing_ = false;        ///< a test of loops jumps to and fro
   bool is_chains_known_ = true;    ///< false after power was lost in motion
   bool is_place_known_ = false;
   bool is_geometry_stale_ = false;

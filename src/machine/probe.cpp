@@ -27,7 +27,7 @@ bool Machine::probe(float target) {
     standHere();
     return refuse(FLASH("probe did not connect"));
   }
-  declareZ(0);
+  declareZ(axes_.length(kZAxis));
   out_.line(FLASH("z axis zeroed"));
   return true;
 }

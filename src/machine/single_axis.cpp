@@ -29,8 +29,12 @@ bool Machine::moveAxis(Axis axis, float goal, float feed, bool until_probe) {
     touched = until_probe && aux_.probeTouches();
     service();
   }
+  const float touched_at = axes_.length(axis);
   if (touched) axes_.dropSetPoints();
   while (!axes_.isEmpty() && !isHalted()) service();
+  settle();
+  // The axis ran on for a moment.
+  if (touched) axes_.declare(axis, axes_.length(axis) - touched_at);
   mover_.standAt(axes_.setPoint());
   return !stopping_ && (touched || !until_probe);
 }

@@ -73,4 +73,7 @@
 <- ok
 -> $16=1.000000
 <- ok
+; The place is searched once, after the last setting.
+<- [Forward Calculating Position]
+<- Message: Unable*
 ~~ wait 1

@@ -10,5 +10,9 @@
 <- ok
 -> $0=1e400
 <- error: *
+<- [Forward Calculating Position]
+<- position loaded at:
+<* *
+<* *
 ~~ wait 2
 ~~ quiet

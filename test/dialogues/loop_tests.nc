@@ -3,7 +3,7 @@
 -> B13 L1 S5 F10 I2 V1
 <- B13 L1 S5 F10 I2 V1
 <- --PID Velocity Test Start--
-<- Kp=5*,Ki=*
+<- Kp=5.0000,Ki=0.0000,Kd=0.2800
 <* --PID Velocity Test Stop--
 <- 
 <- ok

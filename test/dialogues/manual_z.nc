@@ -12,7 +12,7 @@
 <- ok
 ~~ wait 3
 ~~ sled X10 Y0 within 0.06
-~~ status <Idle,MPos:10.00,0.00,5.00,WPos:0.000,0.000,0.000> within 0.02
+~~ status <Idle,MPos:10.00,0.00,5.00,WPos:0.000,0.000,0.000> within 0.05
 -> G0 Z-3
 <- Message: Please adjust Z-Axis to a depth of -3.00 mm
 <- Maslow Paused

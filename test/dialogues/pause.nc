@@ -5,7 +5,7 @@
 -> M0 
 <- Maslow Paused
 ~~ wait 2
-~~ status <Pause,MPos:20.00,0.00,0.00,WPos:0.000,0.000,0.000> within 0.02
+~~ status <Pause,MPos:20.00,0.00,0.00,WPos:0.000,0.000,0.000> within 0.05
 ~~ quiet
 >> ~^N
 <- ok

@@ -37,8 +37,8 @@
 ~~ hang X0 Y0
 ~~ declare
 <* position loaded at:
-<- 0.00 within 0.02
-<- 0.00 within 0.02
+<- 0.00 within 0.05
+<- 0.00 within 0.05
 <- ok
 -> G0 X10
 <- ok

@@ -7,7 +7,9 @@
 <- Laser off
 <* Grbl v1.00
 <* ok
-<* Message: Unable*
+<* position loaded at:
+<* *
+<* *
 ~~ wait 2
 -> $$
 <* $15=900 (*

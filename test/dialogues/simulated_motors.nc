@@ -9,7 +9,7 @@
 <- ok
 ~~ wait 10
 ~~ sled X0 Y0 within 0.06
-~~ status <Idle,MPos:100.00,0.00,0.00,WPos:0.000,0.000,0.000> within 0.02
+~~ status <Idle,MPos:100.00,0.00,0.00,WPos:0.000,0.000,0.000> within 0.05
 ~~ power cut
 <- PCB v1.2 Detected
 <- FAKE_SERVO on

@@ -12,7 +12,7 @@
 <- ok
 -> B18
 <- B18
-<- Lower limit set to: -2.00
+<- Lower limit set to: -2.00 within 0.015
 <- ok
 -> G0 Z-5
 <- ok
@@ -22,7 +22,7 @@
 <- ok
 -> B20
 <- B20
-<- Z Axis Upper Limit: 3.00 Lower Limit: 1.00 within 0.011
+<- Z Axis Upper Limit: 3.00 Lower Limit: 1.00 within 0.021
 <- ok
 -> B19
 <- B19

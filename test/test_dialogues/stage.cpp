@@ -9,7 +9,7 @@ namespace {
 
 const double kBytesPerMs = 5.88;  // 58,824 baud, ten bits each
 const int kTickMs = 10;
-const long kPatienceMs = 30000;  // for a line that is expected
+const long kPatienceMs = 150000;  // for a line that is expected
 const long kLongestGapMs = 1500;  // clients give up after 2 s of silence
 const int kOutRoom = 255;
 
@@ -59,7 +59,7 @@ void Stage::write(char character) {
 void Stage::takeLine(const std::string& line) {
   last_line_ms_ = now_ms_;
   if (startsWith(line, "<"))
-    latest_status_ = line;
+    latest_status_ = line, status_ms_ = now_ms_;
   else if (startsWith(line, "[PE:"))
     latest_errors_ = line;
   else

@@ -75,7 +75,7 @@ class Stage : public machine::Wire,
 
   std::vector<Step> steps_;
   std::size_t at_ = 0;
-  long now_ms_ = 0, step_since_ms_ = 0, last_line_ms_ = 0, motion_ms_ = 0;
+  long now_ms_ = 0, step_since_ms_ = 0, last_line_ms_ = 0, status_ms_ = 0;
   std::deque<std::string> lines_;
   std::string partial_, latest_status_, latest_errors_, input_;
   double byte_credit_ = 0;

@@ -30,6 +30,8 @@ bool Stage::ask(const Step& step) {
   std::getline(words >> std::ws, rest);
   const auto is = [&](const char* other) { return verb == other; };
   if (is("wait")) return wait(rest);
+  // Of a report that was sent after the question.
+  if ((is("status") || is("errors")) && status_ms_ <= step_since_ms_) return false;
   if (is("sled"))
     askSled(rest);
   else if (is("chains"))

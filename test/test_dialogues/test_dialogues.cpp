@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "machine/machine.h"
+#include "settings_flash.h"
 #include "stage.h"
 
 namespace {
@@ -20,7 +21,8 @@ std::vector<std::string> dialogues() {
 
 /// One life of the machine, from power-on to power cut or the dialogue's end.
 void liveOnce(Stage& stage) {
-  machine::Machine machine({stage, stage, stage, stage, stage.eeprom}, {2, ""});
+  const FlashTable table;
+  machine::Machine machine({stage, stage, stage, stage, stage.eeprom, table}, {2, ""});
   stage.tick = [&] { machine.tick(); };
   machine.begin();
   for (;;) machine.loop();

@@ -22,7 +22,7 @@ ARROWS = {
     "include": ([], C_HEADERS),
     "src/machine": (["include", "lib/*", "src", "test/avr"], C_HEADERS),
     "src/board": (["include", "lib/*", "src/machine"], ARDUINO),
-    "src": (["include", "lib/*", "src/machine", "src/board"], ARDUINO),
+    "src": (["include", "lib/*", "src/machine", "src/board", "test/avr"], ARDUINO),
     "test/reference": ([], HOST + r"|(unsupported/)?Eigen/\w+"),
     "test/vm": (["test/reference"], ANYTHING),
     "test/hidden": (["test/reference"], ANYTHING),
