@@ -94,6 +94,7 @@ class Machine {
   void reportErrors();
   float inUnits(float mm) const;
   float fromUnits(float value) const;
+  void beginError();
   bool refuse(FlashText why);
 
   // position.cpp: where the sled is.

@@ -32,10 +32,14 @@ void Machine::reportErrors() {
   out_.end();
 }
 
-bool Machine::refuse(FlashText why) {
+void Machine::beginError() {
   out_ << FLASH("error: ");
-  out_.line(why);
   is_answered_ = true;
+}
+
+bool Machine::refuse(FlashText why) {
+  beginError();
+  out_.line(why);
   return false;
 }
 

@@ -80,11 +80,10 @@ bool Machine::setValue(uint8_t number, float value) {
     afterSetting(meant);
     return true;
   }
-  out_ << FLASH("error: ");
+  beginError();
   PutLetter put = {out_};
   settings::putRefusal(table_, number, refusal, put);
   out_.end();
-  is_answered_ = true;
   return false;
 }
 
