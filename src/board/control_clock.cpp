@@ -65,7 +65,8 @@ void ControlClock::holdTicks() {
 }
 
 void ControlClock::releaseTicks() {
-  if (ticking || --holds != 0) return;
+  // Before begin() there is nothing to call yet.
+  if (ticking || --holds != 0 || !on_tick) return;
   allowTicks(true);
 }
 

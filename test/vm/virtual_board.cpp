@@ -1,6 +1,8 @@
 // The simulated Mega by simavr.
 #include "virtual_board.h"
 
+#include <algorithm>
+
 namespace vm {
 namespace {
 
@@ -81,11 +83,23 @@ void VirtualBoard::run(avr_cycle_count_t cycles) {
   while (avr_->cycle < end) {
     const avr_cycle_count_t slice = avr_->cycle + kSlice;
     while (avr_->cycle < slice) {
+      const avr_cycle_count_t before = avr_->cycle;
       const int state = avr_run(avr_);
+      watchTick(before);
       if (state == cpu_Done || state == cpu_Crashed) throw std::runtime_error("the board crashed");
     }
     passCharacters();
   }
+}
+
+void VirtualBoard::watchTick(avr_cycle_count_t before) {
+  const uint16_t kTimsk1 = 0x6f, kTccr1b = 0x81;
+  const bool started = avr_->data[kTccr1b] != 0x03 && avr_->data[kTccr1b] != 0;
+  const bool ticking = started && !(avr_->data[kTimsk1] & 2);
+  if (ticking) in_tick_ += avr_->cycle - before;
+  if (ticking && !was_ticking_) tick_since_ = before;
+  if (!ticking && was_ticking_) longest_tick_ = std::max(longest_tick_, avr_->cycle - tick_since_);
+  was_ticking_ = ticking;
 }
 
 void VirtualBoard::setPin(int pin, bool high) {

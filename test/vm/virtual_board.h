@@ -57,18 +57,26 @@ class VirtualBoard {
   void paintStack();
   int stackUsed() const;
 
+  /// Share of the time, and cycles at most, that the control tick takes: it switches its own
+  /// interrupt off while it runs. Other interrupts in between count.
+  double tickShare() const { return double(in_tick_) / double(avr_->cycle); }
+  long longestTick() const { return long(longest_tick_); }
+
   double seconds() const { return double(avr_->cycle) / kClock; }
   avr_t* avr() { return avr_; }
 
  private:
   static void onCharacter(avr_irq_t*, uint32_t value, void* board);
   void passCharacters();
+  void watchTick(avr_cycle_count_t before);
 
   avr_t* avr_;
   avr_irq_t* wire_in_;
   std::string to_send_, partial_;
   avr_cycle_count_t next_character_ = 0;
   uint16_t data_end_;
+  avr_cycle_count_t in_tick_ = 0, longest_tick_ = 0, tick_since_ = 0;
+  bool was_ticking_ = false;
 };
 
 }  // namespace vm
