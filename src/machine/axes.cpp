@@ -31,6 +31,8 @@ void Axes::prepare(const settings::Values& values) {
     const float counts = values.at(z ? kZCounts : kEncoderCounts);
     one.per_count = values.at(z ? kZPerTurn : kChainPerTurn) / counts;
     one.turns_per_count = 1 / float(fabs(counts));
+    one.turns_per_mm = one.turns_per_count / one.per_count;
+    one.fine_per_count = one.per_count * float(motion::kCountsPerMm);
     // A negative number of counts says that motor or encoder is wired the other way.
     one.sign = counts < 0 ? -1 : 1;
     one.loop.tune(gainsFrom(values, z ? kZPositionP : kMainPositionP),
@@ -73,14 +75,13 @@ void Axes::control(One& one, Axis axis) {
   one.loop.measure(turned);
   if (one.mode == AxisMode::kOff) return;
   if (one.mode == AxisMode::kFollow) {
-    const float per_turn = one.per_count / one.turns_per_count;  // [mm]
-    const float error = motion::toMm<float>(one.set_point - measured(one));
     if (simulated_) {
       one.counts = int32_t(lround(motion::toMm<float>(one.set_point) / one.per_count));
       return;
     }
-    const float asked = motion::toMm<float>(one.asked);
-    one.duty = one.loop.follow(error / per_turn, asked / per_turn, turned);
+    const float error = motion::toMm<float>(one.set_point - measured(one));
+    const float asked = one.asked == 0 ? 0 : motion::toMm<float>(one.asked) * one.turns_per_mm;
+    one.duty = one.loop.follow(error * one.turns_per_mm, asked, turned);
     watch(one, axis, error);
   } else if (one.mode == AxisMode::kTurn) {
     one.duty = one.loop.run(one.rpm);
@@ -91,7 +92,7 @@ void Axes::control(One& one, Axis axis) {
 }
 
 int32_t Axes::measured(const One& one) const {
-  return motion::toCounts(float(one.counts) * one.per_count);
+  return int32_t(lround(float(one.counts) * one.fine_per_count));
 }
 
 void Axes::tick() {

@@ -99,6 +99,8 @@ class Axes {
     int32_t asked = 0;      ///< by how much the last tick changed it
     float per_count = 1;    ///< [mm] may be negative
     float turns_per_count = 1;
+    float turns_per_mm = 1;
+    float fine_per_count = 1;  ///< counts of motion::kCountsPerMm per encoder count
     float rpm = 0;  ///< asked for with kTurn
     AxisLoop loop;
   };

@@ -28,6 +28,11 @@ class AxisLoop {
     // Gains are told per 10 ms.
     per_interval_ = seconds_per_tick / 0.01f;
     ticks_per_minute_ = 60 / seconds_per_tick;
+    // Worked out here, as a division costs the tick 500 cycles.
+    position_.integral *= seconds_per_tick;
+    position_.derivative /= seconds_per_tick;
+    speed_.integral *= seconds_per_tick;
+    speed_.derivative /= 0.01f;
   }
 
   /// Begins at rest.
@@ -44,23 +49,27 @@ class AxisLoop {
   int16_t follow(float error, float asked, float turned) {
     const float change = error - error_;
     error_ = error;
-    sum_ += position_.integral * 0.01f * per_interval_ * error -
-            position_.proportional * (1 - position_.weight) * turned;
+    // Both are zero on most machines, and float sums are dear.
+    if (position_.integral != 0) sum_ += position_.integral * error;
+    if (position_.weight != 1)
+      sum_ -= position_.proportional * (1 - position_.weight) * turned;
     sum_ = clipped(sum_, kMostRpm);
     const float ahead = position_.proportional > 0 ? asked * ticks_per_minute_ : 0;
-    const float damping = position_.derivative / (0.01f * per_interval_) * change;
-    return run(ahead + position_.proportional * position_.weight * error + sum_ + damping);
+    const float share = position_.weight == 1 ? error : position_.weight * error;
+    return run(ahead + position_.proportional * share + sum_ + position_.derivative * change);
   }
 
   /// Duty that keeps a speed.
   int16_t run(float rpm) {
     wanted_ = clipped(rpm, kMostRpm);
     const float error = wanted_ - rpm_;
-    speed_sum_ = clipped(speed_sum_ + speed_.integral * 0.01f * per_interval_ * error, kMostDuty);
-    const float change = rpm_ - last_rpm_;
-    const float step = per_interval_ * (speed_.proportional * speed_.weight * error + speed_sum_) -
-                       (speed_.proportional * (1 - speed_.weight) +
-                        speed_.derivative / 0.01f) * change;
+    if (speed_.integral != 0) speed_sum_ = clipped(speed_sum_ + speed_.integral * error, kMostDuty);
+    float push = speed_.proportional * error + speed_sum_, hold = speed_.derivative;
+    if (speed_.weight != 1) {
+      push -= speed_.proportional * (1 - speed_.weight) * error;
+      hold += speed_.proportional * (1 - speed_.weight);
+    }
+    const float step = per_interval_ * push - hold * (rpm_ - last_rpm_);
     duty_ = clipped(duty_ + clipped(step, kMostDuty), kMostDuty);
     return int16_t(duty_);
   }

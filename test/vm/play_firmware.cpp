@@ -130,6 +130,7 @@ class Player {
     std::size_t waiting = 0;
     int sent = 0, answered = 0;
     const double start = machine_->board.seconds();
+    machine_->board.watchTicksFromNow();
     while (answered < count) {
       char text[40];
       // 0.05 mm each, round and round, in the words of a program for smooth curves.
@@ -152,6 +153,8 @@ class Player {
         ++answered;
       }
     }
+    std::printf("tick_share_streaming %.4f\n", machine_->board.tickShare());
+    std::printf("longest_tick_streaming %ld\n", machine_->board.longestTick());
     std::printf("lines_per_second %.1f\n", count / (machine_->board.seconds() - start));
   }
 

@@ -93,9 +93,13 @@ void VirtualBoard::run(avr_cycle_count_t cycles) {
 }
 
 void VirtualBoard::watchTick(avr_cycle_count_t before) {
-  const uint16_t kTimsk1 = 0x6f, kTccr1b = 0x81;
-  const bool started = avr_->data[kTccr1b] != 0x03 && avr_->data[kTccr1b] != 0;
-  const bool ticking = started && !(avr_->data[kTimsk1] & 2);
+  const uint16_t kTimsk1 = 0x6f;
+  const uint32_t kTickVector = 17 * 4;
+  // From the jump in the table of vectors until its interrupt is allowed again.
+  const bool ticking = avr_->pc == kTickVector || (was_ticking_ && !tick_is_over_);
+  if (avr_->pc == kTickVector) tick_is_over_ = false, tick_masked_ = false;
+  if (ticking && !(avr_->data[kTimsk1] & 2)) tick_masked_ = true;
+  if (tick_masked_ && (avr_->data[kTimsk1] & 2)) tick_is_over_ = true;
   if (ticking) in_tick_ += avr_->cycle - before;
   if (ticking && !was_ticking_) tick_since_ = before;
   if (!ticking && was_ticking_) longest_tick_ = std::max(longest_tick_, avr_->cycle - tick_since_);

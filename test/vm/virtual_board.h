@@ -59,7 +59,11 @@ class VirtualBoard {
 
   /// Share of the time, and cycles at most, that the control tick takes: it switches its own
   /// interrupt off while it runs. Other interrupts in between count.
-  double tickShare() const { return double(in_tick_) / double(avr_->cycle); }
+  double tickShare() const { return double(in_tick_) / double(avr_->cycle - watched_from_); }
+  void watchTicksFromNow() {
+    in_tick_ = longest_tick_ = 0;
+    watched_from_ = avr_->cycle;
+  }
   long longestTick() const { return long(longest_tick_); }
 
   double seconds() const { return double(avr_->cycle) / kClock; }
@@ -75,8 +79,8 @@ class VirtualBoard {
   std::string to_send_, partial_;
   avr_cycle_count_t next_character_ = 0;
   uint16_t data_end_;
-  avr_cycle_count_t in_tick_ = 0, longest_tick_ = 0, tick_since_ = 0;
-  bool was_ticking_ = false;
+  avr_cycle_count_t in_tick_ = 0, longest_tick_ = 0, tick_since_ = 0, watched_from_ = 0;
+  bool was_ticking_ = false, tick_masked_ = false, tick_is_over_ = true;
 };
 
 }  // namespace vm
