@@ -59,6 +59,17 @@ TEST(Memory, TellsWhenASettingIsStored) {
   EXPECT_EQ(3000, Board(eeprom).values.at(kMotorGap));
 }
 
+TEST(Memory, StoresEverythingOnceTheFirstSettingIsSentToANewBoard) {
+  Eeprom eeprom;
+  {
+    Board board(eeprom);
+    ASSERT_EQ(Source::kDefaults, board.started.source);
+    board.memory.set(2, 2978.4f);
+    settle(board.memory);
+  }
+  EXPECT_EQ(Source::kOwn, Board(eeprom).started.source);
+}
+
 TEST(Memory, RefusesWithoutWriting) {
   Eeprom eeprom = used();
   Board board(eeprom);
@@ -68,6 +79,10 @@ TEST(Memory, RefusesWithoutWriting) {
   EXPECT_EQ(Refusal::kUnknown, board.memory.set(14, 0));
   EXPECT_TRUE(board.memory.isIdle());
   EXPECT_EQ(before, eeprom.writes);
+  Eeprom fresh;
+  Board new_board(fresh);
+  EXPECT_EQ(Refusal::kOutOfRange, new_board.memory.set(2, 0));
+  EXPECT_TRUE(new_board.memory.isIdle());
 }
 
 TEST(Reset, OfSettingsKeepsThePosition) {

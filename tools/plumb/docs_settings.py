@@ -142,7 +142,8 @@ ERASING = """\
 | `$RST=#` | defaults | forgotten | stay |
 | `$RST=*` | defaults | forgotten | off |
 
-A power cut while erasing leaves the old settings or the defaults."""
+Storing all defaults takes up to two seconds, in which the machine goes on. A power cut meanwhile
+leaves the old settings or the defaults."""
 
 KEPT = """\
 Settings lie in the EEPROM twice, each copy with a number and a CRC-32; a change is written to one
@@ -159,10 +160,11 @@ What the EEPROM holds, by address: 0 to 543 nothing (what the published firmware
 invalid), 544 and 1344 the copies, 2144 to 4093 the ring."""
 
 COMING = """\
-At the first start the settings of firmware 1.24 to 1.29 (version 5 of its EEPROM, with or without Z
-limits) and its position are taken over, all or nothing, and then marked invalid there: should you
-flash it again, it starts with defaults and no position, and does not trust a place the sled has
-left long ago. What it stores from then on is taken over once more when you come back.
+At the first start (motors wait 2.5 s) the settings of firmware 1.24 to 1.29 (version 5 of its
+EEPROM, with or without Z limits) and its position are taken over, all or nothing, and then marked
+invalid there: should you flash it again, it starts with defaults and no position, and does not
+trust a place the sled has left long ago. What it stores from then on is taken over once more when
+you come back.
 
 Firmware 1.00 to 1.23 and the holey, optical and beta releases store other versions; these are not
 read. The firmware says so, and GroundControl or WebControl send their settings anyway; set the

@@ -101,15 +101,25 @@ void Memory::step() {
 }
 
 Refusal Memory::set(uint8_t number, float value) {
+  const uint8_t index = indexOf(values_.table(), number);
+  if (index == kNoIndex) return Refusal::kUnknown;
+  const float before = values_.at(index);
   const Refusal why = values_.set(number, value);
-  if (why == Refusal::kNone) storeSettings();
+  if (why == Refusal::kNone) storeIfChanged(index, before);
   return why;
 }
 
 Refusal Memory::setRow(uint8_t index, float value) {
+  if (index >= values_.count()) return Refusal::kUnknown;
+  const float before = values_.at(index);
   const Refusal why = values_.setRow(index, value);
-  if (why == Refusal::kNone) storeSettings();
+  if (why == Refusal::kNone) storeIfChanged(index, before);
   return why;
+}
+
+void Memory::storeIfChanged(uint8_t index, float before) {
+  // On a new board the first setting stores all of them, also if it is as it was.
+  if (values_.at(index) != before || !copies_.isStored()) storeSettings();
 }
 
 void Memory::reset(Reset what) {

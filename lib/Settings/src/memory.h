@@ -50,7 +50,8 @@ class Memory {
   /// Does a little of what is to be done; writes at most one byte. To be called often.
   void step();
 
-  /// Sets a listed setting by number; what is not refused is in force and will be stored.
+  /// Sets a listed setting by number; what is not refused is in force, and stored if
+  /// it is another value.
   Refusal set(uint8_t number, float value);
 
   /// The same for a row, hidden or not.
@@ -60,6 +61,9 @@ class Memory {
 
   /// The machine stands here; `position.scale` is filled in. Also after settings have changed.
   void keepPosition(Position position);
+
+  /// Fingerprint of the settings that turn counts into lengths, for compare().
+  uint16_t scale() const;
 
   /// The machine is about to move: call before each motion after rest, then wait for mayMove().
   void beginMoving();
@@ -77,9 +81,9 @@ class Memory {
   bool isIdle() const { return !retiring_ && !copies_.isBusy() && !slots_.isBusy(); }
 
  private:
-  uint16_t scale() const;
   void takeOver(const Recognised& found, Started& started);
   void storeSettings();
+  void storeIfChanged(uint8_t index, float before);
 
   Bytes& bytes_;
   Values& values_;
