@@ -19,10 +19,10 @@ enum class Trouble : uint8_t {
 
 /// What an axis does.
 enum class AxisMode : uint8_t {
-  kOff,      ///< no power
-  kFollow,   ///< its set-points
-  kTurn,     ///< at a speed
-  kOpen,     ///< at a duty
+  kOff,     ///< no power
+  kFollow,  ///< its set-points
+  kTurn,    ///< at a speed
+  kOpen,    ///< at a duty
 };
 
 /// An axis as it was at the last tick, for the tests of the loops.
@@ -75,10 +75,10 @@ class Axes {
   // Lengths.
   int32_t counts(Axis axis) const;
   void setCounts(int32_t left, int32_t right, int32_t z);
-  float length(Axis axis) const;                ///< [mm] measured
-  float target(Axis axis) const;                ///< [mm] set-point
-  float error(Axis axis) const;                 ///< [mm] measured less set-point
-  void declare(Axis axis, float length);        ///< the axis is at this length [mm]
+  float length(Axis axis) const;          ///< [mm] measured
+  float target(Axis axis) const;          ///< [mm] set-point
+  float error(Axis axis) const;           ///< [mm] measured less set-point
+  void declare(Axis axis, float length);  ///< the axis is at this length [mm]
   AxisState state(Axis axis) const;
   /// After drives were arranged anew: their counters may have jumped.
   void forgetRawCounts();
@@ -101,7 +101,7 @@ class Axes {
     float turns_per_count = 1;
     float turns_per_mm = 1;
     float fine_per_count = 1;  ///< counts of motion::kCountsPerMm per encoder count
-    float rpm = 0;  ///< asked for with kTurn
+    float rpm = 0;             ///< asked for with kTurn
     AxisLoop loop;
   };
 

@@ -5,7 +5,9 @@ namespace machine {
 namespace {
 
 /// The code's tenths as a whole number: 382 is G38.2.
-uint16_t tenthsOf(float code) { return code < 0 || code > 999 ? 0xffff : uint16_t(lround(code * 10)); }
+uint16_t tenthsOf(float code) {
+  return code < 0 || code > 999 ? 0xffff : uint16_t(lround(code * 10));
+}
 
 bool isSetting(char first) { return first == '$'; }
 
@@ -27,7 +29,8 @@ void Machine::loop() {
 }
 
 bool Machine::execute(char* line) {
-  if (input_.wasTooLong()) return refuse(FLASH("a line has at most 126 characters; this one was skipped"));
+  if (input_.wasTooLong())
+    return refuse(FLASH("a line has at most 126 characters; this one was skipped"));
   char* first = line;
   while (*first == ' ') ++first;
   if (*first == 'b' || *first == 'B') {

@@ -123,8 +123,8 @@ class Machine {
   void takeFeed(const Words& words);
   Place targetOf(const Words& words) const;
   bool move(uint8_t kind, const Words& words);
-  bool moveRound(bool clockwise, motion::Point<float> from, const Place& target,
-                 const Words& words, float feed);
+  bool moveRound(bool clockwise, motion::Point<float> from, const Place& target, const Words& words,
+                 float feed);
   bool mayCrossSheet();
   bool queue(const motion::Path<float>& path, const Place& target, float feed);
 
@@ -204,10 +204,10 @@ class Machine {
   bool stopping_ = false;   ///< a stop was asked for; every wait ends
   bool is_locked_ = false;  ///< after an alarm, until a stop
   bool pausing_ = false, resumed_ = false;
-  bool expects_resume_ = false;    ///< a `~` that comes now is meant for the pause to come
-  bool is_answered_ = false;       ///< the line in execution has got its answer
-  bool is_testing_ = false;        ///< a test of loops jumps to and fro
-  bool is_chains_known_ = true;    ///< false after power was lost in motion
+  bool expects_resume_ = false;  ///< a `~` that comes now is meant for the pause to come
+  bool is_answered_ = false;     ///< the line in execution has got its answer
+  bool is_testing_ = false;      ///< a test of loops jumps to and fro
+  bool is_chains_known_ = true;  ///< false after power was lost in motion
   bool is_place_known_ = false;
   bool is_geometry_stale_ = false;
 };

@@ -29,7 +29,9 @@ bool centreByRadius(motion::Point<float> from, motion::Point<float> to, float ra
 float Machine::inUnits(float mm) const { return modal_.inches ? mm / 25.4f : mm; }
 float Machine::fromUnits(float value) const { return modal_.inches ? value * 25.4f : value; }
 
-float Machine::mostZFeed() const { return values_.at(kZSpeed) * float(fabs(values_.at(kZPerTurn))); }
+float Machine::mostZFeed() const {
+  return values_.at(kZSpeed) * float(fabs(values_.at(kZPerTurn)));
+}
 
 void Machine::takeFeed(const Words& words) {
   if (!words.has('F')) return;
@@ -80,8 +82,7 @@ bool Machine::moveRound(bool clockwise, motion::Point<float> from, const Place& 
   const bool same = from.x == to.x && from.y == to.y;
   if (radius != 0 && !same && !centreByRadius(from, to, radius, clockwise, centre))
     return refuse(FLASH("the arc's radius is less than half the way to its end"));
-  const motion::Turn turn =
-      clockwise ? motion::Turn::kClockwise : motion::Turn::kCounterclockwise;
+  const motion::Turn turn = clockwise ? motion::Turn::kClockwise : motion::Turn::kCounterclockwise;
   const motion::Path<float> path = motion::arc(from, to, centre, turn);
   if (path.drawn == motion::Drawn::kYes) return queue(path, target, feed);
   // As the published firmware: an arc without centre is a line.

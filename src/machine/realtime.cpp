@@ -115,8 +115,7 @@ void Machine::raiseAlarm(FlashText text) {
 }
 
 void Machine::watchAxes() {
-  if (wire_.lost() != 0)
-    raiseAlarm(FLASH("Characters were lost on the serial line. Press Stop."));
+  if (wire_.lost() != 0) raiseAlarm(FLASH("Characters were lost on the serial line. Press Stop."));
   const Trouble trouble = axes_.trouble();
   // Tests make errors on purpose.
   if (is_testing_) return;

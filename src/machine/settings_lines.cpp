@@ -22,7 +22,8 @@ bool isGeometry(uint8_t number) {
 bool Machine::runSetting(const char* line) {
   const char* at = line + 1;
   if (*at == '\0') {
-    out_.line(FLASH("$$ shows all settings, $n=value sets one, $RST=$ or # or * restores defaults"));
+    out_.line(
+        FLASH("$$ shows all settings, $n=value sets one, $RST=$ or # or * restores defaults"));
     return true;
   }
   if (!drain()) return false;

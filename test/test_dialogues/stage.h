@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "vm/line_match.h"
 #include "machine/ports.h"
 #include "reference/machine.h"
-#include "vm/script.h"
 #include "simulated_eeprom.h"
 #include "simulated_motor.h"
+#include "vm/line_match.h"
+#include "vm/script.h"
 
 /// What went wrong, with the line of the dialogue.
 struct Failure : std::runtime_error {

@@ -1,4 +1,4 @@
-"""The firmware as it is flashed, on a simulated Mega: what it answers, what its pins do, its cost."""
+"""The firmware as it is flashed, on a simulated Mega: its answers, its pins, its cost."""
 
 import subprocess
 from pathlib import Path
