@@ -32,10 +32,9 @@ bool Machine::isQuestion(const char* line) {
 bool Machine::runB(const char* line) {
   const uint8_t code = codeOf(line);
   Words words;
-  char letter;
-  float value;
+  Word word;
   if (code != 255)
-    for (const char* at = line + 3; readWord(at, letter, value);) words.add(letter, value);
+    for (const char* at = line + 3; readWord(at, word);) words.add(word.letter, word.value);
   switch (code) {
     case 5:
       out_.line(FLASH("Firmware Version 1.28"));

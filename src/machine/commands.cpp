@@ -56,21 +56,20 @@ void Machine::echo(const char* line) {
 
 bool Machine::runCode(const char* text) {
   Words words;
-  char letter = 0, next;
-  float code = 0, value;
+  Word word, code = {0, false, 0};
   bool going = true;
-  while (readWord(text, next, value)) {
-    if (next != 'G' && next != 'M') {
-      // A line's number.
-      if (next != 'N') words.add(next, value);
+  while (readWord(text, word)) {
+    if (!word.has_number) return refuse(FLASH("Bad number format"));
+    if (word.letter != 'G' && word.letter != 'M') {
+      // N is a line's number.
+      if (word.letter != 'N') words.add(word.letter, word.value);
       continue;
     }
-    going = runPiece(letter, code, words) && going;
+    going = runPiece(code.letter, code.value, words) && going;
     words = Words();
-    letter = next;
-    code = value;
+    code = word;
   }
-  return runPiece(letter, code, words) && going;
+  return runPiece(code.letter, code.value, words) && going;
 }
 
 bool Machine::runPiece(char letter, float code, const Words& words) {

@@ -90,11 +90,13 @@ void Words::add(char letter, float value) {
   value_[letter - 'A'] = value;
 }
 
-bool readWord(const char*& text, char& letter, float& value) {
+bool readWord(const char*& text, Word& word) {
   while (*text != '\0' && !isLetter(*text)) ++text;
   if (*text == '\0') return false;
-  letter = *text++;
-  value = readNumber(text);
+  word.letter = *text++;
+  const char* const number = text;
+  word.value = readNumber(text);
+  word.has_number = text != number;
   return true;
 }
 

@@ -28,8 +28,15 @@ class Words {
   float value_[26];
 };
 
+/// A letter and what stands behind it.
+struct Word {
+  char letter;
+  bool has_number;
+  float value;
+};
+
 /// Reads one word at `text` and moves it on; what begins with no letter is passed over. False at
 /// the end.
-bool readWord(const char*& text, char& letter, float& value);
+bool readWord(const char*& text, Word& word);
 
 }  // namespace machine

@@ -66,6 +66,7 @@ void Stage::takeLine(const std::string& line) {
     latest_errors_ = line;
   else
     lines_.push_back(line);
+  if (line == "ok" || startsWith(line, "error:")) ++answers_;
 }
 
 void Stage::drive(Axis axis, int16_t duty) {

@@ -44,7 +44,13 @@ bool Stage::ask(const Step& step) {
     tellOr(matches(latest_status_, readExpected(rest)), "it is");
   else if (is("errors"))
     tellOr(matches(latest_errors_, readExpected(rest)), "they are");
-  else if (is("quiet"))
+  else if (is("answers")) {
+    // From here on, or so many since then; what was said meanwhile is passed over.
+    lines_.clear();
+    const int since = answers_;
+    if (rest == "from now") answers_ = 0;
+    tellOr(rest == "from now" || since == std::atoi(rest.c_str()), std::to_string(since) + " came");
+  } else if (is("quiet"))
     tellOr(lines_.empty(), lines_.empty() ? "" : "came: " + lines_.front());
   else
     return change(verb, rest);
