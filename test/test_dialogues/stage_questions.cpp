@@ -30,6 +30,10 @@ bool Stage::ask(const Step& step) {
   std::getline(words >> std::ws, rest);
   const auto is = [&](const char* other) { return verb == other; };
   if (is("wait")) return wait(rest);
+  if (is("await")) {
+    if (now_ms_ - step_since_ms_ > 2000000) fail("only " + std::to_string(answers_) + " came");
+    return answers_ >= std::atoi(rest.c_str());
+  }
   // Of a report that was sent after the question.
   if ((is("status") || is("errors")) && status_ms_ <= step_since_ms_) return false;
   if (is("sled"))
