@@ -45,7 +45,7 @@ void setup() {
                                   nameOf(shield));
   maslow = &machine;
   machine.begin();
-  control_clock.begin(tick, letGo, machine.wantsFastTicks());
+  control_clock.begin(tick, letGo, machine.ticksPerSecond());
 }
 
 void loop() { maslow->loop(); }

@@ -12,8 +12,7 @@ void (*on_hang)();
 uint8_t holds;
 volatile bool ticking;
 
-const uint16_t kTicksPerSecond = 100;
-const uint16_t kTimerPerSecond = 250000 / kTicksPerSecond;  // timer 1 counts at 250 kHz
+const uint32_t kTimerPerSecond = 250000;  // timer 1 counts at 250 kHz
 
 void allowTicks(bool yes) {
   if (yes)
@@ -37,13 +36,13 @@ ISR(TIMER1_COMPA_vect) {
 
 ISR(WDT_vect) { on_hang(); }
 
-void ControlClock::begin(void (*tick)(), void (*hang)(), bool fast) {
+void ControlClock::begin(void (*tick)(), void (*hang)(), uint8_t ticks_per_second) {
   on_tick = tick;
   on_hang = hang;
   TIMSK1 = 0;
   TCCR1A = 0;
   TCCR1B = 1 << WGM12 | 1 << CS11 | 1 << CS10;
-  OCR1A = uint16_t((fast ? kTimerPerSecond / 2 : kTimerPerSecond) - 1);
+  OCR1A = uint16_t(kTimerPerSecond / ticks_per_second - 1);
   TCNT1 = 0;
   allowTicks(true);
   // Interrupt, not reset: bootloaders of older boards never come back from a watchdog's reset.

@@ -9,9 +9,8 @@ namespace board {
 /// are heard meanwhile.
 class ControlClock : public machine::Clock {
  public:
-  /// Calls `tick` every 10 ms, or every 5 ms if `fast`; and `hang` once if idle() was not called
-  /// for a second.
-  void begin(void (*tick)(), void (*hang)(), bool fast);
+  /// Calls `tick` 100 or 200 times a second, and `hang` if idle() was not called for a second.
+  void begin(void (*tick)(), void (*hang)(), uint8_t ticks_per_second);
   uint32_t milliseconds() override;
   void idle() override;
   void holdTicks() override;

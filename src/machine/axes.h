@@ -40,6 +40,9 @@ class Axes {
  public:
   Axes(Drives& drives, Clock& clock) : drives_(drives), clock_(clock) {}
 
+  /// How often tick() is called; once, before prepare().
+  void setTicksPerSecond(float ticks) { seconds_per_tick_ = 1 / ticks; }
+
   /// Takes over scales, gains and limits.
   void prepare(const settings::Values& values);
 

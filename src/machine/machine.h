@@ -65,7 +65,8 @@ class Machine {
   /// Takes the spindle's relay back; also from an interrupt.
   void restSpindle();
 
-  bool wantsFastTicks() const { return values_.at(kLoopRate) > 100; }
+  /// How often it wants its control tick, after begin().
+  uint8_t ticksPerSecond() const { return ticks_per_second_; }
 
  private:
   // realtime.cpp: while anything waits.
@@ -201,6 +202,7 @@ class Machine {
   Place aim_ = {0, 0, 0};    ///< where the last move queued ends
   Place place_ = {0, 0, 0};  ///< where the tool was when somebody last asked
   uint32_t last_report_ms_ = 0, last_motion_ms_ = 0, geometry_changed_ms_ = 0;
+  uint8_t ticks_per_second_ = 100;
   bool stopping_ = false;   ///< a stop was asked for; every wait ends
   bool is_locked_ = false;  ///< after an alarm, until a stop
   bool pausing_ = false, resumed_ = false;

@@ -118,6 +118,10 @@ class Player {
     words >> verb >> rest;
     if (verb == "wait") return machine_->run(std::atof(rest.c_str()));
     if (verb == "power") return restart();
+    if (verb == "straps") {
+      restart();
+      return machine_->board.strap(uint8_t(std::atoi(rest.c_str())));
+    }
     if (verb == "stream") return stream(std::atoi(rest.c_str()));
     const int axis = rest == "left" ? 0 : rest == "right" ? 1 : 2;
     const bool winds = verb == "wound" && machine_->most_drive[axis] > 0.1;

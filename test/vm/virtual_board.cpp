@@ -111,6 +111,14 @@ void VirtualBoard::setPin(int pin, bool high) {
   avr_raise_irq(avr_io_getirq(avr_, AVR_IOCTL_IOPORT_GETIRQ(place.port), place.bit), high);
 }
 
+void VirtualBoard::strap(uint8_t open) {
+  avr_ioport_external_t outside;
+  outside.name = 'A';
+  outside.mask = 0x3f;
+  outside.value = open & 0x3f;
+  avr_ioctl(avr_, AVR_IOCTL_IOPORT_SET_EXTERNAL('A'), &outside);
+}
+
 PinState VirtualBoard::pin(int pin) const {
   const PinPlace& place = placeOf(pin);
   if (place.compare != 0 && (avr_->data[place.control] >> place.control_bit & 1))
