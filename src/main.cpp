@@ -25,8 +25,7 @@ void tick() { maslow->tick(); }
 /// The main program hangs: nothing may go on turning.
 void letGo() {
   motors.releaseAll();
-  aux_pins.set(machine::Output::kLaser, false);
-  maslow->restSpindle();
+  maslow->noteHang();
 }
 
 machine::BoardName nameOf(const board::Shield* shield) {
