@@ -1,0 +1,134 @@
+// How each motor driver is told what to do: from a duty with a sign to the levels of its pins.
+// Knows no Arduino, so that every shield's rows are tested on the host.
+#pragma once
+
+#include <stdint.h>
+
+#include "board_pins.h"
+
+namespace board {
+
+/// Which motor; the order is that of the machine's axes.
+enum class Motor : uint8_t { kLeft, kRight, kZ };
+
+const uint8_t kLow = 0, kHigh = 255;
+
+/// What to put on a driver's three pins: kLow, kHigh, or between them the duty of a PWM.
+struct Levels {
+  uint8_t one, two, enable;
+};
+
+/// One motor's driver, with its pins in the order in which they mean forward and reverse.
+struct Channel {
+  Driver driver;
+  uint8_t one, two, enable;  ///< pins; on the TLE9201 direction, disable and PWM
+  bool forward_is_high;      ///< level of the TLE9201's direction pin for forward
+};
+
+/// Whether a pin can carry a PWM: those of timers 2, 3 and 4. Timers 0 and 1 keep the time.
+inline bool canPulse(uint8_t pin) { return pin == 2 || pin == 3 || (pin >= 5 && pin <= 10); }
+
+/// A shield's pins for one motor.
+inline const MotorPins& pinsOf(const Shield& shield, Motor motor) {
+  if (motor == Motor::kLeft) return shield.left;
+  return motor == Motor::kRight ? shield.right : shield.z;
+}
+
+/// Left and right turn round when the chains leave below the sprockets; the left motor, which
+/// faces the other way, has its wires crossed over the top.
+inline bool isCrossed(Motor motor, bool over_top) {
+  if (motor == Motor::kLeft) return over_top;
+  return motor == Motor::kRight && !over_top;
+}
+
+/// The driver of one motor, for chains that leave over the top of their sprockets or below.
+inline Channel channelOf(const Shield& shield, Motor motor, bool over_top) {
+  const MotorPins& pins = pinsOf(shield, motor);
+  const bool is_z = motor == Motor::kZ;
+  // This one says its direction by a level, so its pins never change places.
+  const bool cross = shield.driver != Driver::kTle9201 && isCrossed(motor, over_top);
+  return {shield.driver, cross ? pins.second : pins.first, cross ? pins.first : pins.second,
+          pins.enable, !is_z && over_top};
+}
+
+namespace drivers_detail {
+
+/// Two bridge inputs, of which at least one can carry a PWM: pulses against high where the pin
+/// that is low would be, so that the motor brakes between them.
+inline Levels bridgeLevels(const Channel& channel, bool forward, uint8_t duty, uint8_t enable) {
+  if (forward) {
+    if (canPulse(channel.two)) return {kHigh, uint8_t(255 - duty), enable};
+    return {duty, kLow, enable};
+  }
+  if (canPulse(channel.one)) return {uint8_t(255 - duty), kHigh, enable};
+  return {kLow, duty, enable};
+}
+
+}  // namespace drivers_detail
+
+/// Levels for a duty of -255 to 255; positive is forward, which winds chain in.
+inline Levels levelsFor(const Channel& channel, int16_t drive) {
+  const bool forward = drive >= 0;
+  const int16_t size = forward ? drive : int16_t(-drive);
+  const uint8_t duty = size > 255 ? 255 : uint8_t(size);
+  switch (channel.driver) {
+    case Driver::kL298:
+      if (!canPulse(channel.enable))
+        return drivers_detail::bridgeLevels(channel, forward, duty, kHigh);
+      return {forward ? kHigh : kLow, forward ? kLow : kHigh, duty};
+    case Driver::kTle5206:
+      if (duty == 0) return {kLow, kLow, kLow};
+      return drivers_detail::bridgeLevels(channel, forward, duty, kLow);
+    case Driver::kTb6643:
+      if (duty == 0) return {kHigh, kHigh, kLow};
+      return {forward ? duty : kLow, forward ? kLow : duty, kLow};
+    case Driver::kTle9201:
+      break;
+  }
+  return {forward == channel.forward_is_high ? kHigh : kLow, kLow, duty};
+}
+
+/// Levels that take the power off the motor.
+inline Levels levelsOff(const Channel& channel) {
+  switch (channel.driver) {
+    case Driver::kL298:
+      return {kHigh, kLow, kLow};
+    case Driver::kTle9201:
+      return {kLow, kHigh, kLow};
+    default:
+      return {kLow, kLow, kLow};
+  }
+}
+
+/// Whether the driver listens on its third pin; the TLE5206 speaks on it.
+inline bool hasEnable(const Channel& channel) {
+  return channel.enable != kNoPin && channel.driver != Driver::kTle5206;
+}
+
+/// The PWM frequency that a driver can follow, as near to the one wanted as it can: 1 is 31.4 kHz,
+/// 2 is 3.9 kHz, 3 is 490 Hz. Anything else counts as 3.
+inline uint8_t pwmFor(Driver driver, uint8_t wanted) {
+  if (wanted < 1 || wanted > 3 || driver == Driver::kTle5206) return 3;  // its limit is 1 kHz
+  if (driver == Driver::kTle9201 && wanted == 1) return 2;               // its limit is 20 kHz
+  return wanted;
+}
+
+/// Divider bits of the PWM timers 3 and 4, and of timer 2, for a choice of 1 to 3.
+inline uint8_t dividerBits(uint8_t choice) { return choice; }
+inline uint8_t dividerBitsOfTimer2(uint8_t choice) { return choice == 3 ? 4 : choice; }
+
+/// Words that name the driver in the greeting, as the published firmware spells them.
+inline const char* nameOf(Driver driver) {
+  switch (driver) {
+    case Driver::kTle5206:
+      return " TLE5206 ";
+    case Driver::kTle9201:
+      return " TLE9201 ";
+    case Driver::kTb6643:
+      return " TB6643 ";
+    default:
+      return "";
+  }
+}
+
+}  // namespace board

@@ -1,0 +1,46 @@
+// Quadrature decoding: which way an encoder turned, from its two channels before and after.
+// Knows no Arduino.
+#pragma once
+
+#include <stdint.h>
+
+#include "drivers.h"
+
+namespace board {
+
+/// Pairs of pins with an interrupt each: 21 and 20, 19 and 18, 2 and 3; low bit of the port first.
+enum : uint8_t { kEncoderPairs = 3 };
+
+/// Which pair an encoder is on, and whether it counts against it.
+struct EncoderWiring {
+  uint8_t pair;
+  bool reversed;
+};
+
+/// What a step from one state (high channel, low channel) to another adds to the count: it rises
+/// when the high channel leads, 0, 2, 3, 1. Where both changed nobody knows the direction.
+const int8_t kQuadratureSteps[16] = {0, -1, +1, 0, +1, 0, 0, -1, -1, 0, 0, +1, 0, +1, -1, 0};
+
+/// One pair of channels and its count.
+struct Quadrature {
+  uint8_t state;
+  uint16_t count;  ///< wraps round
+
+  /// Takes the channels' new levels, high channel in bit 1.
+  __attribute__((always_inline)) void turn(uint8_t bits) {
+    count = uint16_t(count + kQuadratureSteps[uint8_t(state << 2) | bits]);
+    state = bits;
+  }
+};
+
+/// Where a motor's encoder is counted. Its first and second channel change places with the feed as
+/// the driver's pins do; the count shall rise when the second one leads.
+inline EncoderWiring encoderOf(const Shield& shield, Motor motor, bool over_top) {
+  const MotorPins& pins = pinsOf(shield, motor);
+  const bool cross = motor == Motor::kZ || isCrossed(motor, over_top);
+  const uint8_t first = cross ? pins.encoder_b : pins.encoder_a;
+  const uint8_t pair = first >= 20 ? 0 : first >= 18 ? 1 : 2;
+  return {pair, first == 20 || first == 18 || first == 3};
+}
+
+}  // namespace board

@@ -1,0 +1,222 @@
+// The control tick, and the main program's view of it.
+#include "axes.h"
+
+#include <math.h>
+
+#include "settings_table.h"
+
+namespace machine {
+namespace {
+
+// An encoder that shows less than this while its motor has been driven this hard for so long is
+// unplugged, or the motor is.
+const int16_t kHardDuty = 250;
+const uint8_t kHardTicks = 100;
+const uint8_t kLeastCounts = 4;
+
+Gains gainsFrom(const settings::Values& values, uint8_t first) {
+  return {values.at(first), values.at(uint8_t(first + 1)), values.at(uint8_t(first + 2)),
+          values.at(uint8_t(first + 3))};
+}
+
+}  // namespace
+
+void Axes::prepare(const settings::Values& values) {
+  const WithoutTicks hold(clock_);
+  error_limit_ = values.at(kPositionErrorLimit);
+  for (uint8_t i = 0; i < kAxisCount; ++i) {
+    One& one = axis_[i];
+    const bool z = i == kZAxis;
+    const float counts = values.at(z ? kZCounts : kEncoderCounts);
+    one.per_count = values.at(z ? kZPerTurn : kChainPerTurn) / counts;
+    one.turns_per_count = 1 / float(fabs(counts));
+    one.turns_per_mm = one.turns_per_count / one.per_count;
+    one.fine_per_count = one.per_count * float(motion::kCountsPerMm);
+    // A negative number of counts says that motor or encoder is wired the other way.
+    one.sign = counts < 0 ? -1 : 1;
+    one.loop.tune(gainsFrom(values, z ? kZPositionP : kMainPositionP),
+                  gainsFrom(values, z ? kZSpeedP : kMainSpeedP), seconds_per_tick_);
+  }
+}
+
+void Axes::readEncoder(One& one, Axis axis) {
+  const uint16_t raw = drives_.count(axis);
+  const int16_t moved = int16_t(raw - one.raw);
+  one.raw = raw;
+  one.moved = moved;
+  if (!simulated_) one.counts += moved;
+}
+
+void Axes::takeSetPoint() {
+  if (set_points_.isEmpty()) {
+    for (One& one : axis_) one.asked = 0;
+    return;
+  }
+  const SetPoint point = set_points_.pop();
+  const int32_t next[kAxisCount] = {point.left, point.right, point.z};
+  for (uint8_t i = 0; i < kAxisCount; ++i) {
+    axis_[i].asked = next[i] - axis_[i].set_point;
+    axis_[i].set_point = next[i];
+  }
+}
+
+void Axes::watch(One& one, Axis axis, float error) {
+  if (axis != kZAxis && float(fabs(error)) >= error_limit_) trouble_ = Trouble::kLeftBehind;
+  const bool hard = one.duty >= kHardDuty || one.duty <= -kHardDuty;
+  if (!hard || one.moved > kLeastCounts || one.moved < -kLeastCounts)
+    one.hard_ticks = 0;
+  else if (++one.hard_ticks >= kHardTicks && error_limit_ < 100)
+    trouble_ = Trouble::kEncoder;
+}
+
+void Axes::control(One& one, Axis axis) {
+  const float turned = float(one.moved) * one.turns_per_count;
+  one.loop.measure(turned);
+  if (one.mode == AxisMode::kOff) return;
+  if (one.mode == AxisMode::kFollow) {
+    if (simulated_) {
+      one.counts = int32_t(lround(motion::toMm<float>(one.set_point) / one.per_count));
+      return;
+    }
+    const float error = motion::toMm<float>(one.set_point - measured(one));
+    const float asked = one.asked == 0 ? 0 : motion::toMm<float>(one.asked) * one.turns_per_mm;
+    one.duty = one.loop.follow(error * one.turns_per_mm, asked, turned);
+    watch(one, axis, error);
+  } else if (one.mode == AxisMode::kTurn) {
+    one.duty = one.loop.run(one.rpm);
+  }
+  // Positive drive winds in; a positive duty here lengthens.
+  const int16_t drive = one.mode == AxisMode::kOpen ? one.duty : int16_t(-one.duty);
+  if (!simulated_) drives_.drive(axis, one.sign < 0 ? int16_t(-drive) : drive);
+}
+
+int32_t Axes::measured(const One& one) const {
+  return int32_t(lround(float(one.counts) * one.fine_per_count));
+}
+
+void Axes::tick() {
+  takeSetPoint();
+  for (uint8_t i = 0; i < kAxisCount; ++i) {
+    readEncoder(axis_[i], Axis(i));
+    control(axis_[i], Axis(i));
+  }
+}
+
+void Axes::dropSetPoints() {
+  const WithoutTicks hold(clock_);
+  set_points_.clear();
+}
+
+SetPoint Axes::setPoint() const {
+  const WithoutTicks hold(clock_);
+  return {axis_[kLeftAxis].set_point, axis_[kRightAxis].set_point, axis_[kZAxis].set_point};
+}
+
+void Axes::standStill() {
+  const WithoutTicks hold(clock_);
+  set_points_.clear();
+  for (One& one : axis_) one.set_point = measured(one);
+}
+
+void Axes::jumpTo(Axis axis, float length) {
+  const WithoutTicks hold(clock_);
+  axis_[axis].set_point = motion::toCounts(length);
+}
+
+void Axes::follow() {
+  const WithoutTicks hold(clock_);
+  for (One& one : axis_) {
+    if (one.mode == AxisMode::kFollow) continue;
+    one.loop.rest();
+    one.hard_ticks = 0;
+    one.mode = AxisMode::kFollow;
+  }
+  trouble_ = Trouble::kNone;
+}
+
+void Axes::release(Axis axis) {
+  const WithoutTicks hold(clock_);
+  axis_[axis].mode = AxisMode::kOff;
+  axis_[axis].duty = 0;
+  drives_.release(axis);
+}
+
+void Axes::releaseAll() {
+  for (uint8_t i = 0; i < kAxisCount; ++i) release(Axis(i));
+}
+
+void Axes::driveOpen(Axis axis, int16_t duty) {
+  const WithoutTicks hold(clock_);
+  axis_[axis].mode = AxisMode::kOpen;
+  axis_[axis].duty = duty > 255 ? 255 : duty < -255 ? -255 : duty;
+}
+
+void Axes::turn(Axis axis, float rpm) {
+  const WithoutTicks hold(clock_);
+  One& one = axis_[axis];
+  if (one.mode != AxisMode::kTurn) one.loop.rest();
+  one.mode = AxisMode::kTurn;
+  one.rpm = rpm;
+}
+
+bool Axes::isPowered() const {
+  for (const One& one : axis_)
+    if (one.mode != AxisMode::kOff) return true;
+  return false;
+}
+
+bool Axes::isDriven() const {
+  for (const One& one : axis_)
+    if (one.mode == AxisMode::kOpen || one.mode == AxisMode::kTurn) return true;
+  return false;
+}
+
+int32_t Axes::counts(Axis axis) const {
+  const WithoutTicks hold(clock_);
+  return axis_[axis].counts;
+}
+
+void Axes::setCounts(int32_t left, int32_t right, int32_t z) {
+  const int32_t counts[kAxisCount] = {left, right, z};
+  const WithoutTicks hold(clock_);
+  for (uint8_t i = 0; i < kAxisCount; ++i) axis_[i].counts = counts[i];
+}
+
+float Axes::length(Axis axis) const { return float(counts(axis)) * axis_[axis].per_count; }
+
+float Axes::target(Axis axis) const {
+  const WithoutTicks hold(clock_);
+  return motion::toMm<float>(axis_[axis].set_point);
+}
+
+float Axes::error(Axis axis) const {
+  const WithoutTicks hold(clock_);
+  return motion::toMm<float>(measured(axis_[axis]) - axis_[axis].set_point);
+}
+
+void Axes::declare(Axis axis, float length) {
+  const WithoutTicks hold(clock_);
+  One& one = axis_[axis];
+  one.counts = int32_t(lround(length / one.per_count));
+  one.set_point = motion::toCounts(length);
+}
+
+AxisState Axes::state(Axis axis) const {
+  const WithoutTicks hold(clock_);
+  const One& one = axis_[axis];
+  return {one.loop.rpm(), one.loop.wanted(), one.duty};
+}
+
+void Axes::forgetRawCounts() {
+  const WithoutTicks hold(clock_);
+  for (uint8_t i = 0; i < kAxisCount; ++i) axis_[i].raw = drives_.count(Axis(i));
+}
+
+Trouble Axes::trouble() {
+  const WithoutTicks hold(clock_);
+  const Trouble was = trouble_;
+  trouble_ = Trouble::kNone;
+  return was;
+}
+
+}  // namespace machine

@@ -1,0 +1,127 @@
+// The three axes at the control tick: set-points and encoder counts in, duties out; and what the
+// main program may ask and tell meanwhile.
+#pragma once
+
+#include <Settings.h>
+
+#include "axis_loop.h"
+#include "ports.h"
+#include "set_points.h"
+
+namespace machine {
+
+/// What was noticed at a tick that must stop the machine.
+enum class Trouble : uint8_t {
+  kNone,
+  kLeftBehind,  ///< a chain is farther from its set-point than $42 allows
+  kEncoder,     ///< a motor is driven hard and its encoder does not move
+};
+
+/// What an axis does.
+enum class AxisMode : uint8_t {
+  kOff,     ///< no power
+  kFollow,  ///< its set-points
+  kTurn,    ///< at a speed
+  kOpen,    ///< at a duty
+};
+
+/// An axis as it was at the last tick, for the tests of the loops.
+struct AxisState {
+  float rpm;         ///< measured
+  float wanted_rpm;  ///< what the position loop asks for
+  int16_t duty;
+};
+
+/// All three axes.
+///
+/// tick() runs in the control interrupt. Everything else is for the main program; what touches
+/// numbers that the tick uses holds it off.
+class Axes {
+ public:
+  Axes(Drives& drives, Clock& clock) : drives_(drives), clock_(clock) {}
+
+  /// How often tick() is called; once, before prepare().
+  void setTicksPerSecond(float ticks) { seconds_per_tick_ = 1 / ticks; }
+
+  /// Takes over scales, gains and limits.
+  void prepare(const settings::Values& values);
+
+  /// One control tick.
+  void tick();
+
+  // Set-points.
+  bool hasRoom() const { return set_points_.hasRoom(); }
+  bool isEmpty() const { return set_points_.isEmpty(); }
+  void push(const SetPoint& point) { set_points_.push(point); }
+  void dropSetPoints();
+  /// The set-points last taken.
+  SetPoint setPoint() const;
+  /// Makes the set-points what the encoders say.
+  void standStill();
+  /// Makes one set-point jump [mm].
+  void jumpTo(Axis axis, float length);
+  float secondsPerTick() const { return seconds_per_tick_; }
+
+  // Power.
+  void follow();
+  void release(Axis axis);
+  void releaseAll();
+  void driveOpen(Axis axis, int16_t duty);
+  void turn(Axis axis, float rpm);
+  bool isPowered() const;
+  /// Whether a motor runs without its position loop.
+  bool isDriven() const;
+  /// Lets motors run in imagination only.
+  void simulate(bool on) { simulated_ = on; }
+  bool isSimulated() const { return simulated_; }
+
+  // Lengths.
+  int32_t counts(Axis axis) const;
+  void setCounts(int32_t left, int32_t right, int32_t z);
+  float length(Axis axis) const;          ///< [mm] measured
+  float target(Axis axis) const;          ///< [mm] set-point
+  float error(Axis axis) const;           ///< [mm] measured less set-point
+  void declare(Axis axis, float length);  ///< the axis is at this length [mm]
+  AxisState state(Axis axis) const;
+  /// After drives were arranged anew: their counters may have jumped.
+  void forgetRawCounts();
+
+  /// What was noticed since this was last asked.
+  Trouble trouble();
+
+ private:
+  struct One {
+    AxisMode mode = AxisMode::kOff;
+    int8_t sign = 1;         ///< of drive against count
+    uint8_t hard_ticks = 0;  ///< driven hard without moving
+    uint16_t raw = 0;        ///< encoder, as last read
+    int16_t moved = 0;       ///< [encoder counts] at the last tick
+    int16_t duty = 0;
+    int32_t counts = 0;     ///< [encoder counts] since zero length
+    int32_t set_point = 0;  ///< [counts of motion::kCountsPerMm]
+    int32_t asked = 0;      ///< by how much the last tick changed it
+    float per_count = 1;    ///< [mm] may be negative
+    float turns_per_count = 1;
+    float turns_per_mm = 1;
+    float fine_per_count = 1;  ///< counts of motion::kCountsPerMm per encoder count
+    float rpm = 0;             ///< asked for with kTurn
+    AxisLoop loop;
+  };
+
+  void takeSetPoint();
+  void readEncoder(One& one, Axis axis);
+  void control(One& one, Axis axis);
+  void watch(One& one, Axis axis, float error);
+  int32_t measured(const One& one) const;
+
+  Drives& drives_;
+  Clock& clock_;
+  SetPoints set_points_;
+  One axis_[kAxisCount];
+  float seconds_per_tick_ = 0.01f;
+  float error_limit_ = 2;
+  volatile Trouble trouble_ = Trouble::kNone;
+  bool simulated_ = false;
+};
+
+}  // namespace machine

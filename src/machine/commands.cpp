@@ -1,0 +1,204 @@
+// A line becomes commands: cut in front of each G and M, run from left to right.
+#include "machine.h"
+
+namespace machine {
+namespace {
+
+/// The code's tenths as a whole number: 382 is G38.2.
+uint16_t tenthsOf(float code) {
+  return code < 0 || code > 999 ? 0xffff : uint16_t(lround(code * 10));
+}
+
+bool isSetting(char first) { return first == '$'; }
+
+}  // namespace
+
+void Machine::loop() {
+  service();
+  if (stopping_) {
+    finishStop();
+    return;
+  }
+  char line[Input::kRoom + 1];
+  if (!input_.takeLine(line)) return;
+  is_answered_ = false;
+  const bool done = execute(line);
+  // What a stop or an alarm broke off is owed no answer.
+  if (stopping_ || is_answered_) return;
+  if (done) out_.line(FLASH("ok"));
+}
+
+bool Machine::execute(char* line) {
+  if (input_.wasTooLong())
+    return refuse(FLASH("a line has at most 126 characters; this one was skipped"));
+  char* first = line;
+  while (*first == ' ') ++first;
+  if (*first == 'b' || *first == 'B') {
+    if (is_locked_ && !isQuestion(first)) return false;
+    echo(first);
+    clean(line);
+    return runB(line);
+  }
+  clean(line);
+  if (*line == '\0') return true;
+  if (isSetting(*line)) return runSetting(line);
+  return !is_locked_ && runCode(line);
+}
+
+void Machine::echo(const char* line) {
+  uint8_t length = 0;
+  for (uint8_t i = 0; line[i] != '\0'; ++i)
+    if (line[i] != ' ') length = uint8_t(i + 1);
+  for (uint8_t i = 0; i < length; ++i)
+    out_ << (line[i] >= 'a' && line[i] <= 'z' ? char(line[i] - 'a' + 'A') : line[i]);
+  out_.end();
+}
+
+bool Machine::runCode(const char* text) {
+  Words words;
+  Word word, code = {0, false, 0};
+  bool going = true;
+  while (readWord(text, word)) {
+    if (!word.has_number) return refuse(FLASH("Bad number format"));
+    if (word.letter != 'G' && word.letter != 'M') {
+      // N is a line's number.
+      if (word.letter != 'N') words.add(word.letter, word.value);
+      continue;
+    }
+    going = runPiece(code.letter, code.value, words) && going;
+    words = Words();
+    code = word;
+  }
+  return runPiece(code.letter, code.value, words) && going;
+}
+
+bool Machine::runPiece(char letter, float code, const Words& words) {
+  const uint16_t tenths = tenthsOf(code);
+  // Of a line that a stop broke off only its modes still count: a stopped jog ends in G90.
+  if (stopping_ || is_answered_) return letter == 'G' && setMode(tenths);
+  if (letter != 'M' && words.has('T') && !setTool(words)) return false;
+  if (letter == 'M') return runM(tenths, words);
+  if (letter == 'G') return runG(tenths, words);
+  if (words.has('X') || words.has('Y') || words.has('Z') || words.has('I') || words.has('J'))
+    return move(modal_.motion, words);
+  takeFeed(words);
+  return true;
+}
+
+bool Machine::setMode(uint16_t tenths) {
+  switch (tenths) {
+    case 200:
+    case 210:
+      modal_.inches = tenths == 200;
+      return true;
+    case 900:
+    case 910:
+      modal_.relative = tenths == 910;
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool Machine::runG(uint16_t tenths, const Words& words) {
+  if (setMode(tenths)) {
+    takeFeed(words);
+    // `G91 X10`, with the mode of motion from before.
+    const bool moves = words.has('X') || words.has('Y') || words.has('Z');
+    return !moves || move(modal_.motion, words);
+  }
+  switch (tenths) {
+    case 0:
+    case 10:
+    case 20:
+    case 30:
+      modal_.motion = uint8_t(tenths / 10);
+      return move(modal_.motion, words);
+    case 40:
+      return dwell(words);
+    case 100:
+      return declareZByWord(words);
+    case 382:
+      return probe(targetOf(words).z);
+    // What is so in any case.
+    case 170:
+    case 400:
+    case 490:
+    case 540:
+    case 800:
+    case 911:
+    case 940:
+      return true;
+    case 180:
+    case 190:
+      return refuse(FLASH("arcs are cut in the plane of G17 only"));
+    case 901:
+      return refuse(FLASH("arc centres are told from the start, G91.1, only"));
+    case 280:
+    case 920:
+      return refuse(FLASH("G28 and G92 are not supported; set zero in the program that sends"));
+    default:
+      out_ << FLASH("Command G");
+      return ignore(tenths);
+  }
+}
+
+bool Machine::ignore(uint16_t tenths) {
+  out_ << int32_t(tenths / 10);
+  if (tenths % 10 != 0) out_ << '.' << int32_t(tenths % 10);
+  out_.line(FLASH(" unsupported and ignored."));
+  return true;
+}
+
+bool Machine::runM(uint16_t tenths, const Words& words) {
+  // Everything but moves waits until the moves before it are over.
+  switch (tenths) {
+    case 0:
+    case 10:
+      return pauseAfterMoves();
+    case 20:
+    case 50:
+    case 300:
+      return drain() && switchSpindle(false);
+    case 30:
+    case 40:
+      return drain() && switchSpindle(true);
+    case 60:
+      return (!words.has('T') || setTool(words)) && changeTool(modal_.tool);
+    case 1060:
+    case 1070:
+      if (!drain()) return false;
+      switchLaser(tenths == 1060);
+      return true;
+    default:
+      out_ << FLASH("Command M");
+      return ignore(tenths);
+  }
+}
+
+bool Machine::setTool(const Words& words) {
+  const float tool = words.value('T');
+  if (!(tool >= 0 && tool <= 65535)) return refuse(FLASH("a tool's number is 0 to 65535"));
+  modal_.tool = uint16_t(tool);
+  out_ << FLASH("Tool change to tool ") << int32_t(modal_.tool);
+  out_.end();
+  return true;
+}
+
+bool Machine::dwell(const Words& words) {
+  const float seconds =
+      float(fabs(words.value('P') != 0 ? words.value('P') / 1000 : words.value('S')));
+  if (!(seconds < 86400)) return refuse(FLASH("a dwell is shorter than a day"));
+  if (!drain()) return false;
+  out_ << FLASH("dwell time ");
+  out_.fixed(seconds, 3).line(FLASH(" s"));
+  return waitFor(uint32_t(seconds * 1000));
+}
+
+bool Machine::declareZByWord(const Words& words) {
+  if (!drain()) return false;
+  if (words.has('Z')) declareZ(fromUnits(words.value('Z')));
+  return true;
+}
+
+}  // namespace machine

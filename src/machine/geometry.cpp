@@ -1,0 +1,133 @@
+// Settings in the published meaning become the frame and the effects of the kinematics.
+#include "geometry.h"
+
+#include "effective.h"
+
+namespace machine {
+namespace {
+
+using kinematics::Found;
+using settings::Values;
+
+// What the bound of segments allows for where the exact inverse cannot tell: the slopes of a sled
+// that tilts, and of sag on a machine whose lower corners are out of reach.
+const motion::Slopes<float> kBracketSlopes = {0.3f, 5e-4f, 5e-6f};
+const float kUnknownSag = 20;  // [mm]
+
+/// A machine without what bends chains or moves with the sprockets' turn: for telling sag apart.
+kinematics::EffectParams<float> withoutSag(kinematics::EffectParams<float> effects) {
+  effects.set(160, 0);
+  effects.set(170, 0);
+  return effects;
+}
+
+/// Slopes of sprockets that run out, whose rhythm is their turn.
+motion::Slopes<float> runoutSlopes(const kinematics::EffectParams<float>& effects, float radius) {
+  typedef kinematics::Effects::For<float> List;
+  const uint8_t first = uint8_t(List::indexOf(190));
+  float amplitude = 0;
+  for (uint8_t i = first; i < List::indexOf(200); ++i) amplitude += float(fabs(effects.value[i]));
+  const float per = 1 / radius;
+  return {amplitude * per, amplitude * per * per, amplitude * per * per * per};
+}
+
+float within(float value, float half) {
+  if (value > half) return half;
+  return value < -half ? -half : value;
+}
+
+}  // namespace
+
+void Geometry::prepare(const Values& values) {
+  const kinematics::Frame<float> frame = frameOf(values);
+  half_width_ = values.at(kSheetWidth) / 2;
+  half_height_ = values.at(kSheetHeight) / 2;
+  chain_length_ = values.at(kChainLength);
+  sprocket_[0] = {frame.motor_center_x - frame.motor_gap / 2, frame.motor_height};
+  sprocket_[1] = {frame.motor_center_x + frame.motor_gap / 2, frame.motor_height};
+  has_brackets_ = values.at(kKinematics) == 1;
+  if (has_brackets_)
+    prepareBrackets(values, frame);
+  else
+    prepareRing(values, frame);
+  is_sheet_reachable_ = isSheetReachable();
+}
+
+bool Geometry::isSheetReachable() const {
+  // Where a corner cannot be reached, or the middle of the top, each target is asked for.
+  for (int8_t x = -1; x <= 1; ++x)
+    for (int8_t y = -1; y <= 1; y = int8_t(y + 2))
+      if (!inverse({float(x) * half_width_, float(y) * half_height_}).reachable) return false;
+  return true;
+}
+
+void Geometry::prepareRing(const Values& values, const kinematics::Frame<float>& frame) {
+  const kinematics::EffectParams<float> effects = geometryOf(values).effects;
+  const kinematics::Point<float> corner = {half_width_, -half_height_};
+  ring_ = kinematics::prepare(frame, withoutSag(effects));
+  const kinematics::PaidOut<float> straight = kinematics::inverse(ring_, corner);
+  ring_ = kinematics::prepare(frame, effects);
+  const kinematics::PaidOut<float> bent = kinematics::inverse(ring_, corner);
+  const bool told = straight.found == Found::kYes && bent.found == Found::kYes;
+  const float sag = told ? float(fabs(bent.chains.left - straight.chains.left)) : kUnknownSag;
+  const float far_run = sprocket_[1].x + half_width_;
+  const float near_run = sprocket_[1].x - half_width_;
+  const float drop = frame.motor_height + half_height_;
+  // A sheet as wide as the frame has no chain that could hold its corner.
+  const float least_run = near_run > 50 ? near_run : 50;
+  const float span = float(sqrt(far_run * far_run + drop * drop));
+  slopes_ = motion::sagSlopes(sag, far_run, least_run, drop, span);
+  const motion::Slopes<float> runout = runoutSlopes(effects, frame.sprocket_radius);
+  slopes_.first += runout.first;
+  slopes_.second += runout.second;
+  slopes_.third += runout.third;
+}
+
+void Geometry::prepareBrackets(const Values& values, const kinematics::Frame<float>& frame) {
+  brackets_ = kinematics::prepare(frame, bracketSledOf(values), pitchOf(values));
+  slopes_ = kBracketSlopes;
+}
+
+motion::Point<float> Geometry::clamped(motion::Point<float> place) const {
+  return {within(place.x, half_width_), within(place.y, half_height_)};
+}
+
+motion::Lengths<float> Geometry::inverse(motion::Point<float> place) const {
+  const motion::Point<float> on_sheet = clamped(place);
+  const kinematics::Point<float> bit = {on_sheet.x, on_sheet.y};
+  kinematics::Chains<float> chains;
+  Found found;
+  if (has_brackets_) {
+    const kinematics::TiltedPaidOut<float> paid = kinematics::inverse(brackets_, bit);
+    chains = paid.chains;
+    found = paid.found;
+  } else {
+    const kinematics::PaidOut<float> paid = kinematics::inverse(ring_, bit);
+    chains = paid.chains;
+    found = paid.found;
+  }
+  const bool reachable =
+      found == Found::kYes && chains.left <= chain_length_ && chains.right <= chain_length_;
+  return {chains.left, chains.right, reachable};
+}
+
+FoundPlace Geometry::forward(float left, float right, motion::Point<float> guess) const {
+  const kinematics::Chains<float> chains = {left, right};
+  const kinematics::Point<float> near = {guess.x, guess.y};
+  if (has_brackets_) {
+    kinematics::TiltedPlace<float> place = kinematics::forward(brackets_, chains, near, 0.0f);
+    if (place.found != Found::kYes) place = kinematics::forward(brackets_, chains);
+    return {{place.sled.x, place.sled.y}, place.found == Found::kYes};
+  }
+  kinematics::Place<float> place = kinematics::forward(ring_, chains, near);
+  if (place.found != Found::kYes) place = kinematics::forward(ring_, chains);
+  return {{place.sled.x, place.sled.y}, place.found == Found::kYes};
+}
+
+motion::Surroundings<float> Geometry::surroundings(const motion::Path<float>& path) const {
+  const float left = clearance(path, sprocket_[0]), right = clearance(path, sprocket_[1]);
+  const float nearest = left < right ? left : right;
+  return {nearest > 1 ? nearest : 1, slopes_};
+}
+
+}  // namespace machine

@@ -1,0 +1,56 @@
+// Between places on the sheet and chain lengths, by whichever kinematics the settings name.
+#pragma once
+
+#include <Kinematics.h>
+#include <Motion.h>
+#include <Settings.h>
+#include <quadrilateral.h>
+
+namespace machine {
+
+/// Where forward() found the sled.
+struct FoundPlace {
+  motion::Point<float> at;  ///< [mm] to be used only if `found`
+  bool found;
+};
+
+/// The machine's shape, worked out from the settings.
+class Geometry {
+ public:
+  /// Works everything out anew; about 3 ms on the board.
+  void prepare(const settings::Values& values);
+
+  /// Chain lengths for a place, which is first brought back to the sheet's edge if it is beyond.
+  motion::Lengths<float> inverse(motion::Point<float> place) const;
+
+  /// Where the sled hangs on these lengths [mm], searched from `guess` [mm]; any place counts, on
+  /// the sheet or off.
+  FoundPlace forward(float left, float right, motion::Point<float> guess) const;
+
+  /// A place brought back to the sheet's edge.
+  motion::Point<float> clamped(motion::Point<float> place) const;
+
+  /// Whether a sled can hang at a place, or at the sheet's edge if it is beyond.
+  bool isReachable(motion::Point<float> place) const {
+    return is_sheet_reachable_ || inverse(place).reachable;
+  }
+
+  /// How far [mm] a path may go until the bound of segments must be asked again.
+  motion::Surroundings<float> surroundings(const motion::Path<float>& path) const;
+
+ private:
+  bool isSheetReachable() const;
+  void prepareRing(const settings::Values& values, const kinematics::Frame<float>& frame);
+  void prepareBrackets(const settings::Values& values, const kinematics::Frame<float>& frame);
+
+  kinematics::Machine<float> ring_;
+  kinematics::Quadrilateral<float> brackets_;
+  motion::Slopes<float> slopes_;
+  motion::Point<float> sprocket_[2];
+  float half_width_, half_height_;
+  float chain_length_;
+  bool has_brackets_;
+  bool is_sheet_reachable_;  ///< all of it
+};
+
+}  // namespace machine

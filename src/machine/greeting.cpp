@@ -1,0 +1,49 @@
+// What the machine says first: its board, where its settings come from, its name, that it is ready.
+#include "machine.h"
+#include "version.h"
+
+namespace machine {
+
+void Machine::greet() {
+  if (board_.driver == nullptr) {
+    out_ << FLASH("ALARM: The Board version number from this Motor Control board is invalid. ");
+    out_.line(FLASH("No motor will be driven; see the wiring page for its straps."));
+    return;
+  }
+  out_ << FLASH("PCB v1.") << int32_t(board_.version) << board_.driver;
+  out_.line(FLASH(" Detected"));
+}
+
+void Machine::sayReady() {
+  // Clients look for none of these lines, but other programs wait for "Grbl".
+  out_.line(FLASH("Grbl v1.00"));
+  out_.line(FLASH("Plumb " PLUMB_VERSION ", firmware for the Maslow CNC"));
+  out_.line(FLASH("ready"));
+  out_.line(FLASH("ok"));
+}
+
+void Machine::sayMotors() {
+  out_.line(axes_.isSimulated() ? FLASH("FAKE_SERVO on") : FLASH("FAKE_SERVO off"));
+}
+
+void Machine::saySource(const settings::Started& started) {
+  using settings::Source;
+  switch (started.source) {
+    case Source::kOwn:
+      return;
+    case Source::kOwnInPart:
+      return out_.line(FLASH("error: Some settings were out of today's limits and have defaults."));
+    case Source::kImported:
+      return out_.line(FLASH("Settings of the published firmware were taken over."));
+    case Source::kDefaults:
+      return out_.line(FLASH("error: EEPROM read fail. Using default settings."));
+    case Source::kOtherVersion:
+      out_ << FLASH("error: Settings of another firmware, version ") << int32_t(started.version);
+      return out_.line(FLASH(", are not read. Using default settings."));
+    case Source::kBadValue:
+      out_ << FLASH("error: The published firmware's $") << int32_t(started.number);
+      return out_.line(FLASH(" cannot be right; none was taken over. Using default settings."));
+  }
+}
+
+}  // namespace machine

@@ -1,0 +1,67 @@
+// The ring of waiting characters.
+#include "input.h"
+
+namespace machine {
+namespace {
+
+const char kCtrlX = 24;
+// Stands for a line of which nothing is left; no client can send it, as control characters are
+// dropped.
+const char kTooLong = 1;
+
+}  // namespace
+
+void Input::store(char character) {
+  ring_[uint8_t((uint16_t(first_) + used_) % kRoom)] = character;
+  ++used_;
+}
+
+Quick Input::put(char character) {
+  const bool after_quick = after_quick_;
+  after_quick_ = character == '!' || character == '~' || character == '`' || character == kCtrlX;
+  if (character == '!') return Quick::kStop;
+  if (character == '~') return Quick::kResume;
+  if (after_quick_) return Quick::kReset;
+  if (character == '\n') {
+    if (after_quick) return Quick::kNone;
+    swallowing_ = false;
+    if (used_ == kRoom) return Quick::kOverflow;
+    store('\n');
+    ++lines_;
+    return Quick::kNone;
+  }
+  if (swallowing_ || character == '?' || uint8_t(character) < 32) return Quick::kNone;
+  // The last place is kept for a line's end.
+  if (used_ < kRoom - 1) {
+    store(uint8_t(character) > 126 ? ' ' : character);
+    return Quick::kNone;
+  }
+  if (lines_ != 0) return Quick::kOverflow;
+  used_ = 0;
+  store(kTooLong);
+  swallowing_ = true;
+  return Quick::kNone;
+}
+
+bool Input::takeLine(char (&line)[kRoom + 1]) {
+  if (lines_ == 0) return false;
+  --lines_;
+  uint8_t length = 0;
+  for (;;) {
+    const char character = ring_[first_];
+    first_ = uint8_t((uint16_t(first_) + 1) % kRoom);
+    --used_;
+    if (character == '\n') break;
+    line[length++] = character;
+  }
+  line[length] = '\0';
+  was_too_long_ = length == 1 && line[0] == kTooLong;
+  return true;
+}
+
+void Input::clear() {
+  first_ = used_ = lines_ = 0;
+  swallowing_ = false;
+}
+
+}  // namespace machine

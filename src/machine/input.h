@@ -1,0 +1,47 @@
+// Characters from the computer: quick ones are told at once, the others wait as lines.
+#pragma once
+
+#include <stdint.h>
+
+namespace machine {
+
+/// What a character meant.
+enum class Quick : uint8_t {
+  kNone,
+  kStop,      ///< `!`
+  kResume,    ///< `~`
+  kReset,     ///< ctrl-X or a backquote
+  kOverflow,  ///< no quick character, but the room for waiting lines is full: one was lost
+};
+
+/// Room for 127 characters that wait, as the clients count on 126.
+///
+/// Used by the main program alone. A line longer than all of the room is swallowed to its end and
+/// later taken as one that is too long.
+class Input {
+ public:
+  enum : uint8_t { kRoom = 127 };
+
+  /// Takes a character.
+  Quick put(char character);
+
+  /// Free characters, as the status reports it.
+  uint8_t room() const { return uint8_t(kRoom - used_); }
+
+  /// Takes the oldest line, without its end; false if none is complete.
+  bool takeLine(char (&line)[kRoom + 1]);
+
+  /// Whether the line taken last had been too long, so that nothing of it is left.
+  bool wasTooLong() const { return was_too_long_; }
+
+  void clear();
+
+ private:
+  void store(char character);
+
+  char ring_[kRoom];
+  uint8_t first_ = 0, used_ = 0, lines_ = 0;
+  bool after_quick_ = false, swallowing_ = false, was_too_long_ = false;
+};
+
+}  // namespace machine

@@ -1,0 +1,131 @@
+// Tests of the loops: B13 sets speeds, B14 sets lengths, B16 sets duties; numbers come back.
+#include "machine.h"
+
+namespace machine {
+namespace {
+
+const uint16_t kSampleMs = 10;  // the published interval of B13 and B14
+const uint16_t kStepMs = 2000;  // of a speed; of a length unless T says otherwise
+const uint16_t kDutyMs = 200, kDutySampleMs = 50;
+
+/// The value of step i of `steps`, from the first to the last.
+float stepOf(const LoopTest& test, uint8_t i) {
+  if (test.steps < 2) return test.first;
+  return test.first + (test.last - test.first) * float(i) / float(test.steps - 1);
+}
+
+}  // namespace
+
+void Machine::sayGains(Axis axis, bool position) {
+  const uint8_t first =
+      uint8_t((axis == kZAxis ? kZPositionP : kMainPositionP) + (position ? 0 : 4));
+  const char names[] = "pid";
+  for (uint8_t i = 0; i < 3; ++i) {
+    if (i != 0) out_ << ',';
+    out_ << 'K' << names[i] << '=';
+    out_.fixed(values_.at(uint8_t(first + i)), 4);
+  }
+  out_.end();
+}
+
+bool Machine::testLoop(uint8_t code, const LoopTest& test) {
+  is_testing_ = true;
+  const bool completed = code == 13   ? testSpeeds(test)
+                         : code == 14 ? testLengths(test)
+                                      : testDuties(test);
+  is_testing_ = false;
+  return completed;
+}
+
+bool Machine::sampleSpeed(Axis axis, float rpm, uint8_t version) {
+  axes_.turn(axis, rpm);
+  for (uint16_t ms = 0; ms < kStepMs; ms += kSampleMs) {
+    if (!waitFor(kSampleMs)) return false;
+    const AxisState state = axes_.state(axis);
+    if (version == 2) {
+      out_.fixed(rpm, 4) << ',';
+      out_.fixed(state.rpm, 4) << ',';
+      out_ << int32_t(state.duty);
+    } else {
+      out_.fixed(rpm - state.rpm, 4);
+    }
+    out_.end();
+  }
+  return true;
+}
+
+bool Machine::testSpeeds(const LoopTest& test) {
+  if (!drain() || !wakeMotors()) return false;
+  out_.line(FLASH("--PID Velocity Test Start--"));
+  sayGains(test.axis, false);
+  if (test.version == 2) out_.line(FLASH("setpoint,input,output"));
+  bool completed = true;
+  for (uint8_t i = 0; i < test.steps && completed; ++i)
+    completed = sampleSpeed(test.axis, stepOf(test, i), test.version);
+  axes_.release(test.axis);
+  out_.line(FLASH("--PID Velocity Test Stop--"));
+  out_.end();
+  afterOpenDrive();
+  return completed;
+}
+
+bool Machine::sampleLength(Axis axis, float goal, uint16_t ms, uint8_t version) {
+  axes_.jumpTo(axis, goal);
+  for (uint16_t at = 0; at < ms; at = uint16_t(at + kSampleMs)) {
+    if (!waitFor(kSampleMs)) return false;
+    const AxisState state = axes_.state(axis);
+    const float is = axes_.length(axis);
+    if (version == 2) {
+      out_.fixed(goal, 4) << ',';
+      out_.fixed(is, 4) << ',';
+      out_.fixed(state.wanted_rpm, 4) << ',';
+      out_.fixed(state.rpm, 4) << ',';
+      out_.fixed(state.duty, 4);
+    } else {
+      out_.fixed(goal - is, 4);
+    }
+    out_.end();
+  }
+  return true;
+}
+
+bool Machine::testLengths(const LoopTest& test) {
+  if (!drain() || !wakeMotors()) return false;
+  out_.line(FLASH("--PID Position Test Start--"));
+  sayGains(test.axis, true);
+  if (test.version == 2) out_.line(FLASH("setpoint,input,output,rpminput,voltage"));
+  const float from = axes_.length(test.axis);
+  bool completed = true;
+  for (uint8_t i = 0; i < test.steps && completed; ++i)
+    completed = sampleLength(test.axis, from + stepOf(test, i),
+                             test.step_ms ? test.step_ms : kStepMs, test.version);
+  axes_.release(test.axis);
+  out_.line(FLASH("--PID Position Test Stop--"));
+  out_.end();
+  afterOpenDrive();
+  return completed;
+}
+
+bool Machine::testDuties(const LoopTest& test) {
+  if (!drain() || !wakeMotors()) return false;
+  out_.line(FLASH("--Voltage Test Start--"));
+  const int16_t last = int16_t(test.last), step = test.last < test.first ? -1 : 1;
+  bool completed = true;
+  for (int16_t duty = int16_t(test.first); completed; duty = int16_t(duty + step)) {
+    axes_.driveOpen(test.axis, duty);
+    for (uint16_t ms = 0; ms < kDutyMs && completed; ms += kDutySampleMs) {
+      completed = waitFor(kDutySampleMs);
+      if (!completed) break;
+      out_ << int32_t(duty) << ',';
+      out_.fixed(axes_.state(test.axis).rpm, 4).end();
+    }
+    if (duty == last) break;
+  }
+  axes_.release(test.axis);
+  out_.line(FLASH("--Voltage Test Stop--"));
+  out_.end();
+  afterOpenDrive();
+  return completed;
+}
+
+}  // namespace machine

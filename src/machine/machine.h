@@ -1,0 +1,219 @@
+// The machine: what a line from the computer makes the motors do, and all it says meanwhile.
+// Knows no Arduino; what it needs of a board stands in ports.h.
+#pragma once
+
+#include "axes.h"
+#include "geometry.h"
+#include "input.h"
+#include "modal.h"
+#include "mover.h"
+#include "ports.h"
+#include "printer.h"
+#include "settings_table.h"
+#include "words.h"
+
+namespace machine {
+
+/// What the machine is built of.
+struct Ports {
+  Wire& wire;
+  Drives& drives;
+  Aux& aux;
+  Clock& clock;
+  settings::Bytes& bytes;
+  const settings::Table& table;
+};
+
+/// Which motor shield was found; without one no motor is ever driven.
+struct BoardName {
+  uint8_t version;     ///< N of "v1.N"
+  const char* driver;  ///< as the greeting names it; null: its straps are unknown
+};
+
+/// Where the tool is [mm].
+struct Place {
+  float x, y, z;
+};
+
+/// A test of one axis' loops, as B13, B14 and B16 ask for it.
+struct LoopTest {
+  Axis axis;
+  float first, last;
+  uint8_t steps;
+  uint16_t step_ms;
+  uint8_t version;  ///< 2: more numbers in each line
+};
+
+/// One Maslow.
+///
+/// Commands run to their end in the main program. Wherever one waits, service() keeps quick
+/// characters, reports, set-points and memory going, and after a stop every wait returns false, so
+/// that the command unwinds. Functions that may wait return whether they were completed.
+class Machine {
+ public:
+  Machine(const Ports& ports, const BoardName& board);
+
+  /// Once after power-on: settings and position are read, the greeting is said.
+  void begin();
+
+  /// One round of the main program: at most one line is executed.
+  void loop();
+
+  /// The control tick; called by an interrupt, a hundred or two hundred times a second.
+  void tick() { axes_.tick(); }
+
+  /// Called instead of tick() while the main program hangs; the board has taken the motors' power.
+  void noteHang();
+
+  /// How often it wants its control tick, after begin().
+  uint8_t ticksPerSecond() const { return ticks_per_second_; }
+
+ private:
+  // realtime.cpp: while anything waits.
+  void service();
+  bool waitFor(uint32_t ms);
+  bool drain();
+  void settle();
+  void readWire();
+  void stopNow();
+  void finishStop();
+  void resetSoftly();
+  void raiseAlarm(FlashText text);
+  void watchAxes();
+  bool wakeMotors();
+  void restWhenIdle();
+  bool isMoving() const { return !mover_.isIdle() || !axes_.isEmpty(); }
+  bool isHalted() const { return is_locked_; }
+
+  // greeting.cpp, reports.cpp: what it says.
+  void greet();
+  void sayMotors();
+  void sayReady();
+  void saySource(const settings::Started& started);
+  void reportWhenDue();
+  void reportStatus();
+  void reportErrors();
+  float inUnits(float mm) const;
+  float fromUnits(float value) const;
+  void beginError();
+  bool refuse(FlashText why);
+
+  // position.cpp: where the sled is.
+  void sayPlace(float x, float y);
+  void sayLengths();
+  bool searchPlace();
+  bool findPlace();
+  void standHere();
+  void restorePosition(const settings::Started& started);
+  void losePosition(FlashText why);
+  void keepPosition();
+  Place placeNow();
+
+  // commands.cpp, moves.cpp: lines of G-code.
+  bool execute(char* line);
+  void echo(const char* line);
+  bool runCode(const char* text);
+  bool runPiece(char letter, float code, const Words& words);
+  bool setMode(uint16_t tenths);
+  bool runG(uint16_t tenths, const Words& words);
+  bool runM(uint16_t tenths, const Words& words);
+  bool ignore(uint16_t tenths);
+  bool setTool(const Words& words);
+  bool dwell(const Words& words);
+  bool declareZByWord(const Words& words);
+  void takeFeed(const Words& words);
+  Place targetOf(const Words& words) const;
+  bool move(uint8_t kind, const Words& words);
+  bool moveRound(bool clockwise, motion::Point<float> from, const Place& target, const Words& words,
+                 float feed);
+  bool mayCrossSheet();
+  bool queue(const motion::Path<float>& path, const Place& target, float feed);
+
+  // settings_lines.cpp: the `$` lines.
+  bool runSetting(const char* line);
+  bool runReset(const char* what);
+  void dumpSettings();
+  bool setValue(uint8_t number, float value);
+  void afterSetting(uint8_t number);
+  void arrangeDrives();
+  void refreshGeometry();
+  void refreshGeometryWhenQuiet();
+  void restoreDefaults(settings::Reset what);
+
+  // pause.cpp, spindle.cpp, probe.cpp, z_limits.cpp.
+  bool pause();
+  bool pauseAfterMoves();
+  bool changeTool(uint16_t tool);
+  bool setZByHand(float z);
+  bool turnServo(uint8_t angle);
+  void restSpindle();
+  bool switchSpindle(bool on);
+  void switchLaser(bool on);
+  bool probe(float target);
+  float mostZFeed() const;
+  float withinZLimits(float z) const;
+  bool setZLimit(bool upper);
+  bool clearZLimits();
+  void sayZLimit(float limit);
+  bool showZLimits();
+  void declareZ(float z);
+
+  // b_codes.cpp, single_axis.cpp, motor_tests.cpp, loop_tests.cpp: single axes.
+  bool moveAxis(Axis axis, float goal, float feed, bool until_probe);
+  static bool isQuestion(const char* line);
+  bool runB(const char* line);
+  bool runChainCode(uint8_t code, const Words& words);
+  bool runTestCode(uint8_t code, const Words& words);
+  bool pullByWords(const Words& words);
+  bool measureOut(Axis axis);
+  bool setChains(float left, float right);
+  bool moveChains(const Words& words);
+  bool goHome();
+  bool measureChain(bool left);
+  bool simulateMotors(bool on);
+  bool driveFor(Axis axis, int16_t duty, uint32_t ms);
+  bool rampMotor(Axis axis, int8_t sign);
+  bool testDirection(Axis axis, int8_t direction);
+  bool testMotors();
+  bool pullChain(Axis axis, int16_t duty, float seconds);
+  void afterOpenDrive();
+  void sayGains(Axis axis, bool position);
+  bool sampleSpeed(Axis axis, float rpm, uint8_t version);
+  bool testLoop(uint8_t code, const LoopTest& test);
+  bool testSpeeds(const LoopTest& test);
+  bool sampleLength(Axis axis, float goal, uint16_t ms, uint8_t version);
+  bool testLengths(const LoopTest& test);
+  bool testDuties(const LoopTest& test);
+
+  Wire& wire_;
+  Drives& drives_;
+  Aux& aux_;
+  Clock& clock_;
+  BoardName board_;
+  Printer out_;
+  const settings::Table& table_;
+  float value_room_[kSettingCount];
+  settings::Values values_;
+  settings::Memory memory_;
+  Geometry geometry_;
+  Axes axes_;
+  Mover mover_;
+  Input input_;
+  Modal modal_;
+  Place aim_ = {0, 0, 0};    ///< where the last move queued ends
+  Place place_ = {0, 0, 0};  ///< where the tool was when somebody last asked
+  uint32_t last_report_ms_ = 0, last_motion_ms_ = 0, geometry_changed_ms_ = 0;
+  uint8_t ticks_per_second_ = 100;
+  volatile bool hung_ = false;
+  bool stopping_ = false;   ///< a stop was asked for; every wait ends
+  bool is_locked_ = false;  ///< after an alarm, until a stop
+  bool pausing_ = false, resumed_ = false;
+  bool expects_resume_ = false;  ///< a `~` that comes now is meant for the pause to come
+  bool is_answered_ = false;     ///< the line in execution has got its answer
+  bool is_testing_ = false;      ///< a test of loops jumps to and fro
+  bool is_chains_known_ = true;  ///< false after power was lost in motion
+  bool is_place_known_ = false;
+  bool is_geometry_stale_ = false;
+};
+
+}  // namespace machine

@@ -1,0 +1,111 @@
+// G0 to G3: from words to a path in the queue.
+#include "machine.h"
+
+namespace machine {
+namespace {
+
+const float kLeastFeed = 1;     // [mm/min]
+const float kFarthest = 50000;  // [mm] a coordinate beyond it is a mistake
+
+/// Centre of the arc with that radius, on the left of the chord for counterclockwise, for the
+/// short arc; a negative radius asks for the long one. False if the chord is longer than the arc
+/// is wide.
+bool centreByRadius(motion::Point<float> from, motion::Point<float> to, float radius,
+                    bool clockwise, motion::Point<float>& centre) {
+  const float dx = to.x - from.x, dy = to.y - from.y;
+  const float chord_squared = dx * dx + dy * dy;
+  const float square = radius * radius - chord_squared / 4;
+  // A radius rounded in the text may fall short of a half circle's.
+  if (square < -0.01f * radius * radius || chord_squared == 0) return false;
+  const float height = square > 0 ? float(sqrt(square / chord_squared)) : 0;
+  const bool left = clockwise != (radius > 0);
+  const float across = left ? height : -height;
+  centre = {from.x + dx / 2 - dy * across, from.y + dy / 2 + dx * across};
+  return true;
+}
+
+}  // namespace
+
+float Machine::inUnits(float mm) const { return modal_.inches ? mm / 25.4f : mm; }
+float Machine::fromUnits(float value) const { return modal_.inches ? value * 25.4f : value; }
+
+float Machine::mostZFeed() const {
+  return values_.at(kZSpeed) * float(fabs(values_.at(kZPerTurn)));
+}
+
+void Machine::takeFeed(const Words& words) {
+  if (!words.has('F')) return;
+  const float feed = fromUnits(words.value('F'));
+  modal_.feed = feed > kLeastFeed ? feed : kLeastFeed;
+}
+
+Place Machine::targetOf(const Words& words) const {
+  Place target = aim_;
+  const char letters[] = "XYZ";
+  float* const parts[] = {&target.x, &target.y, &target.z};
+  for (uint8_t i = 0; i < 3; ++i) {
+    if (!words.has(letters[i])) continue;
+    const float value = fromUnits(words.value(letters[i]));
+    *parts[i] = modal_.relative ? *parts[i] + value : value;
+  }
+  target.z = withinZLimits(target.z);
+  return target;
+}
+
+bool Machine::move(uint8_t kind, const Words& words) {
+  takeFeed(words);
+  refreshGeometry();
+  Place target = targetOf(words);
+  if (!(fabs(target.x) < kFarthest && fabs(target.y) < kFarthest && fabs(target.z) < kFarthest))
+    return refuse(FLASH("that is farther than any machine reaches"));
+  const bool over_sheet = words.has('X') || words.has('Y') || kind > 1;
+  if (over_sheet && !mayCrossSheet()) return false;
+  if (values_.at(kZMotor) == 0 && target.z != aim_.z) {
+    const float kSameDepth = 0.1f;  // [mm]
+    const bool asks = kind < 2 && float(fabs(target.z - aim_.z)) > kSameDepth;
+    if (asks && !setZByHand(target.z)) return false;
+    target.z = aim_.z;
+  }
+  const motion::Point<float> from = {aim_.x, aim_.y}, to = {target.x, target.y};
+  const float most = values_.at(kGreatestFeed);
+  const float feed = kind == 0 || modal_.feed > most ? most : modal_.feed;
+  if (kind < 2) return queue(motion::line(from, to), target, feed);
+  return moveRound(kind == 2, from, target, words, feed);
+}
+
+bool Machine::moveRound(bool clockwise, motion::Point<float> from, const Place& target,
+                        const Words& words, float feed) {
+  const motion::Point<float> to = {target.x, target.y};
+  motion::Point<float> centre = {from.x + fromUnits(words.value('I')),
+                                 from.y + fromUnits(words.value('J'))};
+  const float radius = fromUnits(words.value('R'));
+  const bool same = from.x == to.x && from.y == to.y;
+  if (radius != 0 && !same && !centreByRadius(from, to, radius, clockwise, centre))
+    return refuse(FLASH("the arc's radius is less than half the way to its end"));
+  const motion::Turn turn = clockwise ? motion::Turn::kClockwise : motion::Turn::kCounterclockwise;
+  const motion::Path<float> path = motion::arc(from, to, centre, turn);
+  if (path.drawn == motion::Drawn::kYes) return queue(path, target, feed);
+  // As the published firmware: an arc without centre is a line.
+  if (!words.has('I') && !words.has('J') && radius == 0)
+    return queue(motion::line(from, to), target, feed);
+  return refuse(FLASH("the arc does not end on its circle"));
+}
+
+bool Machine::mayCrossSheet() {
+  if (is_place_known_) return true;
+  if (!is_chains_known_)
+    return refuse(FLASH("position lost: set the chain lengths first (B06 or B08)"));
+  return refuse(FLASH("the chains put the sled nowhere: set their lengths first (B06 or B08)"));
+}
+
+bool Machine::queue(const motion::Path<float>& path, const Place& target, float feed) {
+  if (path.drawn == motion::Drawn::kNoLength && target.z == aim_.z) return true;
+  if (!geometry_.isReachable(path.to)) return refuse(FLASH("no sled can hang there"));
+  while (!stopping_ && !mover_.hasRoom()) service();
+  if (stopping_ || !wakeMotors()) return false;
+  mover_.add(path, target.z, feed / 60);
+  aim_ = target;
+  return true;
+}
+
+}  // namespace machine

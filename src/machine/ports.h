@@ -1,0 +1,89 @@
+// What the machine's logic asks of a board: the small doors behind which hardware, or a simulated
+// board on the host, stands.
+#pragma once
+
+#include <stdint.h>
+
+namespace machine {
+
+/// The three motors, used as an index.
+enum Axis : uint8_t { kLeftAxis, kRightAxis, kZAxis, kAxisCount };
+
+/// The serial line to the computer, both ways.
+class Wire {
+ public:
+  /// The next character that came in, 0 to 255, or -1 if there is none.
+  virtual int16_t read() = 0;
+  /// Sends one character; waits only where the line is full.
+  virtual void write(char character) = 0;
+  /// How many characters were lost since this was last asked, because nobody read them in time.
+  virtual uint8_t lost() = 0;
+
+ protected:
+  ~Wire() = default;
+};
+
+/// Motors and their encoders.
+class Drives {
+ public:
+  /// Drives a motor with a duty of -255 to 255; positive winds chain in and makes its count fall.
+  virtual void drive(Axis axis, int16_t duty) = 0;
+  /// Takes the power off a motor.
+  virtual void release(Axis axis) = 0;
+  /// Encoder counts, running on and wrapping round; rising as chain is paid out.
+  virtual uint16_t count(Axis axis) = 0;
+  /// Tells how the chains leave their sprockets, and which of the published PWM frequencies
+  /// ($39: 1, 2, 3) is wanted; motors stand still meanwhile.
+  virtual void arrange(bool over_top, uint8_t pwm_choice) = 0;
+
+ protected:
+  ~Drives() = default;
+};
+
+/// Outputs that are either on or off.
+enum class Output : uint8_t { kSpindle, kLaser };
+
+/// Everything else that hangs on the shield.
+class Aux {
+ public:
+  /// Sets an output high or low.
+  virtual void set(Output output, bool high) = 0;
+  /// Holds the spindle's servo at an angle [degrees]; kNoServo lets go of it.
+  virtual void turnServo(uint8_t degrees) = 0;
+  /// Whether the probe touches.
+  virtual bool probeTouches() = 0;
+
+ protected:
+  ~Aux() = default;
+};
+
+const uint8_t kNoServo = 255;
+
+/// Time, and what happens in it beside the main program.
+class Clock {
+ public:
+  /// [ms] since the start, wrapping round.
+  virtual uint32_t milliseconds() = 0;
+  /// Called wherever the main program waits: it is alive.
+  virtual void idle() = 0;
+  /// Keeps the control tick off while shared numbers are read or written; nests.
+  virtual void holdTicks() = 0;
+  virtual void releaseTicks() = 0;
+
+ protected:
+  ~Clock() = default;
+};
+
+/// Keeps the control tick off for as long as it lives.
+class WithoutTicks {
+ public:
+  explicit WithoutTicks(Clock& clock) : clock_(clock) { clock_.holdTicks(); }
+  ~WithoutTicks() { clock_.releaseTicks(); }
+  WithoutTicks(const WithoutTicks&) = delete;
+  WithoutTicks& operator=(const WithoutTicks&) = delete;
+
+ private:
+  Clock& clock_;
+};
+
+}  // namespace machine

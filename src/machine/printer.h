@@ -1,0 +1,36 @@
+// Text and numbers to the computer; lines end as the clients need it.
+#pragma once
+
+#include "flash_text.h"
+#include "ports.h"
+
+namespace machine {
+
+/// Writes to the wire. Nothing is buffered here: a line is begun only when all of it is known.
+class Printer {
+ public:
+  explicit Printer(Wire& wire) : wire_(wire) {}
+
+  Printer& operator<<(FlashText text);
+  Printer& operator<<(const char* text);
+  Printer& operator<<(char character);
+  Printer& operator<<(int32_t number);
+
+  /// A number with so many decimals (up to 4), rounded; never exponents. What is no number, or too
+  /// large for a length on any machine, shows as zero: clients stop at words such as "nan".
+  Printer& fixed(float number, uint8_t decimals);
+
+  /// Ends the line.
+  void end();
+
+  /// A whole line of fixed text.
+  void line(FlashText text);
+
+ private:
+  Wire& wire_;
+};
+
+/// The digits of a number that cannot be negative, ended by a zero; returns their beginning.
+const char* digitsOf(uint32_t number, char (&room)[12]);
+
+}  // namespace machine

@@ -1,0 +1,162 @@
+// What happens while anything waits: characters come in, quick ones act at once, set-points go out,
+// faults are noticed, reports are sent.
+#include "machine.h"
+
+namespace machine {
+
+void Machine::service() {
+  readWire();
+  if (mover_.fill(axes_, geometry_) == Moved::kOutOfReach)
+    raiseAlarm(FLASH("No sled can hang on the way; the machine has halted. Press Stop."));
+  watchAxes();
+  refreshGeometryWhenQuiet();
+  restWhenIdle();
+  memory_.step();
+  reportWhenDue();
+  clock_.idle();
+}
+
+bool Machine::waitFor(uint32_t ms) {
+  const uint32_t start = clock_.milliseconds();
+  while (!stopping_ && clock_.milliseconds() - start < ms) service();
+  return !stopping_;
+}
+
+bool Machine::drain() {
+  const bool moved = isMoving();
+  while (!stopping_ && isMoving()) service();
+  if (moved) settle();
+  return !stopping_;
+}
+
+void Machine::settle() {
+  const float kNear = 0.012f;      // [mm]
+  const uint32_t kPatience = 500;  // [ms] a motor without gains never comes nearer
+  const uint32_t start = clock_.milliseconds();
+  while (!stopping_ && clock_.milliseconds() - start < kPatience) {
+    bool is_near = true;
+    for (uint8_t i = 0; i < kAxisCount; ++i)
+      is_near = is_near && float(fabs(axes_.error(Axis(i)))) < kNear;
+    if (is_near) return;
+    service();
+  }
+}
+
+void Machine::readWire() {
+  for (;;) {
+    const int16_t character = wire_.read();
+    if (character < 0) return;
+    switch (input_.put(char(character))) {
+      case Quick::kNone:
+        break;
+      case Quick::kStop:
+        out_.line(FLASH("ok"));
+        stopNow();
+        break;
+      case Quick::kResume:
+        out_.line(FLASH("ok"));
+        if (pausing_ || expects_resume_) resumed_ = true;
+        break;
+      case Quick::kReset:
+        resetSoftly();
+        break;
+      case Quick::kOverflow:
+        raiseAlarm(FLASH("Buffer overflow: more lines came than there is room for. Press Stop."));
+        break;
+    }
+  }
+}
+
+void Machine::stopNow() {
+  stopping_ = true;
+  is_locked_ = resumed_ = false;
+  input_.clear();
+  // At once, whatever else the stop has to wait for.
+  aux_.set(Output::kLaser, false);
+  restSpindle();
+  mover_.stop();
+}
+
+void Machine::finishStop() {
+  while (isMoving()) service();
+  // A new stop may come meanwhile; it is answered, and this one goes on.
+  stopping_ = false;
+  if (is_locked_) {
+    searchPlace();
+    switchSpindle(false);
+    return;
+  }
+  switchSpindle(false);
+  out_.line(FLASH("Laser off"));
+  if (is_chains_known_)
+    findPlace();
+  else
+    searchPlace();
+  if (!axes_.isPowered()) keepPosition();
+}
+
+void Machine::resetSoftly() {
+  stopNow();
+  out_.end();
+  out_.line(FLASH("soft reset commanded"));
+  greet();
+  sayReady();
+}
+
+void Machine::raiseAlarm(FlashText text) {
+  if (is_locked_) return;
+  stopNow();
+  is_locked_ = true;
+  axes_.releaseAll();
+  mover_.forget();
+  axes_.standStill();
+  out_ << FLASH("ALARM: ");
+  out_.line(text);
+}
+
+void Machine::watchAxes() {
+  if (wire_.lost() != 0) raiseAlarm(FLASH("Characters were lost on the serial line. Press Stop."));
+  if (hung_) {
+    hung_ = false;
+    raiseAlarm(FLASH("The firmware was busy for too long; motors were switched off. Press Stop."));
+  }
+  const Trouble trouble = axes_.trouble();
+  // Tests make errors on purpose.
+  if (is_testing_) return;
+  if (trouble == Trouble::kLeftBehind)
+    raiseAlarm(
+        FLASH("The sled is not keeping up with its expected position and has halted. Press Stop, "
+              "then look for what holds it."));
+  if (trouble == Trouble::kEncoder)
+    raiseAlarm(
+        FLASH("The sled is not keeping up with its expected position: a motor is driven and its "
+              "encoder stands still. Check the cables, press Stop, set the chain lengths."));
+}
+
+void Machine::noteHang() {
+  hung_ = true;
+  aux_.set(Output::kLaser, false);
+  restSpindle();
+}
+
+bool Machine::wakeMotors() {
+  if (!axes_.isPowered() && !axes_.isSimulated()) {
+    memory_.beginMoving();
+    while (!stopping_ && !memory_.mayMove()) service();
+    if (stopping_) return false;
+  }
+  axes_.follow();
+  last_motion_ms_ = clock_.milliseconds();
+  return true;
+}
+
+void Machine::restWhenIdle() {
+  const uint32_t now = clock_.milliseconds();
+  if (isMoving() || axes_.isDriven()) last_motion_ms_ = now;
+  if (!axes_.isPowered() || now - last_motion_ms_ < uint32_t(values_.at(kIdleTime))) return;
+  if (isMoving() || axes_.isDriven()) return;
+  axes_.releaseAll();
+  keepPosition();
+}
+
+}  // namespace machine

@@ -1,0 +1,144 @@
+// What a line with a `$` does: the dump, a new value, the reset; and what follows a new value.
+#include "machine.h"
+
+namespace machine {
+namespace {
+
+/// Letters to the wire, for what the settings put letter by letter.
+struct PutLetter {
+  Printer& out;
+  void operator()(char letter) { out << letter; }
+};
+
+const uint32_t kQuietMs = 700;  // clients send their settings about 20 a second
+
+bool isGeometry(uint8_t number) {
+  return number <= 8 || number == 12 || number == 13 || number == 37 || number == 38 ||
+         number == 40 || number == 41 || (number >= 62 && number <= 64) || number >= 100;
+}
+
+}  // namespace
+
+bool Machine::runSetting(const char* line) {
+  const char* at = line + 1;
+  if (*at == '\0') {
+    out_.line(
+        FLASH("$$ shows all settings, $n=value sets one, $RST=$ or # or * restores defaults"));
+    return true;
+  }
+  if (!drain()) return false;
+  if (*at == '$') {
+    if (at[1] != '\0') return refuse(FLASH("Invalid statement"));
+    dumpSettings();
+    return true;
+  }
+  if (strncmp_P(at, PSTR("RST="), 4) == 0) return runReset(at + 4);
+  // The published firmware passes over one other character in front of a number.
+  if (*at >= 'A' && *at <= 'Z') ++at;
+  const char* const digits = at;
+  const float number = readNumber(at);
+  if (at == digits || *at != '=') return refuse(FLASH("Bad number format"));
+  const char* const value_text = ++at;
+  const float value = readNumber(at);
+  if (at == value_text || *at != '\0') return refuse(FLASH("Bad number format"));
+  if (!(number >= 0 && number <= 255) || number != float(uint8_t(number)))
+    return refuse(FLASH("Invalid statement"));
+  return setValue(uint8_t(number), value);
+}
+
+bool Machine::runReset(const char* what) {
+  if (what[0] == '\0' || what[1] != '\0') return refuse(FLASH("Invalid statement"));
+  switch (what[0]) {
+    case '$':
+      restoreDefaults(settings::Reset::kSettings);
+      return true;
+    case '#':
+      restoreDefaults(settings::Reset::kSettingsAndPosition);
+      return true;
+    case '*':
+      restoreDefaults(settings::Reset::kEverything);
+      return true;
+    default:
+      return refuse(FLASH("Invalid statement"));
+  }
+}
+
+void Machine::dumpSettings() {
+  PutLetter put = {out_};
+  for (uint8_t i = 0; i < values_.count(); ++i) {
+    if (table_.at(i).access != settings::Access::kListed) continue;
+    settings::putSetting(values_, i, put);
+    out_.end();
+    reportWhenDue();
+    clock_.idle();
+  }
+}
+
+bool Machine::setValue(uint8_t number, float value) {
+  const uint8_t meant = meantBy(number);
+  const settings::Refusal refusal = memory_.set(meant, value);
+  if (refusal == settings::Refusal::kNone) {
+    afterSetting(meant);
+    return true;
+  }
+  beginError();
+  PutLetter put = {out_};
+  settings::putRefusal(table_, number, refusal, put);
+  out_.end();
+  return false;
+}
+
+void Machine::afterSetting(uint8_t number) {
+  if (number == 38 || number == 39) arrangeDrives();
+  axes_.prepare(values_);
+  mover_.prepare(values_, axes_.secondsPerTick());
+  if (number == 17) restSpindle();
+  if (!isGeometry(number)) return;
+  // The clients send many in a row: the place is searched once, after the last.
+  is_geometry_stale_ = true;
+  geometry_changed_ms_ = clock_.milliseconds();
+}
+
+void Machine::arrangeDrives() {
+  axes_.releaseAll();
+  drives_.arrange(values_.at(kFeedSide) == 1, uint8_t(values_.at(kPwmFrequency)));
+  axes_.forgetRawCounts();
+}
+
+void Machine::refreshGeometry() {
+  if (!is_geometry_stale_) return;
+  is_geometry_stale_ = false;
+  geometry_.prepare(values_);
+  searchPlace();
+  keepPosition();
+}
+
+void Machine::refreshGeometryWhenQuiet() {
+  if (!is_geometry_stale_ || isMoving() || clock_.milliseconds() - geometry_changed_ms_ < kQuietMs)
+    return;
+  refreshGeometry();
+  if (is_chains_known_) findPlace();
+}
+
+void Machine::restoreDefaults(settings::Reset what) {
+  out_.line(FLASH("Message: Restoring defaults "));
+  switchLaser(false);
+  memory_.reset(what);
+  if (what != settings::Reset::kSettings) {
+    axes_.setCounts(0, 0, 0);
+    is_chains_known_ = true;
+  }
+  axes_.simulate(values_.at(kSimulatedMotors) != 0);
+  arrangeDrives();
+  afterSetting(0);
+  restSpindle();
+  greet();
+  sayMotors();
+  sayReady();
+  is_answered_ = true;
+  if (what == settings::Reset::kSettings) return;
+  findPlace();
+  is_geometry_stale_ = false;
+}
+
+}  // namespace machine

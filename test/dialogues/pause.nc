@@ -1,0 +1,43 @@
+; M0 waits for ~, which gets its own ok first; a tool change names the tool once.
+~~ include setup.inc
+-> G1 X20 F800
+<- ok
+-> M0 
+<- Maslow Paused
+~~ wait 2
+~~ status <Pause,MPos:20.00,0.00,0.00,WPos:0.000,0.000,0.000> within 0.05
+~~ quiet
+>> ~^N
+<- ok
+<- ok
+-> T2 M6
+<- Tool change to tool 2
+<- Tool Change: Please insert tool 2
+<- Maslow Paused
+>> ~
+<- ok
+<- ok
+-> M6 T2
+<- Tool change to tool 2
+<- ok
+-> M1
+<- Maslow Paused
+~~ wait 65
+>> !
+<- ok
+<* position loaded at:
+<* *
+<* *
+-> G0 X0
+<- ok
+~~ wait 4
+~~ quiet
+; WebControl's ~ comes while the moves before the pause still run: it counts.
+-> G1 X20 F800
+<- ok
+-> M0 
+~~ wait 0.2
+>> ~
+<- ok
+<- Maslow Paused
+<- ok

@@ -1,0 +1,46 @@
+; At rest the position survives; in motion the machine says that it is lost, and asks.
+~~ include setup.inc
+-> G0 X200 Y100
+<- ok
+-> G0 Z-3
+<- ok
+~~ wait 40
+~~ power cut
+<* FAKE_SERVO off
+<- Grbl v1.00
+<* ok
+<- [Forward Calculating Position]
+<- position loaded at:
+<- 200.00 within 0.02
+<- 100.00 within 0.02
+~~ wait 1
+~~ status <Idle,MPos:200.00,100.00,-3.00,WPos:0.000,0.000,0.000> within 0.02
+-> G0 X210
+<- ok
+~~ wait 4
+~~ sled X210 Y100 within 0.06
+~~ wait 4
+-> G1 X0 F500
+<- ok
+~~ wait 3
+~~ power cut
+<* ok
+<- ALARM: Position Lost*
+-> G0 X0
+<* error: *
+-> G0 Z-2
+<- ok
+~~ wait 5
+~~ power cut
+<* ok
+<- ALARM: Position Lost*
+~~ hang X0 Y0
+~~ declare
+<* position loaded at:
+<- 0.00 within 0.05
+<- 0.00 within 0.05
+<- ok
+-> G0 X10
+<- ok
+~~ wait 4
+~~ sled X10 Y0 within 0.06

@@ -1,0 +1,45 @@
+; The spindle by relay and by servo, and the laser.
+~~ include setup.inc
+-> M3
+<- ok
+~~ spindle low
+-> $17=2
+<- ok
+-> S12000 M3
+<- Turning Spindle On
+<- ok
+~~ spindle high
+-> M5
+<- Turning Spindle Off
+<- ok
+~~ spindle low
+-> $17=3
+<- ok
+-> M4
+<- Turning Spindle On
+<- ok
+~~ spindle low
+-> M30
+<- Turning Spindle Off
+<- ok
+~~ spindle high
+-> $17=1
+<- ok
+-> M3
+<- Turning Spindle On
+~~ wait 3
+~~ servo 180
+<- ok
+~~ servo loose
+-> M106
+<- Laser on
+<- ok
+~~ laser high
+>> !
+<- ok
+~~ laser low
+<- Turning Spindle Off
+<- Laser off
+<* position loaded at:
+<* *
+<* *

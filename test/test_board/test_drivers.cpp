@@ -1,0 +1,145 @@
+// Every shield's wiring, every driver's levels.
+#include <gtest/gtest.h>
+
+#include "board/drivers.h"
+
+using namespace board;
+
+namespace {
+
+const Shield& shieldOf(uint8_t straps) {
+  for (const Shield& shield : kShields)
+    if (shield.straps == straps) return shield;
+  throw std::runtime_error("no such shield");
+}
+
+void expectLevels(const Levels& levels, int one, int two, int enable) {
+  EXPECT_EQ(levels.one, one);
+  EXPECT_EQ(levels.two, two);
+  EXPECT_EQ(levels.enable, enable);
+}
+
+Channel over(uint8_t straps, Motor motor) { return channelOf(shieldOf(straps), motor, true); }
+Channel below(uint8_t straps, Motor motor) { return channelOf(shieldOf(straps), motor, false); }
+
+void expectPins(const Channel& channel, int one, int two, int enable) {
+  EXPECT_EQ(channel.one, one);
+  EXPECT_EQ(channel.two, two);
+  EXPECT_EQ(channel.enable, enable);
+}
+
+}  // namespace
+
+TEST(Wiring, CrossesTheLeftMotorOverTheTop) {
+  expectPins(over(61, Motor::kLeft), 13, 12, 5);
+  expectPins(over(62, Motor::kLeft), 11, 10, 12);
+  expectPins(over(63, Motor::kLeft), 12, 11, 10);
+  expectPins(over(52, Motor::kLeft), 11, 10, 12);
+  expectPins(over(4, Motor::kLeft), 11, 10, 12);
+  expectPins(over(6, Motor::kLeft), 5, 6, kNoPin);
+  expectPins(over(8, Motor::kLeft), 9, 10, kNoPin);
+  expectPins(below(63, Motor::kLeft), 11, 12, 10);
+}
+
+TEST(Wiring, CrossesTheRightMotorBelow) {
+  expectPins(over(61, Motor::kRight), 9, 8, 6);
+  expectPins(over(62, Motor::kRight), 6, 4, 5);
+  expectPins(over(63, Motor::kRight), 4, 6, 5);
+  expectPins(over(52, Motor::kRight), 6, 4, 5);
+  expectPins(over(6, Motor::kRight), 9, 10, kNoPin);
+  expectPins(over(8, Motor::kRight), 6, 5, kNoPin);
+  expectPins(below(61, Motor::kRight), 8, 9, 6);
+}
+
+TEST(Wiring, NeverCrossesZ) {
+  for (const Shield& shield : kShields)
+    for (const bool over_top : {true, false}) {
+      const Channel channel = channelOf(shield, Motor::kZ, over_top);
+      expectPins(channel, shield.z.first, shield.z.second, shield.z.enable);
+    }
+}
+
+TEST(Wiring, KeepsDirectionAndDisableOfATle9201Apart) {
+  for (const bool over_top : {true, false})
+    for (const Motor motor : {Motor::kLeft, Motor::kRight, Motor::kZ}) {
+      const Channel channel = channelOf(shieldOf(7), motor, over_top);
+      EXPECT_EQ(channel.one, pinsOf(shieldOf(7), motor).first);
+      EXPECT_EQ(channel.forward_is_high, over_top && motor != Motor::kZ);
+    }
+}
+
+TEST(Drivers, PulseTheEnableOfAnL298) {
+  const Channel channel = over(63, Motor::kRight);
+  expectLevels(levelsFor(channel, 100), 255, 0, 100);
+  expectLevels(levelsFor(channel, -100), 0, 255, 100);
+  expectLevels(levelsFor(channel, 0), 255, 0, 0);
+  expectLevels(levelsOff(channel), 255, 0, 0);
+}
+
+TEST(Drivers, PulseAnInputWhereTheEnableOfAnL298HasNoPwm) {
+  // v1.1: the left enable is pin 12. Over the top input 2 is pin 10, which can pulse.
+  const Channel top = over(62, Motor::kLeft);
+  expectLevels(levelsFor(top, 100), 255, 155, 255);
+  expectLevels(levelsFor(top, -100), 0, 100, 255);
+  expectLevels(levelsOff(top), 255, 0, 0);
+  const Channel bottom = below(62, Motor::kLeft);
+  expectLevels(levelsFor(bottom, 100), 100, 0, 255);
+  expectLevels(levelsFor(bottom, -100), 155, 255, 255);
+}
+
+TEST(Drivers, PulseOneInputOfATle5206AndBrakeWithBothLow) {
+  const Channel right = over(52, Motor::kRight);  // pin 6 pulses, pin 4 does not
+  expectLevels(levelsFor(right, 100), 100, 0, 0);
+  expectLevels(levelsFor(right, -100), 155, 255, 0);
+  expectLevels(levelsFor(right, 0), 0, 0, 0);
+  expectLevels(levelsOff(right), 0, 0, 0);
+  const Channel z = over(52, Motor::kZ);  // both pulse
+  expectLevels(levelsFor(z, 100), 255, 155, 0);
+  expectLevels(levelsFor(z, -100), 155, 255, 0);
+  EXPECT_FALSE(hasEnable(z));
+}
+
+TEST(Drivers, PulseOneInputOfATb6643AndBrakeWithBothHigh) {
+  for (const uint8_t straps : {6, 8}) {
+    const Channel channel = over(straps, Motor::kLeft);
+    expectLevels(levelsFor(channel, 100), 100, 0, 0);
+    expectLevels(levelsFor(channel, -100), 0, 100, 0);
+    expectLevels(levelsFor(channel, 0), 255, 255, 0);
+    expectLevels(levelsOff(channel), 0, 0, 0);
+    EXPECT_FALSE(hasEnable(channel));
+  }
+}
+
+TEST(Drivers, GiveATle9201DirectionDisableAndPwm) {
+  const Channel left = over(7, Motor::kLeft), z = over(7, Motor::kZ);
+  expectLevels(levelsFor(left, 100), 255, 0, 100);
+  expectLevels(levelsFor(left, -100), 0, 0, 100);
+  expectLevels(levelsFor(z, 100), 0, 0, 100);
+  expectLevels(levelsFor(left, 0), 255, 0, 0);
+  expectLevels(levelsOff(left), 0, 255, 0);
+}
+
+TEST(Drivers, CanReachFullDutyBothWaysOnPinsThatExist) {
+  for (const Shield& shield : kShields)
+    for (const Motor motor : {Motor::kLeft, Motor::kRight, Motor::kZ})
+      for (const bool over_top : {true, false}) {
+        const Channel channel = channelOf(shield, motor, over_top);
+        for (int drive = -300; drive <= 300; ++drive) {
+          const Levels shown = levelsFor(channel, int16_t(drive));
+          const auto pulses = [](uint8_t level) { return level != kLow && level != kHigh; };
+          EXPECT_TRUE(!pulses(shown.one) || canPulse(channel.one));
+          EXPECT_TRUE(!pulses(shown.two) || canPulse(channel.two));
+          EXPECT_TRUE(!pulses(shown.enable) || canPulse(channel.enable));
+        }
+      }
+}
+
+TEST(Drivers, GetAPwmThatTheirChipFollows) {
+  for (const uint8_t wanted : {0, 1, 2, 3, 9}) EXPECT_EQ(pwmFor(Driver::kTle5206, wanted), 3);
+  EXPECT_EQ(pwmFor(Driver::kTle9201, 1), 2);
+  EXPECT_EQ(pwmFor(Driver::kL298, 1), 1);
+  EXPECT_EQ(pwmFor(Driver::kTb6643, 2), 2);
+  EXPECT_EQ(pwmFor(Driver::kL298, 0), 3);
+  EXPECT_EQ(dividerBitsOfTimer2(3), 4);
+  EXPECT_EQ(dividerBits(3), 3);
+}

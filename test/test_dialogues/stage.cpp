@@ -1,0 +1,171 @@
+// The board's side of the stage: time, wire, motors; and the dialogue, step by step.
+#include "stage.h"
+
+#include <cmath>
+
+using namespace machine;
+
+namespace {
+
+const double kBytesPerMs = 5.88;  // 58,824 baud, ten bits each
+const int kTickMs = 10;
+const long kPatienceMs = 150000;  // for a line that is expected
+const long kLongestGapMs = 1500;  // clients give up after 2 s of silence
+const int kOutRoom = 255;
+
+const double kMainPerCount = 63.5 / 8113.73, kZPerCount = 3.17 / 7560;  // [mm]
+const double kMainTopSpeed = 26, kZTopSpeed = 1.1;                      // [mm/s]
+
+bool startsWith(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
+
+}  // namespace
+
+Stage::Stage(std::vector<Step> steps)
+    : steps_(std::move(steps)),
+      motor_{{kMainPerCount, kMainTopSpeed},
+             {kMainPerCount, kMainTopSpeed},
+             {kZPerCount, kZTopSpeed}} {
+  for (reference::ChainSide* side : {&judge_.left, &judge_.right}) {
+    side->weight = 0.00137293;
+    side->compliance = 5.2e-6;
+  }
+  motor_[kLeftAxis].travel = motor_[kRightAxis].travel = 1651;
+}
+
+int16_t Stage::read() {
+  if (input_.empty() || byte_credit_ < 1) return -1;
+  byte_credit_ -= 1;
+  const char c = input_.front();
+  input_.erase(0, 1);
+  return uint8_t(c);
+}
+
+void Stage::write(char character) {
+  while (out_queue_ >= kOutRoom) passMillisecond();
+  ++out_queue_;
+  if (character != '\n') {
+    if (uint8_t(character) > 126 || (uint8_t(character) < 32 && character != '\r'))
+      fail("a character that is no ASCII text");
+    partial_ += character;
+    return;
+  }
+  if (partial_.empty() || partial_.back() != '\r')
+    fail("a line does not end in CR LF: " + partial_);
+  partial_.pop_back();
+  takeLine(partial_);
+  partial_.clear();
+}
+
+void Stage::takeLine(const std::string& line) {
+  last_line_ms_ = now_ms_;
+  if (startsWith(line, "<"))
+    latest_status_ = line, status_ms_ = now_ms_;
+  else if (startsWith(line, "[PE:"))
+    latest_errors_ = line;
+  else
+    lines_.push_back(line);
+  if (line == "ok" || startsWith(line, "error:")) ++answers_;
+}
+
+void Stage::drive(Axis axis, int16_t duty) {
+  motor_[axis].duty = duty;
+  motor_[axis].powered = true;
+}
+
+void Stage::release(Axis axis) {
+  motor_[axis].duty = 0;
+  motor_[axis].powered = false;
+}
+
+uint16_t Stage::count(Axis axis) { return motor_[axis].count(); }
+
+void Stage::arrange(bool, uint8_t) {}
+
+void Stage::set(Output output, bool high) {
+  (output == Output::kSpindle ? spindle_ : laser_) = high;
+}
+
+void Stage::passMillisecond() {
+  ++now_ms_;
+  out_queue_ = std::max(0, out_queue_ - int(now_ms_ % 8 == 0 ? 5 : 6));
+  byte_credit_ = std::min(byte_credit_ + kBytesPerMs, 256.0);
+  for (SimulatedMotor& motor : motor_) motor.advance(0.001);
+  eeprom.advance(1000);
+  if (now_ms_ % kTickMs == 0) tick();
+  if (now_ms_ - last_line_ms_ > kLongestGapMs) fail("silence for over 1.5 s");
+}
+
+void Stage::idle() {
+  passMillisecond();
+  while (at_ < steps_.size() && takeStep(steps_[at_])) {
+    ++at_;
+    step_since_ms_ = now_ms_;
+  }
+  if (at_ < steps_.size()) return;
+  if (!lines_.empty()) fail("one line too many: " + lines_.front());
+  throw TheEnd();
+}
+
+void Stage::restart() {
+  for (SimulatedMotor& motor : motor_) motor.restartCount();
+  for (const Axis axis : {kLeftAxis, kRightAxis, kZAxis}) release(axis);
+  spindle_ = laser_ = false;
+  input_.clear();
+  partial_.clear();
+  lines_.clear();
+  out_queue_ = 0;
+  last_line_ms_ = now_ms_ - kLongestGapMs + 500;  // the first line is due in half a second
+}
+
+bool Stage::takeStep(const Step& step) {
+  switch (step.kind) {
+    case Step::kSend:
+      input_ += step.text + "\n";
+      return true;
+    case Step::kSendRaw:
+      for (std::size_t i = 0; i < step.text.size(); ++i) {
+        const bool special = step.text[i] == '^' && i + 1 < step.text.size();
+        if (!special)
+          input_ += step.text[i];
+        else
+          input_ += step.text[++i] == 'X' ? '\x18' : '\n';
+      }
+      return true;
+    case Step::kExpect:
+      return expect(step);
+    case Step::kSkipTo:
+      return skipTo(step);
+    case Step::kAsk:
+      return ask(step);
+  }
+  return false;
+}
+
+bool Stage::expect(const Step& step) {
+  if (lines_.empty()) {
+    if (now_ms_ - step_since_ms_ > kPatienceMs) fail("nothing came");
+    return false;
+  }
+  const std::string line = lines_.front();
+  lines_.pop_front();
+  if (!matches(line, readExpected(step.text))) fail("came instead: " + line);
+  return true;
+}
+
+bool Stage::skipTo(const Step& step) {
+  while (!lines_.empty()) {
+    const std::string line = lines_.front();
+    lines_.pop_front();
+    if (matches(line, readExpected(step.text))) return true;
+  }
+  if (now_ms_ - step_since_ms_ > kPatienceMs) fail("it did not come");
+  return false;
+}
+
+void Stage::fail(const std::string& why) const {
+  const std::size_t at = std::min(at_, steps_.size() - 1);
+  throw Failure(steps_[at].place + ": " + steps_[at].text + "\n  " + why + "\n  at " +
+                std::to_string(now_ms_) + " ms; " + latest_status_ + latest_errors_);
+}

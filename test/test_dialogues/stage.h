@@ -1,0 +1,87 @@
+// Plays a dialogue: a simulated board around the firmware's machine, in simulated time.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "machine/ports.h"
+#include "reference/machine.h"
+#include "simulated_eeprom.h"
+#include "simulated_motor.h"
+#include "vm/line_match.h"
+#include "vm/script.h"
+
+/// What went wrong, with the line of the dialogue.
+struct Failure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Thrown out of the firmware's main program, wherever it waits.
+struct PowerCut {};
+struct TheEnd {};
+
+/// The board, its motors and the computer at the other end of the wire.
+class Stage : public machine::Wire,
+              public machine::Drives,
+              public machine::Aux,
+              public machine::Clock {
+ public:
+  explicit Stage(std::vector<Step> steps);
+
+  // What the firmware sees.
+  int16_t read() override;
+  void write(char character) override;
+  uint8_t lost() override { return 0; }
+  void drive(machine::Axis axis, int16_t duty) override;
+  void release(machine::Axis axis) override;
+  uint16_t count(machine::Axis axis) override;
+  void arrange(bool over_top, uint8_t pwm_choice) override;
+  void set(machine::Output output, bool high) override;
+  void turnServo(uint8_t degrees) override { servo = degrees; }
+  bool probeTouches() override { return motor_[machine::kZAxis].travel <= probe_touches_at_; }
+  uint32_t milliseconds() override { return uint32_t(now_ms_); }
+  void idle() override;
+  void holdTicks() override {}
+  void releaseTicks() override {}
+
+  /// Called every control tick, as the interrupt would be.
+  std::function<void()> tick = [] {};
+  SimulatedEeprom eeprom;
+  uint8_t servo = machine::kNoServo;
+
+  /// What is left after a power cut.
+  void restart();
+
+ private:
+  void passMillisecond();
+  void takeLine(const std::string& line);
+  bool takeStep(const Step& step);
+  bool expect(const Step& step);
+  bool skipTo(const Step& step);
+  bool ask(const Step& step);
+  bool change(const std::string& verb, const std::string& rest);
+  bool wait(const std::string& seconds);
+  void askSled(const std::string& place);
+  void askChains(const std::string& lengths);
+  void hang(const std::string& place);
+  void declare();
+  void tellOr(bool holds, const std::string& what);
+  SimulatedMotor& motorNamed(const std::string& name);
+  [[noreturn]] void fail(const std::string& why) const;
+
+  std::vector<Step> steps_;
+  std::size_t at_ = 0;
+  long now_ms_ = 0, step_since_ms_ = 0, last_line_ms_ = 0, status_ms_ = 0;
+  std::deque<std::string> lines_;
+  std::string partial_, latest_status_, latest_errors_, input_;
+  double byte_credit_ = 0;
+  int out_queue_ = 0, answers_ = 0;
+  double probe_touches_at_ = -1e9;
+  bool spindle_ = false, laser_ = false;
+  reference::Machine judge_;
+  SimulatedMotor motor_[machine::kAxisCount];
+};

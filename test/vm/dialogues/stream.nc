@@ -1,0 +1,15 @@
+; Short moves as fast as the line carries them.
+<* ok
+<* Message: Unable*
+-> $7=2
+<- ok
+-> $8=139.1
+<- ok
+-> B06 L1710 R1710
+<* position loaded at:
+<* ok
+-> G1 X5 Y0 F900
+<- ok
+~~ wait 20
+~~ stream 2000
+~~ wait 5

@@ -1,0 +1,197 @@
+// Plays a dialogue with the firmware as it is flashed, on a simulated Mega with motors on its pins:
+// `play_firmware ELF FOLDER DIALOGUE [EEPROM]`. Prints measured figures at the end, one a line.
+// 0: all went as written, 1: something came otherwise, 2: it could not be tried.
+#include <cmath>
+#include <cstdio>
+#include <deque>
+#include <memory>
+#include <sstream>
+
+#include "line_match.h"
+#include "script.h"
+#include "virtual_board.h"
+#include "virtual_motor.h"
+
+namespace {
+
+const double kPatience = 30;                 // [s] for a line that is expected
+const avr_cycle_count_t kSlice = 800;        // 50 us, in which no motor makes two edges
+const double kMainTop = 3300, kZTop = 2600;  // [counts/s] at full duty
+const vm::MotorPins kLeft = {12, 11, 10, 3, 2};
+const vm::MotorPins kRight = {4, 6, 5, 20, 21};
+const vm::MotorPins kZ = {7, 9, 8, 18, 19};
+
+struct Failure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A board with its three motors; a new one for each life between power cuts.
+struct Machine {
+  Machine(const std::string& elf, const std::vector<uint8_t>& eeprom)
+      : board(elf),
+        left(board, kLeft, kMainTop),
+        right(board, kRight, kMainTop),
+        z(board, kZ, kZTop) {
+    board.setEeprom(eeprom);
+    board.paintStack();
+  }
+
+  void run(double seconds) {
+    const avr_cycle_count_t end = board.avr()->cycle + avr_cycle_count_t(seconds * vm::kClock);
+    while (board.avr()->cycle < end) {
+      board.run(kSlice);
+      for (vm::VirtualMotor* motor : {&left, &right, &z})
+        motor->advance(double(kSlice) / vm::kClock);
+      for (int i = 0; i < 3; ++i) {
+        const double drive = (i == 0 ? left : i == 1 ? right : z).driveNow();
+        most_drive[i] = std::max(most_drive[i], drive);
+        least_drive[i] = std::min(least_drive[i], drive);
+      }
+    }
+  }
+
+  vm::VirtualBoard board;
+  vm::VirtualMotor left, right, z;
+  double most_drive[3] = {0, 0, 0}, least_drive[3] = {0, 0, 0};
+};
+
+class Player {
+ public:
+  explicit Player(std::string elf) : elf_(std::move(elf)) { restart(); }
+
+  void play(const Step& step) {
+    switch (step.kind) {
+      case Step::kSend:
+        machine_->board.send(step.text + "\n");
+        return;
+      case Step::kSendRaw:
+        machine_->board.send(step.text);
+        return;
+      case Step::kExpect:
+      case Step::kSkipTo:
+        return expect(step);
+      case Step::kAsk:
+        return ask(step);
+    }
+  }
+
+  void tellFigures() const {
+    std::printf("stack %d\n", machine_->board.stackUsed());
+    std::printf("tick_share %.4f\n", machine_->board.tickShare());
+    std::printf("longest_tick %ld\n", machine_->board.longestTick());
+  }
+
+ private:
+  void restart() {
+    const std::vector<uint8_t> eeprom =
+        machine_ ? machine_->board.eeprom() : std::vector<uint8_t>(4096, 0xff);
+    machine_ = std::make_unique<Machine>(elf_, eeprom);
+    lines_.clear();
+  }
+
+  /// Reports aside.
+  void takeLines() {
+    std::deque<std::string>& came = machine_->board.lines;
+    for (; !came.empty(); came.pop_front())
+      if (came.front().compare(0, 1, "<") != 0 && came.front().compare(0, 4, "[PE:") != 0)
+        lines_.push_back(came.front());
+  }
+
+  void expect(const Step& step) {
+    const Expected expected = readExpected(step.text);
+    for (double waited = 0; waited < kPatience; waited += 0.001) {
+      takeLines();
+      while (!lines_.empty()) {
+        const std::string line = lines_.front();
+        lines_.pop_front();
+        if (matches(line, expected)) return;
+        if (step.kind == Step::kExpect) throw Failure("came instead: " + line);
+      }
+      machine_->run(0.001);
+    }
+    throw Failure("nothing came");
+  }
+
+  void ask(const Step& step) {
+    std::istringstream words(step.text);
+    std::string verb, rest;
+    words >> verb >> rest;
+    if (verb == "wait") return machine_->run(std::atof(rest.c_str()));
+    if (verb == "power") return restart();
+    if (verb == "straps") {
+      restart();
+      return machine_->board.strap(uint8_t(std::atoi(rest.c_str())));
+    }
+    if (verb == "stream") return stream(std::atoi(rest.c_str()));
+    const int axis = rest == "left" ? 0 : rest == "right" ? 1 : 2;
+    const bool winds = verb == "wound" && machine_->most_drive[axis] > 0.1;
+    const bool pays = verb == "paid" && machine_->least_drive[axis] < -0.1;
+    if (!winds && !pays) throw Failure("it did not");
+  }
+
+  /// Short moves as fast as they are acknowledged, 126 characters ahead; tells how many a second.
+  void stream(int count) {
+    std::deque<std::size_t> unanswered;
+    std::size_t waiting = 0;
+    int sent = 0, answered = 0;
+    const double start = machine_->board.seconds();
+    machine_->board.watchTicksFromNow();
+    while (answered < count) {
+      char text[40];
+      // 0.05 mm each, round and round, in the words of a program for smooth curves.
+      const double angle = sent * 0.01;
+      std::snprintf(text, sizeof text, "G1 X%.3f Y%.3f\n", 5 * std::cos(angle),
+                    5 * std::sin(angle));
+      const std::size_t length = std::string(text).size();
+      if (sent < count && waiting + length <= 126) {
+        machine_->board.send(text);
+        unanswered.push_back(length);
+        waiting += length;
+        ++sent;
+        continue;
+      }
+      machine_->run(0.0005);
+      takeLines();
+      for (; !lines_.empty(); lines_.pop_front()) {
+        if (lines_.front() != "ok") throw Failure("came instead: " + lines_.front());
+        waiting -= unanswered.front();
+        unanswered.pop_front();
+        ++answered;
+      }
+    }
+    std::printf("tick_share_streaming %.4f\n", machine_->board.tickShare());
+    std::printf("longest_tick_streaming %ld\n", machine_->board.longestTick());
+    std::printf("lines_per_second %.1f\n", count / (machine_->board.seconds() - start));
+  }
+
+  std::string elf_;
+  std::unique_ptr<Machine> machine_;
+  std::deque<std::string> lines_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 4) {
+    std::fprintf(stderr, "play_firmware: give ELF FOLDER DIALOGUE\n");
+    return 2;
+  }
+  std::vector<Step> steps;
+  std::string place;
+  try {
+    steps = readScript(argv[2], argv[3]);
+    Player player(argv[1]);
+    for (const Step& step : steps) {
+      place = step.place + ": " + step.text;
+      player.play(step);
+    }
+    player.tellFigures();
+    return 0;
+  } catch (const Failure& failure) {
+    std::fprintf(stderr, "%s\n  %s\n", place.c_str(), failure.what());
+    return 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "play_firmware: %s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,54 @@
+// A dialogue as text: what is sent, what must come back, what the judge is asked.
+#pragma once
+
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+/// One line of a dialogue.
+struct Step {
+  enum Kind {
+    kSend,     ///< `-> text`: a line with its end
+    kSendRaw,  ///< `>> text`: characters alone; ^X is ctrl-X, ^N a line end
+    kExpect,   ///< `<- text [within t]`: the next line, reports aside
+    kSkipTo,   ///< `<* text [within t]`: some later line; those before are passed over
+    kAsk,      ///< `~~ question`: of the simulated machine
+  } kind;
+  std::string text;
+  std::string place;  ///< file and line where it stands
+};
+
+/// The steps of a dialogue; lines that begin with `;` and empty ones are left out, and
+/// `~~ include FILE` stands for the steps of a file in the same folder.
+inline std::vector<Step> readScript(const std::string& folder, const std::string& name) {
+  std::ifstream text(folder + "/" + name);
+  if (!text) throw std::runtime_error("cannot read " + folder + "/" + name);
+  std::vector<Step> steps;
+  std::string line;
+  const std::string kInclude = "~~ include ";
+  for (int number = 1; std::getline(text, line); ++number) {
+    if (line.empty() || line[0] == ';') continue;
+    if (line.compare(0, kInclude.size(), kInclude) == 0) {
+      const std::vector<Step> more = readScript(folder, line.substr(kInclude.size()));
+      steps.insert(steps.end(), more.begin(), more.end());
+      continue;
+    }
+    const std::string mark = line.substr(0, 2);
+    Step step = {Step::kSend, line.size() > 3 ? line.substr(3) : "",
+                 name + ":" + std::to_string(number)};
+    if (mark == ">>")
+      step.kind = Step::kSendRaw;
+    else if (mark == "<-")
+      step.kind = Step::kExpect;
+    else if (mark == "<*")
+      step.kind = Step::kSkipTo;
+    else if (mark == "~~")
+      step.kind = Step::kAsk;
+    else if (mark != "->")
+      throw std::runtime_error(name + ":" + std::to_string(number) +
+                               ": begin with -> >> <- <* ~~ ;");
+    steps.push_back(step);
+  }
+  return steps;
+}

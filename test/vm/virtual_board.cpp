@@ -1,0 +1,155 @@
+// The simulated Mega by simavr.
+#include "virtual_board.h"
+
+#include <algorithm>
+
+namespace vm {
+namespace {
+
+const avr_cycle_count_t kPerCharacter = 10 * 16 * 17;  // 58,824 baud, ten bits
+const avr_cycle_count_t kSlice = 500;
+const uint8_t kPaint = 0xa5;
+
+/// Where a pin of the Mega is: port letter, bit, and the registers of the PWM it can carry.
+struct PinPlace {
+  int pin;
+  char port;
+  int bit;
+  uint16_t compare, control;  // data addresses; 0: no PWM
+  int control_bit;            // COMnx1
+};
+
+const PinPlace kPins[] = {
+    {2, 'E', 4, 0x9a, 0x90, 5}, {3, 'E', 5, 0x9c, 0x90, 3}, {4, 'G', 5, 0, 0, 0},
+    {5, 'E', 3, 0x98, 0x90, 7}, {6, 'H', 3, 0xa8, 0xa0, 7}, {7, 'H', 4, 0xaa, 0xa0, 5},
+    {8, 'H', 5, 0xac, 0xa0, 3}, {9, 'H', 6, 0xb4, 0xb0, 5}, {10, 'B', 4, 0xb3, 0xb0, 7},
+    {11, 'B', 5, 0, 0, 0},      {12, 'B', 6, 0, 0, 0},      {13, 'B', 7, 0, 0, 0},
+    {14, 'J', 1, 0, 0, 0},      {16, 'H', 1, 0, 0, 0},      {17, 'H', 0, 0, 0, 0},
+    {18, 'D', 3, 0, 0, 0},      {19, 'D', 2, 0, 0, 0},      {20, 'D', 1, 0, 0, 0},
+    {21, 'D', 0, 0, 0, 0},      {22, 'A', 0, 0, 0, 0},      {23, 'A', 1, 0, 0, 0},
+    {24, 'A', 2, 0, 0, 0},      {25, 'A', 3, 0, 0, 0},      {26, 'A', 4, 0, 0, 0},
+    {27, 'A', 5, 0, 0, 0},      {40, 'G', 1, 0, 0, 0},      {41, 'G', 0, 0, 0, 0},
+    {43, 'L', 6, 0, 0, 0},
+};
+
+const PinPlace& placeOf(int pin) {
+  for (const PinPlace& place : kPins)
+    if (place.pin == pin) return place;
+  throw std::runtime_error("no such pin: " + std::to_string(pin));
+}
+
+}  // namespace
+
+VirtualBoard::VirtualBoard(const std::string& elf) {
+  elf_firmware_t firmware;
+  std::memset(&firmware, 0, sizeof firmware);
+  if (elf_read_firmware(elf.c_str(), &firmware) != 0)
+    throw std::runtime_error("cannot read " + elf + "; build it with pio run");
+  data_end_ = uint16_t(kRamBegin + firmware.datasize + firmware.bsssize);
+  avr_ = avr_make_mcu_by_name("atmega2560");
+  avr_init(avr_);
+  avr_->frequency = kClock;
+  avr_load_firmware(avr_, &firmware);
+  uint32_t flags = 0;
+  avr_ioctl(avr_, AVR_IOCTL_UART_GET_FLAGS('0'), &flags);
+  flags &= ~uint32_t(AVR_UART_FLAG_STDIO | AVR_UART_FLAG_POLL_SLEEP);
+  avr_ioctl(avr_, AVR_IOCTL_UART_SET_FLAGS('0'), &flags);
+  const uint32_t port = AVR_IOCTL_UART_GETIRQ('0');
+  wire_in_ = avr_io_getirq(avr_, port, UART_IRQ_INPUT);
+  avr_irq_register_notify(avr_io_getirq(avr_, port, UART_IRQ_OUTPUT), onCharacter, this);
+}
+
+void VirtualBoard::onCharacter(avr_irq_t*, uint32_t value, void* parameter) {
+  VirtualBoard& board = *static_cast<VirtualBoard*>(parameter);
+  const char character = char(value);
+  if (character == '\n') {
+    board.lines.push_back(board.partial_);
+    board.partial_.clear();
+  } else if (character != '\r') {
+    board.partial_ += character;
+  }
+}
+
+void VirtualBoard::passCharacters() {
+  if (to_send_.empty() || avr_->cycle < next_character_) return;
+  const uint8_t character = uint8_t(to_send_.front());
+  to_send_.erase(0, 1);
+  next_character_ = avr_->cycle + kPerCharacter;
+  avr_raise_irq(wire_in_, character);
+}
+
+void VirtualBoard::run(avr_cycle_count_t cycles) {
+  const avr_cycle_count_t end = avr_->cycle + cycles;
+  while (avr_->cycle < end) {
+    const avr_cycle_count_t slice = avr_->cycle + kSlice;
+    while (avr_->cycle < slice) {
+      const avr_cycle_count_t before = avr_->cycle;
+      const int state = avr_run(avr_);
+      watchTick(before);
+      if (state == cpu_Done || state == cpu_Crashed) throw std::runtime_error("the board crashed");
+    }
+    passCharacters();
+  }
+}
+
+void VirtualBoard::watchTick(avr_cycle_count_t before) {
+  const uint16_t kTimsk1 = 0x6f;
+  const uint32_t kTickVector = 17 * 4;
+  // From the jump in the table of vectors until its interrupt is allowed again.
+  const bool ticking = avr_->pc == kTickVector || (was_ticking_ && !tick_is_over_);
+  if (avr_->pc == kTickVector) tick_is_over_ = false, tick_masked_ = false;
+  if (ticking && !(avr_->data[kTimsk1] & 2)) tick_masked_ = true;
+  if (tick_masked_ && (avr_->data[kTimsk1] & 2)) tick_is_over_ = true;
+  if (ticking) in_tick_ += avr_->cycle - before;
+  if (ticking && !was_ticking_) tick_since_ = before;
+  if (!ticking && was_ticking_) longest_tick_ = std::max(longest_tick_, avr_->cycle - tick_since_);
+  was_ticking_ = ticking;
+}
+
+void VirtualBoard::setPin(int pin, bool high) {
+  const PinPlace& place = placeOf(pin);
+  avr_raise_irq(avr_io_getirq(avr_, AVR_IOCTL_IOPORT_GETIRQ(place.port), place.bit), high);
+}
+
+void VirtualBoard::strap(uint8_t open) {
+  avr_ioport_external_t outside;
+  outside.name = 'A';
+  outside.mask = 0x3f;
+  outside.value = open & 0x3f;
+  avr_ioctl(avr_, AVR_IOCTL_IOPORT_SET_EXTERNAL('A'), &outside);
+}
+
+PinState VirtualBoard::pin(int pin) const {
+  const PinPlace& place = placeOf(pin);
+  if (place.compare != 0 && (avr_->data[place.control] >> place.control_bit & 1))
+    return {true, avr_->data[place.compare]};
+  avr_ioport_state_t state;
+  avr_ioctl(avr_, AVR_IOCTL_IOPORT_GETSTATE(place.port), &state);
+  return {false, uint8_t(state.port >> place.bit & 1 ? 255 : 0)};
+}
+
+std::vector<uint8_t> VirtualBoard::eeprom() const {
+  avr_eeprom_desc_t desc = {nullptr, 0, 4096};
+  std::vector<uint8_t> bytes(4096);
+  desc.ee = bytes.data();
+  avr_ioctl(avr_, AVR_IOCTL_EEPROM_GET, &desc);
+  return bytes;
+}
+
+void VirtualBoard::setEeprom(const std::vector<uint8_t>& bytes) {
+  std::vector<uint8_t> copy = bytes;
+  avr_eeprom_desc_t desc = {copy.data(), 0, uint32_t(copy.size())};
+  avr_ioctl(avr_, AVR_IOCTL_EEPROM_SET, &desc);
+}
+
+void VirtualBoard::paintStack() {
+  for (uint16_t at = data_end_; at < kRamEnd; ++at) avr_->data[at] = kPaint;
+}
+
+int VirtualBoard::stackUsed() const {
+  uint16_t at = data_end_;
+  while (at < kRamEnd && avr_->data[at] == kPaint) ++at;
+  return kRamEnd - at;
+}
+
+}  // namespace vm

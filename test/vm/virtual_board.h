@@ -1,0 +1,89 @@
+// The firmware as it is flashed, on a simulated Mega: its wire, its pins, its memory, its time.
+#pragma once
+
+#include <simavr/avr_eeprom.h>
+#include <simavr/avr_ioport.h>
+#include <simavr/avr_uart.h>
+#include <simavr/sim_avr.h>
+#include <simavr/sim_elf.h>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <deque>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace vm {
+
+const uint32_t kClock = 16000000;  // [Hz]
+const uint16_t kRamBegin = 0x200, kRamEnd = 0x2200;
+
+/// What a pin shows: its level, or the duty of the PWM that is switched to it.
+struct PinState {
+  bool pulsed;
+  uint8_t level;  ///< 0, 255, or the duty
+};
+
+/// One Mega 2560 with a program in its flash.
+class VirtualBoard {
+ public:
+  /// Loads an ELF file; throws std::runtime_error if it cannot be read.
+  explicit VirtualBoard(const std::string& elf);
+  ~VirtualBoard() { avr_terminate(avr_); }
+  VirtualBoard(const VirtualBoard&) = delete;
+  VirtualBoard& operator=(const VirtualBoard&) = delete;
+
+  /// Runs for so many cycles, or throws if the processor crashes.
+  void run(avr_cycle_count_t cycles);
+  void runMs(double ms) { run(avr_cycle_count_t(ms * kClock / 1000)); }
+
+  /// Puts characters on the wire to the board; they go as fast as it takes them.
+  void send(const std::string& characters) { to_send_ += characters; }
+  bool hasSent() const { return to_send_.empty(); }
+
+  /// Lines that the board sent since they were last taken, without their ends.
+  std::deque<std::string> lines;
+
+  /// Pulls an input of the Mega (Arduino's number) high or low.
+  void setPin(int pin, bool high);
+  PinState pin(int pin) const;
+
+  /// Straps the six pins from 22 on; a bit for each that is left open.
+  void strap(uint8_t open);
+
+  std::vector<uint8_t> eeprom() const;
+  void setEeprom(const std::vector<uint8_t>& bytes);
+
+  /// Fills unused RAM with a pattern, and tells later how many bytes of stack were ever used.
+  void paintStack();
+  int stackUsed() const;
+
+  /// Share of the time, and cycles at most, that the control tick takes: it switches its own
+  /// interrupt off while it runs. Other interrupts in between count.
+  double tickShare() const { return double(in_tick_) / double(avr_->cycle - watched_from_); }
+  void watchTicksFromNow() {
+    in_tick_ = longest_tick_ = 0;
+    watched_from_ = avr_->cycle;
+  }
+  long longestTick() const { return long(longest_tick_); }
+
+  double seconds() const { return double(avr_->cycle) / kClock; }
+  avr_t* avr() { return avr_; }
+
+ private:
+  static void onCharacter(avr_irq_t*, uint32_t value, void* board);
+  void passCharacters();
+  void watchTick(avr_cycle_count_t before);
+
+  avr_t* avr_;
+  avr_irq_t* wire_in_;
+  std::string to_send_, partial_;
+  avr_cycle_count_t next_character_ = 0;
+  uint16_t data_end_;
+  avr_cycle_count_t in_tick_ = 0, longest_tick_ = 0, tick_since_ = 0, watched_from_ = 0;
+  bool was_ticking_ = false, tick_masked_ = false, tick_is_over_ = true;
+};
+
+}  // namespace vm
