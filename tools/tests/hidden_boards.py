@@ -4,22 +4,56 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
 from plumb.bench import boards
-from plumb.bench.boards import cut, joined, plan
-from plumb.bench.causes import CAUSES, MAKER, Hidden, Plan
+from plumb.bench.boards import (
+    GAP_SIGMA,
+    POSE_SIGMA,
+    TURN_SIGMA,
+    Machine,
+    chains_for,
+    cut,
+    joined,
+    plan,
+)
+from plumb.bench.causes import CAUSES, COMPLIANCE, MAKER, SLED, WEIGHT, Cause, Hidden, Plan
 from plumb.bench.judge import build
 from plumb.measurements import Measurements
 
-__all__ = ["HIDDEN", "MAKER", "board", "build", "joined", "plan", "size_for"]
+__all__ = [
+    "COMPLIANCE",
+    "GAP_SIGMA",
+    "HIDDEN",
+    "MAKER",
+    "POSE_SIGMA",
+    "SLED",
+    "TURN_SIGMA",
+    "WEIGHT",
+    "Plan",
+    "ask_judge",
+    "board",
+    "build",
+    "joined",
+    "places_with",
+    "plan",
+    "size_for",
+]
 
-# The usual cause of each effect; the chains' pitch differs from side to side.
-HIDDEN = {one.effect: one for one in reversed(CAUSES)}
-HIDDEN["chain_pitch"] = next(one for one in CAUSES if one.label == "left more")
+# One cause of each effect; the chains' pitch and the sprockets differ from side to side.
+_CAUSES = {one.effect: one for one in reversed(CAUSES)}
+_CAUSES["chain_pitch"] = next(one for one in CAUSES if one.label == "left more")
+_CAUSES["sprocket_runout"] = Cause(
+    "sprocket_runout",
+    "left more",
+    lambda s: {"left.eccentric_x": 0.2 * s, "right.eccentric_y": 0.1 * s},
+)
+# The judge's numbers for an effect of so many typical sizes; empty where the judge has no part.
+HIDDEN = {name: one.numbers for name, one in _CAUSES.items()}
 
 
 def size_for(effect: str, own: Plan, millimetres: float) -> float:
     """How many typical sizes move the marks by so much RMS, before anything is refitted."""
-    return boards.size_for(HIDDEN[effect], own, millimetres)
+    return boards.size_for(_CAUSES[effect], own, millimetres)
 
 
 def board(
@@ -33,8 +67,26 @@ def board(
 ) -> Measurements:
     """A board as measured, by sizes of effects in typical ones; bump [mm] RMS of no effect."""
     hidden = Hidden(
-        tuple((HIDDEN[name], size) for name, size in effects.items()),
+        tuple((_CAUSES[name], size) for name, size in effects.items()),
         outside="bump" if bump else "",
         outside_mm=bump,
     )
     return cut(hidden, own, seed=seed, noise=noise, tape_sigma=tape_sigma).measurements
+
+
+def ask_judge(numbers: Mapping[str, float], own: Plan) -> np.ndarray:
+    """Places (n, 2) [mm] of the sled of a machine with these numbers, sent by the maker's."""
+    cause = Cause("", "", lambda _: dict(numbers))
+    machine = Machine(Hidden(((cause, 1.0),)))
+    return machine.sleds(chains_for(own), weights=own.sled_weights)
+
+
+def places_with(
+    effect: str | None, size: float, own: Plan, frame: Mapping[str, float]
+) -> np.ndarray:
+    """Where marks are read (n, 2) [mm] with an effect of so many typical sizes."""
+    hidden = Hidden(((_CAUSES[effect], size),)) if effect else Hidden()
+    machine = Machine(hidden, **frame)
+    chains = chains_for(own)
+    where = machine.sleds(chains, approaches=own.approaches, weights=own.sled_weights)
+    return hidden.read(where)
