@@ -20,7 +20,7 @@ void live(Stage& stage, const machine::BoardName& board) {
   for (;;) {
     try {
       liveOnce(stage, board);
-    } catch (const PowerCut&) {
+    } catch (const PowerGone&) {
       stage.tick = [] {};
       stage.restart();
     } catch (const TheEnd&) {

@@ -21,7 +21,7 @@ struct Failure : std::runtime_error {
 };
 
 /// Thrown out of the firmware's main program, wherever it waits.
-struct PowerCut {};
+struct PowerGone {};
 struct TheEnd {};
 
 /// The board, its motors and the computer at the other end of the wire.

@@ -91,7 +91,7 @@ bool Stage::change(const std::string& verb, const std::string& rest) {
   else if (is("power")) {
     ++at_;
     step_since_ms_ = now_ms_;
-    throw PowerCut();
+    throw PowerGone();
   } else
     fail("nobody understands " + verb);
   return true;

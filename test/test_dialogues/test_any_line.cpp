@@ -1,6 +1,7 @@
 // Whatever is sent, every line gets exactly one answer, and the machine goes on.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <random>
 
 #include "life.h"
@@ -93,6 +94,12 @@ std::vector<Step> conversation(unsigned seed) {
   return steps;
 }
 
+/// How many conversations; PLUMB_CONVERSATIONS asks for more, for a long run by hand.
+unsigned conversations() {
+  const char* const asked = std::getenv("PLUMB_CONVERSATIONS");
+  return asked ? unsigned(std::atoi(asked)) : 30;
+}
+
 class AnyLine : public testing::TestWithParam<unsigned> {};
 
 }  // namespace
@@ -106,7 +113,7 @@ TEST_P(AnyLine, IsAnsweredOnce) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, AnyLine, testing::Range(1u, 31u));
+INSTANTIATE_TEST_SUITE_P(Seeds, AnyLine, testing::Range(1u, conversations() + 1));
 
 TEST(AnUnknownBoard, RaisesAnAlarmAndStillAnswers) {
   std::vector<Step> steps;
