@@ -1,4 +1,5 @@
-// Front door of the laws of motion: from a path and a feed to both chains' set-points.
+// Front door of the laws of motion: from moves and feeds to set-points of all axes.
 #pragma once
 
 #include "follower.h"
+#include "mover.h"

@@ -22,7 +22,6 @@ enum class Outcome : uint8_t {
 
 const float kLongestStep = 100;           // [mm] a tick, or a segment of two could overflow
 const int32_t kMostPathTicks = 1L << 24;  // up to here a float counts every tick
-const float kLongestSegment = 256;        // [mm] so that knots are near (areNear)
 
 /// A path cut into ticks of one length, and how far it is walked.
 template <class Real>
