@@ -20,6 +20,12 @@ bool holds(const char* text, char letter) {
   return false;
 }
 
+/// Codes that read no words, or only whether letters are there.
+bool isSimple(uint8_t code) { return code == 5 || code == 20 || code == 99; }
+
+/// Letters that need no number behind them.
+const char* bareLetters(uint8_t code) { return code == 10 || code == 11 ? "LR" : ""; }
+
 bool isLength(float value) { return fabs(value) < kMostLength; }
 
 }  // namespace
@@ -32,10 +38,12 @@ bool Machine::isQuestion(const char* line) {
 bool Machine::runB(const char* line) {
   const uint8_t code = codeOf(line);
   Words words;
-  char letter;
-  float value;
-  if (code != 255)
-    for (const char* at = line + 3; readWord(at, letter, value);) words.add(letter, value);
+  if (code != 255 && !isSimple(code)) {
+    const gcode::Mistake mistake = gcode::findMistake(line + 3, bareLetters(code));
+    if (mistake.fault != gcode::Fault::kNone) return refuseMistake(mistake);
+    gcode::Word word;
+    for (const char* at = line + 3; gcode::readWord(at, word);) words.add(word.letter, word.value);
+  }
   switch (code) {
     case 5:
       out_.line(FLASH("Firmware Version 1.28"));

@@ -2,17 +2,21 @@
 // Knows no Arduino; what it needs of a board stands in ports.h.
 #pragma once
 
+#include <GCode.h>
+
 #include "axes.h"
 #include "geometry.h"
-#include "input.h"
-#include "modal.h"
 #include "mover.h"
 #include "ports.h"
 #include "printer.h"
 #include "settings_table.h"
-#include "words.h"
 
 namespace machine {
+
+using gcode::Input;
+using gcode::Modal;
+using gcode::Quick;
+using gcode::Words;
 
 /// What the machine is built of.
 struct Ports {
@@ -111,9 +115,9 @@ class Machine {
   // commands.cpp, moves.cpp: lines of G-code.
   bool execute(char* line);
   void echo(const char* line);
+  bool refuseMistake(gcode::Mistake mistake);
   bool runCode(const char* text);
-  bool runPiece(char letter, float code, const Words& words);
-  bool setMode(uint16_t tenths);
+  bool runPiece(const gcode::Piece& piece);
   bool runG(uint16_t tenths, const Words& words);
   bool runM(uint16_t tenths, const Words& words);
   bool ignore(uint16_t tenths);
@@ -123,8 +127,8 @@ class Machine {
   void takeFeed(const Words& words);
   Place targetOf(const Words& words) const;
   bool move(uint8_t kind, const Words& words);
-  bool moveRound(bool clockwise, motion::Point<float> from, const Place& target,
-                 const Words& words, float feed);
+  bool moveRound(bool clockwise, motion::Point<float> from, const Place& target, const Words& words,
+                 float feed);
   bool mayCrossSheet();
   bool queue(const motion::Path<float>& path, const Place& target, float feed);
 
@@ -204,10 +208,10 @@ class Machine {
   bool stopping_ = false;   ///< a stop was asked for; every wait ends
   bool is_locked_ = false;  ///< after an alarm, until a stop
   bool pausing_ = false, resumed_ = false;
-  bool expects_resume_ = false;    ///< a `~` that comes now is meant for the pause to come
-  bool is_answered_ = false;       ///< the line in execution has got its answer
-  bool is_testing_ = false;        ///< a test of loops jumps to and fro
-  bool is_chains_known_ = true;    ///< false after power was lost in motion
+  bool expects_resume_ = false;  ///< a `~` that comes now is meant for the pause to come
+  bool is_answered_ = false;     ///< the line in execution has got its answer
+  bool is_testing_ = false;      ///< a test of loops jumps to and fro
+  bool is_chains_known_ = true;  ///< false after power was lost in motion
   bool is_place_known_ = false;
   bool is_geometry_stale_ = false;
 };
