@@ -4,8 +4,8 @@
 namespace machine {
 namespace {
 
-const float kAxisFeed = 800;      // [mm/min] unless a command says otherwise
-const float kMostLength = 20000;  // [mm] of a chain; beyond it a number is a mistake
+const float kAxisFeed = 800;         // [mm/min] unless a command says otherwise
+const float kMostTestLength = 1000;  // [mm]
 
 /// The two digits behind the B, or 255.
 uint8_t codeOf(const char* line) {
@@ -26,7 +26,7 @@ bool isSimple(uint8_t code) { return code == 5 || code == 20 || code == 99; }
 /// Letters that need no number behind them.
 const char* bareLetters(uint8_t code) { return code == 10 || code == 11 ? "LR" : ""; }
 
-bool isLength(float value) { return fabs(value) < kMostLength; }
+bool isLength(float value) { return float(fabs(value)) <= kMostTravel; }
 
 }  // namespace
 
@@ -99,6 +99,10 @@ bool Machine::runTestCode(uint8_t code, const Words& words) {
   test.steps = steps >= 1 && steps <= 200 ? uint8_t(steps) : 1;
   test.step_ms = step_ms >= 20 && step_ms <= 60000 ? uint16_t(step_ms) : 0;
   if (words.value('V') == 2) test.version = 2;
+  // Of B13 they are turns a minute, of B14 mm, of B16 duties.
+  const float most = code == 14 ? kMostTestLength : 255;
+  if (!(float(fabs(test.first)) <= most && float(fabs(test.last)) <= most))
+    return refuse(FLASH("S and F are at most 255, of B14 at most 1000"));
   switch (code) {
     case 11:
       return pullByWords(words);
@@ -157,6 +161,7 @@ bool Machine::moveChains(const Words& words) {
     const float given = words.value(axis == kLeftAxis ? 'L' : 'R');
     if (modal_.relative && given == 0) continue;
     const float goal = modal_.relative ? axes_.target(axis) + given : given;
+    if (!isLength(goal)) return refuse(FLASH("no chain is that long"));
     completed = completed && moveAxis(axis, goal, feed, false);
   }
   searchPlace();

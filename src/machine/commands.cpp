@@ -193,7 +193,10 @@ bool Machine::dwell(const Words& words) {
 
 bool Machine::declareZByWord(const Words& words) {
   if (!drain()) return false;
-  if (words.has('Z')) declareZ(fromUnits(words.value('Z')));
+  if (!words.has('Z')) return true;
+  const float z = fromUnits(words.value('Z'));
+  if (!(float(fabs(z)) <= kMostTravel)) return refuse(FLASH("no z axis is that long"));
+  declareZ(z);
   return true;
 }
 

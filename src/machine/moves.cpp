@@ -4,8 +4,7 @@
 namespace machine {
 namespace {
 
-const float kLeastFeed = 1;     // [mm/min]
-const float kFarthest = 50000;  // [mm] a coordinate beyond it is a mistake
+const float kLeastFeed = 1;  // [mm/min]
 
 }  // namespace
 
@@ -38,7 +37,8 @@ bool Machine::move(uint8_t kind, const Words& words) {
   takeFeed(words);
   refreshGeometry();
   Place target = targetOf(words);
-  if (!(fabs(target.x) < kFarthest && fabs(target.y) < kFarthest && fabs(target.z) < kFarthest))
+  if (!(fabs(target.x) < kMostTravel && fabs(target.y) < kMostTravel &&
+        fabs(target.z) < kMostTravel))
     return refuse(FLASH("that is farther than any machine reaches"));
   const bool over_sheet = words.has('X') || words.has('Y') || kind > 1;
   if (over_sheet && !mayCrossSheet()) return false;

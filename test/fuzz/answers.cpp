@@ -70,7 +70,7 @@ void Answers::said(const std::string& line) {
   if (line == "Maslow Paused") is_paused_ = true;
   if (startsWith(line, "FAKE_SERVO ")) is_simulated_ = line == "FAKE_SERVO on";
   const std::size_t equals = line.find('=');
-  if (startsWith(line, "$") && equals != std::string::npos) {
+  if (startsWith(line, "$") && equals != std::string::npos && std::isdigit(uint8_t(line[1]))) {
     std::size_t at = equals + 1;
     must(passNumber(line, at), "a setting that clients cannot read: " + line);
     ++settings_;

@@ -3,7 +3,8 @@
 
 #include <string>
 
-/// What clients rely on: one answer for each line and quick character, none for what a stop broke off.
+/// What clients rely on: one answer for each line and quick character, none for what a stop broke
+/// off.
 class Answers {
  public:
   /// The machine took a character from the wire.

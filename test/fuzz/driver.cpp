@@ -15,7 +15,6 @@
 #include "mutator.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size);
-extern "C" void __sanitizer_set_death_callback(void (*callback)());
 
 namespace {
 
@@ -26,8 +25,8 @@ uintptr_t last_place = 0;
 Input current;
 
 void keepCurrent() {
-  std::ofstream("crash.bin", std::ios::binary).write(
-      reinterpret_cast<const char*>(current.data()), std::streamsize(current.size()));
+  std::ofstream("crash.bin", std::ios::binary)
+      .write(reinterpret_cast<const char*>(current.data()), std::streamsize(current.size()));
   std::fprintf(stderr, "the input is kept in crash.bin (%zu bytes)\n", current.size());
 }
 
@@ -98,12 +97,13 @@ int fuzz(const char* folder, double seconds, unsigned seed, const char* new_fold
       if (new_folder != nullptr) keepNew(new_folder, corpus.size(), input);
     }
     if (since() < told) continue;
-    std::printf("%.0f s: %ld runs, %zu inputs, %zu edges\n", since(), runs, corpus.size(), edgeCount());
+    std::printf("%.0f s: %ld runs, %zu inputs, %zu edges\n", since(), runs, corpus.size(),
+                edgeCount());
     std::fflush(stdout);
     told += 60;
   }
-  std::printf("%s: %ld runs in %.0f s, %zu inputs grew to %zu, %zu edges, nothing found\n", folder, runs,
-              since(), first, corpus.size(), edgeCount());
+  std::printf("%s: %ld runs in %.0f s, %zu inputs grew to %zu, %zu edges, nothing found\n", folder,
+              runs, since(), first, corpus.size(), edgeCount());
   return 0;
 }
 
@@ -116,8 +116,13 @@ extern "C" __attribute__((no_sanitize("address", "undefined"))) void __sanitizer
   last_place = place >> 1;
 }
 
+// What the sanitizers find ends in an abort, so that the input is kept.
+extern "C" const char* __asan_default_options() { return "abort_on_error=1:handle_abort=0"; }
+extern "C" const char* __ubsan_default_options() {
+  return "abort_on_error=1:print_stacktrace=1:handle_abort=0";
+}
+
 int main(int argc, char** argv) {
-  __sanitizer_set_death_callback(keepCurrent);
   std::signal(SIGABRT, onSignal);
   std::signal(SIGALRM, onSignal);
   if (argc == 2) {
@@ -127,7 +132,8 @@ int main(int argc, char** argv) {
     return 0;
   }
   if (argc < 3) {
-    std::fprintf(stderr, "use: %s FOLDER SECONDS [SEED [NEW_FOLDER]], or %s FILE\n", argv[0], argv[0]);
+    std::fprintf(stderr, "use: %s FOLDER SECONDS [SEED [NEW_FOLDER]], or %s FILE\n", argv[0],
+                 argv[0]);
     return 2;
   }
   const unsigned seed = argc > 3 ? unsigned(std::atoi(argv[3])) : 1;

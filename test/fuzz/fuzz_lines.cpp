@@ -50,7 +50,8 @@ void checkPieces(const char* line) {
                                             piece.words.value('R'), piece.tenths == 20);
     // Squares of numbers beyond this are infinite; the machine refuses them long before.
     const bool huge = std::fabs(piece.words.value('X')) + std::fabs(piece.words.value('Y')) +
-                          std::fabs(piece.words.value('R')) > 1e15f;
+                          std::fabs(piece.words.value('R')) >
+                      1e15f;
     must(huge || (std::isfinite(centre.x) && std::isfinite(centre.y)), "a centre is not finite");
   }
   for (const char* at = line; *at != '\0'; ++at) codes -= *at == 'G' || *at == 'M';

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <cstring>
+#include <utility>
 
 #include "answers.h"
 #include "must.h"
@@ -71,7 +71,8 @@ class World : public Wire, public Drives, public Aux, public Clock {
     while (out_queue_ >= kOutRoom) pass(1);
     ++out_queue_;
     if (character != '\n') {
-      must(character == '\r' || (character >= 32 && character < 127), "a character that is no text");
+      must(character == '\r' || (character >= 32 && character < 127),
+           "a character that is no text");
       partial_ += character;
       return;
     }
@@ -200,7 +201,8 @@ class World : public Wire, public Drives, public Aux, public Clock {
   std::size_t at_ = 0;
   double credit_ = 0;
   int out_queue_ = 0, lost_ = 0;
-  long now_ms_ = 0, last_line_ms_ = 0, quiet_ms_ = 0, asked_ms_ = 0, end_ms_ = 0, wait_until_ms_ = 0;
+  long now_ms_ = 0, last_line_ms_ = 0, quiet_ms_ = 0, asked_ms_ = 0, end_ms_ = 0,
+       wait_until_ms_ = 0;
   bool touches_ = false, is_ending_ = false, is_greeting_ = true;
 };
 
