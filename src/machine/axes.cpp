@@ -38,7 +38,8 @@ void Axes::prepare(const settings::Values& values) {
     one.turns_per_count = 1 / float(fabs(counts));
     one.turns_per_mm = one.turns_per_count / one.per_count;
     one.fine_per_count = one.per_count * float(motion::kCountsPerMm);
-    one.most_counts = int32_t(kMostTravel / float(fabs(one.per_count)));
+    const float most = kMostTravel / float(fabs(one.per_count));
+    one.most_counts = most < 2e9f ? int32_t(most) : 2000000000;
     // A negative number of counts says that motor or encoder is wired the other way.
     one.sign = counts < 0 ? -1 : 1;
     one.loop.tune(gainsFrom(values, z ? kZPositionP : kMainPositionP),

@@ -26,6 +26,11 @@ bool isSimple(uint8_t code) { return code == 5 || code == 20 || code == 99; }
 /// Letters that need no number behind them.
 const char* bareLetters(uint8_t code) { return code == 10 || code == 11 ? "LR" : ""; }
 
+/// Whether a test may go there: turns a minute of B13, mm of B14, duties of B16.
+bool isMild(uint8_t code, float value) {
+  return float(fabs(value)) <= (code == 14 ? kMostTestLength : 255);
+}
+
 bool isLength(float value) { return float(fabs(value)) <= kMostTravel; }
 
 }  // namespace
@@ -78,7 +83,7 @@ bool Machine::runChainCode(uint8_t code, const Words& words) {
       out_.line(FLASH("Setting Chain Lengths To: "));
       return setChains(left, right);
     case 8:
-      setChains(values_.at(kExtendLength), values_.at(kExtendLength));
+      if (!setChains(values_.at(kExtendLength), values_.at(kExtendLength))) return false;
       out_.line(FLASH("Message: The machine chains have been manually re-calibrated."));
       return true;
     case 9:
@@ -99,16 +104,14 @@ bool Machine::runTestCode(uint8_t code, const Words& words) {
   test.steps = steps >= 1 && steps <= 200 ? uint8_t(steps) : 1;
   test.step_ms = step_ms >= 20 && step_ms <= 60000 ? uint16_t(step_ms) : 0;
   if (words.value('V') == 2) test.version = 2;
-  // Of B13 they are turns a minute, of B14 mm, of B16 duties.
-  const float most = code == 14 ? kMostTestLength : 255;
-  if (!(float(fabs(test.first)) <= most && float(fabs(test.last)) <= most))
-    return refuse(FLASH("S and F are at most 255, of B14 at most 1000"));
   switch (code) {
     case 11:
       return pullByWords(words);
     case 13:
     case 14:
     case 16:
+      if (!isMild(code, test.first) || !isMild(code, test.last))
+        return refuse(FLASH("S and F are at most 255, of B14 at most 1000"));
       return testLoop(code, test);
     case 17:
     case 18:
@@ -129,6 +132,7 @@ bool Machine::pullByWords(const Words& words) {
 }
 
 bool Machine::measureOut(Axis axis) {
+  if (!isLength(values_.at(kExtendLength))) return refuse(FLASH("no chain is that long ($11)"));
   out_.line(axis == kLeftAxis ? FLASH("Measuring out left chain")
                               : FLASH("Measuring out right chain"));
   const float feed = 0.9f * values_.at(kGreatestFeed);
@@ -141,6 +145,7 @@ bool Machine::measureOut(Axis axis) {
 }
 
 bool Machine::setChains(float left, float right) {
+  if (!isLength(left) || !isLength(right)) return refuse(FLASH("no chain is that long"));
   axes_.declare(kLeftAxis, left);
   axes_.declare(kRightAxis, right);
   out_ << FLASH("Left: ");
