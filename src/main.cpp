@@ -25,8 +25,7 @@ void tick() { maslow->tick(); }
 /// The main program hangs: nothing may go on turning.
 void letGo() {
   motors.releaseAll();
-  aux_pins.set(machine::Output::kLaser, false);
-  maslow->restSpindle();
+  maslow->noteHang();
 }
 
 machine::BoardName nameOf(const board::Shield* shield) {
@@ -45,7 +44,7 @@ void setup() {
                                   nameOf(shield));
   maslow = &machine;
   machine.begin();
-  control_clock.begin(tick, letGo, machine.wantsFastTicks());
+  control_clock.begin(tick, letGo, machine.ticksPerSecond());
 }
 
 void loop() { maslow->loop(); }

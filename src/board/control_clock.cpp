@@ -1,8 +1,8 @@
-// Timer 1 calls the control tick; the watchdog's interrupt notices a main program that hangs.
+// Timer 1 calls the control tick. The tick is the watchdog, too: that of the processor would reset
+// it, from which bootloaders of older boards never come back, or interrupt it, which this does too.
 #include "control_clock.h"
 
 #include <Arduino.h>
-#include <avr/wdt.h>
 
 namespace board {
 namespace {
@@ -11,9 +11,10 @@ void (*on_tick)();
 void (*on_hang)();
 uint8_t holds;
 volatile bool ticking;
+uint8_t most_silent_ticks;
+volatile uint8_t silent_ticks;  // since the main program was last heard of
 
-const uint16_t kTicksPerSecond = 100;
-const uint16_t kTimerPerSecond = 250000 / kTicksPerSecond;  // timer 1 counts at 250 kHz
+const uint32_t kTimerPerSecond = 250000;  // timer 1 counts at 250 kHz
 
 void allowTicks(bool yes) {
   if (yes)
@@ -29,34 +30,32 @@ ISR(TIMER1_COMPA_vect) {
   allowTicks(false);
   ticking = true;
   sei();
-  on_tick();
+  if (silent_ticks < most_silent_ticks) {
+    ++silent_ticks;
+    on_tick();
+  } else {
+    on_hang();
+  }
   cli();
   ticking = false;
   allowTicks(true);
 }
 
-ISR(WDT_vect) { on_hang(); }
-
-void ControlClock::begin(void (*tick)(), void (*hang)(), bool fast) {
+void ControlClock::begin(void (*tick)(), void (*hang)(), uint8_t ticks_per_second) {
   on_tick = tick;
   on_hang = hang;
   TIMSK1 = 0;
   TCCR1A = 0;
   TCCR1B = 1 << WGM12 | 1 << CS11 | 1 << CS10;
-  OCR1A = uint16_t((fast ? kTimerPerSecond / 2 : kTimerPerSecond) - 1);
+  OCR1A = uint16_t(kTimerPerSecond / ticks_per_second - 1);
   TCNT1 = 0;
+  most_silent_ticks = ticks_per_second;
   allowTicks(true);
-  // Interrupt, not reset: bootloaders of older boards never come back from a watchdog's reset.
-  cli();
-  wdt_reset();
-  WDTCSR = 1 << WDCE | 1 << WDE;
-  WDTCSR = 1 << WDIE | 1 << WDP2 | 1 << WDP1;  // one second
-  sei();
 }
 
 uint32_t ControlClock::milliseconds() { return millis(); }
 
-void ControlClock::idle() { wdt_reset(); }
+void ControlClock::idle() { silent_ticks = 0; }
 
 void ControlClock::holdTicks() {
   if (ticking) return;

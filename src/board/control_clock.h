@@ -1,4 +1,4 @@
-// Time: milliseconds, the control tick on timer 1, and a watchdog over the main program.
+// Time: milliseconds, and the control tick on timer 1, which also watches the main program.
 #pragma once
 
 #include "machine/ports.h"
@@ -9,9 +9,9 @@ namespace board {
 /// are heard meanwhile.
 class ControlClock : public machine::Clock {
  public:
-  /// Calls `tick` every 10 ms, or every 5 ms if `fast`; and `hang` once if idle() was not called
-  /// for a second.
-  void begin(void (*tick)(), void (*hang)(), bool fast);
+  /// Calls `tick` 100 or 200 times a second; `hang` instead while idle() was not called for a
+  /// second.
+  void begin(void (*tick)(), void (*hang)(), uint8_t ticks_per_second);
   uint32_t milliseconds() override;
   void idle() override;
   void holdTicks() override;

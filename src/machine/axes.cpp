@@ -28,7 +28,6 @@ Gains gainsFrom(const settings::Values& values, uint8_t first) {
 
 void Axes::prepare(const settings::Values& values) {
   const WithoutTicks hold(clock_);
-  seconds_per_tick_ = 1 / values.at(kLoopRate);
   error_limit_ = values.at(kPositionErrorLimit);
   for (uint8_t i = 0; i < kAxisCount; ++i) {
     One& one = axis_[i];

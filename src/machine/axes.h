@@ -22,10 +22,10 @@ const float kMostTravel = 16000;
 
 /// What an axis does.
 enum class AxisMode : uint8_t {
-  kOff,      ///< no power
-  kFollow,   ///< its set-points
-  kTurn,     ///< at a speed
-  kOpen,     ///< at a duty
+  kOff,     ///< no power
+  kFollow,  ///< its set-points
+  kTurn,    ///< at a speed
+  kOpen,    ///< at a duty
 };
 
 /// An axis as it was at the last tick, for the tests of the loops.
@@ -42,6 +42,9 @@ struct AxisState {
 class Axes {
  public:
   Axes(Drives& drives, Clock& clock) : drives_(drives), clock_(clock) {}
+
+  /// How often tick() is called; once, before prepare().
+  void setTicksPerSecond(float ticks) { seconds_per_tick_ = 1 / ticks; }
 
   /// Takes over scales, gains and limits.
   void prepare(const settings::Values& values);
@@ -78,10 +81,10 @@ class Axes {
   // Lengths.
   int32_t counts(Axis axis) const;
   void setCounts(int32_t left, int32_t right, int32_t z);
-  float length(Axis axis) const;                ///< [mm] measured
-  float target(Axis axis) const;                ///< [mm] set-point
-  float error(Axis axis) const;                 ///< [mm] measured less set-point
-  void declare(Axis axis, float length);        ///< the axis is at this length [mm]
+  float length(Axis axis) const;          ///< [mm] measured
+  float target(Axis axis) const;          ///< [mm] set-point
+  float error(Axis axis) const;           ///< [mm] measured less set-point
+  void declare(Axis axis, float length);  ///< the axis is at this length [mm]
   AxisState state(Axis axis) const;
   /// After drives were arranged anew: their counters may have jumped.
   void forgetRawCounts();
@@ -105,7 +108,7 @@ class Axes {
     float turns_per_count = 1;
     float turns_per_mm = 1;
     float fine_per_count = 1;  ///< counts of motion::kCountsPerMm per encoder count
-    float rpm = 0;  ///< asked for with kTurn
+    float rpm = 0;             ///< asked for with kTurn
     AxisLoop loop;
   };
 

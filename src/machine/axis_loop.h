@@ -51,8 +51,7 @@ class AxisLoop {
     error_ = error;
     // Both are zero on most machines, and float sums are dear.
     if (position_.integral != 0) sum_ += position_.integral * error;
-    if (position_.weight != 1)
-      sum_ -= position_.proportional * (1 - position_.weight) * turned;
+    if (position_.weight != 1) sum_ -= position_.proportional * (1 - position_.weight) * turned;
     sum_ = clipped(sum_, kMostRpm);
     const float ahead = position_.proportional > 0 ? asked * ticks_per_minute_ : 0;
     const float share = position_.weight == 1 ? error : position_.weight * error;

@@ -7,21 +7,21 @@ namespace machine {
 
 /// Limits of all moves, worked out from the settings.
 struct MoveLimits {
-  float gain_xy, gain_z;        ///< [mm/s^2]
-  float speed_xy, speed_z;      ///< [mm/s]
-  float corner_deviation;       ///< [mm]
+  float gain_xy, gain_z;    ///< [mm/s^2]
+  float speed_xy, speed_z;  ///< [mm/s]
+  float corner_deviation;   ///< [mm]
 };
 
 /// A line or an arc over the sheet, with z along; z alone has no path.
 struct Block {
   motion::Path<float> path;
-  float z_from, z_to;    ///< [mm]
-  float length;          ///< [mm] over all three axes
-  float gain;            ///< [mm/s^2] along it
-  float top_squared;     ///< [mm^2/s^2] speed asked for, within all limits
-  float entry_squared;   ///< the same, with which it begins
-  float entry_limit;     ///< what the corner before it allows
-  float dx, dy, dz;      ///< direction at its end [1]
+  float z_from, z_to;   ///< [mm]
+  float length;         ///< [mm] over all three axes
+  float gain;           ///< [mm/s^2] along it
+  float top_squared;    ///< [mm^2/s^2] speed asked for, within all limits
+  float entry_squared;  ///< the same, with which it begins
+  float entry_limit;    ///< what the corner before it allows
+  float dx, dy, dz;     ///< direction at its end [1]
 };
 
 /// Direction of a path at its beginning or end, along the sheet [1].
@@ -38,8 +38,8 @@ inline motion::Point<float> directionOf(const motion::Path<float>& path, bool at
 }
 
 /// Square of the speed [mm^2/s^2] at which a corner may be passed so that the path with bounded
-/// acceleration stays within `deviation` of it. The sled is taken to follow an arc that touches both
-/// sides; half the angle between them says how wide that is.
+/// acceleration stays within `deviation` of it. The sled is taken to follow an arc that touches
+/// both sides; half the angle between them says how wide that is.
 inline float cornerSpeedSquared(float cosine_of_turn, float gain, float deviation) {
   // Turned by `t`: sin of half the inner angle is cos(t / 2).
   const float half = float(sqrt((1 + cosine_of_turn) * 0.5f));

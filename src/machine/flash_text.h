@@ -13,8 +13,8 @@ struct FlashText {
 }  // namespace machine
 
 /// A literal as text in flash.
-#define FLASH(text)                       \
-  ([]() -> machine::FlashText {           \
+#define FLASH(text)                         \
+  ([]() -> machine::FlashText {             \
     static const char kAt[] PROGMEM = text; \
-    return machine::FlashText{kAt};       \
+    return machine::FlashText{kAt};         \
   }())

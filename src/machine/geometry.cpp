@@ -106,8 +106,8 @@ motion::Lengths<float> Geometry::inverse(motion::Point<float> place) const {
     chains = paid.chains;
     found = paid.found;
   }
-  const bool reachable = found == Found::kYes && chains.left <= chain_length_ &&
-                         chains.right <= chain_length_;
+  const bool reachable =
+      found == Found::kYes && chains.left <= chain_length_ && chains.right <= chain_length_;
   return {chains.left, chains.right, reachable};
 }
 

@@ -17,7 +17,8 @@ float stepOf(const LoopTest& test, uint8_t i) {
 }  // namespace
 
 void Machine::sayGains(Axis axis, bool position) {
-  const uint8_t first = uint8_t((axis == kZAxis ? kZPositionP : kMainPositionP) + (position ? 0 : 4));
+  const uint8_t first =
+      uint8_t((axis == kZAxis ? kZPositionP : kMainPositionP) + (position ? 0 : 4));
   const char names[] = "pid";
   for (uint8_t i = 0; i < 3; ++i) {
     if (i != 0) out_ << ',';
@@ -96,8 +97,8 @@ bool Machine::testLengths(const LoopTest& test) {
   const float from = axes_.length(test.axis);
   bool completed = true;
   for (uint8_t i = 0; i < test.steps && completed; ++i)
-    completed = sampleLength(test.axis, from + stepOf(test, i), test.step_ms ? test.step_ms : kStepMs,
-                             test.version);
+    completed = sampleLength(test.axis, from + stepOf(test, i),
+                             test.step_ms ? test.step_ms : kStepMs, test.version);
   axes_.release(test.axis);
   out_.line(FLASH("--PID Position Test Stop--"));
   out_.end();

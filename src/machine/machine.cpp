@@ -18,6 +18,9 @@ Machine::Machine(const Ports& ports, const BoardName& board)
 void Machine::begin() {
   const settings::Started started = memory_.start();
   axes_.simulate(values_.at(kSimulatedMotors) != 0);
+  // The control tick's rate is taken over once: a new one counts after a reset.
+  ticks_per_second_ = values_.at(kLoopRate) > 150 ? 200 : 100;
+  axes_.setTicksPerSecond(ticks_per_second_);
   axes_.prepare(values_);
   mover_.prepare(values_, axes_.secondsPerTick());
   geometry_.prepare(values_);

@@ -66,10 +66,11 @@ class Machine {
   /// The control tick; called by an interrupt, a hundred or two hundred times a second.
   void tick() { axes_.tick(); }
 
-  /// Takes the spindle's relay back; also from an interrupt.
-  void restSpindle();
+  /// Called instead of tick() while the main program hangs; the board has taken the motors' power.
+  void noteHang();
 
-  bool wantsFastTicks() const { return values_.at(kLoopRate) > 100; }
+  /// How often it wants its control tick, after begin().
+  uint8_t ticksPerSecond() const { return ticks_per_second_; }
 
  private:
   // realtime.cpp: while anything waits.
@@ -149,6 +150,7 @@ class Machine {
   bool changeTool(uint16_t tool);
   bool setZByHand(float z);
   bool turnServo(uint8_t angle);
+  void restSpindle();
   bool switchSpindle(bool on);
   void switchLaser(bool on);
   bool probe(float target);
@@ -205,6 +207,8 @@ class Machine {
   Place aim_ = {0, 0, 0};    ///< where the last move queued ends
   Place place_ = {0, 0, 0};  ///< where the tool was when somebody last asked
   uint32_t last_report_ms_ = 0, last_motion_ms_ = 0, geometry_changed_ms_ = 0;
+  uint8_t ticks_per_second_ = 100;
+  volatile bool hung_ = false;
   bool stopping_ = false;   ///< a stop was asked for; every wait ends
   bool is_locked_ = false;  ///< after an alarm, until a stop
   bool pausing_ = false, resumed_ = false;

@@ -54,9 +54,9 @@ class Mover {
   Block ring_[kMost];
   uint8_t first_ = 0, count_ = 0;
   MoveLimits limits_;
-  float seconds_ = 0.01f;         ///< of a tick
-  float done_ = 0, speed_ = 0;    ///< [mm], [mm/s] in the first block
-  float z_end_ = 0;               ///< [mm] of the last move queued
+  float seconds_ = 0.01f;       ///< of a tick
+  float done_ = 0, speed_ = 0;  ///< [mm], [mm/s] in the first block
+  float z_end_ = 0;             ///< [mm] of the last move queued
   SetPoint last_ = {0, 0, 0};
   ChainSegment segment_;
   bool braking_ = false;

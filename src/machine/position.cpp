@@ -62,8 +62,8 @@ void Machine::restorePosition(const settings::Started& started) {
     return;
   }
   if (!findPlace() || !kept.has_place) return;
-  const bool same = float(fabs(place_.x - kept.x)) < kSamePlace &&
-                    float(fabs(place_.y - kept.y)) < kSamePlace;
+  const bool same =
+      float(fabs(place_.x - kept.x)) < kSamePlace && float(fabs(place_.y - kept.y)) < kSamePlace;
   if (!same) losePosition(FLASH("The kept place is not where the chains put the sled."));
 }
 

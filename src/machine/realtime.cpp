@@ -115,8 +115,11 @@ void Machine::raiseAlarm(FlashText text) {
 }
 
 void Machine::watchAxes() {
-  if (wire_.lost() != 0)
-    raiseAlarm(FLASH("Characters were lost on the serial line. Press Stop."));
+  if (wire_.lost() != 0) raiseAlarm(FLASH("Characters were lost on the serial line. Press Stop."));
+  if (hung_) {
+    hung_ = false;
+    raiseAlarm(FLASH("The firmware was busy for too long; motors were switched off. Press Stop."));
+  }
   const Trouble trouble = axes_.trouble();
   // Tests make errors on purpose.
   if (is_testing_) return;
@@ -128,6 +131,12 @@ void Machine::watchAxes() {
     raiseAlarm(
         FLASH("The sled is not keeping up with its expected position: a motor is driven and its "
               "encoder stands still. Check the cables, press Stop, set the chain lengths."));
+}
+
+void Machine::noteHang() {
+  hung_ = true;
+  aux_.set(Output::kLaser, false);
+  restSpindle();
 }
 
 bool Machine::wakeMotors() {

@@ -24,12 +24,14 @@ class SetPoints {
   /// To be called by the writer, if there is room.
   void push(const SetPoint& point) {
     ring_[head_] = point;
+    fence();
     head_ = next(head_);
   }
 
   /// To be called by the reader, if it is not empty.
   SetPoint pop() {
     const SetPoint point = ring_[tail_];
+    fence();
     tail_ = next(tail_);
     return point;
   }
@@ -38,6 +40,9 @@ class SetPoints {
   void clear() { tail_ = head_; }
 
  private:
+  /// The compiler must not move the point behind the index that hands it over.
+  static void fence() { __asm__ volatile("" ::: "memory"); }
+
   static uint8_t next(uint8_t at) { return at == kMost ? 0 : uint8_t(at + 1); }
 
   SetPoint ring_[kMost + 1];

@@ -7,7 +7,7 @@ namespace {
 enum SpindleKind : uint8_t { kNone, kServo, kRelayHigh, kRelayLow };
 
 const uint8_t kIdleAngle = 90, kOnAngle = 180, kOffAngle = 0;  // [degrees]
-const uint16_t kServoMs = 2000;   // for each turn of the servo
+const uint16_t kServoMs = 2000;                                // for each turn of the servo
 const uint16_t kSwitchedMs = 1000;  // for the spindle to gain or lose speed
 
 }  // namespace

@@ -18,7 +18,8 @@ float Machine::withinZLimits(float z) const {
 bool Machine::setZLimit(bool upper) {
   const float z = axes_.length(kZAxis);
   const settings::Refusal refusal = memory_.setRow(upper ? kZUpperLimit : kZLowerLimit, z);
-  if (refusal != settings::Refusal::kNone) return refuse(FLASH("that is no z at which a limit can be"));
+  if (refusal != settings::Refusal::kNone)
+    return refuse(FLASH("that is no z at which a limit can be"));
   out_ << (upper ? FLASH("Upper") : FLASH("Lower")) << FLASH(" limit set to: ");
   out_.fixed(inUnits(z), 2).end();
   return true;

@@ -24,7 +24,8 @@ bool startsWith(const std::string& text, const std::string& start) {
 
 Stage::Stage(std::vector<Step> steps)
     : steps_(std::move(steps)),
-      motor_{{kMainPerCount, kMainTopSpeed}, {kMainPerCount, kMainTopSpeed},
+      motor_{{kMainPerCount, kMainTopSpeed},
+             {kMainPerCount, kMainTopSpeed},
              {kZPerCount, kZTopSpeed}} {
   for (reference::ChainSide* side : {&judge_.left, &judge_.right}) {
     side->weight = 0.00137293;
@@ -50,7 +51,8 @@ void Stage::write(char character) {
     partial_ += character;
     return;
   }
-  if (partial_.empty() || partial_.back() != '\r') fail("a line does not end in CR LF: " + partial_);
+  if (partial_.empty() || partial_.back() != '\r')
+    fail("a line does not end in CR LF: " + partial_);
   partial_.pop_back();
   takeLine(partial_);
   partial_.clear();
@@ -64,6 +66,7 @@ void Stage::takeLine(const std::string& line) {
     latest_errors_ = line;
   else
     lines_.push_back(line);
+  if (line == "ok" || startsWith(line, "error:")) ++answers_;
 }
 
 void Stage::drive(Axis axis, int16_t duty) {
@@ -163,6 +166,6 @@ bool Stage::skipTo(const Step& step) {
 
 void Stage::fail(const std::string& why) const {
   const std::size_t at = std::min(at_, steps_.size() - 1);
-  throw Failure(steps_[at].place + ": " + steps_[at].text + "\n  " + why +
-                "\n  at " + std::to_string(now_ms_) + " ms; " + latest_status_ + latest_errors_);
+  throw Failure(steps_[at].place + ": " + steps_[at].text + "\n  " + why + "\n  at " +
+                std::to_string(now_ms_) + " ms; " + latest_status_ + latest_errors_);
 }

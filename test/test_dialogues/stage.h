@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "vm/line_match.h"
 #include "machine/ports.h"
 #include "reference/machine.h"
-#include "vm/script.h"
 #include "simulated_eeprom.h"
 #include "simulated_motor.h"
+#include "vm/line_match.h"
+#include "vm/script.h"
 
 /// What went wrong, with the line of the dialogue.
 struct Failure : std::runtime_error {
@@ -21,7 +21,7 @@ struct Failure : std::runtime_error {
 };
 
 /// Thrown out of the firmware's main program, wherever it waits.
-struct PowerCut {};
+struct PowerGone {};
 struct TheEnd {};
 
 /// The board, its motors and the computer at the other end of the wire.
@@ -79,7 +79,7 @@ class Stage : public machine::Wire,
   std::deque<std::string> lines_;
   std::string partial_, latest_status_, latest_errors_, input_;
   double byte_credit_ = 0;
-  int out_queue_ = 0;
+  int out_queue_ = 0, answers_ = 0;
   double probe_touches_at_ = -1e9;
   bool spindle_ = false, laser_ = false;
   reference::Machine judge_;

@@ -30,6 +30,10 @@ bool Stage::ask(const Step& step) {
   std::getline(words >> std::ws, rest);
   const auto is = [&](const char* other) { return verb == other; };
   if (is("wait")) return wait(rest);
+  if (is("await")) {
+    if (now_ms_ - step_since_ms_ > 2000000) fail("only " + std::to_string(answers_) + " came");
+    return answers_ >= std::atoi(rest.c_str());
+  }
   // Of a report that was sent after the question.
   if ((is("status") || is("errors")) && status_ms_ <= step_since_ms_) return false;
   if (is("sled"))
@@ -44,7 +48,13 @@ bool Stage::ask(const Step& step) {
     tellOr(matches(latest_status_, readExpected(rest)), "it is");
   else if (is("errors"))
     tellOr(matches(latest_errors_, readExpected(rest)), "they are");
-  else if (is("quiet"))
+  else if (is("answers")) {
+    // From here on, or so many since then; what was said meanwhile is passed over.
+    lines_.clear();
+    const int since = answers_;
+    if (rest == "from now") answers_ = 0;
+    tellOr(rest == "from now" || since == std::atoi(rest.c_str()), std::to_string(since) + " came");
+  } else if (is("quiet"))
     tellOr(lines_.empty(), lines_.empty() ? "" : "came: " + lines_.front());
   else
     return change(verb, rest);
@@ -81,7 +91,7 @@ bool Stage::change(const std::string& verb, const std::string& rest) {
   else if (is("power")) {
     ++at_;
     step_since_ms_ = now_ms_;
-    throw PowerCut();
+    throw PowerGone();
   } else
     fail("nobody understands " + verb);
   return true;

@@ -3,9 +3,7 @@
 
 #include <filesystem>
 
-#include "machine/machine.h"
-#include "settings_flash.h"
-#include "stage.h"
+#include "life.h"
 
 namespace {
 
@@ -19,36 +17,14 @@ std::vector<std::string> dialogues() {
   return names;
 }
 
-/// One life of the machine, from power-on to power cut or the dialogue's end.
-void liveOnce(Stage& stage) {
-  const FlashTable table;
-  machine::Machine machine({stage, stage, stage, stage, stage.eeprom, table}, {2, ""});
-  stage.tick = [&] { machine.tick(); };
-  machine.begin();
-  for (;;) machine.loop();
-}
-
-void play(const std::string& name) {
-  Stage stage(readScript(kFolder, name + ".nc"));
-  for (;;) {
-    try {
-      liveOnce(stage);
-    } catch (const PowerCut&) {
-      stage.tick = [] {};
-      stage.restart();
-    } catch (const TheEnd&) {
-      return;
-    }
-  }
-}
-
 class Dialogue : public testing::TestWithParam<std::string> {};
 
 }  // namespace
 
 TEST_P(Dialogue, IsAnsweredAsWritten) {
   try {
-    play(GetParam());
+    Stage stage(readScript(kFolder, GetParam() + ".nc"));
+    live(stage);
   } catch (const Failure& failure) {
     FAIL() << failure.what();
   }

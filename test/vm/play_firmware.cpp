@@ -14,9 +14,9 @@
 
 namespace {
 
-const double kPatience = 30;                   // [s] for a line that is expected
-const avr_cycle_count_t kSlice = 800;          // 50 us, in which no motor makes two edges
-const double kMainTop = 3300, kZTop = 2600;    // [counts/s] at full duty
+const double kPatience = 30;                 // [s] for a line that is expected
+const avr_cycle_count_t kSlice = 800;        // 50 us, in which no motor makes two edges
+const double kMainTop = 3300, kZTop = 2600;  // [counts/s] at full duty
 const vm::MotorPins kLeft = {12, 11, 10, 3, 2};
 const vm::MotorPins kRight = {4, 6, 5, 20, 21};
 const vm::MotorPins kZ = {7, 9, 8, 18, 19};
@@ -40,7 +40,8 @@ struct Machine {
     const avr_cycle_count_t end = board.avr()->cycle + avr_cycle_count_t(seconds * vm::kClock);
     while (board.avr()->cycle < end) {
       board.run(kSlice);
-      for (vm::VirtualMotor* motor : {&left, &right, &z}) motor->advance(double(kSlice) / vm::kClock);
+      for (vm::VirtualMotor* motor : {&left, &right, &z})
+        motor->advance(double(kSlice) / vm::kClock);
       for (int i = 0; i < 3; ++i) {
         const double drive = (i == 0 ? left : i == 1 ? right : z).driveNow();
         most_drive[i] = std::max(most_drive[i], drive);
@@ -117,6 +118,10 @@ class Player {
     words >> verb >> rest;
     if (verb == "wait") return machine_->run(std::atof(rest.c_str()));
     if (verb == "power") return restart();
+    if (verb == "straps") {
+      restart();
+      return machine_->board.strap(uint8_t(std::atoi(rest.c_str())));
+    }
     if (verb == "stream") return stream(std::atoi(rest.c_str()));
     const int axis = rest == "left" ? 0 : rest == "right" ? 1 : 2;
     const bool winds = verb == "wound" && machine_->most_drive[axis] > 0.1;
@@ -135,7 +140,8 @@ class Player {
       char text[40];
       // 0.05 mm each, round and round, in the words of a program for smooth curves.
       const double angle = sent * 0.01;
-      std::snprintf(text, sizeof text, "G1 X%.3f Y%.3f\n", 5 * std::cos(angle), 5 * std::sin(angle));
+      std::snprintf(text, sizeof text, "G1 X%.3f Y%.3f\n", 5 * std::cos(angle),
+                    5 * std::sin(angle));
       const std::size_t length = std::string(text).size();
       if (sent < count && waiting + length <= 126) {
         machine_->board.send(text);

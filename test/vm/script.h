@@ -9,11 +9,11 @@
 /// One line of a dialogue.
 struct Step {
   enum Kind {
-    kSend,       ///< `-> text`: a line with its end
-    kSendRaw,    ///< `>> text`: characters alone; ^X is ctrl-X, ^N a line end
-    kExpect,     ///< `<- text [within t]`: the next line, reports aside
-    kSkipTo,     ///< `<* text [within t]`: some later line; those before are passed over
-    kAsk,        ///< `~~ question`: of the simulated machine
+    kSend,     ///< `-> text`: a line with its end
+    kSendRaw,  ///< `>> text`: characters alone; ^X is ctrl-X, ^N a line end
+    kExpect,   ///< `<- text [within t]`: the next line, reports aside
+    kSkipTo,   ///< `<* text [within t]`: some later line; those before are passed over
+    kAsk,      ///< `~~ question`: of the simulated machine
   } kind;
   std::string text;
   std::string place;  ///< file and line where it stands
@@ -46,7 +46,8 @@ inline std::vector<Step> readScript(const std::string& folder, const std::string
     else if (mark == "~~")
       step.kind = Step::kAsk;
     else if (mark != "->")
-      throw std::runtime_error(name + ":" + std::to_string(number) + ": begin with -> >> <- <* ~~ ;");
+      throw std::runtime_error(name + ":" + std::to_string(number) +
+                               ": begin with -> >> <- <* ~~ ;");
     steps.push_back(step);
   }
   return steps;

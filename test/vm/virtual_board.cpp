@@ -20,15 +20,15 @@ struct PinPlace {
 };
 
 const PinPlace kPins[] = {
-    {2, 'E', 4, 0x9a, 0x90, 5},   {3, 'E', 5, 0x9c, 0x90, 3},  {4, 'G', 5, 0, 0, 0},
-    {5, 'E', 3, 0x98, 0x90, 7},   {6, 'H', 3, 0xa8, 0xa0, 7},  {7, 'H', 4, 0xaa, 0xa0, 5},
-    {8, 'H', 5, 0xac, 0xa0, 3},   {9, 'H', 6, 0xb4, 0xb0, 5},  {10, 'B', 4, 0xb3, 0xb0, 7},
-    {11, 'B', 5, 0, 0, 0},        {12, 'B', 6, 0, 0, 0},       {13, 'B', 7, 0, 0, 0},
-    {14, 'J', 1, 0, 0, 0},        {16, 'H', 1, 0, 0, 0},       {17, 'H', 0, 0, 0, 0},
-    {18, 'D', 3, 0, 0, 0},        {19, 'D', 2, 0, 0, 0},       {20, 'D', 1, 0, 0, 0},
-    {21, 'D', 0, 0, 0, 0},        {22, 'A', 0, 0, 0, 0},       {23, 'A', 1, 0, 0, 0},
-    {24, 'A', 2, 0, 0, 0},        {25, 'A', 3, 0, 0, 0},       {26, 'A', 4, 0, 0, 0},
-    {27, 'A', 5, 0, 0, 0},        {40, 'G', 1, 0, 0, 0},       {41, 'G', 0, 0, 0, 0},
+    {2, 'E', 4, 0x9a, 0x90, 5}, {3, 'E', 5, 0x9c, 0x90, 3}, {4, 'G', 5, 0, 0, 0},
+    {5, 'E', 3, 0x98, 0x90, 7}, {6, 'H', 3, 0xa8, 0xa0, 7}, {7, 'H', 4, 0xaa, 0xa0, 5},
+    {8, 'H', 5, 0xac, 0xa0, 3}, {9, 'H', 6, 0xb4, 0xb0, 5}, {10, 'B', 4, 0xb3, 0xb0, 7},
+    {11, 'B', 5, 0, 0, 0},      {12, 'B', 6, 0, 0, 0},      {13, 'B', 7, 0, 0, 0},
+    {14, 'J', 1, 0, 0, 0},      {16, 'H', 1, 0, 0, 0},      {17, 'H', 0, 0, 0, 0},
+    {18, 'D', 3, 0, 0, 0},      {19, 'D', 2, 0, 0, 0},      {20, 'D', 1, 0, 0, 0},
+    {21, 'D', 0, 0, 0, 0},      {22, 'A', 0, 0, 0, 0},      {23, 'A', 1, 0, 0, 0},
+    {24, 'A', 2, 0, 0, 0},      {25, 'A', 3, 0, 0, 0},      {26, 'A', 4, 0, 0, 0},
+    {27, 'A', 5, 0, 0, 0},      {40, 'G', 1, 0, 0, 0},      {41, 'G', 0, 0, 0, 0},
     {43, 'L', 6, 0, 0, 0},
 };
 
@@ -109,6 +109,14 @@ void VirtualBoard::watchTick(avr_cycle_count_t before) {
 void VirtualBoard::setPin(int pin, bool high) {
   const PinPlace& place = placeOf(pin);
   avr_raise_irq(avr_io_getirq(avr_, AVR_IOCTL_IOPORT_GETIRQ(place.port), place.bit), high);
+}
+
+void VirtualBoard::strap(uint8_t open) {
+  avr_ioport_external_t outside;
+  outside.name = 'A';
+  outside.mask = 0x3f;
+  outside.value = open & 0x3f;
+  avr_ioctl(avr_, AVR_IOCTL_IOPORT_SET_EXTERNAL('A'), &outside);
 }
 
 PinState VirtualBoard::pin(int pin) const {

@@ -50,6 +50,9 @@ class VirtualBoard {
   void setPin(int pin, bool high);
   PinState pin(int pin) const;
 
+  /// Straps the six pins from 22 on; a bit for each that is left open.
+  void strap(uint8_t open);
+
   std::vector<uint8_t> eeprom() const;
   void setEeprom(const std::vector<uint8_t>& bytes);
 

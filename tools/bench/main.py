@@ -1,4 +1,4 @@
-"""Measures what the kinematics costs and holds it against CHANGELOG.md and the budgets."""
+"""Measures what kinematics and firmware cost and holds it against CHANGELOG.md and the budgets."""
 
 import argparse
 import sys
@@ -8,6 +8,7 @@ import absent
 import board
 import compare
 import effects
+import firmware
 import host
 import table
 from costs import Costs
@@ -34,9 +35,12 @@ def measure(*, write: bool) -> int:
     shown = table.exact_part(costs, load("published.toml"))
     shown += "\n\n" + table.host_part(*host.measure())
     print(shown, end="\n\n")
-    refused = compare.over_budget(costs, load("budgets.toml"))
+    whole = firmware.measure()
+    print(firmware.table(whole), end="\n\n")
+    refused = compare.over_budget(costs, load("budgets.toml")) + firmware.over_budget(whole)
     if write:
         text = effects.replaced(table.replaced(text, shown), effects.table(costs))
+        text = firmware.replaced(text, firmware.table(whole))
         CHANGELOG.write_text(text, encoding="utf-8")
         print("bench: wrote the table in CHANGELOG.md")
     else:

@@ -35,6 +35,7 @@ ARROWS = {
             "test/reference",
             "test/vm",
             "test/settings_host",
+            "test/test_settings",
             "src",
             "src/machine",
             "src/board",

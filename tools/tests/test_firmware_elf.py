@@ -1,4 +1,4 @@
-"""The firmware as it is flashed, on a simulated Mega: what it answers, what its pins do, its cost."""
+"""The firmware as it is flashed, on a simulated Mega: its answers, its pins, its cost."""
 
 import subprocess
 from pathlib import Path
@@ -60,6 +60,16 @@ def test_short_moves_are_taken_as_fast_as_a_streaming_sender_gives_them(player):
     told = figures(play(player, DIALOGUES, "stream.nc"))
     assert told["lines_per_second"] >= 180
     assert told["tick_share_streaming"] <= 0.12
+
+
+def test_the_loop_runs_at_200_hz_if_a_setting_asks_for_it(player):
+    told = figures(play(player, DIALOGUES, "fast_loop.nc"))
+    assert 0.12 < told["tick_share_streaming"] < 0.3
+
+
+def test_every_shield_is_known_by_its_straps(player):
+    done = play(player, DIALOGUES, "shields.nc")
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_places_are_those_of_the_lab(player, tmp_path):

@@ -1,0 +1,8 @@
+// The machine on the stage, through as many power cuts as its dialogue has.
+#pragma once
+
+#include "machine/machine.h"
+#include "stage.h"
+
+/// Plays the stage's dialogue to its end; throws Failure.
+void live(Stage& stage, const machine::BoardName& board = {2, ""});

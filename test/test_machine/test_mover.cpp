@@ -1,0 +1,222 @@
+// Queued moves become set-points that stay on the path, within the limits, and end exactly.
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "machine/mover.h"
+#include "settings_flash.h"
+
+using namespace machine;
+
+namespace {
+
+struct NoDrives : Drives {
+  void drive(Axis, int16_t) override {}
+  void release(Axis) override {}
+  uint16_t count(Axis) override { return 0; }
+  void arrange(bool, uint8_t) override {}
+};
+
+struct NoClock : Clock {
+  uint32_t milliseconds() override { return 0; }
+  void idle() override {}
+  void holdTicks() override {}
+  void releaseTicks() override {}
+};
+
+struct Place3 {
+  double x, y, z;
+};
+
+double distance(const Place3& a, const Place3& b) {
+  return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) +
+                   (a.z - b.z) * (a.z - b.z));
+}
+
+/// A mover on the usual ring machine, and where its set-points put the sled.
+class World {
+ public:
+  World() : values_(table_, room_), axes_(drives_, clock_) {
+    for (const auto& [number, value] :
+         {std::pair<int, float>{7, 2}, {8, 139.1f}, {160, 8.2e-12f}, {170, 5.2e-6f}})
+      EXPECT_EQ(values_.set(uint8_t(number), value), settings::Refusal::kNone);
+    axes_.simulate(true);
+    axes_.prepare(values_);
+    mover_.prepare(values_, axes_.secondsPerTick());
+    geometry_.prepare(values_);
+    standAt(0, 0);
+  }
+
+  void standAt(float x, float y) {
+    const motion::Lengths<float> lengths = geometry_.inverse({x, y});
+    axes_.declare(kLeftAxis, lengths.left);
+    axes_.declare(kRightAxis, lengths.right);
+    mover_.standAt(axes_.setPoint());
+    at_ = {x, y};
+  }
+
+  void lineTo(float x, float y, float z, float feed) {
+    add(motion::line(at_, motion::Point<float>{x, y}), z, feed);
+    at_ = {x, y};
+  }
+
+  void add(const motion::Path<float>& path, float z, float feed) {
+    while (!mover_.hasRoom()) tick();
+    ASSERT_EQ(mover_.add(path, z, feed), Moved::kYes);
+  }
+
+  void tick() {
+    ASSERT_EQ(mover_.fill(axes_, geometry_), Moved::kYes);
+    axes_.tick();
+    const SetPoint point = axes_.setPoint();
+    const FoundPlace found = geometry_.forward(
+        motion::toMm<float>(point.left), motion::toMm<float>(point.right),
+        places.empty() ? motion::Point<float>{0, 0}
+                       : motion::Point<float>{float(places.back().x), float(places.back().y)});
+    ASSERT_TRUE(found.found);
+    places.push_back({found.at.x, found.at.y, motion::toMm<double>(point.z)});
+  }
+
+  void run() {
+    while (!mover_.isIdle() || !axes_.isEmpty()) tick();
+  }
+
+  Mover& mover() { return mover_; }
+  Geometry& geometry() { return geometry_; }
+  SetPoint setPoint() { return axes_.setPoint(); }
+
+  std::vector<Place3> places;
+
+ private:
+  FlashTable table_;
+  float room_[kSettingCount];
+  settings::Values values_;
+  NoDrives drives_;
+  NoClock clock_;
+  Axes axes_;
+  Mover mover_;
+  Geometry geometry_;
+  motion::Point<float> at_;
+};
+
+const double kTick = 0.01, kGain = 100;
+
+/// Steps from tick to tick [mm], from rest to rest.
+std::vector<double> steps(const std::vector<Place3>& places) {
+  std::vector<double> told;
+  for (std::size_t i = 1; i < places.size(); ++i)
+    told.push_back(distance(places[i], places[i - 1]));
+  return told;
+}
+
+}  // namespace
+
+TEST(Mover, EndsEveryMoveOnTheExactLengths) {
+  World world;
+  std::mt19937 random(3);
+  for (int i = 0; i < 40; ++i) {
+    const float x = float(int(random() % 2000) - 1000), y = float(int(random() % 1000) - 500);
+    world.lineTo(x, y, 0, 15);
+    world.run();
+    const motion::Lengths<float> exact = world.geometry().inverse({x, y});
+    EXPECT_EQ(world.setPoint().left, motion::toCounts(exact.left));
+    EXPECT_EQ(world.setPoint().right, motion::toCounts(exact.right));
+  }
+}
+
+TEST(Mover, KeepsToTheLine) {
+  World world;
+  world.lineTo(600, 300, 0, 15);
+  world.run();
+  for (const Place3& place : world.places)
+    EXPECT_NEAR((place.x * 300 - place.y * 600) / std::hypot(600, 300), 0, 0.01);
+}
+
+TEST(Mover, KeepsFeedAndRadiusOnAnArc) {
+  World world;
+  world.standAt(100, 0);
+  world.add(motion::arc(motion::Point<float>{100, 0}, motion::Point<float>{100, 0},
+                        motion::Point<float>{0, 0}, motion::Turn::kCounterclockwise),
+            0, 12);
+  world.run();
+  int cruising = 0;
+  const std::vector<double> told = steps(world.places);
+  for (std::size_t i = 50; i + 50 < told.size(); ++i, ++cruising)
+    EXPECT_NEAR(told[i] / kTick, 12, 0.4);
+  EXPECT_GT(cruising, 1000);
+  for (const Place3& place : world.places) EXPECT_NEAR(std::hypot(place.x, place.y), 100, 0.01);
+}
+
+TEST(Mover, GainsAndLosesSpeedWithinTheLimit) {
+  World world;
+  std::mt19937 random(4);
+  for (int i = 0; i < 60; ++i)
+    world.lineTo(float(random() % 200), float(random() % 200), 0, float(5 + random() % 12));
+  world.run();
+  const std::vector<double> told = steps(world.places);
+  for (std::size_t i = 1; i < told.size(); ++i) {
+    EXPECT_LE(told[i] / kTick, 17.5);
+    // Twice the limit: where a corner falls between two ticks, both changes are in one.
+    EXPECT_LE(std::fabs(told[i] - told[i - 1]) / kTick / kTick, 2.2 * kGain + 30);
+  }
+}
+
+TEST(Mover, PassesSmoothCurvesOfShortMovesWithoutStopping) {
+  World world;
+  world.standAt(50, 0);
+  for (int i = 1; i <= 400; ++i)
+    world.lineTo(float(50 * std::cos(i * 0.02)), float(50 * std::sin(i * 0.02)), 0, 10);
+  world.run();
+  int slow = 0;
+  for (const double step : steps(world.places)) slow += step / kTick < 5;
+  EXPECT_LT(slow, 40);
+  EXPECT_LT(double(world.places.size()) * kTick, 1.15 * 400 / 10);
+}
+
+TEST(Mover, CutsACornerNoMoreThanItMay) {
+  World world;
+  world.lineTo(100, 0, 0, 15);
+  world.lineTo(100, 100, 0, 15);
+  world.run();
+  double nearest = 1e9;
+  for (const Place3& place : world.places)
+    nearest = std::min(nearest, distance(place, {100, 0, 0}));
+  EXPECT_LT(nearest, 0.05);
+}
+
+TEST(Mover, BrakesOnAStopAndForgetsTheRest) {
+  World world;
+  world.lineTo(500, 0, 0, 15);
+  world.lineTo(0, 0, 0, 15);
+  for (int i = 0; i < 300; ++i) world.tick();
+  world.mover().stop();
+  const std::size_t before = world.places.size();
+  world.run();
+  EXPECT_LT((double(world.places.size()) - double(before)) * kTick, 0.35);
+  const std::vector<double> told = steps(world.places);
+  EXPECT_LT(told.back() / kTick, 2.5);
+}
+
+TEST(Mover, BringsZAlongWithinItsOwnSpeed) {
+  World world;
+  world.lineTo(10, 0, -5, 15);
+  world.run();
+  EXPECT_NEAR(world.places.back().z, -5, 1e-4);
+  const double most = 12.6 * 3.17 / 60;  // [mm/s]
+  for (std::size_t i = 1; i < world.places.size(); ++i)
+    EXPECT_LE(std::fabs(world.places[i].z - world.places[i - 1].z) / kTick, most * 1.02);
+}
+
+TEST(Mover, DoesNotDriftOverManyShortMoves) {
+  World world;
+  for (int i = 0; i < 20000; ++i) {
+    const float y = i % 2 ? 0.0f : 0.037f;
+    world.lineTo(float(i) * 0.001f, y, 0, 15);
+  }
+  world.lineTo(0, 0, 0, 15);
+  world.run();
+  const motion::Lengths<float> exact = world.geometry().inverse({0, 0});
+  EXPECT_EQ(world.setPoint().left, motion::toCounts(exact.left));
+  EXPECT_EQ(world.setPoint().right, motion::toCounts(exact.right));
+}

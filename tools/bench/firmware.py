@@ -1,0 +1,89 @@
+"""What the whole firmware costs: flash, RAM, stack, control tick, lines a second, by simulation."""
+
+import re
+import subprocess
+
+import board
+
+BEGIN = "<!-- firmware: begin; written by tools/bench/run --write -->"
+END = "<!-- firmware: end -->"
+VM = board.ROOT / "test/vm"
+# Row: what it must not exceed (or, for lines, fall below), and how it is shown.
+BUDGETS = {
+    "flash": 128 * 1024,
+    "static RAM": 5 * 1024,
+    "RAM never touched": 1024,
+    "control tick, share of the time at 100 Hz": 0.12,
+    "short G1 lines a second": 180,
+}
+AT_LEAST = {"RAM never touched", "short G1 lines a second"}
+RAM = 8192
+
+
+def measure() -> dict[str, float]:
+    """The figures of the firmware as built by PlatformIO, by playing dialogues on simavr."""
+    told = board.output("avr-size", "-A", board.FIRMWARE)
+    size = {name: int(value) for name, value in re.findall(r"^(\.\w+)\s+(\d+)", told, re.M)}
+    slow, fast = play("stream.nc"), play("fast_loop.nc")
+    ram = size[".data"] + size[".bss"]
+    stack = max(slow["stack"], fast["stack"])
+    return {
+        "flash": size[".text"] + size[".data"],
+        "static RAM": ram,
+        "deepest stack": stack,
+        "RAM never touched": RAM - ram - stack,
+        "control tick, share of the time at 100 Hz": slow["tick_share_streaming"],
+        "the same at 200 Hz": fast["tick_share_streaming"],
+        "longest control tick, cycles": slow["longest_tick_streaming"],
+        "short G1 lines a second": slow["lines_per_second"],
+    }
+
+
+def play(dialogue: str) -> dict[str, float]:
+    """What test/vm/play_firmware measures while it plays a dialogue."""
+    board.BUILD.mkdir(parents=True, exist_ok=True)
+    program = board.BUILD / "play_firmware"
+    sources = [VM / "play_firmware.cpp", VM / "virtual_board.cpp"]
+    board.output("g++", "-std=c++17", "-O2", *sources, "-lsimavr", "-lelf", "-o", program)
+    command = [program, board.FIRMWARE, VM / "dialogues", dialogue]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode:
+        raise board.ToolError(f"{dialogue}: {done.stderr.strip()}")
+    pairs = [line.split() for line in done.stdout.splitlines() if len(line.split()) == 2]
+    return {name: float(value) for name, value in pairs}
+
+
+def table(figures: dict[str, float]) -> str:
+    """The figures beside their budgets."""
+    rows = [
+        f"| {name} | {shown(value)} | {shown(BUDGETS[name]) if name in BUDGETS else '–'} |"
+        for name, value in figures.items()
+    ]
+    note = (
+        "Short moves streamed with 126 characters ahead, all three motors on; interrupts of the\n"
+        "serial line and the encoders that fall into a tick count as its own."
+    )
+    return "\n".join(["| the firmware | measured | budget |", "|---|---|---|", *rows, "", note])
+
+
+def shown(value: float) -> str:
+    return f"{value:.1%}" if value < 1 else f"{value:,.0f}"
+
+
+def over_budget(figures: dict[str, float]) -> list[str]:
+    """One line for each budget that is not kept."""
+    refused = []
+    for name, budget in BUDGETS.items():
+        value = figures[name]
+        if value < budget if name in AT_LEAST else value > budget:
+            refused.append(f"{name}: {shown(value)}, the budget is {shown(budget)}")
+    return refused
+
+
+def replaced(text: str, written: str) -> str:
+    """The text of CHANGELOG.md with the table renewed."""
+    before, _, rest = text.partition(BEGIN)
+    _, found, after = rest.partition(END)
+    if not found:
+        raise board.ToolError(f"CHANGELOG.md lacks the marks {BEGIN} and {END}")
+    return f"{before}{BEGIN}\n{written}\n{END}{after}"
