@@ -16,8 +16,8 @@ namespace {
 const double kBytesPerMs = 5.88;  // 58,824 baud, ten bits each
 const int kOutRoom = 255, kInRoom = 255, kClientRoom = 126;
 const long kLongestGapMs = 1500;     // clients give up after 2 s of silence
-const long kStoryMs = 60000;         // then Stop is pressed, whatever goes on
-const long kPatienceMs = 20000;      // that a polite sender has for an answer
+const long kStoryMs = 30000;         // then Stop is pressed, whatever goes on
+const long kPatienceMs = 6000;       // that a polite sender has for an answer
 const long kLastPatienceMs = 60000;  // for the settings after a stop
 const long kQuietMs = 3000;
 
@@ -125,7 +125,7 @@ class World : public Wire, public Drives, public Aux, public Clock {
       ++now_ms_;
       out_queue_ = std::max(0, out_queue_ - int(now_ms_ % 8 == 0 ? 5 : 6));
       eeprom.advance(1000);
-      const int tick_ms = machine_ != nullptr && machine_->wantsFastTicks() ? 5 : 10;
+      const int tick_ms = machine_ != nullptr ? 1000 / machine_->ticksPerSecond() : 10;
       if (now_ms_ % tick_ms != 0) continue;
       for (SimulatedMotor& motor : motor_) motor.advance(tick_ms / 1000.0);
       if (machine_ != nullptr) machine_->tick();
