@@ -101,10 +101,10 @@ class Axes {
     int16_t moved = 0;       ///< [encoder counts] at the last tick
     int16_t duty = 0;
     int32_t most_counts = 0;  ///< [encoder counts] of kMostTravel
-    int32_t counts = 0;     ///< [encoder counts] since zero length
-    int32_t set_point = 0;  ///< [counts of motion::kCountsPerMm]
-    int32_t asked = 0;      ///< by how much the last tick changed it
-    float per_count = 1;    ///< [mm] may be negative
+    int32_t counts = 0;       ///< [encoder counts] since zero length
+    int32_t set_point = 0;    ///< [counts of motion::kCountsPerMm]
+    int32_t asked = 0;        ///< by how much the last tick changed it
+    float per_count = 1;      ///< [mm] may be negative
     float turns_per_count = 1;
     float turns_per_mm = 1;
     float fine_per_count = 1;  ///< counts of motion::kCountsPerMm per encoder count
