@@ -14,6 +14,11 @@ const int16_t kHardDuty = 250;
 const uint8_t kHardTicks = 100;
 const uint8_t kLeastCounts = 4;
 
+float withinTravel(float length) {
+  if (length > kMostTravel) return kMostTravel;
+  return length < -kMostTravel ? -kMostTravel : length;
+}
+
 Gains gainsFrom(const settings::Values& values, uint8_t first) {
   return {values.at(first), values.at(uint8_t(first + 1)), values.at(uint8_t(first + 2)),
           values.at(uint8_t(first + 3))};
@@ -32,6 +37,8 @@ void Axes::prepare(const settings::Values& values) {
     one.turns_per_count = 1 / float(fabs(counts));
     one.turns_per_mm = one.turns_per_count / one.per_count;
     one.fine_per_count = one.per_count * float(motion::kCountsPerMm);
+    const float most = kMostTravel / float(fabs(one.per_count));
+    one.most_counts = most < 2e9f ? int32_t(most) : 2000000000;
     // A negative number of counts says that motor or encoder is wired the other way.
     one.sign = counts < 0 ? -1 : 1;
     one.loop.tune(gainsFrom(values, z ? kZPositionP : kMainPositionP),
@@ -91,7 +98,11 @@ void Axes::control(One& one, Axis axis) {
 }
 
 int32_t Axes::measured(const One& one) const {
-  return int32_t(lround(float(one.counts) * one.fine_per_count));
+  // Counts kept under other settings may tell any length.
+  int32_t counts = one.counts;
+  if (counts > one.most_counts) counts = one.most_counts;
+  if (counts < -one.most_counts) counts = -one.most_counts;
+  return int32_t(lround(float(counts) * one.fine_per_count));
 }
 
 void Axes::tick() {
@@ -120,7 +131,7 @@ void Axes::standStill() {
 
 void Axes::jumpTo(Axis axis, float length) {
   const WithoutTicks hold(clock_);
-  axis_[axis].set_point = motion::toCounts(length);
+  axis_[axis].set_point = motion::toCounts(withinTravel(length));
 }
 
 void Axes::follow() {
@@ -197,6 +208,7 @@ float Axes::error(Axis axis) const {
 void Axes::declare(Axis axis, float length) {
   const WithoutTicks hold(clock_);
   One& one = axis_[axis];
+  length = withinTravel(length);
   one.counts = int32_t(lround(length / one.per_count));
   one.set_point = motion::toCounts(length);
 }

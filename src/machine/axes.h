@@ -17,6 +17,9 @@ enum class Trouble : uint8_t {
   kEncoder,     ///< a motor is driven hard and its encoder does not move
 };
 
+/// [mm] No axis reaches farther; twice as much still fits the counts of a set-point.
+const float kMostTravel = 16000;
+
 /// What an axis does.
 enum class AxisMode : uint8_t {
   kOff,     ///< no power
@@ -97,10 +100,11 @@ class Axes {
     uint16_t raw = 0;        ///< encoder, as last read
     int16_t moved = 0;       ///< [encoder counts] at the last tick
     int16_t duty = 0;
-    int32_t counts = 0;     ///< [encoder counts] since zero length
-    int32_t set_point = 0;  ///< [counts of motion::kCountsPerMm]
-    int32_t asked = 0;      ///< by how much the last tick changed it
-    float per_count = 1;    ///< [mm] may be negative
+    int32_t most_counts = 0;  ///< [encoder counts] of kMostTravel
+    int32_t counts = 0;       ///< [encoder counts] since zero length
+    int32_t set_point = 0;    ///< [counts of motion::kCountsPerMm]
+    int32_t asked = 0;        ///< by how much the last tick changed it
+    float per_count = 1;      ///< [mm] may be negative
     float turns_per_count = 1;
     float turns_per_mm = 1;
     float fine_per_count = 1;  ///< counts of motion::kCountsPerMm per encoder count

@@ -4,8 +4,8 @@
 namespace machine {
 namespace {
 
-const float kAxisFeed = 800;      // [mm/min] unless a command says otherwise
-const float kMostLength = 20000;  // [mm] of a chain; beyond it a number is a mistake
+const float kAxisFeed = 800;         // [mm/min] unless a command says otherwise
+const float kMostTestLength = 1000;  // [mm]
 
 /// The two digits behind the B, or 255.
 uint8_t codeOf(const char* line) {
@@ -20,7 +20,18 @@ bool holds(const char* text, char letter) {
   return false;
 }
 
-bool isLength(float value) { return fabs(value) < kMostLength; }
+/// Codes that read no words, or only whether letters are there.
+bool isSimple(uint8_t code) { return code == 5 || code == 20 || code == 99; }
+
+/// Letters that need no number behind them.
+const char* bareLetters(uint8_t code) { return code == 10 || code == 11 ? "LR" : ""; }
+
+/// Whether a test may go there: turns a minute of B13, mm of B14, duties of B16.
+bool isMild(uint8_t code, float value) {
+  return float(fabs(value)) <= (code == 14 ? kMostTestLength : 255);
+}
+
+bool isLength(float value) { return float(fabs(value)) <= kMostTravel; }
 
 }  // namespace
 
@@ -32,9 +43,12 @@ bool Machine::isQuestion(const char* line) {
 bool Machine::runB(const char* line) {
   const uint8_t code = codeOf(line);
   Words words;
-  Word word;
-  if (code != 255)
-    for (const char* at = line + 3; readWord(at, word);) words.add(word.letter, word.value);
+  if (code != 255 && !isSimple(code)) {
+    const gcode::Mistake mistake = gcode::findMistake(line + 3, bareLetters(code));
+    if (mistake.fault != gcode::Fault::kNone) return refuseMistake(mistake);
+    gcode::Word word;
+    for (const char* at = line + 3; gcode::readWord(at, word);) words.add(word.letter, word.value);
+  }
   switch (code) {
     case 5:
       out_.line(FLASH("Firmware Version 1.28"));
@@ -69,7 +83,7 @@ bool Machine::runChainCode(uint8_t code, const Words& words) {
       out_.line(FLASH("Setting Chain Lengths To: "));
       return setChains(left, right);
     case 8:
-      setChains(values_.at(kExtendLength), values_.at(kExtendLength));
+      if (!setChains(values_.at(kExtendLength), values_.at(kExtendLength))) return false;
       out_.line(FLASH("Message: The machine chains have been manually re-calibrated."));
       return true;
     case 9:
@@ -96,6 +110,8 @@ bool Machine::runTestCode(uint8_t code, const Words& words) {
     case 13:
     case 14:
     case 16:
+      if (!isMild(code, test.first) || !isMild(code, test.last))
+        return refuse(FLASH("S and F are at most 255, of B14 at most 1000"));
       return testLoop(code, test);
     case 17:
     case 18:
@@ -116,6 +132,7 @@ bool Machine::pullByWords(const Words& words) {
 }
 
 bool Machine::measureOut(Axis axis) {
+  if (!isLength(values_.at(kExtendLength))) return refuse(FLASH("no chain is that long ($11)"));
   out_.line(axis == kLeftAxis ? FLASH("Measuring out left chain")
                               : FLASH("Measuring out right chain"));
   const float feed = 0.9f * values_.at(kGreatestFeed);
@@ -128,6 +145,7 @@ bool Machine::measureOut(Axis axis) {
 }
 
 bool Machine::setChains(float left, float right) {
+  if (!isLength(left) || !isLength(right)) return refuse(FLASH("no chain is that long"));
   axes_.declare(kLeftAxis, left);
   axes_.declare(kRightAxis, right);
   out_ << FLASH("Left: ");
@@ -148,6 +166,7 @@ bool Machine::moveChains(const Words& words) {
     const float given = words.value(axis == kLeftAxis ? 'L' : 'R');
     if (modal_.relative && given == 0) continue;
     const float goal = modal_.relative ? axes_.target(axis) + given : given;
+    if (!isLength(goal)) return refuse(FLASH("no chain is that long"));
     completed = completed && moveAxis(axis, goal, feed, false);
   }
   searchPlace();

@@ -4,11 +4,6 @@
 namespace machine {
 namespace {
 
-/// The code's tenths as a whole number: 382 is G38.2.
-uint16_t tenthsOf(float code) {
-  return code < 0 || code > 999 ? 0xffff : uint16_t(lround(code * 10));
-}
-
 bool isSetting(char first) { return first == '$'; }
 
 }  // namespace
@@ -36,10 +31,10 @@ bool Machine::execute(char* line) {
   if (*first == 'b' || *first == 'B') {
     if (is_locked_ && !isQuestion(first)) return false;
     echo(first);
-    clean(line);
+    gcode::clean(line);
     return runB(line);
   }
-  clean(line);
+  gcode::clean(line);
   if (*line == '\0') return true;
   if (isSetting(*line)) return runSetting(line);
   return !is_locked_ && runCode(line);
@@ -54,54 +49,55 @@ void Machine::echo(const char* line) {
   out_.end();
 }
 
-bool Machine::runCode(const char* text) {
-  Words words;
-  Word word, code = {0, false, 0};
-  bool going = true;
-  while (readWord(text, word)) {
-    if (!word.has_number) return refuse(FLASH("Bad number format"));
-    if (word.letter != 'G' && word.letter != 'M') {
-      // N is a line's number.
-      if (word.letter != 'N') words.add(word.letter, word.value);
-      continue;
-    }
-    going = runPiece(code.letter, code.value, words) && going;
-    words = Words();
-    code = word;
+bool Machine::refuseMistake(gcode::Mistake mistake) {
+  using gcode::Fault;
+  beginError();
+  switch (mistake.fault) {
+    case Fault::kNoNumber:
+      out_ << FLASH("a number is missing behind ");
+      break;
+    case Fault::kBadNumber:
+      out_ << FLASH("what follows is no number: ");
+      break;
+    case Fault::kTooLarge:
+      out_ << FLASH("a number is far too large: ");
+      break;
+    case Fault::kNoCode:
+      out_ << FLASH("there is no such code: ");
+      break;
+    default:
+      out_ << FLASH("this begins no word: ");
   }
-  return runPiece(code.letter, code.value, words) && going;
+  out_ << mistake.letter;
+  out_.line(FLASH("; nothing of the line was done"));
+  return false;
 }
 
-bool Machine::runPiece(char letter, float code, const Words& words) {
-  const uint16_t tenths = tenthsOf(code);
+bool Machine::runCode(const char* text) {
+  const gcode::Mistake mistake = gcode::findMistake(text);
+  if (mistake.fault != gcode::Fault::kNone) return refuseMistake(mistake);
+  gcode::Pieces pieces(text);
+  gcode::Piece piece;
+  bool going = true;
+  while (pieces.next(piece)) going = runPiece(piece) && going;
+  return going;
+}
+
+bool Machine::runPiece(const gcode::Piece& piece) {
+  const Words& words = piece.words;
   // Of a line that a stop broke off only its modes still count: a stopped jog ends in G90.
-  if (stopping_ || is_answered_) return letter == 'G' && setMode(tenths);
-  if (letter != 'M' && words.has('T') && !setTool(words)) return false;
-  if (letter == 'M') return runM(tenths, words);
-  if (letter == 'G') return runG(tenths, words);
+  if (stopping_ || is_answered_) return piece.letter == 'G' && modal_.take(piece.tenths);
+  if (piece.letter != 'M' && words.has('T') && !setTool(words)) return false;
+  if (piece.letter == 'M') return runM(piece.tenths, words);
+  if (piece.letter == 'G') return runG(piece.tenths, words);
   if (words.has('X') || words.has('Y') || words.has('Z') || words.has('I') || words.has('J'))
     return move(modal_.motion, words);
   takeFeed(words);
   return true;
 }
 
-bool Machine::setMode(uint16_t tenths) {
-  switch (tenths) {
-    case 200:
-    case 210:
-      modal_.inches = tenths == 200;
-      return true;
-    case 900:
-    case 910:
-      modal_.relative = tenths == 910;
-      return true;
-    default:
-      return false;
-  }
-}
-
 bool Machine::runG(uint16_t tenths, const Words& words) {
-  if (setMode(tenths)) {
+  if (modal_.take(tenths)) {
     takeFeed(words);
     // `G91 X10`, with the mode of motion from before.
     const bool moves = words.has('X') || words.has('Y') || words.has('Z');
@@ -197,7 +193,10 @@ bool Machine::dwell(const Words& words) {
 
 bool Machine::declareZByWord(const Words& words) {
   if (!drain()) return false;
-  if (words.has('Z')) declareZ(fromUnits(words.value('Z')));
+  if (!words.has('Z')) return true;
+  const float z = fromUnits(words.value('Z'));
+  if (!(float(fabs(z)) <= kMostTravel)) return refuse(FLASH("no z axis is that long"));
+  declareZ(z);
   return true;
 }
 

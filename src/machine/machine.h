@@ -2,17 +2,21 @@
 // Knows no Arduino; what it needs of a board stands in ports.h.
 #pragma once
 
+#include <GCode.h>
+
 #include "axes.h"
 #include "geometry.h"
-#include "input.h"
-#include "modal.h"
 #include "mover.h"
 #include "ports.h"
 #include "printer.h"
 #include "settings_table.h"
-#include "words.h"
 
 namespace machine {
+
+using gcode::Input;
+using gcode::Modal;
+using gcode::Quick;
+using gcode::Words;
 
 /// What the machine is built of.
 struct Ports {
@@ -112,9 +116,9 @@ class Machine {
   // commands.cpp, moves.cpp: lines of G-code.
   bool execute(char* line);
   void echo(const char* line);
+  bool refuseMistake(gcode::Mistake mistake);
   bool runCode(const char* text);
-  bool runPiece(char letter, float code, const Words& words);
-  bool setMode(uint16_t tenths);
+  bool runPiece(const gcode::Piece& piece);
   bool runG(uint16_t tenths, const Words& words);
   bool runM(uint16_t tenths, const Words& words);
   bool ignore(uint16_t tenths);

@@ -4,30 +4,12 @@
 namespace machine {
 namespace {
 
-const float kLeastFeed = 1;     // [mm/min]
-const float kFarthest = 50000;  // [mm] a coordinate beyond it is a mistake
-
-/// Centre of the arc with that radius, on the left of the chord for counterclockwise, for the
-/// short arc; a negative radius asks for the long one. False if the chord is longer than the arc
-/// is wide.
-bool centreByRadius(motion::Point<float> from, motion::Point<float> to, float radius,
-                    bool clockwise, motion::Point<float>& centre) {
-  const float dx = to.x - from.x, dy = to.y - from.y;
-  const float chord_squared = dx * dx + dy * dy;
-  const float square = radius * radius - chord_squared / 4;
-  // A radius rounded in the text may fall short of a half circle's.
-  if (square < -0.01f * radius * radius || chord_squared == 0) return false;
-  const float height = square > 0 ? float(sqrt(square / chord_squared)) : 0;
-  const bool left = clockwise != (radius > 0);
-  const float across = left ? height : -height;
-  centre = {from.x + dx / 2 - dy * across, from.y + dy / 2 + dx * across};
-  return true;
-}
+const float kLeastFeed = 1;  // [mm/min]
 
 }  // namespace
 
-float Machine::inUnits(float mm) const { return modal_.inches ? mm / 25.4f : mm; }
-float Machine::fromUnits(float value) const { return modal_.inches ? value * 25.4f : value; }
+float Machine::inUnits(float mm) const { return modal_.fromMm(mm); }
+float Machine::fromUnits(float value) const { return modal_.toMm(value); }
 
 float Machine::mostZFeed() const {
   return values_.at(kZSpeed) * float(fabs(values_.at(kZPerTurn)));
@@ -45,8 +27,7 @@ Place Machine::targetOf(const Words& words) const {
   float* const parts[] = {&target.x, &target.y, &target.z};
   for (uint8_t i = 0; i < 3; ++i) {
     if (!words.has(letters[i])) continue;
-    const float value = fromUnits(words.value(letters[i]));
-    *parts[i] = modal_.relative ? *parts[i] + value : value;
+    *parts[i] = modal_.targetOf(*parts[i], words.value(letters[i]));
   }
   target.z = withinZLimits(target.z);
   return target;
@@ -56,7 +37,8 @@ bool Machine::move(uint8_t kind, const Words& words) {
   takeFeed(words);
   refreshGeometry();
   Place target = targetOf(words);
-  if (!(fabs(target.x) < kFarthest && fabs(target.y) < kFarthest && fabs(target.z) < kFarthest))
+  if (!(fabs(target.x) < kMostTravel && fabs(target.y) < kMostTravel &&
+        fabs(target.z) < kMostTravel))
     return refuse(FLASH("that is farther than any machine reaches"));
   const bool over_sheet = words.has('X') || words.has('Y') || kind > 1;
   if (over_sheet && !mayCrossSheet()) return false;
@@ -80,8 +62,12 @@ bool Machine::moveRound(bool clockwise, motion::Point<float> from, const Place& 
                                  from.y + fromUnits(words.value('J'))};
   const float radius = fromUnits(words.value('R'));
   const bool same = from.x == to.x && from.y == to.y;
-  if (radius != 0 && !same && !centreByRadius(from, to, radius, clockwise, centre))
-    return refuse(FLASH("the arc's radius is less than half the way to its end"));
+  if (radius != 0 && !same) {
+    const gcode::ArcCentre seen =
+        gcode::centreByRadius(to.x - from.x, to.y - from.y, radius, clockwise);
+    if (!seen.found) return refuse(FLASH("the arc's radius is less than half the way to its end"));
+    centre = {from.x + seen.x, from.y + seen.y};
+  }
   const motion::Turn turn = clockwise ? motion::Turn::kClockwise : motion::Turn::kCounterclockwise;
   const motion::Path<float> path = motion::arc(from, to, centre, turn);
   if (path.drawn == motion::Drawn::kYes) return queue(path, target, feed);

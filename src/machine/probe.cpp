@@ -14,6 +14,7 @@ bool Machine::probe(float target) {
     out_.line(FLASH("G38.2 needs a z motor; ignored."));
     return true;
   }
+  if (!(float(fabs(target)) <= kMostTravel)) return refuse(FLASH("no z axis is that long"));
   if (!drain()) return false;
   out_.line(FLASH("probing for z axis zero"));
   out_ << FLASH("max depth ");

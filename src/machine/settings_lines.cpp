@@ -35,15 +35,14 @@ bool Machine::runSetting(const char* line) {
   if (strncmp_P(at, PSTR("RST="), 4) == 0) return runReset(at + 4);
   // The published firmware passes over one other character in front of a number.
   if (*at >= 'A' && *at <= 'Z') ++at;
-  const char* const digits = at;
-  const float number = readNumber(at);
-  if (at == digits || *at != '=') return refuse(FLASH("Bad number format"));
-  const char* const value_text = ++at;
-  const float value = readNumber(at);
-  if (at == value_text || *at != '\0') return refuse(FLASH("Bad number format"));
-  if (!(number >= 0 && number <= 255) || number != float(uint8_t(number)))
+  const gcode::Number number = gcode::readNumber(at);
+  if (number.fault != gcode::Fault::kNone || *at != '=') return refuse(FLASH("Bad number format"));
+  ++at;
+  const gcode::Number value = gcode::readNumber(at);
+  if (value.fault != gcode::Fault::kNone || *at != '\0') return refuse(FLASH("Bad number format"));
+  if (!(number.value >= 0 && number.value <= 255) || number.value != float(uint8_t(number.value)))
     return refuse(FLASH("Invalid statement"));
-  return setValue(uint8_t(number), value);
+  return setValue(uint8_t(number.value), value.value);
 }
 
 bool Machine::runReset(const char* what) {

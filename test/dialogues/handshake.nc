@@ -57,7 +57,7 @@
 <- $42=2 (*
 ; Nothing that a client takes for its own: 43 to 46 and 85 to 98 are not there.
 <- $62=97.9 (*
-<* $201=0 (*
+<* $227=0 (*
 <- ok
 -> B05  
 <- B05

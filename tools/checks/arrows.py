@@ -29,6 +29,7 @@ ARROWS = {
     # Stands in on the host for a header of avr-libc that src includes.
     "test/avr": ([], C_HEADERS),
     "test/settings_host": (["src", "include", "lib/*"], ANYTHING),
+    "test/fuzz": (["src", "src/machine", "lib/*", "test/avr", "test/test_dialogues"], ANYTHING),
     "test/test_*": (
         [
             "test/reference",

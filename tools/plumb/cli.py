@@ -19,6 +19,7 @@ from plumb import (
     cli_next,
     cli_preview,
     cli_reach,
+    cli_settings,
 )
 from plumb.errors import InputError
 from plumb.sketches import BROKEN
@@ -85,6 +86,8 @@ def build_parser() -> Parser:
         kinematics.add_forward_arguments,
         kinematics.run_forward,
     )
+    own = cli_settings
+    _enter(commands, "settings", own.HELP, own.EXIT, own.add_arguments, own.run)
     reach = cli_reach
     _enter(commands, "reach", reach.HELP, reach.EXIT, reach.add_arguments, reach.run)
     return parser

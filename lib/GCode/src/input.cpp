@@ -1,13 +1,22 @@
 // The ring of waiting characters.
 #include "input.h"
 
-namespace machine {
+namespace gcode {
 namespace {
 
 const char kCtrlX = 24;
 // Stands for a line of which nothing is left; no client can send it, as control characters are
 // dropped.
 const char kTooLong = 1;
+// Stands for a byte that is no ASCII, in a comment or, where it is a mistake, outside; the question
+// mark itself is never stored.
+const char kUnreadable = '?';
+
+/// What is kept of a character.
+char kept(char character) {
+  if (character == '\t') return ' ';
+  return uint8_t(character) > 126 ? kUnreadable : character;
+}
 
 }  // namespace
 
@@ -30,10 +39,11 @@ Quick Input::put(char character) {
     ++lines_;
     return Quick::kNone;
   }
-  if (swallowing_ || character == '?' || uint8_t(character) < 32) return Quick::kNone;
+  const bool is_control = uint8_t(character) < 32 && character != '\t';
+  if (swallowing_ || character == '?' || is_control) return Quick::kNone;
   // The last place is kept for a line's end.
   if (used_ < kRoom - 1) {
-    store(uint8_t(character) > 126 ? ' ' : character);
+    store(kept(character));
     return Quick::kNone;
   }
   if (lines_ != 0) return Quick::kOverflow;
@@ -64,4 +74,4 @@ void Input::clear() {
   swallowing_ = false;
 }
 
-}  // namespace machine
+}  // namespace gcode

@@ -3,7 +3,7 @@
 
 #include <stdint.h>
 
-namespace machine {
+namespace gcode {
 
 /// What a character meant.
 enum class Quick : uint8_t {
@@ -44,4 +44,4 @@ class Input {
   bool after_quick_ = false, swallowing_ = false, was_too_long_ = false;
 };
 
-}  // namespace machine
+}  // namespace gcode

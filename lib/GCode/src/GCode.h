@@ -1,0 +1,8 @@
+// Front door: from characters on the wire to pieces of G-code with their numbers. Knows no motion.
+#pragma once
+
+#include "arc_centre.h"
+#include "input.h"
+#include "modal.h"
+#include "pieces.h"
+#include "words.h"

@@ -1,0 +1,89 @@
+// Where a line is cut, and which of its letters mean anything.
+#include "pieces.h"
+
+#include <math.h>
+
+namespace gcode {
+namespace {
+
+const float kMostCode = 999;
+
+bool isCode(char letter) { return letter == 'G' || letter == 'M'; }
+
+bool holds(const char* letters, char letter) {
+  for (; *letters != '\0'; ++letters)
+    if (*letters == letter) return true;
+  return false;
+}
+
+/// Letters of which a number is used.
+bool hasMeaning(char letter) {
+  switch (letter) {
+    case 'F':
+    case 'G':
+    case 'I':
+    case 'J':
+    case 'M':
+    case 'P':
+    case 'R':
+    case 'S':
+    case 'T':
+    case 'X':
+    case 'Y':
+    case 'Z':
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool isAnyCode(float code) {
+  const float kRounding = 0.01f;
+  return code >= 0 && code <= kMostCode &&
+         float(fabs(code * 10 - float(lround(code * 10)))) < kRounding;
+}
+
+}  // namespace
+
+Mistake findMistake(const char* line) {
+  Word word;
+  while (readWord(line, word)) {
+    if (word.fault == Fault::kNoNumber && !hasMeaning(word.letter)) continue;
+    if (word.fault != Fault::kNone) return {word.fault, word.letter};
+    if (isCode(word.letter) && !isAnyCode(word.value)) return {Fault::kNoCode, word.letter};
+  }
+  return {Fault::kNone, kNoLetter};
+}
+
+Mistake findMistake(const char* words, const char* bare) {
+  Word word;
+  while (readWord(words, word)) {
+    if (word.fault == Fault::kNoNumber && holds(bare, word.letter)) continue;
+    if (word.fault != Fault::kNone) return {word.fault, word.letter};
+  }
+  return {Fault::kNone, kNoLetter};
+}
+
+bool Pieces::next(Piece& piece) {
+  piece.letter = kNoLetter;
+  piece.tenths = 0;
+  piece.words = Words();
+  Word word;
+  for (const char* before = at_; readWord(at_, word); before = at_) {
+    if (!isCode(word.letter)) {
+      // A line's number means nothing.
+      if (word.letter != 'N' && word.fault == Fault::kNone)
+        piece.words.add(word.letter, word.value);
+      continue;
+    }
+    if (piece.letter != kNoLetter || !piece.words.isEmpty()) {
+      at_ = before;
+      return true;
+    }
+    piece.letter = word.letter;
+    piece.tenths = uint16_t(lround(word.value * 10));
+  }
+  return piece.letter != kNoLetter || !piece.words.isEmpty();
+}
+
+}  // namespace gcode

@@ -1,0 +1,126 @@
+// Reads words and numbers without the library's strtod, which is large and reads words like "nan".
+#include "words.h"
+
+namespace gcode {
+namespace {
+
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+bool isLetter(char c) { return c >= 'A' && c <= 'Z'; }
+bool endsNumber(char c) { return isDigit(c) || c == '.'; }
+
+const int16_t kMostExponent = 60;  // beyond it the float is zero or infinite in any case
+const float kLargest = 3.402823e38f;
+
+/// Times or divided by powers of ten; each up to 10^10 is exact.
+float scaled(float number, int16_t exponent) {
+  const bool divides = exponent < 0;
+  int16_t left = divides ? int16_t(-exponent) : exponent;
+  if (left > kMostExponent) left = kMostExponent;
+  while (left > 0) {
+    float power = 1;
+    for (uint8_t step = 0; step < 10 && left > 0; ++step, --left) power *= 10;
+    number = divides ? number / power : number * power;
+  }
+  return number;
+}
+
+/// Digits as they come; those beyond what a float can hold only move the point.
+struct Digits {
+  uint32_t number = 0;
+  int16_t exponent = 0;
+  bool any = false;
+
+  void take(char digit, bool fraction) {
+    any = true;
+    if (number < 100000000) {
+      number = number * 10 + uint32_t(digit - '0');
+      if (fraction) --exponent;
+    } else if (!fraction && exponent < 1000) {
+      ++exponent;
+    }
+  }
+};
+
+/// An exponent behind an E, if letters and digits make one; false if not.
+bool readExponent(const char*& text, int16_t& exponent) {
+  const char* at = text + 1;
+  const bool negative = *at == '-';
+  if (*at == '-' || *at == '+') ++at;
+  if (!isDigit(*at)) return false;
+  int16_t power = 0;
+  for (; isDigit(*at); ++at)
+    if (power < 1000) power = int16_t(power * 10 + (*at - '0'));
+  text = at;
+  exponent = int16_t(exponent + (negative ? -power : power));
+  return true;
+}
+
+/// Whether what follows a number would make it another one.
+bool goesOn(const char* text) {
+  if (*text == ' ') ++text;
+  return endsNumber(*text) || *text == '-' || *text == '+';
+}
+
+/// Passes over what looks like a number, so that one mistake is told once.
+Number broken(const char*& text) {
+  while (endsNumber(*text) || *text == '-' || *text == '+' || *text == ' ') ++text;
+  return {0, Fault::kBadNumber};
+}
+
+}  // namespace
+
+void clean(char* line) {
+  char* to = line;
+  bool gap = false;
+  for (const char* at = line; *at != '\0' && *at != ';'; ++at) {
+    const char c = *at >= 'a' && *at <= 'z' ? char(*at - 'a' + 'A') : *at;
+    if (c == '(') {
+      while (*at != ')' && *at != '\0') ++at;
+      if (*at == '\0') break;
+    }
+    if (c == '(' || c <= ' ' || c == '%' || c == '/') {
+      gap = true;
+      continue;
+    }
+    if (gap && to != line && endsNumber(to[-1]) && (endsNumber(c) || c == 'E')) *to++ = ' ';
+    gap = false;
+    *to++ = c;
+  }
+  *to = '\0';
+}
+
+Number readNumber(const char*& text) {
+  const char* at = text;
+  const bool negative = *at == '-';
+  if (*at == '-' || *at == '+') ++at;
+  Digits digits;
+  for (; isDigit(*at); ++at) digits.take(*at, false);
+  if (*at == '.')
+    for (++at; isDigit(*at); ++at) digits.take(*at, true);
+  if (!digits.any) return at == text ? Number{0, Fault::kNoNumber} : broken(text);
+  if (*at == 'E' && !readExponent(at, digits.exponent)) return broken(text = at + 1);
+  if (goesOn(at)) return broken(text);
+  text = at;
+  const float number = scaled(float(digits.number), digits.exponent);
+  if (!(number <= kLargest)) return {0, Fault::kTooLarge};
+  return {negative ? -number : number, Fault::kNone};
+}
+
+bool readWord(const char*& text, Word& word) {
+  while (*text == ' ') ++text;
+  if (*text == '\0') return false;
+  word = {*text++, 0, Fault::kStray};
+  if (!isLetter(word.letter)) return true;
+  const Number number = readNumber(text);
+  word.value = number.value;
+  word.fault = number.fault;
+  return true;
+}
+
+void Words::add(char letter, float value) {
+  if (has(letter)) return;
+  present_ |= uint32_t(1) << (letter - 'A');
+  value_[letter - 'A'] = value;
+}
+
+}  // namespace gcode

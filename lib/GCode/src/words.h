@@ -1,0 +1,61 @@
+// A line of text as words: letters with their numbers, and what is wrong with them.
+#pragma once
+
+#include <stdint.h>
+
+namespace gcode {
+
+/// What is wrong with a word.
+enum class Fault : uint8_t {
+  kNone,
+  kNoNumber,   ///< the letter has none
+  kBadNumber,  ///< more than one point or sign, an exponent without digits, two numbers in a row
+  kTooLarge,   ///< more than a float can hold
+  kStray,      ///< a character that begins no word
+  kNoCode,     ///< a G or M below zero, beyond 999, or with hundredths
+};
+
+/// Removes comments, spaces, `%` and `/`, and makes letters capital.
+///
+/// Where any of these stood between two digits, or between a digit and an E, one space stays, so
+/// that two numbers never become one.
+void clean(char* line);
+
+/// A number and whether it is one; its value is zero if not.
+struct Number {
+  float value;
+  Fault fault;
+};
+
+/// The number at `text`: sign, digits, point, exponent, as many digits as there are. Moves `text`
+/// behind it. Within one unit in the last place of the nearest float for usual numbers, two for
+/// exponents beyond ten.
+Number readNumber(const char*& text);
+
+/// A letter and its number, or what is wrong with them.
+struct Word {
+  char letter;  ///< of a stray character, that character
+  float value;
+  Fault fault;
+};
+
+/// Reads the word at `text` and moves on; false at the end of the line.
+bool readWord(const char*& text, Word& word);
+
+/// Words by letter; of a letter used twice the first one counts.
+class Words {
+ public:
+  Words() : present_(0) {}
+
+  bool has(char letter) const { return present_ >> (letter - 'A') & 1; }
+  /// Its number; zero if the letter is not there or had none.
+  float value(char letter) const { return has(letter) ? value_[letter - 'A'] : 0; }
+  bool isEmpty() const { return present_ == 0; }
+  void add(char letter, float value);
+
+ private:
+  uint32_t present_;
+  float value_[26];
+};
+
+}  // namespace gcode

@@ -1,0 +1,92 @@
+// The rules of the protocol about answers and lines.
+#include "answers.h"
+
+#include <cctype>
+
+#include "must.h"
+
+namespace {
+
+bool startsWith(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
+
+/// Passes over a plain decimal number; false if there is none.
+bool passNumber(const std::string& text, std::size_t& at) {
+  if (at < text.size() && text[at] == '-') ++at;
+  const std::size_t first = at;
+  while (at < text.size() && (std::isdigit(uint8_t(text[at])) || text[at] == '.')) ++at;
+  return at > first;
+}
+
+bool passNumbers(const std::string& text, std::size_t at, int count, const std::string& rest) {
+  for (int i = 0; i < count; ++i) {
+    if (!passNumber(text, at)) return false;
+    if (i + 1 < count && text[at++] != ',') return false;
+  }
+  return text.compare(at, std::string::npos, rest) == 0;
+}
+
+void checkLine(const std::string& line) {
+  const std::size_t place = line.find(":") + 1;
+  if (startsWith(line, "<"))
+    must(line.find(",MPos:") != std::string::npos &&
+             passNumbers(line, place, 3, ",WPos:0.000,0.000,0.000>"),
+         "a status that clients cannot read: " + line);
+  if (startsWith(line, "[PE:"))
+    must(passNumbers(line, place, 3, "]"), "errors that clients cannot read: " + line);
+  if (startsWith(line, "[Measure: "))
+    must(passNumbers(line, 10, 1, "]"), "a measurement that clients cannot read: " + line);
+}
+
+}  // namespace
+
+void Answers::taken(char character) {
+  const bool follows_quick = after_quick_;
+  after_quick_ = character == '!' || character == '~' || character == '`' || character == '\x18';
+  if (after_quick_) {
+    if (character != '~') {
+      dropLines();
+      is_locked_ = is_paused_ = false;
+    }
+    ++quick_;
+    is_paused_ = false;
+  } else if (character == '\n' && !follows_quick) {
+    ++lines_;
+  }
+}
+
+void Answers::said(const std::string& line) {
+  checkLine(line);
+  if (line == "ok" || startsWith(line, "error:")) {
+    ++answered_;
+    must(answered_ <= lines_ + quick_, "an answer too many: " + line);
+  }
+  if (startsWith(line, "ALARM:") && !startsWith(line, "ALARM: Position Lost")) {
+    dropLines();
+    is_locked_ = true;
+    is_paused_ = false;
+  }
+  if (line == "Maslow Paused") is_paused_ = true;
+  if (startsWith(line, "FAKE_SERVO ")) is_simulated_ = line == "FAKE_SERVO on";
+  const std::size_t equals = line.find('=');
+  if (startsWith(line, "$") && equals != std::string::npos && std::isdigit(uint8_t(line[1]))) {
+    std::size_t at = equals + 1;
+    must(passNumber(line, at), "a setting that clients cannot read: " + line);
+    ++settings_;
+  }
+}
+
+void Answers::wentRound() {
+  const int kMostRounds = 4;
+  const bool waits = !isComplete() && !is_locked_ && answered_ == answered_before_;
+  rounds_ = waits ? rounds_ + 1 : 0;
+  answered_before_ = answered_;
+  must(rounds_ <= kMostRounds, "a line was never answered");
+}
+
+int Answers::takeSettings() {
+  const int count = settings_;
+  settings_ = 0;
+  return count;
+}

@@ -1,0 +1,145 @@
+// Characters as they come: quick ones act anywhere, lines wait, too long ones are told.
+#include <gtest/gtest.h>
+
+#include "reading.h"
+
+using namespace gcode;
+
+namespace {
+
+/// Puts a text in; the quick characters among it as a text: `!`, `~`, X for a reset, O an overflow.
+std::string put(Input& input, const std::string& text) {
+  std::string quick;
+  const char letters[] = " !~XO";
+  for (const char character : text) {
+    const Quick meant = input.put(character);
+    if (meant != Quick::kNone) quick += letters[int(meant)];
+  }
+  return quick;
+}
+
+/// All complete lines, with a bar behind each.
+std::string lines(Input& input) {
+  std::string all;
+  char line[Input::kRoom + 1];
+  while (input.takeLine(line)) all += (input.wasTooLong() ? "(too long)" : std::string(line)) + "|";
+  return all;
+}
+
+}  // namespace
+
+TEST(Input, GivesLinesInOrderAndEmptyOnesToo) {
+  Input input;
+  EXPECT_EQ("", put(input, "G1 X5  \n\n  \nB05"));
+  EXPECT_EQ("G1 X5  ||  |", lines(input));
+  put(input, "  \n");
+  EXPECT_EQ("B05  |", lines(input));
+}
+
+TEST(Quick, CharactersAreToldAtOnce) {
+  for (const char* each : {"!", "~"}) {
+    Input input;
+    EXPECT_EQ(each, put(input, each));
+  }
+  Input input;
+  EXPECT_EQ("XX", put(input, "\x18`"));
+}
+
+TEST(Quick, CharactersActInsideLinesAndComments) {
+  Input input;
+  EXPECT_EQ("~", put(input, "G1 X~5\n"));
+  EXPECT_EQ("G1 X5|", lines(input));
+  EXPECT_EQ("!", put(input, "(look out!)"));
+  EXPECT_EQ("~", put(input, "; ~"));
+}
+
+TEST(Quick, CharactersSwallowTheLineFeedBehindThem) {
+  Input input;
+  put(input, "~\n!\n\x18\n`\n");
+  EXPECT_EQ("", lines(input));
+  put(input, "~\n\n");
+  EXPECT_EQ("|", lines(input)) << "only one line feed";
+  put(input, "~G1\n");
+  EXPECT_EQ("G1|", lines(input)) << "another character begins a normal line";
+}
+
+TEST(Quick, CharactersFindRoomWhenNothingElseDoes) {
+  Input input;
+  EXPECT_EQ("", put(input, std::string(125, 'G') + "\n"));
+  EXPECT_EQ("~", put(input, "~\n"));
+  EXPECT_EQ(125u + 1, lines(input).size());
+}
+
+TEST(Input, DropsAQuestionMarkAndControlCharacters) {
+  Input input;
+  put(input, std::string("G?1\r \x01\0X5\r\n", 11));
+  EXPECT_EQ("G1 X5|", lines(input));
+}
+
+TEST(Input, MakesOtherBytesAMistakeButNotInComments) {
+  Input input;
+  put(input, "X1\xc2\xb0\n(1\xc2\xb0)\n");
+  char line[Input::kRoom + 1];
+  ASSERT_TRUE(input.takeLine(line));
+  EXPECT_EQ(Fault::kStray, faultOf(line));
+  ASSERT_TRUE(input.takeLine(line));
+  EXPECT_EQ(Fault::kNone, faultOf(line));
+}
+
+TEST(Input, MakesASpaceOfATab) {
+  Input input;
+  put(input, "X1\tY2\n");
+  EXPECT_EQ("X1 Y2|", lines(input));
+}
+
+TEST(Input, HoldsTheHundredAndTwentySixBytesThatClientsSendAhead) {
+  Input input;
+  std::string sent;
+  for (int i = 0; i < 18; ++i) sent += "G1 X5 \n";
+  ASSERT_EQ(126u, sent.size());
+  EXPECT_EQ("", put(input, sent));
+  EXPECT_EQ(1, input.room());
+  EXPECT_EQ("", put(input, "\n"));
+  EXPECT_EQ("O", put(input, "\n"));
+}
+
+TEST(Input, OverflowsWhenLinesWaitAndNoRoomIsLeft) {
+  Input input;
+  put(input, "G1\n");
+  EXPECT_EQ("O", put(input, std::string(124, 'X')));
+  input.clear();
+  EXPECT_EQ(Input::kRoom, input.room());
+  put(input, "G2\n");
+  EXPECT_EQ("G2|", lines(input));
+}
+
+TEST(Input, TakesALineOfAHundredAndTwentySixCharacters) {
+  Input input;
+  EXPECT_EQ("", put(input, std::string(126, 'X') + "\n"));
+  EXPECT_EQ(std::string(126, 'X') + "|", lines(input));
+}
+
+TEST(Input, SwallowsALongerLineToItsEndAndTellsOnce) {
+  Input input;
+  EXPECT_EQ("", put(input, std::string(127, 'X') + "\nG1\n"));
+  EXPECT_EQ("(too long)|G1|", lines(input));
+  EXPECT_EQ("", put(input, std::string(1000, 'X') + "\nG1\n"));
+  EXPECT_EQ("(too long)|G1|", lines(input));
+}
+
+TEST(Input, IsStoppedInTheMiddleOfALongLine) {
+  Input input;
+  EXPECT_EQ("!", put(input, std::string(300, 'X') + "!"));
+  input.clear();
+  put(input, "\nG1\n");
+  EXPECT_EQ("G1|", lines(input));
+}
+
+TEST(Input, CountsItsRoomRoundTheRing) {
+  Input input;
+  for (int i = 0; i < 500; ++i) {
+    EXPECT_EQ("", put(input, "G1 X1234567890 Y1234567890\n"));
+    EXPECT_EQ("G1 X1234567890 Y1234567890|", lines(input));
+    ASSERT_EQ(Input::kRoom, input.room());
+  }
+}
