@@ -26,7 +26,7 @@ enum class Added : uint8_t {
   kNothing,  ///< it ends where it begins
   kFull,     ///< no room now
   kNoPath,   ///< the path was not drawn
-  kNoFeed,   ///< a feed of zero, less than zero or NaN, or so slow that its ticks cannot be counted
+  kNoFeed,   ///< a feed of zero, less than zero or NaN, or hardly any
 };
 
 /// One move in the queue. Speeds are in mm a tick, accelerations in mm a tick squared.
@@ -118,9 +118,9 @@ inline Added MoveQueue::add(const Path<float>& path, float z_from, float z_to, f
   if (!has_path && path.drawn != Drawn::kNoLength) return Added::kNoPath;
   if (!has_path && rise == 0) return Added::kNothing;
   if (!isfinite(rise)) return Added::kNoPath;
-  if (!(feed > 0)) return Added::kNoFeed;
+  const float kLeastSpeed = 1e-5f;  // [mm/tick] a long way in float hardly grows by less
+  if (!(feed * seconds_ > kLeastSpeed)) return Added::kNoFeed;
   if (!hasRoom()) return Added::kFull;
-  const float kMostTicksOfMove = 16777216;  // up to here a float counts every tick
   Move& move = at(count_);
   move.path = path;
   if (!has_path) move.path.length = 0;
@@ -128,7 +128,6 @@ inline Added MoveQueue::add(const Path<float>& path, float z_from, float z_to, f
   move.space = space;
   const float along = move.path.length;
   move.length = rise == 0 ? along : float(sqrt(along * along + rise * rise));
-  if (!(move.length < kMostTicksOfMove * seconds_ * feed)) return Added::kNoFeed;
   const float xy = along / move.length, z = rise / move.length;
   move.acceleration = limits_.acceleration_z;
   if (xy > 0) {
