@@ -54,6 +54,7 @@ class MoveQueue {
   bool hasRoom() const { return count_ < kMost; }
   uint8_t count() const { return count_; }
   const Move& first() const { return ring_[first_]; }
+  const Move& second() const { return at(1); }
   const Sprockets<float>& sprockets() const { return sprockets_; }
 
   /// Square of the speed with which the first move may end.

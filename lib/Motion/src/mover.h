@@ -72,6 +72,8 @@ class Mover {
   template <class Inverse>
   bool begin(const Stretch& stretch, const Inverse& inverse);
   template <class Inverse>
+  bool pass(const Inverse& inverse);
+  template <class Inverse>
   bool step(float change, const Inverse& inverse);
   template <class Inverse>
   bool advance(const Inverse& inverse);

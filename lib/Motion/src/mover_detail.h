@@ -125,18 +125,36 @@ bool Mover::begin(const Stretch& stretch, const Inverse& inverse) {
   return true;
 }
 
+/// Leaves the first move behind, with what was walked beyond its end.
+template <class Inverse>
+bool Mover::pass(const Inverse& inverse) {
+  const float length = queue_.first().length;
+  if (queue_.second().path.length == 0) {
+    // While z moves alone the chains stand, and exactly here.
+    const Reached end = lengthsAt({length, 0}, inverse);
+    if (!end.reachable) return false;
+    last_.left = end.knot.left;
+    last_.right = end.knot.right;
+  }
+  walk_.done = walk_.done > length ? walk_.done - length : 0;
+  // At a corner that is a stop the speed was that of the last way before it.
+  if (queue_.exitSquared() == 0) walk_ = {0, 0};
+  dropFirst();
+  return true;
+}
+
 /// One tick by itself, which may lead into later moves or to the end of all.
 template <class Inverse>
 bool Mover::step(float change, const Inverse& inverse) {
   walk_.speed += change;
   walk_.done += walk_.speed;
   change_ = 0;
-  while (walk_.done >= queue_.first().length && queue_.count() > 1) {
-    walk_.done -= queue_.first().length;
-    dropFirst();
-  }
+  // What is left by rounding alone is not worth a tick.
+  const float kHair = 1 - 1e-6f;
+  while (walk_.done >= queue_.first().length * kHair && queue_.count() > 1)
+    if (!pass(inverse)) return false;
   const Move& move = queue_.first();
-  const bool arrives = walk_.done >= move.length;
+  const bool arrives = walk_.done >= move.length * kHair;
   if (arrives) walk_ = {move.length, 0};
   const Reached here = lengthsAt(walk_, inverse);
   if (!here.reachable) return false;

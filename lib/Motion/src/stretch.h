@@ -67,13 +67,16 @@ inline float ticksOfCruise(float speed, const Bounds& bounds) {
 ///
 /// In the next tick speed may be so much that a tick later, with `left` that much less, it can fall
 /// by one acceleration a tick down to the exit's: sqrt(exit^2 + 2 a left) - a/2. From a speed
-/// that is just that much the next one is lower by exactly a. The last way of less than `a` is one
-/// tick. One tick may lead beyond the move's end; more never do.
+/// that is just that much the next one is lower by exactly a. With the exit's speed itself
+/// nothing is to be lost; the last way of less than `a` is one tick. One tick may lead beyond the
+/// move's end; more never do.
 inline Stretch nextStretch(float speed, const Bounds& bounds) {
   using namespace stretch_detail;
   const float a = bounds.acceleration;
+  const float exit = float(sqrt(bounds.exit_squared));
   const float last = bounds.left < a ? bounds.left : a;
   float may = float(sqrt(bounds.exit_squared + 2 * a * bounds.left)) - 0.5f * a;
+  if (may < exit) may = exit;
   if (may < last) may = last;
   float next = speed + a;
   if (next > bounds.top) next = bounds.top;
@@ -83,7 +86,6 @@ inline Stretch nextStretch(float speed, const Bounds& bounds) {
   if (next == bounds.top && change == 0)
     return {atMost(ticksOfCruise(speed, bounds), bounds.even_ticks), 0};
   if (change < kNear - a && change > -kNear - a) {
-    const float exit = float(sqrt(bounds.exit_squared));
     const uint8_t ticks = atMost((speed - exit) / a - 0.5f, bounds.uneven_ticks);
     // What was near may leave the last of them a hair beyond the end.
     const bool fits = ticks == 1 || after({0, speed}, -a, ticks).done <= bounds.left;
