@@ -118,7 +118,7 @@ TEST(Hold, RestsOnThePathAndResumesToTheSameEnd) {
 TEST(Hold, ResumedWhileStillBrakingGoesOnAtThatSpeed) {
   Plain plain = cruising();
   plain.mover.hold();
-  for (int i = 0; i < 15; ++i) plain.tick();
+  for (int i = 0; i < 8; ++i) plain.tick();
   plain.mover.resume();
   for (int i = 0; i < 100; ++i) plain.tick();
   const std::vector<double> speeds = plain.speeds();

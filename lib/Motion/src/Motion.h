@@ -1,5 +1,4 @@
 // Front door of the laws of motion: from moves and feeds to set-points of all axes.
 #pragma once
 
-#include "follower.h"
 #include "mover.h"

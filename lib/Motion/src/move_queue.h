@@ -129,15 +129,16 @@ inline Added MoveQueue::add(const Path<float>& path, float z_from, float z_to, f
   move.space = space;
   const float along = move.path.length;
   move.length = rise == 0 ? along : float(sqrt(along * along + rise * rise));
-  const float xy = along / move.length, z = rise / move.length;
-  move.acceleration = limits_.acceleration_z;
-  if (xy > 0) {
-    move.acceleration = limits_.acceleration_xy / xy;
-    if (z != 0)
-      move.acceleration = smaller(move.acceleration, limits_.acceleration_z / float(fabs(z)));
+  const float xy = rise == 0 ? 1 : along / move.length;
+  const float z = rise == 0 ? 0 : rise / move.length;
+  move.acceleration = xy > 0 ? limits_.acceleration_xy : limits_.acceleration_z;
+  if (xy > 0 && z != 0) {
+    move.acceleration =
+        smaller(limits_.acceleration_xy / xy, limits_.acceleration_z / float(fabs(z)));
   }
   move.top = topOf(move, feed, xy, float(fabs(z)));
-  const Point<float> begin = directionOf(path, false), end = directionOf(path, true);
+  const Point<float> begin = directionOf(path, false);
+  const Point<float> end = path.sweep == 0 ? begin : directionOf(path, true);
   move.entry_squared = move.corner_squared = 0;
   if (count_ != 0) {
     const Move& before = at(uint8_t(count_ - 1));

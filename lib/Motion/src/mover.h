@@ -66,7 +66,7 @@ class Mover {
   void brake(bool forgets);
   void takeUp();
   void dropFirst();
-  float zAt(const Move& move, float share) const;
+  int32_t zAt(const Move& move, float done) const;
   template <class Inverse>
   Reached lengthsAt(const Walk& walk, const Inverse& inverse) const;
   template <class Inverse>
@@ -75,8 +75,10 @@ class Mover {
   bool pass(const Inverse& inverse);
   template <class Inverse>
   bool step(float change, const Inverse& inverse);
+  // Not inline: every tick would save the registers that only a new piece needs.
   template <class Inverse>
-  bool advance(const Inverse& inverse);
+  __attribute__((noinline)) bool cut(const Inverse& inverse);
+  void advance();
 
   MoveQueue queue_;
   Walk walk_ = {0, 0};   ///< where the piece in hand ends
@@ -85,6 +87,7 @@ class Mover {
   uint8_t ticks_ = 0;    ///< that it had
   Segment piece_;        ///< both chains
   Steps z_piece_;
+  bool has_z_ = false;                 ///< the first move goes along z
   bool is_taken_up_ = false;           ///< the two below are those of the first move
   uint8_t even_ticks_, uneven_ticks_;  ///< of a piece, at most
   float z_from_ = 0;                   ///< [mm] where the first move begins

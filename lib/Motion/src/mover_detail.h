@@ -59,8 +59,10 @@ inline void Mover::resume() {
 }
 
 inline void Mover::dropFirst() {
+  if (has_z_) last_.z = toCounts(queue_.first().z_to);
   z_from_ = queue_.first().z_to;
   queue_.dropFirst();
+  has_z_ = queue_.first().z_to != z_from_;
   is_taken_up_ = false;
 }
 
@@ -68,6 +70,7 @@ inline void Mover::dropFirst() {
 inline void Mover::takeUp() {
   const Move& move = queue_.first();
   is_taken_up_ = true;
+  has_z_ = move.z_to != z_from_;
   // In a piece of two ticks both fall on knots.
   const float kShort = 5;  // [ticks]
   even_ticks_ = uneven_ticks_ = move.space == Space::kEdge ? 1 : 2;
@@ -90,8 +93,11 @@ inline void Mover::takeUp() {
   uneven_ticks_ = uneven < 4 ? 2 : stretch_detail::atMost(uneven, kMostTicks);
 }
 
-inline float Mover::zAt(const Move& move, float share) const {
-  return share >= 1 ? move.z_to : z_from_ + (move.z_to - z_from_) * share;
+/// [counts] so far along the first move.
+inline int32_t Mover::zAt(const Move& move, float done) const {
+  if (!has_z_) return last_.z;
+  const float share = done / move.length;
+  return toCounts(share >= 1 ? move.z_to : z_from_ + (move.z_to - z_from_) * share);
 }
 
 /// Exact chain lengths at a walk along the first move.
@@ -116,8 +122,8 @@ bool Mover::begin(const Stretch& stretch, const Inverse& inverse) {
   if (!end.reachable || !between.reachable || !areNear(from, end.knot)) return false;
   if (!areNear(from, between.knot)) return false;
   piece_ = segmentThrough(from, between.knot, end.knot, stretch.ticks);
-  z_piece_ = stepsThrough(last_.z, toCounts(zAt(move, middle.done / move.length)),
-                          toCounts(zAt(move, to.done / move.length)), stretch.ticks);
+  if (has_z_)
+    z_piece_ = stepsThrough(last_.z, zAt(move, middle.done), zAt(move, to.done), stretch.ticks);
   begun_ = walk_;
   walk_ = to;
   change_ = stretch.change;
@@ -158,7 +164,7 @@ bool Mover::step(float change, const Inverse& inverse) {
   if (arrives) walk_ = {move.length, 0};
   const Reached here = lengthsAt(walk_, inverse);
   if (!here.reachable) return false;
-  last_ = {here.knot.left, here.knot.right, toCounts(zAt(move, walk_.done / move.length))};
+  last_ = {here.knot.left, here.knot.right, zAt(move, walk_.done)};
   if (arrives) {
     // As it was commanded, not as counts round it.
     const float z_end = z_end_;
@@ -168,23 +174,31 @@ bool Mover::step(float change, const Inverse& inverse) {
   return true;
 }
 
-/// The next set-point. False: no sled can hang there, and the last one stands.
+/// The next set-point, where no piece is in hand. False: no sled can hang there, and the last one
+/// stands.
 template <class Inverse>
-bool Mover::advance(const Inverse& inverse) {
-  if (piece_.ticks_left == 0) {
-    if (!is_taken_up_) takeUp();
-    const Move& move = queue_.first();
-    const Bounds bounds = {move.length - walk_.done, move.top,    move.acceleration,
-                           queue_.exitSquared(),     even_ticks_, uneven_ticks_};
-    const Stretch stretch =
-        braking_ ? nextBraking(walk_.speed, bounds) : nextStretch(walk_.speed, bounds);
-    if (stretch.ticks < 2) return step(stretch.change, inverse);
-    if (!begin(stretch, inverse)) return false;
-  }
-  piece_.advance();
-  z_piece_.advance();
-  last_ = {piece_.at().left, piece_.at().right, z_piece_.length.whole};
+bool Mover::cut(const Inverse& inverse) {
+  if (!is_taken_up_) takeUp();
+  const Move& move = queue_.first();
+  const Bounds bounds = {move.length - walk_.done, move.top,    move.acceleration,
+                         queue_.exitSquared(),     even_ticks_, uneven_ticks_};
+  const Stretch stretch =
+      braking_ ? nextBraking(walk_.speed, bounds) : nextStretch(walk_.speed, bounds);
+  if (stretch.ticks < 2) return step(stretch.change, inverse);
+  if (!begin(stretch, inverse)) return false;
+  advance();
   return true;
+}
+
+/// The next set-point of the piece in hand.
+inline void Mover::advance() {
+  piece_.advance();
+  last_.left = piece_.left.length.whole;
+  last_.right = piece_.right.length.whole;
+  if (has_z_) {
+    z_piece_.advance();
+    last_.z = z_piece_.length.whole;
+  }
 }
 
 template <class Inverse>
@@ -195,15 +209,20 @@ Filled Mover::fill(SetPoints& set_points, const Inverse& inverse) {
     walk_.speed = 0;
   }
   while (!queue_.isEmpty() && set_points.hasRoom()) {
-    if (braking_ && piece_.ticks_left == 0 && walk_.speed == 0) {
+    if (piece_.ticks_left != 0) {
+      advance();
+      set_points.push(last_);
+      continue;
+    }
+    const bool rests = walk_.speed == 0;
+    if (braking_ && rests) {
       if (forgets_) forget();
       return Filled::kYes;
     }
-    const bool sets_out = walk().speed == 0;
-    if (!advance(inverse)) return Filled::kOutOfReach;
+    if (!cut(inverse)) return Filled::kOutOfReach;
     set_points.push(last_);
     // While nothing moved the tick found nothing, of course.
-    if (sets_out) set_points.hasRunDry();
+    if (rests) set_points.hasRunDry();
   }
   return Filled::kYes;
 }
