@@ -21,6 +21,8 @@ const long kPatienceMs = 6000;       // that a polite sender has for an answer
 const long kLastPatienceMs = 60000;  // for the settings after a stop
 const long kQuietMs = 3000;
 
+const char* const kStopAndAsk = "!\n$$\n";
+
 const double kMainPerCount = 63.5 / 8113.73, kZPerCount = 3.17 / 7560;  // [mm]
 const double kMainTopSpeed = 26, kZTopSpeed = 1.1;                      // [mm/s]
 
@@ -183,12 +185,17 @@ class World : public Wire, public Drives, public Aux, public Clock {
     is_ending_ = true;
     end_ms_ = now_ms_;
     answers_.takeSettings();
-    wire_ = "!\n$$\n";
+    wire_ = kStopAndAsk;
   }
 
   void lookForEnd() {
     must(now_ms_ - end_ms_ < kLastPatienceMs, "no settings after a stop");
     if (!wire_.empty() || !answers_.isComplete()) return;
+    // A motor that is held may raise its alarm while it brakes, and that drops the question.
+    if (answers_.isLocked()) {
+      wire_ = kStopAndAsk;
+      return;
+    }
     must(answers_.takeSettings() > 40, "not all settings are shown after a stop");
     throw TheEnd();
   }

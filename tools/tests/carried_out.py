@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 from math import cos
 
 import numpy as np
-from hidden_boards import HIDDEN
-from plumb.bench.boards import GAP_SIGMA, POSE_SIGMA, TURN_SIGMA, Machine, chains_for
-from plumb.bench.causes import COMPLIANCE, MAKER, SLED, WEIGHT, Cause, Hidden, Plan
+from hidden_boards import (
+    COMPLIANCE,
+    GAP_SIGMA,
+    HIDDEN,
+    MAKER,
+    POSE_SIGMA,
+    SLED,
+    TURN_SIGMA,
+    WEIGHT,
+    Plan,
+    ask_judge,
+    places_with,
+)
 from plumb.diagnose import Checked
 from plumb.measurements import Mark, Measurements
 from plumb.plan.ahead import Check
@@ -84,33 +94,16 @@ class Bench:
 
     def _read(self, visits: Visits, number: int) -> np.ndarray:
         own = Plan(visits.targets, visits.approaches, visits.sled_weights)
-        cause = HIDDEN[self.effect] if self.effect else None
-        where = self._hung(cause, own)
+        where = places_with(self.effect, self.size, own, self.frame).reshape(-1, 2)
         if visits.swapped.any() and self.effect == "chain_pitch":
-            swapped = self._hung(replace(cause, numbers=_exchanged(cause)), own)
+            numbers = HIDDEN["chain_pitch"](self.size)
+            other = {"left.pitch": numbers["right.pitch"], "right.pitch": numbers["left.pitch"]}
+            swapped = ask_judge({**self.frame, **other}, own)
             where = np.where(visits.swapped[:, np.newaxis], swapped, where)
         turn = TURN_SIGMA * np.random.default_rng([self.seed, 3]).standard_normal()
         where = where @ np.array([[cos(turn), turn], [-turn, cos(turn)]])
         source = np.random.default_rng([self.seed, 4, number])
         return where + self.noise * source.standard_normal(where.shape)
-
-    def _hung(self, cause: Cause | None, own: Plan) -> np.ndarray:
-        """Where the marks are read (n, 2) [mm] on a sheet that is not turned."""
-        hidden = Hidden(((cause, self.size),) if cause else ())
-        machine = Machine(hidden, **self.frame)
-        sleds = machine.sleds(chains_for(own), approaches=own.approaches, weights=own.sled_weights)
-        return hidden.read(sleds)
-
-
-def _exchanged(cause: Cause) -> Callable[[float], dict[str, float]]:
-    """The judge's numbers of a cause with left and right exchanged."""
-    sides = {"left": "right", "right": "left"}
-
-    def numbers(size: float) -> dict[str, float]:
-        told = [(name.partition("."), value) for name, value in cause.numbers(size).items()]
-        return {f"{sides[side]}.{own}": value for (side, _, own), value in told}
-
-    return numbers
 
 
 def _mark(visits: Visits, i: int, where: np.ndarray) -> Mark:

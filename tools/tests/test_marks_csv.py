@@ -61,7 +61,7 @@ HEADER = "target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"
         (f"{HEADER},approach_x,approach_y\n1,2,3,4,0,0\n", "line 2: approach 0, 0"),
         (f"{HEADER},chain_left_mm,chain_right_mm\n1,2,3,4,5,-6\n", "line 2: -6 is out of range"),
         (f"{HEADER},sled_weight_n\n1,2,3,4,11\n", "line 2: a sled of 11 N"),
-        (f"{HEADER},name\n1,2,3,4,A\n2,2,3,4,A\n", "mark A: the same name"),
+        (f"{HEADER},name\n1,2,3,4,A\n201,2,203,4,A\n", "mark A: the same name"),
         (f"{HEADER}\n900,400,900,-400\n", "mark 1: measured 800 mm away .*y runs the other way"),
         (f"{HEADER}\n900,400,-900,400\n", "x runs the other way"),
         (f"{HEADER}\n900,400,2119.2,209.6\n", "from the top-left corner, target from the middle"),
