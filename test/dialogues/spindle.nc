@@ -13,8 +13,19 @@
 <- Turning Spindle Off
 <- ok
 ~~ spindle low
+-> M3
+<- Turning Spindle On
+<- ok
+; A stop takes the relay back at once.
+>> !
+<- ok
+~~ spindle low
+<* position loaded at:
+<* *
+<* *
 -> $17=3
 <- ok
+~~ spindle high
 -> M4
 <- Turning Spindle On
 <- ok

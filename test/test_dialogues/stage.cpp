@@ -90,7 +90,7 @@ void Stage::set(Output output, bool high) {
 void Stage::passMillisecond() {
   ++now_ms_;
   out_queue_ = std::max(0, out_queue_ - int(now_ms_ % 8 == 0 ? 5 : 6));
-  byte_credit_ = std::min(byte_credit_ + kBytesPerMs, 256.0);
+  byte_credit_ = std::min(byte_credit_ + kBytesPerMs, 12.0);
   for (SimulatedMotor& motor : motor_) motor.advance(0.001);
   eeprom.advance(1000);
   if (now_ms_ % kTickMs == 0) tick();

@@ -229,7 +229,7 @@ TEST(Copies, ANewSettingMovesNoOther) {
   EXPECT_EQ(200, after.values.at(kLoopRate));
   EXPECT_EQ(120, after.values.at(kSledWeight));
   EXPECT_EQ(1200, after.values.at(kChainSpeed));
-  EXPECT_EQ(6.35f, after.values.at(kSettingCount - 1));
+  EXPECT_EQ(6.35f, after.values.at(indexOf(after.table, 201)));
   after.memory.set(68, 900);
   settle(after.memory);
   settings_host::Board<ShorterTable> back(eeprom);

@@ -76,6 +76,7 @@ class Player {
   }
 
   void tellFigures() const {
+    std::printf("first_line_ms %.0f\n", first_line_ms_);
     std::printf("stack %d\n", machine_->board.stackUsed());
     std::printf("tick_share %.4f\n", machine_->board.tickShare());
     std::printf("longest_tick %ld\n", machine_->board.longestTick());
@@ -92,6 +93,7 @@ class Player {
   /// Reports aside.
   void takeLines() {
     std::deque<std::string>& came = machine_->board.lines;
+    if (!came.empty() && first_line_ms_ == 0) first_line_ms_ = machine_->board.seconds() * 1000;
     for (; !came.empty(); came.pop_front())
       if (came.front().compare(0, 1, "<") != 0 && came.front().compare(0, 4, "[PE:") != 0)
         lines_.push_back(came.front());
@@ -167,6 +169,7 @@ class Player {
   std::string elf_;
   std::unique_ptr<Machine> machine_;
   std::deque<std::string> lines_;
+  double first_line_ms_ = 0;  // after the first power-on
 };
 
 }  // namespace

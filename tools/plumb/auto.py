@@ -30,7 +30,9 @@ class AutoAddition:
     @property
     def done(self) -> bool:
         """Whether nothing more is provable once the chosen effects are there."""
-        return bool(self.chosen) or self.found.verdict == "nothing_provable"
+        if self.found.verdict in ("one_suspect", "cannot_tell"):
+            return bool(self.chosen)
+        return self.found.verdict == "nothing_provable"
 
 
 def add_auto(
@@ -45,7 +47,9 @@ def add_auto(
 ) -> AutoAddition:
     """Diagnose the marks and add the best explanation that a real machine can have.
 
-    Where the library has none, a residual patch is offered, and added only if `patch` asks for it.
+    Where the library has none, the effects that come nearest are added as long as marks left out
+    are predicted better with them: to leave out a large effect because a small one is unknown would
+    help nobody. A residual patch is offered, and added only if `patch` asks for it.
 
     An explanation has stood the test that nothing else in the library adds more to it than noise
     would; so with its effects nothing more is provable. Several of them: the first of the
@@ -55,19 +59,28 @@ def add_auto(
     found = diagnose(settings, measurements, sigma=sigma, **told)
     if found.verdict == "slip":
         return AutoAddition(found, (), (), None, _slip_reason(found))
-    possible = [one.effects for one in found.explanations if one.possible]
+    known = found.verdict != "not_in_library"
+    possible = [one.effects for one in found.explanations if one.possible and known]
     order = [one.effect for one in found.ranking]
-    chosen = tuple(sorted(possible[0], key=order.index)) if possible else ()
+    best = (possible[0] if possible else ()) if known else found.to_add
+    chosen = tuple(sorted(best, key=order.index))
     rivals = tuple(possible[1:])
     noise = sigma if found.noise.source == "default" else found.noise.sigma
     addition = add(settings, measurements, effects=chosen, sigma=noise, **told)
+    if not known and chosen and not _helps(addition):
+        chosen, addition = (), add(settings, measurements, effects=(), sigma=noise, **told)
     reason, offer = _reason(found, chosen, rivals), None
-    if found.verdict == "not_in_library":
-        patched = add(settings, measurements, effects=(), sigma=noise, patch=True, **told)
+    if not known:
+        patched = add(settings, measurements, effects=chosen, sigma=noise, patch=True, **told)
         offer = addition.after.left_out_rms, patched.after.left_out_rms
         addition = patched if patch else addition
     settled_by = _settled_by(chosen, rivals)
     return AutoAddition(found, chosen, rivals, addition, reason, offer, settled_by)
+
+
+def _helps(addition: Addition) -> bool:
+    """Whether effects that do not explain all are of use: no mere fit, and of possible sizes."""
+    return addition.pays and all(one.might_be_plausible for one in addition.parameters)
 
 
 def _settled_by(chosen: tuple[str, ...], rivals: tuple[tuple[str, ...], ...]) -> tuple[str, ...]:
@@ -111,8 +124,9 @@ def _reason(found: Diagnosis, chosen: tuple[str, ...], rivals: tuple[tuple[str, 
     if found.verdict == "nothing_provable":
         return "the marks prove no effect: only the frame was fitted"
     if found.verdict == "not_in_library":
+        part = f"only {' + '.join(chosen)}, as far as it goes," if chosen else "no effect"
         return (
-            "what the marks show is not in the library, so no effect was added; read the worst "
+            f"not all that the marks show is in the library, so {part} was added; read the worst "
             "marks again, and see plumb next for what to measure"
         )
     if not chosen:

@@ -98,7 +98,18 @@ def test_a_mark_that_is_not_there_cannot_be_left_out():
 def test_what_is_not_in_the_library_is_left_alone():
     result = add_auto(MAKER, board({}, WIDE, seed=8, bump=3.0))
     assert result.found.verdict == "not_in_library"
-    assert result.chosen == () and not result.done and "not in the library" in result.reason
+    assert not result.done and "not all that the marks show is in the library" in result.reason
+    own = result.addition
+    assert own.effects_added == result.chosen
+    assert not result.chosen or own.after.left_out_rms < own.before.left_out_rms
+
+
+def test_a_known_effect_is_not_left_out_because_another_is_unknown():
+    size = size_for("chain_plane", WIDE, 6.0)
+    result = add_auto(MAKER, board({"chain_plane": size}, WIDE, seed=12, bump=2.0))
+    assert result.found.verdict == "not_in_library" and not result.done
+    assert "chain_plane" in result.chosen
+    assert result.addition.after.left_out_rms < 0.7 * result.addition.before.left_out_rms
 
 
 def test_a_tape_that_reads_long_is_fitted_along_and_its_remedy_told():

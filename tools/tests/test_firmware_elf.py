@@ -52,6 +52,8 @@ def static_ram() -> int:
 
 def test_it_boots_keeps_a_setting_over_a_reset_and_moves_its_motors(player):
     told = figures(play(player, DIALOGUES, "smoke.nc"))
+    # A client gives up after two seconds, of which the bootloader takes one.
+    assert 0 < told["first_line_ms"] < 500
     # Static RAM and the deepest stack leave a kilobyte that nobody has ever touched.
     assert static_ram() + told["stack"] < RAM - 1024
 
