@@ -4,11 +4,13 @@
 
 #include <Settings.h>
 
-#include "axis_loop.h"
 #include "ports.h"
 #include "set_points.h"
 
 namespace machine {
+
+using motion::AxisLoop;
+using motion::Gains;
 
 /// What was noticed at a tick that must stop the machine.
 enum class Trouble : uint8_t {
