@@ -55,11 +55,11 @@ void Axes::readEncoder(One& one, Axis axis) {
 }
 
 void Axes::takeSetPoint() {
-  if (set_points_.isEmpty()) {
+  SetPoint point;
+  if (!set_points_.take(point)) {
     for (One& one : axis_) one.asked = 0;
     return;
   }
-  const SetPoint point = set_points_.pop();
   const int32_t next[kAxisCount] = {point.left, point.right, point.z};
   for (uint8_t i = 0; i < kAxisCount; ++i) {
     axis_[i].asked = next[i] - axis_[i].set_point;

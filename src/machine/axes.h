@@ -2,15 +2,16 @@
 // main program may ask and tell meanwhile.
 #pragma once
 
+#include <Motion.h>
 #include <Settings.h>
 
 #include "ports.h"
-#include "set_points.h"
 
 namespace machine {
 
 using motion::AxisLoop;
 using motion::Gains;
+using motion::SetPoint;
 
 /// What was noticed at a tick that must stop the machine.
 enum class Trouble : uint8_t {
@@ -55,9 +56,8 @@ class Axes {
   void tick();
 
   // Set-points.
-  bool hasRoom() const { return set_points_.hasRoom(); }
+  motion::SetPoints& setPoints() { return set_points_; }
   bool isEmpty() const { return set_points_.isEmpty(); }
-  void push(const SetPoint& point) { set_points_.push(point); }
   void dropSetPoints();
   /// The set-points last taken.
   SetPoint setPoint() const;
@@ -122,7 +122,7 @@ class Axes {
 
   Drives& drives_;
   Clock& clock_;
-  SetPoints set_points_;
+  motion::SetPoints set_points_;
   One axis_[kAxisCount];
   float seconds_per_tick_ = 0.01f;
   float error_limit_ = 2;

@@ -43,8 +43,8 @@ void Geometry::prepare(const Values& values) {
   half_width_ = values.at(kSheetWidth) / 2;
   half_height_ = values.at(kSheetHeight) / 2;
   chain_length_ = values.at(kChainLength);
-  sprocket_[0] = {frame.motor_center_x - frame.motor_gap / 2, frame.motor_height};
-  sprocket_[1] = {frame.motor_center_x + frame.motor_gap / 2, frame.motor_height};
+  sprockets_.left = {frame.motor_center_x - frame.motor_gap / 2, frame.motor_height};
+  sprockets_.right = {frame.motor_center_x + frame.motor_gap / 2, frame.motor_height};
   has_brackets_ = values.at(kKinematics) == 1;
   if (has_brackets_)
     prepareBrackets(values, frame);
@@ -70,22 +70,22 @@ void Geometry::prepareRing(const Values& values, const kinematics::Frame<float>&
   const kinematics::PaidOut<float> bent = kinematics::inverse(ring_, corner);
   const bool told = straight.found == Found::kYes && bent.found == Found::kYes;
   const float sag = told ? float(fabs(bent.chains.left - straight.chains.left)) : kUnknownSag;
-  const float far_run = sprocket_[1].x + half_width_;
-  const float near_run = sprocket_[1].x - half_width_;
+  const float far_run = sprockets_.right.x + half_width_;
+  const float near_run = sprockets_.right.x - half_width_;
   const float drop = frame.motor_height + half_height_;
   // A sheet as wide as the frame has no chain that could hold its corner.
   const float least_run = near_run > 50 ? near_run : 50;
   const float span = float(sqrt(far_run * far_run + drop * drop));
-  slopes_ = motion::sagSlopes(sag, far_run, least_run, drop, span);
+  sprockets_.effects = motion::sagSlopes(sag, far_run, least_run, drop, span);
   const motion::Slopes<float> runout = runoutSlopes(effects, frame.sprocket_radius);
-  slopes_.first += runout.first;
-  slopes_.second += runout.second;
-  slopes_.third += runout.third;
+  sprockets_.effects.first += runout.first;
+  sprockets_.effects.second += runout.second;
+  sprockets_.effects.third += runout.third;
 }
 
 void Geometry::prepareBrackets(const Values& values, const kinematics::Frame<float>& frame) {
   brackets_ = kinematics::prepare(frame, bracketSledOf(values), pitchOf(values));
-  slopes_ = kBracketSlopes;
+  sprockets_.effects = kBracketSlopes;
 }
 
 motion::Point<float> Geometry::clamped(motion::Point<float> place) const {
@@ -124,10 +124,15 @@ FoundPlace Geometry::forward(float left, float right, motion::Point<float> guess
   return {{place.sled.x, place.sled.y}, place.found == Found::kYes};
 }
 
-motion::Surroundings<float> Geometry::surroundings(const motion::Path<float>& path) const {
-  const float left = clearance(path, sprocket_[0]), right = clearance(path, sprocket_[1]);
-  const float nearest = left < right ? left : right;
-  return {nearest > 1 ? nearest : 1, slopes_};
+bool Geometry::staysOnSheet(const motion::Path<float>& path) const {
+  const auto isOnSheet = [this](float x, float y) {
+    return fabs(x) <= half_width_ && fabs(y) <= half_height_;
+  };
+  if (!isOnSheet(path.from.x, path.from.y) || !isOnSheet(path.to.x, path.to.y)) return false;
+  if (path.sweep == 0) return true;
+  const motion::Point<float>& centre = path.centre;
+  return isOnSheet(centre.x - path.radius, centre.y - path.radius) &&
+         isOnSheet(centre.x + path.radius, centre.y + path.radius);
 }
 
 }  // namespace machine

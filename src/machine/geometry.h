@@ -35,8 +35,11 @@ class Geometry {
     return is_sheet_reachable_ || inverse(place).reachable;
   }
 
-  /// How far [mm] a path may go until the bound of segments must be asked again.
-  motion::Surroundings<float> surroundings(const motion::Path<float>& path) const;
+  /// What the laws of motion must know of the chains.
+  const motion::Sprockets<float>& sprockets() const { return sprockets_; }
+
+  /// Whether no place of a path is beyond the sheet's edge, where inverse() has a bend.
+  bool staysOnSheet(const motion::Path<float>& path) const;
 
  private:
   bool isSheetReachable() const;
@@ -45,8 +48,7 @@ class Geometry {
 
   kinematics::Machine<float> ring_;
   kinematics::Quadrilateral<float> brackets_;
-  motion::Slopes<float> slopes_;
-  motion::Point<float> sprocket_[2];
+  motion::Sprockets<float> sprockets_;
   float half_width_, half_height_;
   float chain_length_;
   bool has_brackets_;

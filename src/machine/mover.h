@@ -1,12 +1,9 @@
-// The queue of moves, and how it becomes set-points: speeds that look ahead over all queued moves,
-// chain lengths between exact knots.
+// The mover of lib/Motion, with the machine's settings, geometry and axes around it.
 #pragma once
 
 #include <Settings.h>
 
 #include "axes.h"
-#include "block.h"
-#include "chain_segment.h"
 #include "geometry.h"
 
 namespace machine {
@@ -21,45 +18,30 @@ enum class Moved : uint8_t {
 /// All of it runs in the main program.
 class Mover {
  public:
-  enum : uint8_t { kMost = 12 };
-
   void prepare(const settings::Values& values, float seconds_per_tick);
 
   /// Nothing moves, nothing is queued.
-  bool isIdle() const { return count_ == 0; }
-  bool hasRoom() const { return count_ < kMost; }
+  bool isIdle() const { return moves_.isIdle(); }
+  bool hasRoom() const { return moves_.hasRoom(); }
 
-  /// Queues a move from where the last one ends; `feed` [mm/s] over all three axes.
-  Moved add(const motion::Path<float>& path, float z_to, float feed);
+  /// Queues a move over the sheet from where the last one ends; `feed` [mm/s] over all three axes.
+  Moved add(const motion::Path<float>& path, float z_to, float feed, const Geometry& geometry);
+
+  /// Queues a move of one axis alone to a length [mm], at rest; `feed` [mm/s].
+  void addAxis(Axis axis, float length, float feed);
 
   /// Gives the axes as many set-points as they have room for.
   Moved fill(Axes& axes, const Geometry& geometry);
 
   /// Brakes, forgets the rest.
-  void stop() { braking_ = count_ != 0; }
-  void forget();
+  void stop() { moves_.stop(); }
+  void forget() { moves_.forget(); }
 
   /// Everything begins here: at set-points that the axes have.
-  void standAt(const SetPoint& point);
+  void standAt(const SetPoint& point) { moves_.standAt(point); }
 
  private:
-  Block& at(uint8_t index) { return ring_[uint8_t(first_ + index) % kMost]; }
-  void limitEntry(Block& block);
-  void lookAhead();
-  float nextSpeed(const Block& block);
-  void dropFirst();
-  bool advance(const Geometry& geometry, SetPoint& point);
-  bool placeAt(const Block& block, const Geometry& geometry, SetPoint& point);
-
-  Block ring_[kMost];
-  uint8_t first_ = 0, count_ = 0;
-  MoveLimits limits_;
-  float seconds_ = 0.01f;       ///< of a tick
-  float done_ = 0, speed_ = 0;  ///< [mm], [mm/s] in the first block
-  float z_end_ = 0;             ///< [mm] of the last move queued
-  SetPoint last_ = {0, 0, 0};
-  ChainSegment segment_;
-  bool braking_ = false;
+  motion::Mover moves_;
 };
 
 }  // namespace machine

@@ -89,7 +89,8 @@ bool Machine::queue(const motion::Path<float>& path, const Place& target, float 
   if (!geometry_.isReachable(path.to)) return refuse(FLASH("no sled can hang there"));
   while (!stopping_ && !mover_.hasRoom()) service();
   if (stopping_ || !wakeMotors()) return false;
-  mover_.add(path, target.z, feed / 60);
+  if (mover_.add(path, target.z, feed / 60, geometry_) != Moved::kYes)
+    return refuse(FLASH("that is no path"));
   aim_ = target;
   return true;
 }

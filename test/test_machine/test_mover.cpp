@@ -63,7 +63,7 @@ class World {
 
   void add(const motion::Path<float>& path, float z, float feed) {
     while (!mover_.hasRoom()) tick();
-    ASSERT_EQ(mover_.add(path, z, feed), Moved::kYes);
+    ASSERT_EQ(mover_.add(path, z, feed, geometry_), Moved::kYes);
   }
 
   void tick() {

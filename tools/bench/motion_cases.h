@@ -5,11 +5,11 @@
 
 namespace bench {
 
-enum What : uint8_t { kNothing, kTick, kMove };
+enum What : uint8_t { kNothing, kTick, kTake, kMove, kShortMoves };
 enum Shape : uint8_t { kLine, kArc };
 
-// Ticks of a timed move: 120 mm at 900 mm/min, 10 ms a tick.
-enum : uint16_t { kMoveTicks = 800 };
+// Ticks of a timed move from rest to rest: 120 mm at 900 mm/min and 100 mm/s^2, 10 ms a tick.
+enum : uint16_t { kMoveTicks = 817 };
 
 struct Case {
   const char* name;
@@ -21,10 +21,12 @@ struct Case {
 
 const Case kCases[] = {
     {"(marks alone)", kNothing, kLine, 0, 1},
-    {"set-points of both chains, one tick", kTick, kLine, 0, 1},
-    {"set-points, amortised with knots", kMove, kLine, 0, kMoveTicks},
-    {"set-points, amortised with knots, arc of 100 mm", kMove, kArc, 100, kMoveTicks},
-    {"set-points, amortised with knots, arc of 20 mm", kMove, kArc, 20, kMoveTicks},
+    {"set-points of all axes, one tick", kTick, kLine, 0, 1},
+    {"set-points taken in the control tick", kTake, kLine, 0, 1},
+    {"a line of 120 mm from rest to rest, a tick", kMove, kLine, 0, kMoveTicks},
+    {"the same, arc of 100 mm", kMove, kArc, 100, kMoveTicks},
+    {"the same, arc of 20 mm", kMove, kArc, 20, kMoveTicks},
+    {"a move of 0.2 mm, queued and walked", kShortMoves, kLine, 0, 200},
 };
 
 enum : uint8_t {

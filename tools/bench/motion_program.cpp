@@ -1,4 +1,4 @@
-// Follows lines and arcs over the sheet on the (simulated) Mega at 900 mm/min, with the default
+// Moves along lines and arcs over the sheet on the (simulated) Mega at 900 mm/min, with the default
 // machine's exact inverse; marks as in board_program.cpp.
 #include <Motion.h>
 #include <avr/io.h>
@@ -13,23 +13,25 @@ using kinematics::Found;
 using kinematics::Frame;
 using kinematics::Machine;
 using kinematics::PaidOut;
-using motion::Knot;
 using motion::Lengths;
-using motion::Outcome;
+using motion::Mover;
 using motion::Path;
-using motion::PathFollower;
 using motion::Point;
+using motion::SetPoint;
+using motion::SetPoints;
 
 namespace {
 
 // The compiler must not move work across a mark.
 #define BARRIER() __asm__ __volatile__("" ::: "memory")
 
-const float kHalfWidth = 1219.2f, kHalfHeight = 609.6f;         // [mm]
-const float kHalfGap = 1489.2f, kMotorHeight = 609.6f + 463;    // [mm]
-const float kStep = 0.15f;                                      // [mm] 900 mm/min in 10 ms
-const float kSag = 6.2f;                                        // [mm] in a lower corner
-const float kMoveLength = bench::kMoveTicks * kStep * 0.9999f;  // [mm] rounds up to these ticks
+const float kHalfWidth = 1219.2f, kHalfHeight = 609.6f;       // [mm]
+const float kHalfGap = 1489.2f, kMotorHeight = 609.6f + 463;  // [mm]
+const float kTick = 0.01f, kFeed = 15;                        // [s], [mm/s]
+const float kStep = kFeed * kTick;                            // [mm]
+const float kShort = 0.2f;                                    // [mm] of a short move
+const float kSag = 6.2f;                                      // [mm] in a lower corner
+const float kMoveLength = 120;                                // [mm]
 
 volatile int32_t left, right;
 volatile bool failed;
@@ -79,20 +81,28 @@ Path<float> pathFrom(const bench::Case& timed, Point<float> at) {
   return motion::arc(from, to, centre, motion::Turn::kCounterclockwise);
 }
 
-motion::Surroundings<float> around(const Path<float>& path) {
-  const float to_left = clearance(path, Point<float>{-kHalfGap, kMotorHeight});
-  const float to_right = clearance(path, Point<float>{kHalfGap, kMotorHeight});
-  return {to_left < to_right ? to_left : to_right,
-          motion::sagSlopes(kSag, kHalfGap + kHalfWidth, kHalfGap - kHalfWidth,
-                            kMotorHeight + kHalfHeight, 3186.0f)};
+void begin(Mover& mover, Point<float> at) {
+  const motion::Knot knot = knotAt(exactly, at).knot;
+  mover.prepare({100, 10, 20, 0.66f, 0.05f}, kTick);
+  mover.setSprockets({{-kHalfGap, kMotorHeight},
+                      {kHalfGap, kMotorHeight},
+                      motion::sagSlopes(kSag, kHalfGap + kHalfWidth, kHalfGap - kHalfWidth,
+                                        kMotorHeight + kHalfHeight, 3186.0f)});
+  mover.standAt({knot.left, knot.right, 0});
 }
 
-/// One tick as the firmware would have it: the set-points are moved on and told.
-void tick(PathFollower<float>& follower) {
-  if (follower.tick(exactly) != Outcome::kMoving) failed = true;
-  const Knot now = follower.setPoints();
-  left = now.left;
-  right = now.right;
+/// The control tick's part.
+void take(SetPoints& set_points) {
+  SetPoint point = {0, 0, 0};
+  set_points.take(point);
+  left = point.left;
+  right = point.right;
+}
+
+/// The main program's part of one tick, and the control tick's.
+void tick(Mover& mover, SetPoints& set_points) {
+  if (mover.fill(set_points, exactly) != motion::Filled::kYes) failed = true;
+  take(set_points);
 }
 
 /// Sleeps with interrupts off: the simulator reports it.
@@ -107,25 +117,46 @@ void mark(uint8_t number) {
   BARRIER();
 }
 
+/// Short moves in a row, one tick for every move's share of time.
+void timeShortMoves(uint8_t number, Mover& mover, SetPoints& set_points, Point<float> at) {
+  const bench::Case& timed = bench::kCases[number];
+  const float inwards = at.x > 0 ? -1 : 1;
+  uint16_t ticks = 0;
+  mark(number + 1);
+  for (uint16_t i = 0; i < timed.ticks; ++i) {
+    const Point<float> to = {at.x + inwards * 0.8f * kShort, at.y - 0.6f * kShort};
+    mover.add(motion::line(at, to), 0, kFeed);
+    at = to;
+    for (; float(ticks) * kStep < float(i) * kShort; ++ticks) tick(mover, set_points);
+  }
+  mark(0);
+}
+
 void timeOne(uint8_t number, Point<float> at) {
   const bench::Case& timed = bench::kCases[number];
   const Path<float> path = pathFrom(timed, at);
-  PathFollower<float> follower(knotAt(exactly, path.from).knot);
-  const motion::Surroundings<float> surroundings = around(path);
+  Mover mover;
+  SetPoints set_points;
+  begin(mover, path.from);
+  if (timed.what == bench::kShortMoves) return timeShortMoves(number, mover, set_points, path.from);
   if (timed.what == bench::kNothing) {
     mark(number + 1);
     mark(0);
-  } else if (timed.what == bench::kTick) {
-    failed = follower.follow(path, kStep, surroundings) != Outcome::kMoving;
-    for (uint8_t i = 0; i < 200; ++i) {
-      mark(number + 1);
-      tick(follower);
-      mark(0);
-    }
-  } else {
-    mark(number + 1);
-    failed = follower.follow(path, kStep, surroundings) != Outcome::kMoving;
-    for (uint16_t i = 0; i < timed.ticks; ++i) tick(follower);
+    return;
+  }
+  if (timed.what == bench::kMove) mark(number + 1);
+  failed = mover.add(path, 0, kFeed) != motion::Added::kYes;
+  if (timed.what == bench::kMove) {
+    for (uint16_t i = 0; i < timed.ticks; ++i) tick(mover, set_points);
+    mark(0);
+    failed = failed || !mover.isIdle();
+    return;
+  }
+  for (uint16_t i = 0; i < 300; ++i) {
+    if (timed.what == bench::kTick) mark(number + 1);
+    mover.fill(set_points, exactly);
+    if (timed.what == bench::kTake) mark(number + 1);
+    take(set_points);
     mark(0);
   }
 }

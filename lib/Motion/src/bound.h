@@ -46,6 +46,14 @@ Real thirdSlope(Real curvature, const Surroundings<Real>& around) {
   return curvature == Real(0) ? bent : bent * Real(kSpiralMargin);
 }
 
+/// Second slope [1/mm] of a chain's length along a path, at most: of the distance
+///     d'' = -k sin a + sin(a)^2 / d
+template <class Real>
+Real secondSlope(Real curvature, const Surroundings<Real>& around) {
+  const Slopes<Real>& effects = around.effects;
+  return curvature * (Real(1) + effects.first) + Real(1) / around.nearest + effects.second;
+}
+
 /// Error [mm], at most, of a quadratic through both ends and the middle of a segment [mm].
 ///
 /// The remainder is f'''/6 * (s - 0)(s - h/2)(s - h), whose product is at most
@@ -59,6 +67,16 @@ Real missed(Real third_slope, Real segment_length) {
 template <class Real>
 Real longestSegment(Real third_slope) {
   return cbrt(Real(124.7077) * Real(kMostMissed) / third_slope);
+}
+
+/// Longest time, in the unit of speed and acceleration, in which a quadratic of time through both
+/// ends and the middle misses no more than kMostMissed, where a path is walked evenly faster or
+/// slower: of a length L at a place s(t)
+///     L''' = L'''(s) speed^3 + 3 L''(s) speed acceleration
+template <class Real>
+Real longestTime(Real third_slope, Real second_slope, Real speed, Real acceleration) {
+  const Real along = third_slope * speed * speed + Real(3) * second_slope * acceleration;
+  return cbrt(Real(124.7077) * Real(kMostMissed) / (along * speed));
 }
 
 /// Slopes, at most, of a length [mm] that grows as (far_run * drop / near_run)^2 / span: a chain's

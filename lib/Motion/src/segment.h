@@ -13,6 +13,7 @@ static_assert(1L * kMostTicks * kMostTicks <= 32767L, "the square must be a divi
 
 // Knots of one segment are nearer than this, or the sums below could overflow.
 const int32_t kMostRise = 512 * kCountsPerMm;
+const float kLongestSegment = 256;  // [mm] of path, so that its knots are
 
 /// Counts with 16 more binary digits, 2^-32 mm: whole + fraction / 65536.
 struct Fine {

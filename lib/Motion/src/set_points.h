@@ -1,19 +1,20 @@
 // Set-points on their way from the main program, which works them out, to the control tick.
 #pragma once
 
-#include <Motion.h>
 #include <stdint.h>
 
-namespace machine {
+namespace motion {
 
 /// Where all axes shall be at one tick.
 struct SetPoint {
-  int32_t left, right, z;  ///< [counts of motion::kCountsPerMm]
+  int32_t left, right, z;  ///< [counts of kCountsPerMm]
 };
 
 /// A ring with one writer, the main program, and one reader, the control tick.
 ///
-/// Long enough that the main program may be busy for 110 ms; short enough for a stop to act soon.
+/// The main program may be busy for eleven ticks, 110 ms at 100 Hz; and a stop acts that soon. If
+/// it is busy for longer, the tick finds nothing: set-points stay where they are, and the mover
+/// sets out from rest again.
 class SetPoints {
  public:
   enum : uint8_t { kMost = 11 };
@@ -28,12 +29,23 @@ class SetPoints {
     head_ = next(head_);
   }
 
-  /// To be called by the reader, if it is not empty.
-  SetPoint pop() {
-    const SetPoint point = ring_[tail_];
+  /// To be called by the reader: the next one, or false if there is none.
+  bool take(SetPoint& point) {
+    if (isEmpty()) {
+      ran_dry_ = true;
+      return false;
+    }
+    point = ring_[tail_];
     fence();
     tail_ = next(tail_);
-    return point;
+    return true;
+  }
+
+  /// To be called by the writer: whether the reader found nothing since this was last asked.
+  bool hasRunDry() {
+    const bool was = ran_dry_;
+    ran_dry_ = false;
+    return was;
   }
 
   /// To be called while the other side is held.
@@ -47,6 +59,7 @@ class SetPoints {
 
   SetPoint ring_[kMost + 1];
   volatile uint8_t head_ = 0, tail_ = 0;
+  volatile bool ran_dry_ = false;
 };
 
-}  // namespace machine
+}  // namespace motion

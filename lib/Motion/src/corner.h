@@ -1,0 +1,50 @@
+// How fast a corner between two moves may be passed without a stop.
+#pragma once
+
+#include <math.h>
+
+#include "path.h"
+
+namespace motion {
+
+/// A direction over all three axes, of length 1.
+struct Direction {
+  float x, y, z;
+};
+
+const float kAnySpeedSquared = 1e9f;  // [mm^2/tick^2] no limit
+
+/// Direction of a path along the sheet where it begins, or where it ends [1].
+inline Point<float> directionOf(const Path<float>& path, bool at_end) {
+  if (path.drawn != Drawn::kYes) return {0, 0};
+  if (path.sweep == 0)
+    return {(path.to.x - path.from.x) / path.length, (path.to.y - path.from.y) / path.length};
+  const Point<float>& at = at_end ? path.to : path.from;
+  const float x = at.x - path.centre.x, y = at.y - path.centre.y;
+  const float per_radius = (path.sweep > 0 ? 1.0f : -1.0f) / float(sqrt(x * x + y * y));
+  return {-y * per_radius, x * per_radius};
+}
+
+/// Square of the speed at which a corner may be passed, in the units of `acceleration` and [mm].
+///
+/// Two limits. (1) The sled is taken to cut the corner by an arc that touches both sides and stays
+/// within `deviation` of it: with t the turn, v^2 = acceleration * deviation * cos(t/2) /
+/// (1 - cos(t/2)) (junction deviation, as in Grbl). (2) Where moves are short, such an arc would be
+/// longer than they are; the turn is then taken to be spread over `room`, the half of both moves
+/// together: v^2 = acceleration * (room + deviation) / t. A smooth curve in short moves is thus as
+/// fast as the arc it stands for.
+inline float cornerSpeedSquared(const Direction& before, const Direction& after, float acceleration,
+                                float deviation, float room) {
+  const float x = after.x - before.x, y = after.y - before.y, z = after.z - before.z;
+  // From the difference, not from the cosine: in float 1 - cos of a small turn is noise.
+  const float turn_squared = x * x + y * y + z * z;
+  const float kNoTurn = 1e-8f;  // [rad^2]
+  if (turn_squared < kNoTurn) return kAnySpeedSquared;
+  const float half_squared = turn_squared * 0.25f;
+  const float cosine = half_squared < 1 ? float(sqrt(1 - half_squared)) : 0;
+  const float by_deviation = deviation * cosine * (1 + cosine) / half_squared;
+  const float by_room = (room + deviation) / float(sqrt(turn_squared));
+  return acceleration * (deviation == 0 || by_deviation < by_room ? by_deviation : by_room);
+}
+
+}  // namespace motion

@@ -1,0 +1,176 @@
+// Moves that wait, and the speeds that look ahead over all of them.
+#pragma once
+
+#include "corner.h"
+#include "sprockets.h"
+
+namespace motion {
+
+/// What every move keeps to.
+struct Limits {
+  float acceleration_xy, acceleration_z;  ///< [mm/s^2]
+  float chain_speed, z_speed;             ///< [mm/s]
+  float corner_deviation;                 ///< [mm]; zero: every corner is a stop
+};
+
+/// What a path leads through.
+enum class Space : uint8_t {
+  kSheet,   ///< places on the sheet; the exact inverse is smooth along it
+  kEdge,    ///< places on and beyond the sheet's edge, where the caller's inverse has a bend
+  kChains,  ///< chain lengths themselves: x is the left one's, y the right one's
+};
+
+/// How it went.
+enum class Added : uint8_t {
+  kYes,
+  kNothing,  ///< it ends where it begins
+  kFull,     ///< no room now
+  kNoPath,   ///< the path was not drawn
+  kNoFeed,   ///< a feed of zero, less than zero or NaN, or hardly any
+};
+
+/// One move in the queue. Speeds are in mm a tick, accelerations in mm a tick squared.
+struct Move {
+  Path<float> path;      ///< not drawn: z moves alone
+  float z_to;            ///< [mm]
+  float length;          ///< [mm] over all axes
+  float acceleration;    ///< along it, at most
+  float top;             ///< speed along it, at most
+  float entry_squared;   ///< of the speed with which it begins, at most
+  float corner_squared;  ///< the same, as far as the corner before it is concerned
+  Space space;
+};
+
+/// The moves that wait, the one in hand first.
+class MoveQueue {
+ public:
+  enum : uint8_t { kMost = 16 };
+
+  /// Takes over limits, for ticks of so many seconds.
+  void prepare(const Limits& limits, float seconds_per_tick);
+  void setSprockets(const Sprockets<float>& sprockets) { sprockets_ = sprockets; }
+
+  bool isEmpty() const { return count_ == 0; }
+  bool hasRoom() const { return count_ < kMost; }
+  uint8_t count() const { return count_; }
+  const Move& first() const { return ring_[first_]; }
+  const Move& second() const { return at(1); }
+  const Sprockets<float>& sprockets() const { return sprockets_; }
+
+  /// Square of the speed with which the first move may end.
+  float exitSquared() const { return count_ > 1 ? at(1).entry_squared : 0; }
+
+  /// Queues a move from where the last one ends, at z `z_from`; `feed` [mm/s] over all axes.
+  Added add(const Path<float>& path, float z_from, float z_to, float feed, Space space);
+
+  void dropFirst();
+  void clear() { count_ = 0; }
+
+ private:
+  Move& at(uint8_t index) { return ring_[uint8_t(first_ + index) % kMost]; }
+  const Move& at(uint8_t index) const { return ring_[uint8_t(first_ + index) % kMost]; }
+  float topOf(const Move& move, float feed, float along, float rise) const;
+  void lookAhead();
+
+  Move ring_[kMost];
+  uint8_t first_ = 0, count_ = 0;
+  Direction end_;  ///< of the last one queued
+  Limits limits_;  ///< in ticks
+  float seconds_;  ///< of a tick
+  Sprockets<float> sprockets_;
+};
+
+namespace queue_detail {
+
+inline float smaller(float a, float b) { return a < b ? a : b; }
+
+}  // namespace queue_detail
+
+inline void MoveQueue::prepare(const Limits& limits, float seconds_per_tick) {
+  const float squared = seconds_per_tick * seconds_per_tick;
+  seconds_ = seconds_per_tick;
+  limits_ = {limits.acceleration_xy * squared, limits.acceleration_z * squared,
+             limits.chain_speed * seconds_per_tick, limits.z_speed * seconds_per_tick,
+             limits.corner_deviation};
+}
+
+/// Greatest speed of a move whose shares of way along the sheet and of z are told [1].
+inline float MoveQueue::topOf(const Move& move, float feed, float along, float rise) const {
+  using queue_detail::smaller;
+  float top = feed * seconds_;
+  if (rise > 0) top = smaller(top, limits_.z_speed / rise);
+  if (along == 0) return top;
+  const float chains_top = limits_.chain_speed / along;
+  if (move.space == Space::kChains) return smaller(top, chains_top);
+  // No chain runs faster than the sled by more than effects make it: mostly nothing is to be asked.
+  if (top * (1 + sprockets_.effects.first) > chains_top)
+    top = smaller(top, chains_top / steepest(move.path, sprockets_));
+  if (move.path.sweep == 0) return top;
+  // Round an arc the sled is pulled inwards all the way.
+  const float round = float(sqrt(limits_.acceleration_xy * move.path.radius)) / along;
+  return smaller(top, round);
+}
+
+inline Added MoveQueue::add(const Path<float>& path, float z_from, float z_to, float feed,
+                            Space space) {
+  using queue_detail::smaller;
+  const bool has_path = path.drawn == Drawn::kYes;
+  const float rise = z_to - z_from;
+  if (!has_path && path.drawn != Drawn::kNoLength) return Added::kNoPath;
+  if (!has_path && rise == 0) return Added::kNothing;
+  if (!isfinite(rise)) return Added::kNoPath;
+  const float kLeastSpeed = 1e-5f;  // [mm/tick] a long way in float hardly grows by less
+  if (!(feed * seconds_ > kLeastSpeed)) return Added::kNoFeed;
+  if (!hasRoom()) return Added::kFull;
+  Move& move = at(count_);
+  move.path = path;
+  if (!has_path) move.path.length = 0;
+  move.z_to = z_to;
+  move.space = space;
+  const float along = move.path.length;
+  move.length = rise == 0 ? along : float(sqrt(along * along + rise * rise));
+  const float xy = rise == 0 ? 1 : along / move.length;
+  const float z = rise == 0 ? 0 : rise / move.length;
+  move.acceleration = xy > 0 ? limits_.acceleration_xy : limits_.acceleration_z;
+  if (xy > 0 && z != 0) {
+    move.acceleration =
+        smaller(limits_.acceleration_xy / xy, limits_.acceleration_z / float(fabs(z)));
+  }
+  move.top = topOf(move, feed, xy, float(fabs(z)));
+  const Point<float> begin = directionOf(path, false);
+  const Point<float> end = path.sweep == 0 ? begin : directionOf(path, true);
+  move.entry_squared = move.corner_squared = 0;
+  if (count_ != 0) {
+    const Move& before = at(uint8_t(count_ - 1));
+    const float slower = smaller(before.top, move.top);
+    const float corner = cornerSpeedSquared(
+        end_, {begin.x * xy, begin.y * xy, z}, smaller(before.acceleration, move.acceleration),
+        limits_.corner_deviation, 0.5f * (before.length + move.length));
+    move.corner_squared = smaller(corner, slower * slower);
+  }
+  end_ = {end.x * xy, end.y * xy, z};
+  ++count_;
+  lookAhead();
+  return Added::kYes;
+}
+
+inline void MoveQueue::lookAhead() {
+  using queue_detail::smaller;
+  // Backwards from a stop at the end; where nothing changes, nothing before it does.
+  float exit_squared = 0;
+  for (uint8_t i = count_; i-- > 1;) {
+    Move& move = at(i);
+    const float brakes = exit_squared + 2 * move.acceleration * move.length;
+    const float entry = smaller(move.corner_squared, brakes);
+    if (entry == move.entry_squared && uint8_t(i + 1) != count_) return;
+    move.entry_squared = entry;
+    exit_squared = entry;
+  }
+}
+
+inline void MoveQueue::dropFirst() {
+  first_ = uint8_t(first_ + 1) % kMost;
+  --count_;
+}
+
+}  // namespace motion

@@ -1,0 +1,101 @@
+// Queued moves become set-points: where all axes shall be at each control tick.
+//
+// How it is used (everything here runs in the main program; only SetPoints::take is for the tick):
+//   mover.prepare(limits, seconds_per_tick);  mover.setSprockets(...);  when settings change
+//   mover.standAt(set_point);                 at rest, where the axes are
+//   mover.add(path, z_to, feed, space);       if hasRoom(); `ok` may go out
+//   mover.fill(set_points, inverse);          often: at least every 100 ms
+//   mover.stop(); / hold(); / resume();       then go on filling
+// All moves are done, or a stop has come to rest, when isIdle() and set_points.isEmpty().
+#pragma once
+
+#include "move_queue.h"
+#include "segment.h"
+#include "set_points.h"
+#include "stretch.h"
+
+namespace motion {
+
+/// How filling went.
+enum class Filled : uint8_t {
+  kYes,
+  kOutOfReach,  ///< the exact inverse refused a place on the way; set-points stay before it
+};
+
+/// The queue, and how far its first move is walked.
+class Mover {
+ public:
+  void prepare(const Limits& limits, float seconds_per_tick) {
+    queue_.prepare(limits, seconds_per_tick);
+  }
+  void setSprockets(const Sprockets<float>& sprockets) { queue_.setSprockets(sprockets); }
+
+  /// Nothing moves, nothing waits.
+  bool isIdle() const { return queue_.isEmpty(); }
+  bool hasRoom() const { return queue_.hasRoom(); }
+  /// Held, and at rest as soon as the set-points are.
+  bool isHeld() const { return braking_ && !forgets_ && walk().speed == 0; }
+
+  /// Everything begins here; what waits is forgotten.
+  void standAt(const SetPoint& point);
+
+  /// Queues a move from where the last one ends; `z_to` [mm], `feed` [mm/s] over all axes.
+  Added add(const Path<float>& path, float z_to, float feed, Space space = Space::kSheet);
+
+  /// Works out as many set-points as there is room for. `inverse`: Point<float> -> Lengths<float>.
+  template <class Inverse>
+  Filled fill(SetPoints& set_points, const Inverse& inverse);
+
+  /// Brakes along the path, then forgets what waits.
+  void stop();
+  /// Brakes along the path and stays; resume() goes on, stop() forgets.
+  void hold();
+  void resume();
+  /// Forgets what waits without braking: motors are off, or something else moves them.
+  void forget();
+
+  /// The last set-point that was worked out: where all comes to rest, once isIdle().
+  const SetPoint& last() const { return last_; }
+  /// How far the first move is walked, and how fast [mm/tick], at that set-point.
+  Walk walk() const;
+  const MoveQueue& queue() const { return queue_; }
+
+ private:
+  void standStill() { piece_ = standing({last_.left, last_.right}); }
+  void cutShort();
+  void brake(bool forgets);
+  void takeUp();
+  void dropFirst();
+  int32_t zAt(const Move& move, float done) const;
+  template <class Inverse>
+  Reached lengthsAt(const Walk& walk, const Inverse& inverse) const;
+  template <class Inverse>
+  bool begin(const Stretch& stretch, const Inverse& inverse);
+  template <class Inverse>
+  bool pass(const Inverse& inverse);
+  template <class Inverse>
+  bool step(float change, const Inverse& inverse);
+  // Not inline: every tick would save the registers that only a new piece needs.
+  template <class Inverse>
+  __attribute__((noinline)) bool cut(const Inverse& inverse);
+  void advance();
+
+  MoveQueue queue_;
+  Walk walk_ = {0, 0};   ///< where the piece in hand ends
+  Walk begun_ = {0, 0};  ///< where it began
+  float change_ = 0;     ///< of the speed, in each of its ticks
+  uint8_t ticks_ = 0;    ///< that it had
+  Segment piece_;        ///< both chains
+  Steps z_piece_;
+  bool has_z_ = false;                 ///< the first move goes along z
+  bool is_taken_up_ = false;           ///< the two below are those of the first move
+  uint8_t even_ticks_, uneven_ticks_;  ///< of a piece, at most
+  float z_from_ = 0;                   ///< [mm] where the first move begins
+  float z_end_ = 0;                    ///< [mm] where the last one ends
+  SetPoint last_ = {0, 0, 0};
+  bool braking_ = false, forgets_ = false;
+};
+
+}  // namespace motion
+
+#include "mover_detail.h"

@@ -1,0 +1,230 @@
+// The bodies of mover.h: pieces between exact knots, even in time; single ticks where moves meet.
+#pragma once
+
+#include "mover.h"
+
+namespace motion {
+
+inline void Mover::forget() {
+  queue_.clear();
+  walk_ = {0, 0};
+  z_end_ = toMm<float>(last_.z);
+  is_taken_up_ = braking_ = forgets_ = false;
+  standStill();
+}
+
+inline void Mover::standAt(const SetPoint& point) {
+  last_ = point;
+  forget();
+}
+
+inline Added Mover::add(const Path<float>& path, float z_to, float feed, Space space) {
+  if (queue_.isEmpty()) z_from_ = z_end_;
+  const Added added = queue_.add(path, z_end_, z_to, feed, space);
+  if (added != Added::kYes) return added;
+  z_end_ = z_to;
+  // What brakes may have been going to stop for want of this move.
+  if (change_ < 0 && !braking_) cutShort();
+  return added;
+}
+
+inline Walk Mover::walk() const {
+  if (piece_.ticks_left == 0) return walk_;
+  return after(begun_, change_, uint8_t(ticks_ - piece_.ticks_left));
+}
+
+/// Ends the piece in hand where its last set-point was.
+inline void Mover::cutShort() {
+  walk_ = walk();
+  standStill();
+}
+
+inline void Mover::brake(bool forgets) {
+  if (queue_.isEmpty()) return;
+  if (!braking_) cutShort();
+  braking_ = true;
+  forgets_ = forgets;
+}
+
+inline void Mover::stop() { brake(true); }
+
+inline void Mover::hold() {
+  if (!braking_) brake(false);
+}
+
+inline void Mover::resume() {
+  if (!braking_ || forgets_) return;
+  cutShort();
+  braking_ = false;
+}
+
+inline void Mover::dropFirst() {
+  if (has_z_) last_.z = toCounts(queue_.first().z_to);
+  z_from_ = queue_.first().z_to;
+  queue_.dropFirst();
+  has_z_ = queue_.first().z_to != z_from_;
+  is_taken_up_ = false;
+}
+
+/// How many ticks a piece of the first move may have.
+inline void Mover::takeUp() {
+  const Move& move = queue_.first();
+  is_taken_up_ = true;
+  has_z_ = move.z_to != z_from_;
+  // In a piece of two ticks both fall on knots.
+  const float kShort = 5;  // [ticks]
+  even_ticks_ = uneven_ticks_ = move.space == Space::kEdge ? 1 : 2;
+  if (move.length < kShort * move.top && move.space == Space::kSheet) return;
+  if (move.space == Space::kEdge) return;
+  // Up to here two places of a piece are near (kMostRise).
+  const float longest = kLongestSegment / move.top;
+  float even = longest, uneven = longest;
+  if (move.path.length > 0 && move.space == Space::kSheet) {
+    const Surroundings<float> around = surroundingsOf(move.path, queue_.sprockets());
+    const float share = move.path.length / move.length, speed = move.top * share;
+    const float third = thirdSlope(move.path.curvature(), around);
+    const float second = secondSlope(move.path.curvature(), around);
+    even = queue_detail::smaller(even, longestTime(third, second, speed, 0.0f));
+    uneven =
+        queue_detail::smaller(uneven, longestTime(third, second, speed, move.acceleration * share));
+  }
+  // Three ticks would miss to one side and at once to the other: 1.5 times the bound in a step.
+  even_ticks_ = even < 4 ? 2 : stretch_detail::atMost(even, kMostTicks);
+  uneven_ticks_ = uneven < 4 ? 2 : stretch_detail::atMost(uneven, kMostTicks);
+}
+
+/// [counts] so far along the first move.
+inline int32_t Mover::zAt(const Move& move, float done) const {
+  if (!has_z_) return last_.z;
+  const float share = done / move.length;
+  return toCounts(share >= 1 ? move.z_to : z_from_ + (move.z_to - z_from_) * share);
+}
+
+/// Exact chain lengths at a walk along the first move.
+template <class Inverse>
+Reached Mover::lengthsAt(const Walk& walk, const Inverse& inverse) const {
+  const Move& move = queue_.first();
+  if (move.path.length == 0) return {{last_.left, last_.right}, true};
+  const Point<float> place = placeOn(move.path, walk.done / move.length);
+  if (move.space != Space::kChains) return knotAt(inverse, place);
+  return {{toCounts(place.x), toCounts(place.y)}, true};
+}
+
+/// Begins a piece of more than one tick, all within the first move.
+template <class Inverse>
+bool Mover::begin(const Stretch& stretch, const Inverse& inverse) {
+  const Move& move = queue_.first();
+  const Walk to = after(walk_, stretch.change, stretch.ticks);
+  const float half = 0.5f * float(stretch.ticks);
+  const Walk middle = {walk_.done + half * (walk_.speed + 0.5f * stretch.change * (half + 1)), 0};
+  const Reached end = lengthsAt(to, inverse), between = lengthsAt(middle, inverse);
+  const Knot from = {last_.left, last_.right};
+  if (!end.reachable || !between.reachable || !areNear(from, end.knot)) return false;
+  if (!areNear(from, between.knot)) return false;
+  piece_ = segmentThrough(from, between.knot, end.knot, stretch.ticks);
+  if (has_z_)
+    z_piece_ = stepsThrough(last_.z, zAt(move, middle.done), zAt(move, to.done), stretch.ticks);
+  begun_ = walk_;
+  walk_ = to;
+  change_ = stretch.change;
+  ticks_ = stretch.ticks;
+  return true;
+}
+
+/// Leaves the first move behind, with what was walked beyond its end.
+template <class Inverse>
+bool Mover::pass(const Inverse& inverse) {
+  const float length = queue_.first().length;
+  if (queue_.second().path.length == 0) {
+    // While z moves alone the chains stand, and exactly here.
+    const Reached end = lengthsAt({length, 0}, inverse);
+    if (!end.reachable) return false;
+    last_.left = end.knot.left;
+    last_.right = end.knot.right;
+  }
+  walk_.done = walk_.done > length ? walk_.done - length : 0;
+  // At a corner that is a stop the speed was that of the last way before it.
+  if (queue_.exitSquared() == 0) walk_ = {0, 0};
+  dropFirst();
+  return true;
+}
+
+/// One tick by itself, which may lead into later moves or to the end of all.
+template <class Inverse>
+bool Mover::step(float change, const Inverse& inverse) {
+  walk_.speed += change;
+  walk_.done += walk_.speed;
+  change_ = 0;
+  // What is left by rounding alone is not worth a tick.
+  const float kHair = 1 - 1e-6f;
+  while (walk_.done >= queue_.first().length * kHair && queue_.count() > 1)
+    if (!pass(inverse)) return false;
+  const Move& move = queue_.first();
+  const bool arrives = walk_.done >= move.length * kHair;
+  if (arrives) walk_ = {move.length, 0};
+  const Reached here = lengthsAt(walk_, inverse);
+  if (!here.reachable) return false;
+  last_ = {here.knot.left, here.knot.right, zAt(move, walk_.done)};
+  if (arrives) {
+    // As it was commanded, not as counts round it.
+    const float z_end = z_end_;
+    forget();
+    z_end_ = z_end;
+  }
+  return true;
+}
+
+/// The next set-point, where no piece is in hand. False: no sled can hang there, and the last one
+/// stands.
+template <class Inverse>
+bool Mover::cut(const Inverse& inverse) {
+  if (!is_taken_up_) takeUp();
+  const Move& move = queue_.first();
+  const Bounds bounds = {move.length - walk_.done, move.top,    move.acceleration,
+                         queue_.exitSquared(),     even_ticks_, uneven_ticks_};
+  const Stretch stretch =
+      braking_ ? nextBraking(walk_.speed, bounds) : nextStretch(walk_.speed, bounds);
+  if (stretch.ticks < 2) return step(stretch.change, inverse);
+  if (!begin(stretch, inverse)) return false;
+  advance();
+  return true;
+}
+
+/// The next set-point of the piece in hand.
+inline void Mover::advance() {
+  piece_.advance();
+  last_.left = piece_.left.length.whole;
+  last_.right = piece_.right.length.whole;
+  if (has_z_) {
+    z_piece_.advance();
+    last_.z = z_piece_.length.whole;
+  }
+}
+
+template <class Inverse>
+Filled Mover::fill(SetPoints& set_points, const Inverse& inverse) {
+  // The axes stood still while they waited; nobody can go on at full speed from there.
+  if (set_points.hasRunDry() && walk().speed != 0) {
+    cutShort();
+    walk_.speed = 0;
+  }
+  while (!queue_.isEmpty() && set_points.hasRoom()) {
+    if (piece_.ticks_left != 0) {
+      advance();
+      set_points.push(last_);
+      continue;
+    }
+    const bool rests = walk_.speed == 0;
+    if (braking_ && rests) {
+      if (forgets_) forget();
+      return Filled::kYes;
+    }
+    if (!cut(inverse)) return Filled::kOutOfReach;
+    set_points.push(last_);
+    // While nothing moved the tick found nothing, of course.
+    if (rests) set_points.hasRunDry();
+  }
+  return Filled::kYes;
+}
+
+}  // namespace motion

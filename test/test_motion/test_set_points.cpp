@@ -1,0 +1,96 @@
+// Every set-point, while moves gain and lose speed, against the exact inverse in double.
+#include <gtest/gtest.h>
+
+#include "machines.h"
+
+using namespace motion;
+
+namespace {
+
+class SetPointsOf : public testing::TestWithParam<Tried> {};
+INSTANTIATE_TEST_SUITE_P(Machines, SetPointsOf, testing::ValuesIn(triedMachines()), NameOfTried());
+
+struct Worst {
+  double error = 0;   // [mm] of a chain, at any tick
+  double jerked = 0;  // [mm] by which a step differs from that of the exact chains
+  long set_points = 0, asked = 0;
+};
+
+Sprockets<float> sprocketsOf(const Tried& tried) {
+  const Point<double> left = sprocketOf(tried, 0), right = sprocketOf(tried, 1);
+  const Slopes<double> effects = effectsOf(tried);
+  return {{float(left.x), float(left.y)},
+          {float(right.x), float(right.y)},
+          {float(effects.first), float(effects.second), float(effects.third)}};
+}
+
+/// Walks one path from rest to rest, with a random z.
+void walk(const Tried& tried, const Exactly<double>& judge, const Exactly<float>& own,
+          const Path<double>& path, const Limits& limits, double feed, Worst& worst) {
+  const auto counted = [&](Point<float> place) {
+    ++worst.asked;
+    return own(place);
+  };
+  const Path<float> walked = as<float>(path);
+  const Knot start = knotAt(own, walked.from).knot;
+  Mover mover;
+  SetPoints set_points;
+  mover.prepare(limits, 0.01f);
+  mover.setSprockets(sprocketsOf(tried));
+  mover.standAt({start.left, start.right, 0});
+  ASSERT_EQ(Added::kYes, mover.add(walked, 0, float(feed)));
+  Lengths<double> before = judge(path.from);
+  SetPoint last = mover.last();
+  while (!mover.isIdle()) {
+    // A ring full at once would hide which tick is which; so one after the other is taken.
+    SetPoints single;
+    for (int i = 1; i < SetPoints::kMost; ++i) single.push(last);
+    ASSERT_EQ(Filled::kYes, mover.fill(single, counted));
+    const SetPoint now = mover.last();
+    const double share = mover.isIdle() ? 1 : double(mover.walk().done) / double(walked.length);
+    const Lengths<double> exact = judge(placeOn(path, share));
+    const double left = toMm<double>(now.left) - exact.left;
+    const double right = toMm<double>(now.right) - exact.right;
+    worst.error = fmax(worst.error, fmax(fabs(left), fabs(right)));
+    const double left_before = toMm<double>(last.left) - before.left;
+    const double right_before = toMm<double>(last.right) - before.right;
+    worst.jerked = fmax(worst.jerked, fmax(fabs(left - left_before), fabs(right - right_before)));
+    ++worst.set_points;
+    before = exact;
+    last = now;
+  }
+  EXPECT_EQ(knotAt(own, walked.to).knot.left, last.left);
+  EXPECT_EQ(knotAt(own, walked.to).knot.right, last.right);
+}
+
+Worst worstOver(const Tried& tried, int count, unsigned seed, const Limits& limits, double feed) {
+  const Exactly<double> judge = exactly<double>(tried);
+  const Exactly<float> own = exactly<float>(tried);
+  Paths paths(seed);
+  Worst worst;
+  for (int i = 0; i < count; ++i)
+    walk(tried, judge, own, i % 2 ? paths.line() : paths.arc(), limits, feed, worst);
+  testing::Test::RecordProperty("error_mm", std::to_string(worst.error));
+  testing::Test::RecordProperty("jerked_mm", std::to_string(worst.jerked));
+  const double per_ask = double(worst.set_points) / double(worst.asked);
+  testing::Test::RecordProperty("ticks_per_inverse", std::to_string(per_ask));
+  return worst;
+}
+
+}  // namespace
+
+TEST_P(SetPointsOf, AreWithinThreeMicrometresOfTheExactChains) {
+  const Worst worst = worstOver(GetParam(), 400, 31, {100, 10, 20, 0.66f, 0.05f}, 15);
+  EXPECT_LT(worst.error, 0.003);
+  EXPECT_LT(worst.jerked, 0.002);
+  EXPECT_GT(worst.set_points, 2 * worst.asked);
+}
+
+TEST_P(SetPointsOf, KeepTheBoundAtAnyFeedAndAcceleration) {
+  for (const double feed : {2.0, 80.0, 600.0})
+    for (const float acceleration : {20.0f, 2000.0f}) {
+      const Worst worst =
+          worstOver(GetParam(), 30, 32, {acceleration, 10, 1000, 0.66f, 0.05f}, feed);
+      EXPECT_LT(worst.error, 0.003) << feed << " " << acceleration;
+    }
+}

@@ -1,0 +1,194 @@
+// A move that is stopped, held, starved or refused: where it comes to rest and how it goes on.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "plain.h"
+
+using namespace motion;
+
+namespace {
+
+/// Largest change of speed along x from one tick to the next [mm/s^2].
+double hardest(const Plain& plain) {
+  double most = 0, last = 0, before = 0;
+  for (const Asked& now : plain.asked) {
+    most = std::max(most, std::fabs(now.x - 2 * last + before) / plain.seconds / plain.seconds);
+    before = last;
+    last = now.x;
+  }
+  return most;
+}
+
+/// On its way along x at full feed.
+Plain cruising() {
+  Plain plain;
+  plain.lineTo(500, 0);
+  plain.lineTo(500, 100);
+  for (int i = 0; i < 200; ++i) plain.tick();
+  return plain;
+}
+
+}  // namespace
+
+TEST(Stop, BrakesAlongThePathAndForgetsTheRest) {
+  for (const double seconds : {0.01, 0.005}) {
+    Plain plain(kGentle, seconds);
+    plain.lineTo(300, 400);
+    plain.lineTo(0, 0);
+    for (int i = 0; i < 500; ++i) plain.tick();
+    const Asked before = plain.asked.back();
+    plain.mover.stop();
+    plain.run();
+    EXPECT_TRUE(plain.mover.isIdle());
+    const Asked& after = plain.asked.back();
+    // What waited in the ring, and v^2 / 2a.
+    EXPECT_NEAR(distance(after, before), 11 * 15 * seconds + 1.125, 0.3);
+    EXPECT_NEAR(after.x * 4 - after.y * 3, 0, 0.002);
+    EXPECT_EQ(plain.now.left, plain.mover.last().left);
+    EXPECT_EQ(plain.now.right, plain.mover.last().right);
+  }
+}
+
+TEST(Stop, LosesSpeedNoFasterThanItMayAtAnyMoment) {
+  for (int at = 1; at < 120; ++at) {
+    Plain plain;
+    plain.lineTo(12, 0);
+    for (int i = 0; i < at; ++i) plain.tick();
+    plain.mover.stop();
+    plain.run();
+    EXPECT_LE(hardest(plain), 205) << at;
+    EXPECT_LE(plain.asked.back().x, 12.0001);
+  }
+}
+
+TEST(Stop, GoesOnFromWhereItStopped) {
+  Plain plain = cruising();
+  plain.mover.stop();
+  plain.run();
+  plain.at = {float(plain.asked.back().x), float(plain.asked.back().y)};
+  plain.lineTo(0, 0);
+  plain.run();
+  EXPECT_EQ(0, plain.now.left);
+  EXPECT_LE(hardest(plain), 205);
+}
+
+TEST(Stop, InShortMovesRunsThroughSeveralOfThem) {
+  Plain plain;
+  for (int i = 1; i <= 300; ++i) plain.lineTo(float(i) * 0.1f, 0);
+  plain.mover.stop();
+  plain.run();
+  EXPECT_TRUE(plain.mover.isIdle());
+  EXPECT_LE(hardest(plain), 205);
+  EXPECT_LT(plain.asked.back().x, 29.9);
+}
+
+TEST(Stop, WithNothingToDoIsNothing) {
+  Plain plain;
+  plain.mover.stop();
+  plain.mover.hold();
+  plain.lineTo(1, 0);
+  plain.run();
+  EXPECT_EQ(toCounts(1.0f), plain.now.left);
+}
+
+TEST(Hold, RestsOnThePathAndResumesToTheSameEnd) {
+  for (int at = 1; at < 400; at += 7) {
+    Plain plain;
+    plain.lineTo(20, 0);
+    plain.lineTo(20, 20, -1);
+    for (int i = 0; i < at; ++i) plain.tick();
+    plain.mover.hold();
+    for (int i = 0; i < 60; ++i) plain.tick();
+    EXPECT_TRUE(plain.mover.isIdle() || plain.mover.isHeld()) << at;
+    const SetPoint held = plain.now;
+    for (int i = 0; i < 20; ++i) plain.tick();
+    EXPECT_EQ(held.left, plain.now.left);
+    EXPECT_EQ(held.right, plain.now.right);
+    plain.mover.resume();
+    plain.run();
+    EXPECT_EQ(toCounts(20.0f), plain.now.left);
+    EXPECT_EQ(toCounts(20.0f), plain.now.right);
+    EXPECT_EQ(toCounts(-1.0f), plain.now.z);
+    // The corner is passed within a tick, at up to 3.5 mm/s.
+    EXPECT_LE(hardest(plain), 410) << at;
+  }
+}
+
+TEST(Hold, ResumedWhileStillBrakingGoesOnAtThatSpeed) {
+  Plain plain = cruising();
+  plain.mover.hold();
+  for (int i = 0; i < 8; ++i) plain.tick();
+  plain.mover.resume();
+  for (int i = 0; i < 100; ++i) plain.tick();
+  const std::vector<double> speeds = plain.speeds();
+  EXPECT_GT(*std::min_element(speeds.begin() + 100, speeds.end()), 5);
+  EXPECT_LE(hardest(plain), 105);
+}
+
+TEST(Hold, CanBeStopped) {
+  Plain plain = cruising();
+  plain.mover.hold();
+  for (int i = 0; i < 60; ++i) plain.tick();
+  plain.mover.stop();
+  plain.run();
+  EXPECT_TRUE(plain.mover.isIdle());
+}
+
+TEST(LateMainProgram, SetPointsWaitWhereTheyAreAndSetOutFromRest) {
+  Plain plain = cruising();
+  int taken = 0;
+  for (int i = 0; i < 30; ++i) taken += plain.tickAlone();
+  EXPECT_EQ(int(SetPoints::kMost), taken + 1);
+  const Asked waited = plain.asked.back();
+  plain.tick();
+  EXPECT_NEAR(plain.asked.back().x - waited.x, 100 * kTick * kTick, 1e-3);
+  plain.run();
+  EXPECT_EQ(toCounts(500.0f), plain.now.left);
+  EXPECT_EQ(toCounts(100.0f), plain.now.right);
+}
+
+TEST(LateMainProgram, IsNotBlamedForAPauseBetweenMoves) {
+  Plain plain;
+  for (int i = 0; i < 50; ++i) plain.tick();
+  plain.lineTo(10, 0);
+  plain.run();
+  EXPECT_LE(hardest(plain), 105);
+  EXPECT_LT(plain.asked.size(), 50u + 90u);
+}
+
+TEST(OutOfReach, SetPointsEndBeforeTheRefusedPlace) {
+  Plain plain;
+  plain.inverse = [](Point<float> at) -> Lengths<float> { return {at.x, at.y, at.x < 100}; };
+  plain.lineTo(200, 0);
+  for (int i = 0; i < 2000 && plain.filled == Filled::kYes; ++i) plain.tick();
+  EXPECT_EQ(Filled::kOutOfReach, plain.filled);
+  while (plain.tickAlone()) {
+  }
+  EXPECT_LT(plain.asked.back().x, 100);
+  plain.mover.forget();
+  EXPECT_TRUE(plain.mover.isIdle());
+  plain.at = {float(plain.asked.back().x), 0};
+  plain.lineTo(0, 0);
+  plain.run();
+  EXPECT_EQ(0, plain.now.left);
+}
+
+TEST(Refused, IsNamedAndChangesNothing) {
+  Plain plain;
+  plain.add(arc(Point<float>{0, 0}, Point<float>{1, 0}, Point<float>{9, 9}, Turn::kClockwise), 0,
+            15);
+  EXPECT_EQ(Added::kNoPath, plain.added);
+  plain.lineTo(0, 0);
+  EXPECT_EQ(Added::kNothing, plain.added);
+  plain.add(line(Point<float>{0, 0}, Point<float>{10, 0}), 0, 0);
+  EXPECT_EQ(Added::kNoFeed, plain.added);
+  plain.add(line(Point<float>{0, 0}, Point<float>{10, 0}), 0, NAN);
+  EXPECT_EQ(Added::kNoFeed, plain.added);
+  plain.add(line(Point<float>{0, 0}, Point<float>{10, 0}), NAN, 15);
+  EXPECT_EQ(Added::kNoPath, plain.added);
+  EXPECT_TRUE(plain.mover.isIdle());
+  for (int i = 0; i < MoveQueue::kMost; ++i)
+    EXPECT_EQ(Added::kYes, plain.mover.add(line(Point<float>{0, 0}, Point<float>{10, 0}), 0, 15));
+  EXPECT_EQ(Added::kFull, plain.mover.add(line(Point<float>{0, 0}, Point<float>{10, 0}), 0, 15));
+}
