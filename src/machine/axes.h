@@ -5,11 +5,12 @@
 #include <Motion.h>
 #include <Settings.h>
 
-#include "axis_loop.h"
 #include "ports.h"
 
 namespace machine {
 
+using motion::AxisLoop;
+using motion::Gains;
 using motion::SetPoint;
 
 /// What was noticed at a tick that must stop the machine.

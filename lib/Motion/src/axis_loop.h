@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdint.h>
 
-namespace machine {
+namespace motion {
 
 /// Gains of one loop, in the published meaning: of an interval of 10 ms.
 struct Gains {
@@ -89,4 +89,4 @@ class AxisLoop {
   float error_, sum_, rpm_, last_rpm_, duty_, wanted_, speed_sum_;
 };
 
-}  // namespace machine
+}  // namespace motion

@@ -1,0 +1,155 @@
+// The loops of one axis on motors with inertia, friction, back-EMF, load and a sagging supply.
+#include <Motion.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "motor.h"
+
+namespace {
+
+const double kChainPerTurn = 63.5;                 // [mm]
+const motion::Gains kPosition = {1300, 0, 34, 1};  // the published defaults
+const motion::Gains kSpeed = {5, 0, 0.28f, 1};
+const unsigned kMotors = 40;
+
+/// One axis: its loops, its motor, and the counts between.
+class Axis {
+ public:
+  Axis(unsigned seed, double rate)
+      : constants_(simulated::anyMotor(seed)), motor(constants_, seed), seconds(1 / rate) {
+    loop_.tune(kPosition, kSpeed, float(seconds));
+    loop_.rest();
+  }
+
+  /// One control tick with the set-point [mm]; the error [mm] before it.
+  double tick(double set_point) {
+    const double per_count = 1 / constants_.counts_per_turn;
+    const int32_t counts = motor.counts();
+    const double turned = (counts - counts_) * per_count;
+    counts_ = counts;
+    loop_.measure(float(turned));
+    const double error = set_point / kChainPerTurn - counts * per_count;
+    const double asked = (set_point - set_point_) / kChainPerTurn;
+    set_point_ = set_point;
+    duty = loop_.follow(float(error), float(asked), float(turned));
+    motor.run(duty, seconds);
+    return set_point - motor.turns() * kChainPerTurn;
+  }
+
+ private:
+  simulated::MotorConstants constants_;
+  motion::AxisLoop loop_;
+  int32_t counts_ = 0;
+  double set_point_ = 0;
+
+ public:
+  simulated::Motor motor;
+  double seconds;
+  int duty = 0;
+};
+
+/// Worst error [mm] along 60 mm there and back with bounded acceleration, after the first tick.
+double worstOnTheWay(unsigned seed, double rate, double feed) {
+  Axis axis(seed, rate);
+  const double top = feed / 60, gain = 100;  // [mm/s], [mm/s^2]
+  double at = 0, speed = 0, worst = 0;
+  for (double goal : {60.0, 0.0}) {
+    while (std::fabs(goal - at) > 1e-6) {
+      const double left = std::fabs(goal - at);
+      speed = std::min({top, speed + gain * axis.seconds, std::sqrt(2 * gain * left)});
+      at =
+          left <= speed * axis.seconds ? goal : at + std::copysign(speed * axis.seconds, goal - at);
+      worst = std::max(worst, std::fabs(axis.tick(at)));
+    }
+    speed = 0;
+  }
+  return worst;
+}
+
+std::vector<double> worstOfMotors(double rate, double feed) {
+  std::vector<double> all;
+  for (unsigned seed = 0; seed < kMotors; ++seed) all.push_back(worstOnTheWay(seed, rate, feed));
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+}  // namespace
+
+class AtRate : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Both, AtRate, testing::Values(100.0, 200.0));
+
+TEST_P(AtRate, ChainsFollowWithinHalfAMillimetre) {
+  for (double feed : {800.0, 1000.0}) {
+    const std::vector<double> all = worstOfMotors(GetParam(), feed);
+    RecordProperty("median_um_at_" + std::to_string(int(feed)), int(1000 * all[kMotors / 2]));
+    printf("%.0f Hz, %.0f mm/min: median %.3f mm, worst %.3f mm\n", GetParam(), feed,
+           all[kMotors / 2], all.back());
+    EXPECT_LT(all[kMotors / 2], 0.5);
+    // The published alarm is at 2 mm: at the clients' greatest feed no motor of these comes near
+    // it. At 1000 mm/min the weakest is at the end of its strength, and one of forty may.
+    EXPECT_LT(all[kMotors - 2], 0.8);
+    if (feed == 800) {
+      EXPECT_LT(all.back(), 0.6);
+    }
+  }
+}
+
+TEST_P(AtRate, AnAxisComesToRestAndStaysThere) {
+  for (unsigned seed = 0; seed < kMotors; ++seed) {
+    Axis axis(seed, GetParam());
+    double lowest = 1e9, highest = -1e9;
+    for (int i = 0; i < int(3 * GetParam()); ++i) {
+      const double error = axis.tick(i < 20 ? 0.05 * i : 1.0);
+      if (i < int(2 * GetParam())) continue;
+      lowest = std::min(lowest, error);
+      highest = std::max(highest, error);
+    }
+    EXPECT_LT(highest - lowest, 0.05) << "motor " << seed;
+    EXPECT_LT(std::max(highest, -lowest), 0.1) << "motor " << seed;
+  }
+}
+
+TEST_P(AtRate, AStepIsPassedByLittle) {
+  for (unsigned seed = 0; seed < kMotors; ++seed) {
+    Axis axis(seed, GetParam());
+    double beyond = 0;
+    for (int i = 0; i < int(2 * GetParam()); ++i) beyond = std::min(beyond, axis.tick(2.0));
+    EXPECT_GT(beyond, -0.8) << "motor " << seed;
+  }
+}
+
+TEST_P(AtRate, ABlockedMotorThatComesFreeDoesNotShootOff) {
+  for (unsigned seed = 0; seed < kMotors; ++seed) {
+    Axis axis(seed, GetParam());
+    axis.motor.wires.blocked = true;
+    for (int i = 0; i < int(GetParam()); ++i) axis.tick(1.5);
+    EXPECT_EQ(255, axis.duty);
+    axis.motor.wires.blocked = false;
+    double beyond = 0, last = 0;
+    for (int i = 0; i < int(2 * GetParam()); ++i) beyond = std::min(beyond, last = axis.tick(1.5));
+    EXPECT_GT(beyond, -0.8) << "motor " << seed;
+    EXPECT_LT(std::fabs(last), 0.1) << "motor " << seed;
+  }
+}
+
+TEST_P(AtRate, WhatIsWiredWronglyLeavesItsSetPointAtOnce) {
+  for (int fault = 0; fault < 3; ++fault) {
+    Axis axis(1, GetParam());
+    axis.motor.wires.motor_reversed = fault == 0;
+    axis.motor.wires.encoder_reversed = fault == 1;
+    axis.motor.wires.encoder_unplugged = fault == 2;
+    int ticks = 0;
+    double travelled = 0;
+    // The measured error is what the alarm sees: driven hard, and nothing or the wrong way.
+    for (double at = 0; ticks < int(GetParam()); ++ticks) {
+      at += 13.3 / GetParam();
+      axis.tick(at);
+      travelled = std::fabs(axis.motor.turns() * kChainPerTurn);
+      if (axis.duty == 255 || axis.duty == -255) break;
+    }
+    EXPECT_LT(ticks, int(0.3 * GetParam())) << "fault " << fault;
+    EXPECT_LT(travelled, 8.0) << "fault " << fault;
+  }
+}
