@@ -101,9 +101,29 @@ TEST(Bound, OfAQuadraticIsReachedByACubic) {
   EXPECT_NEAR(missed_there, missed(6.0, length), 1e-5);
 }
 
-TEST(Bound, LongestSegmentMissesWhatItMay) {
+TEST(Bound, LongestTimeAtConstantSpeedMissesWhatItMay) {
   for (double third : {1e-6, 1e-4, 0.1, 100.0})
-    EXPECT_NEAR(double(kMostMissed), missed(third, longestSegment(third)), 1e-9);
+    for (double speed : {0.01, 0.15, 3.0}) {
+      const double time = longestTime(third, 0.5, speed, 0.0);
+      EXPECT_NEAR(double(kMostMissed), missed(third, time * speed), 1e-9);
+    }
+}
+
+TEST(Bound, OfALengthThatBendsWhileSpeedGrowsIsReached) {
+  // L = s^2 / 2 has the second slope 1; with s = a t^2 / 2 it is a^2 t^4 / 8, whose third slope
+  // 3 a^2 t is 3 * 1 * speed * a. A short while at a high speed is as good as a cubic.
+  const double a = 0.01, t = 100, half = 0.5 * longestTime(0.0, 1.0, a * t, a);
+  const auto length = [&](double time) { return a * a * pow(t + time, 4) / 8; };
+  const double at = -half / sqrt(3.0), u = at / half;
+  const double quadratic =
+      length(-half) * u * (u - 1) / 2 + length(0) * (1 - u * u) + length(half) * u * (u + 1) / 2;
+  EXPECT_NEAR(double(kMostMissed), fabs(length(at) - quadratic), 0.02 * double(kMostMissed));
+}
+
+TEST(Bound, SecondSlopeIsThatOfTheDistance) {
+  const Surroundings<double> around = {100, {0.1, 0.002, 0}};
+  EXPECT_NEAR(0.01 + 0.002, secondSlope(0.0, around), 1e-12);
+  EXPECT_NEAR(0.01 + 0.002 + 0.02 * 1.1, secondSlope(0.02, around), 1e-12);
 }
 
 TEST(Bound, SlopesOfSagAreThoseOfPowers) {

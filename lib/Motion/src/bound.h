@@ -63,12 +63,6 @@ Real missed(Real third_slope, Real segment_length) {
   return third_slope * segment_length * segment_length * segment_length / Real(124.7077);
 }
 
-/// Longest segment [mm] of which no more than kMostMissed is missed.
-template <class Real>
-Real longestSegment(Real third_slope) {
-  return cbrt(Real(124.7077) * Real(kMostMissed) / third_slope);
-}
-
 /// Longest time, in the unit of speed and acceleration, in which a quadratic of time through both
 /// ends and the middle misses no more than kMostMissed, where a path is walked evenly faster or
 /// slower: of a length L at a place s(t)

@@ -61,7 +61,7 @@ class Mover {
   const MoveQueue& queue() const { return queue_; }
 
  private:
-  void standStill() { piece_ = standing({last_.left, last_.right}); }
+  void standStill() { segment_ = standing({last_.left, last_.right}); }
   void cutShort();
   void brake(bool forgets);
   void takeUp();
@@ -75,21 +75,21 @@ class Mover {
   bool pass(const Inverse& inverse);
   template <class Inverse>
   bool step(float change, const Inverse& inverse);
-  // Not inline: every tick would save the registers that only a new piece needs.
+  // Not inline: every tick would save the registers that only a new segment needs.
   template <class Inverse>
   __attribute__((noinline)) bool cut(const Inverse& inverse);
   void advance();
 
   MoveQueue queue_;
-  Walk walk_ = {0, 0};   ///< where the piece in hand ends
+  Walk walk_ = {0, 0};   ///< where the segment in hand ends
   Walk begun_ = {0, 0};  ///< where it began
   float change_ = 0;     ///< of the speed, in each of its ticks
   uint8_t ticks_ = 0;    ///< that it had
-  Segment piece_;        ///< both chains
-  Steps z_piece_;
+  Segment segment_;      ///< both chains
+  Steps z_steps_;
   bool has_z_ = false;                 ///< the first move goes along z
   bool is_taken_up_ = false;           ///< the two below are those of the first move
-  uint8_t even_ticks_, uneven_ticks_;  ///< of a piece, at most
+  uint8_t even_ticks_, uneven_ticks_;  ///< of a segment, at most
   float z_from_ = 0;                   ///< [mm] where the first move begins
   float z_end_ = 0;                    ///< [mm] where the last one ends
   SetPoint last_ = {0, 0, 0};

@@ -1,4 +1,4 @@
-// The bodies of mover.h: pieces between exact knots, even in time; single ticks where moves meet.
+// The bodies of mover.h: segments between exact knots, even in time; single ticks where moves meet.
 #pragma once
 
 #include "mover.h"
@@ -29,11 +29,11 @@ inline Added Mover::add(const Path<float>& path, float z_to, float feed, Space s
 }
 
 inline Walk Mover::walk() const {
-  if (piece_.ticks_left == 0) return walk_;
-  return after(begun_, change_, uint8_t(ticks_ - piece_.ticks_left));
+  if (segment_.ticks_left == 0) return walk_;
+  return after(begun_, change_, uint8_t(ticks_ - segment_.ticks_left));
 }
 
-/// Ends the piece in hand where its last set-point was.
+/// Ends the segment in hand where its last set-point was.
 inline void Mover::cutShort() {
   walk_ = walk();
   standStill();
@@ -66,17 +66,17 @@ inline void Mover::dropFirst() {
   is_taken_up_ = false;
 }
 
-/// How many ticks a piece of the first move may have.
+/// How many ticks a segment of the first move may have.
 inline void Mover::takeUp() {
   const Move& move = queue_.first();
   is_taken_up_ = true;
   has_z_ = move.z_to != z_from_;
-  // In a piece of two ticks both fall on knots.
+  // In a segment of two ticks both fall on knots.
   const float kShort = 5;  // [ticks]
   even_ticks_ = uneven_ticks_ = move.space == Space::kEdge ? 1 : 2;
   if (move.length < kShort * move.top && move.space == Space::kSheet) return;
   if (move.space == Space::kEdge) return;
-  // Up to here two places of a piece are near (kMostRise).
+  // Up to here two places of a segment are near (kMostRise).
   const float longest = kLongestSegment / move.top;
   float even = longest, uneven = longest;
   if (move.path.length > 0 && move.space == Space::kSheet) {
@@ -89,8 +89,8 @@ inline void Mover::takeUp() {
         queue_detail::smaller(uneven, longestTime(third, second, speed, move.acceleration * share));
   }
   // Three ticks would miss to one side and at once to the other: 1.5 times the bound in a step.
-  even_ticks_ = even < 4 ? 2 : stretch_detail::atMost(even, kMostTicks);
-  uneven_ticks_ = uneven < 4 ? 2 : stretch_detail::atMost(uneven, kMostTicks);
+  even_ticks_ = !(even >= 4) ? 2 : stretch_detail::atMost(even, kMostTicks);
+  uneven_ticks_ = !(uneven >= 4) ? 2 : stretch_detail::atMost(uneven, kMostTicks);
 }
 
 /// [counts] so far along the first move.
@@ -110,7 +110,7 @@ Reached Mover::lengthsAt(const Walk& walk, const Inverse& inverse) const {
   return {{toCounts(place.x), toCounts(place.y)}, true};
 }
 
-/// Begins a piece of more than one tick, all within the first move.
+/// Begins a segment of more than one tick, all within the first move.
 template <class Inverse>
 bool Mover::begin(const Stretch& stretch, const Inverse& inverse) {
   const Move& move = queue_.first();
@@ -121,9 +121,9 @@ bool Mover::begin(const Stretch& stretch, const Inverse& inverse) {
   const Knot from = {last_.left, last_.right};
   if (!end.reachable || !between.reachable || !areNear(from, end.knot)) return false;
   if (!areNear(from, between.knot)) return false;
-  piece_ = segmentThrough(from, between.knot, end.knot, stretch.ticks);
+  segment_ = segmentThrough(from, between.knot, end.knot, stretch.ticks);
   if (has_z_)
-    z_piece_ = stepsThrough(last_.z, zAt(move, middle.done), zAt(move, to.done), stretch.ticks);
+    z_steps_ = stepsThrough(last_.z, zAt(move, middle.done), zAt(move, to.done), stretch.ticks);
   begun_ = walk_;
   walk_ = to;
   change_ = stretch.change;
@@ -174,7 +174,7 @@ bool Mover::step(float change, const Inverse& inverse) {
   return true;
 }
 
-/// The next set-point, where no piece is in hand. False: no sled can hang there, and the last one
+/// The next set-point, where no segment is in hand. False: no sled can hang there, and the last one
 /// stands.
 template <class Inverse>
 bool Mover::cut(const Inverse& inverse) {
@@ -190,14 +190,14 @@ bool Mover::cut(const Inverse& inverse) {
   return true;
 }
 
-/// The next set-point of the piece in hand.
+/// The next set-point of the segment in hand.
 inline void Mover::advance() {
-  piece_.advance();
-  last_.left = piece_.left.length.whole;
-  last_.right = piece_.right.length.whole;
+  segment_.advance();
+  last_.left = segment_.left.length.whole;
+  last_.right = segment_.right.length.whole;
   if (has_z_) {
-    z_piece_.advance();
-    last_.z = z_piece_.length.whole;
+    z_steps_.advance();
+    last_.z = z_steps_.length.whole;
   }
 }
 
@@ -209,7 +209,7 @@ Filled Mover::fill(SetPoints& set_points, const Inverse& inverse) {
     walk_.speed = 0;
   }
   while (!queue_.isEmpty() && set_points.hasRoom()) {
-    if (piece_.ticks_left != 0) {
+    if (segment_.ticks_left != 0) {
       advance();
       set_points.push(last_);
       continue;
