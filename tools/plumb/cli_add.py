@@ -15,10 +15,10 @@ from plumb.cli_files import (
     Inputs,
     add_json,
     add_marks,
+    add_prior,
+    add_sigma,
     inputs_of,
-    length,
     picture_form,
-    prior,
     refuse_twins,
     write_outputs,
 )
@@ -67,20 +67,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help="also write a groundcontrol.ini: other keys as they were in SETTINGS or --cut-with",
     )
-    parser.add_argument(
-        "--prior",
-        metavar="NAME=SIGMA",
-        action="append",
-        type=prior,
-        default=[],
-        help="how far (one sigma; mm, N, rad) a stated number may be wrong; 0 holds it",
-    )
-    parser.add_argument(
-        "--sigma",
-        metavar="MM",
-        type=length,
-        help="reading error of one coordinate [tape_sigma_mm of MARKS, else from the residuals]",
-    )
+    add_prior(parser)
+    add_sigma(parser, usual="tape_sigma_mm of MARKS, else from the residuals")
     parser.add_argument("--picture", metavar="FILE", help="draw before and after: .png, .svg, .pdf")
     add_json(parser)
 

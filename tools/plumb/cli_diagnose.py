@@ -8,7 +8,7 @@ from typing import Any
 from plumb.add import priors_with
 from plumb.catalogue import every_effect, label, place_of
 from plumb.cli_checked import add_checked, usable_checks
-from plumb.cli_files import add_json, add_marks, inputs_of, length, prior
+from plumb.cli_files import add_json, add_marks, add_prior, add_sigma, inputs_of
 from plumb.cli_text import millimetres, number, print_json, sentences, table
 from plumb.diagnose import Diagnosis, diagnose
 from plumb.diagnose.diagnosis import Ranked, Together
@@ -35,20 +35,8 @@ SHOWN = 8  # suspects and hiding effects that people are shown; --json has all
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of `plumb diagnose`."""
     add_marks(parser)
-    parser.add_argument(
-        "--prior",
-        metavar="NAME=SIGMA",
-        action="append",
-        type=prior,
-        default=[],
-        help="how far (one sigma; mm, rad) a stated number of the frame may be wrong; 0 holds it",
-    )
-    parser.add_argument(
-        "--sigma",
-        metavar="MM",
-        type=length,
-        help="reading error of one coordinate [repeats, else tape_sigma_mm of MARKS, else 0.5]",
-    )
+    add_prior(parser)
+    add_sigma(parser, usual="repeats, else tape_sigma_mm of MARKS, else 0.5")
     add_checked(parser)
     add_json(parser)
 

@@ -59,6 +59,28 @@ def add_controller(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_prior(parser: argparse.ArgumentParser) -> None:
+    """The option --prior."""
+    parser.add_argument(
+        "--prior",
+        metavar="NAME=SIGMA",
+        action="append",
+        type=prior,
+        default=[],
+        help="how far (one sigma; mm, N, rad) a stated number may be wrong; 0 holds it",
+    )
+
+
+def add_sigma(parser: argparse.ArgumentParser, *, usual: str) -> None:
+    """The option --sigma; `usual` says what holds without it."""
+    parser.add_argument(
+        "--sigma",
+        metavar="MM",
+        type=length,
+        help=f"reading error of one coordinate [{usual}]",
+    )
+
+
 def add_json(parser: argparse.ArgumentParser) -> None:
     """The option --json."""
     parser.add_argument("--json", action="store_true", help="print one JSON object and no more")

@@ -17,10 +17,10 @@ from plumb.cli_files import (
     Inputs,
     add_json,
     add_marks,
+    add_prior,
+    add_sigma,
     inputs_of,
-    length,
     picture_form,
-    prior,
     refuse_twins,
     write_outputs,
 )
@@ -49,20 +49,8 @@ HEADS = {
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of `plumb next`."""
     add_marks(parser)
-    parser.add_argument(
-        "--prior",
-        metavar="NAME=SIGMA",
-        action="append",
-        type=prior,
-        default=[],
-        help="how far (one sigma; mm, rad) a stated number of the frame may be wrong; 0 holds it",
-    )
-    parser.add_argument(
-        "--sigma",
-        metavar="MM",
-        type=length,
-        help="reading error of one coordinate [as plumb diagnose takes it]",
-    )
+    add_prior(parser)
+    add_sigma(parser, usual="as plumb diagnose takes it")
     add_checked(parser)
     parser.add_argument(
         "--choose",

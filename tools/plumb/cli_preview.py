@@ -9,10 +9,10 @@ from plumb.add import priors_with
 from plumb.cli_files import (
     add_controller,
     add_json,
+    add_prior,
     add_settings,
     length,
     picture_form,
-    prior,
     settings_in,
     write_outputs,
 )
@@ -52,14 +52,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=length,
         help=f"reading error of one coordinate [tape_sigma_mm of PLAN, else {USUAL_SIGMA:g}]",
     )
-    parser.add_argument(
-        "--prior",
-        metavar="NAME=SIGMA",
-        action="append",
-        type=prior,
-        default=[],
-        help="how far (one sigma; mm, rad) a stated number of the frame may be wrong; 0 holds it",
-    )
+    add_prior(parser)
     add_controller(parser)
     parser.add_argument("--picture", metavar="FILE", help="draw the table: .png, .svg or .pdf")
     add_json(parser)
