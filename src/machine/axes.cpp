@@ -8,12 +8,6 @@
 namespace machine {
 namespace {
 
-// An encoder that shows less than this while its motor has been driven this hard for so long is
-// unplugged, or the motor is.
-const int16_t kHardDuty = 250;
-const uint8_t kHardTicks = 100;
-const uint8_t kLeastCounts = 4;
-
 float withinTravel(float length) {
   if (length > kMostTravel) return kMostTravel;
   return length < -kMostTravel ? -kMostTravel : length;
@@ -28,7 +22,6 @@ Gains gainsFrom(const settings::Values& values, uint8_t first) {
 
 void Axes::prepare(const settings::Values& values) {
   const WithoutTicks hold(clock_);
-  error_limit_ = values.at(kPositionErrorLimit);
   for (uint8_t i = 0; i < kAxisCount; ++i) {
     One& one = axis_[i];
     const bool z = i == kZAxis;
@@ -43,6 +36,8 @@ void Axes::prepare(const settings::Values& values) {
     one.sign = counts < 0 ? -1 : 1;
     one.loop.tune(gainsFrom(values, z ? kZPositionP : kMainPositionP),
                   gainsFrom(values, z ? kZSpeedP : kMainSpeedP), seconds_per_tick_);
+    one.watch.tune(values.at(kPositionErrorLimit), seconds_per_tick_);
+    one.is_held = values.at(z ? kZPositionP : kMainPositionP) > 0;
   }
 }
 
@@ -67,15 +62,6 @@ void Axes::takeSetPoint() {
   }
 }
 
-void Axes::watch(One& one, Axis axis, float error) {
-  if (axis != kZAxis && float(fabs(error)) >= error_limit_) trouble_ = Trouble::kLeftBehind;
-  const bool hard = one.duty >= kHardDuty || one.duty <= -kHardDuty;
-  if (!hard || one.moved > kLeastCounts || one.moved < -kLeastCounts)
-    one.hard_ticks = 0;
-  else if (++one.hard_ticks >= kHardTicks && error_limit_ < 100)
-    trouble_ = Trouble::kEncoder;
-}
-
 void Axes::control(One& one, Axis axis) {
   const float turned = float(one.moved) * one.turns_per_count;
   one.loop.measure(turned);
@@ -88,7 +74,8 @@ void Axes::control(One& one, Axis axis) {
     const float error = motion::toMm<float>(one.set_point - measured(one));
     const float asked = one.asked == 0 ? 0 : motion::toMm<float>(one.asked) * one.turns_per_mm;
     one.duty = one.loop.follow(error * one.turns_per_mm, asked, turned);
-    watch(one, axis, error);
+    const motion::Fault seen = one.watch.look(one.duty, one.moved, error);
+    if (seen != motion::Fault::kNone && one.is_held) fault_ = seen;
   } else if (one.mode == AxisMode::kTurn) {
     one.duty = one.loop.run(one.rpm);
   }
@@ -139,10 +126,10 @@ void Axes::follow() {
   for (One& one : axis_) {
     if (one.mode == AxisMode::kFollow) continue;
     one.loop.rest();
-    one.hard_ticks = 0;
+    one.watch.rest();
     one.mode = AxisMode::kFollow;
   }
-  trouble_ = Trouble::kNone;
+  fault_ = motion::Fault::kNone;
 }
 
 void Axes::release(Axis axis) {
@@ -224,10 +211,10 @@ void Axes::forgetRawCounts() {
   for (uint8_t i = 0; i < kAxisCount; ++i) axis_[i].raw = drives_.count(Axis(i));
 }
 
-Trouble Axes::trouble() {
+motion::Fault Axes::fault() {
   const WithoutTicks hold(clock_);
-  const Trouble was = trouble_;
-  trouble_ = Trouble::kNone;
+  const motion::Fault was = fault_;
+  fault_ = motion::Fault::kNone;
   return was;
 }
 

@@ -13,13 +13,6 @@ using motion::AxisLoop;
 using motion::Gains;
 using motion::SetPoint;
 
-/// What was noticed at a tick that must stop the machine.
-enum class Trouble : uint8_t {
-  kNone,
-  kLeftBehind,  ///< a chain is farther from its set-point than $42 allows
-  kEncoder,     ///< a motor is driven hard and its encoder does not move
-};
-
 /// [mm] No axis reaches farther; twice as much still fits the counts of a set-point.
 const float kMostTravel = 16000;
 
@@ -92,15 +85,15 @@ class Axes {
   void forgetRawCounts();
 
   /// What was noticed since this was last asked.
-  Trouble trouble();
+  motion::Fault fault();
 
  private:
   struct One {
     AxisMode mode = AxisMode::kOff;
-    int8_t sign = 1;         ///< of drive against count
-    uint8_t hard_ticks = 0;  ///< driven hard without moving
-    uint16_t raw = 0;        ///< encoder, as last read
-    int16_t moved = 0;       ///< [encoder counts] at the last tick
+    int8_t sign = 1;      ///< of drive against count
+    bool is_held = true;  ///< its position loop has a gain; without one nothing is watched
+    uint16_t raw = 0;     ///< encoder, as last read
+    int16_t moved = 0;    ///< [encoder counts] at the last tick
     int16_t duty = 0;
     int32_t most_counts = 0;  ///< [encoder counts] of kMostTravel
     int32_t counts = 0;       ///< [encoder counts] since zero length
@@ -112,12 +105,12 @@ class Axes {
     float fine_per_count = 1;  ///< counts of motion::kCountsPerMm per encoder count
     float rpm = 0;             ///< asked for with kTurn
     AxisLoop loop;
+    motion::Watch watch;
   };
 
   void takeSetPoint();
   void readEncoder(One& one, Axis axis);
   void control(One& one, Axis axis);
-  void watch(One& one, Axis axis, float error);
   int32_t measured(const One& one) const;
 
   Drives& drives_;
@@ -125,8 +118,7 @@ class Axes {
   motion::SetPoints set_points_;
   One axis_[kAxisCount];
   float seconds_per_tick_ = 0.01f;
-  float error_limit_ = 2;
-  volatile Trouble trouble_ = Trouble::kNone;
+  volatile motion::Fault fault_ = motion::Fault::kNone;
   bool simulated_ = false;
 };
 

@@ -120,17 +120,21 @@ void Machine::watchAxes() {
     hung_ = false;
     raiseAlarm(FLASH("The firmware was busy for too long; motors were switched off. Press Stop."));
   }
-  const Trouble trouble = axes_.trouble();
+  const motion::Fault fault = axes_.fault();
   // Tests make errors on purpose.
   if (is_testing_) return;
-  if (trouble == Trouble::kLeftBehind)
+  if (fault == motion::Fault::kLeftBehind)
     raiseAlarm(
         FLASH("The sled is not keeping up with its expected position and has halted. Press Stop, "
               "then look for what holds it."));
-  if (trouble == Trouble::kEncoder)
+  if (fault == motion::Fault::kStands)
     raiseAlarm(
         FLASH("The sled is not keeping up with its expected position: a motor is driven and its "
               "encoder stands still. Check the cables, press Stop, set the chain lengths."));
+  if (fault == motion::Fault::kTurnsBack)
+    raiseAlarm(
+        FLASH("The sled is not keeping up with its expected position: a motor turns against its "
+              "drive; it or its encoder is wired in reverse. Press Stop, check the cables."));
 }
 
 void Machine::noteHang() {

@@ -51,10 +51,11 @@ class Motor {
 
   /// Counts as the board sees them.
   int32_t counts() {
-    if (wires.encoder_unplugged) return 0;
+    if (wires.encoder_unplugged) return told_;
     std::normal_distribution<double> early(0, c_.count_noise);
     const double sign = wires.encoder_reversed ? -1 : 1;
-    return int32_t(std::floor(sign * turns() * c_.counts_per_turn + early(source_)));
+    told_ = int32_t(std::floor(sign * turns() * c_.counts_per_turn + early(source_)));
+    return told_;
   }
 
  private:
@@ -79,6 +80,7 @@ class Motor {
   MotorConstants c_;
   std::mt19937 source_;
   double angle_ = 0, speed_ = 0;
+  int32_t told_ = 0;  ///< [counts] last
 };
 
 /// Motors as they come: every constant off by up to 30 %.

@@ -1,70 +1,17 @@
 // The loops of one axis on motors with inertia, friction, back-EMF, load and a sagging supply.
-#include <Motion.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <vector>
-
-#include "motor.h"
+#include "axis.h"
 
 namespace {
-
-const double kChainPerTurn = 63.5;                 // [mm]
-const motion::Gains kPosition = {1300, 0, 34, 1};  // the published defaults
-const motion::Gains kSpeed = {5, 0, 0.28f, 1};
-const unsigned kMotors = 40;
-
-/// One axis: its loops, its motor, and the counts between.
-class Axis {
- public:
-  Axis(unsigned seed, double rate)
-      : constants_(simulated::anyMotor(seed)), motor(constants_, seed), seconds(1 / rate) {
-    loop_.tune(kPosition, kSpeed, float(seconds));
-    loop_.rest();
-  }
-
-  /// One control tick with the set-point [mm]; the error [mm] before it.
-  double tick(double set_point) {
-    const double per_count = 1 / constants_.counts_per_turn;
-    const int32_t counts = motor.counts();
-    const double turned = (counts - counts_) * per_count;
-    counts_ = counts;
-    loop_.measure(float(turned));
-    const double error = set_point / kChainPerTurn - counts * per_count;
-    const double asked = (set_point - set_point_) / kChainPerTurn;
-    set_point_ = set_point;
-    duty = loop_.follow(float(error), float(asked), float(turned));
-    motor.run(duty, seconds);
-    return set_point - motor.turns() * kChainPerTurn;
-  }
-
- private:
-  simulated::MotorConstants constants_;
-  motion::AxisLoop loop_;
-  int32_t counts_ = 0;
-  double set_point_ = 0;
-
- public:
-  simulated::Motor motor;
-  double seconds;
-  int duty = 0;
-};
 
 /// Worst error [mm] along 60 mm there and back with bounded acceleration, after the first tick.
 double worstOnTheWay(unsigned seed, double rate, double feed) {
   Axis axis(seed, rate);
-  const double top = feed / 60, gain = 100;  // [mm/s], [mm/s^2]
-  double at = 0, speed = 0, worst = 0;
-  for (double goal : {60.0, 0.0}) {
-    while (std::fabs(goal - at) > 1e-6) {
-      const double left = std::fabs(goal - at);
-      speed = std::min({top, speed + gain * axis.seconds, std::sqrt(2 * gain * left)});
-      at =
-          left <= speed * axis.seconds ? goal : at + std::copysign(speed * axis.seconds, goal - at);
-      worst = std::max(worst, std::fabs(axis.tick(at)));
-    }
-    speed = 0;
-  }
+  ToAndFro way(feed, axis.seconds);
+  double worst = 0;
+  for (double goal : {60.0, 0.0})
+    while (!way.isAt(goal)) worst = std::max(worst, std::fabs(axis.tick(way.towards(goal))));
   return worst;
 }
 

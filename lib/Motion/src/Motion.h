@@ -4,3 +4,4 @@
 
 #include "axis_loop.h"
 #include "mover.h"
+#include "watch.h"
