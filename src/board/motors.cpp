@@ -95,6 +95,12 @@ uint16_t Motors::count(Axis axis) {
   return wiring.reversed ? uint16_t(-count) : count;
 }
 
+uint16_t Motors::illegalSteps(Axis axis) {
+  uint16_t illegal;
+  ATOMIC_BLOCK(ATOMIC_RESTORESTATE) { illegal = encoders[encoder_[axis].pair].illegal; }
+  return illegal;
+}
+
 void Motors::arrange(bool over_top, uint8_t pwm_choice) {
   if (!shield_) return;
   for (uint8_t i = 0; i < kAxisCount; ++i) {

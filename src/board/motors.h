@@ -16,6 +16,7 @@ class Motors : public machine::Drives {
   void drive(machine::Axis axis, int16_t duty) override;
   void release(machine::Axis axis) override;
   uint16_t count(machine::Axis axis) override;
+  uint16_t illegalSteps(machine::Axis axis) override;
   void arrange(bool over_top, uint8_t pwm_choice) override;
   /// Takes the power off all motors, from wherever it is called.
   void releaseAll();

@@ -21,13 +21,15 @@ struct EncoderWiring {
 /// when the high channel leads, 0, 2, 3, 1. Where both changed nobody knows the direction.
 const int8_t kQuadratureSteps[16] = {0, -1, +1, 0, +1, 0, 0, -1, -1, 0, 0, +1, 0, +1, -1, 0};
 
-/// One pair of channels and its count.
+/// One pair of channels, its count, and how often an edge was missed.
 struct Quadrature {
   uint8_t state;
-  uint16_t count;  ///< wraps round
+  uint16_t count;    ///< wraps round
+  uint16_t illegal;  ///< steps in which both channels changed; wraps round
 
   /// Takes the channels' new levels, high channel in bit 1.
   __attribute__((always_inline)) void turn(uint8_t bits) {
+    if ((state ^ bits) == 3) ++illegal;
     count = uint16_t(count + kQuadratureSteps[uint8_t(state << 2) | bits]);
     state = bits;
   }

@@ -32,6 +32,9 @@ class Drives {
   virtual void release(Axis axis) = 0;
   /// Encoder counts, running on and wrapping round; rising as chain is paid out.
   virtual uint16_t count(Axis axis) = 0;
+  /// How often both channels of an encoder changed at once, so that nobody knows which way it
+  /// turned: an edge was missed, or noise came in. Runs on and wraps round.
+  virtual uint16_t illegalSteps(Axis axis) = 0;
   /// Tells how the chains leave their sprockets, and which of the published PWM frequencies
   /// ($39: 1, 2, 3) is wanted; motors stand still meanwhile.
   virtual void arrange(bool over_top, uint8_t pwm_choice) = 0;

@@ -18,7 +18,7 @@ int countWhenSecondLeads(const Shield& shield, Motor motor, bool over_top) {
   const bool cross = motor == Motor::kZ || isCrossed(motor, over_top);
   const int second = cross ? pins.encoder_a : pins.encoder_b;
   const EncoderWiring wiring = encoderOf(shield, motor, over_top);
-  Quadrature quadrature = {0, 0};
+  Quadrature quadrature = {0, 0, 0};
   quadrature.turn(second == kHighPin[wiring.pair] ? 2 : 1);
   const int count = int16_t(quadrature.count);
   return wiring.reversed ? -count : count;
@@ -27,7 +27,7 @@ int countWhenSecondLeads(const Shield& shield, Motor motor, bool over_top) {
 }  // namespace
 
 TEST(Quadrature, CountsFourEdgesATurnOfItsChannels) {
-  Quadrature quadrature = {0, 0};
+  Quadrature quadrature = {0, 0, 0};
   for (int i = 1; i <= 4000; ++i) quadrature.turn(kRising[i % 4]);
   EXPECT_EQ(quadrature.count, 4000);
   for (int i = 3999; i >= 0; --i) quadrature.turn(kRising[i % 4]);
@@ -35,17 +35,30 @@ TEST(Quadrature, CountsFourEdgesATurnOfItsChannels) {
 }
 
 TEST(Quadrature, WrapsRoundBelowZero) {
-  Quadrature quadrature = {0, 0};
+  Quadrature quadrature = {0, 0, 0};
   quadrature.turn(1);
   EXPECT_EQ(int16_t(quadrature.count), -1);
 }
 
 TEST(Quadrature, CountsNothingWhenBothChannelsChangeOrNone) {
   for (uint8_t state = 0; state < 4; ++state) {
-    Quadrature quadrature = {state, 7};
+    Quadrature quadrature = {state, 7, 0};
     quadrature.turn(state);
     quadrature.turn(state ^ 3);
     EXPECT_EQ(quadrature.count, 7);
+  }
+}
+
+TEST(Quadrature, TellsHowManyStepsWereIllegal) {
+  Quadrature quadrature = {0, 0, 0};
+  for (int i = 1; i <= 400; ++i) quadrature.turn(kRising[i % 4]);
+  EXPECT_EQ(quadrature.illegal, 0) << "one channel after the other";
+  for (uint8_t state = 0; state < 4; ++state) {
+    quadrature.state = state;
+    quadrature.turn(state);
+    EXPECT_EQ(quadrature.illegal, state) << "nothing changed";
+    quadrature.turn(state ^ 3);
+    EXPECT_EQ(quadrature.illegal, state + 1) << "both changed";
   }
 }
 
