@@ -1,26 +1,38 @@
 """What the checks share: the project's own files, and how a violation is told."""
 
-import subprocess
+import os
 import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
+
+import pathspec
 
 ROOT = Path(__file__).resolve().parents[2]
 CXX = {".h", ".hpp", ".cpp"}
 
 
 def own_files(root: Path) -> list[Path]:
-    """Files below `root` that belong to the project: tracked by git, or new and not ignored."""
-    listing = subprocess.run(
-        ["git", "-C", root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-        capture_output=True,
-        text=True,
+    """Files below `root` that belong to the project: all that its .gitignore does not name.
+
+    It needs no git, so a downloaded archive of the project can be checked as well.
+    """
+    listed = root / ".gitignore"
+    ignored = pathspec.GitIgnoreSpec.from_lines(
+        text_of(listed).splitlines() if listed.is_file() else []
     )
-    if listing.returncode == 0:
-        found = {root / name for name in listing.stdout.split("\0") if name}
-    else:
-        found = set(root.rglob("*"))
-    return sorted(path for path in found if path.is_file())
+    files = []
+    for folder, folders, names in os.walk(root):
+        here = Path(folder).relative_to(root)
+        # What is ignored is not entered: .venv alone holds more files than the project.
+        folders[:] = [
+            name
+            for name in folders
+            if name != ".git" and not ignored.match_file(f"{(here / name).as_posix()}/")
+        ]
+        files += [
+            root / here / name for name in names if not ignored.match_file((here / name).as_posix())
+        ]
+    return sorted(path for path in files if path.is_file())
 
 
 def text_of(path: Path) -> str:

@@ -1,25 +1,23 @@
-# Compilers, simulator and libraries from Debian or Ubuntu; sourced by tools/setup.
+# The packages of debian_packages.txt, from Debian or Ubuntu; sourced by tools/setup.
 
-debian_packages=(
-  gcc-avr binutils-avr avr-libc arduino-core-avr avrdude  # the firmware
-  simavr libsimavr-dev libelf-dev                         # the virtual machine
-  g++ cmake libeigen3-dev googletest                      # host tests and the Python module
-  python3-venv                                            # the project's own Python packages
-)
-
+# setup_debian SET: SET is "lab" or "all".
 setup_debian() {
+  local missing
   if ! command -v apt-get >/dev/null; then
-    command -v g++ cmake simavr >/dev/null ||
-      say "no apt-get here; install by other means what these packages hold: ${debian_packages[*]}"
+    command -v g++ cmake python3 >/dev/null ||
+      stop "there is no apt-get here; install what these packages bring: $(packages_for "$1")"
     return
   fi
-  local missing
-  missing=$(missing_packages)
+  missing=$(missing_packages "$1")
   [ -n "$missing" ] || return 0
 
   local as_root=()
-  [ "$(id -u)" = 0 ] || as_root=(sudo)
-  say "installs with ${as_root[*]:+sudo }apt-get:${missing//$'\n'/ }"
+  if [ "$(id -u)" != 0 ]; then
+    command -v sudo >/dev/null || needs_administrator "$missing"
+    sudo -v 2>/dev/null || needs_administrator "$missing"
+    as_root=(sudo)
+  fi
+  say "installs with ${as_root[*]:+sudo }apt-get: $missing"
   "${as_root[@]}" apt-get update >"$log" 2>&1 ||
     stop "apt-get update failed: $(tail -n 1 "$log") (all of it in .setup.log)"
   # shellcheck disable=SC2086  # one word per package
@@ -28,12 +26,29 @@ setup_debian() {
     stop "apt-get install failed: $(tail -n 1 "$log") (all of it in .setup.log)"
 }
 
-# Those of debian_packages that are not installed, each after a space.
+needs_administrator() {
+  stop "an administrator has to install packages first: apt-get install --no-install-recommends $1"
+}
+
+# The packages that a set needs, on one line.
+packages_for() {
+  local package group rest names=()
+  while IFS='|' read -r package group rest; do
+    package=${package// /} group=${group// /}
+    case "$package" in '' | '#'*) continue ;; esac
+    if [ "$group" = lab ] || [ "$group" = "$1" ]; then names+=("$package"); fi
+  done <"$root/tools/setup_steps/debian_packages.txt"
+  printf '%s' "${names[*]}"
+}
+
+# Those of them that are not installed, on one line.
 missing_packages() {
-  local installed package
-  installed=" $(dpkg-query -W -f '${binary:Package}=${db:Status-Abbrev} ' "${debian_packages[@]}" \
+  local installed package missing=()
+  # shellcheck disable=SC2046  # one word per package
+  installed=" $(dpkg-query -W -f '${binary:Package}=${db:Status-Abbrev} ' $(packages_for "$1") \
     2>/dev/null | sed 's/:[a-z0-9]*=/=/g') " || true
-  for package in "${debian_packages[@]}"; do
-    [[ $installed == *" $package=ii "* ]] || printf ' %s' "$package"
+  for package in $(packages_for "$1"); do
+    [[ $installed == *" $package=ii "* ]] || missing+=("$package")
   done
+  printf '%s' "${missing[*]}"
 }

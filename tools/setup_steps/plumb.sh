@@ -4,7 +4,7 @@
 plumb_sources=(
   tools/pyproject.toml tools/CMakeLists.txt tools/core lib/Kinematics lib/Settings
   src/settings_table.h src/settings_effects.h src/effective.h test/settings_host/plain_table.h
-  tools/requirements.txt
+  tools/requirements_lab.txt
 )
 
 setup_plumb() {

@@ -8,6 +8,8 @@ import pytest
 
 CHECKS = Path(__file__).resolve().parents[1] / "checks"
 
+# Put together here, so that the check does not find it in this file.
+BAD = "TO" + "DO\n"
 GOOD = {
     "lib/Kinematics/src/strand.h": "#include <math.h>\n",
     "lib/Kinematics/src/Kinematics.h": '#include "strand.h"\n',
@@ -197,3 +199,69 @@ def test_generated_reports_a_stale_page(tmp_path):
     command = [sys.executable, "-B", "-c", code, CHECKS, tmp_path]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     assert done.stdout == "stale.py --check: docs/effects.md is stale\n"
+
+
+PACKAGES = "tools/setup_steps/debian_packages.txt"
+CALLS = {
+    PACKAGES: "# a comment\nmake | all | make | builds\nbash | base | bash | runs scripts\n",
+    "tools/build": '#!/usr/bin/env bash\ngo() { :; }\ngo\nmake "$1"\n"./$1"\n',
+}
+
+
+def test_programs_lets_a_tree_pass_whose_programs_have_packages(tmp_path):
+    code, text = said("programs", plant(tmp_path, CALLS))
+    assert (code, text.count("\n")) == (0, 1), text
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "line"),
+    [
+        ("a.sh", "foo --bar\n", 1),
+        ("a.sh", "x=$(ls | foo)\n", 1),
+        ("a.sh", "nice -n 5 timeout 6 foo bar\n", 1),
+        ("a.sh", "env A=1 foo\n", 1),
+        ("a.sh", '"${as_root[@]}" foo\n', 1),
+        ("Makefile", "all:\n\t@foo -p x\n", 2),
+        ("Makefile", "CXX := foo\n", 1),
+        ("Makefile", "x = $(shell foo .)\n", 1),
+        ("a.py", 'import subprocess\n\nsubprocess.run(["foo", "-x"])\n', 3),
+        ("a.py", 'import subprocess\n\ncommand = ["foo"]\nsubprocess.Popen([*command, 1])\n', 3),
+        ("a.py", 'import subprocess\n\ncommand = ["foo"]\nsubprocess.run(command)\n', 3),
+        ("a.py", 'output("foo", "-x")\n', 1),
+        ("a.py", 'shutil.which("foo")\n', 1),
+        ("a.py", 'env.Replace(CC="foo")\n', 1),
+        ("a.py", 'env.VerboseAction("foo -O ihex", "Builds")\n', 1),
+        ("a.cpp", 'FILE* f = popen("foo -x", "r");\n', 1),
+    ],
+)
+def test_programs_names_a_program_that_no_package_brings(tmp_path, name, text, line):
+    packages = CALLS[PACKAGES] + "coreutils | base | env ls nice timeout | common commands\n"
+    others = {PACKAGES: packages, "b.sh": "ls\ntimeout 1 nice env true\n"}
+    code, out = said("programs", plant(tmp_path, {**CALLS, **others, name: text}))
+    assert code == 1
+    assert out == f"{name}:{line}: calls foo, which no package in {PACKAGES} brings\n"
+
+
+@pytest.mark.parametrize(
+    ("row", "expected"),
+    [
+        ("gcc | all | gcc | compiles", ":4: nothing calls gcc of gcc"),
+        ("gcc | some | - | compiles", ":4: write package | lab, all or base | programs | why"),
+        ("gcc | all | -", ":4: write package | lab, all or base | programs | why"),
+        ("gcc | all | - |", ":4: write package | lab, all or base | programs | why"),
+        ("dpkg | all | make | builds", ":4: dpkg does not bring make"),
+    ],
+)
+def test_programs_names_a_row_that_is_wrong(tmp_path, row, expected):
+    plant(tmp_path, {**CALLS, PACKAGES: CALLS[PACKAGES] + row + "\n"})
+    code, out = said("programs", tmp_path)
+    assert (code, out) == (1, f"{PACKAGES}{expected}\n")
+
+
+def test_checks_pass_over_what_gitignore_names_and_need_no_git(tmp_path):
+    ignored = {".gitignore": "/.venv/\n*.pyc\n", ".venv/lib/a.md": BAD, "docs/b.pyc": BAD}
+    git = {".git/a.md": BAD}
+    plant(tmp_path, {**GOOD, **ignored, **git})
+    assert said("words", tmp_path)[0] == 0
+    plant(tmp_path, {"docs/.venv/c.md": BAD})
+    assert said("words", tmp_path)[1].startswith("docs/.venv/c.md:1:")
