@@ -124,15 +124,34 @@ class Player {
       restart();
       return machine_->board.strap(uint8_t(std::atoi(rest.c_str())));
     }
-    if (verb == "stream") return stream(std::atoi(rest.c_str()));
+    if (verb == "stream") {
+      std::string with_z;
+      words >> with_z;
+      return stream(std::atoi(rest.c_str()), with_z == "z");
+    }
+    if (verb == "measure") return measure(std::atof(rest.c_str()));
     const int axis = rest == "left" ? 0 : rest == "right" ? 1 : 2;
     const bool winds = verb == "wound" && machine_->most_drive[axis] > 0.1;
     const bool pays = verb == "paid" && machine_->least_drive[axis] < -0.1;
     if (!winds && !pays) throw Failure("it did not");
   }
 
+  /// Tells what the control tick takes of the next seconds.
+  void measure(double seconds) {
+    machine_->board.watchTicksFromNow();
+    machine_->run(seconds);
+    tellTicks("moving");
+  }
+
+  void tellTicks(const char* when) const {
+    const vm::VirtualBoard& board = machine_->board;
+    std::printf("tick_share_%s %.4f\n", when, board.tickShare());
+    std::printf("longest_tick_%s %ld\n", when, board.longestTick());
+    std::printf("ticks_per_second_%s %.2f\n", when, board.ticksPerSecond());
+  }
+
   /// Short moves as fast as they are acknowledged, 126 characters ahead; tells how many a second.
-  void stream(int count) {
+  void stream(int count, bool with_z) {
     std::deque<std::size_t> unanswered;
     std::size_t waiting = 0;
     int sent = 0, answered = 0;
@@ -142,8 +161,10 @@ class Player {
       char text[40];
       // 0.05 mm each, round and round, in the words of a program for smooth curves.
       const double angle = sent * 0.01;
-      std::snprintf(text, sizeof text, "G1 X%.3f Y%.3f\n", 5 * std::cos(angle),
-                    5 * std::sin(angle));
+      const int length_xy = std::snprintf(text, sizeof text, "G1 X%.3f Y%.3f", 5 * std::cos(angle),
+                                          5 * std::sin(angle));
+      std::snprintf(text + length_xy, sizeof text - length_xy, with_z ? " Z%.3f\n" : "\n",
+                    0.2 * std::sin(angle));
       const std::size_t length = std::string(text).size();
       if (sent < count && waiting + length <= 126) {
         machine_->board.send(text);
@@ -161,8 +182,7 @@ class Player {
         ++answered;
       }
     }
-    std::printf("tick_share_streaming %.4f\n", machine_->board.tickShare());
-    std::printf("longest_tick_streaming %ld\n", machine_->board.longestTick());
+    tellTicks("streaming");
     std::printf("lines_per_second %.1f\n", count / (machine_->board.seconds() - start));
   }
 

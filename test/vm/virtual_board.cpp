@@ -38,6 +38,20 @@ const PinPlace& placeOf(int pin) {
   throw std::runtime_error("no such pin: " + std::to_string(pin));
 }
 
+const uint16_t kFirstTimerMask = 0x6e, kLastTimerMask = 0x73;  // TIMSK0 to TIMSK5
+
+/// A flag that is set while its interrupt is masked interrupts as soon as the mask allows it;
+/// simavr forgets it.
+void raiseWaiting(avr_t* avr, avr_io_addr_t mask_address, uint8_t mask, void*) {
+  avr->data[mask_address] = mask;
+  for (int i = 0; i < avr->interrupts.vector_count; ++i) {
+    avr_int_vector_t* const vector = avr->interrupts.vector[i];
+    const bool waits = vector->enable.reg == mask_address && vector->raised.reg != 0 &&
+                       avr_regbit_get(avr, vector->enable) && avr_regbit_get(avr, vector->raised);
+    if (waits && !vector->pending) avr_raise_interrupt(avr, vector);
+  }
+}
+
 }  // namespace
 
 VirtualBoard::VirtualBoard(const std::string& elf) {
@@ -50,6 +64,8 @@ VirtualBoard::VirtualBoard(const std::string& elf) {
   avr_init(avr_);
   avr_->frequency = kClock;
   avr_load_firmware(avr_, &firmware);
+  for (uint16_t mask = kFirstTimerMask; mask <= kLastTimerMask; ++mask)
+    avr_register_io_write(avr_, mask, raiseWaiting, nullptr);
   uint32_t flags = 0;
   avr_ioctl(avr_, AVR_IOCTL_UART_GET_FLAGS('0'), &flags);
   flags &= ~uint32_t(AVR_UART_FLAG_STDIO | AVR_UART_FLAG_POLL_SLEEP);
@@ -101,22 +117,25 @@ void VirtualBoard::watchTick(avr_cycle_count_t before) {
   if (ticking && !(avr_->data[kTimsk1] & 2)) tick_masked_ = true;
   if (tick_masked_ && (avr_->data[kTimsk1] & 2)) tick_is_over_ = true;
   if (ticking) in_tick_ += avr_->cycle - before;
-  if (ticking && !was_ticking_) tick_since_ = before;
+  if (ticking && !was_ticking_) tick_since_ = before, ++ticks_;
   if (!ticking && was_ticking_) longest_tick_ = std::max(longest_tick_, avr_->cycle - tick_since_);
   was_ticking_ = ticking;
 }
 
 void VirtualBoard::setPin(int pin, bool high) {
   const PinPlace& place = placeOf(pin);
+  pull(place.port, uint8_t(1 << place.bit), uint8_t(high << place.bit));
   avr_raise_irq(avr_io_getirq(avr_, AVR_IOCTL_IOPORT_GETIRQ(place.port), place.bit), high);
 }
 
-void VirtualBoard::strap(uint8_t open) {
-  avr_ioport_external_t outside;
-  outside.name = 'A';
-  outside.mask = 0x3f;
-  outside.value = open & 0x3f;
-  avr_ioctl(avr_, AVR_IOCTL_IOPORT_SET_EXTERNAL('A'), &outside);
+void VirtualBoard::strap(uint8_t open) { pull('A', 0x3f, open & 0x3f); }
+
+void VirtualBoard::pull(char port, uint8_t mask, uint8_t levels) {
+  avr_ioport_external_t& outside = outside_[port];
+  outside.name = port;
+  outside.mask |= mask;
+  outside.value = (outside.value & ~mask & 0xff) | levels;
+  avr_ioctl(avr_, AVR_IOCTL_IOPORT_SET_EXTERNAL(port), &outside);
 }
 
 PinState VirtualBoard::pin(int pin) const {

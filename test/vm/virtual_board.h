@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstring>
 #include <deque>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -65,24 +66,32 @@ class VirtualBoard {
   double tickShare() const { return double(in_tick_) / double(avr_->cycle - watched_from_); }
   void watchTicksFromNow() {
     in_tick_ = longest_tick_ = 0;
+    ticks_ = 0;
     watched_from_ = avr_->cycle;
   }
   long longestTick() const { return long(longest_tick_); }
+  double ticksPerSecond() const {
+    return ticks_ * double(kClock) / double(avr_->cycle - watched_from_);
+  }
 
   double seconds() const { return double(avr_->cycle) / kClock; }
   avr_t* avr() { return avr_; }
 
  private:
+  /// Levels from outside that hold pins of a port, whatever is written to it.
+  void pull(char port, uint8_t mask, uint8_t levels);
   static void onCharacter(avr_irq_t*, uint32_t value, void* board);
   void passCharacters();
   void watchTick(avr_cycle_count_t before);
 
   avr_t* avr_;
   avr_irq_t* wire_in_;
+  std::map<char, avr_ioport_external_t> outside_;
   std::string to_send_, partial_;
   avr_cycle_count_t next_character_ = 0;
   uint16_t data_end_;
   avr_cycle_count_t in_tick_ = 0, longest_tick_ = 0, tick_since_ = 0, watched_from_ = 0;
+  int ticks_ = 0;
   bool was_ticking_ = false, tick_masked_ = false, tick_is_over_ = true;
 };
 

@@ -18,7 +18,10 @@ struct MotorPins {
 class VirtualMotor {
  public:
   VirtualMotor(VirtualBoard& board, const MotorPins& pins, double counts_per_second)
-      : board_(board), pins_(pins), top_(counts_per_second) {}
+      : board_(board), pins_(pins), top_(counts_per_second) {
+    // Both channels high: low before the program listens would be an interrupt without end.
+    step(0);
+  }
 
   /// Lets `seconds` pass, in which at most one edge may fall.
   void advance(double seconds) {
@@ -44,10 +47,10 @@ class VirtualMotor {
  private:
   void step(int by) {
     count_ += by;
-    // second, first: 00, 10, 11, 01
+    // second, first: 11, 01, 00, 10
     const int phase = int(((count_ % 4) + 4) % 4);
-    board_.setPin(pins_.second, phase == 1 || phase == 2);
-    board_.setPin(pins_.first, phase == 2 || phase == 3);
+    board_.setPin(pins_.second, phase == 0 || phase == 3);
+    board_.setPin(pins_.first, phase == 0 || phase == 1);
   }
 
   VirtualBoard& board_;

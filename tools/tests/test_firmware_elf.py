@@ -10,8 +10,10 @@ from plumb import _core
 ROOT = Path(__file__).resolve().parents[2]
 ELF = ROOT / ".pio/build/megaatmega2560/firmware.elf"
 BUILD = ROOT / ".build/vm"
-DIALOGUES = ROOT / "test/vm/dialogues"
-SOURCES = [ROOT / "test/vm" / name for name in ("play_firmware.cpp", "virtual_board.cpp")]
+VM = ROOT / "test/vm"
+DIALOGUES = VM / "dialogues"
+SOURCES = [VM / name for name in ("play_firmware.cpp", "virtual_board.cpp")]
+STRICT = ["-std=c++17", "-O2", "-Wall", "-Wextra", "-Werror"]
 TOLERANCE = 0.011  # [mm] two decimals, and a chain count or two
 RAM = 8192
 CORNERS = [(x, y) for x in (-1219.2, 1219.2) for y in (-609.6, 609.6)]
@@ -27,8 +29,7 @@ def player() -> Path:
     subprocess.run(pio, check=True)
     BUILD.mkdir(parents=True, exist_ok=True)
     program = BUILD / "play_firmware"
-    strict = ["-std=c++17", "-O2", "-Wall", "-Wextra", "-Werror"]
-    command = ["g++", *strict, *SOURCES, "-lsimavr", "-lelf", "-o", program]
+    command = ["g++", *STRICT, *SOURCES, "-lsimavr", "-lelf", "-o", program]
     subprocess.run(command, check=True)
     return program
 
@@ -56,6 +57,31 @@ def test_it_boots_keeps_a_setting_over_a_reset_and_moves_its_motors(player):
     assert 0 < told["first_line_ms"] < 500
     # Static RAM and the deepest stack leave a kilobyte that nobody has ever touched.
     assert static_ram() + told["stack"] < RAM - 1024
+
+
+@pytest.fixture(scope="module")
+def hard(player) -> dict[str, float]:
+    """Three axes in motion with sag, stretch and pitch."""
+    return figures(play(player, DIALOGUES, "hard.nc"))
+
+
+def test_the_simulated_mega_keeps_masked_interrupts_and_pulled_pins():
+    BUILD.mkdir(parents=True, exist_ok=True)
+    elf, check = BUILD / "board_program.elf", BUILD / "check_board"
+    avr = ["avr-gcc", "-mmcu=atmega2560", "-DF_CPU=16000000UL", "-Os", VM / "board_program.cpp"]
+    subprocess.run([*avr, "-o", elf], check=True)
+    sources = [VM / "check_board.cpp", VM / "virtual_board.cpp"]
+    subprocess.run(["g++", *STRICT, *sources, "-lsimavr", "-lelf", "-o", check], check=True)
+    done = subprocess.run([check, elf], capture_output=True, text=True, timeout=60)
+    told = figures(done)
+    assert told["masked"] == 10  # an interrupt waits behind its mask
+    assert told["taken_back"] == 0  # unless its flag is cleared
+    assert told["edges_low"] == 0  # writing to a port moves no pin that is held from outside
+
+
+def test_no_control_tick_is_missed_in_motion(hard):
+    assert hard["ticks_per_second_moving"] == pytest.approx(100, abs=0.1)
+    assert hard["ticks_per_second_streaming"] == pytest.approx(100, abs=0.1)
 
 
 def test_short_moves_are_taken_as_fast_as_a_streaming_sender_gives_them(player):

@@ -1,0 +1,18 @@
+// Runs board_program.cpp on the simulated Mega and prints the lines it sends: `check_board ELF`.
+#include <cstdio>
+
+#include "virtual_board.h"
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  vm::VirtualBoard board(argv[1]);
+  board.setPin(2, true);
+  board.setPin(3, true);
+  // Low only after the program has set up its interrupts; a line takes 2 ms.
+  board.runMs(10);
+  board.setPin(2, false);
+  board.setPin(3, false);
+  board.runMs(60);
+  for (const std::string& line : board.lines) std::printf("%s\n", line.c_str());
+  return 0;
+}
