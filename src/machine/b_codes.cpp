@@ -70,7 +70,7 @@ bool Machine::runB(const char* line) {
 
 bool Machine::runChainCode(uint8_t code, const Words& words) {
   const float left = words.value('L'), right = words.value('R');
-  if (!isLength(left) || !isLength(right)) return refuse(FLASH("no chain is that long"));
+  if (!isLength(left) || !isLength(right)) return refuseMotion(FLASH("no chain is that long"));
   switch (code) {
     case 1:
       out_.line(FLASH("Motor Calibration Not Needed"));
@@ -132,7 +132,8 @@ bool Machine::pullByWords(const Words& words) {
 }
 
 bool Machine::measureOut(Axis axis) {
-  if (!isLength(values_.at(kExtendLength))) return refuse(FLASH("no chain is that long ($11)"));
+  if (!isLength(values_.at(kExtendLength)))
+    return refuseMotion(FLASH("no chain is that long ($11)"));
   out_.line(axis == kLeftAxis ? FLASH("Measuring out left chain")
                               : FLASH("Measuring out right chain"));
   const float feed = 0.9f * values_.at(kGreatestFeed);
@@ -145,7 +146,7 @@ bool Machine::measureOut(Axis axis) {
 }
 
 bool Machine::setChains(float left, float right) {
-  if (!isLength(left) || !isLength(right)) return refuse(FLASH("no chain is that long"));
+  if (!isLength(left) || !isLength(right)) return refuseMotion(FLASH("no chain is that long"));
   axes_.declare(kLeftAxis, left);
   axes_.declare(kRightAxis, right);
   out_ << FLASH("Left: ");
@@ -166,7 +167,7 @@ bool Machine::moveChains(const Words& words) {
     const float given = words.value(axis == kLeftAxis ? 'L' : 'R');
     if (modal_.relative && given == 0) continue;
     const float goal = modal_.relative ? axes_.target(axis) + given : given;
-    if (!isLength(goal)) return refuse(FLASH("no chain is that long"));
+    if (!isLength(goal)) return refuseMotion(FLASH("no chain is that long"));
     completed = completed && moveAxis(axis, goal, feed, false);
   }
   searchPlace();
@@ -175,7 +176,7 @@ bool Machine::moveChains(const Words& words) {
 
 bool Machine::goHome() {
   const motion::Lengths<float> lengths = geometry_.inverse({0, 0});
-  if (!lengths.reachable) return refuse(FLASH("with these settings no sled can hang at 0,0"));
+  if (!lengths.reachable) return refuseMotion(FLASH("with these settings no sled can hang at 0,0"));
   const bool completed = moveAxis(kLeftAxis, lengths.left, kAxisFeed, false) &&
                          moveAxis(kRightAxis, lengths.right, kAxisFeed, false);
   if (completed) findPlace();

@@ -24,12 +24,16 @@ void Machine::loop() {
 }
 
 bool Machine::execute(char* line) {
-  if (input_.wasTooLong())
-    return refuse(FLASH("a line has at most 126 characters; this one was skipped"));
+  line_ = line;
+  if (input_.wasTooLong()) {
+    if (isHalted()) return false;
+    line[0] = '\0';
+    return refuseMotion(FLASH("a line of more than 126 characters, which was skipped"));
+  }
   char* first = line;
   while (*first == ' ') ++first;
   if (*first == 'b' || *first == 'B') {
-    if (is_locked_ && !isQuestion(first)) return false;
+    if (isHalted() && !isQuestion(first)) return false;
     echo(first);
     gcode::clean(line);
     return runB(line);
@@ -37,7 +41,7 @@ bool Machine::execute(char* line) {
   gcode::clean(line);
   if (*line == '\0') return true;
   if (isSetting(*line)) return runSetting(line);
-  return !is_locked_ && runCode(line);
+  return !isHalted() && runCode(line);
 }
 
 void Machine::echo(const char* line) {
@@ -47,30 +51,6 @@ void Machine::echo(const char* line) {
   for (uint8_t i = 0; i < length; ++i)
     out_ << (line[i] >= 'a' && line[i] <= 'z' ? char(line[i] - 'a' + 'A') : line[i]);
   out_.end();
-}
-
-bool Machine::refuseMistake(gcode::Mistake mistake) {
-  using gcode::Fault;
-  beginError();
-  switch (mistake.fault) {
-    case Fault::kNoNumber:
-      out_ << FLASH("a number is missing behind ");
-      break;
-    case Fault::kBadNumber:
-      out_ << FLASH("what follows is no number: ");
-      break;
-    case Fault::kTooLarge:
-      out_ << FLASH("a number is far too large: ");
-      break;
-    case Fault::kNoCode:
-      out_ << FLASH("there is no such code: ");
-      break;
-    default:
-      out_ << FLASH("this begins no word: ");
-  }
-  out_ << mistake.letter;
-  out_.line(FLASH("; nothing of the line was done"));
-  return false;
 }
 
 bool Machine::runCode(const char* text) {
@@ -127,12 +107,13 @@ bool Machine::runG(uint16_t tenths, const Words& words) {
       return true;
     case 180:
     case 190:
-      return refuse(FLASH("arcs are cut in the plane of G17 only"));
+      return refuseMotion(FLASH("arcs are cut in the plane of G17 only"));
     case 901:
-      return refuse(FLASH("arc centres are told from the start, G91.1, only"));
+      return refuseMotion(FLASH("arc centres are told from the start, G91.1, only"));
     case 280:
     case 920:
-      return refuse(FLASH("G28 and G92 are not supported; set zero in the program that sends"));
+      return refuseMotion(
+          FLASH("G28 and G92 are not supported; set zero in the program that sends"));
     default:
       out_ << FLASH("Command G");
       return ignore(tenths);
@@ -174,7 +155,7 @@ bool Machine::runM(uint16_t tenths, const Words& words) {
 
 bool Machine::setTool(const Words& words) {
   const float tool = words.value('T');
-  if (!(tool >= 0 && tool <= 65535)) return refuse(FLASH("a tool's number is 0 to 65535"));
+  if (!(tool >= 0 && tool <= 65535)) return refuseMotion(FLASH("a tool's number is 0 to 65535"));
   modal_.tool = uint16_t(tool);
   out_ << FLASH("Tool change to tool ") << int32_t(modal_.tool);
   out_.end();
@@ -184,7 +165,7 @@ bool Machine::setTool(const Words& words) {
 bool Machine::dwell(const Words& words) {
   const float seconds =
       float(fabs(words.value('P') != 0 ? words.value('P') / 1000 : words.value('S')));
-  if (!(seconds < 86400)) return refuse(FLASH("a dwell is shorter than a day"));
+  if (!(seconds < 86400)) return refuseMotion(FLASH("a dwell is shorter than a day"));
   if (!drain()) return false;
   out_ << FLASH("dwell time ");
   out_.fixed(seconds, 3).line(FLASH(" s"));
@@ -195,7 +176,7 @@ bool Machine::declareZByWord(const Words& words) {
   if (!drain()) return false;
   if (!words.has('Z')) return true;
   const float z = fromUnits(words.value('Z'));
-  if (!(float(fabs(z)) <= kMostTravel)) return refuse(FLASH("no z axis is that long"));
+  if (!(float(fabs(z)) <= kMostTravel)) return refuseMotion(FLASH("no z axis is that long"));
   declareZ(z);
   return true;
 }

@@ -6,6 +6,7 @@
 
 #include "axes.h"
 #include "geometry.h"
+#include "lock.h"
 #include "mover.h"
 #include "ports.h"
 #include "printer.h"
@@ -87,7 +88,7 @@ class Machine {
   bool wakeMotors();
   void restWhenIdle();
   bool isMoving() const { return !mover_.isIdle() || !axes_.isEmpty(); }
-  bool isHalted() const { return is_locked_; }
+  bool isHalted() const { return lock_ != Lock::kOpen; }
 
   // greeting.cpp, reports.cpp: what it says.
   void greet();
@@ -99,8 +100,6 @@ class Machine {
   void reportErrors();
   float inUnits(float mm) const;
   float fromUnits(float value) const;
-  void beginError();
-  bool refuse(FlashText why);
 
   // position.cpp: where the sled is.
   void sayPlace(float x, float y);
@@ -113,10 +112,19 @@ class Machine {
   void keepPosition();
   Place placeNow();
 
+  // refusals.cpp: lines that are not done.
+  void beginError();
+  bool refuse(FlashText why);
+  /// For whatever leaves the machine where the program does not think it is: halts it, or answers
+  /// `error:`, by setting $70. `letter` ends the sentence, if there is one.
+  bool refuseMotion(FlashText why, char letter = gcode::kNoLetter);
+  bool refuseMistake(gcode::Mistake mistake);
+  void beginHalt();
+  bool halt();
+
   // commands.cpp, moves.cpp: lines of G-code.
   bool execute(char* line);
   void echo(const char* line);
-  bool refuseMistake(gcode::Mistake mistake);
   bool runCode(const char* text);
   bool runPiece(const gcode::Piece& piece);
   bool runG(uint16_t tenths, const Words& words);
@@ -204,13 +212,14 @@ class Machine {
   Mover mover_;
   Input input_;
   Modal modal_;
+  const char* line_ = "";  ///< the line in execution
+  Lock lock_ = Lock::kOpen;
   Place aim_ = {0, 0, 0};    ///< where the last move queued ends
   Place place_ = {0, 0, 0};  ///< where the tool was when somebody last asked
   uint32_t last_report_ms_ = 0, last_motion_ms_ = 0, geometry_changed_ms_ = 0;
   uint8_t ticks_per_second_ = 100;
   volatile bool hung_ = false;
-  bool stopping_ = false;   ///< a stop was asked for; every wait ends
-  bool is_locked_ = false;  ///< after an alarm, until a stop
+  bool stopping_ = false;  ///< a stop was asked for; every wait ends
   bool pausing_ = false, resumed_ = false;
   bool expects_resume_ = false;  ///< a `~` that comes now is meant for the pause to come
   bool is_answered_ = false;     ///< the line in execution has got its answer

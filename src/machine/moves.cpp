@@ -39,7 +39,7 @@ bool Machine::move(uint8_t kind, const Words& words) {
   Place target = targetOf(words);
   if (!(fabs(target.x) < kMostTravel && fabs(target.y) < kMostTravel &&
         fabs(target.z) < kMostTravel))
-    return refuse(FLASH("that is farther than any machine reaches"));
+    return refuseMotion(FLASH("that is farther than any machine reaches"));
   const bool over_sheet = words.has('X') || words.has('Y') || kind > 1;
   if (over_sheet && !mayCrossSheet()) return false;
   if (values_.at(kZMotor) == 0 && target.z != aim_.z) {
@@ -65,7 +65,8 @@ bool Machine::moveRound(bool clockwise, motion::Point<float> from, const Place& 
   if (radius != 0 && !same) {
     const gcode::ArcCentre seen =
         gcode::centreByRadius(to.x - from.x, to.y - from.y, radius, clockwise);
-    if (!seen.found) return refuse(FLASH("the arc's radius is less than half the way to its end"));
+    if (!seen.found)
+      return refuseMotion(FLASH("the arc's radius is less than half the way to its end"));
     centre = {from.x + seen.x, from.y + seen.y};
   }
   const motion::Turn turn = clockwise ? motion::Turn::kClockwise : motion::Turn::kCounterclockwise;
@@ -74,23 +75,24 @@ bool Machine::moveRound(bool clockwise, motion::Point<float> from, const Place& 
   // As the published firmware: an arc without centre is a line.
   if (!words.has('I') && !words.has('J') && radius == 0)
     return queue(motion::line(from, to), target, feed);
-  return refuse(FLASH("the arc does not end on its circle"));
+  return refuseMotion(FLASH("the arc does not end on its circle"));
 }
 
 bool Machine::mayCrossSheet() {
   if (is_place_known_) return true;
   if (!is_chains_known_)
-    return refuse(FLASH("position lost: set the chain lengths first (B06 or B08)"));
-  return refuse(FLASH("the chains put the sled nowhere: set their lengths first (B06 or B08)"));
+    return refuseMotion(FLASH("Position Lost: set the chain lengths first (B06 or B08)"));
+  return refuseMotion(
+      FLASH("the chains put the sled nowhere: set their lengths first (B06 or B08)"));
 }
 
 bool Machine::queue(const motion::Path<float>& path, const Place& target, float feed) {
   if (path.drawn == motion::Drawn::kNoLength && target.z == aim_.z) return true;
-  if (!geometry_.isReachable(path.to)) return refuse(FLASH("no sled can hang there"));
+  if (!geometry_.isReachable(path.to)) return refuseMotion(FLASH("no sled can hang there"));
   while (!stopping_ && !mover_.hasRoom()) service();
   if (stopping_ || !wakeMotors()) return false;
   if (mover_.add(path, target.z, feed / 60, geometry_) != Moved::kYes)
-    return refuse(FLASH("that is no path"));
+    return refuseMotion(FLASH("that is no path"));
   aim_ = target;
   return true;
 }

@@ -10,11 +10,8 @@ const float kProbeFeed = 60;  // [mm/min]
 }  // namespace
 
 bool Machine::probe(float target) {
-  if (values_.at(kZMotor) == 0) {
-    out_.line(FLASH("G38.2 needs a z motor; ignored."));
-    return true;
-  }
-  if (!(float(fabs(target)) <= kMostTravel)) return refuse(FLASH("no z axis is that long"));
+  if (values_.at(kZMotor) == 0) return refuseMotion(FLASH("a probe needs a z motor ($16)"));
+  if (!(float(fabs(target)) <= kMostTravel)) return refuseMotion(FLASH("no z axis is that long"));
   if (!drain()) return false;
   out_.line(FLASH("probing for z axis zero"));
   out_ << FLASH("max depth ");
@@ -26,7 +23,7 @@ bool Machine::probe(float target) {
   if (stopping_) return false;
   if (!touched) {
     standHere();
-    return refuse(FLASH("probe did not connect"));
+    return refuseMotion(FLASH("probe did not connect"));
   }
   declareZ(axes_.length(kZAxis));
   out_.line(FLASH("z axis zeroed"));

@@ -69,7 +69,8 @@ void Machine::readWire() {
 
 void Machine::stopNow() {
   stopping_ = true;
-  is_locked_ = resumed_ = false;
+  resumed_ = false;
+  lock_ = Lock::kOpen;
   input_.clear();
   // At once, whatever else the stop has to wait for.
   aux_.set(Output::kLaser, false);
@@ -81,7 +82,7 @@ void Machine::finishStop() {
   while (isMoving()) service();
   // A new stop may come meanwhile; it is answered, and this one goes on.
   stopping_ = false;
-  if (is_locked_) {
+  if (isHalted()) {
     searchPlace();
     switchSpindle(false);
     return;
@@ -104,9 +105,9 @@ void Machine::resetSoftly() {
 }
 
 void Machine::raiseAlarm(FlashText text) {
-  if (is_locked_) return;
+  if (lock_ == Lock::kAlarm) return;
   stopNow();
-  is_locked_ = true;
+  lock_ = Lock::kAlarm;
   axes_.releaseAll();
   mover_.forget();
   axes_.standStill();

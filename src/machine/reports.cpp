@@ -32,15 +32,4 @@ void Machine::reportErrors() {
   out_.end();
 }
 
-void Machine::beginError() {
-  out_ << FLASH("error: ");
-  is_answered_ = true;
-}
-
-bool Machine::refuse(FlashText why) {
-  beginError();
-  out_.line(why);
-  return false;
-}
-
 }  // namespace machine

@@ -1,5 +1,7 @@
 ; Arcs by centre and by radius, helix, inch units, all ending where they should.
 ~~ include setup.inc
+-> $70=1
+<- ok
 -> G1 X50 Y0 F800
 <- ok
 -> G2 X0 Y-50 I-50 J0

@@ -14,7 +14,10 @@
 <* *
 <- ALARM: Position Lost. The kept place is not where the chains put the sled.*
 -> G0 X5
-<- error: *
+<- ALARM: Halted at G0 X5: Position Lost*
+>> !
+<- ok
+<- Laser off
 -> B08
 <* Message: The machine chains*
 <- ok

@@ -1,5 +1,7 @@
 ; A mistake anywhere in a line is one error, and nothing of the line is done.
 ~~ include setup.inc
+-> $70=1
+<- ok
 -> G90 G1 X5 Y--5 F800
 <- error: what follows is no number: Y*
 -> G1 X5 Y

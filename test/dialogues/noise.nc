@@ -1,5 +1,7 @@
 ; Noise on the line, and a line without its beginning: errors at worst, and the next line works.
 ~~ include setup.inc
+-> $70=1
+<- ok
 ~~ answers from now
 -> G1 X1 ÿþý Y1
 -> XYZ

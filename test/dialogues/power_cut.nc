@@ -27,7 +27,9 @@
 <* ok
 <- ALARM: Position Lost*
 -> G0 X0
-<* error: *
+<* ALARM: Halted at G0 X0: Position Lost*
+>> !
+<* Laser off
 -> G0 Z-2
 <- ok
 ~~ wait 5

@@ -1,5 +1,7 @@
 ; The probe makes z zero where it touches; GroundControl puts other words on the line.
 ~~ include setup.inc
+-> $70=1
+<- ok
 ~~ probe -3
 -> G20 G90 G38.2 Z-0.5 F1 G20 G90 M02
 <- probing for z axis zero

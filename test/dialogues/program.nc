@@ -1,5 +1,7 @@
 ; A file as programs write it: line numbers, comments, inches, missing spaces, small letters.
 ~~ include setup.inc
+-> $70=1
+<- ok
 -> %
 <- ok
 -> (made by hand)

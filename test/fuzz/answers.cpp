@@ -65,6 +65,7 @@ void Answers::said(const std::string& line) {
   if (startsWith(line, "ALARM:") && !startsWith(line, "ALARM: Position Lost")) {
     dropLines();
     is_locked_ = true;
+    is_halted_ = startsWith(line, "ALARM: Halted at ");
     is_paused_ = false;
   }
   if (line == "Maslow Paused") is_paused_ = true;

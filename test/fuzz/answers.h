@@ -18,6 +18,8 @@ class Answers {
 
   bool isComplete() const { return answered_ == lines_ + quick_; }
   bool isLocked() const { return is_locked_; }
+  /// A halt lets the moves before it come to their end, an alarm lets nothing turn.
+  bool mayDrive() const { return !is_locked_ || is_halted_; }
   bool isSimulated() const { return is_simulated_; }
   bool isPaused() const { return is_paused_; }
   /// Settings lines since the last look.
@@ -28,5 +30,6 @@ class Answers {
 
   long lines_ = 0, quick_ = 0, answered_ = 0, answered_before_ = 0;
   int rounds_ = 0, settings_ = 0;
-  bool after_quick_ = false, is_locked_ = false, is_simulated_ = false, is_paused_ = false;
+  bool after_quick_ = false, is_locked_ = false, is_halted_ = false, is_simulated_ = false,
+       is_paused_ = false;
 };

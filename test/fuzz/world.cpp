@@ -83,7 +83,7 @@ class World : public Wire, public Drives, public Aux, public Clock {
     last_line_ms_ = now_ms_;
     if (!is_greeting_ || (partial_ != "ok" && partial_.compare(0, 6, "error:") != 0))
       answers_.said(partial_);
-    if (answers_.isLocked())
+    if (!answers_.mayDrive())
       for (const SimulatedMotor& motor : motor_) must(!motor.powered, "an alarm leaves a motor on");
     partial_.clear();
   }
@@ -92,7 +92,7 @@ class World : public Wire, public Drives, public Aux, public Clock {
 
   void drive(Axis axis, int16_t duty) override {
     must(duty >= -255 && duty <= 255, "a duty beyond 255");
-    must(duty == 0 || !answers_.isLocked(), "a motor is driven after an alarm");
+    must(duty == 0 || answers_.mayDrive(), "a motor is driven after an alarm");
     must(duty == 0 || !answers_.isSimulated(), "a motor is driven though all are simulated");
     motor_[axis].duty = duty;
     motor_[axis].powered = true;

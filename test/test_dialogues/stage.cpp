@@ -67,6 +67,10 @@ void Stage::takeLine(const std::string& line) {
   else
     lines_.push_back(line);
   if (line == "ok" || startsWith(line, "error:")) ++answers_;
+  if (!startsWith(line, "ALARM: Halted")) return;
+  ++halts_;
+  // Its `ok` comes instead of the line's.
+  if (stops_when_halted_) input_ += "!\n";
 }
 
 void Stage::drive(Axis axis, int16_t duty) {

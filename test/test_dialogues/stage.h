@@ -80,7 +80,8 @@ class Stage : public machine::Wire,
   std::deque<std::string> lines_;
   std::string partial_, latest_status_, latest_errors_, input_;
   double byte_credit_ = 0;
-  int out_queue_ = 0, answers_ = 0;
+  int out_queue_ = 0, answers_ = 0, halts_ = 0;
+  bool stops_when_halted_ = false;
   double probe_touches_at_ = -1e9;
   bool spindle_ = false, laser_ = false;
   reference::Machine judge_;

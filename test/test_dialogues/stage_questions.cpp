@@ -88,6 +88,10 @@ bool Stage::change(const std::string& verb, const std::string& rest) {
     tellOr(laser_ == (rest == "high"), "it is not");
   else if (is("probe"))
     probe_touches_at_ = numbersIn(rest).at(0);
+  else if (is("stop-when-halted"))
+    stops_when_halted_ = true;
+  else if (is("halts"))
+    tellOr(halts_ >= std::atoi(rest.c_str()), std::to_string(halts_) + " came");
   else if (is("power")) {
     ++at_;
     step_since_ms_ = now_ms_;

@@ -79,8 +79,10 @@ class Lines {
   std::mt19937 random_;
 };
 
-std::vector<Step> conversation(unsigned seed) {
+std::vector<Step> conversation(unsigned seed, const Step& manner) {
   std::vector<Step> steps = readScript("test/dialogues", "setup.inc");
+  steps.push_back(manner);
+  if (manner.kind == Step::kSend) steps.push_back({Step::kExpect, "ok", manner.text});
   steps.push_back({Step::kAsk, "answers from now", "start"});
   Lines lines(seed);
   const int count = 80;
@@ -105,7 +107,18 @@ class AnyLine : public testing::TestWithParam<unsigned> {};
 }  // namespace
 
 TEST_P(AnyLine, IsAnsweredOnce) {
-  Stage stage(conversation(GetParam()));
+  Stage stage(conversation(GetParam(), {Step::kSend, "$70=1", "errors only"}));
+  try {
+    live(stage);
+  } catch (const Failure& failure) {
+    FAIL() << failure.what();
+  }
+}
+
+TEST_P(AnyLine, IsAnsweredOnceOrHaltsUntilStop) {
+  std::vector<Step> steps = conversation(GetParam(), {Step::kAsk, "stop-when-halted", "halts"});
+  steps.push_back({Step::kAsk, "halts 1", "end"});
+  Stage stage(steps);
   try {
     live(stage);
   } catch (const Failure& failure) {
