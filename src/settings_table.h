@@ -6,7 +6,7 @@
 //   name in C++, number, "name, unit", kind, step, default, lowest, highest,
 //   section and key of the published programs, or "", sentence,
 //   what is not as in the published firmware, or ""
-// A number that was once released keeps its meaning for ever. Free: 14, 47 to 61, 71 to 84. Never
+// A number that was once released keeps its meaning for ever. Free: 14, 47 to 61, 72 to 84. Never
 // to be used: 85 to 98 and 144, which WebControl gives a meaning of its own.
 #pragma once
 
@@ -124,7 +124,9 @@
   ROW(kLoopRate, 69, "loop_rate, Hz", kByte, 100, 100, 100, 200, \
       "", "How often the motors are controlled: 100 or 200.", "new") \
   ROW(kRefusedMotion, 70, "refused_motion", kBool, 1, 0, 0, 1, \
-      "", "What a line does whose motion cannot be done: 0 halts the machine until Stop; 1 answers error: and goes on with the next.", "new")
+      "", "What a line does whose motion cannot be done: 0 halts the machine until Stop; 1 answers error: and goes on with the next.", "new") \
+  ROW(kMotionAhead, 71, "motion_ahead, ms", kWord, 1, 1000, 0, 10000, \
+      "", "A line is answered when less than this is left of its motion, so that a sender that stops sending stops the sled.", "new")
 
 #define PLUMB_KEPT_SETTINGS(ROW) \
   ROW(kSimulatedMotors, 99, "simulated_motors", kBool, 1, 0, 0, 1, \

@@ -51,6 +51,8 @@ class Axes {
   // Set-points.
   motion::SetPoints& setPoints() { return set_points_; }
   bool isEmpty() const { return set_points_.isEmpty(); }
+  /// Set-points that wait to be taken.
+  uint8_t waiting() const { return set_points_.count(); }
   void dropSetPoints();
   /// The set-points last taken.
   SetPoint setPoint() const;

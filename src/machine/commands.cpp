@@ -18,6 +18,8 @@ void Machine::loop() {
   if (!input_.takeLine(line)) return;
   is_answered_ = false;
   const bool done = execute(line);
+  // A sender that sends no more, as the clients' Hold and Pause do, soon stops the sled.
+  while (!stopping_ && !is_answered_ && isFarAhead()) service();
   // What a stop or an alarm broke off is owed no answer.
   if (stopping_ || is_answered_) return;
   if (done) out_.line(FLASH("ok"));

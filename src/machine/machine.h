@@ -78,6 +78,7 @@ class Machine {
   void service();
   bool waitFor(uint32_t ms);
   bool drain();
+  bool isFarAhead() const;
   void settle();
   void readWire();
   void stopNow();
@@ -153,7 +154,7 @@ class Machine {
   void restoreDefaults(settings::Reset what);
 
   // pause.cpp, spindle.cpp, probe.cpp, z_limits.cpp.
-  bool pause();
+  bool pause(bool resumed);
   bool pauseAfterMoves();
   bool changeTool(uint16_t tool);
   bool setZByHand(float z);
@@ -221,7 +222,6 @@ class Machine {
   volatile bool hung_ = false;
   bool stopping_ = false;  ///< a stop was asked for; every wait ends
   bool pausing_ = false, resumed_ = false;
-  bool expects_resume_ = false;  ///< a `~` that comes now is meant for the pause to come
   bool is_answered_ = false;     ///< the line in execution has got its answer
   bool is_testing_ = false;      ///< a test of loops jumps to and fro
   bool is_chains_known_ = true;  ///< false after power was lost in motion

@@ -23,6 +23,8 @@ class Mover {
   /// Nothing moves, nothing is queued.
   bool isIdle() const { return moves_.isIdle(); }
   bool hasRoom() const { return moves_.hasRoom(); }
+  /// Whether what waits lasts for more than so many ticks, which are at most 4000.
+  bool lastsLonger(uint16_t ticks) const { return moves_.lastsLonger(ticks); }
 
   /// Queues a move over the sheet from where the last one ends; `feed` [mm/s] over all three axes.
   Moved add(const motion::Path<float>& path, float z_to, float feed, const Geometry& geometry);

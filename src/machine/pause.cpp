@@ -3,34 +3,28 @@
 
 namespace machine {
 
-bool Machine::pause() {
+bool Machine::pause(bool resumed) {
   out_.line(FLASH("Maslow Paused"));
+  resumed_ = resumed;
   pausing_ = true;
   while (!stopping_ && !resumed_) service();
   pausing_ = resumed_ = false;
+  input_.takeResume();
   return !stopping_;
 }
 
 bool Machine::pauseAfterMoves() {
-  // A `~` that comes while the pause still waits for earlier moves is meant for it.
-  resumed_ = false;
-  expects_resume_ = true;
-  const bool drained = drain();
-  expects_resume_ = false;
-  return drained && pause();
+  // A `~` that comes behind this line while earlier moves still run is meant for it.
+  return drain() && pause(input_.takeResume());
 }
 
 bool Machine::changeTool(uint16_t tool) {
   if (tool == modal_.tool_in_spindle) return true;
-  resumed_ = false;
-  expects_resume_ = true;
-  const bool ready = drain() && switchSpindle(false);
-  expects_resume_ = false;
-  if (!ready) return false;
+  if (!drain() || !switchSpindle(false)) return false;
   out_ << FLASH("Tool Change: Please insert tool ") << int32_t(tool);
   out_.end();
   modal_.tool_in_spindle = tool;
-  return pause();
+  return pause(input_.takeResume());
 }
 
 bool Machine::setZByHand(float z) {
@@ -40,7 +34,7 @@ bool Machine::setZByHand(float z) {
   out_ << FLASH("Message: Please adjust Z-Axis to a depth of ");
   if (shown > 0) out_ << '+';
   out_.fixed(shown, 2).line(inches ? FLASH(" in") : FLASH(" mm"));
-  if (!pause()) return false;
+  if (!pause(false)) return false;
   axes_.declare(kZAxis, z);
   aim_.z = z;
   mover_.standAt(axes_.setPoint());

@@ -70,6 +70,8 @@ void Machine::restorePosition(const settings::Started& started) {
 void Machine::losePosition(FlashText why) {
   is_chains_known_ = is_place_known_ = false;
   axes_.standStill();
+  // Or the next move of z would set out from chains of no length.
+  standHere();
   // WebControl looks for the first two words.
   out_ << FLASH("ALARM: Position Lost. ") << why << FLASH(" Last known chain lengths: ");
   sayLengths();

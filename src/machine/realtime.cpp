@@ -22,6 +22,12 @@ bool Machine::waitFor(uint32_t ms) {
   return !stopping_;
 }
 
+bool Machine::isFarAhead() const {
+  const float ahead = values_.at(kMotionAhead) * 1e-3f * float(ticks_per_second_);
+  const uint8_t waiting = axes_.waiting();
+  return mover_.lastsLonger(ahead > float(waiting) ? uint16_t(ahead) - waiting : 0);
+}
+
 bool Machine::drain() {
   const bool moved = isMoving();
   while (!stopping_ && isMoving()) service();
@@ -55,7 +61,7 @@ void Machine::readWire() {
         break;
       case Quick::kResume:
         out_.line(FLASH("ok"));
-        if (pausing_ || expects_resume_) resumed_ = true;
+        if (pausing_) resumed_ = true;
         break;
       case Quick::kReset:
         resetSoftly();

@@ -1,7 +1,6 @@
 ; A chain that is stuck: the machine stops and stays locked until Stop.
 ~~ include setup.inc
 -> G1 X300 F800
-<- ok
 ~~ wait 3
 ~~ block left
 <- ALARM: The sled is not keeping up*

@@ -119,7 +119,7 @@
 <- ok
 -> G1 X
 <- ALARM: Halted at *
-~~ wait 1
+~~ wait 0.1
 ~~ block left
 <- ALARM: The sled is not keeping up*
 ~~ wait 0.5

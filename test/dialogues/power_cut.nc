@@ -21,7 +21,6 @@
 ~~ sled X210 Y100 within 0.06
 ~~ wait 4
 -> G1 X0 F500
-<- ok
 ~~ wait 3
 ~~ power cut
 <* ok
@@ -32,7 +31,8 @@
 <* Laser off
 -> G0 Z-2
 <- ok
-~~ wait 5
+~~ wait 2
+~~ errors [PE:0.00,0.00,127] within 0.1
 ~~ power cut
 <* ok
 <- ALARM: Position Lost*

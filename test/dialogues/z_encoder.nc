@@ -6,7 +6,6 @@
 ~~ quiet
 ~~ unplug z
 -> G0 Z0
-<- ok
 <- ALARM: The sled is not keeping up with its expected position: a motor is driven and its encoder stands still*
 ~~ off z
 ~~ plug z

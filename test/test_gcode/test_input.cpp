@@ -143,3 +143,44 @@ TEST(Input, CountsItsRoomRoundTheRing) {
     ASSERT_EQ(Input::kRoom, input.room());
   }
 }
+
+TEST(Resume, CountsForLinesThatEndedBeforeIt) {
+  Input input;
+  char line[Input::kRoom + 1];
+  EXPECT_FALSE(input.takeResume());
+  put(input, "G1\nM0\n~\nM1\n");
+  input.takeLine(line);
+  input.takeLine(line);
+  EXPECT_TRUE(input.takeResume());
+  // Once.
+  EXPECT_FALSE(input.takeResume());
+  input.takeLine(line);
+  EXPECT_FALSE(input.takeResume());
+}
+
+TEST(Resume, DoesNotCountForALineThatEndsAfterIt) {
+  Input input;
+  char line[Input::kRoom + 1];
+  put(input, "G1\nM~0\n");
+  input.takeLine(line);
+  EXPECT_STREQ("G1", line);
+  input.takeLine(line);
+  EXPECT_STREQ("M0", line);
+  EXPECT_FALSE(input.takeResume());
+}
+
+TEST(Resume, CountsForTheLineThatIsBeingExecuted) {
+  Input input;
+  char line[Input::kRoom + 1];
+  put(input, "M0\nG1\n");
+  input.takeLine(line);
+  put(input, "~");
+  EXPECT_TRUE(input.takeResume());
+}
+
+TEST(Resume, IsForgottenWithTheLines) {
+  Input input;
+  put(input, "M0\n~");
+  input.clear();
+  EXPECT_FALSE(input.takeResume());
+}

@@ -29,7 +29,10 @@ Quick Input::put(char character) {
   const bool after_quick = after_quick_;
   after_quick_ = character == '!' || character == '~' || character == '`' || character == kCtrlX;
   if (character == '!') return Quick::kStop;
-  if (character == '~') return Quick::kResume;
+  if (character == '~') {
+    resumable_ = uint8_t(lines_ + 1);
+    return Quick::kResume;
+  }
   if (after_quick_) return Quick::kReset;
   if (character == '\n') {
     if (after_quick) return Quick::kNone;
@@ -56,6 +59,7 @@ Quick Input::put(char character) {
 bool Input::takeLine(char (&line)[kRoom + 1]) {
   if (lines_ == 0) return false;
   --lines_;
+  if (resumable_ != 0) --resumable_;
   uint8_t length = 0;
   for (;;) {
     const char character = ring_[first_];
@@ -69,8 +73,14 @@ bool Input::takeLine(char (&line)[kRoom + 1]) {
   return true;
 }
 
+bool Input::takeResume() {
+  const bool came = resumable_ != 0;
+  resumable_ = 0;
+  return came;
+}
+
 void Input::clear() {
-  first_ = used_ = lines_ = 0;
+  first_ = used_ = lines_ = resumable_ = 0;
   swallowing_ = false;
 }
 

@@ -34,6 +34,10 @@ class Input {
   /// Whether the line taken last had been too long, so that nothing of it is left.
   bool wasTooLong() const { return was_too_long_; }
 
+  /// Whether a `~` came behind the line taken last, perhaps long before that line was taken. It
+  /// counts once, and never for a line that ended after it.
+  bool takeResume();
+
   void clear();
 
  private:
@@ -41,6 +45,7 @@ class Input {
 
   char ring_[kRoom];
   uint8_t first_ = 0, used_ = 0, lines_ = 0;
+  uint8_t resumable_ = 0;  ///< lines in front of the last `~`: the one taken last, and waiting ones
   bool after_quick_ = false, swallowing_ = false, was_too_long_ = false;
 };
 

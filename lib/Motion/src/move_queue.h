@@ -2,7 +2,9 @@
 #pragma once
 
 #include "corner.h"
+#include "duration.h"
 #include "sprockets.h"
+#include "stretch.h"
 
 namespace motion {
 
@@ -38,6 +40,7 @@ struct Move {
   float top;             ///< speed along it, at most
   float entry_squared;   ///< of the speed with which it begins, at most
   float corner_squared;  ///< the same, as far as the corner before it is concerned
+  uint16_t most_ticks;   ///< that it lasts: from rest to rest
   Space space;
 };
 
@@ -45,6 +48,7 @@ struct Move {
 class MoveQueue {
  public:
   enum : uint8_t { kMost = 16 };
+  enum : uint16_t { kMostTold = 4000 };  // [ticks]
 
   /// Takes over limits, for ticks of so many seconds.
   void prepare(const Limits& limits, float seconds_per_tick);
@@ -59,6 +63,10 @@ class MoveQueue {
 
   /// Square of the speed with which the first move may end.
   float exitSquared() const { return count_ > 1 ? at(1).entry_squared : 0; }
+
+  /// Whether all that waits lasts for more than so many ticks (at most kMostTold), the first move
+  /// walked so far. Costs little where even stops between all moves would not take as long.
+  bool lastsLonger(uint16_t ticks, const Walk& walk) const;
 
   /// Queues a move from where the last one ends, at z `z_from`; `feed` [mm/s] over all axes.
   Added add(const Path<float>& path, float z_from, float z_to, float feed, Space space);
@@ -139,6 +147,8 @@ inline Added MoveQueue::add(const Path<float>& path, float z_from, float z_to, f
   move.top = topOf(move, feed, xy, float(fabs(z)));
   const Point<float> begin = directionOf(path, false);
   const Point<float> end = path.sweep == 0 ? begin : directionOf(path, true);
+  const float ticks = ticksOf({move.length, move.top, move.acceleration}, 0, 0);
+  move.most_ticks = ticks < float(kMostTold) ? uint16_t(ticks) + 1 : uint16_t(kMostTold);
   move.entry_squared = move.corner_squared = 0;
   if (count_ != 0) {
     const Move& before = at(uint8_t(count_ - 1));
@@ -166,6 +176,23 @@ inline void MoveQueue::lookAhead() {
     move.entry_squared = entry;
     exit_squared = entry;
   }
+}
+
+inline bool MoveQueue::lastsLonger(uint16_t ticks, const Walk& walk) const {
+  uint16_t most = 0;
+  for (uint8_t i = 0; i < count_; ++i) most = uint16_t(most + at(i).most_ticks);
+  if (most <= ticks) return false;
+  const float limit = float(ticks);
+  float sum = 0, entry = walk.speed, walked = walk.done;
+  for (uint8_t i = 0; i < count_; ++i) {
+    const Move& move = at(i);
+    const float exit = i + 1 < count_ ? float(sqrt(at(uint8_t(i + 1)).entry_squared)) : 0;
+    sum += ticksOf({move.length - walked, move.top, move.acceleration}, entry, exit);
+    if (sum > limit) return true;
+    entry = exit;
+    walked = 0;
+  }
+  return false;
 }
 
 inline void MoveQueue::dropFirst() {

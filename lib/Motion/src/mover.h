@@ -33,6 +33,8 @@ class Mover {
   /// Nothing moves, nothing waits.
   bool isIdle() const { return queue_.isEmpty(); }
   bool hasRoom() const { return queue_.hasRoom(); }
+  /// Whether what waits lasts for more than so many ticks; MoveQueue::lastsLonger.
+  bool lastsLonger(uint16_t ticks) const { return queue_.lastsLonger(ticks, walk()); }
   /// Held, and at rest as soon as the set-points are.
   bool isHeld() const { return braking_ && !forgets_ && walk().speed == 0; }
 

@@ -21,6 +21,11 @@ class SetPoints {
 
   bool hasRoom() const { return next(head_) != tail_; }
   bool isEmpty() const { return head_ == tail_; }
+  /// How many wait.
+  uint8_t count() const {
+    const uint8_t head = head_, tail = tail_;
+    return head >= tail ? uint8_t(head - tail) : uint8_t(head + kMost + 1 - tail);
+  }
 
   /// To be called by the writer, if there is room.
   void push(const SetPoint& point) {
