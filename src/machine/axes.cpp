@@ -51,15 +51,19 @@ void Axes::readEncoder(One& one, Axis axis) {
 
 void Axes::takeSetPoint() {
   SetPoint point;
-  if (!set_points_.take(point)) {
-    for (One& one : axis_) one.asked = 0;
-    return;
+  if (set_points_.take(point)) {
+    axis_[kLeftAxis].set_point = point.left;
+    axis_[kRightAxis].set_point = point.right;
+    axis_[kZAxis].set_point = point.z;
+    const SetPoint *from, *to;
+    if (set_points_.stepAhead(ticks_ahead_, from, to)) {
+      axis_[kLeftAxis].asked = to->left - from->left;
+      axis_[kRightAxis].asked = to->right - from->right;
+      axis_[kZAxis].asked = to->z - from->z;
+      return;
+    }
   }
-  const int32_t next[kAxisCount] = {point.left, point.right, point.z};
-  for (uint8_t i = 0; i < kAxisCount; ++i) {
-    axis_[i].asked = next[i] - axis_[i].set_point;
-    axis_[i].set_point = next[i];
-  }
+  for (One& one : axis_) one.asked = 0;
 }
 
 void Axes::control(One& one, Axis axis) {

@@ -40,7 +40,10 @@ class Axes {
   Axes(Drives& drives, Clock& clock) : drives_(drives), clock_(clock) {}
 
   /// How often tick() is called; once, before prepare().
-  void setTicksPerSecond(float ticks) { seconds_per_tick_ = 1 / ticks; }
+  void setTicksPerSecond(float ticks) {
+    seconds_per_tick_ = 1 / ticks;
+    ticks_ahead_ = AxisLoop::ticksAhead(seconds_per_tick_);
+  }
 
   /// Takes over scales, gains and limits.
   void prepare(const settings::Values& values);
@@ -100,7 +103,7 @@ class Axes {
     int32_t most_counts = 0;  ///< [encoder counts] of kMostTravel
     int32_t counts = 0;       ///< [encoder counts] since zero length
     int32_t set_point = 0;    ///< [counts of motion::kCountsPerMm]
-    int32_t asked = 0;        ///< by how much the last tick changed it
+    int32_t asked = 0;        ///< by how much a tick soon to come will change it
     float per_count = 1;      ///< [mm] may be negative
     float turns_per_count = 1;
     float turns_per_mm = 1;
@@ -120,6 +123,7 @@ class Axes {
   motion::SetPoints set_points_;
   One axis_[kAxisCount];
   float seconds_per_tick_ = 0.01f;
+  uint8_t ticks_ahead_ = AxisLoop::ticksAhead(0.01f);
   volatile motion::Fault fault_ = motion::Fault::kNone;
   bool simulated_ = false;
 };

@@ -4,48 +4,56 @@
 #include <Motion.h>
 
 #include <algorithm>
+#include <deque>
 #include <vector>
 
 #include "motor.h"
+#include "published_loop.h"
 
 const double kChainPerTurn = 63.5;                 // [mm]
 const motion::Gains kPosition = {1300, 0, 34, 1};  // the published defaults
 const motion::Gains kSpeed = {5, 0, 0.28f, 1};
 const unsigned kMotors = 40;
 
-/// A motor as they come, by its seed, under control at a rate [Hz].
-class Axis {
+/// A set-point [mm] and the way [mm] of the set-points in a tick soon to come.
+struct Asked {
+  double set_point, ahead;
+};
+
+/// A motor as they come, by its seed, under control of a law at a rate [Hz].
+template <class Loop>
+class AxisWith {
  public:
-  Axis(unsigned seed, double rate)
+  AxisWith(unsigned seed, double rate)
       : constants_(simulated::anyMotor(seed)), motor(constants_, seed), seconds(1 / rate) {
     loop_.tune(kPosition, kSpeed, float(seconds));
     loop_.rest();
     watch_.tune(2, float(seconds));
   }
 
-  /// One control tick with the set-point [mm]; the error [mm] before it.
-  double tick(double set_point) {
+  /// One control tick; how far the chain is from its set-point [mm] when it ends.
+  double tick(const Asked& asked) {
     const double per_count = 1 / constants_.counts_per_turn;
     const int32_t counts = motor.counts();
     const double turned = (counts - counts_) * per_count;
     const int16_t moved = int16_t(counts - counts_);
     counts_ = counts;
     loop_.measure(float(turned));
-    const double error = set_point / kChainPerTurn - counts * per_count;
-    const double asked = (set_point - set_point_) / kChainPerTurn;
-    set_point_ = set_point;
-    duty = loop_.follow(float(error), float(asked), float(turned));
+    const double error = asked.set_point / kChainPerTurn - counts * per_count;
+    duty = loop_.follow(float(error), float(asked.ahead / kChainPerTurn), float(turned));
     fault = watch_.look(int16_t(duty), moved, float(error * kChainPerTurn));
     motor.run(duty, seconds);
-    return set_point - motor.turns() * kChainPerTurn;
+    return asked.set_point - motor.turns() * kChainPerTurn;
   }
+
+  /// The same with a set-point that stays, or jumps.
+  double tick(double set_point) { return tick(Asked{set_point, 0}); }
 
  private:
   simulated::MotorConstants constants_;
-  motion::AxisLoop loop_;
+  Loop loop_;
   motion::Watch watch_;
   int32_t counts_ = 0;
-  double set_point_ = 0;
 
  public:
   simulated::Motor motor;
@@ -54,24 +62,40 @@ class Axis {
   motion::Fault fault = motion::Fault::kNone;
 };
 
-/// A set-point that goes to and fro with bounded acceleration.
+using Axis = AxisWith<motion::AxisLoop>;
+using PublishedAxis = AxisWith<PublishedLoop>;
+
+/// A set-point that goes to and fro with bounded acceleration, and a few ticks ahead of it what it
+/// will ask for, as the ring of set-points tells.
 class ToAndFro {
  public:
-  ToAndFro(double feed, double seconds) : top_(feed / 60), seconds_(seconds) {}
+  ToAndFro(double feed, double seconds)
+      : top_(feed / 60),
+        seconds_(seconds),
+        waiting_(motion::AxisLoop::ticksAhead(float(seconds))) {}
 
   /// The next set-point on the way to a goal [mm].
-  double towards(double goal) {
-    const double gain = 100;  // [mm/s^2]
-    const double left = std::fabs(goal - at_);
-    speed_ = std::min({top_, speed_ + gain * seconds_, std::sqrt(2 * gain * left)});
-    const bool arrives = left <= speed_ * seconds_;
-    at_ = arrives ? goal : at_ + std::copysign(speed_ * seconds_, goal - at_);
-    if (arrives) speed_ = 0;
-    return at_;
+  Asked towards(double goal) {
+    const double before = scout_;
+    walk(goal);
+    waiting_.push_back(scout_);
+    at_ = waiting_.front();
+    waiting_.pop_front();
+    return {at_, scout_ - before};
   }
 
   bool isAt(double goal) const { return std::fabs(goal - at_) <= 1e-6; }
 
  private:
-  double top_, seconds_, at_ = 0, speed_ = 0;
+  void walk(double goal) {
+    const double gain = 100;  // [mm/s^2]
+    const double left = std::fabs(goal - scout_);
+    speed_ = std::min({top_, speed_ + gain * seconds_, std::sqrt(2 * gain * left)});
+    const bool arrives = left <= speed_ * seconds_;
+    scout_ = arrives ? goal : scout_ + std::copysign(speed_ * seconds_, goal - scout_);
+    if (arrives) speed_ = 0;
+  }
+
+  double top_, seconds_, scout_ = 0, at_ = 0, speed_ = 0;
+  std::deque<double> waiting_;  ///< between the scout and the set-point
 };

@@ -1,30 +1,40 @@
 // A gear motor under load as physics has it: torque against back-EMF, inertia, friction of two
-// kinds, the pull of a chain, a supply that sags, and a coarse encoder. SI units inside.
+// kinds, the pull of a chain, play in the gear, a bridge that keeps its share of a supply that
+// sags, and a coarse encoder on the motor's side of the gear. SI units inside.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
 
 namespace simulated {
 
-/// A Maslow motor as seen at its sprocket; 12 V, about 20 turns a minute under load.
+const double kTurn = 6.283185307179586;  // [rad]
+
+/// A Maslow motor as seen at its sprocket; behind an L298 on 12 V it does 20 turns a minute without
+/// a load, 18 against the chain's pull.
 struct MotorConstants {
   double supply = 12.0;            ///< [V] without load
   double supply_resistance = 0.3;  ///< [ohm] by which it sags
+  double bridge_drop = 1.8;        ///< [V] that the bridge keeps
   double resistance = 4.0;         ///< [ohm] of the winding
-  double torque_constant = 4.6;    ///< [Nm/A] and [V s/rad] at the sprocket, gear included
+  double torque_constant = 3.7;    ///< [Nm/A] and [V s/rad] at the sprocket, gear included
   double inertia = 0.25;           ///< [kg m^2] of the rotor through the gear
   double coulomb = 1.5;            ///< [Nm] friction that only stands against motion
   double viscous = 0.4;            ///< [Nm s/rad]
   double load = 0.7;               ///< [Nm] pull of the chain, lengthening
+  double play = 0.011;             ///< [rad] of the sprocket between the flanks of the gear
+  double sprocket_friction = 0.2;  ///< [Nm] share of `coulomb` behind the play
   double counts_per_turn = 8113.73;
   double count_noise = 0.4;  ///< [counts] by which edges come early or late
 };
 
 /// What can be wrong with its wires.
 struct Wires {
-  bool motor_reversed = false, encoder_reversed = false, encoder_unplugged = false, blocked = false;
+  bool motor_reversed = false, encoder_reversed = false, encoder_unplugged = false;
+  bool channel_lost = false;  ///< of the encoder: the count goes to and fro by one
+  bool blocked = false;
 };
 
 /// One motor. A positive duty lengthens the chain.
@@ -33,65 +43,84 @@ class Motor {
   Motor(const MotorConstants& constants, unsigned seed) : c_(constants), source_(seed) {}
 
   Wires wires;
+  double weaker = 0;  ///< [V] that others take from the supply
+  double pull = 0;    ///< [Nm] of the cut, in addition to the load
 
   /// Lets `seconds` pass with a duty of -255 to 255.
   void run(int duty, double seconds) {
     const double kStep = 1e-4;  // [s] well below the mechanical time constant
     const double sign = wires.motor_reversed ? -1 : 1;
-    for (double t = 0; t < seconds - kStep / 2; t += kStep) {
-      const double share = sign * duty / 255.0;
-      const double whole = c_.resistance + c_.supply_resistance * std::fabs(share);
-      const double current = (share * c_.supply - c_.torque_constant * speed_) / whole;
-      step(c_.torque_constant * current + c_.load, kStep);
-    }
+    const double share = sign * duty / 255.0;
+    const double given = std::fabs(share) * (c_.supply - weaker) - c_.bridge_drop;
+    const double volts = std::copysign(std::max(given, 0.0), share);
+    const double whole = c_.resistance + c_.supply_resistance * std::fabs(share);
+    for (double t = 0; t < seconds - kStep / 2; t += kStep)
+      step(c_.torque_constant * (volts - c_.torque_constant * speed_) / whole, kStep);
   }
 
-  /// Turns since the start, as they are [turns].
-  double turns() const { return angle_ / kTurn; }
+  /// Turns of the sprocket since the start.
+  double turns() const { return sprocket_ / kTurn; }
 
   /// Counts as the board sees them.
   int32_t counts() {
     if (wires.encoder_unplugged) return told_;
     std::normal_distribution<double> early(0, c_.count_noise);
     const double sign = wires.encoder_reversed ? -1 : 1;
-    told_ = int32_t(std::floor(sign * turns() * c_.counts_per_turn + early(source_)));
+    const double seen = sign * rotor_ / kTurn * c_.counts_per_turn + early(source_);
+    if (wires.channel_lost)
+      told_ = kept_ + (int64_t(std::floor(seen)) / 2) % 2;
+    else
+      kept_ = told_ = int32_t(std::floor(seen));
     return told_;
   }
 
  private:
-  static constexpr double kTurn = 6.283185307179586;
-
+  /// `torque` [Nm] of the winding.
   void step(double torque, double seconds) {
     if (wires.blocked) {
       speed_ = 0;
       return;
     }
+    const double load = c_.load + pull;
+    // A chain that pulls harder than the sprocket rubs keeps the gear on the same flank.
+    const bool hangs = load > c_.sprocket_friction;
+    const bool meshes =
+        hangs || (speed_ >= 0 ? rotor_ - sprocket_ : sprocket_ - rotor_) >= 0.5 * c_.play;
+    turn(torque + (meshes ? load : 0), c_.coulomb - (meshes ? 0 : c_.sprocket_friction), seconds);
+    sprocket_ =
+        hangs ? rotor_ : std::min(std::max(sprocket_, rotor_ - c_.play / 2), rotor_ + c_.play / 2);
+  }
+
+  void turn(double torque, double friction, double seconds) {
     const bool still = speed_ == 0;
-    if (still && std::fabs(torque) <= c_.coulomb) return;
-    const double against =
-        still ? std::copysign(c_.coulomb, torque) : std::copysign(c_.coulomb, speed_);
+    if (still && std::fabs(torque) <= friction) return;
+    const double against = std::copysign(friction, still ? torque : speed_);
     const double before = speed_;
     speed_ += (torque - against - c_.viscous * speed_) / c_.inertia * seconds;
     // Friction stops a motion; it never turns it round.
-    if (before * speed_ < 0 && std::fabs(torque) <= c_.coulomb) speed_ = 0;
-    angle_ += speed_ * seconds;
+    if (before * speed_ < 0 && std::fabs(torque) <= friction) speed_ = 0;
+    rotor_ += speed_ * seconds;
   }
 
   MotorConstants c_;
   std::mt19937 source_;
-  double angle_ = 0, speed_ = 0;
-  int32_t told_ = 0;  ///< [counts] last
+  double rotor_ = 0, sprocket_ = 0, speed_ = 0;  // [rad], [rad/s], at the sprocket's side
+  int32_t told_ = 0, kept_ = 0;                  ///< [counts] last; and while all channels came
 };
 
-/// Motors as they come: every constant off by up to 30 %.
+/// Motors as they come: every constant off by up to 30 %; the chain of every fourth hangs nearly
+/// slack, as the far one does in a lower corner, so that its gear plays.
 inline MotorConstants anyMotor(unsigned seed) {
   std::mt19937 source(seed);
   std::uniform_real_distribution<double> share(0.7, 1.3);
   MotorConstants c;
-  for (double* one : {&c.resistance, &c.inertia, &c.coulomb, &c.viscous, &c.load})
-    *one *= share(source);
+  for (double* constant : {&c.resistance, &c.inertia, &c.coulomb, &c.viscous, &c.load})
+    *constant *= share(source);
   c.torque_constant *= 1 + (share(source) - 1) / 3;
   c.supply_resistance *= 2 * share(source);
+  c.play *= share(source);
+  c.sprocket_friction *= share(source);
+  if (seed % 4 == 3) c.load *= 0.25;
   return c;
 }
 

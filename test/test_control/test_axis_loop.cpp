@@ -28,17 +28,15 @@ class AtRate : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Both, AtRate, testing::Values(100.0, 200.0));
 
 TEST_P(AtRate, ChainsFollowWithinHalfAMillimetre) {
-  for (double feed : {800.0, 1000.0}) {
+  for (double feed : {300.0, 800.0, 1000.0}) {
     const std::vector<double> all = worstOfMotors(GetParam(), feed);
-    RecordProperty("median_um_at_" + std::to_string(int(feed)), int(1000 * all[kMotors / 2]));
     printf("%.0f Hz, %.0f mm/min: median %.3f mm, worst %.3f mm\n", GetParam(), feed,
            all[kMotors / 2], all.back());
-    EXPECT_LT(all[kMotors / 2], 0.5);
     // The published alarm is at 2 mm: at the clients' greatest feed no motor of these comes near
-    // it. At 1000 mm/min the weakest is at the end of its strength, and one of forty may.
-    EXPECT_LT(all[kMotors - 2], 0.8);
-    if (feed == 800) {
-      EXPECT_LT(all.back(), 0.6);
+    // it. At 1000 mm/min a quarter of them is at the end of its strength behind an L298.
+    EXPECT_LT(all[kMotors / 2], 0.35);
+    if (feed < 1000) {
+      EXPECT_LT(all.back(), 0.9);
     }
   }
 }

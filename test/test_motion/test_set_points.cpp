@@ -94,3 +94,29 @@ TEST_P(SetPointsOf, KeepTheBoundAtAnyFeedAndAcceleration) {
       EXPECT_LT(worst.error, 0.003) << feed << " " << acceleration;
     }
 }
+
+TEST(SetPoints, TellTheStepThatComesSoOrTheLastThatIsKnown) {
+  SetPoints ring;
+  const SetPoint *from = nullptr, *to = nullptr;
+  int32_t pushed = 0, taken = 0;
+  SetPoint point = {0, 0, 0};
+  EXPECT_FALSE(ring.stepAhead(3, from, to));
+  // Twice round the ring and with every number that may wait: set-points are the squares.
+  for (int waiting = 0; waiting < SetPoints::kMost; ++waiting) {
+    for (int i = 0; i < 2 * SetPoints::kMost; ++i) {
+      while (pushed - taken < waiting + 1) {
+        ASSERT_TRUE(ring.hasRoom());
+        ++pushed;
+        ring.push({pushed * pushed, -pushed, 0});
+      }
+      ASSERT_TRUE(ring.take(point));
+      ++taken;
+      ASSERT_EQ(taken * taken, point.left);
+      ASSERT_EQ(waiting > 0, ring.stepAhead(3, from, to));
+      if (waiting == 0) continue;
+      const int32_t last = taken + (waiting < 3 ? waiting : 3);
+      ASSERT_EQ(last * last, to->left);
+      ASSERT_EQ((last - 1) * (last - 1), from->left);
+    }
+  }
+}

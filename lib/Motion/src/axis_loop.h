@@ -14,13 +14,22 @@ struct Gains {
 
 /// Position loop around speed loop.
 ///
-/// Lengths are in turns, speeds in turns a minute. The position loop's output is the speed of the
-/// set-point itself plus what its gains make of the error; the speed loop's output is added to the
-/// duty before, so that its proportional gain acts like an integral (as in the published
-/// firmware, from whose gains users start).
+/// Lengths are in turns, speeds in turns a minute. The position loop's output is the speed that is
+/// asked for plus what its gains make of the error; the speed loop's output is added to the duty
+/// before, so that its proportional gain acts like an integral (as in the published firmware, from
+/// whose gains users start).
+///
+/// The speed asked for is that of the set-points kAhead later, as a motor needs that long to change
+/// its speed. The speed loop's derivative brakes a change of speed only so far as the speed asked
+/// for does not change alike.
 class AxisLoop {
  public:
   enum : int16_t { kMostDuty = 255 };
+
+  /// [ticks] by which the speed asked for is that of later set-points.
+  static uint8_t ticksAhead(float seconds_per_tick) {
+    return uint8_t(kAhead / seconds_per_tick + 0.5f);
+  }
 
   void tune(const Gains& position, const Gains& speed, float seconds_per_tick) {
     position_ = position;
@@ -36,7 +45,7 @@ class AxisLoop {
   }
 
   /// Begins at rest.
-  void rest() { error_ = sum_ = rpm_ = last_rpm_ = duty_ = wanted_ = speed_sum_ = 0; }
+  void rest() { error_ = sum_ = rpm_ = last_rpm_ = last_lead_ = duty_ = wanted_ = speed_sum_ = 0; }
 
   /// Takes the turns moved since the last tick; smooths over two ticks, as counts are coarse.
   void measure(float turned) {
@@ -44,8 +53,8 @@ class AxisLoop {
     rpm_ += (turned * ticks_per_minute_ - rpm_) * 0.5f;
   }
 
-  /// Duty that follows a set-point which is `error` turns ahead and moved by `asked` in this tick.
-  /// Positive lengthens.
+  /// Duty that follows a set-point which is `error` turns ahead; `asked` is the way [turns] of the
+  /// set-points in the tick that comes kAhead later. Positive lengthens.
   int16_t follow(float error, float asked, float turned) {
     const float change = error - error_;
     error_ = error;
@@ -55,29 +64,36 @@ class AxisLoop {
     sum_ = clipped(sum_, kMostRpm);
     const float ahead = position_.proportional > 0 ? asked * ticks_per_minute_ : 0;
     const float share = position_.weight == 1 ? error : position_.weight * error;
-    return run(ahead + position_.proportional * share + sum_ + position_.derivative * change);
+    return drive(ahead + position_.proportional * share + sum_ + position_.derivative * change,
+                 ahead);
   }
 
   /// Duty that keeps a speed.
-  int16_t run(float rpm) {
-    wanted_ = clipped(rpm, kMostRpm);
-    const float error = wanted_ - rpm_;
-    if (speed_.integral != 0) speed_sum_ = clipped(speed_sum_ + speed_.integral * error, kMostDuty);
-    float push = speed_.proportional * error + speed_sum_, hold = speed_.derivative;
-    if (speed_.weight != 1) {
-      push -= speed_.proportional * (1 - speed_.weight) * error;
-      hold += speed_.proportional * (1 - speed_.weight);
-    }
-    const float step = per_interval_ * push - hold * (rpm_ - last_rpm_);
-    duty_ = clipped(duty_ + clipped(step, kMostDuty), kMostDuty);
-    return int16_t(duty_);
-  }
+  int16_t run(float rpm) { return drive(rpm, 0); }
 
   float rpm() const { return rpm_; }
   float wanted() const { return wanted_; }
 
  private:
   static constexpr float kMostRpm = 20;
+  static constexpr float kAhead = 0.03f;  // [s]
+
+  int16_t drive(float rpm, float ahead) {
+    wanted_ = clipped(rpm, kMostRpm);
+    const float error = wanted_ - rpm_;
+    if (speed_.integral != 0) speed_sum_ = clipped(speed_sum_ + speed_.integral * error, kMostDuty);
+    const float lead = rpm_ - ahead;
+    float push = speed_.proportional * error + speed_sum_;
+    float brake = speed_.derivative * (lead - last_lead_);
+    last_lead_ = lead;
+    if (speed_.weight != 1) {
+      const float on_measure = speed_.proportional * (1 - speed_.weight);
+      push -= on_measure * error;
+      brake += on_measure * (rpm_ - last_rpm_);
+    }
+    duty_ = clipped(duty_ + clipped(per_interval_ * push - brake, kMostDuty), kMostDuty);
+    return int16_t(duty_);
+  }
 
   static float clipped(float value, float most) {
     if (value > most) return most;
@@ -86,7 +102,7 @@ class AxisLoop {
 
   Gains position_, speed_;
   float per_interval_, ticks_per_minute_;
-  float error_, sum_, rpm_, last_rpm_, duty_, wanted_, speed_sum_;
+  float error_, sum_, rpm_, last_rpm_, last_lead_, duty_, wanted_, speed_sum_;
 };
 
 }  // namespace motion

@@ -46,6 +46,21 @@ class SetPoints {
     return true;
   }
 
+  /// To be called by the reader after take(): the last of the next `ticks` steps that are known, as
+  /// its two ends; false if nothing waits.
+  bool stepAhead(uint8_t ticks, const SetPoint*& from, const SetPoint*& to) const {
+    const uint8_t head = head_, tail = tail_;
+    const uint8_t waiting = uint8_t(head >= tail ? head - tail : head + kMost + 1 - tail);
+    if (waiting == 0) return false;
+    const uint8_t steps = ticks < waiting ? ticks : waiting;
+    // The place before the tail still holds what was taken: the writer leaves it free.
+    const uint8_t last = uint8_t(tail + steps - 1);
+    const uint8_t at = last > kMost ? uint8_t(last - kMost - 1) : last;
+    to = &ring_[at];
+    from = &ring_[at == 0 ? uint8_t(kMost) : uint8_t(at - 1)];
+    return true;
+  }
+
   /// To be called by the writer: whether the reader found nothing since this was last asked.
   bool hasRunDry() {
     const bool was = ran_dry_;

@@ -1,0 +1,93 @@
+// The control tick with its ring of set-points, its loops and its watch, on motors as they come.
+#include <gtest/gtest.h>
+
+#include "machine/mover.h"
+#include "motor.h"
+#include "settings_flash.h"
+
+using namespace machine;
+
+namespace {
+
+struct StillClock : Clock {
+  uint32_t milliseconds() override { return 0; }
+  void idle() override {}
+  void holdTicks() override {}
+  void releaseTicks() override {}
+};
+
+/// Motors of the forty behind the drives.
+class MotorDrives : public Drives {
+ public:
+  explicit MotorDrives(unsigned seed) {
+    for (unsigned i = 0; i < kAxisCount; ++i) motors.emplace_back(simulated::anyMotor(seed + i), i);
+  }
+  void drive(Axis axis, int16_t duty) override { duty_[axis] = duty; }
+  void release(Axis axis) override { duty_[axis] = 0; }
+  uint16_t count(Axis axis) override { return uint16_t(motors[axis].counts()); }
+  void arrange(bool, uint8_t) override {}
+
+  void pass(double seconds) {
+    // Positive drive winds in.
+    for (unsigned i = 0; i < kAxisCount; ++i) motors[i].run(-duty_[i], seconds);
+  }
+
+  std::vector<simulated::Motor> motors;
+
+ private:
+  int duty_[kAxisCount] = {0, 0, 0};
+};
+
+/// The left axis on its way, with the machine's settings.
+class Bench {
+ public:
+  Bench(unsigned seed, float ticks) : drives(seed), values_(table_, room_), axes(drives, clock_) {
+    axes.setTicksPerSecond(ticks);
+    axes.prepare(values_);
+    mover_.prepare(values_, axes.secondsPerTick());
+    mover_.standAt(axes.setPoint());
+    axes.follow();
+  }
+
+  void travel(float length, float feed) { mover_.addAxis(kLeftAxis, length, feed / 60); }
+
+  void tick() {
+    ASSERT_EQ(Moved::kYes, mover_.fill(axes, geometry_));
+    axes.tick();
+    drives.pass(double(axes.secondsPerTick()));
+  }
+
+  bool isMoving() const { return !mover_.isIdle() || !axes.isEmpty(); }
+  double chain() const { return drives.motors[kLeftAxis].turns() * 63.5; }
+
+  MotorDrives drives;
+
+ private:
+  StillClock clock_;
+  FlashTable table_;
+  float room_[kSettingCount];
+  settings::Values values_;
+  Mover mover_;
+  Geometry geometry_;
+
+ public:
+  Axes axes;
+};
+
+}  // namespace
+
+TEST(Axes, ComeToTheirEndWithoutPassingIt) {
+  for (const float ticks : {100.0f, 200.0f}) {
+    double worst = 0;
+    for (unsigned seed = 0; seed < 20; ++seed) {
+      Bench bench(seed, ticks);
+      bench.travel(20, 800);
+      for (int rest = 0; rest < int(ticks); rest += bench.isMoving() ? 0 : 1) {
+        bench.tick();
+        worst = std::max(worst, bench.chain() - 20);
+      }
+      EXPECT_NEAR(20, bench.chain(), 0.05) << "motor " << seed;
+    }
+    EXPECT_LT(worst, 0.06) << ticks << " Hz";
+  }
+}
