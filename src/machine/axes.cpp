@@ -20,18 +20,25 @@ Gains gainsFrom(const settings::Values& values, uint8_t first) {
 
 }  // namespace
 
-void Axes::prepare(const settings::Values& values) {
+bool Axes::prepare(const settings::Values& values) {
   const WithoutTicks hold(clock_);
+  bool is_rescaled = false;
   for (uint8_t i = 0; i < kAxisCount; ++i) {
     One& one = axis_[i];
     const bool z = i == kZAxis;
     const float counts = values.at(z ? kZCounts : kEncoderCounts);
+    const float length = withinTravel(float(one.counts) * one.per_count);
+    const float was_per_count = one.per_count;
     one.per_count = values.at(z ? kZPerTurn : kChainPerTurn) / counts;
     one.turns_per_count = 1 / float(fabs(counts));
     one.turns_per_mm = one.turns_per_count / one.per_count;
     one.fine_per_count = one.per_count * float(motion::kCountsPerMm);
     const float most = kMostTravel / float(fabs(one.per_count));
     one.most_counts = most < 2e9f ? int32_t(most) : 2000000000;
+    if (one.per_count != was_per_count) {
+      one.counts = countsOf(one, length);
+      is_rescaled = true;
+    }
     // A negative number of counts says that motor or encoder is wired the other way.
     one.sign = counts < 0 ? -1 : 1;
     one.loop.tune(gainsFrom(values, z ? kZPositionP : kMainPositionP),
@@ -39,6 +46,27 @@ void Axes::prepare(const settings::Values& values) {
     one.watch.tune(values.at(kPositionErrorLimit), seconds_per_tick_);
     one.is_held = values.at(z ? kZPositionP : kMainPositionP) > 0;
   }
+  return is_rescaled;
+}
+
+int32_t Axes::countsOf(const One& one, float length) {
+  const float counts = length / one.per_count;
+  if (counts >= float(one.most_counts)) return one.most_counts;
+  return counts <= -float(one.most_counts) ? -one.most_counts : int32_t(lround(counts));
+}
+
+void Axes::simulate(bool on) {
+  const WithoutTicks hold(clock_);
+  if (on && !simulated_) {
+    is_imagined_ = false;
+    for (One& one : axis_) one.astray = 0;
+  }
+  simulated_ = on;
+}
+
+void Axes::imagine(One& one, int32_t counts) {
+  if (one.counts != counts) is_imagined_ = true;
+  one.counts = counts;
 }
 
 void Axes::readEncoder(One& one, Axis axis) {
@@ -46,7 +74,13 @@ void Axes::readEncoder(One& one, Axis axis) {
   const int16_t moved = int16_t(raw - one.raw);
   one.raw = raw;
   one.moved = moved;
-  if (!simulated_) one.counts += moved;
+  if (!simulated_) {
+    one.counts += moved;
+    return;
+  }
+  const int16_t kAstray = 12;  // [encoder counts] 0.1 mm of chain
+  one.astray = int16_t(one.astray + moved);
+  if (one.astray > kAstray || one.astray < -kAstray) is_imagined_ = true;
 }
 
 void Axes::takeSetPoint() {
@@ -72,20 +106,25 @@ void Axes::control(One& one, Axis axis) {
   if (one.mode == AxisMode::kOff) return;
   if (one.mode == AxisMode::kFollow) {
     if (simulated_) {
-      one.counts = int32_t(lround(motion::toMm<float>(one.set_point) / one.per_count));
+      imagine(one, int32_t(lround(motion::toMm<float>(one.set_point) / one.per_count)));
       return;
     }
     const float error = motion::toMm<float>(one.set_point - measured(one));
     const float asked = one.asked == 0 ? 0 : motion::toMm<float>(one.asked) * one.turns_per_mm;
     one.duty = one.loop.follow(error * one.turns_per_mm, asked, turned);
     const motion::Fault seen = one.watch.look(one.duty, one.moved, error);
-    if (seen != motion::Fault::kNone && one.is_held) fault_ = seen;
+    if (seen != motion::Fault::kNone && one.is_held) note(seen, axis);
   } else if (one.mode == AxisMode::kTurn) {
     one.duty = one.loop.run(one.rpm);
   }
   // Positive drive winds in; a positive duty here lengthens.
   const int16_t drive = one.mode == AxisMode::kOpen ? one.duty : int16_t(-one.duty);
   if (!simulated_) drives_.drive(axis, one.sign < 0 ? int16_t(-drive) : drive);
+}
+
+void Axes::note(motion::Fault seen, Axis axis) {
+  if (seen != motion::Fault::kLeftBehind) disproved_ = uint8_t(disproved_ | (1 << axis));
+  if (seen > fault_) fault_ = seen;
 }
 
 int32_t Axes::measured(const One& one) const {
@@ -134,6 +173,7 @@ void Axes::follow() {
     one.mode = AxisMode::kFollow;
   }
   fault_ = motion::Fault::kNone;
+  disproved_ = 0;
 }
 
 void Axes::release(Axis axis) {
@@ -200,7 +240,8 @@ void Axes::declare(Axis axis, float length) {
   const WithoutTicks hold(clock_);
   One& one = axis_[axis];
   length = withinTravel(length);
-  one.counts = int32_t(lround(length / one.per_count));
+  if (simulated_) is_imagined_ = true;
+  one.counts = countsOf(one, length);
   one.set_point = motion::toCounts(length);
 }
 

@@ -45,8 +45,9 @@ class Axes {
     ticks_ahead_ = AxisLoop::ticksAhead(seconds_per_tick_);
   }
 
-  /// Takes over scales, gains and limits.
-  void prepare(const settings::Values& values);
+  /// Takes over scales, gains and limits; whether counts mean other lengths now. A new scale holds
+  /// for travel from now on: all lengths stay what they are, and nothing moves.
+  bool prepare(const settings::Values& values);
 
   /// One control tick.
   void tick();
@@ -75,8 +76,10 @@ class Axes {
   /// Whether a motor runs without its position loop.
   bool isDriven() const;
   /// Lets motors run in imagination only.
-  void simulate(bool on) { simulated_ = on; }
+  void simulate(bool on);
   bool isSimulated() const { return simulated_; }
+  /// Whether lengths are other than the chains' since motors began to run in imagination.
+  bool isImagined() const { return is_imagined_; }
 
   // Lengths.
   int32_t counts(Axis axis) const;
@@ -89,8 +92,11 @@ class Axes {
   /// After drives were arranged anew: their counters may have jumped.
   void forgetRawCounts();
 
-  /// What was noticed since this was last asked.
+  /// What was noticed since this was last asked; the worst of it.
   motion::Fault fault();
+  /// Whether a fault was noticed that proves the counts of an axis wrong, since it was last
+  /// powered.
+  bool isDisproved(Axis axis) const { return (disproved_ & (1 << axis)) != 0; }
 
  private:
   struct One {
@@ -104,6 +110,7 @@ class Axes {
     int32_t counts = 0;       ///< [encoder counts] since zero length
     int32_t set_point = 0;    ///< [counts of motion::kCountsPerMm]
     int32_t asked = 0;        ///< by how much a tick soon to come will change it
+    int16_t astray = 0;       ///< [encoder counts] turned for real while motion is imagined
     float per_count = 1;      ///< [mm] may be negative
     float turns_per_count = 1;
     float turns_per_mm = 1;
@@ -117,6 +124,9 @@ class Axes {
   void readEncoder(One& one, Axis axis);
   void control(One& one, Axis axis);
   int32_t measured(const One& one) const;
+  void note(motion::Fault seen, Axis axis);
+  void imagine(One& one, int32_t counts);
+  static int32_t countsOf(const One& one, float length);
 
   Drives& drives_;
   Clock& clock_;
@@ -125,7 +135,9 @@ class Axes {
   float seconds_per_tick_ = 0.01f;
   uint8_t ticks_ahead_ = AxisLoop::ticksAhead(0.01f);
   volatile motion::Fault fault_ = motion::Fault::kNone;
+  volatile uint8_t disproved_ = 0;  ///< a bit for each axis
   bool simulated_ = false;
+  volatile bool is_imagined_ = false;
 };
 
 }  // namespace machine

@@ -153,9 +153,8 @@ bool Machine::setChains(float left, float right) {
   out_.fixed(axes_.length(kLeftAxis), 2).line(FLASH("mm"));
   out_ << FLASH("Right: ");
   out_.fixed(axes_.length(kRightAxis), 2).line(FLASH("mm"));
-  is_chains_known_ = true;
+  keeper_.declareChains();
   findPlace();
-  keepPosition();
   return true;
 }
 
@@ -191,10 +190,14 @@ bool Machine::measureChain(bool left) {
 
 bool Machine::simulateMotors(bool on) {
   if (!drain()) return false;
-  memory_.setRow(kSimulatedMotors, on);
   axes_.releaseAll();
+  const bool was_on = axes_.isSimulated();
+  if (on && !was_on && !awaitRecord()) return false;
+  memory_.setRow(kSimulatedMotors, on);
   axes_.simulate(on);
   out_.line(on ? FLASH("FAKE_SERVO on") : FLASH("FAKE_SERVO off"));
+  if (was_on && !on && axes_.isImagined())
+    losePosition(FLASH("Motion was simulated, so the chains are elsewhere."));
   return true;
 }
 

@@ -36,6 +36,8 @@ void Machine::saySource(const settings::Started& started) {
     case Source::kImported:
       return out_.line(FLASH("Settings of the published firmware were taken over."));
     case Source::kDefaults:
+      // Of a fresh board, sayUnset() tells it.
+      if (started.known == settings::Known::kNothing) return;
       return out_.line(FLASH("error: EEPROM read fail. Using default settings."));
     case Source::kOtherVersion:
       out_ << FLASH("error: Settings of another firmware, version ") << int32_t(started.version);

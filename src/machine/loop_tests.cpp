@@ -65,7 +65,7 @@ bool Machine::testSpeeds(const LoopTest& test) {
   axes_.release(test.axis);
   out_.line(FLASH("--PID Velocity Test Stop--"));
   out_.end();
-  afterOpenDrive();
+  searchPlace();
   return completed;
 }
 
@@ -102,7 +102,7 @@ bool Machine::testLengths(const LoopTest& test) {
   axes_.release(test.axis);
   out_.line(FLASH("--PID Position Test Stop--"));
   out_.end();
-  afterOpenDrive();
+  searchPlace();
   return completed;
 }
 
@@ -124,7 +124,7 @@ bool Machine::testDuties(const LoopTest& test) {
   axes_.release(test.axis);
   out_.line(FLASH("--Voltage Test Stop--"));
   out_.end();
-  afterOpenDrive();
+  searchPlace();
   return completed;
 }
 

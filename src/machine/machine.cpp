@@ -13,7 +13,8 @@ Machine::Machine(const Ports& ports, const BoardName& board)
       table_(ports.table),
       values_(table_, value_room_),
       memory_(ports.bytes, values_),
-      axes_(ports.drives, ports.clock) {}
+      axes_(ports.drives, ports.clock),
+      keeper_(memory_, axes_) {}
 
 void Machine::begin() {
   const settings::Started started = memory_.start();

@@ -9,6 +9,7 @@
 #include "lock.h"
 #include "mover.h"
 #include "ports.h"
+#include "position_keeper.h"
 #include "printer.h"
 #include "settings_table.h"
 
@@ -109,8 +110,12 @@ class Machine {
   bool findPlace();
   void standHere();
   void restorePosition(const settings::Started& started);
+  void sayUnset(bool has_defaults);
   void losePosition(FlashText why);
-  void keepPosition();
+  void doubtCounts();
+  FlashText whatIsLost() const;
+  void keepWhenAtRest();
+  bool awaitRecord();
   Place placeNow();
 
   // refusals.cpp: lines that are not done.
@@ -189,7 +194,6 @@ class Machine {
   bool testDirection(Axis axis, int8_t direction);
   bool testMotors();
   bool pullChain(Axis axis, int16_t duty, float seconds);
-  void afterOpenDrive();
   void sayGains(Axis axis, bool position);
   bool sampleSpeed(Axis axis, float rpm, uint8_t version);
   bool testLoop(uint8_t code, const LoopTest& test);
@@ -210,6 +214,7 @@ class Machine {
   settings::Memory memory_;
   Geometry geometry_;
   Axes axes_;
+  PositionKeeper keeper_;
   Mover mover_;
   Input input_;
   Modal modal_;
@@ -222,9 +227,8 @@ class Machine {
   volatile bool hung_ = false;
   bool stopping_ = false;  ///< a stop was asked for; every wait ends
   bool pausing_ = false, resumed_ = false;
-  bool is_answered_ = false;     ///< the line in execution has got its answer
-  bool is_testing_ = false;      ///< a test of loops jumps to and fro
-  bool is_chains_known_ = true;  ///< false after power was lost in motion
+  bool is_answered_ = false;  ///< the line in execution has got its answer
+  bool is_testing_ = false;   ///< a test of loops jumps to and fro
   bool is_place_known_ = false;
   bool is_geometry_stale_ = false;
 };

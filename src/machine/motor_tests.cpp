@@ -46,7 +46,7 @@ bool Machine::testMotors() {
     axes_.release(Axis(i));
   }
   if (completed) out_.line(FLASH("Tests complete."));
-  afterOpenDrive();
+  searchPlace();
   return completed;
 }
 
@@ -54,13 +54,8 @@ bool Machine::pullChain(Axis axis, int16_t duty, float seconds) {
   if (!drain() || !wakeMotors()) return false;
   const bool completed = driveFor(axis, duty, uint32_t(seconds * 1000));
   axes_.release(axis);
-  afterOpenDrive();
-  return completed;
-}
-
-void Machine::afterOpenDrive() {
   searchPlace();
-  keepPosition();
+  return completed;
 }
 
 }  // namespace machine

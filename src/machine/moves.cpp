@@ -79,9 +79,8 @@ bool Machine::moveRound(bool clockwise, motion::Point<float> from, const Place& 
 }
 
 bool Machine::mayCrossSheet() {
+  if (!keeper_.trustsAll()) return refuseMotion(whatIsLost());
   if (is_place_known_) return true;
-  if (!is_chains_known_)
-    return refuseMotion(FLASH("Position Lost: set the chain lengths first (B06 or B08)"));
   return refuseMotion(
       FLASH("the chains put the sled nowhere: set their lengths first (B06 or B08)"));
 }

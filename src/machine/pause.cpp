@@ -38,6 +38,7 @@ bool Machine::setZByHand(float z) {
   axes_.declare(kZAxis, z);
   aim_.z = z;
   mover_.standAt(axes_.setPoint());
+  keeper_.declareZ();
   return waitFor(1000);
 }
 

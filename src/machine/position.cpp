@@ -4,7 +4,8 @@
 namespace machine {
 namespace {
 
-const float kSamePlace = 1;  // [mm] that settings changed since may move a kept place
+const float kMovedByHand = 0.5f;  // [mm] more than chains give way when motors are switched off
+const uint32_t kRecordMs = 1000;  // a record is written in 0.3 s
 
 }  // namespace
 
@@ -24,7 +25,7 @@ bool Machine::searchPlace() {
   const FoundPlace found =
       geometry_.forward(axes_.length(kLeftAxis), axes_.length(kRightAxis), guess);
   axes_.standStill();
-  is_place_known_ = found.found && is_chains_known_;
+  is_place_known_ = found.found && keeper_.trustsChains();
   place_.x = found.found ? found.at.x : 0;
   place_.y = found.found ? found.at.y : 0;
   standHere();
@@ -50,25 +51,42 @@ bool Machine::findPlace() {
 }
 
 void Machine::restorePosition(const settings::Started& started) {
+  using settings::Known;
   const settings::Position& kept = started.position;
-  if (started.known == settings::Known::kNothing) {
-    axes_.setCounts(0, 0, 0);
-    findPlace();
-    return;
+  const bool is_kept = started.known != Known::kNothing;
+  axes_.setCounts(is_kept ? kept.left : 0, is_kept ? kept.right : 0, is_kept ? kept.z : 0);
+  keeper_.begin(started.known);
+  switch (started.known) {
+    case Known::kNothing:
+      searchPlace();
+      return sayUnset(started.source == settings::Source::kDefaults);
+    case Known::kMoving:
+      return losePosition(FLASH("Power was lost before the position was kept."));
+    case Known::kDoubted:
+      return losePosition(FLASH("The encoders' counts were wrong before power was lost."));
+    case Known::kAtRest:
+      break;
   }
-  axes_.setCounts(kept.left, kept.right, kept.z);
-  if (started.known == settings::Known::kMoving) {
-    losePosition(FLASH("Power was lost while the sled moved."));
-    return;
-  }
-  if (!findPlace() || !kept.has_place) return;
-  const bool same =
-      float(fabs(place_.x - kept.x)) < kSamePlace && float(fabs(place_.y - kept.y)) < kSamePlace;
-  if (!same) losePosition(FLASH("The kept place is not where the chains put the sled."));
+  const bool is_found = findPlace();
+  using settings::Agreement;
+  const Agreement agreement = settings::compare(kept, memory_.scale(), place_.x, place_.y);
+  if (agreement == Agreement::kScaleChanged)
+    losePosition(
+        FLASH("Encoders are scaled otherwise ($12, $13, $19, $20) than when it was kept."));
+  else if (is_found && agreement == Agreement::kPlaceDiffers)
+    losePosition(FLASH("The kept place is not where the chains put the sled."));
+}
+
+void Machine::sayUnset(bool has_defaults) {
+  if (has_defaults) out_ << FLASH("Settings are the defaults. ");
+  out_.line(
+      FLASH("Chain lengths are not known yet: send your settings, then set the chains "
+            "(Actions -> Set Chain Lengths, or B06 L R)."));
 }
 
 void Machine::losePosition(FlashText why) {
-  is_chains_known_ = is_place_known_ = false;
+  keeper_.doubtChains();
+  is_place_known_ = false;
   axes_.standStill();
   // Or the next move of z would set out from chains of no length.
   standHere();
@@ -78,17 +96,39 @@ void Machine::losePosition(FlashText why) {
   out_.line(FLASH(" mm. Set them (B06 L R), or set the chains to their marks (B08)."));
 }
 
-void Machine::keepPosition() {
-  // What is doubtful must not be found as certain after the next power cut.
-  if (!is_chains_known_) return;
+void Machine::doubtCounts() {
+  for (uint8_t i = 0; i < kAxisCount; ++i)
+    if (axes_.isDisproved(Axis(i))) keeper_.doubt(Axis(i));
+  is_place_known_ = is_place_known_ && keeper_.trustsChains();
+}
+
+FlashText Machine::whatIsLost() const {
+  return keeper_.trustsChains() ? FLASH("z is not known: set it first (G10 Z0 or G38.2)")
+                                : FLASH("Position Lost: set the chain lengths first (B06 or B08)");
+}
+
+void Machine::keepWhenAtRest() {
+  if (isMoving() || !keeper_.isDue(clock_.milliseconds())) return;
+  // A motor that ran on, or a chain that was pulled: the next move begins where the sled is.
+  for (uint8_t i = 0; i < kAxisCount; ++i)
+    if (float(fabs(axes_.error(Axis(i)))) > kMovedByHand) searchPlace();
   settings::Position position;
   position.left = axes_.counts(kLeftAxis);
   position.right = axes_.counts(kRightAxis);
   position.z = axes_.counts(kZAxis);
-  position.x = aim_.x;
-  position.y = aim_.y;
-  position.has_place = is_place_known_;
-  memory_.keepPosition(position);
+  // The place is what the chains say, not what was asked for: that is what a start compares.
+  const FoundPlace found =
+      geometry_.forward(axes_.length(kLeftAxis), axes_.length(kRightAxis), {place_.x, place_.y});
+  position.x = found.at.x;
+  position.y = found.at.y;
+  position.has_place = found.found;
+  keeper_.keep(position);
+}
+
+bool Machine::awaitRecord() {
+  const uint32_t start = clock_.milliseconds();
+  while (!stopping_ && !keeper_.isSettled() && clock_.milliseconds() - start < kRecordMs) service();
+  return !stopping_;
 }
 
 Place Machine::placeNow() {

@@ -13,6 +13,8 @@ bool Machine::probe(float target) {
   if (values_.at(kZMotor) == 0) return refuseMotion(FLASH("a probe needs a z motor ($16)"));
   if (!(float(fabs(target)) <= kMostTravel)) return refuseMotion(FLASH("no z axis is that long"));
   if (!drain()) return false;
+  if (aux_.probeTouches())
+    return refuseMotion(FLASH("the probe touches already: lift z, or look for a short"));
   out_.line(FLASH("probing for z axis zero"));
   out_ << FLASH("max depth ");
   out_.fixed(inUnits(target), 2).line(modal_.inches ? FLASH(" in.") : FLASH(" mm."));

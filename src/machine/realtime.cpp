@@ -11,6 +11,7 @@ void Machine::service() {
   watchAxes();
   refreshGeometryWhenQuiet();
   restWhenIdle();
+  keepWhenAtRest();
   memory_.step();
   reportWhenDue();
   clock_.idle();
@@ -95,11 +96,11 @@ void Machine::finishStop() {
   }
   switchSpindle(false);
   out_.line(FLASH("Laser off"));
-  if (is_chains_known_)
+  if (keeper_.trustsChains())
     findPlace();
   else
     searchPlace();
-  if (!axes_.isPowered()) keepPosition();
+  if (keeper_.hasLost()) out_.line(whatIsLost());
 }
 
 void Machine::resetSoftly() {
@@ -130,6 +131,7 @@ void Machine::watchAxes() {
   const motion::Fault fault = axes_.fault();
   // Tests make errors on purpose.
   if (is_testing_) return;
+  if (fault == motion::Fault::kStands || fault == motion::Fault::kTurnsBack) doubtCounts();
   if (fault == motion::Fault::kLeftBehind)
     raiseAlarm(
         FLASH("The sled is not keeping up with its expected position and has halted. Press Stop, "
@@ -151,12 +153,13 @@ void Machine::noteHang() {
 }
 
 bool Machine::wakeMotors() {
-  if (!axes_.isPowered() && !axes_.isSimulated()) {
-    memory_.beginMoving();
-    while (!stopping_ && !memory_.mayMove()) service();
-    if (stopping_) return false;
+  if (!axes_.isPowered()) {
+    keeper_.beginMoving();
+    while (!stopping_ && !keeper_.mayMove()) service();
   }
-  axes_.follow();
+  if (!stopping_) axes_.follow();
+  keeper_.endWait();
+  if (stopping_) return false;
   last_motion_ms_ = clock_.milliseconds();
   return true;
 }
@@ -167,7 +170,6 @@ void Machine::restWhenIdle() {
   if (!axes_.isPowered() || now - last_motion_ms_ < uint32_t(values_.at(kIdleTime))) return;
   if (isMoving() || axes_.isDriven()) return;
   axes_.releaseAll();
-  keepPosition();
 }
 
 }  // namespace machine

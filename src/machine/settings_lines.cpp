@@ -89,7 +89,7 @@ bool Machine::setValue(uint8_t number, float value) {
 
 void Machine::afterSetting(uint8_t number) {
   if (number == 38 || number == 39) arrangeDrives();
-  axes_.prepare(values_);
+  if (axes_.prepare(values_)) keeper_.reconsider();
   mover_.prepare(values_, axes_.secondsPerTick());
   if (number == 17) restSpindle();
   if (!isGeometry(number)) return;
@@ -100,6 +100,8 @@ void Machine::afterSetting(uint8_t number) {
 
 void Machine::arrangeDrives() {
   axes_.releaseAll();
+  // A tick in between would take another wiring of the encoders for motion.
+  const WithoutTicks hold(clock_);
   drives_.arrange(values_.at(kFeedSide) == 1, uint8_t(values_.at(kPwmFrequency)));
   axes_.forgetRawCounts();
 }
@@ -109,14 +111,14 @@ void Machine::refreshGeometry() {
   is_geometry_stale_ = false;
   geometry_.prepare(values_);
   searchPlace();
-  keepPosition();
+  keeper_.reconsider();
 }
 
 void Machine::refreshGeometryWhenQuiet() {
   if (!is_geometry_stale_ || isMoving() || clock_.milliseconds() - geometry_changed_ms_ < kQuietMs)
     return;
   refreshGeometry();
-  if (is_chains_known_) findPlace();
+  if (keeper_.trustsChains()) findPlace();
 }
 
 void Machine::restoreDefaults(settings::Reset what) {
@@ -125,7 +127,7 @@ void Machine::restoreDefaults(settings::Reset what) {
   memory_.reset(what);
   if (what != settings::Reset::kSettings) {
     axes_.setCounts(0, 0, 0);
-    is_chains_known_ = true;
+    keeper_.startAfresh();
   }
   axes_.simulate(values_.at(kSimulatedMotors) != 0);
   arrangeDrives();
@@ -136,8 +138,10 @@ void Machine::restoreDefaults(settings::Reset what) {
   sayReady();
   is_answered_ = true;
   if (what == settings::Reset::kSettings) return;
-  findPlace();
+  geometry_.prepare(values_);
   is_geometry_stale_ = false;
+  searchPlace();
+  sayUnset(true);
 }
 
 }  // namespace machine

@@ -56,7 +56,7 @@ void Machine::declareZ(float z) {
   const float high = values_.at(kZUpperLimit), low = values_.at(kZLowerLimit);
   if (high < kNoLimit) memory_.setRow(kZUpperLimit, high + shift);
   if (low > -kNoLimit) memory_.setRow(kZLowerLimit, low + shift);
-  keepPosition();
+  keeper_.declareZ();
 }
 
 }  // namespace machine

@@ -24,9 +24,12 @@
 ~~ free left
 >> !
 <- ok
+; What held the chain may have cut its encoder off as well: nobody knows where the sled is.
+<* Position Lost: set the chain lengths first*
+~~ hang X0 Y0
+~~ declare
 <* position loaded at:
-<* *
-<* *
+<* ok
 -> G91 G0 X5 G90
 <- ok
 ~~ wait 3

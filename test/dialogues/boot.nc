@@ -1,14 +1,15 @@
 ; What a fresh board says by itself, and that it says it soon enough.
 <- PCB v1.2 Detected
 <- FAKE_SERVO off
-<- error: EEPROM read fail. Using default settings.
 <- Grbl v1.00
 <- Plumb *
 <- ready
 <- ok
-<- [Forward Calculating Position]
-<- Message: Unable to find valid machine position for chain lengths 0.00, 0.00*
+<- Settings are the defaults. Chain lengths are not known yet*
 ~~ wait 1
 ~~ quiet
 ~~ status <Idle,MPos:0.00,0.00,0.00,WPos:0.000,0.000,0.000>
 ~~ errors [PE:0.00,0.00,127]
+; Not before somebody has set the chains does a move over the sheet make sense.
+-> G0 X10
+<- ALARM: Halted at G0 X10: Position Lost: set the chain lengths first*

@@ -1,7 +1,7 @@
 ; GroundControl's first words: a soft reset, the settings, the version, the units, one setting.
 <* ready
 <- ok
-<* Message: Unable*
+<* Settings are the defaults. Chain lengths are not known yet*
 >> ^X^N
 <- 
 <- soft reset commanded
@@ -10,8 +10,7 @@
 <- Plumb *
 <- ready
 <- ok
-<* [Forward Calculating Position]
-<* Message: Unable*
+<- Laser off
 -> $$ 
 <- $0=2438.4 (*
 <- $1=1219.2 (*
@@ -73,7 +72,6 @@
 <- ok
 -> $16=1.000000
 <- ok
-; The place is searched once, after the last setting.
-<- [Forward Calculating Position]
-<- Message: Unable*
+; Nobody has set the chains yet: no setting makes the place a question.
 ~~ wait 1
+~~ quiet

@@ -29,6 +29,7 @@
 <* ALARM: Halted at G0 X0: Position Lost*
 >> !
 <* Laser off
+<- Position Lost: set the chain lengths first*
 -> G0 Z-2
 <- ok
 ~~ wait 2

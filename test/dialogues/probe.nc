@@ -17,3 +17,11 @@
 <* error: probe did not connect
 ~~ wait 1
 ~~ quiet
+; A probe that touches before z has moved says nothing about the height of the piece.
+~~ probe 1000
+-> G10 Z2
+<- ok
+-> G38.2 Z-20 F1
+<- error: the probe touches already*
+~~ wait 1
+~~ status <Idle,MPos:0.00,0.00,2.00,WPos:0.000,0.000,0.000> within 0.02

@@ -1,7 +1,7 @@
 ; The sled with two brackets, which is the published default.
 <* ready
 <- ok
-<* Message: Unable*
+<* Settings are the defaults. Chain lengths are not known yet*
 -> B08
 <- B08
 <* position loaded at:

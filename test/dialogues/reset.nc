@@ -21,7 +21,7 @@
 -> $RST=*
 <- Message: Restoring defaults 
 <* ok
-<* Message: Unable to find valid machine position for chain lengths 0.00, 0.00*
+<* Settings are the defaults. Chain lengths are not known yet*
 ~~ wait 2
 -> $RST=x
 <- error: *

@@ -11,3 +11,23 @@
 ~~ plug z
 >> !
 <- ok
+<- Laser off
+<- [Forward Calculating Position]
+<- position loaded at:
+<* *
+<* *
+<- z is not known: set it first (G10 Z0 or G38.2)
+; The chains are where they were, but nothing is cut at a depth that nobody knows.
+-> G0 X10
+<- ALARM: Halted at G0 X10: z is not known*
+>> !
+<* z is not known*
+-> G91 G0 Z1 G90
+<- ok
+-> G10 Z0
+<- ok
+-> G0 X10
+<- ok
+~~ wait 6
+~~ sled X10 Y0 within 0.06
+~~ quiet

@@ -14,14 +14,19 @@ class SimulatedMotor {
   /// Lets `seconds` pass.
   void advance(double seconds) {
     const double kTimeConstant = 0.03;  // [s] inertia against the motor's own back voltage
-    const int kStiction = 12;           // duty below which the gears hold
+    const double time_constant = powered ? kTimeConstant : coasting;
+    const int kStiction = 12;  // duty below which the gears hold
     const bool pulls = powered && !stuck && std::abs(duty) > kStiction;
     const double target = pulls ? -duty * (reversed ? -1 : 1) / 255.0 * top_speed_ : 0.0;
-    speed_ += (target - speed_) * (1 - std::exp(-seconds / kTimeConstant));
+    speed_ += (target - speed_) * (1 - std::exp(-seconds / time_constant));
     if (stuck) speed_ = 0;
-    travel += speed_ * seconds;
-    counted_ += unplugged ? 0 : speed_ * seconds;
+    const double moved = (speed_ + (powered ? 0 : by_hand)) * seconds;
+    travel += moved;
+    counted_ += unplugged ? 0 : moved;
   }
+
+  /// How far it would still run without power [mm].
+  double coast() const { return stuck ? 0 : speed_ * coasting; }
 
   /// The encoder, as the board's 16-bit counter shows it.
   uint16_t count() const { return uint16_t(int64_t(std::floor(counted_ / per_count_))); }
@@ -29,7 +34,9 @@ class SimulatedMotor {
   /// After a power cut the board counts from zero again.
   void restartCount() { counted_ = 0.5 * per_count_; }
 
-  double travel = 0;  ///< [mm] where the axis really is
+  double travel = 0;       ///< [mm] where the axis really is
+  double by_hand = 0;      ///< [mm/s] at which somebody pays out chain, if the motor is off
+  double coasting = 0.03;  ///< [s] time constant of a motor without power
   int16_t duty = 0;
   bool powered = false, stuck = false, unplugged = false, reversed = false;
 

@@ -98,6 +98,7 @@ void Stage::passMillisecond() {
   for (SimulatedMotor& motor : motor_) motor.advance(0.001);
   eeprom.advance(1000);
   if (now_ms_ % kTickMs == 0) tick();
+  look();
   if (now_ms_ - last_line_ms_ > kLongestGapMs) fail("silence for over 1.5 s");
 }
 
@@ -168,8 +169,12 @@ bool Stage::skipTo(const Step& step) {
   return false;
 }
 
-void Stage::fail(const std::string& why) const {
+std::string Stage::whereInTheScript() const {
   const std::size_t at = std::min(at_, steps_.size() - 1);
-  throw Failure(steps_[at].place + ": " + steps_[at].text + "\n  " + why + "\n  at " +
-                std::to_string(now_ms_) + " ms; " + latest_status_ + latest_errors_);
+  return steps_[at].place + ": " + steps_[at].text;
+}
+
+void Stage::fail(const std::string& why) const {
+  throw Failure(whereInTheScript() + "\n  " + why + "\n  at " + std::to_string(now_ms_) + " ms; " +
+                latest_status_ + latest_errors_);
 }

@@ -51,8 +51,16 @@ class Stage : public machine::Wire,
 
   /// Called every control tick, as the interrupt would be.
   std::function<void()> tick = [] {};
+  /// Called every millisecond, for those who look on.
+  std::function<void()> look = [] {};
   SimulatedEeprom eeprom;
   uint8_t servo = machine::kNoServo;
+
+  /// The motors as they truly are, and what was reported last.
+  SimulatedMotor& motor(machine::Axis axis) { return motor_[axis]; }
+  const std::string& status() const { return latest_status_; }
+  long milliseconds_since_status() const { return now_ms_ - status_ms_; }
+  std::string whereInTheScript() const;
 
   /// What is left after a power cut.
   void restart();

@@ -77,6 +77,8 @@ bool Stage::change(const std::string& verb, const std::string& rest) {
     motorNamed(rest).unplugged = is("unplug");
   else if (is("reverse"))
     motorNamed(rest).reversed = true;
+  else if (is("pull"))
+    motorNamed(rest.substr(0, rest.find(' '))).by_hand = numbersIn(rest).at(0);
   else if (is("off") || is("on"))
     tellOr(motorNamed(rest).powered == is("on"), "it is not");
   else if (is("spindle"))

@@ -47,7 +47,7 @@ TEST(FirstStart, SaysWhichOtherFirmwareItDoesNotRead) {
   Stage stage(
       skipsTo({"error: Settings of another firmware, version 6, are not read. Using "
                "default settings.",
-               "ready", "ok", "Message: Unable to find*", "-$$", "$2=2978.4 (*", "ok"}));
+               "ready", "ok", "Chain lengths are not known yet*", "-$$", "$2=2978.4 (*", "ok"}));
   put(stage, image);
   expectSaid(stage);
 }

@@ -15,6 +15,7 @@ struct NoDrives : Drives {
   void drive(Axis, int16_t) override {}
   void release(Axis) override {}
   uint16_t count(Axis) override { return 0; }
+  uint16_t illegalSteps(Axis) override { return 0; }
   void arrange(bool, uint8_t) override {}
 };
 

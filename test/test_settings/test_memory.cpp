@@ -144,18 +144,20 @@ TEST(Scale, ChangesOfItAreSeen) {
     Eeprom eeprom = used();
     {
       Board board(eeprom);
-      ASSERT_TRUE(board.started.same_scale);
+      ASSERT_EQ(board.memory.scale(), board.started.position.scale);
       board.memory.set(2, 3000);
       settle(board.memory);
     }
     {
       Board board(eeprom);
-      EXPECT_TRUE(board.started.same_scale) << "the gap does not scale counts";
+      EXPECT_EQ(board.memory.scale(), board.started.position.scale)
+          << "the gap does not scale counts";
       const float was = board.values.at(indexOf(board.table, uint8_t(number)));
       board.memory.set(uint8_t(number), was * 1.001f);
       settle(board.memory);
     }
-    EXPECT_FALSE(Board(eeprom).started.same_scale) << number;
+    Board after(eeprom);
+    EXPECT_NE(after.memory.scale(), after.started.position.scale) << number;
   }
 }
 

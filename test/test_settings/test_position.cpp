@@ -88,6 +88,54 @@ TEST(Position, LeftBehindIsTold) {
   EXPECT_TRUE(same(positionOf(2), after.position));
 }
 
+TEST(Position, ADoubtIsKeptUntilAPositionIs) {
+  Eeprom eeprom = travelled(3);
+  {
+    Ring ring(eeprom);
+    ring.slots.doubt();
+    ring.settle();
+  }
+  EXPECT_EQ(Known::kDoubted, Ring(eeprom).known);
+  {
+    Ring ring(eeprom);
+    EXPECT_TRUE(same(positionOf(2), ring.position));
+    ring.slots.beginMoving();
+    ring.settle();
+    EXPECT_TRUE(ring.slots.mayMove());
+  }
+  EXPECT_EQ(Known::kDoubted, Ring(eeprom).known) << "a motion makes it no better";
+  Ring ring(eeprom);
+  ring.slots.keep(positionOf(4));
+  ring.settle();
+  EXPECT_EQ(Known::kAtRest, Ring(eeprom).known);
+  ring.slots.beginMoving();
+  ring.settle();
+  EXPECT_EQ(Known::kMoving, Ring(eeprom).known) << "that doubt is over";
+}
+
+TEST(Position, ADoubtInMotionIsKeptAndInARecordHalfWritten) {
+  for (int steps = 0; steps < 40; ++steps) {
+    Eeprom eeprom = travelled(3);
+    Ring ring(eeprom);
+    ring.slots.beginMoving();
+    ring.settle();
+    ring.slots.keep(positionOf(9));
+    for (int i = 0; i < steps; ++i) ring.step();
+    ring.slots.doubt();
+    ring.settle();
+    ASSERT_EQ(Known::kDoubted, Ring(eeprom).known) << steps;
+  }
+}
+
+TEST(Position, NothingCanBeDoubtedOfAVirginBoard) {
+  Eeprom eeprom;
+  Ring ring(eeprom);
+  ring.slots.doubt();
+  ring.settle();
+  EXPECT_EQ(0u, eeprom.writes);
+  EXPECT_EQ(Known::kNothing, Ring(eeprom).known);
+}
+
 TEST(Position, ForgottenIsForgotten) {
   Eeprom eeprom = travelled(70);
   Ring ring(eeprom);

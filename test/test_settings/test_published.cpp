@@ -19,7 +19,7 @@ void expectCounts(const Board& board) {
   EXPECT_EQ(counts.left, board.started.position.left);
   EXPECT_EQ(counts.right, board.started.position.right);
   EXPECT_EQ(counts.z, board.started.position.z);
-  EXPECT_TRUE(board.started.same_scale);
+  EXPECT_EQ(board.memory.scale(), board.started.position.scale);
 }
 
 std::string saidAt(const Board& board) {

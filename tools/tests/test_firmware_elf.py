@@ -19,7 +19,7 @@ RAM = 8192
 CORNERS = [(x, y) for x in (-1219.2, 1219.2) for y in (-609.6, 609.6)]
 PLACES = [(0.0, 0.0), (100.0, -50.25), *CORNERS]
 RING = {7: 2, 8: 139.1, 63: 0.00137293, 160: 8.2e-12, 170: 5.2e-6}
-BOOT = ["<* ok", "<* Message: Unable to find*"]
+BOOT = ["<* ok", "<* Settings are the defaults. Chain lengths are not known yet*"]
 
 
 @pytest.fixture(scope="module")

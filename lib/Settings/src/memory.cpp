@@ -51,7 +51,6 @@ Started Memory::start() {
   retiring_ = remains_ && loaded != Loaded::kNothing;
   if (loaded == Loaded::kSome) copies_.save();
   takeOver(recognise(bytes_), started);
-  started.same_scale = started.position.scale == scale();
   return started;
 }
 

@@ -24,7 +24,6 @@ struct Started {
   uint8_t number;   ///< the bad setting, with kBadValue
   Known known;
   Position position;  ///< meaningful unless known is kNothing
-  bool same_scale;    ///< $12, $13, $19 and $20 are as they were when the position was kept
 };
 
 /// What $RST erases.
@@ -67,6 +66,10 @@ class Memory {
 
   /// The machine is about to move: call before each motion after rest, then wait for mayMove().
   void beginMoving();
+
+  /// The counts were proved wrong: what is kept of the position holds no more, also after a power
+  /// cut, until keepPosition().
+  void doubtPosition() { slots_.doubt(); }
 
   /// True once a power cut would be noticed. Until then no motor may turn.
   bool mayMove() const;

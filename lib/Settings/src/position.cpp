@@ -77,6 +77,7 @@ PositionSlots::PositionSlots(Bytes& bytes, uint16_t first_address, uint8_t slots
       mark_(kMoved),
       sequence_(0),
       exists_(false),
+      wanted_(kMoved),
       moving_(false),
       tried_(false),
       writing_(false),
@@ -108,10 +109,14 @@ Known PositionSlots::load(Position& position) {
   exists_ = found;
   if (!found) return Known::kNothing;
   readNewest();
-  mark_ = record_[kMarkAt] == kRests ? kRests : kMoved;
+  const uint8_t mark = record_[kMarkAt];
+  mark_ = mark == kRests || mark == kWrong ? mark : uint8_t(kMoved);
   position = positionIn(record_);
   if (!(record_[kKnownAt] & kIsKnown)) return Known::kNothing;
-  return mark_ == kRests ? Known::kAtRest : Known::kMoving;
+  if (mark_ == kRests) return Known::kAtRest;
+  if (mark_ == kMoved) return Known::kMoving;
+  wanted_ = kWrong;
+  return Known::kDoubted;
 }
 
 void PositionSlots::readNewest() {
@@ -143,6 +148,7 @@ void PositionSlots::keep(const Position& position) {
   storeFloat(fresh + kPlaceAt + 4, position.y);
   store(fresh + kScaleAt, position.scale, 2);
   moving_ = false;
+  wanted_ = kMoved;
   // Nothing new costs no writing.
   const bool there = (writing_ || holds_newest_) && record_[kMarkAt] == kRests &&
                      !memcmp(record_ + kKnownAt, fresh + kKnownAt, kMarkAt - kKnownAt);
@@ -152,6 +158,7 @@ void PositionSlots::keep(const Position& position) {
 void PositionSlots::forget() {
   const uint8_t nothing[kMarkAt] = {};
   moving_ = false;
+  wanted_ = kMoved;
   begin(nothing, kRests);
 }
 
@@ -164,10 +171,18 @@ void PositionSlots::beginMoving() {
   holds_newest_ = false;
 }
 
+void PositionSlots::doubt() {
+  wanted_ = kWrong;
+  tried_ = false;
+  beginMoving();
+  // Where no record is, there is nothing to doubt.
+  if (!exists_ && !writing_) mark_ = wanted_;
+}
+
 void PositionSlots::step() {
   if (writing_) {
     writeRecord();
-  } else if (moving_ && mark_ != kMoved) {
+  } else if (moving_ && mark_ != wanted_) {
     writeMark();
   }
 }
@@ -201,17 +216,17 @@ void PositionSlots::writeRecord() {
 
 void PositionSlots::writeMark() {
   const uint16_t address = uint16_t(addressOf(newest_) + kMarkAt);
-  if (bytes_.read(address) == kMoved) {
-    mark_ = kMoved;
-    if (holds_newest_) record_[kMarkAt] = kMoved;
+  if (bytes_.read(address) == wanted_) {
+    mark_ = wanted_;
+    if (holds_newest_) record_[kMarkAt] = wanted_;
     tried_ = false;
   } else if (!tried_) {
-    bytes_.write(address, kMoved);
+    bytes_.write(address, wanted_);
     tried_ = true;
   } else {
     // A worn cell: a record elsewhere, moving from the first.
     readNewest();
-    begin(record_, kMoved);
+    begin(record_, wanted_);
   }
 }
 

@@ -18,6 +18,7 @@ enum class Known : uint8_t {
   kNothing,  ///< never saved, or forgotten on request: chains must be set
   kAtRest,   ///< the machine stood there when power went
   kMoving,   ///< power went in motion (or other firmware ran): where the machine was before
+  kDoubted,  ///< the counts were proved wrong: where the machine believed to be before
 };
 
 /// Whether kept counts and kept place still say the same.
@@ -57,8 +58,11 @@ class PositionSlots {
   /// Marks the newest record as left behind, instead of one that is still being written.
   void beginMoving();
 
+  /// Marks the newest record as proved wrong; beginMoving() leaves that mark, keep() ends it.
+  void doubt();
+
   /// True while something is to be written.
-  bool isBusy() const { return writing_ || (moving_ && mark_ != kMoved); }
+  bool isBusy() const { return writing_ || (moving_ && mark_ != wanted_); }
 
   /// True once beginMoving() has done its work.
   bool mayMove() const { return moving_ && !isBusy(); }
@@ -67,7 +71,7 @@ class PositionSlots {
   void step();
 
  private:
-  enum : uint8_t { kMoved = 0, kRests = 0x5A };
+  enum : uint8_t { kMoved = 0, kRests = 0x5A, kWrong = 0xA5 };
 
   uint16_t addressOf(uint8_t slot) const { return uint16_t(first_ + slot * kBytesPerSlot); }
   uint8_t after(uint8_t slot) const { return slot + 1 < slots_ ? uint8_t(slot + 1) : uint8_t(0); }
@@ -84,6 +88,7 @@ class PositionSlots {
   uint8_t mark_;       ///< of the newest record
   uint16_t sequence_;  ///< of the newest record
   bool exists_;        ///< there is one
+  uint8_t wanted_;     ///< what the mark should say while moving_: kMoved or kWrong
   bool moving_;        ///< the mark should say so
   bool tried_;         ///< the mark has been written, and is not there yet
   bool writing_;       ///< a record

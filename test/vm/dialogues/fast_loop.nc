@@ -1,6 +1,6 @@
 ; The loop at 200 Hz: set, kept over a reset, and then short moves as fast as the line carries them.
 <* ok
-<* Message: Unable*
+<* Settings are the defaults. Chain lengths are not known yet*
 -> $69=200
 <- ok
 -> $7=2

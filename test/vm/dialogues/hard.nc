@@ -1,7 +1,7 @@
 ; The hard case: sag, stretch and pitch, all three axes in motion, first in one long move, then in
 ; short ones as fast as the line carries them.
 <* ok
-<* Message: Unable*
+<* Settings are the defaults. Chain lengths are not known yet*
 -> $7=2
 <- ok
 -> $8=139.1

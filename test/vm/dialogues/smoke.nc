@@ -1,13 +1,11 @@
 ; The firmware as flashed: boot, settings, version, a setting kept over a reset, a move.
 <- PCB v1.2 Detected
 <- FAKE_SERVO off
-<- error: EEPROM read fail. Using default settings.
 <- Grbl v1.00
 <- Plumb *
 <- ready
 <- ok
-<- [Forward Calculating Position]
-<- Message: Unable to find valid machine position for chain lengths 0.00, 0.00*
+<- Settings are the defaults. Chain lengths are not known yet*
 -> $$ 
 <- $0=2438.4 (*
 <* $42=2 (*

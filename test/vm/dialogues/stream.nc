@@ -1,6 +1,6 @@
 ; Short moves as fast as the line carries them.
 <* ok
-<* Message: Unable*
+<* Settings are the defaults. Chain lengths are not known yet*
 -> $7=2
 <- ok
 -> $8=139.1

@@ -1,0 +1,270 @@
+// The keeper of the position: a record at rest is never valid while something may move.
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "../settings_host/eeprom.h"
+#include "machine/position_keeper.h"
+#include "settings_flash.h"
+
+using namespace machine;
+using settings::Known;
+
+namespace {
+
+struct Encoders : Drives {
+  void drive(Axis, int16_t) override {}
+  void release(Axis) override {}
+  uint16_t count(Axis axis) override { return counted[axis]; }
+  uint16_t illegalSteps(Axis) override { return 0; }
+  void arrange(bool, uint8_t) override {}
+  std::array<uint16_t, kAxisCount> counted{};
+};
+
+struct NoClock : Clock {
+  uint32_t milliseconds() override { return 0; }
+  void idle() override {}
+  void holdTicks() override {}
+  void releaseTicks() override {}
+};
+
+/// A keeper with its axes and its EEPROM, through time.
+class KeptMachine {
+ public:
+  explicit KeptMachine(settings_host::Eeprom& eeprom)
+      : eeprom_(eeprom),
+        values_(table_, room_),
+        memory_(eeprom, values_),
+        axes(encoders, clock_),
+        keeper(memory_, axes) {
+    const settings::Started started = memory_.start();
+    axes.prepare(values_);
+    axes.setCounts(started.position.left, started.position.right, started.position.z);
+    keeper.begin(started.known);
+  }
+
+  /// Lets time pass; keeps what is due.
+  void pass(int ms) {
+    for (int i = 0; i < ms; ++i) {
+      if (++now_ms_ % 10 == 0) axes.tick();
+      if (keeper.isDue(now_ms_)) {
+        settings::Position position = {};
+        position.left = axes.counts(kLeftAxis);
+        position.right = axes.counts(kRightAxis);
+        position.z = axes.counts(kZAxis);
+        keeper.keep(position);
+        ++kept;
+      }
+      memory_.step();
+    }
+  }
+
+  void wake() {
+    keeper.beginMoving();
+    for (int i = 0; i < 1000 && !keeper.mayMove(); ++i) pass(1);
+    ASSERT_TRUE(keeper.mayMove());
+    axes.follow();
+    keeper.endWait();
+  }
+
+  /// What a start would make of the EEPROM as it is.
+  settings::Started afterCut() {
+    settings_host::Eeprom copy = eeprom_;
+    copy.restore();
+    float room[kSettingCount];
+    settings::Values values(table_, room);
+    return settings::Memory(copy, values).start();
+  }
+
+ private:
+  settings_host::Eeprom& eeprom_;
+  FlashTable table_;
+  float room_[kSettingCount];
+  settings::Values values_;
+  settings::Memory memory_;
+  NoClock clock_;
+  uint32_t now_ms_ = 0;
+
+ public:
+  Encoders encoders;
+  Axes axes;
+  PositionKeeper keeper;
+  int kept = 0;
+};
+
+/// One whose chains were set, at rest, kept.
+struct Keeper : testing::Test {
+  Keeper() : machine(eeprom) {
+    machine.axes.declare(kLeftAxis, 1700);
+    machine.axes.declare(kRightAxis, 1700);
+    machine.keeper.declareChains();
+    machine.pass(1000);
+  }
+
+  settings_host::Eeprom eeprom;
+  KeptMachine machine;
+};
+
+}  // namespace
+
+TEST_F(Keeper, KeepsOnceWhatRests) {
+  EXPECT_EQ(Known::kAtRest, machine.afterCut().known);
+  machine.pass(5000);
+  EXPECT_EQ(1, machine.kept);
+  EXPECT_TRUE(machine.keeper.isSettled());
+}
+
+TEST(PositionKeeper, KeepsNothingBeforeChainsAreSet) {
+  settings_host::Eeprom eeprom;
+  KeptMachine machine(eeprom);
+  EXPECT_FALSE(machine.keeper.trustsChains());
+  EXPECT_FALSE(machine.keeper.hasLost());
+  machine.keeper.declareZ();
+  machine.wake();
+  machine.axes.releaseAll();
+  machine.pass(2000);
+  EXPECT_EQ(0, machine.kept);
+  EXPECT_EQ(Known::kNothing, machine.afterCut().known);
+}
+
+TEST_F(Keeper, MarksTheRecordBeforeMotorsMayHavePower) {
+  machine.keeper.beginMoving();
+  EXPECT_FALSE(machine.keeper.mayMove());
+  machine.wake();
+  EXPECT_EQ(Known::kMoving, machine.afterCut().known);
+  machine.pass(5000);
+  EXPECT_EQ(1, machine.kept) << "motors on";
+  EXPECT_EQ(Known::kMoving, machine.afterCut().known);
+  machine.axes.releaseAll();
+  machine.pass(1000);
+  EXPECT_EQ(2, machine.kept);
+  EXPECT_EQ(Known::kAtRest, machine.afterCut().known);
+}
+
+TEST_F(Keeper, MarksItAlsoWhereNobodyAsked) {
+  machine.axes.driveOpen(kZAxis, 1);
+  machine.pass(30);
+  EXPECT_EQ(Known::kMoving, machine.afterCut().known);
+  machine.pass(3000);
+  EXPECT_EQ(1, machine.kept);
+}
+
+TEST_F(Keeper, WaitsForAMotorThatRunsOn) {
+  machine.wake();
+  machine.axes.releaseAll();
+  for (int i = 0; i < 100; ++i) {
+    machine.encoders.counted[kRightAxis] = uint16_t(machine.encoders.counted[kRightAxis] + 3);
+    machine.pass(100);
+    ASSERT_EQ(1, machine.kept) << "it still runs";
+    ASSERT_EQ(Known::kMoving, machine.afterCut().known);
+  }
+  machine.pass(1000);
+  EXPECT_EQ(2, machine.kept);
+  EXPECT_EQ(machine.axes.counts(kRightAxis), machine.afterCut().position.right);
+}
+
+TEST_F(Keeper, LeavesARecordWhoseChainIsPulled) {
+  machine.encoders.counted[kLeftAxis] = 12;
+  machine.pass(1000);
+  EXPECT_EQ(Known::kAtRest, machine.afterCut().known) << "chains give way a little";
+  EXPECT_EQ(1, machine.kept);
+  machine.encoders.counted[kLeftAxis] = 13;
+  machine.pass(30);
+  EXPECT_EQ(Known::kMoving, machine.afterCut().known);
+  machine.pass(1000);
+  EXPECT_EQ(2, machine.kept);
+  EXPECT_EQ(machine.axes.counts(kLeftAxis), machine.afterCut().position.left);
+  machine.encoders.counted[kLeftAxis] = 0;
+  machine.pass(30);
+  EXPECT_EQ(Known::kMoving, machine.afterCut().known) << "back is as far";
+}
+
+TEST_F(Keeper, AnEdgeUnderTheSensorIsNoMotion) {
+  machine.wake();
+  machine.axes.releaseAll();
+  for (int i = 0; i < 100; ++i) {
+    machine.encoders.counted[kLeftAxis] = uint16_t(i % 2);
+    machine.pass(10);
+  }
+  EXPECT_EQ(2, machine.kept);
+}
+
+TEST_F(Keeper, ADeclarationLeavesTheRecordUntilItIsKept) {
+  machine.axes.declare(kLeftAxis, 1800);
+  machine.keeper.declareChains();
+  machine.pass(30);
+  EXPECT_EQ(Known::kMoving, machine.afterCut().known);
+  machine.pass(1000);
+  EXPECT_EQ(Known::kAtRest, machine.afterCut().known);
+  EXPECT_EQ(machine.axes.counts(kLeftAxis), machine.afterCut().position.left);
+  machine.keeper.declareZ();
+  machine.pass(30);
+  EXPECT_EQ(Known::kMoving, machine.afterCut().known);
+}
+
+TEST_F(Keeper, AStopBeforeMotorsHavePowerComesBackToRest) {
+  machine.keeper.beginMoving();
+  machine.pass(2000);
+  EXPECT_EQ(Known::kMoving, machine.afterCut().known) << "it may get power any moment";
+  machine.keeper.endWait();
+  machine.pass(1000);
+  EXPECT_EQ(Known::kAtRest, machine.afterCut().known);
+}
+
+TEST_F(Keeper, KeepsNothingThatIsDoubtful) {
+  machine.wake();
+  machine.keeper.doubt(kRightAxis);
+  machine.axes.releaseAll();
+  machine.pass(2000);
+  EXPECT_EQ(1, machine.kept);
+  EXPECT_EQ(Known::kDoubted, machine.afterCut().known);
+  EXPECT_TRUE(machine.keeper.hasLost());
+  EXPECT_FALSE(machine.keeper.trustsChains());
+  machine.keeper.declareZ();
+  EXPECT_FALSE(machine.keeper.trustsChains()) << "z says nothing of a chain";
+  machine.keeper.declareChains();
+  machine.pass(1000);
+  EXPECT_TRUE(machine.keeper.trustsAll());
+  EXPECT_EQ(Known::kAtRest, machine.afterCut().known);
+}
+
+TEST_F(Keeper, ADoubtOverZLeavesTheChains) {
+  machine.keeper.doubt(kZAxis);
+  machine.pass(1000);
+  EXPECT_TRUE(machine.keeper.trustsChains());
+  EXPECT_FALSE(machine.keeper.trustsAll());
+  EXPECT_EQ(Known::kDoubted, machine.afterCut().known);
+  machine.keeper.declareZ();
+  machine.pass(1000);
+  EXPECT_TRUE(machine.keeper.trustsAll());
+  EXPECT_EQ(Known::kAtRest, machine.afterCut().known);
+}
+
+TEST_F(Keeper, ImaginedMotionLeavesTheRecordAlone) {
+  machine.axes.simulate(true);
+  machine.wake();
+  machine.axes.declare(kLeftAxis, 100);
+  machine.keeper.declareChains();
+  machine.axes.releaseAll();
+  machine.pass(2000);
+  EXPECT_EQ(1, machine.kept);
+  EXPECT_EQ(Known::kAtRest, machine.afterCut().known);
+  EXPECT_TRUE(machine.axes.isImagined());
+}
+
+TEST(PositionKeeper, TakesOverWhatAStartKnows) {
+  settings_host::Eeprom eeprom;
+  {
+    KeptMachine machine(eeprom);
+    machine.axes.declare(kLeftAxis, 1700);
+    machine.keeper.declareChains();
+    machine.pass(1000);
+  }
+  KeptMachine again(eeprom);
+  EXPECT_TRUE(again.keeper.trustsAll());
+  again.pass(1000);
+  EXPECT_EQ(0, again.kept) << "it is kept already";
+  again.wake();
+  KeptMachine after(eeprom);
+  EXPECT_TRUE(after.keeper.hasLost());
+}
