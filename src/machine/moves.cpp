@@ -58,24 +58,26 @@ bool Machine::move(uint8_t kind, const Words& words) {
 bool Machine::moveRound(bool clockwise, motion::Point<float> from, const Place& target,
                         const Words& words, float feed) {
   const motion::Point<float> to = {target.x, target.y};
-  motion::Point<float> centre = {from.x + fromUnits(words.value('I')),
-                                 from.y + fromUnits(words.value('J'))};
   const float radius = fromUnits(words.value('R'));
-  const bool same = from.x == to.x && from.y == to.y;
-  if (radius != 0 && !same) {
+  motion::Point<float> ahead = {fromUnits(words.value('I')), fromUnits(words.value('J'))};
+  float digit = modal_.inches ? motion::kInchDigit : motion::kMillimetreDigit;
+  if (radius != 0) {
     const gcode::ArcCentre seen =
-        gcode::centreByRadius(to.x - from.x, to.y - from.y, radius, clockwise);
-    if (!seen.found)
-      return refuseMotion(FLASH("the arc's radius is less than half the way to its end"));
-    centre = {from.x + seen.x, from.y + seen.y};
+        gcode::centreByRadius(to.x - from.x, to.y - from.y, radius, clockwise,
+                              modal_.inches ? gcode::kInchSpare : gcode::kMillimetreSpare);
+    if (!seen.found) return refuseMotion(FLASH("an arc of that radius does not reach its end"));
+    ahead = {seen.x, seen.y};
+    digit = 0;  // its sign says whether it is the long way round
+  } else if (!words.has('I') && !words.has('J')) {
+    // As the published firmware: an arc without centre is a line.
+    return queue(motion::line(from, to), target, feed);
   }
   const motion::Turn turn = clockwise ? motion::Turn::kClockwise : motion::Turn::kCounterclockwise;
-  const motion::Path<float> path = motion::arc(from, to, centre, turn);
-  if (path.drawn == motion::Drawn::kYes) return queue(path, target, feed);
-  // As the published firmware: an arc without centre is a line.
-  if (!words.has('I') && !words.has('J') && radius == 0)
-    return queue(motion::line(from, to), target, feed);
-  return refuseMotion(FLASH("the arc does not end on its circle"));
+  const motion::Path<float> path =
+      motion::arc(from, to, {from.x + ahead.x, from.y + ahead.y}, turn, digit);
+  if (path.drawn == motion::Drawn::kEndOffArc)
+    return refuseMotion(FLASH("the arc does not end on its circle"));
+  return queue(path, target, feed);
 }
 
 bool Machine::mayCrossSheet() {

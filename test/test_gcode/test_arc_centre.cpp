@@ -62,8 +62,17 @@ TEST(ArcCentre, OfAHalfCircleWhoseRadiusWasRoundedIsItsMiddle) {
   EXPECT_TRUE(centreByRadius(2000, 0, 999.2f, true).found);
 }
 
+TEST(ArcCentre, OfAHalfCircleWhoseRadiusWasRoundedUpIsItsMiddleToo) {
+  EXPECT_NEAR(0, centreByRadius(100, 0, 50.001f, true).y, 1e-4);
+  EXPECT_NEAR(std::sqrt(50.0015 * 50.0015 - 2500),
+              -double(centreByRadius(100, 0, 50.0015f, true).y), 0.01);
+  EXPECT_NEAR(0, centreByRadius(100, 0, 50.003f, true, kInchSpare).y, 1e-4);
+  EXPECT_GT(-centreByRadius(100, 0, 50.0033f, true, kInchSpare).y, 0.5f);
+}
+
 TEST(ArcCentre, IsNotFoundIfTheRadiusIsTooShort) {
-  EXPECT_FALSE(centreByRadius(100, 0, 49.9f, true).found);
+  EXPECT_TRUE(centreByRadius(100, 0, 49.93f, true).found);
+  EXPECT_FALSE(centreByRadius(100, 0, 49.92f, true).found);
   EXPECT_FALSE(centreByRadius(100, 0, -30, false).found);
   EXPECT_FALSE(centreByRadius(100, 0, 0, false).found);
 }

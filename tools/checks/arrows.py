@@ -24,6 +24,7 @@ ARROWS = {
     "src/board": (["include", "lib/*", "src/machine"], ARDUINO),
     "src": (["include", "lib/*", "src/machine", "src/board", "test/avr"], ARDUINO),
     "test/reference": ([], HOST + r"|(unsupported/)?Eigen/\w+"),
+    "test/curves": ([], HOST),
     "test/vm": (["test/reference"], ANYTHING),
     "test/hidden": (["test/reference"], ANYTHING),
     # Stands in on the host for a header of avr-libc that src includes.
@@ -33,6 +34,7 @@ ARROWS = {
     "test/test_*": (
         [
             "test/reference",
+            "test/curves",
             "test/vm",
             "test/settings_host",
             "test/test_settings",

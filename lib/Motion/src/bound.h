@@ -26,7 +26,7 @@ struct Surroundings {
 // What the quadratic may miss. With the float inverse and float places a set-point then stays
 // within 0.003 mm, and a step of it within 0.0015 mm: what misses by e jitters by e.
 const float kMostMissed = 0.001f;  // [mm]
-// Covers arcs whose radius changes by kMostOffArcSlope.
+// Covers arcs whose radius changes by kMostOffArc, small ones too.
 const float kSpiralMargin = 1.15f;
 
 /// Third slope [1/mm^2] of a chain's length along a path, at most.

@@ -20,9 +20,12 @@ inline Point<float> directionOf(const Path<float>& path, bool at_end) {
   if (path.sweep == 0)
     return {(path.to.x - path.from.x) / path.length, (path.to.y - path.from.y) / path.length};
   const Point<float>& at = at_end ? path.to : path.from;
+  // Round the centre, and away from it by as much as the radius grows.
   const float x = at.x - path.centre.x, y = at.y - path.centre.y;
-  const float per_radius = (path.sweep > 0 ? 1.0f : -1.0f) / float(sqrt(x * x + y * y));
-  return {-y * per_radius, x * per_radius};
+  const float radius_squared = x * x + y * y, sweep = path.sweep;
+  const float per = 1 / float(sqrt(sweep * sweep * radius_squared + path.grows * path.grows));
+  const float round = sweep * per, out = path.grows * per / float(sqrt(radius_squared));
+  return {x * out - y * round, y * out + x * round};
 }
 
 /// Square of the speed at which a corner may be passed, in the units of `acceleration` and [mm].

@@ -13,18 +13,21 @@ enum class Drawn : uint8_t {
   kYes,
   kNoNumber,   ///< NaN, or so far away that it is none
   kNoLength,   ///< it ends where it begins; only a full circle may
-  kNoRadius,   ///< an arc around its own start or end
   kEndOffArc,  ///< start and end lie on different circles around the centre
 };
 
 /// Which way round its centre an arc goes, seen from the front of the sheet.
 enum class Turn : uint8_t { kClockwise, kCounterclockwise };
 
-// Start and end of an arc come as decimal text, rounded one by one. So their radii may differ by
-// this, and the arc changes from one to the other evenly.
-const float kMostOffArc = 0.05f;         // [mm]
-const float kMostOffArcShare = 0.001f;   // [1] of the radius, where that is more
-const float kMostOffArcSlope = 0.0312f;  // [1] of the arc's length, always: no spirals
+// An arc's start, end and centre come as decimal text, rounded one by one. So its radii may differ
+// by as much as in LinuxCNC (two roundings of inches with three decimals) or in Grbl (a share of
+// the radius), and the arc changes from one radius to the other evenly.
+const float kMostOffArc = 0.0719f;      // [mm]
+const float kMostOffArcShare = 0.001f;  // [1] of the radius, where that is more
+
+// The last digit of text that can place an arc's ends no better.
+const float kMillimetreDigit = 0.01f;  // [mm] two decimals
+const float kInchDigit = 0.0254f;      // [mm] three decimals
 
 /// A path from a place to another; made by line() or arc().
 template <class Real>
@@ -64,6 +67,19 @@ Real sweepOf(Point<Real> from, Point<Real> to, Point<Real> centre, Turn turn) {
   return angle < Real(0) ? angle : angle - kFullTurn;
 }
 
+/// Whether text of that last digit [mm] leaves nothing of an arc but the way between its ends.
+///
+/// A full circle may be a short arc whose ends were rounded into one place, and an arc of nearly a
+/// full turn a short one whose ends were rounded past each other. Round one whose radii differ
+/// so much nobody can say where its centre was.
+template <class Real>
+bool isHidden(Real chord, Real radius, Real off, Real sweep, Real digit) {
+  const Real kHalfTurn = Real(3.141592653589793), kDiagonal = Real(1.41421356);
+  if (off * Real(1.5) > radius) return true;
+  if (chord == Real(0)) return radius <= Real(2) * kDiagonal * digit;
+  return chord <= kDiagonal * digit && Real(fabs(sweep)) > kHalfTurn;
+}
+
 /// Place of an arc: its start turned about the centre, farther out by a share of `grows`.
 template <class Real>
 Point<Real> onArc(const Path<Real>& path, Real share) {
@@ -89,24 +105,25 @@ Path<Real> line(Point<Real> from, Point<Real> to) {
   return {drawn, from, to, from, Real(0), Real(0), Real(0), length};
 }
 
-/// An arc around a centre [mm]; a full circle if it ends where it begins.
+/// An arc around a centre [mm]; a full circle if it ends where it begins. What the last digit [mm]
+/// of its text hides is drawn as a line.
 template <class Real>
-Path<Real> arc(Point<Real> from, Point<Real> to, Point<Real> centre, Turn turn) {
+Path<Real> arc(Point<Real> from, Point<Real> to, Point<Real> centre, Turn turn,
+               float digit = kMillimetreDigit) {
   const Real start_radius = path_detail::distance(from, centre);
   const Real end_radius = path_detail::distance(to, centre);
   const Real radius = (start_radius + end_radius) * Real(0.5);
   const Real sweep = path_detail::sweepOf(from, to, centre, turn);
-  const Real length = radius * fabs(sweep);
   const Real grows = end_radius - start_radius;
-  const Real off = fabs(grows);
+  const Real off = fabs(grows), round = radius * sweep;
+  const Real length = sqrt(round * round + grows * grows);
   Drawn drawn = Drawn::kYes;
   if (!isfinite(length))
     drawn = Drawn::kNoNumber;
-  else if (!(start_radius > Real(0) && end_radius > Real(0)))
-    drawn = Drawn::kNoRadius;
-  else if (!((off <= Real(kMostOffArc) || off <= radius * Real(kMostOffArcShare)) &&
-             off <= length * Real(kMostOffArcSlope)))
+  else if (!(off <= Real(kMostOffArc) || off <= radius * Real(kMostOffArcShare)))
     drawn = Drawn::kEndOffArc;
+  else if (path_detail::isHidden(path_detail::distance(from, to), radius, off, sweep, Real(digit)))
+    return line(from, to);
   return {drawn, from, to, centre, sweep, grows, radius, length};
 }
 
