@@ -7,6 +7,7 @@
 #include "board/motors.h"
 #include "board/serial_line.h"
 #include "board/shield.h"
+#include "board/watchdog.h"
 #include "machine/machine.h"
 #include "settings_flash.h"
 
@@ -29,8 +30,9 @@ void letGo() {
 }
 
 machine::BoardName nameOf(const board::Shield* shield) {
-  if (!shield) return {0, nullptr};
-  return {shield->version, board::nameOf(shield->driver)};
+  const machine::Start start = board::watchdog::start();
+  if (!shield) return {0, nullptr, start};
+  return {shield->version, board::nameOf(shield->driver), start};
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
-// Timer 1 calls the control tick. The tick is the watchdog, too: that of the processor would reset
-// it, from which bootloaders of older boards never come back, or interrupt it, which this does too.
+// Timer 1 calls the control tick. The tick watches the main program, and the processor's watchdog
+// the tick.
 #include "control_clock.h"
 
 #include <Arduino.h>
+
+#include "watchdog.h"
 
 namespace board {
 namespace {
@@ -12,6 +14,8 @@ void (*on_hang)();
 uint8_t holds;
 volatile bool ticking;
 uint8_t most_silent_ticks;
+uint16_t timer_steps;           // of timer 1 from tick to tick
+bool has_hung;                  // the main program is back; it has not looked round yet
 volatile uint8_t silent_ticks;  // since the main program was last heard of
 
 const uint32_t kTimerPerSecond = 250000;  // timer 1 counts at 250 kHz
@@ -21,6 +25,23 @@ void allowTicks(bool yes) {
     TIMSK1 |= 1 << OCIE1A;
   else
     TIMSK1 &= uint8_t(~(1 << OCIE1A));
+}
+
+/// What the tick shares with the main program stays on its side of a hold.
+void fence() { __asm__ volatile("" ::: "memory"); }
+
+void startTimer() {
+  TIMSK1 = 0;
+  TCCR1A = 0;
+  TCCR1B = 1 << WGM12 | 1 << CS11 | 1 << CS10;
+  OCR1A = uint16_t(timer_steps - 1);
+  TCNT1 = 0;
+}
+
+/// No tick came: as if the main program had hung.
+void letGo() {
+  silent_ticks = most_silent_ticks;
+  on_hang();
 }
 
 }  // namespace
@@ -37,6 +58,7 @@ ISR(TIMER1_COMPA_vect) {
     on_hang();
   }
   cli();
+  watchdog::feed();
   ticking = false;
   allowTicks(true);
 }
@@ -44,27 +66,39 @@ ISR(TIMER1_COMPA_vect) {
 void ControlClock::begin(void (*tick)(), void (*hang)(), uint8_t ticks_per_second) {
   on_tick = tick;
   on_hang = hang;
-  TIMSK1 = 0;
-  TCCR1A = 0;
-  TCCR1B = 1 << WGM12 | 1 << CS11 | 1 << CS10;
-  OCR1A = uint16_t(kTimerPerSecond / ticks_per_second - 1);
-  TCNT1 = 0;
+  timer_steps = uint16_t(kTimerPerSecond / ticks_per_second);
   most_silent_ticks = ticks_per_second;
+  startTimer();
+  watchdog::begin(letGo);
   allowTicks(true);
 }
 
 uint32_t ControlClock::milliseconds() { return millis(); }
 
-void ControlClock::idle() { silent_ticks = 0; }
+void ControlClock::idle() {
+  // Back from a hang the machine looks round once before ticks may drive again.
+  if (silent_ticks >= most_silent_ticks && !has_hung) {
+    has_hung = true;
+    return;
+  }
+  has_hung = false;
+  silent_ticks = 0;
+  if (!watchdog::hasBitten()) return;
+  startTimer();
+  allowTicks(true);
+  watchdog::arm();
+}
 
 void ControlClock::holdTicks() {
   if (ticking) return;
   allowTicks(false);
   ++holds;
+  fence();
 }
 
 void ControlClock::releaseTicks() {
   // Before begin() there is nothing to call yet.
+  fence();
   if (ticking || --holds != 0 || !on_tick) return;
   allowTicks(true);
 }

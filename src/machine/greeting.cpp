@@ -26,6 +26,13 @@ void Machine::sayMotors() {
   out_.line(axes_.isSimulated() ? FLASH("FAKE_SERVO on") : FLASH("FAKE_SERVO off"));
 }
 
+void Machine::sayStart() {
+  if (board_.start == Start::kBrownOut)
+    out_.line(FLASH("The 5 V of the Mega broke down and it started again: check its supply."));
+  if (board_.start == Start::kWatchdog)
+    out_.line(FLASH("The firmware hung and the watchdog started it again, with motors off."));
+}
+
 void Machine::saySource(const settings::Started& started) {
   using settings::Source;
   switch (started.source) {

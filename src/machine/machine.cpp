@@ -30,6 +30,7 @@ void Machine::begin() {
   modal_.feed = values_.at(kGreatestFeed) / 2;
   greet();
   sayMotors();
+  sayStart();
   saySource(started);
   sayReady();
   restorePosition(started);

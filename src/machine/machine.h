@@ -30,10 +30,14 @@ struct Ports {
   const settings::Table& table;
 };
 
-/// Which motor shield was found; without one no motor is ever driven.
+/// Which motor shield was found, and why the firmware started; without a shield no motor is ever
+/// driven.
 struct BoardName {
+  BoardName(uint8_t version, const char* driver, Start start = Start::kUsual)
+      : version(version), driver(driver), start(start) {}
   uint8_t version;     ///< N of "v1.N"
   const char* driver;  ///< as the greeting names it; null: its straps are unknown
+  Start start;
 };
 
 /// Where the tool is [mm].
@@ -95,6 +99,7 @@ class Machine {
   // greeting.cpp, reports.cpp: what it says.
   void greet();
   void sayMotors();
+  void sayStart();
   void sayReady();
   void saySource(const settings::Started& started);
   void reportWhenDue();

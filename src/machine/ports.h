@@ -9,6 +9,13 @@ namespace machine {
 /// The three motors, used as an index.
 enum Axis : uint8_t { kLeftAxis, kRightAxis, kZAxis, kAxisCount };
 
+/// Why the firmware started.
+enum class Start : uint8_t {
+  kUsual,     ///< power, the reset button, a computer that opened the line
+  kBrownOut,  ///< the processor's supply had broken down
+  kWatchdog,  ///< the firmware hung
+};
+
 /// The serial line to the computer, both ways.
 class Wire {
  public:

@@ -19,6 +19,7 @@ const avr_cycle_count_t kSlice = 800;        // 50 us, in which no motor makes t
 const double kMainTop = 3300, kZTop = 2600;  // [counts/s] at full duty
 const vm::MotorPins kLeft = {12, 11, 10, 3, 2};
 const vm::MotorPins kRight = {4, 6, 5, 20, 21};
+const int kLaser = 16;
 const vm::MotorPins kZ = {7, 9, 8, 18, 19};
 
 struct Failure : std::runtime_error {
@@ -129,11 +130,40 @@ class Player {
       words >> with_z;
       return stream(std::atoi(rest.c_str()), with_z == "z");
     }
+    if (verb == "hang") return machine_->board.hang(rest);
+    if (verb == "wake") return machine_->board.wake(std::atof(rest.c_str()));
+    if (verb == "undriven") return askUndriven(rest);
+    if (verb == "hold") return machine_->board.holdInterrupts();
+    if (verb == "allow") return machine_->board.allowInterrupts();
+    if (verb == "stop") return machine_->board.stopTickTimer();
+    if (verb == "off" || verb == "on") return askPower(verb == "on");
+    if (verb == "resets") return tellOr(machine_->board.resets() == std::atoi(rest.c_str()));
+    if (verb == "laser")
+      return tellOr((machine_->board.pin(kLaser).level != 0) == (rest == "high"));
     if (verb == "measure") return measure(std::atof(rest.c_str()));
     const int axis = rest == "left" ? 0 : rest == "right" ? 1 : 2;
     const bool winds = verb == "wound" && machine_->most_drive[axis] > 0.1;
     const bool pays = verb == "paid" && machine_->least_drive[axis] < -0.1;
     if (!winds && !pays) throw Failure("it did not");
+  }
+
+  static void tellOr(bool holds) {
+    if (!holds) throw Failure("it is not so");
+  }
+
+  /// Whether both chain motors are driven, or neither is.
+  void askPower(bool on) const {
+    for (const vm::VirtualMotor* motor : {&machine_->left, &machine_->right})
+      tellOr((motor->driveNow() != 0) == on);
+  }
+
+  /// Whether no motor was driven since `from now`.
+  void askUndriven(const std::string& since) {
+    for (int i = 0; i < 3; ++i) {
+      double &most = machine_->most_drive[i], &least = machine_->least_drive[i];
+      if (since.empty()) tellOr(most == 0 && least == 0);
+      most = least = 0;
+    }
   }
 
   /// Tells what the control tick takes of the next seconds.

@@ -9,6 +9,7 @@ namespace {
 const avr_cycle_count_t kPerCharacter = 10 * 16 * 17;  // 58,824 baud, ten bits
 const avr_cycle_count_t kSlice = 500;
 const uint8_t kPaint = 0xa5;
+const uint16_t kOutlivesReset = 16;  // [bytes] above .bss at most, for variables that nobody clears
 
 /// Where a pin of the Mega is: port letter, bit, and the registers of the PWM it can carry.
 struct PinPlace {
@@ -38,6 +39,7 @@ const PinPlace& placeOf(int pin) {
   throw std::runtime_error("no such pin: " + std::to_string(pin));
 }
 
+const uint16_t kWdtcsr = 0x60, kMcusr = 0x54;
 const uint16_t kFirstTimerMask = 0x6e, kLastTimerMask = 0x73;  // TIMSK0 to TIMSK5
 
 /// A flag that is set while its interrupt is masked interrupts as soon as the mask allows it;
@@ -98,14 +100,80 @@ void VirtualBoard::run(avr_cycle_count_t cycles) {
   const avr_cycle_count_t end = avr_->cycle + cycles;
   while (avr_->cycle < end) {
     const avr_cycle_count_t slice = avr_->cycle + kSlice;
-    while (avr_->cycle < slice) {
-      const avr_cycle_count_t before = avr_->cycle;
-      const int state = avr_run(avr_);
-      watchTick(before);
-      if (state == cpu_Done || state == cpu_Crashed) throw std::runtime_error("the board crashed");
-    }
+    while (avr_->cycle < slice) step();
     passCharacters();
   }
+}
+
+void VirtualBoard::step() {
+  const avr_cycle_count_t before = avr_->cycle;
+  if (are_interrupts_held_) avr_->sreg[S_I] = 0;
+  const int state = avr_run(avr_);
+  watchTick(before);
+  watchWatchdog();
+  if (avr_->pc == 0) pullAgain();
+  if (state == cpu_Done || state == cpu_Crashed) throw std::runtime_error("the board crashed");
+}
+
+void VirtualBoard::watchWatchdog() {
+  if (!(avr_->data[kWdtcsr] & 0x80)) {
+    bitten_since_ = 0;
+    return;
+  }
+  // The flag waits for interrupts, which are held; the second time-out resets.
+  if (bitten_since_ == 0) bitten_since_ = avr_->cycle;
+  const int prescaler = avr_->data[kWdtcsr] & 7;
+  if (avr_->cycle - bitten_since_ < (2048ull << prescaler) * kClock / 128000) return;
+  avr_reset(avr_);
+  avr_->data[kMcusr] = avr_->data[kWdtcsr] = 1 << 3;  // WDRF, WDE
+}
+
+void VirtualBoard::runUntil(bool in_tick) {
+  const avr_cycle_count_t patience = avr_->cycle + kClock;
+  // With interrupts on: not in the middle of another one.
+  while (was_ticking_ != in_tick || !avr_->sreg[S_I]) {
+    if (avr_->cycle > patience) throw std::runtime_error("no tick came, or it did not end");
+    step();
+  }
+}
+
+void VirtualBoard::hang(const std::string& where) {
+  for (const avr_cycle_count_t end = avr_->cycle + kClock; where == "report" && partial_ != "<";) {
+    if (avr_->cycle > end) throw std::runtime_error("no report came");
+    step();
+  }
+  runUntil(where == "tick");
+  hung_at_ = avr_->pc;
+  const uint8_t kHere[] = {0xff, 0xcf};  // rjmp .
+  for (avr_flashaddr_t at = 0; at < avr_->flashend; at += 2)
+    if (std::memcmp(avr_->flash + at, kHere, 2) == 0) {
+      avr_->pc = at;
+      return;
+    }
+  throw std::runtime_error("no endless loop in the program");
+}
+
+void VirtualBoard::wake(double ms_after_tick) {
+  runUntil(true);
+  runUntil(false);
+  runMs(ms_after_tick);
+  avr_->pc = hung_at_;
+}
+
+void VirtualBoard::holdInterrupts() {
+  runUntil(false);
+  are_interrupts_held_ = true;
+}
+
+void VirtualBoard::allowInterrupts() {
+  are_interrupts_held_ = false;
+  avr_->sreg[S_I] = 1;
+}
+
+void VirtualBoard::stopTickTimer() {
+  const avr_io_addr_t kTccr1b = 0x81;
+  const auto& write = avr_->io[AVR_DATA_TO_IO(kTccr1b)].w;
+  write.c(avr_, kTccr1b, avr_->data[kTccr1b] & 0xf8, write.param);
 }
 
 void VirtualBoard::watchTick(avr_cycle_count_t before) {
@@ -138,6 +206,17 @@ void VirtualBoard::pull(char port, uint8_t mask, uint8_t levels) {
   avr_ioctl(avr_, AVR_IOCTL_IOPORT_SET_EXTERNAL(port), &outside);
 }
 
+void VirtualBoard::pullAgain() {
+  ++resets_;
+  are_interrupts_held_ = false;
+  for (const char port : {'A', 'B', 'C', 'D', 'E', 'F', 'G', 'H', 'J', 'K', 'L'})
+    for (int bit = 0; bit < 8; ++bit) {
+      avr_irq_t* const pin = avr_io_getirq(avr_, AVR_IOCTL_IOPORT_GETIRQ(port), bit);
+      pin->value = 0;
+      if (outside_[port].mask >> bit & 1) avr_raise_irq(pin, outside_[port].value >> bit & 1);
+    }
+}
+
 PinState VirtualBoard::pin(int pin) const {
   const PinPlace& place = placeOf(pin);
   if (place.compare != 0 && (avr_->data[place.control] >> place.control_bit & 1))
@@ -166,7 +245,7 @@ void VirtualBoard::paintStack() {
 }
 
 int VirtualBoard::stackUsed() const {
-  uint16_t at = data_end_;
+  uint16_t at = uint16_t(data_end_ + kOutlivesReset);
   while (at < kRamEnd && avr_->data[at] == kPaint) ++at;
   return kRamEnd - at;
 }

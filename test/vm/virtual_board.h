@@ -54,6 +54,21 @@ class VirtualBoard {
   /// Straps the six pins from 22 on; a bit for each that is left open.
   void strap(uint8_t open);
 
+  /// How often the processor was reset since its power came; a reset opens all pins.
+  int resets() const { return resets_; }
+
+  // What may go wrong.
+  /// The program runs in circles from here on: in the control tick (`tick`), where the main program
+  /// begins a report (`report`), or wherever that is.
+  void hang(const std::string& where);
+  /// The main program goes on where it hung, so long after a tick.
+  void wake(double ms_after_tick);
+  /// Nobody allows interrupts until allowInterrupts().
+  void holdInterrupts();
+  void allowInterrupts();
+  /// Timer 1 stands still.
+  void stopTickTimer();
+
   std::vector<uint8_t> eeprom() const;
   void setEeprom(const std::vector<uint8_t>& bytes);
 
@@ -80,8 +95,14 @@ class VirtualBoard {
  private:
   /// Levels from outside that hold pins of a port, whatever is written to it.
   void pull(char port, uint8_t mask, uint8_t levels);
+  /// After a reset, which simavr lets clear the inputs, too.
+  void pullAgain();
   static void onCharacter(avr_irq_t*, uint32_t value, void* board);
   void passCharacters();
+  void step();
+  void runUntil(bool in_tick);
+  /// simavr never resets while the watchdog's interrupt waits.
+  void watchWatchdog();
   void watchTick(avr_cycle_count_t before);
 
   avr_t* avr_;
@@ -90,8 +111,11 @@ class VirtualBoard {
   std::string to_send_, partial_;
   avr_cycle_count_t next_character_ = 0;
   uint16_t data_end_;
+  avr_flashaddr_t hung_at_ = 0;
   avr_cycle_count_t in_tick_ = 0, longest_tick_ = 0, tick_since_ = 0, watched_from_ = 0;
-  int ticks_ = 0;
+  avr_cycle_count_t bitten_since_ = 0;
+  int ticks_ = 0, resets_ = 0;
+  bool are_interrupts_held_ = false;
   bool was_ticking_ = false, tick_masked_ = false, tick_is_over_ = true;
 };
 

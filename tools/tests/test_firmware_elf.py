@@ -95,6 +95,12 @@ def test_the_loop_runs_at_200_hz_if_a_setting_asks_for_it(player):
     assert 0.12 < told["tick_share_streaming"] < 0.3
 
 
+@pytest.mark.parametrize("dialogue", ["hangs.nc", "held.nc", "watchdog.nc"])
+def test_motors_are_let_go_when_the_firmware_hangs(player, dialogue):
+    done = play(player, DIALOGUES, dialogue)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
 def test_every_shield_is_known_by_its_straps(player):
     done = play(player, DIALOGUES, "shields.nc")
     assert done.returncode == 0, done.stdout + done.stderr

@@ -1,0 +1,30 @@
+; The main program hangs in motion: after a second the tick lets go, and nothing turns again when it
+; comes back.
+<* ok
+<* Message: Unable*
+-> $7=2
+<- ok
+-> $8=139.1
+<- ok
+-> B06 L1710 R1710
+<* position loaded at:
+<* ok
+-> M106
+<* ok
+-> G1 X500 Y0 F600
+<- ok
+~~ wait 2
+~~ on
+~~ laser high
+~~ hang report
+~~ wait 1.2
+~~ off
+~~ laser low
+~~ wait 2
+~~ off
+~~ resets 0
+~~ undriven from now
+~~ wake 6
+<- ALARM: The firmware was busy for too long*
+~~ wait 1
+~~ undriven

@@ -1,0 +1,23 @@
+; Interrupts are held in motion for 0.1 s: too short for a reset, but nothing turns until the alarm.
+<* ok
+<* Message: Unable*
+-> $7=2
+<- ok
+-> $8=139.1
+<- ok
+-> B06 L1710 R1710
+<* position loaded at:
+<* ok
+-> G1 X500 Y0 F600
+<- ok
+~~ wait 2
+~~ on
+~~ hold interrupts
+~~ wait 0.1
+~~ allow interrupts
+~~ wait 0.0005
+~~ undriven from now
+~~ wait 1
+~~ undriven
+~~ resets 0
+<- ALARM: The firmware was busy for too long*
