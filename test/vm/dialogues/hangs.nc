@@ -12,7 +12,6 @@
 -> M106
 <* ok
 -> G1 X500 Y0 F600
-<- ok
 ~~ wait 2
 ~~ on
 ~~ laser high

@@ -25,12 +25,12 @@
 <- ok
 ~~ wait 10
 -> G1 X305 Y-200 Z-10 F900
-<- ok
 ~~ wait 2
 ~~ measure 8
-~~ wait 14
+<- ok
+~~ wait 2
 -> G1 X5 Y0 Z0 F900
 <- ok
-~~ wait 25
+~~ wait 2
 ~~ stream 600 z
 ~~ wait 5

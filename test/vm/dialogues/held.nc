@@ -9,7 +9,6 @@
 <* position loaded at:
 <* ok
 -> G1 X500 Y0 F600
-<- ok
 ~~ wait 2
 ~~ on
 ~~ hold interrupts

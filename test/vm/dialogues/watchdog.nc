@@ -12,7 +12,6 @@
 -> M106
 <* ok
 -> G1 X500 Y0 F600
-<- ok
 ~~ wait 2
 ~~ on
 ~~ laser high
@@ -32,7 +31,6 @@
 -> M106
 <* ok
 -> G1 X500 Y0 F600
-<- ok
 ~~ wait 2
 ~~ on
 ; It never ends: nobody is left, so after a last word comes a reset.
@@ -54,7 +52,6 @@
 <- ok
 ~~ wait 6
 -> G1 X500 Y0 F600
-<- ok
 ~~ wait 2
 ~~ on
 ; Interrupts are held: only the reset is left.
