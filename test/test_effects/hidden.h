@@ -41,7 +41,8 @@ inline std::vector<Hidden> everyEffect() {
        {{111, 0.02}},
        [](M& m) { m.left.downward = m.right.downward = 0.02; },
        0.006},
-      {"chain_plane", {{130, 1600}}, [](M& m) { m.plane_gap = 40; }, 0.008},
+      {"chain_plane", {{130, 1600}}, [](M& m) { m.plane_gap = 40; }, 0.005},
+      {"chain_plane_far_off", {{130, 3600}}, [](M& m) { m.plane_gap = 60; }, 0.006},
       {"frame_lean",
        {{150, tan(kLean) * tan(kLean)}},
        [](M& m) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <math.h>
+#include <stdint.h>
 
 #include <array>
 #include <cmath>
@@ -96,6 +97,12 @@ bool isfinite(const Dual<Count>& a) {
 template <int Count>
 bool signbit(const Dual<Count>& a) {
   return std::signbit(a.value);
+}
+
+/// The nearest whole number, which has no slopes.
+template <int Count>
+int16_t nearest(const Dual<Count>& a) {
+  return static_cast<int16_t>(std::lround(a.value));
 }
 
 /// Zero for good: no value and no way to get one. A zero with a slope must still be computed.

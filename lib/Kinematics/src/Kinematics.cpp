@@ -29,48 +29,61 @@ const float kLastStep = 0.15f;  // [mm]
 const float kSafeStep = 10.0f;      // [mm]
 const float kLongestStep = 400.0f;  // [mm]
 
+/// Free chain and direction of one strand; returns sine less cosine of the line of centres.
+template <class Real>
+PLUMB_INLINE Real direct(const Machine<Real>& machine, Real run, Real drop, Real distance,
+                         Strand<Real>& strand) {
+  strand.free = distance - machine.rotation_radius;
+  const Real per_distance = Real(1) / distance;
+  const Real sine = drop * per_distance;
+  const Real cosine = run * per_distance;
+  // Line of centres to tangent line: the chain leaves the sprocket r / d steeper.
+  const Real turn = machine.feed_radius * per_distance;
+  strand.sine = sine + cosine * turn;
+  strand.cosine = cosine - sine * turn;
+  return sine - cosine;
+}
+
 /// The straight line from one sprocket to the bit, and the chain it would take if it were rigid.
 ///
 /// Tangent line sqrt(d^2 - r^2) and wrap r * (angle of centres + asin(r / d)) add up, by their
 /// series, to d + r^2 / (2 d) + r * angle, and the first two to sqrt(d^2 + r^2) within 0.00001 mm.
 /// drop_squared comes with the r^2 already in it.
 template <class Real>
-void drawStraight(const Machine<Real>& machine, Real run, Real drop, Real drop_squared,
-                  bool directed, Strand<Real>& strand) {
+PLUMB_INLINE void drawStraight(const Machine<Real>& machine, Real run, Real drop, Real drop_squared,
+                               bool directed, Strand<Real>& strand) {
   const Real distance = sqrt(run * run + drop_squared);
-  strand.free = distance - machine.rotation_radius;
-  strand.length = strand.free;
-  const Real per_distance = Real(1) / distance;
   Real u;
   if (directed) {
-    const Real sine = drop * per_distance;
-    const Real cosine = run * per_distance;
-    u = sine - cosine;
-    // Line of centres to tangent line: the chain leaves the sprocket r / d steeper.
-    const Real turn = machine.feed_radius * per_distance;
-    strand.sine = sine + cosine * turn;
-    strand.cosine = cosine - sine * turn;
+    u = direct(machine, run, drop, distance, strand);
   } else {
-    u = (drop - run) * per_distance;
+    strand.free = distance - machine.rotation_radius;
+    u = (drop - run) / distance;
   }
+  strand.length = strand.free;
   const Real v = u * u;
   strand.wrap = machine.wrap_middle +
                 u * (machine.wrap_slope + v * (machine.wrap_cubic + v * machine.wrap_quintic));
 }
 
-/// Both strands, straight; their directions only if they are asked for.
+/// Both strands, straight; their directions only if they are asked for. `span` [mm], unless null,
+/// is what each one's run and drop are longer by.
 template <class Real>
-void drawBoth(const Machine<Real>& machine, Point<Real> bit, bool directed,
-              Hanging<Real>& hanging) {
+PLUMB_INLINE void drawBoth(const Machine<Real>& machine, Point<Real> bit, const Point<Real>* span,
+                           bool directed, Hanging<Real>& hanging) {
   Real drop = machine.sprocket[kLeft].y - bit.y;
   Real drop_squared = drop * drop + machine.radius_squared;
   hanging.found = bit.y < machine.highest ? Found::kYes : Found::kOutOfReach;
   for (uint8_t side = kLeft; side < kSideCount; ++side) {
     const Real center = machine.sprocket[side].x;
-    const Real run = side == kLeft ? bit.x - center : center - bit.x;
+    Real run = side == kLeft ? bit.x - center : center - bit.x;
     if (signbit(run)) hanging.found = Found::kOutOfReach;
-    if (side == kRight && !machine.level) {
-      drop = machine.sprocket[kRight].y - bit.y;
+    if (span || (side == kRight && !machine.level)) {
+      drop = machine.sprocket[side].y - bit.y;
+      if (span) {
+        run += span[side].x;
+        drop += span[side].y;
+      }
       drop_squared = drop * drop + machine.radius_squared;
     }
     hanging.strand[side].side = Side(side);
@@ -78,38 +91,35 @@ void drawBoth(const Machine<Real>& machine, Point<Real> bit, bool directed,
   }
 }
 
-/// What the second order of sag needs besides: see deep.h.
+/// Sled and half of both chains' weight [1] in sled weights (moments about the sprockets: a chain's
+/// weight acts at half its length, so free / reach of that half is carried by the sled).
 template <class Real>
-void lookDeeper(const Machine<Real>& machine, Strand<Real>& left, Strand<Real>& right) {
-  const Real left_slack = Real(1) / left.pull;
-  const Real right_slack = Real(1) / right.pull;
-  left.bend = left.cosine * left_slack;
-  right.bend = right.cosine * right_slack;
-  left.lean = left.sine * left_slack;
-  right.lean = right.sine * right_slack;
-  left.ease = right.ease =
-      machine.ease * (left.free * left.free * left.lean + right.free * right.free * right.lean);
+Real loadOf(const Machine<Real>& machine, const Strand<Real>* strand) {
+  return machine.load_at_nothing + machine.load_slope * (strand[kLeft].free + strand[kRight].free);
 }
 
-/// Tensions of two strands that hold the sled and half their own weight (moments about the
-/// sprockets: a chain's weight acts at half its length, so free / reach of that half is carried
-/// by the sled).
+/// Tensions of two strands that hold the load.
 template <class Real>
 void shareLoad(const Machine<Real>& machine, Hanging<Real>& hanging) {
   Strand<Real>& left = hanging.strand[kLeft];
   Strand<Real>& right = hanging.strand[kRight];
   hanging.sine_of_sum = left.sine * right.cosine + left.cosine * right.sine;
-  const Real load = machine.load_at_nothing + machine.load_slope * (left.free + right.free);
-  const Real scale = load / hanging.sine_of_sum;
+  const Real scale = loadOf(machine, hanging.strand) / hanging.sine_of_sum;
   left.pull = scale * right.cosine;
   right.pull = scale * left.cosine;
+  // Both pull sideways alike: one division serves both.
+  const Real per_level = Real(1) / (left.pull * left.cosine);
+  left.slack = left.cosine * per_level;
+  right.slack = right.cosine * per_level;
+  left.bend = left.cosine * left.slack;
+  right.bend = right.cosine * right.slack;
   left.deep = right.deep = machine.deep;
-  if (machine.deep) {
-    lookDeeper(machine, left, right);
-  } else {
-    left.bend = left.cosine / left.pull;
-    right.bend = right.cosine / right.pull;
-  }
+  if (!machine.deep) return;
+  // What the second order of sag needs besides: see deep.h.
+  left.lean = left.sine * left.slack;
+  right.lean = right.sine * right.slack;
+  left.ease = right.ease =
+      machine.ease * (left.free * left.free * left.lean + right.free * right.free * right.lean);
 }
 
 template <class Real>
@@ -177,20 +187,27 @@ Point<Real> meetStraight(const Machine<Real>& machine, Chains<Real> chains) {
   return {from.x + run, from.y - drop};
 }
 
-/// Strands between ends that effects have moved: drawn once to ask them, and once more.
+/// By how much effects move the ends of each strand [mm]: strands are drawn between the ends at
+/// rest, no farther than forces need.
 template <class Real>
-PLUMB_RARE void drawMoved(const Machine<Real>& machine, Point<Real> bit, Hanging<Real>& hanging) {
-  Machine<Real> moved = machine;
-  moved.present = 0;
-  hanging = hang(moved, bit, true);
-  Point<Real> span[kSideCount] = {{Real(0), Real(0)}, {Real(0), Real(0)}};
-  Effects::For<Real>::moveEnds(machine.coefficient, machine.present, hanging.strand, span);
-  moved.sprocket[kLeft].x -= span[kLeft].x;
-  moved.sprocket[kRight].x += span[kRight].x;
-  moved.sprocket[kLeft].y += span[kLeft].y;
-  moved.sprocket[kRight].y += span[kRight].y;
-  moved.level = false;
-  hanging = hang(moved, bit, true);
+PLUMB_RARE void spanBetweenEnds(const Machine<Real>& machine, Point<Real> bit, Point<Real>* span) {
+  Strand<Real> strand[kSideCount];
+  for (uint8_t side = kLeft; side < kSideCount; ++side) {
+    const Point<Real> sprocket = machine.sprocket[side];
+    const Real run = side == kLeft ? bit.x - sprocket.x : sprocket.x - bit.x;
+    const Real drop = sprocket.y - bit.y;
+    const Real distance = sqrt(run * run + drop * drop + machine.radius_squared);
+    direct(machine, run, drop, distance, strand[side]);
+  }
+  const Strand<Real>& left = strand[kLeft];
+  const Strand<Real>& right = strand[kRight];
+  const Real to_left = left.sine * right.cosine;
+  const Real to_right = left.cosine * right.sine;
+  const Real scale = loadOf(machine, strand) / (to_left + to_right);
+  const Forces<Real> forces = {scale * (left.cosine * right.cosine),
+                               {scale * to_left, scale * to_right}};
+  span[kLeft] = span[kRight] = {Real(0), Real(0)};
+  Effects::For<Real>::moveEnds(machine.coefficient, machine.present, strand, forces, span);
 }
 
 }  // namespace
@@ -242,13 +259,15 @@ template <class Real>
 Hanging<Real> hang(const Machine<Real>& machine, Point<Real> bit, bool directed) {
   Hanging<Real> hanging;
   typedef Effects::For<Real> All;
+  Point<Real> room[kSideCount];
+  const Point<Real>* span = nullptr;
   if (machine.present & All::kMoveMask) {
-    drawMoved(machine, bit, hanging);
-  } else {
-    drawBoth(machine, bit, directed || machine.forces, hanging);
-    if (directed || machine.forces) shareLoad(machine, hanging);
-    if (machine.present == 0) return hanging;
+    spanBetweenEnds(machine, bit, room);
+    span = room;
   }
+  drawBoth(machine, bit, span, directed || machine.forces, hanging);
+  if (directed || machine.forces) shareLoad(machine, hanging);
+  if (machine.present == 0) return hanging;
   for (uint8_t side = kLeft; side < kSideCount; ++side)
     All::adjustLength(machine.coefficient, machine.present, hanging.strand[side]);
   return hanging;

@@ -1,6 +1,7 @@
 // What a physical effect is: parameters, words for people, and the hooks it may act through.
 #pragma once
 
+#include <math.h>
 #include <stdint.h>
 
 #include "deep.h"
@@ -10,8 +11,14 @@
 // registers to the others (200 cycles an inverse); cold, they stand apart, so that the others stay
 // within the reach of short calls (80 cycles).
 #define PLUMB_RARE __attribute__((noinline, cold))
+// For what every inverse does, though in two places.
+#define PLUMB_INLINE __attribute__((always_inline)) inline
 
 namespace kinematics {
+
+/// The nearest whole number; a dual number brings its own.
+inline int16_t nearest(float value) { return int16_t(lround(value)); }
+inline int16_t nearest(double value) { return int16_t(lround(value)); }
 
 /// What people are told of an effect. Only host tools ask; no such text reaches the board.
 struct EffectInfo {
@@ -51,8 +58,9 @@ struct Effect {
   static void moveSprocket(const Real*, Point<Real>*) {}
 
   /// Adds to `span` [mm], for both strands, what moves the bit's end away from the sprocket's: x
-  /// inward, y down. The strands, first drawn without, are then drawn anew with all such moves.
-  static void moveEnds(const Real*, const Strand<Real>*, Point<Real>*) {}
+  /// inward, y down. The strands it may look at are drawn without such moves, and only so far as
+  /// forces need: free, sine and cosine. They are drawn again with all moves.
+  static void moveEnds(const Real*, const Strand<Real>*, const Forces<Real>&, Point<Real>*) {}
 
   /// Changes strand.length, the free chain in nominal links; it comes in as strand.free.
   static void adjustLength(const Real*, Strand<Real>&) {}

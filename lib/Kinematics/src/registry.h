@@ -36,7 +36,8 @@ struct Listed<Real, Index> {
   static uint16_t presentMask(const Real*) { return 0; }
   static void prepare(const Frame<Real>&, const Real*, Real*) {}
   static void moveSprocket(const Real*, uint16_t, Point<Real>*) {}
-  static void moveEnds(const Real*, uint16_t, const Strand<Real>*, Point<Real>*) {}
+  static void moveEnds(const Real*, uint16_t, const Strand<Real>*, const Forces<Real>&,
+                       Point<Real>*) {}
   static void adjustLength(const Real*, uint16_t, Strand<Real>&) {}
   static int indexOf(int) { return -1; }
   template <class Visitor>
@@ -79,9 +80,9 @@ struct Listed<Real, Index, First, Rest...> {
   }
 
   static void moveEnds(const Real* c, uint16_t present, const Strand<Real>* strand,
-                       Point<Real>* span) {
-    if (present & (1u << Index)) Own::moveEnds(c, strand, span);
-    Next::moveEnds(c + kOwnCoefficients, present, strand, span);
+                       const Forces<Real>& forces, Point<Real>* span) {
+    if (present & (1u << Index)) Own::moveEnds(c, strand, forces, span);
+    Next::moveEnds(c + kOwnCoefficients, present, strand, forces, span);
   }
 
   static void adjustLength(const Real* c, uint16_t present, Strand<Real>& strand) {

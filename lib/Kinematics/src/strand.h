@@ -48,10 +48,18 @@ struct Strand {
   Real length;        ///< [mm] free chain in nominal links: what the effects adjust
   Real wrap;          ///< [mm] sprocket_radius * angle: chain on the teeth, but for r^2 / d
   Real pull;          ///< [1] tension / sled weight; only where an effect asks for forces
+  Real slack;         ///< [1] 1 / pull
   Real bend;          ///< [1] cosine / pull: how easily its own weight bends the chain
   Real sine, cosine;  ///< [1] of the straight line's angle below the horizontal
   Real lean;          ///< [1] sine / pull; only on deep machines
   Real ease;          ///< [1] share by which deep chains pull less; only on deep machines
+};
+
+/// What both strands do to the sprockets and the sled, in sled weights.
+template <class Real>
+struct Forces {
+  Real level;                ///< [1] horizontal pull, the same in both strands
+  Real upright[kSideCount];  ///< [1] vertical pull of each; together they hold the load
 };
 
 }  // namespace kinematics

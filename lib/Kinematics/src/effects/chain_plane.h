@@ -2,17 +2,18 @@
 // slanting.
 #pragma once
 
+#include <math.h>
+
 #include "../effect.h"
 
 namespace kinematics {
 
-/// A chain of length L along the sheet whose ends differ by g across it is sqrt(L^2 + g^2) long:
-/// longer by g^2 / (2 L). Only the chain slants, the ring keeps its plane. The next order,
-/// g^4 / (8 L^3), is 0.005 mm at 40 mm across and 0.4 m of chain.
+/// A chain of length L along the sheet whose ends differ by g across it is sqrt(L^2 + g^2) long.
+/// Only the chain slants, the ring keeps its plane.
 template <class Real>
 struct ChainPlane : Effect<Real> {
   enum { kGapSquared, kParamCount };
-  enum { kHalfGapSquared, kCoefficientCount };
+  enum { kAcross, kCoefficientCount };
 
   static EffectInfo info() {
     return {"chain_plane", "the chains do not run parallel to the sheet",
@@ -29,11 +30,11 @@ struct ChainPlane : Effect<Real> {
   }
 
   static void prepare(const Frame<Real>&, const Real* parameter, Real* c) {
-    c[kHalfGapSquared] = parameter[kGapSquared] * Real(0.5);
+    c[kAcross] = parameter[kGapSquared];
   }
 
   PLUMB_RARE static void adjustLength(const Real* c, Strand<Real>& strand) {
-    strand.length += c[kHalfGapSquared] / strand.free;
+    strand.length += sqrt(strand.free * strand.free + c[kAcross]) - strand.free;
   }
 };
 

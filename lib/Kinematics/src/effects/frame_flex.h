@@ -13,7 +13,7 @@ namespace kinematics {
 template <class Real>
 struct FrameFlex : Effect<Real> {
   enum { kInward, kDownward, kParamCount };
-  enum { kInwardByPull, kDownwardByPull, kHalfWeight, kCoefficientCount };
+  enum { kInwardByPull, kDownwardByPull, kDownwardByLength, kCoefficientCount };
   enum { kNeedsForces = 1 };
   enum { kMovesEnds = 1 };
 
@@ -33,14 +33,16 @@ struct FrameFlex : Effect<Real> {
   static void prepare(const Frame<Real>& frame, const Real* parameter, Real* c) {
     c[kInwardByPull] = parameter[kInward] * frame.sled_weight;
     c[kDownwardByPull] = parameter[kDownward] * frame.sled_weight;
-    c[kHalfWeight] = frame.chain_weight / frame.sled_weight * Real(0.5);
+    c[kDownwardByLength] = parameter[kDownward] * frame.chain_weight * Real(0.5);
   }
 
-  PLUMB_RARE static void moveEnds(const Real* c, const Strand<Real>* strand, Point<Real>* span) {
+  PLUMB_RARE static void moveEnds(const Real* c, const Strand<Real>* strand,
+                                  const Forces<Real>& forces, Point<Real>* span) {
+    const Real inward = c[kInwardByPull] * forces.level;
     for (uint8_t side = kLeft; side < kSideCount; ++side) {
-      const Strand<Real>& own = strand[side];
-      span[side].x -= c[kInwardByPull] * own.pull * own.cosine;
-      span[side].y -= c[kDownwardByPull] * (own.pull * own.sine + c[kHalfWeight] * own.free);
+      span[side].x -= inward;
+      span[side].y -=
+          c[kDownwardByPull] * forces.upright[side] + c[kDownwardByLength] * strand[side].free;
     }
   }
 };

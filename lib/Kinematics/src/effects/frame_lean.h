@@ -37,7 +37,7 @@ struct FrameLean : Effect<Real> {
   }
 
   PLUMB_RARE static void adjustLength(const Real* c, Strand<Real>& strand) {
-    const Real slack = strand.free / strand.pull;
+    const Real slack = strand.free * strand.slack;
     strand.length += c[kPerSlack] * slack * slack * strand.free;
   }
 };

@@ -17,7 +17,8 @@ template <class Real>
 struct ResidualPatch : Effect<Real> {
   enum { kX, kY, kXX, kXY, kYY, kXXX, kXXY, kXYY, kYYY, kTerms };
   enum { kParamCount = kSideCount * kTerms };
-  enum { kArm = kParamCount, kPerAcross, kAcross, kPerDown, kDown, kCoefficientCount };
+  enum { kConstant, kPowers = 1 + kTerms };  // for each side
+  enum { kArm = kSideCount * kPowers, kPerAcross, kAcross, kPerDown, kDown, kCoefficientCount };
   enum { kEmpirical = 1 };
 
   static EffectInfo info() {
@@ -33,8 +34,23 @@ struct ResidualPatch : Effect<Real> {
     return {kNames[i], "mm", -20, 20, 0.5, "chain added by this term at its largest"};
   }
 
+  /// Legendre's polynomials become powers, so that the hook has one product a term.
   static void prepare(const Frame<Real>& frame, const Real* parameter, Real* c) {
-    for (uint8_t i = 0; i < kParamCount; ++i) c[i] = parameter[i];
+    for (uint8_t side = kLeft; side < kSideCount; ++side) {
+      const Real* const p = parameter + side * kTerms;
+      Real* const power = c + side * kPowers;
+      const Real half_xx = Real(0.5) * p[kXX], half_yy = Real(0.5) * p[kYY];
+      power[kConstant] = -(half_xx + half_yy);
+      power[1 + kX] = p[kX] - Real(1.5) * p[kXXX] - Real(0.5) * p[kXYY];
+      power[1 + kY] = p[kY] - Real(1.5) * p[kYYY] - Real(0.5) * p[kXXY];
+      power[1 + kXX] = Real(3) * half_xx;
+      power[1 + kXY] = p[kXY];
+      power[1 + kYY] = Real(3) * half_yy;
+      power[1 + kXXX] = Real(2.5) * p[kXXX];
+      power[1 + kXXY] = Real(1.5) * p[kXXY];
+      power[1 + kXYY] = Real(1.5) * p[kXYY];
+      power[1 + kYYY] = Real(2.5) * p[kYYY];
+    }
     c[kArm] = frame.rotation_radius;
     c[kPerAcross] = Real(1) / (Real(0.42) * frame.motor_gap);
     c[kAcross] = frame.motor_gap / Real(2) * c[kPerAcross];
@@ -44,16 +60,15 @@ struct ResidualPatch : Effect<Real> {
 
   PLUMB_RARE static void adjustLength(const Real* c, Strand<Real>& strand) {
     const Real reach = strand.free + c[kArm];
-    const Real inward = reach * strand.cosine * c[kPerAcross] - c[kAcross];
-    const bool right = strand.side == kRight;
-    const Real x = within(right ? -inward : inward);
+    const Real inward = within(reach * strand.cosine * c[kPerAcross] - c[kAcross]);
     const Real y = within(c[kDown] - reach * strand.sine * c[kPerDown]);
-    const Real* const p = right ? c + kTerms : c;
-    const Real xx = Real(1.5) * x * x - Real(0.5), yy = Real(1.5) * y * y - Real(0.5);
-    const Real xxx = (Real(2.5) * x * x - Real(1.5)) * x;
-    const Real yyy = (Real(2.5) * y * y - Real(1.5)) * y;
-    strand.length += p[kX] * x + p[kY] * y + p[kXX] * xx + p[kXY] * x * y + p[kYY] * yy +
-                     p[kXXX] * xxx + p[kXXY] * xx * y + p[kXYY] * x * yy + p[kYYY] * yyy;
+    const bool right = strand.side == kRight;
+    const Real x = right ? -inward : inward;
+    const Real* const power = right ? c + kPowers : c;
+    const Real* const p = power + 1;
+    strand.length +=
+        power[kConstant] + y * (p[kY] + y * (p[kYY] + y * p[kYYY])) +
+        x * (p[kX] + y * (p[kXY] + y * p[kXYY]) + x * (p[kXX] + y * p[kXXY] + x * p[kXXX]));
   }
 
  private:

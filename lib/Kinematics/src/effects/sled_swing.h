@@ -43,17 +43,21 @@ struct SledSwing : Effect<Real> {
     c[kEndTurn] = weightRatio(frame) * (Real(1) - armShare(frame)) * Real(0.25);
   }
 
-  PLUMB_RARE static void moveEnds(const Real* c, const Strand<Real>* strand, Point<Real>* span) {
+  PLUMB_RARE static void moveEnds(const Real* c, const Strand<Real>* strand,
+                                  const Forces<Real>& forces, Point<Real>* span) {
     const Strand<Real>& left = strand[kLeft];
     const Strand<Real>& right = strand[kRight];
     const Real twice = left.cosine * right.cosine + left.sine * right.sine;
     const Real half = sqrt((Real(1) + twice) * Real(0.5));
     const Real half_sine = (right.sine * left.cosine - right.cosine * left.sine) / (half + half);
-    const Real flatter = c[kEndTurn] * (right.bend * right.free - left.bend * left.free);
+    const Real flatter =
+        c[kEndTurn] *
+        (right.cosine * right.cosine * right.free - left.cosine * left.cosine * left.free) /
+        forces.level;
     const Real sine = half_sine - half * flatter;
-    const Real cosine = half + half_sine * flatter;
-    const Real x = c[kBitRight] - (cosine * c[kBitRight] - sine * c[kBitUp]);
-    const Real y = c[kBitUp] - (sine * c[kBitRight] + cosine * c[kBitUp]);
+    const Real less = Real(1) - half - half_sine * flatter;  // than an upright sled's cosine
+    const Real x = less * c[kBitRight] + sine * c[kBitUp];
+    const Real y = less * c[kBitUp] - sine * c[kBitRight];
     span[kLeft].x += x;
     span[kRight].x -= x;
     span[kLeft].y -= y;

@@ -1,11 +1,19 @@
 // Sprocket runout: a bore or set screw off centre swings the sprocket as it turns.
 #pragma once
 
-#include <math.h>
-
 #include "../effect.h"
 
 namespace kinematics {
+
+namespace runout {
+
+// Sine and cosine of a quarter turn times x, |x| up to 1/2, in odd and even powers: within 0.00001.
+const double kSine[3] = {1.57078847, -0.64571198, 0.07766737};
+const double kCosine[2] = {-1.23314862, 0.24649945};
+
+const double kQuarterTurn = 1.57079632679489662;  // [rad]
+
+}  // namespace runout
 
 /// A sprocket whose axis is e off its middle moves the chain's start by e along the chain, once a
 /// turn. Seen along the chain, the sprocket has turned by b = length / radius since the chain's far
@@ -14,7 +22,7 @@ namespace kinematics {
 template <class Real>
 struct SprocketRunout : Effect<Real> {
   enum { kLeftSine, kLeftCosine, kRightSine, kRightCosine, kParamCount };
-  enum { kTurnsByLength = kParamCount, kCoefficientCount };
+  enum { kQuartersByLength = kParamCount, kCoefficientCount };
 
   static EffectInfo info() {
     return {
@@ -31,13 +39,25 @@ struct SprocketRunout : Effect<Real> {
 
   static void prepare(const Frame<Real>& frame, const Real* parameter, Real* c) {
     for (uint8_t i = 0; i < kParamCount; ++i) c[i] = parameter[i];
-    c[kTurnsByLength] = Real(1) / frame.sprocket_radius;
+    c[kQuartersByLength] = Real(1) / (frame.sprocket_radius * Real(runout::kQuarterTurn));
   }
 
   PLUMB_RARE static void adjustLength(const Real* c, Strand<Real>& strand) {
-    const Real turn = strand.length * c[kTurnsByLength];
     const Real* own = strand.side == kLeft ? c + kLeftSine : c + kRightSine;
-    strand.length += own[0] * sin(turn) + own[1] * cos(turn);
+    const Real quarters = strand.length * c[kQuartersByLength];
+    const int16_t whole = nearest(quarters);
+    const Real rest = quarters - Real(float(whole));
+    const Real v = rest * rest;
+    const Real sine =
+        rest * (Real(runout::kSine[0]) + v * (Real(runout::kSine[1]) + v * Real(runout::kSine[2])));
+    const Real cosine = Real(1) + v * (Real(runout::kCosine[0]) + v * Real(runout::kCosine[1]));
+    // A quarter on, the sine is what the cosine was, and the cosine the sine with its sign changed.
+    const bool odd = whole & 1;
+    const Real waves = odd ? own[0] * cosine - own[1] * sine : own[0] * sine + own[1] * cosine;
+    if (whole & 2)
+      strand.length -= waves;
+    else
+      strand.length += waves;
   }
 };
 
