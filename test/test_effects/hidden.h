@@ -41,6 +41,13 @@ inline std::vector<Hidden> everyEffect() {
        {{111, 0.02}},
        [](M& m) { m.left.downward = m.right.downward = 0.02; },
        0.006},
+      {"frame_flex",
+       {{110, 0.007}, {111, 0.02}},
+       [](M& m) {
+         m.left.inward = m.right.inward = 0.007;
+         m.left.downward = m.right.downward = 0.02;
+       },
+       0.006},
       {"chain_plane", {{130, 1600}}, [](M& m) { m.plane_gap = 40; }, 0.005},
       {"chain_plane_far_off", {{130, 3600}}, [](M& m) { m.plane_gap = 60; }, 0.006},
       {"frame_lean",
@@ -70,9 +77,21 @@ inline std::vector<Hidden> everyEffect() {
   };
 }
 
-inline kinematics::Machine<double> lawsWith(const std::vector<Sized>& sizes) {
-  const kinematics::Frame<double> frame = {
-      2978.4, 1072.6, 0, 139.1, kRadius, kSledWeight, kChainWeight, kinematics::Feed::kOverTop};
+/// Where the motors are [mm].
+struct Motors {
+  double gap = 2978.4, height = 1072.6;  // apart, and above the middle of the sheet
+};
+
+inline kinematics::Machine<double> lawsWith(const std::vector<Sized>& sizes,
+                                            const Motors& motors = {}) {
+  const kinematics::Frame<double> frame = {motors.gap,
+                                           motors.height,
+                                           0,
+                                           139.1,
+                                           kRadius,
+                                           kSledWeight,
+                                           kChainWeight,
+                                           kinematics::Feed::kOverTop};
   const double ratio = kChainWeight / kSledWeight;
   kinematics::EffectParams<double> effects =
       withEffects({{160, ratio * ratio / 24}, {170, kCompliance}});
@@ -80,8 +99,10 @@ inline kinematics::Machine<double> lawsWith(const std::vector<Sized>& sizes) {
   return prepare(frame, effects);
 }
 
-inline reference::Machine judge() {
+inline reference::Machine judge(const Motors& motors = {}) {
   reference::Machine machine;
+  machine.motor_gap = motors.gap;
+  machine.motor_height = motors.height;
   machine.sprocket_radius = kRadius;
   machine.sled_weight = kSledWeight;
   for (reference::ChainSide* side : {&machine.left, &machine.right}) {
@@ -116,9 +137,42 @@ inline double worstOver(const kinematics::Machine<double>& laws, const reference
   return found;
 }
 
-/// The same for a sled that swings. The judge's ring hangs where its chains pull; the sled carries
-/// its bit, 3 mm right of and 2 mm below the ring's centre, turned by half the difference of both
-/// pulls' angles.
+/// How far [mm] from a place the judge's sled hangs on the chains that the laws pay out for it.
+inline double missedBy(const kinematics::Machine<double>& laws, const Eigen::Vector2d& place,
+                       const Eigen::Vector2d& theirs) {
+  const kinematics::Point<double> at = {place.x(), place.y()};
+  const kinematics::Hanging<double> hanging = hang(laws, at, true);
+  const kinematics::Chains<double> ours = inverse(laws, at).chains;
+  const kinematics::Strand<double>&left = hanging.strand[0], &right = hanging.strand[1];
+  Eigen::Matrix2d slopes;
+  slopes << left.cosine, -left.sine, -right.cosine, -right.sine;
+  return (slopes.inverse() * (Eigen::Vector2d(ours.left, ours.right) - theirs)).norm();
+}
+
+/// The worst of that [mm] over the sheet, under motors 2.9 to 3.7 m apart and 400 to 760 mm above
+/// it. Under low motors far apart 1 mm of both chains is 4 mm at the bit.
+inline double worstAtTheBit(const Hidden& hidden) {
+  double found = 0;
+  for (double gap : {2900.0, 3300.0, 3700.0})
+    for (double offset : {400.0, 580.0, 760.0}) {
+      const Motors motors = {gap, 609.6 + offset};
+      const kinematics::Machine<double> laws = lawsWith(hidden.sizes, motors);
+      reference::Machine machine = judge(motors);
+      hidden.hide(machine);
+      for (int i = 0; i <= 8; ++i)
+        for (int j = 0; j <= 6; ++j) {
+          const Eigen::Vector2d place(-1219.2 + 304.8 * i, -609.6 + 203.2 * j);
+          const reference::Hang truth = reference::hangAt(machine, place);
+          if (!truth.solved) return 1e9;
+          found = fmax(found, missedBy(laws, place, truth.paid_out));
+        }
+    }
+  return found;
+}
+
+/// Worst difference [mm] of lengths over the sheet for a sled that swings. The judge's ring hangs
+/// where its chains pull; the sled carries its bit, 3 mm right of and 2 mm below the ring's centre,
+/// turned by half the difference of both pulls' angles.
 inline double worstSwing(const kinematics::Machine<double>& laws) {
   const Eigen::Vector2d bit_from_ring(3, -2);
   double found = 0;

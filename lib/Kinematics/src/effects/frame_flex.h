@@ -8,12 +8,14 @@ namespace kinematics {
 /// A sprocket moves inward by `inward` times the horizontal pull of its chain, and down by
 /// `downward` times the vertical one, which at the sprocket carries half the chain's weight more
 /// than in the chain's middle. The pulls are those of strands between the sprockets at rest; the
-/// strands are then drawn between the moved ones. Another round would change 0.0001 mm (see
+/// strands are then drawn between the moved ones. By how much the moves change the level pull is
+/// taken from the middle of the sheet, where a level move counts most: it is load * run / drop,
+/// so that shares of half the gap and of the drop, load * half gap / level pull, add up (see
 /// docs/decisions/0006-flex-once.md).
 template <class Real>
 struct FrameFlex : Effect<Real> {
   enum { kInward, kDownward, kParamCount };
-  enum { kInwardByPull, kDownwardByPull, kDownwardByLength, kCoefficientCount };
+  enum { kInwardByPull, kDownwardByPull, kDownwardByLength, kPerHalfGap, kCoefficientCount };
   enum { kNeedsForces = 1 };
   enum { kMovesEnds = 1 };
 
@@ -33,17 +35,24 @@ struct FrameFlex : Effect<Real> {
   static void prepare(const Frame<Real>& frame, const Real* parameter, Real* c) {
     c[kInwardByPull] = parameter[kInward] * frame.sled_weight;
     c[kDownwardByPull] = parameter[kDownward] * frame.sled_weight;
+    c[kPerHalfGap] = Real(2) / frame.motor_gap;
     c[kDownwardByLength] = parameter[kDownward] * frame.chain_weight * Real(0.5);
   }
 
   PLUMB_RARE static void moveEnds(const Real* c, const Strand<Real>* strand,
                                   const Forces<Real>& forces, Point<Real>* span) {
-    const Real inward = c[kInwardByPull] * forces.level;
+    Real sunk[kSideCount];
     for (uint8_t side = kLeft; side < kSideCount; ++side) {
-      span[side].x -= inward;
-      span[side].y -=
+      sunk[side] =
           c[kDownwardByPull] * forces.upright[side] + c[kDownwardByLength] * strand[side].free;
+      span[side].y -= sunk[side];
     }
+    // Nearer sprockets pull less sideways, lower ones more.
+    const Real inward = c[kInwardByPull] * forces.level;
+    const Real nearer = inward - forces.level * (sunk[kLeft] + sunk[kRight]);
+    const Real given = inward - inward * nearer * c[kPerHalfGap];
+    span[kLeft].x -= given;
+    span[kRight].x -= given;
   }
 };
 
