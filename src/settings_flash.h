@@ -54,6 +54,7 @@ class FlashTable : public settings::Table {
   uint8_t count() const override { return kSettingCount; }
 
   settings::Entry at(uint8_t index) const override {
+    if (index >= kFirstPlaceSetting) return placeRow(uint8_t(index - kFirstPlaceSetting));
     if (index >= kFirstEffectSetting) return effectRow(uint8_t(index - kFirstEffectSetting));
     settings::Entry entry;
     memcpy_P(&entry, flash_rows::kRows + index, sizeof entry);

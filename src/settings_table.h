@@ -1,5 +1,6 @@
 // Every $-number of the firmware but the effects': name, unit, default, limits, sentence.
-// The effects' numbers come from their registry, lib/Kinematics/src/effects.h.
+// The effects' numbers come from their registry, lib/Kinematics/src/effects.h; those of places that
+// G-code keeps stand in settings_places.h.
 //
 // A list of macro calls, because flash on the board and plain memory on the host keep the same rows
 // in different ways (settings_flash.h; test/settings_host/plain_table.h). Each row:
@@ -12,6 +13,8 @@
 
 #include <Kinematics.h>
 #include <Settings.h>
+
+#include "settings_places.h"
 
 // clang-format off
 #define PLUMB_PUBLISHED_SETTINGS(ROW) \
@@ -159,11 +162,12 @@
   WORD(kBadValueEnd, " of the published firmware cannot be right; none of its settings is taken over.")
 // clang-format on
 
-/// The rows by name; the effects' parameters follow in the registry's order.
+/// The rows by name; the effects' parameters follow in the registry's order, and then the places.
 #define PLUMB_NAME(name, ...) name,
 enum Setting : uint8_t {
   PLUMB_SETTINGS(PLUMB_NAME, PLUMB_NAME, PLUMB_NAME) kFirstEffectSetting,
-  kSettingCount = kFirstEffectSetting + kinematics::kEffectParamCount
+  kFirstPlaceSetting = kFirstEffectSetting + kinematics::kEffectParamCount,
+  kSettingCount = kFirstPlaceSetting + kPlaceCount
 };
 #undef PLUMB_NAME
 

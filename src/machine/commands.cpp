@@ -6,6 +6,16 @@ namespace {
 
 bool isSetting(char first) { return first == '$'; }
 
+/// An axis that other machines have, if there is a word for it; 0 if not.
+char foreignAxis(const Words& words) {
+  for (const char* letter = "ABCUVW"; *letter != '\0'; ++letter)
+    if (words.has(*letter)) return *letter;
+  return gcode::kNoLetter;
+}
+
+/// M0, M1, M2 and M30.
+bool endsLine(uint16_t tenths) { return tenths <= 20 || tenths == 300; }
+
 }  // namespace
 
 void Machine::loop() {
@@ -58,6 +68,7 @@ void Machine::echo(const char* line) {
 bool Machine::runCode(const char* text) {
   const gcode::Mistake mistake = gcode::findMistake(text);
   if (mistake.fault != gcode::Fault::kNone) return refuseMistake(mistake);
+  modal_.beginLine();
   gcode::Pieces pieces(text);
   gcode::Piece piece;
   bool going = true;
@@ -69,61 +80,17 @@ bool Machine::runPiece(const gcode::Piece& piece) {
   const Words& words = piece.words;
   // Of a line that a stop broke off only its modes still count: a stopped jog ends in G90.
   if (stopping_ || is_answered_) return piece.letter == 'G' && modal_.take(piece.tenths);
+  if (const char axis = foreignAxis(words)) return refuseMotion(FLASH("there is no axis "), axis);
   if (piece.letter != 'M' && words.has('T') && !setTool(words)) return false;
-  if (piece.letter == 'M') return runM(piece.tenths, words);
-  if (piece.letter == 'G') return runG(piece.tenths, words);
-  if (words.has('X') || words.has('Y') || words.has('Z') || words.has('I') || words.has('J'))
-    return move(modal_.motion, words);
-  takeFeed(words);
-  return true;
+  if (piece.letter == 'G') return runG(piece);
+  if (piece.letter != 'M') return moveInMode(words);
+  // What ends or pauses a program comes after the line's motion, all else before it.
+  if (endsLine(piece.tenths)) return moveInMode(words) && runM(piece.tenths, words);
+  return runM(piece.tenths, words) && moveInMode(words);
 }
 
-bool Machine::runG(uint16_t tenths, const Words& words) {
-  if (modal_.take(tenths)) {
-    takeFeed(words);
-    // `G91 X10`, with the mode of motion from before.
-    const bool moves = words.has('X') || words.has('Y') || words.has('Z');
-    return !moves || move(modal_.motion, words);
-  }
-  switch (tenths) {
-    case 0:
-    case 10:
-    case 20:
-    case 30:
-      modal_.motion = uint8_t(tenths / 10);
-      return move(modal_.motion, words);
-    case 40:
-      return dwell(words);
-    case 100:
-      return declareZByWord(words);
-    case 382:
-      return probe(targetOf(words).z);
-    // What is so in any case.
-    case 170:
-    case 400:
-    case 490:
-    case 540:
-    case 800:
-    case 911:
-    case 940:
-      return true;
-    case 180:
-    case 190:
-      return refuseMotion(FLASH("arcs are cut in the plane of G17 only"));
-    case 901:
-      return refuseMotion(FLASH("arc centres are told from the start, G91.1, only"));
-    case 280:
-    case 920:
-      return refuseMotion(
-          FLASH("G28 and G92 are not supported; set zero in the program that sends"));
-    default:
-      out_ << FLASH("Command G");
-      return ignore(tenths);
-  }
-}
-
-bool Machine::ignore(uint16_t tenths) {
-  out_ << int32_t(tenths / 10);
+bool Machine::ignoreM(uint16_t tenths) {
+  out_ << FLASH("Command M") << int32_t(tenths / 10);
   if (tenths % 10 != 0) out_ << '.' << int32_t(tenths % 10);
   out_.line(FLASH(" unsupported and ignored."));
   return true;
@@ -136,8 +103,10 @@ bool Machine::runM(uint16_t tenths, const Words& words) {
     case 10:
       return pauseAfterMoves();
     case 20:
-    case 50:
     case 300:
+      modal_.endProgram();
+      return drain() && switchSpindle(false);
+    case 50:
       return drain() && switchSpindle(false);
     case 30:
     case 40:
@@ -149,9 +118,12 @@ bool Machine::runM(uint16_t tenths, const Words& words) {
       if (!drain()) return false;
       switchLaser(tenths == 1060);
       return true;
+    case 970:
+    case 980:
+    case 990:
+      return refuseMotion(FLASH("subprograms are left to the program that sends"));
     default:
-      out_ << FLASH("Command M");
-      return ignore(tenths);
+      return ignoreM(tenths);
   }
 }
 
@@ -162,16 +134,6 @@ bool Machine::setTool(const Words& words) {
   out_ << FLASH("Tool change to tool ") << int32_t(modal_.tool);
   out_.end();
   return true;
-}
-
-bool Machine::dwell(const Words& words) {
-  const float seconds =
-      float(fabs(words.value('P') != 0 ? words.value('P') / 1000 : words.value('S')));
-  if (!(seconds < 86400)) return refuseMotion(FLASH("a dwell is shorter than a day"));
-  if (!drain()) return false;
-  out_ << FLASH("dwell time ");
-  out_.fixed(seconds, 3).line(FLASH(" s"));
-  return waitFor(uint32_t(seconds * 1000));
 }
 
 bool Machine::declareZByWord(const Words& words) {

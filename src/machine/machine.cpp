@@ -14,7 +14,8 @@ Machine::Machine(const Ports& ports, const BoardName& board)
       values_(table_, value_room_),
       memory_(ports.bytes, values_),
       axes_(ports.drives, ports.clock),
-      keeper_(memory_, axes_) {}
+      keeper_(memory_, axes_),
+      offsets_(values_.from(kFirstPlaceSetting)) {}
 
 void Machine::begin() {
   const settings::Started started = memory_.start();

@@ -130,6 +130,9 @@ class Machine {
   /// `error:`, by setting $70. `letter` ends the sentence, if there is one.
   bool refuseMotion(FlashText why, char letter = gcode::kNoLetter);
   bool refuseMistake(gcode::Mistake mistake);
+  bool refuseCode(const gcode::Piece& piece);
+  void beginRefusal();
+  bool endRefusal();
   void beginHalt();
   bool halt();
 
@@ -138,19 +141,47 @@ class Machine {
   void echo(const char* line);
   bool runCode(const char* text);
   bool runPiece(const gcode::Piece& piece);
-  bool runG(uint16_t tenths, const Words& words);
   bool runM(uint16_t tenths, const Words& words);
-  bool ignore(uint16_t tenths);
+  bool ignoreM(uint16_t tenths);
   bool setTool(const Words& words);
-  bool dwell(const Words& words);
   bool declareZByWord(const Words& words);
   void takeFeed(const Words& words);
   Place targetOf(const Words& words) const;
   bool move(uint8_t kind, const Words& words);
+  bool moveStraight(Place target, bool across, float feed);
+  bool isNear(const Place& target);
+  bool mayTurn(const Words& words);
+  /// An arc's centre by I and J, seen from its start [mm].
+  motion::Point<float> centreAhead(const Words& words, motion::Point<float> from) const;
   bool moveRound(bool clockwise, motion::Point<float> from, const Place& target, const Words& words,
                  float feed);
   bool mayCrossSheet();
+  /// `times` [1/min] that the move would fit, as G93 says, as a feed.
+  float feedOf(const motion::Path<float>& path, const Place& target, float times) const;
+  /// `feed` [mm/min], or below zero how often a minute the move would fit.
   bool queue(const motion::Path<float>& path, const Place& target, float feed);
+
+  // g_codes.cpp, coordinates.cpp, drill.cpp: what each G code does.
+  bool runG(const gcode::Piece& piece);
+  bool beginMotion(const gcode::Piece& piece);
+  bool moveInMode(const Words& words);
+  bool dwell(const gcode::Piece& piece);
+  bool probeDown(const gcode::Piece& piece);
+  bool declareByWords(const gcode::Piece& piece);
+  bool keepCoordinate(uint8_t row, float value);
+  bool shiftCoordinates(const gcode::Piece& piece);
+  bool endShift(const gcode::Piece& piece);
+  bool takeToolLength(const gcode::Piece& piece);
+  bool forgetToolLength(const gcode::Piece& piece);
+  bool keepGoal(const gcode::Piece& piece);
+  bool goToKept(const gcode::Piece& piece);
+  bool goSafely(const Place& target, bool across);
+  void sayPlaceOf(FlashText name, int32_t number, float x, float y, float z);
+  void showCoordinates();
+  bool beginCycle(const gcode::Piece& piece);
+  bool refuseDrilling(gcode::DrillFault fault);
+  bool drill(const Words& words);
+  bool runDrillStep(const gcode::DrillStep& step);
 
   // settings_lines.cpp: the `$` lines.
   bool runSetting(const char* line);
@@ -223,6 +254,8 @@ class Machine {
   Mover mover_;
   Input input_;
   Modal modal_;
+  gcode::WorkOffsets offsets_;
+  gcode::Drilling drilling_;
   const char* line_ = "";  ///< the line in execution
   Lock lock_ = Lock::kOpen;
   Place aim_ = {0, 0, 0};    ///< where the last move queued ends

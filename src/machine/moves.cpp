@@ -17,6 +17,10 @@ float Machine::mostZFeed() const {
 
 void Machine::takeFeed(const Words& words) {
   if (!words.has('F')) return;
+  if (modal_.inverse_time) {
+    modal_.inverse_feed = words.value('F');
+    return;
+  }
   const float feed = fromUnits(words.value('F'));
   modal_.feed = feed > kLeastFeed ? feed : kLeastFeed;
 }
@@ -27,7 +31,7 @@ Place Machine::targetOf(const Words& words) const {
   float* const parts[] = {&target.x, &target.y, &target.z};
   for (uint8_t i = 0; i < 3; ++i) {
     if (!words.has(letters[i])) continue;
-    *parts[i] = modal_.targetOf(*parts[i], words.value(letters[i]));
+    *parts[i] = modal_.targetOf(*parts[i], words.value(letters[i]), offsets_.at(modal_.system, i));
   }
   target.z = withinZLimits(target.z);
   return target;
@@ -37,29 +41,58 @@ bool Machine::move(uint8_t kind, const Words& words) {
   takeFeed(words);
   refreshGeometry();
   Place target = targetOf(words);
-  if (!(fabs(target.x) < kMostTravel && fabs(target.y) < kMostTravel &&
-        fabs(target.z) < kMostTravel))
-    return refuseMotion(FLASH("that is farther than any machine reaches"));
-  const bool over_sheet = words.has('X') || words.has('Y') || kind > 1;
-  if (over_sheet && !mayCrossSheet()) return false;
+  if (modal_.inverse_time && kind != 0 && !(modal_.inverse_feed > 0))
+    return refuseMotion(FLASH("with G93 each line needs its F"));
+  const float most = values_.at(kGreatestFeed);
+  const float feed = kind == 0             ? most
+                     : modal_.inverse_time ? -modal_.inverse_feed
+                     : modal_.feed > most  ? most
+                                           : modal_.feed;
+  if (kind < 2) return moveStraight(target, words.has('X') || words.has('Y'), feed);
+  if (!mayTurn(words) || !isNear(target) || !mayCrossSheet()) return false;
+  if (values_.at(kZMotor) == 0) target.z = aim_.z;
+  return moveRound(kind == 2, {aim_.x, aim_.y}, target, words, feed);
+}
+
+bool Machine::isNear(const Place& target) {
+  if (fabs(target.x) < kMostTravel && fabs(target.y) < kMostTravel && fabs(target.z) < kMostTravel)
+    return true;
+  return refuseMotion(FLASH("that is farther than any machine reaches"));
+}
+
+bool Machine::mayTurn(const Words& words) {
+  if (modal_.plane != 17) return refuseMotion(FLASH("arcs are cut in the plane of G17 only"));
+  if (modal_.machine_coordinates) return refuseMotion(FLASH("G53 goes with G0 and G1 only"));
+  if (modal_.absolute_centres && !words.has('R') && !(words.has('I') && words.has('J')))
+    return refuseMotion(FLASH("with G90.1 an arc needs I and J"));
+  if (words.has('P') && words.value('P') != 1)
+    return refuseMotion(FLASH("an arc goes round once; P is left to the program that sends"));
+  return true;
+}
+
+bool Machine::moveStraight(Place target, bool across, float feed) {
+  if (!isNear(target) || (across && !mayCrossSheet())) return false;
   if (values_.at(kZMotor) == 0 && target.z != aim_.z) {
     const float kSameDepth = 0.1f;  // [mm]
-    const bool asks = kind < 2 && float(fabs(target.z - aim_.z)) > kSameDepth;
+    const bool asks = float(fabs(target.z - aim_.z)) > kSameDepth;
     if (asks && !setZByHand(target.z)) return false;
     target.z = aim_.z;
   }
-  const motion::Point<float> from = {aim_.x, aim_.y}, to = {target.x, target.y};
-  const float most = values_.at(kGreatestFeed);
-  const float feed = kind == 0 || modal_.feed > most ? most : modal_.feed;
-  if (kind < 2) return queue(motion::line(from, to), target, feed);
-  return moveRound(kind == 2, from, target, words, feed);
+  return queue(motion::line<float>({aim_.x, aim_.y}, {target.x, target.y}), target, feed);
+}
+
+motion::Point<float> Machine::centreAhead(const Words& words, motion::Point<float> from) const {
+  const motion::Point<float> centre = {fromUnits(words.value('I')), fromUnits(words.value('J'))};
+  if (!modal_.absolute_centres) return centre;
+  return {offsets_.at(modal_.system, 0) + centre.x - from.x,
+          offsets_.at(modal_.system, 1) + centre.y - from.y};
 }
 
 bool Machine::moveRound(bool clockwise, motion::Point<float> from, const Place& target,
                         const Words& words, float feed) {
   const motion::Point<float> to = {target.x, target.y};
   const float radius = fromUnits(words.value('R'));
-  motion::Point<float> ahead = {fromUnits(words.value('I')), fromUnits(words.value('J'))};
+  motion::Point<float> ahead = centreAhead(words, from);
   float digit = modal_.inches ? motion::kInchDigit : motion::kMillimetreDigit;
   if (radius != 0) {
     const gcode::ArcCentre seen =
@@ -87,8 +120,15 @@ bool Machine::mayCrossSheet() {
       FLASH("the chains put the sled nowhere: set their lengths first (B06 or B08)"));
 }
 
+float Machine::feedOf(const motion::Path<float>& path, const Place& target, float times) const {
+  const float rise = target.z - aim_.z, most = values_.at(kGreatestFeed);
+  const float feed = times * float(sqrt(path.length * path.length + rise * rise));
+  return feed > most ? most : feed;
+}
+
 bool Machine::queue(const motion::Path<float>& path, const Place& target, float feed) {
   if (path.drawn == motion::Drawn::kNoLength && target.z == aim_.z) return true;
+  if (feed < 0) feed = feedOf(path, target, -feed);
   if (!geometry_.isReachable(path.to)) return refuseMotion(FLASH("no sled can hang there"));
   while (!stopping_ && !mover_.hasRoom()) service();
   if (stopping_ || !wakeMotors()) return false;

@@ -23,14 +23,28 @@ bool Machine::refuse(FlashText why) {
 }
 
 bool Machine::refuseMotion(FlashText why, char letter) {
-  const bool halts = values_.at(kRefusedMotion) == 0;
-  if (halts)
+  beginRefusal();
+  out_ << why;
+  if (letter != gcode::kNoLetter) out_ << letter;
+  return endRefusal();
+}
+
+bool Machine::refuseCode(const gcode::Piece& piece) {
+  beginRefusal();
+  out_ << FLASH("this machine does no ") << piece.letter << int32_t(piece.tenths / 10);
+  if (piece.tenths % 10 != 0) out_ << '.' << int32_t(piece.tenths % 10);
+  return endRefusal();
+}
+
+void Machine::beginRefusal() {
+  if (values_.at(kRefusedMotion) == 0)
     beginHalt();
   else
     beginError();
-  out_ << why;
-  if (letter != gcode::kNoLetter) out_ << letter;
-  if (halts) return halt();
+}
+
+bool Machine::endRefusal() {
+  if (values_.at(kRefusedMotion) == 0) return halt();
   out_.end();
   return false;
 }

@@ -32,6 +32,10 @@ bool Machine::runSetting(const char* line) {
     dumpSettings();
     return true;
   }
+  if (at[0] == '#' && at[1] == '\0') {
+    showCoordinates();
+    return true;
+  }
   if (strncmp_P(at, PSTR("RST="), 4) == 0) return runReset(at + 4);
   // The published firmware passes over one other character in front of a number.
   if (*at >= 'A' && *at <= 'Z') ++at;

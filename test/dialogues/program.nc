@@ -1,7 +1,5 @@
 ; A file as programs write it: line numbers, comments, inches, missing spaces, small letters.
 ~~ include setup.inc
--> $70=1
-<- ok
 -> %
 <- ok
 -> (made by hand)
@@ -35,16 +33,7 @@
 ~~ wait 40
 ~~ sled X25.4 Y0 within 0.06
 ~~ z 2.54 within 0.02
--> G92 X0
-<- error: *
--> G18
-<- error: *
--> G90.1
-<- error: *
 -> G91.1
-<- ok
--> G59
-<- Command G59 unsupported and ignored.
 <- ok
 -> M8
 <- Command M8 unsupported and ignored.

@@ -43,6 +43,7 @@ class PlainTable : public Table {
  public:
   uint8_t count() const override { return kSettingCount; }
   Entry at(uint8_t index) const override {
+    if (index >= kFirstPlaceSetting) return placeRow(uint8_t(index - kFirstPlaceSetting));
     return index < kFirstEffectSetting ? kRows[index]
                                        : effectRow(uint8_t(index - kFirstEffectSetting));
   }

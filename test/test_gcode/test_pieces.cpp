@@ -62,16 +62,54 @@ TEST(Mistake, AnywhereIsFoundBeforeAnythingRuns) {
   EXPECT_EQ('M', findMistake("G0X5G1Y6M").letter);
 }
 
-TEST(Modal, TakesUnitsAndDistancesAndNothingElse) {
+TEST(Modal, TakesUnitsAndDistances) {
   Modal modal;
   EXPECT_TRUE(modal.take(200));
   EXPECT_FLOAT_EQ(25.4f, modal.toMm(1));
   EXPECT_FLOAT_EQ(1, modal.fromMm(25.4f));
   EXPECT_TRUE(modal.take(910));
-  EXPECT_FLOAT_EQ(30.4f, modal.targetOf(5, 1));
+  EXPECT_FLOAT_EQ(30.4f, modal.targetOf(5, 1, 0));
   EXPECT_TRUE(modal.take(900) && modal.take(210));
-  EXPECT_FLOAT_EQ(1, modal.targetOf(5, 1));
-  // The modes of arc centres are other codes.
-  EXPECT_FALSE(modal.take(911) || modal.take(901) || modal.take(10));
+  EXPECT_FLOAT_EQ(1, modal.targetOf(5, 1, 0));
+  // G91.1 is another code than G91.
+  EXPECT_TRUE(modal.take(911));
   EXPECT_FALSE(modal.relative);
+}
+
+TEST(Pieces, OfACodeThatNeedsAPlaceTakeItFromWhereverItStands) {
+  EXPECT_EQ("G91 G28", codesOf("G28 G91 Z0"));
+  const std::vector<Piece> home = piecesOf("G28 G91 Z0 G90");
+  ASSERT_EQ(3u, home.size());
+  EXPECT_EQ("G91 G28 G90", codesOf("G28 G91 Z0 G90"));
+  EXPECT_FALSE(home.at(0).words.hasPlace());
+  EXPECT_TRUE(home.at(1).words.has('Z'));
+  EXPECT_EQ("G90 G10", codesOf("G10 G90 L2 P3 X7"));
+  EXPECT_EQ(3, piecesOf("G10 G90 L2 P3 X7").at(1).words.value('P'));
+  EXPECT_EQ("G91 G38.2", codesOf("G38.2 G91 Z-5 F1"));
+  EXPECT_EQ("G20 G92", codesOf("G92 G20 X0"));
+  EXPECT_EQ("M5 G30", codesOf("G30 M5 X0"));
+}
+
+TEST(Pieces, OfACodeWithItsPlaceStayInOrder) {
+  EXPECT_EQ("G28 G0", codesOf("G28 Z0 G0 X5"));
+  EXPECT_EQ("G91 G28 G90", codesOf("G91 G28 Z0 G90"));
+  EXPECT_EQ("G10 G0", codesOf("G10 Z0 G0 Z5"));
+}
+
+TEST(Pieces, OfACodeThatGetsNoPlaceComeLast) {
+  EXPECT_EQ("G28", codesOf("G28"));
+  EXPECT_EQ("G90 G28", codesOf("G28 G90"));
+  EXPECT_FALSE(piecesOf("G28 G90").at(1).words.hasPlace());
+}
+
+TEST(Mistakes, CountJumpsToSubroutines) {
+  EXPECT_EQ(Fault::kNone, faultOf("O1000 (part)"));
+  EXPECT_EQ(Fault::kNoCode, faultOf("O100 CALL"));
+  EXPECT_EQ(Fault::kNoCode, faultOf("O100 REPEAT 5"));
+  EXPECT_NE(Fault::kNone, faultOf("O<hole> CALL"));
+}
+
+TEST(Mistakes, CountWordsOfCyclesWithoutNumber) {
+  for (const char* line : {"G83 Q", "G81 L", "G81 K", "G43 H"})
+    EXPECT_EQ(Fault::kNoNumber, faultOf(line)) << line;
 }

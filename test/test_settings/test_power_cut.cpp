@@ -235,3 +235,46 @@ TEST(Copies, ANewSettingMovesNoOther) {
   settings_host::Board<ShorterTable> back(eeprom);
   EXPECT_EQ(200, back.values.at(indexOf(back.table, 69)));
 }
+
+namespace {
+
+/// The table before G-code kept places.
+class TableWithoutPlaces : public settings_host::PlainTable {
+ public:
+  uint8_t count() const override { return kFirstPlaceSetting; }
+};
+
+}  // namespace
+
+TEST(Copies, OfTheTimeBeforePlacesAreRead) {
+  Eeprom eeprom;
+  {
+    settings_host::Board<TableWithoutPlaces> board(eeprom);
+    board.memory.set(2, 3100);
+    board.memory.set(227, 0.4f);
+    settle(board.memory);
+  }
+  Board after(eeprom);
+  EXPECT_EQ(Source::kOwn, after.started.source);
+  EXPECT_EQ(3100, after.values.at(kMotorGap));
+  EXPECT_EQ(0.4f, after.values.at(indexOf(after.table, 227)));
+  EXPECT_EQ(0, after.values.at(kFirstPlaceSetting));
+  EXPECT_EQ(kNoPlace, after.values.at(kSettingCount - 1));
+  after.memory.setRow(kFirstPlaceSetting + 1, -12.5f);
+  after.memory.setRow(kSettingCount - 1, 7);
+  settle(after.memory);
+  Board again(eeprom);
+  EXPECT_EQ(3100, again.values.at(kMotorGap));
+  EXPECT_EQ(-12.5f, again.values.at(kFirstPlaceSetting + 1));
+  EXPECT_EQ(7, again.values.at(kSettingCount - 1));
+}
+
+TEST(Places, AreSetByGCodeOnlyAndLieWhereTheirNumbersSay) {
+  settings_host::PlainTable table;
+  EXPECT_EQ(kFirstPlaceSetting, indexOf(table, 230));
+  EXPECT_EQ(kSettingCount - 1, indexOf(table, 253));
+  for (uint8_t i = kFirstPlaceSetting; i < kSettingCount; ++i) {
+    EXPECT_EQ(Access::kHidden, table.at(i).access);
+    EXPECT_EQ(table.at(i).number >= 248 ? kNoPlace : 0, table.at(i).usual);
+  }
+}

@@ -78,7 +78,7 @@ TEST(Table, EveryDefaultMayBeSet) {
 TEST(Table, HoldsEveryEffectParameterAndAllOfThemAreAbsent) {
   PlainTable table;
   int found = 0;
-  for (int number = 100; number < 256; ++number) {
+  for (int number = 100; number < kFirstPlaceNumber; ++number) {
     const int place = kinematics::Effects::For<float>::indexOf(number);
     const uint8_t index = indexOf(table, uint8_t(number));
     ASSERT_EQ(place >= 0, index != kNoIndex) << number;

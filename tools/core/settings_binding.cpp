@@ -54,6 +54,23 @@ nb::dict ownTexts(uint8_t index) {
   return row;
 }
 
+/// `g54_x` to `g59_z`, `g28_x` to `g30_z`.
+nb::dict placeTexts(uint8_t index) {
+  const int place = index / kPlaceAxes;
+  const std::string axis(1, "xyz"[index % kPlaceAxes]);
+  const bool is_goal = place >= kKeptSystems;
+  const std::string code = std::to_string(is_goal ? 28 + 2 * (place - kKeptSystems) : 54 + place);
+  nb::dict row;
+  row["name"] = "g" + code + "_" + axis;
+  row["unit"] = "mm";
+  row["key"] = "";
+  row["sentence"] = is_goal ? "where G" + code + " goes along " + axis + ", set by G" + code +
+                                  ".1; 20000: nowhere yet"
+                            : "where " + axis + " of G" + code + " begins, set by G10 L2 and L20";
+  row["change"] = "new";
+  return row;
+}
+
 nb::list table() {
   const PlainTable rows;
   EffectTexts effects;
@@ -61,7 +78,9 @@ nb::list table() {
   nb::list result;
   for (uint8_t i = 0; i < rows.count(); ++i) {
     const Entry entry = rows.at(i);
-    nb::dict row = i < kFirstEffectSetting ? ownTexts(i) : effects.rows.at(entry.number);
+    nb::dict row = i < kFirstEffectSetting  ? ownTexts(i)
+                   : i < kFirstPlaceSetting ? effects.rows.at(entry.number)
+                                            : placeTexts(uint8_t(i - kFirstPlaceSetting));
     row["number"] = entry.number;
     row["kind"] = kKinds[int(entry.kind)];
     row["access"] = kAccesses[int(entry.access)];

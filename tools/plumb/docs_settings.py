@@ -133,7 +133,7 @@ pictures and typical sizes: [effects.md](effects.md)."""
 HIDDEN = """\
 Kept like the others, but neither listed nor set by `$`: WebControl gives `$43` another meaning and
 would answer a listed one. It may write `$45` (chain elasticity, 1/N) and `$46` (sled weight, N):
-these set `$170` and `$62`."""
+these set `$170` and `$62`. `$#` shows `$230` to `$253`."""
 
 ERASING = """\
 | command | settings | position | simulated motors |

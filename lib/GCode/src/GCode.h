@@ -2,7 +2,9 @@
 #pragma once
 
 #include "arc_centre.h"
+#include "drilling.h"
 #include "input.h"
 #include "modal.h"
 #include "pieces.h"
 #include "words.h"
+#include "work_offsets.h"

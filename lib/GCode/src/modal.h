@@ -7,33 +7,43 @@ namespace gcode {
 
 const float kMmPerInch = 25.4f;
 
+/// Modes of motion by their G number; G0 to G3 count as numbers themselves.
+enum : uint8_t { kNoMotion = 80, kDrill = 81, kDrillAndDwell = 82, kPeck = 83 };
+
 /// How the next line is to be read. Survives stops and soft resets.
 struct Modal {
   bool inches = false, relative = false;
-  uint8_t motion = 0;  ///< 0 to 3, as G0 to G3
-  float feed = 0;      ///< [mm/min]
-  uint16_t tool = 0;   ///< as the last T said
+  bool absolute_centres = false;     ///< G90.1: I and J count as X and Y do
+  bool inverse_time = false;         ///< G93: F is how often a minute the move would fit
+  bool retracts_to_r = false;        ///< G99; G98 goes back to where z was
+  bool machine_coordinates = false;  ///< G53, in this line
+  uint8_t plane = 17;                ///< as G17 to G19
+  uint8_t system = 0;                ///< coordinates of G54 to G59, from 0
+  uint8_t motion = 0;                ///< 0 to 3 as G0 to G3, kNoMotion or a drilling cycle
+  float feed = 0;                    ///< [mm/min]
+  float inverse_feed = 0;            ///< [1/min] of this line, with G93; 0: it has no F
+  uint16_t tool = 0;                 ///< as the last T said
   uint16_t tool_in_spindle = 0;
 
   /// A length or feed of a line in mm or mm/min.
   float toMm(float value) const { return inches ? value * kMmPerInch : value; }
   /// The same the other way round.
   float fromMm(float mm) const { return inches ? mm / kMmPerInch : mm; }
-  /// A coordinate [mm] by its number in a line, for an axis that stands at `from` [mm].
-  float targetOf(float from, float value) const {
-    return relative ? from + toMm(value) : toMm(value);
+  /// A coordinate [mm, of the machine] by its number in a line, for an axis that stands at `from`
+  /// [mm] and whose coordinates begin at `offset` [mm].
+  float targetOf(float from, float value, float offset) const {
+    if (machine_coordinates) return toMm(value);
+    return relative ? from + toMm(value) : offset + toMm(value);
   }
 
-  /// Takes G20, G21, G90 and G91, told by their tenths; false if it is another code.
-  bool take(uint16_t tenths) {
-    if (tenths == 200 || tenths == 210)
-      inches = tenths == 200;
-    else if (tenths == 900 || tenths == 910)
-      relative = tenths == 910;
-    else
-      return false;
-    return true;
-  }
+  /// What counts for one line only is over.
+  void beginLine();
+  /// M2 and M30: coordinates of G54, the plane of G17, feed a minute, and no cycle.
+  void endProgram();
+
+  /// Takes a code that changes nothing but how words are read, or that says what is so in any case;
+  /// told by its tenths. False if it is another code.
+  bool take(uint16_t tenths);
 };
 
 }  // namespace gcode

@@ -21,10 +21,14 @@ bool hasMeaning(char letter) {
   switch (letter) {
     case 'F':
     case 'G':
+    case 'H':
     case 'I':
     case 'J':
+    case 'K':
+    case 'L':
     case 'M':
     case 'P':
+    case 'Q':
     case 'R':
     case 'S':
     case 'T':
@@ -34,6 +38,31 @@ bool hasMeaning(char letter) {
       return true;
     default:
       return false;
+  }
+}
+
+/// Codes to which the place in their line belongs, wherever in it they stand.
+bool claimsPlace(const Piece& piece) {
+  if (piece.letter != 'G') return false;
+  switch (piece.tenths) {
+    case 100:
+    case 280:
+    case 300:
+    case 382:
+    case 431:
+    case 920:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// Moves the words that say where, and of what, from one piece to another.
+void movePlace(Words& from, Words& to) {
+  for (const char* letter = "XYZLPR"; *letter != '\0'; ++letter) {
+    if (!from.has(*letter)) continue;
+    to.add(*letter, from.value(*letter));
+    from.remove(*letter);
   }
 }
 
@@ -47,7 +76,11 @@ bool isAnyCode(float code) {
 
 Mistake findMistake(const char* line) {
   Word word;
+  bool is_subroutine = false;
   while (readWord(line, word)) {
+    // `O1000` alone is a program's number; `O100 CALL` would be a jump.
+    if (is_subroutine) return {Fault::kNoCode, 'O'};
+    is_subroutine = word.letter == 'O';
     if (word.fault == Fault::kNoNumber && !hasMeaning(word.letter)) continue;
     if (word.fault != Fault::kNone) return {word.fault, word.letter};
     if (isCode(word.letter) && !isAnyCode(word.value)) return {Fault::kNoCode, word.letter};
@@ -65,6 +98,29 @@ Mistake findMistake(const char* words, const char* bare) {
 }
 
 bool Pieces::next(Piece& piece) {
+  if (is_due_) {
+    is_due_ = false;
+    piece = waiting_;
+    return true;
+  }
+  while (read(piece)) {
+    if (waits_) {
+      is_due_ = piece.words.hasPlace();
+      waits_ = !is_due_;
+      if (is_due_) movePlace(piece.words, waiting_.words);
+      return true;
+    }
+    if (!claimsPlace(piece) || piece.words.hasPlace()) return true;
+    waiting_ = piece;
+    waits_ = true;
+  }
+  piece = waiting_;
+  const bool waited = waits_;
+  waits_ = false;
+  return waited;
+}
+
+bool Pieces::read(Piece& piece) {
   piece.letter = kNoLetter;
   piece.tenths = 0;
   piece.words = Words();

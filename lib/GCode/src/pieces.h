@@ -28,6 +28,9 @@ Mistake findMistake(const char* line);
 Mistake findMistake(const char* words, const char* bare);
 
 /// The pieces of a line without mistakes, from left to right.
+///
+/// But for codes that need a place and have none: they wait for the words of a later piece, and
+/// come behind it. `G28 G91 Z0` is G91, then G28 Z0; without that it would be two wrong moves.
 class Pieces {
  public:
   explicit Pieces(const char* line) : at_(line) {}
@@ -36,7 +39,12 @@ class Pieces {
   bool next(Piece& piece);
 
  private:
+  bool read(Piece& piece);
+
   const char* at_;
+  Piece waiting_;
+  bool waits_ = false;   ///< waiting_ has no place yet
+  bool is_due_ = false;  ///< it has, and is the next piece
 };
 
 }  // namespace gcode

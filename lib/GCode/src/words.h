@@ -51,7 +51,10 @@ class Words {
   /// Its number; zero if the letter is not there or had none.
   float value(char letter) const { return has(letter) ? value_[letter - 'A'] : 0; }
   bool isEmpty() const { return present_ == 0; }
+  /// Whether it says where to go: X, Y or Z.
+  bool hasPlace() const { return has('X') || has('Y') || has('Z'); }
   void add(char letter, float value);
+  void remove(char letter) { present_ &= ~(uint32_t(1) << (letter - 'A')); }
 
  private:
   uint32_t present_;

@@ -1,0 +1,53 @@
+// Where the coordinates of a program begin, seen from the machine's: G54 to G59, G92, G43.1.
+#pragma once
+
+#include <stdint.h>
+
+namespace gcode {
+
+/// What is added to a program's coordinate to get the machine's. Axes are 0, 1, 2 for x, y, z.
+///
+/// The six systems of G54 to G59 are kept by whoever makes this object; the shift of G92 and the
+/// tool's length are kept here, and last as long as power does.
+class WorkOffsets {
+ public:
+  enum : uint8_t { kAxes = 3, kSystems = 6, kZ = 2 };
+
+  /// `stored` [mm]: x, y and z of the first system, then of the second, up to the sixth.
+  explicit WorkOffsets(const float* stored) : stored_(stored) {}
+
+  /// Where the coordinate of an axis begins [mm].
+  float at(uint8_t system, uint8_t axis) const {
+    return stored_[system * kAxes + axis] + shiftAt(axis) + toolAt(axis);
+  }
+
+  /// G10 L20: what has to be stored so that the machine's `machine` [mm] is called `word` [mm].
+  float storedFor(uint8_t axis, float machine, float word) const {
+    return machine - word - shiftAt(axis) - toolAt(axis);
+  }
+
+  /// G92: the machine's `machine` [mm] is called `word` [mm] in that system, and all systems move
+  /// along.
+  void shiftTo(uint8_t system, uint8_t axis, float machine, float word) {
+    resumeShift();
+    shift_[axis] = machine - word - stored_[system * kAxes + axis] - toolAt(axis);
+  }
+  /// G92.1, G92.2, G92.3.
+  void clearShift() { shift_[0] = shift_[1] = shift_[kZ] = 0; }
+  void suspendShift() { is_suspended_ = true; }
+  void resumeShift() { is_suspended_ = false; }
+
+  /// G43.1, G49: how far the tool's tip is beyond where z was set [mm].
+  void setToolLength(float length) { tool_length_ = length; }
+
+ private:
+  float shiftAt(uint8_t axis) const { return is_suspended_ ? 0 : shift_[axis]; }
+  float toolAt(uint8_t axis) const { return axis == kZ ? tool_length_ : 0; }
+
+  const float* stored_;
+  float shift_[kAxes] = {0, 0, 0};
+  float tool_length_ = 0;
+  bool is_suspended_ = false;
+};
+
+}  // namespace gcode

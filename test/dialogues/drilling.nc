@@ -1,0 +1,67 @@
+; Holes: G81 to G83, G98 and G99, G80.
+~~ include setup.inc
+-> G0 Z3
+<- ok
+-> G99 G81 X10 Y10 Z-1 R1 F800
+<- ok
+-> X20
+<- ok
+-> G4 P0
+<* ok
+~~ wait 0.5
+~~ status <Idle,MPos:20.00,10.00,1.00,WPos:0.000,0.000,0.000> within 0.02
+-> G98 X30
+<- ok
+-> G4 P0
+<* ok
+~~ wait 0.5
+~~ status <Idle,MPos:30.00,10.00,3.00,WPos:0.000,0.000,0.000> within 0.02
+; Repeats, inches, G91, a dwell, in a system of coordinates.
+-> G10 L2 P3 X30 Y0
+<- ok
+-> G56 G91 G82 X5 R-2 Z-1 P500 L2 G90
+<- ok
+-> G4 P0
+<* ok
+~~ wait 0.5
+~~ status <Idle,MPos:40.00,10.00,3.00,WPos:0.000,0.000,0.000> within 0.02
+-> G83 X0 Y0 Z-1 R1 Q0.8
+<- ok
+-> G4 P0
+<* ok
+~~ wait 0.5
+~~ status <Idle,MPos:30.00,0.00,3.00,WPos:0.000,0.000,0.000> within 0.02
+; After G80 a bare place is no motion any more.
+-> G54 G80
+<- ok
+-> X5
+<- ALARM: Halted at X5: no motion is in force after G80*
+>> !
+<- ok
+<* position loaded at:
+<* *
+<* *
+-> G0 X0 Y0
+<- ok
+-> $70=1
+<- ok
+-> G81 X5 Z-1
+<- error: a hole needs R and Z
+-> G83 X5 Z-1 R1
+<- error: G83 needs Q*
+-> G81 X5 Z2 R1
+<- error: a hole's Z is below its R
+-> G80
+<- ok
+-> G18 G81 X5 Z-1 R1
+<- error: holes are drilled*
+-> G17 G93 X5
+<- error: no hole is drilled*
+-> G94 G80 G89 X5 Z-1 R1
+<- error: this machine does no G89
+-> G0 X1
+<- ok
+-> G4 P0
+<* ok
+~~ wait 0.5
+~~ status <Idle,MPos:1.00,0.00,3.00,WPos:0.000,0.000,0.000> within 0.02
