@@ -35,7 +35,7 @@
 -> G30
 ~~ wait 2.3
 ~~ sled X30 Y30 within 0.06
-~~ status <Idle,MPos:30.00,30.00,4.50,WPos:0.000,0.000,0.000> within 0.4
+~~ status <Idle,MPos:30.00,30.00,4.20,WPos:0.000,0.000,0.000> within 0.8
 <- ok
 -> G4 P0
 <* ok
