@@ -22,7 +22,6 @@ void PositionKeeper::begin(settings::Known known) {
 void PositionKeeper::doubt(Axis axis) {
   lost_ = uint8_t(lost_ | (axis == kZAxis ? kLostZ : kLostChains));
   if (!axes_.isSimulated()) memory_.doubtPosition();
-  if (state_ == State::kKept) state_ = State::kSettling;
 }
 
 void PositionKeeper::declareChains() {
@@ -84,7 +83,6 @@ bool PositionKeeper::isDue(uint32_t now_ms) {
 void PositionKeeper::keep(const settings::Position& position) {
   memory_.keepPosition(position);
   state_ = State::kKept;
-  takeCounts();
 }
 
 }  // namespace machine

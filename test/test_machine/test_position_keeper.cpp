@@ -34,10 +34,10 @@ class KeptMachine {
   explicit KeptMachine(settings_host::Eeprom& eeprom)
       : eeprom_(eeprom),
         values_(table_, room_),
-        memory_(eeprom, values_),
+        memory(eeprom, values_),
         axes(encoders, clock_),
-        keeper(memory_, axes) {
-    const settings::Started started = memory_.start();
+        keeper(memory, axes) {
+    const settings::Started started = memory.start();
     axes.prepare(values_);
     axes.setCounts(started.position.left, started.position.right, started.position.z);
     keeper.begin(started.known);
@@ -55,7 +55,7 @@ class KeptMachine {
         keeper.keep(position);
         ++kept;
       }
-      memory_.step();
+      memory.step();
     }
   }
 
@@ -81,11 +81,11 @@ class KeptMachine {
   FlashTable table_;
   float room_[kSettingCount];
   settings::Values values_;
-  settings::Memory memory_;
   NoClock clock_;
   uint32_t now_ms_ = 0;
 
  public:
+  settings::Memory memory;
   Encoders encoders;
   Axes axes;
   PositionKeeper keeper;
@@ -163,6 +163,16 @@ TEST_F(Keeper, WaitsForAMotorThatRunsOn) {
   EXPECT_EQ(machine.axes.counts(kRightAxis), machine.afterCut().position.right);
 }
 
+TEST_F(Keeper, WaitsForAMotorThatCreeps) {
+  machine.wake();
+  machine.axes.releaseAll();
+  for (int i = 0; i < 30; ++i) {
+    machine.encoders.counted[kRightAxis] = uint16_t(machine.encoders.counted[kRightAxis] + 2);
+    machine.pass(100);
+  }
+  EXPECT_EQ(1, machine.kept);
+}
+
 TEST_F(Keeper, LeavesARecordWhoseChainIsPulled) {
   machine.encoders.counted[kLeftAxis] = 12;
   machine.pass(1000);
@@ -200,6 +210,32 @@ TEST_F(Keeper, ADeclarationLeavesTheRecordUntilItIsKept) {
   machine.keeper.declareZ();
   machine.pass(30);
   EXPECT_EQ(Known::kMoving, machine.afterCut().known);
+}
+
+TEST_F(Keeper, ADeclarationOfTheSameLengthsIsOne) {
+  machine.keeper.declareChains();
+  machine.pass(30);
+  EXPECT_EQ(Known::kMoving, machine.afterCut().known);
+  machine.pass(1000);
+  EXPECT_EQ(2, machine.kept);
+}
+
+TEST_F(Keeper, ADeclarationBeforeMotorsHavePowerKeepsNothing) {
+  machine.keeper.beginMoving();
+  machine.keeper.reconsider();
+  machine.pass(2000);
+  EXPECT_EQ(1, machine.kept);
+  EXPECT_EQ(Known::kMoving, machine.afterCut().known);
+}
+
+TEST_F(Keeper, WhatIsErasedStaysErased) {
+  machine.memory.reset(settings::Reset::kSettingsAndPosition);
+  machine.keeper.startAfresh();
+  machine.keeper.reconsider();
+  machine.pass(5000);
+  EXPECT_FALSE(machine.keeper.hasLost());
+  EXPECT_EQ(1, machine.kept);
+  EXPECT_EQ(Known::kNothing, machine.afterCut().known);
 }
 
 TEST_F(Keeper, AStopBeforeMotorsHavePowerComesBackToRest) {
@@ -250,6 +286,10 @@ TEST_F(Keeper, ImaginedMotionLeavesTheRecordAlone) {
   EXPECT_EQ(1, machine.kept);
   EXPECT_EQ(Known::kAtRest, machine.afterCut().known);
   EXPECT_TRUE(machine.axes.isImagined());
+  machine.keeper.doubt(kLeftAxis);
+  machine.pass(100);
+  EXPECT_EQ(Known::kAtRest, machine.afterCut().known)
+      << "the chains themselves are where they were";
 }
 
 TEST(PositionKeeper, TakesOverWhatAStartKnows) {
