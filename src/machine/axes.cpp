@@ -32,6 +32,7 @@ bool Axes::prepare(const settings::Values& values) {
     one.per_count = values.at(z ? kZPerTurn : kChainPerTurn) / counts;
     one.turns_per_count = 1 / float(fabs(counts));
     one.turns_per_mm = one.turns_per_count / one.per_count;
+    one.turns_per_fine = one.turns_per_mm / float(motion::kCountsPerMm);
     one.fine_per_count = one.per_count * float(motion::kCountsPerMm);
     const float most = kMostTravel / float(fabs(one.per_count));
     one.most_counts = most < 2e9f ? int32_t(most) : 2000000000;
@@ -110,7 +111,7 @@ void Axes::control(One& one, Axis axis) {
       return;
     }
     const float error = motion::toMm<float>(one.set_point - measured(one));
-    const float asked = one.asked == 0 ? 0 : motion::toMm<float>(one.asked) * one.turns_per_mm;
+    const float asked = one.asked == 0 ? 0 : float(one.asked) * one.turns_per_fine;
     one.duty = one.loop.follow(error * one.turns_per_mm, asked, turned);
     const motion::Fault seen = one.watch.look(one.duty, one.moved, error);
     if (seen != motion::Fault::kNone && one.is_held) note(seen, axis);

@@ -114,6 +114,7 @@ class Axes {
     float per_count = 1;      ///< [mm] may be negative
     float turns_per_count = 1;
     float turns_per_mm = 1;
+    float turns_per_fine = 1;  ///< per count of motion::kCountsPerMm
     float fine_per_count = 1;  ///< counts of motion::kCountsPerMm per encoder count
     float rpm = 0;             ///< asked for with kTurn
     AxisLoop loop;

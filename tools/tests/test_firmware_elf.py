@@ -84,6 +84,11 @@ def test_no_control_tick_is_missed_in_motion(hard):
     assert hard["ticks_per_second_streaming"] == pytest.approx(100, abs=0.1)
 
 
+def test_the_control_tick_leaves_88_percent_with_three_axes_in_motion(hard):
+    assert hard["tick_share_moving"] <= 0.12
+    assert hard["tick_share_streaming"] <= 0.12
+
+
 def test_short_moves_are_taken_as_fast_as_a_streaming_sender_gives_them(player):
     told = figures(play(player, DIALOGUES, "stream.nc"))
     assert told["lines_per_second"] >= 180

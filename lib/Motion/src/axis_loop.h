@@ -31,17 +31,27 @@ class AxisLoop {
     return uint8_t(kAhead / seconds_per_tick + 0.5f);
   }
 
+  /// Whatever the gains decide once and for all is decided here, and divided here: a tick of a
+  /// float compare costs 110 cycles, of a product 190, of a division 500.
   void tune(const Gains& position, const Gains& speed, float seconds_per_tick) {
     position_ = position;
     speed_ = speed;
     // Gains are told per 10 ms.
     per_interval_ = seconds_per_tick / 0.01f;
     ticks_per_minute_ = 60 / seconds_per_tick;
-    // Worked out here, as a division costs the tick 500 cycles.
+    half_ticks_per_minute_ = ticks_per_minute_ / 2;
+    push_ = per_interval_ * speed.proportional;
     position_.integral *= seconds_per_tick;
     position_.derivative /= seconds_per_tick;
     speed_.integral *= seconds_per_tick;
     speed_.derivative /= 0.01f;
+    is_held_ = position.proportional > 0;
+    is_summed_ = position.integral != 0 || position.weight != 1;
+    is_weighted_ = position.weight != 1;
+    is_speed_summed_ = speed.integral != 0;
+    is_speed_weighted_ = speed.weight != 1;
+    if (!is_summed_) sum_ = 0;
+    if (!is_speed_summed_) speed_sum_ = 0;
   }
 
   /// Begins at rest.
@@ -50,7 +60,7 @@ class AxisLoop {
   /// Takes the turns moved since the last tick; smooths over two ticks, as counts are coarse.
   void measure(float turned) {
     last_rpm_ = rpm_;
-    rpm_ += (turned * ticks_per_minute_ - rpm_) * 0.5f;
+    rpm_ = turned * half_ticks_per_minute_ + rpm_ * 0.5f;
   }
 
   /// Duty that follows a set-point which is `error` turns ahead; `asked` is the way [turns] of the
@@ -58,14 +68,16 @@ class AxisLoop {
   int16_t follow(float error, float asked, float turned) {
     const float change = error - error_;
     error_ = error;
-    // Both are zero on most machines, and float sums are dear.
-    if (position_.integral != 0) sum_ += position_.integral * error;
-    if (position_.weight != 1) sum_ -= position_.proportional * (1 - position_.weight) * turned;
-    sum_ = clipped(sum_, kMostRpm);
-    const float ahead = position_.proportional > 0 ? asked * ticks_per_minute_ : 0;
-    const float share = position_.weight == 1 ? error : position_.weight * error;
-    return drive(ahead + position_.proportional * share + sum_ + position_.derivative * change,
-                 ahead);
+    const float ahead = is_held_ ? asked * ticks_per_minute_ : 0;
+    const float share = is_weighted_ ? position_.weight * error : error;
+    float rpm = ahead + position_.proportional * share + position_.derivative * change;
+    if (is_summed_) {
+      sum_ += position_.integral * error;
+      if (is_weighted_) sum_ -= position_.proportional * (1 - position_.weight) * turned;
+      sum_ = clipped(sum_, kMostRpm);
+      rpm += sum_;
+    }
+    return drive(rpm, ahead);
   }
 
   /// Duty that keeps a speed.
@@ -81,27 +93,30 @@ class AxisLoop {
   int16_t drive(float rpm, float ahead) {
     wanted_ = clipped(rpm, kMostRpm);
     const float error = wanted_ - rpm_;
-    if (speed_.integral != 0) speed_sum_ = clipped(speed_sum_ + speed_.integral * error, kMostDuty);
     const float lead = rpm_ - ahead;
-    float push = speed_.proportional * error + speed_sum_;
-    float brake = speed_.derivative * (lead - last_lead_);
+    float step = push_ * error - speed_.derivative * (lead - last_lead_);
     last_lead_ = lead;
-    if (speed_.weight != 1) {
-      const float on_measure = speed_.proportional * (1 - speed_.weight);
-      push -= on_measure * error;
-      brake += on_measure * (rpm_ - last_rpm_);
+    if (is_speed_summed_) {
+      speed_sum_ = clipped(speed_sum_ + speed_.integral * error, kMostDuty);
+      step += per_interval_ * speed_sum_;
     }
-    duty_ = clipped(duty_ + clipped(per_interval_ * push - brake, kMostDuty), kMostDuty);
+    if (is_speed_weighted_) {
+      const float on_measure = speed_.proportional * (1 - speed_.weight);
+      step -= on_measure * (per_interval_ * error + rpm_ - last_rpm_);
+    }
+    duty_ = clipped(duty_ + clipped(step, kMostDuty), kMostDuty);
     return int16_t(duty_);
   }
 
   static float clipped(float value, float most) {
-    if (value > most) return most;
-    return value < -most ? -most : value;
+    // One compare for nearly all values.
+    if (!(float(fabs(value)) > most)) return value;
+    return value > 0 ? most : -most;
   }
 
   Gains position_, speed_;
-  float per_interval_, ticks_per_minute_;
+  float per_interval_, ticks_per_minute_, half_ticks_per_minute_, push_;
+  bool is_held_, is_summed_, is_weighted_, is_speed_summed_, is_speed_weighted_;
   float error_, sum_, rpm_, last_rpm_, last_lead_, duty_, wanted_, speed_sum_;
 };
 
