@@ -7,10 +7,10 @@
 
 namespace {
 
-/// The EEPROM of a machine that rests at 0,0.
+/// The EEPROM of a machine that rests at 0,0, once all settings are stored: 5 s on a fresh board.
 SimulatedEeprom restingAtZero() {
   std::vector<Step> steps = readScript("test/dialogues", "setup.inc");
-  steps.push_back({Step::kAsk, "wait 2", "end"});
+  steps.push_back({Step::kAsk, "wait 8", "end"});
   Stage stage(steps);
   live(stage);
   return stage.eeprom;
@@ -41,5 +41,6 @@ TEST(RescaledStart, AsksForTheChains) {
     EXPECT_FALSE(belief.is_known) << int(number);
     EXPECT_NE(std::string::npos, belief.said.find("Encoders are scaled otherwise")) << belief.said;
   }
-  EXPECT_TRUE(awakenWith(eeprom, 15, 700).is_known);
+  const Belief belief = awakenWith(eeprom, 15, 700);
+  EXPECT_TRUE(belief.is_known) << belief.said;
 }
