@@ -97,7 +97,7 @@ bool Machine::goToKept(const gcode::Piece& piece) {
   const bool all = !words.hasPlace();
   const bool across = all || goesAcross(words);
   if (!all && !goSafely(targetOf(words), across)) return false;
-  Place goal = aim_;
+  Place goal = counted();
   for (uint8_t axis = 0; axis < kPlaceAxes; ++axis)
     if (all || words.has(kAxisLetters[axis])) part(goal, axis) = values_.at(uint8_t(row + axis));
   goal.z = withinZLimits(goal.z);
@@ -106,12 +106,12 @@ bool Machine::goToKept(const gcode::Piece& piece) {
 
 bool Machine::goSafely(const Place& target, bool across) {
   const float feed = values_.at(kGreatestFeed);
-  Place next = aim_;
+  Place next = counted();
   next.z = target.z;
   if (target.z > aim_.z && !moveStraight(next, false, feed)) return false;
   next = {target.x, target.y, aim_.z};
   if (across && !moveStraight(next, true, feed)) return false;
-  next = {aim_.x, aim_.y, target.z};
+  next = {counted_.x, counted_.y, target.z};
   return moveStraight(next, false, feed);
 }
 

@@ -30,7 +30,7 @@ bool Machine::drill(const Words& words) {
   if (modal_.inverse_time || modal_.machine_coordinates)
     return refuseMotion(FLASH("no hole is drilled with G53 or G93"));
   refreshGeometry();
-  const float from[] = {aim_.x, aim_.y, aim_.z};
+  const float from[] = {counted_.x, counted_.y, aim_.z};
   const float offset[] = {offsets_.at(modal_.system, 0), offsets_.at(modal_.system, 1),
                           offsets_.at(modal_.system, 2)};
   const gcode::DrillFault fault = drilling_.read(modal_, words, from, offset);
@@ -49,7 +49,7 @@ bool Machine::runDrillStep(const gcode::DrillStep& step) {
       step.kind == gcode::DrillStep::kFeed && modal_.feed < most ? modal_.feed : most;
   const float z = withinZLimits(step.z);
   if (across) return moveStraight({step.x, step.y, aim_.z}, true, feed);
-  return moveStraight({aim_.x, aim_.y, z}, false, feed);
+  return moveStraight({counted_.x, counted_.y, z}, false, feed);
 }
 
 }  // namespace machine

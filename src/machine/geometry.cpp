@@ -31,11 +31,6 @@ motion::Slopes<float> runoutSlopes(const kinematics::EffectParams<float>& effect
   return {amplitude * per, amplitude * per * per, amplitude * per * per * per};
 }
 
-float within(float value, float half) {
-  if (value > half) return half;
-  return value < -half ? -half : value;
-}
-
 }  // namespace
 
 void Geometry::prepare(const Values& values) {
@@ -88,13 +83,8 @@ void Geometry::prepareBrackets(const Values& values, const kinematics::Frame<flo
   sprockets_.effects = kBracketSlopes;
 }
 
-motion::Point<float> Geometry::clamped(motion::Point<float> place) const {
-  return {within(place.x, half_width_), within(place.y, half_height_)};
-}
-
 motion::Lengths<float> Geometry::inverse(motion::Point<float> place) const {
-  const motion::Point<float> on_sheet = clamped(place);
-  const kinematics::Point<float> bit = {on_sheet.x, on_sheet.y};
+  const kinematics::Point<float> bit = {place.x, place.y};
   kinematics::Chains<float> chains;
   Found found;
   if (has_brackets_) {
@@ -122,17 +112,6 @@ FoundPlace Geometry::forward(float left, float right, motion::Point<float> guess
   kinematics::Place<float> place = kinematics::forward(ring_, chains, near);
   if (place.found != Found::kYes) place = kinematics::forward(ring_, chains);
   return {{place.sled.x, place.sled.y}, place.found == Found::kYes};
-}
-
-bool Geometry::staysOnSheet(const motion::Path<float>& path) const {
-  const auto isOnSheet = [this](float x, float y) {
-    return fabs(x) <= half_width_ && fabs(y) <= half_height_;
-  };
-  if (!isOnSheet(path.from.x, path.from.y) || !isOnSheet(path.to.x, path.to.y)) return false;
-  if (path.sweep == 0) return true;
-  const motion::Point<float>& centre = path.centre;
-  return isOnSheet(centre.x - path.radius, centre.y - path.radius) &&
-         isOnSheet(centre.x + path.radius, centre.y + path.radius);
 }
 
 }  // namespace machine

@@ -6,6 +6,8 @@
 #include <Settings.h>
 #include <quadrilateral.h>
 
+#include "area.h"
+
 namespace machine {
 
 /// Where forward() found the sled.
@@ -20,26 +22,23 @@ class Geometry {
   /// Works everything out anew; about 3 ms on the board.
   void prepare(const settings::Values& values);
 
-  /// Chain lengths for a place, which is first brought back to the sheet's edge if it is beyond.
+  /// Chain lengths for a place, on the sheet or off.
   motion::Lengths<float> inverse(motion::Point<float> place) const;
 
   /// Where the sled hangs on these lengths [mm], searched from `guess` [mm]; any place counts, on
   /// the sheet or off.
   FoundPlace forward(float left, float right, motion::Point<float> guess) const;
 
-  /// A place brought back to the sheet's edge.
-  motion::Point<float> clamped(motion::Point<float> place) const;
+  /// The work area.
+  Area sheet() const { return {{-half_width_, -half_height_}, {half_width_, half_height_}}; }
 
-  /// Whether a sled can hang at a place, or at the sheet's edge if it is beyond.
+  /// Whether a sled can hang at a place.
   bool isReachable(motion::Point<float> place) const {
-    return is_sheet_reachable_ || inverse(place).reachable;
+    return (is_sheet_reachable_ && sheet().holds(place)) || inverse(place).reachable;
   }
 
   /// What the laws of motion must know of the chains.
   const motion::Sprockets<float>& sprockets() const { return sprockets_; }
-
-  /// Whether no place of a path is beyond the sheet's edge, where inverse() has a bend.
-  bool staysOnSheet(const motion::Path<float>& path) const;
 
  private:
   bool isSheetReachable() const;

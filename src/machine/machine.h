@@ -5,6 +5,7 @@
 #include <GCode.h>
 
 #include "axes.h"
+#include "edge_cut.h"
 #include "geometry.h"
 #include "lock.h"
 #include "mover.h"
@@ -146,6 +147,7 @@ class Machine {
   bool setTool(const Words& words);
   bool declareZByWord(const Words& words);
   void takeFeed(const Words& words);
+  Place counted() const;
   Place targetOf(const Words& words) const;
   bool move(uint8_t kind, const Words& words);
   bool moveStraight(Place target, bool across, float feed);
@@ -160,6 +162,9 @@ class Machine {
   float feedOf(const motion::Path<float>& path, const Place& target, float times) const;
   /// `feed` [mm/min], or below zero how often a minute the move would fit.
   bool queue(const motion::Path<float>& path, const Place& target, float feed);
+  bool mayGo(const motion::Path<float>& path, const Area& area);
+  bool queuePieces(EdgeCut cut, float z_to, float feed);
+  void sayBeyondSheet(motion::Point<float> end);
 
   // g_codes.cpp, coordinates.cpp, drill.cpp: what each G code does.
   bool runG(const gcode::Piece& piece);
@@ -258,8 +263,9 @@ class Machine {
   gcode::Drilling drilling_;
   const char* line_ = "";  ///< the line in execution
   Lock lock_ = Lock::kOpen;
-  Place aim_ = {0, 0, 0};    ///< where the last move queued ends
-  Place place_ = {0, 0, 0};  ///< where the tool was when somebody last asked
+  Place aim_ = {0, 0, 0};                  ///< where the last move queued ends
+  motion::Point<float> counted_ = {0, 0};  ///< [mm] the same to the program, also beyond the sheet
+  Place place_ = {0, 0, 0};                ///< where the tool was when somebody last asked
   uint32_t last_report_ms_ = 0, last_motion_ms_ = 0, geometry_changed_ms_ = 0;
   uint8_t ticks_per_second_ = 100;
   volatile bool hung_ = false;

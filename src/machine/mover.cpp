@@ -16,7 +16,7 @@ Moved Mover::add(const motion::Path<float>& path, float z_to, float feed,
                  const Geometry& geometry) {
   moves_.setSprockets(geometry.sprockets());
   const motion::Space space =
-      geometry.staysOnSheet(path) ? motion::Space::kSheet : motion::Space::kEdge;
+      geometry.sheet().holds(path) ? motion::Space::kSheet : motion::Space::kEdge;
   const motion::Added added = moves_.add(path, z_to, feed, space);
   return added == motion::Added::kYes || added == motion::Added::kNothing ? Moved::kYes
                                                                           : Moved::kNoPath;

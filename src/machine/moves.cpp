@@ -25,8 +25,10 @@ void Machine::takeFeed(const Words& words) {
   modal_.feed = feed > kLeastFeed ? feed : kLeastFeed;
 }
 
+Place Machine::counted() const { return {counted_.x, counted_.y, aim_.z}; }
+
 Place Machine::targetOf(const Words& words) const {
-  Place target = aim_;
+  Place target = counted();
   const char letters[] = "XYZ";
   float* const parts[] = {&target.x, &target.y, &target.z};
   for (uint8_t i = 0; i < 3; ++i) {
@@ -40,6 +42,8 @@ Place Machine::targetOf(const Words& words) const {
 bool Machine::move(uint8_t kind, const Words& words) {
   takeFeed(words);
   refreshGeometry();
+  // After a rest at the edge a jog starts where the sled is.
+  if (modal_.relative && !axes_.isPowered()) counted_ = {aim_.x, aim_.y};
   Place target = targetOf(words);
   if (modal_.inverse_time && kind != 0 && !(modal_.inverse_feed > 0))
     return refuseMotion(FLASH("with G93 each line needs its F"));
@@ -51,7 +55,7 @@ bool Machine::move(uint8_t kind, const Words& words) {
   if (kind < 2) return moveStraight(target, words.has('X') || words.has('Y'), feed);
   if (!mayTurn(words) || !isNear(target) || !mayCrossSheet()) return false;
   if (values_.at(kZMotor) == 0) target.z = aim_.z;
-  return moveRound(kind == 2, {aim_.x, aim_.y}, target, words, feed);
+  return moveRound(kind == 2, counted_, target, words, feed);
 }
 
 bool Machine::isNear(const Place& target) {
@@ -78,7 +82,7 @@ bool Machine::moveStraight(Place target, bool across, float feed) {
     if (asks && !setZByHand(target.z)) return false;
     target.z = aim_.z;
   }
-  return queue(motion::line<float>({aim_.x, aim_.y}, {target.x, target.y}), target, feed);
+  return queue(motion::line<float>(counted_, {target.x, target.y}), target, feed);
 }
 
 motion::Point<float> Machine::centreAhead(const Words& words, motion::Point<float> from) const {
@@ -127,14 +131,54 @@ float Machine::feedOf(const motion::Path<float>& path, const Place& target, floa
 }
 
 bool Machine::queue(const motion::Path<float>& path, const Place& target, float feed) {
-  if (path.drawn == motion::Drawn::kNoLength && target.z == aim_.z) return true;
+  const bool goes = path.drawn != motion::Drawn::kNoLength;
+  if (!goes && target.z == aim_.z) return true;
   if (feed < 0) feed = feedOf(path, target, -feed);
-  if (!geometry_.isReachable(path.to)) return refuseMotion(FLASH("no sled can hang there"));
-  while (!stopping_ && !mover_.hasRoom()) service();
-  if (stopping_ || !wakeMotors()) return false;
-  if (mover_.add(path, target.z, feed / 60, geometry_) != Moved::kYes)
-    return refuseMotion(FLASH("that is no path"));
-  aim_ = target;
+  const Area area = geometry_.sheet().grownTo({aim_.x, aim_.y});
+  if (goes && !mayGo(path, area)) return false;
+  if (!queuePieces(EdgeCut(path, area), target.z, feed)) return false;
+  counted_ = {target.x, target.y};
+  return true;
+}
+
+bool Machine::mayGo(const motion::Path<float>& path, const Area& area) {
+  const float kOnEdge = 1;  // [mm] what stop and stretch may leave a sled beyond it
+  const Area sheet = geometry_.sheet();
+  const float beyond = sheet.distanceTo({aim_.x, aim_.y});
+  const bool nearer = path.sweep == 0 && sheet.distanceTo(area.clamped(path.to)) < beyond;
+  if (beyond > kOnEdge && !nearer)
+    return refuseMotion(
+        FLASH("beyond the sheet only straight moves that come nearer to it are done"));
+  EdgeCut cut(path, area);
+  const bool was_beyond = counted_.x != aim_.x || counted_.y != aim_.y;
+  const bool leaves = cut.leaves();
+  while (cut.next())
+    if (!geometry_.isReachable(cut.piece().to))
+      return refuseMotion(FLASH("no sled can hang there"));
+  if (leaves && !was_beyond) sayBeyondSheet(area.clamped(path.to));
+  return true;
+}
+
+void Machine::sayBeyondSheet(motion::Point<float> end) {
+  out_ << FLASH("This line leads beyond the sheet: the sled keeps to the edge and ends it at X");
+  out_.fixed(inUnits(end.x), 2) << FLASH(" Y");
+  out_.fixed(inUnits(end.y), 2).end();
+}
+
+bool Machine::queuePieces(EdgeCut cut, float z_to, float feed) {
+  const float z_from = aim_.z;
+  while (cut.next()) {
+    while (!stopping_ && !mover_.hasRoom()) service();
+    if (stopping_ || !wakeMotors()) return false;
+    const float share = cut.share();
+    const float z = share == 1 ? z_to : z_from + (z_to - z_from) * share;
+    if (mover_.add(cut.piece(), z, feed / 60, geometry_) != Moved::kYes)
+      return refuseMotion(FLASH("that is no path"));
+    if (cut.piece().drawn == motion::Drawn::kYes)
+      aim_ = {cut.piece().to.x, cut.piece().to.y, z};
+    else
+      aim_.z = z;
+  }
   return true;
 }
 

@@ -35,6 +35,7 @@ bool Machine::searchPlace() {
 void Machine::standHere() {
   place_.z = axes_.length(kZAxis);
   aim_ = place_;
+  counted_ = {aim_.x, aim_.y};
   mover_.standAt(axes_.setPoint());
 }
 

@@ -1,11 +1,69 @@
-; Beyond the sheet the sled waits at its edge; the program goes on counting.
+; Beyond the sheet the sled waits at its edge, which is said once; the program goes on counting.
 ~~ include setup.inc
 -> G0 Y620
+<- This line leads beyond the sheet: the sled keeps to the edge and ends it at X0.00 Y609.60
 <- ok
 ~~ wait 50
-~~ sled X0 Y609.6 within 0.06
-~~ status <Idle,MPos:0.00,620.00,0.00,WPos:0.000,0.000,0.000> within 0.05
+~~ sled X0 Y609.6 within 0.1
+~~ status <Idle,MPos:0.00,609.60,0.00,WPos:0.000,0.000,0.000> within 0.05
+-> G0 Y630
+<- ok
 -> G0 Y600
 <- ok
 ~~ wait 4
-~~ sled X0 Y600 within 0.06
+~~ sled X0 Y600 within 0.1
+; Relative moves count on, as long as the motors are on.
+-> G91 G0 Y30
+<- This line leads beyond the sheet: *
+<- ok
+-> G0 Y-30 G90
+<- ok
+~~ wait 6
+~~ sled X0 Y600 within 0.1
+; An arc that bulges over the edge slides along it; its centre counts from where the program is.
+-> G1 X20 Y615 F800
+<- This line leads beyond the sheet: *
+<- ok
+-> G2 X60 Y615 I20 J0
+<- ok
+-> G2 X20 Y615 I-20 J0
+<- ok
+~~ wait 12
+~~ sled X20 Y609.6 within 0.1
+; A target far off costs no time, and z goes along.
+-> G0 X500 Y600 Z-1
+<- ok
+-> G1 X520 Y5000 Z-2
+<- This line leads beyond the sheet: the sled keeps to the edge and ends it at X520.00 Y609.60
+<- ok
+~~ wait 60
+~~ status <Idle,MPos:520.00,609.60,-2.00,WPos:0.000,0.000,0.000> within 0.05
+-> G0 X520 Y600
+<- ok
+~~ wait 2
+~~ sled X520 Y600 within 0.1
+; After a rest a jog starts where the sled is.
+-> G0 X530 Y700
+<- This line leads beyond the sheet: *
+<- ok
+~~ wait 5
+~~ off left
+-> G91 G0 Y-10 G90
+<- ok
+~~ wait 3
+~~ sled X530 Y599.6 within 0.1
+; What rests at the edge is at the same place after the next start.
+-> G0 Y5000
+<- This line leads beyond the sheet: *
+<- ok
+~~ wait 6
+~~ off left
+~~ power
+<* ready
+<- ok
+<- [Forward Calculating Position]
+<- position loaded at:
+<- 530.00 within 0.05
+<- 609.60 within 0.05
+~~ wait 1
+~~ quiet

@@ -57,6 +57,17 @@ class World {
     at_ = {x, y};
   }
 
+  /// As after a start: on counts, at the place that the chains tell.
+  void hangOnCounts(float x, float y) {
+    standAt(x, y);
+    axes_.standStill();
+    const FoundPlace found =
+        geometry_.forward(axes_.length(kLeftAxis), axes_.length(kRightAxis), {0, 0});
+    ASSERT_TRUE(found.found);
+    mover_.standAt(axes_.setPoint());
+    at_ = found.at;
+  }
+
   void lineTo(float x, float y, float z, float feed) {
     add(motion::line(at_, motion::Point<float>{x, y}), z, feed);
     at_ = {x, y};
@@ -79,8 +90,9 @@ class World {
     places.push_back({found.at.x, found.at.y, motion::toMm<double>(point.z)});
   }
 
+  bool isDone() { return mover_.isIdle() && axes_.isEmpty(); }
   void run() {
-    while (!mover_.isIdle() || !axes_.isEmpty()) tick();
+    while (!isDone()) tick();
   }
 
   Mover& mover() { return mover_; }
@@ -220,4 +232,36 @@ TEST(Mover, DoesNotDriftOverManyShortMoves) {
   const motion::Lengths<float> exact = world.geometry().inverse({0, 0});
   EXPECT_EQ(world.setPoint().left, motion::toCounts(exact.left));
   EXPECT_EQ(world.setPoint().right, motion::toCounts(exact.right));
+}
+
+// What the search for the place leaves of a chain where the other hangs steeply, far off the sheet.
+const double kFound = 0.06;  // [mm]
+
+TEST(Mover, ComesBackFromBeyondTheSheetWithoutAJump) {
+  const motion::Point<float> places[] = {
+      {0, -800}, {-1350, -300}, {1300, -700}, {0, 700}, {1230, 640}};
+  for (const motion::Point<float>& place : places) {
+    World world;
+    world.hangOnCounts(place.x, place.y);
+    world.lineTo(0, 0, 0, 15);
+    double left = motion::toMm<double>(world.setPoint().left), left_speed = 0;
+    double right = motion::toMm<double>(world.setPoint().right), right_speed = 0;
+    while (!world.isDone()) {
+      world.tick();
+      const double next_left = motion::toMm<double>(world.setPoint().left);
+      const double next_right = motion::toMm<double>(world.setPoint().right);
+      for (const double step : {next_left - left, next_right - right})
+        ASSERT_LE(std::fabs(step), 15 * kTick * 1.05) << place.x << " " << place.y;
+      for (const double gain : {next_left - left - left_speed, next_right - right - right_speed})
+        ASSERT_LE(std::fabs(gain),
+                  kGain * kTick * kTick + (world.places.size() < 12 ? kFound : 0.003))
+            << place.x << " " << place.y << " tick " << world.places.size();
+      left_speed = next_left - left;
+      right_speed = next_right - right;
+      left = next_left;
+      right = next_right;
+    }
+    EXPECT_NEAR(0, world.places.back().x, 0.01);
+    EXPECT_NEAR(0, world.places.back().y, 0.01);
+  }
 }

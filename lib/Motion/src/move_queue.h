@@ -18,7 +18,7 @@ struct Limits {
 /// What a path leads through.
 enum class Space : uint8_t {
   kSheet,   ///< places on the sheet; the exact inverse is smooth along it
-  kEdge,    ///< places on and beyond the sheet's edge, where the caller's inverse has a bend
+  kEdge,    ///< places beyond the sheet's edge, where nothing is known of the effects' slopes
   kChains,  ///< chain lengths themselves: x is the left one's, y the right one's
 };
 
