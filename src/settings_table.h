@@ -122,8 +122,8 @@
       "", "Greatest acceleration of z.", "new") \
   ROW(kCornerDeviation, 67, "corner_deviation, mm", kReal, kAnyValue, 0.05f, 0, 10, \
       "", "How far from a corner the sled may pass without stopping; 0: it stops.", "new") \
-  ROW(kChainSpeed, 68, "chain_speed, mm/min", kReal, kAnyValue, 1200, 10, 10000, \
-      "", "Greatest speed of a chain; moves are slowed to keep it.", "new") \
+  ROW(kChainSpeed, 68, "chain_speed, mm/min", kReal, kAnyValue, 1000, 10, 10000, \
+      "", "Greatest speed of a chain; moves are slowed to keep it. More than 20 turns of a sprocket a minute (1270 with $13=63.5) is refused: no gearbox does it.", "new") \
   ROW(kLoopRate, 69, "loop_rate, Hz", kByte, 100, 100, 100, 200, \
       "", "How often the motors are controlled: 100 or 200.", "new") \
   ROW(kRefusedMotion, 70, "refused_motion", kBool, 1, 0, 0, 1, \

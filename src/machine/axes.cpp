@@ -43,8 +43,9 @@ bool Axes::prepare(const settings::Values& values) {
     // A negative number of counts says that motor or encoder is wired the other way.
     one.sign = counts < 0 ? -1 : 1;
     one.loop.tune(gainsFrom(values, z ? kZPositionP : kMainPositionP),
-                  gainsFrom(values, z ? kZSpeedP : kMainSpeedP), seconds_per_tick_);
-    one.watch.tune(values.at(kPositionErrorLimit), seconds_per_tick_);
+                  gainsFrom(values, z ? kZSpeedP : kMainSpeedP), float(fabs(counts)),
+                  seconds_per_tick_);
+    one.watch.tune(values.at(kPositionErrorLimit), float(fabs(counts)), seconds_per_tick_);
     one.is_held = values.at(z ? kZPositionP : kMainPositionP) > 0;
   }
   return is_rescaled;

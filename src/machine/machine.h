@@ -193,6 +193,7 @@ class Machine {
   bool runReset(const char* what);
   void dumpSettings();
   bool setValue(uint8_t number, float value);
+  bool refuseChainSpeed();
   void afterSetting(uint8_t number);
   void arrangeDrives();
   void refreshGeometry();

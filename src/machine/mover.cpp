@@ -5,9 +5,16 @@
 
 namespace machine {
 
+float Mover::mostChainSpeed(const settings::Values& values) {
+  return AxisLoop::kMostRpm * float(fabs(values.at(kChainPerTurn)));
+}
+
 void Mover::prepare(const settings::Values& values, float seconds_per_tick) {
+  // $13 may have become less since $68 was set.
+  const float most = mostChainSpeed(values), asked = values.at(kChainSpeed);
+  const float chain_speed = asked < most ? asked : most;
   moves_.prepare(
-      {values.at(kAccelerationXy), values.at(kAccelerationZ), values.at(kChainSpeed) / 60,
+      {values.at(kAccelerationXy), values.at(kAccelerationZ), chain_speed / 60,
        values.at(kZSpeed) * float(fabs(values.at(kZPerTurn))) / 60, values.at(kCornerDeviation)},
       seconds_per_tick);
 }

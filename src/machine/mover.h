@@ -18,6 +18,9 @@ enum class Moved : uint8_t {
 /// All of it runs in the main program.
 class Mover {
  public:
+  /// [mm/min] that the gearbox of a chain does at most.
+  static float mostChainSpeed(const settings::Values& values);
+
   void prepare(const settings::Values& values, float seconds_per_tick);
 
   /// Nothing moves, nothing is queued.

@@ -79,6 +79,8 @@ void Machine::dumpSettings() {
 
 bool Machine::setValue(uint8_t number, float value) {
   const uint8_t meant = meantBy(number);
+  if (meant == table_.at(kChainSpeed).number && value > Mover::mostChainSpeed(values_))
+    return refuseChainSpeed();
   const settings::Refusal refusal = memory_.set(meant, value);
   if (refusal == settings::Refusal::kNone) {
     afterSetting(meant);
@@ -88,6 +90,14 @@ bool Machine::setValue(uint8_t number, float value) {
   PutLetter put = {out_};
   settings::putRefusal(table_, number, refusal, put);
   out_.end();
+  return false;
+}
+
+bool Machine::refuseChainSpeed() {
+  beginError();
+  out_ << FLASH("$68 must be at most ");
+  out_.fixed(Mover::mostChainSpeed(values_), 0);
+  out_.line(FLASH(": the gearbox turns a sprocket 20 times a minute at most"));
   return false;
 }
 

@@ -24,11 +24,13 @@ struct Asked {
 template <class Loop>
 class AxisWith {
  public:
-  AxisWith(unsigned seed, double rate)
-      : constants_(simulated::anyMotor(seed)), motor(constants_, seed), seconds(1 / rate) {
-    loop_.tune(kPosition, kSpeed, float(seconds));
+  AxisWith(unsigned seed, double rate) : AxisWith(simulated::anyMotor(seed), seed, rate) {}
+
+  AxisWith(const simulated::MotorConstants& constants, unsigned seed, double rate)
+      : constants_(constants), motor(constants_, seed), seconds(1 / rate) {
+    loop_.tune(kPosition, kSpeed, float(constants_.counts_per_turn), float(seconds));
     loop_.rest();
-    watch_.tune(2, float(seconds));
+    watch_.tune(2, float(constants_.counts_per_turn), float(seconds));
   }
 
   /// One control tick; how far the chain is from its set-point [mm] when it ends.
@@ -69,10 +71,12 @@ using PublishedAxis = AxisWith<PublishedLoop>;
 /// will ask for, as the ring of set-points tells.
 class ToAndFro {
  public:
-  ToAndFro(double feed, double seconds)
+  ToAndFro(double feed, double seconds, double from = 0)
       : top_(feed / 60),
         seconds_(seconds),
-        waiting_(motion::AxisLoop::ticksAhead(float(seconds))) {}
+        scout_(from),
+        at_(from),
+        waiting_(motion::AxisLoop::ticksAhead(float(seconds)), from) {}
 
   /// The next set-point on the way to a goal [mm].
   Asked towards(double goal) {
@@ -84,6 +88,7 @@ class ToAndFro {
     return {at_, scout_ - before};
   }
 
+  double at() const { return at_; }
   bool isAt(double goal) const { return std::fabs(goal - at_) <= 1e-6; }
 
  private:
@@ -96,6 +101,6 @@ class ToAndFro {
     if (arrives) speed_ = 0;
   }
 
-  double top_, seconds_, scout_ = 0, at_ = 0, speed_ = 0;
+  double top_, seconds_, scout_, at_, speed_ = 0;
   std::deque<double> waiting_;  ///< between the scout and the set-point
 };

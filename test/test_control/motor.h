@@ -22,6 +22,7 @@ struct MotorConstants {
   double torque_constant = 3.7;    ///< [Nm/A] and [V s/rad] at the sprocket, gear included
   double inertia = 0.25;           ///< [kg m^2] of the rotor through the gear
   double coulomb = 1.5;            ///< [Nm] friction that only stands against motion
+  double stiction = 1;             ///< times `coulomb`, until it moves
   double viscous = 0.4;            ///< [Nm s/rad]
   double load = 0.7;               ///< [Nm] pull of the chain, lengthening
   double play = 0.011;             ///< [rad] of the sprocket between the flanks of the gear
@@ -93,7 +94,7 @@ class Motor {
 
   void turn(double torque, double friction, double seconds) {
     const bool still = speed_ == 0;
-    if (still && std::fabs(torque) <= friction) return;
+    if (still && std::fabs(torque) <= c_.stiction * friction) return;
     const double against = std::copysign(friction, still ? torque : speed_);
     const double before = speed_;
     speed_ += (torque - against - c_.viscous * speed_) / c_.inertia * seconds;

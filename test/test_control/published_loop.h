@@ -12,7 +12,8 @@ class PublishedLoop {
  public:
   static uint8_t ticksAhead(float) { return 0; }
 
-  void tune(const motion::Gains& position, const motion::Gains& speed, float seconds_per_tick) {
+  void tune(const motion::Gains& position, const motion::Gains& speed, float,
+            float seconds_per_tick) {
     position_ = position;
     speed_ = speed;
     seconds_ = seconds_per_tick;

@@ -81,25 +81,62 @@ TEST_P(Watched, ReversedMotorAndReversedEncoderTurnBack) {
 
 TEST(Watch, OneThatIsOnlyTooWeakIsLeftBehind) {
   motion::Watch watch;
-  watch.tune(2, 0.01f);
+  watch.tune(2, 8113.73f, 0.01f);
   for (int i = 0; i < 300; ++i) EXPECT_EQ(Fault::kNone, watch.look(255, 20, 1.9f));
   EXPECT_EQ(Fault::kLeftBehind, watch.look(255, 20, -2.0f));
   EXPECT_EQ(Fault::kLeftBehind, watch.look(255, 20, NAN));
 }
 
-TEST(Watch, StandingWhileDrivenHardIsAFaultWithoutAnyError) {
-  motion::Watch watch;
-  watch.tune(2, 0.01f);
-  int ticks = 0;
-  while (watch.look(-255, 0, 0.5f) == Fault::kNone && ticks < 1000) ++ticks;
-  EXPECT_NEAR(103, ticks, 5);
+namespace {
+
+/// Ticks until a duty without counts is a fault; 1000 if it never is.
+int ticksOfStanding(motion::Watch& watch, int16_t duty) {
   watch.rest();
-  // Less than all the power may be what holds a load.
-  for (int i = 0; i < 1000; ++i) EXPECT_EQ(Fault::kNone, watch.look(-240, 0, 0.5f));
+  int ticks = 0;
+  while (watch.look(duty, 0, 0.5f) == Fault::kNone && ticks < 1000) ++ticks;
+  return ticks;
+}
+
+}  // namespace
+
+TEST(Watch, StandingIsAFaultTheSoonerTheHarderItIsDriven) {
+  motion::Watch watch;
+  watch.tune(2, 8113.73f, 0.01f);
+  // Of a motor that never ran nobody knows what it needs.
+  EXPECT_EQ(1000, ticksOfStanding(watch, -140));
+  EXPECT_NEAR(25, ticksOfStanding(watch, -180), 5);
+  EXPECT_NEAR(9, ticksOfStanding(watch, -255), 2);
+  // Once it has run evenly with a duty of 100 at 10 counts a tick, it needs 40; the other way is
+  // another thing.
+  for (int i = 0; i < 300; ++i) EXPECT_EQ(Fault::kNone, watch.look(-100, -10, 0.5f));
+  EXPECT_EQ(1000, ticksOfStanding(watch, -55));
+  EXPECT_NEAR(24, ticksOfStanding(watch, -100), 8);
+  EXPECT_EQ(1000, ticksOfStanding(watch, 140));
+}
+
+TEST(Watch, OneStickyMotorOwesNothingHoweverStiffItIs) {
+  motion::Watch watch;
+  watch.tune(2, 8113.73f, 0.01f);
+  // Even one that needs all its duty to move is seen when it no longer does.
+  for (int i = 0; i < 300; ++i) EXPECT_EQ(Fault::kNone, watch.look(250, 3, 0.5f));
+  EXPECT_EQ(1000, ticksOfStanding(watch, 205));
+  EXPECT_NEAR(18, ticksOfStanding(watch, 255), 4);
+}
+
+TEST(Watch, ACountToAndFroIsNoTravel) {
+  motion::Watch watch;
+  watch.tune(2, 8113.73f, 0.01f);
+  int ticks = 0;
+  while (watch.look(200, ticks % 2 ? 1 : -1, 0.5f) == Fault::kNone && ticks < 1000) ++ticks;
+  EXPECT_NEAR(19, ticks, 4);
+  // One that moves at all is not lost, and pays for what it owed.
+  watch.rest();
+  for (ticks = 0; ticks < 1000; ++ticks)
+    ASSERT_EQ(Fault::kNone, watch.look(200, ticks % 2 ? 2 : 1, 0.5f)) << ticks;
 }
 
 TEST(Watch, IsOffWhereMotorsShallPullAgainstAStop) {
   motion::Watch watch;
-  watch.tune(2000, 0.01f);
+  watch.tune(2000, 8113.73f, 0.01f);
   for (int i = 0; i < 1000; ++i) EXPECT_EQ(Fault::kNone, watch.look(255, 0, 500));
 }

@@ -228,7 +228,7 @@ TEST(Copies, ANewSettingMovesNoOther) {
   EXPECT_EQ(Source::kOwn, after.started.source);
   EXPECT_EQ(200, after.values.at(kLoopRate));
   EXPECT_EQ(120, after.values.at(kSledWeight));
-  EXPECT_EQ(1200, after.values.at(kChainSpeed));
+  EXPECT_EQ(1000, after.values.at(kChainSpeed));
   EXPECT_EQ(6.35f, after.values.at(indexOf(after.table, 201)));
   after.memory.set(68, 900);
   settle(after.memory);

@@ -22,9 +22,15 @@ struct Gains {
 /// The speed asked for is that of the set-points kAhead later, as a motor needs that long to change
 /// its speed. The speed loop's derivative brakes a change of speed only so far as the speed asked
 /// for does not change alike.
+///
+/// At rest an error of a count is none: summed up, it would turn a motor whose encoder is no longer
+/// heard.
 class AxisLoop {
  public:
-  enum : int16_t { kMostDuty = 255 };
+  enum : int16_t {
+    kMostDuty = 255,
+    kMostRpm = 20,  ///< of the gearbox
+  };
 
   /// [ticks] by which the speed asked for is that of later set-points.
   static uint8_t ticksAhead(float seconds_per_tick) {
@@ -33,7 +39,9 @@ class AxisLoop {
 
   /// Whatever the gains decide once and for all is decided here, and divided here: a tick of a
   /// float compare costs 110 cycles, of a product 190, of a division 500.
-  void tune(const Gains& position, const Gains& speed, float seconds_per_tick) {
+  void tune(const Gains& position, const Gains& speed, float counts_per_turn,
+            float seconds_per_tick) {
+    near_ = kNear / counts_per_turn;
     position_ = position;
     speed_ = speed;
     // Gains are told per 10 ms.
@@ -66,6 +74,7 @@ class AxisLoop {
   /// Duty that follows a set-point which is `error` turns ahead; `asked` is the way [turns] of the
   /// set-points in the tick that comes kAhead later. Positive lengthens.
   int16_t follow(float error, float asked, float turned) {
+    if (asked == 0 && error < near_ && error > -near_) error = 0;
     const float change = error - error_;
     error_ = error;
     const float ahead = is_held_ ? asked * ticks_per_minute_ : 0;
@@ -87,8 +96,8 @@ class AxisLoop {
   float wanted() const { return wanted_; }
 
  private:
-  static constexpr float kMostRpm = 20;
   static constexpr float kAhead = 0.03f;  // [s]
+  static constexpr float kNear = 1.5f;    // [counts]
 
   int16_t drive(float rpm, float ahead) {
     wanted_ = clipped(rpm, kMostRpm);
@@ -115,7 +124,7 @@ class AxisLoop {
   }
 
   Gains position_, speed_;
-  float per_interval_, ticks_per_minute_, half_ticks_per_minute_, push_;
+  float per_interval_, ticks_per_minute_, half_ticks_per_minute_, push_, near_;
   bool is_held_, is_summed_, is_weighted_, is_speed_summed_, is_speed_weighted_;
   float error_, sum_, rpm_, last_rpm_, last_lead_, duty_, wanted_, speed_sum_;
 };

@@ -1,0 +1,87 @@
+// The travel that a motor's duty makes due, and that its encoder does not show.
+#pragma once
+
+#include <stdint.h>
+
+namespace motion {
+
+/// Sums, tick by tick, the counts that are due from the duty less those that came.
+///
+/// A motor turns when its duty overcomes friction, the pull of its chain and what the bridge keeps.
+/// How much that takes is learned for each direction while the motor runs evenly, and rises faster
+/// than it falls. Due is what a weak motor does with the duty beyond that and a margin: so an
+/// honest motor owes nothing, also where it holds a load, breaks away late or its supply sags. The
+/// counts are net, so that an encoder with a single channel left, which counts to and fro, shows
+/// none. All of it is whole numbers: it runs in the control tick.
+class DueTravel {
+ public:
+  void tune(float counts_per_turn, float seconds_per_tick) {
+    const float kTurns = 0.0014f;  // [1/s] of a weak motor, for each step of duty
+    const float kUsual = 0.002f;   // of the usual one
+    per_duty_ = int16_t(kTurns * counts_per_turn * seconds_per_tick * kFine + 0.5f);
+    const float usual = kUsual * counts_per_turn * seconds_per_tick;
+    const float duty = kScale / usual;
+    duty_per_count_ = int16_t(duty < kMostPerCount ? duty : float(kMostPerCount));
+    most_ = int32_t(kMostTurns * counts_per_turn * kFine);
+  }
+
+  /// Begins at rest; what was learned of the motor stays.
+  void rest() { due_ = 0; }
+
+  /// One tick: the means of duty and counts over kMean ticks, times kMean, and the counts of this
+  /// tick. True if too much is due.
+  bool look(int16_t driven, int16_t moved_mean, int16_t moved) {
+    const bool forward = driven >= 0;
+    if (!forward)
+      driven = int16_t(-driven), moved_mean = int16_t(-moved_mean), moved = int16_t(-moved);
+    if (forward != forward_) due_ = 0;
+    forward_ = forward;
+    learn(driven / kMean, moved_mean, moved);
+    const int16_t beyond = int16_t(driven / kMean - threshold());
+    if (beyond > 0) due_ += int32_t(beyond) * per_duty_;
+    // A chain that brakes counts against its drive, and owes nothing for it.
+    if (moved >= -1) due_ -= int32_t(moved) * (kPaid * kFine);
+    if (due_ < 0) due_ = 0;
+    return due_ >= most_;
+  }
+
+  enum : int16_t { kMean = 4 };  // [ticks]
+
+ private:
+  static constexpr float kMostTurns = 0.007f;  // 0.45 mm of chain
+  enum : int16_t {
+    kFine = 256,        // parts of a count
+    kPaid = 4,          // counts that one which came pays for: who moves at all is not lost
+    kScale = 16,        // parts of a step of duty
+    kUnknown = 120,     // duty that a stiff motor may need, until it has run
+    kMargin = 15,       // of duty; and an eighth
+    kMostNeeded = 210,  // of duty, so that something is always due from the whole
+    kSlow = 2,          // [counts a tick] below which nothing is learned
+    kMostPerCount = 4000,
+  };
+
+  int16_t& needed() { return needed_[forward_]; }
+
+  int16_t threshold() {
+    const int16_t duty = needed() / kScale;
+    const int16_t with_margin = int16_t(duty + duty / 8 + kMargin);
+    return with_margin < kMostNeeded ? with_margin : int16_t(kMostNeeded);
+  }
+
+  /// Running evenly, all that exceeds the duty of the speed overcomes friction and load.
+  void learn(int16_t duty, int16_t moved_mean, int16_t moved) {
+    const int16_t gain = int16_t(moved * kMean - moved_mean);
+    if (moved_mean < kSlow * kMean || gain > kMean || gain < -kMean) return;
+    const int32_t seen = duty * kScale - int32_t(moved_mean / kMean) * duty_per_count_;
+    const int16_t more = int16_t((seen > 0 ? int16_t(seen) : 0) - needed());
+    needed() = int16_t(needed() + (more > 0 ? more / 8 : more / 32));
+  }
+
+  int16_t per_duty_ = 0;        ///< [1/kFine counts a tick] due for each step of duty
+  int16_t duty_per_count_ = 0;  ///< [1/kScale of duty] for each count a tick
+  int32_t due_ = 0, most_ = 0;  ///< [1/kFine counts]
+  int16_t needed_[2] = {kUnknown * kScale, kUnknown* kScale};
+  bool forward_ = true;
+};
+
+}  // namespace motion

@@ -1,0 +1,121 @@
+// An encoder that is no longer heard, or heard in reverse: how far its motor runs before the watch
+// says so.
+#include <gtest/gtest.h>
+
+#include "axis.h"
+
+using motion::Fault;
+
+namespace {
+
+/// When the encoder is lost.
+enum class Lost { kAtRest, kOnTheWay, kBeforeTheFirstMove };
+
+struct Case {
+  double rate, feed;  // [Hz], [mm/min]
+  Lost lost;
+  simulated::Wires wires;
+};
+
+struct Run {
+  Fault fault;
+  double astray;  ///< [mm] of the chain from its set-point, at most until the fault
+};
+
+/// There and back at 800 mm/min, from which the watch learns what the motor needs, and a rest.
+void learn(Axis& axis, double rate) {
+  ToAndFro way(800, axis.seconds);
+  for (double goal : {20.0, 0.0})
+    while (!way.isAt(goal)) axis.tick(way.towards(goal));
+  for (int i = 0; i < int(1.5 * rate); ++i) axis.tick(0.0);
+}
+
+Run runOf(const Case& lost, unsigned seed, double goal) {
+  Axis axis(seed, lost.rate);
+  ToAndFro way(std::max(lost.feed, 1.0), axis.seconds);
+  if (lost.lost != Lost::kBeforeTheFirstMove) learn(axis, lost.rate);
+  if (lost.lost == Lost::kOnTheWay)
+    for (int i = 0; i < int(lost.rate); ++i) axis.tick(way.towards(goal));
+  axis.motor.wires = lost.wires;
+  Run run = {Fault::kNone, 0};
+  for (int i = 0; i < int(15 * lost.rate) && run.fault == Fault::kNone; ++i) {
+    const Asked asked = lost.lost == Lost::kAtRest ? Asked{0, 0} : way.towards(goal);
+    run.astray = std::max(run.astray, std::fabs(axis.tick(asked)));
+    run.fault = axis.fault;
+  }
+  return run;
+}
+
+/// Forty motors, both ways, in order of how far they ran; how many were never noticed.
+std::vector<double> ranOf(const Case& lost, Fault expected, int& unseen) {
+  std::vector<double> ran;
+  unseen = 0;
+  for (unsigned seed = 0; seed < kMotors; ++seed)
+    for (const double goal : {60.0, -60.0}) {
+      const Run run = runOf(lost, seed, goal);
+      ran.push_back(run.astray);
+      unseen += run.fault == Fault::kNone;
+      EXPECT_TRUE(run.fault == expected || run.fault == Fault::kNone) << "motor " << seed;
+    }
+  std::sort(ran.begin(), ran.end());
+  printf("%.0f Hz, %.0f mm/min: median %.2f mm, worst %.2f mm, unseen %d\n", lost.rate, lost.feed,
+         ran[kMotors], ran.back(), unseen);
+  return ran;
+}
+
+simulated::Wires unplugged() {
+  simulated::Wires wires;
+  wires.encoder_unplugged = true;
+  return wires;
+}
+
+simulated::Wires withOneChannel() {
+  simulated::Wires wires;
+  wires.channel_lost = true;
+  return wires;
+}
+
+class LostEncoder : public testing::TestWithParam<double> {};
+
+}  // namespace
+
+INSTANTIATE_TEST_SUITE_P(Both, LostEncoder, testing::Values(100.0, 200.0));
+
+TEST_P(LostEncoder, IsNoticedOnTheWayWithinThreeMillimetres) {
+  int unseen;
+  for (const simulated::Wires& wires : {unplugged(), withOneChannel()})
+    for (const double feed : {20.0, 60.0, 200.0, 800.0}) {
+      EXPECT_LT(ranOf({GetParam(), feed, Lost::kOnTheWay, wires}, Fault::kStands, unseen).back(),
+                2);
+      EXPECT_EQ(0, unseen);
+    }
+}
+
+TEST_P(LostEncoder, IsNoticedInTheFirstJogWithinThreeMillimetres) {
+  int unseen;
+  for (const simulated::Wires& wires : {unplugged(), withOneChannel()})
+    for (const double feed : {20.0, 60.0, 200.0, 800.0}) {
+      const Case lost = {GetParam(), feed, Lost::kBeforeTheFirstMove, wires};
+      EXPECT_LT(ranOf(lost, Fault::kStands, unseen).back(), 3);
+      EXPECT_EQ(0, unseen);
+    }
+}
+
+TEST_P(LostEncoder, DoesNotLetAMotorAtRestRunAway) {
+  // A motor that stands on its set-point goes on standing, and nothing is to be noticed.
+  int unseen;
+  EXPECT_LT(ranOf({GetParam(), 0, Lost::kAtRest, unplugged()}, Fault::kStands, unseen).back(), 3);
+  EXPECT_LT(ranOf({GetParam(), 0, Lost::kAtRest, withOneChannel()}, Fault::kStands, unseen).back(),
+            4);
+}
+
+TEST_P(LostEncoder, InReverseIsNoticedWithinThreeMillimetres) {
+  simulated::Wires reversed;
+  reversed.encoder_reversed = true;
+  int unseen;
+  for (const double feed : {20.0, 60.0, 200.0, 800.0}) {
+    const Case lost = {GetParam(), feed, Lost::kBeforeTheFirstMove, reversed};
+    EXPECT_LT(ranOf(lost, Fault::kTurnsBack, unseen).back(), 2.5);
+    EXPECT_EQ(0, unseen);
+  }
+}
