@@ -104,6 +104,7 @@ class World : public Wire, public Drives, public Aux, public Clock {
   }
 
   uint16_t count(Axis axis) override { return motor_[axis].count(); }
+  uint16_t illegalSteps(Axis) override { return 0; }
   void arrange(bool, uint8_t) override {}
   void set(Output, bool) override {}
   void turnServo(uint8_t) override {}
