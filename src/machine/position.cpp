@@ -100,7 +100,6 @@ void Machine::losePosition(FlashText why) {
 void Machine::doubtCounts() {
   for (uint8_t i = 0; i < kAxisCount; ++i)
     if (axes_.isDisproved(Axis(i))) keeper_.doubt(Axis(i));
-  is_place_known_ = is_place_known_ && keeper_.trustsChains();
 }
 
 FlashText Machine::whatIsLost() const {
@@ -109,7 +108,7 @@ FlashText Machine::whatIsLost() const {
 }
 
 void Machine::keepWhenAtRest() {
-  if (isMoving() || !keeper_.isDue(clock_.milliseconds())) return;
+  if (!keeper_.isDue(clock_.milliseconds())) return;
   // A motor that ran on, or a chain that was pulled: the next move begins where the sled is.
   for (uint8_t i = 0; i < kAxisCount; ++i)
     if (float(fabs(axes_.error(Axis(i)))) > kMovedByHand) searchPlace();

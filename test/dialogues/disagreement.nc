@@ -25,3 +25,38 @@
 <- ok
 ~~ wait 3
 ~~ quiet
+; A frame that was worked out before power went is no disagreement.
+~~ wait 4
+-> $3=470
+<- ok
+<* position loaded at:
+<* *
+<* *
+~~ wait 8
+~~ power cut
+<* ok
+<- [Forward Calculating Position]
+<- position loaded at:
+<* *
+<* *
+~~ wait 1
+~~ quiet
+; A frame in which the chains fit nowhere says nothing about them: with the right one the sled is where it was.
+-> $2=20000
+<- ok
+~~ wait 0.4
+~~ power cut
+<* ok
+<- [Forward Calculating Position]
+<- Message: Unable to find*
+~~ wait 1
+~~ quiet
+-> $2=2978.4
+<- ok
+<* position loaded at:
+<* *
+<* *
+-> G91 G0 X5 G90
+<- ok
+~~ wait 3
+~~ quiet

@@ -50,3 +50,14 @@
 <- 0.00 within 0.1
 ~~ wait 1
 ~~ status <Idle,MPos:0.00,0.00,2.00,WPos:0.000,0.000,0.000> within 0.1
+; A scale that changes so little that no count does is kept all the same.
+-> $20=7561
+<- ok
+~~ wait 2
+~~ power cut
+<* ok
+<* position loaded at:
+<* *
+<* *
+~~ wait 1
+~~ quiet

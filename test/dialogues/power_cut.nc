@@ -47,3 +47,17 @@
 <- ok
 ~~ wait 4
 ~~ sled X10 Y0 within 0.06
+; Power for less than a moment, and a rest at once: that rest is kept.
+~~ wait 4
+-> $9=0
+<- ok
+-> B11 L T0
+<* ok
+~~ wait 1
+~~ power cut
+<* ok
+<* position loaded at:
+<- 10.00 within 0.02
+<* *
+~~ wait 1
+~~ quiet

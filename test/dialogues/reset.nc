@@ -22,6 +22,29 @@
 <- Message: Restoring defaults 
 <* ok
 <* Settings are the defaults. Chain lengths are not known yet*
+~~ wait 8
+~~ power cut
+<* ok
+<- Chain lengths are not known yet*
 ~~ wait 2
+-> $7=2
+<- ok
+-> $8=139.1
+<- ok
+-> B06 L1710 R1710
+<* position loaded at:
+<* *
+<* *
+<- ok
+-> $RST=#
+<- Message: Restoring defaults 
+<* ok
+<* Settings are the defaults. Chain lengths are not known yet*
+; The place is that of the default frame again.
+-> B06 L1710 R1710
+<* position loaded at:
+<- 0.00
+<- -125.07 within 0.05
+<- ok
 -> $RST=x
 <- error: *

@@ -54,7 +54,7 @@
 ; So it is once chains were pulled by hand meanwhile, or declared.
 -> B99 ON
 <* ok
-~~ pull left 2
+~~ pull left -2
 ~~ wait 1
 ~~ pull left 0
 -> B99 OFF
@@ -65,6 +65,18 @@
 ~~ declare
 <* position loaded at:
 <* ok
+; Once chains are set that is over: off again, and on and off without motion, lose nothing.
+-> B99 OFF
+<- B99 OFF
+<- FAKE_SERVO off
+<- ok
+-> B99 ON
+<* ok
+~~ wait 0.5
+-> B99 OFF
+<- B99 OFF
+<- FAKE_SERVO off
+<- ok
 -> B99 ON
 <* ok
 -> B06 L1500 R1500

@@ -144,6 +144,19 @@ TEST(Position, ForgottenIsForgotten) {
   EXPECT_EQ(Known::kNothing, Ring(eeprom).known);
 }
 
+TEST(Position, ForgettingIsFinishedWhenMotionBegins) {
+  for (int steps = 0; steps < 40; ++steps) {
+    Eeprom eeprom = travelled(70);
+    Ring ring(eeprom);
+    ring.slots.forget();
+    for (int i = 0; i < steps; ++i) ring.step();
+    ring.slots.beginMoving();
+    ring.settle();
+    EXPECT_TRUE(ring.slots.mayMove());
+    ASSERT_EQ(Known::kNothing, Ring(eeprom).known) << steps;
+  }
+}
+
 TEST(Position, EveryCutLeavesTheOldOneInMotionOrTheNewOneAtRest) {
   std::mt19937 random(31);
   int cuts = 0;

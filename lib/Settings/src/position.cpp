@@ -166,7 +166,9 @@ void PositionSlots::beginMoving() {
   moving_ = true;
   // A record without its checksum is none, and the one before it says enough. One that could be
   // whole is finished first, so that there is no doubt which one is the newest.
-  if (!writing_ || maybe_whole_ || !exists_) return;
+  // One that says that nothing is known is right in motion as well.
+  const bool says_nothing = !(record_[kKnownAt] & kIsKnown);
+  if (!writing_ || maybe_whole_ || !exists_ || says_nothing) return;
   writing_ = false;
   holds_newest_ = false;
 }
