@@ -86,20 +86,17 @@ void Axes::readEncoder(One& one, Axis axis) {
 }
 
 void Axes::takeSetPoint() {
-  SetPoint point;
-  if (set_points_.take(point)) {
-    axis_[kLeftAxis].set_point = point.left;
-    axis_[kRightAxis].set_point = point.right;
-    axis_[kZAxis].set_point = point.z;
-    const SetPoint *from, *to;
-    if (set_points_.stepAhead(ticks_ahead_, from, to)) {
-      axis_[kLeftAxis].asked = to->left - from->left;
-      axis_[kRightAxis].asked = to->right - from->right;
-      axis_[kZAxis].asked = to->z - from->z;
-      return;
-    }
-  }
-  for (One& one : axis_) one.asked = 0;
+  One &left = axis_[kLeftAxis], &right = axis_[kRightAxis], &z = axis_[kZAxis];
+  SetPoint point = {left.set_point, right.set_point, z.set_point - lift_.at()};
+  playback_.next(set_points_, point);
+  lift_.advance();
+  left.set_point = point.left;
+  right.set_point = point.right;
+  z.set_point = point.z + lift_.at();
+  const SetPoint ahead = playback_.stepAhead(set_points_, ticks_ahead_);
+  left.asked = ahead.left;
+  right.asked = ahead.right;
+  z.asked = ahead.z + lift_.speed();
 }
 
 void Axes::control(One& one, Axis axis) {
@@ -147,7 +144,73 @@ void Axes::tick() {
 
 void Axes::dropSetPoints() {
   const WithoutTicks hold(clock_);
+  forgetWay();
+}
+
+void Axes::forgetWay() {
   set_points_.clear();
+  playback_.reset();
+  lift_.absorb();
+}
+
+void Axes::hold(bool yes) {
+  const WithoutTicks hold(clock_);
+  if (yes)
+    playback_.hold();
+  else
+    playback_.resume();
+}
+
+bool Axes::isAtRest() const {
+  const WithoutTicks hold(clock_);
+  return playback_.isAtRest();
+}
+
+bool Axes::isEmpty() const {
+  const WithoutTicks hold(clock_);
+  return set_points_.isEmpty() && playback_.isDone() && lift_.isAtRest();
+}
+
+void Axes::goAt(uint16_t share) {
+  const WithoutTicks hold(clock_);
+  playback_.goAt(share);
+}
+
+void Axes::lift(float z, float speed, float acceleration) {
+  const WithoutTicks hold(clock_);
+  const int32_t planned = axis_[kZAxis].set_point - lift_.at();
+  lift_.goTo(motion::toCounts(withinTravel(z)) - planned,
+             motion::toCounts(speed * seconds_per_tick_),
+             motion::toCounts(acceleration * seconds_per_tick_ * seconds_per_tick_));
+}
+
+void Axes::lower() {
+  const WithoutTicks hold(clock_);
+  lift_.goBack();
+}
+
+float Axes::plannedZ() const {
+  const WithoutTicks hold(clock_);
+  return motion::toMm<float>(axis_[kZAxis].set_point - lift_.at());
+}
+
+float Axes::liftedTo() const {
+  const WithoutTicks hold(clock_);
+  return motion::toMm<float>(axis_[kZAxis].set_point - lift_.at() + lift_.goal());
+}
+
+bool Axes::isLifted() const {
+  const WithoutTicks hold(clock_);
+  return lift_.at() != 0 || lift_.goal() != 0;
+}
+
+void Axes::declareLifted(float z) {
+  const WithoutTicks hold(clock_);
+  One& one = axis_[kZAxis];
+  const int32_t planned = one.set_point - lift_.at();
+  one.counts = int32_t(lround(withinTravel(z) / one.per_count));
+  one.set_point = motion::toCounts(withinTravel(z));
+  lift_.standAt(one.set_point - planned);
 }
 
 SetPoint Axes::setPoint() const {
@@ -157,12 +220,13 @@ SetPoint Axes::setPoint() const {
 
 void Axes::standStill() {
   const WithoutTicks hold(clock_);
-  set_points_.clear();
+  forgetWay();
   for (One& one : axis_) one.set_point = measured(one);
 }
 
 void Axes::jumpTo(Axis axis, float length) {
   const WithoutTicks hold(clock_);
+  forgetWay();
   axis_[axis].set_point = motion::toCounts(withinTravel(length));
 }
 
@@ -240,6 +304,7 @@ float Axes::error(Axis axis) const {
 
 void Axes::declare(Axis axis, float length) {
   const WithoutTicks hold(clock_);
+  lift_.absorb();
   One& one = axis_[axis];
   length = withinTravel(length);
   if (simulated_) is_imagined_ = true;

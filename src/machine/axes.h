@@ -54,10 +54,28 @@ class Axes {
 
   // Set-points.
   motion::SetPoints& setPoints() { return set_points_; }
-  bool isEmpty() const { return set_points_.isEmpty(); }
+  /// Nothing moves, nothing waits.
+  bool isEmpty() const;
   /// Set-points that wait to be taken.
   uint8_t waiting() const { return set_points_.count(); }
   void dropSetPoints();
+  /// Brakes along the way and stays, or goes on.
+  void hold(bool yes);
+  /// Nothing goes on along the way, for now.
+  bool isAtRest() const;
+  /// From now on at so many 256ths of the planned speed, see motion::Playback.
+  void goAt(uint16_t share);
+
+  // Z while the way is held.
+  /// Moves z away from where the way has it, to a height [mm]; [mm/s], [mm/s^2].
+  void lift(float z, float speed, float acceleration);
+  /// Moves it back.
+  void lower();
+  bool isLifted() const;
+  float plannedZ() const;  ///< [mm] where the way has it
+  float liftedTo() const;  ///< [mm] where it is going
+  /// Z is at this height [mm]; the way keeps its heights.
+  void declareLifted(float z);
   /// The set-points last taken.
   SetPoint setPoint() const;
   /// Makes the set-points what the encoders say.
@@ -122,6 +140,7 @@ class Axes {
   };
 
   void takeSetPoint();
+  void forgetWay();
   void readEncoder(One& one, Axis axis);
   void control(One& one, Axis axis);
   int32_t measured(const One& one) const;
@@ -132,6 +151,8 @@ class Axes {
   Drives& drives_;
   Clock& clock_;
   motion::SetPoints set_points_;
+  motion::Playback playback_;
+  motion::Lift lift_;
   One axis_[kAxisCount];
   float seconds_per_tick_ = 0.01f;
   uint8_t ticks_ahead_ = AxisLoop::ticksAhead(0.01f);

@@ -105,7 +105,9 @@ bool Machine::runM(uint16_t tenths, const Words& words) {
     case 20:
     case 300:
       modal_.endProgram();
-      return drain() && switchSpindle(false);
+      if (!drain() || !switchSpindle(false)) return false;
+      changeFeed(Quick::kFeedUsual);
+      return true;
     case 50:
       return drain() && switchSpindle(false);
     case 30:

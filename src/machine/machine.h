@@ -6,7 +6,9 @@
 
 #include "axes.h"
 #include "edge_cut.h"
+#include "feed_override.h"
 #include "geometry.h"
+#include "interlude.h"
 #include "lock.h"
 #include "mover.h"
 #include "ports.h"
@@ -200,6 +202,19 @@ class Machine {
   void refreshGeometryWhenQuiet();
   void restoreDefaults(settings::Reset what);
 
+  // interlude.cpp: what is done while the program waits.
+  void holdMotion();
+  void resumeInterlude();
+  void serveInterlude();
+  bool bringZBack();
+  void serveOperator();
+  bool isForOperator(const char* line) const;
+  bool isForOperator(const gcode::Piece& piece) const;
+  bool runForOperator(const char* line);
+  bool jogZ(const Words& words);
+  void declareZInInterlude(float z);
+  void changeFeed(Quick quick);
+
   // pause.cpp, spindle.cpp, probe.cpp, z_limits.cpp.
   bool pause(bool resumed);
   bool pauseAfterMoves();
@@ -215,6 +230,7 @@ class Machine {
   bool setZLimit(bool upper);
   bool clearZLimits();
   void sayZLimit(float limit);
+  void shiftZLimits(float shift);
   bool showZLimits();
   void declareZ(float z);
 
@@ -271,7 +287,8 @@ class Machine {
   uint8_t ticks_per_second_ = 100;
   volatile bool hung_ = false;
   bool stopping_ = false;  ///< a stop was asked for; every wait ends
-  bool pausing_ = false, resumed_ = false;
+  Interlude interlude_;
+  FeedOverride feed_;
   bool is_answered_ = false;  ///< the line in execution has got its answer
   bool is_testing_ = false;   ///< a test of loops jumps to and fro
   bool is_place_known_ = false;

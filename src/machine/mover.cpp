@@ -38,7 +38,18 @@ void Mover::addAxis(Axis axis, float length, float feed) {
   moves_.add(motion::line(from, to), z_to, feed, motion::Space::kChains);
 }
 
+void Mover::stop(Axes& axes) {
+  axes.hold(true);
+  is_stopping_ = true;
+}
+
 Moved Mover::fill(Axes& axes, const Geometry& geometry) {
+  if (is_stopping_ && axes.isAtRest()) {
+    is_stopping_ = false;
+    axes.dropSetPoints();
+    axes.hold(false);
+    moves_.standAt(axes.setPoint());
+  }
   const auto exactly = [&geometry](motion::Point<float> place) { return geometry.inverse(place); };
   const motion::Filled filled = moves_.fill(axes.setPoints(), exactly);
   return filled == motion::Filled::kYes ? Moved::kYes : Moved::kOutOfReach;

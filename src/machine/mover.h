@@ -38,15 +38,19 @@ class Mover {
   /// Gives the axes as many set-points as they have room for.
   Moved fill(Axes& axes, const Geometry& geometry);
 
-  /// Brakes, forgets the rest.
-  void stop() { moves_.stop(); }
+  /// Brakes along the way; fill() forgets the rest where the axes then stand.
+  void stop(Axes& axes);
   void forget() { moves_.forget(); }
+
+  /// From now on feeds count so many times, up to `most_feed` [mm/s].
+  void boost(float times, float most_feed) { moves_.boost(times, most_feed); }
 
   /// Everything begins here: at set-points that the axes have.
   void standAt(const SetPoint& point) { moves_.standAt(point); }
 
  private:
   motion::Mover moves_;
+  bool is_stopping_ = false;
 };
 
 }  // namespace machine

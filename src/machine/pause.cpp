@@ -5,10 +5,10 @@ namespace machine {
 
 bool Machine::pause(bool resumed) {
   out_.line(FLASH("Maslow Paused"));
-  resumed_ = resumed;
-  pausing_ = true;
-  while (!stopping_ && !resumed_) service();
-  pausing_ = resumed_ = false;
+  interlude_.pause(modal_, clock_.milliseconds(), input_.isEmpty());
+  if (resumed) interlude_.resume();
+  // serveInterlude() brings z back and ends it.
+  while (!stopping_ && interlude_.isPaused()) service();
   input_.takeResume();
   return !stopping_;
 }

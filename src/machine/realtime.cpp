@@ -6,6 +6,7 @@ namespace machine {
 
 void Machine::service() {
   readWire();
+  serveInterlude();
   if (mover_.fill(axes_, geometry_) == Moved::kOutOfReach)
     raiseAlarm(FLASH("No sled can hang on the way; the machine has halted. Press Stop."));
   watchAxes();
@@ -24,7 +25,8 @@ bool Machine::waitFor(uint32_t ms) {
 }
 
 bool Machine::isFarAhead() const {
-  const float ahead = values_.at(kMotionAhead) * 1e-3f * float(ticks_per_second_);
+  const float ahead =
+      values_.at(kMotionAhead) * 1e-3f * float(ticks_per_second_) * feed_.shareOfPlan();
   const uint8_t waiting = axes_.waiting();
   return mover_.lastsLonger(ahead > float(waiting) ? uint16_t(ahead) - waiting : 0);
 }
@@ -53,7 +55,8 @@ void Machine::readWire() {
   for (;;) {
     const int16_t character = wire_.read();
     if (character < 0) return;
-    switch (input_.put(char(character))) {
+    const Quick quick = input_.put(char(character));
+    switch (quick) {
       case Quick::kNone:
         break;
       case Quick::kStop:
@@ -62,7 +65,10 @@ void Machine::readWire() {
         break;
       case Quick::kResume:
         out_.line(FLASH("ok"));
-        if (pausing_) resumed_ = true;
+        resumeInterlude();
+        break;
+      case Quick::kHold:
+        holdMotion();
         break;
       case Quick::kReset:
         resetSoftly();
@@ -70,19 +76,22 @@ void Machine::readWire() {
       case Quick::kOverflow:
         raiseAlarm(FLASH("Buffer overflow: more lines came than there is room for. Press Stop."));
         break;
+      default:
+        changeFeed(quick);
+        break;
     }
   }
 }
 
 void Machine::stopNow() {
   stopping_ = true;
-  resumed_ = false;
+  interlude_.end();
   lock_ = Lock::kOpen;
   input_.clear();
   // At once, whatever else the stop has to wait for.
   aux_.set(Output::kLaser, false);
   restSpindle();
-  mover_.stop();
+  mover_.stop(axes_);
 }
 
 void Machine::finishStop() {
@@ -105,6 +114,7 @@ void Machine::finishStop() {
 
 void Machine::resetSoftly() {
   stopNow();
+  changeFeed(Quick::kFeedUsual);
   out_.end();
   out_.line(FLASH("soft reset commanded"));
   greet();
@@ -167,7 +177,7 @@ bool Machine::wakeMotors() {
 void Machine::restWhenIdle() {
   const uint32_t now = clock_.milliseconds();
   // A test of loops stands between its jumps, and its motors hold.
-  const bool is_busy = isMoving() || axes_.isDriven() || is_testing_;
+  const bool is_busy = isMoving() || axes_.isDriven() || is_testing_ || interlude_.isOn();
   if (is_busy) last_motion_ms_ = now;
   if (is_busy || !axes_.isPowered()) return;
   if (now - last_motion_ms_ < uint32_t(values_.at(kIdleTime))) return;

@@ -16,7 +16,7 @@ void Machine::reportWhenDue() {
 void Machine::reportStatus() {
   const Place place = placeNow();
   const uint8_t decimals = modal_.inches ? 4 : 2;
-  out_ << '<' << (pausing_ ? FLASH("Pause") : isHalted() ? FLASH("Stop") : FLASH("Idle"));
+  out_ << '<' << (interlude_.isOn() ? FLASH("Pause") : isHalted() ? FLASH("Stop") : FLASH("Idle"));
   out_ << FLASH(",MPos:");
   out_.fixed(inUnits(place.x), decimals) << ',';
   out_.fixed(inUnits(place.y), decimals) << ',';

@@ -53,10 +53,14 @@ void Machine::declareZ(float z) {
   axes_.declare(kZAxis, z);
   aim_.z = z;
   mover_.standAt(axes_.setPoint());
+  shiftZLimits(shift);
+  keeper_.declareZ();
+}
+
+void Machine::shiftZLimits(float shift) {
   const float high = values_.at(kZUpperLimit), low = values_.at(kZLowerLimit);
   if (high < kNoLimit) memory_.setRow(kZUpperLimit, high + shift);
   if (low > -kNoLimit) memory_.setRow(kZLowerLimit, low + shift);
-  keeper_.declareZ();
 }
 
 }  // namespace machine

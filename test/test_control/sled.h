@@ -52,11 +52,11 @@ class SledWith {
 
   void tick() {
     fill();
-    motion::SetPoint point;
+    motion::Leg leg;
     double ahead[2] = {0, 0};
-    if (points_.take(point)) {
+    if (points_.take(leg)) {
       --waiting_;
-      now_ = point;
+      now_ = leg.to;
       const motion::SetPoint *from, *to;
       if (points_.stepAhead(ahead_, from, to)) {
         ahead[0] = motion::toMm<double>(to->left - from->left);
@@ -69,8 +69,8 @@ class SledWith {
   /// A short ring: so few set-points wait at most.
   void fill() {
     mover_.fill(worked_out_, exactly);
-    motion::SetPoint point;
-    for (; waiting_ < ring_ && worked_out_.take(point); ++waiting_) points_.push(point);
+    motion::Leg leg;
+    for (; waiting_ < ring_ && worked_out_.take(leg); ++waiting_) points_.push(leg);
   }
 
   void drive(const double (&ahead)[2]) {

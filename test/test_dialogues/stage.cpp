@@ -20,6 +20,12 @@ bool startsWith(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
 }
 
+/// What ^ and a letter stand for: ^X ctrl-X, ^N a line's end, ^H hold, ^0 to ^4 the feed override.
+char specialNamed(char name) {
+  if (name >= '0' && name <= '4') return char(0x90 + (name - '0'));
+  return name == 'X' ? '\x18' : name == 'H' ? '\x84' : '\n';
+}
+
 }  // namespace
 
 Stage::Stage(std::vector<Step> steps)
@@ -135,7 +141,7 @@ bool Stage::takeStep(const Step& step) {
         if (!special)
           input_ += step.text[i];
         else
-          input_ += step.text[++i] == 'X' ? '\x18' : '\n';
+          input_ += specialNamed(step.text[++i]);
       }
       return true;
     case Step::kExpect:

@@ -74,6 +74,7 @@ class Stage : public machine::Wire,
   bool ask(const Step& step);
   bool change(const std::string& verb, const std::string& rest);
   bool wait(const std::string& seconds);
+  bool askHold(double most);
   void askSled(const std::string& place);
   void askChains(const std::string& lengths);
   void hang(const std::string& place);
@@ -90,6 +91,8 @@ class Stage : public machine::Wire,
   double byte_credit_ = 0;
   int out_queue_ = 0, answers_ = 0, halts_ = 0;
   bool stops_when_halted_ = false;
+  double held_x_ = 0, held_y_ = 0;  // of the bit when a hold was asked for
+  bool is_holding_ = false;
   double probe_touches_at_ = -1e9;
   bool spindle_ = false, laser_ = false;
   reference::Machine judge_;

@@ -34,6 +34,7 @@ bool Stage::ask(const Step& step) {
     if (now_ms_ - step_since_ms_ > 2000000) fail("only " + std::to_string(answers_) + " came");
     return answers_ >= std::atoi(rest.c_str());
   }
+  if (is("hold")) return askHold(numbersIn(rest).at(0));
   // Of a report that was sent after the question.
   if ((is("status") || is("errors")) && status_ms_ <= step_since_ms_) return false;
   if (is("sled"))
@@ -100,6 +101,25 @@ bool Stage::change(const std::string& verb, const std::string& rest) {
     throw PowerGone();
   } else
     fail("nobody understands " + verb);
+  return true;
+}
+
+bool Stage::askHold(double most) {
+  const Eigen::Vector2d paid_out(motor_[kLeftAxis].travel, motor_[kRightAxis].travel);
+  const reference::Settled settled =
+      reference::settle(judge_, paid_out, Eigen::Vector2d(held_x_, held_y_));
+  if (!settled.solved) fail("the judge finds no place for these chains");
+  if (!is_holding_) {
+    input_ += '\x84';
+    held_x_ = settled.bit.x();
+    held_y_ = settled.bit.y();
+    is_holding_ = true;
+    return false;
+  }
+  if (now_ms_ - step_since_ms_ < 1000) return false;
+  is_holding_ = false;
+  const double way = std::hypot(settled.bit.x() - held_x_, settled.bit.y() - held_y_);
+  tellOr(way <= most, "it went on for " + std::to_string(way));
   return true;
 }
 

@@ -184,3 +184,50 @@ TEST(Resume, IsForgottenWithTheLines) {
   input.clear();
   EXPECT_FALSE(input.takeResume());
 }
+
+TEST(Quick, BytesAbove127HoldAndChangeTheFeed) {
+  Input input;
+  EXPECT_EQ(Quick::kHold, input.put('\x84'));
+  EXPECT_EQ(Quick::kFeedUsual, Input().put('\x90'));
+  EXPECT_EQ(Quick::kFeedUp, Input().put('\x91'));
+  EXPECT_EQ(Quick::kFeedDown, Input().put('\x92'));
+  EXPECT_EQ(Quick::kFeedUpOne, Input().put('\x93'));
+  EXPECT_EQ(Quick::kFeedDownOne, Input().put('\x94'));
+  for (const int byte : {0x83, 0x85, 0x8f, 0x95, 0xff})
+    EXPECT_EQ(Quick::kNone, Input().put(char(byte))) << byte;
+  Input line;
+  put(line, "G1 X");
+  EXPECT_EQ(Quick::kHold, line.put('\x84'));
+  put(line, "5\n");
+  EXPECT_EQ("G1 X5|", lines(line));
+  // One behind the other.
+  EXPECT_EQ(Quick::kFeedDown, line.put('\x92'));
+  EXPECT_EQ(Quick::kFeedDown, line.put('\x92'));
+}
+
+TEST(Quick, BytesOfATextAreNone) {
+  Input input;
+  EXPECT_EQ("", put(input, "\xc3\x84 \xe2\x80\x93 ;\x84\x92 (\x84\n(\x91 ; \x93)\n"));
+  lines(input);
+  EXPECT_EQ(Quick::kHold, input.put('\x84'));
+  put(input, "G1\n;(\n");
+  EXPECT_EQ(Quick::kFeedUp, input.put('\x91'));
+  put(input, "(");
+  input.clear();
+  EXPECT_EQ(Quick::kHold, input.put('\x84'));
+}
+
+TEST(Input, ShowsALineThatStays) {
+  Input input;
+  char line[Input::kRoom + 1];
+  EXPECT_FALSE(input.peekLine(line));
+  EXPECT_TRUE(input.isEmpty());
+  for (int round = 0; round < 40; ++round) {
+    put(input, "G1 X5 Y6\nM0\n");
+    EXPECT_TRUE(input.peekLine(line));
+    EXPECT_STREQ("G1 X5 Y6", line);
+    EXPECT_EQ(115, input.room());
+    EXPECT_EQ("G1 X5 Y6|M0|", lines(input));
+    EXPECT_EQ(127, input.room());
+  }
+}

@@ -95,7 +95,7 @@ class World {
     while (!isDone()) tick();
   }
 
-  Mover& mover() { return mover_; }
+  void stop() { mover_.stop(axes_); }
   Geometry& geometry() { return geometry_; }
   SetPoint setPoint() { return axes_.setPoint(); }
 
@@ -203,7 +203,7 @@ TEST(Mover, BrakesOnAStopAndForgetsTheRest) {
   world.lineTo(500, 0, 0, 15);
   world.lineTo(0, 0, 0, 15);
   for (int i = 0; i < 300; ++i) world.tick();
-  world.mover().stop();
+  world.stop();
   const std::size_t before = world.places.size();
   world.run();
   EXPECT_LT((double(world.places.size()) - double(before)) * kTick, 0.35);

@@ -64,9 +64,7 @@ class Plain {
 
   /// One control tick while the main program is busy with something else.
   bool tickAlone() {
-    motion::SetPoint point;
-    const bool took = set_points.take(point);
-    if (took) now = point;
+    const bool took = playback.next(set_points, now);
     asked.push_back({motion::toMm<double>(now.left), motion::toMm<double>(now.right),
                      motion::toMm<double>(now.z)});
     return took;
@@ -91,6 +89,7 @@ class Plain {
   double seconds;
   motion::Mover mover;
   motion::SetPoints set_points;
+  motion::Playback playback;
   std::function<motion::Lengths<float>(motion::Point<float>)> inverse = plainInverse;
   motion::Point<float> at = {0, 0};
   motion::SetPoint now = {0, 0, 0};

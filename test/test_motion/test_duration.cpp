@@ -74,7 +74,7 @@ TEST(Duration, OfShortMovesIsLessThanTheirStopsWouldTake) {
 
 TEST(Ring, TellsHowManyWait) {
   SetPoints points;
-  SetPoint point = {0, 0, 0};
+  Leg point = {{0, 0, 0}, 1, 1, 0};
   for (int round = 0; round < 30; ++round) {
     for (int i = 0; i < SetPoints::kMost - round % 3; ++i) {
       EXPECT_EQ(i, points.count());

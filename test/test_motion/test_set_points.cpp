@@ -44,7 +44,7 @@ void walk(const Tried& tried, const Exactly<double>& judge, const Exactly<float>
   while (!mover.isIdle()) {
     // A ring full at once would hide which tick is which; so one after the other is taken.
     SetPoints single;
-    for (int i = 1; i < SetPoints::kMost; ++i) single.push(last);
+    for (int i = 1; i < SetPoints::kMost; ++i) single.push({last, 1, 1, 0});
     ASSERT_EQ(Filled::kYes, mover.fill(single, counted));
     const SetPoint now = mover.last();
     const double share = mover.isIdle() ? 1 : double(mover.walk().done) / double(walked.length);
@@ -99,7 +99,7 @@ TEST(SetPoints, TellTheStepThatComesSoOrTheLastThatIsKnown) {
   SetPoints ring;
   const SetPoint *from = nullptr, *to = nullptr;
   int32_t pushed = 0, taken = 0;
-  SetPoint point = {0, 0, 0};
+  Leg leg = {{0, 0, 0}, 1, 1, 0};
   EXPECT_FALSE(ring.stepAhead(3, from, to));
   // Twice round the ring and with every number that may wait: set-points are the squares.
   for (int waiting = 0; waiting < SetPoints::kMost; ++waiting) {
@@ -107,11 +107,11 @@ TEST(SetPoints, TellTheStepThatComesSoOrTheLastThatIsKnown) {
       while (pushed - taken < waiting + 1) {
         ASSERT_TRUE(ring.hasRoom());
         ++pushed;
-        ring.push({pushed * pushed, -pushed, 0});
+        ring.push({{pushed * pushed, -pushed, 0}, 1, 1, 0});
       }
-      ASSERT_TRUE(ring.take(point));
+      ASSERT_TRUE(ring.take(leg));
       ++taken;
-      ASSERT_EQ(taken * taken, point.left);
+      ASSERT_EQ(taken * taken, leg.to.left);
       ASSERT_EQ(waiting > 0, ring.stepAhead(3, from, to));
       if (waiting == 0) continue;
       const int32_t last = taken + (waiting < 3 ? waiting : 3);

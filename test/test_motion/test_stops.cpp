@@ -31,65 +31,39 @@ Plain cruising() {
 
 }  // namespace
 
-TEST(Stop, BrakesAlongThePathAndForgetsTheRest) {
-  for (const double seconds : {0.01, 0.005}) {
-    Plain plain(kGentle, seconds);
-    plain.lineTo(300, 400);
-    plain.lineTo(0, 0);
-    for (int i = 0; i < 500; ++i) plain.tick();
-    const Asked before = plain.asked.back();
-    plain.mover.stop();
-    plain.run();
-    EXPECT_TRUE(plain.mover.isIdle());
-    const Asked& after = plain.asked.back();
-    // What waited in the ring, and v^2 / 2a.
-    EXPECT_NEAR(distance(after, before), 11 * 15 * seconds + 1.125, 0.3);
-    EXPECT_NEAR(after.x * 4 - after.y * 3, 0, 0.002);
-    EXPECT_EQ(plain.now.left, plain.mover.last().left);
-    EXPECT_EQ(plain.now.right, plain.mover.last().right);
-  }
+/// Ticks until it stands, for a minute at most.
+void standStill(Plain& plain) {
+  for (int i = 0; i < 6000 && (i == 0 || !plain.playback.isAtRest()); ++i) plain.tick();
 }
 
-TEST(Stop, LosesSpeedNoFasterThanItMayAtAnyMoment) {
+TEST(Hold, StandsWithinTheBrakingDistanceAndATick) {
+  for (const double seconds : {0.01, 0.005})
+    for (const double feed : {1.0, 4.0, 15.0, 19.0}) {
+      Plain plain(kGentle, seconds);
+      plain.lineTo(300, 400, 0, float(feed));
+      plain.lineTo(0, 0);
+      for (int i = 0; i < 1500; ++i) plain.tick();
+      const Asked before = plain.asked.back();
+      plain.playback.hold();
+      standStill(plain);
+      const Asked& after = plain.asked.back();
+      EXPECT_LE(distance(after, before), feed * feed / 200 + feed * seconds);
+      EXPECT_GE(distance(after, before), feed * feed / 200 - feed * seconds);
+      EXPECT_NEAR(after.x * 4 - after.y * 3, 0, 0.002);
+      EXPECT_LE(hardest(plain), 105);
+    }
+}
+
+TEST(Hold, LosesSpeedNoFasterThanItMayAtAnyMoment) {
   for (int at = 1; at < 120; ++at) {
     Plain plain;
     plain.lineTo(12, 0);
     for (int i = 0; i < at; ++i) plain.tick();
-    plain.mover.stop();
-    plain.run();
+    plain.playback.hold();
+    standStill(plain);
     EXPECT_LE(hardest(plain), 205) << at;
     EXPECT_LE(plain.asked.back().x, 12.0001);
   }
-}
-
-TEST(Stop, GoesOnFromWhereItStopped) {
-  Plain plain = cruising();
-  plain.mover.stop();
-  plain.run();
-  plain.at = {float(plain.asked.back().x), float(plain.asked.back().y)};
-  plain.lineTo(0, 0);
-  plain.run();
-  EXPECT_EQ(0, plain.now.left);
-  EXPECT_LE(hardest(plain), 205);
-}
-
-TEST(Stop, InShortMovesRunsThroughSeveralOfThem) {
-  Plain plain;
-  for (int i = 1; i <= 300; ++i) plain.lineTo(float(i) * 0.1f, 0);
-  plain.mover.stop();
-  plain.run();
-  EXPECT_TRUE(plain.mover.isIdle());
-  EXPECT_LE(hardest(plain), 205);
-  EXPECT_LT(plain.asked.back().x, 29.9);
-}
-
-TEST(Stop, WithNothingToDoIsNothing) {
-  Plain plain;
-  plain.mover.stop();
-  plain.mover.hold();
-  plain.lineTo(1, 0);
-  plain.run();
-  EXPECT_EQ(toCounts(1.0f), plain.now.left);
 }
 
 TEST(Hold, RestsOnThePathAndResumesToTheSameEnd) {
@@ -98,41 +72,137 @@ TEST(Hold, RestsOnThePathAndResumesToTheSameEnd) {
     plain.lineTo(20, 0);
     plain.lineTo(20, 20, -1);
     for (int i = 0; i < at; ++i) plain.tick();
-    plain.mover.hold();
-    for (int i = 0; i < 60; ++i) plain.tick();
-    EXPECT_TRUE(plain.mover.isIdle() || plain.mover.isHeld()) << at;
+    plain.playback.hold();
+    standStill(plain);
     const SetPoint held = plain.now;
+    EXPECT_LT(std::min(std::fabs(plain.asked.back().y), std::fabs(plain.asked.back().x - 20)),
+              0.06);
     for (int i = 0; i < 20; ++i) plain.tick();
     EXPECT_EQ(held.left, plain.now.left);
     EXPECT_EQ(held.right, plain.now.right);
-    plain.mover.resume();
+    plain.playback.resume();
     plain.run();
     EXPECT_EQ(toCounts(20.0f), plain.now.left);
     EXPECT_EQ(toCounts(20.0f), plain.now.right);
     EXPECT_EQ(toCounts(-1.0f), plain.now.z);
     // The corner is passed within a tick, at up to 3.5 mm/s.
     EXPECT_LE(hardest(plain), 410) << at;
+    EXPECT_TRUE(plain.playback.isDone());
   }
+}
+
+TEST(Hold, InShortMovesRunsThroughSeveralOfThem) {
+  Plain plain;
+  for (int i = 1; i <= 300; ++i) plain.lineTo(float(i) * 0.1f, 0);
+  const double before = plain.asked.back().x;
+  plain.playback.hold();
+  standStill(plain);
+  EXPECT_LE(hardest(plain), 205);
+  EXPECT_LT(plain.asked.back().x, before + 1.3);
+  plain.playback.resume();
+  plain.run();
+  EXPECT_EQ(toCounts(30.0f), plain.now.left);
 }
 
 TEST(Hold, ResumedWhileStillBrakingGoesOnAtThatSpeed) {
   Plain plain = cruising();
-  plain.mover.hold();
+  plain.playback.hold();
   for (int i = 0; i < 8; ++i) plain.tick();
-  plain.mover.resume();
+  plain.playback.resume();
   for (int i = 0; i < 100; ++i) plain.tick();
   const std::vector<double> speeds = plain.speeds();
   EXPECT_GT(*std::min_element(speeds.begin() + 100, speeds.end()), 5);
   EXPECT_LE(hardest(plain), 105);
 }
 
-TEST(Hold, CanBeStopped) {
-  Plain plain = cruising();
-  plain.mover.hold();
-  for (int i = 0; i < 60; ++i) plain.tick();
-  plain.mover.stop();
+TEST(Hold, WithNothingToDoKeepsWhatComes) {
+  Plain plain;
+  plain.playback.hold();
+  plain.lineTo(1, 0);
+  for (int i = 0; i < 50; ++i) plain.tick();
+  EXPECT_EQ(0, plain.now.left);
+  plain.playback.resume();
   plain.run();
-  EXPECT_TRUE(plain.mover.isIdle());
+  EXPECT_EQ(toCounts(1.0f), plain.now.left);
+}
+
+TEST(Hold, ForgottenGoesOnFromWhereItStands) {
+  Plain plain = cruising();
+  plain.playback.hold();
+  standStill(plain);
+  plain.set_points.clear();
+  plain.playback.reset();
+  plain.playback.resume();
+  plain.mover.standAt(plain.now);
+  plain.at = {float(plain.asked.back().x), float(plain.asked.back().y)};
+  plain.lineTo(0, 0);
+  plain.run();
+  EXPECT_EQ(0, plain.now.left);
+  EXPECT_LE(hardest(plain), 205);
+}
+
+TEST(Share, IsThatOfThePlannedSpeedAllTheWay) {
+  for (const int share : {26, 64, 128, 200, 255}) {
+    Plain plain;
+    plain.playback.goAt(uint16_t(share));
+    plain.lineTo(60, 0);
+    plain.lineTo(60, 60);
+    plain.lineTo(60.1f, 60.3f);
+    plain.run();
+    EXPECT_EQ(toCounts(60.1f), plain.now.left);
+    EXPECT_EQ(toCounts(60.3f), plain.now.right);
+    const std::vector<double> speeds = plain.speeds();
+    EXPECT_NEAR(*std::max_element(speeds.begin(), speeds.end()), 15.0 * share / 256, 0.03);
+    // Here, too, the corner is passed within a tick.
+    EXPECT_LE(hardest(plain), 105 + 350.0 * share / 256);
+    EXPECT_TRUE(plain.playback.isDone());
+  }
+}
+
+TEST(Share, ChangesWithinTheAcceleration) {
+  Plain plain = cruising();
+  for (const int share : {128, 30, 256, 255, 100, 256}) {
+    plain.playback.goAt(uint16_t(share));
+    for (int i = 0; i < 60; ++i) plain.tick();
+    EXPECT_NEAR(plain.speeds().back(), 15.0 * share / 256, 0.03) << share;
+  }
+  EXPECT_LE(hardest(plain), 105);
+  plain.run();
+  EXPECT_EQ(toCounts(500.0f), plain.now.left);
+  EXPECT_EQ(toCounts(100.0f), plain.now.right);
+}
+
+TEST(Boost, MakesMovesFasterWithinTheirLimits) {
+  Plain plain;
+  plain.lineTo(200, 0, 0, 8);
+  for (int i = 0; i < 200; ++i) plain.tick();
+  plain.mover.boost(1.5f, 15);
+  for (int i = 0; i < 100; ++i) plain.tick();
+  EXPECT_NEAR(plain.speeds().back(), 12, 0.01);
+  plain.mover.boost(2, 15);
+  for (int i = 0; i < 100; ++i) plain.tick();
+  EXPECT_NEAR(plain.speeds().back(), 15, 0.01);
+  plain.mover.boost(1, 15);
+  for (int i = 0; i < 100; ++i) plain.tick();
+  EXPECT_NEAR(plain.speeds().back(), 8, 0.01);
+  plain.run();
+  EXPECT_EQ(toCounts(200.0f), plain.now.left);
+  EXPECT_LE(hardest(plain), 105);
+}
+
+TEST(Boost, InARowOfShortMovesKeepsAccelerationAndEnd) {
+  for (const float times : {1.3f, 2.0f}) {
+    Plain plain;
+    for (int i = 1; i <= 400; ++i) {
+      plain.lineTo(float(i) * 0.4f, float(i % 50 == 0), 0, 6);
+      if (i % 40 == 0) plain.mover.boost(i % 80 == 0 ? times : 1, 20);
+    }
+    plain.run();
+    EXPECT_EQ(toCounts(160.0f), plain.now.left);
+    EXPECT_LE(hardest(plain), 450);
+    const std::vector<double> speeds = plain.speeds();
+    EXPECT_NEAR(*std::max_element(speeds.begin(), speeds.end()), 6 * times, 0.1);
+  }
 }
 
 TEST(LateMainProgram, SetPointsWaitWhereTheyAreAndSetOutFromRest) {

@@ -10,7 +10,8 @@
 struct Step {
   enum Kind {
     kSend,     ///< `-> text`: a line with its end
-    kSendRaw,  ///< `>> text`: characters alone; ^X is ctrl-X, ^N a line end
+    kSendRaw,  ///< `>> text`: characters alone; ^X is ctrl-X, ^N a line end, ^H 0x84, ^0 to ^4 0x90
+               ///< to 0x94
     kExpect,   ///< `<- text [within t]`: the next line, reports aside
     kSkipTo,   ///< `<* text [within t]`: some later line; those before are passed over
     kAsk,      ///< `~~ question`: of the simulated machine

@@ -93,8 +93,9 @@ void begin(Mover& mover, Point<float> at) {
 
 /// The control tick's part.
 void take(SetPoints& set_points) {
+  static motion::Playback playback;
   SetPoint point = {0, 0, 0};
-  set_points.take(point);
+  playback.next(set_points, point);
   left = point.left;
   right = point.right;
 }

@@ -1,6 +1,8 @@
 // The ring of waiting characters.
 #include "input.h"
 
+#include <string.h>
+
 namespace gcode {
 namespace {
 
@@ -25,7 +27,25 @@ void Input::store(char character) {
   ++used_;
 }
 
+/// What a byte above 127 asks for, where it is not part of a text: of a comment, or of a letter in
+/// UTF-8, whose first byte is above 127 as well.
+Quick Input::putQuick(char character) {
+  const uint8_t byte = uint8_t(character);
+  const bool is_text = comment_ != 0 || after_text_;
+  const bool is_quick = byte == 0x84 || (byte >= 0x90 && byte <= 0x94);
+  after_text_ = byte > 127 && (is_text || !is_quick);
+  if (character == '\n' || (character == ')' && comment_ == '('))
+    comment_ = 0;
+  else if (comment_ == 0 && (character == '(' || character == ';'))
+    comment_ = character;
+  if (is_text || !is_quick) return Quick::kNone;
+  if (byte == 0x84) return Quick::kHold;
+  return Quick(uint8_t(Quick::kFeedUsual) + (byte - 0x90));
+}
+
 Quick Input::put(char character) {
+  const Quick quick = putQuick(character);
+  if (quick != Quick::kNone) return quick;
   const bool after_quick = after_quick_;
   after_quick_ = character == '!' || character == '~' || character == '`' || character == kCtrlX;
   if (character == '!') return Quick::kStop;
@@ -56,19 +76,25 @@ Quick Input::put(char character) {
   return Quick::kNone;
 }
 
-bool Input::takeLine(char (&line)[kRoom + 1]) {
+bool Input::peekLine(char (&line)[kRoom + 1]) const {
   if (lines_ == 0) return false;
-  --lines_;
-  if (resumable_ != 0) --resumable_;
   uint8_t length = 0;
-  for (;;) {
-    const char character = ring_[first_];
-    first_ = uint8_t((uint16_t(first_) + 1) % kRoom);
-    --used_;
-    if (character == '\n') break;
-    line[length++] = character;
+  for (uint8_t at = first_;; at = uint8_t(at + 1)) {
+    if (at == kRoom) at = 0;
+    if (ring_[at] == '\n') break;
+    line[length++] = ring_[at];
   }
   line[length] = '\0';
+  return true;
+}
+
+bool Input::takeLine(char (&line)[kRoom + 1]) {
+  if (!peekLine(line)) return false;
+  const uint8_t length = uint8_t(strlen(line));
+  first_ = uint8_t((uint16_t(first_) + length + 1) % kRoom);
+  used_ = uint8_t(used_ - length - 1);
+  --lines_;
+  if (resumable_ != 0) --resumable_;
   was_too_long_ = length == 1 && line[0] == kTooLong;
   return true;
 }
@@ -82,6 +108,7 @@ bool Input::takeResume() {
 void Input::clear() {
   first_ = used_ = lines_ = resumable_ = 0;
   swallowing_ = false;
+  comment_ = 0;
 }
 
 }  // namespace gcode

@@ -3,5 +3,7 @@
 #pragma once
 
 #include "axis_loop.h"
+#include "lift.h"
 #include "mover.h"
+#include "playback.h"
 #include "watch.h"

@@ -37,6 +37,7 @@ struct Move {
   float z_to;            ///< [mm]
   float length;          ///< [mm] over all axes
   float acceleration;    ///< along it, at most
+  float feed;            ///< speed along it that was asked for
   float top;             ///< speed along it, at most
   float entry_squared;   ///< of the speed with which it begins, at most
   float corner_squared;  ///< the same, as far as the corner before it is concerned
@@ -71,20 +72,26 @@ class MoveQueue {
   /// Queues a move from where the last one ends, at z `z_from`; `feed` [mm/s] over all axes.
   Added add(const Path<float>& path, float z_from, float z_to, float feed, Space space);
 
+  /// From now on feeds count so many times, but no more than `most_feed` [mm/s] is made of them;
+  /// chains, z, corners and arcs keep their limits.
+  void boost(float times, float most_feed);
+
   void dropFirst();
   void clear() { count_ = 0; }
 
  private:
   Move& at(uint8_t index) { return ring_[uint8_t(first_ + index) % kMost]; }
   const Move& at(uint8_t index) const { return ring_[uint8_t(first_ + index) % kMost]; }
-  float topOf(const Move& move, float feed, float along, float rise) const;
+  float topOf(const Move& move) const;
+  void plan(Move& move) const;
   void lookAhead();
 
   Move ring_[kMost];
   uint8_t first_ = 0, count_ = 0;
-  Direction end_;  ///< of the last one queued
-  Limits limits_;  ///< in ticks
-  float seconds_;  ///< of a tick
+  Direction end_;                    ///< of the last one queued
+  Limits limits_;                    ///< in ticks
+  float seconds_;                    ///< of a tick
+  float boost_ = 1, most_feed_ = 0;  ///< the second in mm a tick
   Sprockets<float> sprockets_;
 };
 
@@ -102,11 +109,13 @@ inline void MoveQueue::prepare(const Limits& limits, float seconds_per_tick) {
              limits.corner_deviation};
 }
 
-/// Greatest speed of a move whose shares of way along the sheet and of z are told [1].
-inline float MoveQueue::topOf(const Move& move, float feed, float along, float rise) const {
+/// Greatest speed of a move.
+inline float MoveQueue::topOf(const Move& move) const {
   using queue_detail::smaller;
-  float top = feed * seconds_;
-  if (rise > 0) top = smaller(top, limits_.z_speed / rise);
+  float top = move.feed;
+  if (boost_ != 1 && top < most_feed_) top = smaller(top * boost_, most_feed_);
+  const float along = move.path.length / move.length;
+  if (along < 1) top = smaller(top, limits_.z_speed / float(sqrt(1 - along * along)));
   if (along == 0) return top;
   const float chains_top = limits_.chain_speed / along;
   if (move.space == Space::kChains) return smaller(top, chains_top);
@@ -117,6 +126,23 @@ inline float MoveQueue::topOf(const Move& move, float feed, float along, float r
   // Round an arc the sled is pulled inwards all the way.
   const float round = float(sqrt(limits_.acceleration_xy * move.path.radius)) / along;
   return smaller(top, round);
+}
+
+/// What follows from a move's feed.
+inline void MoveQueue::plan(Move& move) const {
+  move.top = topOf(move);
+  const float ticks = ticksOf({move.length, move.top, move.acceleration}, 0, 0);
+  move.most_ticks = ticks < float(kMostTold) ? uint16_t(ticks) + 1 : uint16_t(kMostTold);
+}
+
+inline void MoveQueue::boost(float times, float most_feed) {
+  boost_ = times;
+  most_feed_ = most_feed * seconds_;
+  for (uint8_t i = 0; i < count_; ++i) {
+    plan(at(i));
+    if (i != 0) at(i).entry_squared = -1;
+  }
+  lookAhead();
 }
 
 inline Added MoveQueue::add(const Path<float>& path, float z_from, float z_to, float feed,
@@ -144,19 +170,16 @@ inline Added MoveQueue::add(const Path<float>& path, float z_from, float z_to, f
     move.acceleration =
         smaller(limits_.acceleration_xy / xy, limits_.acceleration_z / float(fabs(z)));
   }
-  move.top = topOf(move, feed, xy, float(fabs(z)));
+  move.feed = feed * seconds_;
+  plan(move);
   const Point<float> begin = directionOf(path, false);
   const Point<float> end = path.sweep == 0 ? begin : directionOf(path, true);
-  const float ticks = ticksOf({move.length, move.top, move.acceleration}, 0, 0);
-  move.most_ticks = ticks < float(kMostTold) ? uint16_t(ticks) + 1 : uint16_t(kMostTold);
   move.entry_squared = move.corner_squared = 0;
   if (count_ != 0) {
     const Move& before = at(uint8_t(count_ - 1));
-    const float slower = smaller(before.top, move.top);
-    const float corner = cornerSpeedSquared(
+    move.corner_squared = cornerSpeedSquared(
         end_, {begin.x * xy, begin.y * xy, z}, smaller(before.acceleration, move.acceleration),
         limits_.corner_deviation, 0.5f * (before.length + move.length));
-    move.corner_squared = smaller(corner, slower * slower);
   }
   end_ = {end.x * xy, end.y * xy, z};
   ++count_;
@@ -171,7 +194,7 @@ inline void MoveQueue::lookAhead() {
   for (uint8_t i = count_; i-- > 1;) {
     Move& move = at(i);
     const float brakes = exit_squared + 2 * move.acceleration * move.length;
-    const float entry = smaller(move.corner_squared, brakes);
+    const float entry = smaller(smaller(move.corner_squared, move.top * move.top), brakes);
     if (entry == move.entry_squared && uint8_t(i + 1) != count_) return;
     move.entry_squared = entry;
     exit_squared = entry;
@@ -179,14 +202,17 @@ inline void MoveQueue::lookAhead() {
 }
 
 inline bool MoveQueue::lastsLonger(uint16_t ticks, const Walk& walk) const {
+  using queue_detail::smaller;
   uint16_t most = 0;
   for (uint8_t i = 0; i < count_; ++i) most = uint16_t(most + at(i).most_ticks);
   if (most <= ticks) return false;
   const float limit = float(ticks);
-  float sum = 0, entry = walk.speed, walked = walk.done;
+  float sum = 0, entry = smaller(walk.speed, first().top), walked = walk.done;
   for (uint8_t i = 0; i < count_; ++i) {
     const Move& move = at(i);
-    const float exit = i + 1 < count_ ? float(sqrt(at(uint8_t(i + 1)).entry_squared)) : 0;
+    const bool is_last = i + 1 == count_;
+    const float next = is_last ? 0 : float(sqrt(at(uint8_t(i + 1)).entry_squared));
+    const float exit = smaller(next, move.top);
     sum += ticksOf({move.length - walked, move.top, move.acceleration}, entry, exit);
     if (sum > limit) return true;
     entry = exit;

@@ -5,8 +5,9 @@
 //   mover.standAt(set_point);                 at rest, where the axes are
 //   mover.add(path, z_to, feed, space);       if hasRoom(); `ok` may go out
 //   mover.fill(set_points, inverse);          often: at least every 100 ms
-//   mover.stop(); / hold(); / resume();       then go on filling
-// All moves are done, or a stop has come to rest, when isIdle() and set_points.isEmpty().
+//   mover.boost(1.5f, 20);                    feeds count more; then go on filling
+// All moves are done when isIdle() and set_points.isEmpty(). How the set-points are walked, and
+// that this may brake and hold at any moment: playback.h.
 #pragma once
 
 #include "move_queue.h"
@@ -35,8 +36,6 @@ class Mover {
   bool hasRoom() const { return queue_.hasRoom(); }
   /// Whether what waits lasts for more than so many ticks; MoveQueue::lastsLonger.
   bool lastsLonger(uint16_t ticks) const { return queue_.lastsLonger(ticks, walk()); }
-  /// Held, and at rest as soon as the set-points are.
-  bool isHeld() const { return braking_ && !forgets_ && walk().speed == 0; }
 
   /// Everything begins here; what waits is forgotten.
   void standAt(const SetPoint& point);
@@ -48,12 +47,9 @@ class Mover {
   template <class Inverse>
   Filled fill(SetPoints& set_points, const Inverse& inverse);
 
-  /// Brakes along the path, then forgets what waits.
-  void stop();
-  /// Brakes along the path and stays; resume() goes on, stop() forgets.
-  void hold();
-  void resume();
-  /// Forgets what waits without braking: motors are off, or something else moves them.
+  /// From now on feeds count so many times, see MoveQueue::boost.
+  void boost(float times, float most_feed);
+  /// Forgets what waits: the axes stand, motors are off, or something else moves them.
   void forget();
 
   /// The last set-point that was worked out: where all comes to rest, once isIdle().
@@ -65,7 +61,6 @@ class Mover {
  private:
   void standStill() { segment_ = standing({last_.left, last_.right}); }
   void cutShort();
-  void brake(bool forgets);
   void takeUp();
   void dropFirst();
   int32_t zAt(const Move& move, float done) const;
@@ -81,6 +76,7 @@ class Mover {
   template <class Inverse>
   __attribute__((noinline)) bool cut(const Inverse& inverse);
   void advance();
+  void push(SetPoints& set_points) const;
 
   MoveQueue queue_;
   Walk walk_ = {0, 0};   ///< where the segment in hand ends
@@ -95,7 +91,9 @@ class Mover {
   float z_from_ = 0;                   ///< [mm] where the first move begins
   float z_end_ = 0;                    ///< [mm] where the last one ends
   SetPoint last_ = {0, 0, 0};
-  bool braking_ = false, forgets_ = false;
+  int32_t way_ = 0,
+          way_change_ = 0;  ///< [counts] of the last tick, and its change in each of these
+  uint16_t gain_ = 1;       ///< [counts/tick] by which it may change
 };
 
 }  // namespace motion

@@ -9,7 +9,7 @@ inline void Mover::forget() {
   queue_.clear();
   walk_ = {0, 0};
   z_end_ = toMm<float>(last_.z);
-  is_taken_up_ = braking_ = forgets_ = false;
+  is_taken_up_ = false;
   standStill();
 }
 
@@ -24,7 +24,7 @@ inline Added Mover::add(const Path<float>& path, float z_to, float feed, Space s
   if (added != Added::kYes) return added;
   z_end_ = z_to;
   // What brakes may have been going to stop for want of this move.
-  if (change_ < 0 && !braking_) cutShort();
+  if (change_ < 0) cutShort();
   return added;
 }
 
@@ -39,23 +39,11 @@ inline void Mover::cutShort() {
   standStill();
 }
 
-inline void Mover::brake(bool forgets) {
+inline void Mover::boost(float times, float most_feed) {
+  queue_.boost(times, most_feed);
   if (queue_.isEmpty()) return;
-  if (!braking_) cutShort();
-  braking_ = true;
-  forgets_ = forgets;
-}
-
-inline void Mover::stop() { brake(true); }
-
-inline void Mover::hold() {
-  if (!braking_) brake(false);
-}
-
-inline void Mover::resume() {
-  if (!braking_ || forgets_) return;
   cutShort();
-  braking_ = false;
+  is_taken_up_ = false;
 }
 
 inline void Mover::dropFirst() {
@@ -71,17 +59,21 @@ inline void Mover::takeUp() {
   const Move& move = queue_.first();
   is_taken_up_ = true;
   has_z_ = move.z_to != z_from_;
+  const int32_t gain = toCounts(move.acceleration);
+  gain_ = gain < 1 ? 1 : gain > 65535 ? 65535 : uint16_t(gain);
+  // A move whose feed was lowered is still faster for a while.
+  const float top = move.top > walk_.speed ? move.top : walk_.speed;
   // In a segment of two ticks both fall on knots.
   const float kShort = 5;  // [ticks]
   even_ticks_ = uneven_ticks_ = move.space == Space::kEdge ? 1 : 2;
-  if (move.length < kShort * move.top && move.space == Space::kSheet) return;
+  if (move.length < kShort * top && move.space == Space::kSheet) return;
   if (move.space == Space::kEdge) return;
   // Up to here two places of a segment are near (kMostRise).
-  const float longest = kLongestSegment / move.top;
+  const float longest = kLongestSegment / top;
   float even = longest, uneven = longest;
   if (move.path.length > 0 && move.space == Space::kSheet) {
     const Surroundings<float> around = surroundingsOf(move.path, queue_.sprockets());
-    const float share = move.path.length / move.length, speed = move.top * share;
+    const float share = move.path.length / move.length, speed = top * share;
     const float third = thirdSlope(move.path.curvature(), around);
     const float second = secondSlope(move.path.curvature(), around);
     even = queue_detail::smaller(even, longestTime(third, second, speed, 0.0f));
@@ -124,6 +116,8 @@ bool Mover::begin(const Stretch& stretch, const Inverse& inverse) {
   segment_ = segmentThrough(from, between.knot, end.knot, stretch.ticks);
   if (has_z_)
     z_steps_ = stepsThrough(last_.z, zAt(move, middle.done), zAt(move, to.done), stretch.ticks);
+  way_ = toCounts(walk_.speed);
+  way_change_ = toCounts(stretch.change);
   begun_ = walk_;
   walk_ = to;
   change_ = stretch.change;
@@ -154,6 +148,7 @@ template <class Inverse>
 bool Mover::step(float change, const Inverse& inverse) {
   walk_.speed += change;
   walk_.done += walk_.speed;
+  way_ = toCounts(walk_.speed);
   change_ = 0;
   // What is left by rounding alone is not worth a tick.
   const float kHair = 1 - 1e-6f;
@@ -182,8 +177,7 @@ bool Mover::cut(const Inverse& inverse) {
   const Move& move = queue_.first();
   const Bounds bounds = {move.length - walk_.done, move.top,    move.acceleration,
                          queue_.exitSquared(),     even_ticks_, uneven_ticks_};
-  const Stretch stretch =
-      braking_ ? nextBraking(walk_.speed, bounds) : nextStretch(walk_.speed, bounds);
+  const Stretch stretch = nextStretch(walk_.speed, bounds);
   if (stretch.ticks < 2) return step(stretch.change, inverse);
   if (!begin(stretch, inverse)) return false;
   advance();
@@ -193,12 +187,19 @@ bool Mover::cut(const Inverse& inverse) {
 /// The next set-point of the segment in hand.
 inline void Mover::advance() {
   segment_.advance();
+  way_ += way_change_;
   last_.left = segment_.left.length.whole;
   last_.right = segment_.right.length.whole;
   if (has_z_) {
     z_steps_.advance();
     last_.z = z_steps_.length.whole;
   }
+}
+
+inline void Mover::push(SetPoints& set_points) const {
+  const int32_t kMostWay = (1L << 17) - 1;
+  const uint32_t way = way_ < 1 ? 1 : way_ > kMostWay ? kMostWay : uint32_t(way_);
+  set_points.push({last_, way, gain_, 0});
 }
 
 template <class Inverse>
@@ -211,16 +212,12 @@ Filled Mover::fill(SetPoints& set_points, const Inverse& inverse) {
   while (!queue_.isEmpty() && set_points.hasRoom()) {
     if (segment_.ticks_left != 0) {
       advance();
-      set_points.push(last_);
+      push(set_points);
       continue;
     }
     const bool rests = walk_.speed == 0;
-    if (braking_ && rests) {
-      if (forgets_) forget();
-      return Filled::kYes;
-    }
     if (!cut(inverse)) return Filled::kOutOfReach;
-    set_points.push(last_);
+    push(set_points);
     // While nothing moved the tick found nothing, of course.
     if (rests) set_points.hasRunDry();
   }

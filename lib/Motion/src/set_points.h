@@ -10,6 +10,14 @@ struct SetPoint {
   int32_t left, right, z;  ///< [counts of kCountsPerMm]
 };
 
+/// The way to a set-point from the one before it, in one tick.
+struct Leg {
+  SetPoint to;
+  uint32_t way;   ///< [counts] over all axes, at least 1 and less than 2^17
+  uint16_t gain;  ///< [counts/tick] by which the way may change from tick to tick, at least 1
+  uint8_t beam;   ///< how strong a laser is on it; 0: off
+};
+
 /// A ring with one writer, the main program, and one reader, the control tick.
 ///
 /// The main program may be busy for eleven ticks, 110 ms at 100 Hz; and a stop acts that soon. If
@@ -28,19 +36,19 @@ class SetPoints {
   }
 
   /// To be called by the writer, if there is room.
-  void push(const SetPoint& point) {
-    ring_[head_] = point;
+  void push(const Leg& leg) {
+    ring_[head_] = leg;
     fence();
     head_ = next(head_);
   }
 
   /// To be called by the reader: the next one, or false if there is none.
-  bool take(SetPoint& point) {
+  bool take(Leg& leg) {
     if (isEmpty()) {
       ran_dry_ = true;
       return false;
     }
-    point = ring_[tail_];
+    leg = ring_[tail_];
     fence();
     tail_ = next(tail_);
     return true;
@@ -49,17 +57,19 @@ class SetPoints {
   /// To be called by the reader after take(): the last of the next `ticks` steps that are known, as
   /// its two ends; false if nothing waits.
   bool stepAhead(uint8_t ticks, const SetPoint*& from, const SetPoint*& to) const {
-    const uint8_t head = head_, tail = tail_;
-    const uint8_t waiting = uint8_t(head >= tail ? head - tail : head + kMost + 1 - tail);
+    const uint8_t tail = tail_, waiting = count();
     if (waiting == 0) return false;
     const uint8_t steps = ticks < waiting ? ticks : waiting;
     // The place before the tail still holds what was taken: the writer leaves it free.
     const uint8_t last = uint8_t(tail + steps - 1);
     const uint8_t at = last > kMost ? uint8_t(last - kMost - 1) : last;
-    to = &ring_[at];
-    from = &ring_[at == 0 ? uint8_t(kMost) : uint8_t(at - 1)];
+    to = &ring_[at].to;
+    from = &ring_[at == 0 ? uint8_t(kMost) : uint8_t(at - 1)].to;
     return true;
   }
+
+  /// To be called by the reader, if there is one: that which comes next.
+  const Leg& first() const { return ring_[tail_]; }
 
   /// To be called by the writer: whether the reader found nothing since this was last asked.
   bool hasRunDry() {
@@ -77,7 +87,7 @@ class SetPoints {
 
   static uint8_t next(uint8_t at) { return at == kMost ? 0 : uint8_t(at + 1); }
 
-  SetPoint ring_[kMost + 1];
+  Leg ring_[kMost + 1];
   volatile uint8_t head_ = 0, tail_ = 0;
   volatile bool ran_dry_ = false;
 };

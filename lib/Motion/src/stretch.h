@@ -61,6 +61,13 @@ inline float ticksOfCruise(float speed, const Bounds& bounds) {
   return (bounds.left - (brakes > 0 ? brakes : 0)) / speed;
 }
 
+/// Ticks of braking to a top that was lowered while the sled was faster.
+inline Stretch slowing(float speed, const Bounds& bounds) {
+  const uint8_t ticks = atMost((speed - bounds.top) / bounds.acceleration, bounds.uneven_ticks);
+  const bool fits = after({0, speed}, -bounds.acceleration, ticks).done <= bounds.left;
+  return {fits ? ticks : uint8_t(1), -bounds.acceleration};
+}
+
 }  // namespace stretch_detail
 
 /// The next ticks of a move: as fast as allowed, and slow enough to keep the speed at its end.
@@ -73,6 +80,7 @@ inline float ticksOfCruise(float speed, const Bounds& bounds) {
 inline Stretch nextStretch(float speed, const Bounds& bounds) {
   using namespace stretch_detail;
   const float a = bounds.acceleration;
+  if (speed > bounds.top + a) return slowing(speed, bounds);
   const float exit = float(sqrt(bounds.exit_squared));
   const float last = bounds.left < a ? bounds.left : a;
   float may = float(sqrt(bounds.exit_squared + 2 * a * bounds.left)) - 0.5f * a;
@@ -92,19 +100,6 @@ inline Stretch nextStretch(float speed, const Bounds& bounds) {
     return {fits ? ticks : uint8_t(ticks - 1), -a};
   }
   return {1, change};
-}
-
-/// The next ticks of a move that shall come to rest, wherever that is; no ticks if it has.
-inline Stretch nextBraking(float speed, const Bounds& bounds) {
-  using namespace stretch_detail;
-  const float a = bounds.acceleration;
-  if (!(speed > 0)) return {0, 0};
-  if (speed <= a) return {1, -speed};
-  const uint8_t ticks = atMost(speed / a, bounds.uneven_ticks);
-  const Walk end = after({0, speed}, -a, ticks);
-  // Beyond the end of the move another acceleration may hold.
-  if (end.done > bounds.left) return {1, -a};
-  return {ticks, -a};
 }
 
 }  // namespace motion

@@ -1,0 +1,155 @@
+// How the control tick walks the way that was planned: in step with it, slower, or not at all.
+#pragma once
+
+#include <stdint.h>
+
+#include "set_points.h"
+
+namespace motion {
+
+/// Takes set-points from the ring, one each tick; and at once brakes, holds, or goes at a share of
+/// the planned speed, along the same way.
+///
+/// While it is slower than planned it stands between two set-points of the ring, and each tick goes
+/// on by its own speed, which changes by the way's acceleration at most. So a hold needs v^2 / 2a,
+/// whatever the ring holds; and as it is never faster than planned, corners and chain speeds keep
+/// their limits. next() is for the control tick; the rest for a main program that holds it off.
+class Playback {
+ public:
+  enum : uint16_t { kAllOfIt = 256 };  ///< the share that is the planned speed
+
+  /// Brakes and stays until resume().
+  void hold() { is_held_ = true; }
+  void resume() { is_held_ = false; }
+  /// From now on at so many 256ths of the planned speed, 1 to 256.
+  void goAt(uint16_t share) { share_ = share; }
+
+  bool isHeld() const { return is_held_; }
+  bool isAtRest() const { return speed_ == 0; }
+  /// Nothing is left of what was taken.
+  bool isDone() const { return in_step_; }
+
+  /// What was taken is forgotten; the axes stand.
+  void reset() {
+    in_step_ = true;
+    speed_ = 0;
+  }
+
+  /// The next tick's set-point; false: the axes stay where they are.
+  bool next(SetPoints& ring, SetPoint& now) {
+    if (in_step_) {
+      if (!is_held_ && share_ == kAllOfIt) return takeNext(ring, now);
+      if (speed_ == 0 && (is_held_ || ring.isEmpty())) return false;
+      in_step_ = false;
+      gone_ = leg_.way;
+      if (speed_ == 0) begin(ring, now);
+    }
+    return walk(ring, now);
+  }
+
+  /// The step of the axes so many ticks ahead, as far as it is known.
+  SetPoint stepAhead(const SetPoints& ring, uint8_t ticks) const {
+    const SetPoint *from = &from_, *to = &leg_.to;
+    if (in_step_) {
+      if (speed_ == 0 || !ring.stepAhead(ticks, from, to)) return {0, 0, 0};
+      return {to->left - from->left, to->right - from->right, to->z - from->z};
+    }
+    const uint32_t lost = uint32_t(leg_.gain) * ticks;
+    const uint32_t speed = !is_held_ ? speed_ : speed_ > lost ? speed_ - lost : 0;
+    const int32_t share = int32_t(shareOf(speed, leg_.way));
+    return {(to->left - from->left) * share >> kShareBits,
+            (to->right - from->right) * share >> kShareBits,
+            (to->z - from->z) * share >> kShareBits};
+  }
+
+  /// How strong the beam is now: that of the leg, by the share of its planned speed.
+  uint8_t beam() const {
+    if (in_step_) return speed_ == 0 ? 0 : leg_.beam;
+    if (speed_ >= leg_.way) return leg_.beam;
+    return uint8_t(leg_.beam * shareOf(speed_, leg_.way) >> kShareBits);
+  }
+
+ private:
+  enum : uint8_t { kShareBits = 12 };
+
+  /// A share of a way, which is less than 2^17 counts, in 4096ths.
+  static uint32_t shareOf(uint32_t part, uint32_t way) { return (part << kShareBits) / way; }
+
+  bool takeNext(SetPoints& ring, SetPoint& now) {
+    if (!ring.take(leg_)) {
+      speed_ = 0;
+      return false;
+    }
+    now = leg_.to;
+    speed_ = leg_.way;
+    return true;
+  }
+
+  /// From rest: the first leg of a way.
+  void begin(SetPoints& ring, const SetPoint& now) {
+    ring.take(leg_);
+    from_ = now;
+    gone_ = 0;
+  }
+
+  /// The way of the next tick, if it goes on at its share of the planned speed.
+  uint32_t planned(const SetPoints& ring) const {
+    const uint32_t left = leg_.way - gone_;
+    uint32_t asked = leg_.way * share_ >> 8;
+    if (asked == 0) asked = 1;
+    if (asked <= left) return asked;
+    if (ring.isEmpty()) return left;
+    // The rest of the tick falls into the next leg, at that one's speed.
+    return left + (ring.first().way * shareOf(asked - left, leg_.way) >> kShareBits);
+  }
+
+  bool walk(SetPoints& ring, SetPoint& now) {
+    if (gone_ == leg_.way && ring.isEmpty()) {
+      reset();
+      return takeNext(ring, now);
+    }
+    const uint32_t asked = is_held_ ? 0 : planned(ring);
+    const uint32_t gain = leg_.gain;
+    if (speed_ > asked + gain)
+      speed_ -= gain;
+    else if (speed_ + gain < asked)
+      speed_ += gain;
+    else
+      speed_ = asked;
+    if (speed_ == 0) return false;
+    uint32_t left = leg_.way - gone_, more = speed_;
+    while (more > left) {
+      more -= left;
+      from_ = leg_.to;
+      if (!ring.take(leg_)) {
+        now = from_;
+        reset();
+        return true;
+      }
+      left = leg_.way;
+    }
+    gone_ = leg_.way - (left - more);
+    now = between();
+    in_step_ = gone_ == leg_.way && !is_held_ && share_ == kAllOfIt && speed_ == leg_.way;
+    return true;
+  }
+
+  SetPoint between() const {
+    if (gone_ >= leg_.way) return leg_.to;
+    const int32_t share = int32_t(shareOf(gone_, leg_.way));
+    const SetPoint& to = leg_.to;
+    return {from_.left + ((to.left - from_.left) * share >> kShareBits),
+            from_.right + ((to.right - from_.right) * share >> kShareBits),
+            from_.z + ((to.z - from_.z) * share >> kShareBits)};
+  }
+
+  Leg leg_ = {{0, 0, 0}, 1, 1, 0};  ///< in which it is
+  SetPoint from_ = {0, 0, 0};       ///< where that began
+  uint32_t gone_ = 0;               ///< [counts] of it
+  uint32_t speed_ = 0;              ///< [counts/tick]
+  uint16_t share_ = kAllOfIt;
+  bool is_held_ = false;
+  bool in_step_ = true;  ///< it stands on the last set-point taken
+};
+
+}  // namespace motion

@@ -1,0 +1,66 @@
+; 0x84 holds along the path: within v^2 / 2a and a tick, whatever was queued; ~ goes on.
+~~ include setup.inc
+-> G1 X100 F900
+~~ wait 3
+~~ hold within 1.28
+~~ status <Pause,MPos:*
+~~ wait 70
+~~ on left
+~~ quiet
+>> ~
+<- ok
+<- ok
+~~ wait 2
+~~ sled X100 Y0 within 0.06
+~~ status <Idle,MPos:100.00,0.00,0.00,WPos:0.000,0.000,0.000> within 0.02
+; Meanwhile z may be jogged and be given its zero; then it comes back, and says so.
+-> G0 Z-2
+<- ok
+-> G1 X0 F900
+~~ wait 2
+>> ^H
+~~ wait 1
+-> G91 G0 Z5 G90 
+<- ok
+~~ wait 12
+~~ z 3 within 0.02
+-> B10 L
+<- B10L
+<- [Measure: *
+<- ok
+-> G10 Z1
+<- ok
+-> G0 Z0.5
+<- ok
+~~ wait 4
+~~ z 2.5 within 0.02
+; Its own line of motion waits.
+-> X20
+~~ wait 1
+~~ quiet
+>> ~
+<- ok
+<- Z goes back to -2.00
+<- ok
+<- ok
+~~ wait 2
+~~ sled X20 Y0 within 0.06
+~~ z 0 within 0.02
+; A stop in a hold forgets the rest where the sled stands.
+-> G1 X200 F900
+~~ wait 3
+>> ^H
+~~ wait 1
+>> !
+<- ok
+<- Laser off
+<* position loaded at:
+<* *
+<* *
+~~ wait 3
+~~ off left
+~~ quiet
+-> G0 X0 Y0
+<- ok
+~~ wait 3
+~~ sled X0 Y0 within 0.06
