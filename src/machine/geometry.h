@@ -40,6 +40,9 @@ class Geometry {
   /// What the laws of motion must know of the chains.
   const motion::Sprockets<float>& sprockets() const { return sprockets_; }
 
+  /// Where inverse() is smooth, as far as it matters: the sheet.
+  motion::SmoothArea smoothArea() const { return {half_width_, half_height_}; }
+
  private:
   bool isSheetReachable() const;
   void prepareRing(const settings::Values& values, const kinematics::Frame<float>& frame);

@@ -26,6 +26,7 @@ void Machine::begin() {
   axes_.prepare(values_);
   mover_.prepare(values_, axes_.secondsPerTick());
   geometry_.prepare(values_);
+  mover_.setGeometry(geometry_);
   arrangeDrives();
   restSpindle();
   modal_.feed = values_.at(kGreatestFeed) / 2;

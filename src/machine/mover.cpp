@@ -19,9 +19,13 @@ void Mover::prepare(const settings::Values& values, float seconds_per_tick) {
       seconds_per_tick);
 }
 
+void Mover::setGeometry(const Geometry& geometry) {
+  moves_.setSprockets(geometry.sprockets());
+  moves_.setArea(geometry.smoothArea());
+}
+
 Moved Mover::add(const motion::Path<float>& path, float z_to, float feed,
                  const Geometry& geometry) {
-  moves_.setSprockets(geometry.sprockets());
   const motion::Space space =
       geometry.sheet().holds(path) ? motion::Space::kSheet : motion::Space::kEdge;
   const motion::Added added = moves_.add(path, z_to, feed, space);

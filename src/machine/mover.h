@@ -23,6 +23,9 @@ class Mover {
 
   void prepare(const settings::Values& values, float seconds_per_tick);
 
+  /// Takes over what the laws of motion must know of a geometry; at rest, whenever it was prepared.
+  void setGeometry(const Geometry& geometry);
+
   /// Nothing moves, nothing is queued.
   bool isIdle() const { return moves_.isIdle(); }
   bool hasRoom() const { return moves_.hasRoom(); }

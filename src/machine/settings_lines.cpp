@@ -124,6 +124,7 @@ void Machine::refreshGeometry() {
   if (!is_geometry_stale_) return;
   is_geometry_stale_ = false;
   geometry_.prepare(values_);
+  mover_.setGeometry(geometry_);
   searchPlace();
   keeper_.reconsider();
 }

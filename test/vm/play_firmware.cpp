@@ -126,9 +126,11 @@ class Player {
       return machine_->board.strap(uint8_t(std::atoi(rest.c_str())));
     }
     if (verb == "stream") {
-      std::string with_z;
-      words >> with_z;
-      return stream(std::atoi(rest.c_str()), with_z == "z");
+      bool with_z = false;
+      double length = 0.05;
+      for (std::string word; words >> word;)
+        word == "z" ? void(with_z = true) : void(length = std::atof(word.c_str()));
+      return stream(std::atoi(rest.c_str()), with_z, length);
     }
     if (verb == "hang") return machine_->board.hang(rest);
     if (verb == "wake") return machine_->board.wake(std::atof(rest.c_str()));
@@ -180,8 +182,8 @@ class Player {
     std::printf("ticks_per_second_%s %.2f\n", when, board.ticksPerSecond());
   }
 
-  /// Short moves as fast as they are acknowledged, 126 characters ahead; tells how many a second.
-  void stream(int count, bool with_z) {
+  /// Moves of so many mm as fast as they are acknowledged, 126 characters ahead; tells how fast.
+  void stream(int count, bool with_z, double step) {
     std::deque<std::size_t> unanswered;
     std::size_t waiting = 0;
     int sent = 0, answered = 0;
@@ -189,8 +191,8 @@ class Player {
     machine_->board.watchTicksFromNow();
     while (answered < count) {
       char text[40];
-      // 0.05 mm each, round and round, in the words of a program for smooth curves.
-      const double angle = sent * 0.01;
+      // Round and round, in the words of a program for smooth curves.
+      const double angle = sent * step / 5;
       const int length_xy = std::snprintf(text, sizeof text, "G1 X%.3f Y%.3f", 5 * std::cos(angle),
                                           5 * std::sin(angle));
       std::snprintf(text + length_xy, sizeof text - length_xy, with_z ? " Z%.3f\n" : "\n",
@@ -213,7 +215,9 @@ class Player {
       }
     }
     tellTicks("streaming");
-    std::printf("lines_per_second %.1f\n", count / (machine_->board.seconds() - start));
+    const double lines_per_second = count / (machine_->board.seconds() - start);
+    std::printf("lines_per_second %.1f\n", lines_per_second);
+    std::printf("mm_per_minute %.0f\n", lines_per_second * step * 60);
   }
 
   std::string elf_;

@@ -95,6 +95,11 @@ def test_short_moves_are_taken_as_fast_as_a_streaming_sender_gives_them(player):
     assert told["tick_share_streaming"] <= 0.12
 
 
+def test_every_effect_at_200_hz_leaves_time_for_short_moves(player):
+    told = figures(play(player, DIALOGUES, "every_effect.nc"))
+    assert told["mm_per_minute"] >= 0.9 * 1000
+
+
 def test_the_loop_runs_at_200_hz_if_a_setting_asks_for_it(player):
     told = figures(play(player, DIALOGUES, "fast_loop.nc"))
     assert 0.12 < told["tick_share_streaming"] < 0.3

@@ -1,7 +1,7 @@
 // Queued moves become set-points: where all axes shall be at each control tick.
 //
 // How it is used (everything here runs in the main program; only SetPoints::take is for the tick):
-//   mover.prepare(limits, seconds_per_tick);  mover.setSprockets(...);  when settings change
+//   mover.prepare(limits, seconds_per_tick);  mover.setSprockets(...), setArea(...);  at rest
 //   mover.standAt(set_point);                 at rest, where the axes are
 //   mover.add(path, z_to, feed, space);       if hasRoom(); `ok` may go out
 //   mover.fill(set_points, inverse);          often: at least every 100 ms
@@ -14,6 +14,7 @@
 #include "segment.h"
 #include "set_points.h"
 #include "stretch.h"
+#include "tiles.h"
 
 namespace motion {
 
@@ -30,6 +31,8 @@ class Mover {
     queue_.prepare(limits, seconds_per_tick);
   }
   void setSprockets(const Sprockets<float>& sprockets) { queue_.setSprockets(sprockets); }
+  /// Where short moves in a row may share exact places. To be called whenever the inverse changes.
+  void setArea(const SmoothArea& area) { tiles_.setArea(area); }
 
   /// Nothing moves, nothing waits.
   bool isIdle() const { return queue_.isEmpty(); }
@@ -65,7 +68,9 @@ class Mover {
   void dropFirst();
   int32_t zAt(const Move& move, float done) const;
   template <class Inverse>
-  Reached lengthsAt(const Walk& walk, const Inverse& inverse) const;
+  __attribute__((noinline)) Reached lengthsAt(const Walk& walk, const Inverse& inverse);
+  template <class Inverse>
+  __attribute__((noinline)) Reached exactlyAt(const Walk& walk, const Inverse& inverse) const;
   template <class Inverse>
   bool begin(const Stretch& stretch, const Inverse& inverse);
   template <class Inverse>
@@ -79,6 +84,7 @@ class Mover {
   void push(SetPoints& set_points) const;
 
   MoveQueue queue_;
+  Tiles tiles_;
   Walk walk_ = {0, 0};   ///< where the segment in hand ends
   Walk begun_ = {0, 0};  ///< where it began
   float change_ = 0;     ///< of the speed, in each of its ticks

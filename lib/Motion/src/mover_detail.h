@@ -5,6 +5,9 @@
 
 namespace motion {
 
+// So many set-points must wait for the tick before nine inverses are asked at once.
+enum : uint8_t { kEnoughWait = 8 };
+
 inline void Mover::forget() {
   queue_.clear();
   walk_ = {0, 0};
@@ -94,12 +97,25 @@ inline int32_t Mover::zAt(const Move& move, float done) const {
 
 /// Exact chain lengths at a walk along the first move.
 template <class Inverse>
-Reached Mover::lengthsAt(const Walk& walk, const Inverse& inverse) const {
+Reached Mover::exactlyAt(const Walk& walk, const Inverse& inverse) const {
   const Move& move = queue_.first();
   if (move.path.length == 0) return {{last_.left, last_.right}, true};
   const Point<float> place = placeOn(move.path, walk.done / move.length);
   if (move.space != Space::kChains) return knotAt(inverse, place);
   return {{toCounts(place.x), toCounts(place.y)}, true};
+}
+
+/// The same on the way, where short moves may share exact places.
+template <class Inverse>
+Reached Mover::lengthsAt(const Walk& walk, const Inverse& inverse) {
+  const Move& move = queue_.first();
+  // A longer move has so many ticks that knots of its own are fewer.
+  const float kShort = 1.5f;  // [mm]
+  const bool shares =
+      move.space == Space::kSheet && move.path.length > 0 && move.path.length <= kShort;
+  if (!shares) return exactlyAt(walk, inverse);
+  const Point<float> place = placeOn(move.path, walk.done / move.length);
+  return tiles_.lengthsAt(place, move.path, queue_.sprockets(), inverse);
 }
 
 /// Begins a segment of more than one tick, all within the first move.
@@ -131,7 +147,7 @@ bool Mover::pass(const Inverse& inverse) {
   const float length = queue_.first().length;
   if (queue_.second().path.length == 0) {
     // While z moves alone the chains stand, and exactly here.
-    const Reached end = lengthsAt({length, 0}, inverse);
+    const Reached end = exactlyAt({length, 0}, inverse);
     if (!end.reachable) return false;
     last_.left = end.knot.left;
     last_.right = end.knot.right;
@@ -157,7 +173,7 @@ bool Mover::step(float change, const Inverse& inverse) {
   const Move& move = queue_.first();
   const bool arrives = walk_.done >= move.length * kHair;
   if (arrives) walk_ = {move.length, 0};
-  const Reached here = lengthsAt(walk_, inverse);
+  const Reached here = arrives ? exactlyAt(walk_, inverse) : lengthsAt(walk_, inverse);
   if (!here.reachable) return false;
   last_ = {here.knot.left, here.knot.right, zAt(move, walk_.done)};
   if (arrives) {
@@ -216,6 +232,7 @@ Filled Mover::fill(SetPoints& set_points, const Inverse& inverse) {
       continue;
     }
     const bool rests = walk_.speed == 0;
+    tiles_.setTime(rests || set_points.count() >= kEnoughWait);
     if (!cut(inverse)) return Filled::kOutOfReach;
     push(set_points);
     // While nothing moved the tick found nothing, of course.

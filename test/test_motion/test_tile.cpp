@@ -1,0 +1,228 @@
+// Short moves share exact places: what a tile misses, when it is laid, and that ends stay exact.
+#include <gtest/gtest.h>
+
+#include "machines.h"
+#include "plain.h"
+
+using namespace motion;
+
+namespace {
+
+class TileOf : public testing::TestWithParam<Tried> {};
+INSTANTIATE_TEST_SUITE_P(Machines, TileOf, testing::ValuesIn(triedMachines()), NameOfTried());
+
+Sprockets<float> sprocketsOf(const Tried& tried) {
+  const Point<double> left = sprocketOf(tried, 0), right = sprocketOf(tried, 1);
+  const Slopes<double> effects = effectsOf(tried);
+  return {{float(left.x), float(left.y)},
+          {float(right.x), float(right.y)},
+          {float(effects.first), float(effects.second), float(effects.third)}};
+}
+
+float nearest(const Sprockets<float>& sprockets, Point<float> place) {
+  return std::fmin(path_detail::distance(place, sprockets.left),
+                   path_detail::distance(place, sprockets.right));
+}
+
+double worse(const Knot& knot, const Lengths<double>& exact) {
+  return fmax(fabs(toMm<double>(knot.left) - exact.left),
+              fabs(toMm<double>(knot.right) - exact.right));
+}
+
+/// What a stream of short moves did on a machine.
+struct Streamed {
+  double error = 0;          // [mm] of a chain
+  double across = 0;         // [mm] of the places asked, at most
+  int asked = 0, ticks = 0;  // inverses, set-points
+  int asked_at_once = 0;     // in one filling, at most
+  bool ends_exactly = false;
+};
+
+/// Round and round a circle of 5 mm in steps; before each filling so many set-points wait.
+Streamed stream(const Tried& tried, Point<float> centre, float step, const SmoothArea& area,
+                int waiting) {
+  const Exactly<double> judge = exactly<double>(tried);
+  const Exactly<float> own = exactly<float>(tried);
+  Streamed told;
+  int at_once = 0;
+  const auto counted = [&](Point<float> place) {
+    ++told.asked;
+    ++at_once;
+    told.across = fmax(told.across, fabs(double(place.x)));
+    return own(place);
+  };
+  Mover mover;
+  mover.prepare({100, 10, 20, 0.66f, 0.05f}, 0.01f);
+  mover.setSprockets(sprocketsOf(tried));
+  mover.setArea(area);
+  Point<float> at = {centre.x + 5, centre.y};
+  const Knot start = knotAt(own, at).knot;
+  mover.standAt({start.left, start.right, 0});
+  for (int sent = 1; sent <= 600 || !mover.isIdle();) {
+    for (; sent <= 600 && mover.hasRoom(); ++sent) {
+      const float angle = float(sent) * step / 5;
+      const Point<float> to = {centre.x + 5 * std::cos(angle), centre.y + 5 * std::sin(angle)};
+      EXPECT_EQ(Added::kYes, mover.add(line(at, to), 0, 15));
+      at = to;
+    }
+    SetPoints ring;
+    for (int i = 0; i < waiting; ++i) ring.push({mover.last(), 1, 1, 0});
+    at_once = 0;
+    EXPECT_EQ(Filled::kYes, mover.fill(ring, counted));
+    if (told.ticks != 0) told.asked_at_once = std::max(told.asked_at_once, at_once);
+    told.ticks += SetPoints::kMost - waiting;
+    if (mover.isIdle()) break;
+    const Path<float>& path = mover.queue().first().path;
+    const Point<float> place = placeOn(path, mover.walk().done / path.length);
+    const Knot now = {mover.last().left, mover.last().right};
+    told.error = fmax(told.error, worse(now, judge(Point<double>{place.x, place.y})));
+  }
+  const Knot end = knotAt(own, at).knot;
+  told.ends_exactly = end.left == mover.last().left && end.right == mover.last().right;
+  return told;
+}
+
+const SmoothArea kSheetArea = {float(kHalfWidth), float(kHalfHeight)};
+
+}  // namespace
+
+TEST_P(TileOf, LengthsAreWithinTwoMicrometresOfTheExactChains) {
+  const Exactly<double> judge = exactly<double>(GetParam());
+  const Exactly<float> own = exactly<float>(GetParam());
+  const Sprockets<float> sprockets = sprocketsOf(GetParam());
+  Paths random(8);
+  double worst = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Point<double> middle = random.place();
+    const Point<float> at = {float(middle.x), float(middle.y)};
+    const float half = halfTile(nearest(sprockets, at), sprockets.effects);
+    Tile tile;
+    ASSERT_TRUE(tile.lay({at, half}, own));
+    for (int k = 0; k < 40; ++k) {
+      const Point<float> place = {at.x + half * float(random.between(-1, 1)),
+                                  at.y + half * float(random.between(-1, 1))};
+      if (!tile.holds(place)) continue;  // by rounding
+      worst = fmax(worst, worse(tile.at(place), judge(Point<double>{place.x, place.y})));
+    }
+  }
+  EXPECT_LT(worst, 0.002);
+}
+
+TEST(Tile, MissesOfACubicWhatItsSizeAllowsFor) {
+  for (const double third : {1e-6, 1e-4, 4e-4}) {
+    const auto cubic = [&](Point<float> place) -> Lengths<float> {
+      const double x = place.x, y = place.y;
+      return {float(third * (x * x * x + y * y * y) / 6), 50, true};
+    };
+    Tile tile;
+    const float half = halfTile(1e6f, {0, 0, float(third)});
+    ASSERT_TRUE(tile.lay({{0, 0}, half}, cubic));
+    double worst = 0;
+    for (int i = -20; i <= 20; ++i)
+      for (int k = -20; k <= 20; ++k) {
+        const Point<float> place = {half * float(i) / 20.0f, half * float(k) / 20.0f};
+        const double exact = double(cubic(place).left);
+        worst = fmax(worst, fabs(toMm<double>(tile.at(place).left) - exact));
+        EXPECT_EQ(toCounts(50.0f), tile.at(place).right);
+      }
+    EXPECT_LT(worst, double(kMostMissedInTile)) << third;
+    const bool is_largest = half == kLargestHalfTile;
+    EXPECT_GT(worst, is_largest ? 0.0 : 0.7 * double(kMostMissedInTile)) << third;
+  }
+}
+
+TEST(Tile, HoldsItsSquareAndNothingAfterARefusal) {
+  Tile tile;
+  EXPECT_FALSE(tile.holds({0, 0}));
+  ASSERT_TRUE(tile.lay({{100, -50}, 4}, plainInverse));
+  EXPECT_TRUE(tile.holds({96.1f, -53.9f}));
+  EXPECT_FALSE(tile.holds({104.1f, -50}));
+  EXPECT_FALSE(tile.holds({100, -45.9f}));
+  EXPECT_EQ(toCounts(97.5f), tile.at({97.5f, -52}).left);
+  EXPECT_EQ(toCounts(-52.0f), tile.at({97.5f, -52}).right);
+  // One corner is out of reach.
+  EXPECT_FALSE(tile.lay({{2997, 0}, 4}, plainInverse));
+  EXPECT_FALSE(tile.holds({2997, 0}));
+  EXPECT_FALSE(tile.holds({100, -50}));
+}
+
+TEST(Tile, IsSmallEnoughForItsCornerNextToTheSprocket) {
+  // Laid ahead of a place, it reaches 2.2 halves of the largest tile nearer.
+  const double third = 1.1547 / (167 * 167);
+  EXPECT_LE(double(halfTile(200, {0, 0, 0})),
+            0.5 * cbrt(double(kMostMissedInTile) * 124.7077 / 2.25 / third));
+}
+
+TEST_P(TileOf, ShortMovesAskForOneInverseInManyTicks) {
+  for (const Point<float> centre : {Point<float>{0, 0}, {-1150, 560}, {1150, -560}}) {
+    const Streamed told = stream(GetParam(), centre, 0.3f, kSheetArea, 10);
+    EXPECT_LT(told.error, 0.003);
+    EXPECT_LT(told.asked, told.ticks / 5);
+    EXPECT_TRUE(told.ends_exactly);
+  }
+}
+
+TEST(Tiles, WithoutAnAreaEachTickIsExact) {
+  const Streamed told = stream(triedMachines()[0], {0, 0}, 0.1f, {0, 0}, 10);
+  EXPECT_GE(told.asked, told.ticks - 1);
+}
+
+TEST(Tiles, AreLaidOnTheSheetOnly) {
+  // The circle touches the edge; nobody is asked for a place beyond it.
+  const Streamed told = stream(triedMachines()[0], {1214.2f, 0}, 0.1f, kSheetArea, 10);
+  EXPECT_LE(told.across, kHalfWidth + 0.001);
+  EXPECT_GT(told.across, kHalfWidth - 0.1);
+  EXPECT_LT(told.asked, told.ticks / 5);
+}
+
+TEST(Tiles, AreNotLaidInAHurry) {
+  // Nine inverses at once would let seven set-points run dry.
+  const Streamed enough = stream(triedMachines()[0], {300, 0}, 0.3f, kSheetArea, 10);
+  EXPECT_GE(enough.asked_at_once, 9);
+  const Exactly<float> own = exactly<float>(triedMachines()[0]);
+  Tiles tiles;
+  tiles.setArea(kSheetArea);
+  int asked = 0;
+  const auto counted = [&](Point<float> place) {
+    ++asked;
+    return own(place);
+  };
+  const Path<float> path = line(Point<float>{0, 0}, Point<float>{0.3f, 0});
+  tiles.setTime(false);
+  tiles.lengthsAt({0.1f, 0}, path, sprocketsOf(triedMachines()[0]), counted);
+  EXPECT_EQ(1, asked);
+  tiles.setTime(true);
+  tiles.lengthsAt({0.1f, 0}, path, sprocketsOf(triedMachines()[0]), counted);
+  EXPECT_EQ(10, asked);
+  // Another frame: what was asked before does not count.
+  tiles.setArea(kSheetArea);
+  tiles.setTime(false);
+  tiles.lengthsAt({0.1f, 0}, path, sprocketsOf(triedMachines()[0]), counted);
+  EXPECT_EQ(11, asked);
+}
+
+TEST(Tiles, AreNotLaidWhileFewSetPointsWait) {
+  const Exactly<float> own = exactly<float>(triedMachines()[0]);
+  SetPoints ring;
+  int asked[SetPoints::kMost + 1] = {};  // while so many waited
+  const auto counted = [&](Point<float> place) {
+    ++asked[ring.count()];
+    return own(place);
+  };
+  Mover mover;
+  mover.prepare({100, 10, 20, 0.66f, 0.05f}, 0.01f);
+  mover.setSprockets(sprocketsOf(triedMachines()[0]));
+  const Knot start = knotAt(own, Point<float>{0, 0}).knot;
+  mover.standAt({start.left, start.right, 0});
+  for (int i = 0; i < 16; ++i)
+    mover.add(line(Point<float>{0.3f * float(i), 0}, Point<float>{0.3f * float(i + 1), 0}), 0, 15);
+  mover.fill(ring, counted);
+  // The first of them are taken; now tiles are known of.
+  Leg taken;
+  for (int i = 0; i < 8; ++i) ring.take(taken);
+  mover.setArea(kSheetArea);
+  for (int& each : asked) each = 0;
+  mover.fill(ring, counted);
+  for (int waiting = 0; waiting < 8; ++waiting) EXPECT_LE(asked[waiting], 2) << waiting;
+  EXPECT_GE(asked[8] + asked[9] + asked[10], 9);
+}
