@@ -1,10 +1,12 @@
-// Runs board_program.cpp on the simulated Mega and prints the lines it sends: `check_board ELF`.
+// Runs board_program.cpp, or another program for so many ms, on the simulated Mega and prints the
+// lines it sends: `check_board ELF [MS]`.
 #include <cstdio>
+#include <cstdlib>
 
 #include "virtual_board.h"
 
 int main(int argc, char** argv) {
-  if (argc != 2) return 2;
+  if (argc != 2 && argc != 3) return 2;
   vm::VirtualBoard board(argv[1]);
   board.setPin(2, true);
   board.setPin(3, true);
@@ -12,7 +14,7 @@ int main(int argc, char** argv) {
   board.runMs(10);
   board.setPin(2, false);
   board.setPin(3, false);
-  board.runMs(60);
+  board.runMs(argc == 3 ? std::atoi(argv[2]) : 60);
   for (const std::string& line : board.lines) std::printf("%s\n", line.c_str());
   return 0;
 }

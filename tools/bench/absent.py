@@ -39,7 +39,12 @@ def built(effects: str) -> Cycles:
     shutil.copytree(board.KINEMATICS, copy)
     (copy / "effects.h").write_text(effects, encoding="utf-8")
     elf = board.BUILD / "few_effects.elf"
-    sources = [board.BENCH / "board_program.cpp", copy / "Kinematics.cpp", copy / "reach.cpp"]
+    sources = [
+        board.BENCH / "board_program.cpp",
+        copy / "Kinematics.cpp",
+        copy / "reach.cpp",
+        board.FLOAT,
+    ]
     includes = [f"-I{copy}", f"-I{board.BENCH}"]
     board.output("avr-g++", *board.AVR_FLAGS, *includes, *sources, "-o", elf)
     found = json.loads(board.output(board.BUILD / "count_cycles", elf).splitlines()[-1])

@@ -14,6 +14,7 @@ BUILD = ROOT / ".build/bench"
 FIRMWARE = ROOT / ".pio/build/megaatmega2560/firmware.elf"
 KINEMATICS = ROOT / "lib/Kinematics/src"
 MOTION = ROOT / "lib/Motion/src"
+FLOAT = ROOT / "src/board/float.S"  # the firmware's own sum and product
 INCLUDES = [f"-I{KINEMATICS}", f"-I{BENCH}"]
 # As PlatformIO builds the firmware.
 AVR_FLAGS = [
@@ -75,7 +76,7 @@ def simulated() -> tuple[dict[str, Cycles], dict[str, int]]:
 def two_brackets() -> dict[str, Cycles]:
     """Cycles of every case of quadrilateral_cases.h."""
     elf = BUILD / "quadrilateral_program.elf"
-    source = [BENCH / "quadrilateral_program.cpp", KINEMATICS / "quadrilateral.cpp"]
+    source = [BENCH / "quadrilateral_program.cpp", KINEMATICS / "quadrilateral.cpp", FLOAT]
     output("avr-g++", *AVR_FLAGS, *INCLUDES, *source, "-o", elf)
     found = counted(elf, BUILD / "count_quadrilateral", '-DCASES="quadrilateral_cases.h"')
     return {name: Cycles(*cost["cycles"]) for name, cost in found.items()}
@@ -134,7 +135,7 @@ def sizes(elf: Path) -> tuple[int, int]:
 
 def sources(program: str) -> list[Path]:
     """One program of this folder and the kinematics."""
-    return [BENCH / program, KINEMATICS / "Kinematics.cpp", KINEMATICS / "reach.cpp"]
+    return [BENCH / program, KINEMATICS / "Kinematics.cpp", KINEMATICS / "reach.cpp", FLOAT]
 
 
 def output(*command: str | Path) -> str:

@@ -85,7 +85,12 @@ def built(text: str) -> int:
     (copy / "effects.h").write_text(text, encoding="utf-8")
     elf = board.BUILD / "other_effects.elf"
     includes = [f"-I{copy}", f"-I{board.BENCH}"]
-    sources = [board.BENCH / "part_program.cpp", copy / "Kinematics.cpp", copy / "reach.cpp"]
+    sources = [
+        board.BENCH / "part_program.cpp",
+        copy / "Kinematics.cpp",
+        copy / "reach.cpp",
+        board.FLOAT,
+    ]
     board.output("avr-g++", *board.AVR_FLAGS, *includes, "-DPARTS=7", *sources, "-o", elf)
     return board.sizes(elf)[0]
 

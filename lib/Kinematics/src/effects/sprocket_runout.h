@@ -7,8 +7,8 @@ namespace kinematics {
 
 namespace runout {
 
-// Sine and cosine of a quarter turn times x, |x| up to 1/2, in odd and even powers: within 0.00001.
-const double kSine[3] = {1.57078847, -0.64571198, 0.07766737};
+// Sine and cosine of a quarter turn times x, |x| up to 1/2, in odd and even powers: within 0.00016.
+const double kSine[2] = {1.569274915, -0.621458979};
 const double kCosine[2] = {-1.23314862, 0.24649945};
 
 const double kQuarterTurn = 1.57079632679489662;  // [rad]
@@ -48,8 +48,7 @@ struct SprocketRunout : Effect<Real> {
     const int16_t whole = nearest(quarters);
     const Real rest = quarters - Real(float(whole));
     const Real v = rest * rest;
-    const Real sine =
-        rest * (Real(runout::kSine[0]) + v * (Real(runout::kSine[1]) + v * Real(runout::kSine[2])));
+    const Real sine = rest * (Real(runout::kSine[0]) + v * Real(runout::kSine[1]));
     const Real cosine = Real(1) + v * (Real(runout::kCosine[0]) + v * Real(runout::kCosine[1]));
     // A quarter on, the sine is what the cosine was, and the cosine the sine with its sign changed.
     const bool odd = whole & 1;

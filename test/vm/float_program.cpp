@@ -1,0 +1,110 @@
+// A program for the simulated Mega: sum, difference and product of src/board/float.S against
+// avr-libc's, bit by bit, and what they take. Sends lines "name number". Not part of the firmware.
+#include <avr/io.h>
+#include <stdint.h>
+#include <string.h>
+
+extern "C" {
+// The firmware's.
+float __mulsf3(float, float);
+float __addsf3(float, float);
+float __subsf3(float, float);
+// avr-libc's, by its inner steps; see float_of_libc.S.
+float productOfLibc(float, float);
+float sumOfLibc(float, float);
+}
+
+namespace {
+
+typedef uint32_t Bits;
+const Bits kSign = 0x80000000UL;
+
+// Zero, the smallest and the largest, one and its neighbours, infinity, no number.
+const Bits kEdges[] = {
+    0,          kSign,      1,          2,          0x7fffff,   0x800000,   0x800001,   0x80ffffff,
+    0x3f800000, 0x3f800001, 0x3f7fffff, 0xbf800000, 0xbf7fffff, 0x7f7fffff, 0x7f000000, 0xff7fffff,
+    0x7f800000, 0xff800000, 0x7fc00000, 0x7f800001, 0xffc00001, 0x4b800000, 0x4b7fffff, 0xcb800001,
+    0x1fffffff, 0x20000000, 0x5f800000, 0x00400000, 0x3f000000, 0x3effffff, 0x3fc00001};
+const uint8_t kEdgeCount = sizeof kEdges / sizeof kEdges[0];
+
+float floatOf(Bits bits) {
+  float value;
+  memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+Bits bitsOf(float value) {
+  Bits bits;
+  memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+uint16_t products, sums, differences;  // that are not avr-libc's
+
+void check(Bits a, Bits b) {
+  const float x = floatOf(a), y = floatOf(b), minus_y = floatOf(b ^ kSign);
+  if (bitsOf(__mulsf3(x, y)) != bitsOf(productOfLibc(x, y))) ++products;
+  if (bitsOf(__addsf3(x, y)) != bitsOf(sumOfLibc(x, y))) ++sums;
+  if (bitsOf(__subsf3(x, y)) != bitsOf(sumOfLibc(x, minus_y))) ++differences;
+}
+
+Bits random() {
+  static Bits state = 20251;
+  state ^= state << 13;
+  state ^= state >> 17;
+  state ^= state << 5;
+  return state;
+}
+
+/// A random pair, a pair whose exponents are near, and pairs that nearly cancel or have few digits.
+void checkRandomPairs() {
+  const Bits a = random(), b = random();
+  check(a, b);
+  const uint8_t apart = uint8_t((b >> 23) % 52), exponent = uint8_t(a >> 23);
+  const Bits near = (b & 0x807fffff) | Bits(uint8_t(exponent + apart - 26)) << 23;
+  check(a, near);
+  check(a & 0xffff0000, near & 0xffff0000);
+  check(a, (a ^ kSign) + (b & 7));
+}
+
+void send(char character) {
+  while (!(UCSR0A & 1 << UDRE0)) {
+  }
+  UDR0 = uint8_t(character);
+}
+
+void tell(const char* name, uint16_t number) {
+  while (*name != '\0') send(*name++);
+  send(' ');
+  for (uint16_t unit = 10000; unit != 0; unit /= 10) send(char('0' + number / unit % 10));
+  send('\n');
+}
+
+uint16_t cyclesOf(float (*work)(float, float)) {
+  const uint16_t kRounds = 64;
+  volatile float x = 1234.567f, y = 3.1415f, z;
+  TCCR1A = 0;
+  TCCR1B = 1 << CS10;
+  TCNT1 = 0;
+  for (uint8_t i = 0; i < kRounds; ++i) z = work(x, y);
+  (void)z;
+  return TCNT1 / kRounds;
+}
+
+}  // namespace
+
+int main() {
+  UCSR0B = 1 << TXEN0;
+  for (uint8_t i = 0; i < kEdgeCount; ++i)
+    for (uint8_t k = 0; k < kEdgeCount; ++k) check(kEdges[i], kEdges[k]);
+  for (uint16_t i = 0; i < 5000; ++i) checkRandomPairs();
+  tell("products", products);
+  tell("sums", sums);
+  tell("differences", differences);
+  tell("product_cycles", cyclesOf(__mulsf3));
+  tell("product_cycles_of_libc", cyclesOf(productOfLibc));
+  tell("sum_cycles", cyclesOf(__addsf3));
+  tell("sum_cycles_of_libc", cyclesOf(sumOfLibc));
+  for (;;) {
+  }
+}
