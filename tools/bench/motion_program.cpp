@@ -88,6 +88,7 @@ void begin(Mover& mover, Point<float> at) {
                       {kHalfGap, kMotorHeight},
                       motion::sagSlopes(kSag, kHalfGap + kHalfWidth, kHalfGap - kHalfWidth,
                                         kMotorHeight + kHalfHeight, 3186.0f)});
+  mover.setArea({kHalfWidth, kHalfHeight});
   mover.standAt({knot.left, knot.right, 0});
 }
 
