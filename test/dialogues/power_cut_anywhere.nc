@@ -57,6 +57,17 @@
 ~~ wait 3
 -> B02 L1
 <* ok
+; Without a wait before motors are switched off, this one still runs when they are.
+-> $9=0
+<- ok
+-> B11 R S-150 T0.3
+<* ok
+~~ wait 4
+-> B11 R S150 T0.3
+<* ok
+~~ wait 4
+-> $9=2000
+<- ok
 ; Loops are tested, a move is stopped, and z runs alone.
 -> B13 L1 S5 F5 I1
 <* --PID Velocity Test Stop--
