@@ -125,6 +125,11 @@ def test_motors_are_let_go_when_the_firmware_hangs(player, dialogue):
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+def test_power_lost_in_motion_is_known_and_a_rest_is_kept(player):
+    done = play(player, DIALOGUES, "power_cut.nc")
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
 def test_every_shield_is_known_by_its_straps(player):
     done = play(player, DIALOGUES, "shields.nc")
     assert done.returncode == 0, done.stdout + done.stderr
