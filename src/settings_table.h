@@ -129,7 +129,11 @@
   ROW(kRefusedMotion, 70, "refused_motion", kBool, 1, 0, 0, 1, \
       "", "What a line does whose motion cannot be done: 0 halts the machine until Stop; 1 answers error: and goes on with the next.", "new") \
   ROW(kMotionAhead, 71, "motion_ahead, ms", kWord, 1, 1000, 0, 10000, \
-      "", "A line is answered when less than this is left of its motion, so that a sender that stops sending stops the sled.", "new")
+      "", "A line is answered when less than this is left of its motion, so that a sender that stops sending stops the sled.", "new") \
+  ROW(kBandGap, 75, "band_gap, V", kReal, kAnyValue, 1.1f, 0.9f, 1.3f, \
+      "", "Reference of this processor; right when the supply that B30 tells is what a voltmeter shows on its 5 V.", "new") \
+  ROW(kLeastSupply, 76, "least_supply, V", kReal, kAnyValue, 4.3f, 0, 5, \
+      "", "Below this supply of the Mega it says so; 0: never.", "new")
 
 #define PLUMB_KEPT_SETTINGS(ROW) \
   ROW(kSimulatedMotors, 99, "simulated_motors", kBool, 1, 0, 0, 1, \

@@ -3,6 +3,8 @@
 
 #include <Arduino.h>
 
+#include "drivers.h"
+
 namespace board {
 namespace {
 
@@ -13,6 +15,9 @@ const uint16_t kServoSpan = 3712;
 
 uint8_t servo_pin;
 
+const uint8_t kBandGapChannel = 0x1e;
+const uint8_t kConvert = 1 << ADEN | 1 << ADSC | 7;  // at 125 kHz
+
 }  // namespace
 
 ISR(TIMER5_COMPA_vect) { digitalWrite(servo_pin, HIGH); }
@@ -20,7 +25,14 @@ ISR(TIMER5_COMPB_vect) { digitalWrite(servo_pin, LOW); }
 
 void AuxPins::begin(const Shield* shield) {
   shield_ = shield;
+  // The converter measures nothing but the reference against the supply, so it never has to settle.
+  ADMUX = 1 << REFS0 | kBandGapChannel;
+  ADCSRA = kConvert;
   if (!shield) return;
+  for (uint8_t i = 0; i < machine::kAxisCount; ++i) {
+    const uint8_t pin = errorPinOf(*shield, Motor(i));
+    if (pin != kNoPin) pinMode(pin, INPUT_PULLUP);
+  }
   digitalWrite(shield->laser, LOW);
   pinMode(shield->laser, OUTPUT);
   pinMode(shield->probe, INPUT_PULLUP);
@@ -47,6 +59,19 @@ void AuxPins::turnServo(uint8_t degrees) {
   OCR5A = kServoPeriod;
   OCR5B = uint16_t(kServoShortest + uint32_t(kServoSpan) * degrees / 180);
   TIMSK5 = 1 << OCIE5A | 1 << OCIE5B;
+}
+
+bool AuxPins::driverFails(machine::Axis axis) {
+  if (!shield_) return false;
+  const uint8_t pin = errorPinOf(*shield_, Motor(axis));
+  return pin != kNoPin && digitalRead(pin) == LOW;
+}
+
+uint16_t AuxPins::bandGap() {
+  if (ADCSRA & 1 << ADSC) return 0;
+  const uint16_t reading = ADC;
+  ADCSRA = kConvert;
+  return reading;
 }
 
 bool AuxPins::probeTouches() { return shield_ && digitalRead(shield_->probe) == LOW; }

@@ -13,6 +13,8 @@ class AuxPins : public machine::Aux {
   void set(machine::Output output, bool high) override;
   void turnServo(uint8_t degrees) override;
   bool probeTouches() override;
+  bool driverFails(machine::Axis axis) override;
+  uint16_t bandGap() override;
 
  private:
   const Shield* shield_;

@@ -14,6 +14,7 @@ void (*on_hang)();
 uint8_t holds;
 volatile bool ticking;
 uint8_t most_silent_ticks;
+uint16_t longest_steps;
 uint16_t timer_steps;           // of timer 1 from tick to tick
 bool has_hung;                  // the main program is back; it has not looked round yet
 volatile uint8_t silent_ticks;  // since the main program was last heard of
@@ -38,6 +39,12 @@ void startTimer() {
   TCNT1 = 0;
 }
 
+/// Timer 1 began anew when this tick was due; if the next one is due already, it went round.
+void noteTime() {
+  const uint16_t steps = TIFR1 & 1 << OCF1A ? UINT16_MAX / 4 : TCNT1;
+  if (steps > longest_steps) longest_steps = steps;
+}
+
 /// No tick came: as if the main program had hung.
 void letGo() {
   silent_ticks = most_silent_ticks;
@@ -58,6 +65,7 @@ ISR(TIMER1_COMPA_vect) {
     on_hang();
   }
   cli();
+  noteTime();
   watchdog::feed();
   ticking = false;
   allowTicks(true);
@@ -101,6 +109,14 @@ void ControlClock::releaseTicks() {
   fence();
   if (ticking || --holds != 0 || !on_tick) return;
   allowTicks(true);
+}
+
+uint16_t ControlClock::longestTick() {
+  holdTicks();
+  const uint16_t steps = longest_steps;
+  longest_steps = 0;
+  releaseTicks();
+  return uint16_t(steps * 4);
 }
 
 }  // namespace board

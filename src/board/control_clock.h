@@ -16,6 +16,7 @@ class ControlClock : public machine::Clock {
   void idle() override;
   void holdTicks() override;
   void releaseTicks() override;
+  uint16_t longestTick() override;
 };
 
 }  // namespace board

@@ -105,6 +105,12 @@ inline bool hasEnable(const Channel& channel) {
   return channel.enable != kNoPin && channel.driver != Driver::kTle5206;
 }
 
+/// The pin on which a motor's driver reports an error, low: too hot, too much current, too little
+/// voltage; kNoPin if it cannot.
+inline uint8_t errorPinOf(const Shield& shield, Motor motor) {
+  return shield.driver == Driver::kTle5206 ? pinsOf(shield, motor).enable : kNoPin;
+}
+
 /// The PWM frequency that a driver can follow, as near to the one wanted as it can: 1 is 31.4 kHz,
 /// 2 is 3.9 kHz, 3 is 490 Hz. Anything else counts as 3.
 inline uint8_t pwmFor(Driver driver, uint8_t wanted) {

@@ -108,7 +108,10 @@ void Axes::control(One& one, Axis axis) {
       imagine(one, int32_t(lround(motion::toMm<float>(one.set_point) / one.per_count)));
       return;
     }
-    const float error = motion::toMm<float>(one.set_point - measured(one));
+    const int32_t ahead = one.set_point - measured(one);
+    const int32_t size = ahead < 0 ? -ahead : ahead;
+    if (size > one.most_behind) one.most_behind = size;
+    const float error = motion::toMm<float>(ahead);
     const float asked = one.asked == 0 ? 0 : float(one.asked) * one.turns_per_fine;
     one.duty = one.loop.follow(error * one.turns_per_mm, asked, turned);
     const motion::Fault seen = one.watch.look(one.duty, one.moved, error);
@@ -300,6 +303,13 @@ float Axes::target(Axis axis) const {
 float Axes::error(Axis axis) const {
   const WithoutTicks hold(clock_);
   return motion::toMm<float>(measured(axis_[axis]) - axis_[axis].set_point);
+}
+
+float Axes::mostBehind(Axis axis) {
+  const WithoutTicks hold(clock_);
+  const int32_t most = axis_[axis].most_behind;
+  axis_[axis].most_behind = 0;
+  return motion::toMm<float>(most);
 }
 
 void Axes::declare(Axis axis, float length) {

@@ -102,8 +102,10 @@ class Axes {
   // Lengths.
   int32_t counts(Axis axis) const;
   void setCounts(int32_t left, int32_t right, int32_t z);
-  float length(Axis axis) const;          ///< [mm] measured
-  float target(Axis axis) const;          ///< [mm] set-point
+  float length(Axis axis) const;  ///< [mm] measured
+  float target(Axis axis) const;  ///< [mm] set-point
+  /// [mm] Largest error() in motion by set-points since this was last asked.
+  float mostBehind(Axis axis);
   float error(Axis axis) const;           ///< [mm] measured less set-point
   void declare(Axis axis, float length);  ///< the axis is at this length [mm]
   AxisState state(Axis axis) const;
@@ -127,6 +129,7 @@ class Axes {
     int32_t most_counts = 0;  ///< [encoder counts] of kMostTravel
     int32_t counts = 0;       ///< [encoder counts] since zero length
     int32_t set_point = 0;    ///< [counts of motion::kCountsPerMm]
+    int32_t most_behind = 0;  ///< [counts of motion::kCountsPerMm]
     int32_t asked = 0;        ///< by how much a tick soon to come will change it
     int16_t astray = 0;       ///< [encoder counts] turned for real while motion is imagined
     float per_count = 1;      ///< [mm] may be negative

@@ -21,7 +21,7 @@ bool holds(const char* text, char letter) {
 }
 
 /// Codes that read no words, or only whether letters are there.
-bool isSimple(uint8_t code) { return code == 5 || code == 20 || code == 99; }
+bool isSimple(uint8_t code) { return code == 5 || code == 20 || code == 30 || code == 99; }
 
 /// Letters that need no number behind them.
 const char* bareLetters(uint8_t code) { return code == 10 || code == 11 ? "LR" : ""; }
@@ -37,7 +37,7 @@ bool isLength(float value) { return float(fabs(value)) <= kMostTravel; }
 
 bool Machine::isQuestion(const char* line) {
   const uint8_t code = codeOf(line);
-  return code == 5 || code == 10 || code == 20;
+  return code == 5 || code == 10 || code == 20 || code == 30;
 }
 
 bool Machine::runB(const char* line) {
@@ -57,6 +57,8 @@ bool Machine::runB(const char* line) {
       return measureChain(words.has('L'));
     case 20:
       return showZLimits();
+    case 30:
+      return tellTelemetry();
     case 99:
       return simulateMotors(holds(line + 3, 'O') && holds(line + 3, 'N'));
     default:

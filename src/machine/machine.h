@@ -5,6 +5,7 @@
 #include <GCode.h>
 
 #include "axes.h"
+#include "board_watch.h"
 #include "edge_cut.h"
 #include "feed_override.h"
 #include "geometry.h"
@@ -110,6 +111,11 @@ class Machine {
   void reportErrors();
   float inUnits(float mm) const;
   float fromUnits(float value) const;
+
+  // telemetry.cpp: how it is doing.
+  void watchBoard();
+  static FlashText driverText(Axis axis);
+  bool tellTelemetry();
 
   // position.cpp: where the sled is.
   void sayPlace(float x, float y);
@@ -272,6 +278,7 @@ class Machine {
   settings::Memory memory_;
   Geometry geometry_;
   Axes axes_;
+  BoardWatch board_watch_;
   PositionKeeper keeper_;
   Mover mover_;
   Input input_;
@@ -284,6 +291,7 @@ class Machine {
   motion::Point<float> counted_ = {0, 0};  ///< [mm] the same to the program, also beyond the sheet
   Place place_ = {0, 0, 0};                ///< where the tool was when somebody last asked
   uint32_t last_report_ms_ = 0, last_motion_ms_ = 0, geometry_changed_ms_ = 0;
+  uint32_t board_looked_ms_ = 0;
   uint8_t ticks_per_second_ = 100;
   volatile bool hung_ = false;
   bool stopping_ = false;  ///< a stop was asked for; every wait ends

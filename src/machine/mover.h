@@ -47,6 +47,8 @@ class Mover {
 
   /// From now on feeds count so many times, up to `most_feed` [mm/s].
   void boost(float times, float most_feed) { moves_.boost(times, most_feed); }
+  /// How often the axes found no set-point in the middle of a move, since this was last asked.
+  uint16_t timesDry() { return moves_.timesDry(); }
 
   /// Everything begins here: at set-points that the axes have.
   void standAt(const SetPoint& point) { moves_.standAt(point); }

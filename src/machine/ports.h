@@ -62,6 +62,10 @@ class Aux {
   virtual void turnServo(uint8_t degrees) = 0;
   /// Whether the probe touches.
   virtual bool probeTouches() = 0;
+  /// Whether the driver of a motor reports an error; one that cannot never does.
+  virtual bool driverFails(Axis) { return false; }
+  /// The processor's reference voltage in 1/1024 of its supply; 0 where that is not measured yet.
+  virtual uint16_t bandGap() { return 0; }
 
  protected:
   ~Aux() = default;
@@ -79,6 +83,9 @@ class Clock {
   /// Keeps the control tick off while shared numbers are read or written; nests.
   virtual void holdTicks() = 0;
   virtual void releaseTicks() = 0;
+  /// [us] Longest time from when a control tick was due until it was over, since this was last
+  /// asked; 0 where nobody measures it.
+  virtual uint16_t longestTick() { return 0; }
 
  protected:
   ~Clock() = default;

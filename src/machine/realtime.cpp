@@ -10,6 +10,7 @@ void Machine::service() {
   if (mover_.fill(axes_, geometry_) == Moved::kOutOfReach)
     raiseAlarm(FLASH("No sled can hang on the way; the machine has halted. Press Stop."));
   watchAxes();
+  watchBoard();
   refreshGeometryWhenQuiet();
   restWhenIdle();
   keepWhenAtRest();

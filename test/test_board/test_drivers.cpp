@@ -99,6 +99,15 @@ TEST(Drivers, PulseOneInputOfATle5206AndBrakeWithBothLow) {
   EXPECT_FALSE(hasEnable(z));
 }
 
+TEST(Drivers, OfTheTle5206AloneReportErrors) {
+  for (const Shield& shield : kShields) {
+    const bool speaks = shield.driver == Driver::kTle5206;
+    EXPECT_EQ(speaks ? 12 : kNoPin, errorPinOf(shield, Motor::kLeft)) << int(shield.version);
+    EXPECT_EQ(speaks ? 5 : kNoPin, errorPinOf(shield, Motor::kRight));
+    EXPECT_EQ(speaks ? 8 : kNoPin, errorPinOf(shield, Motor::kZ));
+  }
+}
+
 TEST(Drivers, PulseOneInputOfATb6643AndBrakeWithBothHigh) {
   for (const uint8_t straps : {6, 8}) {
     const Channel channel = over(straps, Motor::kLeft);

@@ -39,6 +39,7 @@ class SimulatedMotor {
   double coasting = 0.03;  ///< [s] time constant of a motor without power
   int16_t duty = 0;
   bool powered = false, stuck = false, unplugged = false, reversed = false;
+  bool complains = false;  ///< its driver
 
  private:
   double per_count_, top_speed_;

@@ -44,6 +44,8 @@ class Stage : public machine::Wire,
   void set(machine::Output output, bool high) override;
   void turnServo(uint8_t degrees) override { servo = degrees; }
   bool probeTouches() override { return motor_[machine::kZAxis].travel <= probe_touches_at_; }
+  bool driverFails(machine::Axis axis) override { return motor_[axis].complains; }
+  uint16_t bandGap() override { return uint16_t(1.1 * 1024 / supply_ + 0.5); }
   uint32_t milliseconds() override { return uint32_t(now_ms_); }
   void idle() override;
   void holdTicks() override {}
@@ -94,6 +96,7 @@ class Stage : public machine::Wire,
   double held_x_ = 0, held_y_ = 0;  // of the bit when a hold was asked for
   bool is_holding_ = false;
   double probe_touches_at_ = -1e9;
+  double supply_ = 5;  // [V]
   bool spindle_ = false, laser_ = false;
   reference::Machine judge_;
   SimulatedMotor motor_[machine::kAxisCount];

@@ -76,6 +76,10 @@ bool Stage::change(const std::string& verb, const std::string& rest) {
     motorNamed(rest).stuck = is("block");
   else if (is("unplug") || is("plug"))
     motorNamed(rest).unplugged = is("unplug");
+  else if (is("complain"))
+    motorNamed(rest).complains = true;
+  else if (is("supply"))
+    supply_ = numbersIn(rest).at(0);
   else if (is("reverse"))
     motorNamed(rest).reversed = true;
   else if (is("pull"))

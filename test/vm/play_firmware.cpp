@@ -133,6 +133,8 @@ class Player {
       return stream(std::atoi(rest.c_str()), with_z, length);
     }
     if (verb == "hang") return machine_->board.hang(rest);
+    if (verb == "supply") return machine_->board.setSupply(std::atof(rest.c_str()));
+    if (verb == "low") return machine_->board.setPin(std::atoi(rest.c_str()), false);
     if (verb == "wake") return machine_->board.wake(std::atof(rest.c_str()));
     if (verb == "undriven") return askUndriven(rest);
     if (verb == "hold") return machine_->board.holdInterrupts();
@@ -142,6 +144,7 @@ class Player {
     if (verb == "resets") return tellOr(machine_->board.resets() == std::atoi(rest.c_str()));
     if (verb == "laser")
       return tellOr((machine_->board.pin(kLaser).level != 0) == (rest == "high"));
+    if (verb == "telemetry") return readTelemetry();
     if (verb == "measure") return measure(std::atof(rest.c_str()));
     const int axis = rest == "left" ? 0 : rest == "right" ? 1 : 2;
     const bool winds = verb == "wound" && machine_->most_drive[axis] > 0.1;
@@ -166,6 +169,29 @@ class Player {
       if (since.empty()) tellOr(most == 0 && least == 0);
       most = least = 0;
     }
+  }
+
+  /// Asks the firmware how it is doing and prints each of its numbers as a figure.
+  void readTelemetry() {
+    machine_->board.send("B30\n");
+    expect({Step::kExpect, "B30", ""});
+    for (double waited = 0; lines_.empty() && waited < 1; waited += 0.001) {
+      machine_->run(0.001);
+      takeLines();
+    }
+    if (lines_.empty()) throw Failure("no telemetry came");
+    std::istringstream fields(lines_.front().substr(0, lines_.front().rfind(']')));
+    lines_.pop_front();
+    for (std::string field; std::getline(fields, field, '|');) {
+      const std::size_t colon = field.find(':');
+      if (colon == std::string::npos) continue;
+      std::istringstream values(field.substr(colon + 1));
+      std::string value;
+      for (int i = 0; std::getline(values, value, ','); ++i)
+        if (numberLength(value.c_str()) == value.size())
+          std::printf("told_%s_%d %s\n", field.substr(0, colon).c_str(), i, value.c_str());
+    }
+    expect({Step::kExpect, "ok", ""});
   }
 
   /// Tells what the control tick takes of the next seconds.

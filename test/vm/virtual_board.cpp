@@ -65,6 +65,7 @@ VirtualBoard::VirtualBoard(const std::string& elf) {
   avr_ = avr_make_mcu_by_name("atmega2560");
   avr_init(avr_);
   avr_->frequency = kClock;
+  setSupply(5);
   avr_load_firmware(avr_, &firmware);
   for (uint16_t mask = kFirstTimerMask; mask <= kLastTimerMask; ++mask)
     avr_register_io_write(avr_, mask, raiseWaiting, nullptr);
@@ -195,6 +196,8 @@ void VirtualBoard::setPin(int pin, bool high) {
   pull(place.port, uint8_t(1 << place.bit), uint8_t(high << place.bit));
   avr_raise_irq(avr_io_getirq(avr_, AVR_IOCTL_IOPORT_GETIRQ(place.port), place.bit), high);
 }
+
+void VirtualBoard::setSupply(double volts) { avr_->vcc = avr_->avcc = uint32_t(volts * 1000); }
 
 void VirtualBoard::strap(uint8_t open) { pull('A', 0x3f, open & 0x3f); }
 

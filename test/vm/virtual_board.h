@@ -51,6 +51,9 @@ class VirtualBoard {
   void setPin(int pin, bool high);
   PinState pin(int pin) const;
 
+  /// [V] The Mega's supply, as its converter sees it.
+  void setSupply(double volts);
+
   /// Straps the six pins from 22 on; a bit for each that is left open.
   void strap(uint8_t open);
 

@@ -103,6 +103,16 @@ def test_the_control_tick_leaves_88_percent_with_three_axes_in_motion(hard):
     assert hard["tick_share_streaming"] <= 0.12
 
 
+def test_the_firmware_tells_how_it_is_doing(hard):
+    # The last of two questions: since the one before.
+    longest_us = hard["longest_tick_streaming"] / 16
+    assert longest_us - 20 <= hard["told_tick_0"] <= longest_us + 200  # it counts its delay, too
+    assert 0.01 < hard["told_error_0"] < 0.6
+    assert hard["told_dry_0"] == 0
+    assert [hard[f"told_illegal_{axis}"] for axis in range(3)] == [0, 0, 0]
+    assert hard["told_supply_0"] == pytest.approx(5, abs=0.03)
+
+
 def test_short_moves_are_taken_as_fast_as_a_streaming_sender_gives_them(player):
     told = figures(play(player, DIALOGUES, "stream.nc"))
     assert told["lines_per_second"] >= 180
@@ -119,8 +129,8 @@ def test_the_loop_runs_at_200_hz_if_a_setting_asks_for_it(player):
     assert 0.12 < told["tick_share_streaming"] < 0.3
 
 
-@pytest.mark.parametrize("dialogue", ["hangs.nc", "held.nc", "watchdog.nc"])
-def test_motors_are_let_go_when_the_firmware_hangs(player, dialogue):
+@pytest.mark.parametrize("dialogue", ["hangs.nc", "held.nc", "watchdog.nc", "board.nc"])
+def test_motors_are_let_go_when_the_firmware_hangs_or_the_board_fails(player, dialogue):
     done = play(player, DIALOGUES, dialogue)
     assert done.returncode == 0, done.stdout + done.stderr
 

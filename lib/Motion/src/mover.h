@@ -60,6 +60,12 @@ class Mover {
   /// How far the first move is walked, and how fast [mm/tick], at that set-point.
   Walk walk() const;
   const MoveQueue& queue() const { return queue_; }
+  /// How often set-points ran dry in the middle of a move, since this was last asked.
+  uint16_t timesDry() {
+    const uint16_t times = times_dry_;
+    times_dry_ = 0;
+    return times;
+  }
 
  private:
   void standStill() { segment_ = standing({last_.left, last_.right}); }
@@ -100,6 +106,8 @@ class Mover {
   int32_t way_ = 0,
           way_change_ = 0;  ///< [counts] of the last tick, and its change in each of these
   uint16_t gain_ = 1;       ///< [counts/tick] by which it may change
+  uint16_t times_dry_ = 0;
+  bool braking_ = false, forgets_ = false;
 };
 
 }  // namespace motion

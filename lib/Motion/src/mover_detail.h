@@ -222,6 +222,7 @@ template <class Inverse>
 Filled Mover::fill(SetPoints& set_points, const Inverse& inverse) {
   // The axes stood still while they waited; nobody can go on at full speed from there.
   if (set_points.hasRunDry() && walk().speed != 0) {
+    if (times_dry_ != UINT16_MAX) ++times_dry_;
     cutShort();
     walk_.speed = 0;
   }

@@ -1,7 +1,7 @@
 ; The main program hangs in motion: after a second the tick lets go, and nothing turns again when it
 ; comes back.
 <* ok
-<* Message: Unable*
+<* Settings are the defaults. Chain lengths are not known yet*
 -> $7=2
 <- ok
 -> $8=139.1

@@ -32,5 +32,7 @@
 -> G1 X5 Y0 Z0 F900
 <- ok
 ~~ wait 2
+~~ telemetry
 ~~ stream 600 z
+~~ telemetry
 ~~ wait 5

@@ -1,6 +1,6 @@
 ; Interrupts are held in motion for 0.1 s: too short for a reset, but nothing turns until the alarm.
 <* ok
-<* Message: Unable*
+<* Settings are the defaults. Chain lengths are not known yet*
 -> $7=2
 <- ok
 -> $8=139.1

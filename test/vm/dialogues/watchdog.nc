@@ -1,6 +1,6 @@
 ; The control tick dies in motion, in three ways; each time the motors are let go within 0.07 s.
 <* ok
-<* Message: Unable*
+<* Settings are the defaults. Chain lengths are not known yet*
 -> $7=2
 <- ok
 -> $8=139.1

@@ -1,0 +1,104 @@
+// The watch over supply, drivers and EEPROM: what it says, when, and how often.
+#include <gtest/gtest.h>
+
+#include "machine/board_watch.h"
+
+using namespace machine;
+
+namespace {
+
+/// A board with a supply and one driver that may complain.
+struct Board : Aux {
+  void set(Output, bool) override {}
+  void turnServo(uint8_t) override {}
+  bool probeTouches() override { return false; }
+  bool driverFails(Axis axis) override { return complains && axis == kRightAxis; }
+  uint16_t bandGap() override { return supply == 0 ? uint16_t(0) : uint16_t(1.1 * 1024 / supply); }
+
+  double supply = 5;
+  bool complains = false;
+};
+
+const BoardLimits kLimits = {1.1f, 4.3f};
+
+/// What so many looks saw: each event's count.
+struct Seen {
+  int low = 0, fails = 0, worn = 0;
+};
+
+Seen seen(BoardWatch& watch, Board& board, int looks, bool is_powered = true, bool is_worn = false) {
+  Seen seen;
+  for (int i = 0; i < looks; ++i) {
+    const BoardEvent event = watch.look(board, kLimits, is_powered, is_worn);
+    seen.low += event == BoardEvent::kSupplyLow;
+    seen.fails += event == BoardEvent::kDriverFails;
+    seen.worn += event == BoardEvent::kWorn;
+  }
+  return seen;
+}
+
+}  // namespace
+
+TEST(BoardWatch, KnowsTheSupply) {
+  BoardWatch watch;
+  Board board;
+  EXPECT_EQ(0, watch.supply());
+  seen(watch, board, 20);
+  EXPECT_NEAR(5, watch.supply(), 0.03);
+  board.supply = 4.6;
+  seen(watch, board, 100);
+  board.supply = 5;
+  seen(watch, board, 100);
+  EXPECT_NEAR(4.6, watch.lowestSupply(), 0.03);
+  EXPECT_NEAR(5, watch.lowestSupply(), 0.03);
+}
+
+TEST(BoardWatch, SaysALowSupplyOnce) {
+  BoardWatch watch;
+  Board board;
+  EXPECT_EQ(0, seen(watch, board, 100).low);
+  board.supply = 4.2;
+  EXPECT_EQ(1, seen(watch, board, 100).low);
+  // Back, but not far enough to be said anew.
+  board.supply = 4.36;
+  seen(watch, board, 100);
+  board.supply = 4.2;
+  EXPECT_EQ(0, seen(watch, board, 100).low);
+  board.supply = 4.5;
+  seen(watch, board, 100);
+  board.supply = 4.2;
+  EXPECT_EQ(1, seen(watch, board, 100).low);
+}
+
+TEST(BoardWatch, BelievesNothingBeforeTheReferenceHasSettled) {
+  BoardWatch watch;
+  Board board;
+  board.supply = 0;  // nothing measured yet
+  EXPECT_EQ(0, seen(watch, board, 20).low);
+  board.supply = 2;
+  EXPECT_EQ(0, seen(watch, board, 7).low);
+  board.supply = 5;
+  EXPECT_EQ(0, seen(watch, board, 100).low);
+  EXPECT_NEAR(5, watch.lowestSupply(), 0.03);
+}
+
+TEST(BoardWatch, BelievesADriverThatComplainsForAFifthOfASecond) {
+  BoardWatch watch;
+  Board board;
+  board.complains = true;
+  EXPECT_EQ(0, seen(watch, board, 9).fails);
+  board.complains = false;
+  EXPECT_EQ(0, seen(watch, board, 1).fails);
+  board.complains = true;
+  EXPECT_EQ(0, seen(watch, board, 9).fails);
+  EXPECT_EQ(1, seen(watch, board, 1).fails);
+  EXPECT_EQ(kRightAxis, watch.failing());
+  EXPECT_EQ(0, seen(watch, board, 100, false).fails);
+}
+
+TEST(BoardWatch, SaysAWornEepromOnce) {
+  BoardWatch watch;
+  Board board;
+  EXPECT_EQ(0, seen(watch, board, 10).worn);
+  EXPECT_EQ(1, seen(watch, board, 100, true, true).worn);
+}
