@@ -26,7 +26,8 @@ struct Seen {
   int low = 0, fails = 0, worn = 0;
 };
 
-Seen seen(BoardWatch& watch, Board& board, int looks, bool is_powered = true, bool is_worn = false) {
+Seen seen(BoardWatch& watch, Board& board, int looks, bool is_powered = true,
+          bool is_worn = false) {
   Seen seen;
   for (int i = 0; i < looks; ++i) {
     const BoardEvent event = watch.look(board, kLimits, is_powered, is_worn);
