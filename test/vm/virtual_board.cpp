@@ -108,7 +108,8 @@ void VirtualBoard::run(avr_cycle_count_t cycles) {
 
 void VirtualBoard::step() {
   const avr_cycle_count_t before = avr_->cycle;
-  if (are_interrupts_held_) avr_->sreg[S_I] = 0;
+  // Below zero simavr waits; the program's flag is left alone, as it saves and restores that.
+  if (are_interrupts_held_) avr_->interrupt_state = -10;
   const int state = avr_run(avr_);
   watchTick(before);
   watchWatchdog();
@@ -157,7 +158,10 @@ void VirtualBoard::hang(const std::string& where) {
 void VirtualBoard::wake(double ms_after_tick) {
   runUntil(true);
   runUntil(false);
+  const avr_flashaddr_t circle = avr_->pc;
   runMs(ms_after_tick);
+  // Not out of an interrupt.
+  while (avr_->pc != circle) step();
   avr_->pc = hung_at_;
 }
 
@@ -168,7 +172,7 @@ void VirtualBoard::holdInterrupts() {
 
 void VirtualBoard::allowInterrupts() {
   are_interrupts_held_ = false;
-  avr_->sreg[S_I] = 1;
+  avr_->interrupt_state = -1;
 }
 
 void VirtualBoard::stopTickTimer() {
