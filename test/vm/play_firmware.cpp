@@ -132,7 +132,7 @@ class Player {
         word == "z" ? void(with_z = true) : void(length = std::atof(word.c_str()));
       return stream(std::atoi(rest.c_str()), with_z, length);
     }
-    if (verb == "hang") return machine_->board.hang(rest);
+    if (verb == "hang") return hang(rest);
     if (verb == "supply") return machine_->board.setSupply(std::atof(rest.c_str()));
     if (verb == "low") return machine_->board.setPin(std::atoi(rest.c_str()), false);
     if (verb == "wake") return machine_->board.wake(std::atof(rest.c_str()));
@@ -150,6 +150,15 @@ class Player {
     const bool winds = verb == "wound" && machine_->most_drive[axis] > 0.1;
     const bool pays = verb == "paid" && machine_->least_drive[axis] < -0.1;
     if (!winds && !pays) throw Failure("it did not");
+  }
+
+  /// In the control tick (`tick`), where the main program begins a report (`report`), or anywhere.
+  void hang(const std::string& where) {
+    for (double waited = 0; where == "report" && !machine_->board.reports(); waited += 0.00005) {
+      if (waited > 1) throw Failure("no report came");
+      machine_->run(0.00005);
+    }
+    machine_->board.hang(where == "tick");
   }
 
   static void tellOr(bool holds) {

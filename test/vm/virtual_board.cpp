@@ -139,12 +139,8 @@ void VirtualBoard::runUntil(bool in_tick) {
   }
 }
 
-void VirtualBoard::hang(const std::string& where) {
-  for (const avr_cycle_count_t end = avr_->cycle + kClock; where == "report" && partial_ != "<";) {
-    if (avr_->cycle > end) throw std::runtime_error("no report came");
-    step();
-  }
-  runUntil(where == "tick");
+void VirtualBoard::hang(bool in_tick) {
+  runUntil(in_tick);
   hung_at_ = avr_->pc;
   const uint8_t kHere[] = {0xff, 0xcf};  // rjmp .
   for (avr_flashaddr_t at = 0; at < avr_->flashend; at += 2)

@@ -42,6 +42,8 @@ class VirtualBoard {
 
   /// Puts characters on the wire to the board; they go as fast as it takes them.
   void send(const std::string& characters) { to_send_ += characters; }
+  /// Whether a status report has just begun, so that the main program is busy with it.
+  bool reports() const { return partial_ == "<"; }
   bool hasSent() const { return to_send_.empty(); }
 
   /// Lines that the board sent since they were last taken, without their ends.
@@ -61,9 +63,8 @@ class VirtualBoard {
   int resets() const { return resets_; }
 
   // What may go wrong.
-  /// The program runs in circles from here on: in the control tick (`tick`), where the main program
-  /// begins a report (`report`), or wherever that is.
-  void hang(const std::string& where);
+  /// The program runs in circles from here on: in the control tick, or in the main program.
+  void hang(bool in_tick);
   /// The main program goes on where it hung, so long after a tick.
   void wake(double ms_after_tick);
   /// Nobody allows interrupts until allowInterrupts().

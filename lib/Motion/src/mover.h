@@ -107,7 +107,6 @@ class Mover {
           way_change_ = 0;  ///< [counts] of the last tick, and its change in each of these
   uint16_t gain_ = 1;       ///< [counts/tick] by which it may change
   uint16_t times_dry_ = 0;
-  bool braking_ = false, forgets_ = false;
 };
 
 }  // namespace motion
