@@ -148,13 +148,15 @@ void Machine::watchAxes() {
         FLASH("The sled is not keeping up with its expected position and has halted. Press Stop, "
               "then look for what holds it."));
   if (fault == motion::Fault::kStands)
-    raiseAlarm(
-        FLASH("The sled is not keeping up with its expected position: a motor is driven and its "
-              "encoder stands still. Check the cables, press Stop, set the chain lengths."));
+    raiseAlarm(FLASH(
+        "The sled is not keeping up with its expected position: a motor is driven and its "
+        "encoder stands still. Check the cables, press Stop, set the chains (B06 or B08), or z "
+        "(G10 Z0)."));
   if (fault == motion::Fault::kTurnsBack)
     raiseAlarm(
         FLASH("The sled is not keeping up with its expected position: a motor turns against its "
-              "drive; it or its encoder is wired in reverse. Press Stop, check the cables."));
+              "drive; it or its encoder is wired in reverse. Check the cables, press Stop, set the "
+              "chains (B06 or B08), or z (G10 Z0)."));
 }
 
 void Machine::noteHang() {
