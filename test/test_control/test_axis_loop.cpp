@@ -98,3 +98,22 @@ TEST_P(AtRate, WhatIsWiredWronglyLeavesItsSetPointAtOnce) {
     EXPECT_LT(travelled, 8.0) << "fault " << fault;
   }
 }
+
+TEST(AxisLoop, TakesACountForNoErrorOnlyAtRest) {
+  const float kCount = 1 / 8113.73f;  // [turns]
+  const auto dutyAfter = [](float error, float asked) {
+    motion::AxisLoop loop;
+    loop.tune(kPosition, kSpeed, 8113.73f, 0.01f);
+    loop.rest();
+    int16_t duty = 0;
+    for (int i = 0; i < 100; ++i) {
+      loop.measure(asked);
+      duty = loop.follow(error, asked, asked);
+    }
+    return duty;
+  };
+  EXPECT_EQ(0, dutyAfter(kCount, 0));
+  EXPECT_EQ(0, dutyAfter(-kCount, 0));
+  EXPECT_LT(100, dutyAfter(2 * kCount, 0));
+  EXPECT_LT(dutyAfter(0, kCount) + 50, dutyAfter(kCount, kCount));
+}

@@ -114,6 +114,20 @@ TEST(Watch, StandingIsAFaultTheSoonerTheHarderItIsDriven) {
   EXPECT_EQ(1000, ticksOfStanding(watch, 140));
 }
 
+TEST(Watch, LearnsSoonThatAMotorNeedsMoreAndLateThatItNeedsLess) {
+  motion::Watch watch;
+  watch.tune(2, 8113.73f, 0.01f);
+  const auto run = [&watch](int16_t duty, int ticks) {
+    for (int i = 0; i < ticks; ++i) ASSERT_EQ(Fault::kNone, watch.look(duty, 10, 0.5f));
+  };
+  run(100, 300);
+  // A fifth of a second is enough to learn of more, and too short to forget it.
+  run(180, 20);
+  EXPECT_EQ(1000, ticksOfStanding(watch, 120));
+  run(100, 20);
+  EXPECT_EQ(1000, ticksOfStanding(watch, 100));
+}
+
 TEST(Watch, OneStickyMotorOwesNothingHoweverStiffItIs) {
   motion::Watch watch;
   watch.tune(2, 8113.73f, 0.01f);
