@@ -36,7 +36,7 @@ class Work {
  private:
   bool tick(const Asked& asked) {
     if (random_() % 40 == 0) axis.motor.weaker = between(0, 1.5);
-    if (random_() % 40 == 0) axis.motor.pull = between(-0.2, 0.2);
+    if (random_() % 40 == 0) axis.motor.pull = between(-0.3, 0.3);
     axis.tick(asked);
     ++done_;
     return axis.fault != Fault::kNone;
@@ -60,7 +60,7 @@ TEST_P(Honest, HourOfCuttingSeesNoFault) {
   for (unsigned seed = 0; seed < kMotors; ++seed) {
     simulated::MotorConstants constants = simulated::anyMotor(seed);
     // Every second one sticks until it moves.
-    constants.stiction = seed % 2 ? 1.3 : 1;
+    constants.stiction = seed % 2 ? 1.5 : 1;
     Work work(seed, GetParam(), constants);
     EXPECT_EQ(Fault::kNone, work.go(3600.0 / kMotors)) << "motor " << seed;
   }
