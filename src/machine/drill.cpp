@@ -48,7 +48,12 @@ bool Machine::runDrillStep(const gcode::DrillStep& step) {
   const float feed =
       step.kind == gcode::DrillStep::kFeed && modal_.feed < most ? modal_.feed : most;
   const float z = withinZLimits(step.z);
-  if (across) return moveStraight({step.x, step.y, aim_.z}, true, feed);
+  if (across) {
+    if (!moveStraight({step.x, step.y, aim_.z}, true, feed)) return false;
+    // There the sled stays at the edge; the hole would be where nobody wants it.
+    const bool is_there = counted_.x == aim_.x && counted_.y == aim_.y;
+    return is_there || refuseMotion(FLASH("the hole is beyond the sheet"));
+  }
   return moveStraight({counted_.x, counted_.y, z}, false, feed);
 }
 

@@ -65,3 +65,12 @@
 <* ok
 ~~ wait 0.5
 ~~ status <Idle,MPos:1.00,0.00,3.00,WPos:0.000,0.000,0.000> within 0.02
+; No hole at the edge instead of one beyond it.
+-> G0 X0 Y600
+<- ok
+-> G81 Y620 Z-1 R1
+<* error: the hole is beyond the sheet
+-> G80 G4 P0
+<* ok
+~~ wait 0.5
+~~ status <Idle,MPos:0.00,609.60,3.00,WPos:0.000,0.000,0.000> within 0.02

@@ -20,7 +20,10 @@ class Driller {
   /// All steps of a line: `across x y`, `rapid z`, `feed z`, `dwell`.
   std::string drill(const std::string& line) {
     const DrillFault fault = read(line);
-    if (fault != DrillFault::kNone) return "fault";
+    return fault == DrillFault::kNone ? allSteps() : "fault";
+  }
+
+  std::string allSteps() {
     std::string said;
     DrillStep step;
     while (drilling_.next(step)) said += (said.empty() ? "" : ", ") + take(step);
@@ -119,9 +122,11 @@ TEST(Drilling, RepeatsAlongTheWayInG91) {
       "across 10 0, rapid 2, feed -1, rapid 5, across 20 0, rapid 2, feed -1, rapid 5, "
       "across 30 0, rapid 2, feed -1, rapid 5",
       tool.drill("G91 G81 X10 R-3 Z-3 L3"));
+  EXPECT_EQ("across 30 1, rapid 2, feed -1, rapid 5, across 30 2, rapid 2, feed -1, rapid 5",
+            tool.drill("Y1 L2"));
   // R counts from where z was before the cycle, also where it stands lower since.
-  EXPECT_EQ("across 40 0, rapid 2, feed -1, rapid 2", tool.drill("G99 X10"));
-  EXPECT_EQ("across 50 0, feed -1, rapid 2", tool.drill("X10"));
+  EXPECT_EQ("across 40 2, rapid 2, feed -1, rapid 2", tool.drill("G99 X10"));
+  EXPECT_EQ("across 50 2, feed -1, rapid 2", tool.drill("X10"));
 }
 
 TEST(Drilling, RepeatsInPlaceInG90AndTakesKForL) {
@@ -141,6 +146,8 @@ TEST(Drilling, CountsFromWhereCoordinatesBegin) {
 TEST(Drilling, ReadsInches) {
   Driller tool(50.8f);
   EXPECT_EQ("across 25.4 0, rapid 25.4, feed -25.4, rapid 50.8", tool.drill("G20 G81 X1 Z-1 R1"));
+  EXPECT_EQ("across 50.8 0, rapid 25.4, feed 0, rapid 25.4, rapid 0.25, feed -12.7, rapid 50.8",
+            tool.drill("G83 X2 Z-0.5 Q1"));
 }
 
 TEST(Drilling, SaysWhatIsMissing) {
@@ -161,6 +168,18 @@ TEST(Drilling, MakesNoHoleOfALineWithAFault) {
   EXPECT_EQ("fault", tool.drill("X2 L0"));
 }
 
+TEST(Drilling, LeavesNothingOfALineThatWasBrokenOff) {
+  Driller tool(5);
+  ASSERT_EQ(DrillFault::kNone, tool.read("G81 X1 Z-1 R1"));
+  ASSERT_NE(DrillFault::kNone, tool.read("X2 L0"));
+  EXPECT_EQ("", tool.allSteps());
+}
+
+TEST(Drilling, MayHaveNoDepthAtAll) {
+  Driller tool(5);
+  EXPECT_EQ("across 1 0, rapid 1, rapid 5", tool.drill("G81 X1 Z1 R1"));
+}
+
 TEST(Drilling, ForgetsItsSizesWhereTheCycleEnds) {
   Driller tool(5);
   EXPECT_EQ("across 1 0, rapid 1, feed -1, rapid 5", tool.drill("G81 X1 Z-1 R1"));
@@ -168,4 +187,10 @@ TEST(Drilling, ForgetsItsSizesWhereTheCycleEnds) {
   tool.goTo(8);
   EXPECT_EQ("fault", tool.drill("G81 X2"));
   EXPECT_EQ("across 2 0, rapid 1, feed -1, rapid 8", tool.drill("X2 Z-1 R1"));
+  EXPECT_NE("fault", tool.drill("G83 X3 Q1 P250"));
+  tool.endCycle();
+  EXPECT_EQ(DrillFault::kNoPeck, tool.read("G83 X2 Z-1 R1"));
+  tool.endCycle();
+  EXPECT_EQ(DrillFault::kNone, tool.read("G82 X2 Z-1 R1"));
+  EXPECT_EQ(0u, tool.dwell());
 }

@@ -51,9 +51,24 @@ TEST(Modal, EndsAProgramInTheCoordinatesThatClientsKnow) {
   // The clients go by units and G91 as they were.
   EXPECT_TRUE(modal.inches);
   EXPECT_TRUE(modal.relative);
+  modal.motion = kNoMotion;
+  modal.endProgram();
+  EXPECT_EQ(0, modal.motion);
   modal.motion = 2;
   modal.endProgram();
   EXPECT_EQ(2, modal.motion);
+}
+
+TEST(Modal, ForgetsATimeAtTheEndOfItsLine) {
+  Modal modal;
+  modal.take(930);
+  EXPECT_TRUE(modal.inverse_time);
+  modal.inverse_feed = 5;
+  modal.beginLine();
+  EXPECT_EQ(0, modal.inverse_feed);
+  EXPECT_TRUE(modal.inverse_time);
+  modal.take(940);
+  EXPECT_FALSE(modal.inverse_time);
 }
 
 TEST(Modal, CountsFromTheMachinesZeroForOneLine) {

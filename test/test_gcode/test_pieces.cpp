@@ -88,6 +88,7 @@ TEST(Pieces, OfACodeThatNeedsAPlaceTakeItFromWhereverItStands) {
   EXPECT_EQ("G91 G38.2", codesOf("G38.2 G91 Z-5 F1"));
   EXPECT_EQ("G20 G92", codesOf("G92 G20 X0"));
   EXPECT_EQ("M5 G30", codesOf("G30 M5 X0"));
+  EXPECT_EQ("G21 G43.1", codesOf("G43.1 G21 Z2"));
 }
 
 TEST(Pieces, OfACodeWithItsPlaceStayInOrder) {
