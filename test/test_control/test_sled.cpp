@@ -93,6 +93,6 @@ TEST_P(SledAtRate, CutsACornerLessThanThePublishedLaw) {
     const Spread published = corners<PublishedLoop>("corner, published", GetParam(), feed);
     EXPECT_LT(ours.median, published.median);
     EXPECT_LT(ours.worst, published.worst);
-    EXPECT_LT(ours.median, 0.15);
+    EXPECT_LT(ours.median, 0.13);
   }
 }
