@@ -144,6 +144,8 @@ bool Machine::queue(const motion::Path<float>& path, const Place& target, float 
 bool Machine::mayGo(const motion::Path<float>& path, const Area& area) {
   const float kOnEdge = 1;  // [mm] what stop and stretch may leave a sled beyond it
   const Area sheet = geometry_.sheet();
+  // Nearly every line; the rest costs a thousand cycles.
+  if (sheet.holds(path) && geometry_.isReachable(path.to)) return true;
   const float beyond = sheet.distanceTo({aim_.x, aim_.y});
   const bool nearer = path.sweep == 0 && sheet.distanceTo(area.clamped(path.to)) < beyond;
   if (beyond > kOnEdge && !nearer)

@@ -42,6 +42,20 @@
 <- ok
 ~~ wait 2
 ~~ sled X520 Y600 within 0.1
+; z keeps to its share of the whole way; the rest of it comes at the edge.
+-> G0 X0 Y0 Z0
+<- ok
+-> G4 P0
+<* ok
+-> G1 X0 Y1219.2 Z-2 F800
+<- This line leads beyond the sheet: *
+~~ wait 23
+~~ z -0.5 within 0.1
+<- ok
+~~ wait 3
+~~ status <Idle,MPos:0.00,609.60,-2.00,WPos:0.000,0.000,0.000> within 0.05
+-> G0 X520 Y600
+<- ok
 ; After a rest a jog starts where the sled is.
 -> G0 X530 Y700
 <- This line leads beyond the sheet: *
