@@ -7,8 +7,8 @@
 //   name in C++, number, "name, unit", kind, step, default, lowest, highest,
 //   section and key of the published programs, or "", sentence,
 //   what is not as in the published firmware, or ""
-// A number that was once released keeps its meaning for ever. Free: 14, 47 to 61, 72 to 84. Never
-// to be used: 85 to 98 and 144, which WebControl gives a meaning of its own.
+// A number that was once released keeps its meaning for ever. Free: 14, 47 to 59, 73, 74, 77 to 84.
+// Never to be used: 85 to 98 and 144, which WebControl gives a meaning of its own.
 #pragma once
 
 #include <Kinematics.h>
@@ -50,8 +50,8 @@
       "Advanced: maxFeedrate", "Greatest feed, and that of G0.", "") \
   ROW(kZMotor, 16, "z_motor", kBool, 1, 1, 0, 1, \
       "Maslow: zAxis", "1: the z axis has a motor; 0: it is set by hand.", "") \
-  ROW(kSpindle, 17, "spindle", kByte, 1, 0, 0, 3, \
-      "Advanced: spindleAutomate", "0: not switched; 1: servo; 2: relay, on when high; 3: relay, on when low.", "") \
+  ROW(kSpindle, 17, "spindle", kByte, 1, 0, 0, 4, \
+      "Advanced: spindleAutomate", "0: not switched; 1: servo; 2: relay, on when high; 3: relay, on when low; 4: pulsed by S.", "4 is new") \
   ROW(kZSpeed, 18, "z_speed, turns/min", kReal, kAnyValue, 12.6f, 0.01f, 1000, \
       "", "Greatest speed of the z axis.", "") \
   ROW(kZPerTurn, 19, "z_per_turn, mm", kReal, kAnyButZero, 3.17f, -1000, 1000, \
@@ -110,6 +110,10 @@
       "", "Lowest z, set by B18; -10000: none.", "writing to it is refused; none is -10000, not a NaN")
 
 #define PLUMB_OWN_SETTINGS(ROW) \
+  ROW(kSpindleLeast, 60, "spindle_least, turns/min", kReal, kAnyValue, 4000, 0, 100000, \
+      "", "Slowest speed of a pulsed spindle ($17 = 4); S below it counts as this.", "new") \
+  ROW(kSpindleMost, 61, "spindle_most, turns/min", kReal, kAnyValue, 24000, 1, 100000, \
+      "", "Speed of a pulsed spindle whose pin is always high.", "new") \
   ROW(kSledWeight, 62, "sled_weight, N", kReal, kAnyValue, 97.9f, 30, 1000, \
       "", "Sled, router and bricks, as far as the chains carry them; $46=... of WebControl sets it too.", "new") \
   ROW(kChainWeight, 63, "chain_weight, N/mm", kReal, kAnyValue, 0, 0, 0.02f, \
@@ -130,6 +134,8 @@
       "", "What a line does whose motion cannot be done: 0 halts the machine until Stop; 1 answers error: and goes on with the next.", "new") \
   ROW(kMotionAhead, 71, "motion_ahead, ms", kWord, 1, 1000, 0, 10000, \
       "", "A line is answered when less than this is left of its motion, so that a sender that stops sending stops the sled.", "new") \
+  ROW(kLaserPulses, 72, "laser_pulses", kBool, 1, 0, 0, 1, \
+      "", "0: the laser's pin is high or low; 1: it is pulsed by S (0 to 255) and speed.", "new") \
   ROW(kBandGap, 75, "band_gap, V", kReal, kAnyValue, 1.1f, 0.9f, 1.3f, \
       "", "Reference of this processor; right when the supply that B30 tells is what a voltmeter shows on its 5 V.", "new") \
   ROW(kLeastSupply, 76, "least_supply, V", kReal, kAnyValue, 4.3f, 0, 5, \

@@ -11,6 +11,7 @@ class AuxPins : public machine::Aux {
  public:
   void begin(const Shield* shield);
   void set(machine::Output output, bool high) override;
+  void pulse(machine::Output output, uint8_t level) override;
   void turnServo(uint8_t degrees) override;
   bool probeTouches() override;
   bool driverFails(machine::Axis axis) override;

@@ -8,6 +8,9 @@
 namespace machine {
 namespace {
 
+// A share of the planned speed so low that it is to be told.
+const uint16_t kMuch = 200;
+
 float withinTravel(float length) {
   if (length > kMostTravel) return kMostTravel;
   return length < -kMostTravel ? -kMostTravel : length;
@@ -48,6 +51,7 @@ bool Axes::prepare(const settings::Values& values) {
     one.watch.tune(values.at(kPositionErrorLimit), float(fabs(counts)), seconds_per_tick_);
     one.is_held = values.at(z ? kZPositionP : kMainPositionP) > 0;
   }
+  yield_.tune(values.at(kPositionErrorLimit));
   return is_rescaled;
 }
 
@@ -111,6 +115,7 @@ void Axes::control(One& one, Axis axis) {
     const int32_t ahead = one.set_point - measured(one);
     const int32_t size = ahead < 0 ? -ahead : ahead;
     if (size > one.most_behind) one.most_behind = size;
+    if (size > worst_off_ && one.is_held) worst_off_ = size;
     const float error = motion::toMm<float>(ahead);
     const float asked = one.asked == 0 ? 0 : float(one.asked) * one.turns_per_fine;
     one.duty = one.loop.follow(error * one.turns_per_mm, asked, turned);
@@ -139,10 +144,20 @@ int32_t Axes::measured(const One& one) const {
 
 void Axes::tick() {
   takeSetPoint();
+  worst_off_ = 0;
   for (uint8_t i = 0; i < kAxisCount; ++i) {
     readEncoder(axis_[i], Axis(i));
     control(axis_[i], Axis(i));
   }
+  const uint16_t share = yield_.shareAt(worst_off_);
+  playback_.yieldTo(share);
+  if (share < kMuch) has_yielded_ = true;
+}
+
+bool Axes::hasYielded() {
+  const bool has = has_yielded_;
+  has_yielded_ = false;
+  return has;
 }
 
 void Axes::dropSetPoints() {

@@ -66,6 +66,12 @@ class Axes {
   /// From now on at so many 256ths of the planned speed, see motion::Playback.
   void goAt(uint16_t share);
 
+  /// How strong a laser is at this tick; none where motors run in imagination.
+  uint8_t beam() const { return simulated_ ? 0 : playback_.beam(); }
+
+  /// Whether the feed yielded much since this was last asked, as an axis fell behind.
+  bool hasYielded();
+
   // Z while the way is held.
   /// Moves z away from where the way has it, to a height [mm]; [mm/s], [mm/s^2].
   void lift(float z, float speed, float acceleration);
@@ -156,6 +162,9 @@ class Axes {
   motion::SetPoints set_points_;
   motion::Playback playback_;
   motion::Lift lift_;
+  motion::Yield yield_;
+  int32_t worst_off_ = 0;  ///< [counts of motion::kCountsPerMm] of any axis at this tick
+  volatile bool has_yielded_ = false;
   One axis_[kAxisCount];
   float seconds_per_tick_ = 0.01f;
   uint8_t ticks_ahead_ = AxisLoop::ticksAhead(0.01f);

@@ -82,6 +82,9 @@ bool Machine::runPiece(const gcode::Piece& piece) {
   if (stopping_ || is_answered_) return piece.letter == 'G' && modal_.take(piece.tenths);
   if (const char axis = foreignAxis(words)) return refuseMotion(FLASH("there is no axis "), axis);
   if (piece.letter != 'M' && words.has('T') && !setTool(words)) return false;
+  // S of a G4 are seconds.
+  if (piece.letter != 'M' && !(piece.letter == 'G' && piece.tenths == 40) && !takeS(words))
+    return false;
   if (piece.letter == 'G') return runG(piece);
   if (piece.letter != 'M') return moveInMode(words);
   // What ends or pauses a program comes after the line's motion, all else before it.
@@ -106,18 +109,21 @@ bool Machine::runM(uint16_t tenths, const Words& words) {
     case 300:
       modal_.endProgram();
       if (!drain() || !switchSpindle(false)) return false;
+      cutter_.arm(false);
       changeFeed(Quick::kFeedUsual);
       return true;
     case 50:
       return drain() && switchSpindle(false);
     case 30:
     case 40:
-      return drain() && switchSpindle(true);
+      return drain() && takeS(words) && switchSpindle(true);
     case 60:
       return (!words.has('T') || setTool(words)) && changeTool(modal_.tool);
     case 1060:
     case 1070:
-      if (!drain()) return false;
+      // With the moves, not at once: what is queued keeps what it was queued with.
+      if (tenths == 1060) cutter_.setFull();
+      if (!takeS(words)) return false;
       switchLaser(tenths == 1060);
       return true;
     case 970:

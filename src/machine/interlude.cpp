@@ -47,8 +47,7 @@ void Machine::serveOperator() {
   const bool is_other_answered = is_answered_;
   is_answered_ = false;
   interlude_.serve(true);
-  char raw[Input::kRoom + 1];
-  input_.takeLine(raw);
+  input_.dropLine();
   const bool done = runForOperator(line);
   interlude_.serve(false);
   if (done && !is_answered_) out_.line(FLASH("ok"));

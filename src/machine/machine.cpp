@@ -15,6 +15,7 @@ Machine::Machine(const Ports& ports, const BoardName& board)
       memory_(ports.bytes, values_),
       axes_(ports.drives, ports.clock),
       keeper_(memory_, axes_),
+      cutter_(aux_, values_),
       offsets_(values_.from(kFirstPlaceSetting)) {}
 
 void Machine::begin() {
@@ -28,7 +29,7 @@ void Machine::begin() {
   geometry_.prepare(values_);
   mover_.setGeometry(geometry_);
   arrangeDrives();
-  restSpindle();
+  cutter_.off();
   modal_.feed = values_.at(kGreatestFeed) / 2;
   greet();
   sayMotors();

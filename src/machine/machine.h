@@ -6,6 +6,7 @@
 
 #include "axes.h"
 #include "board_watch.h"
+#include "cutter.h"
 #include "edge_cut.h"
 #include "feed_override.h"
 #include "geometry.h"
@@ -74,7 +75,10 @@ class Machine {
   void loop();
 
   /// The control tick; called by an interrupt, a hundred or two hundred times a second.
-  void tick() { axes_.tick(); }
+  void tick() {
+    axes_.tick();
+    cutter_.show(axes_.beam());
+  }
 
   /// Called instead of tick() while the main program hangs; the board has taken the motors' power.
   void noteHang();
@@ -95,6 +99,7 @@ class Machine {
   void resetSoftly();
   void raiseAlarm(FlashText text);
   void watchAxes();
+  void sayYield();
   bool wakeMotors();
   void restWhenIdle();
   bool isMoving() const { return !mover_.isIdle() || !axes_.isEmpty(); }
@@ -171,7 +176,7 @@ class Machine {
   /// `feed` [mm/min], or below zero how often a minute the move would fit.
   bool queue(const motion::Path<float>& path, const Place& target, float feed);
   bool mayGo(const motion::Path<float>& path, const Area& area);
-  bool queuePieces(EdgeCut cut, float z_to, float feed);
+  bool queuePieces(EdgeCut cut, float z_to, float feed, uint8_t beam);
   void sayBeyondSheet(motion::Point<float> end);
 
   // g_codes.cpp, coordinates.cpp, drill.cpp: what each G code does.
@@ -227,9 +232,9 @@ class Machine {
   bool changeTool(uint16_t tool);
   bool setZByHand(float z);
   bool turnServo(uint8_t angle);
-  void restSpindle();
   bool switchSpindle(bool on);
   void switchLaser(bool on);
+  bool takeS(const Words& words);
   bool probe(float target);
   float mostZFeed() const;
   float withinZLimits(float z) const;
@@ -280,6 +285,7 @@ class Machine {
   Axes axes_;
   BoardWatch board_watch_;
   PositionKeeper keeper_;
+  Cutter cutter_;
   Mover mover_;
   Input input_;
   Modal modal_;
@@ -298,7 +304,9 @@ class Machine {
   Interlude interlude_;
   FeedOverride feed_;
   bool is_answered_ = false;  ///< the line in execution has got its answer
-  bool is_testing_ = false;   ///< a test of loops jumps to and fro
+  uint32_t yields_since_ms_ = 0, last_yield_ms_ = 0;
+  bool has_said_yield_ = false;  ///< in this motion
+  bool is_testing_ = false;      ///< a test of loops jumps to and fro
   bool is_place_known_ = false;
   bool is_geometry_stale_ = false;
 };

@@ -24,11 +24,11 @@ void Mover::setGeometry(const Geometry& geometry) {
   moves_.setArea(geometry.smoothArea());
 }
 
-Moved Mover::add(const motion::Path<float>& path, float z_to, float feed,
-                 const Geometry& geometry) {
+Moved Mover::add(const motion::Path<float>& path, float z_to, float feed, const Geometry& geometry,
+                 uint8_t beam) {
   const motion::Space space =
       geometry.sheet().holds(path) ? motion::Space::kSheet : motion::Space::kEdge;
-  const motion::Added added = moves_.add(path, z_to, feed, space);
+  const motion::Added added = moves_.add(path, z_to, feed, space, beam);
   return added == motion::Added::kYes || added == motion::Added::kNothing ? Moved::kYes
                                                                           : Moved::kNoPath;
 }

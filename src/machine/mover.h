@@ -32,8 +32,10 @@ class Mover {
   /// Whether what waits lasts for more than so many ticks, which are at most 4000.
   bool lastsLonger(uint16_t ticks) const { return moves_.lastsLonger(ticks); }
 
-  /// Queues a move over the sheet from where the last one ends; `feed` [mm/s] over all three axes.
-  Moved add(const motion::Path<float>& path, float z_to, float feed, const Geometry& geometry);
+  /// Queues a move over the sheet from where the last one ends; `feed` [mm/s] over all three axes,
+  /// `beam`: strength of a laser on it.
+  Moved add(const motion::Path<float>& path, float z_to, float feed, const Geometry& geometry,
+            uint8_t beam = 0);
 
   /// Queues a move of one axis alone to a length [mm], at rest; `feed` [mm/s].
   void addAxis(Axis axis, float length, float feed);

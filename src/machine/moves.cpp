@@ -40,6 +40,7 @@ Place Machine::targetOf(const Words& words) const {
 }
 
 bool Machine::move(uint8_t kind, const Words& words) {
+  cutter_.aim(kind);
   takeFeed(words);
   refreshGeometry();
   // After a rest at the edge a jog starts where the sled is.
@@ -131,12 +132,13 @@ float Machine::feedOf(const motion::Path<float>& path, const Place& target, floa
 }
 
 bool Machine::queue(const motion::Path<float>& path, const Place& target, float feed) {
+  const uint8_t beam = cutter_.takeBeam();
   const bool goes = path.drawn != motion::Drawn::kNoLength;
   if (!goes && target.z == aim_.z) return true;
   if (feed < 0) feed = feedOf(path, target, -feed);
   const Area area = geometry_.sheet().grownTo({aim_.x, aim_.y});
   if (goes && !mayGo(path, area)) return false;
-  if (!queuePieces(EdgeCut(path, area), target.z, feed)) return false;
+  if (!queuePieces(EdgeCut(path, area), target.z, feed, beam)) return false;
   counted_ = {target.x, target.y};
   return true;
 }
@@ -167,14 +169,14 @@ void Machine::sayBeyondSheet(motion::Point<float> end) {
   out_.fixed(inUnits(end.y), 2).end();
 }
 
-bool Machine::queuePieces(EdgeCut cut, float z_to, float feed) {
+bool Machine::queuePieces(EdgeCut cut, float z_to, float feed, uint8_t beam) {
   const float z_from = aim_.z;
   while (cut.next()) {
     while (!stopping_ && !mover_.hasRoom()) service();
     if (stopping_ || !wakeMotors()) return false;
     const float share = cut.share();
     const float z = share == 1 ? z_to : z_from + (z_to - z_from) * share;
-    if (mover_.add(cut.piece(), z, feed / 60, geometry_) != Moved::kYes)
+    if (mover_.add(cut.piece(), z, feed / 60, geometry_, beam) != Moved::kYes)
       return refuseMotion(FLASH("that is no path"));
     if (cut.piece().drawn == motion::Drawn::kYes)
       aim_ = {cut.piece().to.x, cut.piece().to.y, z};

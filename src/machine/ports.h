@@ -58,6 +58,8 @@ class Aux {
  public:
   /// Sets an output high or low.
   virtual void set(Output output, bool high) = 0;
+  /// Pulses an output: high for so many 255ths of the time.
+  virtual void pulse(Output output, uint8_t level) = 0;
   /// Holds the spindle's servo at an angle [degrees]; kNoServo lets go of it.
   virtual void turnServo(uint8_t degrees) = 0;
   /// Whether the probe touches.

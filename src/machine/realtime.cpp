@@ -90,8 +90,7 @@ void Machine::stopNow() {
   lock_ = Lock::kOpen;
   input_.clear();
   // At once, whatever else the stop has to wait for.
-  aux_.set(Output::kLaser, false);
-  restSpindle();
+  cutter_.off();
   mover_.stop(axes_);
 }
 
@@ -139,6 +138,7 @@ void Machine::watchAxes() {
     hung_ = false;
     raiseAlarm(FLASH("The firmware was busy for too long; motors were switched off. Press Stop."));
   }
+  sayYield();
   const motion::Fault fault = axes_.fault();
   // Tests make errors on purpose.
   if (is_testing_) return;
@@ -159,10 +159,24 @@ void Machine::watchAxes() {
               "chains (B06 or B08), or z (G10 Z0)."));
 }
 
+void Machine::sayYield() {
+  const uint32_t kGap = 100, kAWhile = 1000;  // [ms] what is blocked or unplugged is named before
+  const uint32_t now = clock_.milliseconds();
+  const bool goes_on = now - last_yield_ms_ < kGap;
+  if (!isMoving()) has_said_yield_ = false;
+  if (!axes_.hasYielded() || is_testing_) return;
+  if (!goes_on) yields_since_ms_ = now;
+  last_yield_ms_ = now;
+  if (has_said_yield_ || now - yields_since_ms_ < kAWhile || !isMoving()) return;
+  has_said_yield_ = true;
+  out_.line(
+      FLASH("The feed yields: a chain or z falls behind. Look for a weak supply or what holds the "
+            "sled, or ask for a slower feed."));
+}
+
 void Machine::noteHang() {
   hung_ = true;
-  aux_.set(Output::kLaser, false);
-  restSpindle();
+  cutter_.off();
 }
 
 bool Machine::wakeMotors() {

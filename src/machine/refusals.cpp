@@ -66,7 +66,6 @@ bool Machine::halt() {
   input_.clear();
   // What was queued before is good: the path ends where the program meant it to.
   if (!drain()) return false;
-  aux_.set(Output::kLaser, false);
   switchSpindle(false);
   return false;
 }

@@ -105,7 +105,7 @@ void Machine::afterSetting(uint8_t number) {
   if (number == 38 || number == 39) arrangeDrives();
   if (axes_.prepare(values_)) keeper_.reconsider();
   mover_.prepare(values_, axes_.secondsPerTick());
-  if (number == 17) restSpindle();
+  if (number == 17 || number == 72) cutter_.off();
   if (!isGeometry(number)) return;
   // The clients send many in a row: the place is searched once, after the last.
   is_geometry_stale_ = true;
@@ -147,7 +147,7 @@ void Machine::restoreDefaults(settings::Reset what) {
   axes_.simulate(values_.at(kSimulatedMotors) != 0);
   arrangeDrives();
   afterSetting(0);
-  restSpindle();
+  cutter_.off();
   greet();
   sayMotors();
   sayReady();

@@ -1,10 +1,8 @@
-// Spindle and laser: relay or servo, by setting $17.
+// Commands to spindle and laser, and how long a spindle takes.
 #include "machine.h"
 
 namespace machine {
 namespace {
-
-enum SpindleKind : uint8_t { kNone, kServo, kRelayHigh, kRelayLow };
 
 const uint8_t kIdleAngle = 90, kOnAngle = 180, kOffAngle = 0;  // [degrees]
 const uint16_t kServoMs = 2000;                                // for each turn of the servo
@@ -24,24 +22,25 @@ bool Machine::turnServo(uint8_t angle) {
 }
 
 bool Machine::switchSpindle(bool on) {
-  const SpindleKind kind = SpindleKind(values_.at(kSpindle));
-  if (kind == kNone) return true;
+  const SpindleKind kind = cutter_.kind();
+  if (kind == SpindleKind::kNone) return true;
   out_.line(on ? FLASH("Turning Spindle On") : FLASH("Turning Spindle Off"));
-  if (kind == kServo) {
-    if (!turnServo(on ? kOnAngle : kOffAngle)) return false;
-  } else {
-    aux_.set(Output::kSpindle, on == (kind == kRelayHigh));
-  }
+  cutter_.setSpindle(on);
+  if (kind == SpindleKind::kServo && !turnServo(on ? kOnAngle : kOffAngle)) return false;
   return waitFor(kSwitchedMs);
 }
 
-void Machine::restSpindle() {
-  const SpindleKind kind = SpindleKind(values_.at(kSpindle));
-  if (kind == kRelayHigh || kind == kRelayLow) aux_.set(Output::kSpindle, kind == kRelayLow);
+bool Machine::takeS(const Words& words) {
+  if (!words.has('S')) return true;
+  const float s = words.value('S');
+  // The moves before it are made at the speed before it.
+  if (cutter_.changesSpeed(s) && !drain()) return false;
+  cutter_.takeS(s);
+  return true;
 }
 
 void Machine::switchLaser(bool on) {
-  aux_.set(Output::kLaser, on);
+  cutter_.arm(on);
   out_.line(on ? FLASH("Laser on") : FLASH("Laser off"));
 }
 

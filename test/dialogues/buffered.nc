@@ -13,7 +13,8 @@
 ~~ wait 200
 ~~ answers 9
 ~~ sled X20 Y6 within 0.06
-~~ laser high
+; Armed, and dark at rest.
+~~ laser low
 ; The same with a stop: what waits is owed nothing.
 -> G1 X0 F60
 -> M107

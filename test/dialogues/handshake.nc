@@ -55,6 +55,8 @@
 <- $41=0 (*
 <- $42=2 (*
 ; Nothing that a client takes for its own: 43 to 46 and 85 to 98 are not there.
+<- $60=4000 (*
+<- $61=24000 (*
 <- $62=97.9 (*
 <* $227=0 (*
 <- ok

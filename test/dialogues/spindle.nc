@@ -45,7 +45,6 @@
 -> M106
 <- Laser on
 <- ok
-~~ laser high
 >> !
 <- ok
 ~~ laser low
@@ -54,3 +53,21 @@
 <* position loaded at:
 <* *
 <* *
+; Pulsed by S, between $60 and $61.
+-> $17=4
+<- ok
+-> $60=6000
+<- ok
+-> M3 S12000
+<- Turning Spindle On
+<- ok
+~~ spindle 128
+-> G1 X20 F600
+<- ok
+-> S24000
+<- ok
+~~ spindle high
+-> M5
+<- Turning Spindle Off
+<- ok
+~~ spindle low

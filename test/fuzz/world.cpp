@@ -107,6 +107,7 @@ class World : public Wire, public Drives, public Aux, public Clock {
   uint16_t illegalSteps(Axis) override { return 0; }
   void arrange(bool, uint8_t) override {}
   void set(Output, bool) override {}
+  void pulse(Output, uint8_t) override {}
   void turnServo(uint8_t) override {}
   bool probeTouches() override { return touches_; }
   uint32_t milliseconds() override { return uint32_t(now_ms_); }

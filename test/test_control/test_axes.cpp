@@ -92,3 +92,29 @@ TEST(Axes, ComeToTheirEndWithoutPassingIt) {
     EXPECT_LT(worst, 0.06) << ticks << " Hz";
   }
 }
+
+TEST(Axes, YieldWhereTheSupplyIsWeakAndRiseAgain) {
+  for (const float ticks : {100.0f, 200.0f}) {
+    for (unsigned seed = 0; seed < 20; ++seed) {
+      Bench bench(seed, ticks);
+      bench.travel(300, 900);
+      double worst = 0, weak = 0, strong = 0;
+      for (int tick = 0; bench.isMoving() && tick < int(60 * ticks); ++tick) {
+        const double seconds = tick / double(ticks), before = bench.chain();
+        bench.drives.motors[kLeftAxis].weaker = seconds > 3 && seconds < 12 ? 5.5 : 0;
+        bench.tick();
+        worst = std::max(worst, std::fabs(double(bench.axes.error(kLeftAxis))));
+        const double speed = (bench.chain() - before) * double(ticks);
+        if (seconds > 8 && seconds < 12) weak = std::max(weak, speed);
+        if (seconds > 16 && seconds < 18) strong = std::max(strong, speed);
+      }
+      EXPECT_EQ(motion::Fault::kNone, bench.axes.fault()) << "motor " << seed;
+      EXPECT_LT(worst, 1.95) << "motor " << seed;
+      EXPECT_LT(weak, 13) << "motor " << seed;
+      EXPECT_GT(strong, 14.5) << "motor " << seed;
+      EXPECT_TRUE(bench.axes.hasYielded());
+      for (int rest = 0; rest < int(ticks); ++rest) bench.tick();
+      EXPECT_NEAR(300, bench.chain(), 0.05) << "motor " << seed;
+    }
+  }
+}

@@ -29,6 +29,7 @@ class StillBoard : public machine::Wire,
   uint16_t illegalSteps(machine::Axis) override { return 0; }
   void arrange(bool, uint8_t) override {}
   void set(machine::Output, bool) override {}
+  void pulse(machine::Output, uint8_t) override {}
   void turnServo(uint8_t) override {}
   bool probeTouches() override { return false; }
   uint32_t milliseconds() override { return now_ms; }

@@ -93,8 +93,10 @@ uint16_t Stage::count(Axis axis) { return motor_[axis].count(); }
 
 void Stage::arrange(bool, uint8_t) {}
 
-void Stage::set(Output output, bool high) {
-  (output == Output::kSpindle ? spindle_ : laser_) = high;
+void Stage::set(Output output, bool high) { pulse(output, high ? 255 : 0); }
+
+void Stage::pulse(Output output, uint8_t level) {
+  (output == Output::kSpindle ? spindle_ : laser_) = level;
 }
 
 void Stage::passMillisecond() {
@@ -122,7 +124,7 @@ void Stage::idle() {
 void Stage::restart() {
   for (SimulatedMotor& motor : motor_) motor.restartCount();
   for (const Axis axis : {kLeftAxis, kRightAxis, kZAxis}) release(axis);
-  spindle_ = laser_ = false;
+  spindle_ = laser_ = 0;
   input_.clear();
   partial_.clear();
   lines_.clear();

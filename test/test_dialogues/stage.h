@@ -42,6 +42,7 @@ class Stage : public machine::Wire,
   uint16_t illegalSteps(machine::Axis) override { return 0; }
   void arrange(bool over_top, uint8_t pwm_choice) override;
   void set(machine::Output output, bool high) override;
+  void pulse(machine::Output output, uint8_t level) override;
   void turnServo(uint8_t degrees) override { servo = degrees; }
   bool probeTouches() override { return motor_[machine::kZAxis].travel <= probe_touches_at_; }
   bool driverFails(machine::Axis axis) override { return motor_[axis].complains; }
@@ -77,6 +78,7 @@ class Stage : public machine::Wire,
   bool change(const std::string& verb, const std::string& rest);
   bool wait(const std::string& seconds);
   bool askHold(double most);
+  void askLevel(const std::string& wanted, int level);
   void askSled(const std::string& place);
   void askChains(const std::string& lengths);
   void hang(const std::string& place);
@@ -97,7 +99,7 @@ class Stage : public machine::Wire,
   bool is_holding_ = false;
   double probe_touches_at_ = -1e9;
   double supply_ = 5;  // [V]
-  bool spindle_ = false, laser_ = false;
+  int spindle_ = 0, laser_ = 0;  // 255ths of the time
   reference::Machine judge_;
   SimulatedMotor motor_[machine::kAxisCount];
 };

@@ -87,12 +87,12 @@ bool Stage::change(const std::string& verb, const std::string& rest) {
   else if (is("off") || is("on"))
     tellOr(motorNamed(rest).powered == is("on"), "it is not");
   else if (is("spindle"))
-    tellOr(spindle_ == (rest == "high"), "it is not");
+    askLevel(rest, spindle_);
   else if (is("servo"))
     tellOr(servo == (rest == "loose" ? kNoServo : std::atoi(rest.c_str())),
            "it is at " + std::to_string(servo));
   else if (is("laser"))
-    tellOr(laser_ == (rest == "high"), "it is not");
+    askLevel(rest, laser_);
   else if (is("probe"))
     probe_touches_at_ = numbersIn(rest).at(0);
   else if (is("stop-when-halted"))
@@ -125,6 +125,13 @@ bool Stage::askHold(double most) {
   const double way = std::hypot(settled.bit.x() - held_x_, settled.bit.y() - held_y_);
   tellOr(way <= most, "it went on for " + std::to_string(way));
   return true;
+}
+
+void Stage::askLevel(const std::string& wanted, int level) {
+  const std::vector<double> numbers = numbersIn(wanted);
+  const double is = wanted == "high" ? 255 : wanted == "low" ? 0 : numbers.at(0);
+  const double within = numbers.size() > 1 ? numbers.at(1) : 0;
+  tellOr(std::fabs(level - is) <= within, "it is at " + std::to_string(level));
 }
 
 void Stage::askSled(const std::string& place) {

@@ -10,6 +10,7 @@ namespace {
 /// A board with a supply and one driver that may complain.
 struct Board : Aux {
   void set(Output, bool) override {}
+  void pulse(Output, uint8_t) override {}
   void turnServo(uint8_t) override {}
   bool probeTouches() override { return false; }
   bool driverFails(Axis axis) override { return complains && axis == kRightAxis; }

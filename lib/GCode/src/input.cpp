@@ -1,8 +1,6 @@
 // The ring of waiting characters.
 #include "input.h"
 
-#include <string.h>
-
 namespace gcode {
 namespace {
 
@@ -88,14 +86,21 @@ bool Input::peekLine(char (&line)[kRoom + 1]) const {
   return true;
 }
 
-bool Input::takeLine(char (&line)[kRoom + 1]) {
-  if (!peekLine(line)) return false;
-  const uint8_t length = uint8_t(strlen(line));
-  first_ = uint8_t((uint16_t(first_) + length + 1) % kRoom);
-  used_ = uint8_t(used_ - length - 1);
+void Input::dropLine() {
+  was_too_long_ = ring_[first_] == kTooLong;
+  char dropped;
+  do {
+    dropped = ring_[first_];
+    first_ = uint8_t((uint16_t(first_) + 1) % kRoom);
+    --used_;
+  } while (dropped != '\n');
   --lines_;
   if (resumable_ != 0) --resumable_;
-  was_too_long_ = length == 1 && line[0] == kTooLong;
+}
+
+bool Input::takeLine(char (&line)[kRoom + 1]) {
+  if (!peekLine(line)) return false;
+  dropLine();
   return true;
 }
 

@@ -40,8 +40,9 @@ class Input {
   /// Takes the oldest line, without its end; false if none is complete.
   bool takeLine(char (&line)[kRoom + 1]);
 
-  /// The same, and it stays.
+  /// The same, and it stays until dropLine().
   bool peekLine(char (&line)[kRoom + 1]) const;
+  void dropLine();
 
   /// Whether the line taken last had been too long, so that nothing of it is left.
   bool wasTooLong() const { return was_too_long_; }

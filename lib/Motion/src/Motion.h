@@ -7,3 +7,4 @@
 #include "mover.h"
 #include "playback.h"
 #include "watch.h"
+#include "yield.h"

@@ -43,6 +43,7 @@ struct Move {
   float corner_squared;  ///< the same, as far as the corner before it is concerned
   uint16_t most_ticks;   ///< that it lasts: from rest to rest
   Space space;
+  uint8_t beam;  ///< how strong a laser is along it, at its feed
 };
 
 /// The moves that wait, the one in hand first.
@@ -70,7 +71,8 @@ class MoveQueue {
   bool lastsLonger(uint16_t ticks, const Walk& walk) const;
 
   /// Queues a move from where the last one ends, at z `z_from`; `feed` [mm/s] over all axes.
-  Added add(const Path<float>& path, float z_from, float z_to, float feed, Space space);
+  Added add(const Path<float>& path, float z_from, float z_to, float feed, Space space,
+            uint8_t beam = 0);
 
   /// From now on feeds count so many times, but no more than `most_feed` [mm/s] is made of them;
   /// chains, z, corners and arcs keep their limits.
@@ -146,7 +148,7 @@ inline void MoveQueue::boost(float times, float most_feed) {
 }
 
 inline Added MoveQueue::add(const Path<float>& path, float z_from, float z_to, float feed,
-                            Space space) {
+                            Space space, uint8_t beam) {
   using queue_detail::smaller;
   const bool has_path = path.drawn == Drawn::kYes;
   const float rise = z_to - z_from;
@@ -161,6 +163,7 @@ inline Added MoveQueue::add(const Path<float>& path, float z_from, float z_to, f
   if (!has_path) move.path.length = 0;
   move.z_to = z_to;
   move.space = space;
+  move.beam = beam;
   const float along = move.path.length;
   move.length = rise == 0 ? along : float(sqrt(along * along + rise * rise));
   const float xy = rise == 0 ? 1 : along / move.length;

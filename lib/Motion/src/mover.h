@@ -44,7 +44,9 @@ class Mover {
   void standAt(const SetPoint& point);
 
   /// Queues a move from where the last one ends; `z_to` [mm], `feed` [mm/s] over all axes.
-  Added add(const Path<float>& path, float z_to, float feed, Space space = Space::kSheet);
+  /// `beam`: how strong a laser is on it at its feed; less where it is slower.
+  Added add(const Path<float>& path, float z_to, float feed, Space space = Space::kSheet,
+            uint8_t beam = 0);
 
   /// Works out as many set-points as there is room for. `inverse`: Point<float> -> Lengths<float>.
   template <class Inverse>
@@ -88,6 +90,7 @@ class Mover {
   __attribute__((noinline)) bool cut(const Inverse& inverse);
   void advance();
   void push(SetPoints& set_points) const;
+  uint8_t beamNow() const;
 
   MoveQueue queue_;
   Tiles tiles_;
@@ -103,8 +106,10 @@ class Mover {
   float z_from_ = 0;                   ///< [mm] where the first move begins
   float z_end_ = 0;                    ///< [mm] where the last one ends
   SetPoint last_ = {0, 0, 0};
-  int32_t way_ = 0,
-          way_change_ = 0;  ///< [counts] of the last tick, and its change in each of these
+  int32_t way_ = 0;         ///< [counts] of the last tick
+  int32_t way_change_ = 0;  ///< its change in each tick of the segment
+  int32_t feed_way_ = 1;    ///< [counts] of a tick at the move's feed
+  uint8_t beam_ = 0;        ///< of the moves that this tick is part of, the weakest
   uint16_t gain_ = 1;       ///< [counts/tick] by which it may change
   uint16_t times_dry_ = 0;
 };

@@ -21,9 +21,10 @@ inline void Mover::standAt(const SetPoint& point) {
   forget();
 }
 
-inline Added Mover::add(const Path<float>& path, float z_to, float feed, Space space) {
+inline Added Mover::add(const Path<float>& path, float z_to, float feed, Space space,
+                        uint8_t beam) {
   if (queue_.isEmpty()) z_from_ = z_end_;
-  const Added added = queue_.add(path, z_end_, z_to, feed, space);
+  const Added added = queue_.add(path, z_end_, z_to, feed, space, beam);
   if (added != Added::kYes) return added;
   z_end_ = z_to;
   // What brakes may have been going to stop for want of this move.
@@ -63,6 +64,8 @@ inline void Mover::takeUp() {
   is_taken_up_ = true;
   has_z_ = move.z_to != z_from_;
   const int32_t gain = toCounts(move.acceleration);
+  feed_way_ = toCounts(move.feed);
+  beam_ = move.beam;
   gain_ = gain < 1 ? 1 : gain > 65535 ? 65535 : uint16_t(gain);
   // A move whose feed was lowered is still faster for a while.
   const float top = move.top > walk_.speed ? move.top : walk_.speed;
@@ -168,8 +171,10 @@ bool Mover::step(float change, const Inverse& inverse) {
   change_ = 0;
   // What is left by rounding alone is not worth a tick.
   const float kHair = 1 - 1e-6f;
-  while (walk_.done >= queue_.first().length * kHair && queue_.count() > 1)
+  while (walk_.done >= queue_.first().length * kHair && queue_.count() > 1) {
+    if (queue_.second().beam < beam_) beam_ = queue_.second().beam;
     if (!pass(inverse)) return false;
+  }
   const Move& move = queue_.first();
   const bool arrives = walk_.done >= move.length * kHair;
   if (arrives) walk_ = {move.length, 0};
@@ -212,10 +217,17 @@ inline void Mover::advance() {
   }
 }
 
+/// As strong as at the feed, by the share of it that is the speed now.
+inline uint8_t Mover::beamNow() const {
+  if (beam_ == 0 || way_ >= feed_way_) return beam_;
+  const uint8_t weaker = uint8_t((int32_t(beam_) * way_ + feed_way_ / 2) / feed_way_);
+  return weaker == 0 ? 1 : weaker;
+}
+
 inline void Mover::push(SetPoints& set_points) const {
   const int32_t kMostWay = (1L << 17) - 1;
   const uint32_t way = way_ < 1 ? 1 : way_ > kMostWay ? kMostWay : uint32_t(way_);
-  set_points.push({last_, way, gain_, 0});
+  set_points.push({last_, way, gain_, beamNow()});
 }
 
 template <class Inverse>

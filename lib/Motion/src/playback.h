@@ -22,7 +22,16 @@ class Playback {
   void hold() { is_held_ = true; }
   void resume() { is_held_ = false; }
   /// From now on at so many 256ths of the planned speed, 1 to 256.
-  void goAt(uint16_t share) { share_ = share; }
+  void goAt(uint16_t share) {
+    asked_ = share;
+    share_ = uint16_t(uint32_t(asked_) * yield_ >> 8);
+  }
+  /// And at so many 256ths of that, as the axes cannot follow.
+  void yieldTo(uint16_t share) {
+    if (share == yield_) return;
+    yield_ = share;
+    goAt(asked_);
+  }
 
   bool isHeld() const { return is_held_; }
   bool isAtRest() const { return speed_ == 0; }
@@ -66,7 +75,8 @@ class Playback {
   uint8_t beam() const {
     if (in_step_) return speed_ == 0 ? 0 : leg_.beam;
     if (speed_ >= leg_.way) return leg_.beam;
-    return uint8_t(leg_.beam * shareOf(speed_, leg_.way) >> kShareBits);
+    const uint32_t kHalf = 1UL << (kShareBits - 1);
+    return uint8_t((leg_.beam * shareOf(speed_, leg_.way) + kHalf) >> kShareBits);
   }
 
  private:
@@ -147,7 +157,8 @@ class Playback {
   SetPoint from_ = {0, 0, 0};       ///< where that began
   uint32_t gone_ = 0;               ///< [counts] of it
   uint32_t speed_ = 0;              ///< [counts/tick]
-  uint16_t share_ = kAllOfIt;
+  uint16_t asked_ = kAllOfIt, yield_ = kAllOfIt;
+  uint16_t share_ = kAllOfIt;  ///< both together
   bool is_held_ = false;
   bool in_step_ = true;  ///< it stands on the last set-point taken
 };

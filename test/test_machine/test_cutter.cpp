@@ -1,0 +1,110 @@
+// Levels of spindle and laser, and what puts them out.
+#include <gtest/gtest.h>
+
+#include "machine/cutter.h"
+#include "settings_flash.h"
+
+using namespace machine;
+
+namespace {
+
+struct Pins : Aux {
+  void set(Output output, bool high) override { level[int(output)] = high ? 255 : 0; }
+  void pulse(Output output, uint8_t now) override { level[int(output)] = now; }
+  void turnServo(uint8_t) override {}
+  bool probeTouches() override { return false; }
+  int level[2] = {-1, -1};
+};
+
+struct Bench {
+  explicit Bench(std::initializer_list<std::pair<int, float>> settings) : values(table, room) {
+    for (const auto& [number, value] : settings)
+      EXPECT_EQ(values.set(uint8_t(number), value), settings::Refusal::kNone);
+  }
+  int laser() const { return pins.level[int(Output::kLaser)]; }
+  int spindle() const { return pins.level[int(Output::kSpindle)]; }
+
+  FlashTable table;
+  float room[kSettingCount];
+  settings::Values values;
+  Pins pins;
+  Cutter cutter{pins, values};
+};
+
+}  // namespace
+
+TEST(Laser, CutsInG1ToG3OfWhatItIsArmedFor) {
+  Bench bench({});
+  EXPECT_EQ(0, bench.cutter.beamOf(1));
+  bench.cutter.setFull();
+  bench.cutter.arm(true);
+  EXPECT_EQ(0, bench.cutter.beamOf(0));
+  for (const uint8_t motion : {1, 2, 3}) EXPECT_EQ(255, bench.cutter.beamOf(motion));
+  bench.cutter.takeS(100);
+  EXPECT_EQ(100, bench.cutter.beamOf(1));
+  bench.cutter.takeS(12000);
+  EXPECT_EQ(255, bench.cutter.beamOf(1));
+  bench.cutter.takeS(0);
+  EXPECT_EQ(0, bench.cutter.beamOf(1));
+  bench.cutter.takeS(NAN);
+  EXPECT_EQ(0, bench.cutter.beamOf(1));
+  bench.cutter.takeS(7);
+  bench.cutter.arm(false);
+  EXPECT_EQ(0, bench.cutter.beamOf(1));
+}
+
+TEST(Laser, ShowsTheBeamOrAllOfIt) {
+  Bench plain({}), pulsed({{72, 1}});
+  for (Bench* bench : {&plain, &pulsed}) {
+    bench->cutter.show(40);
+    EXPECT_EQ(-1, bench->laser()) << "not armed yet";
+    bench->cutter.arm(true);
+    bench->cutter.show(40);
+    EXPECT_EQ(bench == &plain ? 255 : 40, bench->laser());
+    bench->cutter.show(0);
+    EXPECT_EQ(0, bench->laser());
+  }
+}
+
+TEST(Laser, StaysOffAfterOffThoughMovesStillBrake) {
+  Bench bench({});
+  bench.cutter.arm(true);
+  bench.cutter.show(255);
+  bench.cutter.off();
+  EXPECT_EQ(0, bench.laser());
+  bench.cutter.show(200);
+  EXPECT_EQ(0, bench.laser());
+  bench.cutter.arm(true);
+  bench.cutter.show(200);
+  EXPECT_EQ(255, bench.laser());
+}
+
+TEST(Spindle, IsPulsedByItsSpeed) {
+  Bench bench({{17, 4}, {60, 6000}, {61, 24000}});
+  bench.cutter.setSpindle(true);
+  EXPECT_EQ(255, bench.spindle());
+  EXPECT_TRUE(bench.cutter.changesSpeed(12000));
+  bench.cutter.takeS(12000);
+  EXPECT_EQ(128, bench.spindle());
+  EXPECT_FALSE(bench.cutter.changesSpeed(12000));
+  bench.cutter.takeS(100);
+  EXPECT_EQ(64, bench.spindle());
+  bench.cutter.takeS(99000);
+  EXPECT_EQ(255, bench.spindle());
+  bench.cutter.setSpindle(false);
+  EXPECT_EQ(0, bench.spindle());
+  EXPECT_FALSE(bench.cutter.changesSpeed(5));
+  bench.cutter.takeS(24000);
+  EXPECT_EQ(0, bench.spindle());
+}
+
+TEST(Spindle, ByRelayKnowsNoSpeed) {
+  for (const float kind : {2.0f, 3.0f}) {
+    Bench bench({{17, kind}});
+    bench.cutter.setSpindle(true);
+    EXPECT_EQ(kind == 2 ? 255 : 0, bench.spindle());
+    EXPECT_FALSE(bench.cutter.changesSpeed(5000));
+    bench.cutter.off();
+    EXPECT_EQ(kind == 2 ? 0 : 255, bench.spindle());
+  }
+}
