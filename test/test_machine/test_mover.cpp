@@ -46,6 +46,7 @@ class World {
     axes_.prepare(values_);
     mover_.prepare(values_, axes_.secondsPerTick());
     geometry_.prepare(values_);
+    mover_.setGeometry(geometry_);
     standAt(0, 0);
   }
 
