@@ -79,12 +79,13 @@
 ~~ wait 2
 ~~ laser low
 <- ok
+~~ wait 1.5
 -> M106
 <- Laser on
 <- ok
 -> G1 X30
 ~~ wait 1
-~~ laser high
+~~ laser 255 within 1
 <- ok
 -> M2
 <- ok

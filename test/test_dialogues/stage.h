@@ -98,7 +98,7 @@ class Stage : public machine::Wire,
   double held_x_ = 0, held_y_ = 0;  // of the bit when a hold was asked for
   bool is_holding_ = false;
   double probe_touches_at_ = -1e9;
-  double supply_ = 5;  // [V]
+  double supply_ = 5;            // [V]
   int spindle_ = 0, laser_ = 0;  // 255ths of the time
   reference::Machine judge_;
   SimulatedMotor motor_[machine::kAxisCount];
