@@ -41,6 +41,7 @@ Stage::Stage(std::vector<Step> steps)
 }
 
 int16_t Stage::read() {
+  passGap();
   if (input_.empty() || byte_credit_ < 1) return -1;
   byte_credit_ -= 1;
   const char c = input_.front();
@@ -49,6 +50,7 @@ int16_t Stage::read() {
 }
 
 void Stage::write(char character) {
+  passGap();
   while (out_queue_ >= kOutRoom) passMillisecond();
   ++out_queue_;
   if (character != '\n') {
@@ -96,7 +98,29 @@ void Stage::arrange(bool, uint8_t) {}
 void Stage::set(Output output, bool high) { pulse(output, high ? 255 : 0); }
 
 void Stage::pulse(Output output, uint8_t level) {
+  passGap();
   (output == Output::kSpindle ? spindle_ : laser_) = level;
+}
+
+void Stage::callTick() {
+  if (chance_ == 0 || is_tick_due_) runTick();
+  if (chance_ == 0) return;
+  const uint32_t kMostGaps = 256;  // as many as a tick's time has, more or less
+  is_tick_due_ = true;
+  chance_ = chance_ * 1664525 + 1013904223;
+  gaps_to_pass_ = int(chance_ >> 16) % int(kMostGaps);
+}
+
+void Stage::runTick() {
+  is_tick_due_ = false;
+  is_ticking_ = true;
+  tick();
+  is_ticking_ = false;
+}
+
+void Stage::passGap() {
+  if (!is_tick_due_ || is_ticking_ || holds_ != 0) return;
+  if (gaps_to_pass_-- <= 0) runTick();
 }
 
 void Stage::passMillisecond() {
@@ -105,7 +129,7 @@ void Stage::passMillisecond() {
   byte_credit_ = std::min(byte_credit_ + kBytesPerMs, 12.0);
   for (SimulatedMotor& motor : motor_) motor.advance(0.001);
   eeprom.advance(1000);
-  if (now_ms_ % kTickMs == 0) tick();
+  if (now_ms_ % kTickMs == 0) callTick();
   look();
   if (now_ms_ - last_line_ms_ > kLongestGapMs) fail("silence for over 1.5 s");
 }
@@ -123,6 +147,8 @@ void Stage::idle() {
 
 void Stage::restart() {
   for (SimulatedMotor& motor : motor_) motor.restartCount();
+  holds_ = 0;
+  is_tick_due_ = false;
   for (const Axis axis : {kLeftAxis, kRightAxis, kZAxis}) release(axis);
   spindle_ = laser_ = 0;
   input_.clear();

@@ -47,10 +47,21 @@ class Stage : public machine::Wire,
   bool probeTouches() override { return motor_[machine::kZAxis].travel <= probe_touches_at_; }
   bool driverFails(machine::Axis axis) override { return motor_[axis].complains; }
   uint16_t bandGap() override { return uint16_t(1.1 * 1024 / supply_ + 0.5); }
-  uint32_t milliseconds() override { return uint32_t(now_ms_); }
+  uint32_t milliseconds() override {
+    passGap();
+    return uint32_t(now_ms_);
+  }
   void idle() override;
-  void holdTicks() override {}
-  void releaseTicks() override {}
+  void holdTicks() override { ++holds_; }
+  void releaseTicks() override {
+    --holds_;
+    passGap();
+  }
+
+  /// From now on a tick that is due falls into any gap of the main program: where ticks are
+  /// released or the board is asked for something. Without this they fall where the main program
+  /// waits.
+  void letTicksFallAnywhere(uint32_t seed) { chance_ = seed | 1; }
 
   /// Called every control tick, as the interrupt would be.
   std::function<void()> tick = [] {};
@@ -70,6 +81,9 @@ class Stage : public machine::Wire,
 
  private:
   void passMillisecond();
+  void passGap();
+  void runTick();
+  void callTick();
   void takeLine(const std::string& line);
   bool takeStep(const Step& step);
   bool expect(const Step& step);
@@ -93,6 +107,9 @@ class Stage : public machine::Wire,
   std::deque<std::string> lines_;
   std::string partial_, latest_status_, latest_errors_, input_;
   double byte_credit_ = 0;
+  uint32_t chance_ = 0;  ///< 0: ticks fall only where the main program waits
+  int holds_ = 0, gaps_to_pass_ = 0;
+  bool is_tick_due_ = false, is_ticking_ = false;
   int out_queue_ = 0, answers_ = 0, halts_ = 0;
   bool stops_when_halted_ = false;
   double held_x_ = 0, held_y_ = 0;  // of the bit when a hold was asked for

@@ -30,5 +30,15 @@ TEST_P(Dialogue, IsAnsweredAsWritten) {
   }
 }
 
+TEST_P(Dialogue, IsAnsweredAsWrittenWhereverTicksFall) {
+  try {
+    Stage stage(readScript(kFolder, GetParam() + ".nc"));
+    stage.letTicksFallAnywhere(uint32_t(std::hash<std::string>()(GetParam())));
+    live(stage);
+  } catch (const Failure& failure) {
+    FAIL() << failure.what();
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, Dialogue, testing::ValuesIn(dialogues()),
                          [](const auto& info) { return info.param; });
