@@ -54,8 +54,6 @@ uint8_t Cutter::beamOf(uint8_t motion) const {
 
 void Cutter::show(uint8_t beam) {
   if (beam == 0 && shown_ == 0) return;
-  if (beam == 0 && shown_ == 0) return;
-  if (beam == 0 && shown_ == 0) return;
   const bool pulses = values_.at(kLaserPulses) != 0;
   const uint8_t level = is_barred_ || beam == 0 ? 0 : pulses ? beam : uint8_t(kFull);
   if (level == shown_) return;
