@@ -40,6 +40,11 @@ bool Machine::isQuestion(const char* line) {
   return code == 5 || code == 10 || code == 20 || code == 30;
 }
 
+bool Machine::isZLimitCode(const char* line) {
+  const uint8_t code = codeOf(line);
+  return code >= 17 && code <= 19;
+}
+
 bool Machine::runB(const char* line) {
   const uint8_t code = codeOf(line);
   Words words;
@@ -64,9 +69,12 @@ bool Machine::runB(const char* line) {
     default:
       break;
   }
-  // All others act on the machine, so what was queued before them comes first.
-  if (!drain()) return false;
-  refreshGeometry();
+  // All others act on the machine, so what was queued before them comes first; an operator's line
+  // in a wait is for the moment.
+  if (!interlude_.isServing()) {
+    if (!drain()) return false;
+    refreshGeometry();
+  }
   return runChainCode(code, words);
 }
 

@@ -55,7 +55,7 @@ void Machine::serveOperator() {
 }
 
 bool Machine::isForOperator(const char* line) const {
-  if (line[0] == 'B') return isQuestion(line);
+  if (line[0] == 'B') return isQuestion(line) || isZLimitCode(line);
   if (line[0] == '$') return line[1] == '$' && line[2] == '\0';
   if (gcode::findMistake(line).fault != gcode::Fault::kNone) return false;
   gcode::Piece piece;

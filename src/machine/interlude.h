@@ -49,6 +49,7 @@ class Interlude {
 
   /// A line of the operator is being done.
   void serve(bool yes) { is_serving_ = yes; }
+  bool isServing() const { return is_serving_; }
 
   /// True once, when z begins to go back.
   bool beginsLowering() {

@@ -248,6 +248,8 @@ class Machine {
   // b_codes.cpp, single_axis.cpp, motor_tests.cpp, loop_tests.cpp: single axes.
   bool moveAxis(Axis axis, float goal, float feed, bool until_probe);
   static bool isQuestion(const char* line);
+  /// B17 to B19, which move nothing.
+  static bool isZLimitCode(const char* line);
   bool runB(const char* line);
   bool runChainCode(uint8_t code, const Words& words);
   bool runTestCode(uint8_t code, const Words& words);

@@ -28,6 +28,29 @@
 <- B10L
 <- [Measure: *
 <- ok
+; Limits of z move no chain either.
+-> B17
+<- B17
+<- Upper limit set to: 3.00 within 0.021
+<- ok
+-> G0 Z4
+<- ok
+-> B18
+<- B18
+<- Lower limit set to: 3.00 within 0.021
+<- ok
+-> G0 Z1
+<- ok
+~~ wait 4
+~~ z 3 within 0.03
+-> B20
+<- B20
+<- Z Axis Upper Limit: 3.00 Lower Limit: 3.00 within 0.021
+<- ok
+-> B19
+<- B19
+<- Z Axis Limits Cleared
+<- ok
 -> G10 Z1
 <- ok
 -> G0 Z0.5

@@ -22,6 +22,15 @@
 <- ok
 -> M1
 <- Maslow Paused
+~~ wait 1
+-> B17
+<- B17
+<- Upper limit set to: 0.00 within 0.015
+<- ok
+-> B19
+<- B19
+<- Z Axis Limits Cleared
+<- ok
 ~~ wait 65
 >> !
 <- ok
