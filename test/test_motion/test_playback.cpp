@@ -1,0 +1,83 @@
+// The tick's walk by itself: two shares at once, what it says of the ticks to come, and at rest.
+#include <gtest/gtest.h>
+
+#include "plain.h"
+
+using namespace motion;
+
+namespace {
+
+const uint8_t kAhead = 4;  // [ticks]
+
+/// On its way along x at 15 mm/s, 0.15 mm a tick, of which it may lose 0.01 in each.
+Plain cruising() {
+  Plain plain;
+  plain.lineTo(500, 0);
+  for (int i = 0; i < 200; ++i) plain.tick();
+  return plain;
+}
+
+double speedAfter(Plain& plain, int ticks) {
+  for (int i = 0; i < ticks; ++i) plain.tick();
+  return plain.speeds().back();
+}
+
+/// [mm] along x.
+double stepAhead(const Plain& plain) {
+  return toMm<double>(plain.playback.stepAhead(plain.set_points, kAhead).left);
+}
+
+}  // namespace
+
+TEST(Yielding, TakesItsShareOfWhatWasAskedFor) {
+  Plain plain = cruising();
+  plain.playback.yieldTo(128);
+  EXPECT_NEAR(7.5, speedAfter(plain, 60), 0.03);
+  plain.playback.goAt(128);
+  EXPECT_NEAR(3.75, speedAfter(plain, 60), 0.03);
+  plain.playback.yieldTo(256);
+  EXPECT_NEAR(7.5, speedAfter(plain, 60), 0.03);
+  plain.playback.goAt(256);
+  EXPECT_NEAR(15, speedAfter(plain, 60), 0.03);
+}
+
+TEST(StepAhead, IsThatOfTheSpeedNow) {
+  Plain plain = cruising();
+  plain.mover.fill(plain.set_points, plain.inverse);
+  EXPECT_NEAR(0.15, stepAhead(plain), 1e-3);
+  plain.playback.goAt(64);
+  speedAfter(plain, 60);
+  EXPECT_NEAR(0.0375, stepAhead(plain), 1e-3);
+}
+
+TEST(StepAhead, FallsWhereAHoldBrakesAndIsNoneAtRest) {
+  Plain plain = cruising();
+  plain.playback.hold();
+  EXPECT_NEAR(0.14, speedAfter(plain, 1) * kTick, 1e-3);
+  EXPECT_NEAR(0.10, stepAhead(plain), 1e-3);
+  speedAfter(plain, 11);
+  EXPECT_EQ(0, stepAhead(plain)) << "at rest before that tick";
+  speedAfter(plain, 30);
+  EXPECT_EQ(0, stepAhead(plain));
+}
+
+TEST(StepAhead, IsNoneForASetOutThatIsHeld) {
+  Plain plain;
+  plain.playback.hold();
+  plain.lineTo(10, 0);
+  plain.tick();
+  EXPECT_FALSE(plain.set_points.isEmpty());
+  EXPECT_EQ(0, stepAhead(plain));
+  EXPECT_TRUE(plain.playback.isDone()) << "nothing is taken";
+}
+
+TEST(Share, OfNothingIsRest) {
+  Plain plain;
+  plain.playback.goAt(128);
+  EXPECT_FALSE(plain.tickAlone());
+  plain.lineTo(3, 0);
+  plain.run();
+  EXPECT_FALSE(plain.tickAlone());
+  EXPECT_TRUE(plain.playback.isAtRest());
+  EXPECT_TRUE(plain.playback.isDone());
+}
