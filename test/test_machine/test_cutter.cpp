@@ -108,3 +108,35 @@ TEST(Spindle, ByRelayKnowsNoSpeed) {
     EXPECT_EQ(kind == 2 ? 0 : 255, bench.spindle());
   }
 }
+
+TEST(Laser, GivesItsBeamToTheMoveItWasAimedFor) {
+  Bench bench({});
+  bench.cutter.setFull();
+  bench.cutter.arm(true);
+  bench.cutter.aim(1);
+  EXPECT_EQ(255, bench.cutter.takeBeam());
+  EXPECT_EQ(0, bench.cutter.takeBeam()) << "a move of another code";
+  bench.cutter.aim(1);
+  bench.cutter.arm(false);
+  EXPECT_EQ(0, bench.cutter.takeBeam());
+}
+
+TEST(Laser, IsNotArmedByOffNorShownByM107) {
+  Bench bench({});
+  bench.cutter.setFull();
+  bench.cutter.arm(true);
+  bench.cutter.off();
+  EXPECT_EQ(0, bench.cutter.beamOf(1));
+  bench.cutter.arm(false);
+  bench.cutter.show(200);
+  EXPECT_EQ(0, bench.laser());
+}
+
+TEST(Spindle, ThatIsPulsedStopsThoughItsKindChanged) {
+  Bench bench({{17, 4}});
+  bench.cutter.setSpindle(true);
+  EXPECT_EQ(255, bench.spindle());
+  ASSERT_EQ(bench.values.set(17, 0), settings::Refusal::kNone);
+  bench.cutter.setSpindle(false);
+  EXPECT_EQ(0, bench.spindle());
+}
