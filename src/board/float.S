@@ -1,9 +1,10 @@
-; Sum and product of floats, for the Mega: avr-libc's own steps in one piece, without its four calls
-; and its questions about numbers that are hardly ever there. Same bits; a product takes 105 cycles
-; instead of 132, a sum 91 instead of 113. What is rare (zero, infinity, NaN, numbers below 2^-126 or
-; above 2^126) goes to avr-libc's steps, operands as they came.
+; Sum, product and quotient of floats, for the Mega, bit for bit as avr-libc's. Sum and product are its
+; steps in one piece, without its four calls and its questions about numbers that are hardly ever
+; there: a product takes 105 cycles instead of 132, a sum 91 instead of 113. A quotient is worked out a
+; byte at a time with the multiplier instead of a bit: 170 instead of 480. What is rare (zero, infinity,
+; NaN, numbers below 2^-126 or above 2^126) goes to avr-libc's steps, operands as they came.
 ;
-; float __mulsf3(float a, float b), float __addsf3(float a, float b), float __subsf3(float a, float b)
+; float __mulsf3(float a, float b), __addsf3(float a, float b), __subsf3(...), __divsf3(...)
 ; a in r25:r22 and back, b in r21:r18; r0, r26, r27, r30, r31 and T are free, r1 is zero.
 #ifdef __AVR__
 
@@ -254,4 +255,127 @@ __addsf3:
 	bst r30, 7
 	jmp __fp_inf
 	.size __addsf3, . - __addsf3
+
+	.section .progmem.data.float_reciprocal, "a", @progbits
+	; 2^32 / divisor, less 256, by the eight digits behind its first; never too much.
+	.balign 256
+.Lreciprocal:
+	.set upper, 257
+	.rept 256
+	.byte 0x20000 / upper - 256
+	.set upper, upper + 1
+	.endr
+
+	.section .text.float_quotient, "ax", @progbits
+.Lrare_quotient:
+	movw r24, r30
+	movw r20, r26
+	call __divsf3x
+	jmp __fp_round
+
+; A digit is a byte. Take the rest's first byte times the reciprocal: at most 3 too few, never too many.
+; What it holds of the divisor goes off the rest, and so does the divisor while it fits.
+; The rest's bytes, high to low: the first is zero after that, and so is the next digit's last.
+	.macro digit_of_quotient digit, a3, a2, a1, a0
+	mul \a3, r26
+	add r0, \a2
+	adc r1, \a3
+	mov \digit, r1
+	mul \digit, r18
+	sub \a0, r0
+	sbc \a1, r1
+	sbc \a2, r21
+	sbc \a3, r21
+	mul \digit, r19
+	sub \a1, r0
+	sbc \a2, r1
+	sbc \a3, r21
+	mul \digit, r20
+	sub \a2, r0
+	sbc \a3, r1
+8:	cp \a0, r18
+	cpc \a1, r19
+	cpc \a2, r20
+	cpc \a3, r21
+	brcs 9f
+	sub \a0, r18
+	sbc \a1, r19
+	sbc \a2, r20
+	sbc \a3, r21
+	inc \digit
+	rjmp 8b
+9:
+	.endm
+
+	.global __divsf3
+	.type __divsf3, @function
+__divsf3:
+	mov r0, r25
+	eor r0, r21
+	bst r0, 7		; the quotient's sign
+	movw r30, r24		; as they came
+	movw r26, r20
+	lsl r24
+	rol r25			; exponent of a
+	breq .Lrare_quotient
+	cpi r25, 0xff
+	breq .Lrare_quotient
+	ror r24			; carry is set: its first digit
+	lsl r20
+	rol r21			; exponent of b
+	breq .Lrare_quotient
+	cpi r21, 0xff
+	breq .Lrare_quotient
+	ror r20
+	; The quotient's exponent, 1 to 253 before it is known which is larger: the difference and 126.
+	sub r25, r21
+	brcs 1f
+	cpi r25, 128
+	brcc .Lrare_quotient
+	subi r25, -126
+	rjmp 2f
+1:	subi r25, 130
+	brcs .Lrare_quotient
+	breq .Lrare_quotient
+2:	mov r30, r19
+	lsl r30
+	mov r30, r20
+	rol r30			; the eight digits behind b's first
+	ldi r31, hi8(.Lreciprocal)
+	lpm r26, Z
+	clr r27
+	clr r21
+	cp r22, r18
+	cpc r23, r19
+	cpc r24, r20
+	brcs 3f
+	inc r25			; a is the larger: half of it
+	lsr r24
+	ror r23
+	ror r22
+	ror r27
+3:	digit_of_quotient r31, r24, r23, r22, r27
+	digit_of_quotient r30, r23, r22, r27, r24
+	digit_of_quotient r26, r22, r27, r24, r23
+	; To the nearest: is twice the rest more than b? It is never b.
+	lsl r23
+	rol r24
+	rol r27
+	brcs 4f
+	cp r18, r23
+	cpc r19, r24
+	cpc r20, r27
+4:	mov r22, r26
+	mov r23, r30
+	mov r24, r31
+	adc r22, r21
+	adc r23, r21
+	adc r24, r21
+	lsl r24			; its first digit goes
+	lsr r25
+	ror r24
+	bld r25, 7
+	clr r1
+	ret
+	.size __divsf3, . - __divsf3
 #endif

@@ -1,4 +1,4 @@
-; avr-libc's product and sum as they are without src/board/float.S.
+; avr-libc's product, sum and quotient as they are without src/board/float.S.
 	.global productOfLibc
 productOfLibc:
 	call __mulsf3x
@@ -9,4 +9,9 @@ sumOfLibc:
 	clr r27
 	clr r26
 	call __addsf3x
+	jmp __fp_round
+
+	.global quotientOfLibc
+quotientOfLibc:
+	call __divsf3x
 	jmp __fp_round

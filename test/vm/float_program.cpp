@@ -1,5 +1,6 @@
-// A program for the simulated Mega: sum, difference and product of src/board/float.S against
-// avr-libc's, bit by bit, and what they take. Sends lines "name number". Not part of the firmware.
+// A program for the simulated Mega: sum, difference, product and quotient of src/board/float.S
+// against avr-libc's, bit by bit, and what they take. Sends lines "name number". Not part of the
+// firmware.
 #include <avr/io.h>
 #include <stdint.h>
 #include <string.h>
@@ -9,9 +10,11 @@ extern "C" {
 float __mulsf3(float, float);
 float __addsf3(float, float);
 float __subsf3(float, float);
+float __divsf3(float, float);
 // avr-libc's, by its inner steps; see float_of_libc.S.
 float productOfLibc(float, float);
 float sumOfLibc(float, float);
+float quotientOfLibc(float, float);
 }
 
 namespace {
@@ -39,21 +42,25 @@ Bits bitsOf(float value) {
   return bits;
 }
 
-uint16_t products, sums, differences;  // that are not avr-libc's
+uint16_t products, sums, differences, quotients;  // that are not avr-libc's
+
+void checkQuotient(Bits a, Bits b) {
+  const float x = floatOf(a), y = floatOf(b);
+  if (bitsOf(__divsf3(x, y)) != bitsOf(quotientOfLibc(x, y))) ++quotients;
+}
 
 void check(Bits a, Bits b) {
   const float x = floatOf(a), y = floatOf(b), minus_y = floatOf(b ^ kSign);
   if (bitsOf(__mulsf3(x, y)) != bitsOf(productOfLibc(x, y))) ++products;
   if (bitsOf(__addsf3(x, y)) != bitsOf(sumOfLibc(x, y))) ++sums;
   if (bitsOf(__subsf3(x, y)) != bitsOf(sumOfLibc(x, minus_y))) ++differences;
+  checkQuotient(a, b);
 }
 
 Bits random() {
   static Bits state = 20251;
-  state ^= state << 13;
-  state ^= state >> 17;
-  state ^= state << 5;
-  return state;
+  state = state * 1664525 + 1013904223;
+  return state ^ state >> 16;
 }
 
 /// A random pair, a pair whose exponents are near, and pairs that nearly cancel or have few digits.
@@ -65,6 +72,15 @@ void checkRandomPairs() {
   check(a, near);
   check(a & 0xffff0000, near & 0xffff0000);
   check(a, (a ^ kSign) + (b & 7));
+}
+
+/// Random pairs, most with a plain quotient; every other time one of the two has few digits.
+void checkRandomQuotients() {
+  const Bits a = random(), b = random();
+  checkQuotient(a, b);
+  checkQuotient(b & 0xbfffffff, a & 0xbfffffff);
+  checkQuotient(a & 0xffffff00, b);
+  checkQuotient(a, b & 0xffffe000);
 }
 
 void send(char character) {
@@ -98,13 +114,17 @@ int main() {
   for (uint8_t i = 0; i < kEdgeCount; ++i)
     for (uint8_t k = 0; k < kEdgeCount; ++k) check(kEdges[i], kEdges[k]);
   for (uint16_t i = 0; i < 5000; ++i) checkRandomPairs();
+  for (uint16_t i = 0; i < 50000; ++i) checkRandomQuotients();
   tell("products", products);
   tell("sums", sums);
   tell("differences", differences);
+  tell("quotients", quotients);
   tell("product_cycles", cyclesOf(__mulsf3));
   tell("product_cycles_of_libc", cyclesOf(productOfLibc));
   tell("sum_cycles", cyclesOf(__addsf3));
   tell("sum_cycles_of_libc", cyclesOf(sumOfLibc));
+  tell("quotient_cycles", cyclesOf(__divsf3));
+  tell("quotient_cycles_of_libc", cyclesOf(quotientOfLibc));
   for (;;) {
   }
 }

@@ -14,7 +14,7 @@ BUILD = ROOT / ".build/bench"
 FIRMWARE = ROOT / ".pio/build/megaatmega2560/firmware.elf"
 KINEMATICS = ROOT / "lib/Kinematics/src"
 MOTION = ROOT / "lib/Motion/src"
-FLOAT = ROOT / "src/board/float.S"  # the firmware's own sum and product
+FLOAT = ROOT / "src/board/float.S"  # the firmware's own sum, product and quotient
 INCLUDES = [f"-I{KINEMATICS}", f"-I{BENCH}"]
 # As PlatformIO builds the firmware.
 AVR_FLAGS = [

@@ -79,18 +79,19 @@ def test_the_simulated_mega_keeps_masked_interrupts_and_pulled_pins():
     assert told["edges_low"] == 0  # writing to a port moves no pin that is held from outside
 
 
-def test_sum_and_product_are_those_of_avr_libc_and_faster():
+def test_sum_product_and_quotient_are_those_of_avr_libc_and_faster():
     elf, check = BUILD / "float_program.elf", BUILD / "check_board"
     sources = [VM / "float_program.cpp", VM / "float_of_libc.S", ROOT / "src/board/float.S"]
     avr = ["avr-g++", "-mmcu=atmega2560", "-DF_CPU=16000000UL", "-Os", "-std=gnu++11"]
     subprocess.run([*avr, *sources, "-o", elf], check=True)
     board = [VM / "check_board.cpp", VM / "virtual_board.cpp"]
     subprocess.run(["g++", *STRICT, *board, "-lsimavr", "-lelf", "-o", check], check=True)
-    done = subprocess.run([check, elf, "4000"], capture_output=True, text=True, timeout=200)
+    done = subprocess.run([check, elf, "16000"], capture_output=True, text=True, timeout=400)
     told = figures(done)
-    assert [told[name] for name in ("products", "sums", "differences")] == [0, 0, 0]
+    assert [told[name] for name in ("products", "sums", "differences", "quotients")] == [0] * 4
     assert told["product_cycles"] < 0.85 * told["product_cycles_of_libc"]
     assert told["sum_cycles"] < 0.85 * told["sum_cycles_of_libc"]
+    assert told["quotient_cycles"] < 0.5 * told["quotient_cycles_of_libc"]
 
 
 def test_no_control_tick_is_missed_in_motion(hard):
