@@ -35,6 +35,10 @@ bool Stage::ask(const Step& step) {
     return answers_ >= std::atoi(rest.c_str());
   }
   if (is("hold")) return askHold(numbersIn(rest).at(0));
+  // On real pins a motor without power looks like one at a duty of zero for a moment.
+  const long kLooksAlikeMs = 200;
+  if (is("off") && motorNamed(rest).powered && now_ms_ - step_since_ms_ < kLooksAlikeMs)
+    return false;
   // Of a report that was sent after the question.
   if ((is("status") || is("errors")) && status_ms_ <= step_since_ms_) return false;
   if (is("sled"))

@@ -25,7 +25,7 @@ ARROWS = {
     "src": (["include", "lib/*", "src/machine", "src/board", "test/avr"], ARDUINO),
     "test/reference": ([], HOST + r"|(unsupported/)?Eigen/\w+"),
     "test/curves": ([], HOST),
-    "test/vm": (["test/reference"], ANYTHING),
+    "test/vm": (["test/reference", "test/test_dialogues"], ANYTHING),
     "test/hidden": (["test/reference"], ANYTHING),
     # Stands in on the host for a header of avr-libc that src includes.
     "test/avr": ([], C_HEADERS),
