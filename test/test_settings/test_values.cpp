@@ -45,7 +45,7 @@ TEST(Table, NumbersRiseAndKeepOffThoseOfOthers) {
   for (uint8_t i = 0; i < table.count(); ++i) {
     const int number = table.at(i).number;
     EXPECT_GT(number, before);
-    EXPECT_TRUE(number <= 44 || (number >= 62 && number <= 84) || number == 99 || number >= 100);
+    EXPECT_TRUE(number <= 44 || (number >= 60 && number <= 84) || number == 99 || number >= 100);
     EXPECT_NE(144, number);
     EXPECT_NE(14, number);
     before = number;
@@ -58,7 +58,8 @@ TEST(Table, ListsEveryPublishedNumberAndNoneThatWebControlWouldAnswer) {
   for (uint8_t i = 0; i < table.count(); ++i)
     if (table.at(i).access == Access::kListed) listed.insert(table.at(i).number);
   for (int number = 0; number <= 42; ++number) EXPECT_EQ(number != 14, listed.count(number) == 1);
-  for (int number = 43; number <= 61; ++number) EXPECT_FALSE(listed.count(number)) << number;
+  // 60 and 61 mean in the published beta what they mean here.
+  for (int number = 43; number <= 59; ++number) EXPECT_FALSE(listed.count(number)) << number;
   for (int number = 85; number <= 99; ++number) EXPECT_FALSE(listed.count(number)) << number;
 }
 
