@@ -61,7 +61,7 @@
 -> M3 S12000
 <- Turning Spindle On
 <- ok
-~~ spindle 128
+~~ spindle 128 within 1
 -> G1 X20 F600
 <- ok
 -> S24000

@@ -92,7 +92,7 @@ class Stage : public machine::Wire,
   bool change(const std::string& verb, const std::string& rest);
   bool wait(const std::string& seconds);
   bool askHold(double most);
-  void askLevel(const std::string& wanted, int level);
+  static bool isLevel(const std::string& wanted, int level);
   void askSled(const std::string& place);
   void askChains(const std::string& lengths);
   void hang(const std::string& place);

@@ -39,6 +39,11 @@ bool Stage::ask(const Step& step) {
   const long kLooksAlikeMs = 200;
   if (is("off") && motorNamed(rest).powered && now_ms_ - step_since_ms_ < kLooksAlikeMs)
     return false;
+  // Pulses are known by their edges, a few milliseconds late.
+  const long kMeasuredMs = 20;
+  if ((is("laser") || is("spindle")) && now_ms_ - step_since_ms_ < kMeasuredMs &&
+      !isLevel(rest, is("laser") ? laser_ : spindle_))
+    return false;
   // Of a report that was sent after the question.
   if ((is("status") || is("errors")) && status_ms_ <= step_since_ms_) return false;
   if (is("sled"))
@@ -91,12 +96,12 @@ bool Stage::change(const std::string& verb, const std::string& rest) {
   else if (is("off") || is("on"))
     tellOr(motorNamed(rest).powered == is("on"), "it is not");
   else if (is("spindle"))
-    askLevel(rest, spindle_);
+    tellOr(isLevel(rest, spindle_), "it is at " + std::to_string(spindle_));
   else if (is("servo"))
     tellOr(servo == (rest == "loose" ? kNoServo : std::atoi(rest.c_str())),
            "it is at " + std::to_string(servo));
   else if (is("laser"))
-    askLevel(rest, laser_);
+    tellOr(isLevel(rest, laser_), "it is at " + std::to_string(laser_));
   else if (is("probe"))
     probe_touches_at_ = numbersIn(rest).at(0);
   else if (is("stop-when-halted"))
@@ -131,11 +136,11 @@ bool Stage::askHold(double most) {
   return true;
 }
 
-void Stage::askLevel(const std::string& wanted, int level) {
+bool Stage::isLevel(const std::string& wanted, int level) {
   const std::vector<double> numbers = numbersIn(wanted);
   const double is = wanted == "high" ? 255 : wanted == "low" ? 0 : numbers.at(0);
   const double within = numbers.size() > 1 ? numbers.at(1) : 0;
-  tellOr(std::fabs(level - is) <= within, "it is at " + std::to_string(level));
+  return std::fabs(level - is) <= within;
 }
 
 void Stage::askSled(const std::string& place) {

@@ -54,6 +54,8 @@ void MegaStage::live() {
 void MegaStage::startBoard(const std::vector<uint8_t>& eeprom) {
   board_ = std::make_unique<VirtualBoard>(elf_);
   board_->setEeprom(eeprom);
+  spindle_ = std::make_unique<PulseMeter>(*board_, kSpindlePin);
+  laser_ = std::make_unique<PulseMeter>(*board_, kLaserPin);
   for (int axis = 0; axis < kAxisCount; ++axis) {
     encoders_[axis].restart(stage_.count(Axis(axis)));
     since_driven_ms_[axis] = kUnpoweredMs;
@@ -103,12 +105,14 @@ void MegaStage::showPins() {
     else
       stage_.release(axis);
   }
-  stage_.set(machine::Output::kSpindle, board_->pin(kSpindlePin).level != 0);
-  stage_.set(machine::Output::kLaser, board_->pin(kLaserPin).level != 0);
+  stage_.pulse(machine::Output::kSpindle, spindle_->level());
+  stage_.pulse(machine::Output::kLaser, laser_->level());
   const uint8_t* const data = board_->avr()->data;
   const int pulse = data[kOcr5b] | data[kOcr5b + 1] << 8;  // [half a microsecond]
   stage_.turnServo(data[kTimsk5] == 0 ? machine::kNoServo : uint8_t((pulse - 1088) * 180 / 3712));
   board_->setPin(kProbePin, !stage_.probeTouches());
+  // The stage tells its supply as the processor sees it: the reference in 1/1024 of the supply.
+  board_->setSupply(1.1 * 1024 / (stage_.bandGap() + 0.5));
 }
 
 }  // namespace vm

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "pulse_meter.h"
 #include "test_dialogues/stage.h"
 #include "virtual_board.h"
 
@@ -51,6 +52,7 @@ class MegaStage {
   std::string elf_;
   Stage& stage_;
   std::unique_ptr<VirtualBoard> board_;
+  std::unique_ptr<PulseMeter> spindle_, laser_;
   std::array<EncoderPins, machine::kAxisCount> encoders_;
   int since_driven_ms_[machine::kAxisCount] = {};
 };

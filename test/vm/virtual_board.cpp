@@ -229,6 +229,17 @@ PinState VirtualBoard::pin(int pin) const {
   return {false, uint8_t(state.port >> place.bit & 1 ? 255 : 0)};
 }
 
+void VirtualBoard::onEdge(avr_irq_t*, uint32_t value, void* note) {
+  (*static_cast<std::function<void(bool)>*>(note))(value != 0);
+}
+
+void VirtualBoard::watchPin(int pin, std::function<void(bool)> note) {
+  const PinPlace& place = placeOf(pin);
+  watches_.push_back(std::move(note));
+  avr_irq_t* const irq = avr_io_getirq(avr_, AVR_IOCTL_IOPORT_GETIRQ(place.port), place.bit);
+  avr_irq_register_notify(irq, onEdge, &watches_.back());
+}
+
 std::vector<uint8_t> VirtualBoard::eeprom() const {
   avr_eeprom_desc_t desc = {nullptr, 0, 4096};
   std::vector<uint8_t> bytes(4096);

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstring>
 #include <deque>
+#include <functional>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -52,6 +53,8 @@ class VirtualBoard {
   /// Pulls an input of the Mega (Arduino's number) high or low.
   void setPin(int pin, bool high);
   PinState pin(int pin) const;
+  /// Calls `note` with the level of an output at each of its edges.
+  void watchPin(int pin, std::function<void(bool)> note);
 
   /// [V] The Mega's supply, as its converter sees it.
   void setSupply(double volts);
@@ -101,6 +104,7 @@ class VirtualBoard {
   void pull(char port, uint8_t mask, uint8_t levels);
   /// After a reset, which simavr lets clear the inputs, too.
   void pullAgain();
+  static void onEdge(avr_irq_t*, uint32_t value, void* note);
   static void onCharacter(avr_irq_t*, uint32_t value, void* board);
   void passCharacters();
   void step();
@@ -111,6 +115,7 @@ class VirtualBoard {
 
   avr_t* avr_;
   avr_irq_t* wire_in_;
+  std::deque<std::function<void(bool)>> watches_;  ///< of pins; they must not move
   std::map<char, avr_ioport_external_t> outside_;
   std::string to_send_, partial_;
   avr_cycle_count_t next_character_ = 0;
