@@ -46,16 +46,3 @@
 ~~ supply 3.5
 ~~ wait 1
 ~~ supply 5
-; A driver's complaint halts a machine whose motors are on, not one at rest.
-~~ wait 3
-~~ complain right
-~~ wait 1
-~~ quiet
--> G1 X0 F600
-<* ALARM: The right motor's driver complains*
-~~ off left
-~~ off right
-; B30 is answered meanwhile.
--> B30
-<- B30
-<* ok

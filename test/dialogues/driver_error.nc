@@ -1,0 +1,15 @@
+; A driver reports an error on its pin, as those of shields v1.3 and v1.4 can.
+~~ include setup.inc
+; A driver's complaint halts a machine whose motors are on, not one at rest.
+~~ wait 3
+~~ complain right
+~~ wait 1
+~~ quiet
+-> G1 X50 F600
+<* ALARM: The right motor's driver complains*
+~~ off left
+~~ off right
+; B30 is answered meanwhile.
+-> B30
+<- B30
+<* ok
