@@ -20,6 +20,7 @@ from plumb import (
     cli_preview,
     cli_reach,
     cli_settings,
+    cli_telemetry,
 )
 from plumb.errors import InputError
 from plumb.sketches import BROKEN
@@ -67,6 +68,7 @@ def build_parser() -> Parser:
         ("next", cli_next),
         ("add", cli_add),
         ("effects", cli_effects),
+        ("telemetry", cli_telemetry),
         ("bench", cli_bench),
     ):
         _enter(commands, name, module.HELP, module.EXIT, module.add_arguments, module.run)

@@ -16,7 +16,17 @@ from plumb.predict import lengths
 from plumb.settings_file import read_settings, write_machine_toml
 from synthetic import BELIEVED, SHEET, TRUE, grid, marks_on
 
-COMMANDS = ("grid", "compare", "diagnose", "add", "effects", "inverse", "forward", "reach")
+COMMANDS = (
+    "grid",
+    "compare",
+    "diagnose",
+    "add",
+    "effects",
+    "inverse",
+    "forward",
+    "reach",
+    "telemetry",
+)
 BOARD = [str(SETTINGS), str(MARKS)]
 EFFECTS = ["--effect", "chain_pitch", "chain_sag"]
 ADDED = ("chain_pitch", "chain_sag", "chain_stretch")
