@@ -59,7 +59,7 @@ def measure() -> Costs:
 def simulated() -> tuple[dict[str, Cycles], dict[str, int]]:
     """Cycles of every case, and the deepest stack of inverse, of forward and of reach."""
     elf, simulator = BUILD / "board_program.elf", BUILD / "count_cycles"
-    output("avr-g++", *AVR_FLAGS, *INCLUDES, *sources("board_program.cpp"), "-o", elf)
+    output("avr-g++", *AVR_FLAGS, *INCLUDES, *sources("board_program.cpp"), FLOAT, "-o", elf)
     symbols = output("avr-nm", "-C", elf)
     stack = {}
     for part in ("inverse", "forward", "reach"):
@@ -85,7 +85,7 @@ def two_brackets() -> dict[str, Cycles]:
 def motion() -> dict[str, Cycles]:
     """Cycles of every case of motion_cases.h."""
     elf = BUILD / "motion_program.elf"
-    source = sources("motion_program.cpp")
+    source = [*sources("motion_program.cpp"), FLOAT]
     output("avr-g++", *AVR_FLAGS, *INCLUDES, f"-I{MOTION}", *source, "-o", elf)
     found = counted(elf, BUILD / "count_motion_cycles", '-DCASES="motion_cases.h"')
     return {name: Cycles(*cost["cycles"]) for name, cost in found.items()}
@@ -113,7 +113,7 @@ def parts(stack: dict[str, int]) -> dict[str, Bytes]:
 def linked(number: int) -> tuple[int, int]:
     """Flash and static RAM of part_program.cpp with these parts."""
     elf = BUILD / f"part_program_{number}.elf"
-    source = sources("part_program.cpp")
+    source = [*sources("part_program.cpp"), FLOAT]
     output("avr-g++", *AVR_FLAGS, *INCLUDES, f"-DPARTS={number}", *source, "-o", elf)
     return sizes(elf)
 
@@ -134,8 +134,8 @@ def sizes(elf: Path) -> tuple[int, int]:
 
 
 def sources(program: str) -> list[Path]:
-    """One program of this folder and the kinematics."""
-    return [BENCH / program, KINEMATICS / "Kinematics.cpp", KINEMATICS / "reach.cpp", FLOAT]
+    """One program of this folder and the kinematics, for any computer."""
+    return [BENCH / program, KINEMATICS / "Kinematics.cpp", KINEMATICS / "reach.cpp"]
 
 
 def output(*command: str | Path) -> str:
