@@ -16,7 +16,7 @@ from plumb.text_files import write_all
 
 PAGE = "docs/settings.md"
 ANY_BUT_ZERO = 255
-LAST_PUBLISHED, FIRST_OWN, FIRST_EFFECT = 44, 62, 100
+LAST_PUBLISHED, FIRST_OWN, FIRST_EFFECT = 44, 60, 100
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
