@@ -7,14 +7,14 @@ from collections.abc import Callable
 import numpy as np
 from board import BENCH, BUILD, INCLUDES, output, sources
 from plan_times import plan_times
-from plumb import predict
 from plumb.bench.boards import cut, plan
 from plumb.bench.causes import MAKER, Hidden, causes_of
+from plumb.board.observations import observe
 from plumb.diagnose import diagnose
-from plumb.fit import fit
-from plumb.measurements import read_marks
-from plumb.observations import observe
-from plumb.settings_file import read_settings
+from plumb.fit.problem import fit
+from plumb.marks.read import read_marks
+from plumb.model import predict
+from plumb.settings.files import read_settings
 
 EXAMPLE = BENCH.parent / "plumb/examples/mibproj"
 ROUNDS = 7  # the best of these counts

@@ -6,11 +6,11 @@ from functools import partial
 
 import numpy as np
 from plumb.diagnose import diagnose
-from plumb.machine_settings import MachineSettings
-from plumb.measurements import Mark, Measurements
+from plumb.marks.read import Mark, Measurements
+from plumb.model.predict import lengths, places
 from plumb.plan import propose
 from plumb.plan.preview import preview
-from plumb.predict import lengths, places
+from plumb.settings.machine import MachineSettings
 
 BELIEVED = MachineSettings(
     motor_gap=2978.4,

@@ -52,6 +52,22 @@ ARROWS = {
 # Folders in which an include is looked up after the folder of the file itself.
 SEARCHED = ["include", "src", "lib/*/src", "lib/*", "test", "test/*", "tools/core"]
 
+# The rooms of the package, floor by floor from the top: a room may import those on floors below.
+PACKAGE = "tools/plumb"
+FLOORS = (
+    ("cli",),
+    ("pages",),
+    ("bench", "pictures"),
+    ("cure", "plan"),
+    ("diagnose",),
+    ("fit",),
+    ("board", "firmware"),
+    ("marks", "model"),
+    ("settings",),
+    ("text",),
+    ("_core",),
+)
+
 STANDARD_LIBRARY_ONLY = ("tools/calibration_grid.py", "tools/benchmark_pattern.py")
 
 
@@ -65,6 +81,8 @@ def violations(root: Path) -> Iterator[str]:
                 why = refusal(root, path, part, rule, header)
                 if why:
                     yield f"{name}:{line}: {part} may not include {header}: {why}"
+        elif name.is_relative_to(PACKAGE) and path.suffix == ".py":
+            yield from (f"{name}:{line}: {why}" for line, why in upward(path, name))
         elif str(name) in STANDARD_LIBRARY_ONLY:
             for line, module in imports(path):
                 if module not in sys.stdlib_module_names:
@@ -95,6 +113,38 @@ def imports(path: Path) -> Iterator[tuple[int, str]]:
             yield from ((node.lineno, alias.name.partition(".")[0]) for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
             yield node.lineno, (node.module or ".").partition(".")[0] if not node.level else "."
+
+
+def upward(path: Path, name: Path) -> Iterator[tuple[int, str]]:
+    """Line number and reason for each import that a room of the package may not make."""
+    floor_of = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
+    room = name.relative_to(PACKAGE).parts[0]
+    if room == "__init__.py":
+        return
+    if room not in floor_of:
+        yield 1, f"{room} is on no floor: add it to FLOORS in tools/checks/arrows.py"
+        return
+    for line, to in rooms_imported(path):
+        if to != room and floor_of.get(to, -1) <= floor_of[room]:
+            yield line, f"{room} may not import {to}: imports only go down the floors"
+
+
+def rooms_imported(path: Path) -> Iterator[tuple[int, str]]:
+    """Line number and room for each import of a part of the package."""
+    for node in ast.walk(ast.parse(tree.text_of(path))):
+        if isinstance(node, ast.Import):
+            modules = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom) and node.module == "plumb":
+            modules = [f"plumb.{alias.name}" for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            modules = ["." * node.level + (node.module or "")]
+        else:
+            continue
+        for module in modules:
+            if module == "plumb" or module.startswith("."):
+                yield node.lineno, f"{module} (name the room: plumb.ROOM.MODULE)"
+            elif module.startswith("plumb."):
+                yield node.lineno, module.split(".")[1]
 
 
 def refusal(root: Path, path: Path, part: str, rule: str, header: str) -> str | None:

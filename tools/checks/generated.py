@@ -9,9 +9,9 @@ import tree
 
 # Commands for the .venv's Python; with --check each exits 1 when its page is stale.
 GENERATORS = [
-    ["-m", "plumb.docs_effects"],
-    ["-m", "plumb.docs_real_data"],
-    ["-m", "plumb.docs_settings"],
+    ["-m", "plumb.pages.effects"],
+    ["-m", "plumb.pages.real_data"],
+    ["-m", "plumb.pages.settings"],
 ]
 
 

@@ -21,7 +21,7 @@ from hidden_boards import (
     places_with,
 )
 from plumb.diagnose import Checked
-from plumb.measurements import Mark, Measurements
+from plumb.marks.read import Mark, Measurements
 from plumb.plan.ahead import Check
 from plumb.plan.visits import Visits
 

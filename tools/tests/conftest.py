@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from plumb.cli import main
+from plumb.cli.main import main
 
 
 @pytest.fixture

@@ -18,7 +18,7 @@ from plumb.bench.boards import (
 )
 from plumb.bench.causes import CAUSES, COMPLIANCE, MAKER, SLED, WEIGHT, Cause, Hidden, Plan
 from plumb.bench.judge import build
-from plumb.measurements import Measurements
+from plumb.marks.read import Measurements
 
 __all__ = [
     "COMPLIANCE",

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from plumb.machine_settings import MachineSettings
-from plumb.measurements import Distance, Mark, Measurements
-from plumb.predict import FOUND, lengths, places, settings_of, values_of
-from plumb.visits import loaded
+from plumb.board.visits import loaded
+from plumb.marks.read import Distance, Mark, Measurements
+from plumb.model.predict import FOUND, lengths, places, settings_of, values_of
+from plumb.settings.machine import MachineSettings
 
 SHEET = (2438.4, 1219.2)
 BELIEVED = MachineSettings(

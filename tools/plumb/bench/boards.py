@@ -10,8 +10,8 @@ import numpy as np
 
 from plumb.bench.causes import COMPLIANCE, MAKER, OUTSIDE, SLED, WEIGHT, Cause, Hidden, Plan
 from plumb.bench.judge import judge
-from plumb.measurements import Distance, Mark, Measurements
-from plumb.predict import FOUND, lengths
+from plumb.marks.read import Distance, Mark, Measurements
+from plumb.model.predict import FOUND, lengths
 
 Array = np.ndarray
 SIDES = np.array([(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)])

@@ -10,7 +10,7 @@ from math import atan, cos, sqrt
 
 import numpy as np
 
-from plumb.machine_settings import MachineSettings
+from plumb.settings.machine import MachineSettings
 
 Array = np.ndarray
 Numbers = dict[str, float]

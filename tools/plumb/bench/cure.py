@@ -9,12 +9,12 @@ import numpy as np
 
 from plumb.bench.boards import BoardCut, Machine
 from plumb.bench.causes import HALF, MAKER
-from plumb.fit import fit
-from plumb.machine_settings import MachineSettings
-from plumb.measurements import Measurements
-from plumb.observations import observe
-from plumb.predict import FOUND, lengths
-from plumb.shape import best_pose
+from plumb.board.observations import observe
+from plumb.fit.problem import fit
+from plumb.fit.shape import best_pose
+from plumb.marks.read import Measurements
+from plumb.model.predict import FOUND, lengths
+from plumb.settings.machine import MachineSettings
 
 COLUMNS, ROWS = 15, 9  # places of the sheet at which the sled is asked for
 MARGIN = 50.0  # [mm] of the sheet's edge that is left out

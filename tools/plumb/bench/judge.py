@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from plumb.errors import InputError
+from plumb.text.errors import InputError
 
 Array = np.ndarray
 ROOT = Path(__file__).resolve().parents[3]

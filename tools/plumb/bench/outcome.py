@@ -8,10 +8,10 @@ import numpy as np
 
 from plumb.bench.boards import BoardCut, cut
 from plumb.bench.causes import MAKER, Cause, Hidden, Plan
-from plumb.catalogue import effect_names, parameter_words
+from plumb.board.observations import Observations, observe
 from plumb.diagnose import Diagnosis
 from plumb.diagnose.explanation import Board, Explanation, explain, span
-from plumb.observations import Observations, observe
+from plumb.model.catalogue import effect_names, parameter_words
 
 Array = np.ndarray
 ALIKE = 0.98  # |cosine| after the refit above which two causes draw the same arrows

@@ -13,11 +13,11 @@ from itertools import combinations
 import numpy as np
 from scipy.special import chdtri
 
-from plumb.catalogue import parameter_words
 from plumb.diagnose.explanation import Explanation
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
 from plumb.diagnose.noise import Noise
 from plumb.diagnose.sizes import MARGIN
+from plumb.model.catalogue import parameter_words
 
 Array = np.ndarray
 BELIEVABLE = 0.05  # share of fields beyond which a combination that fits proves nothing

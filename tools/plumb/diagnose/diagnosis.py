@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.catalogue import effect_names
+from plumb.board.observations import Observations, model_and_observations
 from plumb.diagnose.exchanged import exchange_slips, find_exchanged
 from plumb.diagnose.explanation import Board, Checked, Explanation, explain
 from plumb.diagnose.gain import Search, search
@@ -20,11 +20,11 @@ from plumb.diagnose.sizes import Room, Size, hidden_share, room_for, sizes_of
 from plumb.diagnose.slip_guess import Slip, described
 from plumb.diagnose.slips import clear_slips
 from plumb.diagnose.suspects import Suspects, best_at_hand, evidence, find_suspects
-from plumb.errors import InputError
-from plumb.fit import PRIORS, USUAL_SIGMA
-from plumb.machine_settings import MachineSettings
-from plumb.measurements import Measurements
-from plumb.observations import Observations, model_and_observations
+from plumb.fit.problem import PRIORS, USUAL_SIGMA
+from plumb.marks.read import Measurements
+from plumb.model.catalogue import effect_names
+from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError
 
 Array = np.ndarray
 FEWEST_NUMBERS = 6  # three marks: below that the frame explains everything

@@ -13,7 +13,7 @@ import numpy as np
 from plumb.diagnose.explanation import Board, explain
 from plumb.diagnose.misfit import library_basis
 from plumb.diagnose.slip_guess import Slip
-from plumb.measurements import Measurements
+from plumb.marks.read import Measurements
 
 Array = np.ndarray
 LUCK = 0.001  # chance that noise alone makes any exchange look as good

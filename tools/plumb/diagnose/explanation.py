@@ -12,11 +12,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from plumb.catalogue import effect_names, parameter_names
-from plumb.errors import InputError
-from plumb.fit import PRIORS, Problem
-from plumb.machine_settings import MachineSettings
-from plumb.observations import Observations
+from plumb.board.observations import Observations
+from plumb.fit.problem import PRIORS, Problem
+from plumb.model.catalogue import effect_names, parameter_names
+from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError
 
 Array = np.ndarray
 MOST_STEPS = 12

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import chdtrc, stdtrit
 
+from plumb.board.observations import Observations
 from plumb.diagnose.repeats import distance_spread, mark_spread, rounding_sigma
 from plumb.diagnose.significance import KNOWN
-from plumb.fit import USUAL_SIGMA
-from plumb.observations import Observations
+from plumb.fit.problem import USUAL_SIGMA
 
 Array = np.ndarray
 FEW_REPEATS = 6  # degrees of freedom below which a stated sigma is trusted more than repeats

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from plumb.board.observations import Observations
 from plumb.diagnose.significance import tail
-from plumb.observations import Observations
 
 Array = np.ndarray
 SURE = 0.0027  # chance at which noise alone would move a round as a whole as much: 3 sigma

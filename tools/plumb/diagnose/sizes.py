@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import chdtri, stdtrit
 
-from plumb.catalogue import parameter_words
 from plumb.diagnose.explanation import Explanation, span
 from plumb.diagnose.noise import Noise
+from plumb.model.catalogue import parameter_words
 
 Array = np.ndarray
 MARGIN = 1.5  # times the catalogue's range: that is what was met in workshops, not a wall

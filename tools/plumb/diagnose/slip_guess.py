@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from plumb.diagnose.slips import Shift
-from plumb.measurements import Measurements
+from plumb.marks.read import Measurements
 
 ROUND = (1.0, 2.0, 5.0, 10.0, 20.0, 25.4, 40.0, 50.0, 100.0)  # [mm] off by a tick, a hook, an inch
 CLOSE = 2.5  # [deviations] within which a guess agrees with the shift

@@ -11,13 +11,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from plumb.board.observations import Observations
 from plumb.diagnose.explanation import Board, Explanation, explain
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
 from plumb.diagnose.misfit import beside_library, library_basis, misfit_chance
 from plumb.diagnose.noise import Noise, Spread, noise_of, repeats_of
 from plumb.diagnose.significance import tail
 from plumb.diagnose.sizes import possible
-from plumb.observations import Observations
 
 Array = np.ndarray
 LEVEL = 0.01  # chance at which noise alone makes a slip of one of all readings

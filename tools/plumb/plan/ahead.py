@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from plumb.diagnose.explanation import Explanation
+from plumb.model.predict import FOUND
 from plumb.plan.visits import Visits
-from plumb.predict import FOUND
 
 Array = np.ndarray
 

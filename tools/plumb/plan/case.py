@@ -11,14 +11,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.catalogue import effect_names
+from plumb.board.observations import model_and_observations
 from plumb.diagnose.diagnosis import Diagnosis, felt_effects
 from plumb.diagnose.explanation import Board, Checked, Explanation, explain
 from plumb.diagnose.noise import Noise
-from plumb.fit import PRIORS
-from plumb.machine_settings import MachineSettings
-from plumb.measurements import Measurements
-from plumb.observations import model_and_observations
+from plumb.fit.problem import PRIORS
+from plumb.marks.read import Measurements
+from plumb.model.catalogue import effect_names
+from plumb.settings.machine import MachineSettings
 
 Array = np.ndarray
 MOST_HYPOTHESES = 8  # the best of them; more would only cost time

@@ -13,23 +13,23 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.special import chdtri, chndtrinc
 
-from plumb.catalogue import effect_names, parameter_words
+from plumb.board.observations import model_and_observations
 from plumb.diagnose.diagnosis import FEWEST_NUMBERS, felt_effects
 from plumb.diagnose.explanation import Board, Explanation, explain
 from plumb.diagnose.gain import search
 from plumb.diagnose.noise import Noise
 from plumb.diagnose.significance import KNOWN
 from plumb.diagnose.sizes import hidden_share
-from plumb.errors import InputError
-from plumb.fit import PRIORS
-from plumb.machine_settings import MachineSettings
-from plumb.measurements import Measurements
-from plumb.observations import model_and_observations
+from plumb.fit.problem import PRIORS
+from plumb.marks.read import Measurements
+from plumb.model.catalogue import effect_names, parameter_words
 from plumb.plan.ahead import ahead
 from plumb.plan.case import Case, hidden_hypotheses
 from plumb.plan.options import Option, many_marks, options
 from plumb.plan.proposal import AGAIN
 from plumb.plan.separation import ENOUGH, apart
+from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError
 
 Array = np.ndarray
 POWER = 0.8  # chance with which the smallest size that counts as found is found

@@ -10,15 +10,15 @@ import numpy as np
 from plumb.diagnose.diagnosis import Diagnosis
 from plumb.diagnose.explanation import Checked, span
 from plumb.diagnose.sizes import Room
-from plumb.fit import PRIORS
-from plumb.machine_settings import MachineSettings
-from plumb.measurements import Measurements
+from plumb.fit.problem import PRIORS
+from plumb.marks.read import Measurements
 from plumb.plan.ahead import ahead
 from plumb.plan.case import Case, case_of
 from plumb.plan.chance import outlook
 from plumb.plan.options import Option, many_marks, options
 from plumb.plan.separation import ENOUGH, apart, drawn_by
 from plumb.plan.strangers import for_slips, near_the_worst
+from plumb.settings.machine import MachineSettings
 
 Array = np.ndarray
 # A question: what the chance is the chance of.

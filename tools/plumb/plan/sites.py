@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from plumb.machine_settings import MachineSettings
-from plumb.predict import USABLE, reach, settings_of, values_of
-from plumb.reach import with_soft_chains
-from plumb.visits import loaded
+from plumb.board.visits import loaded
+from plumb.model.predict import USABLE, reach, settings_of, values_of
+from plumb.model.reach import with_soft_chains
+from plumb.settings.machine import MachineSettings
 
 Array = np.ndarray
 COLUMNS, ROWS = 7, 5  # of the grid of new places

@@ -9,14 +9,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from plumb.catalogue import effect_names
 from plumb.diagnose import Checked, Diagnosis, diagnose
-from plumb.machine_settings import MachineSettings
-from plumb.measurements import Measurements
+from plumb.marks.read import Measurements
+from plumb.model.catalogue import effect_names
 from plumb.plan.ahead import Check
 from plumb.plan.options import Option
 from plumb.plan.proposal import Proposal, propose
 from plumb.plan.visits import Visits
+from plumb.settings.machine import MachineSettings
 
 MEASUREMENTS = 4  # marks and checks together
 

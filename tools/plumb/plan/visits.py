@@ -7,9 +7,9 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from plumb.machine_settings import MachineSettings
-from plumb.observations import Observations
-from plumb.predict import believed_lengths
+from plumb.board.observations import Observations
+from plumb.model.predict import believed_lengths
+from plumb.settings.machine import MachineSettings
 
 Array = np.ndarray
 

@@ -1,0 +1,145 @@
+"""What a fit has to explain: chains that were paid out, and where the sled was found."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from plumb.marks.read import Measurements
+from plumb.model.predict import believed_lengths
+from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class Observations:
+    """Rows of chains paid out, and what was measured of the places they led to.
+
+    A row is one visit of the sled. Marks are rows whose place was measured; distances join the
+    places of two rows.
+    """
+
+    chains: Array  # (r, 2) [mm] paid out, by what the machine believed
+    sled_weights: Array  # (r,) [N]
+    mark_rows: Array  # (k,) the row of each measured mark
+    measured: Array  # (k, 2) [mm]
+    targets: Array  # (k, 2) [mm]
+    names: tuple[str, ...]  # (k,) of the marks
+    distance_rows: Array  # (m, 2) the rows at both ends
+    distances: Array  # (m,) [mm]
+    approaches: Array  # (r, 2) unit vectors of the last move of each visit; zero if not known
+    rounds: Array  # (r,) int: the file of each visit
+    zero_groups: Array  # (r,) int: visits with equal numbers have the chains' zeros in common
+    sheet_groups: Array  # (r,) int: visits with equal numbers lie on one sheet
+    swapped: Array | None = (
+        None  # (r,) whether each chain hung on the other's sprocket; None: never
+    )
+
+    @property
+    def exchanged(self) -> Array:
+        """Whether the chains were swapped on each visit (r,)."""
+        return np.zeros(len(self.chains), dtype=bool) if self.swapped is None else self.swapped
+
+    @property
+    def count(self) -> int:
+        """How many numbers were measured."""
+        return 2 * len(self.measured) + len(self.distances)
+
+
+def observe(
+    settings: MachineSettings,
+    measurements: Measurements,
+    *,
+    controller: str | None = None,
+    sled_weight: float | None = None,
+) -> Observations:
+    """The observations of a board cut with these settings; raises InputError for a bad target.
+
+    sled_weight [N] is that of marks whose file does not say it: by default what the settings say.
+    """
+    marks = measurements.marks
+    targets = np.array([mark.target for mark in marks], dtype=float).reshape(-1, 2)
+    chains = _paid_out(settings, measurements, targets, controller)
+    for i, mark in enumerate(marks):
+        if mark.chains is not None:
+            chains[i] = mark.chains
+    rows = [i for i, mark in enumerate(marks) if mark.measured is not None]
+    first: dict[str, int] = {}
+    for i, mark in enumerate(marks):
+        first.setdefault(mark.name, i)
+    ends = [[first[name] for name in one.between] for one in measurements.distances]
+    usual = measurements.sled_weight or sled_weight or settings.sled_weight
+    return Observations(
+        chains=chains,
+        sled_weights=np.array([mark.sled_weight or usual for mark in marks], dtype=float),
+        mark_rows=np.array(rows, dtype=int),
+        measured=measurements.measured,
+        targets=targets[rows],
+        names=tuple(marks[i].name for i in rows),
+        distance_rows=np.array(ends, dtype=int).reshape(-1, 2),
+        distances=measurements.distance_lengths,
+        approaches=_directions([mark.approach or (0.0, 0.0) for mark in marks]),
+        swapped=np.array([mark.chains_swapped for mark in marks], dtype=bool),
+        rounds=_rounds(measurements),
+        zero_groups=_of_rounds(measurements, "zero_group"),
+        sheet_groups=_of_rounds(measurements, "sheet_group"),
+    )
+
+
+def _paid_out(
+    settings: MachineSettings, measurements: Measurements, targets: Array, controller: str | None
+) -> Array:
+    """Chain (r, 2) [mm] paid out for each target by the settings in force in its round."""
+    chains = np.zeros_like(targets)
+    number = _rounds(measurements)
+    for i, own in enumerate(measurements.rounds):
+        in_force = own.cut_with or settings
+        whose = controller or measurements.controller or in_force.controller
+        mine = number == i
+        try:
+            chains[mine] = believed_lengths(in_force, targets[mine], controller=whose)
+        except ValueError as error:
+            raise InputError(
+                f"{measurements.source}: {error}; check the target, or the settings it was cut with"
+            ) from None
+    return chains
+
+
+def _rounds(measurements: Measurements) -> Array:
+    """The round of each visit (r,)."""
+    return np.array([mark.round for mark in measurements.marks], dtype=int)
+
+
+def _of_rounds(measurements: Measurements, name: str) -> Array:
+    """A number of each visit's round (r,)."""
+    own = np.array([getattr(one, name) for one in measurements.rounds], dtype=int)
+    return own[_rounds(measurements)]
+
+
+def _directions(moves: list[tuple[float, float]]) -> Array:
+    """Unit vectors (r, 2) of moves of any length; zero stays zero."""
+    rows = np.array(moves, dtype=float).reshape(-1, 2)
+    lengths = np.hypot(rows[:, 0], rows[:, 1])[:, np.newaxis]
+    return rows / np.where(lengths > 0, lengths, 1.0)
+
+
+def model_and_observations(
+    settings: MachineSettings,
+    measurements: Measurements,
+    *,
+    cut_with: MachineSettings | None = None,
+    controller: str | None = None,
+) -> tuple[MachineSettings, Observations]:
+    """Our model of `settings`, and the observations of marks cut with `cut_with` (default: them).
+
+    Published settings mean what the controller made of them; ours mean what they say.
+    """
+    in_force = cut_with or settings
+    whose = controller or measurements.controller or in_force.controller
+    published = settings.controller != "plumb" and whose != "plumb"
+    model = settings.as_plumb_model(controller=whose if published else None)
+    rows = observe(in_force, measurements, controller=whose, sled_weight=model.sled_weight)
+    return model, rows

@@ -1,0 +1,101 @@
+"""What later rounds of marks do not share with the first: chains zeroed anew, another sheet.
+
+Each such round has unknowns of its own beside those of the frame: how far the zeros of both chains
+moved, or how the sheet lies against the first one.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from plumb.board.observations import Observations
+
+Array = np.ndarray
+ZERO_AXES = ("left", "right")
+POSE_AXES = ("x", "y", "rotation")
+# Standard deviations: a link or a tooth more or less is 6.35 mm; a sheet lies as the first one may.
+ZERO_SIGMA = 10.0  # [mm]
+POSE_SIGMAS = (20.0, 20.0, 0.02)  # [mm, mm, rad]
+_ZERO = re.compile(r"zero(\d+)\.(left|right)")
+_POSE = re.compile(r"sheet(\d+)\.(x|y|rotation)")
+
+
+class RoundUnknown(NamedTuple):
+    """One unknown of a later round."""
+
+    group: int  # which zero group or sheet group
+    axis: int  # index into ZERO_AXES or POSE_AXES
+
+
+def round_priors(rows: Observations) -> dict[str, float]:
+    """Standard deviations [mm, rad] of all unknowns that later rounds have, by name."""
+    priors = {}
+    for group in range(1, _groups(rows.zero_groups)):
+        priors |= {f"zero{group + 1}.{axis}": ZERO_SIGMA for axis in ZERO_AXES}
+    # Distances between marks of one sheet do not feel where it lies.
+    placed = set(rows.sheet_groups[rows.mark_rows].tolist())
+    for group in range(1, _groups(rows.sheet_groups)):
+        if group in placed:
+            names = (f"sheet{group + 1}.{axis}" for axis in POSE_AXES)
+            priors |= dict(zip(names, POSE_SIGMAS, strict=True))
+    return priors
+
+
+def unit_of(name: str) -> str | None:
+    """The unit of an unknown of a round; None if it is none."""
+    own = zero_of(name) or pose_of(name)
+    if own is None:
+        return None
+    return "rad" if name.endswith(".rotation") else "mm"
+
+
+def notes_on(names: Iterable[str]) -> list[str]:
+    """A sentence for each group of round unknowns among these names."""
+    groups = sorted({name.partition(".")[0] for name in names if unit_of(name)})
+    meaning = {
+        "zero": "how much more chain is out at 12 o'clock since the chains were zeroed anew",
+        "sheet": "how the new sheet lies against the first",
+    }
+    return [f"{own}: {meaning[own.rstrip('0123456789')]}; no setting holds it" for own in groups]
+
+
+def zero_of(name: str) -> RoundUnknown | None:
+    """The chain zero that a name stands for."""
+    return _parsed(_ZERO, ZERO_AXES, name)
+
+
+def pose_of(name: str) -> RoundUnknown | None:
+    """The part of a sheet's pose that a name stands for."""
+    return _parsed(_POSE, POSE_AXES, name)
+
+
+def zeros_of(outside: Mapping[str, float], rows: Observations) -> Array:
+    """What each zero group adds to left and right chain zero, (groups, 2) [mm]."""
+    return _filled(outside, _groups(rows.zero_groups), 2, zero_of)
+
+
+def poses_of(outside: Mapping[str, float], rows: Observations) -> Array:
+    """How each sheet lies against the first, (groups, 3): x, y [mm], rotation [rad]."""
+    return _filled(outside, _groups(rows.sheet_groups), 3, pose_of)
+
+
+def _groups(numbers: Array) -> int:
+    return int(numbers.max(initial=0)) + 1
+
+
+def _parsed(pattern: re.Pattern[str], axes: tuple[str, ...], name: str) -> RoundUnknown | None:
+    match = pattern.fullmatch(name)
+    return RoundUnknown(int(match[1]) - 1, axes.index(match[2])) if match else None
+
+
+def _filled(outside: Mapping[str, float], groups: int, axes: int, parse) -> Array:
+    found = np.zeros((groups, axes))
+    for name, value in outside.items():
+        own = parse(name)
+        if own is not None:
+            found[own] = value
+    return found

@@ -1,0 +1,131 @@
+"""Where the sled hangs when sketches make its chains longer, with slopes.
+
+The machine pays out what it believes in, so a chain that is `extra` longer by the sketch counts as
+so much less paid out. The extra depends on the place and the place on the extra: found in a few
+rounds, since an extra of millimetres changes little over millimetres.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from plumb import _core
+from plumb.board.observations import Observations
+from plumb.board.visits import ZERO_COLUMNS, loaded
+from plumb.model.predict import NAMES
+from plumb.model.sketches import SKETCHES, Sketch, Strands
+
+Array = np.ndarray
+SKETCH_NAMES = tuple(name for one in SKETCHES for name in one.parameter_names)
+ROUNDS = 4  # each leaves about a thousandth of what was left
+PLACE_STEP = 0.5  # [mm] for differences by the place
+_SHARE = 1e-3  # of a parameter's usual size, for differences by it
+
+# Chains paid out (r, 2) to places (r, 2), slopes by the machine's values (r, 2, v), FOUND (r,).
+Hang = Callable[[Observations], tuple[Array, Array, Array]]
+
+
+@dataclass(frozen=True)
+class Sketched:
+    """Places under sketches."""
+
+    where: Array  # (r, 2) [mm]
+    by_value: Array  # (r, 2, v)
+    by_name: Mapping[str, Array]  # (r, 2) by each sketch parameter that was asked for
+    found: Array  # (r,) FOUND where the sled can hang
+
+
+def with_sketches(
+    values: Array,
+    outside: Mapping[str, float],
+    rows: Observations,
+    hang: Hang,
+    *,
+    over_top: bool,
+    usual_weight: float,
+    names: Sequence[str],
+) -> Sketched:
+    """Places of a machine with `values` and the sketches' parameters in `outside`.
+
+    How an extra itself changes with the machine's values is left out of the slopes: it is a small
+    part of a small part, and a fit comes to rest all the same.
+    """
+    asked = [one for one in SKETCHES if _asked(one, outside, names)]
+    where, by_value, found = hang(rows)
+    if not asked:
+        return Sketched(where, by_value, {}, found)
+
+    def strands(places: Array) -> Strands:
+        return _strands(values, rows, places, over_top=over_top, usual_weight=usual_weight)
+
+    def extra(places: Array) -> Array:
+        seen = strands(places)
+        return sum(one.extra(_parameters(one, outside), seen) for one in present)
+
+    present = [one for one in asked if _parameters(one, outside).any()]
+    gives = -np.eye(2)
+    if present:
+        for _ in range(ROUNDS):
+            where, by_value, found = hang(replace(rows, chains=rows.chains - extra(where)))
+    # A chain that is a millimetre longer acts as one with a millimetre less out at 12 o'clock.
+    by_extra = by_value[:, :, list(ZERO_COLUMNS)] @ gives
+    if present:
+        turned = np.linalg.inv(np.eye(2) - by_extra @ _by_place(extra, where))
+        by_value, by_extra = turned @ by_value, turned @ by_extra
+    seen = strands(where)
+    own = {
+        name: np.einsum("nij,nj->ni", by_extra, _by_parameter(one, i, outside, seen))
+        for one in asked
+        for i, name in enumerate(one.parameter_names)
+        if name in names
+    }
+    return Sketched(where, by_value, own, found)
+
+
+def _asked(one: Sketch, outside: Mapping[str, float], names: Sequence[str]) -> bool:
+    return any(name in names or outside.get(name) for name in one.parameter_names)
+
+
+def _parameters(one: Sketch, outside: Mapping[str, float]) -> Array:
+    return np.array([outside.get(name, 0.0) for name in one.parameter_names])
+
+
+def _by_parameter(one: Sketch, i: int, outside: Mapping[str, float], seen: Strands) -> Array:
+    """Slope (r, 2) [mm per unit] of the extra chain by one parameter."""
+    step = _SHARE * one.parameters[i].typical
+    parameters = _parameters(one, outside)
+    ends = []
+    for signed in (step, -step):
+        moved = parameters.copy()
+        moved[i] += signed
+        ends.append(np.asarray(one.extra(moved, seen), dtype=float))
+    return (ends[0] - ends[1]) / (2 * step)
+
+
+def _by_place(extra: Callable[[Array], Array], where: Array) -> Array:
+    """Slopes (r, 2 chains, 2 of place) of the extra chain."""
+    columns = []
+    for axis in np.eye(2):
+        ahead, behind = where + PLACE_STEP * axis, where - PLACE_STEP * axis
+        columns.append((extra(ahead) - extra(behind)) / (2 * PLACE_STEP))
+    return np.stack(columns, axis=2)
+
+
+def _strands(
+    values: Array, rows: Observations, where: Array, *, over_top: bool, usual_weight: float
+) -> Strands:
+    count = len(where)
+    shown = {name: np.zeros((count, 2)) for name in ("free", "cosine", "sine", "pull", "length")}
+    for weight in np.unique(rows.sled_weights):
+        mine = rows.sled_weights == weight
+        own, _ = loaded(values, weight, usual_weight)
+        points = np.ascontiguousarray(where[mine])
+        for name, column in _core.strands(own, over_top, points).items():
+            if name in shown:
+                shown[name][mine] = column
+        shown["pull"][mine] *= own[NAMES.index("sled_weight")]
+    free, cosine, sine, tension, length = shown.values()
+    return Strands(free, cosine, sine, tension, length, where)

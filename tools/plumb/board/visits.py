@@ -1,0 +1,73 @@
+"""Where the sled went on each visit: our model under the sled's weight on that visit."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from plumb.board.observations import Observations
+from plumb.model.predict import NAMES, Array, lengths, places_with_slopes, settings_of, values_of
+from plumb.settings.machine import MachineSettings
+
+ZERO_COLUMNS = (NAMES.index("chain_zero.left"), NAMES.index("chain_zero.right"))
+# What belongs to a chain and goes with it to the other sprocket.
+OF_A_CHAIN = {"chain_pitch.left": "chain_pitch.right", "chain_pitch.right": "chain_pitch.left"}
+EXCHANGED = np.array([NAMES.index(OF_A_CHAIN.get(name, name)) for name in NAMES])
+
+
+def loaded(values: Array, weight: float, usual: float) -> tuple[Array, Array]:
+    """The values for a sled of another weight [N], and each value's slope by the usual one's.
+
+    The sag parameter is a ratio to the sled's weight, so it follows that weight's square.
+    """
+    own, factors = values.copy(), np.ones(len(values))
+    if weight == usual:
+        return own, factors
+    own[NAMES.index("sled_weight")] = weight
+    factors[NAMES.index("sled_weight")] = 0.0
+    sag = NAMES.index("chain_sag.weight_ratio_squared")
+    factors[sag] = (usual / weight) ** 2
+    own[sag] *= factors[sag]
+    return own, factors
+
+
+def visited(
+    values: Array,
+    rows: Observations,
+    *,
+    over_top: bool,
+    usual_weight: float,
+    zeros: Array | None = None,
+) -> tuple[Array, Array, Array]:
+    """Places (r, 2) [mm] of all visits, their slopes by the values (r, 2, v), and FOUND (r,).
+
+    zeros (groups, 2) [mm] is what each zero group adds to left and right `chain_zero`.
+    """
+    where = np.zeros((len(rows.chains), 2))
+    slopes = np.zeros((len(rows.chains), 2, len(NAMES)))
+    found = np.zeros(len(rows.chains), dtype=int)
+    alike = {*zip(rows.sled_weights, rows.zero_groups, rows.exchanged, strict=True)}
+    for weight, group, exchanged in alike:
+        mine = (
+            (rows.sled_weights == weight)
+            & (rows.zero_groups == group)
+            & (rows.exchanged == exchanged)
+        )
+        own, factors = loaded(values, weight, usual_weight)
+        if zeros is not None:
+            own[list(ZERO_COLUMNS)] += zeros[group]
+        order = EXCHANGED if exchanged else slice(None)
+        where[mine], of_mine, found[mine] = places_with_slopes(
+            own[order], over_top=over_top, chains=rows.chains[mine]
+        )
+        slopes[mine] = of_mine[:, :, order] * factors
+    return where, slopes, found
+
+
+def chains_to(model: MachineSettings, points: Array, weights: Array) -> tuple[Array, Array]:
+    """Chain (n, 2) [mm] to places (n, 2) [mm] for sleds of these weights (n,) [N], and FOUND."""
+    chains, found = np.zeros((len(points), 2)), np.zeros(len(points), dtype=int)
+    for weight in np.unique(weights):
+        mine = weights == weight
+        own, _ = loaded(values_of(model), weight, model.sled_weight)
+        chains[mine], found[mine] = lengths(settings_of(own, like=model), points[mine])
+    return chains, found

@@ -1,0 +1,289 @@
+"""`plumb add`: fit the machine with more effects, and write its new settings."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+from typing import Any
+
+from plumb.cli.add_text import PATCH_WARNING, as_text, auto_text, turn_sentence
+from plumb.cli.compare import panel_of, score_json
+from plumb.cli.files import (
+    Inputs,
+    add_json,
+    add_marks,
+    add_prior,
+    add_sigma,
+    inputs_of,
+    picture_form,
+    refuse_twins,
+    write_outputs,
+)
+from plumb.cli.text import about, print_json, sentences
+from plumb.cure.add import Addition, Parameter, Quality, add, priors_with
+from plumb.cure.auto import AutoAddition, add_auto, without_marks
+from plumb.fit.patch import PATCH
+from plumb.model.catalogue import effect_names, is_sketch
+from plumb.pictures.sheet import Panel, draw
+from plumb.settings.files import changed_ini, groundcontrol_changes, machine_toml
+from plumb.text.errors import InputError, refusal
+
+HELP = "fit the frame and the named effects to the marks, and write the new settings"
+EXIT = (
+    "Exit: 0 done; 1 done, but marks left out of the fit are not predicted better than without the "
+    "effects, or auto cannot explain the marks (nothing is written for a slip); 2 an input cannot "
+    "be used, and nothing was written."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb add`."""
+    add_marks(parser)
+    parser.add_argument(
+        "--effect",
+        metavar="NAME",
+        nargs="+",
+        action="extend",
+        default=[],
+        help="effects to fit, after the marks, or auto: what plumb diagnose proves. Effects are "
+        f"{', '.join(effect_names())}; those that SETTINGS have and that are not named stay as "
+        "they are",
+    )
+    parser.add_argument(
+        "--patch",
+        action="store_true",
+        help="also fit a smooth map of what is left: no physics, for when no effect explains it",
+    )
+    parser.add_argument(
+        "--without",
+        metavar="MARK",
+        action="append",
+        default=[],
+        help="leave this mark out, say because its reading was a slip",
+    )
+    parser.add_argument("-o", "--output", metavar="FILE", help="write the machine.toml")
+    parser.add_argument(
+        "--groundcontrol",
+        metavar="FILE",
+        help="also write a groundcontrol.ini: other keys as they were in SETTINGS or --cut-with",
+    )
+    add_prior(parser)
+    add_sigma(parser, usual="tape_sigma_mm of MARKS, else from the residuals")
+    parser.add_argument("--picture", metavar="FILE", help="draw before and after: .png, .svg, .pdf")
+    add_json(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Fit, write, print, and return the exit code."""
+    refuse_twins(arguments.output, arguments.groundcontrol, arguments.picture)
+    inputs = inputs_of(arguments)
+    if arguments.without:
+        marks = without_marks(inputs.measurements, arguments.without)
+        inputs = replace(inputs, measurements=marks)
+    told = {
+        "cut_with": inputs.cut_with,
+        "controller": arguments.controller,
+        "priors": priors_with(arguments.prior),
+        "sigma": arguments.sigma,
+    }
+    told["patch"] = arguments.patch
+    if not arguments.effect and not arguments.patch:
+        raise InputError("nothing to add: name effects with --effect, or give --effect auto")
+    if "auto" in arguments.effect:
+        return _run_auto(arguments, inputs, told)
+    result = add(inputs.settings, inputs.measurements, effects=arguments.effect, **told)
+    files, unsaid = _written(arguments, inputs, result)
+    if arguments.json:
+        print_json({**as_json(result), "written": files, "unsaid": unsaid})
+    else:
+        print(as_text(result, asked_patch=arguments.patch))
+        _print_written(files, unsaid)
+    return int(not result.pays)
+
+
+def _run_auto(arguments: argparse.Namespace, inputs: Inputs, told: dict[str, Any]) -> int:
+    if len(arguments.effect) > 1:
+        raise InputError("--effect auto finds the effects itself; name no others beside it")
+    result = add_auto(inputs.settings, inputs.measurements, **told)
+    files, unsaid = [], []
+    if result.addition:
+        files, unsaid = _written(arguments, inputs, result.addition)
+    if arguments.json:
+        own = as_json(result.addition) if result.addition else {}
+        print_json({**own, "auto": auto_json(result), "written": files, "unsaid": unsaid})
+    else:
+        print(auto_text(result))
+        _print_written(files, unsaid)
+    return int(not result.done)
+
+
+def _written(
+    arguments: argparse.Namespace, inputs: Inputs, result: Addition
+) -> tuple[list[str], list[str]]:
+    """Write the files; their names, and what the groundcontrol.ini cannot hold."""
+    _refuse_sketches(arguments, result)
+    files = _files(arguments, inputs, result)
+    read = [arguments.settings, *arguments.marks]
+    read += [arguments.cut_with] if arguments.cut_with else []
+    write_outputs(files, inputs=read)
+    return list(files), unsaid_of(result) if arguments.groundcontrol else []
+
+
+def _refuse_sketches(arguments: argparse.Namespace, result: Addition) -> None:
+    """A machine.toml that leaves out what was fitted along would be a silent lie."""
+    for name in filter(is_sketch, result.after_fit.lab_effects):
+        for option, path in (
+            ("-o", arguments.output),
+            ("--groundcontrol", arguments.groundcontrol),
+        ):
+            if path:
+                raise InputError(
+                    f"{option} {path}: {name} is a sketch, which no firmware has; write it in C++ "
+                    f"first (docs/new-effect.md), or leave {option} away to look at the fit"
+                )
+
+
+def _print_written(files: list[str], unsaid: list[str]) -> None:
+    if files:
+        print(f"\nWritten: {', '.join(files)}")
+    if unsaid:
+        print("\nWhat the published firmware cannot do with the groundcontrol.ini:")
+        print(sentences(unsaid))
+
+
+def _files(arguments: argparse.Namespace, inputs: Inputs, result: Addition) -> dict[str, bytes]:
+    """All files to write, complete before the first is written."""
+    files: dict[str, bytes] = {}
+    if arguments.output:
+        files[arguments.output] = toml_of(result, source=inputs.measurements.source)
+    if arguments.groundcontrol:
+        original = next(
+            (
+                path
+                for path, read in (
+                    (arguments.settings, inputs.settings),
+                    (arguments.cut_with, inputs.cut_with),
+                )
+                if read and path.lower().endswith(".ini")
+            ),
+            None,
+        )
+        if original is None:
+            raise refusal(
+                arguments.groundcontrol,
+                "needs a groundcontrol.ini whose other keys it keeps",
+                remedy="give one as SETTINGS or with --cut-with",
+            )
+        files[arguments.groundcontrol] = ini_of(result, original)
+    if arguments.picture:
+        form = picture_form(arguments.picture)
+        drawn = draw(panels_of(result), sheet=result.settings.sheet, form=form)
+        files[arguments.picture] = drawn
+    return files
+
+
+def toml_of(result: Addition, *, source: str) -> bytes:
+    """The new machine as the bytes of a machine.toml."""
+    lines = [
+        f"Fitted to {source}: {result.after.fit_rms:.2f} mm RMS "
+        f"(priced {result.after.priced_rms:.2f}, left out {result.after.left_out_rms:.2f}), "
+        f"{result.raw.rms:.2f} mm before.",
+        turn_sentence(result),
+        *result.cures,
+        *([f"residual_patch: {PATCH_WARNING}"] if PATCH in result.effects_added else []),
+        *result.warnings,
+    ]
+    return machine_toml(result.settings, comment="\n".join(lines)).encode()
+
+
+def ini_of(result: Addition, original: str) -> bytes:
+    """The new machine as far as a groundcontrol.ini can hold it."""
+    return changed_ini(original, groundcontrol_changes(result.settings).values)
+
+
+def unsaid_of(result: Addition) -> list[str]:
+    """What a groundcontrol.ini cannot hold."""
+    return [one.sentence for one in groundcontrol_changes(result.settings).unsaid]
+
+
+def panels_of(result: Addition) -> list[Panel]:
+    """Before and after as panels of a picture."""
+    after = result.after
+    return [
+        panel_of(result.raw, when="Before"),
+        Panel(
+            title=f"After: {about(after.fit_rms)} mm RMS, worst {about(after.worst)} mm",
+            predicted=result.after_fit.predicted,
+            errors=result.after_fit.errors,
+            good=True,
+        ),
+    ]
+
+
+def as_json(result: Addition) -> dict[str, Any]:
+    """The addition by the names of the interface."""
+    return {
+        "raw": {
+            "rms_mm": result.raw.rms,
+            "worst_mm": result.raw.worst,
+            "shape_rms_mm": result.raw.shape_rms,
+        },
+        "before": _quality_json(result.before),
+        "after": _quality_json(result.after),
+        "steps": [
+            {"effect": one.effect, "only_fit": one.only_fit, **_quality_json(one.quality)}
+            for one in result.steps
+        ],
+        "parameters": [_parameter_json(one) for one in result.parameters],
+        "effects_added": result.effects_added,
+        "effects": result.settings.effects,
+        "lab_effects": result.after_fit.lab_effects,
+        "cures": result.cures,
+        "frame": result.settings.frame,
+        "sheet_rotation": result.after_fit.sheet_rotation,
+        "sheet_rise_mm": result.sheet_rise,
+        "sigma_mm": result.after_fit.sigma,
+        "sigma_from": result.after_fit.sigma_from,
+        "benchmark": {
+            "before": score_json(result.raw.benchmark),
+            "after": score_json(result.benchmark_after),
+        },
+        "warnings": result.warnings,
+    }
+
+
+def auto_json(result: AutoAddition) -> dict[str, Any]:
+    """How the effects were chosen."""
+    return {
+        "verdict": result.found.verdict,
+        "chosen": result.chosen,
+        "rivals": result.rivals,
+        "slips": [one.name for one in result.found.slips],
+        "reason": result.reason,
+        "settled_by": result.settled_by,
+        "patch_offer_mm": result.offer,
+    }
+
+
+def _quality_json(quality: Quality) -> dict[str, Any]:
+    return {
+        "fit_rms_mm": quality.fit_rms,
+        "priced_rms_mm": quality.priced_rms,
+        "left_out_rms_mm": quality.left_out_rms,
+        "worst_mm": quality.worst,
+        "shape_rms_mm": quality.shape_rms,
+    }
+
+
+def _parameter_json(one: Parameter) -> dict[str, Any]:
+    return {
+        "name": one.name,
+        "value": one.value,
+        "low": one.low,
+        "high": one.high,
+        "unit": one.unit,
+        "before": one.before,
+        "prior_sigma": one.prior_sigma,
+        "possible": [one.possible_low, one.possible_high],
+        "plausible": one.plausible,
+    }

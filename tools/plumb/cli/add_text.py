@@ -1,0 +1,121 @@
+"""What `plumb add` says to people."""
+
+from __future__ import annotations
+
+from plumb.cli.text import millimetres, number, sentences, table
+from plumb.cure.add import Addition
+from plumb.cure.auto import AutoAddition
+from plumb.diagnose.sentence import verdict_sentence
+from plumb.fit.patch import PATCH
+
+
+def auto_text(result: AutoAddition) -> str:
+    """What was found and chosen, for people, then the addition."""
+    said = [sentences([verdict_sentence(result.found)], mark="")]
+    said += [sentences([one.sentence for one in result.found.slips])] if result.found.slips else []
+    reason = result.reason[0].upper() + result.reason[1:] + "."
+    said.append(sentences([reason], mark=""))
+    if result.settled_by:
+        said.append("To be sure which it is:\n" + sentences(result.settled_by))
+    if result.offer:
+        said.append(sentences([_offer_sentence(result)], mark=""))
+    if result.addition:
+        said.append(as_text(result.addition))
+    return "\n\n".join(said)
+
+
+def _offer_sentence(result: AutoAddition) -> str:
+    """What a residual patch would buy, or has bought."""
+    without, with_it = result.offer
+    if with_it >= without:
+        return f"A residual patch would buy nothing ({without:.2f} mm for marks left out)."
+    bought = f"{without:.2f} to {with_it:.2f} mm for marks left out"
+    if PATCH in result.addition.effects_added:
+        return f"The residual patch bought {bought}."
+    return f"A residual patch (--patch) would buy {bought}. {PATCH_WARNING}"
+
+
+PATCH_WARNING = (
+    "It is no physics: a smooth map that holds for this machine, sled and sheet as they are, and "
+    "only where marks were measured."
+)
+
+
+def as_text(result: Addition, *, asked_patch: bool = False) -> str:
+    """The addition for people, its conclusion first."""
+    raw, before, after = result.raw, result.before, result.after
+    verdict = "better" if result.pays else "NOT better"
+    first = f"From {raw.rms:.2f} to {after.fit_rms:.2f} mm RMS"
+    if result.steps:
+        first += (
+            f"; marks left out of the fit are predicted {verdict} with the effects "
+            f"({before.left_out_rms:.2f} to {after.left_out_rms:.2f} mm)"
+        )
+    first += "."
+    parts = [sentences([first], mark=""), _quality_table(result), _parameter_table(result)]
+    if result.benchmark_after:
+        parts.insert(1, _benchmark_sentence(result))
+    sigma = result.after_fit
+    origin = "as stated" if sigma.sigma_from == "stated" else "from the residuals"
+    parts.append(
+        "Priced: scaled up for the numbers the fit took from the data. Left out: each mark "
+        "predicted\nby a fit that did not see it. Intervals: 95 %, for a reading error of "
+        f"{sigma.sigma:.2f} mm ({origin})."
+    )
+    said = [turn_sentence(result), *result.cures, *result.warnings]
+    if PATCH in result.effects_added:
+        said.append(PATCH_WARNING)
+    elif asked_patch:
+        said.append("a residual patch would predict marks left out no better, so none was added")
+    parts.append(sentences(said))
+    return "\n\n".join(parts)
+
+
+def _benchmark_sentence(result: Addition) -> str:
+    """The community's score before, and what to expect of the next cut."""
+    said = (
+        f"Calibration Benchmark Score: {result.raw.benchmark} as cut; {result.benchmark_after} to "
+        "expect when it is cut again with the new settings, if nothing else changes."
+    )
+    return sentences([said], mark="")
+
+
+def turn_sentence(result: Addition) -> str:
+    """What to do about the sheet's rotation."""
+    rise = result.sheet_rise
+    which = "raise" if rise > 0 else "lower"
+    return (
+        f"no setting holds the sheet's rotation: {which} its right end by {abs(rise):.2f} mm over "
+        f"its width of {result.settings.sheet_width:.0f} mm"
+    )
+
+
+def _quality_table(result: Addition) -> str:
+    raw = result.raw
+    rows = [["as the settings are", raw.rms, None, None, raw.worst, raw.shape_rms]]
+    named = [("frame fitted", result.before)]
+    named += [(f"+ {one.effect}", one.quality) for one in result.steps]
+    for name, own in named:
+        rows.append([name, own.fit_rms, own.priced_rms, own.left_out_rms, own.worst, own.shape_rms])
+    header = ["error in mm", "RMS", "priced", "left out", "worst", "shape"]
+    return table(header, [[name, *map(millimetres, values)] for name, *values in rows])
+
+
+def _parameter_table(result: Addition) -> str:
+    rows = []
+    for one in result.parameters:
+        if one.of_patch:
+            continue
+        trusted = "free" if one.prior_sigma is None else number(one.prior_sigma)
+        rows.append(
+            [
+                one.name,
+                number(one.value),
+                f"{number(one.low)} .. {number(one.high)}",
+                number(one.before),
+                trusted,
+                one.unit,
+                "" if one.plausible else "impossible",
+            ]
+        )
+    return table(["number", "value", "interval", "before", "trusted to", "unit", ""], rows)

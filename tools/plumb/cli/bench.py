@@ -1,0 +1,193 @@
+"""`plumb bench`: how often the diagnosis is right on boards with hidden effects."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+from plumb.bench.judge import build
+from plumb.bench.page import page
+from plumb.bench.report import (
+    CURE_HEADER,
+    HEADER,
+    Report,
+    cells,
+    cure_cells,
+    line_words,
+    value_words,
+)
+from plumb.bench.report import (
+    run as run_bench,
+)
+from plumb.bench.scenarios import CURE, NAMES, SCENARIOS, Scenario
+from plumb.cli.files import add_json, write_outputs
+from plumb.cli.text import print_json, sentences, table
+from plumb.text.errors import InputError
+
+HELP = "how often the diagnosis is right: rates over boards with hidden effects"
+EXIT = (
+    "Exit: 0 no line is missed; 1 a line is missed by more than chance; 2 the bench cannot run. "
+    "The boards come from the judge's program in test/hidden, so it needs the project's folder."
+)
+BOARDS, FAST = 200, 20  # of each scenario
+BAR = 30  # [characters]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb bench`."""
+    parser.add_argument(
+        "--scenario",
+        metavar="NAME",
+        nargs="+",
+        action="extend",
+        default=[],
+        help=f"only these, or all that begin so: {', '.join(NAMES)}",
+    )
+    parser.add_argument(
+        "--boards", metavar="N", type=_count, help=f"boards of each scenario [{BOARDS}]"
+    )
+    parser.add_argument("--fast", action="store_true", help=f"{FAST} boards of each scenario")
+    parser.add_argument("--seed", metavar="S", type=int, default=1, help="other boards [1]")
+    parser.add_argument("--jobs", metavar="N", type=_count, default=1, help="programs at once [1]")
+    parser.add_argument("--write", metavar="FILE", help="write the page with all rates (markdown)")
+    add_json(parser)
+
+
+def _count(text: str) -> int:
+    count = int(text) if text.isdecimal() else 0
+    if count < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a whole number, like 100")
+    return count
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run the bench, print its table, and return the exit code."""
+    chosen = chosen_of(arguments.scenario)
+    build()
+    boards = arguments.boards or (FAST if arguments.fast else BOARDS)
+    bar = _Bar(len(chosen) * boards)
+    report = run_bench(
+        chosen, boards=boards, seed=arguments.seed, progress=bar.step, jobs=arguments.jobs
+    )
+    bar.clear()
+    if arguments.write:
+        write_outputs({arguments.write: page(report).encode()}, inputs=[])
+    if arguments.json:
+        print_json(as_json(report))
+    else:
+        print(as_text(report))
+    return int(bool(report.missed) or report.cure_judged == "missed")
+
+
+def chosen_of(names: Sequence[str]) -> tuple[Scenario, ...]:
+    """The scenarios of these names or beginnings of names; all if there are none."""
+    for name in names:
+        if not any(own.startswith(name) for own in NAMES):
+            raise InputError(
+                f"--scenario {name}: there is no scenario of that name; known are "
+                f"{', '.join(NAMES)}"
+            )
+    return tuple(
+        one for one in SCENARIOS if not names or any(one.name.startswith(own) for own in names)
+    )
+
+
+class _Bar:
+    """A line on standard error that grows, if someone watches."""
+
+    def __init__(self, total: int) -> None:
+        self._total, self._done = total, 0
+        self._shown = sys.stderr.isatty()
+
+    def step(self, name: str, boards: int) -> None:
+        """So many boards more of a scenario."""
+        self._done += boards
+        if self._shown:
+            filled = BAR * self._done // self._total
+            bar = "#" * filled + "." * (BAR - filled)
+            sys.stderr.write(f"\r{bar} {self._done}/{self._total} {name:<18}")
+            sys.stderr.flush()
+
+    def clear(self) -> None:
+        """Leave nothing behind."""
+        if self._shown:
+            sys.stderr.write("\r" + " " * (BAR + 40) + "\r")
+            sys.stderr.flush()
+
+
+def as_text(report: Report) -> str:
+    """The tables for people, what is missed last."""
+    parts = [table(HEADER, cells(report), left=5)]
+    if report.cures:
+        parts.append(table(CURE_HEADER, cure_cells(report)))
+        parts.append(
+            sentences(
+                [
+                    "Error of the judge's sled over the whole sheet, RMS of its shape: by the "
+                    "settings as they were, with the frame refitted, with what was named added, "
+                    f"and with the truth added. Line for the ratio: {line_words(CURE)}, "
+                    f"{report.cure_judged}."
+                ],
+                mark="",
+            )
+        )
+    missed = [
+        f"missed: {row.scenario.name}, {row.rate.name} {value_words(row.rate)}, line "
+        f"{line_words(row.line)}"
+        for row in report.missed
+    ]
+    reached = f"{report.boards} boards of each scenario, seed {report.seed}: no line is missed"
+    parts.append(sentences(missed or [reached], mark=""))
+    return "\n\n".join(parts)
+
+
+def as_json(report: Report) -> dict[str, Any]:
+    """The rates by the names of the table."""
+    return {
+        "boards": report.boards,
+        "seed": report.seed,
+        "rates": [
+            {
+                "scenario": row.scenario.name,
+                "hidden": row.scenario.what,
+                "marks": row.scenario.marks,
+                "noise_mm": row.scenario.noise,
+                "rate": row.rate.name,
+                "value": row.rate.value,
+                "error": row.rate.error,
+                "count": row.rate.count,
+                "least": row.line.least if row.line else None,
+                "most": row.line.most if row.line else None,
+                "judged": row.judged or None,
+            }
+            for row in report.rows
+        ],
+        "by_kind": [
+            {
+                "scenario": name,
+                "hidden": kind,
+                "rate": rate.name,
+                "value": rate.value,
+                "error": rate.error,
+                "count": rate.count,
+            }
+            for name, kind, rate in report.by_kind
+        ],
+        "errors_mm": [
+            {
+                "scenario": one.scenario,
+                "boards": one.boards,
+                "before": one.before,
+                "frame": one.frame,
+                "after": one.after,
+                "known": one.known,
+                "ratio": one.ratio.value,
+                "ratio_error": one.error,
+            }
+            for one in report.cures
+        ],
+        "missed": [f"{row.scenario.name}: {row.rate.name}" for row in report.missed]
+        + ["error at the sled"] * (report.cure_judged == "missed"),
+    }

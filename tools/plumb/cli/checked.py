@@ -1,0 +1,55 @@
+"""The option --checked: numbers of the machine that were measured directly."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import re
+
+from plumb.diagnose import Checked
+from plumb.fit.problem import PRIORS
+from plumb.model.catalogue import parameter_words
+from plumb.text.errors import InputError
+
+
+def add_checked(parser: argparse.ArgumentParser) -> None:
+    """The option --checked."""
+    parser.add_argument(
+        "--checked",
+        metavar="NAME=VALUE+-SIGMA",
+        action="append",
+        type=checked,
+        default=[],
+        help="a number of the machine that you measured directly, like "
+        "tape_scale.strain=0.0002+-0.0001 (one sigma); see plumb next and plumb effects",
+    )
+
+
+def checked(text: str) -> Checked:
+    """One NAME=VALUE+-SIGMA."""
+    name, _, numbers = text.partition("=")
+    value, _, sigma = re.sub("±", "+-", numbers).partition("+-")
+    try:
+        found = Checked(name.strip(), float(value), float(sigma))
+    except ValueError:
+        found = None
+    if not (found and math.isfinite(found.value) and math.isfinite(found.sigma)):
+        raise argparse.ArgumentTypeError(f"'{text}' is not like motor_gap=2978.4+-1")
+    if found.sigma <= 0:
+        raise argparse.ArgumentTypeError(f"'{text}': a sigma is above zero")
+    return found
+
+
+def usable_checks(checks: list[Checked], priors: dict[str, float]) -> list[Checked]:
+    """The checks, if each is of a number that is fitted here."""
+    known = [*parameter_words(), *(name for name, sigma in priors.items() if sigma > 0)]
+    for one in checks:
+        if one.name not in known:
+            frame = ", ".join(name for name in PRIORS)
+            raise InputError(
+                f"--checked {one.name}: no such number is fitted; give a parameter as plumb "
+                f"effects names it, like tape_scale.strain, or of the frame {frame}"
+            )
+    if len({one.name for one in checks}) < len(checks):
+        raise InputError("--checked: a number is given twice; give the mean of both")
+    return checks

@@ -1,0 +1,124 @@
+"""`plumb grid`: the G-code for calibration marks; the same code as tools/calibration_grid.py."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import importlib.util
+import io
+from dataclasses import replace
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+
+from plumb.cli.files import limit, settings_in
+from plumb.cli.text import print_json
+from plumb.model.predict import CANNOT_HANG, REACH_LIMITS, TOO_SLACK, TOO_TIGHT, USABLE, reach
+from plumb.model.reach import with_soft_chains
+from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError
+
+HELP = "the G-code for a grid of calibration marks"
+EXIT = "Exit: 0 done; 2 the grid cannot be made, and nothing was written."
+
+
+def _load() -> ModuleType:
+    """The tool beside this package; it is a script of its own and no part of the package."""
+    path = Path(__file__).resolve().parents[2] / "calibration_grid.py"
+    specification = importlib.util.spec_from_file_location("calibration_grid", path)
+    module = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    return module
+
+
+grids = _load()
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb grid`: those of the tool, and --json."""
+    grids.add_arguments(parser)
+    parser.add_argument(
+        "--most-give",
+        metavar="MM_PER_N",
+        type=limit,
+        default=REACH_LIMITS["most_give"],
+        help="how far a newton may move the sled; see plumb reach [%(default)g]",
+    )
+    parser.add_argument("--json", action="store_true", help="print one JSON object and no more")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Make the grid as the tool does, unless the machine's own model refuses a place."""
+    refuse_out_of_reach(arguments)
+    if not arguments.json:
+        return grids.run(arguments, "plumb")
+    said = io.StringIO()
+    with contextlib.redirect_stdout(said):
+        code = grids.run(arguments, "plumb")
+    if code:
+        return code
+    grid, machine = grids.from_arguments(arguments)
+    print_json(
+        {
+            "program": None if arguments.output else grids.program(grid, machine),
+            "marks": [
+                {"name": mark.name, "target": [mark.x, mark.y], "visit": mark.visit}
+                for mark in grids.marks(grid, machine)
+            ],
+            "approach": list(grid.approach),
+            "written": [path for path in (arguments.output, arguments.marks) if path],
+        }
+    )
+    return 0
+
+
+def refuse_out_of_reach(arguments: argparse.Namespace) -> None:
+    """Refuse a grid that the tool allows, but our model of the machine does not.
+
+    The tool knows straight chains without weight; the model knows all that the settings say.
+    """
+    passed: list[tuple[str, float, float]] = []
+    try:
+        grid, machine = grids.from_arguments(arguments)
+        grids.check(grid, machine)
+        grids.check(grid, machine, lambda _grid, _machine, *place: passed.append(place))
+    except grids.GridError:
+        return  # the tool tells it when it is run
+    points = np.array([place[1:] for place in passed])
+    found = reach(
+        _settings_of(arguments.settings, machine),
+        points,
+        most_tension=grid.max_tension,
+        least_tension=grid.min_tension,
+        least_free=grids.MIN_FREE_CHAIN,
+        most_give=arguments.most_give,
+    )
+    for i in np.flatnonzero(found.verdict != USABLE)[:1]:
+        what, x, y = passed[i]
+        why = _reason(int(found.verdict[i]), found.tension[i], float(found.give[i]))
+        raise InputError(f"{what} at x {x:.1f} y {y:.1f} {why}; see plumb reach")
+
+
+def _settings_of(path: str | None, machine: tuple) -> MachineSettings:
+    """The machine of the settings file, with the numbers that the tool goes by."""
+    numbers = {
+        "motor_gap": machine.motor_spacing,
+        "motor_height": machine.sheet_height / 2 + machine.motor_offset,
+        "rotation_radius": machine.rotation_radius,
+        "sheet_width": machine.sheet_width,
+        "sheet_height": machine.sheet_height,
+        "sled_weight": machine.sled_weight_n,
+    }
+    own = settings_in(path).as_plumb_model() if path else MachineSettings(**numbers, feed="top")
+    return with_soft_chains(replace(own, **numbers))[0]
+
+
+def _reason(verdict: int, tension: np.ndarray, give: float) -> str:
+    if verdict == CANNOT_HANG:
+        return "is a place where no sled can hang: raise --margin"
+    if verdict == TOO_TIGHT:
+        return f"puts {max(tension):.0f} N on a chain: raise --margin or lighten the sled"
+    if verdict == TOO_SLACK:
+        return f"leaves {min(tension):.1f} N on a chain: raise --margin or move the motors apart"
+    return f"lets every newton move the sled {give:.2f} mm: raise --margin or --most-give"

@@ -1,0 +1,293 @@
+"""`plumb next`: the most useful next measurement, with the chance that it settles the question."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from plumb.cli.checked import add_checked, usable_checks
+from plumb.cli.diagnose import proposal_json
+from plumb.cli.files import (
+    Inputs,
+    add_json,
+    add_marks,
+    add_prior,
+    add_sigma,
+    inputs_of,
+    picture_form,
+    refuse_twins,
+    write_outputs,
+)
+from plumb.cli.text import millimetres, number, print_json, sentences, table
+from plumb.cure.add import priors_with
+from plumb.diagnose import Diagnosis, diagnose
+from plumb.diagnose.sentence import verdict_sentence
+from plumb.pictures.plan import draw_plan
+from plumb.plan import Next, Proposal, propose
+from plumb.plan.plan_marks import marks_file
+from plumb.plan.proposal import AGAIN, CONFIRM, EXPLORE, FIND, REREAD, SETTLE
+from plumb.text.errors import InputError
+
+HELP = "what to measure next: the chance that it settles the question, and the minutes it costs"
+EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
+SHOWN, TOLD = 8, 3  # proposals in the table, and in whole sentences; --json has all
+PATIENCE = 2.0  # seconds before a bar shows how far the work is
+BAR = 30  # [characters]
+HEADS = {
+    SETTLE: "chance to settle",
+    CONFIRM: "chance to confirm",
+    FIND: "could hide then",
+    REREAD: "chance to show it",
+    EXPLORE: "",
+}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb next`."""
+    add_marks(parser)
+    add_prior(parser)
+    add_sigma(parser, usual="as plumb diagnose takes it")
+    add_checked(parser)
+    parser.add_argument(
+        "--choose",
+        metavar="N",
+        type=int,
+        help="the proposal that --picture and --marks are of [the best that has marks]",
+    )
+    parser.add_argument("--picture", metavar="FILE", help="draw it on the sheet: .png, .svg, .pdf")
+    parser.add_argument("--marks", dest="template", metavar="FILE", help="a marks.toml to fill in")
+    add_json(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Diagnose, propose, write, print, and return the exit code."""
+    refuse_twins(arguments.picture, arguments.template)
+    form = picture_form(arguments.picture) if arguments.picture else ""
+    inputs = inputs_of(arguments)
+    priors = priors_with(arguments.prior)
+    checked = usable_checks(arguments.checked, priors)
+    told = {"cut_with": inputs.cut_with, "controller": arguments.controller, "priors": priors}
+    found = diagnose(
+        inputs.settings, inputs.measurements, sigma=arguments.sigma, checked=checked, **told
+    )
+    answer = propose(
+        found,
+        inputs.settings,
+        inputs.measurements,
+        checked=checked,
+        progress=progress_bar(),
+        **told,
+    )
+    files = _files(arguments, answer, inputs, form)
+    read = [arguments.settings, *arguments.marks, *filter(None, [arguments.cut_with])]
+    write_outputs(files, inputs=read)
+    if arguments.json:
+        print_json({**as_json(found, answer), "written": list(files)})
+    else:
+        print(as_text(found, answer))
+    return 0
+
+
+def progress_bar() -> Callable[[float], None]:
+    """Shows on standard error how far the work is, if it takes long and somebody looks."""
+    start = time.monotonic()
+    shown = False
+
+    def show(share: float) -> None:
+        nonlocal shown
+        if not sys.stderr.isatty() or not (shown or time.monotonic() - start > PATIENCE):
+            return
+        shown = True
+        done = round(BAR * share)
+        end = "\r" + " " * (BAR + 12) + "\r" if share >= 1 else ""
+        print(
+            f"\r[{'#' * done}{'.' * (BAR - done)}] {100 * share:3.0f} %", end=end, file=sys.stderr
+        )
+        sys.stderr.flush()
+
+    return show
+
+
+def _files(
+    arguments: argparse.Namespace, answer: Next, inputs: Inputs, form: str
+) -> dict[str, bytes]:
+    """The files that were asked for."""
+    if not (arguments.picture or arguments.template):
+        if arguments.choose is not None:
+            raise InputError("--choose is for --picture and --marks: give one of them")
+        return {}
+    place, chosen = _chosen(answer, arguments.choose)
+    option, files = chosen.option, {}
+    machine = inputs.cut_with or inputs.settings
+    if arguments.picture:
+        old = inputs.measurements.targets
+        files[arguments.picture] = draw_plan(
+            option.visits,
+            np.unique(old, axis=0) if len(old) else old,
+            title=f"Next: {option.title}",
+            usual_weight=answer.case.usual_weight,
+            sheet=machine.sheet,
+            form=form,
+        )
+    if arguments.template:
+        text = marks_file(
+            option.visits,
+            sheet=machine.sheet,
+            controller=answer.case.controller,
+            said=(f"Proposal {place}: {option.title}.", *option.do),
+        )
+        files[arguments.template] = text.encode()
+    return files
+
+
+def _chosen(answer: Next, wanted: int | None) -> tuple[int, Proposal]:
+    """The proposal to draw, with its place."""
+    having = [i for i, one in enumerate(answer.proposals, 1) if len(one.option.visits)]
+    if not having:
+        raise InputError("nothing is proposed that has marks: leave out --picture and --marks")
+    place = having[0] if wanted is None else wanted
+    if place not in having:
+        raise InputError(
+            f"--choose {place}: the proposals that have marks are {', '.join(map(str, having))}"
+        )
+    return place, answer.proposals[place - 1]
+
+
+def as_json(found: Diagnosis, answer: Next) -> dict[str, Any]:
+    """The proposals by the names of the interface."""
+    return {
+        "verdict": found.verdict,
+        "sentence": verdict_sentence(found),
+        "suspects": found.suspects,
+        "next": [proposal_json(one) for one in answer.proposals],
+        "more_marks": proposal_json(answer.blind) if answer.blind else None,
+        "stable": None
+        if answer.stable is None
+        else {"kept": answer.stable[0], "of": answer.stable[1]},
+    }
+
+
+def as_text(found: Diagnosis, answer: Next) -> str:
+    """The proposals for people, the best first."""
+    parts = [sentences([verdict_sentence(found)], mark="")]
+    if not answer.proposals:
+        parts.append("Nothing that can be proposed would tell more.")
+        return "\n\n".join(parts)
+    parts.append(_first(answer.proposals[0]))
+    if answer.stable and answer.stable[1]:
+        parts.append(sentences([_stable(*answer.stable)], mark=""))
+    if len(answer.proposals) > 1:
+        parts.append(_table(answer))
+        told = [
+            f"{place}. {' '.join(one.option.do)}"
+            for place, one in enumerate(answer.proposals[1:TOLD], 2)
+        ]
+        parts.append(sentences(told, mark=""))
+    parts.append(sentences([_how(answer)], mark=""))
+    if found.warnings:
+        parts.append(sentences(found.warnings))
+    return "\n\n".join(parts)
+
+
+def _first(best: Proposal) -> str:
+    """The best proposal in sentences."""
+    minutes = f"about {best.option.minutes:.0f} minutes"
+    said = [f"Next: {best.option.title}; {minutes}{_promise(best)}.", *best.option.do]
+    if best.parts:
+        pairs = [f"{a} from {b}" for a, b in best.parts]
+        said.append(f"It tells {'; '.join(pairs)}.")
+    if best.option.checks:
+        terms = " ".join(
+            f"--checked {own.name}=VALUE+-{number(own.sigma)}" for own in best.option.checks
+        )
+        said.append(f"Then run this again with {terms}; VALUE: {best.option.value}.")
+    elif len(best.option.visits):
+        said.append("Then give the new marks as one more file; --marks FILE writes it to fill in.")
+    return sentences(said[:1], mark="") + "\n" + sentences(said[1:], mark="  ")
+
+
+def _promise(best: Proposal) -> str:
+    if best.question == FIND and best.rooms:
+        first = best.rooms[0]
+        return (
+            f". {first.effect} could hide {millimetres(first.now, 1)} mm now, "
+            f"{millimetres(first.then, 1)} mm then"
+        )
+    if best.chance is None:
+        return ""
+    verb = {SETTLE: "settle it", CONFIRM: "confirm it", REREAD: "show it"}.get(best.question, "")
+    return f", chance to {verb} {_percent(best.chance)}" if verb else ""
+
+
+def _stable(kept: int, of: int) -> str:
+    return f"Leaving out any one mark keeps the suspect in {kept} of {of} cases" + (
+        ": it does not hang on a single reading." if kept == of else ": it hangs on single ones."
+    )
+
+
+def _table(answer: Next) -> str:
+    question = answer.proposals[0].question
+    header = ["", "other ways" if question != EXPLORE else "", "minutes", HEADS[question]]
+    counted = question in (SETTLE, CONFIRM)
+    rows = [_row(f"{i}", one, counted) for i, one in enumerate(answer.proposals[:SHOWN], 1)]
+    if answer.blind:
+        rows.append(_row("-", answer.blind, counted))
+    if counted:
+        header += ["suspects left", "tells apart"]
+    header[1] = "what"
+    return table(header, rows, left=2)
+
+
+def _row(place: str, one: Proposal, counted: bool) -> list[str]:
+    if one.question == FIND and one.rooms:
+        told = ", ".join(
+            f"{own.effect} {millimetres(own.now, 1)} -> {millimetres(own.then, 1)} mm"
+            for own in one.rooms[:2]
+            if own.then < 0.9 * own.now
+        )
+    else:
+        told = _percent(one.chance)
+    row = [place, one.option.title, f"{one.option.minutes:.0f}", told or "no change"]
+    if counted:
+        pairs = f"{len(one.parts)} pair{'s' if len(one.parts) != 1 else ''}" if one.parts else ""
+        row += [f"{one.left:.1f}" if one.left is not None else "-", pairs or "none"]
+    return row
+
+
+def _percent(chance: float | None) -> str:
+    """A chance in steps of five in a hundred: it is not known better."""
+    if chance is None:
+        return "-"
+    near = 5 * round(20 * chance)
+    return "below 5 %" if near < 5 else "above 95 %" if near > 95 else f"{near:.0f} %"
+
+
+def _how(answer: Next) -> str:
+    question = answer.proposals[0].question
+    again = f"{AGAIN:.0f} minutes added for one more round"
+    if question == SETTLE:
+        return (
+            "Chances are simulated: each suspect is taken for the truth as often as it is "
+            "probable, new readings are drawn with their noise, and the diagnosis is repeated. "
+            f"The order is chance per minute, {again}."
+        )
+    if question == CONFIRM:
+        return (
+            "Chances are simulated as if the effects that failed their test narrowly might be the "
+            "truth: confirmed means that the true one is left alone. Direct checks come first; "
+            f"then the order is chance per minute, {again}."
+        )
+    if question == FIND:
+        return f"The order is the millimetres of doubt removed per minute, {again}."
+    if question == REREAD:
+        return "A slip hides what else the marks could say, so nothing else is proposed yet."
+    return (
+        "No chance can be told for an effect that is not known. Also fit the left and right, or "
+        "the upper and lower, half of the marks by themselves: where their numbers differ, "
+        "something is local."
+    )

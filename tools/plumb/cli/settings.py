@@ -1,0 +1,69 @@
+"""`plumb settings`: a fitted machine as lines for our firmware, or as a GroundControl file."""
+
+from __future__ import annotations
+
+import argparse
+
+from plumb.cli.files import add_json, add_settings, settings_in, write_outputs
+from plumb.cli.text import print_json, sentences, table
+from plumb.firmware.numbers import Number, firmware_numbers, groundcontrol_values
+from plumb.settings.files import changed_ini
+from plumb.text.errors import InputError, refusal
+
+HELP = "a fitted machine as $ lines for the firmware, as a groundcontrol.ini, or as a table"
+EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
+FORMS = ("gcode", "groundcontrol.ini", "table")
+KEPT_BY_CLIENT = (
+    "GroundControl and WebControl keep $2, $3, $8, $37, $40 and $41 themselves and send theirs "
+    "when they connect: give them the file of --to groundcontrol.ini, or these numbers, too"
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb settings`."""
+    add_settings(parser)
+    parser.add_argument("--to", choices=FORMS, default="table", help="the form [%(default)s]")
+    parser.add_argument(
+        "--original",
+        metavar="INI",
+        help="the groundcontrol.ini whose other keys --to groundcontrol.ini keeps",
+    )
+    parser.add_argument("-o", "--output", metavar="FILE", help="write it there instead of printing")
+    add_json(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Convert, write or print, and return the exit code."""
+    settings = settings_in(arguments.settings)
+    if settings.controller != "plumb":
+        raise refusal(
+            arguments.settings,
+            "holds the published numbers, which its own program sends",
+            remedy="give the machine.toml of plumb add",
+        )
+    numbers = firmware_numbers(settings)
+    if arguments.to == "groundcontrol.ini":
+        if not (arguments.original and arguments.output):
+            raise InputError("--to groundcontrol.ini needs --original INI and --output FILE")
+        told = changed_ini(arguments.original, groundcontrol_values(settings))
+    else:
+        told = _text(numbers, arguments.to).encode()
+    read = [arguments.settings, *filter(None, [arguments.original])]
+    if arguments.output:
+        write_outputs({arguments.output: told}, inputs=read)
+    if arguments.json:
+        print_json({"settings": [vars(one) for one in numbers], "written": arguments.output})
+    elif arguments.output:
+        print(f"Written: {arguments.output}")
+        if arguments.to == "gcode":
+            print(sentences([KEPT_BY_CLIENT]))
+    else:
+        print(told.decode(), end="")
+    return 0
+
+
+def _text(numbers: tuple[Number, ...], form: str) -> str:
+    if form == "gcode":
+        return "".join(f"{one.line}\n" for one in numbers)
+    rows = [[f"${one.number}", one.name, one.text, one.unit] for one in numbers]
+    return table(["number", "name", "value", "unit"], rows) + "\n"

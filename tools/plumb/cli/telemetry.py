@@ -1,0 +1,51 @@
+"""`plumb telemetry`: what the firmware says of itself, in plain words."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import asdict
+
+from plumb.cli.files import add_json
+from plumb.cli.text import print_json, sentences, table
+from plumb.firmware.telemetry import latest, warnings
+from plumb.text.files import read_text
+
+HELP = "how the machine is doing, from a client's log with an answer to B30"
+EXIT = "Exit: 0 done and all is well, 1 something to look at, 2 the log cannot be used."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb telemetry`."""
+    parser.add_argument(
+        "log", metavar="LOG", help="text with a [Telemetry|...] line; the last counts"
+    )
+    parser.add_argument(
+        "--limit", type=float, default=2.0, metavar="MM", help="$42 of the machine (default 2)"
+    )
+    parser.add_argument(
+        "--rate", type=int, default=100, choices=(100, 200), help="$69 of the machine (default 100)"
+    )
+    add_json(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print the figures and what to look at."""
+    telemetry = latest(read_text(arguments.log), arguments.log)
+    said = list(warnings(telemetry, limit_mm=arguments.limit, rate_hz=arguments.rate))
+    if arguments.json:
+        print_json({**asdict(telemetry), "warnings": said})
+        return int(bool(said))
+    left, right, z = telemetry.error_mm
+    rows = [
+        ["farthest behind", f"left {left:.2f}  right {right:.2f}  z {z:.2f} mm"],
+        ["longest control tick", f"{telemetry.tick_us} us"],
+        ["waits during moves", str(telemetry.dry)],
+        ["illegal encoder steps", "left {}  right {}  z {}".format(*telemetry.illegal)],
+        ["supply", f"{telemetry.supply_v:.2f} V, lowest {telemetry.least_supply_v:.2f} V"],
+        ["EEPROM", "worn" if telemetry.eeprom_worn else "ok"],
+        ["reason of the start", telemetry.start],
+    ]
+    print(table(["what", "measured"], rows))
+    print()
+    print(sentences(said or ["All is well."]))
+    return int(bool(said))

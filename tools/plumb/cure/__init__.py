@@ -1,0 +1,1 @@
+"""Adding an effect to a machine, and what the error is then."""

@@ -1,0 +1,349 @@
+"""Adding effects to a machine: the fit before and after, and what to think of the numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from plumb.board.observations import Observations, model_and_observations
+from plumb.board.rounds import notes_on, unit_of
+from plumb.fit.compare import Comparison, compare
+from plumb.fit.patch import PATCH, best_patch
+from plumb.fit.problem import PRIORS, SHEET_ROTATION, Estimate, Fit, fit, rms
+from plumb.fit.shape import best_pose
+from plumb.marks.read import Measurements
+from plumb.marks.score import Score, score_of
+from plumb.model.catalogue import (
+    NO_FIRMWARE,
+    effect_names,
+    is_sketch,
+    parameter_names,
+    parameter_words,
+)
+from plumb.model.lab_effects import LAB_EFFECTS
+from plumb.model.lab_effects.lab_effect import EDGES, SLED, TAPE
+from plumb.model.predict import frame_words
+from plumb.model.sketches import SKETCHES
+from plumb.settings.machine import FRAME_FIELDS, MachineSettings
+from plumb.text.checks import refuse_unknown
+from plumb.text.errors import InputError
+
+FAR = 2.0  # [prior sigmas] a stated number that moved farther was probably measured wrongly
+
+
+@dataclass(frozen=True)
+class Quality:
+    """How good a fit is [mm]; left out: each mark predicted by a fit that did not see it."""
+
+    fit_rms: float
+    priced_rms: float
+    left_out_rms: float
+    worst: float
+    shape_rms: float | None
+
+
+@dataclass(frozen=True)
+class Step:
+    """The fit after one more effect."""
+
+    effect: str
+    quality: Quality
+    only_fit: bool  # the fit got better, what it did not see got worse
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One fitted number with its 95 % interval, and the range that a real machine can have."""
+
+    name: str
+    value: float
+    low: float
+    high: float
+    unit: str
+    before: float
+    prior_sigma: float | None  # None: free
+    possible_low: float | None  # None: no limit is known
+    possible_high: float | None
+
+    @property
+    def of_patch(self) -> bool:
+        """Whether it is a term of the residual patch, which means nothing by itself."""
+        return self.name.startswith(f"{PATCH}.")
+
+    @property
+    def plausible(self) -> bool:
+        """Whether a real machine can have this value."""
+        above = self.possible_low is None or self.value >= self.possible_low
+        return above and (self.possible_high is None or self.value <= self.possible_high)
+
+    @property
+    def might_be_plausible(self) -> bool:
+        """Whether the interval reaches values that a real machine can have."""
+        above = self.possible_low is None or self.high >= self.possible_low
+        return above and (self.possible_high is None or self.low <= self.possible_high)
+
+
+@dataclass(frozen=True)
+class Addition:
+    """A machine before and after its effects were added."""
+
+    raw: Comparison  # as the settings stand
+    before: Quality  # frame fitted only
+    after: Quality  # effects fitted too
+    before_fit: Fit
+    after_fit: Fit
+    parameters: tuple[Parameter, ...]
+    effects_added: tuple[str, ...]  # those of the lab too
+    warnings: tuple[str, ...]
+    steps: tuple[Step, ...]  # effect by effect, in the order given; the last one is `after`
+    benchmark_after: Score | None = None  # of the community's test: what the fit leaves of it
+
+    @property
+    def settings(self) -> MachineSettings:
+        """The new machine."""
+        return self.after_fit.settings
+
+    @property
+    def cures(self) -> tuple[str, ...]:
+        """A sentence for each lab effect or sketch that was fitted: no setting holds it."""
+        return tuple(
+            _cure(name, parameters) for name, parameters in self.after_fit.lab_effects.items()
+        )
+
+    @property
+    def sheet_rise(self) -> float:
+        """How far to raise the sheet's right end [mm] to undo its rotation; no setting holds it."""
+        return float(np.tan(self.after_fit.sheet_rotation)) * self.settings.sheet_width
+
+    @property
+    def pays(self) -> bool:
+        """Whether the effects predict marks better that the fit did not see."""
+        return self.after.left_out_rms < self.before.left_out_rms
+
+
+def add(
+    settings: MachineSettings,
+    measurements: Measurements,
+    *,
+    effects: Sequence[str],
+    cut_with: MachineSettings | None = None,
+    controller: str | None = None,
+    priors: Mapping[str, float] = PRIORS,
+    sigma: float | None = None,
+    patch: bool = False,
+) -> Addition:
+    """Fit frame and effects to the marks; effects that the settings have already stay as they are.
+
+    patch: beside them a residual patch, if marks left out are then predicted better.
+
+    Raises InputError for unknown effects, too few marks, and marks that cannot be reached.
+    """
+    names = tuple(dict.fromkeys(effects))
+    _refuse_unknown_effects(names)
+    raw = compare(settings, measurements, cut_with=cut_with, controller=controller)
+    model, rows = model_and_observations(
+        settings, measurements, cut_with=cut_with, controller=controller
+    )
+    _refuse_too_few(measurements, rows, names, priors)
+    _refuse_unfelt(measurements, rows, names)
+    noise = sigma or measurements.tape_sigma
+    before_fit = fit(model, rows, priors=priors, sigma=noise)
+    before = quality_of(before_fit, rows)
+    fits = [
+        fit(model, rows, effects=names[: i + 1], priors=priors, sigma=noise)
+        for i in range(len(names))
+    ]
+    steps = _steps(names, before, [quality_of(one, rows) for one in fits])
+    after_fit = fits[-1] if fits else before_fit
+    if patch:
+        told = {"effects": names, "priors": priors, "sigma": noise}
+        patched = best_patch(model, rows, **told, without=after_fit)
+        if patched:
+            after_fit, names = patched.fit, (*names, PATCH)
+            steps += _steps(
+                [PATCH], steps[-1].quality if steps else before, [quality_of(after_fit, rows)]
+            )
+    after = steps[-1].quality if steps else before
+    parameters = tuple(_parameter(one) for one in after_fit.estimates)
+    return Addition(
+        raw=raw,
+        before=before,
+        after=after,
+        before_fit=before_fit,
+        after_fit=after_fit,
+        parameters=parameters,
+        effects_added=tuple(
+            name for name in names if not any(model.effects.get(name, {}).values())
+        ),
+        warnings=(
+            *raw.warnings,
+            *_unsettled(after_fit),
+            *notes_on(one.name for one in parameters),
+            *_surprises(parameters),
+            *_bad_bargains(before, after, steps),
+        ),
+        steps=steps,
+        benchmark_after=score_of(measurements, after_fit.distance_errors),
+    )
+
+
+def priors_with(changes: Iterable[tuple[str, float]]) -> dict[str, float]:
+    """The usual priors with some standard deviations changed; 0 holds a number where it is."""
+    priors = dict(PRIORS)
+    for name, sigma in changes:
+        try:
+            refuse_unknown([name], (*FRAME_FIELDS, SHEET_ROTATION))
+        except ValueError as error:
+            raise InputError(f"--prior {name}: {error}") from None
+        priors[name] = sigma
+    return priors
+
+
+def quality_of(fitted: Fit, rows: Observations) -> Quality:
+    """How good a fit is."""
+    marks = len(fitted.errors) > 0
+    lengths = (
+        np.hypot(fitted.errors[:, 0], fitted.errors[:, 1])
+        if marks
+        else np.abs(fitted.distance_errors)
+    )
+    pose = best_pose(fitted.predicted, rows.measured)
+    return Quality(
+        fit_rms=fitted.rms,
+        priced_rms=fitted.priced_rms,
+        left_out_rms=fitted.left_out_rms,
+        worst=float(lengths.max()),
+        shape_rms=rms(pose.errors) if pose else None,
+    )
+
+
+def _refuse_unknown_effects(names: Sequence[str]) -> None:
+    known = effect_names()
+    for name in names:
+        if name == PATCH:
+            raise InputError(
+                f"--effect {name}: it is no effect; give --patch to choose it knowingly"
+            )
+        if name not in known:
+            raise InputError(
+                f"--effect {name}: there is no effect of that name; known are {', '.join(known)}"
+            )
+
+
+def _refuse_too_few(
+    measurements: Measurements,
+    rows: Observations,
+    effects: Sequence[str],
+    priors: Mapping[str, float],
+) -> None:
+    """Repeats do not count: they tell of the noise, not of another place."""
+    spans = {frozenset(one.between) for one in measurements.distances}
+    count = 2 * len(set(rows.names)) + len(spans)
+    frame = sum(sigma > 0 for sigma in priors.values())
+    free = sum(len(parameter_names(name)) for name in effects)
+    if count < frame + free:
+        raise InputError(
+            f"{measurements.source}: {count} measured numbers cannot settle {frame + free} unknowns"
+            f" ({frame} of frame and sheet, {free} of the effects); measure more marks, add fewer "
+            "effects, or hold numbers that you know with --prior NAME=0"
+        )
+
+
+def _refuse_unfelt(measurements: Measurements, rows: Observations, effects: Sequence[str]) -> None:
+    """Refuse a lab effect that changes none of the measured numbers."""
+    approached = bool(rows.approaches[[*rows.mark_rows, *rows.distance_rows.ravel()]].any())
+    felt = {SLED: approached, EDGES: len(rows.mark_rows) > 0, TAPE: True}
+    for one in LAB_EFFECTS:
+        if one.name in effects and not felt[one.acts_on]:
+            raise InputError(
+                f"{measurements.source}: {one.name} needs {one.needs}: nothing here depends on it"
+            )
+
+
+def _cure(name: str, parameters: Mapping[str, float]) -> str:
+    """What to do about a lab effect or sketch that was fitted."""
+    own = next(one for one in (*LAB_EFFECTS, *SKETCHES) if one.name == name)
+    found = ", ".join(
+        f"{one.name} = {parameters[one.name]:.3g} {one.unit}".removesuffix(" 1")
+        for one in own.parameters
+    )
+    if is_sketch(name):
+        return f"{name} ({found}): a sketch, which no firmware has until it is written in C++"
+    return f"{name} ({found}): {NO_FIRMWARE}, and no setting holds it: {own.remedy}"
+
+
+def _parameter(estimate: Estimate) -> Parameter:
+    words = {one["name"]: one for one in frame_words()}
+    words |= parameter_words()
+    unit = unit_of(estimate.name) or "rad"
+    own = words.get(estimate.name, {"unit": unit, "low": None, "high": None})
+    return Parameter(
+        name=estimate.name,
+        value=estimate.value,
+        low=estimate.low,
+        high=estimate.high,
+        unit=own["unit"],
+        before=estimate.before,
+        prior_sigma=estimate.prior_sigma,
+        possible_low=own["low"],
+        possible_high=own["high"],
+    )
+
+
+def _unsettled(fitted: Fit) -> list[str]:
+    if fitted.settled:
+        return []
+    return ["the fit did not come to rest: do not trust these numbers; add fewer effects at once"]
+
+
+def _surprises(parameters: Sequence[Parameter]) -> list[str]:
+    """Sentences about numbers that no real machine has, that moved too far, or that may be zero."""
+    said = []
+    for one in parameters:
+        moved = one.value - one.before
+        if one.prior_sigma is None and one.low < 0 < one.high and one.before == 0:
+            impossible = "" if one.plausible else f" ({one.value:.3g} {one.unit} is impossible)"
+            said.append(f"{one.name}{impossible} may as well be zero: its interval contains it")
+        elif not one.plausible:
+            reaches = "reaches that" if one.might_be_plausible else "does not reach that either"
+            said.append(
+                f"{one.name} = {one.value:.3g} {one.unit} is impossible for a real machine, which "
+                f"has {one.possible_low:g} to {one.possible_high:g} (the interval {reaches}): it "
+                "stands in for something else; check which settings were in force and the signs of "
+                "the marks"
+            )
+        if one.prior_sigma and not one.of_patch and abs(moved) > FAR * one.prior_sigma:
+            said.append(
+                f"{one.name} moved by {moved:+.3g} {one.unit} from the stated {one.before:g}, more "
+                f"than twice the {one.prior_sigma:g} it was trusted to: measure it again"
+            )
+    return said
+
+
+def _steps(names: Sequence[str], before: Quality, qualities: Sequence[Quality]) -> tuple[Step, ...]:
+    earlier = [before, *qualities]
+    return tuple(
+        Step(
+            name,
+            now,
+            only_fit=now.fit_rms < then.fit_rms and now.left_out_rms > then.left_out_rms,
+        )
+        for name, then, now in zip(names, earlier, qualities, strict=False)
+    )
+
+
+def _bad_bargains(before: Quality, after: Quality, steps: Sequence[Step]) -> list[str]:
+    """Sentences about effects that serve the fit alone."""
+    if after.fit_rms < before.fit_rms and after.left_out_rms > before.left_out_rms:
+        return [
+            f"the fit got better but the left-out error rose from {before.left_out_rms:.2f} to "
+            f"{after.left_out_rms:.2f} mm: the effects follow the noise, do not keep them"
+        ]
+    return [
+        f"with {one.effect} only the fit got better; marks left out of it are predicted worse "
+        f"({one.quality.left_out_rms:.2f} mm): it may follow the noise"
+        for one in steps
+        if one.only_fit
+    ]

@@ -1,0 +1,146 @@
+"""Adding by itself what the marks prove: the diagnosis names, the fit adds, step by step."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+
+from plumb.cure.add import Addition, add
+from plumb.diagnose import Diagnosis, diagnose
+from plumb.fit.problem import PRIORS
+from plumb.marks.read import Measurements
+from plumb.model.catalogue import every_effect
+from plumb.settings.machine import MachineSettings
+from plumb.text.checks import refuse_unknown
+from plumb.text.errors import InputError
+
+
+@dataclass(frozen=True)
+class AutoAddition:
+    """What was added without anybody naming it, and why."""
+
+    found: Diagnosis
+    chosen: tuple[str, ...]  # effects added, the one that explains most first
+    rivals: tuple[tuple[str, ...], ...]  # explanations that the marks allow as well
+    addition: Addition | None  # None for a slip: nothing is fitted to a wrong reading
+    reason: str  # one sentence
+    offer: tuple[float, float] | None = None  # [mm] left-out error without a patch, and with one
+    settled_by: tuple[str, ...] = ()  # what would tell the chosen from their rivals, one each
+
+    @property
+    def done(self) -> bool:
+        """Whether nothing more is provable once the chosen effects are there."""
+        if self.found.verdict in ("one_suspect", "cannot_tell"):
+            return bool(self.chosen)
+        return self.found.verdict == "nothing_provable"
+
+
+def add_auto(
+    settings: MachineSettings,
+    measurements: Measurements,
+    *,
+    cut_with: MachineSettings | None = None,
+    controller: str | None = None,
+    priors: Mapping[str, float] = PRIORS,
+    sigma: float | None = None,
+    patch: bool = False,
+) -> AutoAddition:
+    """Diagnose the marks and add the best explanation that a real machine can have.
+
+    Where the library has none, the effects that come nearest are added as long as marks left out
+    are predicted better with them: to leave out a large effect because a small one is unknown would
+    help nobody. A residual patch is offered, and added only if `patch` asks for it.
+
+    An explanation has stood the test that nothing else in the library adds more to it than noise
+    would; so with its effects nothing more is provable. Several of them: the first of the
+    diagnosis. Raises InputError as diagnose() and add() do.
+    """
+    told = {"cut_with": cut_with, "controller": controller, "priors": priors}
+    found = diagnose(settings, measurements, sigma=sigma, **told)
+    if found.verdict == "slip":
+        return AutoAddition(found, (), (), None, _slip_reason(found))
+    known = found.verdict != "not_in_library"
+    possible = [one.effects for one in found.explanations if one.possible and known]
+    order = [one.effect for one in found.ranking]
+    best = (possible[0] if possible else ()) if known else found.to_add
+    chosen = tuple(sorted(best, key=order.index))
+    rivals = tuple(possible[1:])
+    noise = sigma if found.noise.source == "default" else found.noise.sigma
+    addition = add(settings, measurements, effects=chosen, sigma=noise, **told)
+    if not known and chosen and not _helps(addition):
+        chosen, addition = (), add(settings, measurements, effects=(), sigma=noise, **told)
+    reason, offer = _reason(found, chosen, rivals), None
+    if not known:
+        patched = add(settings, measurements, effects=chosen, sigma=noise, patch=True, **told)
+        offer = addition.after.left_out_rms, patched.after.left_out_rms
+        addition = patched if patch else addition
+    settled_by = _settled_by(chosen, rivals)
+    return AutoAddition(found, chosen, rivals, addition, reason, offer, settled_by)
+
+
+def _helps(addition: Addition) -> bool:
+    """Whether effects that do not explain all are of use: no mere fit, and of possible sizes."""
+    return addition.pays and all(one.might_be_plausible for one in addition.parameters)
+
+
+def _settled_by(chosen: tuple[str, ...], rivals: tuple[tuple[str, ...], ...]) -> tuple[str, ...]:
+    """How to look directly at each effect that is in some explanations only."""
+    if not rivals:
+        return ()
+    all_of_them = (chosen, *rivals)
+    names = dict.fromkeys(name for one in all_of_them for name in one)
+    remedies = {one["name"]: one["remedy"] for one in every_effect()}
+    open_ones = (name for name in names if not all(name in one for one in all_of_them))
+    return tuple(f"{name}: {remedies[name]}" for name in open_ones)
+
+
+def without_marks(measurements: Measurements, names: Iterable[str]) -> Measurements:
+    """The measurements without the readings of some marks, and without distances from or to them.
+
+    Raises InputError for a name that is not there.
+    """
+    gone = tuple(names)
+    known = [one.name for one in measurements.marks]
+    try:
+        refuse_unknown(gone, known)
+    except ValueError as error:
+        raise InputError(f"--without {error}") from None
+    return replace(
+        measurements,
+        marks=tuple(one for one in measurements.marks if one.name not in gone),
+        distances=tuple(one for one in measurements.distances if not {*one.between} & {*gone}),
+    )
+
+
+def _slip_reason(found: Diagnosis) -> str:
+    names = ", ".join(dict.fromkeys(one.name for one in found.slips))
+    return (
+        f"nothing was added: look at the reading of {names} again first and correct it in the "
+        "file, or leave the mark out with --without NAME"
+    )
+
+
+def _reason(found: Diagnosis, chosen: tuple[str, ...], rivals: tuple[tuple[str, ...], ...]) -> str:
+    if found.verdict == "nothing_provable":
+        return "the marks prove no effect: only the frame was fitted"
+    if found.verdict == "not_in_library":
+        part = f"only {' + '.join(chosen)}, as far as it goes," if chosen else "no effect"
+        return (
+            f"not all that the marks show is in the library, so {part} was added; read the worst "
+            "marks again, and see plumb next for what to measure"
+        )
+    if not chosen:
+        tried = "; ".join(" + ".join(one.effects) for one in found.explanations)
+        return (
+            "every explanation needs sizes that no real machine has, so none was added and only "
+            f"the frame was fitted ({tried}): check which settings were in force and the marks' "
+            "signs"
+        )
+    name = " + ".join(chosen)
+    if rivals:
+        others = ", ".join(" + ".join(one) for one in rivals)
+        return (
+            f"a choice: {name} explains the marks best, but they allow {others} as well; plumb "
+            "next says what to measure to tell them apart"
+        )
+    return f"{name} explains the marks; beside it nothing more is provable"

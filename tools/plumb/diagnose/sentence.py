@@ -1,0 +1,90 @@
+"""The last step of a diagnosis: its verdict in one sentence for people."""
+
+from __future__ import annotations
+
+from plumb.diagnose.diagnosis import Diagnosis
+
+SHOWN = 8  # explanations that a sentence names; a Diagnosis holds all
+
+
+def verdict_sentence(diagnosis: Diagnosis) -> str:
+    """The verdict in one sentence."""
+    return _SENTENCES[diagnosis.verdict](diagnosis)
+
+
+def _slip(diagnosis: Diagnosis) -> str:
+    names = ", ".join(slip.name for slip in diagnosis.slips)
+    which = "One reading disagrees" if len(diagnosis.slips) == 1 else "Some readings disagree"
+    return f"{which} with every explanation: look at {names} again before anything else."
+
+
+def _nothing_provable(diagnosis: Diagnosis) -> str:
+    return f"Nothing is provable: {_error_left(diagnosis)}, and noise alone could look like that."
+
+
+def _not_in_library(diagnosis: Diagnosis) -> str:
+    left = _error_left(diagnosis)
+    if not diagnosis.explanations:
+        more = " (unless more than three act at once)" if diagnosis.library_fits else ""
+        return (
+            f"No effect of the library explains these marks, alone or up to three together{more}: "
+            f"{left}, more than noise."
+        )
+    least = min(len(explanation.effects) for explanation in diagnosis.explanations)
+    kind = "one effect" if least == 1 else f"{least} effects at once"
+    return (
+        f"No single effect of the library explains these marks as it should ({left}). "
+        f"{_suspects(diagnosis)} would, but that proves nothing: on these marks {kind} would "
+        f"explain {100 * diagnosis.chance:.0f} % of all smooth errors of this size that none of "
+        "them made. More marks tell."
+    )
+
+
+def _one_suspect(diagnosis: Diagnosis) -> str:
+    if not _any_possible(diagnosis):
+        return _impossible(diagnosis)
+    first = diagnosis.explanations[0]
+    single = len(first.effects) == 1
+    who = f"{'One suspect' if single else 'Several effects at once'}: {_suspects(diagnosis)}"
+    before, after = diagnosis.rms_before, first.rms_after
+    return f"{who}. The error falls from {before:.2f} to {after:.2f} mm RMS."
+
+
+def _cannot_tell(diagnosis: Diagnosis) -> str:
+    if not _any_possible(diagnosis):
+        return _impossible(diagnosis)
+    more = len(diagnosis.explanations) - SHOWN
+    others = f" or {more} more" if more > 0 else ""
+    return (
+        f"Something is missing ({_error_left(diagnosis)}), but the marks cannot tell which: "
+        f"{_suspects(diagnosis)}{others}."
+    )
+
+
+def _impossible(diagnosis: Diagnosis) -> str:
+    return (
+        f"Something is missing ({_error_left(diagnosis)}), but only sizes that no real machine has "
+        f"would explain it: {_suspects(diagnosis)}. Look for another cause first."
+    )
+
+
+def _any_possible(diagnosis: Diagnosis) -> bool:
+    return any(explanation.possible for explanation in diagnosis.explanations)
+
+
+def _error_left(diagnosis: Diagnosis) -> str:
+    return f"{diagnosis.rms_before:.2f} mm RMS are left with the frame fitted"
+
+
+def _suspects(diagnosis: Diagnosis) -> str:
+    shown = diagnosis.explanations[:SHOWN]
+    return ", ".join(" + ".join(explanation.effects) for explanation in shown)
+
+
+_SENTENCES = {
+    "slip": _slip,
+    "nothing_provable": _nothing_provable,
+    "not_in_library": _not_in_library,
+    "one_suspect": _one_suspect,
+    "cannot_tell": _cannot_tell,
+}

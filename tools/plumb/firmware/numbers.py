@@ -1,0 +1,103 @@
+"""A fitted machine as the numbers our firmware keeps, checked by the firmware's own reading."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import tau
+
+import numpy as np
+
+from plumb.firmware.settings import every_setting, format_value, machine_of
+from plumb.model.predict import FOUND, lengths, library
+from plumb.settings.groundcontrol import Key
+from plumb.settings.ini import SOURCES
+from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError
+
+RING, OVER_TOP, OFF_BOTTOM = 2, 1, 2  # what $7 and $38 say
+WORST = 0.01  # [mm] of chain by which rounding to the firmware's floats may move a place
+
+
+@dataclass(frozen=True)
+class Number:
+    """One setting as it is sent."""
+
+    number: int
+    name: str
+    text: str
+    unit: str
+
+    @property
+    def line(self) -> str:
+        """The line that sets it."""
+        return f"${self.number}={self.text}"
+
+
+def firmware_numbers(settings: MachineSettings) -> tuple[Number, ...]:
+    """Every number that says where the sled of this machine hangs, in the order of the dump.
+
+    The published corrections are zero, as the effects hold all there is. Raises InputError if the
+    firmware would refuse a number, or would compute chains that differ by more than WORST.
+    """
+    values = _values(settings)
+    rows = {one.number: one for one in every_setting()}
+    numbers = tuple(
+        Number(one, rows[one].name, format_value(value).strip(), rows[one].unit)
+        for one, value in sorted(values.items())
+    )
+    _refuse_what_differs(settings, {one.number: float(one.text) for one in numbers})
+    return numbers
+
+
+def groundcontrol_values(settings: MachineSettings) -> dict[Key, float]:
+    """What a groundcontrol.ini must say so that its program disturbs none of these numbers."""
+    said = {
+        "motor_gap": settings.motor_gap,
+        "motor_offset": settings.motor_offset,
+        "rotation_radius": settings.rotation_radius,
+        "chain_sag_correction": 0.0,
+        "left_tolerance": 0.0,
+        "right_tolerance": 0.0,
+    }
+    return {SOURCES[name]: round(value, 4) for name, value in said.items()}
+
+
+def _values(settings: MachineSettings) -> dict[int, float]:
+    own = {
+        0: settings.sheet_width,
+        1: settings.sheet_height,
+        2: settings.motor_gap,
+        3: settings.motor_offset,
+        7: RING,
+        8: settings.rotation_radius,
+        13: tau * settings.sprocket_radius,
+        37: 0.0,
+        38: OVER_TOP if settings.feed == "top" else OFF_BOTTOM,
+        40: 0.0,
+        41: 0.0,
+        62: settings.sled_weight,
+        63: settings.chain_weight,
+        64: settings.motor_center_x,
+    }
+    for effect in library():
+        for one in effect["parameters"]:
+            own[one["setting"]] = settings.effect(effect["name"], one["name"])
+    return own
+
+
+def _refuse_what_differs(settings: MachineSettings, numbers: dict[int, float]) -> None:
+    try:
+        theirs = machine_of(numbers, sheet=settings.sheet)
+    except ValueError as error:
+        raise InputError(f"the firmware refuses these settings: {error}") from None
+    half = np.array(settings.sheet) / 2 - 50
+    places = half * np.array([(x, y) for x in (-1, 0, 1) for y in (-1, 0, 1)])
+    ours, found = lengths(settings, places)
+    own, also = lengths(theirs, places)
+    reached = (found == FOUND) & (also == FOUND)
+    apart = float(np.abs(ours - own)[reached].max(initial=0.0))
+    if apart > WORST or not reached.any():
+        raise InputError(
+            f"the firmware would pay out chain that differs by {apart:.3f} mm from this machine's: "
+            "check its numbers for sizes that no real machine has"
+        )

@@ -1,0 +1,55 @@
+"""The firmware's settings by $-number: what there are, and what they mean to the kinematics."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from plumb import _core
+from plumb.settings.machine import FRAME_FIELDS, MachineSettings
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One row of the firmware's table."""
+
+    number: int
+    name: str
+    unit: str
+    kind: str  # "bool", "u8", "u16" or "float"
+    access: str  # "listed", or "hidden" and "kept": not in the dump, set by B codes alone
+    usual: float
+    low: float
+    high: float
+    step: int  # 0: any value; 255: any but zero; else whole values in steps from low
+    key: str  # section and key of the published programs, or ""
+    sentence: str
+    change: str  # what is not as in the published firmware, or ""
+
+
+def every_setting() -> list[Setting]:
+    """All settings in the order of the firmware's dump."""
+    return [Setting(**row) for row in _core.settings_table()]
+
+
+def machine_of(numbers: Mapping[int, float], *, sheet: tuple[float, float]) -> MachineSettings:
+    """The machine with which the firmware computes when these settings are not at their defaults;
+    raises ValueError in the firmware's words for one that it refuses."""
+    found = _core.effective(dict(numbers))
+    effects: dict[str, dict[str, float]] = {}
+    for name, value in found["effects"].items():
+        effect, _, parameter = name.partition(".")
+        if value:
+            effects.setdefault(effect, {})[parameter] = value
+    return MachineSettings(
+        sheet_width=sheet[0],
+        sheet_height=sheet[1],
+        feed="top" if found["over_top"] else "bottom",
+        effects=effects,
+        **{name: found["frame"][name] for name in FRAME_FIELDS},
+    )
+
+
+def format_value(value: float) -> str:
+    """A value as the firmware's dump writes it."""
+    return _core.format_value(value)

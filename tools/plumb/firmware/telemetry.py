@@ -1,0 +1,103 @@
+"""The firmware's telemetry line: read from what a client logged, and judged.
+
+The fields stand in docs/telemetry.md.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from plumb.text.errors import InputError
+
+LINE = re.compile(r"\[Telemetry\|([^\]\n]*)\]")
+LEAST_SUPPLY_V = 4.5
+STARTS = ("usual", "brown-out", "watchdog")
+
+
+@dataclass(frozen=True)
+class Telemetry:
+    """One answer to B30. Chains first: left, right, then z."""
+
+    error_mm: tuple[float, float, float]  # largest distance from the set-points
+    dry: int  # how often no set-point was there in the middle of a move
+    tick_us: int  # longest control tick
+    illegal: tuple[int, int, int]  # encoder steps in which both channels changed
+    supply_v: float
+    least_supply_v: float
+    eeprom_worn: bool
+    start: str
+
+
+def latest(text: str, path: str) -> Telemetry:
+    """The last telemetry line of a log; an InputError that names `path` if there is none."""
+    lines = LINE.findall(text)
+    if not lines:
+        raise InputError(f"{path}: no [Telemetry|...] line; send B30 and save the client's log")
+    try:
+        return _read(dict(field.split(":", 1) for field in lines[-1].split("|")))
+    except (KeyError, ValueError):
+        raise InputError(
+            f"{path}: the last telemetry line is damaged: [Telemetry|{lines[-1]}]; send B30 again"
+        ) from None
+
+
+def _read(fields: dict[str, str]) -> Telemetry:
+    """The fields of one line; a KeyError or ValueError if one is missing or no number."""
+    left, right, z = (float(number) for number in fields["error"].split(","))
+    left_illegal, right_illegal, z_illegal = (int(n) for n in fields["illegal"].split(","))
+    supply, least = (float(number) for number in fields["supply"].split(","))
+    if fields["eeprom"] not in ("ok", "worn") or fields["start"] not in STARTS:
+        raise ValueError
+    return Telemetry(
+        error_mm=(left, right, z),
+        dry=int(fields["dry"]),
+        tick_us=int(fields["tick"]),
+        illegal=(left_illegal, right_illegal, z_illegal),
+        supply_v=supply,
+        least_supply_v=least,
+        eeprom_worn=fields["eeprom"] == "worn",
+        start=fields["start"],
+    )
+
+
+def warnings(telemetry: Telemetry, *, limit_mm: float, rate_hz: int) -> Iterator[str]:
+    """What an owner should look at, a sentence each; `limit_mm` is $42, `rate_hz` is $69."""
+    axes = ("left chain", "right chain", "z axis")
+    for axis, error in zip(axes, telemetry.error_mm, strict=True):
+        if error > limit_mm / 2:
+            yield (
+                f"The {axis} fell {error:.2f} mm behind; {limit_mm:g} mm stops the machine ($42). "
+                "Its motor is short of power, or its gains are off."
+            )
+    if telemetry.dry:
+        yield (
+            f"The motors waited for the next set-point {telemetry.dry} times during a move. "
+            "Use longer moves or fewer effects."
+        )
+    if telemetry.tick_us > 1e6 / rate_hz / 2:
+        yield (
+            f"A control tick took {telemetry.tick_us} us of {1e6 / rate_hz:.0f} us. "
+            "Set $69 to 100, or use fewer effects."
+        )
+    for axis, steps in zip(axes, telemetry.illegal, strict=True):
+        if steps:
+            yield (
+                f"The encoder of the {axis} made {steps} illegal steps since power-on. "
+                "Check its plug, and keep its cable away from the router's."
+            )
+    if telemetry.least_supply_v < LEAST_SUPPLY_V:
+        yield (
+            f"The Mega's 5 V fell to {telemetry.least_supply_v:.2f} V. "
+            "Check its plug and USB cable."
+        )
+    if telemetry.eeprom_worn:
+        yield (
+            "The EEPROM no longer keeps what is written. Note your settings ($$), "
+            "then change the board."
+        )
+    if telemetry.start == "brown-out":
+        yield "The Mega started because its 5 V broke down. Check its plug and USB cable."
+    if telemetry.start == "watchdog":
+        yield "The Mega started because the firmware hung. Please report what was running."

@@ -1,0 +1,1 @@
+"""Fitting the model to a board, and comparing the two."""

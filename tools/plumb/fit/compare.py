@@ -1,0 +1,205 @@
+"""Settings against marks: how far the marks lie from where the settings predict them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from plumb.board.observations import Observations, model_and_observations
+from plumb.board.visits import chains_to, visited
+from plumb.fit.problem import rms
+from plumb.fit.shape import best_pose
+from plumb.marks.read import Measurements
+from plumb.marks.score import Score, score_as_cut, score_of
+from plumb.model.predict import FOUND, FOUND_WORDS, values_of
+from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError
+
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class ComparedMark:
+    """One measured mark beside its prediction [mm]."""
+
+    name: str
+    target: Point
+    predicted: Point
+    measured: Point
+    error: Point  # measured - predicted
+    left_chain_residual: float | None  # our chain to the measured place - chain paid out
+    right_chain_residual: float | None  # None: no chain reaches the measured place
+
+    @property
+    def length(self) -> float:
+        """Length of the error [mm]."""
+        return float(np.hypot(*self.error))
+
+
+@dataclass(frozen=True)
+class ComparedDistance:
+    """One measured distance beside its prediction [mm]."""
+
+    between: tuple[str, str]
+    predicted: float
+    measured: float
+    error: float  # measured - predicted
+
+
+@dataclass(frozen=True)
+class ComparedRound:
+    """One file of several: its errors [mm]; None where it has no such readings."""
+
+    name: str
+    date: str
+    count: int  # of marks, or of distances if it has no marks
+    rms: float | None
+    distance_rms: float | None
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Settings compared with marks."""
+
+    marks: tuple[ComparedMark, ...]
+    distances: tuple[ComparedDistance, ...]
+    rms: float  # [mm] of the marks as vectors, or of the distances if there are no marks
+    worst: float  # [mm] the same choice
+    distance_rms: float | None  # [mm]
+    shape_rms: float | None  # [mm] of the marks after the best shift and rotation
+    shift: Point | None  # [mm] that best shift
+    rotation: float | None  # [rad] and rotation, counter-clockwise
+    warnings: tuple[str, ...] = ()
+    rounds: tuple[ComparedRound, ...] = ()  # if there are several files
+    benchmark: Score | None = None  # of the community's test, as cut
+    benchmark_left: Score | None = None  # and what these settings do not explain of it
+
+
+def compare(
+    settings: MachineSettings,
+    measurements: Measurements,
+    *,
+    cut_with: MachineSettings | None = None,
+    controller: str | None = None,
+) -> Comparison:
+    """Compare our model of `settings` with marks that were cut with `cut_with` (default: the same).
+
+    Raises InputError for a mark that these settings cannot reach.
+    """
+    model, rows = model_and_observations(
+        settings, measurements, cut_with=cut_with, controller=controller
+    )
+    where = predicted_places(model, rows, measurements)
+    marks = _marks(model, rows, where)
+    distances = _distances(measurements, rows, where)
+    errors = np.array([mark.error for mark in marks]).reshape(-1, 2)
+    spans = np.array([one.error for one in distances])
+    pose = best_pose(where[rows.mark_rows], rows.measured)
+    counted = np.hypot(errors[:, 0], errors[:, 1]) if marks else np.abs(spans)
+    return Comparison(
+        marks=marks,
+        distances=distances,
+        rms=rms(errors if marks else spans),
+        worst=float(counted.max()),
+        distance_rms=rms(spans) if distances else None,
+        shape_rms=rms(pose.errors) if pose else None,
+        shift=pose.shift if pose else None,
+        rotation=pose.rotation if pose else None,
+        warnings=_warnings(settings, measurements, cut_with, controller),
+        rounds=_rounds(measurements, errors, spans),
+        benchmark=score_as_cut(measurements),
+        benchmark_left=score_of(measurements, spans),
+    )
+
+
+def _rounds(
+    measurements: Measurements, errors: np.ndarray, spans: np.ndarray
+) -> tuple[ComparedRound, ...]:
+    """Each file by itself, if there are several."""
+    if len(measurements.rounds) < 2:
+        return ()
+    of_name = {mark.name: mark.round for mark in measurements.marks}
+    marks = np.array([mark.round for mark in measurements.measured_marks], dtype=int)
+    distances = np.array([of_name[one.between[0]] for one in measurements.distances], dtype=int)
+    found = []
+    for number, own in enumerate(measurements.rounds):
+        of_marks, of_spans = errors[marks == number], spans[distances == number]
+        found.append(
+            ComparedRound(
+                name=own.name,
+                date=own.date,
+                count=len(of_marks) or len(of_spans),
+                rms=rms(of_marks) if len(of_marks) else None,
+                distance_rms=rms(of_spans) if len(of_spans) else None,
+            )
+        )
+    return tuple(found)
+
+
+def predicted_places(
+    model: MachineSettings, rows: Observations, measurements: Measurements
+) -> np.ndarray:
+    """Where our model puts the sled on every visit, (r, 2) [mm]; InputError if it cannot hang."""
+    where, _, found = visited(
+        values_of(model), rows, over_top=model.feed == "top", usual_weight=model.sled_weight
+    )
+    for i in np.flatnonzero(found != FOUND)[:1]:
+        raise InputError(
+            f"{measurements.source}, mark {measurements.marks[i].name}: with these settings its "
+            f"chains lead nowhere ({FOUND_WORDS[found[i]]}); check the settings, or give those it "
+            "was cut with by --cut-with"
+        )
+    return where
+
+
+def _marks(
+    model: MachineSettings, rows: Observations, where: np.ndarray
+) -> tuple[ComparedMark, ...]:
+    needed, found = chains_to(model, rows.measured, rows.sled_weights[rows.mark_rows])
+    marks = []
+    for i, row in enumerate(rows.mark_rows):
+        left, right = needed[i] - rows.chains[row]
+        marks.append(
+            ComparedMark(
+                name=rows.names[i],
+                target=_point(rows.targets[i]),
+                predicted=_point(where[row]),
+                measured=_point(rows.measured[i]),
+                error=_point(rows.measured[i] - where[row]),
+                left_chain_residual=float(left) if found[i] == FOUND else None,
+                right_chain_residual=float(right) if found[i] == FOUND else None,
+            )
+        )
+    return tuple(marks)
+
+
+def _distances(
+    measurements: Measurements, rows: Observations, where: np.ndarray
+) -> tuple[ComparedDistance, ...]:
+    ends = where[rows.distance_rows]
+    spans = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    return tuple(
+        ComparedDistance(one.between, float(span), one.length, float(one.length - span))
+        for one, span in zip(measurements.distances, spans, strict=True)
+    )
+
+
+def _point(pair: np.ndarray) -> Point:
+    return float(pair[0]), float(pair[1])
+
+
+def _warnings(
+    settings: MachineSettings,
+    measurements: Measurements,
+    cut_with: MachineSettings | None,
+    controller: str | None,
+) -> tuple[str, ...]:
+    whose = controller or measurements.controller
+    known = cut_with or all(one.cut_with for one in measurements.rounds)
+    if known or settings.controller != "plumb" or whose in (None, "plumb"):
+        return ()
+    return (
+        f"the marks were cut by the {whose} controller, but these settings are of plumb: give the "
+        "groundcontrol.ini that was in force with --cut-with",
+    )

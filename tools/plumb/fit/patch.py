@@ -1,0 +1,49 @@
+"""The residual patch: a smooth map of what no known effect explains, chosen knowingly, not physics.
+
+Its terms are held near zero by one common size, and that size is chosen by the error of marks left
+out: where the patch follows noise alone, none is as good as any.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from plumb.board.observations import Observations
+from plumb.fit.problem import Fit, fit
+from plumb.model.catalogue import parameter_names
+from plumb.settings.machine import MachineSettings
+
+PATCH = "residual_patch"
+SIZES = (0.2, 0.4, 0.8, 1.6, 3.2, 6.4)  # [mm] of one term, one standard deviation
+WORTH = 0.9  # a patch must bring the left-out error below this share of what it was
+
+
+@dataclass(frozen=True)
+class Patched:
+    """A fit with the patch."""
+
+    fit: Fit
+    size: float  # [mm] to which its terms were held
+
+
+def best_patch(
+    settings: MachineSettings,
+    observations: Observations,
+    *,
+    effects: Sequence[str],
+    priors: Mapping[str, float],
+    sigma: float | None,
+    without: Fit,
+) -> Patched | None:
+    """The patch beside the frame and these effects; None if it buys nothing.
+
+    `without` is the same fit without a patch.
+    """
+    best = None
+    for size in SIZES:
+        held = {**priors, **dict.fromkeys(parameter_names(PATCH), size)}
+        found = fit(settings, observations, effects=effects, priors=held, sigma=sigma)
+        if best is None or found.left_out_rms < best.fit.left_out_rms:
+            best = Patched(found, size)
+    return best if best.fit.left_out_rms < WORTH * without.left_out_rms else None

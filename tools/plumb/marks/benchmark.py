@@ -1,0 +1,92 @@
+"""The form of the Calibration Benchmark Test: readings by the names of their spans."""
+
+from __future__ import annotations
+
+import importlib.util
+from os import PathLike
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from plumb.marks.model import Distance, Mark, Point
+from plumb.text.checks import number, pair, refuse_unknown
+from plumb.text.errors import naming, refusal
+
+
+def _load() -> ModuleType:
+    """The pattern beside this package: it belongs to a script of its own, like the grid."""
+    path = Path(__file__).resolve().parents[2] / "benchmark_pattern.py"
+    specification = importlib.util.spec_from_file_location("benchmark_pattern", path)
+    module = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    return module
+
+
+pattern = _load()
+
+
+def read_benchmark(
+    path: str | PathLike[str], table: object, *, weight: float | None
+) -> tuple[tuple[Mark, ...], tuple[Distance, ...]]:
+    """Marks and distances of a table [benchmark]; readings that were not taken are left out."""
+    place = "[benchmark]"
+    if not isinstance(table, dict):
+        raise refusal(path, "benchmark is not a table", remedy=f"write a line {place}")
+    with naming(path, place):
+        refuse_unknown(table, ("approach", *pattern.SPANS))
+    approach = None
+    if "approach" in table:
+        with naming(path, f"{place} approach"):
+            approach = pair(table["approach"])
+    distances = [
+        Distance(ends, length)
+        for name, spans in pattern.SPANS.items()
+        for ends, length in zip(spans, _readings(path, table, name, len(spans)), strict=False)
+    ]
+    if not distances:
+        raise refusal(path, "has no reading", place=place, remedy="fill in what you measured")
+    needed = {name for one in distances for name in one.between}
+    marks = tuple(
+        Mark(name, target, approach=approach, sled_weight=weight)
+        for name, target in pattern.targets().items()
+        if name in needed
+    )
+    return marks, tuple(distances)
+
+
+def span_kind(ends: tuple[Point, Point]) -> str | None:
+    """`long` or `small` if the test has such a span [mm], by its targets; else None."""
+    return _KINDS.get(frozenset(ends))
+
+
+def _readings(
+    path: str | PathLike[str], table: dict[str, Any], name: str, count: int
+) -> list[float]:
+    """The numbers of one line of the form [mm]; none if the line is not there."""
+    if name not in table:
+        return []
+    given = table[name]
+    with naming(path, f"[benchmark] {name}"):
+        if not isinstance(given, list) or len(given) != count:
+            raise ValueError(
+                f"{count} numbers are needed, as in the form; put a # before a line that you "
+                "did not measure"
+            )
+        lengths = [number(one) for one in given]
+        for one in lengths:
+            if one <= 0:
+                raise ValueError(f"{one:g}; a distance is above zero")
+    return lengths
+
+
+def _kinds() -> dict[frozenset, str]:
+    places = pattern.targets()
+    return {
+        frozenset(places[name] for name in ends): "long" if line in LONG_LINES else "small"
+        for line, spans in pattern.SPANS.items()
+        for ends in spans
+    }
+
+
+LONG_LINES = ("across", "upwards")
+_KINDS = _kinds()

@@ -1,0 +1,189 @@
+"""Checks on marks that need the sheet: units, frame, and measured far from target."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from plumb.marks.model import Mark, Measurements, Point
+from plumb.text.errors import refusal
+
+MOST_ERROR = 500.0  # [mm] farther from its target a mark is a slip of the pen
+BESIDE = 100.0  # [mm] a repeat may be made beside the first mark, whose hole is used up
+OUTSIDE = 100.0  # [mm] a target may lie beyond the sheet's edge by this much
+INCH = 25.4  # [mm]
+# [mm] marks closer together than this on a sheet ten times as wide were not spread on purpose
+TOO_CLOSE = 100.0
+SUSPICIOUS = 120.0  # [mm] nearer than this even a chain on the wrong tooth or link may be the cause
+MOST_DISTANCE_ERROR = 200.0  # [mm]
+
+Sheet = tuple[float, float]
+_INCH_HINT = "looks like inches; write millimetres (1 inch = 25.4 mm)"
+
+
+def to_machine(point: Point, *, sheet: Sheet) -> Point:
+    """A point counted from the sheet's top-left corner, y down [mm], in the machine frame."""
+    return point[0] - sheet[0] / 2, sheet[1] / 2 - point[1]
+
+
+def checked(measurements: Measurements, *, sheet: Sheet) -> Measurements:
+    """The same measurements, if they can be what they say on a sheet of that width and height."""
+    _refuse_empty(measurements)
+    _refuse_inches(measurements, sheet)
+    for mark in measurements.marks:
+        _refuse_outside(measurements, mark, sheet)
+        _refuse_far(measurements, mark, sheet)
+    _refuse_odd_distances(measurements)
+    return measurements
+
+
+def _refuse_empty(measurements: Measurements) -> None:
+    if not measurements.measured_marks and not measurements.distances:
+        raise refusal(measurements.source, "has no measured mark", remedy="add measured positions")
+    first = {mark.name: mark for mark in reversed(measurements.marks)}
+    for one in measurements.distances:
+        for name in one.between:
+            if name not in first:
+                raise refusal(
+                    measurements.source,
+                    f"there is no mark named '{name}'",
+                    place=f"distance {one.between[0]}-{one.between[1]}",
+                    remedy="add a [[mark]] with that name and its target",
+                )
+    ends = {name for one in measurements.distances for name in one.between}
+    for mark in measurements.marks:
+        if mark.measured is None and mark.name not in ends:
+            raise refusal(
+                measurements.source,
+                "has no measured position and no distance uses it",
+                place=f"mark {mark.name}",
+                remedy="add measured = [x, y], or remove the mark",
+            )
+        if math.dist(mark.target, first[mark.name].target) > BESIDE:
+            raise refusal(
+                measurements.source,
+                "the same name stands twice with targets far apart",
+                place=f"mark {mark.name}",
+                remedy=f"give another name, or for a repeat a target within {BESIDE:g} mm",
+            )
+        if mark.name in ends and mark.target != first[mark.name].target:
+            raise refusal(
+                measurements.source,
+                "a distance goes to this name, but it has two places",
+                place=f"mark {mark.name}",
+                remedy="give the second place a name of its own",
+            )
+
+
+def _refuse_inches(measurements: Measurements, sheet: Sheet) -> None:
+    groups = {
+        "targets": [mark.target for mark in measurements.marks],
+        "measured positions": [mark.measured for mark in measurements.measured_marks],
+    }
+    # One or two marks, read several times, are close together without being in inches.
+    if len(set(groups["targets"])) < 3 or max(sheet) < 10 * TOO_CLOSE:
+        return
+    for what, points in groups.items():
+        if len(points) < 3:
+            continue
+        spread = max(
+            max(point[axis] for point in points) - min(point[axis] for point in points)
+            for axis in (0, 1)
+        )
+        if spread < TOO_CLOSE:
+            raise refusal(
+                measurements.source,
+                f"all {what} lie within {spread:.0f} mm of each other "
+                f"on a sheet {sheet[0]:.0f} mm wide",
+                remedy=_INCH_HINT,
+            )
+
+
+def _refuse_outside(measurements: Measurements, mark: Mark, sheet: Sheet) -> None:
+    x, y = mark.target
+    if abs(x) > sheet[0] / 2 + OUTSIDE or abs(y) > sheet[1] / 2 + OUTSIDE:
+        raise refusal(
+            measurements.source,
+            f"target ({x:.1f}, {y:.1f}), counted from the middle of the sheet with y up, "
+            f"is off the {sheet[0]:.0f} x {sheet[1]:.0f} mm sheet",
+            place=f"mark {mark.name}",
+            remedy="check the frame (top-left corner with y down, or middle with y up), the units"
+            " and the sheet size in the settings",
+        )
+
+
+def _refuse_far(measurements: Measurements, mark: Mark, sheet: Sheet) -> None:
+    if mark.measured is None:
+        return
+    error = math.dist(mark.target, mark.measured)
+    mistake = _exchanged(measurements, mark) if error > SUSPICIOUS else ""
+    if error > SUSPICIOUS and not mistake:
+        mistake = _likely_mistake(mark, sheet)
+    if mistake or error > MOST_ERROR:
+        raise refusal(
+            measurements.source,
+            f"measured {error:.0f} mm away from its target",
+            place=f"mark {mark.name}",
+            remedy=mistake
+            or "check the frame (top-left corner with y down, or middle with y up) and the numbers",
+        )
+
+
+def _exchanged(measurements: Measurements, mark: Mark) -> str:
+    """A hint if another mark was read where this one should be, and the other way round."""
+    near = math.dist(mark.target, mark.measured) / 5
+    marks = measurements.measured_marks
+    far = [one for one in marks if math.dist(one.target, one.measured) > SUSPICIOUS]
+    # Where most are far the whole file is turned round, and marks only seem exchanged.
+    for other in marks if 2 * len(far) <= len(marks) else ():
+        there, back = (
+            math.dist(other.target, mark.measured),
+            math.dist(mark.target, other.measured),
+        )
+        if other.target != mark.target and max(there, back) < min(TOO_CLOSE, near):
+            return f"the readings of {mark.name} and {other.name} may be exchanged"
+    return ""
+
+
+def _likely_mistake(mark: Mark, sheet: Sheet) -> str:
+    """The usual slip that would explain a mark far from its target, or nothing."""
+    left = {
+        sentence: math.dist(mark.target, undo(*mark.measured))
+        for sentence, undo in _slips(sheet[0] / 2, sheet[1] / 2).items()
+    }
+    best = min(left, key=left.__getitem__)
+    explained = left[best] < min(TOO_CLOSE, math.dist(mark.target, mark.measured) / 5)
+    return best if explained else ""
+
+
+def _slips(right: float, top: float) -> dict[str, Callable[[float, float], Point]]:
+    """The usual slips of the pen, each with its undoing; the sheet ends at right and top [mm]."""
+    corner_inches = f"measured, from the top-left corner, {_INCH_HINT}"
+    from_middle = "measured counts from the middle, target from the top-left corner; use one frame"
+    from_corner = "measured counts from the top-left corner, target from the middle; use one frame"
+    from_below = "measured counts from the bottom-left corner; use one frame"
+    return {
+        "the measured y runs the other way; check the frame": lambda x, y: (x, -y),
+        "the measured x runs the other way; check the frame": lambda x, y: (-x, y),
+        "x and y may be exchanged": lambda x, y: (y, x),
+        from_corner: lambda x, y: (x - right, top - y),
+        from_middle: lambda x, y: (x + right, top - y),
+        from_below: lambda x, y: (x - right, y - top),
+        f"measured {_INCH_HINT}": lambda x, y: (INCH * x, INCH * y),
+        corner_inches: lambda x, y: (INCH * (x + right) - right, top - INCH * (top - y)),
+    }
+
+
+def _refuse_odd_distances(measurements: Measurements) -> None:
+    for one in measurements.distances:
+        first, second = (measurements.target_of(name) for name in one.between)
+        meant = math.dist(first, second)
+        if abs(meant - one.length) <= MOST_DISTANCE_ERROR:
+            continue
+        inches = abs(meant - INCH * one.length) < TOO_CLOSE
+        raise refusal(
+            measurements.source,
+            f"measured {one.length:g} mm, but the targets are {meant:.0f} mm apart",
+            place=f"distance {one.between[0]}-{one.between[1]}",
+            remedy=_INCH_HINT if inches else "check the names and the number",
+        )

@@ -1,0 +1,144 @@
+"""`marks.csv`: one mark per line in the machine frame, columns named in the first line."""
+
+from __future__ import annotations
+
+import csv
+from os import PathLike
+
+from plumb.marks.model import Mark, Measurements, Point
+from plumb.marks.toml import CHAIN_RANGE, sled_weight_in_newtons
+from plumb.text.checks import number_in, refuse_unknown, within
+from plumb.text.errors import naming, refusal
+from plumb.text.files import read_text
+
+NEEDED = ("target_x_mm", "target_y_mm", "measured_x_mm", "measured_y_mm")
+OPTIONAL = (
+    "name",
+    "approach_x",
+    "approach_y",
+    "sled_weight_n",
+    "chain_left_mm",
+    "chain_right_mm",
+)
+PAIRS = (("approach_x", "approach_y"), ("chain_left_mm", "chain_right_mm"))
+
+
+def read_marks_csv(path: str | PathLike[str]) -> Measurements:
+    """The marks of a comma-separated table; lines that begin with # are comments."""
+    rows = _rows(path)
+    if not rows:
+        raise refusal(path, "has comments only", remedy=f"begin with a line {','.join(NEEDED)}")
+    line, header = rows[0]
+    columns = [cell.lower() for cell in header]
+    _check_header(path, line, columns)
+    if len(rows) == 1:
+        raise refusal(path, "has no marks below its header", remedy="add one line for each mark")
+    names: dict[Point, str] = {}
+    marks = []
+    for index, (line, cells) in enumerate(rows[1:], 1):
+        if len(cells) != len(columns):
+            raise refusal(
+                path,
+                f"{len(cells)} values where the header has {len(columns)}",
+                place=f"line {line}",
+                remedy="write one value for each column",
+            )
+        marks.append(_mark(path, line, dict(zip(columns, cells, strict=True)), index, names))
+    return Measurements(marks=tuple(marks), source=str(path))
+
+
+def _rows(path: str | PathLike[str]) -> list[tuple[int, list[str]]]:
+    """Line numbers and trimmed cells of all lines that are neither empty nor comments."""
+    rows = []
+    for line, text in enumerate(read_text(path).splitlines(), 1):
+        if not text.strip() or text.lstrip().startswith("#"):
+            continue
+        try:
+            cells = next(csv.reader([text], skipinitialspace=True, strict=True))
+        except csv.Error as error:
+            raise refusal(
+                path,
+                f"cannot be split into columns ({error})",
+                place=f"line {line}",
+                remedy="check the quotes",
+            ) from None
+        rows.append((line, [cell.strip() for cell in cells]))
+    return rows
+
+
+def _check_header(path: str | PathLike[str], line: int, columns: list[str]) -> None:
+    place = f"line {line}"
+    if len(columns) == 1 and (";" in columns[0] or "\t" in columns[0]):
+        raise refusal(
+            path,
+            "the columns are not separated by commas",
+            place=place,
+            remedy="save it comma-separated, with decimal points",
+        )
+    for column in columns:
+        if column.endswith(("_in", "_inch", "_inches")):
+            raise refusal(
+                path,
+                f"column {column} is in inches",
+                place=place,
+                remedy=f"write millimetres: {', '.join(NEEDED)}",
+            )
+    if len(set(columns)) < len(columns):
+        twin = next(column for column in columns if columns.count(column) > 1)
+        raise refusal(path, f"column {twin} stands twice", place=place, remedy="keep one")
+    if not set(columns) & set(NEEDED):
+        raise refusal(
+            path,
+            "the first line does not name the columns",
+            place=place,
+            remedy=f"begin with {','.join(NEEDED)}",
+        )
+    with naming(path, place):
+        refuse_unknown(columns, NEEDED + OPTIONAL)
+        for column in NEEDED:
+            if column not in columns:
+                raise ValueError(f"column {column} is missing; needed are {', '.join(NEEDED)}")
+
+
+def _mark(
+    path: str | PathLike[str],
+    line: int,
+    row: dict[str, str],
+    index: int,
+    names: dict[Point, str],
+) -> Mark:
+    """The mark of one line; without a name, an equal target makes it a repeat."""
+    values: dict[str, float] = {}
+    for column, text in row.items():
+        if column != "name" and (text or column in NEEDED):
+            with naming(path, f"line {line}, {column}"):
+                values[column] = number_in(text)
+    for first, second in PAIRS:
+        if (first in values) != (second in values):
+            raise refusal(
+                path,
+                f"{first} and {second} go together",
+                place=f"line {line}",
+                remedy="give both or none",
+            )
+    with naming(path, f"line {line}"):
+        if values.get("approach_x") == values.get("approach_y") == 0:
+            raise ValueError("approach 0, 0 is no direction; leave it empty if it is not known")
+        for column in ("chain_left_mm", "chain_right_mm"):
+            within(values.get(column, 0.0), *CHAIN_RANGE)
+        if "sled_weight_n" in values:
+            sled_weight_in_newtons(values["sled_weight_n"])
+    target = (values["target_x_mm"], values["target_y_mm"])
+    return Mark(
+        name=row.get("name") or names.setdefault(target, str(index)),
+        target=target,
+        measured=(values["measured_x_mm"], values["measured_y_mm"]),
+        approach=_both(values, PAIRS[0]),
+        sled_weight=values.get("sled_weight_n"),
+        chains=_both(values, PAIRS[1]),
+    )
+
+
+def _both(values: dict[str, float], columns: tuple[str, str]) -> Point | None:
+    first, second = columns
+    return (values[first], values[second]) if first in values else None

@@ -1,0 +1,113 @@
+"""What was measured on the sheet: marks and distances in the machine frame.
+
+Machine frame: origin in the middle of the sheet, x right, y up, mm.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from plumb.settings.machine import MachineSettings
+
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Round:
+    """How the marks of one file were cut, beyond what each mark says itself."""
+
+    name: str = ""  # of the file, for messages
+    date: str = ""
+    cut_with: MachineSettings | None = None  # in force; None: what the command line says
+    chains_rezeroed: bool = False  # since the file before
+    new_sheet: bool = False  # or the old one lies elsewhere since the file before
+    frame_moved: bool = False  # since the file before: a motor, the beam or the sled
+    zero_group: int = 0  # counts how often the chains were zeroed anew
+    sheet_group: int = 0  # counts the sheets
+
+
+@dataclass(frozen=True)
+class Mark:
+    """One mark: where the sled was sent and where it was found [mm], and how it came there."""
+
+    name: str
+    target: Point  # [mm]
+    measured: Point | None = None  # [mm]; None for an end of distances only
+    approach: Point | None = None  # direction of the last move, any length
+    sled_weight: float | None = None  # [N]
+    chains: Point | None = None  # [mm] left and right paid out, if the machine reported them
+    chains_swapped: bool = False  # each chain hung on the other's sprocket
+    round: int = 0  # index into the rounds
+
+
+@dataclass(frozen=True)
+class Distance:
+    """One measured distance [mm] between two marks, given by their names."""
+
+    between: tuple[str, str]
+    length: float  # [mm]
+
+
+@dataclass(frozen=True)
+class Measurements:
+    """All marks and distances of one board, and what is known about how they were taken."""
+
+    marks: tuple[Mark, ...]
+    distances: tuple[Distance, ...] = ()
+    controller: str | None = None  # whose formula moved the sled
+    tape_sigma: float | None = None  # [mm] reading error of one coordinate or distance
+    sled_weight: float | None = None  # [N] of the whole file; each mark carries its own already
+    source: str = ""  # the path, for messages
+    rounds: tuple[Round, ...] = (Round(),)  # one for each file
+    _by_name: dict[str, Mark] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        """Index the marks by name; a repeated name keeps its first target."""
+        first: dict[str, Mark] = {}
+        for mark in self.marks:
+            first.setdefault(mark.name, mark)
+        object.__setattr__(self, "_by_name", first)
+
+    @property
+    def measured_marks(self) -> tuple[Mark, ...]:
+        """The marks whose position was measured: the rows of `targets` and `measured`."""
+        return tuple(mark for mark in self.marks if mark.measured is not None)
+
+    @property
+    def targets(self) -> np.ndarray:
+        """Where the measured marks were sent, (n, 2) [mm]."""
+        return _rows([mark.target for mark in self.measured_marks])
+
+    @property
+    def measured(self) -> np.ndarray:
+        """Where the measured marks were found, (n, 2) [mm]."""
+        return _rows([mark.measured for mark in self.measured_marks])
+
+    @property
+    def distance_targets(self) -> np.ndarray:
+        """Where both ends of each distance were sent, (m, 2 ends, 2) [mm]."""
+        ends = [[self.target_of(name) for name in one.between] for one in self.distances]
+        return np.array(ends, dtype=float).reshape(-1, 2, 2)
+
+    @property
+    def distance_lengths(self) -> np.ndarray:
+        """The measured distances, (m,) [mm]."""
+        return np.array([one.length for one in self.distances], dtype=float)
+
+    @property
+    def repeats(self) -> dict[str, tuple[int, ...]]:
+        """Rows of `measured` that share a name, for the names that were measured twice or more."""
+        rows: dict[str, list[int]] = {}
+        for row, mark in enumerate(self.measured_marks):
+            rows.setdefault(mark.name, []).append(row)
+        return {name: tuple(own) for name, own in rows.items() if len(own) > 1}
+
+    def target_of(self, name: str) -> Point:
+        """Where the mark of that name was sent [mm]."""
+        return self._by_name[name].target
+
+
+def _rows(points: list[Point | None]) -> np.ndarray:
+    return np.array(points, dtype=float).reshape(-1, 2)

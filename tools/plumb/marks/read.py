@@ -1,0 +1,111 @@
+"""Reading measured marks, whatever the file's form; the front door to this room."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from os import PathLike
+from pathlib import Path
+
+from plumb.marks.checks import Sheet, checked
+from plumb.marks.csv import NEEDED, read_marks_csv
+from plumb.marks.ini import read_marks_ini
+from plumb.marks.join import join_measurements
+from plumb.marks.model import Distance, Mark, Measurements, Round
+from plumb.marks.toml import read_marks_toml
+from plumb.text.errors import refusal
+from plumb.text.files import read_bytes
+
+__all__ = [
+    "Distance",
+    "Mark",
+    "Measurements",
+    "Round",
+    "join_measurements",
+    "read_marks",
+    "read_plan",
+]
+
+
+def read_marks(
+    path: str | PathLike[str],
+    *,
+    sheet: Sheet,
+    known: Mapping[str, Sequence[str]] | None = None,
+) -> Measurements:
+    """The marks of one file, in the machine frame [mm]; sheet is its width and height [mm].
+
+    A file that names the settings it was cut with lies on the sheet of these; `known` lists each
+    effect's parameters for them.
+    """
+    found = _read(path, sheet, known)
+    return checked(found, sheet=_sheet_of(found, sheet))
+
+
+def read_plan(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
+    """The marks of a file as they are planned: each as if it were found where it was sent.
+
+    A mark without reading that is the end of a distance stays without. A mark that is made again
+    beside itself, as plumb grid repeats it, is another mark here.
+    """
+    found = _read(path, sheet)
+    ends = {name for one in found.distances for name in one.between}
+    marks = []
+    for mark in found.marks:
+        read = mark.measured is not None or mark.name not in ends
+        beside = mark.target != found.target_of(mark.name)
+        name = f"{mark.name} at {mark.target[0]:g}/{mark.target[1]:g}" if beside else mark.name
+        marks.append(replace(mark, name=name, measured=mark.target if read else None))
+    known = {mark.name for mark in marks}
+    spans = tuple(
+        replace(one, length=math.dist(*(found.target_of(name) for name in one.between)))
+        if known.issuperset(one.between)
+        else one
+        for one in found.distances
+    )
+    meant = replace(found, marks=tuple(marks), distances=spans)
+    return checked(meant, sheet=_sheet_of(found, sheet))
+
+
+def _read(
+    path: str | PathLike[str], sheet: Sheet, known: Mapping[str, Sequence[str]] | None = None
+) -> Measurements:
+    form = _form_of(path)
+    if form == "ini":
+        return read_marks_ini(path, sheet=sheet)
+    if form == "toml":
+        return read_marks_toml(path, sheet=sheet, known=known)
+    return read_marks_csv(path)
+
+
+def _sheet_of(found: Measurements, sheet: Sheet) -> Sheet:
+    """The sheet of the settings that a file names, else the usual one."""
+    own = found.rounds[0].cut_with if found.rounds else None
+    return own.sheet if own else sheet
+
+
+def _form_of(path: str | PathLike[str]) -> str:
+    """`ini`, `toml` or `csv`, by what the file says first and by its ending second."""
+    text = read_bytes(path).decode("utf-8-sig", "replace").lower()
+    lines = [line.strip() for line in text.splitlines()]
+    lines = [line for line in lines if line and line[0] not in "#;"]
+    if any(line.startswith("[maslow settings]") for line in lines):
+        raise refusal(path, "holds settings, not marks", remedy="give SETTINGS first, then MARKS")
+    if any(re.match(r"\[(sheet|effects\..*)\]", line) for line in lines):
+        raise refusal(path, "holds settings, not marks", remedy="give SETTINGS first, then MARKS")
+    if any(re.match(r"numpositions\s*[=:]", line) for line in lines):
+        return "ini"
+    if any(re.match(r"\[\[(mark|distance)\]\]|frame\s*=", line) for line in lines):
+        return "toml"
+    if lines and any(column in lines[0] for column in NEEDED):
+        return "csv"
+    ending = Path(path).suffix.lower().lstrip(".")
+    if ending in ("ini", "toml", "csv"):
+        return ending
+    raise refusal(
+        path,
+        "is none of the known forms of marks",
+        remedy="give a Calibration Measurements.ini, a marks.toml or a marks.csv",
+    )

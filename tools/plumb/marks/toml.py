@@ -1,0 +1,233 @@
+"""`marks.toml`: marks and distances by name, with how they were made."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping, Sequence
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from plumb.marks.benchmark import read_benchmark
+from plumb.marks.checks import Sheet, to_machine
+from plumb.marks.model import Distance, Mark, Measurements, Point, Round
+from plumb.settings.files import read_settings
+from plumb.settings.machine import CONTROLLERS
+from plumb.text.checks import number, one_of, pair, refuse_unknown, text_of, within
+from plumb.text.errors import naming, refusal
+from plumb.text.files import read_text
+
+FRAMES = ("sheet-top-left", "machine")
+ROUND_FLAGS = ("chains_rezeroed", "new_sheet", "frame_moved")
+HEAD_KEYS = (
+    "frame",
+    "date",
+    "cut_with",
+    "controller",
+    "tape_sigma_mm",
+    "sled_weight_n",
+    *ROUND_FLAGS,
+    "mark",
+    "distance",
+    "benchmark",
+)
+MARK_KEYS = ("name", "target", "measured", "approach", "sled_weight_n", "chains", "chains_swapped")
+DISTANCE_KEYS = ("between", "mm")
+SLED_WEIGHT_RANGE = (30.0, 1000.0)  # [N] below it somebody wrote kilograms or pounds
+TAPE_SIGMA_RANGE = (0.001, 50.0)  # [mm]
+CHAIN_RANGE = (0.0, 20000.0)  # [mm]
+
+
+def read_marks_toml(
+    path: str | PathLike[str],
+    *,
+    sheet: Sheet,
+    known: Mapping[str, Sequence[str]] | None = None,
+) -> Measurements:
+    """The marks and distances of a marks.toml, moved to the machine frame."""
+    try:
+        head = tomllib.loads(read_text(path))
+    except tomllib.TOMLDecodeError as error:
+        raise refusal(path, f"is not valid TOML: {error}", remedy="mend that line") from None
+    with naming(path, "at the top"):
+        refuse_unknown(head, HEAD_KEYS)
+    if "frame" not in head:
+        raise refusal(
+            path, "frame is missing", remedy='write frame = "sheet-top-left" or frame = "machine"'
+        )
+    with naming(path, "frame"):
+        top_left = one_of(head["frame"], FRAMES) == "sheet-top-left"
+    weight = _optional_weight(path, "sled_weight_n", head)
+    own = _round(path, head, known)
+    sheet = own.cut_with.sheet if own.cut_with else sheet
+    marks = _marks(path, head, sheet=sheet if top_left else None, weight=weight)
+    distances = _distances(path, head)
+    if "benchmark" in head:
+        more = read_benchmark(path, head["benchmark"], weight=weight)
+        marks, distances = (*marks, *more[0]), (*distances, *more[1])
+    return Measurements(
+        marks=marks,
+        distances=distances,
+        controller=_controller(path, head),
+        tape_sigma=_tape_sigma(path, head),
+        sled_weight=weight,
+        source=str(path),
+        rounds=(own,),
+    )
+
+
+def _round(
+    path: str | PathLike[str], head: dict[str, Any], known: Mapping[str, Sequence[str]] | None
+) -> Round:
+    """How the file's marks were cut; settings are looked for beside the file."""
+    flags = {}
+    for name in ROUND_FLAGS:
+        flags[name] = head.get(name, False)
+        if not isinstance(flags[name], bool):
+            raise refusal(path, f"{name} is neither true nor false", remedy="write one of them")
+    cut_with = None
+    if "cut_with" in head:
+        with naming(path, "cut_with"):
+            cut_with = read_settings(Path(path).parent / text_of(head["cut_with"]), known=known)
+    return Round(date=str(head.get("date", "")), cut_with=cut_with, **flags)
+
+
+def _controller(path: str | PathLike[str], head: dict[str, Any]) -> str | None:
+    if "controller" not in head:
+        return None
+    with naming(path, "controller"):
+        return one_of(head["controller"], CONTROLLERS)
+
+
+def _tape_sigma(path: str | PathLike[str], head: dict[str, Any]) -> float | None:
+    if "tape_sigma_mm" not in head:
+        return None
+    with naming(path, "tape_sigma_mm"):
+        return within(number(head["tape_sigma_mm"]), *TAPE_SIGMA_RANGE)
+
+
+def _optional_weight(path: str | PathLike[str], place: str, table: dict[str, Any]) -> float | None:
+    """The sled weight [N] a table gives."""
+    if "sled_weight_n" not in table:
+        return None
+    with naming(path, place):
+        return sled_weight_in_newtons(number(table["sled_weight_n"]))
+
+
+def sled_weight_in_newtons(weight: float) -> float:
+    """The weight [N], if a sled can weigh that much."""
+    low, high = SLED_WEIGHT_RANGE
+    if not low <= weight <= high:
+        raise ValueError(
+            f"a sled of {weight:g} N is not possible; "
+            "newtons are needed: 9.81 times kilograms, 4.448 times pounds"
+        )
+    return weight
+
+
+def _tables(path: str | PathLike[str], head: dict[str, Any], key: str) -> list[dict[str, Any]]:
+    """All tables [[key]] of the file."""
+    found = head.get(key, [])
+    if not isinstance(found, list) or not all(isinstance(one, dict) for one in found):
+        raise refusal(path, f"[{key}] needs double brackets", remedy=f"write [[{key}]]")
+    return found
+
+
+def _marks(
+    path: str | PathLike[str], head: dict[str, Any], *, sheet: Sheet | None, weight: float | None
+) -> tuple[Mark, ...]:
+    """All marks, moved to the machine frame if a sheet is given."""
+    marks: list[Mark] = []
+    names: dict[Point, str] = {}
+    for index, table in enumerate(_tables(path, head, "mark"), 1):
+        place = f"[[mark]] number {index}"
+        with naming(path, place):
+            refuse_unknown(table, MARK_KEYS)
+            if "target" not in table:
+                raise ValueError("target is missing; write target = [x, y] in mm")
+            name = _name(table["name"]) if "name" in table else None
+        place = f"mark {name}" if name else place
+        target = _place(path, place, table, "target", sheet)
+        name = name or names.setdefault(target, str(index))
+        own_weight = _optional_weight(path, f"{place} sled_weight_n", table)
+        marks.append(
+            Mark(
+                name=name,
+                target=target,
+                measured=_place(path, place, table, "measured", sheet),
+                approach=_approach(path, place, table, sheet),
+                sled_weight=weight if own_weight is None else own_weight,
+                chains=_chains(path, place, table),
+                chains_swapped=_yes_or_no(path, place, table, "chains_swapped"),
+            )
+        )
+    return tuple(marks)
+
+
+def _name(value: object) -> str:
+    """A mark's name; a whole number will do."""
+    name = str(value) if isinstance(value, int) and not isinstance(value, bool) else text_of(value)
+    if not name.strip():
+        raise ValueError("the name is empty; leave it out or fill it in")
+    return name.strip()
+
+
+def _place(
+    path: str | PathLike[str], place: str, table: dict[str, Any], key: str, sheet: Sheet | None
+) -> Point | None:
+    if key not in table:
+        return None
+    with naming(path, f"{place} {key}"):
+        point = pair(table[key])
+    return point if sheet is None else to_machine(point, sheet=sheet)
+
+
+def _approach(
+    path: str | PathLike[str], place: str, table: dict[str, Any], sheet: Sheet | None
+) -> Point | None:
+    """The direction of the last move; in the top-left frame y runs down here as well."""
+    if "approach" not in table:
+        return None
+    with naming(path, f"{place} approach"):
+        along, across = pair(table["approach"])
+        if along == across == 0:
+            raise ValueError("[0, 0] is no direction; leave approach out if it is not known")
+    return (along, across) if sheet is None else (along, -across)
+
+
+def _chains(path: str | PathLike[str], place: str, table: dict[str, Any]) -> Point | None:
+    if "chains" not in table:
+        return None
+    with naming(path, f"{place} chains"):
+        left, right = pair(table["chains"])
+        return within(left, *CHAIN_RANGE), within(right, *CHAIN_RANGE)
+
+
+def _yes_or_no(path: str | PathLike[str], place: str, table: dict[str, Any], key: str) -> bool:
+    value = table.get(key, False)
+    with naming(path, f"{place} {key}"):
+        if not isinstance(value, bool):
+            raise ValueError(f"{value!r} is neither true nor false")
+    return value
+
+
+def _distances(path: str | PathLike[str], head: dict[str, Any]) -> tuple[Distance, ...]:
+    """All distances, as read."""
+    distances: list[Distance] = []
+    for index, table in enumerate(_tables(path, head, "distance"), 1):
+        with naming(path, f"[[distance]] number {index}"):
+            refuse_unknown(table, DISTANCE_KEYS)
+            for key in DISTANCE_KEYS:
+                if key not in table:
+                    raise ValueError(f'{key} is missing; write between = ["1", "2"] and mm = 500.0')
+            ends = table["between"]
+            if not isinstance(ends, list) or len(ends) != 2:
+                raise ValueError('between needs two names, as ["1", "2"]')
+            first, second = _name(ends[0]), _name(ends[1])
+            if first == second:
+                raise ValueError(f"'{first}' is named twice; two different marks are needed")
+            length = number(table["mm"])
+            if length <= 0:
+                raise ValueError(f"mm = {length:g}; a distance is above zero")
+            distances.append(Distance((first, second), length))
+    return tuple(distances)

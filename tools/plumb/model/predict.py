@@ -1,0 +1,133 @@
+"""The lab's only door to the compiled kinematics: settings in, chain lengths and places out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from plumb import _core
+from plumb.model.controllers import chain_lengths
+from plumb.settings.machine import FRAME_FIELDS, MachineSettings
+
+Array = np.ndarray
+NAMES: tuple[str, ...] = tuple(_core.settings())  # of the values array, in its order
+FOUND, OUT_OF_REACH, TOO_MANY_TRIES = 0, 1, 2  # what the kinematics says of a place or length
+FOUND_WORDS = ("yes", "out of reach", "too many tries")
+USABLE, TOO_TIGHT, TOO_SLACK, TOO_VERTICAL, CANNOT_HANG = range(5)  # what it says of a place's use
+REACH_WORDS = ("usable", "too tight", "too slack", "too vertical", "cannot hang")
+REACH_LIMITS: Mapping[str, float] = _core.reach_limits()  # the usual ones, by name [N, mm, mm/N]
+
+
+@dataclass(frozen=True)
+class Reached:
+    """What n places are good for; a place where nothing hangs has zeros."""
+
+    verdict: Array  # (n,) USABLE ...
+    tension: Array  # (n, 2) [N] of left and right chain at their sprockets
+    compliance: Array  # (n, 2, 2) [mm/N] of the sled by a force along the sheet, symmetric
+
+    @property
+    def give(self) -> Array:
+        """Compliance (n,) [mm/N] in the direction in which the sled gives most."""
+        return np.linalg.eigvalsh(self.compliance)[:, -1]
+
+
+def library() -> list[dict[str, Any]]:
+    """Every effect of the firmware, in the order applied: words, parameters and units."""
+    return _core.effects()
+
+
+def frame_words() -> list[dict[str, Any]]:
+    """The frame's numbers: name, unit, usual, low, high, summary."""
+    return _core.frame()
+
+
+def known_effects() -> dict[str, list[str]]:
+    """The names of each effect's parameters."""
+    return {one["name"]: [p["name"] for p in one["parameters"]] for one in library()}
+
+
+def parameter_names(effect: str) -> tuple[str, ...]:
+    """The entries of NAMES that belong to one effect."""
+    return tuple(name for name in NAMES if name.startswith(f"{effect}."))
+
+
+def values_of(settings: MachineSettings) -> Array:
+    """Our model of a machine as the values array (len(NAMES),) [mm, N, rad]."""
+    return np.array([_value(settings, name) for name in NAMES], dtype=float)
+
+
+def settings_of(values: Array, *, like: MachineSettings) -> MachineSettings:
+    """The machine with these values; effects that are all zero are left out."""
+    by_name = dict(zip(NAMES, (float(value) for value in values), strict=True))
+    effects: dict[str, Mapping[str, float]] = {}
+    for effect, parameters in known_effects().items():
+        own = {name: by_name[f"{effect}.{name}"] for name in parameters}
+        if any(own.values()):
+            effects[effect] = own
+    frame = {name: by_name[name] for name in FRAME_FIELDS}
+    return replace(like, effects=effects, **frame)
+
+
+def lengths(
+    settings: MachineSettings, points: Array, *, float32: bool = False
+) -> tuple[Array, Array]:
+    """Chain paid out (n, 2) [mm] for places (n, 2) [mm] by our model, and FOUND (n,)."""
+    return _core.lengths(
+        values_of(settings), settings.feed == "top", _pairs(points), float32=float32
+    )
+
+
+def places(settings: MachineSettings, chains: Array) -> tuple[Array, Array]:
+    """Places (n, 2) [mm] for chains paid out (n, 2) [mm] by our model, and FOUND (n,)."""
+    return _core.places(values_of(settings), settings.feed == "top", _pairs(chains))
+
+
+def reach(settings: MachineSettings, points: Array, **limits: float) -> Reached:
+    """Whether places (n, 2) [mm] are usable, by our model; limits as in REACH_LIMITS."""
+    found = _core.reach(values_of(settings), settings.feed == "top", _pairs(points), **limits)
+    return Reached(**found)
+
+
+def places_with_slopes(
+    values: Array, *, over_top: bool, chains: Array
+) -> tuple[Array, Array, Array]:
+    """Places (n, 2), their slopes by every value (n, 2, len(NAMES)), and FOUND (n,).
+
+    The chains are given, so place and values balance in lengths(place, values) = chains; hence
+    d place = -(d lengths / d place)^-1 (d lengths / d values): the slopes are exact.
+    """
+    where, found = _core.places(values, over_top, _pairs(chains))
+    by_value, by_place, _ = _core.slopes(values, over_top, where)
+    slopes = np.zeros_like(by_value)
+    good = found == FOUND
+    slopes[good] = -np.linalg.solve(by_place[good], by_value[good])
+    return where, slopes, found
+
+
+def believed_lengths(
+    settings: MachineSettings, targets: Array, *, controller: str | None = None
+) -> Array:
+    """Chain (n, 2) [mm] that the machine paid out for targets (n, 2) [mm], right or wrong.
+
+    Raises ValueError naming a target that the controller cannot reach.
+    """
+    whose = controller or settings.controller
+    if whose != "plumb":
+        return chain_lengths(settings, targets, controller=whose)
+    chains, found = lengths(settings.as_plumb_model(), targets)
+    for i in np.flatnonzero(found != FOUND)[:1]:
+        raise ValueError(f"target ({targets[i, 0]:g}, {targets[i, 1]:g}) is out of reach")
+    return chains
+
+
+def _value(settings: MachineSettings, name: str) -> float:
+    effect, _, parameter = name.rpartition(".")
+    return settings.effect(effect, parameter) if effect else getattr(settings, name)
+
+
+def _pairs(points: Array) -> Array:
+    return np.ascontiguousarray(points, dtype=float).reshape(-1, 2)

@@ -1,0 +1,130 @@
+"""Where on the sheet a machine is usable: its tightest, slackest and softest places."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from plumb.model.predict import (
+    CANNOT_HANG,
+    REACH_LIMITS,
+    REACH_WORDS,
+    USABLE,
+    Array,
+    Reached,
+    library,
+    reach,
+)
+from plumb.settings.machine import MachineSettings
+
+COLUMNS, ROWS = 305, 153  # of a survey: a place each 8 mm of the usual sheet, edges included
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """The place where something is largest or smallest."""
+
+    place: tuple[float, float]  # [mm]
+    value: float  # [N] or [mm/N]
+    side: str = ""  # whose chain
+
+
+@dataclass(frozen=True)
+class Survey:
+    """The whole sheet, place by place."""
+
+    sheet: tuple[float, float]  # [mm] width and height
+    x: Array  # (COLUMNS,) [mm]
+    y: Array  # (ROWS,) [mm] from the top down
+    reached: Reached  # of the places row by row
+    limits: Mapping[str, float]
+    assumed: tuple[str, ...]  # what the settings do not say, one sentence each
+    tightest: Extreme | None  # None where no sled hangs on the whole sheet
+    slackest: Extreme | None
+    softest: Extreme | None
+
+    @property
+    def shares(self) -> dict[str, float]:
+        """The share of the sheet of each verdict."""
+        verdicts = self.reached.verdict
+        return {word: float((verdicts == i).mean()) for i, word in enumerate(REACH_WORDS)}
+
+    @property
+    def all_usable(self) -> bool:
+        """Whether every place of the sheet is usable."""
+        return bool((self.reached.verdict == USABLE).all())
+
+
+def with_soft_chains(settings: MachineSettings) -> tuple[MachineSettings, tuple[str, ...]]:
+    """The machine with chains that give, whether or not its settings know it, and what was assumed.
+
+    Real chains sag and stretch, also where a fit had no use for it or found the impossible.
+    """
+    effects, assumed = dict(settings.effects), []
+    if settings.effect("chain_sag", "weight_ratio_squared") <= 0:
+        ratio = settings.chain_weight / settings.sled_weight
+        effects["chain_sag"] = {"weight_ratio_squared": ratio**2 / 24}
+        assumed.append(
+            "The settings have no chain_sag that could be: it is taken from the weights, "
+            f"{settings.sled_weight:.1f} N of sled and {settings.chain_weight * 1e3:.2f} N per m "
+            "of chain."
+        )
+    if settings.effect("chain_stretch", "compliance") <= 0:
+        size = _typical("chain_stretch", "compliance")
+        effects["chain_stretch"] = {"compliance": size}
+        assumed.append(
+            f"The settings have no chain_stretch that could be: {size:.2g} per N is usual."
+        )
+    return replace(settings, effects=effects), tuple(assumed)
+
+
+def survey(settings: MachineSettings, **limits: float) -> Survey:
+    """Every place of the sheet by our model of the machine; limits as in REACH_LIMITS."""
+    machine, assumed = with_soft_chains(settings.as_plumb_model())
+    width, height = machine.sheet
+    x = np.linspace(-width / 2, width / 2, COLUMNS)
+    y = np.linspace(height / 2, -height / 2, ROWS)
+    places = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    found = reach(machine, places, **limits)
+    hanging = found.verdict != CANNOT_HANG
+    tightest = slackest = softest = None
+    if hanging.any():
+        tightest = _extreme(places, np.where(hanging[:, None], found.tension, -np.inf))
+        slackest = _extreme(places, -np.where(hanging[:, None], found.tension, np.inf))
+        slackest = replace(slackest, value=-slackest.value)
+        most = int(np.argmax(np.where(hanging, found.give, -np.inf)))
+        softest = Extreme(_place(places, most), float(found.give[most]))
+    return Survey(
+        machine.sheet,
+        x,
+        y,
+        found,
+        {**REACH_LIMITS, **limits},
+        assumed,
+        tightest,
+        slackest,
+        softest,
+    )
+
+
+def percent(share: float) -> str:
+    """A share for people; what is not quite all or nothing does not look it."""
+    near = min(share, 1 - share)
+    return f"{100 * share:.{2 if 0 < near < 0.001 else 1}f} %"
+
+
+def _extreme(places: Array, tension: Array) -> Extreme:
+    """The largest of all chains' tensions (n, 2)."""
+    i, side = np.unravel_index(int(np.argmax(tension)), tension.shape)
+    return Extreme(_place(places, int(i)), float(tension[i, side]), ("left", "right")[side])
+
+
+def _place(places: Array, i: int) -> tuple[float, float]:
+    return float(places[i, 0]), float(places[i, 1])
+
+
+def _typical(effect: str, parameter: str) -> float:
+    own = next(one for one in library() if one["name"] == effect)
+    return next(one["typical"] for one in own["parameters"] if one["name"] == parameter)

@@ -1,0 +1,14 @@
+"""Sketches: effects tried in Python before they are worth a place in the firmware.
+
+Each file here that does not begin with an underscore, and each in the folder that the environment
+variable PLUMB_SKETCHES names, holds one SKETCH; it is ranked and fitted beside the library.
+"""
+
+from plumb.model.sketches.loader import load_all
+from plumb.model.sketches.sketch import Sketch, SketchParameter, Strands
+
+__all__ = ["BROKEN", "SKETCHES", "Sketch", "SketchParameter", "Strands"]
+
+_LOADED = load_all()
+SKETCHES: tuple[Sketch, ...] = _LOADED.sketches
+BROKEN: tuple[str, ...] = _LOADED.broken  # a line for each file that could not be used

@@ -1,0 +1,246 @@
+"""Writes docs/effects.md and its pictures from the registry: `python -m plumb.pages.effects`.
+
+With --check nothing is written; exit 1 if a page or a picture is not as it would be written.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from plumb.fit.problem import rms
+from plumb.model.catalogue import NO_FIRMWARE, empirical_effects, every_effect
+from plumb.pages.fingerprints import (
+    COLUMNS,
+    FRAME_STEPS,
+    ROWS,
+    SHEET,
+    Case,
+    Field,
+    every_field,
+    field_of,
+    label_with_size,
+    look_alikes,
+    worst,
+)
+from plumb.pictures.fingerprints import Picture, drawing
+from plumb.text.errors import InputError
+from plumb.text.files import write_all
+
+PAGE = "docs/effects.md"
+PICTURES = "docs/pictures/effects"
+DRAWN_COLUMNS, DRAWN_ROWS = 9, 5
+_FRAME_NUMBERS = ", ".join(f"`{name}`" for name in FRAME_STEPS)
+Fields = Mapping[str, Sequence[tuple[Case, Field]]]
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Write the page and its pictures, or check them; 1 if they are stale, 2 if refused."""
+    parser = argparse.ArgumentParser(prog="docs_effects", description=__doc__.splitlines()[0])
+    parser.add_argument("--check", action="store_true", help="write nothing, exit 1 if stale")
+    parser.add_argument("--folder", default=".", help="the project [%(default)s]")
+    parsed = parser.parse_args(arguments)
+    root = Path(parsed.folder)
+    texts = pages()
+    if parsed.check:
+        stale = stale_files(root, texts)
+        if stale:
+            print(f"{', '.join(stale)}: stale; run .venv/bin/python -m plumb.pages.effects")
+        return int(bool(stale))
+    try:
+        (root / PICTURES).mkdir(parents=True, exist_ok=True)
+        write_all({str(root / name): text.encode() for name, text in texts.items()})
+        for name in leftovers(root, texts):
+            (root / name).unlink()
+    except (InputError, OSError) as error:
+        print(f"docs_effects: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+def stale_files(root: Path, texts: Mapping[str, str]) -> list[str]:
+    """Names of files that differ from the texts, are missing, or are not of an effect."""
+    differ = [
+        name
+        for name, text in texts.items()
+        if not (root / name).is_file() or (root / name).read_bytes() != text.encode()
+    ]
+    return differ + leftovers(root, texts)
+
+
+def leftovers(root: Path, texts: Mapping[str, str]) -> list[str]:
+    """Pictures of effects that are no more."""
+    there = sorted((root / PICTURES).glob("*.svg"))
+    return [name for name in (f"{PICTURES}/{path.name}" for path in there) if name not in texts]
+
+
+def pages() -> dict[str, str]:
+    """The page and each picture by its name below the project's root."""
+    effects, fields = every_effect(), every_field()
+    texts = {PAGE: page(effects, fields)}
+    for effect in effects:
+        texts[picture_name(effect["name"])] = picture(effect["name"], fields[effect["name"]])
+    return texts
+
+
+def picture_name(effect: str) -> str:
+    """Where an effect's picture lies below the project's root."""
+    return f"{PICTURES}/{effect}.svg"
+
+
+def picture(effect: str, cases: Sequence[tuple[Case, Field]]) -> str:
+    """The fingerprint: for each case what marks do, and the shape that is left of it."""
+    rows = []
+    for case, whole in cases:
+        drawn = field_of(case, columns=DRAWN_COLUMNS, rows=DRAWN_ROWS)
+        grid = (DRAWN_ROWS, DRAWN_COLUMNS, 2)
+        sent, raw, shape = (one.reshape(grid) for one in (drawn.sent, drawn.raw, drawn.shape))
+        left = Picture(f"as it is: {_sizes(whole.raw)}", sent, raw)
+        right = Picture(f"its shape: {_sizes(whole.shape)}", sent, shape)
+        if not whole.has_shape:
+            right = Picture("its shape", sent, None, "no shape: all marks shift and turn together")
+        rows.append((label_with_size(case), (left, right)))
+    return drawing(f"{effect}: what it does to marks on the sheet", rows, sheet=SHEET)
+
+
+def page(effects: Sequence[Mapping[str, Any]], fields: Fields) -> str:
+    """The text of docs/effects.md."""
+    parts = [HEAD, table_of_all(effects, fields), "## How to read this page", READING]
+    parts += [section(effect, fields) for effect in effects]
+    parts += [no_cause(one) for one in empirical_effects()]
+    return "\n\n".join(parts) + "\n"
+
+
+HEAD = f"""\
+# The effects
+
+<!-- Written by `python -m plumb.pages.effects` from the registry. Do not edit this page. -->
+
+What moves the sled, or its marks, away from where they should be. Effects of the *firmware* have
+settings, and the machine undoes them. Effects of the *lab* lie in what is measured:
+{NO_FIRMWARE}. They are found, told with their cure, and kept out of the settings.
+Worst: the largest error on the sheet while the effect has its typical size and nobody knows of
+it."""
+
+READING = f"""\
+Numbers hold for the default machine (motors 2978.4 mm apart, sled of 97.9 N) with sag and stretch
+at their typical sizes. One effect at its typical size is there and the machine knows nothing of it;
+{COLUMNS} x {ROWS} marks lie up to 1150 mm to both sides and 550 mm above and below the middle of a
+2438.4 x 1219.2 mm sheet.
+
+- **As it is**: where marks land, or are read, against where they were sent.
+- **Shape**: what is left when all marks together are shifted and turned as well as can be. Only the
+  shape makes parts the wrong size; the rest moves the job on the sheet.
+- **RMS** and **worst**: of the lengths of all errors.
+- **Pictures**: a circle is where a mark was sent, its arrow points to where it lands, many times
+  too long. A thin line joins the tips of a row: so a straight row of cuts would bend. Each sheet
+  has its own scale.
+- **Look-alikes** are worked out: the cosine of the angle between two shapes, the nearest ones of
+  any of an effect's parameters. 1 is the same shape, -1 the same with the other sign, 0 nothing in
+  common. Beyond 0.9 either way, marks on one sheet hardly tell two causes apart.
+  Besides effects, these numbers of the frame are compared: {_FRAME_NUMBERS}."""
+
+
+def table_of_all(effects: Sequence[Mapping[str, Any]], fields: Fields) -> str:
+    """All effects with their settings and largest typical error."""
+    lines = ["| effect | settings | worst, mm | worst of its shape, mm | firmware or lab |"]
+    lines.append("|---|---|---|---|---|")
+    for effect in effects:
+        own = [field for _, field in fields[effect["name"]]]
+        numbers = [p["setting"] for p in effect["parameters"] if p["setting"] is not None]
+        settings = ", ".join(f"${number}" for number in numbers) or "none"
+        raw = max(worst(field.raw) for field in own)
+        shape = max(worst(field.shape) for field in own)
+        name = effect["name"]
+        lines.append(
+            f"| [{name}](#{name}) | {settings} | {raw:.1f} | {shape:.1f} | {effect['where']} |"
+        )
+    return "\n".join(lines)
+
+
+def section(effect: Mapping[str, Any], fields: Fields) -> str:
+    """Everything about one effect."""
+    name = effect["name"]
+    lab = f" ({effect['where']}: {NO_FIRMWARE})" if effect["where"] == "lab" else ""
+    return "\n\n".join(
+        [
+            f"## {name}",
+            f"**Cause{lab}**: {effect['summary']}.",
+            f"**What it does**: {effect['pattern']}.",
+            _parameters(effect),
+            _size_table(fields[name]),
+            f"![{name}: arrows over the sheet](pictures/effects/{name}.svg)",
+            f"**Look-alikes**: {_alike(name, fields)}. In words: {effect['look_alikes']}.",
+            f"**To be sure, or to cure it**: {effect['remedy']}.",
+        ]
+    )
+
+
+def no_cause(one: Mapping[str, Any]) -> str:
+    """What the firmware can apply though it is no effect."""
+    own = one["parameters"]
+    return "\n\n".join(
+        [
+            f"## {one['name']}",
+            f"**No cause, and never a suspect**: {one['summary'].partition(': ')[2]}. "
+            f"`plumb add --patch` fits it, knowingly; {one['remedy']}.",
+            f"Its {len(own)} numbers ({_range(own)}, {own[0]['unit']}) are the sizes of smooth "
+            f"terms over the sheet, for the left chain and for the right: {_names(own)}. Each x "
+            "or y stands for one degree in that direction.",
+        ]
+    )
+
+
+def _range(parameters: Sequence[Mapping[str, Any]]) -> str:
+    return f"${parameters[0]['setting']} to ${parameters[-1]['setting']}"
+
+
+def _names(parameters: Sequence[Mapping[str, Any]]) -> str:
+    return ", ".join(f"`{one['name']}`" for one in parameters)
+
+
+def _parameters(effect: Mapping[str, Any]) -> str:
+    lines = ["| parameter | unit | setting | plausible | typical | what it is |"]
+    lines.append("|---|---|---|---|---|---|")
+    for one in effect["parameters"]:
+        setting = "none" if one["setting"] is None else f"${one['setting']}"
+        lines.append(
+            f"| `{one['name']}` | {one['unit']} | {setting} | {one['low']:g} to {one['high']:g} | "
+            f"{one['typical']:g} | {one['summary']} |"
+        )
+    return "\n".join(lines)
+
+
+def _size_table(cases: Sequence[tuple[Case, Field]]) -> str:
+    lines = ["| typical size | RMS, mm | worst, mm | shape RMS, mm | shape worst, mm |"]
+    lines.append("|---|---|---|---|---|")
+    for case, field in cases:
+        sizes = (rms(field.raw), worst(field.raw), rms(field.shape), worst(field.shape))
+        numbers = " | ".join(f"{size:.2f}" for size in sizes)
+        lines.append(f"| {label_with_size(case)} | {numbers} |")
+    return "\n".join(lines)
+
+
+def _alike(name: str, fields: Fields) -> str:
+    """The computed look-alikes in words."""
+    found = look_alikes(name, fields)
+    if found:
+        return ", ".join(f"`{one.name}` {one.cosine + 0.0:.2f}" for one in found)
+    shapeless = [
+        f"`{other}`"
+        for other, cases in fields.items()
+        if other != name and not any(field.has_shape for _, field in cases)
+    ]
+    others = " and ".join([*shapeless, "`sheet_rotation`"])
+    return f"it has no shape of its own, so everything that shifts and turns the sheet: {others}"
+
+
+def _sizes(errors: Any) -> str:
+    return f"{rms(errors):.2f} mm RMS, worst {worst(errors):.2f}"
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,175 @@
+"""Writes docs/settings.md from the firmware's table: `python -m plumb.pages.settings`.
+
+With --check nothing is written; exit 1 if the page is not as it would be written.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from plumb.firmware.settings import Setting, every_setting, format_value
+from plumb.text.errors import InputError
+from plumb.text.files import write_all
+
+PAGE = "docs/settings.md"
+ANY_BUT_ZERO = 255
+LAST_PUBLISHED, FIRST_OWN, FIRST_EFFECT = 44, 60, 100
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Write the page, or check it; 1 if it is stale, 2 if refused."""
+    parser = argparse.ArgumentParser(prog="docs_settings", description=__doc__.splitlines()[0])
+    parser.add_argument("--check", action="store_true", help="write nothing, exit 1 if stale")
+    parser.add_argument("--folder", default=".", help="the project [%(default)s]")
+    parsed = parser.parse_args(arguments)
+    path, text = Path(parsed.folder) / PAGE, page(every_setting())
+    if parsed.check:
+        fresh = path.is_file() and path.read_bytes() == text.encode()
+        if not fresh:
+            print(f"{PAGE}: stale; run .venv/bin/python -m plumb.pages.settings")
+        return int(not fresh)
+    try:
+        write_all({str(path): text.encode()})
+    except (InputError, OSError) as error:
+        print(f"docs_settings: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+def page(settings: Sequence[Setting]) -> str:
+    """The text of docs/settings.md."""
+    listed = [one for one in settings if one.access == "listed"]
+    published = [one for one in listed if one.number <= LAST_PUBLISHED]
+    own = [one for one in listed if FIRST_OWN <= one.number < FIRST_EFFECT]
+    effects = [one for one in listed if one.number >= FIRST_EFFECT]
+    hidden = [one for one in settings if one.access != "listed"]
+    parts = [
+        HEAD.format(count=len(listed)),
+        "## Published numbers",
+        PUBLISHED,
+        table(published, keys=True),
+        "## Numbers of this firmware",
+        table(own),
+        "## Effects",
+        EFFECTS,
+        table(effects),
+        "## Numbers that are not listed",
+        HIDDEN,
+        table(hidden),
+        "## Erasing",
+        ERASING,
+        "## What is kept without power",
+        KEPT,
+        "## Coming from the published firmware",
+        COMING,
+    ]
+    return "\n\n".join(parts) + "\n"
+
+
+def table(settings: Iterable[Setting], *, keys: bool = False) -> str:
+    """The rows of some settings."""
+    head = "| $ | name | unit | type | default | limits |" + (" in the programs |" if keys else "")
+    lines = [head + " what it is |", "|---" * (7 + keys) + "|"]
+    for one in settings:
+        cells = [
+            str(one.number),
+            f"`{one.name}`",
+            one.unit,
+            one.kind,
+            format_value(one.usual),
+            limits(one),
+        ]
+        if keys:
+            cells.append(one.key.replace(": ", ": `") + "`" if one.key else "none")
+        cells.append(sentence(one))
+        lines.append(f"| {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
+def limits(setting: Setting) -> str:
+    """The allowed values in words."""
+    low, high = format_value(setting.low), format_value(setting.high)
+    if setting.step == ANY_BUT_ZERO:
+        return f"{low} to {high}, not 0"
+    if setting.step > 1:
+        return f"{low} to {high} in steps of {setting.step}"
+    return f"{low} to {high}"
+
+
+def sentence(setting: Setting) -> str:
+    """What a setting is, and what is not as published."""
+    said = setting.sentence
+    if setting.number >= FIRST_EFFECT:
+        said = said[0].upper() + said[1:] + "."
+    if setting.change and setting.change != "new":
+        said += f" *Change: {setting.change}.*"
+    return said
+
+
+HEAD = """\
+# The settings
+
+<!-- Written by `python -m plumb.pages.settings` from src/settings_table.h. Do not edit. -->
+
+`$$` lists the {count} settings below; `$n=value` sets one. Values may have any number of digits and
+an exponent; a whole number may be written `2.00000`. A value that cannot be right is refused with
+one line that begins with `error:`, and nothing changes. What is taken is in force at once and
+stored within a fifth of a second, while the machine goes on."""
+
+PUBLISHED = """\
+Number, meaning, unit and default are those of the published firmware, so GroundControl and
+WebControl set them as ever. It checked no limits; here every value is checked. *In the programs*
+is section and key of `groundcontrol.ini` and `webcontrol.json`."""
+
+EFFECTS = """\
+What the lab finds and adds; 0 means absent, and is the default of all, so a machine nobody has
+fitted behaves as under the published firmware. `$160`, `$180` and `$181` are added to what `$37`,
+`$40` and `$41` say. Limits are the plausible range and as much again on both sides. Causes,
+pictures and typical sizes: [effects.md](effects.md)."""
+
+HIDDEN = """\
+Kept like the others, but neither listed nor set by `$`: WebControl gives `$43` another meaning and
+would answer a listed one. It may write `$45` (chain elasticity, 1/N) and `$46` (sled weight, N):
+these set `$170` and `$62`. `$#` shows `$230` to `$253`."""
+
+ERASING = """\
+| command | settings | position | simulated motors |
+|---|---|---|---|
+| `$RST=$` | defaults, the numbers of this firmware and the effects too | stays | stay |
+| `$RST=#` | defaults | forgotten | stay |
+| `$RST=*` | defaults | forgotten | off |
+
+Storing all defaults takes up to two seconds, in which the machine goes on. A power cut meanwhile
+leaves the old settings or the defaults."""
+
+KEPT = """\
+Settings lie in the EEPROM twice, each copy with a number and a CRC-32; a change is written to one
+copy, then to the other, only the bytes that differ. Power may fail in any byte: the old settings or
+the new ones are there afterwards, never a mixture.
+
+The position (encoder counts of both chains and z, where that put the bit, and whether `$12`, `$13`,
+`$19` and `$20` are still the same) is kept each time the machine comes to rest, in a ring of 65
+places. Before a motor turns, a mark says that the place has been left; power lost in motion is
+therefore known at the next start, and told. A cell is written twice in 65 rests and bears 100,000
+writes: 3.2 million rests, at 300 a day 29 years.
+
+What the EEPROM holds, by address: 0 to 543 nothing (what the published firmware left is marked
+invalid), 544 and 1344 the copies, 2144 to 4093 the ring."""
+
+COMING = """\
+At the first start (motors wait 2.5 s) the settings of firmware 1.24 to 1.29 (version 5 of its
+EEPROM, with or without Z limits) and its position are taken over, all or nothing, and then marked
+invalid there: should you flash it again, it starts with defaults and no position, and does not
+trust a place the sled has left long ago. What it stores from then on is taken over once more when
+you come back.
+
+Firmware 1.00 to 1.23 and the holey, optical and beta releases store other versions; these are not
+read. The firmware says so, and GroundControl or WebControl send their settings anyway; set the
+chains once."""
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,1 @@
+"""Pictures of errors, fields, reach and plans on the sheet."""

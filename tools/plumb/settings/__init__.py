@@ -1,0 +1,1 @@
+"""The settings of one machine, and the files that hold them."""

@@ -1,0 +1,140 @@
+"""The settings of one machine: its frame, its effects, and what only published formulas need.
+
+Lengths in mm, forces in N, in the machine frame (origin in the middle of the sheet, y up).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from plumb.text.errors import InputError
+
+SLED_WEIGHT = 97.9  # [N] 22 pounds, the published default
+CHAIN_WEIGHT = 0.00137293  # [N/mm] 0.14 kg/m, the published data of #25 chain
+HOLEY_CHAIN_WEIGHT = 0.001372  # [N/mm] as the catenary release rounds it
+SPROCKET_RADIUS = 10 * 6.35 / (2 * math.pi)  # [mm] ten teeth of 6.35 mm
+FEEDS = ("top", "bottom")
+CONTROLLERS = ("stock", "holey", "plumb")  # whose formulas paid the chains out
+FRAME_FIELDS = (
+    "motor_gap",
+    "motor_height",
+    "motor_center_x",
+    "rotation_radius",
+    "sprocket_radius",
+    "sled_weight",
+    "chain_weight",
+)
+
+
+@dataclass(frozen=True)
+class PublishedSettings:
+    """What only the formulas of the published firmware need, in its own units."""
+
+    chain_sag_correction: float = 0.0  # $37 [1e-12/mm^2]
+    left_tolerance: float = 0.0  # $40 [percent] positive: the chain is longer than nominal
+    right_tolerance: float = 0.0  # $41 [percent]
+    chain_elasticity: float | None = None  # $45 [1/N]; None: not in the file
+    holey_sled_weight: float | None = None  # $46 [N]; zero or less switches the catenary off
+    chain_length: float = 3360.0  # $10 [mm] bound of its search for the position
+    top_beam_tilt: float = 0.0  # [degrees] read, but used neither by stock nor by holey
+
+    @property
+    def catenary(self) -> tuple[float, float] | None:
+        """Sled weight [N] and chain elasticity [1/N] of the catenary release; None: switched off.
+
+        Raises InputError if the file did not say them: its firmware and its client differ in
+        their defaults, so guessing would shift the marks by millimetres.
+        """
+        if self.holey_sled_weight is not None and self.holey_sled_weight <= 0:
+            return None
+        if self.holey_sled_weight is None or self.chain_elasticity is None:
+            name, unit = (
+                ("sledWeight", "$46, N")
+                if self.holey_sled_weight is None
+                else ("chainElasticity", "$45, 1/N")
+            )
+            raise InputError(
+                f"settings for controller holey: {name} ({unit}) is missing; add it to the "
+                "settings as the machine reports it"
+            )
+        return self.holey_sled_weight, self.chain_elasticity
+
+
+@dataclass(frozen=True)
+class MachineSettings:
+    """One machine: frame [mm, N], effects by name, and whose formula the controller uses."""
+
+    motor_gap: float  # [mm] between sprocket centres
+    motor_height: float  # [mm] sprocket centres above the middle of the sheet
+    rotation_radius: float  # [mm] from the bit to where the chain ends
+    sheet_width: float  # [mm]
+    sheet_height: float  # [mm]
+    feed: str  # "top": the chain leaves over the sprocket; "bottom": under it
+    motor_center_x: float = 0.0  # [mm] middle between the sprockets, right of the sheet's middle
+    sprocket_radius: float = SPROCKET_RADIUS  # [mm]
+    sled_weight: float = SLED_WEIGHT  # [N]
+    chain_weight: float = CHAIN_WEIGHT  # [N/mm]
+    controller: str = "plumb"  # "stock", "holey" or "plumb"
+    effects: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    published: PublishedSettings = PublishedSettings()
+
+    @property
+    def sheet(self) -> tuple[float, float]:
+        """Width and height of the sheet [mm]."""
+        return self.sheet_width, self.sheet_height
+
+    @property
+    def motor_offset(self) -> float:
+        """Sprocket centres above the sheet's top edge [mm], as the published programs count."""
+        return self.motor_height - self.sheet_height / 2
+
+    @property
+    def frame(self) -> dict[str, float]:
+        """The seven numbers of the frame by name [mm, N]."""
+        return {name: getattr(self, name) for name in FRAME_FIELDS}
+
+    def effect(self, name: str, parameter: str) -> float:
+        """One parameter of one effect; an effect that is not named is absent, so zero."""
+        return self.effects.get(name, {}).get(parameter, 0.0)
+
+    def as_plumb_model(self, *, controller: str | None = None) -> MachineSettings:
+        """The same machine in our frame and effects: the one on which the controller would be right
+        (effects that are named already stay as they are)."""
+        whose = controller or self.controller
+        if whose == "plumb":
+            return self if self.controller == "plumb" else replace(self, controller="plumb")
+        published = self.published
+        derived: dict[str, Mapping[str, float]] = {}
+        sled_weight, chain_weight = self.sled_weight, self.chain_weight
+        catenary = published.catenary if whose == "holey" else None
+        if catenary:
+            sled_weight, chain_weight = catenary[0], HOLEY_CHAIN_WEIGHT
+            derived["chain_sag"] = {"weight_ratio_squared": (chain_weight / sled_weight) ** 2 / 24}
+            if catenary[1]:
+                derived["chain_stretch"] = {"compliance": catenary[1]}
+        elif published.chain_sag_correction:
+            derived["chain_sag"] = {"weight_ratio_squared": published.chain_sag_correction * 1e-12}
+        left, right = published.left_tolerance / 100, published.right_tolerance / 100
+        if left or right:
+            derived["chain_pitch"] = {"left": left, "right": right}
+        return replace(
+            self,
+            controller="plumb",
+            sled_weight=sled_weight,
+            chain_weight=chain_weight,
+            rotation_radius=self.rotation_radius / radius_in_published(left, right),
+            effects={**derived, **self.effects},
+            published=PublishedSettings(),
+        )
+
+
+def radius_in_published(left: float, right: float) -> float:
+    """The published rotation radius as a multiple of the true one, for two chain pitch strains.
+
+    The published formula divides the whole straight part L by (1 + e), although its last piece, the
+    radius R, is no chain: L/(1+e) - R' equals (L-R)/(1+e) if R' = R/(1+e). It has one R' for
+    both sides, so the mean remains; each side is off by half of R times the difference of strains.
+    """
+    return (1 / (1 + left) + 1 / (1 + right)) / 2

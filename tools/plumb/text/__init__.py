@@ -1,0 +1,1 @@
+"""Text in and out: files, single values that people type, and the errors that people see."""

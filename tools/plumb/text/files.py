@@ -1,0 +1,93 @@
+"""Whole text files in and out: read with a clear refusal, written completely or not at all."""
+
+from __future__ import annotations
+
+import os
+import stat
+import tempfile
+from collections.abc import Mapping
+from os import PathLike
+from pathlib import Path
+
+from plumb.text.errors import refusal
+
+# A file of marks or settings has a few kilobytes; more is some other file picked by mistake.
+LARGEST_FILE_BYTES = 5_000_000
+
+
+def read_bytes(path: str | PathLike[str]) -> bytes:
+    """The bytes of a file that exists, is not empty and is not absurdly large."""
+    place = Path(path)
+    try:
+        if place.is_dir():
+            raise refusal(path, "is a folder", remedy="name the file inside it")
+        if place.stat().st_size > LARGEST_FILE_BYTES:
+            raise refusal(path, "is larger than 5 MB", remedy="check that it is the right file")
+        content = place.read_bytes()
+    except FileNotFoundError:
+        raise refusal(path, "there is no such file", remedy="check the name") from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise refusal(path, f"cannot be read ({reason})", remedy="check its rights") from None
+    if not content.strip():
+        raise refusal(path, "the file is empty", remedy="check that it was saved")
+    return content
+
+
+def read_text(path: str | PathLike[str]) -> str:
+    """The text of a UTF-8 file, without a byte-order mark."""
+    content = read_bytes(path)
+    if b"\0" in content:
+        raise refusal(path, "is not a text file", remedy="save it as plain text, UTF-8")
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content[: error.start].count(b"\n") + 1
+        raise refusal(
+            path,
+            "has a character that is not UTF-8",
+            place=f"line {line}",
+            remedy="save the file as UTF-8",
+        ) from None
+    if not text.strip():
+        raise refusal(path, "the file is empty", remedy="check that it was saved")
+    return text
+
+
+def write_whole(path: str | PathLike[str], content: bytes) -> None:
+    """Replace a file in one step: after a crash the old or the new one is there, never half."""
+    write_all({path: content})
+
+
+def write_all(files: Mapping[str | PathLike[str], bytes]) -> None:
+    """Replace several files: if one of them cannot be written, none is."""
+    staged: dict[str | PathLike[str], tuple[str, Path]] = {}
+    path: str | PathLike[str] = ""
+    try:
+        for path, content in files.items():
+            target = Path(os.path.realpath(path))
+            if target.is_dir():
+                raise refusal(path, "is a folder", remedy="name a file inside it")
+            handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+            staged[path] = name, target
+            with os.fdopen(handle, "wb") as file:
+                file.write(content)
+                file.flush()
+                os.fsync(file.fileno())
+            os.chmod(name, _mode_for(target))
+        for path in staged:
+            os.replace(*staged[path])
+    except OSError as error:
+        raise refusal(path, f"cannot be written ({error.strerror})") from None
+    finally:
+        for name, _ in staged.values():
+            Path(name).unlink(missing_ok=True)
+
+
+def _mode_for(target: Path) -> int:
+    """The permission bits of the file to be replaced, or those of any new file."""
+    if target.exists():
+        return stat.S_IMODE(target.stat().st_mode)
+    mask = os.umask(0)
+    os.umask(mask)
+    return 0o666 & ~mask

@@ -1,0 +1,226 @@
+"""Rates of the diagnosis over boards that the judge cut, and the arithmetic of the bench.
+
+Boards are few and seeded, so that the tests stay fast; the limits are such that a method without
+one of its parts (search correction, refitted frame, slips first, degrees of freedom) fails them.
+"""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plumb.bench.boards import chains_for, cut, plan, raw_field, size_for
+from plumb.bench.causes import CAUSES, MAKER, OUTSIDE, Hidden, causes_of
+from plumb.bench.cure import shape_error
+from plumb.bench.hiding import REAL, SLIP_MM, nothing, raw, slip
+from plumb.bench.judge import judge
+from plumb.bench.outcome import Outcome, look_alikes
+from plumb.bench.page import page
+from plumb.bench.rates import Line, Rate, rate_of
+from plumb.bench.report import run as run_bench
+from plumb.bench.scenarios import NAMES, SCENARIOS, Scenario
+from plumb.bench.trial import run_one
+from plumb.diagnose import diagnose
+from plumb.model.catalogue import effect_names
+
+SEED = 77
+
+
+def outcomes(name, boards):
+    """What came of the first boards of a scenario."""
+    scenario = next(one for one in SCENARIOS if one.name == name)
+    return [run_one(scenario, index, seed=SEED).outcome for index in range(boards)]
+
+
+def value(rate, of):
+    return rate_of(rate, of).value
+
+
+def test_nothing_is_named_where_nothing_is_hidden():
+    # 2 of 55 expected.
+    found = outcomes("none-9", 40) + outcomes("none-25", 15)
+    assert value("false naming", found) <= 0.1
+    assert value("silent", found) >= 0.85
+
+
+def test_noise_from_few_repeats_invents_nothing():
+    # Two readings more give 6 degrees of freedom: as if sigma were known, a third is named.
+    few = Scenario("few", "nothing", nothing, stated=None, marks=9)
+    own = replace(few.plan, again=(0, 4, 8))
+    named = 0
+    for seed in range(30):
+        measured = cut(Hidden(), own, seed=seed, tape_sigma=None).measurements
+        named += diagnose(MAKER, measured).verdict in ("one_suspect", "cannot_tell")
+    assert named <= 4
+
+
+def test_an_effect_of_three_millimetres_is_named_first_and_with_few_others():
+    found = outcomes("one-25", 24)
+    assert value("right class first", found) >= 0.87
+    assert value("suspects", found) <= 2.2
+    assert value("truth inside", found) >= 0.87
+
+
+def test_nine_marks_still_name_most():
+    found = outcomes("one-9", 20)
+    assert value("right class first", found) >= 0.75
+    assert value("suspects", found) <= 2.7
+    assert value("truth inside", found) >= 0.83
+
+
+def test_what_the_library_does_not_know_is_flagged():
+    assert value("flagged", outcomes("unknown-25", 6)) >= 0.9
+    assert value("flagged", outcomes("unknown-9", 10)) >= 0.7
+
+
+def test_a_slip_is_named_before_any_effect():
+    for name in ("slip-9", "slip-one-25", "slip-digits"):
+        found = outcomes(name, 8)
+        assert value("slip named", found) >= 0.9
+        assert value("effect named first", found) <= 0.1
+
+
+def test_two_effects_are_both_named():
+    assert value("both", outcomes("pairs-25", 6)) >= 0.8
+
+
+def test_what_is_added_brings_the_sled_near_to_the_known_truth():
+    scenario = next(one for one in SCENARIOS if one.name == "one-25")
+    cures = [run_one(scenario, index, seed=SEED).cure for index in range(10)]
+    before, frame, after, known = (
+        np.mean([getattr(one, part) for one in cures])
+        for part in ("before", "frame", "after", "known")
+    )
+    assert before > 1.2 and frame > 0.7
+    assert known < 0.2 and after < 1.6 * known
+
+
+def test_the_judge_answers_the_same_whoever_asked_before():
+    chains = chains_for(plan(3, 3))
+    still, weights = np.zeros_like(chains), np.full(len(chains), 97.9)
+    first = judge().places({"motor_gap": 2978.4}, chains, pushes=still, weights=weights)
+    judge().places({"lean": 0.3, "left.zero": 5.0}, chains, pushes=still, weights=weights)
+    again = judge().places({"motor_gap": 2978.4}, chains, pushes=still, weights=weights)
+    assert np.array_equal(first, again)
+
+
+@pytest.mark.parametrize("effect", sorted({one.effect for one in REAL}))
+def test_sizes_are_those_that_move_marks_by_so_much(effect):
+    own = plan(5, 5)
+    for cause in causes_of(effect):
+        moved = raw_field(cause, size_for(cause, own, 3.0), own)
+        assert np.sqrt(np.mean(np.sum(moved**2, axis=1))) == pytest.approx(3.0, rel=0.02)
+
+
+def test_every_effect_of_the_library_is_hidden_somewhere():
+    assert {one.effect for one in CAUSES} == set(effect_names())
+
+
+@pytest.mark.parametrize("kind", sorted(OUTSIDE))
+def test_unknown_fields_have_the_size_that_they_should(kind):
+    own = plan(5, 5)
+    with_it = cut(Hidden(outside=kind, outside_mm=2.0), own, seed=3, noise=0.0).measurements
+    without = cut(Hidden(), own, seed=3, noise=0.0).measurements
+    moved = with_it.measured - without.measured
+    assert np.sqrt(np.mean(np.sum(moved**2, axis=1))) == pytest.approx(2.0)
+
+
+def test_a_slip_moves_one_reading():
+    clean = cut(Hidden(), plan(5, 5), seed=1)
+    for kind in ("turned", "digits", "axes"):
+        wrong, names = slip(clean, kind, np.random.default_rng(4))
+        apart = np.hypot(*(wrong.measurements.measured - clean.measurements.measured).T)
+        assert np.count_nonzero(apart) == 1 and len(names) == 1
+    turned, _ = slip(clean, "turned", np.random.default_rng(4))
+    apart = turned.measurements.measured - clean.measurements.measured
+    assert np.linalg.norm(apart) == pytest.approx(SLIP_MM)
+
+
+def test_tape_and_pitch_draw_the_same_arrows():
+    cause, own = causes_of("chain_pitch")[0], plan(5, 5)
+    assert "tape_scale" in look_alikes(cause, size_for(cause, own, 3.0), own, 0.5)
+    plane = causes_of("chain_plane")[0]
+    assert look_alikes(plane, size_for(plane, own, 3.0), own, 0.5) == frozenset()
+
+
+def test_a_right_machine_has_no_error_on_the_sheet():
+    clean = cut(Hidden(), plan(3, 3), seed=1).machine
+    right = replace(
+        MAKER,
+        motor_gap=clean.motor_gap,
+        motor_height=clean.motor_height,
+        motor_center_x=clean.motor_center_x,
+    )
+    assert shape_error(clean, right) < 0.01
+    assert shape_error(clean, replace(right, motor_gap=right.motor_gap + 10)) > 1
+
+
+def outcome(**changes):
+    """An outcome of which only some parts matter."""
+    usual = Outcome(
+        cause="nothing",
+        verdict="nothing_provable",
+        suspects=(),
+        named=False,
+        right_first=False,
+        exactly_first=False,
+        inside=True,
+        both=False,
+        slip_named=False,
+        intervals=(0, 0),
+        limits=(12, 13),
+    )
+    return replace(usual, **changes)
+
+
+def test_a_rate_and_its_error_are_those_of_the_binomial():
+    own = [outcome(inside=index < 90) for index in range(100)]
+    found = rate_of("truth inside", own)
+    assert found.value == pytest.approx(0.9)
+    assert found.error == pytest.approx(np.sqrt(0.9 * 0.1 / 100))
+    assert rate_of("interval holds", own).count == 0
+
+
+def test_suspects_count_only_where_there_are_any():
+    own = [outcome(suspects=("a", "b")), outcome(), outcome(suspects=("a",))]
+    assert rate_of("suspects", own).value == pytest.approx(1.5)
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "judged"),
+    [(0.95, 0.01, "reached"), (0.89, 0.01, "open"), (0.85, 0.01, "missed")],
+)
+def test_a_line_is_missed_only_by_more_than_chance(value, error, judged):
+    assert Line("both", least=0.9).judge(Rate("both", value, error, 100)) == judged
+
+
+def test_the_command_prints_rates_and_names_its_scenarios(run, ask, tmp_path):
+    code, found = ask("bench", "--scenario", "none-9", "--boards", 3)
+    assert code == 0 and found["boards"] == 3
+    assert {one["rate"] for one in found["rates"]} == {"false naming", "silent"}
+    code, said, complaint = run("bench", "--scenario", "none-9", "--boards", 2)
+    assert code == 0 and "false naming" in said and complaint == ""
+    code, _, complaint = run("bench", "--scenario", "everything")
+    assert code == 2 and "everything" in complaint and "none-9" in complaint
+
+
+def test_the_same_seed_gives_the_same_rates_however_many_programs_run():
+    scenarios = [one for one in SCENARIOS if one.name in ("none-9", "slip-9")]
+    alone, together = (
+        run_bench(scenarios, boards=5, seed=2, progress=lambda *_: None, jobs=jobs)
+        for jobs in (1, 2)
+    )
+    assert [row.rate for row in alone.rows] == [row.rate for row in together.rows]
+    assert json.dumps(page(alone)) == json.dumps(page(together))
+
+
+def test_a_missed_line_is_bad_news(run, monkeypatch):
+    strict = Scenario("strict", "an effect", raw(3.0, REAL), (Line("silent", least=1.0),), marks=9)
+    monkeypatch.setattr("plumb.bench.report.SCENARIOS", (strict,))
+    monkeypatch.setattr("plumb.cli.bench.chosen_of", lambda _: (strict,))
+    code, said, _ = run("bench", "--boards", 6)
+    assert code == 1 and "missed: strict, silent" in said
+
+
+def test_names_of_scenarios_are_all_different():
+    assert len(set(NAMES)) == len(NAMES)

@@ -1,0 +1,270 @@
+"""The command line: answers, exit codes, and one clear line for whatever cannot be used."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from plumb.cli.grid import grids
+from plumb.cli.main import main
+from plumb.cli.text import plain, table
+from plumb.cure.demo import MARKS, SETTINGS
+from plumb.marks.read import read_marks
+from plumb.model.catalogue import effect_names
+from plumb.model.predict import lengths
+from plumb.settings.files import read_settings, write_machine_toml
+from synthetic import BELIEVED, SHEET, TRUE, grid, marks_on
+
+COMMANDS = (
+    "grid",
+    "compare",
+    "diagnose",
+    "add",
+    "effects",
+    "inverse",
+    "forward",
+    "reach",
+    "telemetry",
+)
+BOARD = [str(SETTINGS), str(MARKS)]
+EFFECTS = ["--effect", "chain_pitch", "chain_sag"]
+ADDED = ("chain_pitch", "chain_sag", "chain_stretch")
+
+
+def test_every_command_explains_itself_and_its_exit_codes(capsys):
+    for command in COMMANDS:
+        with pytest.raises(SystemExit) as stopped:
+            main([command, "--help"])
+        said = capsys.readouterr().out
+        assert stopped.value.code == 0
+        assert "--json" in said and "Exit: 0 done" in said
+
+
+def test_the_installed_command_runs():
+    done = subprocess.run(
+        [sys.executable, "-m", "plumb.cli.main", "effects", "--json"],
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0 and done.stderr == ""
+    assert [one["name"] for one in json.loads(done.stdout)["effects"]] == list(effect_names())
+
+
+def test_compare_begins_with_its_conclusion(run):
+    code, said, _ = run("compare", *BOARD)
+    assert code == 0
+    assert said.startswith("The marks lie 7.29 mm RMS from where the settings predict them")
+    assert len([line for line in said.splitlines() if line[:1].isdigit()]) >= 9
+
+
+def test_compare_gives_every_key_of_the_interface(ask):
+    code, found = ask("compare", *BOARD)
+    assert code == 0
+    assert found["rms_mm"] == pytest.approx(7.29, abs=0.02)
+    assert found["worst_mm"] > found["rms_mm"] > found["shape_rms_mm"] > 4
+    mark = found["marks"][1]
+    assert mark["name"] == "1" and mark["target"] == [0.0, 550.0]
+    assert mark["error"] == pytest.approx(np.subtract(mark["measured"], mark["predicted"]))
+    assert mark["left_chain_residual"] < 0 and mark["right_chain_residual"] < 0
+
+
+def test_compare_of_distances_has_no_shape(ask, file):
+    marks = file(
+        "d.toml",
+        'frame = "machine"\n[[mark]]\nname = "a"\ntarget = [0, 0]\n[[mark]]\nname = "b"\n'
+        'target = [500, 0]\n[[distance]]\nbetween = ["a", "b"]\nmm = 501.5\n',
+    )
+    code, found = ask("compare", SETTINGS, marks)
+    assert code == 0 and found["marks"] == [] and found["shape_rms_mm"] is None
+    assert found["rms_mm"] == found["distance_rms_mm"] == pytest.approx(1.5, abs=0.01)
+    assert found["distances"][0]["between"] == ["a", "b"]
+
+
+def test_compare_above_the_limit_is_bad_news(run):
+    assert run("compare", *BOARD, "--limit", 7)[0] == 1
+    assert run("compare", *BOARD, "--limit", 8)[0] == 0
+
+
+def test_several_files_of_marks_are_one_board(ask, file):
+    header = "target_x_mm,target_y_mm,measured_x_mm,measured_y_mm\n"
+    more = file("more.csv", f"{header}-1150,550,-1152.4,557.1\n300,100,298,103\n")
+    _, once = ask("compare", *BOARD)
+    _, both = ask("compare", *BOARD, more)
+    assert both["marks"][:9] == once["marks"] and len(both["marks"]) == 11
+    assert [one["count"] for one in both["rounds"]] == [9, 2]
+    assert both["rounds"][0]["rms_mm"] == pytest.approx(once["rms_mm"])
+
+
+def test_add_writes_settings_that_explain_the_marks(ask, tmp_path):
+    new, ini = tmp_path / "machine.toml", tmp_path / "new.ini"
+    code, found = ask("add", *BOARD, *EFFECTS, "-o", new, "--groundcontrol", ini)
+    assert code == 0 and found["written"] == [str(new), str(ini)]
+    assert found["effects_added"] == ["chain_pitch", "chain_sag"]
+    assert found["raw"]["rms_mm"] > found["before"]["fit_rms_mm"] > found["after"]["fit_rms_mm"]
+    assert found["after"]["fit_rms_mm"] < found["after"]["priced_rms_mm"] < 0.9
+    sag = found["parameters"][-1]
+    assert sag["name"] == "chain_sag.weight_ratio_squared" and sag["unit"] == "1/mm^2"
+    assert sag["low"] < sag["value"] < sag["high"] < 0 and sag["plausible"] is False
+    assert any("off the middle" in line for line in found["unsaid"])
+    _, again = ask("compare", new, MARKS, "--cut-with", SETTINGS)
+    # All but the sheet's rotation is in the settings.
+    assert again["shape_rms_mm"] == pytest.approx(found["after"]["shape_rms_mm"], abs=1e-3)
+    assert again["rms_mm"] < 0.75
+    _, published = ask("compare", ini, MARKS, "--cut-with", SETTINGS)
+    assert published["shape_rms_mm"] < 0.9
+
+
+def test_add_keeps_every_key_of_the_ini_that_it_does_not_change(run, tmp_path):
+    ini = tmp_path / "new.ini"
+    assert run("add", *BOARD, *EFFECTS, "--groundcontrol", ini)[0] == 0
+    old, new = SETTINGS.read_text().splitlines(), ini.read_text().splitlines()
+    changed = {line.split(" = ")[0] for line, own in zip(old, new, strict=True) if line != own}
+    assert changed == {
+        "motorspacingx",
+        "motoroffsety",
+        "leftchaintolerance",
+        "rightchaintolerance",
+        "rotationradius",
+        "chainsagcorrection",
+    }
+
+
+def test_add_tells_people_the_fall_the_doubts_and_what_was_written(run, tmp_path):
+    new, picture = tmp_path / "machine.toml", tmp_path / "fall.png"
+    code, said, _ = run("add", *BOARD, *EFFECTS, "-o", new, "--picture", picture)
+    assert code == 0 and said.startswith("From 7.29 to 0.65 mm RMS")
+    assert "impossible" in said and "measure it again" in said and "right end" in said
+    assert str(new) in said and picture.read_bytes().startswith(b"\x89PNG")
+
+
+def test_add_of_an_effect_that_does_not_pay_is_bad_news(run, tmp_path):
+    settings, marks = tmp_path / "machine.toml", tmp_path / "marks.csv"
+    write_machine_toml(settings, BELIEVED)
+    rows = ["target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"]
+    for mark in marks_on(BELIEVED, BELIEVED, grid(3, 3), noise=0.5, seed=5):
+        rows.append(",".join(map(str, (*mark.target, *mark.measured))))
+    marks.write_text("\n".join(rows))
+    code, said, _ = run("add", settings, marks, "--effect", *ADDED)
+    assert code == 1 and "NOT better" in said and "do not keep" in said
+
+
+def test_add_holds_what_a_prior_says(ask):
+    _, found = ask("add", *BOARD, *EFFECTS, "--prior", "motor_gap=0", "--sigma", "0.8")
+    assert found["frame"]["motor_gap"] == 2978.4 and found["sigma_mm"] == 0.8
+    assert "motor_gap" not in [one["name"] for one in found["parameters"]]
+
+
+def test_inverse_of_an_ini_is_what_the_published_controller_paid_out(ask, file):
+    points = file("points.csv", "x,y\n0,0\n1150,-550\n")
+    code, found = ask("inverse", SETTINGS, "--points", points)
+    assert code == 0 and found["found"] == ["yes", "yes"] and found["controller"] == "stock"
+    left, right = found["lengths"][0]
+    # By hand: distance 1835.262, angle 0.62970 rad, wrap 6.364, straight 1835.234, less 139.1.
+    assert left == pytest.approx(right) == pytest.approx(1702.498, abs=0.001)
+
+
+def test_inverse_and_forward_of_our_model_undo_each_other(ask, file, tmp_path):
+    machine = tmp_path / "machine.toml"
+    write_machine_toml(machine, TRUE)
+    points = file("points.csv", "0,0\n1150,-550\n-900,400\n")
+    code, found = ask("inverse", machine, "--points", points)
+    assert code == 0 and found["controller"] == "plumb"
+    pairs = "\n".join(f"{left!r},{right!r}" for left, right in found["lengths"])
+    chains = file("chains.csv", f"left,right\n{pairs}\n")
+    code, back = ask("forward", machine, "--lengths", chains)
+    assert code == 0 and back["found"] == ["yes"] * 3
+    assert np.array(back["places"]) == pytest.approx(
+        np.array([[0, 0], [1150, -550], [-900, 400]]), abs=1e-4
+    )
+
+
+def test_inverse_by_the_board_s_arithmetic_differs_a_little(ask, file):
+    points = file("points.csv", "731,-211\n")
+    ours = ask("inverse", SETTINGS, "--points", points, "--controller", "plumb")[1]["lengths"][0]
+    board = ask("inverse", SETTINGS, "--points", points, "--controller", "plumb", "--float32")[1][
+        "lengths"
+    ][0]
+    exact = lengths(read_settings(SETTINGS).as_plumb_model(), [[731.0, -211.0]])[0][0]
+    assert ours == pytest.approx(list(exact), abs=1e-9)
+    assert 0 < abs(board[0] - ours[0]) < 0.01
+
+
+def test_a_place_out_of_reach_is_null_and_bad_news(ask, run, file):
+    points = file("points.csv", "0,0\n0,5000\n")
+    code, found = ask("inverse", SETTINGS, "--points", points, "--controller", "plumb")
+    assert code == 1 and found["lengths"][1] is None and found["found"] == ["yes", "out of reach"]
+    code, said, _ = run("inverse", SETTINGS, "--points", points, "--controller", "plumb")
+    assert code == 1 and said.startswith("1 of 2 places found") and "out of reach" in said
+
+
+def test_lengths_that_lead_nowhere_are_null_and_bad_news(ask, file):
+    code, found = ask("forward", SETTINGS, "--lengths", file("l.csv", "1000,1000\n1700,1700\n"))
+    assert code == 1 and found["places"][0] is None and found["found"][1] == "yes"
+    assert found["places"][1] == pytest.approx([0, 4.1], abs=0.5)
+
+
+def test_places_off_the_sheet_are_moved_to_its_edge_and_that_is_said(ask, run, file):
+    points = file("points.csv", "9000,0\n0,0\n")
+    _, found = ask("inverse", SETTINGS, "--points", points)
+    assert found["moved_to_edge"] == [True, False]
+    assert "1 off the sheet" in run("inverse", SETTINGS, "--points", points)[1]
+
+
+def test_effects_names_every_effect_with_its_look_alikes(run):
+    code, said, _ = run("effects")
+    assert code == 0
+    assert all(name in said for name in effect_names())
+    assert said.count("looks like") == len(effect_names())
+
+
+def test_effects_marks_those_of_the_lab(run, ask):
+    said = run("effects")[1]
+    assert "tape_scale (lab)" in said and "chain_sag (lab)" not in said
+    lab = [one for one in ask("effects")[1]["effects"] if one["where"] == "lab"]
+    assert [one["name"] for one in lab] == ["sled_friction", "sheet_skew", "tape_scale"]
+    assert all(own["setting"] is None for one in lab for own in one["parameters"])
+
+
+def test_grid_is_the_tool_beside_the_package(run, ask, tmp_path, capsys):
+    assert grids.main(["--columns", "3"]) == 0
+    assert capsys.readouterr().out == run("grid", "--columns", 3)[1]
+    program = tmp_path / "grid.nc"
+    code, found = ask("grid", "--columns", 3, "--rows", 2, "--repeats", 0, "--output", program)
+    assert code == 0 and found["written"] == [str(program)] and found["program"] is None
+    assert [mark["name"] for mark in found["marks"]] == ["1", "2", "3", "6", "5", "4"]
+    assert "G21" in program.read_text()
+
+
+def test_the_grid_s_list_of_marks_comes_back_with_y_up(run, tmp_path):
+    program, path = tmp_path / "grid.nc", tmp_path / "marks.toml"
+    options = ("--approach=10,30", "--marks", path, "--output", program)
+    assert run("grid", "--repeats", 0, *options)[0] == 0
+    head, first, *_ = path.read_text().split("\n[[mark]]\n")
+    first = first.replace("# measured = [ , ]", "measured = [110.0, 90.0]")
+    path.write_text(f"{head}\n[[mark]]\n{first}")
+    (mark,) = read_marks(path, sheet=SHEET).marks
+    assert mark.approach == (10.0, 30.0)
+    assert mark.target == pytest.approx((-1119.2, 509.6))
+    assert mark.measured == pytest.approx((-1109.2, 519.6))
+
+
+def test_a_reader_that_leaves_early_is_no_error():
+    command = f"{sys.executable} -m plumb.cli.main compare '{SETTINGS}' '{MARKS}' --json"
+    done = subprocess.run(
+        ["bash", "-c", f"set -o pipefail; {command} | true"], capture_output=True, text=True
+    )
+    assert done.stderr == ""
+
+
+def test_what_is_no_number_is_null():
+    found = plain({"a": float("nan"), "b": [np.float64("inf"), np.int64(3)], "c": np.eye(1)})
+    assert found == {"a": None, "b": [None, 3], "c": [[1.0]]}
+
+
+def test_columns_are_aligned():
+    assert table(["name", "mm"], [["a", "1.00"], ["long", "-10.00"]]).splitlines() == [
+        "name      mm",
+        "a       1.00",
+        "long  -10.00",
+    ]

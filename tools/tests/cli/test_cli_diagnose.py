@@ -1,0 +1,98 @@
+"""`plumb diagnose`: what it prints, and its exit codes."""
+
+import numpy as np
+import pytest
+from plumb.cure.demo import MARKS, SETTINGS
+from plumb.diagnose import VERDICTS
+from plumb.model.catalogue import effect_names
+from plumb.settings.files import write_machine_toml
+from synthetic import BELIEVED, TRUE, grid, marks_on
+
+KEYS = {
+    "verdict",
+    "sigma_mm",
+    "sigma_from",
+    "suspects",
+    "ranking",
+    "slips",
+    "could_hide",
+    "next",
+}
+
+
+@pytest.fixture
+def maker(tmp_path):
+    """What the maker of the made-up marks believes."""
+    path = tmp_path / "machine.toml"
+    write_machine_toml(path, BELIEVED)
+    return path
+
+
+def csv(marks):
+    """Marks as a file."""
+    lines = ["target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"]
+    lines += [",".join(f"{v:.2f}" for v in (*m.target, *m.measured)) for m in marks]
+    return "\n".join(lines) + "\n"
+
+
+def test_the_published_marks_get_a_verdict(ask):
+    code, found = ask("diagnose", SETTINGS, MARKS)
+    assert code == int(found["verdict"] in ("slip", "not_in_library"))
+    assert found["verdict"] in VERDICTS and set(found) >= KEYS
+    assert {one["effect"] for one in found["ranking"]} == set(effect_names())
+    for one in found["ranking"]:
+        assert set(one) >= {"gain", "parameters", "rms_after_mm", "hidden_share", "plausible"}
+        for size in one["parameters"]:
+            assert set(size) == {"name", "value", "low", "high", "unit", "plausible"}
+    assert found["sigma_from"] == "default" and found["warnings"]
+
+
+def test_clean_marks_say_so_first(run, file, maker):
+    clean = marks_on(BELIEVED, BELIEVED, grid(5, 3), noise=0.5, seed=4)
+    code, said, _ = run("diagnose", maker, file("clean.csv", csv(clean)), "--sigma", "0.5")
+    assert code == 0 and said.startswith("Nothing is provable")
+    assert "could still hide" in said and "these marks say nothing of sled_friction" in said
+
+
+def test_a_slip_is_bad_news(run, ask, file, maker):
+    marks = list(marks_on(BELIEVED, BELIEVED, grid(5, 3), noise=0.3, seed=4))
+    text = csv(marks)
+    line = text.splitlines()[7]
+    x, y, right, up = line.split(",")
+    slipped = text.replace(line, f"{x},{y},{float(right) + 5.1:.2f},{up}")
+    path = file("slip.csv", slipped)
+    code, said, _ = run("diagnose", maker, path, "--sigma", "0.3")
+    assert code == 1 and said.startswith("One reading disagrees with every explanation")
+    assert "off to the right" in said
+    code, found = ask("diagnose", maker, path, "--sigma", "0.3")
+    assert code == 1 and found["suspects"] == [] and found["slips"][0]["name"] == "7"
+    assert np.hypot(*found["slips"][0]["offset_mm"]) == pytest.approx(5.1, abs=1.2)
+
+
+def test_suspects_come_with_size_and_remedy(run, ask, file, maker):
+    path = file("m.csv", csv(marks_on(TRUE, BELIEVED, grid(5, 5), noise=0.2, seed=1)))
+    code, said, _ = run("diagnose", maker, path, "--sigma", "0.2")
+    assert code == 0 and "To be sure" in said and "error falls to" in said
+    code, found = ask("diagnose", maker, path, "--sigma", "0.2")
+    assert found["sigma_mm"] == 0.2 and found["sigma_from"] == "stated"
+    assert set(found["suspects"]) >= {"chain_pitch", "chain_sag"}
+
+
+@pytest.mark.parametrize(
+    ("options", "complaint"),
+    [
+        (["--sigma", "0"], "sigma"),
+        (["--prior", "nonsense=1"], "nonsense"),
+        (["--prior", "motor_gap"], "NAME=SIGMA"),
+    ],
+)
+def test_what_cannot_be_used_is_refused(run, options, complaint):
+    code, said, complained = run("diagnose", SETTINGS, MARKS, *options)
+    assert code == 2 and said == "" and complaint in complained
+    assert len(complained.splitlines()) == 1
+
+
+def test_two_marks_are_too_few(run, file, maker):
+    path = file("two.csv", csv(marks_on(TRUE, BELIEVED, grid(2, 1))))
+    code, said, complained = run("diagnose", maker, path)
+    assert code == 2 and said == "" and "too few" in complained

@@ -1,0 +1,142 @@
+"""The command line refuses what cannot be used: one clear line, exit 2, nothing written."""
+
+import pytest
+from plumb.cure.demo import MARKS, SETTINGS
+from plumb.settings.files import write_machine_toml
+from synthetic import BELIEVED
+
+BOARD = [str(SETTINGS), str(MARKS)]
+EFFECTS = ["--effect", "chain_pitch", "chain_sag"]
+BAD = [
+    ("no command", [], "COMMAND"),
+    ("unknown command", ["diagnoze"], "invalid choice: 'diagnoze'"),
+    ("no marks", ["compare", SETTINGS], "MARKS"),
+    ("unknown option", ["effects", "--colour"], "unrecognized arguments: --colour"),
+    ("text for a number", ["compare", *BOARD, "--limit", "big"], "--limit"),
+    ("a limit below zero", ["compare", *BOARD, "--limit=-1"], "--limit"),
+    ("unknown controller", ["compare", *BOARD, "--controller", "grbl"], "stock"),
+    ("settings are missing", ["compare", "none.ini", MARKS], "none.ini: there is no such file"),
+    ("marks are missing", ["compare", SETTINGS, "none.csv"], "none.csv: there is no such file"),
+    ("marks as settings", ["compare", MARKS, MARKS], "holds marks, not settings"),
+    ("settings as marks", ["compare", SETTINGS, SETTINGS], "holds settings, not marks"),
+    ("holey needs more", ["compare", *BOARD, "--controller", "holey"], "sledWeight"),
+    ("a folder", ["compare", SETTINGS.parent, MARKS], "is a folder"),
+    ("unknown effect", ["add", *BOARD, "--effect", "chain_sog"], "known are "),
+    ("auto", ["add", *BOARD, "--effect", "auto", "chain_sag"], "name no others beside it"),
+    ("no effect", ["add", *BOARD], "--effect"),
+    ("bad prior", ["add", *BOARD, *EFFECTS, "--prior", "motor_gap=near"], "NAME=SIGMA"),
+    ("prior without a number", ["add", *BOARD, *EFFECTS, "--prior", "motor_gap"], "NAME=SIGMA"),
+    ("infinite prior", ["add", *BOARD, *EFFECTS, "--prior", "motor_gap=inf"], "NAME=SIGMA"),
+    ("unknown prior", ["add", *BOARD, *EFFECTS, "--prior", "gap=1"], "unknown name 'gap'"),
+    ("no reading error", ["add", *BOARD, *EFFECTS, "--sigma", "0"], "--sigma"),
+    ("picture of no form", ["compare", *BOARD, "--picture", "errors.gif"], ".png"),
+    ("no points", ["inverse", SETTINGS], "--points"),
+    ("points are missing", ["inverse", SETTINGS, "--points", "none.csv"], "none.csv: there is no"),
+    ("lengths are missing", ["forward", SETTINGS, "--lengths", "none.csv"], "none.csv: there is"),
+    ("grid too wide", ["grid", "--columns", "99"], "--columns is 99"),
+    ("grid of text", ["grid", "--rows", "many"], "--rows"),
+]
+
+
+@pytest.mark.parametrize("as_json", [[], ["--json"]], ids=["text", "json"])
+@pytest.mark.parametrize(("arguments", "hint"), [pytest.param(*b[1:], id=b[0]) for b in BAD])
+def test_what_cannot_be_used_is_told_in_one_line(
+    arguments, hint, as_json, run, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    extra = ["-o", "new.toml", "--groundcontrol", "new.ini"] if arguments[:1] == ["add"] else []
+    code, said, complaint = run(*arguments, *extra, *as_json)
+    assert code == 2 and said == ""
+    assert complaint.startswith("plumb: ") and complaint.count("\n") == 1
+    assert hint in complaint
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [
+        ("", "the file is empty"),
+        ("# only words\n", "has no numbers"),
+        ("x,y\n", "has no numbers"),
+        ("x,y\n1,two\n", "line 2, y: 'two' is not a number"),
+        ("1,2\nx,y\n", "line 2, x: 'x' is not a number"),
+        ("1,\n", "line 1, y: a number is missing"),
+        ("1,nan\n", "line 1, y: 'nan' is not a usable number"),
+        ("nan,inf\n", "line 1, x: 'nan' is not a usable number"),
+        ("1;2\n", "line 1: has 1 value instead of 2; write one x,y per line"),
+        ("1,2,3\n", "line 1: has 3 values instead of 2"),
+        ("y,x\n1,2\n", "line 1: the header is 'y,x'; write one x,y per line, in mm"),
+        ("x_inch,y_inch\n1,2\n", "the header is 'x_inch,y_inch'"),
+        (b"\xff\xfe1,2\n", "UTF-8"),
+        (b"1,2\0\n", "is not a text file"),
+    ],
+)
+def test_points_that_cannot_be_used_are_named_with_file_and_line(text, hint, run, file):
+    path = file("points.csv", text)
+    code, said, complaint = run("inverse", SETTINGS, "--points", path)
+    assert code == 2 and said == "" and complaint.count("\n") == 1
+    assert complaint.startswith(f"plumb: {path}") and hint in complaint
+
+
+def test_points_may_have_a_header_comments_and_spaces(ask, file):
+    points = file("points.csv", "\ufeff# two places\n X_mm , y [mm]\n\n 0 , 0 \r\n1.5e2,-3\n")
+    assert len(ask("inverse", SETTINGS, "--points", points)[1]["lengths"]) == 2
+
+
+@pytest.mark.parametrize(
+    "outputs",
+    [
+        ("-o", "nowhere/machine.toml", "--groundcontrol", "new.ini"),
+        ("-o", "new.toml", "--groundcontrol", "nowhere/new.ini"),
+        ("-o", "new.toml", "--groundcontrol", "."),
+        ("-o", "new.toml", "--groundcontrol", "new.toml"),
+        ("-o", "new.toml", "--picture", "nowhere/fall.png"),
+        ("-o", str(SETTINGS)),
+        ("--groundcontrol", str(MARKS), "-o", "new.toml"),
+    ],
+)
+def test_if_one_result_cannot_be_written_none_is(outputs, run, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    before = SETTINGS.read_bytes(), MARKS.read_bytes()
+    code, said, complaint = run("add", *BOARD, *EFFECTS, *outputs)
+    assert code == 2 and said == "" and complaint.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+    assert (SETTINGS.read_bytes(), MARKS.read_bytes()) == before
+
+
+def test_a_groundcontrol_ini_needs_an_old_one(run, tmp_path):
+    machine = tmp_path / "machine.toml"
+    write_machine_toml(machine, BELIEVED)
+    out = tmp_path / "new.ini"
+    code, _, complaint = run("add", machine, MARKS, *EFFECTS, "--groundcontrol", out)
+    assert code == 2 and "needs a groundcontrol.ini" in complaint and not out.exists()
+    options = ("--groundcontrol", out, "--cut-with", SETTINGS)
+    assert run("add", machine, MARKS, *EFFECTS, *options)[0] == 0 and out.exists()
+
+
+def test_too_few_marks_are_refused_and_nothing_is_written(run, file, tmp_path):
+    head = "target_x_mm,target_y_mm,measured_x_mm,measured_y_mm\n"
+    marks = file("few.csv", head + "0,0,1,1\n500,0,501,1\n")
+    new = tmp_path / "machine.toml"
+    code, _, complaint = run("add", SETTINGS, marks, *EFFECTS, "-o", new)
+    assert code == 2 and "4 measured numbers" in complaint and not new.exists()
+
+
+def test_an_effect_that_the_library_lacks_is_refused_in_settings_too(run, tmp_path):
+    machine = tmp_path / "machine.toml"
+    write_machine_toml(machine, BELIEVED)
+    with open(machine, "a") as text:
+        text.write("\n[effects.chain_sog]\nsize = 1\n")
+    code, _, complaint = run("compare", machine, MARKS)
+    assert code == 2 and f"{machine}, [effects.chain_sog]" in complaint
+
+
+def test_distances_cannot_be_drawn(run, tmp_path):
+    marks = tmp_path / "d.toml"
+    marks.write_text(
+        'frame = "machine"\nmark = [{name = "a", target = [0, 0]}, {name = "b", target = [500, 0]}]'
+        '\ndistance = [{between = ["a", "b"], mm = 501}]\n'
+    )
+    picture = tmp_path / "d.png"
+    code, _, complaint = run("compare", SETTINGS, marks, "--picture", picture)
+    assert code == 2 and "distances only" in complaint and not picture.exists()

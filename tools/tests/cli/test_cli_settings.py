@@ -1,0 +1,72 @@
+"""plumb settings: what is fitted is what is flashed."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plumb.cli.main import main
+from plumb.cure.demo import SETTINGS
+from plumb.firmware.numbers import firmware_numbers
+from plumb.firmware.settings import machine_of
+from plumb.model.predict import lengths, library
+from plumb.settings.files import machine_toml, read_settings
+from plumb.text.errors import InputError
+from synthetic import TRUE, grid
+
+FULL = replace(
+    TRUE,
+    effects={
+        one["name"]: {own["name"]: own["typical"] for own in one["parameters"]} for one in library()
+    },
+)
+
+
+@pytest.mark.parametrize("machine", [TRUE, FULL], ids=["three effects", "every effect"])
+def test_the_firmware_reads_the_lines_as_the_machine_that_was_fitted(machine):
+    numbers = {one.number: float(one.text) for one in firmware_numbers(machine)}
+    theirs = machine_of(numbers, sheet=machine.sheet)
+    places = grid(7, 5)
+    ours, _ = lengths(machine, places)
+    own, found = lengths(theirs, places)
+    assert not found.any() and np.abs(ours - own).max() < 0.003
+
+
+def test_every_effect_has_its_line_and_the_published_corrections_are_zero():
+    lines = {one.number: one.line for one in firmware_numbers(TRUE)}
+    assert lines[37] == "$37=0" and lines[40] == "$40=0" and lines[41] == "$41=0"
+    assert lines[180].startswith("$180=0.0021") and lines[181].startswith("$181=0.0008")
+    assert {own["setting"] for one in library() for own in one["parameters"]} <= set(lines)
+
+
+def test_a_size_that_the_firmware_does_not_take_is_refused():
+    wild = replace(TRUE, effects={"chain_pitch": {"left": 5.0, "right": 0.0}})
+    with pytest.raises(InputError, match="firmware"):
+        firmware_numbers(wild)
+
+
+def test_the_clients_file_disturbs_nothing(tmp_path, capsys):
+    machine, new = tmp_path / "machine.toml", tmp_path / "new.ini"
+    machine.write_text(machine_toml(TRUE))
+    more = ["--to", "groundcontrol.ini", "--original", str(SETTINGS), "-o", str(new)]
+    assert main(["settings", str(machine), *more]) == 0
+    told = read_settings(new)
+    assert told.motor_gap == pytest.approx(TRUE.motor_gap, abs=1e-4)
+    assert told.published.chain_sag_correction == 0.0
+    assert main(["settings", str(machine), "--to", "groundcontrol.ini"]) == 2
+    assert "--original" in capsys.readouterr().err
+
+
+def test_published_settings_are_left_to_their_own_program(capsys):
+    assert main(["settings", str(SETTINGS)]) == 2
+    assert "machine.toml" in capsys.readouterr().err
+
+
+def test_lines_can_be_sent_as_they_are(tmp_path, capsys):
+    machine = tmp_path / "machine.toml"
+    machine.write_text(machine_toml(TRUE))
+    assert main(["settings", str(machine), "--to", "gcode"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert all(line.startswith("$") and " " not in line for line in lines)
+    assert main(["settings", str(machine), "--json"]) == 0
+    assert len(json.loads(capsys.readouterr().out)["settings"]) == len(lines)

@@ -1,0 +1,82 @@
+"""demo: the error of a real machine falls, and what is doubtful about it is said."""
+
+from dataclasses import replace
+
+import pytest
+from plumb.cli.demo import as_text, main
+from plumb.cure.add import Quality
+from plumb.cure.demo import GOAL, demonstrate, is_better, with_y_errors_flipped
+from plumb.marks.read import Mark, Measurements
+from plumb.model.predict import known_effects
+from plumb.settings.files import read_settings
+
+
+@pytest.fixture(scope="module")
+def found():
+    return demonstrate()
+
+
+def test_the_error_falls_step_by_step_below_the_goal(found):
+    kept = [step.quality.fit_rms for step in found.steps if step.kept]
+    assert kept == sorted(kept, reverse=True) and len(kept) == 3
+    assert found.chosen.raw.rms > 7 and kept[-1] < GOAL and found.reached
+
+
+def test_an_effect_that_does_not_pay_is_tried_and_not_kept(found):
+    last = found.steps[-1]
+    assert last.name == "+ chain_stretch" and not last.kept
+    assert last.quality.left_out_rms > found.chosen.after.left_out_rms
+    assert found.chosen.effects_added == ("chain_pitch", "chain_sag")
+
+
+def test_the_other_sign_of_y_is_worse_and_told(found):
+    assert found.flipped.after.fit_rms == pytest.approx(1.19, abs=0.02)
+    assert "1.19 mm RMS" in as_text(found)
+
+
+def test_flipping_turns_errors_in_y_round_and_nothing_else():
+    board = Measurements((Mark("1", (10.0, 20.0), (11.0, 23.0)), Mark("2", (0.0, 0.0))))
+    flipped = with_y_errors_flipped(board)
+    assert flipped.marks[0].measured == (11.0, 17.0)
+    assert flipped.marks[1] == board.marks[1]
+
+
+def test_what_is_doubtful_is_said(found):
+    said = " ".join(as_text(found).split())
+    for words in ("settings are assumed", "sign of y is doubtful", "NEGATIVE", "NOT kept"):
+        assert words in said
+
+
+def test_the_command_writes_what_it_says_and_ends_with_the_fall(tmp_path, capsys):
+    picture = tmp_path / "copy.png"
+    assert main(["--folder", str(tmp_path / "demo"), "--picture", str(picture)]) == 0
+    said = capsys.readouterr().out
+    assert said.splitlines()[-1] == (
+        "The error falls from 7.3 mm RMS (4.1 of it shape) to 0.65 mm, below 0.9."
+    )
+    assert (tmp_path / "demo" / "error-falls.png").read_bytes() == picture.read_bytes()
+    new = read_settings(tmp_path / "demo" / "machine.toml", known=known_effects())
+    assert set(new.effects) == {"chain_pitch", "chain_sag"}
+    for_published = read_settings(tmp_path / "demo" / "groundcontrol.ini")
+    assert for_published.motor_gap == pytest.approx(new.motor_gap, abs=1e-4)
+
+
+def test_the_command_fails_when_the_error_does_not_fall(tmp_path, capsys, monkeypatch, found):
+    worse = replace(found, chosen=found.flipped)
+    monkeypatch.setattr("plumb.cli.demo.demonstrate", lambda: worse)
+    assert main(["--folder", str(tmp_path)]) == 1
+    assert "not below 0.9" in capsys.readouterr().out.splitlines()[-1]
+
+
+def test_a_folder_that_cannot_be_made_is_refused_in_one_line(tmp_path, capsys):
+    (tmp_path / "file").write_text("no folder")
+    assert main(["--folder", str(tmp_path / "file" / "demo")]) == 2
+    said = capsys.readouterr()
+    assert said.out == "" and said.err.startswith("demo: ") and said.err.count("\n") == 1
+
+
+def test_an_effect_must_lower_both_honest_errors():
+    known = Quality(1.0, 1.2, 1.5, 2.0, 1.0)
+    assert is_better(Quality(0.9, 1.1, 1.4, 2.0, 1.0), known)
+    assert not is_better(Quality(0.9, 1.1, 1.6, 2.0, 1.0), known)
+    assert not is_better(Quality(0.9, 1.3, 1.4, 2.0, 1.0), known)

@@ -1,0 +1,116 @@
+"""What the published numbers mean in this firmware: the chains that the published one pays out."""
+
+import numpy as np
+import pytest
+from plumb.firmware.settings import machine_of
+from plumb.model.controllers import chain_lengths
+from plumb.model.predict import FOUND, lengths
+from plumb.settings.machine import MachineSettings, PublishedSettings
+
+SHEET = (2438.4, 1219.2)
+POINTS = np.array([(x, y) for x in np.linspace(-1219, 1219, 13) for y in np.linspace(-609, 609, 9)])
+
+
+def both(numbers):
+    """Chains of the published formula and of this firmware for the same $-numbers, (n, 2) [mm]."""
+    stock = MachineSettings(
+        motor_gap=numbers.get(2, 2978.4),
+        motor_height=SHEET[1] / 2 + numbers.get(3, 463),
+        rotation_radius=numbers.get(8, 250),
+        sheet_width=SHEET[0],
+        sheet_height=SHEET[1],
+        feed="top" if numbers.get(38, 1) == 1 else "bottom",
+        sprocket_radius=numbers.get(13, 63.5) / (2 * np.pi),
+        controller="stock",
+        published=PublishedSettings(numbers.get(37, 0), numbers.get(40, 0), numbers.get(41, 0)),
+    )
+    ours, found = lengths(machine_of({7: 2, **numbers}, sheet=SHEET), POINTS)
+    assert (found == FOUND).all()
+    return chain_lengths(stock, POINTS), ours
+
+
+@pytest.mark.parametrize("feed", [1, 2])
+@pytest.mark.parametrize(
+    "numbers", [{}, {2: 3602.6, 3: 468.4, 8: 139.1}, {8: 100, 13: 63.6}, {8: 0, 3: 700}]
+)
+def test_geometry_is_that_of_the_published_firmware(numbers, feed):
+    published, ours = both({**numbers, 38: feed})
+    assert ours == pytest.approx(published, abs=0.0015)
+
+
+@pytest.mark.parametrize("feed", [1, 2])
+@pytest.mark.parametrize(("left", "right"), [(0.3, -0.1), (-0.25, 0.0), (0.0, 0.5)])
+def test_tolerances_are_those_of_the_published_firmware(left, right, feed):
+    published, ours = both({8: 139.1, 38: feed, 40: left, 41: right})
+    assert ours == pytest.approx(published, abs=0.002)
+
+
+@pytest.mark.parametrize("feed", [1, 2])
+@pytest.mark.parametrize("correction", [8.2, 33])
+@pytest.mark.parametrize(
+    "numbers", [{8: 139.1}, {8: 100}, {8: 250}, {2: 3602.6, 3: 468.4, 8: 139.1}, {46: 60, 8: 139.1}]
+)
+def test_sag_is_that_of_the_published_firmware(numbers, correction, feed):
+    flat, _ = both({**numbers, 38: feed})
+    published, ours = both({**numbers, 37: correction, 38: feed})
+    most = (published - flat).max()
+    # A 250th of the most sag, which with the published 33 is 24 mm in the lower corners.
+    assert abs(ours - published).max() < max(0.004 * most, 0.003)
+
+
+def test_all_together_are_those_of_the_published_firmware():
+    published, ours = both({8: 139.1, 37: 27.4, 40: 0.348, 41: -0.08})
+    assert abs(ours - published).max() < 0.1
+
+
+def test_our_own_numbers_are_added():
+    plain = machine_of({8: 139.1, 37: 10, 40: 0.1}, sheet=SHEET)
+    more = machine_of({8: 139.1, 37: 10, 40: 0.1, 160: 2e-12, 180: 0.002, 200: 1.5}, sheet=SHEET)
+    for effect, parameter, added in (
+        ("chain_sag", "weight_ratio_squared", 2e-12),
+        ("chain_pitch", "left", 0.002),
+        ("chain_zero", "left", 1.5),
+    ):
+        difference = more.effect(effect, parameter) - plain.effect(effect, parameter)
+        assert difference == pytest.approx(added, rel=1e-5)
+
+
+def test_positive_tolerance_means_a_longer_chain():
+    """As in the lab: fewer links reach the same distance."""
+    published = MachineSettings(
+        motor_gap=2978.4,
+        motor_height=1072.6,
+        rotation_radius=139.1,
+        sheet_width=SHEET[0],
+        sheet_height=SHEET[1],
+        feed="top",
+        controller="stock",
+        published=PublishedSettings(10, 0.2, 0.1),
+    )
+    lab = published.as_plumb_model()
+    board = machine_of({8: 139.1, 37: 10, 40: 0.2, 41: 0.1}, sheet=SHEET)
+    for side in ("left", "right"):
+        assert board.effect("chain_pitch", side) == pytest.approx(lab.effect("chain_pitch", side))
+    sag = "chain_sag", "weight_ratio_squared"
+    assert board.effect(*sag) == pytest.approx(lab.effect(*sag), rel=0.02)
+
+
+def test_elasticity_and_sled_weight_of_webcontrol_are_ours():
+    machine = machine_of({45: 5.1685e-06, 46: 113.68}, sheet=SHEET)
+    assert machine.effect("chain_stretch", "compliance") == pytest.approx(5.1685e-06)
+    assert machine.sled_weight == pytest.approx(113.68)
+
+
+@pytest.mark.parametrize(
+    ("numbers", "said"),
+    [
+        ({38: 1.5}, r"\$38 must be from 1 to 2, a whole number"),
+        ({43: 0.3}, r"\$43 is set by B codes only"),
+        ({14: 1}, r"\$14 is no setting"),
+        ({300: 1}, r"\$300 is no setting"),
+        ({180: 0.5}, r"\$180 must be from -0.008 to 0.013"),
+    ],
+)
+def test_what_the_firmware_refuses_is_refused_in_its_words(numbers, said):
+    with pytest.raises(ValueError, match=said):
+        machine_of(numbers, sheet=SHEET)

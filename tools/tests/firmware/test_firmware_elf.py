@@ -1,0 +1,172 @@
+"""The firmware as it is flashed, on a simulated Mega: its answers, its pins, its cost."""
+
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from plumb import _core
+
+ROOT = Path(__file__).resolve().parents[3]
+ELF = ROOT / ".pio/build/megaatmega2560/firmware.elf"
+BUILD = ROOT / ".build/vm"
+VM = ROOT / "test/vm"
+DIALOGUES = VM / "dialogues"
+SOURCES = [VM / name for name in ("play_firmware.cpp", "virtual_board.cpp")]
+STRICT = ["-std=c++17", "-O2", "-Wall", "-Wextra", "-Werror"]
+TOLERANCE = 0.011  # [mm] two decimals, and a chain count or two
+RAM = 8192
+CORNERS = [(x, y) for x in (-1219.2, 1219.2) for y in (-609.6, 609.6)]
+PLACES = [(0.0, 0.0), (100.0, -50.25), *CORNERS]
+RING = {7: 2, 8: 139.1, 63: 0.00137293, 160: 8.2e-12, 170: 5.2e-6}
+BOOT = ["<* ok", "<* Settings are the defaults. Chain lengths are not known yet*"]
+
+
+@pytest.fixture(scope="module")
+def player() -> Path:
+    """The program that plays dialogues on the simulated board; the firmware is built too."""
+    pio = [ROOT / ".venv/bin/pio", "run", "-s", "-d", ROOT, "-e", "megaatmega2560"]
+    subprocess.run(pio, check=True)
+    BUILD.mkdir(parents=True, exist_ok=True)
+    program = BUILD / "play_firmware"
+    command = ["g++", *STRICT, *SOURCES, "-lsimavr", "-lelf", "-o", program]
+    subprocess.run(command, check=True)
+    return program
+
+
+def play(program: Path, folder: Path, name: str) -> subprocess.CompletedProcess:
+    command = [program, ELF, folder, name]
+    return subprocess.run(command, capture_output=True, text=True, timeout=280)
+
+
+def figures(done: subprocess.CompletedProcess) -> dict[str, float]:
+    assert done.returncode == 0, done.stdout + done.stderr
+    pairs = [line.split() for line in done.stdout.splitlines() if len(line.split()) == 2]
+    return {name: float(value) for name, value in pairs}
+
+
+def static_ram() -> int:
+    told = subprocess.run(["avr-size", "-A", ELF], capture_output=True, text=True, check=True)
+    rows = [line.split() for line in told.stdout.splitlines() if line.startswith((".data", ".bss"))]
+    return sum(int(row[1]) for row in rows)
+
+
+def test_it_boots_keeps_a_setting_over_a_reset_and_moves_its_motors(player):
+    told = figures(play(player, DIALOGUES, "smoke.nc"))
+    # A client gives up after two seconds, of which the bootloader takes one.
+    assert 0 < told["first_line_ms"] < 500
+    # Static RAM and the deepest stack leave a kilobyte that nobody has ever touched.
+    assert static_ram() + told["stack"] < RAM - 1024
+
+
+@pytest.fixture(scope="module")
+def hard(player) -> dict[str, float]:
+    """Three axes in motion with sag, stretch and pitch."""
+    return figures(play(player, DIALOGUES, "hard.nc"))
+
+
+def test_the_simulated_mega_keeps_masked_interrupts_and_pulled_pins():
+    BUILD.mkdir(parents=True, exist_ok=True)
+    elf, check = BUILD / "board_program.elf", BUILD / "check_board"
+    avr = ["avr-gcc", "-mmcu=atmega2560", "-DF_CPU=16000000UL", "-Os", VM / "board_program.cpp"]
+    subprocess.run([*avr, "-o", elf], check=True)
+    sources = [VM / "check_board.cpp", VM / "virtual_board.cpp"]
+    subprocess.run(["g++", *STRICT, *sources, "-lsimavr", "-lelf", "-o", check], check=True)
+    done = subprocess.run([check, elf], capture_output=True, text=True, timeout=60)
+    told = figures(done)
+    assert told["masked"] == 10  # an interrupt waits behind its mask
+    assert told["taken_back"] == 0  # unless its flag is cleared
+    assert told["edges_low"] == 0  # writing to a port moves no pin that is held from outside
+
+
+def test_sum_product_and_quotient_are_those_of_avr_libc_and_faster():
+    elf, check = BUILD / "float_program.elf", BUILD / "check_board"
+    sources = [VM / "float_program.cpp", VM / "float_of_libc.S", ROOT / "src/board/float.S"]
+    avr = ["avr-g++", "-mmcu=atmega2560", "-DF_CPU=16000000UL", "-Os", "-std=gnu++11"]
+    subprocess.run([*avr, *sources, "-o", elf], check=True)
+    board = [VM / "check_board.cpp", VM / "virtual_board.cpp"]
+    subprocess.run(["g++", *STRICT, *board, "-lsimavr", "-lelf", "-o", check], check=True)
+    done = subprocess.run([check, elf, "16000"], capture_output=True, text=True, timeout=400)
+    told = figures(done)
+    assert [told[name] for name in ("products", "sums", "differences", "quotients")] == [0] * 4
+    assert told["product_cycles"] < 0.85 * told["product_cycles_of_libc"]
+    assert told["sum_cycles"] < 0.85 * told["sum_cycles_of_libc"]
+    assert told["quotient_cycles"] < 0.5 * told["quotient_cycles_of_libc"]
+
+
+def test_no_control_tick_is_missed_in_motion(hard):
+    assert hard["ticks_per_second_moving"] == pytest.approx(100, abs=0.1)
+    # 600 lines take 3.4 s, which begin and end between two ticks: one tick more or less.
+    assert hard["ticks_per_second_streaming"] == pytest.approx(100, abs=1 / 3.4)
+
+
+def test_the_control_tick_leaves_88_percent_with_three_axes_in_motion(hard):
+    assert hard["tick_share_moving"] <= 0.12
+    assert hard["tick_share_streaming"] <= 0.12
+
+
+def test_the_firmware_tells_how_it_is_doing(hard):
+    # The last of two questions: since the one before.
+    longest_us = hard["longest_tick_streaming"] / 16
+    assert longest_us - 20 <= hard["told_tick_0"] <= longest_us + 200  # it counts its delay, too
+    assert 0.01 < hard["told_error_0"] < 0.6
+    assert hard["told_dry_0"] == 0
+    assert [hard[f"told_illegal_{axis}"] for axis in range(3)] == [0, 0, 0]
+    assert hard["told_supply_0"] == pytest.approx(5, abs=0.03)
+
+
+def test_short_moves_are_taken_as_fast_as_a_streaming_sender_gives_them(player):
+    told = figures(play(player, DIALOGUES, "stream.nc"))
+    assert told["lines_per_second"] >= 180
+    assert told["tick_share_streaming"] <= 0.12
+
+
+def test_every_effect_at_200_hz_leaves_time_for_short_moves(player):
+    told = figures(play(player, DIALOGUES, "every_effect.nc"))
+    assert told["mm_per_minute"] >= 0.9 * 1000
+
+
+def test_the_loop_runs_at_200_hz_if_a_setting_asks_for_it(player):
+    told = figures(play(player, DIALOGUES, "fast_loop.nc"))
+    assert 0.12 < told["tick_share_streaming"] < 0.3
+
+
+@pytest.mark.parametrize("dialogue", ["hangs.nc", "held.nc", "watchdog.nc", "board.nc"])
+def test_motors_are_let_go_when_the_firmware_hangs_or_the_board_fails(player, dialogue):
+    done = play(player, DIALOGUES, dialogue)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_power_lost_in_motion_is_known_and_a_rest_is_kept(player):
+    done = play(player, DIALOGUES, "power_cut.nc")
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_every_shield_is_known_by_its_straps(player):
+    done = play(player, DIALOGUES, "shields.nc")
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_places_are_those_of_the_lab(player, tmp_path):
+    numbers = [field["usual"] for field in _core.frame()]
+    for effect in _core.effects():
+        numbers += [RING.get(one["setting"], 0.0) for one in effect["parameters"]]
+    chains, found = _core.lengths(np.array(numbers), True, np.array(PLACES))
+    assert not found.any()
+    lines = list(BOOT)
+    for number, value in RING.items():
+        lines += [f"-> ${number}={value}", "<- ok"]
+    for (x, y), (left, right) in zip(PLACES, chains, strict=True):
+        lines += [f"-> B06 L{left:.4f} R{right:.4f}", "<* position loaded at:"]
+        lines += [f"<- {x:.2f} within {TOLERANCE}", f"<- {y:.2f} within {TOLERANCE}", "<- ok"]
+    (tmp_path / "places.nc").write_text("\n".join(lines))
+    done = play(player, tmp_path, "places.nc")
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_the_player_notices_what_is_wrong(player, tmp_path):
+    wrong = ["<- PCB v1.3 Detected", "<* never said", "<* ok\n~~ paid left"]
+    for i, text in enumerate(wrong):
+        (tmp_path / f"{i}.nc").write_text(text)
+        assert play(player, tmp_path, f"{i}.nc").returncode == 1
+    assert play(player, tmp_path, "absent.nc").returncode == 2

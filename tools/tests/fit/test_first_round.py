@@ -1,0 +1,30 @@
+"""The first round of a new owner: the grid's own form, filled in, is read and diagnosed."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+from plumb.cli.main import main
+from plumb.cure.demo import SETTINGS
+
+
+@pytest.mark.parametrize("extra", [[], ["--columns", "5"], ["--repeats", "2"]])
+def test_the_form_that_the_grid_writes_is_understood_when_filled_in(tmp_path, capsys, extra):
+    form, program = tmp_path / "marks.toml", tmp_path / "grid.nc"
+    assert main(["grid", *extra, "--marks", str(form), "--output", str(program)]) == 0
+    source, target, lines = np.random.default_rng(3), None, []
+    for line in form.read_text().splitlines():
+        if found := re.match(r"target = \[(\S+), (\S+)\]", line):
+            target = np.array([float(found[1]), float(found[2])])
+        if line.startswith("# measured"):
+            line = "measured = [{:.1f}, {:.1f}]".format(*target + 0.4 * source.standard_normal(2))
+        lines.append(line)
+    form.write_text("\n".join(lines))
+    capsys.readouterr()
+    assert main(["compare", str(SETTINGS), str(form), "--json"]) == 0
+    compared = json.loads(capsys.readouterr().out)
+    assert 0.2 < compared["rms_mm"] < 2.0
+    assert main(["diagnose", str(SETTINGS), str(form), "--json"]) in (0, 1)
+    found = json.loads(capsys.readouterr().out)
+    assert found["sigma_from"] == "repeats" and 0.2 < found["sigma_mm"] < 0.6

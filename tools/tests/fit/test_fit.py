@@ -1,0 +1,190 @@
+"""fit: it finds what was hidden, and is honest about what it does not know."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plumb.board.observations import observe
+from plumb.fit.problem import PRIORS, SHEET_ROTATION, Problem, fit, rms
+from plumb.marks.read import Measurements
+from plumb.text.errors import InputError
+from synthetic import BELIEVED, EFFECTS, TRUE, distances_between, grid, marks_on
+
+WIDE = {**PRIORS, "motor_gap": 1e4, "motor_height": 1e4, "motor_center_x": 1e4}
+WIDE[SHEET_ROTATION] = 10.0
+
+
+def without(measurements: Measurements, name: str) -> Measurements:
+    return replace(
+        measurements, marks=tuple(mark for mark in measurements.marks if mark.name != name)
+    )
+
+
+def test_hidden_parameters_are_found_again():
+    board = Measurements(marks_on(TRUE, BELIEVED, grid(7, 5), rotation=0.002))
+    found = fit(BELIEVED, observe(BELIEVED, board), effects=EFFECTS, priors=WIDE)
+    assert found.settled and found.rms < 1e-5
+    for effect, parameters in EFFECTS.items():
+        for name, value in parameters.items():
+            assert found.settings.effect(effect, name) == pytest.approx(value, rel=1e-3)
+    assert found.settings.motor_gap == pytest.approx(TRUE.motor_gap, abs=0.01)
+    assert found.settings.motor_center_x == pytest.approx(TRUE.motor_center_x, abs=0.01)
+    assert found.sheet_rotation == pytest.approx(0.002, abs=1e-6)
+
+
+def test_two_sleds_tell_stretch_from_everything_that_looks_like_it():
+    light = marks_on(TRUE, BELIEVED, grid(5, 3))
+    heavy = marks_on(TRUE, BELIEVED, grid(5, 3), sled_weight=150.0, prefix="heavy ")
+    widths = []
+    for marks in (light, light + heavy):
+        found = fit(
+            BELIEVED,
+            observe(BELIEVED, Measurements(marks)),
+            effects=EFFECTS,
+            priors=WIDE,
+            sigma=0.5,
+        )
+        assert found.rms < 1e-4
+        stretch = next(one for one in found.estimates if one.name == "chain_stretch.compliance")
+        assert stretch.low < 5.2e-6 < stretch.high
+        widths.append(stretch.high - stretch.low)
+    assert widths[1] < 0.6 * widths[0]
+
+
+def test_distances_alone_are_enough_for_the_shape():
+    truth = replace(BELIEVED, effects={"chain_pitch": EFFECTS["chain_pitch"]})
+    board = distances_between(marks_on(truth, BELIEVED, grid(4, 3)))
+    found = fit(BELIEVED, observe(BELIEVED, board), effects=["chain_pitch"], sigma=0.01)
+    assert found.rms < 0.01 and len(found.errors) == 0
+    assert found.settings.effect("chain_pitch", "left") == pytest.approx(0.0021, abs=2e-5)
+    assert found.left_out_rms >= found.rms
+
+
+def test_marks_and_distances_are_fitted_together():
+    marks = marks_on(TRUE, BELIEVED, grid(5, 3), noise=0.2)
+    spans = distances_between(marks_on(TRUE, BELIEVED, grid(5, 3))).distances
+    rows = observe(BELIEVED, Measurements(marks, spans))
+    both = fit(BELIEVED, rows, effects=["chain_pitch"], sigma=0.2)
+    alone = fit(
+        BELIEVED, observe(BELIEVED, Measurements(marks)), effects=["chain_pitch"], sigma=0.2
+    )
+    assert len(both.distance_errors) == len(spans)
+    assert both.estimates[-1].high - both.estimates[-1].low < (
+        alone.estimates[-1].high - alone.estimates[-1].low
+    )
+
+
+def test_the_left_out_error_is_that_of_a_fit_without_the_mark():
+    board = Measurements(marks_on(TRUE, BELIEVED, grid(4, 3), noise=0.5))
+    whole = fit(BELIEVED, observe(BELIEVED, board), effects=["chain_pitch", "chain_sag"], sigma=0.5)
+    rows = observe(BELIEVED, board)
+    for i, name in enumerate(rows.names):
+        part = fit(
+            BELIEVED,
+            observe(BELIEVED, without(board, name)),
+            effects=["chain_pitch", "chain_sag"],
+            sigma=0.5,
+        )
+        left = measured_minus_predicted(part, board, i)
+        assert whole.left_out_errors[i] == pytest.approx(left, abs=0.01)
+        assert np.hypot(*left) > np.hypot(*whole.errors[i])
+
+
+def test_repeats_of_a_mark_are_left_out_together():
+    once = marks_on(TRUE, BELIEVED, grid(4, 3), noise=0.5)
+    again = marks_on(TRUE, BELIEVED, grid(4, 3)[:2], noise=0.5, seed=2)
+    board = Measurements(once + again)
+    whole = fit(BELIEVED, observe(BELIEVED, board), effects=["chain_pitch"], sigma=0.5)
+    part = fit(BELIEVED, observe(BELIEVED, without(board, "0")), effects=["chain_pitch"], sigma=0.5)
+    for i in (0, len(once)):
+        left = measured_minus_predicted(part, board, i)
+        assert whole.left_out_errors[i] == pytest.approx(left, abs=0.01)
+
+
+def measured_minus_predicted(found, board: Measurements, i: int) -> np.ndarray:
+    """The error of one mark against a fit that did not see it: fitted again with no freedom."""
+    held = dict.fromkeys(PRIORS, 0.0) | {SHEET_ROTATION: 0.0}
+    rows = observe(BELIEVED, board)
+    fixed = fit(found.settings, rows, priors=held, sigma=0.5)
+    where = rows.measured - fixed.errors
+    cosine, sine = np.cos(found.sheet_rotation), np.sin(found.sheet_rotation)
+    return rows.measured[i] - where[i] @ np.array([[cosine, sine], [-sine, cosine]])
+
+
+def test_a_prior_of_zero_holds_a_number():
+    board = Measurements(marks_on(TRUE, BELIEVED, grid(4, 3)))
+    found = fit(BELIEVED, observe(BELIEVED, board), priors={**PRIORS, "motor_gap": 0.0})
+    assert found.settings.motor_gap == BELIEVED.motor_gap
+    assert "motor_gap" not in [one.name for one in found.estimates]
+
+
+def test_a_tight_prior_pulls_harder_than_a_wide_one():
+    board = observe(BELIEVED, Measurements(marks_on(TRUE, BELIEVED, grid(4, 3))))
+    moved = [
+        fit(BELIEVED, board, priors={**PRIORS, "motor_gap": sigma}).settings.motor_gap - 2978.4
+        for sigma in (0.05, 3.0)
+    ]
+    assert abs(moved[0]) < abs(moved[1])
+
+
+def test_noise_is_found_and_an_added_effect_costs_what_it_took():
+    board = observe(BELIEVED, Measurements(marks_on(TRUE, BELIEVED, grid(9, 7), noise=0.4)))
+    found = fit(BELIEVED, board, effects=EFFECTS)
+    assert found.sigma == pytest.approx(0.4, rel=0.15) and found.sigma_from == "residuals"
+    assert 7 < found.spent <= len(found.estimates)
+    assert found.rms < found.priced_rms < found.left_out_rms * 1.05
+    assert fit(BELIEVED, board, effects=EFFECTS, sigma=0.3).sigma_from == "stated"
+
+
+def test_intervals_hold_the_truth_about_as_often_as_they_say():
+    inside = []
+    for seed in range(40):
+        marks = marks_on(TRUE, BELIEVED, grid(5, 3), noise=0.5, seed=seed)
+        found = fit(BELIEVED, observe(BELIEVED, Measurements(marks)), effects=EFFECTS)
+        truth = {f"chain_pitch.{side}": EFFECTS["chain_pitch"][side] for side in ("left", "right")}
+        inside += [e.low < truth[e.name] < e.high for e in found.estimates if e.name in truth]
+    assert 0.86 < np.mean(inside) <= 1.0
+
+
+def test_a_prior_that_is_wider_than_the_marks_say_does_not_make_its_number_surer():
+    quiet, loud = (
+        fit(
+            BELIEVED,
+            observe(BELIEVED, Measurements(marks_on(TRUE, BELIEVED, grid(5, 3), noise=noise))),
+            effects=EFFECTS,
+        )
+        for noise in (0.1, 2.0)
+    )
+    widths = [
+        next(e.high - e.low for e in found.estimates if e.name == "motor_height")
+        for found in (quiet, loud)
+    ]
+    assert widths[1] > 5 * widths[0]
+
+
+def test_a_model_on_which_the_sled_cannot_hang_is_refused():
+    board = observe(BELIEVED, Measurements(marks_on(TRUE, BELIEVED, grid(4, 3))))
+    with pytest.raises(InputError, match="cannot hang"):
+        fit(replace(BELIEVED, motor_gap=9000.0), board)
+
+
+def test_the_rms_of_places_is_that_of_their_lengths():
+    assert rms(np.array([[3.0, 4.0], [0.0, 0.0]])) == pytest.approx(np.sqrt(12.5))
+    assert rms(np.array([3.0, -4.0])) == pytest.approx(np.sqrt(12.5))
+    assert np.isnan(rms(np.zeros((0, 2))))
+
+
+def test_the_slopes_of_all_residuals_are_those_of_finite_differences():
+    light = marks_on(TRUE, BELIEVED, grid(3, 2))
+    heavy = marks_on(TRUE, BELIEVED, grid(3, 2), sled_weight=150.0, prefix="heavy ")
+    board = Measurements(light + heavy, distances_between(light).distances)
+    priors = {**PRIORS, "sled_weight": 5.0}
+    problem = Problem.of(TRUE, observe(BELIEVED, board), tuple(EFFECTS), priors, 0.5)
+    # The sheet is turned by a fifth of a radian, so that nothing about turning is small.
+    place = np.where(np.array(problem.names) == SHEET_ROTATION, 10.0, 0.3)
+    slopes = problem.slopes(place)
+    for i in range(len(place)):
+        step = 1e-2 * np.eye(len(place))[i]
+        difference = (problem.residuals(place + step) - problem.residuals(place - step)) / 0.02
+        size = np.abs(difference).max()
+        assert slopes[:, i] == pytest.approx(difference, abs=0.003 * size + 1e-4)

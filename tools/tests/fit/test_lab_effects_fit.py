@@ -1,0 +1,137 @@
+"""Lab effects in fits: found again, told with their cure, and never written into settings."""
+
+import tomllib
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plumb.board.observations import observe
+from plumb.board.sighting import sighted
+from plumb.cli.add import as_json, as_text, toml_of
+from plumb.cure.add import add
+from plumb.fit.problem import fit
+from plumb.marks.read import Measurements
+from plumb.model.lab_effects import LAB_EFFECTS
+from plumb.model.predict import FOUND, known_effects, values_of
+from plumb.settings.files import read_settings, write_machine_toml
+from plumb.text.errors import InputError
+from synthetic import BELIEVED, EFFECTS, TRUE, distances_between, grid, marks_on
+
+HIDDEN = {
+    "sled_friction": {"drag": 7.0},
+    "sheet_skew": {"angle": -0.0012},
+    "tape_scale": {"strain": 0.0004},
+}
+WIDE = {"motor_gap": 1e3, "motor_height": 1e3, "motor_center_x": 1e3, "sheet_rotation": 1.0}
+SIDES = ((40.0, 0.0), (-40.0, 0.0), (0.0, 40.0), (0.0, -40.0))
+
+
+def marks(hidden, *, noise=0.0, columns=7, approaches=SIDES):
+    """Marks of the true machine as a maker with these lab effects would measure them."""
+    sent = tuple(
+        replace(mark, approach=approaches[i % len(approaches)])
+        for i, mark in enumerate(marks_on(TRUE, BELIEVED, grid(columns, 5)))
+    )
+    rows = observe(BELIEVED, Measurements(sent))
+    outside = {f"{e}.{name}": value for e, own in hidden.items() for name, value in own.items()}
+    found = sighted(
+        values_of(TRUE), outside, rows, over_top=True, usual_weight=TRUE.sled_weight, names=()
+    )
+    assert (found.found == FOUND).all()
+    where = found.read.where
+    where = where + noise * np.random.default_rng(3).standard_normal(where.shape)
+    return tuple(
+        replace(mark, measured=tuple(place))
+        for mark, place in zip(sent, where.tolist(), strict=True)
+    )
+
+
+@pytest.mark.parametrize("name", HIDDEN)
+def test_a_hidden_effect_is_found_again(name):
+    board = Measurements(marks({name: HIDDEN[name]}))
+    found = fit(BELIEVED, observe(BELIEVED, board), effects=[*EFFECTS, name], priors=WIDE)
+    assert found.settled and found.rms < 1e-4
+    for own, value in HIDDEN[name].items():
+        assert found.lab_effects[name][own] == pytest.approx(value, rel=0.01)
+
+
+def test_all_are_found_at_once_beside_those_of_the_machine():
+    board = Measurements(marks(HIDDEN, columns=9))
+    found = fit(
+        BELIEVED, observe(BELIEVED, board), effects=[*EFFECTS, *HIDDEN], priors=WIDE, sigma=0.01
+    )
+    assert found.settled and found.rms < 1e-4
+    for name, parameters in HIDDEN.items():
+        for own, value in parameters.items():
+            assert found.lab_effects[name][own] == pytest.approx(value, rel=0.01)
+    assert found.settings.effect("chain_pitch", "left") == pytest.approx(0.0021, rel=0.02)
+
+
+def test_distances_see_the_tape():
+    truth = replace(BELIEVED, effects={})
+    spans = distances_between(marks_on(truth, BELIEVED, grid(4, 3)))
+    stretched = replace(
+        spans,
+        distances=tuple(replace(one, length=one.length * 1.0004) for one in spans.distances),
+    )
+    found = fit(BELIEVED, observe(BELIEVED, stretched), effects=["tape_scale"], sigma=0.01)
+    assert found.lab_effects["tape_scale"]["strain"] == pytest.approx(0.0004, rel=0.02)
+
+
+def test_a_lab_effect_is_told_with_its_cure_and_pays():
+    board = Measurements(marks({"tape_scale": {"strain": 0.001}}, noise=0.1), source="marks.toml")
+    result = add(BELIEVED, board, effects=[*EFFECTS, "tape_scale"])
+    assert result.pays and result.effects_added == (*EFFECTS, "tape_scale")
+    assert len(result.cures) == 1
+    for said in (result.cures[0], as_text(result), toml_of(result, source="marks.toml").decode()):
+        said = " ".join(said.replace("#", " ").split())
+        assert "tape_scale (strain = " in said and "no firmware can cure this" in said
+        assert "a length that you trust" in said
+    answer = as_json(result)
+    assert set(answer["lab_effects"]) == {"tape_scale"} and "tape_scale" not in answer["effects"]
+    strain = next(one for one in result.parameters if one.name == "tape_scale.strain")
+    assert strain.low < 0.001 < strain.high and strain.unit == "1" and strain.plausible
+
+
+def test_no_settings_ever_hold_a_lab_effect(tmp_path):
+    board = Measurements(marks(HIDDEN, noise=0.1), source="marks.toml")
+    result = add(BELIEVED, board, effects=["chain_pitch", *HIDDEN])
+    assert set(result.after_fit.lab_effects) == set(HIDDEN)
+    assert set(result.settings.effects) == {"chain_pitch"}
+    written = tomllib.loads(toml_of(result, source="marks.toml").decode())
+    assert set(written["effects"]) == {"chain_pitch"}
+    path = tmp_path / "machine.toml"
+    write_machine_toml(path, result.settings)
+    assert read_settings(path, known=known_effects()) == result.settings
+
+
+@pytest.mark.parametrize("effect", LAB_EFFECTS, ids=lambda one: one.name)
+def test_settings_with_a_lab_effect_are_refused(effect, tmp_path):
+    path = tmp_path / "machine.toml"
+    own = {effect.name: {effect.parameters[0].name: 0.001}}
+    write_machine_toml(path, replace(BELIEVED, effects=own))
+    with pytest.raises(InputError, match=effect.name):
+        read_settings(path, known=known_effects())
+
+
+def test_friction_without_any_approach_is_refused():
+    board = Measurements(marks_on(TRUE, BELIEVED, grid(4, 3)), source="marks.toml")
+    with pytest.raises(InputError, match=r"marks\.toml: sled_friction needs marks with an appr"):
+        add(BELIEVED, board, effects=["sled_friction"])
+
+
+def test_skew_from_distances_alone_is_refused():
+    board = distances_between(marks_on(TRUE, BELIEVED, grid(4, 3)))
+    with pytest.raises(InputError, match=r"sheet_skew needs .* not distances alone"):
+        add(BELIEVED, board, effects=["sheet_skew"])
+    assert add(BELIEVED, board, effects=["tape_scale"]).after_fit.lab_effects
+
+
+def test_one_side_only_hides_friction_behind_sag_and_two_sides_show_it():
+    widths = []
+    for approaches in (((40.0, 0.0),), ((40.0, 0.0), (-40.0, 0.0))):
+        rows = observe(BELIEVED, Measurements(marks({}, approaches=approaches)))
+        found = fit(BELIEVED, rows, effects=[*EFFECTS, "sled_friction"], sigma=0.5)
+        drag = next(one for one in found.estimates if one.name == "sled_friction.drag")
+        widths.append(drag.high - drag.low)
+    assert widths[1] < widths[0]

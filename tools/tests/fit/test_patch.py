@@ -1,0 +1,112 @@
+"""The residual patch: it lowers the error where nobody measured, or it is not added."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hidden_boards import MAKER, board, build, plan
+from plumb.cli.add import toml_of
+from plumb.cli.main import main
+from plumb.cure.add import add
+from plumb.cure.auto import add_auto
+from plumb.cure.demo import MARKS, SETTINGS
+from plumb.fit.compare import compare
+from plumb.fit.patch import PATCH, SIZES
+from plumb.model.catalogue import effect_names, parameter_names
+from plumb.settings.files import machine_toml, read_settings
+from plumb.text.errors import InputError
+
+WIDE = plan(7, 5)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def judge():
+    """The judge's program, compiled once."""
+    return build()
+
+
+def halves(measurements):
+    """Every other mark, and those between."""
+    return [replace(measurements, marks=measurements.marks[i::2]) for i in (0, 1)]
+
+
+def with_cubic(measurements, seed, size):
+    """The board under a random field of the third degree, of so many millimetres RMS."""
+    source = np.random.default_rng(seed)
+    x, y = np.array([one.target for one in measurements.marks]).T / [[1219.2], [609.6]]
+    moved = np.stack([x**3, x**2 * y, x * y**2, y**3], axis=1) @ source.standard_normal((4, 2))
+    moved *= size / np.sqrt(np.mean(np.sum(moved**2, axis=1)))
+    marks = [
+        replace(one, measured=tuple(np.add(one.measured, by)))
+        for one, by in zip(measurements.marks, moved, strict=True)
+    ]
+    return replace(measurements, marks=tuple(marks))
+
+
+@pytest.mark.parametrize("kind", ["bump", "cubic"])
+def test_it_lowers_the_error_at_marks_that_it_never_saw(kind):
+    before, after = [], []
+    for seed in range(6):
+        if kind == "bump":
+            strange = board({}, WIDE, seed=seed, bump=3.0, noise=0.3)
+        else:
+            strange = with_cubic(board({}, WIDE, seed=seed, noise=0.3), 1000 + seed, 3.0)
+        seen, unseen = halves(strange)
+        for patch, errors in ((False, before), (True, after)):
+            fitted = add(MAKER, seen, effects=(), patch=patch, sigma=0.3)
+            found = compare(fitted.settings, unseen, cut_with=MAKER)
+            errors.append(found.shape_rms)
+    assert np.mean(after) < 0.6 * np.mean(before)
+
+
+def test_where_nothing_is_left_it_buys_nothing_and_is_not_added():
+    added = 0
+    for seed in range(12):
+        clean = board({}, plan(5, 5), seed=seed)
+        added += PATCH in add(MAKER, clean, effects=(), patch=True, sigma=0.5).effects_added
+    assert added <= 1
+
+
+def test_auto_offers_it_and_adds_it_only_when_asked():
+    strange = board({}, plan(5, 5), seed=8, bump=3.0)
+    offered = add_auto(MAKER, strange)
+    assert offered.found.verdict == "not_in_library"
+    assert offered.offer[1] < 0.8 * offered.offer[0]
+    assert PATCH not in offered.addition.effects_added
+    taken = add_auto(MAKER, strange, patch=True)
+    assert taken.addition.effects_added == (PATCH,)
+    assert taken.addition.after.left_out_rms == pytest.approx(offered.offer[1])
+    assert taken.addition.settings.effects[PATCH]
+
+
+def test_it_is_never_a_suspect_and_never_named_as_an_effect():
+    assert PATCH not in effect_names() and len(parameter_names(PATCH)) == 18
+    with pytest.raises(InputError, match="--patch"):
+        add(MAKER, board({}, plan(5, 5), seed=1), effects=[PATCH])
+
+
+def test_it_goes_into_the_machine_and_comes_back(tmp_path):
+    strange = board({}, plan(5, 5), seed=8, bump=3.0)
+    fitted = add(MAKER, strange, effects=(), patch=True, sigma=0.5)
+    path = tmp_path / "machine.toml"
+    path.write_text(machine_toml(fitted.settings))
+    again = read_settings(
+        path,
+        known={PATCH: [n.partition(".")[2] for n in parameter_names(PATCH)]}
+        | {name: list(own) for name, own in fitted.settings.effects.items()},
+    )
+    for name, value in fitted.settings.effects[PATCH].items():
+        assert again.effect(PATCH, name) == pytest.approx(value, rel=1e-6)
+        assert abs(value) < 4 * max(SIZES)
+
+
+def test_the_settings_file_says_what_the_patch_is():
+    strange = board({}, plan(5, 5), seed=8, bump=3.0)
+    said = toml_of(add(MAKER, strange, effects=(), patch=True, sigma=0.5), source="here").decode()
+    assert "# residual_patch: It is no physics" in said
+    assert "no physics" not in toml_of(add(MAKER, strange, effects=()), source="here").decode()
+
+
+def test_nothing_to_add_is_refused(capsys):
+    assert main(["add", str(SETTINGS), str(MARKS)]) == 2
+    assert "--effect auto" in capsys.readouterr().err

@@ -1,0 +1,156 @@
+"""The Calibration Benchmark Test: its pattern, its form, and its score before and after."""
+
+import importlib.util
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from plumb.cure.demo import MARKS, SETTINGS
+from plumb.marks.benchmark import pattern
+from plumb.marks.read import read_marks
+from plumb.marks.score import score_as_cut, score_of
+from plumb.model.predict import lengths, places
+from plumb.settings.files import machine_toml
+from plumb.text.errors import InputError
+from synthetic import BELIEVED, SHEET
+
+TOOL = Path(__file__).resolve().parents[2] / "calibration_grid.py"
+SPEC = importlib.util.spec_from_file_location("calibration_grid", TOOL)
+grids = importlib.util.module_from_spec(SPEC)
+SPEC.loader.exec_module(grids)
+GRID = grids.Grid(pattern="benchmark", repeats=0)
+PITCH = replace(
+    BELIEVED, motor_gap=2981.0, effects={"chain_pitch": {"left": 0.002, "right": 0.001}}
+)
+# The example in the text of GroundControl's pull request 576: it says 0.50 for the long ones.
+PUBLISHED = """frame = "machine"
+[benchmark]
+across = [1905, 1905, 1906]
+upwards = [899, 901, 900]
+"""
+
+
+def measured_on(machine):
+    """The form as it would be filled in for a machine that believes BELIEVED."""
+    where = {}
+    for name, target in pattern.targets().items():
+        chains, _ = lengths(BELIEVED, np.array([target]))
+        where[name] = places(machine, chains)[0][0]
+    lines = ['frame = "machine"', "[benchmark]"]
+    for name, spans in pattern.SPANS.items():
+        found = [float(np.hypot(*(where[a] - where[b]))) for a, b in spans]
+        lines.append(f"{name} = {[round(one, 2) for one in found]}")
+    return "\n".join(lines)
+
+
+def test_the_pattern_is_the_published_one():
+    places_of = pattern.targets()
+    spans = [
+        np.subtract(places_of[b], places_of[a])
+        for own in (pattern.ACROSS_SPANS, pattern.UPWARDS_SPANS)
+        for a, b in own
+    ]
+    assert [abs(one[0]) for one in spans] == [1905] * 3 + [0] * 3
+    assert [abs(one[1]) for one in spans] == [0] * 3 + [900] * 3
+    # Corners of the published G-code's squares and ticks.
+    for corner in [
+        (-952.5, -350),
+        (-852.5, 450),
+        (852.5, -450),
+        (952.5, 350),
+        (0, -450),
+        (-50, 50),
+    ]:
+        assert corner in places_of.values()
+    for name in pattern.CORNERS:
+        for end in "xy":
+            assert np.ptp([places_of[name], places_of[name + end]], axis=0).sum() == 100
+
+
+def test_the_program_touches_every_mark_once_in_the_usual_way():
+    text = grids.program(GRID, grids.Machine())
+    assert text.count("G1 Z-0.5") == 19
+    for x, y in pattern.targets().values():
+        assert f"at x {x:.1f} y {y:.1f})" in text
+    with pytest.raises(grids.GridError, match="outside the sheet"):
+        grids.program(GRID, grids.Machine(sheet_width=1800.0))
+
+
+def test_the_tool_and_plumb_give_the_same_program(run, capsys):
+    assert grids.main(["--pattern", "benchmark"]) == 0
+    alone = capsys.readouterr().out
+    assert run("grid", "--pattern", "benchmark")[1] == alone
+
+
+def test_the_form_it_writes_can_be_read_once_filled_in(file, tmp_path):
+    form = tmp_path / "form.toml"
+    assert grids.main(["--pattern", "benchmark", "--marks", str(form), "--preview"]) == 0
+    with pytest.raises(InputError, match="has no reading"):
+        read_marks(form, sheet=SHEET)
+    text = form.read_text()
+    for name, spans in pattern.SPANS.items():
+        line = next(one for one in text.splitlines() if one.startswith(f"# {name} ="))
+        numbers = [100.0 if len(spans) == 2 else 1905.0 if name == "across" else 900.0] * len(spans)
+        text = text.replace(line, f"{name} = {numbers}")
+    found = read_marks(file("filled.toml", text), sheet=SHEET)
+    assert len(found.distances) == 16 and len(found.marks) == 19
+    assert all(mark.approach == (0.0, 40.0) for mark in found.marks)
+    assert str(score_as_cut(found)) == "0.00-0.00"
+
+
+def test_the_score_is_that_of_the_published_example(file):
+    found = score_as_cut(read_marks(file("b.toml", PUBLISHED), sheet=SHEET))
+    assert str(found) == "0.50-?" and not found.complete
+
+
+@pytest.mark.parametrize(
+    ("line", "complaint"),
+    [
+        ("across = [1905, 1905]", "3 numbers are needed"),
+        ("top_left = [100, 100, 100]", "2 numbers are needed"),
+        ("top_left = [100, -1]", "a distance is above zero"),
+        ("across = [75, 75, 75]", "looks like inches"),
+        ("topleft = [100, 100]", "did you mean top_left"),
+        ("", "has no reading"),
+    ],
+)
+def test_a_form_that_cannot_be_meant_is_refused(file, line, complaint):
+    path = file("b.toml", f'frame = "machine"\n[benchmark]\n{line}\n')
+    with pytest.raises(InputError, match=complaint):
+        read_marks(path, sheet=SHEET)
+
+
+def test_spans_of_other_marks_are_not_counted(file):
+    text = (
+        PUBLISHED.replace("[benchmark]", "", 1).split("across")[0]
+        + '[[mark]]\nname = "1"\ntarget = [0, 0]\n[[mark]]\nname = "2"\ntarget = [900, 0]\n'
+        '[[distance]]\nbetween = ["1", "2"]\nmm = 901\n'
+    )
+    assert score_as_cut(read_marks(file("m.toml", text), sheet=SHEET)) is None
+    both = text + PUBLISHED[PUBLISHED.index("[benchmark]") :]
+    assert str(score_as_cut(read_marks(file("b.toml", both), sheet=SHEET))) == "0.50-?"
+
+
+def test_the_score_falls_when_the_effect_is_added(ask, run, file):
+    machine, marks = file("m.toml", machine_toml(BELIEVED)), file("b.toml", measured_on(PITCH))
+    code, compared = ask("compare", machine, marks)
+    score = compared["benchmark"]
+    assert code == 0 and score["long_count"] == 6 and score["small_count"] == 10
+    assert score["long_mm"] > 1.5 and compared["benchmark_left"] == pytest.approx(score, abs=1e-6)
+    code, added = ask("add", machine, marks, "--effect", "chain_pitch")
+    assert added["benchmark"]["before"] == score
+    assert added["benchmark"]["after"]["long_mm"] < 0.1
+    assert "Calibration Benchmark Score" in run("compare", machine, marks)[1]
+    assert (
+        "to expect when it is cut again" in run("add", machine, marks, "--effect", "chain_pitch")[1]
+    )
+
+
+def test_marks_without_the_test_have_no_score(ask):
+    assert ask("compare", SETTINGS, MARKS)[1]["benchmark"] is None
+
+
+def test_a_score_names_what_was_not_measured(file):
+    found = read_marks(file("b.toml", PUBLISHED), sheet=SHEET)
+    assert score_of(found, [0.0] * 6).small is None

@@ -1,0 +1,97 @@
+"""The published Calibration Measurements.ini."""
+
+from pathlib import Path
+
+import numpy as np
+import plumb
+import pytest
+from plumb.marks.read import read_marks
+from plumb.text.errors import InputError
+
+SHEET = (2438.4, 1219.2)
+EXAMPLE = Path(plumb.__file__).parent / "examples" / "mibproj" / "Calibration Measurements.ini"
+
+
+def test_the_example_is_read_into_the_machine_frame():
+    found = read_marks(EXAMPLE, sheet=SHEET)
+    assert [mark.name for mark in found.marks] == [str(i) for i in range(9)]
+    # Mark 0: 69.2 - 1219.2 and 609.6 - 59.6; measured 67 - 1219.2 and 609.6 - 52.
+    assert found.targets[0] == pytest.approx([-1150.0, 550.0])
+    assert found.measured[0] == pytest.approx([-1152.2, 557.6])
+    errors = np.hypot(*(found.measured - found.targets).T)
+    # Published summary of this set: 7.29 mm RMS, worst 14.9 mm.
+    assert np.sqrt(np.mean(errors**2)) == pytest.approx(7.29, abs=0.005)
+    assert errors.max() == pytest.approx(14.95, abs=0.02)
+    assert found.controller is None
+    assert found.source == str(EXAMPLE)
+
+
+def spoilt(tmp_path, old, new, name="marks.ini"):
+    text = EXAMPLE.read_text()
+    assert old in text
+    path = tmp_path / name
+    path.write_text(text.replace(old, new, 1))
+    return path
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "hint"),
+    [
+        ("numpositions = 9\n", "", "numpositions is missing"),
+        ("numpositions = 9", "numpositions = nine", "is not a count"),
+        ("numpositions = 9", "numpositions = 0", "is not a count"),
+        ("numpositions = 9", "numpositions = -9", "is not a count"),
+        ("numpositions = 9", "numpositions = 8", "x8: is beyond numpositions = 8"),
+        ("numpositions = 9", "numpositions = 10", "tx9 is missing"),
+        ("x4 = 1216\n", "", "x4 is missing in .actual_positions."),
+        ("tx4 = 1219.2\n", "xt4 = 1219.2\n", "tx4 is missing in .target_positions."),
+        ("y1 = 45", "y1 = 45 mm", "y1: '45 mm' is not a number"),
+        ("y1 = 45", "y1 =", "y1: a number is missing"),
+        ("y1 = 45", "y1 = nan", "y1: 'nan' is not a usable number"),
+        ("y1 = 45", "y1 = 1e999", "y1: inf is not a usable number"),
+        ("y1 = 45", "x1 = 45", "already on line"),
+        ("y1 = 45", "y1 = 1174.2", "y runs the other way"),
+        (
+            "x8 = 2368\ny8 = 1158",
+            "x8 = 93.2\ny8 = 45.6",
+            "mark 8: measured 2534 mm.*looks like inches",
+        ),
+        ("x8 = 2368", "x8 = 1368", "mark 8: measured 1001 mm away .*check the frame"),
+        ("tx8 = 2369.2", "tx8 = 3369.2", "mark 8: target .* is off the 2438 x 1219 mm sheet"),
+    ],
+)
+def test_bad_files_are_refused_with_the_place(tmp_path, old, new, hint):
+    path = spoilt(tmp_path, old, new)
+    with pytest.raises(InputError, match=hint) as caught:
+        read_marks(path, sheet=SHEET)
+    assert str(caught.value).startswith(str(path))
+    assert "\n" not in str(caught.value)
+
+
+def test_case_of_sections_and_keys_does_not_matter(tmp_path):
+    path = tmp_path / "marks.ini"
+    path.write_text(EXAMPLE.read_text().upper())
+    assert np.array_equal(
+        read_marks(path, sheet=SHEET).measured, read_marks(EXAMPLE, sheet=SHEET).measured
+    )
+
+
+def test_inches_are_recognised(tmp_path):
+    lines = []
+    for line in EXAMPLE.read_text().splitlines():
+        key, sign, value = line.partition(" = ")
+        inches = sign and key != "numpositions"
+        lines.append(f"{key} = {float(value) / 25.4:.4f}" if inches else line)
+    path = tmp_path / "marks.ini"
+    path.write_text("\n".join(lines))
+    with pytest.raises(InputError, match="looks like inches"):
+        read_marks(path, sheet=SHEET)
+
+
+def test_an_equal_target_is_a_repeat(tmp_path):
+    path = tmp_path / "marks.ini"
+    path.write_text(
+        "[global]\nnumpositions = 2\n[actual_positions]\nx0 = 500\ny0 = 501\nx1 = 502\ny1 = 503\n"
+        "[target_positions]\ntx0 = 500\nty0 = 500\ntx1 = 500\nty1 = 500\n"
+    )
+    assert read_marks(path, sheet=SHEET).repeats == {"0": (0, 1)}

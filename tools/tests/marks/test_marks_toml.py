@@ -1,0 +1,184 @@
+"""marks.toml."""
+
+import re
+from pathlib import Path
+
+import pytest
+from plumb.marks.read import Distance, Mark, read_marks
+from plumb.text.errors import InputError
+
+SHEET = (2400.0, 1200.0)
+GOOD = """
+frame = "sheet-top-left"
+controller = "holey"
+tape_sigma_mm = 0.5
+sled_weight_n = 110.0
+[[mark]]
+name = "A"
+target = [200, 100]
+measured = [201.5, 98]
+approach = [1, 2]
+chains = [1500.25, 1600]
+[[mark]]
+name = "A"
+target = [200, 100]
+measured = [201.0, 98.5]
+sled_weight_n = 90
+[[mark]]
+name = 2
+target = [1200.0, 600.0]
+[[distance]]
+between = ["A", 2]
+mm = 1119.5
+"""
+
+
+def read(tmp_path, text):
+    path = tmp_path / "marks.toml"
+    path.write_text(text)
+    return read_marks(path, sheet=SHEET)
+
+
+def test_all_that_can_be_said_is_read(tmp_path):
+    found = read(tmp_path, GOOD)
+    assert found.marks == (
+        # x - 1200 and 600 - y; an approach with y down turns round as well.
+        Mark("A", (-1000.0, 500.0), (-998.5, 502.0), (1.0, -2.0), 110.0, (1500.25, 1600.0)),
+        Mark("A", (-1000.0, 500.0), (-999.0, 501.5), None, 90.0, None),
+        Mark("2", (0.0, 0.0), None, None, 110.0, None),
+    )
+    assert found.distances == (Distance(("A", "2"), 1119.5),)
+    assert (found.controller, found.tape_sigma, found.sled_weight) == ("holey", 0.5, 110.0)
+    assert found.repeats == {"A": (0, 1)}
+    assert found.targets.shape == found.measured.shape == (2, 2)
+    assert found.distance_targets.tolist() == [[[-1000.0, 500.0], [0.0, 0.0]]]
+    assert found.distance_lengths.tolist() == [1119.5]
+
+
+def test_the_machine_frame_is_taken_as_it_is(tmp_path):
+    found = read(
+        tmp_path,
+        'frame = "machine"\n[[mark]]\ntarget = [5, 6]\nmeasured = [7, 8]\napproach = [0, -1]\n',
+    )
+    assert found.marks == (Mark("1", (5.0, 6.0), (7.0, 8.0), (0.0, -1.0)),)
+    assert found.controller is None
+
+
+def test_distances_alone_are_measurements_too():
+    path = Path(__file__).parents[1] / "data" / "madgrizzle_2018-09-02.toml"
+    found = read_marks(path, sheet=(2438.4, 1219.2))
+    assert found.measured.shape == (0, 2)
+    assert len(found.distances) == 16
+    ends = found.distance_targets
+    meant = ((ends[:, 0] - ends[:, 1]) ** 2).sum(axis=1) ** 0.5
+    # Published summary of this set: 2.82 mm RMS, worst 6.6 mm.
+    wrong = found.distance_lengths - meant
+    assert (wrong**2).mean() ** 0.5 == pytest.approx(2.82, abs=0.005)
+    assert abs(wrong).max() == pytest.approx(6.6, abs=0.001)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "hint"),
+    [
+        ('frame = "sheet-top-left"', "", "frame is missing"),
+        ("sheet-top-left", "top-left", "frame: 'top-left' is not known; .*sheet-top-left, machine"),
+        ('"sheet-top-left"', "3", "frame: '3' is not known"),
+        ("holey", "grbl", "controller: 'grbl' is not known; .*stock, holey, plumb"),
+        ("controller =", "controler =", "unknown name 'controler'; did you mean controller"),
+        ("tape_sigma_mm = 0.5", "tape_sigma_mm = 0", "tape_sigma_mm: 0 is out of range"),
+        ("tape_sigma_mm = 0.5", "tape_sigma_mm = nan", "tape_sigma_mm: nan"),
+        ("sled_weight_n = 110.0", "sled_weight_n = 11.2", "9.81 times kilograms"),
+        ("sled_weight_n = 90", "sled_weight_n = 25", "mark A sled_weight_n: .*pounds"),
+        (
+            "measured = [201.5, 98]",
+            "mesured = [201.5, 98]",
+            "number 1: unknown name 'mesured'; did ",
+        ),
+        ("measured = [201.5, 98]", "measured = [201.5]", "mark A measured: two numbers"),
+        (
+            "measured = [201.5, 98]",
+            'measured = ["201.5", 98]',
+            "mark A measured: a number is needed",
+        ),
+        ("measured = [201.5, 98]", "measured = [inf, 98]", "mark A measured: inf"),
+        ("measured = [201.5, 98]", "measured = [true, 98]", "mark A measured: a number is needed"),
+        (
+            "measured = [201.5, 98]",
+            "measured = [201.5, 98]\nmeasured = [1, 2]",
+            "not valid TOML.*line",
+        ),
+        ("approach = [1, 2]", "approach = [0, 0.0]", "no direction"),
+        ("chains = [1500.25, 1600]", "chains = [-1, 1600]", "chains: -1 is out of range"),
+        ("target = [1200.0, 600.0]", "", "number 3: target is missing"),
+        ("target = [1200.0, 600.0]", "target = [1300.0]", "target: two numbers"),
+        ("name = 2", 'name = ""', "the name is empty"),
+        ("name = 2", "name = 2.5", "text in quotes"),
+        ("name = 2", "name = 3", "there is no mark named '2'"),
+        ("[[distance]]", "[distance]", "needs double brackets"),
+        ('between = ["A", 2]', 'between = ["A"]', "between needs two names"),
+        ('between = ["A", 2]', 'between = ["A", "A"]', "named twice"),
+        ('between = ["A", 2]', "", "between is missing"),
+        ("mm = 1119.5", "inch = 44", "unknown name 'inch'"),
+        ("mm = 1119.5", "", "mm is missing"),
+        ("mm = 1119.5", "mm = -1", "above zero"),
+        ("mm = 1119.5", "mm = 44.06", "looks like inches"),
+        ("mm = 1119.5", "mm = 500", "the targets are 1118 mm apart"),
+        ('[[distance]]\nbetween = ["A", 2]\nmm = 1119.5', "", "mark 2: has no measured position"),
+        (
+            "target = [200, 100]\nmeasured = [201.0",
+            "target = [320, 100]\nmeasured = [201.0",
+            "mark A: the same name stands twice with targets far apart",
+        ),
+        (
+            "target = [1200.0, 600.0]",
+            "target = [-600.0, 600.0]",
+            "mark 2: target .*check the frame",
+        ),
+        ("measured = [201.5, 98]", "measured = [-998.5, 502]", "measured counts from the middle"),
+        (
+            "measured = [201.5, 98]",
+            "measured = [7.93, 3.86]",
+            "mark A: measured 215 mm.*looks like inches",
+        ),
+        ("[[mark]]", "[[mark]", "is not valid TOML"),
+    ],
+)
+def test_bad_files_are_refused_with_the_place(tmp_path, old, new, hint):
+    assert old in GOOD
+    with pytest.raises(InputError, match=hint) as caught:
+        read(tmp_path, GOOD.replace(old, new, 1))
+    assert str(caught.value).startswith(str(tmp_path))
+    assert "\n" not in str(caught.value)
+
+
+def test_a_file_without_marks_is_refused(tmp_path):
+    with pytest.raises(InputError, match="no measured mark"):
+        read(tmp_path, 'frame = "machine"\n')
+
+
+def test_inches_are_recognised(tmp_path):
+    text = 'frame = "machine"\n'
+    for x, y in ((-40, 15), (0, 0), (40, -15)):
+        text += f"[[mark]]\ntarget = [{x}, {y}]\nmeasured = [{x + 0.1}, {y}]\n"
+    with pytest.raises(InputError, match="looks like inches"):
+        read(tmp_path, text)
+
+
+def test_repeats_of_one_mark_are_no_inches(tmp_path):
+    text = 'frame = "machine"\n'
+    for offset in (0.0, 0.1, 0.2, 0.3):
+        text += f'[[mark]]\nname = "A"\ntarget = [0, 0]\nmeasured = [{offset}, 0]\n'
+    assert read(tmp_path, text).repeats == {"A": (0, 1, 2, 3)}
+
+
+def test_the_examples_in_the_docs_can_be_read(tmp_path):
+    root = Path(__file__).resolve().parents[3]
+    (tmp_path / "groundcontrol.ini").write_bytes(
+        (root / "tools/plumb/examples/mibproj/groundcontrol.ini").read_bytes()
+    )
+    texts = re.findall(r"```toml\n(.*?)```", (root / "docs/marks.md").read_text(), re.DOTALL)
+    assert len(texts) == 2
+    for i, text in enumerate(texts):
+        path = tmp_path / f"{i}.toml"
+        path.write_text(text)
+        assert read_marks(path, sheet=SHEET).distances

@@ -1,0 +1,84 @@
+"""Choosing the form of a marks file, and joining several files."""
+
+import numpy as np
+import pytest
+from plumb.marks.read import Distance, Mark, Measurements, join_measurements, read_marks
+from plumb.text.errors import InputError
+
+SHEET = (2438.4, 1219.2)
+CSV = "target_x_mm,target_y_mm,measured_x_mm,measured_y_mm\n1,2,3,4\n"
+TOML = 'frame = "machine"\n[[mark]]\ntarget = [1, 2]\nmeasured = [3, 4]\n'
+INI = (
+    "[global]\nnumpositions = 1\n[actual_positions]\nx0 = 1222.2\ny0 = 605.6\n"
+    "[target_positions]\ntx0 = 1220.2\nty0 = 607.6\n"
+)
+
+
+@pytest.mark.parametrize("text", [CSV, TOML, INI])
+@pytest.mark.parametrize("ending", ["csv", "toml", "ini", "txt"])
+def test_what_a_file_says_counts_more_than_its_ending(tmp_path, text, ending):
+    path = tmp_path / f"marks.{ending}"
+    path.write_text(text)
+    found = read_marks(path, sheet=SHEET)
+    assert np.allclose(found.targets, [[1, 2]])
+    assert np.allclose(found.measured, [[3, 4]])
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "hint"),
+    [
+        ("groundcontrol.ini", "[Maslow Settings]\nmotorspacingx = 3000\n", "holds settings"),
+        ("machine.toml", "[sheet]\nwidth = 3000\n", "holds settings"),
+        ("notes.txt", "hello\n", "none of the known forms"),
+        ("marks.csv", "", "empty"),
+        ("marks.toml", "\n\n", "empty"),
+        ("marks.ini", "hello\n", "is not key = value"),
+        ("marks.toml", "hello\n", "not valid TOML"),
+        ("marks.csv", "hello\n", "does not name the columns"),
+    ],
+)
+def test_other_files_are_refused(tmp_path, name, text, hint):
+    path = tmp_path / name
+    path.write_text(text)
+    with pytest.raises(InputError, match=hint):
+        read_marks(path, sheet=SHEET)
+
+
+def test_missing_file_is_refused(tmp_path):
+    with pytest.raises(InputError, match="there is no such file"):
+        read_marks(tmp_path / "marks.csv", sheet=SHEET)
+
+
+A = Mark("A", (0.0, 0.0), (1.0, 1.0), sled_weight=98.0)
+
+
+def test_one_file_joined_is_itself():
+    one = Measurements((A,), source="one.toml")
+    assert join_measurements([one]) is one
+
+
+def test_the_same_name_and_target_is_a_repeat():
+    one = Measurements((A,), controller="stock", sled_weight=98.0, source="one.toml")
+    two = Measurements((A,), tape_sigma=0.5, sled_weight=120.0, source="two.toml")
+    both = join_measurements([one, two])
+    assert both.repeats == {"A": (0, 1)}
+    assert (both.controller, both.tape_sigma, both.sled_weight) == ("stock", 0.5, None)
+    assert both.source == "one.toml + two.toml"
+
+
+def test_the_same_name_with_another_target_is_another_mark():
+    other = Mark("A", (9.0, 9.0), (9.0, 8.0))
+    two = Measurements(
+        (other, Mark("B", (5.0, 5.0))), (Distance(("A", "B"), 5.7),), source="/tmp/two.toml"
+    )
+    both = join_measurements([Measurements((A,), source="one.toml"), two])
+    assert [mark.name for mark in both.marks] == ["A", "two:A", "two:B"]
+    assert both.distances[0].between == ("two:A", "two:B")
+    assert both.target_of("two:A") == (9.0, 9.0)
+
+
+def test_contradictions_between_files_are_refused():
+    one = Measurements((A,), controller="stock", source="one.toml")
+    two = Measurements((A,), controller="holey", source="two.toml")
+    with pytest.raises(InputError, match=r"two\.toml: controller is holey here and stock in one"):
+        join_measurements([one, two])

@@ -1,0 +1,197 @@
+"""Chain lengths by the published formulas, against scalar derivations written here."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plumb.model.controllers import chain_lengths, clamped
+from plumb.settings.machine import MachineSettings, PublishedSettings
+
+RADIUS = 63.5 / (2 * math.pi)
+OWNER = MachineSettings(  # the machine of the published sag figures
+    motor_gap=3602.6,
+    motor_height=609.6 + 468.4,
+    rotation_radius=139.1,
+    sheet_width=2438.4,
+    sheet_height=1219.2,
+    feed="top",
+    controller="stock",
+)
+POINTS = [(0.0, 0.0), (965.2, -355.6), (-1100.0, 550.0), (1219.2, -609.6), (-17.0, 609.6)]
+
+
+def tangent(motor_x, motor_y, x, y, over):
+    """Tangent point and wrapped angle by vectors: no arc sine of a sum, no shared formula."""
+    inwards = math.copysign(1.0, -motor_x)
+    gap_x, gap_y = (x - motor_x) * inwards, motor_y - y  # both positive on the sheet
+    distance = math.hypot(gap_x, gap_y)
+    # The tangent point seen from the axis makes the angle acos(r / d) with the line to the bit.
+    line = math.atan2(-gap_y, gap_x)
+    turn = math.acos(RADIUS / distance)
+    spoke = line + turn if over else line - turn  # counted from the inward horizontal
+    point = (motor_x + inwards * RADIUS * math.cos(spoke), motor_y + RADIUS * math.sin(spoke))
+    # From 12 o'clock, inwards over the top or outwards and round to the tangent point.
+    return point, math.pi / 2 - spoke if over else spoke + 3 / 2 * math.pi
+
+
+def stock_by_hand(settings, x, y):
+    over = settings.feed == "top"
+    published = settings.published
+    half = settings.motor_gap / 2
+    lines = []
+    for motor_x in (-half, half):
+        (at_x, at_y), wrapped = tangent(motor_x, settings.motor_height, x, y, over)
+        lines.append((wrapped, abs(x - at_x), at_y - y))
+    lengths = []
+    tolerances = (published.left_tolerance, published.right_tolerance)
+    for (wrapped, across, drop), other, tolerance in zip(
+        lines, (lines[1], lines[0]), tolerances, strict=True
+    ):
+        straight = math.hypot(across, drop)
+        cosine, sine = across / straight, drop / straight
+        slope = other[2] / other[1]
+        share = published.chain_sag_correction / 1e12 * cosine**2 * straight**2
+        share *= (slope * cosine + sine) ** 2
+        paid = straight * (1 + share) / (1 + tolerance / 100)
+        lengths.append(RADIUS * wrapped + paid - settings.rotation_radius)
+    return lengths
+
+
+@pytest.mark.parametrize("feed", ["top", "bottom"])
+@pytest.mark.parametrize("published", [PublishedSettings(), PublishedSettings(27.4, 0.348, -0.08)])
+def test_stock_agrees_with_a_derivation_by_vectors(feed, published):
+    settings = replace(OWNER, feed=feed, published=published)
+    found = chain_lengths(settings, POINTS)
+    for row, (x, y) in zip(found, POINTS, strict=True):
+        # The published 3.14159 makes the wrap under the sprocket 0.00003 mm shorter.
+        assert row == pytest.approx(stock_by_hand(settings, x, y), abs=4e-5)
+
+
+def test_the_middle_of_the_default_machine():
+    settings = replace(OWNER, motor_gap=2978.4, motor_height=1072.6)
+    # d = sqrt(1489.2^2 + 1072.6^2) = 1835.26222; straight = sqrt(d^2 - 10.10634^2) = 1835.23439;
+    # angle = atan(1072.6 / 1489.2) + atan(10.10634 / 1835.23439) = 0.6241893 + 0.0055068;
+    # 10.10634 * 0.6296961 + 1835.23439 - 139.1 = 1702.49831
+    assert chain_lengths(settings, [(0.0, 0.0)])[0] == pytest.approx([1702.49831] * 2, abs=1e-4)
+
+
+@pytest.mark.parametrize(("gap", "added"), [(3602.6, 2.616), (3000.0, 3.884)])
+def test_published_sag_figures(gap, added):
+    """An owner's printed 2.6 and 3.8 mm: correction 27.4, far chain at the lower mark."""
+    plain = replace(OWNER, motor_gap=gap)
+    sagging = replace(plain, published=PublishedSettings(27.4))
+    mark = [(965.2, -355.6)]
+    difference = chain_lengths(sagging, mark) - chain_lengths(plain, mark)
+    assert difference[0, 0] == pytest.approx(added, abs=0.001)
+
+
+def test_tolerance_divides_the_whole_straight_part():
+    plain = replace(OWNER, rotation_radius=0.0)
+    longer = replace(OWNER, published=PublishedSettings(0.0, 0.2, 0.0))
+    straight = math.sqrt(1801.3**2 + 1078.0**2 - RADIUS**2)
+    expected = chain_lengths(plain, [(0, 0)])[0, 0] - straight * (1 - 1 / 1.002) - 139.1
+    found = chain_lengths(longer, [(0, 0)])[0]
+    assert found[0] == pytest.approx(expected, abs=1e-9)
+    assert found[1] == pytest.approx(chain_lengths(OWNER, [(0, 0)])[0, 1], abs=1e-12)
+
+
+HOLEY = replace(
+    OWNER,
+    controller="holey",
+    published=PublishedSettings(33.0, 0.1, 0.25, chain_elasticity=8.1e-6, holey_sled_weight=113.68),
+)
+
+
+def holey_by_hand(settings, x, y):
+    published = settings.published
+    half = settings.motor_gap / 2
+    density = 0.001372
+    lines = []
+    for motor_x in (-half, half):
+        (at_x, at_y), wrapped = tangent(
+            motor_x, settings.motor_height, x, y, settings.feed == "top"
+        )
+        lines.append((wrapped, abs(x - at_x), at_y - y))
+    weight = published.holey_sled_weight + density / 2 * sum(math.hypot(*one[1:]) for one in lines)
+    # Equal horizontal pulls H; H (drop/across left + drop/across right) carries the weight.
+    horizontal = weight / sum(drop / across for _, across, drop in lines)
+    lengths = []
+    tolerances = (published.left_tolerance, published.right_tolerance)
+    for (wrapped, across, drop), tolerance in zip(lines, tolerances, strict=True):
+        tension = horizontal * math.hypot(across, drop) / across
+        # The curve y = a cosh(x / a) through both ends: find where it starts, then its length
+        # a sinh(x / a) between the ends; no square root of squares as in the formula under test.
+        a = horizontal / density
+        middle = a * math.asinh(drop / (2 * a * math.sinh(across / (2 * a))))
+        first = (middle - across / 2) / a
+        length = a * (math.sinh(first + across / a) - math.sinh(first))
+        length /= (1 + tolerance / 100) * (1 + tension * published.chain_elasticity)
+        lengths.append(RADIUS * wrapped + length - settings.rotation_radius)
+    return lengths
+
+
+@pytest.mark.parametrize("feed", ["top", "bottom"])
+def test_holey_agrees_with_a_catenary_by_its_equation(feed):
+    settings = replace(HOLEY, feed=feed)
+    found = chain_lengths(settings, POINTS)
+    for row, (x, y) in zip(found, POINTS, strict=True):
+        assert row == pytest.approx(holey_by_hand(settings, x, y), abs=5e-5)
+
+
+@pytest.mark.parametrize("weight", [0.0, -1.0])
+def test_holey_without_a_sled_weight_is_stock(weight):
+    published = replace(HOLEY.published, holey_sled_weight=weight, chain_elasticity=None)
+    off = replace(HOLEY, published=published)
+    assert np.array_equal(
+        chain_lengths(off, POINTS), chain_lengths(off, POINTS, controller="stock")
+    )
+
+
+def test_a_heavy_stiff_sled_leaves_the_plain_geometry():
+    plain = replace(HOLEY, published=PublishedSettings(chain_elasticity=0.0, holey_sled_weight=1e9))
+    assert chain_lengths(plain, POINTS) == pytest.approx(chain_lengths(OWNER, POINTS), abs=1e-6)
+
+
+def test_sides_mirror():
+    sagging = replace(OWNER, published=PublishedSettings(27.4))
+    for settings in (
+        sagging,
+        replace(HOLEY, published=replace(HOLEY.published, left_tolerance=0.25)),
+    ):
+        here, there = chain_lengths(settings, [(700.0, -300.0), (-700.0, -300.0)])
+        assert here == pytest.approx(there[::-1], abs=1e-9)
+
+
+def test_targets_off_the_sheet_are_moved_to_its_edge():
+    outside, edge = [(1300.0, -700.0), (-5000.0, 9.0)], [(1219.2, -609.6), (-1219.2, 9.0)]
+    assert np.array_equal(clamped(OWNER, np.array(outside)), edge)
+    for settings in (OWNER, HOLEY):
+        assert np.array_equal(chain_lengths(settings, outside), chain_lengths(settings, edge))
+
+
+def test_shapes_and_no_points():
+    assert chain_lengths(OWNER, np.zeros((0, 2))).shape == (0, 2)
+    assert chain_lengths(OWNER, POINTS).shape == (len(POINTS), 2)
+    for wrong in ([0.0, 0.0], [[0.0, 0.0, 0.0]]):
+        with pytest.raises(ValueError, match="shape"):
+            chain_lengths(OWNER, wrong)
+
+
+@pytest.mark.parametrize("bad", [float("nan"), float("inf")])
+def test_points_that_are_none_are_named(bad):
+    with pytest.raises(ValueError, match=f"point .7, {bad}. is not a pair"):
+        chain_lengths(OWNER, [(0.0, 0.0), (7.0, bad)])
+
+
+def test_points_where_nothing_can_hang_are_named():
+    low = replace(OWNER, motor_height=0.0)
+    for point in ((5.0, 300.0), (-1801.3, 0.0)):
+        wide = replace(low, sheet_width=6000.0)
+        with pytest.raises(ValueError, match=f"point .{point[0]:g}, {point[1]:g}. is where"):
+            chain_lengths(wide, [point])
+
+
+def test_our_own_kinematics_is_not_here():
+    with pytest.raises(ValueError, match="stock, holey"):
+        chain_lengths(OWNER, POINTS, controller="plumb")

@@ -1,0 +1,143 @@
+"""The laws of lab effects: zero means absent, zero has a slope, slopes are exact."""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plumb.board.observations import observe
+from plumb.board.sighting import LAB_NAMES, SHEET_ROTATION, sighted
+from plumb.marks.read import Distance, Measurements
+from plumb.model.catalogue import parameter_names, parameter_words
+from plumb.model.lab_effects import LAB_EFFECTS
+from plumb.model.lab_effects.lab_effect import EDGES, SLED, TAPE, Seen
+from plumb.model.predict import NAMES, frame_words, known_effects, library, values_of
+from synthetic import BELIEVED, TRUE, grid, marks_on
+
+APPROACHES = ((3.0, 4.0), (-1.0, 0.0), (0.0, 2.0), None)
+EVERY = (*NAMES, SHEET_ROTATION, *LAB_NAMES)
+SIZES = {one["name"]: abs(one["usual"]) or 10.0 for one in frame_words()}
+SIZES |= {name: own["typical"] for name, own in parameter_words().items()}
+SIZES[SHEET_ROTATION] = 1.0
+TYPICAL = {name: SIZES[name] for name in LAB_NAMES}
+
+
+def board():
+    """Marks of two sleds, approached from three sides or not known whence, and a distance."""
+    marks = marks_on(TRUE, BELIEVED, grid(4, 3))
+    heavy = marks_on(TRUE, BELIEVED, grid(2, 2), sled_weight=150.0, prefix="heavy ")
+    several = tuple(
+        replace(mark, approach=APPROACHES[i % len(APPROACHES)])
+        for i, mark in enumerate(marks + heavy)
+    )
+    return Measurements(several, (Distance(("0", "11"), 2400.0),))
+
+
+ROWS = observe(BELIEVED, board())
+
+
+def seen(outside, values=None, names=EVERY):
+    return sighted(
+        values_of(TRUE) if values is None else values,
+        outside,
+        ROWS,
+        over_top=True,
+        usual_weight=TRUE.sled_weight,
+        names=names,
+    )
+
+
+@pytest.mark.parametrize("effect", LAB_EFFECTS, ids=lambda one: one.name)
+class TestEach:
+    def test_speaks_as_the_firmware_s_effects_do(self, effect):
+        words = effect.words
+        example = library()[0]
+        assert set(example) <= set(words) and words["where"] == "lab"
+        assert set(example["parameters"][0]) == set(words["parameters"][0])
+        texts = [effect.summary, effect.pattern, effect.look_alikes, effect.remedy, effect.needs]
+        assert all(re.match(r"\w", text) and not text.endswith(".") for text in texts)
+        assert effect.acts_on in (SLED, EDGES, TAPE)
+
+    def test_is_not_among_those_of_the_firmware(self, effect):
+        assert effect.name not in known_effects()
+        assert parameter_names(effect.name) == effect.parameter_names
+
+    def test_zero_is_plausible_and_so_is_what_is_typical(self, effect):
+        assert all(one.low <= 0 < one.typical < one.high for one in effect.parameters)
+
+    def test_zero_means_absent(self, effect):
+        without = seen({}, names=())
+        zero = seen(dict.fromkeys(effect.parameter_names, 0.0))
+        assert zero.read.where.tobytes() == without.read.where.tobytes()
+        assert zero.taped.where.tobytes() == without.taped.where.tobytes()
+
+    def test_zero_has_a_slope(self, effect):
+        at_zero = seen({}, names=effect.parameter_names).read.slopes
+        assert (np.abs(at_zero).max(axis=(0, 1)) > 0).all()
+
+    def test_its_own_slopes_are_those_of_finite_differences(self, effect):
+        rows = np.arange(12.0).reshape(6, 2) * 100
+        giving = np.random.default_rng(1).uniform(0, 0.1, (6, 2, 2))
+        look = Seen(rows, np.tile([0.6, 0.8], (6, 1)), giving)
+        start = np.array([one.typical for one in effect.parameters])
+        change = effect.change(start, look)
+        for i, one in enumerate(effect.parameters):
+            step = np.eye(len(start))[i] * one.typical
+            ends = [effect.change(start + sign * step, look).moved for sign in (1, -1)]
+            difference = (ends[0] - ends[1]) / (2 * one.typical)
+            assert change.by_parameter[:, :, i] == pytest.approx(difference, abs=1e-9)
+        for i in range(2):
+            step = np.eye(2)[i]
+            ends = [
+                effect.change(start, replace(look, places=rows + sign * step)).moved
+                for sign in (1, -1)
+            ]
+            difference = (ends[0] - ends[1]) / 2
+            assert change.by_place[:, :, i] == pytest.approx(difference, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_the_slopes_of_all_that_is_measured_are_those_of_finite_differences(name):
+    outside = TYPICAL | {SHEET_ROTATION: 0.1}
+    values = values_of(TRUE)
+    found = seen(outside)
+    # Places come back within 1e-5 mm or so; a longer step hides that, a shorter one bends less.
+    step = (1e-2 if "." in name else 1e-3) * SIZES[name]
+    ends = []
+    for signed in (step, -step):
+        if name in NAMES:
+            moved = values.copy()
+            moved[NAMES.index(name)] += signed
+            ends.append(seen(outside, moved, names=()))
+        else:
+            changed = outside | {name: outside.get(name, 0.0) + signed}
+            ends.append(seen(changed, names=()))
+    for which in ("read", "taped"):
+        above, below = (getattr(end, which).where for end in ends)
+        difference = (above - below) / (2 * step)
+        own = getattr(found, which).slopes[:, :, EVERY.index(name)]
+        assert own == pytest.approx(difference, abs=1e-3 * np.abs(difference).max() + 1e-9)
+
+
+def test_what_is_not_asked_for_is_not_worked_out_and_changes_nothing():
+    whole, part = seen(TYPICAL), seen(TYPICAL, names=("motor_gap", "tape_scale.strain"))
+    assert part.read.where.tobytes() == whole.read.where.tobytes()
+    for i, name in enumerate(("motor_gap", "tape_scale.strain")):
+        assert part.read.slopes[:, :, i] == pytest.approx(
+            whole.read.slopes[:, :, EVERY.index(name)], abs=1e-12
+        )
+
+
+def test_a_visit_where_no_sled_can_hang_stays_still():
+    chains = ROWS.chains.copy()
+    chains[0] = 900.0
+    found = sighted(
+        values_of(TRUE),
+        TYPICAL,
+        replace(ROWS, chains=chains),
+        over_top=True,
+        usual_weight=TRUE.sled_weight,
+        names=EVERY,
+    )
+    assert found.found[0] != 0 and not found.found[1:].any()
+    assert np.isfinite(found.read.where).all() and np.isfinite(found.read.slopes).all()

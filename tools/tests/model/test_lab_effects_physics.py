@@ -1,0 +1,98 @@
+"""Lab effects by their numbers: friction at places, readings of edges and tape, by hand."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plumb.board.observations import observe
+from plumb.board.sighting import SHEET_ROTATION, sighted
+from plumb.marks.read import Distance, Mark, Measurements
+from plumb.model.predict import values_of
+from synthetic import BELIEVED
+
+CHAINS = {
+    "chain_sag": {"weight_ratio_squared": (0.00137293 / 97.9) ** 2 / 24},
+    "chain_stretch": {"compliance": 5.17e-6},
+}
+MACHINE = replace(BELIEVED, effects=CHAINS)
+CORNER = (1000.0, 500.0)
+TWO = (Mark("corner", CORNER), Mark("middle", (0.0, 0.0)))
+
+
+def seen(marks, distances=(), **outside):
+    rows = observe(MACHINE, Measurements(marks, distances))
+    return sighted(
+        values_of(MACHINE),
+        {name.replace("__", "."): value for name, value in outside.items()},
+        rows,
+        over_top=True,
+        usual_weight=MACHINE.sled_weight,
+        names=(),
+    )
+
+
+def lag(place, approach, drag=6.6):
+    """How far a mark is moved by friction [mm]."""
+    marks = (Mark("one", place, approach=approach),)
+    return (seen(marks, sled_friction__drag=drag).read.where - seen(marks).read.where)[0]
+
+
+# Friction of 6.6 N, published, rounded to one or two digits: top centre 0.24 mm in y, right middle
+# 0.8 and right bottom 2.5 mm in x, lower calibration mark (965, -356) 0.48 mm in x.
+@pytest.mark.parametrize(
+    ("place", "axis", "published", "slack"),
+    [
+        ((0, 550), 1, 0.24, 0.03),
+        ((1150, 0), 0, 0.8, 0.05),
+        ((1150, -550), 0, 2.5, 0.06),
+        ((965, -356), 0, 0.48, 0.01),
+        ((0, 0), 0, 0.05, 0.01),
+    ],
+)
+def test_friction_holds_the_sled_back_as_far_as_published(place, axis, published, slack):
+    ahead = [0.0, 0.0]
+    ahead[axis] = 30.0
+    back = [-one for one in ahead]
+    assert lag(place, tuple(ahead))[axis] == pytest.approx(-published, abs=slack)
+    assert lag(place, tuple(back))[axis] == pytest.approx(published, abs=slack)
+
+
+def test_friction_goes_by_the_direction_and_not_the_length_of_the_approach():
+    assert lag((700, -200), (3.0, 4.0)) == pytest.approx(lag((700, -200), (300.0, 400.0)))
+    half = (lag((700, -200), (5.0, 0.0)) * 0.6) + (lag((700, -200), (0.0, 5.0)) * 0.8)
+    assert lag((700, -200), (3.0, 4.0)) == pytest.approx(half, abs=1e-9)
+
+
+def test_a_mark_without_approach_does_not_feel_friction():
+    assert not lag((1150, -550), None).any()
+
+
+def test_a_sideways_lag_in_a_lower_corner_drags_the_mark_up_or_down_too():
+    # Coming from the middle it stays behind, and the slacker chain lets it stay higher.
+    x, y = lag((1150, -550), (1.0, 0.0))
+    assert x < 0 < y and abs(y) == pytest.approx(0.0733 * 6.6, rel=0.02)
+
+
+def test_a_heavier_sled_sags_less_and_lags_less():
+    light = lag((1150, -550), (1.0, 0.0))
+    marks = (Mark("one", (1150.0, -550.0), approach=(1.0, 0.0), sled_weight=150.0),)
+    heavy = (seen(marks, sled_friction__drag=6.6).read.where - seen(marks).read.where)[0]
+    assert abs(heavy[0]) < 0.5 * abs(light[0])
+
+
+def test_a_tape_that_reads_too_long_gives_larger_numbers():
+    found = seen(TWO, (Distance(("corner", "middle"), 1.0),), tape_scale__strain=0.001)
+    for places in (found.read, found.taped):
+        assert places.where == pytest.approx(np.array([(1001.0, 500.5), (0, 0)]), abs=1e-4)
+
+
+def test_a_skew_sheet_moves_the_top_right_in_readings_and_leaves_distances_alone():
+    found = seen(TWO, (Distance(("corner", "middle"), 1.0),), sheet_skew__angle=0.002)
+    assert found.read.where == pytest.approx(np.array([(1001.0, 500.0), (0, 0)]), abs=1e-4)
+    assert found.taped.where == pytest.approx(np.array([CORNER, (0, 0)]), abs=1e-4)
+
+
+def test_what_the_edges_say_is_of_the_turned_sheet():
+    # A quarter turn: what was to the right is up, and is read too far right.
+    found = seen(TWO, sheet_skew__angle=0.01, **{SHEET_ROTATION: np.pi / 2})
+    assert found.read.where[0] == pytest.approx([-500.0 + 10.0, 1000.0], abs=1e-3)

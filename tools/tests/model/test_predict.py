@@ -1,0 +1,123 @@
+"""predict and visits: the lab's door to the core, and its slopes."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plumb.board.observations import observe
+from plumb.board.visits import chains_to, loaded, visited
+from plumb.marks.read import Measurements
+from plumb.model.predict import (
+    FOUND,
+    NAMES,
+    believed_lengths,
+    frame_words,
+    known_effects,
+    lengths,
+    library,
+    parameter_names,
+    places,
+    places_with_slopes,
+    settings_of,
+    values_of,
+)
+from plumb.settings.machine import PublishedSettings
+from synthetic import BELIEVED, TRUE, grid, marks_on
+
+CHAINS = lengths(TRUE, grid(5, 3))[0]
+SIZES = {one["name"]: abs(one["usual"]) or 10.0 for one in frame_words()}
+SIZES |= {f"{e['name']}.{p['name']}": abs(p["typical"]) for e in library() for p in e["parameters"]}
+
+
+def test_values_and_settings_are_each_others_undoing():
+    assert settings_of(values_of(TRUE), like=BELIEVED) == TRUE
+
+
+def test_an_effect_without_a_value_is_absent():
+    values = values_of(TRUE)
+    values[[NAMES.index(name) for name in parameter_names("chain_pitch")]] = 0.0
+    assert set(settings_of(values, like=TRUE).effects) == set(TRUE.effects) - {"chain_pitch"}
+
+
+def test_every_parameter_of_the_library_has_its_place_among_the_values():
+    own = {name for effect in known_effects() for name in parameter_names(effect)}
+    assert own == {name for name in NAMES if "." in name}
+
+
+def test_places_undo_lengths():
+    where, found = places(TRUE, CHAINS)
+    assert (found == FOUND).all()
+    assert where == pytest.approx(grid(5, 3), abs=5e-5)
+
+
+def test_single_precision_is_near_and_not_the_same():
+    rough, _ = lengths(TRUE, grid(5, 3), float32=True)
+    assert 0 < np.abs(rough - CHAINS).max() < 0.01
+
+
+@pytest.mark.parametrize("feed", ["top", "bottom"])
+@pytest.mark.parametrize("name", NAMES)
+def test_the_slope_of_places_is_that_of_finite_differences(name, feed):
+    values, over_top = values_of(TRUE), feed == "top"
+    chains = lengths(replace(TRUE, feed=feed), grid(5, 3))[0]
+    column = NAMES.index(name)
+    _, slopes, found = places_with_slopes(values, over_top=over_top, chains=chains)
+    assert (found == FOUND).all()
+    # Places come back within 1e-5 mm or so; a longer step hides that, a shorter one bends less.
+    step = (1e-2 if "." in name else 1e-3) * SIZES[name]
+    ends = []
+    for sign in (1, -1):
+        moved = values.copy()
+        moved[column] += sign * step
+        ends.append(places_with_slopes(moved, over_top=over_top, chains=chains)[0])
+    difference = (ends[0] - ends[1]) / (2 * step)
+    size = np.abs(difference).max()
+    # A number that no present effect uses (the chain's weight, by itself) has no slope.
+    assert slopes[:, :, column] == pytest.approx(difference, abs=1e-3 * size + 1e-9)
+
+
+def test_a_place_out_of_reach_has_no_slope():
+    _, slopes, found = places_with_slopes(
+        values_of(TRUE), over_top=True, chains=np.array([[900.0, 900.0], [1700.0, 1700.0]])
+    )
+    assert found[0] != FOUND and found[1] == FOUND
+    assert not slopes[0].any() and slopes[1].any()
+
+
+def test_the_stock_controller_believes_its_own_formula_and_plumb_ours():
+    stock = replace(
+        BELIEVED, controller="stock", published=PublishedSettings(chain_sag_correction=8.2)
+    )
+    target = np.array([[1000.0, -400.0]])
+    ours = believed_lengths(stock, target, controller="plumb")
+    # Our model of these settings has their sag, though it is written in published units.
+    assert ours == pytest.approx(lengths(stock.as_plumb_model(), target)[0])
+    assert ours != pytest.approx(lengths(BELIEVED, target)[0], abs=0.5)
+    assert believed_lengths(stock, target) != pytest.approx(ours, abs=1e-3)
+
+
+def test_a_target_out_of_reach_is_named():
+    with pytest.raises(ValueError, match=r"target \(0, 3000\) is out of reach"):
+        believed_lengths(BELIEVED, np.array([[0.0, 0.0], [0.0, 3000.0]]))
+
+
+def test_a_heavier_sled_stretches_more_and_sags_less():
+    values, factors = loaded(values_of(TRUE), 2 * TRUE.sled_weight, TRUE.sled_weight)
+    sag = NAMES.index("chain_sag.weight_ratio_squared")
+    assert values[sag] == pytest.approx(8.2e-12 / 4)
+    assert factors[sag] == pytest.approx(1 / 4)
+    assert values[NAMES.index("sled_weight")] == 2 * TRUE.sled_weight
+    assert factors[NAMES.index("sled_weight")] == 0
+
+
+def test_each_visit_has_its_own_sled():
+    light = marks_on(TRUE, BELIEVED, grid(3, 2))
+    heavy = marks_on(TRUE, BELIEVED, grid(3, 2), sled_weight=150.0, prefix="heavy ")
+    rows = observe(BELIEVED, Measurements(light + heavy))
+    where, slopes, _ = visited(values_of(TRUE), rows, over_top=True, usual_weight=TRUE.sled_weight)
+    assert where == pytest.approx(rows.measured, abs=5e-5)
+    assert np.abs(where[:6] - where[6:]).max() > 0.3
+    weight = NAMES.index("sled_weight")
+    assert slopes[:6, :, weight].any() and not slopes[6:, :, weight].any()
+    chains, _ = chains_to(TRUE, where, rows.sled_weights)
+    assert chains == pytest.approx(rows.chains, abs=5e-5)

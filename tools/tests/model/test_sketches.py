@@ -1,0 +1,133 @@
+"""Sketches: a twin of an effect of the firmware is ranked and fitted like the effect itself."""
+
+import json
+import os
+import shutil
+import subprocess
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hidden_boards import MAKER, board, build, plan
+from plumb.bench.causes import COMPLIANCE
+from plumb.model.sketches import SKETCHES, Strands
+from plumb.model.sketches.loader import load
+from plumb.settings.files import machine_toml
+
+ROOT = Path(__file__).resolve().parents[3]
+PLUMB = ROOT / ".venv/bin/plumb"
+FOLDER = ROOT / "tools/plumb/model/sketches"
+TWIN = """
+from plumb.model.sketches import Sketch, SketchParameter
+
+def extra(parameters, strands):
+    return strands.length / (1 + parameters[0] * strands.tension) - strands.length
+
+SKETCH = Sketch(
+    name="twin", summary="s", pattern="p", look_alikes="l", remedy="r", extra=extra,
+    parameters=(SketchParameter("compliance", "1/N", 0.0, 1e-4, 5.2e-6, "strain per newton"),),
+)
+"""
+
+
+@pytest.fixture(scope="module")
+def stretched(tmp_path_factory):
+    """A folder with a machine that believes its chains stiff, and marks by the judge's chains."""
+    folder = tmp_path_factory.mktemp("stretched")
+    (folder / "own").mkdir()
+    (folder / "own/twin.py").write_text(TWIN)
+    build()
+    sag = {"chain_sag": MAKER.effects["chain_sag"]}
+    # What is fitted must start without stretch; the marks are made by chains three times as soft.
+    marks = board({"chain_stretch": 2.0}, plan(5, 5), seed=3, noise=0.05, tape_sigma=0.05)
+    (folder / "cut.toml").write_text(machine_toml(MAKER))
+    (folder / "machine.toml").write_text(machine_toml(replace(MAKER, effects=sag)))
+    lines = ["target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"]
+    lines += [",".join(map(repr, (*one.target, *one.measured))) for one in marks.marks]
+    (folder / "marks.csv").write_text("\n".join(lines))
+    return folder
+
+
+def run(folder, *arguments, own="own"):
+    """`plumb` in the folder, with the owner's sketches."""
+    environment = {**os.environ, "PLUMB_SKETCHES": str(folder / own)}
+    return subprocess.run(
+        [PLUMB, *arguments], cwd=folder, env=environment, capture_output=True, text=True
+    )
+
+
+def answer(folder, *arguments):
+    """What `plumb --json` says."""
+    done = run(folder, *arguments, "--json")
+    assert done.returncode in (0, 1), done.stderr
+    return json.loads(done.stdout)
+
+
+BOARD = ("machine.toml", "marks.csv", "--cut-with", "cut.toml", "--sigma", "0.05")
+
+
+def test_a_twin_is_ranked_like_the_effect_itself(stretched):
+    told = answer(stretched, "diagnose", *BOARD)
+    ranking = {one["effect"]: one for one in told["ranking"]}
+    twin, real = ranking["twin"], ranking["chain_stretch"]
+    assert twin["where"] == "sketch" and real["where"] == "firmware"
+    assert twin["gain"] == pytest.approx(real["gain"], rel=1e-3) and real["gain"] > 100
+    assert {"twin", "chain_stretch"} <= set(told["suspects"])
+
+
+def test_a_twin_is_fitted_like_the_effect_itself(stretched):
+    found = {}
+    for name in ("twin", "chain_stretch"):
+        told = answer(stretched, "add", *BOARD, "--effect", name)
+        found[name] = {one["name"]: one for one in told["parameters"]}[f"{name}.compliance"]
+        assert told["after"]["fit_rms_mm"] < 0.1
+    assert found["twin"]["value"] == pytest.approx(found["chain_stretch"]["value"], rel=0.01)
+    assert found["twin"]["low"] == pytest.approx(found["chain_stretch"]["low"], rel=0.02)
+    assert found["twin"]["low"] < 3 * COMPLIANCE < found["twin"]["high"]
+
+
+def test_a_sketch_is_marked_and_never_written_as_a_setting(stretched):
+    text = run(stretched, "add", *BOARD, "--effect", "twin").stdout
+    assert "a sketch, which no firmware has" in text
+    assert "twin (sketch, not in the firmware)" in run(stretched, "diagnose", *BOARD).stdout
+    refused = run(stretched, "add", *BOARD, "--effect", "twin", "-o", "new.toml")
+    assert refused.returncode == 2 and "twin is a sketch" in refused.stderr
+    assert not (stretched / "new.toml").exists()
+
+
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [
+        ("SKETCH = 1", "no SKETCH"),
+        ("this is no Python", "invalid syntax"),
+        (TWIN.replace('name="twin"', 'name="chain_sag"'), "there is an effect chain_sag already"),
+        (TWIN.replace("- strands.length\n", "\n"), "must add no chain"),
+        (TWIN.replace("- strands.length\n", "- strands.length[:, :1].sum()\n"), "zero it must"),
+        (TWIN.replace("strands.tension)", "strands.pull)"), "pull"),
+    ],
+    ids=["empty", "syntax", "taken", "at zero", "shape", "word"],
+)
+def test_a_sketch_that_cannot_be_used_is_told_in_one_line(tmp_path, text, hint):
+    (tmp_path / "own").mkdir()
+    (tmp_path / "own/bad.py").write_text(text)
+    done = run(tmp_path, "effects")
+    assert done.returncode == 2 and done.stdout == ""
+    assert hint in done.stderr and "bad.py" in done.stderr and done.stderr.count("\n") == 1
+
+
+def test_the_folder_that_is_named_must_be_there(tmp_path):
+    done = run(tmp_path, "effects", own="nowhere")
+    assert done.returncode == 2 and "PLUMB_SKETCHES" in done.stderr
+
+
+def test_what_is_set_aside_is_not_ranked_and_stands_by_when_it_is_not(tmp_path):
+    assert "mount_give" not in [one.name for one in SKETCHES]
+    shutil.copy(FOLDER / "_mount_give.py", tmp_path / "mount_give.py")
+    loaded = load([tmp_path])
+    assert [one.name for one in loaded.sketches] == ["mount_give"] and loaded.broken == ()
+    one = np.array([[1500.0, 1600.0]])
+    strands = Strands(one, one, one, np.array([[60.0, 80.0]]), one, one)
+    assert loaded.sketches[0].extra(np.array([0.01]), strands) == pytest.approx(
+        np.array([[-0.6, -0.8]])
+    )

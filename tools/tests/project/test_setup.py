@@ -1,0 +1,84 @@
+"""What tools/setup asks of Debian, and what it says where it may not install anything."""
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+# The step alone, on a machine where nothing is installed and that this test describes.
+STEP = """
+set -euo pipefail
+root=$1 log=$2
+say() { echo "says: $1"; }
+stop() { echo "stops: $1"; exit 1; }
+dpkg-query() { return 1; }
+apt-get() { echo "runs: apt-get $*"; }
+env() { shift; "$@"; }
+source "$root/tools/setup_steps/debian.sh"
+"""
+LAB = "g++ cmake python3-dev python3 python3-venv"
+
+
+def step(tmp_path: Path, machine: str, packages: str) -> list[str]:
+    """The lines that the step prints, as a user sees them."""
+    script = f"{STEP}\n{machine}\nsetup_debian {packages}"
+    log = tmp_path / "log"
+    done = subprocess.run(["bash", "-c", script, "step", ROOT, log], capture_output=True, text=True)
+    assert not done.stderr
+    return done.stdout.splitlines() + (log.read_text().splitlines() if log.exists() else [])
+
+
+def test_root_gets_the_packages_of_the_lab_and_no_others(tmp_path):
+    said = step(tmp_path, "id() { echo 0; }", "lab")
+    assert said == [
+        f"says: installs with apt-get: {LAB}",
+        "runs: apt-get update",
+        f"runs: apt-get install -y --no-install-recommends {LAB}",
+    ]
+
+
+def test_the_whole_project_needs_the_lab_and_the_firmware_and_the_tests(tmp_path):
+    names = step(tmp_path, "id() { echo 0; }", "all")[0].split(": ")[-1].split()
+    assert set(LAB.split()) < set(names)
+    assert {"gcc-avr", "googletest", "make"} < set(names)
+    assert not {"bash", "coreutils"} & set(names)
+
+
+def test_a_user_with_sudo_is_shown_what_it_installs(tmp_path):
+    said = step(tmp_path, 'id() { echo 1000; }; sudo() { [ "$1" = -v ] || "$@"; }', "lab")
+    assert said[0] == f"says: installs with sudo apt-get: {LAB}"
+    assert said[-1] == f"runs: apt-get install -y --no-install-recommends {LAB}"
+
+
+@pytest.mark.parametrize(
+    "machine",
+    [
+        'id() { echo 1000; }; command() { [ "$2" != sudo ]; }',
+        "id() { echo 1000; }; sudo() { echo not in the sudoers file >&2; return 1; }",
+    ],
+)
+def test_without_root_and_sudo_one_line_names_the_packages(tmp_path, machine):
+    assert step(tmp_path, machine, "lab") == [
+        "stops: an administrator has to install packages first: "
+        f"apt-get install --no-install-recommends {LAB}"
+    ]
+
+
+def test_without_apt_one_line_names_the_packages(tmp_path):
+    said = step(tmp_path, "command() { return 1; }", "lab")
+    assert said == [f"stops: there is no apt-get here; install what these packages bring: {LAB}"]
+
+
+def test_what_is_installed_is_left_alone(tmp_path):
+    here = " ".join(f"{name}=ii " for name in LAB.replace("g++", "g++:amd64").split())
+    assert step(tmp_path, f"dpkg-query() {{ echo '{here}'; }}; id() {{ echo 0; }}", "lab") == []
+    missing = f"dpkg-query() {{ echo '{here.replace('cmake=ii', 'cmake=rc')}'; }}"
+    said = step(tmp_path, f"{missing}; id() {{ echo 0; }}", "lab")
+    assert said[0] == "says: installs with apt-get: cmake"
+
+
+def test_an_unknown_set_is_refused_before_anything_happens():
+    done = subprocess.run([ROOT / "tools/setup", "lba"], capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr == 'setup: knows no set "lba"; use tools/setup or tools/setup lab\n'

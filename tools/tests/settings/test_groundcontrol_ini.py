@@ -1,0 +1,158 @@
+"""Settings back into a groundcontrol.ini."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import plumb
+import pytest
+from plumb.settings.files import (
+    changed_ini,
+    groundcontrol_changes,
+    read_settings,
+    write_groundcontrol_ini,
+)
+from plumb.settings.groundcontrol import number_for_firmware
+from plumb.settings.machine import PublishedSettings
+from plumb.text.errors import InputError
+
+EXAMPLE = Path(plumb.__file__).parent / "examples" / "mibproj" / "groundcontrol.ini"
+MASLOW, ADVANCED = "Maslow Settings", "Advanced Settings"
+
+
+def test_unchanged_settings_change_no_byte(tmp_path):
+    original = tmp_path / "groundcontrol.ini"
+    text = EXAMPLE.read_text().replace(
+        "leftchaintolerance = 0\n", "leftchaintolerance = 0.347900203615\n"
+    )
+    text = text.replace("chainsagcorrection = 0", "chainsagcorrection = 27.394023")
+    original.write_bytes(text.replace("\n", "\r\n").encode())
+    changes = groundcontrol_changes(read_settings(original))
+    assert changes.unsaid == ()
+    assert changed_ini(original, changes.values) == original.read_bytes()
+
+
+def test_only_the_changed_values_change():
+    settings = replace(
+        read_settings(EXAMPLE),
+        motor_gap=2981.123456,
+        motor_height=609.6 + 465.5,
+        controller="plumb",
+        effects={
+            "chain_sag": {"weight_ratio_squared": 8.2e-12},
+            "chain_pitch": {"left": 0.001, "right": -0.0005},
+        },
+    )
+    new = changed_ini(EXAMPLE, groundcontrol_changes(settings).values).decode()
+    # The radius is divided in the published formula: 139.1 * (1/1.001 + 1/0.9995) / 2.
+    radius = 139.1 * (1 / 1.001 + 1 / 0.9995) / 2
+    differing = [
+        (old, now)
+        for old, now in zip(EXAMPLE.read_text().splitlines(), new.splitlines(), strict=True)
+        if old != now
+    ]
+    assert differing == [
+        ("motorspacingx = 2978.4", "motorspacingx = 2981.12346"),
+        ("motoroffsety = 463", "motoroffsety = 465.5"),
+        ("leftchaintolerance = 0", "leftchaintolerance = 0.1"),
+        ("rightchaintolerance = 0", "rightchaintolerance = -0.05"),
+        ("rotationradius = 139.1", f"rotationradius = {radius:.6f}"),
+        ("chainsagcorrection = 0", "chainsagcorrection = 8.2"),
+    ]
+
+
+def test_what_was_written_reads_back_as_the_same_machine(tmp_path):
+    settings = replace(
+        read_settings(EXAMPLE),
+        controller="plumb",
+        effects={
+            "chain_sag": {"weight_ratio_squared": 8.2e-12},
+            "chain_pitch": {"left": 0.001, "right": 0.002},
+        },
+    )
+    path = tmp_path / "new.ini"
+    write_groundcontrol_ini(path, EXAMPLE, groundcontrol_changes(settings).values)
+    back = read_settings(path).as_plumb_model()
+    assert back.frame == pytest.approx(settings.frame, abs=1e-5)
+    assert back.effects["chain_sag"] == pytest.approx(settings.effects["chain_sag"])
+    assert back.effects["chain_pitch"] == pytest.approx(settings.effects["chain_pitch"])
+
+
+def test_what_cannot_be_said_is_listed():
+    settings = replace(
+        read_settings(EXAMPLE),
+        motor_center_x=2.0,
+        controller="plumb",
+        effects={
+            "chain_stretch": {"compliance": 5e-6},
+            "frame_flex": {"inward": 0.0},
+            "chain_sag": {"weight_ratio_squared": 1e-12},
+        },
+    )
+    unsaid = groundcontrol_changes(settings).unsaid
+    assert [one.name for one in unsaid] == ["motor_center_x", "chain_stretch.compliance"]
+    assert "5e-06" in unsaid[1].sentence
+
+
+def test_missing_keys_are_added_in_the_case_of_the_file(tmp_path):
+    original = tmp_path / "groundcontrol.ini"
+    original.write_text(EXAMPLE.read_text().replace("leftchaintolerance = 0\n", ""))
+    new = changed_ini(original, {(ADVANCED, "leftChainTolerance"): 0.25}).decode()
+    assert "positionerrorlimit = 2.0\nleftchaintolerance = 0.25\n\n[Computed" in new
+
+
+def test_bytes_that_are_not_utf8_survive(tmp_path):
+    original = tmp_path / "groundcontrol.ini"
+    content = EXAMPLE.read_bytes().replace(b"openfile = ", b"openfile = M\xfcller\x85 100%")
+    original.write_bytes(content)
+    new = changed_ini(original, {(MASLOW, "motorSpacingX"): 3000.0})
+    assert new == content.replace(b"2978.4", b"3000")
+
+
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), "3000\nbedwidth = 1"])
+def test_unusable_values_are_refused(tmp_path, value):
+    with pytest.raises(InputError, match="motorSpacingX"):
+        write_groundcontrol_ini(tmp_path / "x.ini", EXAMPLE, {(MASLOW, "motorSpacingX"): value})
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_words_can_be_changed_and_the_file_may_be_its_own_original(tmp_path):
+    path = tmp_path / "groundcontrol.ini"
+    path.write_bytes(EXAMPLE.read_bytes())
+    write_groundcontrol_ini(path, path, {(ADVANCED, "chainOverSprocket"): "Bottom"})
+    assert read_settings(path).feed == "bottom"
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (3602.7109312345, "3602.71093"),
+        (0.347900203615, "0.347900204"),
+        (2978.4, "2978.4"),
+        (-0.05, "-0.05"),
+        (0.0, "0"),
+        (-0.0, "0"),
+        (1e-16, "0"),
+        (5.1685e-6, "0.0000051685"),
+        (100.0, "100"),
+        (999.9999999999, "1000"),
+        (463.0, "463"),
+        (123456789.0, "123456789"),
+    ],
+)
+def test_numbers_fit_the_firmware(value, text):
+    assert number_for_firmware(value) == text
+    # All digits together are one signed 32-bit integer there.
+    assert int(text.replace(".", "").replace("-", "")) < 2**31
+
+
+def test_a_number_too_long_for_the_firmware_is_refused():
+    with pytest.raises(ValueError, match="more digits"):
+        number_for_firmware(1e10)
+
+
+def test_published_settings_of_a_stock_machine_are_kept():
+    settings = replace(read_settings(EXAMPLE), published=PublishedSettings(30.0, 0.1, 0.2))
+    values = groundcontrol_changes(settings).values
+    assert values[ADVANCED, "chainSagCorrection"] == 30.0
+    assert values[ADVANCED, "rotationRadius"] == 139.1
+    assert values[ADVANCED, "rightChainTolerance"] == 0.2

@@ -1,0 +1,151 @@
+"""Reading groundcontrol.ini."""
+
+from pathlib import Path
+
+import plumb
+import pytest
+from plumb.settings.files import read_settings
+from plumb.settings.machine import PublishedSettings
+from plumb.text.errors import InputError
+
+EXAMPLE = Path(plumb.__file__).parent / "examples" / "mibproj" / "groundcontrol.ini"
+
+
+def spoilt(tmp_path, old, new):
+    text = EXAMPLE.read_text()
+    assert old in text
+    path = tmp_path / "groundcontrol.ini"
+    path.write_text(text.replace(old, new, 1))
+    return path
+
+
+def test_the_example():
+    found = read_settings(EXAMPLE)
+    assert (found.motor_gap, found.motor_height) == (2978.4, 609.6 + 463)
+    assert (found.sheet_width, found.sheet_height) == (2438.4, 1219.2)
+    assert (found.rotation_radius, found.motor_center_x) == (139.1, 0.0)
+    assert found.sprocket_radius == pytest.approx(10.1063, abs=1e-4)
+    assert (found.feed, found.controller) == ("top", "stock")
+    assert (found.sled_weight, found.chain_weight) == (97.9, 0.00137293)
+    assert found.published == PublishedSettings()
+    assert found.effects == {}
+
+
+def test_corrections_and_the_keys_of_webcontrol(tmp_path):
+    text = EXAMPLE.read_text()
+    for old, new in (
+        ("leftchaintolerance = 0", "leftChainTolerance = 0.3479"),
+        ("rightchaintolerance = 0", "RIGHTCHAINTOLERANCE : -0.08\ntopBeamTilt = 0.07"),
+        ("chainsagcorrection = 0", "chainsagcorrection = 27.394023\nchainElasticity = 5.1685e-06"),
+        ("sledcg = 79", "sledcg = 79\nsledWeight = 113.68"),
+        ("chainoversprocket = Top", "chainoversprocket = Bottom"),
+        ("macro1 = ", "macro1 = 100% {x} $PATH\n\tG0 X0"),
+    ):
+        assert old in text
+        text = text.replace(old, new, 1)
+    path = tmp_path / "anything.txt"
+    path.write_bytes(b"\xef\xbb\xbf" + text.replace("\n", "\r\n").encode())
+    found = read_settings(path)
+    assert found.published == PublishedSettings(
+        27.394023, 0.3479, -0.08, 5.1685e-6, 113.68, 3360.0, 0.07
+    )
+    assert (found.sled_weight, found.feed) == (113.68, "bottom")
+
+
+def test_a_sled_weight_of_zero_is_a_switch_and_no_weight(tmp_path):
+    found = read_settings(spoilt(tmp_path, "sledcg = 79", "sledcg = 79\nsledweight = 0"))
+    assert (found.sled_weight, found.published.holey_sled_weight) == (97.9, 0.0)
+
+
+def test_foreign_bytes_in_a_file_name_do_no_harm(tmp_path):
+    path = tmp_path / "groundcontrol.ini"
+    path.write_bytes(
+        EXAMPLE.read_bytes().replace(b"openfile = ", b"openfile = C:\\M\xfcll\\100%.nc")
+    )
+    assert read_settings(path).motor_gap == 2978.4
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "hint"),
+    [
+        (f"{key} = ", f"x{key[1:]}zz = ", f"(?i){key} is missing in .{section} Settings.")
+        for section, key in (
+            ("Maslow", "motorspacingx"),
+            ("Maslow", "bedwidth"),
+            ("Maslow", "bedheight"),
+            ("Maslow", "motoroffsety"),
+            ("Advanced", "gearteeth"),
+            ("Advanced", "chainpitch"),
+            ("Advanced", "rotationradius"),
+            ("Advanced", "chainsagcorrection"),
+            ("Advanced", "chainoversprocket"),
+            ("Advanced", "kinematicstype"),
+        )
+    ]
+    + [
+        ("motorspacingx = 2978.4", "motorspacingx = 117.26", "motorspacingx: 117.26 .*inches"),
+        ("motorspacingx = 2978.4", "motorspacingx = 2978,4", "motorspacingx: .*decimal comma"),
+        ("motorspacingx = 2978.4", "motorspacingx = ", "motorspacingx: a number is missing"),
+        (
+            "motorspacingx = 2978.4",
+            "motorspacingx = 10 ft",
+            "motorspacingx: '10 ft' is not a number",
+        ),
+        ("motorspacingx = 2978.4", "motorspacingx = nan", "motorspacingx: 'nan'"),
+        ("motorspacingx = 2978.4", "motorspacingx = inf", "motorspacingx: 'inf'"),
+        ("motorspacingx = 2978.4", "motorspacingx = -2978.4", "motorspacingx: -2978.4 mm is out"),
+        ("motorspacingx = 2978.4", "motorspacingx = 29784", "motorspacingx: 29784 mm is out"),
+        ("motorspacingx = 2978.4", "motorspacingx = 1\nmotorSpacingX = 2", "already on line"),
+        ("motorspacingx = 2978.4", "motorspacingx 2978.4", "line 6: is not key = value"),
+        ("bedwidth = 2438.4", "bedwidth = 96", "bedwidth: 96 mm .*inches"),
+        ("bedheight = 1219.2", "bedheight = 48", "bedheight: 48 mm .*inches"),
+        ("motoroffsety = 463", "motoroffsety = 18.2", "motoroffsety: 18.2 mm above .*inches"),
+        ("motoroffsety = 463", "motoroffsety = -463", "motoroffsety: -463 mm above .*is possible"),
+        ("rotationradius = 139.1", "rotationradius = 5.48", "rotationradius: 5.48 mm .*inches"),
+        ("chainpitch = 6.35", "chainpitch = 0.25", "chainPitch .*inches"),
+        ("chainlength = 3360", "chainlength = 132", "chainlength: 132 mm .*inches"),
+        ("leftchaintolerance = 0", "leftchaintolerance = 50", "leftchaintolerance: 50 percent"),
+        ("leftchaintolerance = 0", "leftchaintolerence = 0.3", "did you mean leftChainTolerance"),
+        ("rotationradius = 139.1", "rotatonradius = 139.1", "rotationRadius is missing .*line 40"),
+        ("chainsagcorrection = 0", "chainsagcorrection = 1e9", "chainsagcorrection: 1e.09"),
+        ("sledcg = 79", "sledcg = 79\nsledweight = 22", "sledweight: 22 N .*pounds"),
+        ("chainoversprocket = Top", "chainoversprocket = 1", "'1' is not known; write Top or Bott"),
+        (
+            "kinematicstype = Triangular",
+            "kinematicstype = Quadrilateral",
+            "not the machine the lab knows",
+        ),
+        ("kinematicstype = Triangular", "kinematicstype = Tri", "write Triangular or Quadr"),
+        ("[Maslow Settings]\n", "", "line 4: a value stands before the first .section."),
+    ],
+)
+def test_bad_files_are_refused_with_the_place(tmp_path, old, new, hint):
+    path = spoilt(tmp_path, old, new)
+    with pytest.raises(InputError, match=hint) as caught:
+        read_settings(path)
+    assert str(caught.value).startswith(str(path))
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "hint"),
+    [
+        ("a.ini", "", "empty"),
+        ("a.ini", "[global]\nnumpositions = 9\n", "holds marks"),
+        ("a.ini", "[other]\na = 1\n", "has no section .Maslow Settings"),
+        ("webcontrol.json", '{"Maslow Settings": []}', "is a JSON file"),
+        ("marks.csv", "target_x_mm,target_y_mm\n", "none of the known forms"),
+        ("a.toml", "hello", "not valid TOML"),
+        ("a.ini", "hello", "is not key = value"),
+    ],
+)
+def test_other_files_are_refused(tmp_path, name, text, hint):
+    path = tmp_path / name
+    path.write_text(text)
+    with pytest.raises(InputError, match=hint):
+        read_settings(path)
+
+
+def test_missing_file_is_refused(tmp_path):
+    with pytest.raises(InputError, match="there is no such file"):
+        read_settings(tmp_path / "groundcontrol.ini")

@@ -1,0 +1,42 @@
+"""What a setting can sensibly be."""
+
+from dataclasses import fields, replace
+
+import pytest
+from plumb.settings.limits import FRAME_LIMITS, PUBLISHED_LIMITS, find_fault
+from plumb.settings.machine import MachineSettings, PublishedSettings
+
+GOOD = MachineSettings(2978.4, 1072.6, 139.1, 2438.4, 1219.2, "top")
+
+
+def test_every_number_has_a_limit():
+    numbers = {one.name for one in fields(MachineSettings)} - {
+        "motor_height",
+        "feed",
+        "controller",
+        "effects",
+        "published",
+    }
+    assert set(FRAME_LIMITS) == numbers | {"motor_offset"}
+    assert set(PUBLISHED_LIMITS) == {one.name for one in fields(PublishedSettings)}
+
+
+@pytest.mark.parametrize("gap", [2978.4, 3000, 3102.1, 3602.71093, 3719.6])
+@pytest.mark.parametrize("offset", [422, 463, 503, 618, 1063.2])
+@pytest.mark.parametrize("radius", [0, 100, 127, 131.9, 146.6, 250])
+def test_machines_that_exist_are_accepted(gap, offset, radius):
+    real = replace(GOOD, motor_gap=gap, motor_height=609.6 + offset, rotation_radius=radius)
+    assert find_fault(real) is None
+
+
+@pytest.mark.parametrize("name", sorted(set(FRAME_LIMITS) - {"motor_offset"}))
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), -1e9])
+def test_impossible_numbers_are_named(name, value):
+    found, sentence = find_fault(replace(GOOD, **{name: value}))
+    assert found == name or name == "sheet_height"
+    assert sentence
+
+
+def test_published_numbers_are_checked_too():
+    bad = replace(GOOD, published=PublishedSettings(left_tolerance=6.0))
+    assert find_fault(bad)[0] == "left_tolerance"

@@ -1,0 +1,150 @@
+"""machine.toml: strict in, exact out."""
+
+import math
+from dataclasses import replace
+
+import pytest
+from plumb.settings.files import machine_toml, read_settings, write_machine_toml
+from plumb.settings.machine import MachineSettings, PublishedSettings
+from plumb.text.errors import InputError
+
+KNOWN = {"chain_sag": ["weight_ratio_squared"], "chain_pitch": ["left", "right"]}
+SETTINGS = MachineSettings(
+    motor_gap=3602.71093,
+    motor_height=0.1 + 1078.2,
+    motor_center_x=-1 / 3,
+    rotation_radius=139.1,
+    sheet_width=2438.4,
+    sheet_height=1219.2,
+    feed="bottom",
+    sprocket_radius=math.pi * 3.2,
+    sled_weight=113.7,
+    chain_weight=1.37293e-3,
+    effects={
+        "chain_sag": {"weight_ratio_squared": 8.2e-12 / 3},
+        "chain_pitch": {"left": 0.1 + 0.2e-3, "right": 0.0},
+    },
+)
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        SETTINGS,
+        replace(SETTINGS, effects={}),
+        replace(
+            SETTINGS,
+            controller="stock",
+            published=PublishedSettings(27.4, 0.1, 0.2, top_beam_tilt=0.07),
+        ),
+        replace(
+            SETTINGS, controller="holey", published=PublishedSettings(0.0, 0.1, 0.2, 5.17e-6, 97.9)
+        ),
+    ],
+)
+def test_every_number_comes_back_bit_for_bit(tmp_path, settings):
+    path = tmp_path / "machine.toml"
+    write_machine_toml(path, settings, comment="fitted to nine marks\n= not a setting")
+    assert read_settings(path, known=KNOWN) == settings
+    assert "# fitted to nine marks\n# = not a setting\n" in path.read_text()
+
+
+def test_writing_twice_gives_the_same_bytes(tmp_path):
+    path = tmp_path / "machine.toml"
+    write_machine_toml(path, SETTINGS)
+    first = path.read_bytes()
+    write_machine_toml(path, read_settings(path))
+    assert path.read_bytes() == first
+
+
+def test_what_need_not_be_said_has_defaults(tmp_path):
+    path = tmp_path / "machine.toml"
+    path.write_text(
+        'feed = "top"\n[sheet]\nwidth = 2438\nheight = 1219\n'
+        "[frame]\nmotor_gap = 3000\nmotor_height = 1072\nrotation_radius = 139\n"
+    )
+    found = read_settings(path)
+    assert found == MachineSettings(3000.0, 1072.0, 139.0, 2438.0, 1219.0, "top")
+    assert found.controller == "plumb"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "hint"),
+    [
+        ('feed = "bottom"', "", "feed is missing"),
+        ('feed = "bottom"', 'feed = "left"', "feed: 'left' is not known"),
+        ('"plumb"', '"grbl"', "controller: 'grbl' is not known"),
+        ('controller = "plumb"', 'controler = "plumb"', "did you mean controller"),
+        ("motor_gap = 3602.71093", "", "frame.: motor_gap is missing"),
+        ("motor_gap = 3602.71093", "motor_gap = 141.8", "frame. motor_gap: 141.8 mm .*inches"),
+        (
+            "motor_gap = 3602.71093",
+            'motor_gap = "3602"',
+            "motor_gap: a number is needed, not '3602'",
+        ),
+        ("motor_gap = 3602.71093", "motor_gap = nan", "motor_gap: nan"),
+        ("motor_gap = 3602.71093", "motor_gap = -inf", "motor_gap: -inf"),
+        ("motor_gap = 3602.71093", "motor_gap = true", "motor_gap: a number is needed"),
+        ("motor_gap = 3602.71093", "motor_gap = 1\nmotor_gap = 2", "not valid TOML"),
+        ("motor_gap = 3602.71093", "motor_gap = 3602,7", "not valid TOML"),
+        ("motor_gap = ", "motor_gab = ", "unknown name 'motor_gab'; did you mean motor_gap"),
+        (
+            "motor_height = 1078.3",
+            "motor_height = 463.0",
+            "minus half of .sheet. height: -146.6 mm",
+        ),
+        ("sled_weight = 113.7", "sled_weight = 11.6", "sled_weight: 11.6 N .*kilograms"),
+        ("chain_weight = 0.00137293", "chain_weight = 0.14", "chain_weight: .*kg/m"),
+        ("width = 2438.4", "width = 96.0", "sheet. width: 96 mm .*inches"),
+        ("height = 1219.2", "", "sheet.: height is missing"),
+        ("height = 1219.2", "heigth = 1219.2", "did you mean height"),
+        ("[effects.chain_sag]", "[effects.chain_sagg]", "'chain_sagg'; did you mean chain_sag"),
+        ("left = ", "lefd = ", "effects.chain_pitch.: unknown name 'lefd'; did you mean left"),
+        ("left = 0.1002", "left = inf #", "effects.chain_pitch. left: inf"),
+        ("[effects.chain_sag]", "[effects]\nsag = 3\n[effects.chain_sag]", "sag is not an effect"),
+        (
+            "[effects.chain_sag]",
+            "[effect.chain_sag]",
+            "unknown name 'effect'; did you mean effects",
+        ),
+        ("[sheet]", "[[mark]]\n[sheet]", "holds marks"),
+        ("[frame]", "[[frame]]", "frame is not a table"),
+    ],
+)
+def test_bad_files_are_refused_with_the_place(tmp_path, old, new, hint):
+    text = machine_toml(SETTINGS)
+    assert old in text
+    path = tmp_path / "machine.toml"
+    path.write_text(text.replace(old, new, 1))
+    with pytest.raises(InputError, match=hint) as caught:
+        read_settings(path, known=KNOWN)
+    assert str(caught.value).startswith(str(path))
+    assert "\n" not in str(caught.value)
+
+
+def test_without_a_list_any_effect_passes(tmp_path):
+    path = tmp_path / "machine.toml"
+    settings = replace(SETTINGS, effects={"my_sketch": {"size": 1.0}})
+    write_machine_toml(path, settings)
+    assert read_settings(path) == settings
+    with pytest.raises(InputError, match="my_sketch"):
+        read_settings(path, known=KNOWN)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"motor_gap": math.nan},
+        {"motor_height": 10.0},
+        {"feed": "left"},
+        {"controller": "grbl"},
+        {"effects": {"chain_sag": {"weight_ratio_squared": math.inf}}},
+        {"effects": {"chain sag": {"x": 1.0}}},
+    ],
+)
+def test_impossible_settings_are_not_written(tmp_path, change):
+    path = tmp_path / "machine.toml"
+    path.write_text("old")
+    with pytest.raises(InputError):
+        write_machine_toml(path, replace(SETTINGS, **change))
+    assert path.read_text() == "old"

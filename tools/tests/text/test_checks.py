@@ -1,0 +1,63 @@
+"""Single checks on values that people type."""
+
+import pytest
+from plumb.text.checks import number, number_in, one_of, pair, refuse_unknown, within
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [("12", 12.0), (" -3.5 ", -3.5), (".28", 0.28), ("7560.", 7560.0), ("+8.2e-12", 8.2e-12)],
+)
+def test_number_in_reads_what_programs_write(text, value):
+    assert number_in(text) == value
+
+
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [
+        ("", "missing"),
+        ("  ", "missing"),
+        ("abc", "not a number"),
+        ("nan", "usable"),
+        ("-inf", "usable"),
+        ("1e999", "usable"),
+        ("12,5", "decimal comma"),
+        ("1_000", "not a number"),
+        ("12 mm", "not a number"),
+        ("0x10", "not a number"),
+        ("\u0661", "not a number"),
+    ],
+)
+def test_number_in_refuses_everything_else(text, hint):
+    with pytest.raises(ValueError, match=hint):
+        number_in(text)
+
+
+@pytest.mark.parametrize("value", ["1", True, None, [1], float("nan"), float("inf"), 10**400])
+def test_number_refuses_what_is_none(value):
+    with pytest.raises(ValueError):
+        number(value)
+
+
+@pytest.mark.parametrize("value", [[1], [1, 2, 3], "12", 5, [1, "2"]])
+def test_pair_needs_two_numbers(value):
+    with pytest.raises(ValueError):
+        pair(value)
+
+
+def test_pair_takes_whole_numbers():
+    assert pair([1, 2]) == (1.0, 2.0)
+
+
+def test_unknown_names_get_a_suggestion():
+    with pytest.raises(ValueError, match="did you mean measured"):
+        refuse_unknown(["mesured"], ["target", "measured"])
+    with pytest.raises(ValueError, match="known are: target, measured"):
+        refuse_unknown(["zzz"], ["target", "measured"])
+
+
+def test_one_of_and_within_name_what_is_possible():
+    with pytest.raises(ValueError, match="top, bottom"):
+        one_of("side", ("top", "bottom"))
+    with pytest.raises(ValueError, match="1 to 2"):
+        within(3, 1, 2)

@@ -1,0 +1,91 @@
+"""Whole files in and out."""
+
+import os
+import re
+
+import pytest
+from plumb.text import files as text_files
+from plumb.text.errors import InputError
+from plumb.text.files import read_text, write_all, write_whole
+
+
+def test_unreadable_files_are_refused_by_name(tmp_path):
+    for name in ("missing.ini", "."):
+        with pytest.raises(InputError, match=str(tmp_path)):
+            read_text(tmp_path / name)
+    with pytest.raises(InputError):
+        read_text("bad\0name")
+
+
+@pytest.mark.parametrize(
+    ("content", "hint"),
+    [
+        (b"", "empty"),
+        (b" \n\t\n", "empty"),
+        (b"\xef\xbb\xbf", "empty"),
+        (b"a\0b", "not a text"),
+        (b"ok\n\xff\xfe", "line 2: has a character that is not UTF-8"),
+    ],
+)
+def test_unusable_content_is_refused(tmp_path, content, hint):
+    path = tmp_path / "file.csv"
+    path.write_bytes(content)
+    with pytest.raises(InputError, match=hint) as caught:
+        read_text(path)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_huge_file_is_refused(tmp_path):
+    path = tmp_path / "film.csv"
+    path.write_bytes(b"x" * (text_files.LARGEST_FILE_BYTES + 1))
+    with pytest.raises(InputError, match="larger than 5 MB"):
+        read_text(path)
+
+
+def test_byte_order_mark_is_dropped(tmp_path):
+    path = tmp_path / "file.csv"
+    path.write_bytes(b"\xef\xbb\xbfname")
+    assert read_text(path) == "name"
+
+
+def test_a_failed_write_leaves_the_old_file_and_no_other(tmp_path, monkeypatch):
+    path = tmp_path / "machine.toml"
+    path.write_text("old")
+
+    def fail(*_):
+        raise OSError(28, "No space left on device")
+
+    for name in ("replace", "fsync"):
+        with monkeypatch.context() as patch:
+            patch.setattr(os, name, fail)
+            with pytest.raises(InputError, match="No space left"):
+                write_whole(path, b"new")
+        assert path.read_text() == "old"
+        assert [one.name for one in tmp_path.iterdir()] == ["machine.toml"]
+
+
+def test_write_keeps_rights_and_follows_links(tmp_path):
+    path, link = tmp_path / "real.ini", tmp_path / "link.ini"
+    path.write_text("old")
+    path.chmod(0o640)
+    link.symlink_to(path)
+    write_whole(link, b"new")
+    assert link.is_symlink()
+    assert path.read_text() == "new"
+    assert path.stat().st_mode & 0o777 == 0o640
+
+
+def test_write_into_a_missing_folder_is_refused(tmp_path):
+    with pytest.raises(InputError, match="cannot be written"):
+        write_whole(tmp_path / "no" / "file", b"x")
+
+
+def test_of_several_files_all_are_written_or_none(tmp_path):
+    first, second = tmp_path / "first", tmp_path / "second"
+    write_all({first: b"1", second: b"2"})
+    assert (first.read_bytes(), second.read_bytes()) == (b"1", b"2")
+    for impossible in (tmp_path / "nowhere" / "third", tmp_path):
+        with pytest.raises(InputError, match=re.escape(str(impossible))):
+            write_all({first: b"new", impossible: b"3"})
+        assert first.read_bytes() == b"1"
+    assert sorted(tmp_path.iterdir()) == [first, second]
