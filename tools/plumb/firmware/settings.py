@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from plumb import _core
-from plumb.settings.machine import FRAME_FIELDS, MachineSettings
+from plumb.settings.machine import MachineSettings, frame_of
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ def machine_of(numbers: Mapping[int, float], *, sheet: tuple[float, float]) -> M
         sheet_height=sheet[1],
         feed="top" if found["over_top"] else "bottom",
         effects=effects,
-        **{name: found["frame"][name] for name in FRAME_FIELDS},
+        **frame_of(found["frame"]),
     )
 
 

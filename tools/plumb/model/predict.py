@@ -10,7 +10,7 @@ import numpy as np
 
 from plumb import _core
 from plumb.model.controllers import chain_lengths
-from plumb.settings.machine import FRAME_FIELDS, MachineSettings
+from plumb.settings.machine import MachineSettings, frame_of
 
 Array = np.ndarray
 NAMES: tuple[str, ...] = tuple(_core.settings())  # of the values array, in its order
@@ -68,8 +68,7 @@ def settings_of(values: Array, *, like: MachineSettings) -> MachineSettings:
         own = {name: by_name[f"{effect}.{name}"] for name in parameters}
         if any(own.values()):
             effects[effect] = own
-    frame = {name: by_name[name] for name in FRAME_FIELDS}
-    return replace(like, effects=effects, **frame)
+    return replace(like, effects=effects, **frame_of(by_name))
 
 
 def lengths(

@@ -52,7 +52,7 @@ def read_settings_ini(path: str | PathLike[str]) -> MachineSettings:
     ini = _settings_text(path)
     _refuse_other_kinematics(ini)
     height = _needed(ini, "sheet_height")
-    weight = _optional(ini, "holey_sled_weight", None)
+    weight = _optional(ini, "holey_sled_weight")
     settings = MachineSettings(
         motor_gap=_needed(ini, "motor_gap"),
         motor_height=height / 2 + _needed(ini, "motor_offset"),
@@ -65,12 +65,12 @@ def read_settings_ini(path: str | PathLike[str]) -> MachineSettings:
         controller="stock",
         published=PublishedSettings(
             chain_sag_correction=_needed(ini, "chain_sag_correction"),
-            left_tolerance=_optional(ini, "left_tolerance", 0.0),
-            right_tolerance=_optional(ini, "right_tolerance", 0.0),
-            chain_elasticity=_optional(ini, "chain_elasticity", None),
+            left_tolerance=_with_default(ini, "left_tolerance", 0.0),
+            right_tolerance=_with_default(ini, "right_tolerance", 0.0),
+            chain_elasticity=_optional(ini, "chain_elasticity"),
             holey_sled_weight=weight,
-            chain_length=_optional(ini, "chain_length", 3360.0),
-            top_beam_tilt=_optional(ini, "top_beam_tilt", 0.0),
+            chain_length=_with_default(ini, "chain_length", 3360.0),
+            top_beam_tilt=_with_default(ini, "top_beam_tilt", 0.0),
         ),
     )
     fault = find_fault(settings)
@@ -132,7 +132,13 @@ def _needed(ini: IniText, name: str) -> float:
     return value
 
 
-def _optional(ini: IniText, name: str, default: float | None) -> float | None:
+def _with_default(ini: IniText, name: str, default: float) -> float:
+    """A number that the file may lack, and then is the default."""
+    value = _optional(ini, name)
+    return default if value is None else value
+
+
+def _optional(ini: IniText, name: str) -> float | None:
     """A number that the file may lack; but a misspelt key is not taken for a missing one."""
     value = _number(ini, name)
     if value is not None:
@@ -145,7 +151,7 @@ def _optional(ini: IniText, name: str, default: float | None) -> float | None:
             place=near,
             remedy="correct it or remove the line",
         )
-    return default
+    return None
 
 
 def _number(ini: IniText, name: str) -> float | None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import TypedDict
 
 from plumb.text.errors import InputError
 
@@ -17,15 +18,21 @@ HOLEY_CHAIN_WEIGHT = 0.001372  # [N/mm] as the catenary release rounds it
 SPROCKET_RADIUS = 10 * 6.35 / (2 * math.pi)  # [mm] ten teeth of 6.35 mm
 FEEDS = ("top", "bottom")
 CONTROLLERS = ("stock", "holey", "plumb")  # whose formulas paid the chains out
-FRAME_FIELDS = (
-    "motor_gap",
-    "motor_height",
-    "motor_center_x",
-    "rotation_radius",
-    "sprocket_radius",
-    "sled_weight",
-    "chain_weight",
-)
+
+
+class Frame(TypedDict):
+    """The seven numbers that every machine has [mm, N]; docs/words.md says what each is."""
+
+    motor_gap: float
+    motor_height: float
+    motor_center_x: float
+    rotation_radius: float
+    sprocket_radius: float
+    sled_weight: float
+    chain_weight: float
+
+
+FRAME_FIELDS = tuple(Frame.__annotations__)
 
 
 @dataclass(frozen=True)
@@ -128,6 +135,19 @@ class MachineSettings:
             effects={**derived, **self.effects},
             published=PublishedSettings(),
         )
+
+
+def frame_of(values: Mapping[str, float]) -> Frame:
+    """The frame among numbers by name; what else there is does not matter."""
+    return Frame(
+        motor_gap=values["motor_gap"],
+        motor_height=values["motor_height"],
+        motor_center_x=values["motor_center_x"],
+        rotation_radius=values["rotation_radius"],
+        sprocket_radius=values["sprocket_radius"],
+        sled_weight=values["sled_weight"],
+        chain_weight=values["chain_weight"],
+    )
 
 
 def radius_in_published(left: float, right: float) -> float:

@@ -118,6 +118,7 @@ def with_values(ini: IniText, changes: dict[tuple[str, str], str]) -> str:
             line = lines[entry.line - 1]
             bare = _bare(line)
             old = _ENTRY.fullmatch(bare)
+            assert old, "an entry that was parsed still reads as one"
             mark = line[: len(line.rstrip("\r\n")) - len(bare)]  # a byte-order mark, kept
             ending = line[len(line.rstrip("\r\n")) :]
             lines[entry.line - 1] = f"{mark}{old['head']}{value}{old['tail']}{ending}"

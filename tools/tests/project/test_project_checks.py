@@ -182,6 +182,28 @@ def test_words_allow_an_address_with_such_a_folder(tmp_path):
 
 
 @pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("def f(x):\n    return x\n", 1),
+        ("def f(x: int) -> str:\n    return x\n", 2),
+        ("x: int = ''  # type: ignore\n", 1),
+        ("x: int = ''  # type: ignore[assignment]\n", 1),
+    ],
+)
+def test_annotations_refuse(tmp_path, text, line):
+    code, out = said("annotations", plant(tmp_path, {"tools/plumb/text/new.py": text}))
+    assert code == 1
+    assert out.startswith(f"tools/plumb/text/new.py:{line}:")
+    assert out.count("\n") == 1
+
+
+def test_annotations_let_a_reason_pass(tmp_path):
+    text = "x: int = ''  # type: ignore[assignment]  # the library takes text as well\n"
+    code, out = said("annotations", plant(tmp_path, {"tools/plumb/text/new.py": text}))
+    assert (code, out.count("\n")) == (0, 1), out
+
+
+@pytest.mark.parametrize(
     ("name", "text"),
     [
         ("src/main.cpp", "int  a;\n"),

@@ -1,0 +1,56 @@
+"""The types in tools/plumb/_core.pyi are those of the compiled module."""
+
+import ast
+from pathlib import Path
+
+import numpy as np
+import plumb
+import pytest
+from nanobind.stubgen import StubGen
+from plumb import _core
+
+STUB = Path(plumb.__file__).with_name("_core.pyi").read_text()
+VALUES = np.array([field["usual"] for field in _core.frame()] + [0.0] * 100)
+VALUES = VALUES[: len(_core.settings())]
+POINT = np.zeros((1, 2))
+RESULTS = {
+    "SettingRow": _core.settings_table()[0],
+    "Effective": _core.effective({}),
+    "Reach": _core.reach(VALUES, True, POINT),
+}
+PLAIN = {"int": int, "str": str, "bool": bool, "float": float}
+
+
+def signatures(text: str) -> dict[str, tuple[list[str], list[str], int]]:
+    """Of each function: its parameters, those given by name alone, the count of defaults."""
+    functions = [node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef)]
+    return {
+        function.name: (
+            [parameter.arg for parameter in function.args.args],
+            [parameter.arg for parameter in function.args.kwonlyargs],
+            len(function.args.defaults) + len(function.args.kw_defaults),
+        )
+        for function in functions
+    }
+
+
+def fields_of(record: str) -> dict[str, str]:
+    """The keys of a TypedDict of the stub with their types as written."""
+    classes = [node for node in ast.parse(STUB).body if isinstance(node, ast.ClassDef)]
+    fields = next(each.body for each in classes if each.name == record)
+    return {field.target.id: ast.unparse(field.annotation) for field in fields}
+
+
+def test_the_stub_has_the_functions_of_the_module():
+    generated = StubGen(_core)
+    generated.put(_core)
+    assert signatures(STUB) == signatures(generated.get())
+
+
+@pytest.mark.parametrize("record", RESULTS)
+def test_the_stub_has_the_keys_that_the_module_returns(record):
+    fields = fields_of(record)
+    assert set(fields) == set(RESULTS[record])
+    for key, written in fields.items():
+        if written in PLAIN:
+            assert type(RESULTS[record][key]) is PLAIN[written], key
