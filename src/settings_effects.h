@@ -38,6 +38,7 @@ struct EffectRow {
              settings::Kind::kReal,
              settings::Access::kListed,
              settings::kAnyValue,
+             settings::kGeometry,
              0.0f,
              low - (high - low),
              high + (high - low)};

@@ -10,8 +10,8 @@ namespace flash_rows {
 
 using namespace settings;
 
-#define PLUMB_ROW(access, name, number, label, kind, step, usual, low, high, ...) \
-  {number, Kind::kind, Access::access, step, usual, low, high},
+#define PLUMB_ROW(access, name, number, label, kind, step, usual, low, high, touches, ...) \
+  {number, Kind::kind, Access::access, step, touches, usual, low, high},
 #define PLUMB_LISTED(...) PLUMB_ROW(kListed, __VA_ARGS__)
 #define PLUMB_HIDDEN(...) PLUMB_ROW(kHidden, __VA_ARGS__)
 #define PLUMB_KEPT(...) PLUMB_ROW(kKept, __VA_ARGS__)

@@ -19,6 +19,7 @@ inline settings::Entry placeRow(uint8_t index) {
           settings::Kind::kReal,
           settings::Access::kHidden,
           settings::kAnyValue,
+          settings::kNothing,
           is_goal ? kNoPlace : 0.0f,
           -kNoPlace,
           kNoPlace};

@@ -4,7 +4,7 @@
 //
 // A list of macro calls, because flash on the board and plain memory on the host keep the same rows
 // in different ways (settings_flash.h; test/settings_host/plain_table.h). Each row:
-//   name in C++, number, "name, unit", kind, step, default, lowest, highest,
+//   name in C++, number, "name, unit", kind, step, default, lowest, highest, what it touches,
 //   section and key of the published programs, or "", sentence,
 //   what is not as in the published firmware, or ""
 // A number that was once released keeps its meaning for ever. Free: 14, 47 to 59, 73, 74, 77 to 84.
@@ -18,131 +18,131 @@
 
 // clang-format off
 #define PLUMB_PUBLISHED_SETTINGS(ROW) \
-  ROW(kSheetWidth, 0, "sheet_width, mm", kReal, kAnyValue, 2438.4f, 200, 20000, \
+  ROW(kSheetWidth, 0, "sheet_width, mm", kReal, kAnyValue, 2438.4f, 200, 20000, kGeometry, \
       "Maslow: bedWidth", "Width of the sheet; the origin is its middle.", "") \
-  ROW(kSheetHeight, 1, "sheet_height, mm", kReal, kAnyValue, 1219.2f, 100, 20000, \
+  ROW(kSheetHeight, 1, "sheet_height, mm", kReal, kAnyValue, 1219.2f, 100, 20000, kGeometry, \
       "Maslow: bedHeight", "Height of the sheet.", "") \
-  ROW(kMotorGap, 2, "motor_gap, mm", kReal, kAnyValue, 2978.4f, 400, 20000, \
+  ROW(kMotorGap, 2, "motor_gap, mm", kReal, kAnyValue, 2978.4f, 400, 20000, kGeometry, \
       "Maslow: motorSpacingX", "Distance between the sprocket centres.", "") \
-  ROW(kMotorOffset, 3, "motor_offset, mm", kReal, kAnyValue, 463, 1, 20000, \
+  ROW(kMotorOffset, 3, "motor_offset, mm", kReal, kAnyValue, 463, 1, 20000, kGeometry, \
       "Maslow: motorOffsetY", "Sprocket centres above the sheet's top edge.", "") \
-  ROW(kMountGap, 4, "mount_gap, mm", kReal, kAnyValue, 310, 1, 2000, \
+  ROW(kMountGap, 4, "mount_gap, mm", kReal, kAnyValue, 310, 1, 2000, kGeometry, \
       "Maslow: sledWidth", "Between the two brackets of a sled without ring.", "") \
-  ROW(kMountHeight, 5, "mount_height, mm", kReal, kAnyValue, 139, -2000, 2000, \
+  ROW(kMountHeight, 5, "mount_height, mm", kReal, kAnyValue, 139, -2000, 2000, kGeometry, \
       "Maslow: sledHeight", "Brackets above the bit.", "") \
-  ROW(kCenterDepth, 6, "center_depth, mm", kReal, kAnyValue, 79, -2000, 2000, \
+  ROW(kCenterDepth, 6, "center_depth, mm", kReal, kAnyValue, 79, -2000, 2000, kGeometry, \
       "Maslow: sledCG", "Centre of gravity of that sled below the bit.", "") \
-  ROW(kKinematics, 7, "kinematics", kByte, 1, 1, 1, 2, \
+  ROW(kKinematics, 7, "kinematics", kByte, 1, 1, 1, 2, kGeometry, \
       "Computed: kinematicsTypeComputed", "1: quadrilateral, a sled with two brackets; 2: triangular, a sled with a ring.", "") \
-  ROW(kRotationRadius, 8, "rotation_radius, mm", kReal, kAnyValue, 250, 0, 2000, \
+  ROW(kRotationRadius, 8, "rotation_radius, mm", kReal, kAnyValue, 250, 0, 2000, kGeometry, \
       "Advanced: rotationRadius", "From the bit to the end of each chain (triangular).", "") \
-  ROW(kIdleTime, 9, "idle_time, ms", kWord, 1, 2000, 0, 65535, \
+  ROW(kIdleTime, 9, "idle_time, ms", kWord, 1, 2000, 0, 65535, kNothing, \
       "", "Rest after which the motors are switched off and the position is kept.", "the position is kept in a ring of 65 places, with a mark while the machine moves") \
-  ROW(kChainLength, 10, "chain_length, mm", kWord, 1, 3360, 0, 65535, \
+  ROW(kChainLength, 10, "chain_length, mm", kWord, 1, 3360, 0, 65535, kGeometry, \
       "Advanced: chainLength", "Length of each chain; no more is paid out.", "") \
-  ROW(kExtendLength, 11, "extend_length, mm", kWord, 1, 1651, 0, 65535, \
+  ROW(kExtendLength, 11, "extend_length, mm", kWord, 1, 1651, 0, 65535, kNothing, \
       "Advanced: chainExtendLength", "Chain paid out for hooking on the sled.", "") \
-  ROW(kEncoderCounts, 12, "encoder_counts, counts/turn", kReal, kAnyValue, 8113.73f, 1, 1e6f, \
+  ROW(kEncoderCounts, 12, "encoder_counts, counts/turn", kReal, kAnyValue, 8113.73f, 1, 1e6f, kScale, \
       "Advanced: encoderSteps", "Encoder counts for one turn of a sprocket.", "") \
-  ROW(kChainPerTurn, 13, "chain_per_turn, mm", kReal, kAnyValue, 63.5f, 1, 1000, \
+  ROW(kChainPerTurn, 13, "chain_per_turn, mm", kReal, kAnyValue, 63.5f, 1, 1000, kScale | kGeometry | kLimits, \
       "Computed: distPerRot", "Chain for one turn of a sprocket: teeth times pitch.", "the published sprocket has a radius of 10.1 mm until this is written") \
-  ROW(kGreatestFeed, 15, "greatest_feed, mm/min", kWord, 1, 900, 1, 65535, \
+  ROW(kGreatestFeed, 15, "greatest_feed, mm/min", kWord, 1, 900, 1, 65535, kLimits, \
       "Advanced: maxFeedrate", "Greatest feed, and that of G0.", "") \
-  ROW(kZMotor, 16, "z_motor", kBool, 1, 1, 0, 1, \
+  ROW(kZMotor, 16, "z_motor", kBool, 1, 1, 0, 1, kNothing, \
       "Maslow: zAxis", "1: the z axis has a motor; 0: it is set by hand.", "") \
-  ROW(kSpindle, 17, "spindle", kByte, 1, 0, 0, 4, \
+  ROW(kSpindle, 17, "spindle", kByte, 1, 0, 0, 4, kCutter, \
       "Advanced: spindleAutomate", "0: not switched; 1: servo; 2: relay, on when high; 3: relay, on when low; 4: pulsed by S.", "4 is new") \
-  ROW(kZSpeed, 18, "z_speed, turns/min", kReal, kAnyValue, 12.6f, 0.01f, 1000, \
+  ROW(kZSpeed, 18, "z_speed, turns/min", kReal, kAnyValue, 12.6f, 0.01f, 1000, kLimits, \
       "", "Greatest speed of the z axis.", "") \
-  ROW(kZPerTurn, 19, "z_per_turn, mm", kReal, kAnyButZero, 3.17f, -1000, 1000, \
+  ROW(kZPerTurn, 19, "z_per_turn, mm", kReal, kAnyButZero, 3.17f, -1000, 1000, kScale | kLimits, \
       "Maslow: zDistPerRot", "Travel of z for one turn; negative: it runs the other way.", "") \
-  ROW(kZCounts, 20, "z_counts, counts/turn", kReal, kAnyButZero, 7560, -1e6f, 1e6f, \
+  ROW(kZCounts, 20, "z_counts, counts/turn", kReal, kAnyButZero, 7560, -1e6f, 1e6f, kScale, \
       "Advanced: zEncoderSteps", "Encoder counts for one turn of z; negative: motor or encoder is wired the other way.", "") \
-  ROW(kMainPositionP, 21, "main_position_p", kReal, kAnyValue, 1300, 0, 1e6f, \
+  ROW(kMainPositionP, 21, "main_position_p", kReal, kAnyValue, 1300, 0, 1e6f, kLoops, \
       "Computed: KpPosMain", "Chain motors, position loop: proportional gain.", "") \
-  ROW(kMainPositionI, 22, "main_position_i", kReal, kAnyValue, 0, 0, 1e6f, \
+  ROW(kMainPositionI, 22, "main_position_i", kReal, kAnyValue, 0, 0, 1e6f, kLoops, \
       "Computed: KiPosMain", "Chain motors, position loop: integral gain.", "") \
-  ROW(kMainPositionD, 23, "main_position_d", kReal, kAnyValue, 34, 0, 1e6f, \
+  ROW(kMainPositionD, 23, "main_position_d", kReal, kAnyValue, 34, 0, 1e6f, kLoops, \
       "Computed: KdPosMain", "Chain motors, position loop: derivative gain.", "") \
-  ROW(kMainPositionWeight, 24, "main_position_weight", kReal, kAnyValue, 1, 0, 1, \
+  ROW(kMainPositionWeight, 24, "main_position_weight", kReal, kAnyValue, 1, 0, 1, kLoops, \
       "Computed: propWeightMain", "Chain motors, position loop: share of the proportional part that acts on the error.", "") \
-  ROW(kMainSpeedP, 25, "main_speed_p", kReal, kAnyValue, 5, 0, 1e6f, \
+  ROW(kMainSpeedP, 25, "main_speed_p", kReal, kAnyValue, 5, 0, 1e6f, kLoops, \
       "Computed: KpVMain", "Chain motors, speed loop: proportional gain.", "") \
-  ROW(kMainSpeedI, 26, "main_speed_i", kReal, kAnyValue, 0, 0, 1e6f, \
+  ROW(kMainSpeedI, 26, "main_speed_i", kReal, kAnyValue, 0, 0, 1e6f, kLoops, \
       "Computed: KiVMain", "Chain motors, speed loop: integral gain.", "") \
-  ROW(kMainSpeedD, 27, "main_speed_d", kReal, kAnyValue, 0.28f, 0, 1e6f, \
+  ROW(kMainSpeedD, 27, "main_speed_d", kReal, kAnyValue, 0.28f, 0, 1e6f, kLoops, \
       "Computed: KdVMain", "Chain motors, speed loop: derivative gain.", "") \
-  ROW(kMainSpeedWeight, 28, "main_speed_weight", kReal, kAnyValue, 1, 0, 1, \
+  ROW(kMainSpeedWeight, 28, "main_speed_weight", kReal, kAnyValue, 1, 0, 1, kLoops, \
       "", "Chain motors, speed loop: share of the proportional part that acts on the error.", "") \
-  ROW(kZPositionP, 29, "z_position_p", kReal, kAnyValue, 0, 0, 1e6f, \
+  ROW(kZPositionP, 29, "z_position_p", kReal, kAnyValue, 0, 0, 1e6f, kLoops, \
       "Computed: KpPosZ", "Z motor, position loop: proportional gain. The published default of 0 keeps z still until a client sends its 1300.", "") \
-  ROW(kZPositionI, 30, "z_position_i", kReal, kAnyValue, 0, 0, 1e6f, \
+  ROW(kZPositionI, 30, "z_position_i", kReal, kAnyValue, 0, 0, 1e6f, kLoops, \
       "Computed: KiPosZ", "Z motor, position loop: integral gain.", "") \
-  ROW(kZPositionD, 31, "z_position_d", kReal, kAnyValue, 34, 0, 1e6f, \
+  ROW(kZPositionD, 31, "z_position_d", kReal, kAnyValue, 34, 0, 1e6f, kLoops, \
       "Computed: KdPosZ", "Z motor, position loop: derivative gain.", "") \
-  ROW(kZPositionWeight, 32, "z_position_weight", kReal, kAnyValue, 1, 0, 1, \
+  ROW(kZPositionWeight, 32, "z_position_weight", kReal, kAnyValue, 1, 0, 1, kLoops, \
       "Computed: propWeightZ", "Z motor, position loop: share of the proportional part that acts on the error.", "") \
-  ROW(kZSpeedP, 33, "z_speed_p", kReal, kAnyValue, 5, 0, 1e6f, \
+  ROW(kZSpeedP, 33, "z_speed_p", kReal, kAnyValue, 5, 0, 1e6f, kLoops, \
       "Computed: KpVZ", "Z motor, speed loop: proportional gain.", "") \
-  ROW(kZSpeedI, 34, "z_speed_i", kReal, kAnyValue, 0, 0, 1e6f, \
+  ROW(kZSpeedI, 34, "z_speed_i", kReal, kAnyValue, 0, 0, 1e6f, kLoops, \
       "Computed: KiVZ", "Z motor, speed loop: integral gain.", "") \
-  ROW(kZSpeedD, 35, "z_speed_d", kReal, kAnyValue, 0.28f, 0, 1e6f, \
+  ROW(kZSpeedD, 35, "z_speed_d", kReal, kAnyValue, 0.28f, 0, 1e6f, kLoops, \
       "Computed: KdVZ", "Z motor, speed loop: derivative gain.", "") \
-  ROW(kZSpeedWeight, 36, "z_speed_weight", kReal, kAnyValue, 1, 0, 1, \
+  ROW(kZSpeedWeight, 36, "z_speed_weight", kReal, kAnyValue, 1, 0, 1, kLoops, \
       "", "Z motor, speed loop: share of the proportional part that acts on the error.", "") \
-  ROW(kSagCorrection, 37, "sag_correction, 1e-12/mm^2", kReal, kAnyValue, 0, -1e5f, 1e5f, \
+  ROW(kSagCorrection, 37, "sag_correction, 1e-12/mm^2", kReal, kAnyValue, 0, -1e5f, 1e5f, kGeometry, \
       "Advanced: chainSagCorrection", "Chain sag as the published programs fit it; added to $160.", "the same chains within 0.3 % of the sag") \
-  ROW(kFeedSide, 38, "feed", kByte, 1, 1, 1, 2, \
+  ROW(kFeedSide, 38, "feed", kByte, 1, 1, 1, 2, kGeometry | kDrives, \
       "Computed: chainOverSprocketComputed", "1: chains leave over the top of their sprockets; 2: off the bottom.", "") \
-  ROW(kPwmFrequency, 39, "pwm_frequency", kByte, 1, 3, 1, 3, \
+  ROW(kPwmFrequency, 39, "pwm_frequency", kByte, 1, 3, 1, 3, kDrives, \
       "Computed: fPWMComputed", "Motor PWM: 1 is 31 kHz, 2 is 4 kHz, 3 is 490 Hz, as far as the driver allows.", "") \
-  ROW(kLeftTolerance, 40, "left_tolerance, %", kReal, kAnyValue, 0, -5, 5, \
+  ROW(kLeftTolerance, 40, "left_tolerance, %", kReal, kAnyValue, 0, -5, 5, kGeometry, \
       "Advanced: leftChainTolerance", "By how much the left chain's links are longer than nominal; added to $180.", "the same chains; the ring, which is no chain, is not stretched by $180") \
-  ROW(kRightTolerance, 41, "right_tolerance, %", kReal, kAnyValue, 0, -5, 5, \
+  ROW(kRightTolerance, 41, "right_tolerance, %", kReal, kAnyValue, 0, -5, 5, kGeometry, \
       "Advanced: rightChainTolerance", "The same for the right chain; added to $181.", "") \
-  ROW(kPositionErrorLimit, 42, "position_error_limit, mm", kReal, kAnyValue, 2, 0.01f, 100000, \
+  ROW(kPositionErrorLimit, 42, "position_error_limit, mm", kReal, kAnyValue, 2, 0.01f, 100000, kLoops, \
       "Advanced: positionErrorLimit", "A chain this far from where it should be stops the machine.", "")
 
 #define PLUMB_HIDDEN_SETTINGS(ROW) \
-  ROW(kZUpperLimit, 43, "z_upper_limit, mm", kReal, kAnyValue, 10000, -10000, 10000, \
+  ROW(kZUpperLimit, 43, "z_upper_limit, mm", kReal, kAnyValue, 10000, -10000, 10000, kNothing, \
       "", "Highest z, set by B17; 10000: none.", "writing to it is refused; none is 10000, not a NaN") \
-  ROW(kZLowerLimit, 44, "z_lower_limit, mm", kReal, kAnyValue, -10000, -10000, 10000, \
+  ROW(kZLowerLimit, 44, "z_lower_limit, mm", kReal, kAnyValue, -10000, -10000, 10000, kNothing, \
       "", "Lowest z, set by B18; -10000: none.", "writing to it is refused; none is -10000, not a NaN")
 
 #define PLUMB_OWN_SETTINGS(ROW) \
-  ROW(kSpindleLeast, 60, "spindle_least, turns/min", kReal, kAnyValue, 4000, 0, 100000, \
+  ROW(kSpindleLeast, 60, "spindle_least, turns/min", kReal, kAnyValue, 4000, 0, 100000, kNothing, \
       "", "Slowest speed of a pulsed spindle ($17 = 4); S below it counts as this.", "new") \
-  ROW(kSpindleMost, 61, "spindle_most, turns/min", kReal, kAnyValue, 24000, 1, 100000, \
+  ROW(kSpindleMost, 61, "spindle_most, turns/min", kReal, kAnyValue, 24000, 1, 100000, kNothing, \
       "", "Speed of a pulsed spindle whose pin is always high.", "new") \
-  ROW(kSledWeight, 62, "sled_weight, N", kReal, kAnyValue, 97.9f, 30, 1000, \
+  ROW(kSledWeight, 62, "sled_weight, N", kReal, kAnyValue, 97.9f, 30, 1000, kGeometry, \
       "", "Sled, router and bricks, as far as the chains carry them; $46=... of WebControl sets it too.", "new") \
-  ROW(kChainWeight, 63, "chain_weight, N/mm", kReal, kAnyValue, 0, 0, 0.02f, \
+  ROW(kChainWeight, 63, "chain_weight, N/mm", kReal, kAnyValue, 0, 0, 0.02f, kGeometry, \
       "", "One millimetre of chain, 0.00137293 for the usual one; 0: the sled alone loads the chains, as in the published model.", "new") \
-  ROW(kMotorCenterX, 64, "motor_center_x, mm", kReal, kAnyValue, 0, -5000, 5000, \
+  ROW(kMotorCenterX, 64, "motor_center_x, mm", kReal, kAnyValue, 0, -5000, 5000, kGeometry, \
       "", "Middle between the sprockets, right of the middle of the sheet.", "new") \
-  ROW(kAccelerationXy, 65, "acceleration_xy, mm/s^2", kReal, kAnyValue, 100, 1, 5000, \
+  ROW(kAccelerationXy, 65, "acceleration_xy, mm/s^2", kReal, kAnyValue, 100, 1, 5000, kLimits, \
       "", "Greatest acceleration along the sheet.", "new") \
-  ROW(kAccelerationZ, 66, "acceleration_z, mm/s^2", kReal, kAnyValue, 10, 0.1f, 5000, \
+  ROW(kAccelerationZ, 66, "acceleration_z, mm/s^2", kReal, kAnyValue, 10, 0.1f, 5000, kLimits, \
       "", "Greatest acceleration of z.", "new") \
-  ROW(kCornerDeviation, 67, "corner_deviation, mm", kReal, kAnyValue, 0.05f, 0, 10, \
+  ROW(kCornerDeviation, 67, "corner_deviation, mm", kReal, kAnyValue, 0.05f, 0, 10, kLimits, \
       "", "How far from a corner the sled may pass without stopping; 0: it stops.", "new") \
-  ROW(kChainSpeed, 68, "chain_speed, mm/min", kReal, kAnyValue, 1000, 10, 10000, \
+  ROW(kChainSpeed, 68, "chain_speed, mm/min", kReal, kAnyValue, 1000, 10, 10000, kLimits, \
       "", "Greatest speed of a chain; moves are slowed to keep it. More than 20 turns of a sprocket a minute (1270 with $13=63.5) is refused: no gearbox does it.", "new") \
-  ROW(kLoopRate, 69, "loop_rate, Hz", kByte, 100, 100, 100, 200, \
+  ROW(kLoopRate, 69, "loop_rate, Hz", kByte, 100, 100, 100, 200, kRestart, \
       "", "How often the motors are controlled: 100 or 200.", "new") \
-  ROW(kRefusedMotion, 70, "refused_motion", kBool, 1, 0, 0, 1, \
+  ROW(kRefusedMotion, 70, "refused_motion", kBool, 1, 0, 0, 1, kNothing, \
       "", "What a line does whose motion cannot be done: 0 halts the machine until Stop; 1 answers error: and goes on with the next.", "new") \
-  ROW(kMotionAhead, 71, "motion_ahead, ms", kWord, 1, 1000, 0, 10000, \
+  ROW(kMotionAhead, 71, "motion_ahead, ms", kWord, 1, 1000, 0, 10000, kNothing, \
       "", "A line is answered when less than this is left of its motion, so that a sender that stops sending stops the sled.", "new") \
-  ROW(kLaserPulses, 72, "laser_pulses", kBool, 1, 0, 0, 1, \
+  ROW(kLaserPulses, 72, "laser_pulses", kBool, 1, 0, 0, 1, kCutter, \
       "", "0: the laser's pin is high or low; 1: it is pulsed by S (0 to 255) and speed.", "new") \
-  ROW(kBandGap, 75, "band_gap, V", kReal, kAnyValue, 1.1f, 0.9f, 1.3f, \
+  ROW(kBandGap, 75, "band_gap, V", kReal, kAnyValue, 1.1f, 0.9f, 1.3f, kNothing, \
       "", "Reference of this processor; right when the supply that B30 tells is what a voltmeter shows on its 5 V.", "new") \
-  ROW(kLeastSupply, 76, "least_supply, V", kReal, kAnyValue, 4.3f, 0, 5, \
+  ROW(kLeastSupply, 76, "least_supply, V", kReal, kAnyValue, 4.3f, 0, 5, kNothing, \
       "", "Below this supply of the Mega it says so; 0: never.", "new")
 
 #define PLUMB_KEPT_SETTINGS(ROW) \
-  ROW(kSimulatedMotors, 99, "simulated_motors", kBool, 1, 0, 0, 1, \
+  ROW(kSimulatedMotors, 99, "simulated_motors", kBool, 1, 0, 0, 1, kNothing, \
       "", "1: the machine runs without motors, as B99 ON asks; kept by all but $RST=*.", "the published firmware keeps it at address 4095")
 
 #define PLUMB_SETTINGS(LISTED, HIDDEN, KEPT) \

@@ -126,7 +126,7 @@ void Machine::declareZInInterlude(float z) {
 void Machine::changeFeed(Quick quick) {
   if (!feed_.take(quick)) return;
   axes_.goAt(uint16_t(feed_.shareOfPlan() * float(motion::Playback::kAllOfIt)));
-  mover_.boost(feed_.boost(), values_.at(kGreatestFeed) / 60);
+  mover_.boost(feed_.boost());
   out_ << FLASH("[Feed: ") << int32_t(feed_.percent());
   out_.line(FLASH(" %]"));
 }

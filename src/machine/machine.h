@@ -207,7 +207,8 @@ class Machine {
   void dumpSettings();
   bool setValue(uint8_t number, float value);
   bool refuseChainSpeed();
-  void afterSetting(uint8_t number);
+  /// Works out again what new values touch; bits of settings::Touch.
+  void takeOver(uint8_t touches);
   void arrangeDrives();
   void refreshGeometry();
   void refreshGeometryWhenQuiet();

@@ -17,6 +17,13 @@ void Mover::prepare(const settings::Values& values, float seconds_per_tick) {
       {values.at(kAccelerationXy), values.at(kAccelerationZ), chain_speed / 60,
        values.at(kZSpeed) * float(fabs(values.at(kZPerTurn))) / 60, values.at(kCornerDeviation)},
       seconds_per_tick);
+  greatest_feed_ = values.at(kGreatestFeed) / 60;
+  moves_.boost(boost_, greatest_feed_);
+}
+
+void Mover::boost(float times) {
+  boost_ = times;
+  moves_.boost(times, greatest_feed_);
 }
 
 void Mover::setGeometry(const Geometry& geometry) {

@@ -47,8 +47,8 @@ class Mover {
   void stop(Axes& axes);
   void forget() { moves_.forget(); }
 
-  /// From now on feeds count so many times, up to `most_feed` [mm/s].
-  void boost(float times, float most_feed) { moves_.boost(times, most_feed); }
+  /// From now on feeds count so many times, up to the greatest feed.
+  void boost(float times);
   /// How often the axes found no set-point in the middle of a move, since this was last asked.
   uint16_t timesDry() { return moves_.timesDry(); }
 
@@ -57,6 +57,8 @@ class Mover {
 
  private:
   motion::Mover moves_;
+  float boost_ = 1;          ///< [1] times that feeds count
+  float greatest_feed_ = 0;  ///< [mm/s]
   bool is_stopping_ = false;
 };
 

@@ -11,11 +11,7 @@ struct PutLetter {
 };
 
 const uint32_t kQuietMs = 700;  // clients send their settings about 20 a second
-
-bool isGeometry(uint8_t number) {
-  return number <= 8 || number == 12 || number == 13 || number == 37 || number == 38 ||
-         number == 40 || number == 41 || (number >= 62 && number <= 64) || number >= 100;
-}
+const uint8_t kEverything = 255;
 
 }  // namespace
 
@@ -83,7 +79,7 @@ bool Machine::setValue(uint8_t number, float value) {
     return refuseChainSpeed();
   const settings::Refusal refusal = memory_.set(meant, value);
   if (refusal == settings::Refusal::kNone) {
-    afterSetting(meant);
+    takeOver(table_.at(settings::indexOf(table_, meant)).touches);
     return true;
   }
   beginError();
@@ -101,12 +97,13 @@ bool Machine::refuseChainSpeed() {
   return false;
 }
 
-void Machine::afterSetting(uint8_t number) {
-  if (number == 38 || number == 39) arrangeDrives();
-  if (axes_.prepare(values_)) keeper_.reconsider();
-  mover_.prepare(values_, axes_.secondsPerTick());
-  if (number == 17 || number == 72) cutter_.off();
-  if (!isGeometry(number)) return;
+void Machine::takeOver(uint8_t touches) {
+  using namespace settings;
+  if (touches & kDrives) arrangeDrives();
+  if ((touches & (kScale | kLoops)) && axes_.prepare(values_)) keeper_.reconsider();
+  if (touches & kLimits) mover_.prepare(values_, axes_.secondsPerTick());
+  if (touches & kCutter) cutter_.off();
+  if (!(touches & kGeometry)) return;
   // The clients send many in a row: the place is searched once, after the last.
   is_geometry_stale_ = true;
   geometry_changed_ms_ = clock_.milliseconds();
@@ -145,9 +142,7 @@ void Machine::restoreDefaults(settings::Reset what) {
     keeper_.startAfresh();
   }
   axes_.simulate(values_.at(kSimulatedMotors) != 0);
-  arrangeDrives();
-  afterSetting(0);
-  cutter_.off();
+  takeOver(kEverything);
   greet();
   sayMotors();
   sayReady();

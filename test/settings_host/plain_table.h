@@ -17,8 +17,8 @@ struct RowText {
 
 using namespace settings;
 
-#define PLUMB_ROW(access, name, number, label, kind, step, usual, low, high, ...) \
-  {number, Kind::kind, Access::access, step, usual, low, high},
+#define PLUMB_ROW(access, name, number, label, kind, step, usual, low, high, touches, ...) \
+  {number, Kind::kind, Access::access, step, touches, usual, low, high},
 #define PLUMB_LISTED(...) PLUMB_ROW(kListed, __VA_ARGS__)
 #define PLUMB_HIDDEN(...) PLUMB_ROW(kHidden, __VA_ARGS__)
 #define PLUMB_KEPT(...) PLUMB_ROW(kKept, __VA_ARGS__)
@@ -28,7 +28,8 @@ const Entry kRows[] = {PLUMB_SETTINGS(PLUMB_LISTED, PLUMB_HIDDEN, PLUMB_KEPT)};
 #undef PLUMB_HIDDEN
 #undef PLUMB_KEPT
 
-#define PLUMB_TEXT(name, number, label, kind, step, usual, low, high, key, sentence, change) \
+#define PLUMB_TEXT(name, number, label, kind, step, usual, low, high, touches, key, sentence, \
+                   change)                                                                    \
   {#name, label, key, sentence, change},
 const RowText kTexts[] = {PLUMB_SETTINGS(PLUMB_TEXT, PLUMB_TEXT, PLUMB_TEXT)};
 #undef PLUMB_TEXT

@@ -71,6 +71,16 @@ nb::dict placeTexts(uint8_t index) {
   return row;
 }
 
+/// What a new value touches, in words.
+nb::list touchesOf(const Entry& entry) {
+  const char* const kWords[] = {"scale",  "geometry", "loops",  "limits",
+                                "drives", "cutter",   "restart"};
+  nb::list result;
+  for (int bit = 0; bit < 7; ++bit)
+    if (entry.touches & (1 << bit)) result.append(kWords[bit]);
+  return result;
+}
+
 nb::list table() {
   const PlainTable rows;
   EffectTexts effects;
@@ -88,6 +98,7 @@ nb::list table() {
     row["low"] = entry.low;
     row["high"] = entry.high;
     row["step"] = entry.step;
+    row["touches"] = touchesOf(entry);
     result.append(row);
   }
   return result;
@@ -139,7 +150,7 @@ std::string format(double value) { return formatValue(float(value)).text; }
 void addSettings(nb::module_& module) {
   module.def("settings_table", &table,
              "The firmware's settings in the order of its dump: number, name, unit, kind, access,\n"
-             "usual, low, high, step, key of the published programs, sentence, change.");
+             "usual, low, high, step, touches, key of the published programs, sentence, change.");
   module.def("effective", &effective, nb::arg("settings"),
              "Frame, effects and over_top [mm, N, rad] that the firmware computes with, given\n"
              "{number: value} for what is not at its default.");

@@ -9,14 +9,12 @@ namespace settings {
 
 namespace {
 
-// The settings that turn encoder counts into lengths.
-const uint8_t kScaleNumbers[] = {12, 13, 19, 20};
-
+/// Checksum of the settings that turn encoder counts into lengths.
 uint16_t scaleOf(const Values& values) {
   Checksum sum;
-  for (uint8_t number : kScaleNumbers) {
-    const uint8_t index = indexOf(values.table(), number);
-    const float value = index == kNoIndex ? 0 : values.at(index);
+  for (uint8_t row = 0; row < values.count(); ++row) {
+    if ((values.table().at(row).touches & kScale) == 0) continue;
+    const float value = values.at(row);
     uint32_t bits;
     memcpy(&bits, &value, sizeof bits);
     for (uint8_t i = 0; i < 4; ++i) sum.add(uint8_t(bits >> (8 * i)));

@@ -19,13 +19,27 @@ enum class Access : uint8_t {
 /// Instead of a step: any value within the limits, or any but zero.
 enum : uint8_t { kAnyValue = 0, kAnyButZero = 255 };
 
+/// What a new value touches, as bits: what must be worked out again before it counts everywhere.
+/// The laws here know kScale alone; the machine knows the rest.
+enum Touch : uint8_t {
+  kNothing = 0,   ///< it is read where it is used: the next line goes by it
+  kScale = 1,     ///< how many counts are a length
+  kGeometry = 2,  ///< where the sled hangs on its chains, or where it may hang
+  kLoops = 4,     ///< gains and watch of the control loops
+  kLimits = 8,    ///< speeds, accelerations and corners of moves
+  kDrives = 16,   ///< how motors and encoders are driven and read
+  kCutter = 32,   ///< which pins switch spindle and laser, and how
+  kRestart = 64,  ///< it is read at the start alone
+};
+
 /// One row: what a setting may hold.
 struct Entry {
   uint8_t number;  ///< the n of $n
   Kind kind;
   Access access;
-  uint8_t step;  ///< whole values count from low in steps of this; or kAnyValue, kAnyButZero
-  float usual;   ///< the default
+  uint8_t step;     ///< whole values count from low in steps of this; or kAnyValue, kAnyButZero
+  uint8_t touches;  ///< bits of Touch
+  float usual;      ///< the default
   float low, high;
 };
 

@@ -21,6 +21,7 @@ class Setting:
     usual: float
     low: float
     high: float
+    touches: list[str]  # what is worked out again, of TOUCHES in the page of settings
     step: int  # 0: any value; 255: any but zero; else whole values in steps from low
     key: str  # section and key of the published programs, or ""
     sentence: str

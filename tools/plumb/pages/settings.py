@@ -71,8 +71,9 @@ def page(settings: Sequence[Setting]) -> str:
 
 def table(settings: Iterable[Setting], *, keys: bool = False) -> str:
     """The rows of some settings."""
-    head = "| $ | name | unit | type | default | limits |" + (" in the programs |" if keys else "")
-    lines = [head + " what it is |", "|---" * (7 + keys) + "|"]
+    head = "| $ | name | unit | type | default | limits | takes effect |"
+    head += " in the programs |" if keys else ""
+    lines = [head + " what it is |", "|---" * (8 + keys) + "|"]
     for one in settings:
         cells = [
             str(one.number),
@@ -81,6 +82,7 @@ def table(settings: Iterable[Setting], *, keys: bool = False) -> str:
             one.kind,
             format_value(one.usual),
             limits(one),
+            takes_effect(one),
         ]
         if keys:
             cells.append(one.key.replace(": ", ": `") + "`" if one.key else "none")
@@ -97,6 +99,15 @@ def limits(setting: Setting) -> str:
     if setting.step > 1:
         return f"{low} to {high} in steps of {setting.step}"
     return f"{low} to {high}"
+
+
+def takes_effect(setting: Setting) -> str:
+    """When a new value counts, and what is worked out again."""
+    if not setting.touches:
+        return "at once"
+    if "restart" in setting.touches:
+        return "after a restart"
+    return "at rest: " + ", ".join(setting.touches)
 
 
 def sentence(setting: Setting) -> str:
@@ -116,8 +127,20 @@ HEAD = """\
 
 `$$` lists the {count} settings below; `$n=value` sets one. Values may have any number of digits and
 an exponent; a whole number may be written `2.00000`. A value that cannot be right is refused with
-one line that begins with `error:`, and nothing changes. What is taken is in force at once and
-stored within a fifth of a second, while the machine goes on."""
+one line that begins with `error:`, and nothing changes. What is taken is stored within a fifth of
+a second, while the machine goes on.
+
+A `$` line waits until the moves before it are done. *Takes effect* says what happens then:
+
+| | |
+|---|---|
+| at once | the next line goes by the new value |
+| at rest: scale | counts mean other lengths from now on; chains and z stay where they are |
+| at rest: geometry | the place is worked out again: 0.7 s after the last such line, or by a move |
+| at rest: loops, limits | the next move is planned and controlled by the new value |
+| at rest: drives | all motors are switched off |
+| at rest: cutter | spindle and laser are switched off |
+| after a restart | power off and on, or the reset button |"""
 
 PUBLISHED = """\
 Number, meaning, unit and default are those of the published firmware, so GroundControl and

@@ -125,3 +125,17 @@ def test_a_folder_that_cannot_be_written_is_refused(tmp_path, capsys):
     (tmp_path / "docs").write_text("a file")
     assert main(["--folder", str(tmp_path)]) == 2
     assert capsys.readouterr().err.startswith("docs_settings: ")
+
+
+def test_every_row_says_when_it_takes_effect():
+    cells = {n: row.split(" | ")[6] for n, row in rows_of_numbers().items()}
+    assert cells[9] == "at once" and cells[69] == "after a restart"
+    assert cells[13] == "at rest: scale, geometry, limits"
+    touches = {word for one in SETTINGS.values() for word in one.touches}
+    assert touches == {"scale", "geometry", "loops", "limits", "drives", "cutter", "restart"}
+    explained = TEXT.split("## Published")[0]
+    assert all(re.search(rf"^\| a.*{word}", explained, re.MULTILINE) for word in touches)
+
+
+def rows_of_numbers():
+    return {int(row.split()[1]): row for row in TEXT.splitlines() if re.match(r"\| \d", row)}
