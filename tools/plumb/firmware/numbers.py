@@ -1,4 +1,4 @@
-"""A fitted machine as the numbers our firmware keeps, checked by the firmware's own reading."""
+"""A fitted machine as the numbers that the firmware keeps, read back by the firmware."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ WORST = 0.01  # [mm] of chain by which rounding to the firmware's floats may mov
 
 @dataclass(frozen=True)
 class Number:
-    """One setting as it is sent."""
+    """A setting as it is sent."""
 
     number: int
     name: str
@@ -40,12 +40,12 @@ def firmware_numbers(settings: MachineSettings) -> tuple[Number, ...]:
     firmware would refuse a number, or would compute chains that differ by more than WORST.
     """
     values = _values(settings)
-    rows = {one.number: one for one in every_setting()}
+    rows = {setting.number: setting for setting in every_setting()}
     numbers = tuple(
-        Number(one, rows[one].name, format_value(value).strip(), rows[one].unit)
-        for one, value in sorted(values.items())
+        Number(number, rows[number].name, format_value(value).strip(), rows[number].unit)
+        for number, value in sorted(values.items())
     )
-    _refuse_what_differs(settings, {one.number: float(one.text) for one in numbers})
+    _refuse_what_differs(settings, {row.number: float(row.text) for row in numbers})
     return numbers
 
 
@@ -63,7 +63,7 @@ def groundcontrol_values(settings: MachineSettings) -> dict[Key, float]:
 
 
 def _values(settings: MachineSettings) -> dict[int, float]:
-    own = {
+    numbers = {
         0: settings.sheet_width,
         1: settings.sheet_height,
         2: settings.motor_gap,
@@ -80,9 +80,10 @@ def _values(settings: MachineSettings) -> dict[int, float]:
         64: settings.motor_center_x,
     }
     for effect in library():
-        for one in effect["parameters"]:
-            own[one["setting"]] = settings.effect(effect["name"], one["name"])
-    return own
+        for parameter in effect["parameters"]:
+            size = settings.effect(effect["name"], parameter["name"])
+            numbers[parameter["setting"]] = size
+    return numbers
 
 
 def _refuse_what_differs(settings: MachineSettings, numbers: dict[int, float]) -> None:
@@ -92,10 +93,10 @@ def _refuse_what_differs(settings: MachineSettings, numbers: dict[int, float]) -
         raise InputError(f"the firmware refuses these settings: {error}") from None
     half = np.array(settings.sheet) / 2 - 50
     places = half * np.array([(x, y) for x in (-1, 0, 1) for y in (-1, 0, 1)])
-    ours, found = lengths(settings, places)
-    own, also = lengths(theirs, places)
-    reached = (found == FOUND) & (also == FOUND)
-    apart = float(np.abs(ours - own)[reached].max(initial=0.0))
+    ours, outcome = lengths(settings, places)
+    kept, kept_outcome = lengths(theirs, places)
+    reached = (outcome == FOUND) & (kept_outcome == FOUND)
+    apart = float(np.abs(ours - kept)[reached].max(initial=0.0))
     if apart > WORST or not reached.any():
         raise InputError(
             f"the firmware would pay out chain that differs by {apart:.3f} mm from this machine's: "

@@ -11,7 +11,7 @@ from plumb.settings.machine import MachineSettings, frame_of
 
 @dataclass(frozen=True)
 class Setting:
-    """One row of the firmware's table."""
+    """A row of the firmware's table."""
 
     number: int
     name: str
@@ -34,20 +34,22 @@ def every_setting() -> list[Setting]:
 
 
 def machine_of(numbers: Mapping[int, float], *, sheet: tuple[float, float]) -> MachineSettings:
-    """The machine with which the firmware computes when these settings are not at their defaults;
-    raises ValueError in the firmware's words for one that it refuses."""
-    found = _core.effective(dict(numbers))
+    """The machine with which the firmware computes when these settings are not at their defaults.
+
+    Raises ValueError in the firmware's words for a setting that it refuses.
+    """
+    effective = _core.effective(dict(numbers))
     effects: dict[str, dict[str, float]] = {}
-    for name, value in found["effects"].items():
+    for name, value in effective["effects"].items():
         effect, _, parameter = name.partition(".")
         if value:
             effects.setdefault(effect, {})[parameter] = value
     return MachineSettings(
         sheet_width=sheet[0],
         sheet_height=sheet[1],
-        feed="top" if found["over_top"] else "bottom",
+        feed="top" if effective["over_top"] else "bottom",
         effects=effects,
-        **frame_of(found["frame"]),
+        **frame_of(effective["frame"]),
     )
 
 

@@ -1,6 +1,6 @@
 """The firmware's telemetry line: read from what a client logged, and judged.
 
-The fields stand in docs/telemetry.md.
+docs/telemetry.md describes the fields.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ STARTS = ("usual", "brown-out", "watchdog")
 
 @dataclass(frozen=True)
 class Telemetry:
-    """One answer to B30. Chains first: left, right, then z."""
+    """An answer to B30. Chains first: left, right, then z."""
 
     error_mm: tuple[float, float, float]  # largest distance from the set-points
     dry: int  # how often no set-point was there in the middle of a move
@@ -44,7 +44,7 @@ def latest(text: str, path: str) -> Telemetry:
 
 
 def _read(fields: dict[str, str]) -> Telemetry:
-    """The fields of one line; a KeyError or ValueError if one is missing or no number."""
+    """The fields of a line; a KeyError or ValueError if one is missing or no number."""
     left, right, z = (float(number) for number in fields["error"].split(","))
     left_illegal, right_illegal, z_illegal = (int(n) for n in fields["illegal"].split(","))
     supply, least = (float(number) for number in fields["supply"].split(","))

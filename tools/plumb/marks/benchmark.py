@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 from os import PathLike
 from pathlib import Path
 from types import ModuleType
@@ -11,15 +10,13 @@ from typing import Any
 from plumb.marks.model import Distance, Mark, Point
 from plumb.text.checks import number, pair, refuse_unknown
 from plumb.text.errors import naming, refusal
+from plumb.text.scripts import load_script
 
 
 def _load() -> ModuleType:
-    """The pattern beside this package: it belongs to a script of its own, like the grid."""
+    """The pattern of the test, from a script next to this package, like the grid."""
     path = Path(__file__).resolve().parents[2] / "benchmark_pattern.py"
-    specification = importlib.util.spec_from_file_location("benchmark_pattern", path)
-    module = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(module)
-    return module
+    return load_script(path, name="benchmark_pattern")
 
 
 pattern = _load()
@@ -45,7 +42,7 @@ def read_benchmark(
     ]
     if not distances:
         raise refusal(path, "has no reading", place=place, remedy="fill in what you measured")
-    needed = {name for one in distances for name in one.between}
+    needed = {name for distance in distances for name in distance.between}
     marks = tuple(
         Mark(name, target, approach=approach, sled_weight=weight)
         for name, target in pattern.targets().items()
@@ -62,7 +59,7 @@ def span_kind(ends: tuple[Point, Point]) -> str | None:
 def _readings(
     path: str | PathLike[str], table: dict[str, Any], name: str, count: int
 ) -> list[float]:
-    """The numbers of one line of the form [mm]; none if the line is not there."""
+    """The numbers of a line of the form [mm]; none if the line is not there."""
     if name not in table:
         return []
     given = table[name]
@@ -72,14 +69,14 @@ def _readings(
                 f"{count} numbers are needed, as in the form; put a # before a line that you "
                 "did not measure"
             )
-        lengths = [number(one) for one in given]
-        for one in lengths:
-            if one <= 0:
-                raise ValueError(f"{one:g}; a distance is above zero")
+        lengths = [number(length) for length in given]
+        for length in lengths:
+            if length <= 0:
+                raise ValueError(f"{length:g}; a distance is above zero")
     return lengths
 
 
-def _kinds() -> dict[frozenset, str]:
+def _kinds() -> dict[frozenset[Point], str]:
     places = pattern.targets()
     return {
         frozenset(places[name] for name in ends): "long" if line in LONG_LINES else "small"

@@ -9,7 +9,7 @@ from plumb.marks.model import Mark, Measurements, Point
 from plumb.text.errors import refusal
 
 MOST_ERROR = 500.0  # [mm] farther from its target a mark is a slip of the pen
-BESIDE = 100.0  # [mm] a repeat may be made beside the first mark, whose hole is used up
+FARTHEST_REPEAT = 100.0  # [mm] a repeat may lie this far from the first mark, whose hole is used up
 OUTSIDE = 100.0  # [mm] a target may lie beyond the sheet's edge by this much
 INCH = 25.4  # [mm]
 # [mm] marks closer together than this on a sheet ten times as wide were not spread on purpose
@@ -41,16 +41,16 @@ def _refuse_empty(measurements: Measurements) -> None:
     if not measurements.measured_marks and not measurements.distances:
         raise refusal(measurements.source, "has no measured mark", remedy="add measured positions")
     first = {mark.name: mark for mark in reversed(measurements.marks)}
-    for one in measurements.distances:
-        for name in one.between:
+    for distance in measurements.distances:
+        for name in distance.between:
             if name not in first:
                 raise refusal(
                     measurements.source,
                     f"there is no mark named '{name}'",
-                    place=f"distance {one.between[0]}-{one.between[1]}",
+                    place=f"distance {distance.between[0]}-{distance.between[1]}",
                     remedy="add a [[mark]] with that name and its target",
                 )
-    ends = {name for one in measurements.distances for name in one.between}
+    ends = {name for distance in measurements.distances for name in distance.between}
     for mark in measurements.marks:
         if mark.measured is None and mark.name not in ends:
             raise refusal(
@@ -59,28 +59,28 @@ def _refuse_empty(measurements: Measurements) -> None:
                 place=f"mark {mark.name}",
                 remedy="add measured = [x, y], or remove the mark",
             )
-        if math.dist(mark.target, first[mark.name].target) > BESIDE:
+        if math.dist(mark.target, first[mark.name].target) > FARTHEST_REPEAT:
             raise refusal(
                 measurements.source,
                 "the same name stands twice with targets far apart",
                 place=f"mark {mark.name}",
-                remedy=f"give another name, or for a repeat a target within {BESIDE:g} mm",
+                remedy=f"give another name, or for a repeat a target within {FARTHEST_REPEAT:g} mm",
             )
         if mark.name in ends and mark.target != first[mark.name].target:
             raise refusal(
                 measurements.source,
                 "a distance goes to this name, but it has two places",
                 place=f"mark {mark.name}",
-                remedy="give the second place a name of its own",
+                remedy="give the second place another name",
             )
 
 
 def _refuse_inches(measurements: Measurements, sheet: Sheet) -> None:
-    groups = {
+    groups: dict[str, list[Point]] = {
         "targets": [mark.target for mark in measurements.marks],
-        "measured positions": [mark.measured for mark in measurements.measured_marks],
+        "measured positions": [measured for _, measured in measurements.readings],
     }
-    # One or two marks, read several times, are close together without being in inches.
+    # A mark or two, read several times, are close together without being in inches.
     if len(set(groups["targets"])) < 3 or max(sheet) < 10 * TOO_CLOSE:
         return
     for what, points in groups.items():
@@ -116,9 +116,9 @@ def _refuse_far(measurements: Measurements, mark: Mark, sheet: Sheet) -> None:
     if mark.measured is None:
         return
     error = math.dist(mark.target, mark.measured)
-    mistake = _exchanged(measurements, mark) if error > SUSPICIOUS else ""
+    mistake = _exchanged(measurements, mark, mark.measured) if error > SUSPICIOUS else ""
     if error > SUSPICIOUS and not mistake:
-        mistake = _likely_mistake(mark, sheet)
+        mistake = _likely_mistake(mark.target, mark.measured, sheet)
     if mistake or error > MOST_ERROR:
         raise refusal(
             measurements.source,
@@ -129,35 +129,33 @@ def _refuse_far(measurements: Measurements, mark: Mark, sheet: Sheet) -> None:
         )
 
 
-def _exchanged(measurements: Measurements, mark: Mark) -> str:
-    """A hint if another mark was read where this one should be, and the other way round."""
-    near = math.dist(mark.target, mark.measured) / 5
-    marks = measurements.measured_marks
-    far = [one for one in marks if math.dist(one.target, one.measured) > SUSPICIOUS]
+def _exchanged(measurements: Measurements, mark: Mark, measured: Point) -> str:
+    """A hint if another mark was read where this mark should be, and the other way round."""
+    near = math.dist(mark.target, measured) / 5
+    readings = measurements.readings
+    far = [place for sent, place in readings if math.dist(sent.target, place) > SUSPICIOUS]
     # Where most are far the whole file is turned round, and marks only seem exchanged.
-    for other in marks if 2 * len(far) <= len(marks) else ():
-        there, back = (
-            math.dist(other.target, mark.measured),
-            math.dist(mark.target, other.measured),
-        )
+    for other, other_measured in readings if 2 * len(far) <= len(readings) else ():
+        there = math.dist(other.target, measured)
+        back = math.dist(mark.target, other_measured)
         if other.target != mark.target and max(there, back) < min(TOO_CLOSE, near):
             return f"the readings of {mark.name} and {other.name} may be exchanged"
     return ""
 
 
-def _likely_mistake(mark: Mark, sheet: Sheet) -> str:
+def _likely_mistake(target: Point, measured: Point, sheet: Sheet) -> str:
     """The usual slip that would explain a mark far from its target, or nothing."""
     left = {
-        sentence: math.dist(mark.target, undo(*mark.measured))
+        sentence: math.dist(target, undo(*measured))
         for sentence, undo in _slips(sheet[0] / 2, sheet[1] / 2).items()
     }
     best = min(left, key=left.__getitem__)
-    explained = left[best] < min(TOO_CLOSE, math.dist(mark.target, mark.measured) / 5)
+    explained = left[best] < min(TOO_CLOSE, math.dist(target, measured) / 5)
     return best if explained else ""
 
 
 def _slips(right: float, top: float) -> dict[str, Callable[[float, float], Point]]:
-    """The usual slips of the pen, each with its undoing; the sheet ends at right and top [mm]."""
+    """The usual slips of the pen and what undoes each; the sheet ends at right and top [mm]."""
     corner_inches = f"measured, from the top-left corner, {_INCH_HINT}"
     from_middle = "measured counts from the middle, target from the top-left corner; use one frame"
     from_corner = "measured counts from the top-left corner, target from the middle; use one frame"
@@ -175,15 +173,15 @@ def _slips(right: float, top: float) -> dict[str, Callable[[float, float], Point
 
 
 def _refuse_odd_distances(measurements: Measurements) -> None:
-    for one in measurements.distances:
-        first, second = (measurements.target_of(name) for name in one.between)
+    for distance in measurements.distances:
+        first, second = (measurements.target_of(name) for name in distance.between)
         meant = math.dist(first, second)
-        if abs(meant - one.length) <= MOST_DISTANCE_ERROR:
+        if abs(meant - distance.length) <= MOST_DISTANCE_ERROR:
             continue
-        inches = abs(meant - INCH * one.length) < TOO_CLOSE
+        inches = abs(meant - INCH * distance.length) < TOO_CLOSE
         raise refusal(
             measurements.source,
-            f"measured {one.length:g} mm, but the targets are {meant:.0f} mm apart",
-            place=f"distance {one.between[0]}-{one.between[1]}",
+            f"measured {distance.length:g} mm, but the targets are {meant:.0f} mm apart",
+            place=f"distance {distance.between[0]}-{distance.between[1]}",
             remedy=_INCH_HINT if inches else "check the names and the number",
         )

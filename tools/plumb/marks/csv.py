@@ -1,4 +1,4 @@
-"""`marks.csv`: one mark per line in the machine frame, columns named in the first line."""
+"""`marks.csv`: a mark per line in the machine frame, columns named in the first line."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def _check_header(path: str | PathLike[str], line: int, columns: list[str]) -> N
             )
     if len(set(columns)) < len(columns):
         twin = next(column for column in columns if columns.count(column) > 1)
-        raise refusal(path, f"column {twin} stands twice", place=place, remedy="keep one")
+        raise refusal(path, f"column {twin} stands twice", place=place, remedy="remove a column")
     if not set(columns) & set(NEEDED):
         raise refusal(
             path,
@@ -107,7 +107,7 @@ def _mark(
     index: int,
     names: dict[Point, str],
 ) -> Mark:
-    """The mark of one line; without a name, an equal target makes it a repeat."""
+    """The mark of a line; without a name, an equal target makes it a repeat."""
     values: dict[str, float] = {}
     for column, text in row.items():
         if column != "name" and (text or column in NEEDED):

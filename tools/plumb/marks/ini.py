@@ -61,7 +61,7 @@ def _count(ini: IniText) -> int:
 
 
 def _point(ini: IniText, section: str, prefix: str, index: int) -> Point:
-    """One point of the file, as written [mm]."""
+    """A point of the file, as written [mm]."""
     values = []
     for axis in ("x", "y"):
         key = f"{prefix}{axis}{index}"

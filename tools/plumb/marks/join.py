@@ -1,19 +1,26 @@
-"""Several files of marks as one board: what is a repeat, what is another mark, what contradicts."""
+"""Several files of marks become a board: repeats, other marks, and what contradicts."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
+from typing import TypeVar
 
-from plumb.marks.model import Mark, Measurements, Round
+from plumb.marks.model import Mark, Measurements, Point, Round
+from plumb.settings.machine import MachineSettings
 from plumb.text.errors import refusal
 
+# How a reading is looked up in another file: target, or both ends of a distance, and sled weight.
+ReadingKey = tuple[Point | frozenset[Point], float | None]
+# What repeats of a mark share: target, sled weight, chains, approach, settings, zero, sheet.
+MadeBy = tuple[Point, float | None, Point | None, Point | None, MachineSettings | None, int, int]
+Value = TypeVar("Value", str, float)
 FEWEST_COPIED = 5  # readings that agree to the last digit before a file passes for a copy
 
 
 def join_measurements(parts: Iterable[Measurements]) -> Measurements:
-    """Several files as one board, in the order in which they were cut.
+    """Several files as a single board, in the order in which they were cut.
 
     A name with the same target, made in the same way, is a repeat. Otherwise it is a new mark, and
     all names of its file get the file's name in front.
@@ -23,30 +30,30 @@ def join_measurements(parts: Iterable[Measurements]) -> Measurements:
         return several[0]
     labels = _labels(several)
     rounds: list[Round] = []
-    known: dict[str, list[tuple]] = {}
+    known: dict[str, list[MadeBy]] = {}
     joined: list[Measurements] = []
     for number, part in enumerate(several):
         rounds.append(_next_round(part, labels[number], rounds))
         _refuse_a_copy(part, several[:number])
-        own = replace(part, marks=tuple(replace(mark, round=number) for mark in part.marks))
-        made = [(mark.name, _made(mark, rounds[number])) for mark in own.marks]
+        numbered = replace(part, marks=tuple(replace(mark, round=number) for mark in part.marks))
+        made = [(mark.name, _made(mark, rounds[number])) for mark in numbered.marks]
         clash = any(how not in known.get(name, [how]) for name, how in made)
-        joined.append(_renamed(own, f"{labels[number]}:") if clash else own)
+        joined.append(_renamed(numbered, f"{labels[number]}:") if clash else numbered)
         for mark, (_, how) in zip(joined[-1].marks, made, strict=True):
             known.setdefault(mark.name, []).append(how)
     return Measurements(
         marks=tuple(mark for part in joined for mark in part.marks),
-        distances=tuple(one for part in joined for one in part.distances),
-        controller=_agreed(several, "controller", "controller"),
-        tape_sigma=_agreed(several, "tape_sigma", "tape_sigma_mm"),
-        sled_weight=_one_weight(several),
+        distances=tuple(distance for part in joined for distance in part.distances),
+        controller=_agreed([(part, part.controller) for part in several], "controller"),
+        tape_sigma=_agreed([(part, part.tape_sigma) for part in several], "tape_sigma_mm"),
+        sled_weight=_shared_weight(several),
         source=" + ".join(part.source for part in several),
         rounds=tuple(rounds),
     )
 
 
 def _refuse_a_copy(part: Measurements, before: tuple[Measurements, ...]) -> None:
-    """Refuse a file that only repeats another one's numbers: it would pass for no noise at all."""
+    """Refuse a file with the numbers of another: the board would seem to have no noise."""
     for other in before:
         same = _readings(part).items() & _readings(other).items()
         common = _readings(part).keys() & _readings(other).keys()
@@ -54,20 +61,20 @@ def _refuse_a_copy(part: Measurements, before: tuple[Measurements, ...]) -> None
             raise refusal(
                 part.source,
                 f"its {len(same)} readings are those of {other.source} to the last digit",
-                remedy="a copy is no repeat: leave one of the files out",
+                remedy="a copy is no repeat: leave the copy out",
             )
 
 
-def _readings(part: Measurements) -> dict[tuple, tuple]:
+def _readings(part: Measurements) -> dict[ReadingKey, tuple[float, ...]]:
     """What was read, by targets and sled weight: the first reading of each."""
-    found: dict[tuple, tuple] = {}
-    for mark in part.measured_marks:
-        read = tuple(round(one, 6) for one in mark.measured)
-        found.setdefault((_rounded(mark.target), mark.sled_weight), read)
-    for one in part.distances:
-        ends = frozenset(_rounded(part.target_of(name)) for name in one.between)
-        found.setdefault((ends, part.sled_weight), (one.length,))
-    return found
+    readings: dict[ReadingKey, tuple[float, ...]] = {}
+    for mark, measured in part.readings:
+        read = tuple(round(number, 6) for number in measured)
+        readings.setdefault((_rounded(mark.target), mark.sled_weight), read)
+    for distance in part.distances:
+        ends = frozenset(_rounded(part.target_of(name)) for name in distance.between)
+        readings.setdefault((ends, part.sled_weight), (distance.length,))
+    return readings
 
 
 def _rounded(point: tuple[float, float]) -> tuple[float, float]:
@@ -88,29 +95,29 @@ def _labels(parts: tuple[Measurements, ...]) -> list[str]:
 
 
 def _next_round(part: Measurements, name: str, before: list[Round]) -> Round:
-    """The round of a file after others; refuses one whose frame is another."""
-    own = part.rounds[0]
+    """The round of a file after others; refuses a file whose frame moved."""
+    file_round = part.rounds[0]
     if not before:
-        return replace(own, name=name)
-    if own.frame_moved:
+        return replace(file_round, name=name)
+    if file_round.frame_moved:
         raise refusal(
             part.source,
             "frame_moved is true, so it cannot share a frame with the files before it",
-            remedy="use it in a command of its own",
+            remedy="give it alone",
         )
     last = before[-1]
     return replace(
-        own,
+        file_round,
         name=name,
-        zero_group=last.zero_group + own.chains_rezeroed,
-        sheet_group=last.sheet_group + own.new_sheet,
+        zero_group=last.zero_group + file_round.chains_rezeroed,
+        sheet_group=last.sheet_group + file_round.new_sheet,
     )
 
 
-def _made(mark: Mark, own: Round) -> tuple:
-    """Everything that must be equal for two readings of one name to be repeats."""
-    cut = (own.cut_with, own.zero_group, own.sheet_group)
-    return (mark.target, mark.sled_weight, mark.chains, mark.approach, *cut)
+def _made(mark: Mark, file_round: Round) -> MadeBy:
+    """Everything that must be equal for two readings with the same name to be repeats."""
+    made = (mark.target, mark.sled_weight, mark.chains, mark.approach)
+    return (*made, file_round.cut_with, file_round.zero_group, file_round.sheet_group)
 
 
 def _renamed(part: Measurements, prefix: str) -> Measurements:
@@ -118,26 +125,26 @@ def _renamed(part: Measurements, prefix: str) -> Measurements:
         part,
         marks=tuple(replace(mark, name=prefix + mark.name) for mark in part.marks),
         distances=tuple(
-            replace(one, between=(prefix + one.between[0], prefix + one.between[1]))
-            for one in part.distances
+            replace(distance, between=(prefix + distance.between[0], prefix + distance.between[1]))
+            for distance in part.distances
         ),
     )
 
 
-def _agreed(parts: tuple[Measurements, ...], name: str, key: str) -> str | float | None:
-    """What all files that say anything about it say."""
-    said = [(part, getattr(part, name)) for part in parts if getattr(part, name) is not None]
+def _agreed(values: list[tuple[Measurements, Value | None]], key: str) -> Value | None:
+    """The value of all files that give it."""
+    said = [(part, value) for part, value in values if value is not None]
     for part, value in said[1:]:
         if value != said[0][1]:
             raise refusal(
                 part.source,
                 f"{key} is {value} here and {said[0][1]} in {said[0][0].source}",
-                remedy="make them equal, or use the files one at a time",
+                remedy="make them equal, or use each file alone",
             )
     return said[0][1] if said else None
 
 
-def _one_weight(parts: tuple[Measurements, ...]) -> float | None:
-    """The sled weight [N] of the files if they all share it; each mark carries its own."""
+def _shared_weight(parts: tuple[Measurements, ...]) -> float | None:
+    """The sled weight [N] of the files if they all share it; each mark carries its weight."""
     weights = {part.sled_weight for part in parts}
     return weights.pop() if len(weights) == 1 else None

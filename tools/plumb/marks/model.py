@@ -16,7 +16,7 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True)
 class Round:
-    """How the marks of one file were cut, beyond what each mark says itself."""
+    """How the marks of a file were cut: what they share."""
 
     name: str = ""  # of the file, for messages
     date: str = ""
@@ -24,13 +24,13 @@ class Round:
     chains_rezeroed: bool = False  # since the file before
     new_sheet: bool = False  # or the old one lies elsewhere since the file before
     frame_moved: bool = False  # since the file before: a motor, the beam or the sled
-    zero_group: int = 0  # counts how often the chains were zeroed anew
+    zero_group: int = 0  # counts how often the chains were zeroed again
     sheet_group: int = 0  # counts the sheets
 
 
 @dataclass(frozen=True)
 class Mark:
-    """One mark: where the sled was sent and where it was found [mm], and how it came there."""
+    """Where the sled was sent and where the mark was measured [mm], and how the sled came there."""
 
     name: str
     target: Point  # [mm]
@@ -44,7 +44,7 @@ class Mark:
 
 @dataclass(frozen=True)
 class Distance:
-    """One measured distance [mm] between two marks, given by their names."""
+    """A measured distance [mm] between two marks, given by their names."""
 
     between: tuple[str, str]
     length: float  # [mm]
@@ -52,15 +52,15 @@ class Distance:
 
 @dataclass(frozen=True)
 class Measurements:
-    """All marks and distances of one board, and what is known about how they were taken."""
+    """All marks and distances of a board, and what is known about how they were taken."""
 
     marks: tuple[Mark, ...]
     distances: tuple[Distance, ...] = ()
     controller: str | None = None  # whose formula moved the sled
-    tape_sigma: float | None = None  # [mm] reading error of one coordinate or distance
-    sled_weight: float | None = None  # [N] of the whole file; each mark carries its own already
+    tape_sigma: float | None = None  # [mm] reading error of a coordinate or distance
+    sled_weight: float | None = None  # [N] of the whole file; each mark carries its weight already
     source: str = ""  # the path, for messages
-    rounds: tuple[Round, ...] = (Round(),)  # one for each file
+    rounds: tuple[Round, ...] = (Round(),)  # in the order of the files
     _by_name: dict[str, Mark] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -76,25 +76,30 @@ class Measurements:
         return tuple(mark for mark in self.marks if mark.measured is not None)
 
     @property
+    def readings(self) -> tuple[tuple[Mark, Point], ...]:
+        """These marks, each with its measured position [mm]."""
+        return tuple((mark, mark.measured) for mark in self.marks if mark.measured is not None)
+
+    @property
     def targets(self) -> np.ndarray:
         """Where the measured marks were sent, (n, 2) [mm]."""
         return _rows([mark.target for mark in self.measured_marks])
 
     @property
     def measured(self) -> np.ndarray:
-        """Where the measured marks were found, (n, 2) [mm]."""
-        return _rows([mark.measured for mark in self.measured_marks])
+        """The measured positions of these marks, (n, 2) [mm]."""
+        return _rows([measured for _, measured in self.readings])
 
     @property
     def distance_targets(self) -> np.ndarray:
         """Where both ends of each distance were sent, (m, 2 ends, 2) [mm]."""
-        ends = [[self.target_of(name) for name in one.between] for one in self.distances]
+        ends = [[self.target_of(name) for name in distance.between] for distance in self.distances]
         return np.array(ends, dtype=float).reshape(-1, 2, 2)
 
     @property
     def distance_lengths(self) -> np.ndarray:
         """The measured distances, (m,) [mm]."""
-        return np.array([one.length for one in self.distances], dtype=float)
+        return np.array([distance.length for distance in self.distances], dtype=float)
 
     @property
     def repeats(self) -> dict[str, tuple[int, ...]]:
@@ -102,12 +107,12 @@ class Measurements:
         rows: dict[str, list[int]] = {}
         for row, mark in enumerate(self.measured_marks):
             rows.setdefault(mark.name, []).append(row)
-        return {name: tuple(own) for name, own in rows.items() if len(own) > 1}
+        return {name: tuple(numbers) for name, numbers in rows.items() if len(numbers) > 1}
 
     def target_of(self, name: str) -> Point:
         """Where the mark of that name was sent [mm]."""
         return self._by_name[name].target
 
 
-def _rows(points: list[Point | None]) -> np.ndarray:
+def _rows(points: list[Point]) -> np.ndarray:
     return np.array(points, dtype=float).reshape(-1, 2)

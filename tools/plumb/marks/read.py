@@ -35,38 +35,38 @@ def read_marks(
     sheet: Sheet,
     known: Mapping[str, Sequence[str]] | None = None,
 ) -> Measurements:
-    """The marks of one file, in the machine frame [mm]; sheet is its width and height [mm].
+    """The marks of a file, in the machine frame [mm]; sheet is its width and height [mm].
 
     A file that names the settings it was cut with lies on the sheet of these; `known` lists each
     effect's parameters for them.
     """
-    found = _read(path, sheet, known)
-    return checked(found, sheet=_sheet_of(found, sheet))
+    measurements = _read(path, sheet, known)
+    return checked(measurements, sheet=_sheet_of(measurements, sheet))
 
 
 def read_plan(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
-    """The marks of a file as they are planned: each as if it were found where it was sent.
+    """The marks of a file as they are planned: each as if it were measured where it was sent.
 
-    A mark without reading that is the end of a distance stays without. A mark that is made again
-    beside itself, as plumb grid repeats it, is another mark here.
+    A mark without reading that is the end of a distance stays without. A repeat with
+    another target, as plumb grid places it, is another mark here.
     """
-    found = _read(path, sheet)
-    ends = {name for one in found.distances for name in one.between}
+    plan = _read(path, sheet)
+    ends = {name for distance in plan.distances for name in distance.between}
     marks = []
-    for mark in found.marks:
+    for mark in plan.marks:
         read = mark.measured is not None or mark.name not in ends
-        beside = mark.target != found.target_of(mark.name)
-        name = f"{mark.name} at {mark.target[0]:g}/{mark.target[1]:g}" if beside else mark.name
+        moved = mark.target != plan.target_of(mark.name)
+        name = f"{mark.name} at {mark.target[0]:g}/{mark.target[1]:g}" if moved else mark.name
         marks.append(replace(mark, name=name, measured=mark.target if read else None))
     known = {mark.name for mark in marks}
     spans = tuple(
-        replace(one, length=math.dist(*(found.target_of(name) for name in one.between)))
-        if known.issuperset(one.between)
-        else one
-        for one in found.distances
+        replace(distance, length=math.dist(*(plan.target_of(name) for name in distance.between)))
+        if known.issuperset(distance.between)
+        else distance
+        for distance in plan.distances
     )
-    meant = replace(found, marks=tuple(marks), distances=spans)
-    return checked(meant, sheet=_sheet_of(found, sheet))
+    meant = replace(plan, marks=tuple(marks), distances=spans)
+    return checked(meant, sheet=_sheet_of(plan, sheet))
 
 
 def _read(
@@ -80,10 +80,10 @@ def _read(
     return read_marks_csv(path)
 
 
-def _sheet_of(found: Measurements, sheet: Sheet) -> Sheet:
+def _sheet_of(measurements: Measurements, sheet: Sheet) -> Sheet:
     """The sheet of the settings that a file names, else the usual one."""
-    own = found.rounds[0].cut_with if found.rounds else None
-    return own.sheet if own else sheet
+    cut_with = measurements.rounds[0].cut_with if measurements.rounds else None
+    return cut_with.sheet if cut_with else sheet
 
 
 def _form_of(path: str | PathLike[str]) -> str:

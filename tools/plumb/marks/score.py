@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from plumb.marks.benchmark import span_kind
-from plumb.marks.read import Measurements
+from plumb.marks.model import Measurements, Point
 
 FULL_LONG, FULL_SMALL = 6, 8  # readings of the published cut; a square in the middle makes 10
 
@@ -28,7 +28,7 @@ class Score:
 
     def __str__(self) -> str:
         """As people post it: 1.23-0.45."""
-        return "-".join("?" if one is None else f"{one:.2f}" for one in (self.long, self.small))
+        return "-".join("?" if mean is None else f"{mean:.2f}" for mean in (self.long, self.small))
 
     @property
     def complete(self) -> bool:
@@ -38,15 +38,19 @@ class Score:
 
 def score_of(measurements: Measurements, errors: Sequence[float]) -> Score | None:
     """The score of errors (m,) [mm] of the distances; None if no span of the test is among them."""
-    found: dict[str, list[float]] = {"long": [], "small": []}
+    errors_of: dict[str, list[float]] = {"long": [], "small": []}
     for ends, error in zip(measurements.distance_targets, errors, strict=True):
-        kind = span_kind(tuple(tuple(end) for end in ends.tolist()))
+        kind = span_kind((_point(ends[0]), _point(ends[1])))
         if kind:
-            found[kind].append(abs(float(error)))
-    if not found["long"] and not found["small"]:
+            errors_of[kind].append(abs(float(error)))
+    if not errors_of["long"] and not errors_of["small"]:
         return None
-    means = {kind: float(np.mean(own)) if own else None for kind, own in found.items()}
-    return Score(means["long"], means["small"], len(found["long"]), len(found["small"]))
+    means = {kind: float(np.mean(spans)) if spans else None for kind, spans in errors_of.items()}
+    return Score(means["long"], means["small"], len(errors_of["long"]), len(errors_of["small"]))
+
+
+def _point(place: np.ndarray) -> Point:
+    return float(place[0]), float(place[1])
 
 
 def score_as_cut(measurements: Measurements) -> Score | None:

@@ -58,8 +58,8 @@ def read_marks_toml(
     with naming(path, "frame"):
         top_left = one_of(head["frame"], FRAMES) == "sheet-top-left"
     weight = _optional_weight(path, "sled_weight_n", head)
-    own = _round(path, head, known)
-    sheet = own.cut_with.sheet if own.cut_with else sheet
+    file_round = _round(path, head, known)
+    sheet = file_round.cut_with.sheet if file_round.cut_with else sheet
     marks = _marks(path, head, sheet=sheet if top_left else None, weight=weight)
     distances = _distances(path, head)
     if "benchmark" in head:
@@ -72,19 +72,19 @@ def read_marks_toml(
         tape_sigma=_tape_sigma(path, head),
         sled_weight=weight,
         source=str(path),
-        rounds=(own,),
+        rounds=(file_round,),
     )
 
 
 def _round(
     path: str | PathLike[str], head: dict[str, Any], known: Mapping[str, Sequence[str]] | None
 ) -> Round:
-    """How the file's marks were cut; settings are looked for beside the file."""
+    """How the file's marks were cut; the path in cut_with starts at the file's folder."""
     flags = {}
     for name in ROUND_FLAGS:
         flags[name] = head.get(name, False)
         if not isinstance(flags[name], bool):
-            raise refusal(path, f"{name} is neither true nor false", remedy="write one of them")
+            raise refusal(path, f"{name} is neither true nor false", remedy="write true or false")
     cut_with = None
     if "cut_with" in head:
         with naming(path, "cut_with"):
@@ -127,10 +127,10 @@ def sled_weight_in_newtons(weight: float) -> float:
 
 def _tables(path: str | PathLike[str], head: dict[str, Any], key: str) -> list[dict[str, Any]]:
     """All tables [[key]] of the file."""
-    found = head.get(key, [])
-    if not isinstance(found, list) or not all(isinstance(one, dict) for one in found):
+    tables = head.get(key, [])
+    if not isinstance(tables, list) or not all(isinstance(table, dict) for table in tables):
         raise refusal(path, f"[{key}] needs double brackets", remedy=f"write [[{key}]]")
-    return found
+    return tables
 
 
 def _marks(
@@ -147,16 +147,16 @@ def _marks(
                 raise ValueError("target is missing; write target = [x, y] in mm")
             name = _name(table["name"]) if "name" in table else None
         place = f"mark {name}" if name else place
-        target = _place(path, place, table, "target", sheet)
+        target = _point(path, place, table["target"], "target", sheet)
         name = name or names.setdefault(target, str(index))
-        own_weight = _optional_weight(path, f"{place} sled_weight_n", table)
+        mark_weight = _optional_weight(path, f"{place} sled_weight_n", table)
         marks.append(
             Mark(
                 name=name,
                 target=target,
                 measured=_place(path, place, table, "measured", sheet),
                 approach=_approach(path, place, table, sheet),
-                sled_weight=weight if own_weight is None else own_weight,
+                sled_weight=weight if mark_weight is None else mark_weight,
                 chains=_chains(path, place, table),
                 chains_swapped=_yes_or_no(path, place, table, "chains_swapped"),
             )
@@ -175,10 +175,14 @@ def _name(value: object) -> str:
 def _place(
     path: str | PathLike[str], place: str, table: dict[str, Any], key: str, sheet: Sheet | None
 ) -> Point | None:
-    if key not in table:
-        return None
+    return _point(path, place, table[key], key, sheet) if key in table else None
+
+
+def _point(
+    path: str | PathLike[str], place: str, value: object, key: str, sheet: Sheet | None
+) -> Point:
     with naming(path, f"{place} {key}"):
-        point = pair(table[key])
+        point = pair(value)
     return point if sheet is None else to_machine(point, sheet=sheet)
 
 

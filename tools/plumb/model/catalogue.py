@@ -13,32 +13,33 @@ NO_FIRMWARE = "no firmware can cure this"
 
 def every_effect() -> list[dict[str, Any]]:
     """The words of every effect that may be a cause; `where` is "firmware", "lab" or "sketch"."""
-    firmware = [{**one, "where": "firmware"} for one in library() if not one["empirical"]]
-    return firmware + [one.words for one in (*LAB_EFFECTS, *SKETCHES)]
+    firmware = [{**words, "where": "firmware"} for words in library() if not words["empirical"]]
+    lab = [effect.words for effect in LAB_EFFECTS]
+    return firmware + lab + [sketch.words for sketch in SKETCHES]
 
 
 def empirical_effects() -> list[dict[str, Any]]:
     """The words of what the firmware can apply that is a mere fit and never a suspect."""
-    return [{**one, "where": "firmware"} for one in library() if one["empirical"]]
+    return [{**words, "where": "firmware"} for words in library() if words["empirical"]]
 
 
 def effect_names() -> tuple[str, ...]:
     """The names of all effects."""
-    return tuple(one["name"] for one in every_effect())
+    return tuple(words["name"] for words in every_effect())
 
 
 def is_lab(effect: str) -> bool:
     """Whether the effect acts on what is measured only."""
-    return any(one.name == effect for one in LAB_EFFECTS)
+    return any(known.name == effect for known in LAB_EFFECTS)
 
 
 def is_sketch(effect: str) -> bool:
     """Whether the effect is on trial in Python, so that no firmware has it."""
-    return any(one.name == effect for one in SKETCHES)
+    return any(known.name == effect for known in SKETCHES)
 
 
 def place_of(effect: str) -> str:
-    """Where the effect is told of: "firmware", "lab" or "sketch"."""
+    """Where the effect is written: "firmware", "lab" or "sketch"."""
     if is_sketch(effect):
         return "sketch"
     return "lab" if is_lab(effect) else "firmware"
@@ -54,12 +55,12 @@ def label(effect: str) -> str:
 def parameter_words() -> dict[str, dict[str, Any]]:
     """The words of each parameter by its full name, `effect.parameter`."""
     return {
-        f"{one['name']}.{own['name']}": own
-        for one in (*every_effect(), *empirical_effects())
-        for own in one["parameters"]
+        f"{effect['name']}.{parameter['name']}": parameter
+        for effect in (*every_effect(), *empirical_effects())
+        for parameter in effect["parameters"]
     }
 
 
 def parameter_names(effect: str) -> tuple[str, ...]:
-    """The full names of one effect's parameters."""
+    """The full names of an effect's parameters."""
     return tuple(name for name in parameter_words() if name.startswith(f"{effect}."))

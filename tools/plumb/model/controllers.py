@@ -1,6 +1,6 @@
 """What the machine believed: chain lengths by the formulas of the published controllers.
 
-Not the truth, and not our own kinematics: only what was paid out when a mark was made.
+Not the truth, and not the kinematics of lib: only what was paid out when a mark was made.
 """
 
 from __future__ import annotations
@@ -9,10 +9,11 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from plumb.settings.machine import HOLEY_CHAIN_WEIGHT, MachineSettings
 
+Array = NDArray[np.float64]
 # The published sources write the number so; for a chain under the sprocket it is 0.03 um of chain.
 PUBLISHED_PI = 3.14159
 
@@ -20,21 +21,21 @@ PUBLISHED_PI = 3.14159
 class Strands(NamedTuple):
     """Both chains at n points; each array is (n, 2), left and right."""
 
-    angle: np.ndarray  # [rad] of the straight line below the horizontal
-    wrapped: np.ndarray  # [mm] on the sprocket, from 12 o'clock
-    straight: np.ndarray  # [mm] from the tangent point to the bit
-    across: np.ndarray  # [mm] horizontal part of the straight line
-    drop: np.ndarray  # [mm] vertical part of the straight line
+    angle: Array  # [rad] of the straight line below the horizontal
+    wrapped: Array  # [mm] on the sprocket, from 12 o'clock
+    straight: Array  # [mm] from the tangent point to the bit
+    across: Array  # [mm] horizontal part of the straight line
+    drop: Array  # [mm] vertical part of the straight line
 
 
 def chain_lengths(
     settings: MachineSettings, points: ArrayLike, *, controller: str | None = None
-) -> np.ndarray:
+) -> Array:
     """Chain paid out from 12 o'clock, (n, 2) [mm] left and right, for targets (n, 2) [mm].
 
     Targets off the sheet are moved to its edge first, as the controllers do.
     """
-    formulas: dict[str, Callable[[MachineSettings, Strands], np.ndarray]] = {
+    formulas: dict[str, Callable[[MachineSettings, Strands], Array]] = {
         "stock": _stock,
         "holey": _holey,
     }
@@ -54,19 +55,19 @@ def chain_lengths(
     return lengths
 
 
-def clamped(settings: MachineSettings, points: np.ndarray) -> np.ndarray:
+def clamped(settings: MachineSettings, points: Array) -> Array:
     """The points (n, 2) [mm], those off the sheet moved to its edge."""
     edge = np.array(settings.sheet) / 2
     return np.clip(points, -edge, edge)
 
 
-def _refuse_points(points: np.ndarray, bad: np.ndarray, why: str) -> None:
+def _refuse_points(points: Array, bad: NDArray[np.bool_], why: str) -> None:
     if bad.any():
         x, y = points[bad][0]
         raise ValueError(f"point ({x:g}, {y:g}) {why}")
 
 
-def _strands(settings: MachineSettings, points: np.ndarray) -> Strands:
+def _strands(settings: MachineSettings, points: Array) -> Strands:
     """The straight chains from their tangent points to the bit.
 
     angle = asin(below / distance) + asin(radius / distance) over the top, minus below it.
@@ -90,20 +91,20 @@ def _strands(settings: MachineSettings, points: np.ndarray) -> Strands:
     )
 
 
-def _stock(settings: MachineSettings, strands: Strands) -> np.ndarray:
+def _stock(settings: MachineSettings, strands: Strands) -> Array:
     """The published triangular formula: sag as a share of the straight part, then tolerance.
 
     sag share = correction * 1e-12 * cos(a)^2 * straight^2 * (tan(other) cos(a) + sin(a))^2
     """
     other = strands.angle[:, ::-1]
-    cosine = np.cos(strands.angle)
+    cosine: Array = np.cos(strands.angle)
     pull = np.tan(other) * cosine + np.sin(strands.angle)
     sag = settings.published.chain_sag_correction * 1e-12
-    hanging = strands.straight * (1 + sag * (cosine * strands.straight * pull) ** 2)
+    hanging: Array = strands.straight * (1 + sag * (cosine * strands.straight * pull) ** 2)
     return strands.wrapped + hanging / _longer(settings) - settings.rotation_radius
 
 
-def _holey(settings: MachineSettings, strands: Strands) -> np.ndarray:
+def _holey(settings: MachineSettings, strands: Strands) -> Array:
     """The catenary release: a catenary under the static tension, then tolerance and stretch.
 
     hanging^2 = (2 a sinh(across / (2 a)))^2 + drop^2 with a = horizontal tension / chain weight
@@ -112,18 +113,21 @@ def _holey(settings: MachineSettings, strands: Strands) -> np.ndarray:
     if catenary is None:
         return _stock(settings, strands)
     sled_weight, elasticity = catenary
-    weight = sled_weight + HOLEY_CHAIN_WEIGHT / 2 * strands.straight.sum(axis=1, keepdims=True)
+    weight: Array = sled_weight + HOLEY_CHAIN_WEIGHT / 2 * strands.straight.sum(
+        axis=1, keepdims=True
+    )
     cosine, sine = strands.across / strands.straight, strands.drop / strands.straight
     other = slice(None, None, -1)
     # Horizontal pulls are equal, vertical pulls carry the weight.
     tension = weight * cosine[:, other] / (sine * cosine[:, other] + cosine * sine[:, other])
-    bend = tension * cosine / HOLEY_CHAIN_WEIGHT
-    hanging = np.hypot(2 * bend * np.sinh(strands.across / (2 * bend)), strands.drop)
-    stretched = 1 + tension * elasticity
+    bend: Array = tension * cosine / HOLEY_CHAIN_WEIGHT
+    hanging: Array = np.hypot(2 * bend * np.sinh(strands.across / (2 * bend)), strands.drop)
+    stretched: Array = 1 + tension * elasticity
     return strands.wrapped + hanging / _longer(settings) / stretched - settings.rotation_radius
 
 
-def _longer(settings: MachineSettings) -> np.ndarray:
-    """Length of one nominal millimetre of either chain, (2,) [mm]."""
+def _longer(settings: MachineSettings) -> Array:
+    """Length of a nominal millimetre of either chain, (2,) [mm]."""
     published = settings.published
-    return 1 + np.array([published.left_tolerance, published.right_tolerance]) / 100
+    percent: Array = np.array([published.left_tolerance, published.right_tolerance], dtype=float)
+    return 1 + percent / 100

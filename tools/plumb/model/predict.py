@@ -7,12 +7,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from plumb import _core
 from plumb.model.controllers import chain_lengths
 from plumb.settings.machine import MachineSettings, frame_of
 
-Array = np.ndarray
+Array = NDArray[np.float64]
+Codes = NDArray[np.uint8]  # FOUND ... of each place or length, or USABLE ...
 NAMES: tuple[str, ...] = tuple(_core.settings())  # of the values array, in its order
 FOUND, OUT_OF_REACH, TOO_MANY_TRIES = 0, 1, 2  # what the kinematics says of a place or length
 FOUND_WORDS = ("yes", "out of reach", "too many tries")
@@ -25,14 +27,14 @@ REACH_LIMITS: Mapping[str, float] = _core.reach_limits()  # the usual ones, by n
 class Reached:
     """What n places are good for; a place where nothing hangs has zeros."""
 
-    verdict: Array  # (n,) USABLE ...
+    verdict: Codes  # (n,) USABLE ...
     tension: Array  # (n, 2) [N] of left and right chain at their sprockets
     compliance: Array  # (n, 2, 2) [mm/N] of the sled by a force along the sheet, symmetric
 
     @property
     def give(self) -> Array:
         """Compliance (n,) [mm/N] in the direction in which the sled gives most."""
-        return np.linalg.eigvalsh(self.compliance)[:, -1]
+        return np.asarray(np.linalg.eigvalsh(self.compliance)[:, -1], dtype=float)
 
 
 def library() -> list[dict[str, Any]]:
@@ -47,11 +49,14 @@ def frame_words() -> list[dict[str, Any]]:
 
 def known_effects() -> dict[str, list[str]]:
     """The names of each effect's parameters."""
-    return {one["name"]: [p["name"] for p in one["parameters"]] for one in library()}
+    return {
+        effect["name"]: [parameter["name"] for parameter in effect["parameters"]]
+        for effect in library()
+    }
 
 
 def parameter_names(effect: str) -> tuple[str, ...]:
-    """The entries of NAMES that belong to one effect."""
+    """The entries of NAMES that belong to an effect."""
     return tuple(name for name in NAMES if name.startswith(f"{effect}."))
 
 
@@ -65,46 +70,46 @@ def settings_of(values: Array, *, like: MachineSettings) -> MachineSettings:
     by_name = dict(zip(NAMES, (float(value) for value in values), strict=True))
     effects: dict[str, Mapping[str, float]] = {}
     for effect, parameters in known_effects().items():
-        own = {name: by_name[f"{effect}.{name}"] for name in parameters}
-        if any(own.values()):
-            effects[effect] = own
+        sizes = {name: by_name[f"{effect}.{name}"] for name in parameters}
+        if any(sizes.values()):
+            effects[effect] = sizes
     return replace(like, effects=effects, **frame_of(by_name))
 
 
 def lengths(
     settings: MachineSettings, points: Array, *, float32: bool = False
-) -> tuple[Array, Array]:
+) -> tuple[Array, Codes]:
     """Chain paid out (n, 2) [mm] for places (n, 2) [mm] by our model, and FOUND (n,)."""
     return _core.lengths(
         values_of(settings), settings.feed == "top", _pairs(points), float32=float32
     )
 
 
-def places(settings: MachineSettings, chains: Array) -> tuple[Array, Array]:
+def places(settings: MachineSettings, chains: Array) -> tuple[Array, Codes]:
     """Places (n, 2) [mm] for chains paid out (n, 2) [mm] by our model, and FOUND (n,)."""
     return _core.places(values_of(settings), settings.feed == "top", _pairs(chains))
 
 
 def reach(settings: MachineSettings, points: Array, **limits: float) -> Reached:
     """Whether places (n, 2) [mm] are usable, by our model; limits as in REACH_LIMITS."""
-    found = _core.reach(values_of(settings), settings.feed == "top", _pairs(points), **limits)
-    return Reached(**found)
+    reached = _core.reach(values_of(settings), settings.feed == "top", _pairs(points), **limits)
+    return Reached(**reached)
 
 
 def places_with_slopes(
     values: Array, *, over_top: bool, chains: Array
-) -> tuple[Array, Array, Array]:
+) -> tuple[Array, Array, Codes]:
     """Places (n, 2), their slopes by every value (n, 2, len(NAMES)), and FOUND (n,).
 
     The chains are given, so place and values balance in lengths(place, values) = chains; hence
     d place = -(d lengths / d place)^-1 (d lengths / d values): the slopes are exact.
     """
-    where, found = _core.places(values, over_top, _pairs(chains))
+    where, outcome = _core.places(values, over_top, _pairs(chains))
     by_value, by_place, _ = _core.slopes(values, over_top, where)
     slopes = np.zeros_like(by_value)
-    good = found == FOUND
+    good = outcome == FOUND
     slopes[good] = -np.linalg.solve(by_place[good], by_value[good])
-    return where, slopes, found
+    return where, slopes, outcome
 
 
 def believed_lengths(
@@ -117,8 +122,8 @@ def believed_lengths(
     whose = controller or settings.controller
     if whose != "plumb":
         return chain_lengths(settings, targets, controller=whose)
-    chains, found = lengths(settings.as_plumb_model(), targets)
-    for i in np.flatnonzero(found != FOUND)[:1]:
+    chains, outcome = lengths(settings.as_plumb_model(), targets)
+    for i in np.flatnonzero(outcome != FOUND)[:1]:
         raise ValueError(f"target ({targets[i, 0]:g}, {targets[i, 1]:g}) is out of reach")
     return chains
 

@@ -40,7 +40,7 @@ class Survey:
     y: Array  # (ROWS,) [mm] from the top down
     reached: Reached  # of the places row by row
     limits: Mapping[str, float]
-    assumed: tuple[str, ...]  # what the settings do not say, one sentence each
+    assumed: tuple[str, ...]  # what the settings do not say, a sentence each
     tightest: Extreme | None  # None where no sled hangs on the whole sheet
     slackest: Extreme | None
     softest: Extreme | None
@@ -60,7 +60,7 @@ class Survey:
 def with_soft_chains(settings: MachineSettings) -> tuple[MachineSettings, tuple[str, ...]]:
     """The machine with chains that give, whether or not its settings know it, and what was assumed.
 
-    Real chains sag and stretch, also where a fit had no use for it or found the impossible.
+    Real chains sag and stretch, also where a fit left that out or made it negative.
     """
     effects, assumed = dict(settings.effects), []
     if settings.effect("chain_sag", "weight_ratio_squared") <= 0:
@@ -87,20 +87,20 @@ def survey(settings: MachineSettings, **limits: float) -> Survey:
     x = np.linspace(-width / 2, width / 2, COLUMNS)
     y = np.linspace(height / 2, -height / 2, ROWS)
     places = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-    found = reach(machine, places, **limits)
-    hanging = found.verdict != CANNOT_HANG
+    reached = reach(machine, places, **limits)
+    hanging = reached.verdict != CANNOT_HANG
     tightest = slackest = softest = None
     if hanging.any():
-        tightest = _extreme(places, np.where(hanging[:, None], found.tension, -np.inf))
-        slackest = _extreme(places, -np.where(hanging[:, None], found.tension, np.inf))
+        tightest = _extreme(places, np.where(hanging[:, None], reached.tension, -np.inf))
+        slackest = _extreme(places, -np.where(hanging[:, None], reached.tension, np.inf))
         slackest = replace(slackest, value=-slackest.value)
-        most = int(np.argmax(np.where(hanging, found.give, -np.inf)))
-        softest = Extreme(_place(places, most), float(found.give[most]))
+        most = int(np.argmax(np.where(hanging, reached.give, -np.inf)))
+        softest = Extreme(_place(places, most), float(reached.give[most]))
     return Survey(
         machine.sheet,
         x,
         y,
-        found,
+        reached,
         {**REACH_LIMITS, **limits},
         assumed,
         tightest,
@@ -126,5 +126,9 @@ def _place(places: Array, i: int) -> tuple[float, float]:
 
 
 def _typical(effect: str, parameter: str) -> float:
-    own = next(one for one in library() if one["name"] == effect)
-    return next(one["typical"] for one in own["parameters"] if one["name"] == parameter)
+    sizes = {
+        (words["name"], each["name"]): float(each["typical"])
+        for words in library()
+        for each in words["parameters"]
+    }
+    return sizes[effect, parameter]

@@ -1,1 +1,1 @@
-"""The settings of one machine, and the files that hold them."""
+"""The settings of a machine, and the files that hold them."""

@@ -1,6 +1,6 @@
 """Reading and writing settings, whatever the file's form; the front door to this room.
 
-A machine's settings come as the `groundcontrol.ini` of the published programs or as our own
+A machine's settings come as the `groundcontrol.ini` of the published programs or as a
 `machine.toml`.
 """
 

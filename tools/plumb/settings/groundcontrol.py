@@ -24,7 +24,7 @@ NOTHING = 1e-15  # smaller numbers mean zero for every setting there is
 
 @dataclass(frozen=True)
 class Unsaid:
-    """One setting that the published firmware cannot express, with a sentence for the user."""
+    """A setting that the published firmware cannot express, with a sentence for the user."""
 
     name: str
     sentence: str
@@ -100,7 +100,7 @@ def changed_ini(original_path: str | PathLike[str], changes: Mapping[Key, float 
                     original_path,
                     "the new value has a line break",
                     place=place,
-                    remedy="write it on one line",
+                    remedy="write it on a single line",
                 )
             new = value
         else:

@@ -27,7 +27,7 @@ SOURCES = {
     "chain_sag_correction": (ADVANCED, "chainSagCorrection"),
     "feed": (ADVANCED, "chainOverSprocket"),
     "kinematics": (ADVANCED, "kinematicsType"),
-    # The next ones came later or belong to one program only, so a file may lack them.
+    # The next keys came later or belong to one program only, so a file may lack them.
     "left_tolerance": (ADVANCED, "leftChainTolerance"),
     "right_tolerance": (ADVANCED, "rightChainTolerance"),
     "chain_length": (ADVANCED, "chainLength"),
@@ -35,7 +35,7 @@ SOURCES = {
     "holey_sled_weight": (MASLOW, "sledWeight"),
     "top_beam_tilt": (ADVANCED, "topBeamTilt"),
 }
-# Keys of the same files that would otherwise pass for a misspelt one of ours.
+# Other keys of the same files that look like a misspelt key of this list.
 NEIGHBOURS = (
     "chainExtendLength",
     "sledWidth",
@@ -48,7 +48,7 @@ NEIGHBOURS = (
 
 
 def read_settings_ini(path: str | PathLike[str]) -> MachineSettings:
-    """The settings of a groundcontrol.ini; its controller is taken to be the stock one."""
+    """The settings of a groundcontrol.ini; it belongs to the stock controller."""
     ini = _settings_text(path)
     _refuse_other_kinematics(ini)
     height = _needed(ini, "sheet_height")
@@ -80,7 +80,7 @@ def read_settings_ini(path: str | PathLike[str]) -> MachineSettings:
 
 
 def _settings_text(path: str | PathLike[str]) -> IniText:
-    """The ini file, if it is one of settings."""
+    """The ini file, if it holds settings."""
     ini = read_ini(path)
     if ini.find("numpositions", section="global"):
         raise refusal(path, "holds marks, not settings", remedy="give SETTINGS first, then MARKS")
@@ -99,10 +99,9 @@ def _refuse_other_kinematics(ini: IniText) -> None:
     if kind == "quadrilateral":
         raise refusal(
             ini.source,
-            "Quadrilateral means a sled on two brackets, and that is not the machine the lab knows",
+            "Quadrilateral means a sled on two brackets, which the lab does not know",
             place=_place_of(ini, "kinematics"),
-            remedy="its effects are those of a sled on one ring or linkage; only if yours has one, "
-            "write kinematicsType = Triangular",
+            remedy="if your sled hangs on a ring or a linkage, write kinematicsType = Triangular",
         )
 
 
@@ -111,7 +110,7 @@ def _feed(ini: IniText) -> str:
 
 
 def _word(ini: IniText, name: str, meaning: dict[str, str]) -> str:
-    """One of a few words, case ignored."""
+    """A word out of a few, case ignored."""
     section, key = SOURCES[name]
     entry = ini.find(key, section=section)
     if entry is None:
@@ -139,7 +138,7 @@ def _with_default(ini: IniText, name: str, default: float) -> float:
 
 
 def _optional(ini: IniText, name: str) -> float | None:
-    """A number that the file may lack; but a misspelt key is not taken for a missing one."""
+    """A number that the file may lack; a misspelt key is not a missing key."""
     value = _number(ini, name)
     if value is not None:
         return value
@@ -166,16 +165,16 @@ def _number(ini: IniText, name: str) -> float | None:
 def _missing(ini: IniText, name: str) -> Exception:
     section, key = SOURCES[name]
     near = _misspelt(ini, key)
-    found = f" (did you mean it by {near}?)" if near else ""
+    hint = f" (is {near} misspelt?)" if near else ""
     return refusal(
         ini.source,
-        f"{key} is missing in [{section}]{found}",
+        f"{key} is missing in [{section}]{hint}",
         remedy=f"add {key} = ... below [{section}]",
     )
 
 
 def _misspelt(ini: IniText, key: str) -> str | None:
-    """The place of an entry whose key is no known one but nearly this one."""
+    """The place of an entry whose key is unknown and nearly this key."""
     taken = {known.lower() for _, known in SOURCES.values()}
     taken |= {known.lower() for known in NEIGHBOURS}
     others = {entry.key.lower(): entry for entry in ini.entries if entry.key.lower() not in taken}

@@ -1,4 +1,4 @@
-"""What a setting can sensibly be, and the sentence for one that cannot."""
+"""What a setting can sensibly be, and the sentence for a value that it cannot be."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _NEWTON = "looks like kilograms or pounds; newtons are 9.81 times kilograms, 4.4
 
 @dataclass(frozen=True)
 class Limit:
-    """The range of one setting, and what a value beyond it looks like."""
+    """The range of a setting, and what a value beyond it looks like."""
 
     low: float
     high: float
@@ -65,7 +65,7 @@ PUBLISHED_LIMITS = {
 
 
 def find_fault(settings: MachineSettings) -> tuple[str, str] | None:
-    """The name of the first setting that cannot be right and a sentence about it, or None."""
+    """The name of the first impossible setting and a sentence about it, or None."""
     for name, limit in FRAME_LIMITS.items():
         fault = limit.fault(getattr(settings, name))
         if fault:

@@ -1,4 +1,4 @@
-"""The settings of one machine: its frame, its effects, and what only published formulas need.
+"""The settings of a machine: its frame, its effects, and what only published formulas need.
 
 Lengths in mm, forces in N, in the machine frame (origin in the middle of the sheet, y up).
 """
@@ -37,7 +37,7 @@ FRAME_FIELDS = tuple(Frame.__annotations__)
 
 @dataclass(frozen=True)
 class PublishedSettings:
-    """What only the formulas of the published firmware need, in its own units."""
+    """What only the formulas of the published firmware need, in its units."""
 
     chain_sag_correction: float = 0.0  # $37 [1e-12/mm^2]
     left_tolerance: float = 0.0  # $40 [percent] positive: the chain is longer than nominal
@@ -71,7 +71,7 @@ class PublishedSettings:
 
 @dataclass(frozen=True)
 class MachineSettings:
-    """One machine: frame [mm, N], effects by name, and whose formula the controller uses."""
+    """A machine: frame [mm, N], effects by name, and whose formula the controller uses."""
 
     motor_gap: float  # [mm] between sprocket centres
     motor_height: float  # [mm] sprocket centres above the middle of the sheet
@@ -103,12 +103,12 @@ class MachineSettings:
         return {name: getattr(self, name) for name in FRAME_FIELDS}
 
     def effect(self, name: str, parameter: str) -> float:
-        """One parameter of one effect; an effect that is not named is absent, so zero."""
+        """A parameter of an effect; an effect that is not named is absent, so zero."""
         return self.effects.get(name, {}).get(parameter, 0.0)
 
     def as_plumb_model(self, *, controller: str | None = None) -> MachineSettings:
-        """The same machine in our frame and effects: the one on which the controller would be right
-        (effects that are named already stay as they are)."""
+        """The machine on which the controller would be right, in our frame and effects;
+        effects that are named already stay as they are."""
         whose = controller or self.controller
         if whose == "plumb":
             return self if self.controller == "plumb" else replace(self, controller="plumb")
@@ -154,7 +154,7 @@ def radius_in_published(left: float, right: float) -> float:
     """The published rotation radius as a multiple of the true one, for two chain pitch strains.
 
     The published formula divides the whole straight part L by (1 + e), although its last piece, the
-    radius R, is no chain: L/(1+e) - R' equals (L-R)/(1+e) if R' = R/(1+e). It has one R' for
-    both sides, so the mean remains; each side is off by half of R times the difference of strains.
+    radius R, is no chain: L/(1+e) - R' equals (L-R)/(1+e) if R' = R/(1+e). Both sides
+    share a single R', so the mean remains; each is off by half of R times the strains' difference.
     """
     return (1 / (1 + left) + 1 / (1 + right)) / 2

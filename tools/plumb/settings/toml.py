@@ -22,7 +22,7 @@ from plumb.text.errors import InputError, naming, refusal
 from plumb.text.files import read_text, write_whole
 
 NEEDED_FRAME = ("motor_gap", "motor_height", "rotation_radius")
-PUBLISHED_FIELDS = tuple(one.name for one in fields(PublishedSettings))
+PUBLISHED_FIELDS = tuple(field.name for field in fields(PublishedSettings))
 HEAD_KEYS = ("controller", "feed", "sheet", "frame", "effects", "published")
 UNITS = {
     "width": "mm",
@@ -132,7 +132,7 @@ def _numbers(
     allowed: Sequence[str],
     needed: Sequence[str],
 ) -> dict[str, float]:
-    """The numbers of one table, none unknown and none missing."""
+    """The numbers of a table, none unknown and none missing."""
     table = head.get(name, {})
     if not isinstance(table, dict):
         raise refusal(path, f"{name} is not a table", remedy=f"write a line [{name}]")
@@ -141,11 +141,11 @@ def _numbers(
         for key in needed:
             if key not in table:
                 raise ValueError(f"{key} is missing; add {key} = ... [{UNITS[key]}]")
-    found = {}
+    numbers = {}
     for key, value in table.items():
         with naming(path, f"[{name}] {key}"):
-            found[key] = number(value)
-    return found
+            numbers[key] = number(value)
+    return numbers
 
 
 def _effects(path: str | PathLike[str], head: dict[str, Any]) -> dict[str, dict[str, float]]:

@@ -50,7 +50,7 @@ def text_of(value: object) -> str:
 
 
 def one_of(value: object, allowed: Iterable[str]) -> str:
-    """The value, if it is one of the allowed words."""
+    """The value, if it is an allowed word."""
     words = tuple(allowed)
     if not isinstance(value, str) or value not in words:
         raise ValueError(f"'{_short(value)}' is not known; write one of {', '.join(words)}")
@@ -58,7 +58,7 @@ def one_of(value: object, allowed: Iterable[str]) -> str:
 
 
 def refuse_unknown(keys: Iterable[str], allowed: Iterable[str]) -> None:
-    """Refuse the first key that is not allowed, with the nearest allowed one as a hint."""
+    """Refuse the first key that is not allowed, with the nearest allowed key as a hint."""
     words = tuple(allowed)
     for key in keys:
         if key not in words:

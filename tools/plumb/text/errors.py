@@ -1,4 +1,4 @@
-"""The one error of the lab that is the fault of a file and not of the program."""
+"""The error that is the fault of a file and not of the program."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from os import PathLike
 
 
 class InputError(Exception):
-    """A file or value that cannot be used: one line naming the file, the place and the remedy."""
+    """A file or value that cannot be used: the message names file, place and remedy on a line."""
 
 
 def refusal(
     source: str | PathLike[str], problem: str, *, place: str = "", remedy: str = ""
 ) -> InputError:
-    """The InputError `source, place: problem; remedy`, on one line."""
+    """The InputError `source, place: problem; remedy`, on a single line."""
     where = f"{source}, {place}" if place else f"{source}"
     text = f"{where}: {problem}; {remedy}" if remedy else f"{where}: {problem}"
     # File names and old ini files may hold bytes that cannot be printed as they are.

@@ -55,12 +55,12 @@ def read_text(path: str | PathLike[str]) -> str:
 
 
 def write_whole(path: str | PathLike[str], content: bytes) -> None:
-    """Replace a file in one step: after a crash the old or the new one is there, never half."""
+    """Replace a file in one step: a crash leaves the old or the new file, never half."""
     write_all({path: content})
 
 
 def write_all(files: Mapping[str | PathLike[str], bytes]) -> None:
-    """Replace several files: if one of them cannot be written, none is."""
+    """Replace several files: if any of them cannot be written, none is."""
     staged: dict[str | PathLike[str], tuple[str, Path]] = {}
     path: str | PathLike[str] = ""
     try:

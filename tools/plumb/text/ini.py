@@ -35,7 +35,7 @@ class IniEntry:
 
 @dataclass(frozen=True)
 class IniText:
-    """The lines of an ini file with their endings, and the entries found in them."""
+    """The lines of an ini file with their endings, and its entries."""
 
     source: str
     lines: tuple[str, ...]
@@ -44,11 +44,11 @@ class IniText:
     @property
     def sections(self) -> tuple[str, ...]:
         """Names of the sections, in the order of the file."""
-        found = [_SECTION.fullmatch(_bare(line)) for line in self.lines]
-        return tuple(dict.fromkeys(match["name"] for match in found if match))
+        headers = [_SECTION.fullmatch(_bare(line)) for line in self.lines]
+        return tuple(dict.fromkeys(match["name"] for match in headers if match))
 
     def find(self, key: str, *, section: str) -> IniEntry | None:
-        """The entry of that key, case ignored; a lone one in another section is accepted."""
+        """The entry of that key, case ignored; a single entry in another section is accepted."""
         same = [entry for entry in self.entries if entry.key.lower() == key.lower()]
         here = [entry for entry in same if entry.section.lower() == section.lower()]
         if here:
@@ -57,9 +57,9 @@ class IniText:
             names = " and ".join(f"[{entry.section}]" for entry in same)
             raise refusal(
                 self.source,
-                f"{key} stands in {names}",
+                f"{key} appears in {names}",
                 place=same[0].place,
-                remedy=f"keep the one that belongs to [{section}]",
+                remedy=f"keep the entry in [{section}]",
             )
         return same[0] if same else None
 
@@ -92,7 +92,7 @@ def parse_ini(text: str, *, source: str) -> IniText:
             entries.append(IniEntry(section, entry["key"], entry["value"], line_number))
             indent = depth
         else:
-            what = "a value stands before the first [section]" if entry else "is not key = value"
+            what = "a value comes before the first [section]" if entry else "is not key = value"
             raise refusal(source, what, place=f"line {line_number}", remedy="mend or remove it")
     _refuse_twins(entries, source)
     return IniText(source, lines, tuple(entries))
@@ -112,13 +112,13 @@ def with_values(ini: IniText, changes: dict[tuple[str, str], str]) -> str:
                 ini.source,
                 "runs on over several lines",
                 place=entry.place,
-                remedy="write the value on one line",
+                remedy="write the value on a single line",
             )
         else:
             line = lines[entry.line - 1]
             bare = _bare(line)
             old = _ENTRY.fullmatch(bare)
-            assert old, "an entry that was parsed still reads as one"
+            assert old, "the line was parsed as an entry"
             mark = line[: len(line.rstrip("\r\n")) - len(bare)]  # a byte-order mark, kept
             ending = line[len(line.rstrip("\r\n")) :]
             lines[entry.line - 1] = f"{mark}{old['head']}{value}{old['tail']}{ending}"
@@ -128,7 +128,7 @@ def with_values(ini: IniText, changes: dict[tuple[str, str], str]) -> str:
 
 
 def _with_new_key(lines: list[str], ini: IniText, section: str, key: str, value: str) -> list[str]:
-    """The lines with one more entry after the last one of its section."""
+    """The lines with a new entry after the last entry of its section."""
     ending = "\r\n" if any(line.endswith("\r\n") for line in ini.lines) else "\n"
     small = all(entry.key == entry.key.lower() for entry in ini.entries)
     added = f"{key.lower() if small else key} = {value}{ending}"
@@ -166,6 +166,6 @@ def _refuse_twins(entries: list[IniEntry], source: str) -> None:
                 source,
                 f"the same key is already on line {seen[name]}",
                 place=entry.place,
-                remedy="keep one of the two",
+                remedy="remove a line",
             )
         seen[name] = entry.line

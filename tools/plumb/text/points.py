@@ -12,8 +12,8 @@ from plumb.text.files import read_text
 
 
 def read_pairs(path: str | PathLike[str], *, names: tuple[str, str]) -> np.ndarray:
-    """The pairs (n, 2) [mm]; a header of the two names and lines that begin with # may stand."""
-    form = f"write one {','.join(names)} per line, in mm"
+    """The pairs (n, 2) [mm]; a header of the two names and lines that begin with # are allowed."""
+    form = f"write {','.join(names)} on each line, in mm"
     pairs: list[tuple[float, float]] = []
     headers = 0
     for line, text in enumerate(read_text(path).splitlines(), 1):
@@ -46,5 +46,5 @@ def _check_header(
 ) -> None:
     """Refuse columns that are exchanged, or in another unit."""
     allowed = [{name, f"{name}_mm", f"{name} mm", f"{name} [mm]", f"{name} (mm)"} for name in names]
-    if any(cell.lower() not in own for cell, own in zip(cells, allowed, strict=True)):
+    if any(cell.lower() not in spellings for cell, spellings in zip(cells, allowed, strict=True)):
         raise refusal(path, f"the header is '{','.join(cells)}'", place=f"line {line}", remedy=form)

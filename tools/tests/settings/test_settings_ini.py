@@ -113,10 +113,10 @@ def test_foreign_bytes_in_a_file_name_do_no_harm(tmp_path):
         (
             "kinematicstype = Triangular",
             "kinematicstype = Quadrilateral",
-            "not the machine the lab knows",
+            "two brackets, which the lab does not know",
         ),
         ("kinematicstype = Triangular", "kinematicstype = Tri", "write Triangular or Quadr"),
-        ("[Maslow Settings]\n", "", "line 4: a value stands before the first .section."),
+        ("[Maslow Settings]\n", "", "line 4: a value comes before the first .section."),
     ],
 )
 def test_bad_files_are_refused_with_the_place(tmp_path, old, new, hint):

@@ -51,7 +51,7 @@ def test_broken_lines_are_refused(text, hint):
 
 def test_a_key_in_two_other_sections_is_refused():
     ini = parse_ini("[a]\nk = 1\n[b]\nk = 2\n", source="x.ini")
-    with pytest.raises(InputError, match="stands in"):
+    with pytest.raises(InputError, match="appears in"):
         ini.find("k", section="c")
 
 

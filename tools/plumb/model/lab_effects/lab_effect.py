@@ -10,9 +10,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-Array = np.ndarray
-SLED = "sled"  # the sled comes to rest elsewhere, before the sheet's own turn
+Array = NDArray[np.float64]
+SLED = "sled"  # the sled comes to rest elsewhere, before the turn of the sheet
 EDGES = "edges"  # what is read from the sheet's edges; distances between marks are as before
 TAPE = "tape"  # everything that is read from a tape, distances too
 
@@ -37,7 +38,7 @@ class Change:
 
 @dataclass(frozen=True)
 class LabParameter:
-    """What people are told of one parameter; zero always means absent."""
+    """The words of a parameter for people; zero always means absent."""
 
     name: str
     unit: str
@@ -48,7 +49,7 @@ class LabParameter:
 
     @property
     def words(self) -> dict[str, Any]:
-        """The parameter as the firmware's library describes its own; no setting holds it."""
+        """The parameter in the form of the firmware's library; no setting holds it."""
         return {
             "name": self.name,
             "setting": None,
@@ -69,7 +70,7 @@ class LabEffect:
     """
 
     name: str
-    summary: str  # the cause, in one sentence
+    summary: str  # the cause, in a sentence
     pattern: str  # what it does to marks on the sheet
     look_alikes: str
     remedy: str  # how to tell it apart or cure it
@@ -81,11 +82,11 @@ class LabEffect:
     @property
     def parameter_names(self) -> tuple[str, ...]:
         """The parameters as a fit names them: `effect.parameter`."""
-        return tuple(f"{self.name}.{one.name}" for one in self.parameters)
+        return tuple(f"{self.name}.{parameter.name}" for parameter in self.parameters)
 
     @property
     def words(self) -> dict[str, Any]:
-        """The effect as the firmware's library describes its own, marked `lab`."""
+        """The effect in the form of the firmware's library, marked `lab`."""
         return {
             "name": self.name,
             "where": "lab",
@@ -94,5 +95,5 @@ class LabEffect:
             "look_alikes": self.look_alikes,
             "remedy": self.remedy,
             "empirical": False,
-            "parameters": [one.words for one in self.parameters],
+            "parameters": [parameter.words for parameter in self.parameters],
         }

@@ -1,7 +1,7 @@
 """Sketches: effects tried in Python before they are worth a place in the firmware.
 
 Each file here that does not begin with an underscore, and each in the folder that the environment
-variable PLUMB_SKETCHES names, holds one SKETCH; it is ranked and fitted beside the library.
+variable PLUMB_SKETCHES names, holds a SKETCH. It is ranked and fitted like the library's effects.
 """
 
 from plumb.model.sketches.loader import load_all

@@ -1,8 +1,7 @@
-"""Finding sketches: one in each Python file of a folder; a file that cannot be used is named."""
+"""Loads the sketches: a Python file of a folder each; a file that cannot be used is named."""
 
 from __future__ import annotations
 
-import importlib.util
 import os
 import re
 from dataclasses import dataclass
@@ -13,8 +12,9 @@ import numpy as np
 from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.predict import known_effects
 from plumb.model.sketches.sketch import Sketch, Strands
+from plumb.text.scripts import load_script
 
-VARIABLE = "PLUMB_SKETCHES"  # names a folder of the owner's own
+VARIABLE = "PLUMB_SKETCHES"  # names a folder of the user
 OWN_FILES = ("loader.py", "sketch.py")
 
 
@@ -27,7 +27,7 @@ class Loaded:
 
 
 def load_all() -> Loaded:
-    """The sketches of this folder and of the owner's."""
+    """The sketches of this folder and of the user's."""
     folders = [Path(__file__).parent]
     if os.environ.get(VARIABLE):
         folders.append(Path(os.environ[VARIABLE]))
@@ -45,37 +45,38 @@ def load(folders: list[Path]) -> Loaded:
             if path.parent == Path(__file__).parent and path.name in OWN_FILES:
                 continue
             try:
-                own = _read(path)
-                _refuse_taken(own, sketches)
+                sketch = _read(path)
+                _refuse_taken(sketch, sketches)
             except Exception as error:  # a sketch is anybody's code: whatever it does is its fault
                 reason = " ".join(str(error).split()) or type(error).__name__
                 broken.append(f"{path}: {reason}; correct it, or set it aside as _{path.name}")
                 continue
-            sketches[own.name] = own
+            sketches[sketch.name] = sketch
     return Loaded(tuple(sketches.values()), tuple(broken))
 
 
 def _read(path: Path) -> Sketch:
-    """The SKETCH of one file, tried on two strands."""
-    spec = importlib.util.spec_from_file_location(f"plumb_sketch_{path.stem}", path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    own = getattr(module, "SKETCH", None)
-    if not isinstance(own, Sketch):
+    """The SKETCH of a file, tried on two strands."""
+    module = load_script(path, name=f"plumb_sketch_{path.stem}")
+    sketch = getattr(module, "SKETCH", None)
+    if not isinstance(sketch, Sketch):
         raise ValueError("no SKETCH = Sketch(...) in it")
-    if not re.fullmatch(r"[a-z][a-z0-9_]*", own.name) or not own.parameters:
+    if not re.fullmatch(r"[a-z][a-z0-9_]*", sketch.name) or not sketch.parameters:
         raise ValueError("a sketch needs a name in small letters and at least one parameter")
-    one = np.array([[1500.0, 1600.0]])
-    strands = Strands(one, one / 2000, one / 2000, one / 25, one, one[:, ::-1] * 0.1)
-    zero, typical = np.zeros(len(own.parameters)), [each.typical for each in own.parameters]
-    if np.any(np.asarray(own.extra(zero, strands)) != 0.0):
+    length = np.array([[1500.0, 1600.0]])
+    strands = Strands(
+        length, length / 2000, length / 2000, length / 25, length, length[:, ::-1] * 0.1
+    )
+    zero = np.zeros(len(sketch.parameters))
+    typical = np.array([parameter.typical for parameter in sketch.parameters])
+    if np.any(np.asarray(sketch.extra(zero, strands)) != 0.0):
         raise ValueError("with all parameters zero it must add no chain")
-    felt = np.asarray(own.extra(np.array(typical), strands), dtype=float)
+    felt = np.asarray(sketch.extra(typical, strands), dtype=float)
     if felt.shape != (1, 2) or not np.all(np.isfinite(felt)):
         raise ValueError(f"extra() gave {felt.shape}, not finite numbers (n, 2)")
-    return own
+    return sketch
 
 
-def _refuse_taken(own: Sketch, others: dict[str, Sketch]) -> None:
-    if own.name in {*known_effects(), *(one.name for one in LAB_EFFECTS), *others}:
-        raise ValueError(f"there is an effect {own.name} already")
+def _refuse_taken(sketch: Sketch, others: dict[str, Sketch]) -> None:
+    if sketch.name in {*known_effects(), *(effect.name for effect in LAB_EFFECTS), *others}:
+        raise ValueError(f"there is an effect {sketch.name} already")

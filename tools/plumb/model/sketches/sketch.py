@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from plumb.model.lab_effects.lab_effect import LabParameter
 
-Array = np.ndarray
-SketchParameter = LabParameter  # told in the same words
+Array = NDArray[np.float64]
+SketchParameter = LabParameter  # described in the same words
 
 
 @dataclass(frozen=True)
@@ -32,7 +33,7 @@ class Sketch:
     chains are as long as before, and every parameter has a slope at zero."""
 
     name: str
-    summary: str  # the cause, in one sentence
+    summary: str  # the cause, in a sentence
     pattern: str  # what it does to marks on the sheet
     look_alikes: str
     remedy: str  # how to tell it apart or cure it
@@ -42,11 +43,11 @@ class Sketch:
     @property
     def parameter_names(self) -> tuple[str, ...]:
         """The parameters as a fit names them: `effect.parameter`."""
-        return tuple(f"{self.name}.{one.name}" for one in self.parameters)
+        return tuple(f"{self.name}.{parameter.name}" for parameter in self.parameters)
 
     @property
     def words(self) -> dict[str, Any]:
-        """The effect as the firmware's library describes its own, marked `sketch`."""
+        """The effect in the form of the firmware's library, marked `sketch`."""
         return {
             "name": self.name,
             "where": "sketch",
@@ -55,5 +56,5 @@ class Sketch:
             "look_alikes": self.look_alikes,
             "remedy": self.remedy,
             "empirical": False,
-            "parameters": [one.words for one in self.parameters],
+            "parameters": [parameter.words for parameter in self.parameters],
         }
