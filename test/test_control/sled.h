@@ -16,6 +16,7 @@ class SledWith {
         ahead_(Loop::ticksAhead(float(1 / rate))),
         axis_{{seed, rate}, {(seed + 17) % kMotors, rate}} {
     mover_.prepare({100, 10, 1000.0f / 60, 0.66f, 0.05f}, float(1 / rate));
+    mover_.setSprockets({{float(-kHalf), float(kUp)}, {float(kHalf), float(kUp)}, {0, 0, 0}});
     mover_.standAt(pointOf(start_));
     for (int i = 0; i < int(rate / 2); ++i) tick();
   }

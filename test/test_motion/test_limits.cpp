@@ -1,0 +1,150 @@
+// Limits of speed that follow from the path: the pull inwards on an arc, corners, speeds of chains.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "plain.h"
+
+using namespace motion;
+
+namespace {
+
+/// Nothing but the acceleration limits these moves: 100 mm/s^2.
+const Limits kFree = {100, 1000, 1000, 1000, 0.05f};
+
+/// Greatest speed along the sheet, from tick to tick [mm/s].
+double fastest(const Plain& plain) {
+  double most = 0;
+  Asked before = {0, 0, 0};
+  for (const Asked& each : plain.asked) {
+    most = std::max(most, std::hypot(each.x - before.x, each.y - before.y) / plain.seconds);
+    before = each;
+  }
+  return most;
+}
+
+/// A full circle, at more speed than any arc here allows, that rises by so much [mm].
+double fastestRound(float radius, float rise) {
+  Plain plain(kFree);
+  plain.arcTo(0, 0, {radius, 0}, 500, rise);
+  plain.run();
+  return fastest(plain);
+}
+
+Direction direction(double angle) { return {float(std::cos(angle)), float(std::sin(angle)), 0}; }
+
+/// Greatest share of the way along a line by which either chain grows or shrinks, by small steps.
+double steepestByHand(const Path<double>& path, const Sprockets<double>& sprockets) {
+  const int kSteps = 500;
+  double most = 0;
+  for (const Point<double>& sprocket : {sprockets.left, sprockets.right})
+    for (int i = 0; i < kSteps; ++i) {
+      const auto away = [&](double share) {
+        return std::hypot(path.from.x + share * (path.to.x - path.from.x) - sprocket.x,
+                          path.from.y + share * (path.to.y - path.from.y) - sprocket.y);
+      };
+      const double step = path.length / kSteps;
+      most = std::max(most, std::fabs(away((i + 1.0) / kSteps) - away(double(i) / kSteps)) / step);
+    }
+  return most;
+}
+
+}  // namespace
+
+TEST(ArcLimit, PullInwardsIsTheAcceleration) {
+  for (const float radius : {1.0f, 4.0f, 25.0f}) {
+    const double may = std::sqrt(100 * double(radius));
+    EXPECT_NEAR(fastestRound(radius, 0), may, 0.02 * may) << "radius " << radius;
+    EXPECT_NEAR(fastestRound(radius, 3 * radius), may, 0.02 * may) << "helix of radius " << radius;
+  }
+}
+
+TEST(CornerLimit, OfShortMovesIsThatOfTheTurnSpreadOverThem) {
+  const float acceleration = 0.01f, deviation = 0.05f;
+  for (const double turn : {0.02, 0.1, 0.2})
+    for (const float room : {0.0f, 0.02f, 0.2f}) {
+      const double expected = double(acceleration) * double(room + deviation) / turn;
+      EXPECT_NEAR(double(cornerSpeedSquared(direction(1), direction(1 + turn), acceleration,
+                                            deviation, room)),
+                  expected, 0.002 * expected)
+          << "turn " << turn << ", room " << room;
+    }
+}
+
+TEST(CornerLimit, OfLongMovesIsThatOfTheArcWithinTheDeviation) {
+  const float acceleration = 0.01f, deviation = 0.05f, room = 1000;
+  for (const double turn : {0.1, 0.8, 1.6, 2.5, 3.0}) {
+    // The arc touches both sides and passes the corner at the deviation.
+    const double cosine = std::cos(turn / 2);
+    const double radius = double(deviation) * cosine / (1 - cosine);
+    EXPECT_NEAR(
+        double(cornerSpeedSquared(direction(0), direction(turn), acceleration, deviation, room)),
+        double(acceleration) * radius, 0.002 * double(acceleration) * radius + 1e-7)
+        << "turn " << turn;
+  }
+  EXPECT_EQ(0,
+            cornerSpeedSquared(direction(0), direction(3.14159265), acceleration, deviation, 0.0f))
+      << "straight back";
+}
+
+TEST(CornerLimit, CountsTheTurnOfZ) {
+  const double turn = 0.1;
+  const Direction level = {1, 0, 0}, rising = {float(std::cos(turn)), 0, float(std::sin(turn))};
+  EXPECT_NEAR(double(cornerSpeedSquared(level, rising, 1, 0.05f, 0.2f)), 0.25 / turn, 0.01);
+}
+
+TEST(Steepest, IsThatOfTheChainThatChangesMostAtEitherEnd) {
+  const Sprockets<double> sprockets = {{-1489, 1073}, {1489, 1073}, {0.002, 0, 0}};
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> x(-1200, 1200), y(-600, 600);
+  for (int i = 0; i < 200; ++i) {
+    const Path<double> path = line(Point<double>{x(random), y(random)}, {x(random), y(random)});
+    EXPECT_NEAR(steepest(path, sprockets), steepestByHand(path, sprockets) + 0.002, 0.004)
+        << "from " << path.from.x << ", " << path.from.y << " to " << path.to.x << ", "
+        << path.to.y;
+  }
+}
+
+TEST(Steepest, OfEachEndAlone) {
+  const Sprockets<double> sprockets = {{-1000, 0}, {1000, 0}, {0, 0, 0}};
+  // Each line runs to or from the foot under one sprocket; there that chain stands still.
+  struct {
+    const char* which;
+    Point<double> from, to;
+  } lines[] = {{"left, begin", {-400, -600}, {-1000, -1000}},
+               {"left, end", {-1000, -1000}, {-400, -600}},
+               {"right, begin", {400, -600}, {1000, -1000}},
+               {"right, end", {1000, -1000}, {400, -600}}};
+  for (const auto& each : lines) {
+    const Path<double> path = line(each.from, each.to);
+    EXPECT_NEAR(steepest(path, sprockets), steepestByHand(path, sprockets), 0.002) << each.which;
+  }
+}
+
+TEST(ChainLimit, HoldsForBothChainsOnEveryLine) {
+  // Lines that end under a sprocket: one chain changes by nearly the whole way.
+  for (const float side : {-1.0f, 1.0f})
+    for (const bool up : {false, true}) {
+      Plain plain(kFree);
+      Limits slow = kFree;
+      slow.chain_speed = 20;
+      plain.mover.prepare(slow, 0.01f);
+      plain.mover.setSprockets({{-1000, 500}, {1000, 500}, {0, 0, 0}});
+      const Point<float> low = {side * 400, -400}, high = {side * 900, 300};
+      const Path<float> path = up ? line(low, high) : line(high, low);
+      plain.now = {toCounts(path.from.x), toCounts(path.from.y), 0};
+      plain.mover.standAt(plain.now);
+      plain.mover.add(path, 0, 500);
+      plain.run();
+      double most = 0, before[2] = {0, 0};
+      for (size_t i = 0; i < plain.asked.size(); ++i)
+        for (int chain = 0; chain < 2; ++chain) {
+          const double sprocket = chain ? 1000 : -1000;
+          const double length = std::hypot(plain.asked[i].x - sprocket, plain.asked[i].y - 500);
+          if (i != 0) most = std::max(most, std::fabs(length - before[chain]) / 0.01);
+          before[chain] = length;
+        }
+      EXPECT_NEAR(most, 20, 0.1) << "side " << side << (up ? ", up" : ", down");
+    }
+}
