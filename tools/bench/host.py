@@ -11,7 +11,7 @@ from plumb.bench.boards import cut, plan
 from plumb.bench.causes import MAKER, Hidden, causes_of
 from plumb.board.observations import observe
 from plumb.diagnose import diagnose
-from plumb.fit.problem import fit
+from plumb.fit.fit import fit
 from plumb.marks.read import read_marks
 from plumb.model import predict
 from plumb.settings.files import read_settings

@@ -10,7 +10,7 @@ import numpy as np
 from plumb.bench.boards import BoardCut, Machine
 from plumb.bench.causes import HALF, MAKER
 from plumb.board.observations import observe
-from plumb.fit.problem import fit
+from plumb.fit.fit import fit
 from plumb.fit.shape import best_pose
 from plumb.marks.read import Measurements
 from plumb.model.predict import FOUND, lengths

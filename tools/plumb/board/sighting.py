@@ -39,6 +39,11 @@ class Sighting:
     taped: Places  # places whose distances are those that a tape gives
     found: Array  # (r,) FOUND where the sled can hang
 
+    def taped_spans(self, ends: Array) -> Array:
+        """What a tape reads (m,) [mm] between the visits in each row of `ends` (m, 2)."""
+        where = self.taped.where[ends]
+        return np.linalg.norm(where[:, 1] - where[:, 0], axis=1)
+
 
 def sighted(
     values: Array,

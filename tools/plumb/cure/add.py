@@ -9,9 +9,11 @@ import numpy as np
 
 from plumb.board.observations import Observations, model_and_observations
 from plumb.board.rounds import notes_on, unit_of
+from plumb.board.sighting import SHEET_ROTATION
 from plumb.fit.compare import Comparison, compare
+from plumb.fit.fit import Estimate, Fit, fit, rms
 from plumb.fit.patch import PATCH, best_patch
-from plumb.fit.problem import PRIORS, SHEET_ROTATION, Estimate, Fit, fit, rms
+from plumb.fit.problem import PRIORS
 from plumb.fit.shape import best_pose
 from plumb.marks.read import Measurements
 from plumb.marks.score import Score, score_of

@@ -9,7 +9,7 @@ import numpy as np
 
 from plumb.board.observations import Observations, model_and_observations
 from plumb.diagnose.exchanged import exchange_slips, find_exchanged
-from plumb.diagnose.explanation import Board, Checked, Explanation, explain
+from plumb.diagnose.explanation import Board, Explanation, explain
 from plumb.diagnose.gain import Search, search
 from plumb.diagnose.halves import half_warnings, round_warnings
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
@@ -20,7 +20,7 @@ from plumb.diagnose.sizes import Room, Size, hidden_share, room_for, sizes_of
 from plumb.diagnose.slip_guess import Slip, described
 from plumb.diagnose.slips import clear_slips
 from plumb.diagnose.suspects import Suspects, best_at_hand, evidence, find_suspects
-from plumb.fit.problem import PRIORS, USUAL_SIGMA
+from plumb.fit.problem import PRIORS, USUAL_SIGMA, Checked
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names
 from plumb.settings.machine import MachineSettings

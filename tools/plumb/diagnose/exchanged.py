@@ -135,5 +135,4 @@ def _undone(board: Board, pair: Exchange) -> Board:
         measured[[pair.first, pair.second]] = measured[order]
     else:
         distances[[pair.first, pair.second]] = distances[order]
-    rows = replace(rows, measured=measured, distances=distances)
-    return replace(board, problem=replace(board.problem, observations=rows))
+    return board.with_rows(replace(rows, measured=measured, distances=distances))

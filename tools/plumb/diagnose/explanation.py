@@ -1,9 +1,4 @@
-"""An explanation: the frame and some effects refitted together, and the slopes at that fit.
-
-All is whitened: rows are measured numbers over sigma, then the priors of the frame, then what was
-checked directly; columns are unknowns in their typical sizes. Then noise alone is a vector of
-independent standard normals.
-"""
+"""An explanation: the frame and some effects refitted together, and the slopes at that fit."""
 
 from __future__ import annotations
 
@@ -13,33 +8,22 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from plumb.board.observations import Observations
-from plumb.fit.problem import PRIORS, Problem
+from plumb.fit.problem import PRIORS, Checked, Linearized, Problem
+from plumb.fit.solver import solve
 from plumb.model.catalogue import effect_names, parameter_names
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError
 
 Array = np.ndarray
-MOST_STEPS = 12
-CLOSE_ENOUGH = 1e-5  # of chi-square: a step that gains less is the last
+CLOSE_ENOUGH = 1e-5  # of chi-square: no test of a diagnosis feels less
 INVISIBLE = 1e-5  # share of a column's length below which its rest is rounding
 
 
 @dataclass(frozen=True)
-class Checked:
-    """A number of the machine that was measured directly, like the tape against a steel rule."""
-
-    name: str  # of a parameter or of the frame
-    value: float  # [its unit]
-    sigma: float  # [its unit]
-
-
-@dataclass(frozen=True)
 class Board:
-    """What is diagnosed: a model, what was measured, and the sigma [mm] that whitens it."""
+    """A measured board with every effect of the catalogue as an unknown."""
 
-    problem: Problem  # of the frame and every effect
+    problem: Problem
     own: Mapping[str, tuple[int, ...]]  # columns of each effect, in the catalogue's order
-    checked: tuple[Checked, ...] = ()  # each is one more row, after those of the priors
 
     @staticmethod
     def of(
@@ -50,13 +34,13 @@ class Board:
         priors: Mapping[str, float] = PRIORS,
         checked: Sequence[Checked] = (),
     ) -> Board:
-        """A board with every effect of the catalogue as an unknown."""
-        problem = Problem.of(settings, rows, effect_names(), priors, sigma)
+        """The board of a model that starts from these settings; sigma [mm] whitens it."""
+        problem = Problem.of(settings, rows, effect_names(), priors, sigma, checked)
         own = {
             effect: tuple(problem.names.index(name) for name in parameter_names(effect))
             for effect in effect_names()
         }
-        return Board(problem, own, tuple(checked))
+        return Board(problem, own)
 
     @property
     def rows(self) -> Observations:
@@ -73,23 +57,14 @@ class Board:
         """Columns of the frame and the sheet's pose, which every explanation refits."""
         return np.flatnonzero(self.problem.held)
 
-    def checks(self, unknowns: Array) -> tuple[Array, Array]:
-        """What is left of the direct measurements (c,), and their slopes (c, u), both whitened."""
-        problem = self.problem
-        slopes, left = (
-            np.zeros((len(self.checked), len(problem.names))),
-            np.zeros(len(self.checked)),
-        )
-        for i, one in enumerate(self.checked):
-            column = problem.names.index(one.name)
-            slopes[i, column] = problem.scale[column] / one.sigma
-            value = problem.start[column] + problem.scale[column] * unknowns[column]
-            left[i] = (one.value - value) / one.sigma
-        return left, slopes
-
     def columns(self, effects: Iterable[str]) -> Array:
         """Columns of these effects' parameters."""
         return np.array([i for effect in effects for i in self.own[effect]], dtype=int)
+
+    def with_rows(self, rows: Observations, *, sigma: float | None = None) -> Board:
+        """The same machine with other observations, and another sigma [mm] if it is given."""
+        sigma = self.sigma if sigma is None else sigma
+        return replace(self, problem=replace(self.problem, observations=rows, sigma=sigma))
 
 
 @dataclass(frozen=True)
@@ -98,21 +73,33 @@ class Explanation:
 
     board: Board
     effects: tuple[str, ...]
-    unknowns: Array  # (u,) of every name, those not fitted at their start
-    residual: Array  # (n + frame,) whitened
-    slopes: Array  # (n + frame, u) whitened, by every name
-    predicted: Array  # (k, 2) [mm] of the marks
+    at: Linearized  # unknowns that were not fitted are at their start
     settled: bool
 
     @property
-    def free(self) -> Array:
-        """Columns that were fitted."""
-        return np.concatenate([self.board.frame, self.board.columns(self.effects)])
+    def unknowns(self) -> Array:
+        """Of every name (u,)."""
+        return self.at.unknowns
+
+    @property
+    def residual(self) -> Array:
+        """What is left, whitened: measured numbers, priors, direct checks."""
+        return self.at.residual
+
+    @property
+    def slopes(self) -> Array:
+        """Of what is predicted, whitened, by every name (rows, u)."""
+        return self.at.slopes
 
     @property
     def cost(self) -> float:
         """Chi-square of what is left."""
-        return float(self.residual @ self.residual)
+        return self.at.cost
+
+    @property
+    def free(self) -> Array:
+        """Columns that were fitted."""
+        return free_columns(self.board, self.effects)
 
     @property
     def numbers(self) -> Array:
@@ -151,53 +138,16 @@ def span(columns: Array, *, against: Array | None = None) -> Array:
 def explain(
     board: Board, effects: tuple[str, ...] = (), *, start: Explanation | None = None
 ) -> Explanation:
-    """Refit the frame and these effects (Gauss-Newton with halved steps where one overshoots)."""
-    problem = board.problem
-    unknowns = np.zeros(len(problem.names)) if start is None else start.unknowns.copy()
-    here = _look(board, effects, unknowns)
-    if here is None:
-        raise InputError("with these settings the sled cannot hang where the marks were sent")
-    for _ in range(MOST_STEPS):
-        columns = here.slopes[:, here.free]
-        step = np.linalg.lstsq(columns, here.residual, rcond=1e-10)[0]
-        promised = 2 * step @ (columns.T @ here.residual) - np.sum((columns @ step) ** 2)
-        if promised < CLOSE_ENOUGH:
-            return here
-        better = _step(board, here, step)
-        if better is None:
-            break
-        here = better
-    return replace(here, settled=False)
-
-
-def _step(board: Board, here: Explanation, step: Array) -> Explanation | None:
-    """The first of ever shorter steps that lowers the cost."""
-    for _ in range(8):
-        unknowns = here.unknowns.copy()
-        unknowns[here.free] += step
-        there = _look(board, here.effects, unknowns)
-        if there is not None and there.cost < here.cost:
-            return there
-        step = step / 2
-    return None
-
-
-def _look(board: Board, effects: tuple[str, ...], unknowns: Array) -> Explanation | None:
-    """Residuals and slopes at these unknowns; None where the sled cannot hang."""
-    problem = board.problem
-    sighting, reached = problem.predict(unknowns)
-    if not reached:
-        return None
-    marks, distances = problem.errors(sighting)
-    errors = np.concatenate([marks.ravel(), distances]) / problem.sigma
-    priors = np.eye(len(problem.names))[problem.held]
-    left, by_check = board.checks(unknowns)
-    return Explanation(
-        board=board,
-        effects=effects,
-        unknowns=unknowns,
-        residual=np.concatenate([errors, -unknowns[problem.held], left]),
-        slopes=np.vstack([problem.data_slopes(sighting) / problem.sigma, priors, by_check]),
-        predicted=sighting.read.where[problem.observations.mark_rows],
-        settled=True,
+    """Refit the frame and these effects."""
+    solution = solve(
+        board.problem,
+        free=free_columns(board, effects),
+        start=None if start is None else start.unknowns,
+        close_enough=CLOSE_ENOUGH,
     )
+    return Explanation(board, effects, solution.at, solution.settled)
+
+
+def free_columns(board: Board, effects: Iterable[str]) -> Array:
+    """Columns of the frame and of these effects."""
+    return np.concatenate([board.frame, board.columns(effects)])

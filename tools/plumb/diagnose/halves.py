@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from plumb.board.sighting import SHEET_ROTATION
 from plumb.diagnose.explanation import Explanation, span
 from plumb.diagnose.misfit import library_basis
 from plumb.diagnose.noise import Noise
 from plumb.diagnose.significance import tail
-from plumb.fit.problem import SHEET_ROTATION
 
 Array = np.ndarray
 CHANCE = 0.0027  # of a move beyond 3 sigma from noise alone

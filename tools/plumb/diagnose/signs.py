@@ -42,8 +42,7 @@ def with_y_errors_turned(board: Board) -> Board:
     rows = board.rows
     measured = rows.measured.copy()
     measured[:, 1] = 2 * rows.targets[:, 1] - measured[:, 1]
-    rows = replace(rows, measured=measured)
-    return replace(board, problem=replace(board.problem, observations=rows))
+    return board.with_rows(replace(rows, measured=measured))
 
 
 def _is_simple(one: Explanation, noise: Noise) -> bool:

@@ -119,15 +119,15 @@ def clear_slips(board: Board, candidates: Sequence[str], *, stated: float | None
     rows, noise, slips = board.rows, start, []
     indices = readings_of(rows)  # of the readings still there, among all
     most = max(1, len(indices) // READINGS_PER_SLIP)
-    whole = fitted = _single(_with(board, rows, noise.sigma), candidates)
+    whole = fitted = _single(board.with_rows(rows, sigma=noise.sigma), candidates)
     while len(slips) <= most:
         found = _worst(fitted, stated, noise)
         if found is None:
             break
         slips.append(replace(found, reading=indices.pop(_place(rows, found.reading))))
         rows = without(rows, found.reading)
-        noise = noise_on(_with(board, rows, noise.sigma), stated)
-        fitted = _single(_with(board, rows, noise.sigma), candidates)
+        noise = noise_on(board.with_rows(rows, sigma=noise.sigma), stated)
+        fitted = _single(board.with_rows(rows, sigma=noise.sigma), candidates)
     if slips and len(slips) <= most and _fits(fitted, noise):
         return Cleared(tuple(slips), rows, noise, fitted[0], tuple(fitted[1:]))
     return Cleared((), board.rows, start, whole[0], tuple(whole[1:]))
@@ -152,7 +152,7 @@ def _worst(fitted: Sequence[Explanation], stated: float | None, noise: Noise) ->
     chances = np.array([tail(g, s, np.inf) for g, s in zip(least, sizes, strict=True)])
     worst = int(np.lexsort((-least, chances))[0])
     reading = by_explanation[0][worst].reading
-    others = noise_on(_with(board, without(board.rows, reading), board.sigma), stated)
+    others = noise_on(board.with_rows(without(board.rows, reading), sigma=board.sigma), stated)
     drop = least[worst] * (board.sigma / others.sigma) ** 2
     if tail(drop, reading.size, others.degrees) * len(least) > LEVEL:
         return None
@@ -188,11 +188,6 @@ def _possible(fitted: Sequence[Explanation], noise: Noise) -> list[Explanation]:
 def _fits(fitted: Sequence[Explanation], noise: Noise) -> bool:
     """Whether the frame alone or with one effect leaves no more than noise."""
     return any(misfit_chance(one, noise) > MISFIT_LEVEL for one in _possible(fitted, noise))
-
-
-def _with(board: Board, rows: Observations, sigma: float) -> Board:
-    """The same machine with other observations."""
-    return replace(board, problem=replace(board.problem, observations=rows, sigma=sigma))
 
 
 def _place(rows: Observations, reading: Reading) -> int:

@@ -8,7 +8,7 @@ import numpy as np
 
 from plumb.board.observations import Observations, model_and_observations
 from plumb.board.visits import chains_to, visited
-from plumb.fit.problem import rms
+from plumb.fit.fit import rms
 from plumb.fit.shape import best_pose
 from plumb.marks.read import Measurements
 from plumb.marks.score import Score, score_as_cut, score_of

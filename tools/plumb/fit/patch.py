@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from plumb.board.observations import Observations
-from plumb.fit.problem import Fit, fit
+from plumb.fit.fit import Fit, fit
 from plumb.model.catalogue import parameter_names
 from plumb.settings.machine import MachineSettings
 

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from plumb.fit.problem import rms
+from plumb.fit.fit import rms
 from plumb.model.catalogue import NO_FIRMWARE, empirical_effects, every_effect
 from plumb.pages.fingerprints import (
     COLUMNS,

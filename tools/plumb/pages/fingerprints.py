@@ -10,7 +10,7 @@ import numpy as np
 
 from plumb.board.observations import observe
 from plumb.board.sighting import sighted
-from plumb.fit.problem import rms
+from plumb.fit.fit import rms
 from plumb.fit.shape import best_pose
 from plumb.marks.read import Mark, Measurements
 from plumb.model.catalogue import every_effect, is_lab, is_sketch, parameter_words

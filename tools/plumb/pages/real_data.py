@@ -17,7 +17,7 @@ from plumb.cure.demo import MARKS, SETTINGS, with_y_errors_flipped
 from plumb.diagnose import Diagnosis
 from plumb.diagnose.sentence import verdict_sentence
 from plumb.fit.compare import Comparison
-from plumb.fit.problem import rms
+from plumb.fit.fit import rms
 from plumb.fit.shape import best_pose
 from plumb.marks.read import read_marks
 from plumb.model.predict import known_effects

@@ -6,7 +6,7 @@ import numpy as np
 
 from plumb.cure.add import Parameter
 from plumb.diagnose.sentence import verdict_sentence
-from plumb.fit.problem import rms
+from plumb.fit.fit import rms
 from plumb.pages.real_sets import (
     CUTS,
     HOLES,

@@ -11,7 +11,7 @@ import numpy as np
 from plumb.cure.add import Addition, add
 from plumb.diagnose import Diagnosis, diagnose
 from plumb.fit.compare import Comparison, compare
-from plumb.fit.problem import rms
+from plumb.fit.fit import rms
 from plumb.marks.read import Measurements, join_measurements, read_marks
 from plumb.model.predict import FOUND, believed_lengths, known_effects, places
 from plumb.settings.files import read_settings

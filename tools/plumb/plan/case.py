@@ -13,9 +13,9 @@ import numpy as np
 
 from plumb.board.observations import model_and_observations
 from plumb.diagnose.diagnosis import Diagnosis, felt_effects
-from plumb.diagnose.explanation import Board, Checked, Explanation, explain
+from plumb.diagnose.explanation import Board, Explanation, explain
 from plumb.diagnose.noise import Noise
-from plumb.fit.problem import PRIORS
+from plumb.fit.problem import PRIORS, Checked
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names
 from plumb.settings.machine import MachineSettings

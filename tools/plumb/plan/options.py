@@ -60,7 +60,7 @@ def many_marks(case: Case) -> Option | None:
 
 def checks_for(case: Case) -> list[Option]:
     """Direct measurements of the suspects and of the frame's numbers that were not made yet."""
-    problem, made = case.board.problem, {one.name: one.sigma for one in case.board.checked}
+    problem, made = case.board.problem, {one.name: one.sigma for one in case.board.problem.checked}
     held = np.flatnonzero(problem.held)
     known = {problem.names[i]: float(problem.scale[i]) for i in held} | made
     found = []

@@ -132,13 +132,12 @@ def _as_planned(
         raise InputError(f"{plan.source}: too few marks for a diagnosis; plan at least three")
     board = Board.of(model, rows, sigma=sigma, priors=priors)
     sighting, _ = board.problem.predict(np.zeros(len(board.problem.names)))
-    ends = sighting.taped.where[rows.distance_rows]
     exact = replace(
         rows,
         measured=sighting.read.where[rows.mark_rows],
-        distances=np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1),
+        distances=sighting.taped_spans(rows.distance_rows),
     )
-    return explain(Board.of(model, exact, sigma=sigma, priors=priors))
+    return explain(board.with_rows(exact))
 
 
 def _matrix(frame: Explanation, slopes: Array) -> Array:

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from plumb.diagnose.diagnosis import Diagnosis
-from plumb.diagnose.explanation import Checked, span
+from plumb.diagnose.explanation import span
 from plumb.diagnose.sizes import Room
-from plumb.fit.problem import PRIORS
+from plumb.fit.problem import PRIORS, Checked
 from plumb.marks.read import Measurements
 from plumb.plan.ahead import ahead
 from plumb.plan.case import Case, case_of

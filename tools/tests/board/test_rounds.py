@@ -7,7 +7,8 @@ import pytest
 from plumb.board.observations import model_and_observations, observe
 from plumb.board.rounds import round_priors
 from plumb.diagnose import diagnose
-from plumb.fit.problem import Problem, fit
+from plumb.fit.fit import fit
+from plumb.fit.problem import Problem
 from plumb.marks.read import Distance, Mark, Measurements, Round, join_measurements, read_marks
 from plumb.model.predict import lengths
 from plumb.settings.files import machine_toml
@@ -158,10 +159,10 @@ def test_slopes_by_what_a_round_has_of_its_own_are_exact():
     model, rows = model_and_observations(TRUE, replace(both, distances=ends))
     problem = Problem.of(model, rows, (), {"sheet_rotation": 0.02}, 0.5)
     here = np.full(len(problem.names), 0.1)
-    exact = problem.slopes(here)
+    exact = problem.at(here).slopes
     for i, step in enumerate(1e-4 * np.eye(len(here))):
-        ends = [problem.residuals(here + side * step) for side in (1, -1)]
-        assert exact[:, i] == pytest.approx((ends[0] - ends[1]) / 2e-4, abs=1e-4)
+        ends = [problem.at(here + side * step).residual for side in (1, -1)]
+        assert exact[:, i] == pytest.approx((ends[1] - ends[0]) / 2e-4, abs=1e-4)
 
 
 def test_distances_alone_do_not_ask_where_a_later_sheet_lies():

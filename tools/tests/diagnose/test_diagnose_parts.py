@@ -12,7 +12,7 @@ from plumb.diagnose.noise import Noise, Spread, noise_of, repeats_of
 from plumb.diagnose.significance import KNOWN, surprise, surprises, tail
 from plumb.diagnose.sizes import hidden_share, room_for, sizes_of
 from plumb.diagnose.slips import readings_of, shifts, without
-from plumb.fit.problem import fit
+from plumb.fit.fit import fit
 from plumb.marks.read import Measurements, Round
 from plumb.model.catalogue import effect_names
 from scipy import stats

@@ -5,7 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plumb.board.observations import observe
-from plumb.fit.problem import PRIORS, SHEET_ROTATION, Problem, fit, rms
+from plumb.board.sighting import SHEET_ROTATION
+from plumb.fit.fit import fit, rms
+from plumb.fit.problem import PRIORS, Problem
 from plumb.marks.read import Measurements
 from plumb.text.errors import InputError
 from synthetic import BELIEVED, EFFECTS, TRUE, distances_between, grid, marks_on
@@ -182,9 +184,10 @@ def test_the_slopes_of_all_residuals_are_those_of_finite_differences():
     problem = Problem.of(TRUE, observe(BELIEVED, board), tuple(EFFECTS), priors, 0.5)
     # The sheet is turned by a fifth of a radian, so that nothing about turning is small.
     place = np.where(np.array(problem.names) == SHEET_ROTATION, 10.0, 0.3)
-    slopes = problem.slopes(place)
+    slopes = problem.at(place).slopes
     for i in range(len(place)):
         step = 1e-2 * np.eye(len(place))[i]
-        difference = (problem.residuals(place + step) - problem.residuals(place - step)) / 0.02
+        ends = [problem.at(place + side * step).residual for side in (1, -1)]
+        difference = (ends[1] - ends[0]) / 0.02
         size = np.abs(difference).max()
         assert slopes[:, i] == pytest.approx(difference, abs=0.003 * size + 1e-4)

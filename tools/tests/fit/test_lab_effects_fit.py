@@ -9,7 +9,7 @@ from plumb.board.observations import observe
 from plumb.board.sighting import sighted
 from plumb.cli.add import as_json, as_text, toml_of
 from plumb.cure.add import add
-from plumb.fit.problem import fit
+from plumb.fit.fit import fit
 from plumb.marks.read import Measurements
 from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.predict import FOUND, known_effects, values_of

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from plumb.fit.problem import rms
+from plumb.fit.fit import rms
 from plumb.model.catalogue import every_effect
 from plumb.pages.fingerprints import (
     FRAME_STEPS,

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from plumb.fit.problem import rms
+from plumb.fit.fit import rms
 from plumb.pages.real_data import COMMAND, PAGE, pages
 from plumb.pages.real_sets import (
     BRACKETS,

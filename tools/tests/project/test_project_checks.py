@@ -69,7 +69,7 @@ def test_good_tree_passes(tmp_path, check):
         ("tools/calibration_grid.py", "import numpy"),
         ("tools/calibration_grid.py", "from plumb import grid"),
         ("tools/calibration_grid.py", "from . import grid"),
-        ("tools/plumb/model/predict.py", "from plumb.fit.problem import fit"),
+        ("tools/plumb/model/predict.py", "from plumb.fit.fit import fit"),
         ("tools/plumb/model/predict.py", "from plumb import cli"),
         ("tools/plumb/model/predict.py", "import plumb.marks.read"),
         ("tools/plumb/model/predict.py", "import plumb"),

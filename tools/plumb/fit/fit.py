@@ -1,0 +1,166 @@
+"""Fitting the model to what was measured: estimates with intervals, and honest errors."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import stdtrit
+
+from plumb.board.observations import Observations
+from plumb.board.sighting import OUTSIDE_NAMES, SHEET_ROTATION
+from plumb.fit.problem import PRIORS, USUAL_SIGMA, Array, Problem
+from plumb.fit.solver import Solution, solve
+from plumb.model.predict import settings_of
+from plumb.settings.machine import MachineSettings
+
+SMALLEST_SIGMA = 1e-9  # [mm] for marks that a model explains completely
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """One fitted number: its value, 95 % interval, and what was known of it before."""
+
+    name: str
+    value: float
+    low: float
+    high: float
+    before: float
+    prior_sigma: float | None  # None: free
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A model fitted to observations."""
+
+    settings: MachineSettings
+    sheet_rotation: float  # [rad]
+    # Fitted, but no setting holds them; sketches too.
+    lab_effects: Mapping[str, Mapping[str, float]]
+    estimates: tuple[Estimate, ...]
+    predicted: Array  # (k, 2) [mm] of the marks, on the sheet
+    errors: Array  # (k, 2) [mm] measured - predicted
+    left_out_errors: Array  # (k, 2) [mm] of each mark when it takes no part in the fit
+    distance_errors: Array  # (m,) [mm]
+    left_out_distance_errors: Array  # (m,) [mm]
+    spent: float  # how many numbers the fit took from the data
+    sigma: float  # [mm] of one number, stated or estimated
+    sigma_from: str  # "stated" or "residuals"
+    settled: bool  # False: the search stopped at its limit of tries
+
+    @property
+    def rms(self) -> float:
+        """Root mean square error of the marks (as vectors), or of distances without marks."""
+        return rms(self.errors if len(self.errors) else self.distance_errors)
+
+    @property
+    def left_out_rms(self) -> float:
+        """The same for marks that took no part: what to expect at a new place."""
+        return rms(self.left_out_errors if len(self.errors) else self.left_out_distance_errors)
+
+    @property
+    def priced_rms(self) -> float:
+        """The fit's error scaled up for the numbers it took from the data."""
+        count = self.errors.size + self.distance_errors.size
+        return self.rms * float(np.sqrt(count / max(count - self.spent, 1e-9)))
+
+
+def rms(errors: Array) -> float:
+    """Root mean square length of errors (n, 2), or of numbers (n,) [mm]."""
+    if len(errors) == 0:
+        return float("nan")
+    return float(np.sqrt(np.mean(np.sum(np.atleast_2d(errors.T).T ** 2, axis=1))))
+
+
+def fit(
+    settings: MachineSettings,
+    observations: Observations,
+    *,
+    effects: Iterable[str] = (),
+    priors: Mapping[str, float] = PRIORS,
+    sigma: float | None = None,
+) -> Fit:
+    """Fit the frame within its priors and the parameters of `effects` to the observations.
+
+    `settings` is the model to start from; sigma [mm] of one coordinate, estimated if None.
+    """
+    problem = Problem.of(settings, observations, effects, priors, sigma or USUAL_SIGMA)
+    return _fit_of(problem, solve(problem), sigma)
+
+
+def _fit_of(problem: Problem, solution: Solution, stated: float | None) -> Fit:
+    """The fit with its intervals and left-out errors; `stated` is the sigma, if it is known."""
+    rows, here = problem.observations, solution.at
+    slopes, errors = here.slopes[: rows.count], here.residual[: rows.count] * problem.sigma
+    priors = np.diag(problem.held.astype(float))
+    leverage = slopes @ np.linalg.pinv(slopes.T @ slopes + priors, hermitian=True) @ slopes.T
+    spent = float(np.trace(leverage))
+    spare = max(len(errors) - spent, 1e-9)
+    sigma = stated or max(float(np.sqrt(errors @ errors / spare)), SMALLEST_SIGMA)
+    width = float(stdtrit(spare, 0.975)) if stated is None else 1.96
+    # Intervals for the noise that was found; what a prior holds grows no wider than the prior.
+    normal = slopes.T @ slopes * (problem.sigma / sigma) ** 2 + priors
+    deviation = np.sqrt(np.diag(np.linalg.pinv(normal, hermitian=True)))
+    marks, distances = errors[: rows.measured.size].reshape(-1, 2), errors[rows.measured.size :]
+    left_marks, left_distances = _left_out(rows.names, marks, distances, leverage)
+    values, outside = problem.values(here.unknowns)
+    return Fit(
+        settings=settings_of(values, like=problem.settings),
+        sheet_rotation=outside.get(SHEET_ROTATION, 0.0),
+        lab_effects=_by_effect(outside),
+        estimates=_estimates(problem, here.unknowns, width * deviation),
+        predicted=here.predicted,
+        errors=marks,
+        left_out_errors=left_marks,
+        distance_errors=distances,
+        left_out_distance_errors=left_distances,
+        spent=spent,
+        sigma=sigma,
+        sigma_from="residuals" if stated is None else "stated",
+        settled=solution.settled,
+    )
+
+
+def _estimates(problem: Problem, unknowns: Array, half_widths: Array) -> tuple[Estimate, ...]:
+    """Each unknown with its interval of these half-widths, in its unit."""
+    values = problem.start + problem.scale * unknowns
+    reach = problem.scale * half_widths
+    return tuple(
+        Estimate(
+            name=name,
+            value=float(values[i]),
+            low=float(values[i] - reach[i]),
+            high=float(values[i] + reach[i]),
+            before=float(problem.start[i]),
+            prior_sigma=float(problem.scale[i]) if problem.held[i] else None,
+        )
+        for i, name in enumerate(problem.names)
+    )
+
+
+def _by_effect(outside: Mapping[str, float]) -> dict[str, dict[str, float]]:
+    """Parameters of lab effects and sketches by effect and name."""
+    by_effect: dict[str, dict[str, float]] = {}
+    for name in OUTSIDE_NAMES:
+        if name in outside:
+            effect, _, parameter = name.rpartition(".")
+            by_effect.setdefault(effect, {})[parameter] = outside[name]
+    return by_effect
+
+
+def _left_out(
+    names: tuple[str, ...], marks: Array, distances: Array, leverage: Array
+) -> tuple[Array, Array]:
+    """Errors of each mark or distance in a fit without it: (1 - its own leverage)^-1 error.
+
+    Repeats of a mark are left out together, or each would be predicted by its twin.
+    """
+    left_marks = np.zeros_like(marks)
+    for name in set(names):
+        repeats = np.flatnonzero(np.array(names) == name)
+        block = np.stack([2 * repeats, 2 * repeats + 1], axis=1).ravel()
+        kept = np.eye(len(block)) * (1 + 1e-12) - leverage[np.ix_(block, block)]
+        left_marks[repeats] = np.linalg.solve(kept, marks[repeats].ravel()).reshape(-1, 2)
+    of_distances = np.diag(leverage)[2 * len(marks) :]
+    return left_marks, distances / np.maximum(1 - of_distances, 1e-12)

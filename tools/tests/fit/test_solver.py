@@ -1,0 +1,114 @@
+"""The solver against another one, and on curves made to lead it astray."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from plumb.board.observations import observe
+from plumb.fit.problem import PRIORS, Checked, Linearized, Problem
+from plumb.fit.solver import MOST_STEPS, solve
+from plumb.marks.read import Measurements
+from plumb.text.errors import InputError
+from scipy.optimize import least_squares
+from synthetic import BELIEVED, TRUE, grid, marks_on
+
+STARTED_AT = 3.0
+
+
+@dataclass
+class Curve:
+    """A problem of one unknown: what is left of it, and its slope, at each place."""
+
+    left: Callable[[float], float]
+    slope: Callable[[float], float]
+    hangs: Callable[[float], bool] = lambda place: True
+    names: tuple[str, ...] = ("place",)
+    asked: int = 0
+
+    def at(self, unknowns):
+        self.asked += 1
+        place = float(unknowns[0])
+        if not self.hangs(place):
+            return None
+        left, slope = self.left(place), self.slope(place)
+        return Linearized(unknowns, np.array([left]), np.array([[slope]]), np.zeros((0, 2)))
+
+
+def board(effects, checked=()):
+    rows = observe(BELIEVED, Measurements(marks_on(TRUE, BELIEVED, grid(5, 3), noise=0.5, seed=4)))
+    return Problem.of(BELIEVED, rows, effects, PRIORS, 0.5, checked)
+
+
+def settled_at(curve):
+    found = solve(curve, start=np.array([STARTED_AT]))
+    return found.settled, float(found.at.unknowns[0])
+
+
+@pytest.mark.parametrize("effects", [(), ("chain_pitch",), ("chain_sag", "frame_flex")])
+def test_it_rests_where_another_solver_does(effects):
+    problem = board(effects, [Checked("motor_gap", 2980.0, 1.0)])
+    judge = least_squares(
+        lambda unknowns: problem.at(unknowns).residual, np.zeros(len(problem.names)), xtol=1e-14
+    )
+    found = solve(problem)
+    assert found.settled
+    assert found.at.cost == pytest.approx(2 * judge.cost, rel=1e-9)
+    assert found.at.unknowns == pytest.approx(judge.x, abs=1e-4)
+
+
+def test_only_free_columns_move():
+    problem = board(("chain_pitch",))
+    start = np.full(len(problem.names), 0.2)
+    free = np.array([0, 2])
+    found = solve(problem, free=free, start=start)
+    moved = np.flatnonzero(found.at.unknowns != start)
+    assert moved.tolist() == free.tolist()
+    assert start.tolist() == [0.2] * len(start)
+
+
+def test_a_step_that_overshoots_is_halved():
+    # Newton's steps on an arc tangent grow without end from there.
+    settled, place = settled_at(Curve(lambda x: -np.arctan(x), lambda x: 1 / (1 + x * x)))
+    assert settled and place == pytest.approx(0.0, abs=1e-5)
+
+
+def test_a_step_to_where_the_sled_cannot_hang_is_halved():
+    line = Curve(lambda x: -x, lambda x: 1.0, hangs=lambda x: x > 0.5)
+    assert settled_at(line)[1] == pytest.approx(0.5, abs=0.05)
+
+
+def test_a_start_where_the_sled_cannot_hang_is_refused():
+    with pytest.raises(InputError, match="cannot hang"):
+        settled_at(Curve(lambda x: -x, lambda x: 1.0, hangs=lambda x: False))
+
+
+def test_it_says_when_no_step_helps():
+    wrong_way = Curve(lambda x: -x, lambda x: -1.0)
+    assert settled_at(wrong_way) == (False, STARTED_AT)
+
+
+def test_it_says_when_it_ran_out_of_steps():
+    # Each step goes a tenth of the way only.
+    slow = Curve(lambda x: -x, lambda x: 10.0)
+    settled, place = settled_at(slow)
+    assert not settled and place == pytest.approx(STARTED_AT * 0.9**MOST_STEPS)
+    assert slow.asked == MOST_STEPS + 1
+
+
+def test_it_stops_once_a_step_promises_too_little():
+    slow = Curve(lambda x: -x, lambda x: 10.0)
+    found = solve(slow, start=np.array([STARTED_AT]), close_enough=1.0)
+    # A step promises all of chi-square there, so the rest is below the limit.
+    assert found.settled and 0.8 < found.at.cost < 1.0
+
+
+def test_rounding_is_not_chased():
+    # 1e8 beside a hundredth: what is left to gain is lost in the sum.
+    class Tall(Curve):
+        def at(self, unknowns):
+            there = super().at(unknowns)
+            residual, slopes = np.append(there.residual, 1e8), np.append(there.slopes, 0.0)
+            return Linearized(unknowns, residual, slopes.reshape(2, 1), there.predicted)
+
+    assert settled_at(Tall(lambda x: -1e-3 * x, lambda x: 1e-3))[0]
