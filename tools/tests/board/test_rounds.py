@@ -117,7 +117,7 @@ def test_a_moved_frame_is_refused_with_advice():
     one, two = (board([Mark("A", (0.0, 0.0), (1.0, 1.0))]) for _ in range(2))
     two = replace(two, rounds=(Round(frame_moved=True),), source="b.toml")
     assert join_measurements([two]) is two
-    with pytest.raises(InputError, match=r"b\.toml: frame_moved .* a command of its own"):
+    with pytest.raises(InputError, match=r"b\.toml: frame_moved .* give it alone"):
         join_measurements([one, two])
 
 
