@@ -18,6 +18,7 @@ class SettingRow(TypedDict):
     usual: float
     low: float
     high: float
+    touches: list[str]
     step: int
     key: str
     sentence: str

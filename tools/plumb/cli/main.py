@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Callable, Sequence
-from typing import NoReturn
+from collections.abc import Mapping, Sequence
+from typing import NoReturn, Protocol
 
 from plumb.cli import (
     add,
@@ -14,14 +14,15 @@ from plumb.cli import (
     compare,
     diagnose,
     effects,
+    forward,
     grid,
-    kinematics,
+    inverse,
     preview,
     reach,
     settings,
     telemetry,
 )
-from plumb.cli import next as next_marks
+from plumb.cli import next as next_measurement
 from plumb.model.sketches import BROKEN
 from plumb.text.errors import InputError
 
@@ -29,8 +30,39 @@ DESCRIPTION = "Find and cure the errors of a hanging CNC: grid, compare, diagnos
 EPILOG = "Lengths are mm, forces N, angles rad. plumb COMMAND --help explains each command."
 
 
+class Command(Protocol):
+    """What the module of a command holds."""
+
+    HELP: str  # a sentence for `plumb --help`
+    EXIT: str  # what its exit codes mean
+
+    def add_arguments(self, parser: argparse.ArgumentParser) -> None:
+        """Tell the parser the arguments of this command."""
+
+    def run(self, arguments: argparse.Namespace) -> int:
+        """Do it and return the exit code."""
+
+
+# In the order of `plumb --help`. To add a command, write its module and give it a line.
+COMMANDS: Mapping[str, Command] = {
+    "grid": grid,
+    "preview": preview,
+    "compare": compare,
+    "diagnose": diagnose,
+    "next": next_measurement,
+    "add": add,
+    "effects": effects,
+    "telemetry": telemetry,
+    "bench": bench,
+    "inverse": inverse,
+    "forward": forward,
+    "settings": settings,
+    "reach": reach,
+}
+
+
 class Parser(argparse.ArgumentParser):
-    """Complains in one line, like every other refusal."""
+    """Complains on a single line, like every other refusal."""
 
     def error(self, message: str) -> NoReturn:
         """Refuse the command line."""
@@ -38,12 +70,12 @@ class Parser(argparse.ArgumentParser):
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command and return its exit code."""
+    """Run a command and return its exit code."""
     try:
         parsed = build_parser().parse_args(arguments)
         for line in BROKEN:
             raise InputError(f"sketch {line}")
-        code = parsed.run(parsed)
+        code: int = parsed.run(parsed)
         sys.stdout.flush()
         return code
     except InputError as error:
@@ -59,57 +91,17 @@ def build_parser() -> Parser:
     """The parser of all commands."""
     parser = Parser(prog="plumb", description=DESCRIPTION, epilog=EPILOG, allow_abbrev=False)
     commands = parser.add_subparsers(metavar="COMMAND", required=True, title="commands")
-    _enter(commands, "grid", grid.HELP, grid.EXIT, grid.add_arguments, grid.run)
-    for name, module in (
-        ("preview", preview),
-        ("compare", compare),
-        ("diagnose", diagnose),
-        ("next", next_marks),
-        ("add", add),
-        ("effects", effects),
-        ("telemetry", telemetry),
-        ("bench", bench),
-    ):
-        _enter(commands, name, module.HELP, module.EXIT, module.add_arguments, module.run)
-    _enter(
-        commands,
-        "inverse",
-        kinematics.INVERSE_HELP,
-        kinematics.INVERSE_EXIT,
-        kinematics.add_inverse_arguments,
-        kinematics.run_inverse,
-    )
-    _enter(
-        commands,
-        "forward",
-        kinematics.FORWARD_HELP,
-        kinematics.FORWARD_EXIT,
-        kinematics.add_forward_arguments,
-        kinematics.run_forward,
-    )
-    _enter(commands, "settings", settings.HELP, settings.EXIT, settings.add_arguments, settings.run)
-    _enter(commands, "reach", reach.HELP, reach.EXIT, reach.add_arguments, reach.run)
+    for name, command in COMMANDS.items():
+        subparser = commands.add_parser(
+            name,
+            help=command.HELP,
+            description=f"{command.HELP[0].upper()}{command.HELP[1:]}.",
+            epilog=command.EXIT,
+            allow_abbrev=False,
+        )
+        command.add_arguments(subparser)
+        subparser.set_defaults(run=command.run)
     return parser
-
-
-def _enter(
-    commands: argparse._SubParsersAction,
-    name: str,
-    summary: str,
-    exit_codes: str,
-    add_arguments: Callable[[argparse.ArgumentParser], None],
-    run: Callable[[argparse.Namespace], int],
-) -> None:
-    """One command with its help, arguments and action."""
-    parser = commands.add_parser(
-        name,
-        help=summary,
-        description=f"{summary[0].upper()}{summary[1:]}.",
-        epilog=exit_codes,
-        allow_abbrev=False,
-    )
-    add_arguments(parser)
-    parser.set_defaults(run=run)
 
 
 if __name__ == "__main__":
