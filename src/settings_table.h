@@ -3,7 +3,7 @@
 // G-code keeps stand in settings_places.h.
 //
 // A list of macro calls, because flash on the board and plain memory on the host keep the same rows
-// in different ways (settings_flash.h; test/settings_host/plain_table.h). Each row:
+// in different ways (settings_flash.h; tools/core/plain_table.h). Each row:
 //   name in C++, number, "name, unit", kind, step, default, lowest, highest, what it touches,
 //   section and key of the published programs, or "", sentence,
 //   what is not as in the published firmware, or ""

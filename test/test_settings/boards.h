@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "../settings_host/eeprom.h"
-#include "../settings_host/plain_table.h"
+#include "plain_table.h"
 
 using namespace settings;
 using settings_host::Eeprom;

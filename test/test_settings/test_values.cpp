@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "../settings_host/plain_table.h"
+#include "plain_table.h"
 
 using namespace settings;
 using settings_host::PlainTable;

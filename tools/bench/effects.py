@@ -3,7 +3,6 @@
 import json
 import re
 import shutil
-from pathlib import Path
 
 import board
 from costs import Costs
@@ -97,8 +96,8 @@ def built(text: str) -> int:
 
 def judge_errors() -> dict[str, list[float]]:
     program = board.BUILD / "judge_errors"
-    test: Path = board.ROOT / "test"
-    includes = [f"-I{board.KINEMATICS}", f"-I{test}", f"-I{test / 'test_effects'}"]
+    folders = [board.KINEMATICS, board.ROOT / "test/test_effects", board.ROOT / "tools/judge"]
+    includes = [f"-I{folder}" for folder in folders]
     sources = [board.BENCH / "judge_errors.cpp", board.KINEMATICS / "Kinematics.cpp"]
     command = ["g++", "-std=c++17", "-O2", *includes, "-isystem", EIGEN, *sources, "-o", program]
     board.output(*command)

@@ -23,17 +23,17 @@ ARROWS = {
     "src/machine": (["include", "lib/*", "src", "test/avr"], C_HEADERS),
     "src/board": (["include", "lib/*", "src/machine"], ARDUINO),
     "src": (["include", "lib/*", "src/machine", "src/board", "test/avr"], ARDUINO),
-    "test/reference": ([], HOST + r"|(unsupported/)?Eigen/\w+"),
+    "tools/judge": ([], HOST + r"|(unsupported/)?Eigen/\w+|nanobind/.*"),
     "test/curves": ([], HOST),
-    "test/vm": (["test/reference", "test/test_dialogues"], ANYTHING),
-    "test/hidden": (["test/reference"], ANYTHING),
+    "test/vm": (["tools/judge", "test/test_dialogues"], ANYTHING),
     # Stands in on the host for a header of avr-libc that src includes.
     "test/avr": ([], C_HEADERS),
-    "test/settings_host": (["src", "include", "lib/*"], ANYTHING),
+    "test/settings_host": (["tools/core", "src", "include", "lib/*"], ANYTHING),
     "test/fuzz": (["src", "src/machine", "lib/*", "test/avr", "test/test_dialogues"], ANYTHING),
     "test/test_*": (
         [
-            "test/reference",
+            "tools/judge",
+            "tools/core",
             "test/curves",
             "test/vm",
             "test/settings_host",
@@ -46,11 +46,11 @@ ARROWS = {
         ],
         ANYTHING,
     ),
-    "tools/core": (["lib/Kinematics", "lib/Settings", "src", "test/settings_host"], ANYTHING),
-    "tools/bench": (["lib/*", "test/reference", "test/test_effects"], ANYTHING),
+    "tools/core": (["lib/Kinematics", "lib/Settings", "src"], ANYTHING),
+    "tools/bench": (["lib/*", "tools/judge", "test/test_effects"], ANYTHING),
 }
 # Folders in which an include is looked up after the folder of the file itself.
-SEARCHED = ["include", "src", "lib/*/src", "lib/*", "test", "test/*", "tools/core"]
+SEARCHED = ["include", "src", "lib/*/src", "lib/*", "test", "test/*", "tools/core", "tools/judge"]
 
 # The rooms of the package, floor by floor from the top: a room may import those on floors below.
 PACKAGE = "tools/plumb"
@@ -64,11 +64,14 @@ FLOORS = (
     ("board", "firmware"),
     ("marks", "model"),
     ("settings",),
-    ("text",),
-    ("_core",),
+    ("text", "grid"),
+    ("_core", "_judge"),
 )
 
-STANDARD_LIBRARY_ONLY = ("tools/calibration_grid.py", "tools/benchmark_pattern.py")
+# What tools/calibration_grid.py runs without an installation.
+STANDARD_LIBRARY_ONLY = "tools/plumb/grid"
+# The judge shares nothing with the model, so only the bench may ask it.
+ASKS_JUDGE = "bench"
 
 
 def violations(root: Path) -> Iterator[str]:
@@ -83,10 +86,8 @@ def violations(root: Path) -> Iterator[str]:
                     yield f"{name}:{line}: {part} may not include {header}: {why}"
         elif name.is_relative_to(PACKAGE) and path.suffix == ".py":
             yield from (f"{name}:{line}: {why}" for line, why in upward(path, name))
-        elif str(name) in STANDARD_LIBRARY_ONLY:
-            for line, module in imports(path):
-                if module not in sys.stdlib_module_names:
-                    yield f"{name}:{line}: imports {module}, not of the standard library"
+            if name.is_relative_to(STANDARD_LIBRARY_ONLY):
+                yield from (f"{name}:{line}: {why}" for line, why in third_party(path))
 
 
 def part_of(name: Path) -> tuple[str, str | None]:
@@ -104,6 +105,13 @@ def includes(path: Path) -> Iterator[tuple[int, str]]:
     text = tree.text_of(path)
     for match in INCLUDE.finditer(text):
         yield text.count("\n", 0, match.start(1)) + 1, match[1]
+
+
+def third_party(path: Path) -> Iterator[tuple[int, str]]:
+    """Line number and reason for each import of what Python itself does not bring."""
+    for line, module in imports(path):
+        if module not in sys.stdlib_module_names and module not in ("plumb", "."):
+            yield line, f"imports {module}, not of the standard library"
 
 
 def imports(path: Path) -> Iterator[tuple[int, str]]:
@@ -127,6 +135,8 @@ def upward(path: Path, name: Path) -> Iterator[tuple[int, str]]:
     for line, to in rooms_imported(path):
         if to != room and floor_of.get(to, -1) <= floor_of[room]:
             yield line, f"{room} may not import {to}: imports only go down the floors"
+        elif to == "_judge" and room != ASKS_JUDGE:
+            yield line, f"{room} may not import {to}: only {ASKS_JUDGE} may ask the judge"
 
 
 def rooms_imported(path: Path) -> Iterator[tuple[int, str]]:

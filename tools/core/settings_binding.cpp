@@ -9,7 +9,7 @@
 #include <string>
 
 #include "../../src/effective.h"
-#include "../../test/settings_host/plain_table.h"
+#include "plain_table.h"
 
 namespace nb = nanobind;
 using namespace settings;

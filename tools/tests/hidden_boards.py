@@ -17,7 +17,6 @@ from plumb.bench.boards import (
     plan,
 )
 from plumb.bench.causes import CAUSES, COMPLIANCE, MAKER, SLED, WEIGHT, Cause, Hidden, Plan
-from plumb.bench.judge import build
 from plumb.marks.read import Measurements
 
 __all__ = [
@@ -32,7 +31,6 @@ __all__ = [
     "Plan",
     "ask_judge",
     "board",
-    "build",
     "joined",
     "places_with",
     "plan",

@@ -8,8 +8,8 @@ from math import cos
 
 import numpy as np
 
+from plumb.bench import judge
 from plumb.bench.causes import COMPLIANCE, MAKER, OUTSIDE, SLED, WEIGHT, Cause, Hidden, Plan
-from plumb.bench.judge import judge
 from plumb.marks.read import Distance, Mark, Measurements
 from plumb.model.predict import FOUND, lengths
 
@@ -81,7 +81,7 @@ class Machine:
         }
         heavier = numbers["sled_weight"] / SLED
         still = np.zeros_like(chains)
-        return judge().places(
+        return judge.places(
             numbers,
             chains,
             pushes=still if approaches is None else -self.hidden.drag * approaches,

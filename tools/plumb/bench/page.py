@@ -21,7 +21,7 @@ Written by `plumb bench --write docs/bench.md`; run it to see the same with othe
 (`--seed`).
 
 Each board is cut by settings that believe in the frame, chain sag and stretch; the judge
-(test/hidden, exact elastic catenaries that share no formula with the laws) says where the sled
+(tools/judge, exact elastic catenaries that share no formula with the laws) says where the sled
 really went, with something hidden. The frame lies off by chance in every board: spacing 3 mm,
 height and middle 5 mm, sheet turned by 2 mrad (standard deviations), and every reading has its
 noise.

@@ -7,7 +7,6 @@ import sys
 from collections.abc import Sequence
 from typing import Any
 
-from plumb.bench.judge import build
 from plumb.bench.page import page
 from plumb.bench.report import (
     CURE_HEADER,
@@ -27,10 +26,7 @@ from plumb.cli.text import print_json, sentences, table
 from plumb.text.errors import InputError
 
 HELP = "how often the diagnosis is right: rates over boards with hidden effects"
-EXIT = (
-    "Exit: 0 no line is missed; 1 a line is missed by more than chance; 2 the bench cannot run. "
-    "The boards come from the judge's program in test/hidden, so it needs the project's folder."
-)
+EXIT = "Exit: 0 no line is missed; 1 a line is missed by more than chance; 2 the bench cannot run."
 BOARDS, FAST = 200, 20  # of each scenario
 BAR = 30  # [characters]
 
@@ -65,7 +61,6 @@ def _count(text: str) -> int:
 def run(arguments: argparse.Namespace) -> int:
     """Run the bench, print its table, and return the exit code."""
     chosen = chosen_of(arguments.scenario)
-    build()
     boards = arguments.boards or (FAST if arguments.fast else BOARDS)
     bar = _Bar(len(chosen) * boards)
     report = run_bench(

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import importlib.util
 import io
 from dataclasses import replace
-from pathlib import Path
-from types import ModuleType
 
 import numpy as np
 
 from plumb.cli.files import limit, settings_in
 from plumb.cli.text import print_json
+from plumb.grid import calibration_grid
 from plumb.model.predict import CANNOT_HANG, REACH_LIMITS, TOO_SLACK, TOO_TIGHT, USABLE, reach
 from plumb.model.reach import with_soft_chains
 from plumb.settings.machine import MachineSettings
@@ -23,21 +21,9 @@ HELP = "the G-code for a grid of calibration marks"
 EXIT = "Exit: 0 done; 2 the grid cannot be made, and nothing was written."
 
 
-def _load() -> ModuleType:
-    """The tool beside this package; it is a script of its own and no part of the package."""
-    path = Path(__file__).resolve().parents[2] / "calibration_grid.py"
-    specification = importlib.util.spec_from_file_location("calibration_grid", path)
-    module = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(module)
-    return module
-
-
-grids = _load()
-
-
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of `plumb grid`: those of the tool, and --json."""
-    grids.add_arguments(parser)
+    calibration_grid.add_arguments(parser)
     parser.add_argument(
         "--most-give",
         metavar="MM_PER_N",
@@ -52,19 +38,19 @@ def run(arguments: argparse.Namespace) -> int:
     """Make the grid as the tool does, unless the machine's own model refuses a place."""
     refuse_out_of_reach(arguments)
     if not arguments.json:
-        return grids.run(arguments, "plumb")
+        return calibration_grid.run(arguments, "plumb")
     said = io.StringIO()
     with contextlib.redirect_stdout(said):
-        code = grids.run(arguments, "plumb")
+        code = calibration_grid.run(arguments, "plumb")
     if code:
         return code
-    grid, machine = grids.from_arguments(arguments)
+    grid, machine = calibration_grid.from_arguments(arguments)
     print_json(
         {
-            "program": None if arguments.output else grids.program(grid, machine),
+            "program": None if arguments.output else calibration_grid.program(grid, machine),
             "marks": [
                 {"name": mark.name, "target": [mark.x, mark.y], "visit": mark.visit}
-                for mark in grids.marks(grid, machine)
+                for mark in calibration_grid.marks(grid, machine)
             ],
             "approach": list(grid.approach),
             "written": [path for path in (arguments.output, arguments.marks) if path],
@@ -80,10 +66,10 @@ def refuse_out_of_reach(arguments: argparse.Namespace) -> None:
     """
     passed: list[tuple[str, float, float]] = []
     try:
-        grid, machine = grids.from_arguments(arguments)
-        grids.check(grid, machine)
-        grids.check(grid, machine, lambda _grid, _machine, *place: passed.append(place))
-    except grids.GridError:
+        grid, machine = calibration_grid.from_arguments(arguments)
+        calibration_grid.check(grid, machine)
+        calibration_grid.check(grid, machine, lambda _grid, _machine, *place: passed.append(place))
+    except calibration_grid.GridError:
         return  # the tool tells it when it is run
     points = np.array([place[1:] for place in passed])
     found = reach(
@@ -91,7 +77,7 @@ def refuse_out_of_reach(arguments: argparse.Namespace) -> None:
         points,
         most_tension=grid.max_tension,
         least_tension=grid.min_tension,
-        least_free=grids.MIN_FREE_CHAIN,
+        least_free=calibration_grid.MIN_FREE_CHAIN,
         most_give=arguments.most_give,
     )
     for i in np.flatnonzero(found.verdict != USABLE)[:1]:

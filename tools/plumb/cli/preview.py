@@ -15,10 +15,10 @@ from plumb.cli.files import (
     settings_in,
     write_outputs,
 )
-from plumb.cli.grid import grids
 from plumb.cli.text import millimetres, number, print_json, sentences, table
 from plumb.cure.add import priors_with
 from plumb.fit.problem import USUAL_SIGMA
+from plumb.grid import calibration_grid
 from plumb.marks.read import Mark, Measurements, read_plan
 from plumb.pictures.preview import draw_preview, shown
 from plumb.plan.preview import APART, POWER, Outline, Preview, preview
@@ -91,18 +91,18 @@ def _plan(arguments: argparse.Namespace, settings: MachineSettings) -> Measureme
                 f"--{name} is of a grid, and PLAN says where the marks are: leave one out"
             )
         return read_plan(arguments.plan, sheet=settings.sheet)
-    grid = grids.Grid(**{"columns": COLUMNS, "rows": ROWS, **asked})
-    machine = grids.Machine()._replace(
+    grid = calibration_grid.Grid(**{"columns": COLUMNS, "rows": ROWS, **asked})
+    machine = calibration_grid.Machine()._replace(
         sheet_width=settings.sheet_width, sheet_height=settings.sheet_height
     )
     try:
-        grids.check(grid, machine, lambda *place: None)
-    except grids.GridError as refusal:
+        calibration_grid.check(grid, machine, lambda *place: None)
+    except calibration_grid.GridError as refusal:
         raise InputError(str(refusal)) from None
     side = tuple(float(value) for value in grid.approach)
     marks = tuple(
         Mark(str(mark.name), (mark.x, mark.y), (mark.x, mark.y), approach=side)
-        for mark in grids.marks(grid, machine)
+        for mark in calibration_grid.marks(grid, machine)
     )
     return Measurements(marks, source=f"grid of {grid.columns} x {grid.rows}")
 

@@ -3,23 +3,12 @@
 from __future__ import annotations
 
 from os import PathLike
-from pathlib import Path
-from types import ModuleType
 from typing import Any
 
+from plumb.grid import benchmark_pattern
 from plumb.marks.model import Distance, Mark, Point
 from plumb.text.checks import number, pair, refuse_unknown
 from plumb.text.errors import naming, refusal
-from plumb.text.scripts import load_script
-
-
-def _load() -> ModuleType:
-    """The pattern of the test, from a script next to this package, like the grid."""
-    path = Path(__file__).resolve().parents[2] / "benchmark_pattern.py"
-    return load_script(path, name="benchmark_pattern")
-
-
-pattern = _load()
 
 
 def read_benchmark(
@@ -30,14 +19,14 @@ def read_benchmark(
     if not isinstance(table, dict):
         raise refusal(path, "benchmark is not a table", remedy=f"write a line {place}")
     with naming(path, place):
-        refuse_unknown(table, ("approach", *pattern.SPANS))
+        refuse_unknown(table, ("approach", *benchmark_pattern.SPANS))
     approach = None
     if "approach" in table:
         with naming(path, f"{place} approach"):
             approach = pair(table["approach"])
     distances = [
         Distance(ends, length)
-        for name, spans in pattern.SPANS.items()
+        for name, spans in benchmark_pattern.SPANS.items()
         for ends, length in zip(spans, _readings(path, table, name, len(spans)), strict=False)
     ]
     if not distances:
@@ -45,7 +34,7 @@ def read_benchmark(
     needed = {name for distance in distances for name in distance.between}
     marks = tuple(
         Mark(name, target, approach=approach, sled_weight=weight)
-        for name, target in pattern.targets().items()
+        for name, target in benchmark_pattern.targets().items()
         if name in needed
     )
     return marks, tuple(distances)
@@ -77,10 +66,10 @@ def _readings(
 
 
 def _kinds() -> dict[frozenset[Point], str]:
-    places = pattern.targets()
+    places = benchmark_pattern.targets()
     return {
         frozenset(places[name] for name in ends): "long" if line in LONG_LINES else "small"
-        for line, spans in pattern.SPANS.items()
+        for line, spans in benchmark_pattern.SPANS.items()
         for ends in spans
     }
 

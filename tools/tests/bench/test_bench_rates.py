@@ -9,11 +9,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from plumb.bench import judge
 from plumb.bench.boards import chains_for, cut, plan, raw_field, size_for
 from plumb.bench.causes import CAUSES, MAKER, OUTSIDE, Hidden, causes_of
 from plumb.bench.cure import shape_error
 from plumb.bench.hiding import REAL, SLIP_MM, nothing, raw, slip
-from plumb.bench.judge import judge
 from plumb.bench.outcome import Outcome, look_alikes
 from plumb.bench.page import page
 from plumb.bench.rates import Line, Rate, rate_of
@@ -98,10 +98,18 @@ def test_what_is_added_brings_the_sled_near_to_the_known_truth():
 def test_the_judge_answers_the_same_whoever_asked_before():
     chains = chains_for(plan(3, 3))
     still, weights = np.zeros_like(chains), np.full(len(chains), 97.9)
-    first = judge().places({"motor_gap": 2978.4}, chains, pushes=still, weights=weights)
-    judge().places({"lean": 0.3, "left.zero": 5.0}, chains, pushes=still, weights=weights)
-    again = judge().places({"motor_gap": 2978.4}, chains, pushes=still, weights=weights)
+    first = judge.places({"motor_gap": 2978.4}, chains, pushes=still, weights=weights)
+    judge.places({"lean": 0.3, "left.zero": 5.0}, chains, pushes=still, weights=weights)
+    again = judge.places({"motor_gap": 2978.4}, chains, pushes=still, weights=weights)
     assert np.array_equal(first, again)
+
+
+def test_the_judge_refuses_a_number_that_it_does_not_know():
+    chains, weights = chains_for(plan(3, 3)), np.full(9, 97.9)
+    with pytest.raises(KeyError, match="weigth"):
+        judge.places({"left.weigth": 1.0}, chains, pushes=0 * chains, weights=weights)
+    with pytest.raises(ValueError, match="same number of rows"):
+        judge.places({}, chains, pushes=0 * chains[:4], weights=weights)
 
 
 @pytest.mark.parametrize("effect", sorted({one.effect for one in REAL}))

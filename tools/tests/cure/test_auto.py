@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hidden_boards import MAKER, board, build, plan, size_for
+from hidden_boards import MAKER, board, plan, size_for
 from plumb.cli.main import main
 from plumb.cure.auto import add_auto, without_marks
 from plumb.cure.demo import MARKS, SETTINGS
@@ -16,12 +16,6 @@ from plumb.settings.files import read_settings
 from plumb.text.errors import InputError
 
 WIDE = plan(5, 5)
-
-
-@pytest.fixture(scope="module", autouse=True)
-def judge():
-    """The judge's program, compiled once."""
-    return build()
 
 
 def moved(measurements, index, by):

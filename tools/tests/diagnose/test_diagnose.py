@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hidden_boards import HIDDEN, MAKER, board, build, joined, plan, size_for
+from hidden_boards import HIDDEN, MAKER, board, joined, plan, size_for
 from plumb.diagnose import VERDICTS, diagnose
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names
@@ -21,14 +21,8 @@ FELT = sorted(set(HIDDEN) - {"motor_level", "chain_zero", "sled_friction"})
 HUGE = ("frame_lean", "sprocket_runout")  # need sizes that no real machine has to move marks so far
 
 
-@pytest.fixture(scope="module", autouse=True)
-def judge():
-    """The judge's program, compiled once."""
-    return build()
-
-
 @pytest.fixture(scope="module")
-def sizes(judge):
+def sizes():
     """Sizes that move the marks of 25 by 3 mm RMS, in typical ones."""
     return {name: size_for(name, WIDE, 3.0) for name in FELT}
 

@@ -24,7 +24,7 @@ PARTS = [
     "test/test_dialogues/stage_questions.cpp",
 ]
 INCLUDES = [
-    *(f"-I{folder}" for folder in ("src", "test", "test/avr")),
+    *(f"-I{folder}" for folder in ("src", "test", "test/avr", "tools/judge")),
     *(f"-I{path.relative_to(ROOT)}" for path in sorted(ROOT.glob("lib/*/src"))),
 ]
 

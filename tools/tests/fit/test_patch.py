@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hidden_boards import MAKER, board, build, plan
+from hidden_boards import MAKER, board, plan
 from plumb.cli.add import toml_of
 from plumb.cli.main import main
 from plumb.cure.add import add
@@ -17,12 +17,6 @@ from plumb.settings.files import machine_toml, read_settings
 from plumb.text.errors import InputError
 
 WIDE = plan(7, 5)
-
-
-@pytest.fixture(scope="module", autouse=True)
-def judge():
-    """The judge's program, compiled once."""
-    return build()
 
 
 def halves(measurements):

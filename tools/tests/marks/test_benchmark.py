@@ -1,13 +1,12 @@
 """The Calibration Benchmark Test: its pattern, its form, and its score before and after."""
 
-import importlib.util
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from plumb.cure.demo import MARKS, SETTINGS
-from plumb.marks.benchmark import pattern
+from plumb.grid import benchmark_pattern as pattern
+from plumb.grid import calibration_grid as grids
 from plumb.marks.read import read_marks
 from plumb.marks.score import score_as_cut, score_of
 from plumb.model.predict import lengths, places
@@ -15,10 +14,6 @@ from plumb.settings.files import machine_toml
 from plumb.text.errors import InputError
 from synthetic import BELIEVED, SHEET
 
-TOOL = Path(__file__).resolve().parents[2] / "calibration_grid.py"
-SPEC = importlib.util.spec_from_file_location("calibration_grid", TOOL)
-grids = importlib.util.module_from_spec(SPEC)
-SPEC.loader.exec_module(grids)
 GRID = grids.Grid(pattern="benchmark", repeats=0)
 PITCH = replace(
     BELIEVED, motor_gap=2981.0, effects={"chain_pitch": {"left": 0.002, "right": 0.001}}

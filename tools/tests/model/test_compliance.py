@@ -11,7 +11,7 @@ from synthetic import BELIEVED
 CHAIN_WEIGHT = 0.00137293
 COMPLIANCE = 5.17e-6
 
-# What the judge in test/reference finds for a push of 0.05 N either way with the chains held, on
+# What the judge in tools/judge finds for a push of 0.05 N either way with the chains held, on
 # chains of 0.14 kg/m and 5.17e-6 strain per newton: [mm/N] xx, xy = yx, yy.
 DEFAULT = {
     (0, 550): (0.004285, 0.0, 0.033228),

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hidden_boards import MAKER, board, build, plan
+from hidden_boards import MAKER, board, plan
 from plumb.bench.causes import COMPLIANCE
 from plumb.model.sketches import SKETCHES, Strands
 from plumb.model.sketches.loader import load
@@ -37,7 +37,6 @@ def stretched(tmp_path_factory):
     folder = tmp_path_factory.mktemp("stretched")
     (folder / "own").mkdir()
     (folder / "own/twin.py").write_text(TWIN)
-    build()
     sag = {"chain_sag": MAKER.effects["chain_sag"]}
     # What is fitted must start without stretch; the marks are made by chains three times as soft.
     marks = board({"chain_stretch": 2.0}, plan(5, 5), seed=3, noise=0.05, tape_sigma=0.05)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from carried_out import TRUE_VALUES, Bench
-from hidden_boards import MAKER, board, build, plan, size_for
+from hidden_boards import MAKER, board, plan, size_for
 from plumb.bench.causes import SLED
 from plumb.diagnose import Checked, diagnose
 from plumb.fit.problem import PRIORS
@@ -30,12 +30,6 @@ NOISE = 0.5
 def visits_of(own):
     """A plan of the judge as visits."""
     return sent(MAKER, own.targets, controller="plumb", sled_weight=SLED, approaches=own.approaches)
-
-
-@pytest.fixture(scope="module", autouse=True)
-def judge():
-    """The judge's program, compiled once."""
-    return build()
 
 
 @pytest.fixture(scope="module")

@@ -1,7 +1,6 @@
 """Tests of tools/calibration_grid.py: its programs are run by a small interpreter."""
 
 import argparse
-import importlib.util
 import math
 import re
 import subprocess
@@ -12,11 +11,9 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from plumb.grid import calibration_grid as grids
 
 TOOL = Path(__file__).resolve().parents[2] / "calibration_grid.py"
-SPEC = importlib.util.spec_from_file_location("calibration_grid", TOOL)
-grids = importlib.util.module_from_spec(SPEC)
-SPEC.loader.exec_module(grids)
 
 Move = namedtuple("Move", "code start end feed")  # places [mm], feed [mm/min]
 

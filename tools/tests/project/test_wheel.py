@@ -1,0 +1,106 @@
+"""The package as an owner installs it: a wheel built from the tree works in an empty folder."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+import zipfile
+from pathlib import Path
+
+import pytest
+from plumb.cure.demo import MARKS, SETTINGS
+from plumb.settings.files import read_settings
+from plumb.settings.toml import machine_toml
+
+ROOT = Path(__file__).resolve().parents[3]
+PIP = [sys.executable, "-m", "pip", "--disable-pip-version-check"]
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory):
+    """A wheel built from a copy of what the package is made of, without the folder test."""
+    source = tmp_path_factory.mktemp("source")
+    for folder in ("lib", "src", "tools"):
+        shutil.copytree(
+            ROOT / folder, source / folder, ignore=shutil.ignore_patterns("__pycache__")
+        )
+    folder = tmp_path_factory.mktemp("wheel")
+    options = ["--no-deps", "--no-build-isolation", "--wheel-dir", folder]
+    done = subprocess.run(
+        [*PIP, "wheel", *options, source / "tools"], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return next(folder.glob("plumb-*.whl"))
+
+
+@pytest.fixture(scope="module")
+def plumb(wheel, tmp_path_factory):
+    """Runs a command of the installed wheel in an empty folder, without the project's folder."""
+    installed = tmp_path_factory.mktemp("installed")
+    with zipfile.ZipFile(wheel) as archive:
+        archive.extractall(installed)
+    empty = tmp_path_factory.mktemp("empty")
+    shutil.copy(SETTINGS, empty / "groundcontrol.ini")
+    shutil.copy(MARKS, empty / "marks.ini")
+    (empty / "machine.toml").write_text(machine_toml(read_settings(SETTINGS)))
+    (empty / "points.csv").write_text("0,0\n")
+    (empty / "chains.csv").write_text("1700,1700\n")
+    # Without -S the project's own installation would answer to the name plumb.
+    packages = os.pathsep.join([str(installed), sysconfig.get_path("purelib")])
+
+    def run(*arguments):
+        return subprocess.run(
+            [sys.executable, "-S", "-m", "plumb.cli.main", *arguments],
+            cwd=empty,
+            env={"PATH": os.environ["PATH"], "HOME": str(empty), "PYTHONPATH": packages},
+            capture_output=True,
+            text=True,
+        )
+
+    return run
+
+
+MEASURED = ("groundcontrol.ini", "marks.ini")
+COMMANDS = {
+    "grid": ("--columns", "3", "--rows", "3"),
+    "preview": ("groundcontrol.ini", "--columns", "3", "--rows", "3"),
+    "compare": MEASURED,
+    "diagnose": MEASURED,
+    "next": MEASURED,
+    "add": (*MEASURED, "--effect", "chain_pitch", "-o", "fitted.toml"),
+    "effects": (),
+    "bench": ("--scenario", "none-9", "--boards", "1"),
+    "inverse": ("groundcontrol.ini", "--points", "points.csv"),
+    "forward": ("groundcontrol.ini", "--lengths", "chains.csv"),
+    "settings": ("machine.toml",),
+    "reach": ("groundcontrol.ini",),
+}
+
+
+def test_every_command_is_tried(plumb):
+    shown = plumb("--help").stdout
+    names = re.findall(r"^    ([a-z]+)\b", shown.partition("COMMAND\n")[2], re.MULTILINE)
+    assert set(names) == {*COMMANDS, "telemetry"}, shown
+
+
+def test_a_command_without_its_file_says_so(plumb):
+    done = plumb("telemetry", "log.txt")
+    assert done.returncode == 2 and done.stderr.startswith("plumb: log.txt: ")
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_command_runs_from_an_empty_folder(plumb, command):
+    done = plumb(command, *COMMANDS[command])
+    assert "Traceback" not in done.stderr, done.stderr
+    assert done.returncode in (0, 1), f"{done.returncode}: {done.stderr}"
+    assert done.stdout
+
+
+def test_the_wheel_says_which_python_it_needs(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        name = next(n for n in archive.namelist() if n.endswith("METADATA"))
+        assert "Requires-Python: >=3.11" in archive.read(name).decode()
