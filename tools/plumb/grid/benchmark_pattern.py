@@ -43,7 +43,7 @@ approach = [{:.1f}, {:.1f}]
 """
 
 
-def targets():
+def targets() -> dict[str, tuple[float, float]]:
     """Where each mark is [mm] by its name."""
     found = dict(ENDS)
     for name, (x, y) in CORNERS.items():
@@ -53,7 +53,7 @@ def targets():
     return found
 
 
-def places():
+def places() -> list[tuple[float, float]]:
     """Name, x and y [mm] of all marks, there and back in rows from the top left."""
     rows = {}
     for name, (x, y) in targets().items():
@@ -65,7 +65,7 @@ def places():
     return found
 
 
-def form(approach):
+def form(approach: tuple[float, float]) -> str:
     """The text of a marks file that waits for the readings; approach [mm] into every mark."""
     squares = [f"# {SQUARES[name]} = [ , ]" for name in CORNERS]
     return "\n".join([_FORM.format(*approach) + squares[0], *squares[1:], ""])
