@@ -10,7 +10,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from plumb.grid.calibration_grid import main
+from plumb.grid.command import main
 
 if __name__ == "__main__":
     sys.exit(main())

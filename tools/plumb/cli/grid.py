@@ -1,4 +1,4 @@
-"""`plumb grid`: the G-code for calibration marks; the same code as tools/calibration_grid.py."""
+"""`plumb grid`: the G-code for calibration marks, by the room `grid`."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from dataclasses import replace
 
 import numpy as np
 
+import plumb.grid as marks_grid
 from plumb.cli.files import limit, settings_in
 from plumb.cli.text import print_json
-from plumb.grid import calibration_grid
 from plumb.model.predict import CANNOT_HANG, REACH_LIMITS, TOO_SLACK, TOO_TIGHT, USABLE, reach
 from plumb.model.reach import with_soft_chains
 from plumb.settings.machine import MachineSettings
@@ -23,7 +23,7 @@ EXIT = "Exit: 0 done; 2 the grid cannot be made, and nothing was written."
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of `plumb grid`: those of the tool, and --json."""
-    calibration_grid.add_arguments(parser)
+    marks_grid.add_arguments(parser)
     parser.add_argument(
         "--most-give",
         metavar="MM_PER_N",
@@ -38,19 +38,19 @@ def run(arguments: argparse.Namespace) -> int:
     """Make the grid as the tool does, unless the machine's own model refuses a place."""
     refuse_out_of_reach(arguments)
     if not arguments.json:
-        return calibration_grid.run(arguments, "plumb")
+        return marks_grid.run(arguments, "plumb")
     said = io.StringIO()
     with contextlib.redirect_stdout(said):
-        code = calibration_grid.run(arguments, "plumb")
+        code = marks_grid.run(arguments, "plumb")
     if code:
         return code
-    grid, machine = calibration_grid.from_arguments(arguments)
+    grid, machine = marks_grid.from_arguments(arguments)
     print_json(
         {
-            "program": None if arguments.output else calibration_grid.program(grid, machine),
+            "program": None if arguments.output else marks_grid.program(grid, machine),
             "marks": [
                 {"name": mark.name, "target": [mark.x, mark.y], "visit": mark.visit}
-                for mark in calibration_grid.marks(grid, machine)
+                for mark in marks_grid.marks(grid, machine)
             ],
             "approach": list(grid.approach),
             "written": [path for path in (arguments.output, arguments.marks) if path],
@@ -66,10 +66,10 @@ def refuse_out_of_reach(arguments: argparse.Namespace) -> None:
     """
     passed: list[tuple[str, float, float]] = []
     try:
-        grid, machine = calibration_grid.from_arguments(arguments)
-        calibration_grid.check(grid, machine)
-        calibration_grid.check(grid, machine, lambda _grid, _machine, *place: passed.append(place))
-    except calibration_grid.GridError:
+        grid, machine = marks_grid.from_arguments(arguments)
+        marks_grid.check(grid, machine)
+        marks_grid.check(grid, machine, lambda _grid, _machine, *place: passed.append(place))
+    except marks_grid.GridError:
         return  # the tool tells it when it is run
     points = np.array([place[1:] for place in passed])
     found = reach(
@@ -77,7 +77,7 @@ def refuse_out_of_reach(arguments: argparse.Namespace) -> None:
         points,
         most_tension=grid.max_tension,
         least_tension=grid.min_tension,
-        least_free=calibration_grid.MIN_FREE_CHAIN,
+        least_free=marks_grid.MIN_FREE_CHAIN,
         most_give=arguments.most_give,
     )
     for i in np.flatnonzero(found.verdict != USABLE)[:1]:

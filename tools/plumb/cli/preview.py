@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
+import plumb.grid as marks_grid
 from plumb.cli.files import (
     add_controller,
     add_json,
@@ -18,7 +19,6 @@ from plumb.cli.files import (
 from plumb.cli.text import millimetres, number, print_json, sentences, table
 from plumb.cure.add import priors_with
 from plumb.fit.problem import USUAL_SIGMA
-from plumb.grid import calibration_grid
 from plumb.marks.read import Mark, Measurements, read_plan
 from plumb.pictures.preview import draw_preview, shown
 from plumb.plan.preview import APART, POWER, Outline, Preview, preview
@@ -91,18 +91,18 @@ def _plan(arguments: argparse.Namespace, settings: MachineSettings) -> Measureme
                 f"--{name} is of a grid, and PLAN says where the marks are: leave one out"
             )
         return read_plan(arguments.plan, sheet=settings.sheet)
-    grid = calibration_grid.Grid(**{"columns": COLUMNS, "rows": ROWS, **asked})
-    machine = calibration_grid.Machine()._replace(
+    grid = marks_grid.Grid(**{"columns": COLUMNS, "rows": ROWS, **asked})
+    machine = marks_grid.Machine()._replace(
         sheet_width=settings.sheet_width, sheet_height=settings.sheet_height
     )
     try:
-        calibration_grid.check(grid, machine, lambda *place: None)
-    except calibration_grid.GridError as refusal:
+        marks_grid.check(grid, machine, lambda *place: None)
+    except marks_grid.GridError as refusal:
         raise InputError(str(refusal)) from None
     side = tuple(float(value) for value in grid.approach)
     marks = tuple(
         Mark(str(mark.name), (mark.x, mark.y), (mark.x, mark.y), approach=side)
-        for mark in calibration_grid.marks(grid, machine)
+        for mark in marks_grid.marks(grid, machine)
     )
     return Measurements(marks, source=f"grid of {grid.columns} x {grid.rows}")
 

@@ -1,1 +1,26 @@
 """The G-code for calibration marks; this room needs only the standard library of Python 3.9."""
+
+from plumb.grid.command import add_arguments, from_arguments, main, run
+from plumb.grid.form import marks_list
+from plumb.grid.gcode import program
+from plumb.grid.options import MIN_FREE_CHAIN, Grid, GridError, Machine
+from plumb.grid.picture import preview
+from plumb.grid.touches import marks
+from plumb.grid.way import check, tensions
+
+__all__ = [
+    "MIN_FREE_CHAIN",
+    "Grid",
+    "GridError",
+    "Machine",
+    "add_arguments",
+    "check",
+    "from_arguments",
+    "main",
+    "marks",
+    "marks_list",
+    "preview",
+    "program",
+    "run",
+    "tensions",
+]

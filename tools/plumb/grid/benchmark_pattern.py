@@ -3,8 +3,10 @@
 GroundControl's "Calibration Benchmark Test.nc" (January 2018) cuts ticks 1905 mm apart across the
 sheet and 900 mm apart upwards, and a square of 100 mm in each corner of that rectangle; the score
 that its simulator prints (pull requests 576 and 580) counts a fifth square in the middle too.
-Here each end is a mark. Like calibration_grid.py this needs only Python 3.9.
+Here each end is a mark. Like the rest of this room it needs only Python 3.9.
 """
+
+from __future__ import annotations
 
 import math
 
@@ -22,7 +24,7 @@ ENDS = {"L": (-RIGHT, 0.0), "R": (RIGHT, 0.0), "T": (0.0, TOP), "B": (0.0, -TOP)
 # Readings by their name in the form: the marks at both ends of each.
 ACROSS_SPANS = (("TL", "TR"), ("L", "R"), ("BL", "BR"))
 UPWARDS_SPANS = (("TL", "BL"), ("T", "B"), ("TR", "BR"))
-SPANS = {"across": ACROSS_SPANS, "upwards": UPWARDS_SPANS}
+SPANS: dict[str, tuple[tuple[str, str], ...]] = {"across": ACROSS_SPANS, "upwards": UPWARDS_SPANS}
 SQUARES = {"TL": "top_left", "TR": "top_right", "BL": "bottom_left", "BR": "bottom_right"}
 SQUARES |= {"C": "center"}
 SPANS |= {SQUARES[name]: ((name, f"{name}x"), (name, f"{name}y")) for name in CORNERS}
@@ -45,24 +47,24 @@ approach = [{:.1f}, {:.1f}]
 
 def targets() -> dict[str, tuple[float, float]]:
     """Where each mark is [mm] by its name."""
-    found = dict(ENDS)
+    place_of = dict(ENDS)
     for name, (x, y) in CORNERS.items():
-        found[name] = (x, y)
-        found[f"{name}x"] = (x - math.copysign(SQUARE, x), y)
-        found[f"{name}y"] = (x, y - math.copysign(SQUARE, y))
-    return found
+        place_of[name] = (x, y)
+        place_of[f"{name}x"] = (x - math.copysign(SQUARE, x), y)
+        place_of[f"{name}y"] = (x, y - math.copysign(SQUARE, y))
+    return place_of
 
 
-def places() -> list[tuple[float, float]]:
+def places() -> list[tuple[str, float, float]]:
     """Name, x and y [mm] of all marks, there and back in rows from the top left."""
-    rows = {}
+    rows: dict[float, list[tuple[float, str]]] = {}
     for name, (x, y) in targets().items():
         rows.setdefault(y, []).append((x, name))
-    found = []
+    ordered = []
     for number, y in enumerate(sorted(rows, reverse=True)):
         row = sorted(rows[y], reverse=bool(number % 2))
-        found += [(name, x, y) for x, name in row]
-    return found
+        ordered += [(name, x, y) for x, name in row]
+    return ordered
 
 
 def form(approach: tuple[float, float]) -> str:

@@ -10,8 +10,8 @@ from collections import Counter, namedtuple
 from itertools import pairwise
 from pathlib import Path
 
+import plumb.grid as grids
 import pytest
-from plumb.grid import calibration_grid as grids
 
 TOOL = Path(__file__).resolve().parents[2] / "calibration_grid.py"
 

@@ -1,0 +1,127 @@
+"""Writes the G-code for a grid of calibration marks, each one approached in the same direction.
+
+It needs only Python 3.9; tools/calibration_grid.py runs it without an installation.
+"""
+
+from __future__ import annotations
+
+import argparse
+import configparser
+import os
+import sys
+from collections.abc import Mapping, Sequence
+from typing import Any, NoReturn
+
+from plumb.grid.form import marks_list
+from plumb.grid.gcode import program
+from plumb.grid.limits import demand
+from plumb.grid.options import GRID_OPTIONS, MACHINE_OPTIONS, Grid, GridError, Machine, pair
+from plumb.grid.picture import preview
+
+COMPLAINT = "calibration grid: {}; --help lists the options\n"
+
+
+class _Parser(argparse.ArgumentParser):
+    """Complains in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, COMPLAINT.format(message))
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Gives the parser every option of this tool; None stands for what was not given."""
+    group = parser.add_argument_group("grid")
+    for name, kind, meaning in GRID_OPTIONS:
+        usual = Grid._field_defaults[name]
+        how: dict[str, Any] = {"type": kind, "metavar": "N"}
+        if isinstance(kind, tuple):
+            how = {"choices": kind}
+        if usual is not None:
+            meaning += " [{:g},{:g}]".format(*usual) if kind is pair else f" [{usual}]"
+        group.add_argument("--" + name.replace("_", "-"), help=meaning, **how)
+    group = parser.add_argument_group("machine")
+    for name, _section, _key, meaning in MACHINE_OPTIONS:
+        option, usual = "--" + name.replace("_", "-"), Machine._field_defaults[name]
+        group.add_argument(option, help=f"{meaning} [{usual}]", type=float, metavar="N")
+    group.add_argument("--settings", metavar="FILE", help="groundcontrol.ini with these numbers")
+    group = parser.add_argument_group("output")
+    group.add_argument("--output", metavar="FILE", help="where the program goes [the screen]")
+    group.add_argument("--marks", metavar="FILE", help="also write a marks.toml to fill in")
+    group.add_argument("--preview", action="store_true", help="show a picture, not the program")
+
+
+def read_settings(path: str) -> dict[str, float]:
+    """The numbers [mm, N] in a groundcontrol.ini, by their names in Machine."""
+    parser = configparser.ConfigParser(interpolation=None, strict=False)
+    try:
+        with open(path, encoding="utf-8-sig") as file:
+            parser.read_file(file)
+    except OSError as error:
+        raise GridError(f"{path}: {error.strerror}: check the name after --settings") from None
+    except (configparser.Error, UnicodeDecodeError):
+        raise GridError(f"{path} is not a groundcontrol.ini: give its numbers as options") from None
+    numbers = {}
+    for name, section, key, _ in MACHINE_OPTIONS:
+        text = parser.get(section, key, fallback="")
+        try:
+            numbers[name] = float(text)
+        except ValueError:
+            # GroundControl itself does not know the sled's weight.
+            if text or key != "sledWeight":
+                wrong = f"{path}: {key} in [{section}] is {text!r}: give a number there"
+                raise GridError(wrong) from None
+    return numbers
+
+
+def from_arguments(arguments: argparse.Namespace) -> tuple[Grid, Machine]:
+    """Grid and Machine of parsed options; an option outweighs the settings file."""
+    kept = read_settings(arguments.settings) if arguments.settings else {}
+    given = {name: value for name, value in vars(arguments).items() if value is not None}
+    grid = Grid(**{name: given[name] for name in Grid._fields if name in given})
+    grid = grid._replace(repeats=0) if grid.pattern == "benchmark" else grid
+    return grid, Machine(**{n: v for n, v in {**kept, **given}.items() if n in Machine._fields})
+
+
+def run(arguments: argparse.Namespace, name: str = "calibration grid") -> int:
+    """Does what the parsed options ask; 0 done, 2 refused with one line of that name on stderr."""
+    try:
+        grid, machine = from_arguments(arguments)
+        text = program(grid, machine)
+        files = {arguments.output: text} if arguments.output else {}
+        if arguments.marks:
+            demand(arguments.marks != arguments.output, "--marks and --output are the same file")
+            # Readings that took an hour must not be lost to a second run.
+            kept = f"{arguments.marks} exists: move it away or give --marks another name"
+            demand(not os.path.exists(arguments.marks), kept)
+            files[arguments.marks] = marks_list(grid, machine)
+        _write(files)
+    except GridError as refusal:
+        print(f"{name}: {refusal}", file=sys.stderr)
+        return 2
+    if arguments.preview:
+        sys.stdout.write(preview(grid, machine))
+    elif not arguments.output:
+        sys.stdout.write(text)
+    return 0
+
+
+def _write(files: Mapping[str, str]) -> None:
+    """Writes all texts or none: each goes beside its place first and is moved there last."""
+    path = ""
+    try:
+        for path, text in files.items():
+            with open(f"{path}.part", "w", encoding="ascii", newline="\n") as file:
+                file.write(text)
+        for path in files:
+            os.replace(f"{path}.part", path)
+    except OSError as error:
+        for part in filter(os.path.exists, [f"{place}.part" for place in files]):
+            os.remove(part)
+        raise GridError(f"cannot write {path}: {error.strerror}: give another name") from None
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """The command line; returns the exit code."""
+    parser = _Parser(description=__doc__.splitlines()[0])
+    add_arguments(parser)
+    return run(parser.parse_args(arguments))

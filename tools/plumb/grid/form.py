@@ -1,0 +1,26 @@
+"""The form for the tape's readings: a marks.toml that waits for them."""
+
+from __future__ import annotations
+
+from plumb.grid import benchmark_pattern
+from plumb.grid.options import Grid, Machine
+from plumb.grid.touches import marks
+
+
+def marks_list(grid: Grid, machine: Machine) -> str:
+    """The text of a marks.toml that waits for the tape's readings."""
+    if grid.pattern == "benchmark":
+        return benchmark_pattern.form(grid.approach)
+    lines = [
+        "# Calibration marks, mm from the sheet's top left corner; x right, y down, approach too.",
+        "# Fill in each measured line and take away its #; delete a [[mark]] that you cannot read.",
+        'frame = "sheet-top-left"',
+    ]
+    for mark in marks(grid, machine):
+        x, y = machine.sheet_width / 2 + mark.x, machine.sheet_height / 2 - mark.y
+        lines += [
+            f'\n[[mark]]\nname = "{mark.name}"\ntarget = [{x:.2f}, {y:.2f}]',
+            f"approach = [{grid.approach[0]:.1f}, {0.0 - grid.approach[1]:.1f}]",
+            "# measured = [ , ]",
+        ]
+    return "\n".join([*lines, ""])

@@ -1,0 +1,54 @@
+"""The way of the sled over the sheet: each place is checked before anything is written."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from plumb.grid.limits import demand
+from plumb.grid.options import MIN_FREE_CHAIN, Grid, Machine
+from plumb.grid.touches import stops_of
+
+WAY_STEP = 25.0  # [mm] between the places on the way at which the chains are checked
+Question = Callable[[Grid, Machine, str, float, float], object]
+
+
+def tensions(machine: Machine, x: float, y: float) -> tuple[float, float]:
+    """Left and right chain tension [N] at x, y [mm]: weight * cos(other) / sin(left + right)."""
+    height = machine.sheet_height / 2 + machine.motor_offset - y
+    left = math.atan2(height, machine.motor_spacing / 2 + x)
+    right = math.atan2(height, machine.motor_spacing / 2 - x)
+    share = machine.sled_weight_n / math.sin(left + right)
+    return share * math.cos(right), share * math.cos(left)
+
+
+def _check_place(grid: Grid, machine: Machine, what: str, x: float, y: float) -> None:
+    """Refuses a place [mm] that the sled must not go to."""
+    what = f"{what} at x {x:.1f} y {y:.1f}"
+    half_width, half_height = machine.sheet_width / 2, machine.sheet_height / 2
+    inside = max(abs(x) - half_width, abs(y) - half_height) < 1e-6  # room for rounding
+    demand(inside, f"{what} is outside the sheet: raise --margin or change --approach")
+    sprocket = (machine.motor_spacing / 2, half_height + machine.motor_offset)
+    free = math.dist(sprocket, (abs(x), y)) - machine.rotation_radius
+    close = f"{what} brings ring and sprocket within {free:.0f} mm of each other: raise --margin"
+    demand(free >= MIN_FREE_CHAIN, close)
+    pulls = tensions(machine, x, y)
+    tight = f"{what} puts {max(pulls):.0f} N on a chain, more than --max-tension "
+    tight += f"{grid.max_tension:g}: raise --margin or lighten the sled"
+    demand(max(pulls) <= grid.max_tension, tight)
+    side = "left" if pulls[0] < pulls[1] else "right"
+    slack = f"{what} leaves {min(pulls):.1f} N on the {side} chain, less than --min-tension "
+    slack += f"{grid.min_tension:g}: raise --margin or move the motors apart"
+    demand(min(pulls) >= grid.min_tension, slack)
+
+
+def check(grid: Grid, machine: Machine, ask: Question = _check_place) -> None:
+    """Asks about all places that the sled passes; refuses what leaves the sheet or its limits."""
+    stops = stops_of(grid, machine)
+    for what, place in stops:
+        ask(grid, machine, what, *place)
+    x, y = stops[0][1]  # the way between two top corners passes the tightest place of all
+    for what, end in stops[1:]:
+        for steps in range(math.ceil(math.dist((x, y), end) / WAY_STEP), 0, -1):
+            x, y = x + (end[0] - x) / steps, y + (end[1] - y) / steps
+            ask(grid, machine, f"the way to {what}", x, y)
