@@ -5,8 +5,8 @@ import subprocess
 import sys
 
 import numpy as np
+import plumb.grid as grids
 import pytest
-from plumb.cli.grid import grids
 from plumb.cli.main import main
 from plumb.cli.text import plain, table
 from plumb.cure.demo import MARKS, SETTINGS

@@ -4,8 +4,8 @@ import xml.etree.ElementTree as ElementTree
 from dataclasses import replace
 
 import numpy as np
+import plumb.grid as grids
 import pytest
-from plumb.cli.grid import grids
 from plumb.cli.reach import SIGNS, map_of
 from plumb.cure.demo import SETTINGS
 from plumb.model.predict import (
