@@ -33,11 +33,13 @@
   ROW(kCenterDepth, 6, "center_depth, mm", kReal, kAnyValue, 79, -2000, 2000, kGeometry, \
       "Maslow: sledCG", "Centre of gravity of that sled below the bit.", "") \
   ROW(kKinematics, 7, "kinematics", kByte, 1, 1, 1, 2, kGeometry, \
-      "Computed: kinematicsTypeComputed", "1: quadrilateral, a sled with two brackets; 2: triangular, a sled with a ring.", "") \
+      "Computed: kinematicsTypeComputed", \
+      "1: quadrilateral, a sled with two brackets; 2: triangular, a sled with a ring.", "") \
   ROW(kRotationRadius, 8, "rotation_radius, mm", kReal, kAnyValue, 250, 0, 2000, kGeometry, \
       "Advanced: rotationRadius", "From the bit to the end of each chain (triangular).", "") \
   ROW(kIdleTime, 9, "idle_time, ms", kWord, 1, 2000, 0, 65535, kNothing, \
-      "", "Rest after which the motors are switched off and the position is kept.", "the position is kept in a ring of 65 places, with a mark while the machine moves") \
+      "", "Rest after which the motors are switched off and the position is kept.", \
+      "the position is kept in a ring of 65 places, with a mark while the machine moves") \
   ROW(kChainLength, 10, "chain_length, mm", kWord, 1, 3360, 0, 65535, kGeometry, \
       "Advanced: chainLength", "Length of each chain; no more is paid out.", "") \
   ROW(kExtendLength, 11, "extend_length, mm", kWord, 1, 1651, 0, 65535, kNothing, \
@@ -45,19 +47,22 @@
   ROW(kEncoderCounts, 12, "encoder_counts, counts/turn", kReal, kAnyValue, 8113.73f, 1, 1e6f, kScale, \
       "Advanced: encoderSteps", "Encoder counts for one turn of a sprocket.", "") \
   ROW(kChainPerTurn, 13, "chain_per_turn, mm", kReal, kAnyValue, 63.5f, 1, 1000, kScale | kGeometry | kLimits, \
-      "Computed: distPerRot", "Chain for one turn of a sprocket: teeth times pitch.", "the published sprocket has a radius of 10.1 mm until this is written") \
+      "Computed: distPerRot", "Chain for one turn of a sprocket: teeth times pitch.", \
+      "the published sprocket has a radius of 10.1 mm until this is written") \
   ROW(kGreatestFeed, 15, "greatest_feed, mm/min", kWord, 1, 900, 1, 65535, kLimits, \
       "Advanced: maxFeedrate", "Greatest feed, and that of G0.", "") \
   ROW(kZMotor, 16, "z_motor", kBool, 1, 1, 0, 1, kNothing, \
       "Maslow: zAxis", "1: the z axis has a motor; 0: it is set by hand.", "") \
   ROW(kSpindle, 17, "spindle", kByte, 1, 0, 0, 4, kCutter, \
-      "Advanced: spindleAutomate", "0: not switched; 1: servo; 2: relay, on when high; 3: relay, on when low; 4: pulsed by S.", "4 is new") \
+      "Advanced: spindleAutomate", \
+      "0: not switched; 1: servo; 2: relay, on when high; 3: relay, on when low; 4: pulsed by S.", "4 is new") \
   ROW(kZSpeed, 18, "z_speed, turns/min", kReal, kAnyValue, 12.6f, 0.01f, 1000, kLimits, \
       "", "Greatest speed of the z axis.", "") \
   ROW(kZPerTurn, 19, "z_per_turn, mm", kReal, kAnyButZero, 3.17f, -1000, 1000, kScale | kLimits, \
       "Maslow: zDistPerRot", "Travel of z for one turn; negative: it runs the other way.", "") \
   ROW(kZCounts, 20, "z_counts, counts/turn", kReal, kAnyButZero, 7560, -1e6f, 1e6f, kScale, \
-      "Advanced: zEncoderSteps", "Encoder counts for one turn of z; negative: motor or encoder is wired the other way.", "") \
+      "Advanced: zEncoderSteps", \
+      "Encoder counts for one turn of z; negative: motor or encoder is wired the other way.", "") \
   ROW(kMainPositionP, 21, "main_position_p", kReal, kAnyValue, 1300, 0, 1e6f, kLoops, \
       "Computed: KpPosMain", "Chain motors, position loop: proportional gain.", "") \
   ROW(kMainPositionI, 22, "main_position_i", kReal, kAnyValue, 0, 0, 1e6f, kLoops, \
@@ -65,7 +70,8 @@
   ROW(kMainPositionD, 23, "main_position_d", kReal, kAnyValue, 34, 0, 1e6f, kLoops, \
       "Computed: KdPosMain", "Chain motors, position loop: derivative gain.", "") \
   ROW(kMainPositionWeight, 24, "main_position_weight", kReal, kAnyValue, 1, 0, 1, kLoops, \
-      "Computed: propWeightMain", "Chain motors, position loop: share of the proportional part that acts on the error.", "") \
+      "Computed: propWeightMain", \
+      "Chain motors, position loop: share of the proportional part that acts on the error.", "") \
   ROW(kMainSpeedP, 25, "main_speed_p", kReal, kAnyValue, 5, 0, 1e6f, kLoops, \
       "Computed: KpVMain", "Chain motors, speed loop: proportional gain.", "") \
   ROW(kMainSpeedI, 26, "main_speed_i", kReal, kAnyValue, 0, 0, 1e6f, kLoops, \
@@ -75,7 +81,9 @@
   ROW(kMainSpeedWeight, 28, "main_speed_weight", kReal, kAnyValue, 1, 0, 1, kLoops, \
       "", "Chain motors, speed loop: share of the proportional part that acts on the error.", "") \
   ROW(kZPositionP, 29, "z_position_p", kReal, kAnyValue, 0, 0, 1e6f, kLoops, \
-      "Computed: KpPosZ", "Z motor, position loop: proportional gain. The published default of 0 keeps z still until a client sends its 1300.", "") \
+      "Computed: KpPosZ", \
+      "Z motor, position loop: proportional gain. The published default of 0 keeps z still until a client sends " \
+      "its 1300.", "") \
   ROW(kZPositionI, 30, "z_position_i", kReal, kAnyValue, 0, 0, 1e6f, kLoops, \
       "Computed: KiPosZ", "Z motor, position loop: integral gain.", "") \
   ROW(kZPositionD, 31, "z_position_d", kReal, kAnyValue, 34, 0, 1e6f, kLoops, \
@@ -91,13 +99,16 @@
   ROW(kZSpeedWeight, 36, "z_speed_weight", kReal, kAnyValue, 1, 0, 1, kLoops, \
       "", "Z motor, speed loop: share of the proportional part that acts on the error.", "") \
   ROW(kSagCorrection, 37, "sag_correction, 1e-12/mm^2", kReal, kAnyValue, 0, -1e5f, 1e5f, kGeometry, \
-      "Advanced: chainSagCorrection", "Chain sag as the published programs fit it; added to $160.", "the same chains within 0.3 % of the sag") \
+      "Advanced: chainSagCorrection", "Chain sag as the published programs fit it; added to $160.", \
+      "the same chains within 0.3 % of the sag") \
   ROW(kFeedSide, 38, "feed", kByte, 1, 1, 1, 2, kGeometry | kDrives, \
-      "Computed: chainOverSprocketComputed", "1: chains leave over the top of their sprockets; 2: off the bottom.", "") \
+      "Computed: chainOverSprocketComputed", "1: chains leave over the top of their sprockets; 2: off the bottom.", \
+      "") \
   ROW(kPwmFrequency, 39, "pwm_frequency", kByte, 1, 3, 1, 3, kDrives, \
       "Computed: fPWMComputed", "Motor PWM: 1 is 31 kHz, 2 is 4 kHz, 3 is 490 Hz, as far as the driver allows.", "") \
   ROW(kLeftTolerance, 40, "left_tolerance, %", kReal, kAnyValue, 0, -5, 5, kGeometry, \
-      "Advanced: leftChainTolerance", "By how much the left chain's links are longer than nominal; added to $180.", "the same chains; the ring, which is no chain, is not stretched by $180") \
+      "Advanced: leftChainTolerance", "By how much the left chain's links are longer than nominal; added to $180.", \
+      "the same chains; the ring, which is no chain, is not stretched by $180") \
   ROW(kRightTolerance, 41, "right_tolerance, %", kReal, kAnyValue, 0, -5, 5, kGeometry, \
       "Advanced: rightChainTolerance", "The same for the right chain; added to $181.", "") \
   ROW(kPositionErrorLimit, 42, "position_error_limit, mm", kReal, kAnyValue, 2, 0.01f, 100000, kLoops, \
@@ -117,7 +128,9 @@
   ROW(kSledWeight, 62, "sled_weight, N", kReal, kAnyValue, 97.9f, 30, 1000, kGeometry, \
       "", "Sled, router and bricks, as far as the chains carry them; $46=... of WebControl sets it too.", "new") \
   ROW(kChainWeight, 63, "chain_weight, N/mm", kReal, kAnyValue, 0, 0, 0.02f, kGeometry, \
-      "", "One millimetre of chain, 0.00137293 for the usual one; 0: the sled alone loads the chains, as in the published model.", "new") \
+      "", \
+      "One millimetre of chain, 0.00137293 for the usual one; 0: the sled alone loads the chains, as in the " \
+      "published model.", "new") \
   ROW(kMotorCenterX, 64, "motor_center_x, mm", kReal, kAnyValue, 0, -5000, 5000, kGeometry, \
       "", "Middle between the sprockets, right of the middle of the sheet.", "new") \
   ROW(kAccelerationXy, 65, "acceleration_xy, mm/s^2", kReal, kAnyValue, 100, 1, 5000, kLimits, \
@@ -127,23 +140,31 @@
   ROW(kCornerDeviation, 67, "corner_deviation, mm", kReal, kAnyValue, 0.05f, 0, 10, kLimits, \
       "", "How far from a corner the sled may pass without stopping; 0: it stops.", "new") \
   ROW(kChainSpeed, 68, "chain_speed, mm/min", kReal, kAnyValue, 1000, 10, 10000, kLimits, \
-      "", "Greatest speed of a chain; moves are slowed to keep it. More than 20 turns of a sprocket a minute (1270 with $13=63.5) is refused: no gearbox does it.", "new") \
+      "", \
+      "Greatest speed of a chain; moves are slowed to keep it. More than 20 turns of a sprocket a minute (1270 " \
+      "with $13=63.5) is refused: no gearbox does it.", "new") \
   ROW(kLoopRate, 69, "loop_rate, Hz", kByte, 100, 100, 100, 200, kRestart, \
       "", "How often the motors are controlled: 100 or 200.", "new") \
   ROW(kRefusedMotion, 70, "refused_motion", kBool, 1, 0, 0, 1, kNothing, \
-      "", "What a line does whose motion cannot be done: 0 halts the machine until Stop; 1 answers error: and goes on with the next.", "new") \
+      "", \
+      "What a line does whose motion cannot be done: 0 halts the machine until Stop; 1 answers error: and goes on " \
+      "with the next.", "new") \
   ROW(kMotionAhead, 71, "motion_ahead, ms", kWord, 1, 1000, 0, 10000, kNothing, \
-      "", "A line is answered when less than this is left of its motion, so that a sender that stops sending stops the sled.", "new") \
+      "", \
+      "A line is answered when less than this is left of its motion, so that a sender that stops sending stops " \
+      "the sled.", "new") \
   ROW(kLaserPulses, 72, "laser_pulses", kBool, 1, 0, 0, 1, kCutter, \
       "", "0: the laser's pin is high or low; 1: it is pulsed by S (0 to 255) and speed.", "new") \
   ROW(kBandGap, 75, "band_gap, V", kReal, kAnyValue, 1.1f, 0.9f, 1.3f, kNothing, \
-      "", "Reference of this processor; right when the supply that B30 tells is what a voltmeter shows on its 5 V.", "new") \
+      "", "Reference of this processor; right when the supply that B30 tells is what a voltmeter shows on its 5 V.", \
+      "new") \
   ROW(kLeastSupply, 76, "least_supply, V", kReal, kAnyValue, 4.3f, 0, 5, kNothing, \
       "", "Below this supply of the Mega it says so; 0: never.", "new")
 
 #define PLUMB_KEPT_SETTINGS(ROW) \
   ROW(kSimulatedMotors, 99, "simulated_motors", kBool, 1, 0, 0, 1, kNothing, \
-      "", "1: the machine runs without motors, as B99 ON asks; kept by all but $RST=*.", "the published firmware keeps it at address 4095")
+      "", "1: the machine runs without motors, as B99 ON asks; kept by all but $RST=*.", \
+      "the published firmware keeps it at address 4095")
 
 #define PLUMB_SETTINGS(LISTED, HIDDEN, KEPT) \
   PLUMB_PUBLISHED_SETTINGS(LISTED) \

@@ -105,6 +105,10 @@ def python_function(lines: int) -> str:
         ("tools/a.sh", "# a line\n" * 401, "401 lines, the most is 400"),
         ("tools/a", "#!/usr/bin/env bash\n" * 401, "401 lines, the most is 400"),
         ("platformio.ini", "; a line\n" * 401, "401 lines, the most is 400"),
+        ("docs/page.md", "word " * 25, ":1: 125 columns, the most is 120"),
+        ("src/a.cpp", "\n// " + "word " * 25, ":2: 128 columns, the most is 120"),
+        ("tools/a.sh", "# " + "word " * 25, ":1: 127 columns, the most is 120"),
+        ("test/fuzz/Makefile", "FLAGS =" + " -Wall" * 20, ":1: 127 columns, the most is 120"),
     ],
 )
 def test_size_refuses(tmp_path, name, text, expected):
@@ -112,6 +116,19 @@ def test_size_refuses(tmp_path, name, text, expected):
     assert code == 1
     assert out.startswith(name)
     assert expected in out
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("docs/page.md", "word " * 23 + "words"),
+        ("docs/page.md", "| " + "word | " * 30),
+        ("docs/page.md", "https://example.org/" + "a" * 120),
+        ("docs/effects.md", "word " * 25),
+    ],
+)
+def test_size_allows(tmp_path, name, text):
+    assert said("size", plant(tmp_path, {name: text}))[0] == 0
 
 
 def test_size_allows_one_long_function_in_fifty(tmp_path):
