@@ -284,6 +284,6 @@ def _parameter_json(one: Parameter) -> dict[str, Any]:
         "unit": one.unit,
         "before": one.before,
         "prior_sigma": one.prior_sigma,
-        "possible": [one.possible_low, one.possible_high],
+        "possible": one.plausible_range.limits,
         "plausible": one.plausible,
     }

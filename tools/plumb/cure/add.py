@@ -13,6 +13,7 @@ from plumb.board.sighting import SHEET_ROTATION
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.fit import Estimate, Fit, fit, rms
 from plumb.fit.patch import PATCH, best_patch
+from plumb.fit.plausible import PlausibleRange, plausible_range
 from plumb.fit.problem import PRIORS
 from plumb.fit.shape import best_pose
 from plumb.marks.read import Measurements
@@ -66,8 +67,7 @@ class Parameter:
     unit: str
     before: float
     prior_sigma: float | None  # None: free
-    possible_low: float | None  # None: no limit is known
-    possible_high: float | None
+    plausible_range: PlausibleRange
 
     @property
     def of_patch(self) -> bool:
@@ -77,14 +77,12 @@ class Parameter:
     @property
     def plausible(self) -> bool:
         """Whether a real machine can have this value."""
-        above = self.possible_low is None or self.value >= self.possible_low
-        return above and (self.possible_high is None or self.value <= self.possible_high)
+        return self.plausible_range.holds(self.value)
 
     @property
-    def might_be_plausible(self) -> bool:
-        """Whether the interval reaches values that a real machine can have."""
-        above = self.possible_low is None or self.high >= self.possible_low
-        return above and (self.possible_high is None or self.low <= self.possible_high)
+    def possible(self) -> bool:
+        """Whether the interval reaches what a real machine may have."""
+        return bool(self.plausible_range.is_near(self.low, self.high))
 
 
 @dataclass(frozen=True)
@@ -280,7 +278,7 @@ def _parameter(estimate: Estimate) -> Parameter:
     words = {one["name"]: one for one in frame_words()}
     words |= parameter_words()
     unit = unit_of(estimate.name) or "rad"
-    own = words.get(estimate.name, {"unit": unit, "low": None, "high": None})
+    own = words.get(estimate.name, {"unit": unit})
     return Parameter(
         name=estimate.name,
         value=estimate.value,
@@ -289,8 +287,7 @@ def _parameter(estimate: Estimate) -> Parameter:
         unit=own["unit"],
         before=estimate.before,
         prior_sigma=estimate.prior_sigma,
-        possible_low=own["low"],
-        possible_high=own["high"],
+        plausible_range=plausible_range(estimate.name),
     )
 
 
@@ -309,19 +306,24 @@ def _surprises(parameters: Sequence[Parameter]) -> list[str]:
             impossible = "" if one.plausible else f" ({one.value:.3g} {one.unit} is impossible)"
             said.append(f"{one.name}{impossible} may as well be zero: its interval contains it")
         elif not one.plausible:
-            reaches = "reaches that" if one.might_be_plausible else "does not reach that either"
-            said.append(
-                f"{one.name} = {one.value:.3g} {one.unit} is impossible for a real machine, which "
-                f"has {one.possible_low:g} to {one.possible_high:g} (the interval {reaches}): it "
-                "stands in for something else; check which settings were in force and the signs of "
-                "the marks"
-            )
+            said.append(_impossible(one))
         if one.prior_sigma and not one.of_patch and abs(moved) > FAR * one.prior_sigma:
             said.append(
                 f"{one.name} moved by {moved:+.3g} {one.unit} from the stated {one.before:g}, more "
                 f"than twice the {one.prior_sigma:g} it was trusted to: measure it again"
             )
     return said
+
+
+def _impossible(parameter: Parameter) -> str:
+    plausible = parameter.plausible_range
+    near = "reaches that" if parameter.possible else "does not reach that either"
+    return (
+        f"{parameter.name} = {parameter.value:.3g} {parameter.unit} is impossible for a real "
+        f"machine, which has {plausible.low:g} to {plausible.high:g} (the interval {near}): it "
+        "takes the place of another cause; check which settings were in force and the signs of "
+        "the marks"
+    )
 
 
 def _steps(names: Sequence[str], before: Quality, qualities: Sequence[Quality]) -> tuple[Step, ...]:

@@ -80,7 +80,7 @@ def add_auto(
 
 def _helps(addition: Addition) -> bool:
     """Whether effects that do not explain all are of use: no mere fit, and of possible sizes."""
-    return addition.pays and all(one.might_be_plausible for one in addition.parameters)
+    return addition.pays and all(one.possible for one in addition.parameters)
 
 
 def _settled_by(chosen: tuple[str, ...], rivals: tuple[tuple[str, ...], ...]) -> tuple[str, ...]:

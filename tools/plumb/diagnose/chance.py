@@ -16,8 +16,7 @@ from scipy.special import chdtri
 from plumb.diagnose.explanation import Explanation
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
 from plumb.diagnose.noise import Noise
-from plumb.diagnose.sizes import MARGIN
-from plumb.model.catalogue import parameter_words
+from plumb.fit.plausible import plausible_range
 
 Array = np.ndarray
 BELIEVABLE = 0.05  # share of fields beyond which a combination that fits proves nothing
@@ -65,13 +64,11 @@ def _explained(
     fits = np.sum(left[:count] ** 2, axis=0) <= chdtri(spare, MISFIT_LEVEL)
     if not real:
         return fits
-    words, names = parameter_words(), board.problem.names
     reach = noise.quantile * np.sqrt(np.sum(inverse**2, axis=1))
     for i, column in enumerate(columns):
-        scale = board.problem.scale[column]
-        value = board.problem.start[column] / scale + sizes[i]
-        fits &= value + reach[i] >= MARGIN * words[names[column]]["low"] / scale
-        fits &= value - reach[i] <= MARGIN * words[names[column]]["high"] / scale
+        value = board.problem.start[column] + board.problem.scale[column] * sizes[i]
+        half = board.problem.scale[column] * reach[i]
+        fits &= plausible_range(board.problem.names[column]).is_near(value - half, value + half)
     return fits
 
 

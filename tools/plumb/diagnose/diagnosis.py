@@ -59,7 +59,7 @@ class Together:
     @property
     def possible(self) -> bool:
         """Whether the intervals of all sizes reach what a real machine can have."""
-        return all(one.might_be_plausible for own in self.sizes.values() for one in own)
+        return all(one.possible for own in self.sizes.values() for one in own)
 
 
 @dataclass(frozen=True)
@@ -154,9 +154,9 @@ def diagnose(
 
 
 _IMPOSSIBLE = (
-    "every explanation needs sizes that no real machine has, so each stands in for something else: "
-    "check which settings were in force, the signs of the marks, the stated frame, and that the "
-    "sled hangs on one ring, not on two brackets"
+    "every explanation needs sizes that no real machine has, so each takes the place of another "
+    "cause: check which settings were in force, the signs of the marks, the stated frame, and that "
+    "the sled hangs on one ring, not on two brackets"
 )
 
 

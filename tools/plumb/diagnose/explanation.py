@@ -9,12 +9,11 @@ import numpy as np
 
 from plumb.board.observations import Observations
 from plumb.fit.problem import PRIORS, Checked, Linearized, Problem
-from plumb.fit.solver import solve
+from plumb.fit.solver import AT_REST, solve
 from plumb.model.catalogue import effect_names, parameter_names
 from plumb.settings.machine import MachineSettings
 
 Array = np.ndarray
-CLOSE_ENOUGH = 1e-5  # of chi-square: no test of a diagnosis feels less
 INVISIBLE = 1e-5  # share of a column's length below which its rest is rounding
 
 
@@ -143,7 +142,7 @@ def explain(
         board.problem,
         free=free_columns(board, effects),
         start=None if start is None else start.unknowns,
-        close_enough=CLOSE_ENOUGH,
+        close_enough=AT_REST,
     )
     return Explanation(board, effects, solution.at, solution.settled)
 

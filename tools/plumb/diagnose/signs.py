@@ -8,7 +8,7 @@ from dataclasses import replace
 from plumb.diagnose.explanation import Board, Explanation, explain
 from plumb.diagnose.misfit import LEVEL, misfit_chance
 from plumb.diagnose.noise import Noise
-from plumb.diagnose.sizes import sizes_of
+from plumb.diagnose.sizes import possible
 
 
 def sign_warning(
@@ -47,6 +47,4 @@ def with_y_errors_turned(board: Board) -> Board:
 
 def _is_simple(one: Explanation, noise: Noise) -> bool:
     """Whether at most one effect explains the marks, with sizes that a real machine can have."""
-    return len(one.effects) < 2 and all(
-        size.might_be_plausible for name in one.effects for size in sizes_of(one, name, noise)
-    )
+    return len(one.effects) < 2 and possible(one, noise)

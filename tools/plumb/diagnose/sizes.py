@@ -10,10 +10,10 @@ from scipy.special import chdtri, stdtrit
 
 from plumb.diagnose.explanation import Explanation, span
 from plumb.diagnose.noise import Noise
+from plumb.fit.plausible import plausible_range
 from plumb.model.catalogue import parameter_words
 
 Array = np.ndarray
-MARGIN = 1.5  # times the catalogue's range: that is what was met in workshops, not a wall
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Size:
     high: float | None
     unit: str
     plausible: bool  # whether a real machine can have the value
-    might_be_plausible: bool  # whether the interval reaches what is nearly so
+    possible: bool  # whether its interval reaches what a real machine may have
 
 
 @dataclass(frozen=True)
@@ -49,19 +49,17 @@ def sizes_of(explanation: Explanation, effect: str, noise: Noise) -> tuple[Size,
         value = float(problem.start[column] + scale * explanation.unknowns[column])
         variance = covariance[list(free).index(column), list(free).index(column)]
         half = noise.quantile * float(np.sqrt(variance)) * scale
-        own = words[name]
         felt = bool(np.any(explanation.slopes[:, column]))
+        plausible = plausible_range(name)
         found.append(
             Size(
                 name=name.partition(".")[2],
                 value=value,
                 low=float(value - half) if felt else None,
                 high=float(value + half) if felt else None,
-                unit=own["unit"],
-                plausible=bool(own["low"] <= value <= own["high"]),
-                might_be_plausible=bool(
-                    value + half >= MARGIN * own["low"] and value - half <= MARGIN * own["high"]
-                ),
+                unit=words[name]["unit"],
+                plausible=plausible.holds(value),
+                possible=bool(plausible.is_near(value - half, value + half)),
             )
         )
     return tuple(found)
@@ -70,9 +68,7 @@ def sizes_of(explanation: Explanation, effect: str, noise: Noise) -> tuple[Size,
 def possible(explanation: Explanation, noise: Noise) -> bool:
     """Whether a real machine can have such sizes, as far as their intervals reach."""
     return all(
-        size.might_be_plausible
-        for name in explanation.effects
-        for size in sizes_of(explanation, name, noise)
+        size.possible for name in explanation.effects for size in sizes_of(explanation, name, noise)
     )
 
 
@@ -121,13 +117,12 @@ def _room(effect: str, explanation: Explanation, noise: Noise) -> Room:
     limits = []
     for i, name in enumerate(names):
         # What cannot be negative can only be as large as its upper end.
-        ends = (
-            [total[i] + reach[i]]
-            if words[name]["low"] >= 0
-            else [total[i] + reach[i], -(total[i] - reach[i])]
-        )
-        possible = max(abs(words[name]["low"]), abs(words[name]["high"]))
-        largest = min(max(0.0, *ends) * board.problem.scale[columns[i]], possible)
+        plausible = plausible_range(name)
+        ends = [total[i] + reach[i]]
+        if plausible.low < 0:
+            ends.append(-(total[i] - reach[i]))
+        met = max(abs(plausible.low), abs(plausible.high))
+        largest = min(max(0.0, *ends) * board.problem.scale[columns[i]], met)
         limits.append((name.partition(".")[2], float(largest), words[name]["unit"]))
     if len(columns) == 1:
         whole = np.abs(raw) * limits[0][1] / board.problem.scale[columns[0]]

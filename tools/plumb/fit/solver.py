@@ -12,6 +12,7 @@ from plumb.text.errors import InputError
 MOST_STEPS = 30
 MOST_HALVINGS = 8
 CLOSE_ENOUGH = 1e-12  # of chi-square: a step that promises less is not made
+AT_REST = 1e-5  # of chi-square: a search that ends where a step promises more has not settled
 ROUNDING = 1e-13  # share of chi-square that is lost in its sum
 
 
@@ -20,7 +21,7 @@ class Solution:
     """Where the search came to rest."""
 
     at: Linearized
-    settled: bool  # False: no step helped any more, or the search stopped at its limit of steps
+    settled: bool  # False: the search ended where a step still promised more than AT_REST
 
 
 def solve(
@@ -38,17 +39,24 @@ def solve(
     if here is None:
         raise InputError("with these settings the sled cannot hang where the marks were sent")
     columns = np.arange(len(problem.names)) if free is None else free
+    step, promised = _step(here, columns)
     for _ in range(MOST_STEPS):
-        slopes = here.slopes[:, columns]
-        step = np.linalg.lstsq(slopes, here.residual, rcond=1e-10)[0]
-        promised = 2 * step @ (slopes.T @ here.residual) - np.sum((slopes @ step) ** 2)
         if promised < max(close_enough, ROUNDING * here.cost):
-            return Solution(here, settled=True)
+            break
         better = _lower(problem, here, columns, step)
         if better is None:
             break
         here = better
-    return Solution(here, settled=False)
+        step, promised = _step(here, columns)
+    return Solution(here, settled=promised < max(close_enough, AT_REST, ROUNDING * here.cost))
+
+
+def _step(here: Linearized, columns: Array) -> tuple[Array, float]:
+    """The step to the least of the linearized problem, and by how much it lowers chi-square."""
+    slopes = here.slopes[:, columns]
+    step = np.linalg.lstsq(slopes, here.residual, rcond=1e-10)[0]
+    promised = 2 * step @ (slopes.T @ here.residual) - np.sum((slopes @ step) ** 2)
+    return step, float(promised)
 
 
 def _lower(problem: Problem, here: Linearized, columns: Array, step: Array) -> Linearized | None:

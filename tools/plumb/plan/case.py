@@ -113,9 +113,7 @@ def _possible(found: Diagnosis) -> set[tuple[str, ...]]:
     sizes = {(one.effect,): one.sizes for one in found.ranking}
     for one in found.explanations:
         sizes[one.effects] = tuple(size for own in one.sizes.values() for size in own)
-    return {
-        effects for effects, own in sizes.items() if all(size.might_be_plausible for size in own)
-    }
+    return {effects for effects, own in sizes.items() if all(size.possible for size in own)}
 
 
 def _weighed(

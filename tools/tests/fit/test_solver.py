@@ -103,6 +103,12 @@ def test_it_stops_once_a_step_promises_too_little():
     assert found.settled and 0.8 < found.at.cost < 1.0
 
 
+def test_a_search_that_ends_beside_the_least_by_rounding_alone_has_settled():
+    # A step promises 1e-8 of chi-square, and the last digits of what is left never give it.
+    found = solve(Curve(lambda x: -1e-4, lambda x: 1.0))
+    assert found.settled and found.at.cost == pytest.approx(1e-8)
+
+
 def test_rounding_is_not_chased():
     # 1e8 beside a hundredth: what is left to gain is lost in the sum.
     class Tall(Curve):

@@ -1,0 +1,89 @@
+"""What no real machine has: plumb add and plumb diagnose judge a size alike."""
+
+from dataclasses import replace
+
+import pytest
+from plumb.cure.add import add
+from plumb.diagnose import diagnose
+from plumb.fit.plausible import PlausibleRange, plausible_range
+from plumb.marks.read import Measurements
+from plumb.model.catalogue import parameter_words
+from synthetic import BELIEVED, grid, marks_on
+
+SIGMA = 0.5
+WIDE = grid(5, 5)
+SIZED = ("chain_pitch.left", "chain_plane.gap_squared", "frame_flex.inward")
+
+
+def board_with(name, share):
+    """Marks of a machine on which a parameter has a share of the largest plausible size."""
+    effect, _, parameter = name.partition(".")
+    size = share * parameter_words()[name]["high"]
+    true = replace(BELIEVED, effects={effect: {parameter: size}})
+    return Measurements(marks_on(true, BELIEVED, WIDE, noise=SIGMA, seed=3), source="made up")
+
+
+def judged(found, measurements, effect):
+    """Of each parameter: whether it is plausible and possible by the diagnosis, and by the fit."""
+    sizes = next(ranked for ranked in found.ranking if ranked.effect == effect).sizes
+    added = add(BELIEVED, measurements, effects=(effect,), sigma=found.noise.sigma).parameters
+    fitted = {one.name: one for one in added}
+    return [
+        (size.plausible, size.possible, one.plausible, one.possible)
+        for size in sizes
+        for one in [fitted[f"{effect}.{size.name}"]]
+    ]
+
+
+@pytest.mark.parametrize("name", SIZED)
+@pytest.mark.parametrize("share", [0.5, 1.25, 1.6, 3.0])
+def test_the_fit_and_the_diagnosis_agree_on_every_effect(name, share):
+    measurements = board_with(name, share)
+    found = diagnose(BELIEVED, measurements, sigma=SIGMA)
+    for ranked in found.ranking:
+        if ranked.sizes[0].low is None:
+            continue  # nothing was measured that feels it
+        for by_size, near_size, by_fit, near_fit in judged(found, measurements, ranked.effect):
+            assert (by_size, near_size) == (by_fit, near_fit), ranked.effect
+
+
+@pytest.mark.parametrize("name", SIZED)
+def test_a_size_a_little_beyond_what_was_met_is_no_reason_to_look_elsewhere(name):
+    measurements = board_with(name, 1.25)
+    effect = name.partition(".")[0]
+    found = diagnose(BELIEVED, measurements, sigma=SIGMA)
+    assert (effect,) in [one.effects for one in found.explanations if one.possible]
+    for _, by_size, _, by_fit in judged(found, measurements, effect):
+        assert by_size and by_fit
+
+
+@pytest.mark.parametrize("name", SIZED)
+def test_a_size_far_beyond_is_refused_by_both(name):
+    measurements = board_with(name, 3.0)
+    effect, _, parameter = name.partition(".")
+    found = diagnose(BELIEVED, measurements, sigma=SIGMA)
+    sizes = next(ranked for ranked in found.ranking if ranked.effect == effect).sizes
+    at = [size.name for size in sizes].index(parameter)
+    assert judged(found, measurements, effect)[at] == (False, False, False, False)
+
+
+def test_a_range_holds_its_ends_and_is_near_half_as_far_again():
+    strain = PlausibleRange(-0.001, 0.006)
+    assert strain.holds(-0.001) and strain.holds(0.006)
+    assert not strain.holds(-0.0011) and not strain.holds(0.0061)
+    assert strain.is_near(0.0089, 0.02) and not strain.is_near(0.0091, 0.02)
+    assert strain.is_near(-0.1, -0.0014) and not strain.is_near(-0.1, -0.0016)
+
+
+def test_a_range_without_zero_widens_away_from_itself():
+    gap = PlausibleRange(1000.0, 6000.0)
+    assert gap.is_near(0.0, 700.0) and not gap.is_near(0.0, 600.0)
+    assert gap.is_near(8900.0, 9900.0) and not gap.is_near(9100.0, 9900.0)
+    below = PlausibleRange(-6000.0, -1000.0)
+    assert below.is_near(-700.0, 0.0) and not below.is_near(-600.0, 0.0)
+
+
+def test_ranges_are_those_of_the_catalogue_and_endless_where_it_says_nothing():
+    assert plausible_range("chain_pitch.left") == PlausibleRange(-0.001, 0.006)
+    assert plausible_range("motor_gap") == PlausibleRange(1000.0, 6000.0)
+    assert plausible_range("zero2.left").holds(1e9)
