@@ -1,5 +1,5 @@
 // Inverse and iterative forward kinematics of the hanging sled, written once for every number type.
-// Formulas, drawings and derivations: ../README.md.
+// Formulas, drawings and derivations: docs/kinematics.md.
 #include "Kinematics.h"
 
 #include <math.h>

@@ -1,0 +1,152 @@
+"""Tests of the pages: links lead somewhere, named files exist, every command has a page."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from plumb.cli.main import build_parser
+
+ROOT = Path(__file__).resolve().parents[3]
+PATTERNS = ("README.md", "docs/**/*.md", "lib/*/README.md", "test/*/README.md", "tools/*/README.md")
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+# A path from the project's folder, as pages name files and as commands take them.
+NAMED = re.compile(r"(?<![\w./-])(?:docs|include|lib|src|test|tools)/[\w./-]*\w/?")
+LONGEST = 120
+WRITTEN = "<!-- Written by `python -m"  # at the head of each generated page
+
+
+def pages(root: Path) -> list[Path]:
+    """The pages that people write or generate."""
+    return sorted({page for pattern in PATTERNS for page in root.glob(pattern)})
+
+
+def prose(page: Path) -> Iterator[tuple[int, str]]:
+    """The numbered lines of a page outside fenced blocks."""
+    fenced = False
+    for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
+        if line.lstrip().startswith("```"):
+            fenced = not fenced
+        elif not fenced:
+            yield number, line
+
+
+def anchors(page: Path) -> set[str]:
+    """The anchors of a page's headings, as GitHub makes them."""
+    headings = (line.lstrip("#").strip() for _, line in prose(page) if line.startswith("#"))
+    plain = (re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", heading) for heading in headings)
+    return {re.sub(r"[^\w\- ]", "", heading).lower().replace(" ", "-") for heading in plain}
+
+
+def broken_links(root: Path) -> Iterator[str]:
+    """Each relative link that leads to no file, or to no heading of its page."""
+    for page in pages(root):
+        for number, line in prose(page):
+            for target in LINK.findall(line):
+                if re.match(r"[a-z]+:", target):
+                    continue
+                name, _, anchor = target.partition("#")
+                file = (page.parent / name).resolve() if name else page
+                if not file.exists() or (anchor and anchor not in anchors(file)):
+                    yield f"{page.relative_to(root)}:{number}: {target}"
+
+
+def missing_files(root: Path) -> Iterator[str]:
+    """Each path from the project's folder that a page names and that does not exist."""
+    for page in pages(root):
+        for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
+            for name in NAMED.findall(LINK.sub("]", line)):
+                if not (root / name).exists() and not (page.parent / name).exists():
+                    yield f"{page.relative_to(root)}:{number}: {name}"
+
+
+def long_lines(root: Path) -> Iterator[str]:
+    """Each line of prose that is too long; tables and what programs print or write may be wider."""
+    for page in pages(root):
+        if WRITTEN in page.read_text(encoding="utf-8"):
+            continue
+        for number, line in prose(page):
+            if len(line) > LONGEST and not line.startswith("|"):
+                yield f"{page.relative_to(root)}:{number}: {len(line)} characters"
+
+
+def commands() -> list[str]:
+    """The commands of plumb."""
+    choices = next(
+        action.choices
+        for action in build_parser()._actions
+        if isinstance(action, argparse._SubParsersAction)
+    )
+    return list(choices)
+
+
+def test_every_link_leads_to_a_file_and_a_heading() -> None:
+    assert list(broken_links(ROOT)) == []
+
+
+def test_every_file_that_a_page_names_exists() -> None:
+    assert list(missing_files(ROOT)) == []
+
+
+def test_lines_of_prose_fit() -> None:
+    assert list(long_lines(ROOT)) == []
+
+
+@pytest.mark.parametrize("command", commands())
+def test_every_command_has_a_page_that_shows_it_and_its_options(command: str) -> None:
+    contents = (ROOT / "docs/README.md").read_text(encoding="utf-8")
+    listed = re.search(rf"\[plumb [^]]*\b{command}\b[^]]*\]\((commands/[\w-]+\.md)\)", contents)
+    assert listed, f"docs/README.md lists no page of plumb {command}"
+    page = (ROOT / "docs" / listed[1]).read_text(encoding="utf-8")
+    blocks = "".join(re.findall(r"```console\n(.*?)```", page, re.DOTALL))
+    assert re.search(rf"^\$ .*\bplumb {command} (?!--help)", blocks, re.MULTILINE)
+    assert f"$ plumb {command} --help\nusage: plumb {command}" in blocks
+
+
+@pytest.mark.parametrize(
+    ("text", "faults"),
+    [
+        ("[here](a.md)", []),
+        ("[here](b.md)", ["docs/page.md:1: b.md"]),
+        ("[here](a.md#the-head)", []),
+        ("[here](a.md#the-tail)", ["docs/page.md:1: a.md#the-tail"]),
+        ("[here](#below)\n# Below", []),
+        ("[away](https://example.org/x)", []),
+        ("```\n[no link](b.md)\n```", []),
+        ("```\n```\n[a link](b.md)", ["docs/page.md:3: b.md"]),
+    ],
+)
+def test_a_link_that_leads_nowhere_is_named(tmp_path: Path, text: str, faults: list[str]) -> None:
+    plant(tmp_path, text)
+    assert list(broken_links(tmp_path)) == faults
+
+
+@pytest.mark.parametrize(
+    ("text", "faults"),
+    [
+        ("`docs/a.md` and docs/", []),
+        ("see `lib/Gone/src`", ["docs/page.md:1: lib/Gone/src"]),
+        ("```\n$ plumb reach docs/gone.toml\n```", ["docs/page.md:2: docs/gone.toml"]),
+        ("/usr/lib/x and .venv/lib/y are not ours", []),
+    ],
+)
+def test_a_file_that_is_not_there_is_named(tmp_path: Path, text: str, faults: list[str]) -> None:
+    plant(tmp_path, text)
+    assert list(missing_files(tmp_path)) == faults
+
+
+def test_a_long_line_is_named_unless_it_is_a_table_or_printed(tmp_path: Path) -> None:
+    plant(tmp_path, f"{'x' * 120}\n{'x' * 121}\n|{'x' * 121}\n```\n{'x' * 121}\n```\n")
+    assert list(long_lines(tmp_path)) == ["docs/page.md:2: 121 characters"]
+    (tmp_path / "docs/page.md").write_text(f"{WRITTEN} plumb.x` -->\n{'x' * 121}", encoding="utf-8")
+    assert list(long_lines(tmp_path)) == []
+
+
+def plant(root: Path, text: str) -> None:
+    """A tree with two pages; the second holds the text."""
+    (root / "docs").mkdir()
+    (root / "docs/a.md").write_text("# The head\n", encoding="utf-8")
+    (root / "docs/page.md").write_text(text, encoding="utf-8")
