@@ -11,7 +11,7 @@ import pytest
 from plumb.cli.main import build_parser
 
 ROOT = Path(__file__).resolve().parents[3]
-PATTERNS = ("README.md", "docs/**/*.md", "lib/*/README.md", "test/*/README.md", "tools/*/README.md")
+FOLDERS = ("docs", "lib", "src", "test", "tools")
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 # A path from the project's folder, as pages name files and as commands take them.
 NAMED = re.compile(r"(?<![\w./-])(?:docs|include|lib|src|test|tools)/[\w./-]*\w/?")
@@ -21,7 +21,9 @@ WRITTEN = "<!-- Written by `python -m"  # at the head of each generated page
 
 def pages(root: Path) -> list[Path]:
     """The pages that people write or generate."""
-    return sorted({page for pattern in PATTERNS for page in root.glob(pattern)})
+    below = (page for folder in FOLDERS for page in (root / folder).rglob("*.md"))
+    shown = (page for page in below if not any(part[0] == "." for part in page.parts))
+    return sorted({*root.glob("README.md"), *shown})
 
 
 def prose(page: Path) -> Iterator[tuple[int, str]]:
