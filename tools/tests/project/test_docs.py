@@ -15,8 +15,6 @@ FOLDERS = ("docs", "lib", "src", "test", "tools")
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 # A path from the project's folder, as pages name files and as commands take them.
 NAMED = re.compile(r"(?<![\w./-])(?:docs|include|lib|src|test|tools)/[\w./-]*\w/?")
-LONGEST = 120
-WRITTEN = "<!-- Written by `python -m"  # at the head of each generated page
 
 
 def pages(root: Path) -> list[Path]:
@@ -65,16 +63,6 @@ def missing_files(root: Path) -> Iterator[str]:
                     yield f"{page.relative_to(root)}:{number}: {name}"
 
 
-def long_lines(root: Path) -> Iterator[str]:
-    """Each line of prose that is too long; tables and what programs write may be wider."""
-    for page in pages(root):
-        if WRITTEN in page.read_text(encoding="utf-8"):
-            continue
-        for number, line in prose(page):
-            if len(line) > LONGEST and not line.startswith(("|", "![")):
-                yield f"{page.relative_to(root)}:{number}: {len(line)} characters"
-
-
 def commands() -> list[str]:
     """The commands of plumb."""
     choices = next(
@@ -91,10 +79,6 @@ def test_every_link_leads_to_a_file_and_a_heading() -> None:
 
 def test_every_file_that_a_page_names_exists() -> None:
     assert list(missing_files(ROOT)) == []
-
-
-def test_lines_of_prose_fit() -> None:
-    assert list(long_lines(ROOT)) == []
 
 
 @pytest.mark.parametrize("command", commands())
@@ -138,13 +122,6 @@ def test_a_link_that_leads_nowhere_is_named(tmp_path: Path, text: str, faults: l
 def test_a_file_that_is_not_there_is_named(tmp_path: Path, text: str, faults: list[str]) -> None:
     plant(tmp_path, text)
     assert list(missing_files(tmp_path)) == faults
-
-
-def test_a_long_line_is_named_unless_it_is_a_table_or_printed(tmp_path: Path) -> None:
-    plant(tmp_path, f"{'x' * 120}\n{'x' * 121}\n|{'x' * 121}\n```\n{'x' * 121}\n```\n")
-    assert list(long_lines(tmp_path)) == ["docs/page.md:2: 121 characters"]
-    (tmp_path / "docs/page.md").write_text(f"{WRITTEN} plumb.x` -->\n{'x' * 121}", encoding="utf-8")
-    assert list(long_lines(tmp_path)) == []
 
 
 def plant(root: Path, text: str) -> None:

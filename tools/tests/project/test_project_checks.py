@@ -109,6 +109,8 @@ def python_function(lines: int) -> str:
         ("src/a.cpp", "\n// " + "word " * 25, ":2: 128 columns, the most is 120"),
         ("tools/a.sh", "# " + "word " * 25, ":1: 127 columns, the most is 120"),
         ("test/fuzz/Makefile", "FLAGS =" + " -Wall" * 20, ":1: 127 columns, the most is 120"),
+        ("docs/a.md", "```\n" + "word " * 25, ":2: 125 columns, the most is 120"),
+        ("docs/a.md", "```console\n```\n" + "word " * 25, ":3: 125 columns, the most is 120"),
     ],
 )
 def test_size_refuses(tmp_path, name, text, expected):
@@ -125,6 +127,8 @@ def test_size_refuses(tmp_path, name, text, expected):
         ("docs/page.md", "| " + "word | " * 30),
         ("docs/page.md", "https://example.org/" + "a" * 120),
         ("docs/effects.md", "word " * 25),
+        ("docs/page.md", "![" + "word " * 25 + "](a.svg)"),
+        ("docs/page.md", "```console\n$ plumb reach\n" + "word " * 25 + "\n```"),
     ],
 )
 def test_size_allows(tmp_path, name, text):
