@@ -4,6 +4,7 @@
 
 #include <Arduino.h>
 
+#include "sleep.h"
 #include "watchdog.h"
 
 namespace board {
@@ -95,6 +96,14 @@ void ControlClock::idle() {
   startTimer();
   allowTicks(true);
   watchdog::arm();
+}
+
+void ControlClock::sleep() {
+  // Encoders interrupt ten thousand times a second; what they count waits for a control tick.
+  const uint8_t now = uint8_t(millis());
+  do {
+    sleepUntilInterrupt();
+  } while (uint8_t(millis()) == now);
 }
 
 void ControlClock::holdTicks() {

@@ -14,6 +14,8 @@ class ControlClock : public machine::Clock {
   void begin(void (*tick)(), void (*hang)(), uint8_t ticks_per_second);
   uint32_t milliseconds() override;
   void idle() override;
+  /// Until the next millisecond.
+  void sleep() override;
   void holdTicks() override;
   void releaseTicks() override;
   uint16_t longestTick() override;

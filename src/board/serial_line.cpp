@@ -4,6 +4,8 @@
 #include <avr/interrupt.h>
 #include <avr/io.h>
 
+#include "sleep.h"
+
 namespace board {
 namespace {
 
@@ -51,8 +53,7 @@ int16_t SerialLine::read() {
 
 void SerialLine::write(char character) {
   const uint8_t next = uint8_t(out_head + 1);
-  while (next == out_tail) {
-  }
+  while (next == out_tail) sleepUntilInterrupt();
   out_ring[out_head] = uint8_t(character);
   out_head = next;
   UCSR0B |= 1 << UDRIE0;

@@ -25,11 +25,14 @@ void Machine::loop() {
     return;
   }
   char line[Input::kRoom + 1];
-  if (!input_.takeLine(line)) return;
+  if (!input_.takeLine(line)) {
+    clock_.sleep();
+    return;
+  }
   is_answered_ = false;
   const bool done = execute(line);
   // A sender that sends no more, as the clients' Hold and Pause do, soon stops the sled.
-  while (!stopping_ && !is_answered_ && isFarAhead()) service();
+  while (!stopping_ && !is_answered_ && isFarAhead()) serveAndSleep();
   // What a stop or an alarm broke off is owed no answer.
   if (stopping_ || is_answered_) return;
   if (done) out_.line(FLASH("ok"));

@@ -89,6 +89,8 @@ class Machine {
  private:
   // realtime.cpp: while anything waits.
   void service();
+  /// One round of a wait.
+  void serveAndSleep();
   bool waitFor(uint32_t ms);
   bool drain();
   bool isFarAhead() const;

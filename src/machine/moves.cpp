@@ -172,7 +172,7 @@ void Machine::sayBeyondSheet(motion::Point<float> end) {
 bool Machine::queuePieces(EdgeCut cut, float z_to, float feed, uint8_t beam) {
   const float z_from = aim_.z;
   while (cut.next()) {
-    while (!stopping_ && !mover_.hasRoom()) service();
+    while (!stopping_ && !mover_.hasRoom()) serveAndSleep();
     if (stopping_ || !wakeMotors()) return false;
     const float share = cut.share();
     const float z = share == 1 ? z_to : z_from + (z_to - z_from) * share;

@@ -8,7 +8,7 @@ bool Machine::pause(bool resumed) {
   interlude_.pause(modal_, clock_.milliseconds(), input_.isEmpty());
   if (resumed) interlude_.resume();
   // serveInterlude() brings z back and ends it.
-  while (!stopping_ && interlude_.isPaused()) service();
+  while (!stopping_ && interlude_.isPaused()) serveAndSleep();
   input_.takeResume();
   return !stopping_;
 }

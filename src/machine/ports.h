@@ -82,6 +82,9 @@ class Clock {
   virtual uint32_t milliseconds() = 0;
   /// Called wherever the main program waits: it is alive.
   virtual void idle() = 0;
+  /// Called where the main program has nothing left to do: the processor may sleep, for a
+  /// millisecond at most.
+  virtual void sleep() {}
   /// Keeps the control tick off while shared numbers are read or written; nests.
   virtual void holdTicks() = 0;
   virtual void releaseTicks() = 0;

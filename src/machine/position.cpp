@@ -127,7 +127,8 @@ void Machine::keepWhenAtRest() {
 
 bool Machine::awaitRecord() {
   const uint32_t start = clock_.milliseconds();
-  while (!stopping_ && !keeper_.isSettled() && clock_.milliseconds() - start < kRecordMs) service();
+  while (!stopping_ && !keeper_.isSettled() && clock_.milliseconds() - start < kRecordMs)
+    serveAndSleep();
   return !stopping_;
 }
 

@@ -19,9 +19,14 @@ void Machine::service() {
   clock_.idle();
 }
 
+void Machine::serveAndSleep() {
+  service();
+  clock_.sleep();
+}
+
 bool Machine::waitFor(uint32_t ms) {
   const uint32_t start = clock_.milliseconds();
-  while (!stopping_ && clock_.milliseconds() - start < ms) service();
+  while (!stopping_ && clock_.milliseconds() - start < ms) serveAndSleep();
   return !stopping_;
 }
 
@@ -34,7 +39,7 @@ bool Machine::isFarAhead() const {
 
 bool Machine::drain() {
   const bool moved = isMoving();
-  while (!stopping_ && isMoving()) service();
+  while (!stopping_ && isMoving()) serveAndSleep();
   if (moved) settle();
   return !stopping_;
 }
@@ -48,7 +53,7 @@ void Machine::settle() {
     for (uint8_t i = 0; i < kAxisCount; ++i)
       is_near = is_near && float(fabs(axes_.error(Axis(i)))) < kNear;
     if (is_near) return;
-    service();
+    serveAndSleep();
   }
 }
 
@@ -95,7 +100,7 @@ void Machine::stopNow() {
 }
 
 void Machine::finishStop() {
-  while (isMoving()) service();
+  while (isMoving()) serveAndSleep();
   // A new stop may come meanwhile; it is answered, and this one goes on.
   stopping_ = false;
   if (isHalted()) {
@@ -182,7 +187,7 @@ void Machine::noteHang() {
 bool Machine::wakeMotors() {
   if (!axes_.isPowered()) {
     keeper_.beginMoving();
-    while (!stopping_ && !keeper_.mayMove()) service();
+    while (!stopping_ && !keeper_.mayMove()) serveAndSleep();
   }
   if (!stopping_) axes_.follow();
   keeper_.endWait();

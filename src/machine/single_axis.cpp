@@ -10,7 +10,7 @@ bool Machine::moveAxis(Axis axis, float goal, float feed, bool until_probe) {
   bool touched = false;
   while (isMoving() && !touched && !isHalted()) {
     touched = until_probe && aux_.probeTouches();
-    service();
+    serveAndSleep();
   }
   const float touched_at = axes_.length(axis);
   if (touched) {

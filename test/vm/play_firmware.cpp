@@ -215,6 +215,7 @@ class Player {
     std::printf("tick_share_%s %.4f\n", when, board.tickShare());
     std::printf("longest_tick_%s %ld\n", when, board.longestTick());
     std::printf("ticks_per_second_%s %.2f\n", when, board.ticksPerSecond());
+    std::printf("sleep_share_%s %.4f\n", when, board.sleepShare());
   }
 
   /// Moves of so many mm as fast as they are acknowledged, 126 characters ahead; tells how fast.

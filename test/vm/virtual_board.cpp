@@ -7,7 +7,8 @@ namespace vm {
 namespace {
 
 const avr_cycle_count_t kPerCharacter = 10 * 16 * 17;  // 58,824 baud, ten bits
-const avr_cycle_count_t kSlice = 500;
+// Nothing that is looked at between two runs of the simulator is later than this.
+const avr_cycle_count_t kMostAtOnce = 500;
 const uint8_t kPaint = 0xa5;
 const uint16_t kOutlivesReset = 16;  // [bytes] above .bss at most, for variables that nobody clears
 
@@ -41,16 +42,31 @@ const PinPlace& placeOf(int pin) {
 
 const uint16_t kWdtcsr = 0x60, kMcusr = 0x54;
 const uint16_t kFirstTimerMask = 0x6e, kLastTimerMask = 0x73;  // TIMSK0 to TIMSK5
+const uint16_t kTickMask = 0x6f;                               // TIMSK1
+const uint8_t kTickBit = 2;                                    // OCIE1A
+const avr_flashaddr_t kTickVector = 17 * 4;
 
 /// A flag that is set while its interrupt is masked interrupts as soon as the mask allows it;
 /// simavr forgets it.
-void raiseWaiting(avr_t* avr, avr_io_addr_t mask_address, uint8_t mask, void*) {
-  avr->data[mask_address] = mask;
+void raiseWaiting(avr_t* avr, avr_io_addr_t mask_address) {
   for (int i = 0; i < avr->interrupts.vector_count; ++i) {
     avr_int_vector_t* const vector = avr->interrupts.vector[i];
     const bool waits = vector->enable.reg == mask_address && vector->raised.reg != 0 &&
                        avr_regbit_get(avr, vector->enable) && avr_regbit_get(avr, vector->raised);
     if (waits && !vector->pending) avr_raise_interrupt(avr, vector);
+  }
+}
+
+/// simavr does not know phase-correct PWM and lets such a timer overflow with every count, a
+/// hundred thousand times a second. Nobody here asks such a timer for more than its duty.
+void slowDownPhaseCorrectTimers(avr_t* avr) {
+  const int kPhaseCorrect8Bit = 1;
+  for (avr_io_t* part = avr->io_port; part != nullptr; part = part->next) {
+    if (std::strcmp(part->kind, "timer") != 0) continue;
+    avr_timer_wgm_t& mode = reinterpret_cast<avr_timer_t*>(part)->wgm_op[kPhaseCorrect8Bit];
+    if (mode.kind != avr_timer_wgm_none) continue;
+    mode.kind = avr_timer_wgm_normal;
+    mode.size = 16;
   }
 }
 
@@ -64,11 +80,14 @@ VirtualBoard::VirtualBoard(const std::string& elf) {
   data_end_ = uint16_t(kRamBegin + firmware.datasize + firmware.bsssize);
   avr_ = avr_make_mcu_by_name("atmega2560");
   avr_init(avr_);
+  slowDownPhaseCorrectTimers(avr_);
   avr_->frequency = kClock;
   setSupply(5);
   avr_load_firmware(avr_, &firmware);
   for (uint16_t mask = kFirstTimerMask; mask <= kLastTimerMask; ++mask)
-    avr_register_io_write(avr_, mask, raiseWaiting, nullptr);
+    avr_register_io_write(avr_, mask, onTimerMask, this);
+  avr_->custom.data = this;
+  avr_->sleep = onSleep;
   uint32_t flags = 0;
   avr_ioctl(avr_, AVR_IOCTL_UART_GET_FLAGS('0'), &flags);
   flags &= ~uint32_t(AVR_UART_FLAG_STDIO | AVR_UART_FLAG_POLL_SLEEP);
@@ -89,31 +108,49 @@ void VirtualBoard::onCharacter(avr_irq_t*, uint32_t value, void* parameter) {
   }
 }
 
-void VirtualBoard::passCharacters() {
-  if (to_send_.empty() || avr_->cycle < next_character_) return;
-  const uint8_t character = uint8_t(to_send_.front());
-  to_send_.erase(0, 1);
-  next_character_ = avr_->cycle + kPerCharacter;
-  avr_raise_irq(wire_in_, character);
+void VirtualBoard::onSleep(avr_t* avr, avr_cycle_count_t cycles) {
+  static_cast<VirtualBoard*>(avr->custom.data)->asleep_ += cycles;
 }
+
+void VirtualBoard::send(const std::string& characters) {
+  if (characters.empty()) return;
+  const bool is_under_way = !to_send_.empty();
+  to_send_ += characters;
+  if (!is_under_way) awaitNextCharacter();
+}
+
+void VirtualBoard::awaitNextCharacter() {
+  const avr_cycle_count_t now = avr_->cycle;
+  avr_cycle_timer_register(avr_, std::max(next_character_, now + 1) - now, onNextCharacter, this);
+}
+
+avr_cycle_count_t VirtualBoard::onNextCharacter(avr_t* avr, avr_cycle_count_t, void* parameter) {
+  VirtualBoard& board = *static_cast<VirtualBoard*>(parameter);
+  const uint8_t character = uint8_t(board.to_send_.front());
+  board.to_send_.erase(0, 1);
+  board.next_character_ = avr->cycle + kPerCharacter;
+  avr_raise_irq(board.wire_in_, character);
+  return board.to_send_.empty() ? 0 : board.next_character_;
+}
+
+avr_cycle_count_t VirtualBoard::onEndOfRun(avr_t*, avr_cycle_count_t, void*) { return 0; }
 
 void VirtualBoard::run(avr_cycle_count_t cycles) {
   const avr_cycle_count_t end = avr_->cycle + cycles;
-  while (avr_->cycle < end) {
-    const avr_cycle_count_t slice = avr_->cycle + kSlice;
-    while (avr_->cycle < slice) step();
-    passCharacters();
-  }
+  // Neither a burst of instructions nor a sleep goes past a timer.
+  avr_cycle_timer_register(avr_, cycles, onEndOfRun, this);
+  while (avr_->cycle < end) step(kMostAtOnce);
 }
 
-void VirtualBoard::step() {
-  const avr_cycle_count_t before = avr_->cycle;
+void VirtualBoard::step(avr_cycle_count_t most_cycles) {
+  if (avr_->run_cycle_limit != most_cycles) avr_->run_cycle_limit = avr_->run_cycle_count = 1;
   // Below zero simavr waits; the program's flag is left alone, as it saves and restores that.
   if (are_interrupts_held_) avr_->interrupt_state = -10;
   const int state = avr_run(avr_);
-  watchTick(before);
+  avr_->run_cycle_limit = most_cycles;
+  noteTick();
   watchWatchdog();
-  if (avr_->pc == 0) pullAgain();
+  if (avr_->pc == 0) restoreOutside();
   if (state == cpu_Done || state == cpu_Crashed) throw std::runtime_error("the board crashed");
 }
 
@@ -135,7 +172,7 @@ void VirtualBoard::runUntil(bool in_tick) {
   // With interrupts on: not in the middle of another one.
   while (was_ticking_ != in_tick || !avr_->sreg[S_I]) {
     if (avr_->cycle > patience) throw std::runtime_error("no tick came, or it did not end");
-    step();
+    step(1);
   }
 }
 
@@ -157,7 +194,7 @@ void VirtualBoard::wake(double ms_after_tick) {
   const avr_flashaddr_t circle = avr_->pc;
   runMs(ms_after_tick);
   // Not out of an interrupt.
-  while (avr_->pc != circle) step();
+  while (avr_->pc != circle) step(1);
   avr_->pc = hung_at_;
 }
 
@@ -177,18 +214,28 @@ void VirtualBoard::stopTickTimer() {
   write.c(avr_, kTccr1b, avr_->data[kTccr1b] & 0xf8, write.param);
 }
 
-void VirtualBoard::watchTick(avr_cycle_count_t before) {
-  const uint16_t kTimsk1 = 0x6f;
-  const uint32_t kTickVector = 17 * 4;
-  // From the jump in the table of vectors until its interrupt is allowed again.
-  const bool ticking = avr_->pc == kTickVector || (was_ticking_ && !tick_is_over_);
-  if (avr_->pc == kTickVector) tick_is_over_ = false, tick_masked_ = false;
-  if (ticking && !(avr_->data[kTimsk1] & 2)) tick_masked_ = true;
-  if (tick_masked_ && (avr_->data[kTimsk1] & 2)) tick_is_over_ = true;
-  if (ticking) in_tick_ += avr_->cycle - before;
-  if (ticking && !was_ticking_) tick_since_ = before, ++ticks_;
-  if (!ticking && was_ticking_) longest_tick_ = std::max(longest_tick_, avr_->cycle - tick_since_);
-  was_ticking_ = ticking;
+void VirtualBoard::noteTick() {
+  if (avr_->pc != kTickVector) return;
+  tick_since_ = avr_->cycle;
+  ++ticks_;
+  was_ticking_ = true;
+  is_tick_masked_ = false;
+}
+
+void VirtualBoard::onTimerMask(avr_t* avr, avr_io_addr_t address, uint8_t mask, void* parameter) {
+  VirtualBoard& board = *static_cast<VirtualBoard*>(parameter);
+  avr->data[address] = mask;
+  if (address == kTickMask) board.noteTickMask(mask & kTickBit);
+  raiseWaiting(avr, address);
+}
+
+void VirtualBoard::noteTickMask(bool is_allowed) {
+  if (!is_allowed) is_tick_masked_ = true;
+  if (!was_ticking_ || !is_tick_masked_ || !is_allowed) return;
+  was_ticking_ = false;
+  const avr_cycle_count_t cycles = avr_->cycle - tick_since_;
+  in_tick_ += cycles;
+  longest_tick_ = std::max(longest_tick_, cycles);
 }
 
 void VirtualBoard::setPin(int pin, bool high) {
@@ -209,9 +256,10 @@ void VirtualBoard::pull(char port, uint8_t mask, uint8_t levels) {
   avr_ioctl(avr_, AVR_IOCTL_IOPORT_SET_EXTERNAL(port), &outside);
 }
 
-void VirtualBoard::pullAgain() {
+void VirtualBoard::restoreOutside() {
   ++resets_;
   are_interrupts_held_ = false;
+  if (!to_send_.empty()) awaitNextCharacter();
   for (const char port : {'A', 'B', 'C', 'D', 'E', 'F', 'G', 'H', 'J', 'K', 'L'})
     for (int bit = 0; bit < 8; ++bit) {
       avr_irq_t* const pin = avr_io_getirq(avr_, AVR_IOCTL_IOPORT_GETIRQ(port), bit);

@@ -3,6 +3,7 @@
 
 #include <simavr/avr_eeprom.h>
 #include <simavr/avr_ioport.h>
+#include <simavr/avr_timer.h>
 #include <simavr/avr_uart.h>
 #include <simavr/sim_avr.h>
 #include <simavr/sim_elf.h>
@@ -42,7 +43,7 @@ class VirtualBoard {
   void runMs(double ms) { run(avr_cycle_count_t(ms * kClock / 1000)); }
 
   /// Puts characters on the wire to the board; they go as fast as it takes them.
-  void send(const std::string& characters) { to_send_ += characters; }
+  void send(const std::string& characters);
   /// Whether a status report has just begun, so that the main program is busy with it.
   bool reports() const { return partial_ == "<"; }
   bool hasSent() const { return to_send_.empty(); }
@@ -87,7 +88,7 @@ class VirtualBoard {
   /// interrupt off while it runs. Other interrupts in between count.
   double tickShare() const { return double(in_tick_) / double(avr_->cycle - watched_from_); }
   void watchTicksFromNow() {
-    in_tick_ = longest_tick_ = 0;
+    in_tick_ = longest_tick_ = asleep_ = 0;
     ticks_ = 0;
     watched_from_ = avr_->cycle;
   }
@@ -96,22 +97,32 @@ class VirtualBoard {
     return ticks_ * double(kClock) / double(avr_->cycle - watched_from_);
   }
 
+  /// Share of that time in which the processor slept.
+  double sleepShare() const { return double(asleep_) / double(avr_->cycle - watched_from_); }
+
   double seconds() const { return double(avr_->cycle) / kClock; }
   avr_t* avr() { return avr_; }
 
  private:
   /// Levels from outside that hold pins of a port, whatever is written to it.
   void pull(char port, uint8_t mask, uint8_t levels);
-  /// After a reset, which simavr lets clear the inputs, too.
-  void pullAgain();
+  /// After a reset, which simavr lets clear the inputs and its timers, too.
+  void restoreOutside();
   static void onEdge(avr_irq_t*, uint32_t value, void* note);
+  /// Time passes without being waited for.
+  static void onSleep(avr_t*, avr_cycle_count_t cycles);
   static void onCharacter(avr_irq_t*, uint32_t value, void* board);
-  void passCharacters();
-  void step();
+  void awaitNextCharacter();
+  static avr_cycle_count_t onNextCharacter(avr_t*, avr_cycle_count_t, void* board);
+  static avr_cycle_count_t onEndOfRun(avr_t*, avr_cycle_count_t, void*);
+  static void onTimerMask(avr_t*, avr_io_addr_t address, uint8_t mask, void* board);
+  /// Runs at most so many cycles and an instruction, up to the next interrupt or timer.
+  void step(avr_cycle_count_t most_cycles);
   void runUntil(bool in_tick);
   /// simavr never resets while the watchdog's interrupt waits.
   void watchWatchdog();
-  void watchTick(avr_cycle_count_t before);
+  void noteTick();
+  void noteTickMask(bool is_allowed);
 
   avr_t* avr_;
   avr_irq_t* wire_in_;
@@ -122,10 +133,11 @@ class VirtualBoard {
   uint16_t data_end_;
   avr_flashaddr_t hung_at_ = 0;
   avr_cycle_count_t in_tick_ = 0, longest_tick_ = 0, tick_since_ = 0, watched_from_ = 0;
+  avr_cycle_count_t asleep_ = 0;
   avr_cycle_count_t bitten_since_ = 0;
   int ticks_ = 0, resets_ = 0;
   bool are_interrupts_held_ = false;
-  bool was_ticking_ = false, tick_masked_ = false, tick_is_over_ = true;
+  bool was_ticking_ = false, is_tick_masked_ = false;
 };
 
 }  // namespace vm

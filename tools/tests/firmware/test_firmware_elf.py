@@ -105,6 +105,11 @@ def test_the_control_tick_leaves_88_percent_with_three_axes_in_motion(hard):
     assert hard["tick_share_streaming"] <= 0.12
 
 
+def test_the_processor_sleeps_where_the_main_program_waits(hard):
+    # Half of the time, with three motors' encoders turning.
+    assert hard["sleep_share_moving"] >= 0.45
+
+
 def test_the_firmware_tells_how_it_is_doing(hard):
     # The last of two questions: since the one before.
     longest_us = hard["longest_tick_streaming"] / 16
