@@ -80,18 +80,20 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.without:
         marks = without_marks(inputs.measurements, arguments.without)
         inputs = replace(inputs, measurements=marks)
-    told = {
-        "cut_with": inputs.cut_with,
-        "controller": arguments.controller,
-        "priors": priors_with(arguments.prior),
-        "sigma": arguments.sigma,
-    }
-    told["patch"] = arguments.patch
     if not arguments.effect and not arguments.patch:
         raise InputError("nothing to add: name effects with --effect, or give --effect auto")
     if "auto" in arguments.effect:
-        return _run_auto(arguments, inputs, told)
-    result = add(inputs.settings, inputs.measurements, effects=arguments.effect, **told)
+        return _run_auto(arguments, inputs)
+    result = add(
+        inputs.settings,
+        inputs.measurements,
+        effects=arguments.effect,
+        cut_with=inputs.cut_with,
+        controller=arguments.controller,
+        priors=priors_with(arguments.prior),
+        sigma=arguments.sigma,
+        patch=arguments.patch,
+    )
     files, unsaid = _written(arguments, inputs, result)
     if arguments.json:
         print_json({**as_json(result), "written": files, "unsaid": unsaid})
@@ -101,16 +103,25 @@ def run(arguments: argparse.Namespace) -> int:
     return int(not result.pays)
 
 
-def _run_auto(arguments: argparse.Namespace, inputs: Inputs, told: dict[str, Any]) -> int:
+def _run_auto(arguments: argparse.Namespace, inputs: Inputs) -> int:
     if len(arguments.effect) > 1:
-        raise InputError("--effect auto finds the effects itself; name no others beside it")
-    result = add_auto(inputs.settings, inputs.measurements, **told)
-    files, unsaid = [], []
+        raise InputError("--effect auto finds the effects itself; name no others with it")
+    result = add_auto(
+        inputs.settings,
+        inputs.measurements,
+        cut_with=inputs.cut_with,
+        controller=arguments.controller,
+        priors=priors_with(arguments.prior),
+        sigma=arguments.sigma,
+        patch=arguments.patch,
+    )
+    files: list[str] = []
+    unsaid: list[str] = []
     if result.addition:
         files, unsaid = _written(arguments, inputs, result.addition)
     if arguments.json:
-        own = as_json(result.addition) if result.addition else {}
-        print_json({**own, "auto": auto_json(result), "written": files, "unsaid": unsaid})
+        addition = as_json(result.addition) if result.addition else {}
+        print_json({**addition, "auto": auto_json(result), "written": files, "unsaid": unsaid})
     else:
         print(auto_text(result))
         _print_written(files, unsaid)
@@ -130,7 +141,7 @@ def _written(
 
 
 def _refuse_sketches(arguments: argparse.Namespace, result: Addition) -> None:
-    """A machine.toml that leaves out what was fitted along would be a silent lie."""
+    """Refuse to write settings without a sketch that was fitted with them."""
     for name in filter(is_sketch, result.after_fit.lab_effects):
         for option, path in (
             ("-o", arguments.output),
@@ -172,7 +183,7 @@ def _files(arguments: argparse.Namespace, inputs: Inputs, result: Addition) -> d
             raise refusal(
                 arguments.groundcontrol,
                 "needs a groundcontrol.ini whose other keys it keeps",
-                remedy="give one as SETTINGS or with --cut-with",
+                remedy="give it as SETTINGS or with --cut-with",
             )
         files[arguments.groundcontrol] = ini_of(result, original)
     if arguments.picture:
@@ -203,7 +214,7 @@ def ini_of(result: Addition, original: str) -> bytes:
 
 def unsaid_of(result: Addition) -> list[str]:
     """What a groundcontrol.ini cannot hold."""
-    return [one.sentence for one in groundcontrol_changes(result.settings).unsaid]
+    return [loss.sentence for loss in groundcontrol_changes(result.settings).unsaid]
 
 
 def panels_of(result: Addition) -> list[Panel]:
@@ -220,35 +231,35 @@ def panels_of(result: Addition) -> list[Panel]:
     ]
 
 
-def as_json(result: Addition) -> dict[str, Any]:
+def as_json(addition: Addition) -> dict[str, Any]:
     """The addition by the names of the interface."""
     return {
         "raw": {
-            "rms_mm": result.raw.rms,
-            "worst_mm": result.raw.worst,
-            "shape_rms_mm": result.raw.shape_rms,
+            "rms_mm": addition.raw.rms,
+            "worst_mm": addition.raw.worst,
+            "shape_rms_mm": addition.raw.shape_rms,
         },
-        "before": _quality_json(result.before),
-        "after": _quality_json(result.after),
+        "before": _quality_json(addition.before),
+        "after": _quality_json(addition.after),
         "steps": [
-            {"effect": one.effect, "only_fit": one.only_fit, **_quality_json(one.quality)}
-            for one in result.steps
+            {"effect": step.effect, "only_fit": step.only_fit, **_quality_json(step.quality)}
+            for step in addition.steps
         ],
-        "parameters": [_parameter_json(one) for one in result.parameters],
-        "effects_added": result.effects_added,
-        "effects": result.settings.effects,
-        "lab_effects": result.after_fit.lab_effects,
-        "cures": result.cures,
-        "frame": result.settings.frame,
-        "sheet_rotation": result.after_fit.sheet_rotation,
-        "sheet_rise_mm": result.sheet_rise,
-        "sigma_mm": result.after_fit.sigma,
-        "sigma_from": result.after_fit.sigma_from,
+        "parameters": [_parameter_json(parameter) for parameter in addition.parameters],
+        "effects_added": addition.effects_added,
+        "effects": addition.settings.effects,
+        "lab_effects": addition.after_fit.lab_effects,
+        "cures": addition.cures,
+        "frame": addition.settings.frame,
+        "sheet_rotation": addition.after_fit.sheet_rotation,
+        "sheet_rise_mm": addition.sheet_rise,
+        "sigma_mm": addition.after_fit.sigma,
+        "sigma_from": addition.after_fit.sigma_from,
         "benchmark": {
-            "before": score_json(result.raw.benchmark),
-            "after": score_json(result.benchmark_after),
+            "before": score_json(addition.raw.benchmark),
+            "after": score_json(addition.benchmark_after),
         },
-        "warnings": result.warnings,
+        "warnings": addition.warnings,
     }
 
 
@@ -258,7 +269,7 @@ def auto_json(result: AutoAddition) -> dict[str, Any]:
         "verdict": result.found.verdict,
         "chosen": result.chosen,
         "rivals": result.rivals,
-        "slips": [one.name for one in result.found.slips],
+        "slips": [slip.name for slip in result.found.slips],
         "reason": result.reason,
         "settled_by": result.settled_by,
         "patch_offer_mm": result.offer,
@@ -275,15 +286,15 @@ def _quality_json(quality: Quality) -> dict[str, Any]:
     }
 
 
-def _parameter_json(one: Parameter) -> dict[str, Any]:
+def _parameter_json(parameter: Parameter) -> dict[str, Any]:
     return {
-        "name": one.name,
-        "value": one.value,
-        "low": one.low,
-        "high": one.high,
-        "unit": one.unit,
-        "before": one.before,
-        "prior_sigma": one.prior_sigma,
-        "possible": one.plausible_range.limits,
-        "plausible": one.plausible,
+        "name": parameter.name,
+        "value": parameter.value,
+        "low": parameter.low,
+        "high": parameter.high,
+        "unit": parameter.unit,
+        "before": parameter.before,
+        "prior_sigma": parameter.prior_sigma,
+        "possible": parameter.plausible_range.limits,
+        "plausible": parameter.plausible,
     }

@@ -10,27 +10,29 @@ from plumb.fit.patch import PATCH
 
 
 def auto_text(result: AutoAddition) -> str:
-    """What was found and chosen, for people, then the addition."""
+    """The diagnosis and the choice for people, then the addition."""
     said = [sentences([verdict_sentence(result.found)], mark="")]
-    said += [sentences([one.sentence for one in result.found.slips])] if result.found.slips else []
+    said += (
+        [sentences([slip.sentence for slip in result.found.slips])] if result.found.slips else []
+    )
     reason = result.reason[0].upper() + result.reason[1:] + "."
     said.append(sentences([reason], mark=""))
     if result.settled_by:
         said.append("To be sure which it is:\n" + sentences(result.settled_by))
     if result.offer:
-        said.append(sentences([_offer_sentence(result)], mark=""))
+        added = result.addition is not None and PATCH in result.addition.effects_added
+        said.append(sentences([_offer_sentence(*result.offer, added=added)], mark=""))
     if result.addition:
         said.append(as_text(result.addition))
     return "\n\n".join(said)
 
 
-def _offer_sentence(result: AutoAddition) -> str:
+def _offer_sentence(without: float, with_patch: float, *, added: bool) -> str:
     """What a residual patch would buy, or has bought."""
-    without, with_it = result.offer
-    if with_it >= without:
+    if with_patch >= without:
         return f"A residual patch would buy nothing ({without:.2f} mm for marks left out)."
-    bought = f"{without:.2f} to {with_it:.2f} mm for marks left out"
-    if PATCH in result.addition.effects_added:
+    bought = f"{without:.2f} to {with_patch:.2f} mm for marks left out"
+    if added:
         return f"The residual patch bought {bought}."
     return f"A residual patch (--patch) would buy {bought}. {PATCH_WARNING}"
 
@@ -92,30 +94,37 @@ def turn_sentence(result: Addition) -> str:
 
 def _quality_table(result: Addition) -> str:
     raw = result.raw
-    rows = [["as the settings are", raw.rms, None, None, raw.worst, raw.shape_rms]]
+    start = (raw.rms, None, None, raw.worst, raw.shape_rms)
+    rows = [["as the settings are", *map(millimetres, start)]]
     named = [("frame fitted", result.before)]
-    named += [(f"+ {one.effect}", one.quality) for one in result.steps]
-    for name, own in named:
-        rows.append([name, own.fit_rms, own.priced_rms, own.left_out_rms, own.worst, own.shape_rms])
-    header = ["error in mm", "RMS", "priced", "left out", "worst", "shape"]
-    return table(header, [[name, *map(millimetres, values)] for name, *values in rows])
+    named += [(f"+ {step.effect}", step.quality) for step in result.steps]
+    for name, quality in named:
+        errors = (
+            quality.fit_rms,
+            quality.priced_rms,
+            quality.left_out_rms,
+            quality.worst,
+            quality.shape_rms,
+        )
+        rows.append([name, *map(millimetres, errors)])
+    return table(["error in mm", "RMS", "priced", "left out", "worst", "shape"], rows)
 
 
 def _parameter_table(result: Addition) -> str:
     rows = []
-    for one in result.parameters:
-        if one.of_patch:
+    for parameter in result.parameters:
+        if parameter.of_patch:
             continue
-        trusted = "free" if one.prior_sigma is None else number(one.prior_sigma)
+        trusted = "free" if parameter.prior_sigma is None else number(parameter.prior_sigma)
         rows.append(
             [
-                one.name,
-                number(one.value),
-                f"{number(one.low)} .. {number(one.high)}",
-                number(one.before),
+                parameter.name,
+                number(parameter.value),
+                f"{number(parameter.low)} .. {number(parameter.high)}",
+                number(parameter.before),
                 trusted,
-                one.unit,
-                "" if one.plausible else "impossible",
+                parameter.unit,
+                "" if parameter.plausible else "impossible",
             ]
         )
     return table(["number", "value", "interval", "before", "trusted to", "unit", ""], rows)

@@ -79,13 +79,15 @@ def run(arguments: argparse.Namespace) -> int:
 def chosen_of(names: Sequence[str]) -> tuple[Scenario, ...]:
     """The scenarios of these names or beginnings of names; all if there are none."""
     for name in names:
-        if not any(own.startswith(name) for own in NAMES):
+        if not any(known.startswith(name) for known in NAMES):
             raise InputError(
                 f"--scenario {name}: there is no scenario of that name; known are "
                 f"{', '.join(NAMES)}"
             )
     return tuple(
-        one for one in SCENARIOS if not names or any(one.name.startswith(own) for own in names)
+        scenario
+        for scenario in SCENARIOS
+        if not names or any(scenario.name.startswith(known) for known in names)
     )
 
 
@@ -172,16 +174,16 @@ def as_json(report: Report) -> dict[str, Any]:
         ],
         "errors_mm": [
             {
-                "scenario": one.scenario,
-                "boards": one.boards,
-                "before": one.before,
-                "frame": one.frame,
-                "after": one.after,
-                "known": one.known,
-                "ratio": one.ratio.value,
-                "ratio_error": one.error,
+                "scenario": cure.scenario,
+                "boards": cure.boards,
+                "before": cure.before,
+                "frame": cure.frame,
+                "after": cure.after,
+                "known": cure.known,
+                "ratio": cure.ratio.value,
+                "ratio_error": cure.error,
             }
-            for one in report.cures
+            for cure in report.cures
         ],
         "missed": [f"{row.scenario.name}: {row.rate.name}" for row in report.missed]
         + ["error at the sled"] * (report.cure_judged == "missed"),

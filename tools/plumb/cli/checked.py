@@ -26,30 +26,30 @@ def add_checked(parser: argparse.ArgumentParser) -> None:
 
 
 def checked(text: str) -> Checked:
-    """One NAME=VALUE+-SIGMA."""
+    """Reads NAME=VALUE+-SIGMA."""
     name, _, numbers = text.partition("=")
     value, _, sigma = re.sub("±", "+-", numbers).partition("+-")
     try:
-        found = Checked(name.strip(), float(value), float(sigma))
+        check = Checked(name.strip(), float(value), float(sigma))
     except ValueError:
-        found = None
-    if not (found and math.isfinite(found.value) and math.isfinite(found.sigma)):
+        check = Checked(name, math.nan, math.nan)
+    if not (math.isfinite(check.value) and math.isfinite(check.sigma)):
         raise argparse.ArgumentTypeError(f"'{text}' is not like motor_gap=2978.4+-1")
-    if found.sigma <= 0:
+    if check.sigma <= 0:
         raise argparse.ArgumentTypeError(f"'{text}': a sigma is above zero")
-    return found
+    return check
 
 
 def usable_checks(checks: list[Checked], priors: dict[str, float]) -> list[Checked]:
     """The checks, if each is of a number that is fitted here."""
     known = [*parameter_words(), *(name for name, sigma in priors.items() if sigma > 0)]
-    for one in checks:
-        if one.name not in known:
+    for check in checks:
+        if check.name not in known:
             frame = ", ".join(name for name in PRIORS)
             raise InputError(
-                f"--checked {one.name}: no such number is fitted; give a parameter as plumb "
+                f"--checked {check.name}: no such number is fitted; give a parameter as plumb "
                 f"effects names it, like tape_scale.strain, or of the frame {frame}"
             )
-    if len({one.name for one in checks}) < len(checks):
+    if len({check.name for check in checks}) < len(checks):
         raise InputError("--checked: a number is given twice; give the mean of both")
     return checks

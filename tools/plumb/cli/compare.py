@@ -36,7 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Compare, print, and return the exit code."""
     inputs = inputs_of(arguments)
-    found = compare(
+    comparison = compare(
         inputs.settings,
         inputs.measurements,
         cut_with=inputs.cut_with,
@@ -44,36 +44,38 @@ def run(arguments: argparse.Namespace) -> int:
     )
     if arguments.picture:
         form = picture_form(arguments.picture)
-        drawn = draw([panel_of(found)], sheet=inputs.settings.sheet, form=form)
+        drawn = draw([panel_of(comparison)], sheet=inputs.settings.sheet, form=form)
         write_outputs({arguments.picture: drawn}, inputs=[arguments.settings, *arguments.marks])
     if arguments.json:
-        print_json(as_json(found))
+        print_json(as_json(comparison))
     else:
-        print(as_text(found, sheet_width=inputs.settings.sheet_width))
-    return int(arguments.limit is not None and found.rms > arguments.limit)
+        print(as_text(comparison, sheet_width=inputs.settings.sheet_width))
+    return int(arguments.limit is not None and comparison.rms > arguments.limit)
 
 
-def panel_of(found: Comparison, *, when: str = "As the settings are", good: bool = False) -> Panel:
+def panel_of(
+    comparison: Comparison, *, when: str = "As the settings are", good: bool = False
+) -> Panel:
     """The comparison as a panel of a picture."""
-    if not found.marks:
+    if not comparison.marks:
         raise InputError("--picture: there are distances only, so no errors to draw on a sheet")
     return Panel(
-        title=f"{when}: {about(found.rms)} mm RMS, worst {about(found.worst)} mm",
-        predicted=np.array([mark.predicted for mark in found.marks]),
-        errors=np.array([mark.error for mark in found.marks]),
+        title=f"{when}: {about(comparison.rms)} mm RMS, worst {about(comparison.worst)} mm",
+        predicted=np.array([mark.predicted for mark in comparison.marks]),
+        errors=np.array([mark.error for mark in comparison.marks]),
         good=good,
     )
 
 
-def as_json(found: Comparison) -> dict[str, Any]:
+def as_json(comparison: Comparison) -> dict[str, Any]:
     """The comparison by the names of the interface."""
     return {
-        "rms_mm": found.rms,
-        "worst_mm": found.worst,
-        "shape_rms_mm": found.shape_rms,
-        "distance_rms_mm": found.distance_rms,
-        "shift": found.shift,
-        "rotation": found.rotation,
+        "rms_mm": comparison.rms,
+        "worst_mm": comparison.worst,
+        "shape_rms_mm": comparison.shape_rms,
+        "distance_rms_mm": comparison.distance_rms,
+        "shift": comparison.shift,
+        "rotation": comparison.rotation,
         "marks": [
             {
                 "name": mark.name,
@@ -84,30 +86,30 @@ def as_json(found: Comparison) -> dict[str, Any]:
                 "left_chain_residual": mark.left_chain_residual,
                 "right_chain_residual": mark.right_chain_residual,
             }
-            for mark in found.marks
+            for mark in comparison.marks
         ],
         "distances": [
             {
-                "between": one.between,
-                "predicted": one.predicted,
-                "measured": one.measured,
-                "error": one.error,
+                "between": distance.between,
+                "predicted": distance.predicted,
+                "measured": distance.measured,
+                "error": distance.error,
             }
-            for one in found.distances
+            for distance in comparison.distances
         ],
         "rounds": [
             {
-                "name": one.name,
-                "date": one.date,
-                "count": one.count,
-                "rms_mm": one.rms,
-                "distance_rms_mm": one.distance_rms,
+                "name": cut.name,
+                "date": cut.date,
+                "count": cut.count,
+                "rms_mm": cut.rms,
+                "distance_rms_mm": cut.distance_rms,
             }
-            for one in found.rounds
+            for cut in comparison.rounds
         ],
-        "benchmark": score_json(found.benchmark),
-        "benchmark_left": score_json(found.benchmark_left),
-        "warnings": found.warnings,
+        "benchmark": score_json(comparison.benchmark),
+        "benchmark_left": score_json(comparison.benchmark_left),
+        "warnings": comparison.warnings,
     }
 
 
@@ -123,78 +125,79 @@ def score_json(score: Score | None) -> dict[str, Any] | None:
     }
 
 
-def as_text(found: Comparison, *, sheet_width: float) -> str:
+def as_text(comparison: Comparison, *, sheet_width: float) -> str:
     """The comparison for people, its conclusion first."""
-    parts = [_conclusion(found, sheet_width)]
-    if found.benchmark:
-        parts.append(sentences([benchmark_sentence(found)], mark=""))
-    if found.warnings:
-        parts.append(sentences(found.warnings))
-    if found.rounds:
-        parts.append(_rounds_table(found))
-    if found.marks:
-        parts.append(_marks_table(found))
+    parts = [_conclusion(comparison, sheet_width)]
+    if comparison.benchmark:
+        score = benchmark_sentence(comparison.benchmark, comparison.benchmark_left)
+        parts.append(sentences([score], mark=""))
+    if comparison.warnings:
+        parts.append(sentences(comparison.warnings))
+    if comparison.rounds:
+        parts.append(_rounds_table(comparison))
+    if comparison.marks:
+        parts.append(_marks_table(comparison))
         parts.append(
             "Error: measured - predicted. Chains: how much more of each the measured place needs\n"
             "than was paid out. All in mm; from the middle of the sheet, x right, y up."
         )
-    if found.distances:
+    if comparison.distances:
         rows = [
             [
-                " - ".join(one.between),
-                millimetres(one.predicted),
-                millimetres(one.measured),
-                signed(one.error),
+                " - ".join(distance.between),
+                millimetres(distance.predicted),
+                millimetres(distance.measured),
+                signed(distance.error),
             ]
-            for one in found.distances
+            for distance in comparison.distances
         ]
         parts.append(table(["distance", "predicted", "measured", "error"], rows))
     return "\n\n".join(parts)
 
 
-def benchmark_sentence(found: Comparison) -> str:
+def benchmark_sentence(score: Score, left: Score | None) -> str:
     """The community's score for people."""
-    part = "" if found.benchmark.complete else " (of a part of its readings)"
+    part = "" if score.complete else " (of a part of its readings)"
     return (
-        f"Calibration Benchmark Score{part}: {found.benchmark} as cut (mean error of the long "
-        f"spans and of the 100 mm squares); these settings leave {found.benchmark_left} open."
+        f"Calibration Benchmark Score{part}: {score} as cut (mean error of the long "
+        f"spans and of the 100 mm squares); these settings leave {left} open."
     )
 
 
-def _conclusion(found: Comparison, sheet_width: float) -> str:
-    if not found.marks:
-        worst = max(found.distances, key=lambda one: abs(one.error))
+def _conclusion(comparison: Comparison, sheet_width: float) -> str:
+    if not comparison.marks:
+        farthest = max(comparison.distances, key=lambda distance: abs(distance.error))
         return (
-            f"The distances are {found.rms:.2f} mm RMS from what the settings predict, "
-            f"worst {found.worst:.2f} mm ({' - '.join(worst.between)})."
+            f"The distances are {comparison.rms:.2f} mm RMS from what the settings predict, "
+            f"worst {comparison.worst:.2f} mm ({' - '.join(farthest.between)})."
         )
-    worst = max(found.marks, key=lambda mark: mark.length)
+    worst = max(comparison.marks, key=lambda mark: mark.length)
     lines = [
-        f"The marks lie {found.rms:.2f} mm RMS from where the settings predict them, "
-        f"worst {found.worst:.2f} mm (mark {worst.name})."
+        f"The marks lie {comparison.rms:.2f} mm RMS from where the settings predict them, "
+        f"worst {comparison.worst:.2f} mm (mark {worst.name})."
     ]
-    if found.shape_rms is not None:
-        rise = np.tan(found.rotation) * sheet_width
+    shape, shift, rotation = comparison.shape_rms, comparison.shift, comparison.rotation
+    if shape is not None and shift is not None and rotation is not None:
+        rise = np.tan(rotation) * sheet_width
         lines.append(
-            f"{found.shape_rms:.2f} mm RMS of that is shape: it stays when all marks together are "
-            "shifted\n"
-            f"(x {found.shift[0]:+.2f}, y {found.shift[1]:+.2f} mm) and turned ({rise:+.2f} mm over"
-            " the sheet's width)."
+            f"{shape:.2f} mm RMS of that is shape: it stays when all marks together are shifted\n"
+            f"(x {shift[0]:+.2f}, y {shift[1]:+.2f} mm) and turned "
+            f"({rise:+.2f} mm over the sheet's width)."
         )
-    if found.distance_rms is not None:
-        lines.append(f"The distances between marks are {found.distance_rms:.2f} mm RMS off.")
+    if comparison.distance_rms is not None:
+        lines.append(f"The distances between marks are {comparison.distance_rms:.2f} mm RMS off.")
     return "\n".join(lines)
 
 
-def _rounds_table(found: Comparison) -> str:
+def _rounds_table(comparison: Comparison) -> str:
     rows = [
-        [one.name, str(one.count), millimetres(one.rms), millimetres(one.distance_rms), one.date]
-        for one in found.rounds
+        [cut.name, str(cut.count), millimetres(cut.rms), millimetres(cut.distance_rms), cut.date]
+        for cut in comparison.rounds
     ]
     return table(["file", "readings", "marks, RMS", "distances, RMS", "date"], rows)
 
 
-def _marks_table(found: Comparison) -> str:
+def _marks_table(comparison: Comparison) -> str:
     rows = [
         [
             mark.name,
@@ -204,7 +207,7 @@ def _marks_table(found: Comparison) -> str:
             signed(mark.left_chain_residual),
             signed(mark.right_chain_residual),
         ]
-        for mark in found.marks
+        for mark in comparison.marks
     ]
     header = ["mark", "target x", "y", "measured x", "y", "error x", "y", "length"]
     return table([*header, "left chain", "right"], rows)

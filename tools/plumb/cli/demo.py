@@ -1,13 +1,15 @@
-"""`tools/demo`: the fall of one real machine's error, with everything that is doubtful about it."""
+"""`tools/demo`: how the error of a real machine falls, with all that is doubtful about it."""
 
 from __future__ import annotations
 
+import math
 import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from plumb.cli.add import ini_of, panels_of, toml_of, turn_sentence, unsaid_of
+from plumb.cli.add import ini_of, panels_of, toml_of, unsaid_of
+from plumb.cli.add_text import turn_sentence
 from plumb.cli.main import Parser
 from plumb.cli.text import millimetres, sentences, table
 from plumb.cure.demo import GOAL, MARKS, SETTINGS, Demonstration, demonstrate
@@ -22,8 +24,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the demo; 0 if the error falls below the goal, else 1; 2 if a file cannot be written."""
     try:
         parsed = _parser().parse_args(arguments)
-        found = demonstrate()
-        files = _files(found, parsed.folder, parsed.picture)
+        demonstration = demonstrate()
+        files = _files(demonstration, parsed.folder, parsed.picture)
         try:
             Path(parsed.folder).mkdir(parents=True, exist_ok=True)
         except OSError as error:
@@ -32,16 +34,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except InputError as error:
         print(f"demo: {error}", file=sys.stderr)
         return 2
-    print(as_text(found))
+    print(as_text(demonstration))
     print("\nWritten:")
     print(sentences([os.path.relpath(path) for path in files], mark="  "))
-    print(f"\n{_last_line(found)}")
-    return 0 if found.reached else 1
+    print(f"\n{_last_line(demonstration)}")
+    return 0 if demonstration.reached else 1
 
 
 def _parser() -> Parser:
     parser = Parser(
-        prog="demo", description="Show how the error of one real machine falls.", allow_abbrev=False
+        prog="demo", description="Show how the error of a real machine falls.", allow_abbrev=False
     )
     parser.add_argument(
         "--folder",
@@ -53,71 +55,71 @@ def _parser() -> Parser:
     return parser
 
 
-def _files(found: Demonstration, folder: str, picture: str | None) -> dict[str, bytes]:
-    panels, sheet = panels_of(found.chosen), found.chosen.settings.sheet
+def _files(demonstration: Demonstration, folder: str, picture: str | None) -> dict[str, bytes]:
+    panels, sheet = panels_of(demonstration.chosen), demonstration.chosen.settings.sheet
     drawn = draw(panels, sheet=sheet)
     source = f"{MARKS.parent.name}/{MARKS.name}"
     files = {
         os.path.join(folder, f"{PICTURE}.png"): drawn,
         os.path.join(folder, f"{PICTURE}.svg"): draw(panels, sheet=sheet, form="svg"),
-        os.path.join(folder, "machine.toml"): toml_of(found.chosen, source=source),
-        os.path.join(folder, "groundcontrol.ini"): ini_of(found.chosen, str(SETTINGS)),
+        os.path.join(folder, "machine.toml"): toml_of(demonstration.chosen, source=source),
+        os.path.join(folder, "groundcontrol.ini"): ini_of(demonstration.chosen, str(SETTINGS)),
     }
     return files | ({picture: drawn} if picture else {})
 
 
-def as_text(found: Demonstration) -> str:
+def as_text(demonstration: Demonstration) -> str:
     """Everything but the last line."""
-    chosen = found.chosen
-    effects = ", ".join(one for one in chosen.effects_added)
+    chosen = demonstration.chosen
+    effects = ", ".join(chosen.effects_added)
     return "\n\n".join(
         [
             "Nine marks of a real machine (published by mibproj.info in May 2020; see "
-            f"tools/plumb/\nexamples/{MARKS.parent.name}/SOURCE.md), with one effect more at a "
-            "time. Errors in mm.",
-            _steps_table(found),
+            f"tools/plumb/\nexamples/{MARKS.parent.name}/SOURCE.md). Each row adds an effect. "
+            "Errors in mm.",
+            _steps_table(demonstration),
             "Priced: scaled up for the numbers the fit took from the data. Left out: each mark "
             "predicted\nby a fit that did not see it. An effect is kept if both fall.",
             f"Kept: {effects}.",
-            _parameters(found),
+            _parameters(demonstration),
             "What is doubtful:",
-            sentences(_doubts(found)),
+            sentences(_doubts(demonstration)),
             "What the settings files do not hold:",
             sentences([turn_sentence(chosen), *unsaid_of(chosen)]),
         ]
     )
 
 
-def _steps_table(found: Demonstration) -> str:
-    raw = found.chosen.raw
+def _steps_table(demonstration: Demonstration) -> str:
+    raw = demonstration.chosen.raw
     rows = [
         ["as the settings are", *map(millimetres, (raw.rms, None, None, raw.worst)), "start"],
         ["  best shift and turn", *map(millimetres, (raw.shape_rms, None, None, None)), ""],
     ]
-    for step in found.steps:
-        own = step.quality
-        values = (own.fit_rms, own.priced_rms, own.left_out_rms, own.worst)
+    for step in demonstration.steps:
+        quality = step.quality
+        values = (quality.fit_rms, quality.priced_rms, quality.left_out_rms, quality.worst)
         rows.append([step.name, *map(millimetres, values), "kept" if step.kept else "NOT kept"])
     return table(["", "RMS", "priced", "left out", "worst", ""], rows)
 
 
-def _parameters(found: Demonstration) -> str:
+def _parameters(demonstration: Demonstration) -> str:
     rows = [
         [
-            one.name,
-            f"{one.before:.6g}",
-            f"{one.value:.6g}" if one.prior_sigma else f"{one.value:.3g}",
-            one.unit,
-            "" if one.plausible else "impossible",
+            parameter.name,
+            f"{parameter.before:.6g}",
+            f"{parameter.value:.6g}" if parameter.prior_sigma else f"{parameter.value:.3g}",
+            parameter.unit,
+            "" if parameter.plausible else "impossible",
         ]
-        for one in found.chosen.parameters
+        for parameter in demonstration.chosen.parameters
     ]
     return table(["number", "before", "after", "unit", ""], rows)
 
 
-def _doubts(found: Demonstration) -> list[str]:
+def _doubts(demonstration: Demonstration) -> list[str]:
     """What a reader must know before believing the fall."""
-    chosen, flipped = found.chosen, found.flipped
+    chosen, flipped = demonstration.chosen, demonstration.flipped
     doubts = [
         "The settings are assumed. The source does not say which were in force, so the published "
         "defaults stand for them (no sag correction, no chain tolerance).",
@@ -125,40 +127,41 @@ def _doubts(found: Demonstration) -> list[str]:
         "numbers as the page says to read them, from the top edge down. With the other sign the "
         f"same effects end at {flipped.after.fit_rms:.2f} mm RMS (priced "
         f"{flipped.after.priced_rms:.2f}, left out {flipped.after.left_out_rms:.2f}), "
-        f"{_impossible_pitch(found)}",
+        f"{_impossible_pitch(demonstration)}",
     ]
     sag = next((p for p in chosen.parameters if p.name == "chain_sag.weight_ratio_squared"), None)
     if sag and sag.value < 0:
         doubts.append(
             f"The fitted sag is NEGATIVE ({sag.value:.2g} {sag.unit}), and no chain sags upwards. "
             "It counts from the assumed correction of zero; most likely the controller in force "
-            "had a sag correction of its own, larger than the sag. The marks cannot tell: only the "
+            "had a sag correction larger than the sag. The marks cannot tell: only the "
             "settings could."
         )
-    gap = next(one for one in chosen.parameters if one.name == "motor_gap")
+    gap = next(parameter for parameter in chosen.parameters if parameter.name == "motor_gap")
+    times = abs(gap.value - gap.before) / (gap.prior_sigma or math.nan)
     doubts.append(
         f"The gap between the motors moved by {gap.value - gap.before:+.1f} mm from the assumed "
-        f"{gap.before:g}, {abs(gap.value - gap.before) / gap.prior_sigma:.0f} times what a tape "
-        "may be wrong: another sign that the assumed settings are not the real ones."
+        f"{gap.before:g}, {times:.0f} times what a tape may be wrong: another sign that the "
+        "assumed settings are not the real ones."
     )
     return doubts
 
 
-def _impossible_pitch(found: Demonstration) -> str:
+def _impossible_pitch(demonstration: Demonstration) -> str:
     """What the other sign of y would say of the chains."""
-    low = [p for p in found.flipped.parameters if p.name.startswith("chain_pitch.")]
-    if not low or any(one.plausible for one in low):
+    strains = [p for p in demonstration.flipped.parameters if p.name.startswith("chain_pitch.")]
+    if not strains or any(strain.plausible for strain in strains):
         return "and the numbers do not decide between the two."
-    left, right = (100 * abs(one.value) for one in low)
+    left, right = (100 * abs(strain.value) for strain in strains)
     return (
         f"and both chains would have to be too short, by {left:.2f} and {right:.2f} %: chains are "
         "made long and wear longer, which speaks for the sign assumed."
     )
 
 
-def _last_line(found: Demonstration) -> str:
-    raw, after = found.chosen.raw, found.chosen.after
-    if not found.reached:
+def _last_line(demonstration: Demonstration) -> str:
+    raw, after = demonstration.chosen.raw, demonstration.chosen.after
+    if not demonstration.reached:
         return (
             f"The error fell only from {raw.rms:.1f} to {after.fit_rms:.2f} mm, not below {GOAL}."
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from operator import itemgetter
 from typing import Any
 
 from plumb.cli.checked import add_checked, usable_checks
@@ -23,11 +24,11 @@ EXIT = (
 )
 BAD_NEWS = ("slip", "not_in_library")
 UNKNOWN_ADVICE = (
-    "is it such a machine? The library is that of a sled on one ring or linkage; on two brackets "
+    "is it such a machine? The library is that of a sled on a ring or linkage; on two brackets "
     "(quadrilateral) it leans and draws another pattern",
     "were these settings in force when the marks were cut? If not, name those by --cut-with, or as "
     "cut_with in the marks.toml",
-    "does y run the way the file says, and are all numbers of one kind? Measure one mark again",
+    "does y run the way the file says, and are all numbers of the same kind? Measure a mark again",
     "if all that is so, look where the errors are: plumb compare ... --picture errors.png",
 )
 
@@ -45,112 +46,125 @@ def run(arguments: argparse.Namespace) -> int:
     """Diagnose, print, and return the exit code."""
     inputs = inputs_of(arguments)
     priors = priors_with(arguments.prior)
-    told = {
-        "cut_with": inputs.cut_with,
-        "controller": arguments.controller,
-        "priors": priors,
-        "checked": usable_checks(arguments.checked, priors),
-    }
-    found = diagnose(inputs.settings, inputs.measurements, sigma=arguments.sigma, **told)
+    checked = usable_checks(arguments.checked, priors)
+    diagnosis = diagnose(
+        inputs.settings,
+        inputs.measurements,
+        cut_with=inputs.cut_with,
+        controller=arguments.controller,
+        priors=priors,
+        checked=checked,
+        sigma=arguments.sigma,
+    )
     if arguments.json:
-        answer = propose(found, inputs.settings, inputs.measurements, **told)
-        print_json({**as_json(found), "next": [proposal_json(one) for one in answer.proposals]})
+        advice = propose(
+            diagnosis,
+            inputs.settings,
+            inputs.measurements,
+            cut_with=inputs.cut_with,
+            controller=arguments.controller,
+            priors=priors,
+            checked=checked,
+        )
+        proposals = [proposal_json(proposal) for proposal in advice.proposals]
+        print_json({**as_json(diagnosis), "next": proposals})
     else:
-        print(as_text(found))
-    return int(found.verdict in BAD_NEWS)
+        print(as_text(diagnosis))
+    return int(diagnosis.verdict in BAD_NEWS)
 
 
-def as_json(found: Diagnosis) -> dict[str, Any]:
+def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
     """The diagnosis by the names of the interface."""
     return {
-        "verdict": found.verdict,
-        "sentence": verdict_sentence(found),
-        "sigma_mm": found.noise.sigma,
-        "sigma_from": found.noise.source,
-        "sigma_degrees": found.noise.degrees,  # null: it was not estimated
-        "rms_mm": found.rms_before,
-        "suspects": found.suspects,
-        "to_add": found.to_add,
-        "chance": found.chance,  # that so many effects explain what none of them made
+        "verdict": diagnosis.verdict,
+        "sentence": verdict_sentence(diagnosis),
+        "sigma_mm": diagnosis.noise.sigma,
+        "sigma_from": diagnosis.noise.source,
+        "sigma_degrees": diagnosis.noise.degrees,  # null: it was not estimated
+        "rms_mm": diagnosis.rms_before,
+        "suspects": diagnosis.suspects,
+        "to_add": diagnosis.to_add,
+        "chance": diagnosis.chance,  # that this many effects explain what none of them made
         "explanations": [
             {
-                "effects": one.effects,
-                "rms_after_mm": one.rms_after,
+                "effects": explanation.effects,
+                "rms_after_mm": explanation.rms_after,
                 "parameters": [
                     {"effect": name, **_size_json(size)}
-                    for name in one.effects
-                    for size in one.sizes[name]
+                    for name in explanation.effects
+                    for size in explanation.sizes[name]
                 ],
             }
-            for one in found.explanations
+            for explanation in diagnosis.explanations
         ],
-        "ranking": [_ranked_json(one) for one in found.ranking],
+        "ranking": [_ranked_json(ranked) for ranked in diagnosis.ranking],
         "slips": [
             {
-                "name": one.name,
-                "offset_mm": one.offset,
-                "sigma_mm": one.sigma,
-                "read": one.read,
-                "expected": one.expected,
-                "guess": one.guess,
-                "sentence": one.sentence,
+                "name": slip.name,
+                "offset_mm": slip.offset,
+                "sigma_mm": slip.sigma,
+                "read": slip.read,
+                "expected": slip.expected,
+                "guess": slip.guess,
+                "sentence": slip.sentence,
             }
-            for one in found.slips
+            for slip in diagnosis.slips
         ],
         "could_hide": [
             {
-                "effect": one.effect,
-                "mm": one.mm,
+                "effect": hidden.effect,
+                "mm": hidden.mm,
                 "parameters": [
                     {"name": name, "largest": largest, "unit": unit}
-                    for name, largest, unit in one.limits
+                    for name, largest, unit in hidden.limits
                 ],
             }
-            for one in found.could_hide
+            for hidden in diagnosis.could_hide
         ],
-        "disagreements": found.disagreements,
-        "warnings": found.warnings,
+        "disagreements": diagnosis.disagreements,
+        "warnings": diagnosis.warnings,
     }
 
 
-def _ranked_json(one: Ranked) -> dict[str, Any]:
+def _ranked_json(ranked: Ranked) -> dict[str, Any]:
     return {
-        "effect": one.effect,
-        "where": place_of(one.effect),
-        "gain": one.gain,
-        "surprise": one.surprise,
-        "parameters": [_size_json(size) for size in one.sizes],
-        "rms_after_mm": one.rms_after,
-        "hidden_share": one.hidden_share,
-        "plausible": one.plausible,
+        "effect": ranked.effect,
+        "where": place_of(ranked.effect),
+        "gain": ranked.gain,
+        "surprise": ranked.surprise,
+        "parameters": [_size_json(size) for size in ranked.sizes],
+        "rms_after_mm": ranked.rms_after,
+        "hidden_share": ranked.hidden_share,
+        "plausible": ranked.plausible,
     }
 
 
-def _size_json(one: Size) -> dict[str, Any]:
+def _size_json(size: Size) -> dict[str, Any]:
     return {
-        "name": one.name,
-        "value": one.value,
-        "low": one.low,
-        "high": one.high,
-        "unit": one.unit,
-        "plausible": one.plausible,
+        "name": size.name,
+        "value": size.value,
+        "low": size.low,
+        "high": size.high,
+        "unit": size.unit,
+        "plausible": size.plausible,
     }
 
 
-def proposal_json(one: Proposal) -> dict[str, Any]:
-    """One proposal for the next measurement by the names of the interface."""
-    visits = one.option.visits
+def proposal_json(proposal: Proposal) -> dict[str, Any]:
+    """A proposal for the next measurement by the names of the interface."""
+    visits = proposal.option.visits
     return {
-        "kind": one.option.kind,
-        "title": one.option.title,
-        "do": one.option.do,
-        "minutes": one.option.minutes,
-        "chance": one.chance,
-        "chance_to": one.question,
-        "suspects_left": one.left,
-        "parts": one.parts,
+        "kind": proposal.option.kind,
+        "title": proposal.option.title,
+        "do": proposal.option.do,
+        "minutes": proposal.option.minutes,
+        "chance": proposal.chance,
+        "chance_to": proposal.question,
+        "suspects_left": proposal.left,
+        "parts": proposal.parts,
         "could_hide": [
-            {"effect": own.effect, "now_mm": own.now, "then_mm": own.then} for own in one.rooms
+            {"effect": item.effect, "now_mm": item.now, "then_mm": item.then}
+            for item in proposal.rooms
         ],
         "marks": [
             {
@@ -162,121 +176,124 @@ def proposal_json(one: Proposal) -> dict[str, Any]:
             }
             for i in range(len(visits))
         ],
-        "checks": [{"name": own.name, "sigma": own.sigma} for own in one.option.checks],
+        "checks": [{"name": item.name, "sigma": item.sigma} for item in proposal.option.checks],
     }
 
 
-def as_text(found: Diagnosis) -> str:
+def as_text(diagnosis: Diagnosis) -> str:
     """The diagnosis for people, its verdict first."""
-    parts = [sentences([verdict_sentence(found)], mark="")]
-    if found.slips:
-        parts.append(sentences([one.sentence for one in found.slips]))
-    if found.disagreements:
-        parts.append(sentences(found.disagreements))
-    elif found.verdict == "not_in_library":
-        parts.append(sentences(_unknown_advice(found)))
-    if found.explanations:
-        parts.append(_explanation_table(found))
-        if found.verdict == "cannot_tell":
-            parts.append(_reasons(found))
-        parts.append(_remedies(found))
-    parts.append(_noise_sentence(found))
-    parts.append(_hiding(found))
-    if found.warnings:
-        parts.append(sentences(found.warnings))
+    parts = [sentences([verdict_sentence(diagnosis)], mark="")]
+    if diagnosis.slips:
+        parts.append(sentences([slip.sentence for slip in diagnosis.slips]))
+    if diagnosis.disagreements:
+        parts.append(sentences(diagnosis.disagreements))
+    elif diagnosis.verdict == "not_in_library":
+        parts.append(sentences(_unknown_advice(diagnosis)))
+    if diagnosis.explanations:
+        parts.append(_explanation_table(diagnosis))
+        if diagnosis.verdict == "cannot_tell":
+            parts.append(_reasons(diagnosis))
+        parts.append(_remedies(diagnosis))
+    parts.append(_noise_sentence(diagnosis))
+    parts.append(_hiding(diagnosis))
+    if diagnosis.warnings:
+        parts.append(sentences(diagnosis.warnings))
     parts.append("What to measure next: plumb next, with the same files.")
     return "\n\n".join(parts)
 
 
-def _unknown_advice(found: Diagnosis) -> list[str]:
+def _unknown_advice(diagnosis: Diagnosis) -> list[str]:
     """What to look at when nothing in the library fits."""
-    if found.noise.source != "default":
+    if diagnosis.noise.source != "default":
         return list(UNKNOWN_ADVICE)
     doubt = (
-        f"are the readings good to {found.noise.sigma:.1f} mm? Nothing says so; holes that wander "
-        "and a coarse tape look just like this. Read some marks again, or state what you trust "
-        "them to by --sigma"
+        f"are the readings good to {diagnosis.noise.sigma:.1f} mm? Nothing says so; holes that "
+        "wander and a coarse tape look just like this. Read some marks again, or state what you "
+        "trust them to by --sigma"
     )
     return [doubt, *UNKNOWN_ADVICE]
 
 
-def _explanation_table(found: Diagnosis) -> str:
-    rows = []
-    for one in found.explanations[:SHOWN]:
+def _explanation_table(diagnosis: Diagnosis) -> str:
+    rows: list[list[str]] = []
+    for explanation in diagnosis.explanations[:SHOWN]:
         rows += [["or"] + [""] * 5] if rows else []
-        for name in one.effects:
-            rows += _size_rows(one, name)
+        for name in explanation.effects:
+            rows += _size_rows(explanation, name)
     header = ["suspect", "size", "interval", "unit", "error falls to", ""]
     return table(header, rows)
 
 
-def _size_rows(one: Together, name: str) -> list[list[str]]:
+def _size_rows(explanation: Together, name: str) -> list[list[str]]:
     rows = []
-    for i, size in enumerate(one.sizes[name]):
-        first = i == 0 and name == one.effects[0]
+    for i, size in enumerate(explanation.sizes[name]):
+        first = i == 0 and name == explanation.effects[0]
         interval = "-" if size.low is None else f"{number(size.low)} .. {number(size.high)}"
         rows.append(
             [
-                f"{'' if name == one.effects[0] else '+ '}{name}.{size.name}",
+                f"{'' if name == explanation.effects[0] else '+ '}{name}.{size.name}",
                 number(size.value),
                 interval,
                 size.unit,
-                f"{millimetres(one.rms_after)} mm" if first else "",
-                "" if size.plausible else "impossible: a stand-in for something else",
+                f"{millimetres(explanation.rms_after)} mm" if first else "",
+                "" if size.plausible else "impossible: something else looks like it",
             ]
         )
     return rows
 
 
-def _reasons(found: Diagnosis) -> str:
+def _reasons(diagnosis: Diagnosis) -> str:
     """Why suspects cannot be told apart: how little their arrows differ."""
-    said = []
-    for (i, j), apart in sorted(found.differences.items(), key=lambda one: one[1]):
+    said: list[str] = []
+    for (i, j), apart in sorted(diagnosis.differences.items(), key=itemgetter(1)):
         if j >= SHOWN or len(said) == 3:
             continue
-        names = [" + ".join(found.explanations[k].effects) for k in (i, j)]
+        names = [" + ".join(diagnosis.explanations[k].effects) for k in (i, j)]
         said.append(
             f"{names[0]} and {names[1]} draw nearly the same arrows on these marks: they differ by "
-            f"{apart:.2f} mm RMS, the noise is {found.noise.sigma:.2f} mm"
+            f"{apart:.2f} mm RMS, the noise is {diagnosis.noise.sigma:.2f} mm"
         )
     return sentences(said)
 
 
-def _remedies(found: Diagnosis) -> str:
-    words = {one["name"]: one for one in every_effect()}
+def _remedies(diagnosis: Diagnosis) -> str:
+    words = {effect["name"]: effect for effect in every_effect()}
     said = [
         f"{label(name)}: {words[name]['summary']}. To be sure: {words[name]['remedy']}"
-        for name in found.suspects[:SHOWN]
+        for name in diagnosis.suspects[:SHOWN]
     ]
     return sentences(said)
 
 
-def _noise_sentence(found: Diagnosis) -> str:
-    noise = found.noise
+def _noise_sentence(diagnosis: Diagnosis) -> str:
+    noise = diagnosis.noise
     origin = {
         "stated": "as stated",
         "repeats": f"from repeats, {noise.degrees:.0f} degrees of freedom",
-        "scatter": "from the marks' own scatter",
-        "default": "a tape's usual one",
+        "scatter": "from the scatter of the marks",
+        "default": "usual for a tape",
     }[noise.source]
-    return f"Noise of one reading: {noise.sigma:.2f} mm ({origin}). Intervals: 95 %."
+    return f"Noise of a reading: {noise.sigma:.2f} mm ({origin}). Intervals: 95 %."
 
 
-def _hiding(found: Diagnosis) -> str:
+def _hiding(diagnosis: Diagnosis) -> str:
     """How large effects that are not proved could still be."""
-    unproved = [one for one in found.could_hide if one.effect not in found.suspects]
-    hiding = sorted((one for one in unproved if one.mm), key=lambda one: -one.mm)
-    shares = {one.effect: one.hidden_share for one in found.ranking}
+    unproved = [
+        hidden for hidden in diagnosis.could_hide if hidden.effect not in diagnosis.suspects
+    ]
+    hiding = sorted(unproved, key=lambda hidden: -(hidden.mm or 0.0))
+    shares = {ranked.effect: ranked.hidden_share for ranked in diagnosis.ranking}
     rows = [
         [
-            one.effect,
-            f"{millimetres(one.mm, 1)} mm",
-            "-" if shares[one.effect] is None else f"{100 * shares[one.effect]:.0f} %",
-            ", ".join(_limit(name, largest, unit) for name, largest, unit in one.limits),
+            hidden.effect,
+            f"{millimetres(hidden.mm, 1)} mm",
+            percent_of(shares[hidden.effect]),
+            ", ".join(_limit(name, largest, unit) for name, largest, unit in hidden.limits),
         ]
-        for one in hiding[:SHOWN]
+        for hidden in hiding[:SHOWN]
+        if hidden.mm
     ]
-    blind = [one.effect for one in unproved if one.mm is None]
+    blind = [hidden.effect for hidden in unproved if hidden.mm is None]
     parts = []
     if rows:
         header = ["could still hide", "up to", "in the frame", "each at most"]
@@ -284,6 +301,11 @@ def _hiding(found: Diagnosis) -> str:
     if blind:
         parts.append(sentences([f"these marks say nothing of {', '.join(blind)}"]))
     return "\n".join(parts)
+
+
+def percent_of(share: float | None) -> str:
+    """A share for people; a dash where there is none."""
+    return "-" if share is None else f"{100 * share:.0f} %"
 
 
 def _limit(name: str, largest: float | None, unit: str) -> str:

@@ -24,7 +24,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json({"effects": effects})
         return 0
-    count = Counter(one["where"] for one in effects)
+    count = Counter(effect["where"] for effect in effects)
     print(
         f"{count['firmware']} effects can be added to the machine, in the order they are applied;"
     )
@@ -42,17 +42,17 @@ def run(arguments: argparse.Namespace) -> int:
             print(sentences([fact], mark=f"  {word:<14}"))
         rows = [
             [
-                f"  {own['name']}",
-                number(own["typical"]),
-                f"{number(own['low'])} .. {number(own['high'])}",
-                own["unit"],
-                "none" if own["setting"] is None else f"${own['setting']}",
+                f"  {parameter['name']}",
+                number(parameter["typical"]),
+                f"{number(parameter['low'])} .. {number(parameter['high'])}",
+                parameter["unit"],
+                "none" if parameter["setting"] is None else f"${parameter['setting']}",
             ]
-            for own in effect["parameters"]
+            for parameter in effect["parameters"]
         ]
         print(table(["  parameter", "usual", "possible", "unit", "setting"], rows))
-    for one in empirical_effects():
-        first, last = (one["parameters"][i]["setting"] for i in (0, -1))
-        print(f"\n{one['name']} (${first} to ${last}): no cause, and never a suspect (--patch)")
-        print(sentences([one["summary"], one["remedy"]], mark="  "))
+    for patch in empirical_effects():
+        first, last = (patch["parameters"][i]["setting"] for i in (0, -1))
+        print(f"\n{patch['name']} (${first} to ${last}): no cause, and never a suspect (--patch)")
+        print(sentences([patch["summary"], patch["remedy"]], mark="  "))
     return 0

@@ -39,7 +39,7 @@ def add_marks(parser: argparse.ArgumentParser) -> None:
         "marks",
         metavar="MARKS",
         nargs="+",
-        help="Calibration Measurements.ini, marks.toml or marks.csv; several are one board",
+        help="Calibration Measurements.ini, marks.toml or marks.csv; several make one board",
     )
     parser.add_argument(
         "--cut-with",
@@ -77,13 +77,13 @@ def add_sigma(parser: argparse.ArgumentParser, *, usual: str) -> None:
         "--sigma",
         metavar="MM",
         type=length,
-        help=f"reading error of one coordinate [{usual}]",
+        help=f"reading error of a coordinate [{usual}]",
     )
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:
     """The option --json."""
-    parser.add_argument("--json", action="store_true", help="print one JSON object and no more")
+    parser.add_argument("--json", action="store_true", help="print a JSON object and nothing else")
 
 
 def length(text: str) -> float:
@@ -103,7 +103,7 @@ def limit(text: str) -> float:
 
 
 def prior(text: str) -> tuple[str, float]:
-    """One NAME=SIGMA."""
+    """Reads NAME=SIGMA."""
     name, separator, value = text.partition("=")
     try:
         sigma = float(value)
@@ -151,11 +151,11 @@ def write_outputs(files: Mapping[str, bytes], *, inputs: Sequence[str]) -> None:
 
 
 def refuse_twins(*paths: str | None) -> None:
-    """Refuse two results under one name."""
+    """Refuse two results with the same name."""
     named = [os.path.realpath(path) for path in paths if path]
     for path in paths:
         if path and named.count(os.path.realpath(path)) > 1:
-            raise refusal(path, "is the name of two results", remedy="give each its own")
+            raise refusal(path, "is the name of two results", remedy="give each another name")
 
 
 def picture_form(path: str, *, option: str = "--picture") -> str:

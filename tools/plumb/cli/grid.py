@@ -31,11 +31,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=REACH_LIMITS["most_give"],
         help="how far a newton may move the sled; see plumb reach [%(default)g]",
     )
-    parser.add_argument("--json", action="store_true", help="print one JSON object and no more")
+    parser.add_argument("--json", action="store_true", help="print a JSON object and nothing else")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Make the grid as the tool does, unless the machine's own model refuses a place."""
+    """Make the grid as the tool does, unless our model of the machine refuses a place."""
     refuse_out_of_reach(arguments)
     if not arguments.json:
         return marks_grid.run(arguments, "plumb")
@@ -70,9 +70,9 @@ def refuse_out_of_reach(arguments: argparse.Namespace) -> None:
         marks_grid.check(grid, machine)
         marks_grid.check(grid, machine, lambda _grid, _machine, *place: passed.append(place))
     except marks_grid.GridError:
-        return  # the tool tells it when it is run
+        return  # the grid refuses it when it is made
     points = np.array([place[1:] for place in passed])
-    found = reach(
+    reached = reach(
         _settings_of(arguments.settings, machine),
         points,
         most_tension=grid.max_tension,
@@ -80,24 +80,35 @@ def refuse_out_of_reach(arguments: argparse.Namespace) -> None:
         least_free=marks_grid.MIN_FREE_CHAIN,
         most_give=arguments.most_give,
     )
-    for i in np.flatnonzero(found.verdict != USABLE)[:1]:
+    for i in np.flatnonzero(reached.verdict != USABLE)[:1]:
         what, x, y = passed[i]
-        why = _reason(int(found.verdict[i]), found.tension[i], float(found.give[i]))
+        why = _reason(int(reached.verdict[i]), reached.tension[i], float(reached.give[i]))
         raise InputError(f"{what} at x {x:.1f} y {y:.1f} {why}; see plumb reach")
 
 
-def _settings_of(path: str | None, machine: tuple) -> MachineSettings:
+def _settings_of(path: str | None, machine: marks_grid.Machine) -> MachineSettings:
     """The machine of the settings file, with the numbers that the tool goes by."""
-    numbers = {
-        "motor_gap": machine.motor_spacing,
-        "motor_height": machine.sheet_height / 2 + machine.motor_offset,
-        "rotation_radius": machine.rotation_radius,
-        "sheet_width": machine.sheet_width,
-        "sheet_height": machine.sheet_height,
-        "sled_weight": machine.sled_weight_n,
-    }
-    own = settings_in(path).as_plumb_model() if path else MachineSettings(**numbers, feed="top")
-    return with_soft_chains(replace(own, **numbers))[0]
+    plain = MachineSettings(
+        motor_gap=machine.motor_spacing,
+        motor_height=machine.sheet_height / 2 + machine.motor_offset,
+        rotation_radius=machine.rotation_radius,
+        sheet_width=machine.sheet_width,
+        sheet_height=machine.sheet_height,
+        feed="top",
+        sled_weight=machine.sled_weight_n,
+    )
+    if path is None:
+        return with_soft_chains(plain)[0]
+    settings = replace(
+        settings_in(path).as_plumb_model(),
+        motor_gap=plain.motor_gap,
+        motor_height=plain.motor_height,
+        rotation_radius=plain.rotation_radius,
+        sheet_width=plain.sheet_width,
+        sheet_height=plain.sheet_height,
+        sled_weight=plain.sled_weight,
+    )
+    return with_soft_chains(settings)[0]
 
 
 def _reason(verdict: int, tension: np.ndarray, give: float) -> str:

@@ -35,7 +35,7 @@ from plumb.text.errors import InputError
 
 HELP = "what to measure next: the chance that it settles the question, and the minutes it costs"
 EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
-SHOWN, TOLD = 8, 3  # proposals in the table, and in whole sentences; --json has all
+SHOWN, SPOKEN = 8, 3  # proposals in the table, and in whole sentences; --json has all
 PATIENCE = 2.0  # seconds before a bar shows how far the work is
 BAR = 30  # [characters]
 HEADS = {
@@ -71,25 +71,32 @@ def run(arguments: argparse.Namespace) -> int:
     inputs = inputs_of(arguments)
     priors = priors_with(arguments.prior)
     checked = usable_checks(arguments.checked, priors)
-    told = {"cut_with": inputs.cut_with, "controller": arguments.controller, "priors": priors}
-    found = diagnose(
-        inputs.settings, inputs.measurements, sigma=arguments.sigma, checked=checked, **told
-    )
-    answer = propose(
-        found,
+    diagnosis = diagnose(
         inputs.settings,
         inputs.measurements,
+        cut_with=inputs.cut_with,
+        controller=arguments.controller,
+        priors=priors,
+        checked=checked,
+        sigma=arguments.sigma,
+    )
+    advice = propose(
+        diagnosis,
+        inputs.settings,
+        inputs.measurements,
+        cut_with=inputs.cut_with,
+        controller=arguments.controller,
+        priors=priors,
         checked=checked,
         progress=progress_bar(),
-        **told,
     )
-    files = _files(arguments, answer, inputs, form)
+    files = _files(arguments, advice, inputs, form)
     read = [arguments.settings, *arguments.marks, *filter(None, [arguments.cut_with])]
     write_outputs(files, inputs=read)
     if arguments.json:
-        print_json({**as_json(found, answer), "written": list(files)})
+        print_json({**as_json(diagnosis, advice), "written": list(files)})
     else:
-        print(as_text(found, answer))
+        print(as_text(diagnosis, advice))
     return 0
 
 
@@ -114,15 +121,17 @@ def progress_bar() -> Callable[[float], None]:
 
 
 def _files(
-    arguments: argparse.Namespace, answer: Next, inputs: Inputs, form: str
+    arguments: argparse.Namespace, advice: Next, inputs: Inputs, form: str
 ) -> dict[str, bytes]:
     """The files that were asked for."""
     if not (arguments.picture or arguments.template):
         if arguments.choose is not None:
-            raise InputError("--choose is for --picture and --marks: give one of them")
+            raise InputError("--choose is for --picture and --marks: add --picture or --marks")
         return {}
-    place, chosen = _chosen(answer, arguments.choose)
-    option, files = chosen.option, {}
+    place, chosen = _chosen(advice, arguments.choose)
+    case, option = advice.case, chosen.option
+    assert case, "what is proposed is proposed for a case"
+    files: dict[str, bytes] = {}
     machine = inputs.cut_with or inputs.settings
     if arguments.picture:
         old = inputs.measurements.targets
@@ -130,7 +139,7 @@ def _files(
             option.visits,
             np.unique(old, axis=0) if len(old) else old,
             title=f"Next: {option.title}",
-            usual_weight=answer.case.usual_weight,
+            usual_weight=case.usual_weight,
             sheet=machine.sheet,
             form=form,
         )
@@ -138,16 +147,16 @@ def _files(
         text = marks_file(
             option.visits,
             sheet=machine.sheet,
-            controller=answer.case.controller,
+            controller=case.controller,
             said=(f"Proposal {place}: {option.title}.", *option.do),
         )
         files[arguments.template] = text.encode()
     return files
 
 
-def _chosen(answer: Next, wanted: int | None) -> tuple[int, Proposal]:
+def _chosen(advice: Next, wanted: int | None) -> tuple[int, Proposal]:
     """The proposal to draw, with its place."""
-    having = [i for i, one in enumerate(answer.proposals, 1) if len(one.option.visits)]
+    having = [i for i, proposal in enumerate(advice.proposals, 1) if len(proposal.option.visits)]
     if not having:
         raise InputError("nothing is proposed that has marks: leave out --picture and --marks")
     place = having[0] if wanted is None else wanted
@@ -155,42 +164,42 @@ def _chosen(answer: Next, wanted: int | None) -> tuple[int, Proposal]:
         raise InputError(
             f"--choose {place}: the proposals that have marks are {', '.join(map(str, having))}"
         )
-    return place, answer.proposals[place - 1]
+    return place, advice.proposals[place - 1]
 
 
-def as_json(found: Diagnosis, answer: Next) -> dict[str, Any]:
+def as_json(diagnosis: Diagnosis, advice: Next) -> dict[str, Any]:
     """The proposals by the names of the interface."""
     return {
-        "verdict": found.verdict,
-        "sentence": verdict_sentence(found),
-        "suspects": found.suspects,
-        "next": [proposal_json(one) for one in answer.proposals],
-        "more_marks": proposal_json(answer.blind) if answer.blind else None,
+        "verdict": diagnosis.verdict,
+        "sentence": verdict_sentence(diagnosis),
+        "suspects": diagnosis.suspects,
+        "next": [proposal_json(proposal) for proposal in advice.proposals],
+        "more_marks": proposal_json(advice.blind) if advice.blind else None,
         "stable": None
-        if answer.stable is None
-        else {"kept": answer.stable[0], "of": answer.stable[1]},
+        if advice.stable is None
+        else {"kept": advice.stable[0], "of": advice.stable[1]},
     }
 
 
-def as_text(found: Diagnosis, answer: Next) -> str:
+def as_text(diagnosis: Diagnosis, advice: Next) -> str:
     """The proposals for people, the best first."""
-    parts = [sentences([verdict_sentence(found)], mark="")]
-    if not answer.proposals:
+    parts = [sentences([verdict_sentence(diagnosis)], mark="")]
+    if not advice.proposals:
         parts.append("Nothing that can be proposed would tell more.")
         return "\n\n".join(parts)
-    parts.append(_first(answer.proposals[0]))
-    if answer.stable and answer.stable[1]:
-        parts.append(sentences([_stable(*answer.stable)], mark=""))
-    if len(answer.proposals) > 1:
-        parts.append(_table(answer))
-        told = [
-            f"{place}. {' '.join(one.option.do)}"
-            for place, one in enumerate(answer.proposals[1:TOLD], 2)
+    parts.append(_first(advice.proposals[0]))
+    if advice.stable and advice.stable[1]:
+        parts.append(sentences([_stable(*advice.stable)], mark=""))
+    if len(advice.proposals) > 1:
+        parts.append(_table(advice))
+        steps = [
+            f"{place}. {' '.join(proposal.option.do)}"
+            for place, proposal in enumerate(advice.proposals[1:SPOKEN], 2)
         ]
-        parts.append(sentences(told, mark=""))
-    parts.append(sentences([_how(answer)], mark=""))
-    if found.warnings:
-        parts.append(sentences(found.warnings))
+        parts.append(sentences(steps, mark=""))
+    parts.append(sentences([_how(advice)], mark=""))
+    if diagnosis.warnings:
+        parts.append(sentences(diagnosis.warnings))
     return "\n\n".join(parts)
 
 
@@ -203,11 +212,11 @@ def _first(best: Proposal) -> str:
         said.append(f"It tells {'; '.join(pairs)}.")
     if best.option.checks:
         terms = " ".join(
-            f"--checked {own.name}=VALUE+-{number(own.sigma)}" for own in best.option.checks
+            f"--checked {check.name}=VALUE+-{number(check.sigma)}" for check in best.option.checks
         )
         said.append(f"Then run this again with {terms}; VALUE: {best.option.value}.")
     elif len(best.option.visits):
-        said.append("Then give the new marks as one more file; --marks FILE writes it to fill in.")
+        said.append("Then give the new marks as another file; --marks FILE writes it to fill in.")
     return sentences(said[:1], mark="") + "\n" + sentences(said[1:], mark="  ")
 
 
@@ -225,37 +234,45 @@ def _promise(best: Proposal) -> str:
 
 
 def _stable(kept: int, of: int) -> str:
-    return f"Leaving out any one mark keeps the suspect in {kept} of {of} cases" + (
-        ": it does not hang on a single reading." if kept == of else ": it hangs on single ones."
+    return f"Leaving out any single mark keeps the suspect in {kept} of {of} cases" + (
+        ": it does not hang on a single reading."
+        if kept == of
+        else ": it hangs on single readings."
     )
 
 
-def _table(answer: Next) -> str:
-    question = answer.proposals[0].question
+def _table(advice: Next) -> str:
+    question = advice.proposals[0].question
     header = ["", "other ways" if question != EXPLORE else "", "minutes", HEADS[question]]
     counted = question in (SETTLE, CONFIRM)
-    rows = [_row(f"{i}", one, counted) for i, one in enumerate(answer.proposals[:SHOWN], 1)]
-    if answer.blind:
-        rows.append(_row("-", answer.blind, counted))
+    rows = [
+        _row(f"{i}", proposal, counted) for i, proposal in enumerate(advice.proposals[:SHOWN], 1)
+    ]
+    if advice.blind:
+        rows.append(_row("-", advice.blind, counted))
     if counted:
         header += ["suspects left", "tells apart"]
     header[1] = "what"
     return table(header, rows, left=2)
 
 
-def _row(place: str, one: Proposal, counted: bool) -> list[str]:
-    if one.question == FIND and one.rooms:
-        told = ", ".join(
-            f"{own.effect} {millimetres(own.now, 1)} -> {millimetres(own.then, 1)} mm"
-            for own in one.rooms[:2]
-            if own.then < 0.9 * own.now
+def _row(place: str, proposal: Proposal, counted: bool) -> list[str]:
+    if proposal.question == FIND and proposal.rooms:
+        promise = ", ".join(
+            f"{doubt.effect} {millimetres(doubt.now, 1)} -> {millimetres(doubt.then, 1)} mm"
+            for doubt in proposal.rooms[:2]
+            if doubt.then < 0.9 * doubt.now
         )
     else:
-        told = _percent(one.chance)
-    row = [place, one.option.title, f"{one.option.minutes:.0f}", told or "no change"]
+        promise = _percent(proposal.chance)
+    row = [place, proposal.option.title, f"{proposal.option.minutes:.0f}", promise or "no change"]
     if counted:
-        pairs = f"{len(one.parts)} pair{'s' if len(one.parts) != 1 else ''}" if one.parts else ""
-        row += [f"{one.left:.1f}" if one.left is not None else "-", pairs or "none"]
+        pairs = (
+            f"{len(proposal.parts)} pair{'s' if len(proposal.parts) != 1 else ''}"
+            if proposal.parts
+            else ""
+        )
+        row += [f"{proposal.left:.1f}" if proposal.left is not None else "-", pairs or "none"]
     return row
 
 
@@ -267,9 +284,9 @@ def _percent(chance: float | None) -> str:
     return "below 5 %" if near < 5 else "above 95 %" if near > 95 else f"{near:.0f} %"
 
 
-def _how(answer: Next) -> str:
-    question = answer.proposals[0].question
-    again = f"{AGAIN:.0f} minutes added for one more round"
+def _how(advice: Next) -> str:
+    question = advice.proposals[0].question
+    again = f"{AGAIN:.0f} minutes added for another round"
     if question == SETTLE:
         return (
             "Chances are simulated: each suspect is taken for the truth as often as it is "
@@ -279,7 +296,7 @@ def _how(answer: Next) -> str:
     if question == CONFIRM:
         return (
             "Chances are simulated as if the effects that failed their test narrowly might be the "
-            "truth: confirmed means that the true one is left alone. Direct checks come first; "
+            "truth: confirmed means that only the true effect is left. Direct checks come first; "
             f"then the order is chance per minute, {again}."
         )
     if question == FIND:
@@ -287,7 +304,7 @@ def _how(answer: Next) -> str:
     if question == REREAD:
         return "A slip hides what else the marks could say, so nothing else is proposed yet."
     return (
-        "No chance can be told for an effect that is not known. Also fit the left and right, or "
-        "the upper and lower, half of the marks by themselves: where their numbers differ, "
+        "No chance can be computed for an effect that is not known. Also fit the left and right, "
+        "or the upper and lower, half of the marks by themselves: where their numbers differ, "
         "something is local."
     )

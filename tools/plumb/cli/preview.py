@@ -50,7 +50,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--sigma",
         metavar="MM",
         type=length,
-        help=f"reading error of one coordinate [tape_sigma_mm of PLAN, else {USUAL_SIGMA:g}]",
+        help=f"reading error of a coordinate [tape_sigma_mm of PLAN, else {USUAL_SIGMA:g}]",
     )
     add_prior(parser)
     add_controller(parser)
@@ -63,7 +63,7 @@ def run(arguments: argparse.Namespace) -> int:
     form = picture_form(arguments.picture) if arguments.picture else ""
     settings = settings_in(arguments.settings)
     plan = _plan(arguments, settings)
-    found = preview(
+    outlook = preview(
         settings,
         plan,
         sigma=arguments.sigma or plan.tape_sigma or USUAL_SIGMA,
@@ -71,13 +71,13 @@ def run(arguments: argparse.Namespace) -> int:
         priors=priors_with(arguments.prior),
     )
     if arguments.picture:
-        drawn = draw_preview(found, sheet=settings.sheet, form=form)
+        drawn = draw_preview(outlook, sheet=settings.sheet, form=form)
         read = [arguments.settings, *filter(None, [arguments.plan])]
         write_outputs({arguments.picture: drawn}, inputs=read)
     if arguments.json:
-        print_json(as_json(found, written=arguments.picture))
+        print_json(as_json(outlook, written=arguments.picture))
     else:
-        print(as_text(found))
+        print(as_text(outlook))
     return 0
 
 
@@ -88,7 +88,7 @@ def _plan(arguments: argparse.Namespace, settings: MachineSettings) -> Measureme
     if arguments.plan:
         for name in asked:
             raise InputError(
-                f"--{name} is of a grid, and PLAN says where the marks are: leave one out"
+                f"--{name} is of a grid, and PLAN says where the marks are: leave --{name} out"
             )
         return read_plan(arguments.plan, sheet=settings.sheet)
     grid = marks_grid.Grid(**{"columns": COLUMNS, "rows": ROWS, **asked})
@@ -99,7 +99,7 @@ def _plan(arguments: argparse.Namespace, settings: MachineSettings) -> Measureme
         marks_grid.check(grid, machine, lambda *place: None)
     except marks_grid.GridError as refusal:
         raise InputError(str(refusal)) from None
-    side = tuple(float(value) for value in grid.approach)
+    side = float(grid.approach[0]), float(grid.approach[1])
     marks = tuple(
         Mark(str(mark.name), (mark.x, mark.y), (mark.x, mark.y), approach=side)
         for mark in marks_grid.marks(grid, machine)
@@ -107,110 +107,120 @@ def _plan(arguments: argparse.Namespace, settings: MachineSettings) -> Measureme
     return Measurements(marks, source=f"grid of {grid.columns} x {grid.rows}")
 
 
-def as_json(found: Preview, *, written: str | None = None) -> dict[str, Any]:
+def as_json(outlook: Preview, *, written: str | None = None) -> dict[str, Any]:
     """The preview by the names of the interface."""
     return {
-        "sigma_mm": found.sigma,
-        "marks": found.marks,
-        "distances": found.distances,
-        "effects": found.effects,
-        "snr": found.matrix,
+        "sigma_mm": outlook.sigma,
+        "marks": outlook.marks,
+        "distances": outlook.distances,
+        "effects": outlook.effects,
+        "snr": outlook.matrix,
         "outlines": [
             {
-                "effect": one.effect,
-                "typical_mm": one.raw,
-                "hidden_share": one.hidden_share,
-                "snr": one.seen,
-                "smallest": one.smallest,
+                "effect": outline.effect,
+                "typical_mm": outline.raw,
+                "hidden_share": outline.hidden_share,
+                "snr": outline.seen,
+                "smallest": outline.smallest,
                 "parameters": [
                     {"name": name, "smallest": size, "unit": unit}
-                    for name, size, unit in one.parameters
+                    for name, size, unit in outline.parameters
                 ],
-                "alike": one.alike,
+                "alike": outline.alike,
             }
-            for one in found.outlines
+            for outline in outlook.outlines
         ],
-        "pairs_told_apart": found.pairs,
+        "pairs_told_apart": outlook.pairs,
         "additions": [
             {
-                "kind": one.option.kind,
-                "title": one.option.title,
-                "do": one.option.do,
-                "minutes": one.option.minutes,
-                "pairs_told_apart": one.pairs,
+                "kind": addition.option.kind,
+                "title": addition.option.title,
+                "do": addition.option.do,
+                "minutes": addition.option.minutes,
+                "pairs_told_apart": addition.pairs,
             }
-            for one in found.additions
+            for addition in outlook.additions
         ],
         "written": [written] if written else [],
     }
 
 
-def as_text(found: Preview) -> str:
+def as_text(outlook: Preview) -> str:
     """The preview for people."""
-    good = [one for one in found.outlines if one.smallest is not None and one.smallest <= 1]
-    what = f"{found.marks} marks" + (f" and {found.distances} distances" if found.distances else "")
+    smallest = [outline.smallest for outline in outlook.outlines]
+    good = [size for size in smallest if size is not None and size <= 1]
+    what = f"{outlook.marks} marks"
+    what += f" and {outlook.distances} distances" if outlook.distances else ""
     first = (
-        f"{what} read to {found.sigma:g} mm: {len(good)} of {len(found.outlines)} effects would "
-        f"be found in their usual size, and {found.pairs} of {found.matrix.size} cells below are "
-        f"told apart ({APART:g} or more)."
+        f"{what} read to {outlook.sigma:g} mm: {len(good)} of {len(outlook.outlines)} effects "
+        f"would be found in their usual size, and {outlook.pairs} of {outlook.matrix.size} cells "
+        f"below are told apart ({APART:g} or more)."
     )
-    parts = [sentences([first], mark=""), _outline_table(found), _cells(found)]
-    if found.additions:
-        parts.append(_addition_table(found))
-        best = found.additions[0].option
+    parts = [sentences([first], mark=""), _outline_table(outlook), _cells(outlook)]
+    if outlook.additions:
+        parts.append(_addition_table(outlook))
+        best = outlook.additions[0].option
         parts.append(sentences([f"Best addition: {' '.join(best.do)}"], mark=""))
     return "\n\n".join(parts)
 
 
-def _outline_table(found: Preview) -> str:
+def _outline_table(outlook: Preview) -> str:
     rows = []
-    for place, one in enumerate(found.outlines, 1):
-        hidden = "-" if one.hidden_share is None else f"{100 * one.hidden_share:.0f} %"
-        alike = ", ".join(one.alike[:ALIKE])
-        more = len(one.alike) - ALIKE
+    for place, outline in enumerate(outlook.outlines, 1):
+        hidden = "-" if outline.hidden_share is None else f"{100 * outline.hidden_share:.0f} %"
+        alike = ", ".join(outline.alike[:ALIKE])
+        more = len(outline.alike) - ALIKE
         rows.append(
             [
                 str(place),
-                one.effect,
-                f"{millimetres(one.raw)}",
+                outline.effect,
+                f"{millimetres(outline.raw)}",
                 hidden,
-                _smallest(one),
+                _smallest(outline),
                 f"{alike} +{more}" if more > 0 else alike or "-",
             ]
         )
     header = ["", "effect", "usual, mm", "in frame", "found from", "taken for"]
     note = (
         f"found from: the smallest size that is found in {100 * POWER:.0f} % of all cases, times "
-        "the usual one"
+        "the usual size"
     )
     return table(header, rows, left=2) + "\n" + sentences([note], mark="")
 
 
-def _smallest(one: Outline) -> str:
-    if one.smallest is None:
+def _smallest(outline: Outline) -> str:
+    if outline.smallest is None:
         return "never"
-    first = one.parameters[0]
-    own = f" ({number(first[1])} {first[2]})" if len(one.parameters) == 1 else ""
-    return f"x {one.smallest:.2g}{own}".replace(" 1)", ")")
+    first = outline.parameters[0]
+    size = f" ({number(first[1])} {first[2]})" if len(outline.parameters) == 1 else ""
+    return f"x {outline.smallest:.2g}{size}".replace(" 1)", ")")
 
 
-def _cells(found: Preview) -> str:
-    header = ["", "reading errors beside", *(str(i) for i in range(1, len(found.effects) + 1))]
+def _cells(outlook: Preview) -> str:
+    header = ["", "reading errors against", *(str(i) for i in range(1, len(outlook.effects) + 1))]
     rows = [
-        [str(i + 1), name, *(shown(float(value)) for value in found.matrix[i])]
-        for i, name in enumerate(found.effects)
+        [str(i + 1), name, *(shown(float(value)) for value in outlook.matrix[i])]
+        for i, name in enumerate(outlook.effects)
     ]
     return table(header, rows, left=2)
 
 
-def _addition_table(found: Preview) -> str:
+def _addition_table(outlook: Preview) -> str:
     rows = [
-        [one.option.title, f"{one.option.minutes:.0f}", f"{found.pairs} -> {one.pairs}"]
-        for one in found.additions[:SHOWN]
+        [
+            addition.option.title,
+            f"{addition.option.minutes:.0f}",
+            f"{outlook.pairs} -> {addition.pairs}",
+        ]
+        for addition in outlook.additions[:SHOWN]
     ]
     rows += [
-        [one.option.title, f"{one.option.minutes:.0f}", f"{found.pairs} -> {one.pairs}"]
-        for one in found.additions[SHOWN:]
-        if one.option.kind == "many"
+        [
+            addition.option.title,
+            f"{addition.option.minutes:.0f}",
+            f"{outlook.pairs} -> {addition.pairs}",
+        ]
+        for addition in outlook.additions[SHOWN:]
+        if addition.option.kind == "many"
     ]
     return table(["what to add, best per minute first", "minutes", "cells told apart"], rows)

@@ -8,7 +8,7 @@ from typing import Any
 from plumb.cli.files import add_json, add_settings, limit, picture_form, settings_in, write_outputs
 from plumb.cli.text import print_json, sentences, table
 from plumb.model.predict import REACH_LIMITS, REACH_WORDS
-from plumb.model.reach import Extreme, Survey, percent, survey
+from plumb.model.reach import Extreme, Survey, percent, survey_sheet
 from plumb.pictures.reach import draw_map
 from plumb.text.errors import InputError
 
@@ -58,85 +58,85 @@ def run(arguments: argparse.Namespace) -> int:
             f"{limits['most_tension']:g}: no chain can keep both"
         )
     form = picture_form(arguments.output, option="-o") if arguments.output else ""
-    found = survey(settings_in(arguments.settings), **limits)
+    survey = survey_sheet(settings_in(arguments.settings), **limits)
     if arguments.output:
-        drawn = draw_map(found, form=form)
+        drawn = draw_map(survey, form=form)
         write_outputs({arguments.output: drawn}, inputs=[arguments.settings])
     if arguments.json:
-        print_json(as_json(found, written=arguments.output))
+        print_json(as_json(survey, written=arguments.output))
     else:
-        print(as_text(found))
-    return int(not found.all_usable)
+        print(as_text(survey))
+    return int(not survey.all_usable)
 
 
-def map_of(found: Survey) -> list[str]:
+def map_of(survey: Survey) -> list[str]:
     """The sheet in characters, from the top down; edges included."""
-    verdicts = found.reached.verdict.reshape(len(found.y), len(found.x))
-    return ["".join(SIGNS[own] for own in row) for row in verdicts[::MAP_ROWS, ::MAP_STEP]]
+    verdicts = survey.reached.verdict.reshape(len(survey.y), len(survey.x))
+    return ["".join(SIGNS[verdict] for verdict in row) for row in verdicts[::MAP_ROWS, ::MAP_STEP]]
 
 
-def as_json(found: Survey, *, written: str | None = None) -> dict[str, Any]:
-    """The survey as one object."""
+def as_json(survey: Survey, *, written: str | None = None) -> dict[str, Any]:
+    """The survey by the names of the interface."""
     return {
-        "usable_share": found.shares[REACH_WORDS[0]],
-        "shares": {word.replace(" ", "_"): share for word, share in found.shares.items()},
-        "limits": found.limits,
-        "tightest": _extreme_json(found.tightest, "tension_n"),
-        "slackest": _extreme_json(found.slackest, "tension_n"),
-        "softest": _extreme_json(found.softest, "give_mm_per_n"),
-        "assumed": found.assumed,
-        "map": map_of(found),
+        "usable_share": survey.shares[REACH_WORDS[0]],
+        "shares": {word.replace(" ", "_"): share for word, share in survey.shares.items()},
+        "limits": survey.limits,
+        "tightest": _extreme_json(survey.tightest, "tension_n"),
+        "slackest": _extreme_json(survey.slackest, "tension_n"),
+        "softest": _extreme_json(survey.softest, "give_mm_per_n"),
+        "assumed": survey.assumed,
+        "map": map_of(survey),
         "written": [written] if written else [],
     }
 
 
-def _extreme_json(own: Extreme | None, unit: str) -> dict[str, Any] | None:
-    if own is None:
+def _extreme_json(extreme: Extreme | None, unit: str) -> dict[str, Any] | None:
+    if extreme is None:
         return None
-    side = {"side": own.side} if own.side else {}
-    return {"place": own.place, unit: own.value, **side}
+    side = {"side": extreme.side} if extreme.side else {}
+    return {"place": extreme.place, unit: extreme.value, **side}
 
 
-def as_text(found: Survey) -> str:
+def as_text(survey: Survey) -> str:
     """The survey for people: conclusion, map, worst places."""
-    lines = map_of(found)
+    lines = map_of(survey)
     edge = "+" + "-" * len(lines[0]) + "+"
-    shares = found.shares.values()
+    shares = survey.shares.values()
     legend = [
         f"  {sign}  {percent(share):>6s}  {meaning}"
         for sign, share, meaning in zip(SIGNS, shares, MEANING, strict=True)
         if share
     ]
     parts = [
-        _conclusion(found),
+        _conclusion(survey),
         "\n".join([edge, *(f"|{line}|" for line in lines), edge]),
         "\n".join(legend),
     ]
-    if found.tightest and found.slackest and found.softest:
-        parts.append(_worst(found, found.tightest, found.slackest, found.softest))
-    if found.assumed:
-        parts.append(sentences(found.assumed))
+    if survey.tightest and survey.slackest and survey.softest:
+        parts.append(_worst(survey, survey.tightest, survey.slackest, survey.softest))
+    if survey.assumed:
+        parts.append(sentences(survey.assumed))
     return "\n\n".join(parts)
 
 
-def _conclusion(found: Survey) -> str:
-    if found.all_usable:
+def _conclusion(survey: Survey) -> str:
+    if survey.all_usable:
         return "The whole sheet is usable."
-    if not found.shares[REACH_WORDS[0]]:
+    if not survey.shares[REACH_WORDS[0]]:
         return "No place of the sheet is usable."
-    usable, *bad = [(word, share) for word, share in found.shares.items() if share]
+    usable, *bad = [(word, share) for word, share in survey.shares.items() if share]
     rest = ", ".join(f"{percent(share)} {word}" for word, share in bad)
     return f"{percent(usable[1])} of the sheet is usable; {rest}."
 
 
-def _worst(found: Survey, tightest: Extreme, slackest: Extreme, softest: Extreme) -> str:
-    limits = found.limits
+def _worst(survey: Survey, tightest: Extreme, slackest: Extreme, softest: Extreme) -> str:
+    limits = survey.limits
     rows = [
         ["tightest chain", f"{tightest.value:.1f} N", f"{limits['most_tension']:g} N"],
         ["slackest chain", f"{slackest.value:.1f} N", f"{limits['least_tension']:g} N"],
         ["softest place", f"{softest.value:.2f} mm/N", f"{limits['most_give']:g} mm/N"],
     ]
-    for row, own in zip(rows, (tightest, slackest, softest), strict=True):
-        row += [f"{own.place[0]:.0f}, {own.place[1]:.0f}", own.side]
+    for row, extreme in zip(rows, (tightest, slackest, softest), strict=True):
+        row += [f"{extreme.place[0]:.0f}, {extreme.place[1]:.0f}", extreme.side]
     rows[2][-1] = f"{CUT:g} N move it {CUT * softest.value:.1f} mm"
     return table(["", "", "limit", "at x, y", ""], rows)

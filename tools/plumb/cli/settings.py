@@ -38,32 +38,32 @@ def run(arguments: argparse.Namespace) -> int:
     if settings.controller != "plumb":
         raise refusal(
             arguments.settings,
-            "holds the published numbers, which its own program sends",
+            "holds the published numbers, which GroundControl or WebControl sends",
             remedy="give the machine.toml of plumb add",
         )
     numbers = firmware_numbers(settings)
     if arguments.to == "groundcontrol.ini":
         if not (arguments.original and arguments.output):
             raise InputError("--to groundcontrol.ini needs --original INI and --output FILE")
-        told = changed_ini(arguments.original, groundcontrol_values(settings))
+        content = changed_ini(arguments.original, groundcontrol_values(settings))
     else:
-        told = _text(numbers, arguments.to).encode()
+        content = _text(numbers, arguments.to).encode()
     read = [arguments.settings, *filter(None, [arguments.original])]
     if arguments.output:
-        write_outputs({arguments.output: told}, inputs=read)
+        write_outputs({arguments.output: content}, inputs=read)
     if arguments.json:
-        print_json({"settings": [vars(one) for one in numbers], "written": arguments.output})
+        print_json({"settings": [vars(row) for row in numbers], "written": arguments.output})
     elif arguments.output:
         print(f"Written: {arguments.output}")
         if arguments.to == "gcode":
             print(sentences([KEPT_BY_CLIENT]))
     else:
-        print(told.decode(), end="")
+        print(content.decode(), end="")
     return 0
 
 
 def _text(numbers: tuple[Number, ...], form: str) -> str:
     if form == "gcode":
-        return "".join(f"{one.line}\n" for one in numbers)
-    rows = [[f"${one.number}", one.name, one.text, one.unit] for one in numbers]
+        return "".join(f"{row.line}\n" for row in numbers)
+    rows = [[f"${row.number}", row.name, row.text, row.unit] for row in numbers]
     return table(["number", "name", "value", "unit"], rows) + "\n"

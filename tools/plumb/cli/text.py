@@ -1,4 +1,4 @@
-"""What the commands print: one JSON object, or aligned tables."""
+"""What the commands print: a JSON object, or aligned tables."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ WIDTH = 96  # [characters] of wrapped sentences
 
 
 def print_json(answer: Mapping[str, Any]) -> None:
-    """Print exactly one JSON object; what is not a finite number is null."""
+    """Print a single JSON object; what is not a finite number is null."""
     print(json.dumps(plain(answer), indent=2, allow_nan=False))
 
 
 def plain(value: Any) -> Any:
-    """The value in JSON's own types."""
+    """The value in the types of JSON."""
     if isinstance(value, Mapping):
-        return {str(key): plain(own) for key, own in value.items()}
+        return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, np.ndarray):
         return plain(value.tolist())
     if isinstance(value, (list, tuple)):
-        return [plain(own) for own in value]
+        return [plain(item) for item in value]
     if isinstance(value, np.generic):
         return plain(value.item())
     if isinstance(value, float) and not math.isfinite(value):
@@ -63,7 +63,7 @@ def millimetres(value: float | None, digits: int = 2) -> str:
 
 
 def about(value: float) -> str:
-    """A length for a title: one decimal, two below a millimetre."""
+    """A length for a title: a decimal, two below a millimetre."""
     return f"{value:.1f}" if value >= 0.95 else f"{value:.2f}"
 
 
@@ -72,8 +72,8 @@ def signed(value: float | None, digits: int = 2) -> str:
     return "-" if value is None else f"{value:+.{digits}f}"
 
 
-def number(value: float) -> str:
+def number(value: float | None) -> str:
     """A parameter for people: four figures, six for what is measured in metres."""
-    if not math.isfinite(value):
+    if value is None or not math.isfinite(value):
         return "-"
     return f"{value:.6g}" if abs(value) >= 100 else f"{value:.4g}"

@@ -80,7 +80,7 @@ def with_soft_chains(settings: MachineSettings) -> tuple[MachineSettings, tuple[
     return replace(settings, effects=effects), tuple(assumed)
 
 
-def survey(settings: MachineSettings, **limits: float) -> Survey:
+def survey_sheet(settings: MachineSettings, **limits: float) -> Survey:
     """Every place of the sheet by our model of the machine; limits as in REACH_LIMITS."""
     machine, assumed = with_soft_chains(settings.as_plumb_model())
     width, height = machine.sheet

@@ -14,7 +14,7 @@ Array = np.ndarray
 SCALE = 0.14  # [px/mm] of the sheet
 LONGEST = 40.0  # [px] of an arrow
 BESIDE, ABOVE, BELOW = 36.0, 72.0, 56.0  # [px] around each sheet
-HEAD = 6.5  # [px] of an arrow, and the shortest arrow that has one
+HEAD = 6.5  # [px] of an arrow; shorter arrows have none
 DOT = 2.0  # [px] radius
 FAINT = "#d9a59c"
 FONT = 'font-family="Helvetica, Arial, sans-serif"'
@@ -33,7 +33,7 @@ class Picture:
 def drawing(
     title: str, rows: Sequence[tuple[str, Sequence[Picture]]], *, sheet: tuple[float, float]
 ) -> str:
-    """The text of an SVG: labelled rows of sheets [mm], each with its own scale."""
+    """The text of an SVG: labelled rows of sheets [mm], each to its scale."""
     wide, tall = SCALE * sheet[0] + 2 * BESIDE, SCALE * sheet[1] + ABOVE + BELOW
     width = wide * max(len(pictures) for _, pictures in rows)
     height = tall * len(rows)
@@ -95,7 +95,7 @@ def _scale_bar(errors: Array, factor: float, left: float, height: float) -> list
 
 def _dots(places: Array) -> str:
     """Circles where marks were sent."""
-    # Two half circles each: one path for all is much shorter than a circle each.
+    # Two half circles each: a path for all is much shorter than a circle each.
     rings = "".join(
         f"M{_n(x - DOT)} {_n(y)}a{DOT:g} {DOT:g} 0 1 0 {2 * DOT:g} 0a{DOT:g} {DOT:g} 0 1 0 "
         f"{-2 * DOT:g} 0"
@@ -125,10 +125,13 @@ def _arrows(starts: Array, ends: Array) -> list[str]:
 
 def _on_paper(places: Array, middle: tuple[float, float]) -> Array:
     """Places [mm], y up, on paper [px], y down."""
-    return np.array(middle) + SCALE * places * np.array([1.0, -1.0])
+    flipped: Array = places * np.array([1.0, -1.0])
+    return np.array(middle) + SCALE * flipped
 
 
-def _text(x: float, y: float, said: str, *, size: float, bold: bool = False, anchor="start") -> str:
+def _text(
+    x: float, y: float, said: str, *, size: float, bold: bool = False, anchor: str = "start"
+) -> str:
     weight = ' font-weight="bold"' if bold else ""
     place = "" if anchor == "start" else f' text-anchor="{anchor}"'
     return (

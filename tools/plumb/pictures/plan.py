@@ -1,4 +1,4 @@
-"""A picture of a proposal: the marks there are and those to come, on the sheet."""
+"""A picture of a proposal: the measured and the proposed marks on the sheet."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 TITLE, LINE, FOOT = 0.5, 0.3, 0.2  # [inch] above the sheet, a line of the legend, below it
 NEW, HEAVY, SWAPPED = "#1f5f8b", "#8e2c22", "#6b3fa0"
-SHAFT = 90.0  # [mm] of the arrow that shows from where the sled comes
+SHAFT = 90.0  # [mm] of the arrow in the direction of the last move
 
 
 def draw_plan(
@@ -29,7 +29,7 @@ def draw_plan(
     form: str = "png",
 ) -> bytes:
     """The sheet with old marks (n, 2) [mm] and planned visits, numbered in their order."""
-    # Loading matplotlib takes longer than most commands: only who draws shall wait for it.
+    # Loading matplotlib takes longer than most commands: only a drawing waits for it.
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -69,12 +69,12 @@ def _draw_sheet(
 
 
 def _by_place(visits: Visits) -> list[tuple[list[int], int]]:
-    """Visits that are alike but for being repeated: their numbers, and the first of them."""
-    groups: dict[tuple, list[int]] = {}
+    """Visits that repeat each other: their numbers, and the row of the first."""
+    groups: dict[tuple[float, ...], list[int]] = {}
     for i in range(len(visits)):
-        alike = (*visits.targets[i], visits.sled_weights[i], visits.swapped[i])
+        alike = (*visits.targets[i], visits.sled_weights[i], float(visits.swapped[i]))
         groups.setdefault(alike, []).append(i)
-    return [([i + 1 for i in own], own[0]) for own in groups.values()]
+    return [([i + 1 for i in rows], rows[0]) for rows in groups.values()]
 
 
 def _draw_visit(
@@ -122,7 +122,7 @@ def _legend(
     """Symbol, colour and meaning of what is drawn; no symbol for a plain sentence."""
     lines: list[tuple[str | None, str, str]] = []
     if len(old):
-        lines.append(("o", "white", "marks there are"))
+        lines.append(("o", "white", "measured marks"))
     meant: dict[tuple[str, str], str] = {}
     for i in range(len(visits)):
         colour, symbol = _look(visits, i, usual_weight)

@@ -18,9 +18,9 @@ SHEET = 2.0  # [inch] of the sheet with the planned marks, to the right of the c
 MOST = 6.0  # [sigmas] from which a cell is as green as it gets
 
 
-def draw_preview(found: Preview, *, sheet: tuple[float, float], form: str = "png") -> bytes:
+def draw_preview(preview: Preview, *, sheet: tuple[float, float], form: str = "png") -> bytes:
     """The cells in sigmas with the planned marks below them."""
-    # Loading matplotlib takes longer than most commands: only who draws shall wait for it.
+    # Loading matplotlib takes longer than most commands: only a drawing waits for it.
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.colors import LinearSegmentedColormap
     from matplotlib.figure import Figure
@@ -31,17 +31,17 @@ def draw_preview(found: Preview, *, sheet: tuple[float, float], form: str = "png
     figure = Figure(figsize=(WIDTH, tall))
     FigureCanvasAgg(figure)
     axis = figure.add_axes((LEFT / WIDTH, (FOOT + low + GAP) / tall, side / WIDTH, side / tall))
-    shades = LinearSegmentedColormap.from_list("told", ["#c0392b", "#f6e3b4", "#1e6b3a"])
-    axis.imshow(found.matrix, cmap=shades, vmin=0, vmax=MOST, aspect="equal")
-    _write_cells(axis, found)
-    title = f"What these {found.marks} marks could tell, read to {found.sigma:g} mm"
+    shades = LinearSegmentedColormap.from_list("apart", ["#c0392b", "#f6e3b4", "#1e6b3a"])
+    axis.imshow(preview.matrix, cmap=shades, vmin=0, vmax=MOST, aspect="equal")
+    _write_cells(axis, preview)
+    title = f"What these {preview.marks} marks could tell, read to {preview.sigma:g} mm"
     figure.text(GAP / WIDTH, 1 - 0.4 / tall, title, fontsize=15, fontweight="bold", color=INK)
     small = figure.add_axes((LEFT / WIDTH, GAP / tall, SHEET / WIDTH, low / tall))
-    _draw_targets(small, found.targets, sheet)
+    _draw_targets(small, preview.targets, sheet)
     said = (
         "number: reading errors of what the row's effect, in its usual",
         "size, draws and neither frame nor column's effect can imitate",
-        "on the diagonal: beside the frame alone",
+        "on the diagonal: with the frame alone",
         f"told apart: {APART:g} or more",
     )
     for i, line in enumerate(said):
@@ -54,17 +54,17 @@ def draw_preview(found: Preview, *, sheet: tuple[float, float], form: str = "png
     return file.getvalue()
 
 
-def _write_cells(axis: Axes, found: Preview) -> None:
-    count = len(found.effects)
-    axis.set_xticks(range(count), found.effects, rotation=60, ha="left", fontsize=10)
-    axis.set_yticks(range(count), found.effects, fontsize=11)
+def _write_cells(axis: Axes, preview: Preview) -> None:
+    count = len(preview.effects)
+    axis.set_xticks(range(count), preview.effects, rotation=60, ha="left", fontsize=10)
+    axis.set_yticks(range(count), preview.effects, fontsize=11)
     axis.xaxis.tick_top()
     axis.tick_params(length=0)
     for spine in axis.spines.values():
         spine.set_visible(False)
     for i in range(count):
         for j in range(count):
-            value = float(found.matrix[i, j])
+            value = float(preview.matrix[i, j])
             dark = value < 0.18 * MOST or value > 0.8 * MOST
             axis.text(
                 j,
@@ -79,7 +79,7 @@ def _write_cells(axis: Axes, found: Preview) -> None:
 
 
 def shown(value: float) -> str:
-    """Sigmas for people: one decimal below ten, none above."""
+    """Sigmas for people: a decimal below ten, none above."""
     return f"{value:.1f}" if value < 9.95 else f"{value:.0f}" if value < 99.5 else "99+"
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,17 +14,17 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 WIDTH = 8.6  # [inch] of a picture
-MARGIN = 0.05  # beside the sheet, of its width
+MARGIN = 0.05  # left and right of the sheet, of its width
 TITLE, FOOT = 0.45, 0.85  # [inch] above each sheet, and below the last
 FORMATS = ("png", "svg", "pdf")
-STEPS = (1, 2, 3, 5)  # a factor or scale bar is one of these times a power of ten
+STEPS = (1, 2, 3, 5)  # a factor or scale bar is such a number times a power of ten
 WOOD, EDGE, INK = "#f3e7d3", "#8a6d3b", "#222222"
 BAD, GOOD = "#c0392b", "#1e6b3a"
 
 
 @dataclass(frozen=True)
 class Panel:
-    """One sheet with its errors [mm]."""
+    """A sheet with its errors [mm]."""
 
     title: str
     predicted: np.ndarray  # (n, 2)
@@ -32,8 +33,8 @@ class Panel:
 
 
 def draw(panels: Sequence[Panel], *, sheet: tuple[float, float], form: str = "png") -> bytes:
-    """The picture of one or more sheets, one above the other, all arrows to the same scale."""
-    # Loading matplotlib takes longer than most commands: only who draws shall wait for it.
+    """The picture of sheets, each below the last, all arrows to the same scale."""
+    # Loading matplotlib takes longer than most commands: only a drawing waits for it.
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -54,9 +55,9 @@ def draw(panels: Sequence[Panel], *, sheet: tuple[float, float], form: str = "pn
         axis.set_axis_off()
         _draw_sheet(axis, panel, sheet, factor)
         colour = GOOD if panel.good else BAD
-        title = {"fontsize": 16, "fontweight": "bold", "color": colour, "va": "bottom"}
-        beside = MARGIN / (1 + 2 * MARGIN)
-        figure.text(beside, (upper + inch * (top - bottom) + 0.06) / tall, panel.title, **title)
+        left = MARGIN / (1 + 2 * MARGIN)
+        y = (upper + inch * (top - bottom) + 0.06) / tall
+        figure.text(left, y, panel.title, fontsize=16, fontweight="bold", color=colour, va="bottom")
     _draw_scale(figure.add_axes((0, 0, 1, FOOT / tall)), factor, largest, inch)
     file = io.BytesIO()
     # No date in the file: the same errors give the same bytes.
@@ -111,7 +112,7 @@ def _draw_sheet(axis: Axes, panel: Panel, sheet: tuple[float, float], factor: fl
 def _draw_number(
     axis: Axes, place: np.ndarray, error: np.ndarray, gap: float, factor: float
 ) -> None:
-    """The length of an error beside its mark, where neither arrow nor edge is."""
+    """The length of an error next to its mark, clear of arrow and edge."""
     left = place[0] > 100 or (place[0] > -100 and error[0] > 0)
     in_the_way = abs(error[0]) > abs(error[1]) and (error[0] < 0) == left
     sideways = not (in_the_way and abs(error[0]) * factor > gap)
@@ -137,7 +138,7 @@ def _draw_scale(axis: Axes, factor: float, largest: float, inch: float) -> None:
     left = WIDTH * MARGIN / (1 + 2 * MARGIN)
     right = left + bar * factor * inch
     axis.plot([left, right], [0.6, 0.6], color=INK, lw=4, solid_capstyle="butt")
-    said = {"va": "center", "fontsize": 12, "color": INK}
-    axis.text(right + 0.12, 0.6, f"{bar:g} mm of error: arrows {factor:g} times life size", **said)
+    write = partial(axis.text, va="center", fontsize=12, color=INK)
+    write(right + 0.12, 0.6, f"{bar:g} mm of error: arrows {factor:g} times life size")
     meaning = "circle: where the mark should be; arrow: to where it was measured; number: mm"
-    axis.text(left, 0.27, meaning, **said)
+    write(left, 0.27, meaning)

@@ -56,13 +56,13 @@ def read_text(path: str | PathLike[str]) -> str:
 
 def write_whole(path: str | PathLike[str], content: bytes) -> None:
     """Replace a file in one step: a crash leaves the old or the new file, never half."""
-    write_all({path: content})
+    write_all({os.fspath(path): content})
 
 
-def write_all(files: Mapping[str | PathLike[str], bytes]) -> None:
+def write_all(files: Mapping[str, bytes]) -> None:
     """Replace several files: if any of them cannot be written, none is."""
-    staged: dict[str | PathLike[str], tuple[str, Path]] = {}
-    path: str | PathLike[str] = ""
+    staged: dict[str, tuple[str, Path]] = {}
+    path = ""
     try:
         for path, content in files.items():
             target = Path(os.path.realpath(path))

@@ -22,7 +22,7 @@ BAD = [
     ("holey needs more", ["compare", *BOARD, "--controller", "holey"], "sledWeight"),
     ("a folder", ["compare", SETTINGS.parent, MARKS], "is a folder"),
     ("unknown effect", ["add", *BOARD, "--effect", "chain_sog"], "known are "),
-    ("auto", ["add", *BOARD, "--effect", "auto", "chain_sag"], "name no others beside it"),
+    ("auto", ["add", *BOARD, "--effect", "auto", "chain_sag"], "name no others with it"),
     ("no effect", ["add", *BOARD], "--effect"),
     ("bad prior", ["add", *BOARD, *EFFECTS, "--prior", "motor_gap=near"], "NAME=SIGMA"),
     ("prior without a number", ["add", *BOARD, *EFFECTS, "--prior", "motor_gap"], "NAME=SIGMA"),

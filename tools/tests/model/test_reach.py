@@ -19,7 +19,7 @@ from plumb.model.predict import (
     reach,
 )
 from plumb.model.predict import lengths as lengths_of
-from plumb.model.reach import percent, survey, with_soft_chains
+from plumb.model.reach import percent, survey_sheet, with_soft_chains
 from plumb.pictures.reach import draw_map
 from plumb.settings.files import write_machine_toml
 from synthetic import BELIEVED, SHEET, TRUE
@@ -130,7 +130,7 @@ def test_chains_that_no_setting_makes_soft_are_made_so():
 
 
 def test_the_survey_finds_the_lower_corners_of_the_usual_machine():
-    found = survey(SOFT)
+    found = survey_sheet(SOFT)
     assert 0.99 < found.shares["usable"] < 1
     assert found.slackest.place[1] == found.softest.place[1] == pytest.approx(-609.6)
     assert abs(found.softest.place[0]) == pytest.approx(1219.2)
@@ -141,7 +141,7 @@ def test_the_survey_finds_the_lower_corners_of_the_usual_machine():
 
 
 def test_the_map_shows_the_sheet_as_it_hangs():
-    lines = map_of(survey(replace(SOFT, motor_gap=2900.0, motor_height=909.6)))
+    lines = map_of(survey_sheet(replace(SOFT, motor_gap=2900.0, motor_height=909.6)))
     assert {len(line) for line in lines} == {77} and len(lines) == 20
     assert lines[0][38] == "T" and lines[-1][0] == lines[-1][-1] == "S"
     assert lines[10][38] == "." and set("".join(lines)) <= set(SIGNS)
@@ -190,7 +190,7 @@ def test_the_drawn_map_is_written(form, run, machine, tmp_path):
 
 
 def test_the_drawn_map_follows_the_limits():
-    maps = [draw_map(survey(SOFT, most_give=most)) for most in (0.3, 0.3, 0.4)]
+    maps = [draw_map(survey_sheet(SOFT, most_give=most)) for most in (0.3, 0.3, 0.4)]
     assert maps[0] == maps[1] != maps[2]
 
 
