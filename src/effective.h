@@ -16,26 +16,12 @@ namespace effective_detail {
 
 const float kTurn = 6.28318531f;  // [rad]
 
-inline void add(kinematics::EffectParams<float>& effects, int setting, float amount) {
-  effects.value[kinematics::Effects::For<float>::indexOf(setting)] += amount;
-}
-
-/// By how much the published sag exceeds ours, because it takes the arm for chain: with u the arm's
-/// share of the line, line^3 against chain^3 (1 + 3 u). Told at the longest line on the sheet,
-/// where nearly all sag is.
-inline float sagOfArm(const kinematics::Frame<float>& frame, float width, float height) {
-  const float across = 0.5f * (frame.motor_gap + width), down = frame.motor_height + 0.5f * height;
-  const float share = frame.rotation_radius / float(sqrt(across * across + down * down));
-  const float chain = 1 - share;
-  return 1 / (chain * chain * chain * (1 + 3 * share));
-}
-
-/// One tolerance [%] into strain, and into the zero by which the published formula, which divides
-/// the arm as well as the chain, is short of ours.
-inline void addTolerance(Geometry& geometry, float percent, int strain_setting, int zero_setting) {
-  const float strain = percent * 0.01f;
-  add(geometry.effects, strain_setting, strain);
-  add(geometry.effects, zero_setting, geometry.frame.rotation_radius * strain / (1 + strain));
+/// What the numbers of the published firmware say of the chains.
+inline kinematics::PublishedChains<float> publishedChains(const settings::Values& values) {
+  return {values.at(kSagCorrection) * 1e-12f,
+          {values.at(kLeftTolerance) * 0.01f, values.at(kRightTolerance) * 0.01f},
+          values.at(kSheetWidth),
+          values.at(kSheetHeight)};
 }
 
 }  // namespace effective_detail
@@ -61,12 +47,8 @@ inline Geometry geometryOf(const settings::Values& values) {
   Geometry geometry = {frameOf(values), {}};
   for (uint8_t i = 0; i < kinematics::kEffectParamCount; ++i)
     geometry.effects.value[i] = values.at(uint8_t(kFirstEffectSetting + i));
-  const float sag = values.at(kSagCorrection) * 1e-12f;
-  if (sag != 0)
-    add(geometry.effects, 160,
-        sag * sagOfArm(geometry.frame, values.at(kSheetWidth), values.at(kSheetHeight)));
-  addTolerance(geometry, values.at(kLeftTolerance), 180, 200);
-  addTolerance(geometry, values.at(kRightTolerance), 181, 201);
+  kinematics::Effects::For<float>::addPublished(geometry.frame, publishedChains(values),
+                                                geometry.effects.value);
   return geometry;
 }
 
@@ -77,7 +59,6 @@ inline kinematics::BracketSled<float> bracketSledOf(const settings::Values& valu
 
 /// Its chains' strain: ours alone, as the published firmware ignores the tolerances there.
 inline kinematics::PitchStrain<float> pitchOf(const settings::Values& values) {
-  const int first = kinematics::Effects::For<float>::indexOf(180);
-  return {values.at(uint8_t(kFirstEffectSetting + first)),
-          values.at(uint8_t(kFirstEffectSetting + first + 1))};
+  return kinematics::pitchAmong<float>(
+      [&](uint8_t index) { return values.at(uint8_t(kFirstEffectSetting + index)); });
 }

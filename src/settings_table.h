@@ -206,8 +206,7 @@ enum Setting : uint8_t {
 static_assert(10 + 5 * kSettingCount <= settings::Memory::kApart, "a copy has no room");
 static_assert(kSettingCount < settings::kNoIndex, "too many settings");
 
-/// The number that a client means: WebControl's chain elasticity and sled weight are ours.
+/// The number that a client means: WebControl's sled weight is ours, and effects say theirs.
 inline uint8_t meantBy(uint8_t number) {
-  if (number == 45) return 170;  // chain_stretch.compliance
-  return number == 46 ? 62 : number;
+  return number == 46 ? 62 : kinematics::Effects::For<float>::meantBy(number);
 }

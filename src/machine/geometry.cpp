@@ -14,19 +14,10 @@ using settings::Values;
 const motion::Slopes<float> kBracketSlopes = {0.3f, 5e-4f, 5e-6f};
 const float kUnknownSag = 20;  // [mm]
 
-/// A machine without what bends chains or moves with the sprockets' turn: for telling sag apart.
-kinematics::EffectParams<float> withoutSag(kinematics::EffectParams<float> effects) {
-  effects.set(160, 0);
-  effects.set(170, 0);
-  return effects;
-}
+typedef kinematics::Effects::For<float> Effects;
 
-/// Slopes of sprockets that run out, whose rhythm is their turn.
-motion::Slopes<float> runoutSlopes(const kinematics::EffectParams<float>& effects, float radius) {
-  typedef kinematics::Effects::For<float> List;
-  const uint8_t first = uint8_t(List::indexOf(190));
-  float amplitude = 0;
-  for (uint8_t i = first; i < List::indexOf(200); ++i) amplitude += float(fabs(effects.value[i]));
+/// Slopes of what follows the sprockets' turn, whose rhythm is that turn.
+motion::Slopes<float> waveSlopes(float amplitude, float radius) {
   const float per = 1 / radius;
   return {amplitude * per, amplitude * per * per, amplitude * per * per * per};
 }
@@ -58,8 +49,10 @@ bool Geometry::isSheetReachable() const {
 
 void Geometry::prepareRing(const Values& values, const kinematics::Frame<float>& frame) {
   const kinematics::EffectParams<float> effects = geometryOf(values).effects;
+  kinematics::EffectParams<float> rigid = effects;
+  Effects::clearBends(rigid.value);
   const kinematics::Point<float> corner = {half_width_, -half_height_};
-  ring_ = kinematics::prepare(frame, withoutSag(effects));
+  ring_ = kinematics::prepare(frame, rigid);
   const kinematics::PaidOut<float> straight = kinematics::inverse(ring_, corner);
   ring_ = kinematics::prepare(frame, effects);
   const kinematics::PaidOut<float> bent = kinematics::inverse(ring_, corner);
@@ -72,10 +65,11 @@ void Geometry::prepareRing(const Values& values, const kinematics::Frame<float>&
   const float least_run = near_run > 50 ? near_run : 50;
   const float span = float(sqrt(far_run * far_run + drop * drop));
   sprockets_.effects = motion::sagSlopes(sag, far_run, least_run, drop, span);
-  const motion::Slopes<float> runout = runoutSlopes(effects, frame.sprocket_radius);
-  sprockets_.effects.first += runout.first;
-  sprockets_.effects.second += runout.second;
-  sprockets_.effects.third += runout.third;
+  const motion::Slopes<float> waves =
+      waveSlopes(Effects::wavesOf(effects.value), frame.sprocket_radius);
+  sprockets_.effects.first += waves.first;
+  sprockets_.effects.second += waves.second;
+  sprockets_.effects.third += waves.third;
 }
 
 void Geometry::prepareBrackets(const Values& values, const kinematics::Frame<float>& frame) {

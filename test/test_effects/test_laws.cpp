@@ -137,6 +137,56 @@ TEST(Registry, EveryEffectSpeaksToPeople) {
   }
 }
 
+namespace {
+
+/// Counts what an effect says to the judge.
+struct CountSaid {
+  int sets = 0;
+  void set(const char*, double) { ++sets; }
+  void scale(const char*, double) { ++sets; }
+};
+
+/// What is missing in each effect's header, with what to write there.
+struct Missing {
+  std::vector<std::string> lines;
+
+  template <class Own>
+  void effect(int) {
+    const std::string header = std::string("effects/") + Own::info().name + ".h: ";
+    if (!Own::check().title)
+      lines.push_back(header +
+                      "say how an owner measures it: static CheckInfo check(), with an "
+                      "empty title if nobody can");
+    bool checked = false;
+    for (uint8_t i = 0; i < Own::kParamCount; ++i) checked |= Own::param(i).sigma > 0;
+    if (Own::check().title && checked != (Own::check().title[0] != 0))
+      lines.push_back(header + "a check() needs the sigma of a param(), and a sigma a check()");
+    if (Own::kEmpirical == 1) return;
+    for (uint8_t i = 0; i < Own::kExampleCount; ++i)
+      if (!Own::example(i).label)
+        lines.push_back(header +
+                        "give the bench a machine that suffers from it: static Example "
+                        "example(uint8_t i), kExampleCount of them");
+    if (Own::kExampleCount == 0) lines.push_back(header + "the bench needs at least one example()");
+    std::vector<double> typical;
+    for (uint8_t i = 0; i < Own::kParamCount; ++i) typical.push_back(Own::param(i).typical);
+    CountSaid said;
+    Own::setJudge(Frame<double>(), typical.data(), said);
+    if (!said.sets)
+      lines.push_back(header +
+                      "say it in the judge's numbers: setJudge(); what he lacks is added "
+                      "in test/reference");
+  }
+};
+
+}  // namespace
+
+TEST(Registry, EveryHeaderSaysAllThatTheLabAsks) {
+  Missing missing;
+  Effects::For<double>::visit(missing);
+  for (const std::string& line : missing.lines) ADD_FAILURE() << line;
+}
+
 TEST(Registry, PublishedNumbersKeepTheirMeaning) {
   // Owners have these in their EEPROM: a change here changes their machines.
   std::vector<std::string> numbers;

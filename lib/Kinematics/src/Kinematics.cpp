@@ -98,19 +98,39 @@ Real loadOf(const Machine<Real>& machine, const Strand<Real>* strand) {
   return machine.load_at_nothing + machine.load_slope * (strand[kLeft].free + strand[kRight].free);
 }
 
+/// Nothing pushes the sled: what the board is compiled for unless one of its effects pushes.
+struct NoPush {};
+
 /// Tensions of two strands that hold the load.
 template <class Real>
-void shareLoad(const Machine<Real>& machine, Hanging<Real>& hanging) {
-  Strand<Real>& left = hanging.strand[kLeft];
-  Strand<Real>& right = hanging.strand[kRight];
-  hanging.sine_of_sum = left.sine * right.cosine + left.cosine * right.sine;
-  const Real scale = loadOf(machine, hanging.strand) / hanging.sine_of_sum;
+PLUMB_INLINE void pull(Real scale, NoPush, Strand<Real>& left, Strand<Real>& right) {
   left.pull = scale * right.cosine;
   right.pull = scale * left.cosine;
   // Both pull sideways alike: one division serves both.
   const Real per_level = Real(1) / (left.pull * left.cosine);
   left.slack = left.cosine * per_level;
   right.slack = right.cosine * per_level;
+}
+
+/// The same under a push, which makes one strand pull more sideways than the other.
+template <class Real>
+void pull(Real scale, Point<Real> push, Strand<Real>& left, Strand<Real>& right) {
+  const Real per_sum = Real(1) / (left.sine * right.cosine + left.cosine * right.sine);
+  const Real across = push.x * per_sum;
+  const Real down = scale - push.y * per_sum;
+  left.pull = down * right.cosine + across * right.sine;
+  right.pull = down * left.cosine - across * left.sine;
+  left.slack = Real(1) / left.pull;
+  right.slack = Real(1) / right.pull;
+}
+
+/// What both strands carry, and how easily it bends them.
+template <class Push, class Real>
+void shareLoad(const Machine<Real>& machine, Push push, Hanging<Real>& hanging) {
+  Strand<Real>& left = hanging.strand[kLeft];
+  Strand<Real>& right = hanging.strand[kRight];
+  hanging.sine_of_sum = left.sine * right.cosine + left.cosine * right.sine;
+  pull(loadOf(machine, hanging.strand) / hanging.sine_of_sum, push, left, right);
   left.bend = left.cosine * left.slack;
   right.bend = right.cosine * right.slack;
   left.deep = right.deep = machine.deep;
@@ -120,12 +140,6 @@ void shareLoad(const Machine<Real>& machine, Hanging<Real>& hanging) {
   right.lean = right.sine * right.slack;
   left.ease = right.ease =
       machine.ease * (left.free * left.free * left.lean + right.free * right.free * right.lean);
-}
-
-template <class Real>
-Chains<Real> paidOut(const Hanging<Real>& hanging) {
-  return {hanging.strand[kLeft].wrap + hanging.strand[kLeft].length,
-          hanging.strand[kRight].wrap + hanging.strand[kRight].length};
 }
 
 template <class Real>
@@ -187,10 +201,29 @@ Point<Real> meetStraight(const Machine<Real>& machine, Chains<Real> chains) {
   return {from.x + run, from.y - drop};
 }
 
+/// What two strands do under a load, without a push.
+template <class Real>
+PLUMB_INLINE Forces<Real> forcesOf(Real load, NoPush, const Strand<Real>& left,
+                                   const Strand<Real>& right) {
+  const Real to_left = left.sine * right.cosine;
+  const Real to_right = left.cosine * right.sine;
+  const Real scale = load / (to_left + to_right);
+  return {scale * (left.cosine * right.cosine), {scale * to_left, scale * to_right}};
+}
+
+/// The same under a push.
+template <class Real>
+PushedForces<Real> forcesOf(Real load, Point<Real> push, Strand<Real> left, Strand<Real> right) {
+  pull(load / (left.sine * right.cosine + left.cosine * right.sine), push, left, right);
+  return {{left.pull * left.cosine, right.pull * right.cosine},
+          {left.pull * left.sine, right.pull * right.sine}};
+}
+
 /// By how much effects move the ends of each strand [mm]: strands are drawn between the ends at
 /// rest, no farther than forces need.
-template <class Real>
-PLUMB_RARE void spanBetweenEnds(const Machine<Real>& machine, Point<Real> bit, Point<Real>* span) {
+template <class Push, class Real>
+PLUMB_RARE void spanBetweenEnds(const Machine<Real>& machine, Point<Real> bit, Push push,
+                                Point<Real>* span) {
   Strand<Real> strand[kSideCount];
   for (uint8_t side = kLeft; side < kSideCount; ++side) {
     const Point<Real> sprocket = machine.sprocket[side];
@@ -199,15 +232,48 @@ PLUMB_RARE void spanBetweenEnds(const Machine<Real>& machine, Point<Real> bit, P
     const Real distance = sqrt(run * run + drop * drop + machine.radius_squared);
     direct(machine, run, drop, distance, strand[side]);
   }
-  const Strand<Real>& left = strand[kLeft];
-  const Strand<Real>& right = strand[kRight];
-  const Real to_left = left.sine * right.cosine;
-  const Real to_right = left.cosine * right.sine;
-  const Real scale = loadOf(machine, strand) / (to_left + to_right);
-  const Forces<Real> forces = {scale * (left.cosine * right.cosine),
-                               {scale * to_left, scale * to_right}};
+  const auto forces = forcesOf(loadOf(machine, strand), push, strand[kLeft], strand[kRight]);
   span[kLeft] = span[kRight] = {Real(0), Real(0)};
   Effects::For<Real>::moveEnds(machine.coefficient, machine.present, strand, forces, span);
+}
+
+template <class Push, class Real>
+PLUMB_INLINE void hangUnder(const Machine<Real>& machine, Point<Real> bit, bool directed, Push push,
+                            Hanging<Real>& hanging) {
+  typedef Effects::For<Real> All;
+  Point<Real> room[kSideCount];
+  const Point<Real>* span = nullptr;
+  if (machine.present & All::kMoveMask) {
+    spanBetweenEnds(machine, bit, push, room);
+    span = room;
+  }
+  drawBoth(machine, bit, span, directed || machine.forces, hanging);
+  if (directed || machine.forces) shareLoad(machine, push, hanging);
+  if (machine.present == 0) return;
+  for (uint8_t side = kLeft; side < kSideCount; ++side)
+    All::adjustLength(machine.coefficient, machine.present, hanging.strand[side]);
+}
+
+/// The push of all effects at a place.
+template <class Real>
+Point<Real> pushAt(const Machine<Real>& machine, Point<Real> bit) {
+  Point<Real> push = {Real(0), Real(0)};
+  Effects::For<Real>::pushSled(machine.coefficient, machine.present, bit, push);
+  return push;
+}
+
+/// Whether some effect of the list pushes the sled: else the board has no code for it.
+template <bool kPushed>
+struct Pushed {};
+
+template <class Real>
+PLUMB_INLINE NoPush pushOf(Pushed<false>, const Machine<Real>&, Point<Real>) {
+  return NoPush();
+}
+
+template <class Real>
+Point<Real> pushOf(Pushed<true>, const Machine<Real>& machine, Point<Real> bit) {
+  return pushAt(machine, bit);
 }
 
 }  // namespace
@@ -257,19 +323,18 @@ Machine<Real> prepare(const Frame<Real>& frame, const EffectParams<Real>& effect
 
 template <class Real>
 Hanging<Real> hang(const Machine<Real>& machine, Point<Real> bit, bool directed) {
+  typedef Pushed<Effects::For<Real>::kPushMask != 0> IsPushed;
   Hanging<Real> hanging;
-  typedef Effects::For<Real> All;
-  Point<Real> room[kSideCount];
-  const Point<Real>* span = nullptr;
-  if (machine.present & All::kMoveMask) {
-    spanBetweenEnds(machine, bit, room);
-    span = room;
-  }
-  drawBoth(machine, bit, span, directed || machine.forces, hanging);
-  if (directed || machine.forces) shareLoad(machine, hanging);
-  if (machine.present == 0) return hanging;
-  for (uint8_t side = kLeft; side < kSideCount; ++side)
-    All::adjustLength(machine.coefficient, machine.present, hanging.strand[side]);
+  hangUnder(machine, bit, directed, pushOf(IsPushed(), machine, bit), hanging);
+  return hanging;
+}
+
+template <class Real>
+Hanging<Real> hangPushed(const Machine<Real>& machine, Point<Real> bit, Point<Real> push) {
+  const Point<Real> effects = pushAt(machine, bit);
+  const Point<Real> all = {push.x + effects.x, push.y + effects.y};
+  Hanging<Real> hanging;
+  hangUnder(machine, bit, true, all, hanging);
   return hanging;
 }
 
@@ -317,6 +382,7 @@ template Place<float> forward(const Machine<float>&, Chains<float>, Point<float>
 // The lab's instance; the linker drops it from the board, where nobody calls it.
 template Machine<double> prepare(const Frame<double>&, const EffectParams<double>&);
 template Hanging<double> hang(const Machine<double>&, Point<double>, bool);
+template Hanging<double> hangPushed(const Machine<double>&, Point<double>, Point<double>);
 template PaidOut<double> inverse(const Machine<double>&, Point<double>);
 template Place<double> forward(const Machine<double>&, Chains<double>);
 template Place<double> forward(const Machine<double>&, Chains<double>, Point<double>);

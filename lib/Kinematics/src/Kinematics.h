@@ -45,6 +45,18 @@ Machine<Real> prepare(const Frame<Real>& frame, const EffectParams<Real>& effect
 template <class Real>
 Hanging<Real> hang(const Machine<Real>& machine, Point<Real> bit, bool directed);
 
+/// The same under a push [1] on the sled, in sled weights: x right, y up. For host tools: the board
+/// knows only the pushes of its effects.
+template <class Real>
+Hanging<Real> hangPushed(const Machine<Real>& machine, Point<Real> bit, Point<Real> push);
+
+/// Chain of both strands from 12 o'clock.
+template <class Real>
+Chains<Real> paidOut(const Hanging<Real>& hanging) {
+  return {hanging.strand[kLeft].wrap + hanging.strand[kLeft].length,
+          hanging.strand[kRight].wrap + hanging.strand[kRight].length};
+}
+
 /// Chain to pay out on each side, from 12 o'clock, so that the bit is at `bit` [mm].
 template <class Real>
 PaidOut<Real> inverse(const Machine<Real>& machine, Point<Real> bit);

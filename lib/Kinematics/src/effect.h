@@ -20,7 +20,7 @@ namespace kinematics {
 inline int16_t nearest(float value) { return int16_t(lround(value)); }
 inline int16_t nearest(double value) { return int16_t(lround(value)); }
 
-/// What people are told of an effect. Only host tools ask; no such text reaches the board.
+/// What people read about an effect. Only host tools ask; no such text reaches the board.
 struct EffectInfo {
   const char* name;         ///< snake_case, the word used in files and on screen
   const char* summary;      ///< the cause, in one sentence
@@ -29,13 +29,49 @@ struct EffectInfo {
   const char* remedy;       ///< how to tell it apart or cure it
 };
 
-/// What people are told of one parameter.
+/// What people read about one parameter.
 struct ParamInfo {
   const char* name;
   const char* unit;
   double low, high;  ///< physically plausible range
   double typical;    ///< size met on real machines; zero always means absent
   const char* summary;
+  double sigma;  ///< accuracy of the direct check (see CheckInfo); 0: no check reads this parameter
+};
+
+/// How the owner measures an effect directly, without marks on a sheet.
+struct CheckInfo {
+  const char* title;  ///< what is measured; empty: no direct way is known
+  const char* steps;  ///< what to do, and how exactly
+  const char* value;  ///< how the parameters follow from what was measured
+  double minutes;     ///< of work
+};
+
+/// A machine that suffers from the effect: the bench hides it, the tests compare it with the judge.
+struct Example {
+  const char* label;
+  double size[4];  ///< of the parameters, in their units
+};
+
+/// The setting of the published programs that says the same as a parameter.
+struct PublishedInfo {
+  int number;     ///< its $-number; 0: there is none
+  double factor;  ///< its value is factor * parameter
+};
+
+/// The settings by which the published firmware describes chains.
+template <class Real>
+struct PublishedChains {
+  Real sag_correction;             ///< [1/mm^2]
+  Real strain[2];                  ///< [1] left and right chain
+  Real sheet_width, sheet_height;  ///< [mm]
+};
+
+/// What carries a parameter along.
+enum BelongsTo {
+  kToMachine,  ///< it stays where it is, whichever chains hang there
+  kToChain,    ///< it goes with its chain to the other sprocket
+  kToZeroing,  ///< it is new each time the chains are set to zero
 };
 
 /// Base of all effects: every hook does nothing until an effect hides it with its own.
@@ -45,25 +81,59 @@ struct ParamInfo {
 ///   enum { ..., kCoefficientCount };  the numbers its hooks read, worked out by
 ///   static void prepare(const Frame<Real>&, const Real* parameter, Real* c);
 /// once, when settings change. A hook gets these c and changes only what it is given.
+/// Where parameters belong to chains or to zeroing, those of the left side come first.
 ///
 /// Two laws hold for each effect and are tested for all: with every parameter zero no bit of any
 /// length changes, and every parameter has a slope at zero.
 template <class Real>
 struct Effect {
-  enum { kNeedsForces = 0 };  ///< 1 where a hook reads pull or bend
-  enum { kMovesEnds = 0 };    ///< 1 where moveEnds does anything
-  enum { kEmpirical = 0 };    ///< 1 where it is a mere fit and no cause: never a suspect
+  // What the firmware asks, answered while it is compiled.
+  enum { kNeedsForces = 0 };   ///< 1 where a hook reads pull or bend
+  enum { kMovesEnds = 0 };     ///< 1 where moveEnds does anything
+  enum { kPushesSled = 0 };    ///< 1 where pushSled does anything
+  enum { kBends = 0 };         ///< 1 where it grows as sag does: the planner's bound measures it
+  enum { kWaves = 0 };         ///< 1 where parameters are amplitudes, one wave a turn of a sprocket
+  enum { kClientNumber = 0 };  ///< number by which a published client means the first parameter
+
+  // What only the lab asks.
+  enum { kEmpirical = 0 };           ///< 1 where it is a mere fit and no cause: never a suspect
+  enum { kBelongsTo = kToMachine };  ///< of BelongsTo
+  enum { kInFrame = 0 };      ///< 1 where a refitted frame or a turned sheet draws nearly the same
+  enum { kWeightPower = 0 };  ///< power of the sled's weight with which the parameters go
+  enum { kExampleCount = 1 };
+  enum { kChainMicrometres = 6 };  ///< of chain by which it may differ from the judge on the sheet
+  enum { kBitMicrometres = 8 };    ///< and of the bit, under motors low and high
 
   /// Moves the sprockets' centres [mm], left and right, for good: runs once, like prepare.
   static void moveSprocket(const Real*, Point<Real>*) {}
 
+  /// Adds to `push` [1], in sled weights, what pushes a sled at `bit` [mm]: x right, y up.
+  static void pushSled(const Real*, Point<Real>, Point<Real>&) {}
+
   /// Adds to `span` [mm], for both strands, what moves the bit's end away from the sprocket's: x
   /// inward, y down. The strands it may look at are drawn without such moves, and only so far as
   /// forces need: free, sine and cosine. They are drawn again with all moves.
-  static void moveEnds(const Real*, const Strand<Real>*, const Forces<Real>&, Point<Real>*) {}
+  template <class SomeForces>
+  static void moveEnds(const Real*, const Strand<Real>*, const SomeForces&, Point<Real>*) {}
 
   /// Changes strand.length, the free chain in nominal links; it comes in as strand.free.
   static void adjustLength(const Real*, Strand<Real>&) {}
+
+  /// Adds to the parameters what the published settings say of this effect.
+  static void addPublished(const Frame<Real>&, const PublishedChains<Real>&, Real*) {}
+
+  /// The size to expect on a machine with this frame; 0: a machine may well be without it.
+  static double usual(const Frame<Real>&, uint8_t) { return 0; }
+
+  /// The setting of the published programs that says the same as parameter i.
+  static PublishedInfo published(uint8_t) { return {0, 0}; }
+
+  // These two and setJudge, described in judged.h, are to be hidden by every effect; a test says
+  // so.
+  static CheckInfo check() { return {nullptr, nullptr, nullptr, 0}; }
+  static Example example(uint8_t) { return {nullptr, {0, 0, 0, 0}}; }
+  template <class Judge>
+  static void setJudge(const Frame<Real>&, const Real*, Judge&) {}
 };
 
 }  // namespace kinematics

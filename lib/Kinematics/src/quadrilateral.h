@@ -22,6 +22,16 @@ struct PitchStrain {
   Real left, right;  ///< [1]
 };
 
+/// Their part of a machine's effects: the only one that counts here. parameter(i) is the i-th of
+/// all.
+template <class Real, class Parameter>
+PitchStrain<Real> pitchAmong(Parameter parameter) {
+  typedef ChainPitch<Real> Pitch;
+  const uint8_t first = Effects::For<Real>::template firstOf<Pitch>();
+  return {parameter(uint8_t(first + Pitch::kLeftStrain)),
+          parameter(uint8_t(first + Pitch::kRightStrain))};
+}
+
 /// A machine with such a sled, made ready for computing. Made by prepare().
 template <class Real>
 struct Quadrilateral {

@@ -11,27 +11,28 @@ namespace {
 // tension's square comes out 0.3 per cent too steep; a smaller step drowns in float's rounding.
 const float kHeavier = 1.0625f;
 
-/// Chain paid out [mm] if the sled stayed where it is under `times` its load: both chains then pull
-/// so many times as much, and every effect answers to that as it does in inverse().
+/// Both strands if the sled stayed where it is under `times` its load: both chains then pull more,
+/// and every effect answers to that as it does in inverse().
 template <class Real>
-Chains<Real> paidOutUnder(Machine<Real>& machine, Point<Real> bit, Real times) {
+Hanging<Real> hangUnder(Machine<Real>& machine, Point<Real> bit, Real times) {
   machine.load_at_nothing *= times;
   machine.load_slope *= times;
-  const Hanging<Real> hanging = hang(machine, bit, true);
-  return {hanging.strand[kLeft].wrap + hanging.strand[kLeft].length,
-          hanging.strand[kRight].wrap + hanging.strand[kRight].length};
+  return hang(machine, bit, true);
 }
 
 /// How far each chain's end gives [mm/N]: less of a chain reaches as far when it pulls more.
 template <class Real>
-Chains<Real> giveOfEach(Machine<Real> machine, Point<Real> bit, const Real* tension) {
+Chains<Real> giveOfEach(Machine<Real> machine, Point<Real> bit) {
   const Real more = Real(kHeavier);
   const Real less = Real(1) / more;
-  const Chains<Real> tight = paidOutUnder(machine, bit, more);
-  const Chains<Real> slack = paidOutUnder(machine, bit, less * less);
-  const Real per_step = Real(1) / (more - less);
-  return {(slack.left - tight.left) * per_step / tension[kLeft],
-          (slack.right - tight.right) * per_step / tension[kRight]};
+  const Hanging<Real> tight = hangUnder(machine, bit, more);
+  const Hanging<Real> slack = hangUnder(machine, bit, less * less);
+  const Chains<Real> shorter = paidOut(tight);
+  const Chains<Real> longer = paidOut(slack);
+  const Real weight = machine.frame.sled_weight;
+  const Real left = (tight.strand[kLeft].pull - slack.strand[kLeft].pull) * weight;
+  const Real right = (tight.strand[kRight].pull - slack.strand[kRight].pull) * weight;
+  return {(longer.left - shorter.left) / left, (longer.right - shorter.right) / right};
 }
 
 /// The sled's give by its chains alone. A force f along the sheet changes both tensions by t with
@@ -109,7 +110,7 @@ Reached<Real> reach(const Machine<Real>& machine, Point<Real> bit,
     reached.tension[side] =
         tension[side] + machine.frame.chain_weight * strand.free * strand.sine * Real(0.5);
   }
-  const Give<Real> loose = giveOfChains(hanging, giveOfEach(machine, bit, tension));
+  const Give<Real> loose = giveOfChains(hanging, giveOfEach(machine, bit));
   reached.give = heldByTurning(hanging, loose, tension, machine.rotation_radius);
   const Real all = reached.tension[kLeft] + reached.tension[kRight] + mostGive(reached.give);
   // Places that are no numbers, or too far for one, end here.

@@ -1,6 +1,7 @@
 // A list of effects, unrolled by the compiler: no virtual call, no heap, no start-up code.
 #pragma once
 
+#include <math.h>
 #include <stdint.h>
 
 #include "effect.h"
@@ -14,6 +15,16 @@ struct At {
   enum { kFirstSetting = FirstSetting };
   template <class Real>
   using Type = EffectTemplate<Real>;
+};
+
+/// Whether two types are the same one.
+template <class A, class B>
+struct Same {
+  enum { kYes = 0 };
+};
+template <class A>
+struct Same<A, A> {
+  enum { kYes = 1 };
 };
 
 /// True where a number is exactly zero; a dual number brings its own, which also looks at slopes.
@@ -31,15 +42,26 @@ struct Listed<Real, Index> {
     kCoefficientCount = 0,
     kLowestSetting = 256,
     kForceMask = 0,
-    kMoveMask = 0
+    kMoveMask = 0,
+    kPushMask = 0
   };
   static uint16_t presentMask(const Real*) { return 0; }
   static void prepare(const Frame<Real>&, const Real*, Real*) {}
   static void moveSprocket(const Real*, uint16_t, Point<Real>*) {}
-  static void moveEnds(const Real*, uint16_t, const Strand<Real>*, const Forces<Real>&,
+  static void pushSled(const Real*, uint16_t, Point<Real>, Point<Real>&) {}
+  template <class SomeForces>
+  static void moveEnds(const Real*, uint16_t, const Strand<Real>*, const SomeForces&,
                        Point<Real>*) {}
   static void adjustLength(const Real*, uint16_t, Strand<Real>&) {}
+  static void addPublished(const Frame<Real>&, const PublishedChains<Real>&, Real*) {}
+  static void clearBends(Real*) {}
+  static Real wavesOf(const Real*) { return Real(0); }
   static int indexOf(int) { return -1; }
+  static uint8_t meantBy(uint8_t number) { return number; }
+  template <class Wanted>
+  static uint8_t firstOf() {
+    return 0;
+  }
   template <class Visitor>
   static void visit(Visitor&) {}
 };
@@ -55,7 +77,8 @@ struct Listed<Real, Index, First, Rest...> {
     kCoefficientCount = kOwnCoefficients + Next::kCoefficientCount,
     kLowestSetting = First::kFirstSetting,
     kForceMask = (Own::kNeedsForces << Index) | Next::kForceMask,
-    kMoveMask = (Own::kMovesEnds << Index) | Next::kMoveMask
+    kMoveMask = (Own::kMovesEnds << Index) | Next::kMoveMask,
+    kPushMask = (Own::kPushesSled << Index) | Next::kPushMask
   };
   static_assert(Index < 16, "the mask of present effects has 16 bits");
   static_assert(kLowestSetting >= 100 && kLowestSetting + kOwnCount <= 256,
@@ -79,8 +102,14 @@ struct Listed<Real, Index, First, Rest...> {
     Next::moveSprocket(c + kOwnCoefficients, present, sprocket);
   }
 
+  static void pushSled(const Real* c, uint16_t present, Point<Real> bit, Point<Real>& push) {
+    if (present & (1u << Index)) Own::pushSled(c, bit, push);
+    Next::pushSled(c + kOwnCoefficients, present, bit, push);
+  }
+
+  template <class SomeForces>
   static void moveEnds(const Real* c, uint16_t present, const Strand<Real>* strand,
-                       const Forces<Real>& forces, Point<Real>* span) {
+                       const SomeForces& forces, Point<Real>* span) {
     if (present & (1u << Index)) Own::moveEnds(c, strand, forces, span);
     Next::moveEnds(c + kOwnCoefficients, present, strand, forces, span);
   }
@@ -88,6 +117,39 @@ struct Listed<Real, Index, First, Rest...> {
   static void adjustLength(const Real* c, uint16_t present, Strand<Real>& strand) {
     if (present & (1u << Index)) Own::adjustLength(c, strand);
     Next::adjustLength(c + kOwnCoefficients, present, strand);
+  }
+
+  /// Adds what the published settings say to the parameters.
+  static void addPublished(const Frame<Real>& frame, const PublishedChains<Real>& published,
+                           Real* parameter) {
+    Own::addPublished(frame, published, parameter);
+    Next::addPublished(frame, published, parameter + kOwnCount);
+  }
+
+  /// Zeroes the parameters of all that grows as sag does.
+  static void clearBends(Real* parameter) {
+    for (uint8_t i = 0; Own::kBends && i < kOwnCount; ++i) parameter[i] = Real(0);
+    Next::clearBends(parameter + kOwnCount);
+  }
+
+  /// [mm] amplitudes of all waves that follow the sprockets' turn, added up.
+  static Real wavesOf(const Real* parameter) {
+    Real sum = Next::wavesOf(parameter + kOwnCount);
+    for (uint8_t i = 0; Own::kWaves && i < kOwnCount; ++i) sum += Real(fabs(parameter[i]));
+    return sum;
+  }
+
+  /// The $-setting that a published client means by this number.
+  static uint8_t meantBy(uint8_t number) {
+    if (Own::kClientNumber != 0 && number == Own::kClientNumber)
+      return uint8_t(First::kFirstSetting);
+    return Next::meantBy(number);
+  }
+
+  /// Where the first parameter of one effect stands among all parameters.
+  template <class Wanted>
+  static uint8_t firstOf() {
+    return Same<Wanted, Own>::kYes ? 0 : uint8_t(kOwnCount + Next::template firstOf<Wanted>());
   }
 
   /// Where the parameter with that $-setting stands among all parameters, or -1.

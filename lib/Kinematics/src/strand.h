@@ -60,6 +60,23 @@ template <class Real>
 struct Forces {
   Real level;                ///< [1] horizontal pull, the same in both strands
   Real upright[kSideCount];  ///< [1] vertical pull of each; together they hold the load
+
+  Real levelOf(Side) const { return level; }
+
+  /// Two numbers, each divided by its side's level pull: right less left.
+  Real differencePerLevel(Real left, Real right) const { return (right - left) / level; }
+};
+
+/// The same where something pushes the sled: then one strand pulls more sideways than the other.
+template <class Real>
+struct PushedForces {
+  Real level[kSideCount];    ///< [1] horizontal pull of each
+  Real upright[kSideCount];  ///< [1] vertical pull of each
+
+  Real levelOf(Side side) const { return level[side]; }
+  Real differencePerLevel(Real left, Real right) const {
+    return right / level[kRight] - left / level[kLeft];
+  }
 };
 
 }  // namespace kinematics

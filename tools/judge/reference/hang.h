@@ -45,9 +45,10 @@ inline Unknowns pack(const Machine& machine, const Eigen::Vector3d& left,
 
 inline Unknowns defects(const Machine& machine, const ChainForm& left, const ChainForm& right,
                         const Eigen::Vector2d& bit) {
+  const Eigen::Vector2d ring = ringOf(machine, left, right, bit);
   Unknowns packed;
-  packed << missOf(machine, left, bit) / machine.motor_gap,
-      missOf(machine, right, bit) / machine.motor_gap,
+  packed << missOf(machine, left, ring) / machine.motor_gap,
+      missOf(machine, right, ring) / machine.motor_gap,
       unbalance(machine, left, right) / machine.sled_weight;
   return packed;
 }

@@ -4,15 +4,15 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "reference/links.h"
+
 namespace reference {
 
 /// One chain with the motor it hangs from. Zero in any field means that the effect is absent.
 /// Weight and compliance are per mm of the chain as it is, long links included.
-struct ChainSide {
+struct ChainSide : Links {
   double weight = 0;      ///< [N/mm] of chain without load on it
   double compliance = 0;  ///< [1/N] strain per newton of local tension
-  double pitch = 0;       ///< [strain] of the links against their nominal length, without load
-  double zero = 0;        ///< [mm] of chain past 12 o'clock when the count reads zero
   double inward = 0;      ///< [mm/N] the mount gives towards the other one, per horizontal pull
   double downward = 0;    ///< [mm/N] the mount gives downwards, per vertical pull
 
@@ -32,6 +32,9 @@ struct Machine {
   bool over_top = true;  ///< the chain leaves over the sprocket, else under it
   double lean = 0;       ///< [rad] of the sheet from the vertical, top away from the sled
   double plane_gap = 0;  ///< [mm] sprockets farther from the sheet than the ring
+
+  /// [mm] the bit from the ring's centre on an upright sled; the sled turns with its chains.
+  Eigen::Vector2d bit_from_ring = Eigen::Vector2d::Zero();
 
   /// [N] force on the sled within the sheet besides weight and chains, such as friction.
   Eigen::Vector2d push = Eigen::Vector2d::Zero();

@@ -1,7 +1,7 @@
 // The equations of a hanging sled: both chains must end on the ring, and the forces must balance.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "reference/catenary.h"
@@ -38,8 +38,7 @@ inline ChainForm drawChain(const Machine& machine, Hand hand, const ChainGuess& 
   ChainForm form;
   form.wrap = departure.wrap;
   form.free_length = guess.free_length;
-  // The teeth hold one link each, however long it is: only the free links carry the pitch error.
-  form.paid_out = departure.wrap + guess.free_length / (1 + side.pitch) - side.zero;
+  form.paid_out = departure.wrap + side.counted(guess.free_length);
   form.departure_angle = departure.angle;
   form.tension_at_sprocket = at_sprocket.norm();
   form.tension_at_ring = at_ring.norm();
@@ -50,14 +49,24 @@ inline ChainForm drawChain(const Machine& machine, Hand hand, const ChainGuess& 
   return form;
 }
 
+/// [mm] where the ring's centre is while the bit is at `bit`. The sled turns as its chains do, by
+/// half the difference of both pulls' angles, and carries its bit around the ring.
+inline Eigen::Vector2d ringOf(const Machine& machine, const ChainForm& left, const ChainForm& right,
+                              const Eigen::Vector2d& bit) {
+  const double left_angle = std::atan2(left.pull.y(), -left.pull.x());
+  const double right_angle = std::atan2(right.pull.y(), right.pull.x());
+  const Eigen::Rotation2Dd turned((right_angle - left_angle) / 2);
+  return bit + machine.bit_from_ring - turned * machine.bit_from_ring;
+}
+
 /// Vector [mm] from the ring to a chain's end: zero when the chain fits.
 ///
 /// The arm has no weight and turns freely about the bit, so it lines up with the pull on it. It
 /// stays in its plane: what pulls off the sheet is taken by the sheet.
 inline Eigen::Vector3d missOf(const Machine& machine, const ChainForm& form,
-                              const Eigen::Vector2d& bit) {
+                              const Eigen::Vector2d& ring) {
   const Eigen::Vector2d arm = machine.rotation_radius * form.pull.head<2>().normalized();
-  return form.ends - Eigen::Vector3d(bit.x() + arm.x(), bit.y() + arm.y(), 0);
+  return form.ends - Eigen::Vector3d(ring.x() + arm.x(), ring.y() + arm.y(), 0);
 }
 
 /// [N] force within the sheet that is left over on the sled: zero when it is at rest.

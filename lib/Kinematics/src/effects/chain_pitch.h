@@ -13,6 +13,8 @@ template <class Real>
 struct ChainPitch : Effect<Real> {
   enum { kLeftStrain, kRightStrain, kParamCount };
   enum { kCoefficientCount = kSideCount };
+  enum { kBelongsTo = kToChain };
+  enum { kExampleCount = 3 };
 
   static EffectInfo info() {
     return {"chain_pitch", "each chain's links are longer than nominal, by manufacture or wear",
@@ -21,8 +23,32 @@ struct ChainPitch : Effect<Real> {
             "measure 100 links of each chain under the same pull, or use a certified length"};
   }
   static ParamInfo param(uint8_t i) {
-    if (i == kLeftStrain) return {"left", "1", -0.001, 0.006, 0.001, "strain of the left chain"};
-    return {"right", "1", -0.001, 0.006, 0.001, "strain of the right chain"};
+    if (i == kLeftStrain)
+      return {"left", "1", -0.001, 0.006, 0.001, "strain of the left chain", 0.0003};
+    return {"right", "1", -0.001, 0.006, 0.001, "strain of the right chain", 0.0003};
+  }
+
+  static CheckInfo check() {
+    return {"100 links of each chain",
+            "Lay 100 links of each chain, pulled tight, along a steel rule: they should be 635 mm; "
+            "read to 0.2 mm.",
+            "(read - 635) / 635, of each chain", 15};
+  }
+  static Example example(uint8_t i) {
+    static const Example kExamples[] = {
+        {"both alike", {0.001, 0.001}}, {"left more", {0.001, 0.0003}}, {"right", {0, 0.001}}};
+    return kExamples[i];
+  }
+  template <class Judge>
+  static void setJudge(const Frame<Real>&, const Real* parameter, Judge& judge) {
+    judge.set("left.pitch", parameter[kLeftStrain]);
+    judge.set("right.pitch", parameter[kRightStrain]);
+  }
+
+  static PublishedInfo published(uint8_t i) { return {40 + i, 100}; }
+  static void addPublished(const Frame<Real>&, const PublishedChains<Real>& published,
+                           Real* parameter) {
+    for (uint8_t i = 0; i < kParamCount; ++i) parameter[i] += published.strain[i];
   }
 
   /// A length L becomes L + L * c with c = -strain / (1 + strain): no division on the way.

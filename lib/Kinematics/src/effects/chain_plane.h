@@ -26,7 +26,19 @@ struct ChainPlane : Effect<Real> {
             0,
             22500,
             1600,
-            "square of the difference in distance from the sheet, sprockets against ring"};
+            "square of the difference in distance from the sheet, sprockets against ring",
+            250};
+  }
+
+  static CheckInfo check() {
+    return {"a ruler at sprocket and ring",
+            "Measure how far sprockets and ring stand off the sheet, to 3 mm.",
+            "the difference of both, squared", 6};
+  }
+  static Example example(uint8_t) { return {"sprockets off the sheet", {1600}}; }
+  template <class Judge>
+  static void setJudge(const Frame<Real>&, const Real* parameter, Judge& judge) {
+    judge.set("plane_gap", sqrt(parameter[kGapSquared]));
   }
 
   static void prepare(const Frame<Real>&, const Real* parameter, Real* c) {

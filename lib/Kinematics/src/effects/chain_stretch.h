@@ -15,6 +15,8 @@ struct ChainStretch : Effect<Real> {
   enum { kCompliance, kParamCount };
   enum { kPerPull, kCoefficientCount };
   enum { kNeedsForces = 1 };
+  enum { kBends = 1 };
+  enum { kClientNumber = 45 };  // chainElasticity of WebControl
 
   static EffectInfo info() {
     return {"chain_stretch", "the loaded chain is longer than its links were when slack",
@@ -23,8 +25,23 @@ struct ChainStretch : Effect<Real> {
             "mark again with a heavier sled, or hang a known weight on a measured chain"};
   }
   static ParamInfo param(uint8_t) {
-    return {"compliance", "1/N", 0, 2e-5, 5.2e-6, "strain per newton of tension"};
+    return {"compliance", "1/N", 0, 2e-5, 5.2e-6, "strain per newton of tension", 7e-7};
   }
+
+  static CheckInfo check() {
+    return {"a weight on a measured chain",
+            "Hang 10 kg on 3 m of chain and measure how much longer it becomes, to 0.2 mm.",
+            "mm longer / 3000 mm / 98 N", 20};
+  }
+  static double usual(const Frame<Real>&, uint8_t) { return param(0).typical; }
+  static Example example(uint8_t) { return {"softer chain", {5.17e-6}}; }
+  template <class Judge>
+  static void setJudge(const Frame<Real>&, const Real* parameter, Judge& judge) {
+    judge.set("left.compliance", parameter[kCompliance]);
+    judge.set("right.compliance", parameter[kCompliance]);
+  }
+
+  static PublishedInfo published(uint8_t) { return {kClientNumber, 1}; }
 
   static void prepare(const Frame<Real>& frame, const Real* parameter, Real* c) {
     c[kPerPull] = parameter[kCompliance] * frame.sled_weight;

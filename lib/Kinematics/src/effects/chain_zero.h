@@ -12,6 +12,9 @@ template <class Real>
 struct ChainZero : Effect<Real> {
   enum { kLeftOut, kRightOut, kParamCount };
   enum { kCoefficientCount = kSideCount };
+  enum { kBelongsTo = kToZeroing };
+  enum { kInFrame = 1 };  // a frame elsewhere looks the same
+  enum { kExampleCount = 2 };
 
   static EffectInfo info() {
     return {"chain_zero", "a chain was not at its mark when its sprocket's count was set",
@@ -20,8 +23,31 @@ struct ChainZero : Effect<Real> {
             "bring both sprockets back to 12 o'clock and look whether the marked links are there"};
   }
   static ParamInfo param(uint8_t i) {
-    if (i == kLeftOut) return {"left", "mm", -30, 30, 2, "left chain out at 12 o'clock"};
-    return {"right", "mm", -30, 30, 2, "right chain out at 12 o'clock"};
+    if (i == kLeftOut) return {"left", "mm", -30, 30, 2, "left chain out at 12 o'clock", 1};
+    return {"right", "mm", -30, 30, 2, "right chain out at 12 o'clock", 1};
+  }
+
+  static CheckInfo check() {
+    return {"both chains at 12 o'clock",
+            "Send both chains to the length that the machine calls zero and measure how far the "
+            "marked links are past 12 o'clock, to 1 mm.",
+            "mm of chain that are out at 12 o'clock", 8};
+  }
+  static Example example(uint8_t i) {
+    static const Example kExamples[] = {{"one each way", {2, -1}}, {"both alike", {2, 2}}};
+    return kExamples[i];
+  }
+  template <class Judge>
+  static void setJudge(const Frame<Real>&, const Real* parameter, Judge& judge) {
+    judge.set("left.zero", parameter[kLeftOut]);
+    judge.set("right.zero", parameter[kRightOut]);
+  }
+
+  /// The published formula divides the arm as well as the chain, and is so much short of ours.
+  static void addPublished(const Frame<Real>& frame, const PublishedChains<Real>& published,
+                           Real* parameter) {
+    for (uint8_t i = 0; i < kParamCount; ++i)
+      parameter[i] += frame.rotation_radius * published.strain[i] / (Real(1) + published.strain[i]);
   }
 
   static void prepare(const Frame<Real>&, const Real* parameter, Real* c) {

@@ -28,7 +28,26 @@ struct FrameLean : Effect<Real> {
             0,
             0.2,
             0.072,
-            "square of the tangent of the frame's angle from the vertical"};
+            "square of the tangent of the frame's angle from the vertical",
+            0.005};
+  }
+
+  static CheckInfo check() {
+    return {"the angle of the frame",
+            "Measure how far the frame leans from the vertical, to half a degree, with a plumb "
+            "line or an angle gauge.",
+            "the tangent of that angle, squared (a plumb line: distance over height, squared)", 5};
+  }
+  static Example example(uint8_t) { return {"leaning", {0.072}}; }
+
+  /// The frame's weights are those along the sheet; the judge wants the whole.
+  template <class Judge>
+  static void setJudge(const Frame<Real>&, const Real* parameter, Judge& judge) {
+    const Real whole = sqrt(Real(1) + parameter[kTangentSquared]);
+    judge.set("lean", atan(sqrt(parameter[kTangentSquared])));
+    judge.scale("sled_weight", whole);
+    judge.scale("left.weight", whole);
+    judge.scale("right.weight", whole);
   }
 
   static void prepare(const Frame<Real>& frame, const Real* parameter, Real* c) {

@@ -13,6 +13,7 @@ template <class Real>
 struct MotorLevel : Effect<Real> {
   enum { kHeightDifference, kParamCount };
   enum { kHalf, kCoefficientCount };
+  enum { kInFrame = 1 };  // a turned sheet looks the same
 
   static EffectInfo info() {
     return {"motor_level", "the motors are not level: the right one is higher, or lower",
@@ -21,7 +22,19 @@ struct MotorLevel : Effect<Real> {
             "lay a spirit level or a water hose across the sprockets' axes"};
   }
   static ParamInfo param(uint8_t) {
-    return {"height_difference", "mm", -30, 30, 4, "right sprocket above the left one"};
+    return {"height_difference", "mm", -30, 30, 4, "right sprocket above the left one", 1};
+  }
+
+  static CheckInfo check() {
+    return {"a level over the motors",
+            "Lay a spirit level on a straight edge, or a water hose, across both sprockets and "
+            "measure how much higher the right one is, to 1 mm.",
+            "mm, negative if the left one is higher", 8};
+  }
+  static Example example(uint8_t) { return {"right motor higher", {4}}; }
+  template <class Judge>
+  static void setJudge(const Frame<Real>&, const Real* parameter, Judge& judge) {
+    judge.set("height_difference", parameter[kHeightDifference]);
   }
 
   static void prepare(const Frame<Real>&, const Real* parameter, Real* c) {

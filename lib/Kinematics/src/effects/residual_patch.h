@@ -20,6 +20,7 @@ struct ResidualPatch : Effect<Real> {
   enum { kConstant, kPowers = 1 + kTerms };  // for each side
   enum { kArm = kSideCount * kPowers, kPerAcross, kAcross, kPerDown, kDown, kCoefficientCount };
   enum { kEmpirical = 1 };
+  enum { kExampleCount = 0 };
 
   static EffectInfo info() {
     return {"residual_patch", "no cause at all: a smooth map of what the effects leave unexplained",
@@ -31,8 +32,10 @@ struct ResidualPatch : Effect<Real> {
         "left_x",   "left_y",   "left_xx",   "left_xy",   "left_yy",   "left_xxx",
         "left_xxy", "left_xyy", "left_yyy",  "right_x",   "right_y",   "right_xx",
         "right_xy", "right_yy", "right_xxx", "right_xxy", "right_xyy", "right_yyy"};
-    return {kNames[i], "mm", -20, 20, 0.5, "chain added by this term at its largest"};
+    return {kNames[i], "mm", -20, 20, 0.5, "chain added by this term at its largest", 0};
   }
+
+  static CheckInfo check() { return {"", "", "", 0}; }
 
   /// Legendre's polynomials become powers, so that the hook has one product a term.
   static void prepare(const Frame<Real>& frame, const Real* parameter, Real* c) {

@@ -23,6 +23,8 @@ struct SledSwing : Effect<Real> {
   enum { kEndTurn = kParamCount, kCoefficientCount };
   enum { kNeedsForces = 1 };  // for the directions
   enum { kMovesEnds = 1 };
+  enum { kExampleCount = 3 };
+  enum { kChainMicrometres = 12, kBitMicrometres = 20 };
 
   static EffectInfo info() {
     return {
@@ -32,8 +34,25 @@ struct SledSwing : Effect<Real> {
         "turn the sled by hand on its ring and see whether the bit draws a circle"};
   }
   static ParamInfo param(uint8_t i) {
-    if (i == kBitRight) return {"right", "mm", -10, 10, 2, "bit right of the ring's centre"};
-    return {"up", "mm", -10, 10, 2, "bit above the ring's centre"};
+    if (i == kBitRight) return {"right", "mm", -10, 10, 2, "bit right of the ring's centre", 0.3};
+    return {"up", "mm", -10, 10, 2, "bit above the ring's centre", 0.3};
+  }
+
+  static CheckInfo check() {
+    return {"the sled turned on its ring",
+            "Turn the sled by hand on its ring and look how the bit wanders: it is off the ring's "
+            "centre by half the circle that it draws. Measure to 0.3 mm.",
+            "mm that the bit is right of, and above, the ring's centre on the upright sled", 12};
+  }
+  static Example example(uint8_t i) {
+    static const Example kExamples[] = {
+        {"right and up", {2, 2}}, {"right", {2, 0}}, {"up", {0, 2}}};
+    return kExamples[i];
+  }
+  template <class Judge>
+  static void setJudge(const Frame<Real>&, const Real* parameter, Judge& judge) {
+    judge.set("bit_right", parameter[kBitRight]);
+    judge.set("bit_up", parameter[kBitUp]);
   }
 
   static void prepare(const Frame<Real>& frame, const Real* parameter, Real* c) {
@@ -43,17 +62,17 @@ struct SledSwing : Effect<Real> {
     c[kEndTurn] = weightRatio(frame) * (Real(1) - armShare(frame)) * Real(0.25);
   }
 
+  template <class SomeForces>
   PLUMB_RARE static void moveEnds(const Real* c, const Strand<Real>* strand,
-                                  const Forces<Real>& forces, Point<Real>* span) {
+                                  const SomeForces& forces, Point<Real>* span) {
     const Strand<Real>& left = strand[kLeft];
     const Strand<Real>& right = strand[kRight];
     const Real twice = left.cosine * right.cosine + left.sine * right.sine;
     const Real half = sqrt((Real(1) + twice) * Real(0.5));
     const Real half_sine = (right.sine * left.cosine - right.cosine * left.sine) / (half + half);
     const Real flatter =
-        c[kEndTurn] *
-        (right.cosine * right.cosine * right.free - left.cosine * left.cosine * left.free) /
-        forces.level;
+        c[kEndTurn] * forces.differencePerLevel(left.cosine * left.cosine * left.free,
+                                                right.cosine * right.cosine * right.free);
     const Real sine = half_sine - half * flatter;
     const Real less = Real(1) - half - half_sine * flatter;  // than an upright sled's cosine
     const Real x = less * c[kBitRight] + sine * c[kBitUp];

@@ -23,6 +23,9 @@ template <class Real>
 struct SprocketRunout : Effect<Real> {
   enum { kLeftSine, kLeftCosine, kRightSine, kRightCosine, kParamCount };
   enum { kQuartersByLength = kParamCount, kCoefficientCount };
+  enum { kWaves = 1 };
+  enum { kExampleCount = 2 };
+  enum { kChainMicrometres = 8, kBitMicrometres = 12 };
 
   static EffectInfo info() {
     return {
@@ -34,7 +37,25 @@ struct SprocketRunout : Effect<Real> {
   static ParamInfo param(uint8_t i) {
     static const char* const kNames[] = {"left_sine", "left_cosine", "right_sine", "right_cosine"};
     return {kNames[i], "mm", -0.5,
-            0.5,       0.1,  "amplitude of the length error, by the turn of the sprocket"};
+            0.5,       0.1,  "amplitude of the length error, by the turn of the sprocket",
+            0};
+  }
+
+  /// None: few have ever read the phase of a runout right from a dial.
+  static CheckInfo check() { return {"", "", "", 0}; }
+  static Example example(uint8_t i) {
+    static const Example kExamples[] = {{"both", {0, -0.1, -0.1, 0}}, {"left", {0, -0.1, 0, 0}}};
+    return kExamples[i];
+  }
+
+  /// The judge's sprocket turns about its axis: clockwise on the left with the chain over the top.
+  template <class Judge>
+  static void setJudge(const Frame<Real>& frame, const Real* parameter, Judge& judge) {
+    const Real turn = frame.feed == Feed::kOverTop ? Real(1) : Real(-1);
+    judge.set("left.eccentric_x", -turn * parameter[kLeftCosine]);
+    judge.set("left.eccentric_y", -parameter[kLeftSine]);
+    judge.set("right.eccentric_x", turn * parameter[kRightCosine]);
+    judge.set("right.eccentric_y", -parameter[kRightSine]);
   }
 
   static void prepare(const Frame<Real>& frame, const Real* parameter, Real* c) {

@@ -1,0 +1,76 @@
+// The numbers of a machine by name: how tests and programs say what is wrong with it.
+#pragma once
+
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "reference/machine.h"
+
+namespace reference {
+
+/// Where each number of a machine is kept. Those of a chain begin with `left.` or `right.`.
+inline std::map<std::string, double*> numbersOf(Machine& machine) {
+  std::map<std::string, double*> numbers = {
+      {"motor_gap", &machine.motor_gap},
+      {"motor_height", &machine.motor_height},
+      {"motor_center_x", &machine.motor_center_x},
+      {"height_difference", &machine.height_difference},
+      {"sprocket_radius", &machine.sprocket_radius},
+      {"rotation_radius", &machine.rotation_radius},
+      {"sled_weight", &machine.sled_weight},
+      {"lean", &machine.lean},
+      {"plane_gap", &machine.plane_gap},
+      {"bit_right", &machine.bit_from_ring.x()},
+      {"bit_up", &machine.bit_from_ring.y()},
+      {"push_right", &machine.push.x()},
+      {"push_up", &machine.push.y()},
+  };
+  for (ChainSide* side : {&machine.left, &machine.right}) {
+    const std::string whose = side == &machine.left ? "left." : "right.";
+    numbers[whose + "weight"] = &side->weight;
+    numbers[whose + "compliance"] = &side->compliance;
+    numbers[whose + "inward"] = &side->inward;
+    numbers[whose + "downward"] = &side->downward;
+    numbers[whose + "eccentric_x"] = &side->eccentricity.x();
+    numbers[whose + "eccentric_y"] = &side->eccentricity.y();
+    side->visit([&](const char* name, double& number) { numbers[whose + name] = &number; });
+  }
+  return numbers;
+}
+
+/// What to do about a name that the judge does not know.
+inline std::string lacks(const std::string& name) {
+  return "the judge has no number " + name +
+         ": add its mechanics and its name to tools/judge/reference (links.h for what changes the "
+         "count of links)";
+}
+
+/// Takes a machine number by number. Factors hold for what is set last, before or after them.
+class Described {
+ public:
+  void set(const std::string& name, double value) { *at(name) = value; }
+  void scale(const std::string& name, double factor) {
+    at(name);
+    factors_.insert({name, 1}).first->second *= factor;
+  }
+
+  /// The machine that was described.
+  Machine machine() const {
+    Machine scaled = machine_;
+    for (const auto& each : factors_) *numbersOf(scaled).at(each.first) *= each.second;
+    return scaled;
+  }
+
+ private:
+  double* at(const std::string& name) {
+    const std::map<std::string, double*> numbers = numbersOf(machine_);
+    if (numbers.count(name)) return numbers.at(name);
+    throw std::invalid_argument(lacks(name));
+  }
+
+  Machine machine_;
+  std::map<std::string, double> factors_;
+};
+
+}  // namespace reference
