@@ -6,6 +6,7 @@ import re
 import subprocess
 from pathlib import Path
 
+import registry
 from costs import Bytes, Costs, Cycles
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -15,7 +16,7 @@ FIRMWARE = ROOT / ".pio/build/megaatmega2560/firmware.elf"
 KINEMATICS = ROOT / "lib/Kinematics/src"
 MOTION = ROOT / "lib/Motion/src"
 FLOAT = ROOT / "src/board/float.S"  # the firmware's own sum, product and quotient
-INCLUDES = [f"-I{KINEMATICS}", f"-I{BENCH}"]
+INCLUDES = [f"-I{KINEMATICS}", f"-I{BENCH}", f"-I{BUILD}"]
 # As PlatformIO builds the firmware.
 AVR_FLAGS = [
     "-mmcu=atmega2560",
@@ -59,6 +60,7 @@ def measure() -> Costs:
 def simulated() -> tuple[dict[str, Cycles], dict[str, int]]:
     """Cycles of every case, and the deepest stack of inverse, of forward and of reach."""
     elf, simulator = BUILD / "board_program.elf", BUILD / "count_cycles"
+    (BUILD / "effect_cases.h").write_text(registry.cases(), encoding="utf-8")
     output("avr-g++", *AVR_FLAGS, *INCLUDES, *sources("board_program.cpp"), FLOAT, "-o", elf)
     symbols = output("avr-nm", "-C", elf)
     stack = {}

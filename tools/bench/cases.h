@@ -29,14 +29,8 @@ const Case kCases[] = {
     {"inverse, sag, stretch and pitch", kInverse, kSagStretchPitch, kUsual, 0},
     {"inverse, sag, stretch and pitch, off the bottom", kInverse, kSagStretchPitch, kOffBottom, 0},
     {"inverse, sag, stretch and pitch, light sled", kInverse, kSagStretchPitch, kLightSled, 0},
-    {"inverse, the same and motor_level", kInverse, kSagStretchPitch, kUsual, 100},
-    {"inverse, the same and frame_flex", kInverse, kSagStretchPitch, kUsual, 110},
-    {"inverse, the same and sled_swing", kInverse, kSagStretchPitch, kUsual, 120},
-    {"inverse, the same and chain_plane", kInverse, kSagStretchPitch, kUsual, 130},
-    {"inverse, the same and frame_lean", kInverse, kSagStretchPitch, kUsual, 150},
-    {"inverse, the same and sprocket_runout", kInverse, kSagStretchPitch, kUsual, 190},
-    {"inverse, the same and chain_zero", kInverse, kSagStretchPitch, kUsual, 200},
-    {"inverse, the same and residual_patch", kInverse, kSagStretchPitch, kUsual, 210},
+// "inverse, the same and EFFECT" for every other effect of the registry; see registry.py.
+#include "effect_cases.h"
     {"inverse, all effects", kInverse, kAll, kUsual, 0},
     {"forward, no guess", kForward, kSagStretchPitch, kUsual, 0},
     {"forward, guess in the far corner", kForwardFar, kSagStretchPitch, kUsual, 0},

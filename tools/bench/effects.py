@@ -5,15 +5,11 @@ import re
 import shutil
 
 import board
+import registry
 from costs import Costs
 
 BEGIN, END = "<!-- effects: begin; written by tools/bench/run --write -->", "<!-- effects: end -->"
-BASE = "inverse, sag, stretch and pitch"
-STEPS = {
-    "chain_sag": ("inverse, sag", "inverse, rigid"),
-    "chain_stretch": ("inverse, sag and stretch", "inverse, sag"),
-    "chain_pitch": (BASE, "inverse, sag and stretch"),
-}
+BASE = registry.STEPS["chain_pitch"][0]
 EIGEN = board.ROOT / ".pio/libdeps/native/ArduinoEigen/ArduinoEigen"
 
 
@@ -25,11 +21,10 @@ def table(costs: Costs) -> str:
         "| at the bit, all frames |\n"
         "|---|---|---|---|---|---|"
     )
-    rows = [row(name, costs, errors) for name in names()]
-    both = errors["nothing"]
+    rows = [row(name, costs, errors) for name in registry.numbers()]
     note = (
-        f"With sag and stretch alone the chains differ from the judge's by {both[0]:.4f} mm at\n"
-        "worst; the other effects are hidden beside these two. Worst over the sheet, in mm.\n"
+        "Every machine here sags and stretches; the other effects are hidden beside these two.\n"
+        "Worst of all examples of an effect over the sheet, in mm.\n"
         "All frames: motors 2.9 to 3.7 m apart and 400 to 760 mm above the sheet.\n"
         "Cycles are the medians' difference. Flash is what a board saves without the effect in\n"
         "the list; it may be negative where the compiler then chooses to inline more."
@@ -38,35 +33,21 @@ def table(costs: Costs) -> str:
 
 
 def row(name: str, costs: Costs, errors: dict[str, list[float]]) -> str:
-    present, absent = STEPS.get(name, (f"inverse, the same and {name}", BASE))
+    present, absent = registry.STEPS.get(name, (registry.case_of(name), BASE))
     cycles = costs.cycles[present].median - costs.cycles[absent].median
-    own = [value for key, value in errors.items() if key.startswith(name)]
-    if name in ("chain_sag", "chain_stretch"):
-        with_it, without = f"{errors['nothing'][0]:.4f}", "–"
-        at_the_bit = f"{errors['nothing'][2]:.4f}"
-    elif not own:  # the residual patch: the judge has no cause for it
+    own = [value for key, value in errors.items() if key.startswith(f"{name}_")]
+    if not own:  # the residual patch: the judge has no cause for it
         with_it = without = at_the_bit = "–"
     else:
         with_it = f"{max(value[0] for value in own):.4f}"
         without = f"{max(value[1] for value in own):.2f}"
-        bits = [value[2] for value in own if len(value) > 2]
-        at_the_bit = f"{max(bits):.4f}" if bits else "–"
+        at_the_bit = f"{max(value[2] for value in own):.4f}"
     return f"| {name} | {cycles:,} | {flash(name):,} B | {with_it} | {without} | {at_the_bit} |"
-
-
-def names() -> list[str]:
-    """Every effect of the registry, as files name it."""
-    entries = re.findall(r"At<\d+, (\w+)>", registry())
-    return [re.sub(r"(?<!^)(?=[A-Z])", "_", entry).lower() for entry in entries]
-
-
-def registry() -> str:
-    return (board.KINEMATICS / "effects.h").read_text(encoding="utf-8")
 
 
 def flash(name: str) -> int:
     """Bytes of flash that a board saves without that effect in the list."""
-    return built(registry()) - built(without(registry(), name))
+    return built(registry.text()) - built(without(registry.text(), name))
 
 
 def without(text: str, name: str) -> str:

@@ -1,57 +1,24 @@
 // lib/Kinematics seen from Python: arrays in, arrays out, no physics of its own.
-#include <nanobind/nanobind.h>
-#include <nanobind/ndarray.h>
-#include <nanobind/stl/string.h>
-
-#include <algorithm>
-#include <string>
-#include <vector>
-
+#include "arrays.h"
 #include "dual.h"
+#include "effects_binding.h"
 // The definitions, not only the declarations: they are instantiated here for dual numbers too.
 #include "Kinematics.cpp"
-#include "frame_info.h"
 #include "reach.cpp"
 #include "settings_binding.h"
 
 namespace nb = nanobind;
 using namespace kinematics;
+using namespace core;
 
 namespace {
 
-enum { kSettingCount = kFrameFieldCount + kEffectParamCount, kInputCount = kSettingCount + 2 };
-using Slopes = dual::Dual<kInputCount>;
-
-using Values = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
-using Pairs = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
-
-/// A new numpy array of zeros that owns its memory.
-template <class Number>
-nb::ndarray<nb::numpy, Number> newArray(std::vector<size_t> shape, Number** data) {
-  size_t size = 1;
-  for (size_t n : shape) size *= n;
-  *data = new Number[size]();
-  nb::capsule owner(*data, [](void* p) noexcept { delete[] static_cast<Number*>(p); });
-  return nb::ndarray<nb::numpy, Number>(*data, shape.size(), shape.data(), owner);
-}
+using Slopes = dual::Dual<kSettingCount + 2>;
 
 template <class Real>
 Machine<Real> machineOf(const std::vector<Real>& values, bool over_top) {
-  Frame<Real> frame;
-  for (int i = 0; i < kFrameFieldCount; ++i) frame.*frameFields<Real>()[i].member = values[i];
-  frame.feed = over_top ? Feed::kOverTop : Feed::kOffBottom;
-  EffectParams<Real> effects;
-  std::copy(values.begin() + kFrameFieldCount, values.end(), effects.value);
-  return prepare(frame, effects);
-}
-
-template <class Real>
-std::vector<Real> numbers(const Values& values) {
-  if (values.shape(0) != kSettingCount)
-    throw nb::value_error("values must hold one number for each entry of settings()");
-  std::vector<Real> result;
-  for (size_t i = 0; i < kSettingCount; ++i) result.push_back(static_cast<Real>(values(i)));
-  return result;
+  const Described<Real> described = describedBy(values, over_top);
+  return prepare(described.frame, described.effects);
 }
 
 template <class Real>
@@ -184,76 +151,33 @@ nb::dict reachLimits() {
   return result;
 }
 
-struct Lister {
-  nb::list effects;
-
-  template <class Own>
-  void effect(int first_setting) {
-    const EffectInfo info = Own::info();
-    nb::list parameters;
-    for (uint8_t i = 0; i < Own::kParamCount; ++i) {
-      const ParamInfo param = Own::param(i);
-      nb::dict entry;
-      entry["name"] = param.name;
-      entry["setting"] = first_setting + i;
-      entry["unit"] = param.unit;
-      entry["low"] = param.low;
-      entry["high"] = param.high;
-      entry["typical"] = param.typical;
-      entry["summary"] = param.summary;
-      parameters.append(entry);
-    }
-    nb::dict entry;
-    entry["name"] = info.name;
-    entry["summary"] = info.summary;
-    entry["pattern"] = info.pattern;
-    entry["look_alikes"] = info.look_alikes;
-    entry["remedy"] = info.remedy;
-    entry["empirical"] = bool(Own::kEmpirical);
-    entry["parameters"] = parameters;
-    effects.append(entry);
+/// Chain paid out (n, 2) [mm] for places (n, 2) [mm] of a sled that something pushes (n, 2) [N].
+nb::tuple pushedLengths(const Values& values, bool over_top, const Pairs& points,
+                        const Pairs& pushes) {
+  const Machine<double> machine = machineOf(numbers<double>(values), over_top);
+  if (pushes.shape(0) != points.shape(0)) throw nb::value_error("each place needs its push");
+  const double weight = machine.frame.sled_weight;
+  double* length;
+  uint8_t* found;
+  const size_t count = points.shape(0);
+  auto lengths = newArray<double>({count, 2}, &length);
+  auto founds = newArray<uint8_t>({count}, &found);
+  for (size_t i = 0; i < count; ++i) {
+    const Hanging<double> hanging =
+        hangPushed(machine, Point<double>{points(i, 0), points(i, 1)},
+                   Point<double>{pushes(i, 0) / weight, pushes(i, 1) / weight});
+    const Chains<double> chains = paidOut(hanging);
+    length[2 * i] = chains.left;
+    length[2 * i + 1] = chains.right;
+    found[i] = static_cast<uint8_t>(hanging.found);
   }
-};
-
-nb::list effects() {
-  Lister lister;
-  Effects::For<double>::visit(lister);
-  return lister.effects;
-}
-
-/// The frame's numbers, in the order in which they lead the values array.
-nb::list frame() {
-  nb::list result;
-  for (int i = 0; i < kFrameFieldCount; ++i) {
-    const FrameField<double>& field = frameFields<double>()[i];
-    nb::dict entry;
-    entry["name"] = field.name;
-    entry["unit"] = field.unit;
-    entry["usual"] = field.usual;
-    entry["low"] = field.low;
-    entry["high"] = field.high;
-    entry["summary"] = field.summary;
-    result.append(entry);
-  }
-  return result;
-}
-
-nb::list settings() {
-  nb::list names;
-  for (nb::handle field : frame()) names.append(field["name"]);
-  for (nb::handle effect : effects())
-    for (nb::handle param : effect["parameters"])
-      names.append(nb::str("{}.{}").format(effect["name"], param["name"]));
-  return names;
+  return nb::make_tuple(lengths, founds);
 }
 
 }  // namespace
 
 NB_MODULE(_core, module) {
   module.doc() = "The kinematics that are flashed, as numpy functions; mm, N, rad.";
-  module.def("frame", &frame, "The frame's numbers: name, unit, usual, low, high, summary.");
-  module.def("effects", &effects, "The library of effects, in the order they are applied.");
-  module.def("settings", &settings, "Names of the values array, in order.");
   module.def("lengths", &lengths, nb::arg("values"), nb::arg("over_top"), nb::arg("points"),
              nb::arg("float32") = false,
              "Chain paid out (n, 2) [mm] for places (n, 2) [mm], and found (n,): 0 is yes.");
@@ -261,6 +185,9 @@ NB_MODULE(_core, module) {
              "Places (n, 2) [mm] for chains (n, 2) [mm], and found (n,): 0 is yes.");
   module.def("slopes", &slopes, nb::arg("values"), nb::arg("over_top"), nb::arg("points"),
              "Exact slopes of lengths by setting (n, 2, m), by place (n, 2, 2), found (n,).");
+  module.def("pushed_lengths", &pushedLengths, nb::arg("values"), nb::arg("over_top"),
+             nb::arg("points"), nb::arg("pushes"),
+             "Chain paid out (n, 2) [mm] under pushes (n, 2) [N] on the sled, and found (n,).");
   module.def("strands", &strands, nb::arg("values"), nb::arg("over_top"), nb::arg("points"),
              "Each strand's free length, direction, tension, straight and extra chain, (n, 2).");
   const ReachLimits<double> usual;
@@ -275,5 +202,6 @@ NB_MODULE(_core, module) {
       "reach_limits", &reachLimits,
       "The usual limits: most_tension and least_tension [N], least_free [mm] of chain between\n"
       "ring and sprocket, most_give [mm/N] in the direction in which the sled gives most.");
+  addEffects(module);
   addSettings(module);
 }

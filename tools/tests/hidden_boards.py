@@ -16,7 +16,7 @@ from plumb.bench.boards import (
     joined,
     plan,
 )
-from plumb.bench.causes import CAUSES, COMPLIANCE, MAKER, SLED, WEIGHT, Cause, Hidden, Plan
+from plumb.bench.causes import CAUSES, MAKER, SLED, Cause, Hidden, Plan
 from plumb.marks.read import Measurements
 
 __all__ = [
@@ -37,6 +37,7 @@ __all__ = [
     "size_for",
 ]
 
+WEIGHT, COMPLIANCE = MAKER.chain_weight, MAKER.effect("chain_stretch", "compliance")
 # One cause of each effect; the chains' pitch and the sprockets differ from side to side.
 _CAUSES = {one.effect: one for one in reversed(CAUSES)}
 _CAUSES["chain_pitch"] = next(one for one in CAUSES if one.label == "left more")

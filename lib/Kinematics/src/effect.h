@@ -51,6 +51,7 @@ struct CheckInfo {
 struct Example {
   const char* label;
   double size[4];  ///< of the parameters, in their units
+  double most;     ///< [mm] RMS of marks by it on the worst of real machines, roughly
 };
 
 /// The setting of the published programs that says the same as a parameter.
@@ -131,7 +132,7 @@ struct Effect {
   // These two and setJudge, described in judged.h, are to be hidden by every effect; a test says
   // so.
   static CheckInfo check() { return {nullptr, nullptr, nullptr, 0}; }
-  static Example example(uint8_t) { return {nullptr, {0, 0, 0, 0}}; }
+  static Example example(uint8_t) { return {nullptr, {0, 0, 0, 0}, 0}; }
   template <class Judge>
   static void setJudge(const Frame<Real>&, const Real*, Judge&) {}
 };

@@ -9,9 +9,9 @@ from math import cos
 import numpy as np
 
 from plumb.bench import judge
-from plumb.bench.causes import COMPLIANCE, MAKER, OUTSIDE, SLED, WEIGHT, Cause, Hidden, Plan
+from plumb.bench.causes import MAKER, OUTSIDE, SLED, Cause, Hidden, Plan
 from plumb.marks.read import Distance, Mark, Measurements
-from plumb.model.predict import FOUND, lengths
+from plumb.model.predict import FOUND, judged, lengths
 
 Array = np.ndarray
 SIDES = np.array([(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)])
@@ -67,16 +67,10 @@ class Machine:
     ) -> Array:
         """Where the sled comes to rest (n, 2) [mm]; without approaches nothing rubs."""
         numbers = {
-            "sprocket_radius": MAKER.sprocket_radius,
+            **judged(MAKER),
             "motor_gap": self.motor_gap,
             "motor_height": self.motor_height,
             "motor_center_x": self.motor_center_x,
-            "rotation_radius": MAKER.rotation_radius,
-            "left.weight": WEIGHT,
-            "right.weight": WEIGHT,
-            "left.compliance": COMPLIANCE,
-            "right.compliance": COMPLIANCE,
-            "sled_weight": SLED,
             **self.hidden.numbers,
         }
         heavier = numbers["sled_weight"] / SLED

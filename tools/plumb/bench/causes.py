@@ -4,18 +4,20 @@ that the library has no word for.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
-from math import atan, cos, sqrt
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
+from plumb.model.catalogue import EVERY_MACHINE, every_effect
+from plumb.model.lab_effects import LAB_EFFECTS
+from plumb.model.predict import NAMES, judged, with_parameters
 from plumb.settings.machine import MachineSettings
 
 Array = np.ndarray
 Numbers = dict[str, float]
 
-WEIGHT, COMPLIANCE = 0.00137293, 5.17e-6  # [N/mm], [1/N] of the chain of every board
 _BARE = MachineSettings(
     motor_gap=2978.4,
     motor_height=1072.6,
@@ -26,15 +28,14 @@ _BARE = MachineSettings(
 )
 SLED = _BARE.sled_weight  # [N]
 HALF = np.array([1219.2, 609.6])  # [mm] of the sheet
-_SAG = (WEIGHT / SLED) ** 2 / 24
 # What the maker believes: the judge's chain, so that only what is hidden is missing.
-MAKER = replace(
-    _BARE,
-    effects={
-        "chain_sag": {"weight_ratio_squared": _SAG},
-        "chain_stretch": {"compliance": COMPLIANCE},
-    },
-)
+CHAIN = {
+    f"{effect['name']}.{parameter}": size
+    for effect in every_effect()
+    if effect["name"] in EVERY_MACHINE
+    for parameter, size in effect["examples"][0]["sizes"].items()
+}
+MAKER = with_parameters(_BARE, CHAIN)
 
 
 @dataclass(frozen=True)
@@ -43,104 +44,40 @@ class Cause:
 
     effect: str
     label: str
-    numbers: Callable[[float], Numbers] = lambda size: {}  # the judge's
+    numbers: Callable[[float], Numbers] = lambda size: {}  # more of the judge's than sizes say
     sizes: Callable[[float], Numbers] = lambda size: {}  # the library's, by parameter
     drag: float = 0.0  # [N] of friction
     skew: float = 0.0  # [rad] of the sheet's edges
     strain: float = 0.0  # of the tape
+    most: float = 20.0  # [mm] RMS of marks by it on the worst of real machines, roughly
+    in_frame: bool = False  # a refitted frame or a turned sheet looks nearly the same
 
 
-def _both(name: str, value: float) -> Numbers:
-    return {f"left.{name}": value, f"right.{name}": value}
-
-
-def _lean(size: float) -> Numbers:
-    lean = atan(sqrt(0.072 * size))
-    # The frame's weights are those along the sheet; the judge wants the whole.
-    whole = _both("weight", WEIGHT / cos(lean))
-    return {"lean": lean, "sled_weight": SLED / cos(lean), **whole}
-
-
-def _flex(inward: float, downward: float, label: str) -> Cause:
+def _cause(effect: Mapping[str, Any], example: Mapping[str, Any], **board: float) -> Cause:
+    """A cause by an effect's words; what the maker's chain has already comes on top."""
+    name, typical = effect["name"], example["sizes"]
+    believed = {one: CHAIN.get(f"{name}.{one}", 0.0) for one in typical}
     return Cause(
-        "frame_flex",
-        label,
-        lambda s: {**_both("inward", inward * s), **_both("downward", downward * s)},
-        lambda s: {"inward": inward * s, "downward": downward * s},
+        name,
+        example["label"],
+        sizes=lambda size: {one: believed[one] + size * typical[one] for one in typical},
+        most=example["most"],
+        in_frame=effect["in_frame"],
+        **board,
     )
 
 
-def _swing(right: float, up: float, label: str) -> Cause:
-    return Cause(
-        "sled_swing",
-        label,
-        lambda s: {"bit_right": right * s, "bit_up": up * s},
-        lambda s: {"right": right * s, "up": up * s},
-    )
+def _causes() -> Iterator[Cause]:
+    hidden_as = {effect.name: effect.hidden_as for effect in LAB_EFFECTS}
+    for effect in every_effect():
+        for example in effect["examples"]:
+            board = {}
+            if effect["where"] == "lab":
+                board = {hidden_as[effect["name"]]: next(iter(example["sizes"].values()))}
+            yield _cause(effect, example, **board)
 
 
-def _sides(effect: str, name: str, left: float, right: float, label: str) -> Cause:
-    return Cause(
-        effect,
-        label,
-        lambda s: {f"left.{name}": left * s, f"right.{name}": right * s},
-        lambda s: {"left": left * s, "right": right * s},
-    )
-
-
-def _runout(left: float, right: float, label: str) -> Cause:
-    return Cause(
-        "sprocket_runout",
-        label,
-        lambda s: {"left.eccentric_x": left * s, "right.eccentric_y": right * s},
-    )
-
-
-CAUSES: tuple[Cause, ...] = (
-    Cause(
-        "motor_level",
-        "right motor higher",
-        lambda s: {"height_difference": 4 * s},
-        lambda s: {"height_difference": 4 * s},
-    ),
-    _flex(0.007, 0.02, "inward and downward"),
-    _flex(0.007, 0.0, "inward"),
-    _flex(0.0, 0.02, "downward"),
-    _swing(2, 2, "right and up"),
-    _swing(2, 0, "right"),
-    _swing(0, 2, "up"),
-    Cause(
-        "chain_plane",
-        "sprockets off the sheet",
-        lambda s: {"plane_gap": 40 * sqrt(s)},
-        lambda s: {"gap_squared": 1600 * s},
-    ),
-    Cause("frame_lean", "leaning", _lean, lambda s: {"tangent_squared": 0.072 * s}),
-    Cause(
-        "chain_sag",
-        "heavier chain",
-        lambda s: _both("weight", WEIGHT * sqrt(1 + s)),
-        lambda s: {"weight_ratio_squared": _SAG * (1 + s)},
-    ),
-    Cause(
-        "chain_stretch",
-        "softer chain",
-        lambda s: _both("compliance", COMPLIANCE * (1 + s)),
-        lambda s: {"compliance": COMPLIANCE * (1 + s)},
-    ),
-    _sides("chain_pitch", "pitch", 0.001, 0.001, "both alike"),
-    _sides("chain_pitch", "pitch", 0.001, 0.0003, "left more"),
-    _sides("chain_pitch", "pitch", 0.0, 0.001, "right"),
-    _runout(0.1, 0.1, "both"),
-    _runout(0.1, 0.0, "left"),
-    _sides("chain_zero", "zero", 2, -1, "one each way"),
-    _sides("chain_zero", "zero", 2, 2, "both alike"),
-    Cause("sled_friction", "drag", sizes=lambda s: {"drag": 6 * s}, drag=6.0),
-    Cause("sheet_skew", "skew", sizes=lambda s: {"angle": 0.001 * s}, skew=0.001),
-    Cause("tape_scale", "long", sizes=lambda s: {"strain": 0.0003 * s}, strain=0.0003),
-)
-# A tilt of both motors is a turned sheet, and zeros of the chains are a frame elsewhere.
-IN_THE_FRAME = ("motor_level", "chain_zero")
+CAUSES: tuple[Cause, ...] = tuple(_causes())
 
 
 def causes_of(effect: str) -> tuple[Cause, ...]:
@@ -163,8 +100,16 @@ class Hidden:
 
     @property
     def numbers(self) -> Numbers:
-        """The judge's numbers."""
-        found: Numbers = {}
+        """The judge's numbers that are not as on the maker's machine."""
+        parameters = {
+            f"{cause.effect}.{name}": value
+            for cause, size in self.causes
+            for name, value in cause.sizes(size).items()
+        }
+        known = {name: value for name, value in parameters.items() if name in NAMES}
+        believed = judged(MAKER)
+        hidden = judged(with_parameters(MAKER, known)).items()
+        found = {name: value for name, value in hidden if value != believed[name]}
         for cause, size in self.causes:
             found |= cause.numbers(size)
         return found

@@ -9,23 +9,20 @@ from itertools import combinations
 import numpy as np
 
 from plumb.bench.boards import BoardCut, size_for
-from plumb.bench.causes import CAUSES, IN_THE_FRAME, OUTSIDE, Cause, Hidden, Plan
+from plumb.bench.causes import CAUSES, OUTSIDE, Cause, Hidden, Plan
 
 LARGEST_DRAG = 1.5  # typical sizes of friction beyond which lower corners stick for centimetres
 SLIP_MM = 5.0
 
 # What is hidden in board number i of a scenario, on this plan.
 Hide = Callable[[int, Plan], Hidden]
-UNREAL = ("frame_lean", "sprocket_runout")  # no real machine moves marks by millimetres with these
-REAL = tuple(one for one in CAUSES if one.effect not in (*UNREAL, *IN_THE_FRAME, "sled_friction"))
-HUGE = tuple(one for one in CAUSES if one.effect in UNREAL)
-# Those that a real machine can have at 6 mm: no bit is 20 mm off, no tape 7 mm in a metre.
-LARGE = tuple(
-    one
-    for one in REAL
-    if one.effect not in ("sled_swing", "sheet_skew", "tape_scale") or one.label == "right and up"
-)
-SMALL = tuple(one for one in CAUSES if one.effect not in IN_THE_FRAME)
+REAL_MM, LARGE_MM = 3.0, 6.0  # how far marks are moved
+# What real machines can have by so much; friction by millimetres sticks for centimetres elsewhere.
+OUTSIDE_FRAME = tuple(one for one in CAUSES if not one.in_frame)
+REAL = tuple(one for one in OUTSIDE_FRAME if one.most >= REAL_MM and not one.drag)
+HUGE = tuple(one for one in OUTSIDE_FRAME if one.most < REAL_MM)
+LARGE = tuple(one for one in REAL if one.most >= LARGE_MM)
+SMALL = OUTSIDE_FRAME
 
 
 def nothing(index: int, own: Plan) -> Hidden:

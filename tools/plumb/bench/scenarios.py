@@ -97,7 +97,7 @@ SCENARIOS: tuple[Scenario, ...] = (
     Scenario(
         "one-spans",
         _ONE,
-        raw(3.0, tuple(one for one in REAL if one.effect != "sheet_skew")),
+        raw(3.0, tuple(one for one in REAL if not one.skew)),
         (INSIDE,),
         marks=9,
         spans=True,

@@ -61,9 +61,21 @@ def with_sketches(
     def strands(places: Array) -> Strands:
         return _strands(values, rows, places, over_top=over_top, usual_weight=usual_weight)
 
+    def added(sketch: Sketch, parameters: Array, seen: Strands) -> Array:
+        """Chain more (r, 2) [mm] by one sketch, by what it adds and by the push."""
+        chain = np.zeros_like(seen.places)
+        if sketch.extra:
+            chain = chain + np.asarray(sketch.extra(parameters, seen), dtype=float)
+        if sketch.push and parameters.any():
+            force = np.asarray(sketch.push(parameters, seen), dtype=float)
+            chain = chain + _pushed(
+                values, rows, seen.places, force, over_top=over_top, usual_weight=usual_weight
+            )
+        return chain
+
     def extra(places: Array) -> Array:
         seen = strands(places)
-        return sum(one.extra(_parameters(one, outside), seen) for one in present)
+        return sum(added(one, _parameters(one, outside), seen) for one in present)
 
     present = [one for one in asked if _parameters(one, outside).any()]
     gives = -np.eye(2)
@@ -77,7 +89,7 @@ def with_sketches(
         by_value, by_extra = turned @ by_value, turned @ by_extra
     seen = strands(where)
     own = {
-        name: np.einsum("nij,nj->ni", by_extra, _by_parameter(one, i, outside, seen))
+        name: np.einsum("nij,nj->ni", by_extra, _by_parameter(added, one, i, outside, seen))
         for one in asked
         for i, name in enumerate(one.parameter_names)
         if name in names
@@ -93,7 +105,13 @@ def _parameters(one: Sketch, outside: Mapping[str, float]) -> Array:
     return np.array([outside.get(name, 0.0) for name in one.parameter_names])
 
 
-def _by_parameter(one: Sketch, i: int, outside: Mapping[str, float], seen: Strands) -> Array:
+def _by_parameter(
+    added: Callable[[Sketch, Array, Strands], Array],
+    one: Sketch,
+    i: int,
+    outside: Mapping[str, float],
+    seen: Strands,
+) -> Array:
     """Slope (r, 2) [mm per unit] of the extra chain by one parameter."""
     step = _SHARE * one.parameters[i].typical
     parameters = _parameters(one, outside)
@@ -101,7 +119,7 @@ def _by_parameter(one: Sketch, i: int, outside: Mapping[str, float], seen: Stran
     for signed in (step, -step):
         moved = parameters.copy()
         moved[i] += signed
-        ends.append(np.asarray(one.extra(moved, seen), dtype=float))
+        ends.append(added(one, moved, seen))
     return (ends[0] - ends[1]) / (2 * step)
 
 
@@ -112,6 +130,27 @@ def _by_place(extra: Callable[[Array], Array], where: Array) -> Array:
         ahead, behind = where + PLACE_STEP * axis, where - PLACE_STEP * axis
         columns.append((extra(ahead) - extra(behind)) / (2 * PLACE_STEP))
     return np.stack(columns, axis=2)
+
+
+def _pushed(
+    values: Array,
+    rows: Observations,
+    where: Array,
+    force: Array,
+    *,
+    over_top: bool,
+    usual_weight: float,
+) -> Array:
+    """Chain more (r, 2) [mm] that a sled at `where` takes under a force (r, 2) [N]."""
+    chain = np.zeros((len(where), 2))
+    for weight in np.unique(rows.sled_weights):
+        mine = rows.sled_weights == weight
+        own, _ = loaded(values, weight, usual_weight)
+        points, pushes = np.ascontiguousarray(where[mine]), np.ascontiguousarray(force[mine])
+        pushed, _ = _core.pushed_lengths(own, over_top, points, pushes)
+        still, _ = _core.pushed_lengths(own, over_top, points, 0 * pushes)
+        chain[mine] = pushed - still
+    return chain
 
 
 def _strands(

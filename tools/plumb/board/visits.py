@@ -5,28 +5,30 @@ from __future__ import annotations
 import numpy as np
 
 from plumb.board.observations import Observations
+from plumb.model.catalogue import OTHER_CHAIN, WEIGHT_POWERS, ZEROING_NAMES
 from plumb.model.predict import NAMES, Array, lengths, places_with_slopes, settings_of, values_of
 from plumb.settings.machine import MachineSettings
 
-ZERO_COLUMNS = (NAMES.index("chain_zero.left"), NAMES.index("chain_zero.right"))
-# What belongs to a chain and goes with it to the other sprocket.
-OF_A_CHAIN = {"chain_pitch.left": "chain_pitch.right", "chain_pitch.right": "chain_pitch.left"}
-EXCHANGED = np.array([NAMES.index(OF_A_CHAIN.get(name, name)) for name in NAMES])
+# Left and right: what each zeroing of the chains sets anew.
+ZERO_COLUMNS = tuple(NAMES.index(name) for name in ZEROING_NAMES)
+# What goes with a chain to the other sprocket.
+EXCHANGED = np.array([NAMES.index(OTHER_CHAIN.get(name, name)) for name in NAMES])
 
 
 def loaded(values: Array, weight: float, usual: float) -> tuple[Array, Array]:
     """The values for a sled of another weight [N], and each value's slope by the usual one's.
 
-    The sag parameter is a ratio to the sled's weight, so it follows that weight's square.
+    Some parameters are ratios to the sled's weight, so they follow a power of it.
     """
     own, factors = values.copy(), np.ones(len(values))
     if weight == usual:
         return own, factors
     own[NAMES.index("sled_weight")] = weight
     factors[NAMES.index("sled_weight")] = 0.0
-    sag = NAMES.index("chain_sag.weight_ratio_squared")
-    factors[sag] = (usual / weight) ** 2
-    own[sag] *= factors[sag]
+    for name, power in WEIGHT_POWERS.items():
+        column = NAMES.index(name)
+        factors[column] = (weight / usual) ** power
+        own[column] *= factors[column]
     return own, factors
 
 
@@ -40,7 +42,7 @@ def visited(
 ) -> tuple[Array, Array, Array]:
     """Places (r, 2) [mm] of all visits, their slopes by the values (r, 2, v), and FOUND (r,).
 
-    zeros (groups, 2) [mm] is what each zero group adds to left and right `chain_zero`.
+    zeros (groups, 2) [mm] is what each zero group adds to ZEROING_NAMES, left and right.
     """
     where = np.zeros((len(rows.chains), 2))
     slopes = np.zeros((len(rows.chains), 2, len(NAMES)))

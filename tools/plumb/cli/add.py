@@ -201,7 +201,7 @@ def toml_of(result: Addition, *, source: str) -> bytes:
         f"{result.raw.rms:.2f} mm before.",
         turn_sentence(result),
         *result.cures,
-        *([f"residual_patch: {PATCH_WARNING}"] if PATCH in result.effects_added else []),
+        *([f"{PATCH}: {PATCH_WARNING}"] if PATCH in result.effects_added else []),
         *result.warnings,
     ]
     return machine_toml(result.settings, comment="\n".join(lines)).encode()

@@ -11,6 +11,13 @@ from plumb.fit.problem import PRIORS
 from plumb.model.catalogue import parameter_words
 from plumb.text.errors import InputError
 
+# A number that can be measured, as it is given.
+EXAMPLE = next(
+    f"{name}={words['typical']:g}+-{words['sigma']:g}"
+    for name, words in parameter_words().items()
+    if words["sigma"]
+)
+
 
 def add_checked(parser: argparse.ArgumentParser) -> None:
     """The option --checked."""
@@ -21,7 +28,7 @@ def add_checked(parser: argparse.ArgumentParser) -> None:
         type=checked,
         default=[],
         help="a number of the machine that you measured directly, like "
-        "tape_scale.strain=0.0002+-0.0001 (one sigma); see plumb next and plumb effects",
+        f"{EXAMPLE} (one sigma); see plumb next and plumb effects",
     )
 
 
@@ -48,7 +55,7 @@ def usable_checks(checks: list[Checked], priors: dict[str, float]) -> list[Check
             frame = ", ".join(name for name in PRIORS)
             raise InputError(
                 f"--checked {check.name}: no such number is fitted; give a parameter as plumb "
-                f"effects names it, like tape_scale.strain, or of the frame {frame}"
+                f"effects names it, like {EXAMPLE.partition('=')[0]}, or of the frame {frame}"
             )
     if len({check.name for check in checks}) < len(checks):
         raise InputError("--checked: a number is given twice; give the mean of both")

@@ -16,11 +16,11 @@ from plumb.diagnose.explanation import Explanation, span
 from plumb.diagnose.misfit import library_basis
 from plumb.diagnose.noise import Noise
 from plumb.diagnose.significance import tail
+from plumb.model.catalogue import ZEROING_NAMES
 
 Array = np.ndarray
 CHANCE = 0.0027  # of a move beyond 3 sigma from noise alone
 FEWEST = 6  # measured numbers in a part: fewer tell nothing of its own
-ZEROS = ("chain_zero.left", "chain_zero.right")
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ def _words(move: Move) -> str:
 def _way_out(explanation: Explanation, basis: Array, mask: Array, noise: Noise, name: str) -> str:
     """What would explain the difference, as far as a marks file can say it."""
     for flag, columns in (
-        ("chains_rezeroed", _columns(explanation, ZEROS, mask)),
+        ("chains_rezeroed", _columns(explanation, ZEROING_NAMES, mask)),
         ("new_sheet", _pose(explanation, mask)),
     ):
         wider = np.hstack([basis, span(columns - basis @ (basis.T @ columns), against=columns)])

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 from plumb.board.observations import Observations
 from plumb.fit.fit import Fit, fit
-from plumb.model.catalogue import parameter_names
+from plumb.model.catalogue import empirical_effects, parameter_names
 from plumb.settings.machine import MachineSettings
 
-PATCH = "residual_patch"
+PATCH = empirical_effects()[0]["name"]
 SIZES = (0.2, 0.4, 0.8, 1.6, 3.2, 6.4)  # [mm] of one term, one standard deviation
 WORTH = 0.9  # a patch must bring the left-out error below this share of what it was
 

@@ -4,11 +4,57 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
+from plumb import _core
 from plumb.model.lab_effects import LAB_EFFECTS
-from plumb.model.predict import library
+from plumb.model.lab_effects.lab_effect import SLED
+from plumb.model.predict import NAMES, frame_words, library
 from plumb.model.sketches import SKETCHES
 
 NO_FIRMWARE = "no firmware can cure this"
+
+
+def _on_every_machine() -> tuple[str, ...]:
+    """The effects that no real machine is without."""
+    frame = [parameter["usual"] for parameter in frame_words()]
+    values = np.array(frame + [0.0] * (len(NAMES) - len(frame)))
+    return tuple(dict.fromkeys(name.partition(".")[0] for name in _core.usual(values, True)))
+
+
+EVERY_MACHINE = _on_every_machine()
+
+
+def _names_of(owner: str) -> list[str]:
+    """Full names of the firmware's parameters that belong to "machine", "chain" or "zeroing"."""
+    return [
+        f"{effect['name']}.{parameter['name']}"
+        for effect in library()
+        if effect["belongs_to"] == owner
+        for parameter in effect["parameters"]
+    ]
+
+
+def _other_chain() -> dict[str, str]:
+    """Each parameter of a chain, and the same of the other chain."""
+    pairs = {}
+    for effect in library():
+        names = [f"{effect['name']}.{parameter['name']}" for parameter in effect["parameters"]]
+        if effect["belongs_to"] == "chain":
+            half = len(names) // 2
+            pairs |= dict(zip(names, names[half:] + names[:half], strict=True))
+    return pairs
+
+
+ZEROING_NAMES = tuple(_names_of("zeroing"))  # left, right: new each time the chains are zeroed
+OTHER_CHAIN = _other_chain()
+# Parameters that go with a power of the sled's weight.
+WEIGHT_POWERS = {
+    f"{effect['name']}.{parameter['name']}": effect["weight_power"]
+    for effect in library()
+    if effect["weight_power"]
+    for parameter in effect["parameters"]
+}
 
 
 def every_effect() -> list[dict[str, Any]]:
@@ -36,6 +82,16 @@ def is_lab(effect: str) -> bool:
 def is_sketch(effect: str) -> bool:
     """Whether the effect is on trial in Python, so that no firmware has it."""
     return any(known.name == effect for known in SKETCHES)
+
+
+def is_of_chain(effect: str) -> bool:
+    """Whether the effect goes with its chain to the other sprocket."""
+    return any(name.startswith(f"{effect}.") for name in OTHER_CHAIN)
+
+
+def is_felt_by_approach(effect: str) -> bool:
+    """Whether marks from opposite sides tell the effect: it moves the sled that comes to rest."""
+    return any(one.name == effect and one.acts_on == SLED for one in LAB_EFFECTS)
 
 
 def place_of(effect: str) -> str:

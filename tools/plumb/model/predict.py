@@ -76,6 +76,25 @@ def settings_of(values: Array, *, like: MachineSettings) -> MachineSettings:
     return replace(like, effects=effects, **frame_of(by_name))
 
 
+def with_parameters(settings: MachineSettings, parameters: Mapping[str, float]) -> MachineSettings:
+    """The machine with some parameters set, by full name `effect.parameter`."""
+    effects = {name: dict(sizes) for name, sizes in settings.effects.items()}
+    for name, value in parameters.items():
+        effect, _, parameter = name.rpartition(".")
+        effects.setdefault(effect, {})[parameter] = value
+    return replace(settings, effects=effects)
+
+
+def judged(settings: MachineSettings) -> dict[str, float]:
+    """Our model of a machine in the numbers of the judge (test/reference/numbers.h)."""
+    return _core.judged(values_of(settings), settings.feed == "top")
+
+
+def usual_parameters(settings: MachineSettings) -> dict[str, float]:
+    """What every machine with this frame has, by full name: the size to expect."""
+    return _core.usual(values_of(settings), settings.feed == "top")
+
+
 def lengths(
     settings: MachineSettings, points: Array, *, float32: bool = False
 ) -> tuple[Array, Codes]:

@@ -16,6 +16,8 @@ from plumb.model.predict import (
     Reached,
     library,
     reach,
+    usual_parameters,
+    with_parameters,
 )
 from plumb.settings.machine import MachineSettings
 
@@ -62,22 +64,23 @@ def with_soft_chains(settings: MachineSettings) -> tuple[MachineSettings, tuple[
 
     Real chains sag and stretch, also where a fit left that out or made it negative.
     """
-    effects, assumed = dict(settings.effects), []
-    if settings.effect("chain_sag", "weight_ratio_squared") <= 0:
-        ratio = settings.chain_weight / settings.sled_weight
-        effects["chain_sag"] = {"weight_ratio_squared": ratio**2 / 24}
-        assumed.append(
-            "The settings have no chain_sag that could be: it is taken from the weights, "
-            f"{settings.sled_weight:.1f} N of sled and {settings.chain_weight * 1e3:.2f} N per m "
-            "of chain."
-        )
-    if settings.effect("chain_stretch", "compliance") <= 0:
-        size = _typical("chain_stretch", "compliance")
-        effects["chain_stretch"] = {"compliance": size}
-        assumed.append(
-            f"The settings have no chain_stretch that could be: {size:.2g} per N is usual."
-        )
-    return replace(settings, effects=effects), tuple(assumed)
+    missing = {
+        name: size
+        for name, size in usual_parameters(settings).items()
+        if settings.effect(*name.split(".")) <= 0
+    }
+    units = {
+        f"{effect['name']}.{parameter['name']}": parameter["unit"]
+        for effect in library()
+        for parameter in effect["parameters"]
+    }
+    assumed = tuple(
+        f"The settings have no {name.partition('.')[0]} that could be: {size:.3g} {units[name]} is "
+        f"usual with {settings.sled_weight:.1f} N of sled and {settings.chain_weight * 1e3:.2f} N "
+        "per m of chain."
+        for name, size in missing.items()
+    )
+    return with_parameters(settings, missing), assumed
 
 
 def survey_sheet(settings: MachineSettings, **limits: float) -> Survey:
@@ -123,12 +126,3 @@ def _extreme(places: Array, tension: Array) -> Extreme:
 
 def _place(places: Array, i: int) -> tuple[float, float]:
     return float(places[i, 0]), float(places[i, 1])
-
-
-def _typical(effect: str, parameter: str) -> float:
-    sizes = {
-        (words["name"], each["name"]): float(each["typical"])
-        for words in library()
-        for each in words["parameters"]
-    }
-    return sizes[effect, parameter]

@@ -13,9 +13,14 @@ from plumb.board.sighting import sighted
 from plumb.fit.fit import rms
 from plumb.fit.shape import best_pose
 from plumb.marks.read import Mark, Measurements
-from plumb.model.catalogue import every_effect, is_lab, is_sketch, parameter_words
-from plumb.model.lab_effects import LAB_EFFECTS
-from plumb.model.lab_effects.lab_effect import SLED
+from plumb.model.catalogue import (
+    EVERY_MACHINE,
+    every_effect,
+    is_felt_by_approach,
+    is_lab,
+    is_sketch,
+    parameter_words,
+)
 from plumb.model.predict import FOUND, frame_words, library, values_of
 from plumb.settings.machine import MachineSettings
 
@@ -23,7 +28,6 @@ Array = np.ndarray
 SHEET = (2438.4, 1219.2)  # [mm]
 EDGE = (1150.0, 550.0)  # [mm] how far from the middle marks are made
 COLUMNS, ROWS = 13, 7  # of the marks by which sizes and cosines are worked out
-PRESENT = ("chain_sag", "chain_stretch")  # on every machine, at their typical size
 FRAME_STEPS = {"motor_gap": 3.0, "motor_height": 10.0, "rotation_radius": 1.0}  # [mm]
 RIGHT, UP = (1.0, 0.0), (0.0, 1.0)  # approaches
 SHAPELESS = 0.02  # [share of the raw error] below which there is no shape to speak of
@@ -72,7 +76,7 @@ def default_machine() -> MachineSettings:
     effects = {
         one["name"]: {own["name"]: own["typical"] for own in one["parameters"]}
         for one in library()
-        if one["name"] in PRESENT
+        if one["name"] in EVERY_MACHINE
     }
     return replace(plain, effects=effects)
 
@@ -83,7 +87,7 @@ def cases_of(effect: Mapping[str, Any]) -> list[Case]:
     cases = [Case(name.rpartition(".")[2], {name: value}) for name, value in own.items()]
     if [one.label for one in cases] == ["left", "right"]:
         cases.append(Case("both alike", own))
-    if any(one.name == effect["name"] and one.acts_on == SLED for one in LAB_EFFECTS):
+    if is_felt_by_approach(effect["name"]):
         ways = (("approached moving right", RIGHT), ("approached moving up", UP))
         cases = [Case(f"{one.label}, {way}", own, to) for one in cases for way, to in ways]
     return cases
@@ -122,7 +126,7 @@ def _machines(case: Case) -> tuple[MachineSettings, MachineSettings, dict[str, f
             true = replace(true, **{name: getattr(true, name) + value})
         elif is_lab(effect) or is_sketch(effect):
             outside[name] = value
-        elif effect in PRESENT:
+        elif effect in EVERY_MACHINE:
             others = {key: own for key, own in believed.effects.items() if key != effect}
             believed = replace(believed, effects=others)
         else:

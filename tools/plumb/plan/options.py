@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from plumb.model.catalogue import is_felt_by_approach, is_of_chain
 from plumb.plan.ahead import Check
 from plumb.plan.case import Case
-from plumb.plan.checks import CHECKS, FRAME_CHECKS, DirectCheck
+from plumb.plan.checks import FRAME_CHECKS, NumberCheck, effect_checks
 from plumb.plan.separation import Chooser
 from plumb.plan.sites import grid, new_places, usable
 from plumb.plan.visits import Visits, joined, nowhere, sent
@@ -64,7 +65,7 @@ def checks_for(case: Case) -> list[Option]:
     held = np.flatnonzero(problem.held)
     known = {problem.names[i]: float(problem.scale[i]) for i in held} | made
     found = []
-    for name, own in CHECKS.items():
+    for name, own in effect_checks().items():
         each = tuple(Check(f"{name}.{part}", sigma) for part, sigma in own.sigmas.items())
         if name in case.effects and any(_sharper(one, known) for one in each):
             found.append(_check("check", own, each))
@@ -80,8 +81,11 @@ def _sharper(check: Check, known: Mapping[str, float]) -> bool:
     return known.get(check.name, np.inf) > SHARPER * check.sigma
 
 
-def _check(kind: str, own: DirectCheck, each: tuple[Check, ...]) -> Option:
-    return Option(kind, own.title, (own.do,), own.minutes, nowhere(), each, own.value)
+def _check(kind: str, number: NumberCheck, each: tuple[Check, ...]) -> Option:
+    direct = number.direct
+    return Option(
+        kind, direct.title, (direct.steps,), direct.minutes, nowhere(), each, direct.value
+    )
 
 
 class _Shop:
@@ -154,7 +158,7 @@ class _Shop:
 
     def sides(self) -> list[Option]:
         """Two marks close together, touched from opposite sides, where friction may play a part."""
-        if "sled_friction" not in self.case.effects or not self.known:
+        if not any(map(is_felt_by_approach, self.case.effects)) or not self.known:
             return []
         weight, near, far = self.case.usual_weight, self.beside(BESIDE), self.beside(2 * BESIDE)
         # Which of both is touched from where is all the same: one pool for each pair of sides.
@@ -176,7 +180,7 @@ class _Shop:
 
     def swapped(self) -> list[Option]:
         """Marks with each chain on the other's sprocket."""
-        if "chain_pitch" not in self.case.effects:
+        if not any(map(is_of_chain, self.case.effects)):
             return []
         pool = self.pool(self.case.usual_weight, swapped=True)
         if len(pool) < FEW:

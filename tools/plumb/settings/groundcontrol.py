@@ -10,6 +10,7 @@ from os import PathLike
 
 from plumb.settings.ini import SOURCES
 from plumb.settings.machine import MachineSettings, radius_in_published
+from plumb.settings.published import is_tuned, tuned_numbers
 from plumb.text.errors import refusal
 from plumb.text.files import write_whole
 from plumb.text.ini import parse_ini, read_ini, with_values
@@ -41,14 +42,13 @@ class GroundControlChanges:
 def groundcontrol_changes(settings: MachineSettings) -> GroundControlChanges:
     """The keys that express these settings for the published firmware, in its units."""
     ours = settings.as_plumb_model()
-    left, right = ours.effect("chain_pitch", "left"), ours.effect("chain_pitch", "right")
+    chains = tuned_numbers(ours.effects)
     said = {
         "motor_gap": ours.motor_gap,
         "motor_offset": ours.motor_offset,
-        "rotation_radius": ours.rotation_radius * radius_in_published(left, right),
-        "chain_sag_correction": 1e12 * ours.effect("chain_sag", "weight_ratio_squared"),
-        "left_tolerance": 100 * left,
-        "right_tolerance": 100 * right,
+        **chains,
+        "rotation_radius": ours.rotation_radius
+        * radius_in_published(chains["left_tolerance"] / 100, chains["right_tolerance"] / 100),
     }
     # Rounded far below what any of them means, so that 1072.6 - 609.6 is 463 again.
     values = {SOURCES[name]: round(value, 10) for name, value in said.items()}
@@ -66,9 +66,8 @@ def _unsaid(ours: MachineSettings) -> tuple[Unsaid, ...]:
             )
         )
     for name, parameters in ours.effects.items():
-        expressible = {"chain_sag": {"weight_ratio_squared"}, "chain_pitch": {"left", "right"}}
         for parameter, value in parameters.items():
-            if value and parameter not in expressible.get(name, ()):
+            if value and not is_tuned(name, parameter):
                 lost.append(
                     Unsaid(
                         f"{name}.{parameter}",

@@ -23,7 +23,7 @@ SOURCES = {
     "motor_offset": (MASLOW, "motorOffsetY"),
     "rotation_radius": (ADVANCED, "rotationRadius"),
     "gear_teeth": (ADVANCED, "gearTeeth"),
-    "chain_pitch": (ADVANCED, "chainPitch"),
+    "link_pitch": (ADVANCED, "chainPitch"),
     "chain_sag_correction": (ADVANCED, "chainSagCorrection"),
     "feed": (ADVANCED, "chainOverSprocket"),
     "kinematics": (ADVANCED, "kinematicsType"),
@@ -60,7 +60,7 @@ def read_settings_ini(path: str | PathLike[str]) -> MachineSettings:
         sheet_width=_needed(ini, "sheet_width"),
         sheet_height=height,
         feed=_feed(ini),
-        sprocket_radius=_needed(ini, "gear_teeth") * _needed(ini, "chain_pitch") / (2 * math.pi),
+        sprocket_radius=_needed(ini, "gear_teeth") * _needed(ini, "link_pitch") / (2 * math.pi),
         sled_weight=weight if weight is not None and weight > 0 else SLED_WEIGHT,
         controller="stock",
         published=PublishedSettings(

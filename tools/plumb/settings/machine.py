@@ -10,6 +10,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TypedDict
 
+from plumb.settings.published import (
+    ELASTICITY,
+    TUNED,
+    effects_said_by,
+    present,
+    usual_effects,
+)
 from plumb.text.errors import InputError
 
 SLED_WEIGHT = 97.9  # [N] 22 pounds, the published default
@@ -113,26 +120,22 @@ class MachineSettings:
         if whose == "plumb":
             return self if self.controller == "plumb" else replace(self, controller="plumb")
         published = self.published
-        derived: dict[str, Mapping[str, float]] = {}
+        numbers = {number: getattr(published, name) for number, name in TUNED.items()}
         sled_weight, chain_weight = self.sled_weight, self.chain_weight
         catenary = published.catenary if whose == "holey" else None
+        derived = effects_said_by(numbers)
         if catenary:
             sled_weight, chain_weight = catenary[0], HOLEY_CHAIN_WEIGHT
-            derived["chain_sag"] = {"weight_ratio_squared": (chain_weight / sled_weight) ** 2 / 24}
-            if catenary[1]:
-                derived["chain_stretch"] = {"compliance": catenary[1]}
-        elif published.chain_sag_correction:
-            derived["chain_sag"] = {"weight_ratio_squared": published.chain_sag_correction * 1e-12}
+            frame = {**self.frame, "sled_weight": sled_weight, "chain_weight": chain_weight}
+            derived |= usual_effects(frame) | effects_said_by({ELASTICITY: catenary[1]})
         left, right = published.left_tolerance / 100, published.right_tolerance / 100
-        if left or right:
-            derived["chain_pitch"] = {"left": left, "right": right}
         return replace(
             self,
             controller="plumb",
             sled_weight=sled_weight,
             chain_weight=chain_weight,
             rotation_radius=self.rotation_radius / radius_in_published(left, right),
-            effects={**derived, **self.effects},
+            effects={**present(derived), **self.effects},
             published=PublishedSettings(),
         )
 

@@ -152,7 +152,7 @@ def _effects(path: str | PathLike[str], head: dict[str, Any]) -> dict[str, dict[
     """All tables [effects.name]."""
     table = head.get("effects", {})
     if not isinstance(table, dict):
-        raise refusal(path, "effects is not a table", remedy="write [effects.chain_sag]")
+        raise refusal(path, "effects is not a table", remedy="write [effects.NAME]")
     effects: dict[str, dict[str, float]] = {}
     for name, parameters in table.items():
         if not isinstance(parameters, dict):

@@ -126,7 +126,7 @@ def test_chains_that_no_setting_makes_soft_are_made_so():
     absurd = {**TRUE.effects, "chain_sag": {"weight_ratio_squared": -4e-12}}
     cured, told = with_soft_chains(replace(TRUE, effects=absurd))
     assert cured.effect("chain_sag", "weight_ratio_squared") == sag
-    assert len(told) == 1 and "weights" in told[0]
+    assert len(told) == 1 and "97.9 N of sled" in told[0]
 
 
 def test_the_survey_finds_the_lower_corners_of_the_usual_machine():

@@ -9,8 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hidden_boards import MAKER, board, plan
-from plumb.bench.causes import COMPLIANCE
+from hidden_boards import COMPLIANCE, MAKER, board, plan
 from plumb.model.sketches import SKETCHES, Strands
 from plumb.model.sketches.loader import load
 from plumb.settings.files import machine_toml

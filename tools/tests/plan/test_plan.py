@@ -15,7 +15,7 @@ from plumb.plan import propose
 from plumb.plan.ahead import Check, ahead
 from plumb.plan.case import case_of
 from plumb.plan.chance import Rediagnosis, outlook
-from plumb.plan.checks import CHECKS, FRAME_CHECKS
+from plumb.plan.checks import FRAME_CHECKS, effect_checks
 from plumb.plan.options import BESIDE, many_marks, options
 from plumb.plan.separation import ENOUGH, Chooser, apart, drawn_by
 from plumb.plan.sites import usable
@@ -258,7 +258,7 @@ def test_distances_that_nobody_explains_are_measured_again():
 
 
 def test_checks_are_of_numbers_that_exist():
-    for effect, own in CHECKS.items():
+    for effect, own in effect_checks().items():
         assert effect in effect_names()
         assert {f"{effect}.{part}" for part in own.sigmas} == {
             name for name in parameter_words() if name.startswith(f"{effect}.")
@@ -267,6 +267,7 @@ def test_checks_are_of_numbers_that_exist():
             # What is no better than the whole range says nothing.
             words = parameter_words()[f"{effect}.{part}"]
             assert 0 < sigma < (words["high"] - words["low"]) / 4
+    assert set(effect_checks()) >= {"chain_pitch", "sheet_skew", "tape_scale", "frame_flex"}
     assert set(FRAME_CHECKS) >= set(PRIORS) & {"motor_gap", "motor_height"}
 
 

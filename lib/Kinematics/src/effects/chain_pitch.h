@@ -35,8 +35,9 @@ struct ChainPitch : Effect<Real> {
             "(read - 635) / 635, of each chain", 15};
   }
   static Example example(uint8_t i) {
-    static const Example kExamples[] = {
-        {"both alike", {0.001, 0.001}}, {"left more", {0.001, 0.0003}}, {"right", {0, 0.001}}};
+    static const Example kExamples[] = {{"both alike", {0.001, 0.001}, 20},
+                                        {"left more", {0.001, 0.0003}, 20},
+                                        {"right", {0, 0.001}, 20}};
     return kExamples[i];
   }
   template <class Judge>

@@ -35,7 +35,7 @@ struct ChainPlane : Effect<Real> {
             "Measure how far sprockets and ring stand off the sheet, to 3 mm.",
             "the difference of both, squared", 6};
   }
-  static Example example(uint8_t) { return {"sprockets off the sheet", {1600}}; }
+  static Example example(uint8_t) { return {"sprockets off the sheet", {1600}, 20}; }
   template <class Judge>
   static void setJudge(const Frame<Real>&, const Real* parameter, Judge& judge) {
     judge.set("plane_gap", sqrt(parameter[kGapSquared]));

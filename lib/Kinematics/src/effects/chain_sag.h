@@ -53,7 +53,7 @@ struct ChainSag : Effect<Real> {
     const double ratio = double(weightRatio(frame));
     return ratio * ratio / 24;
   }
-  static Example example(uint8_t) { return {"heavier chain", {8.1944567e-12}}; }
+  static Example example(uint8_t) { return {"heavier chain", {8.194456696256386e-12}, 20}; }
   template <class Judge>
   static void setJudge(const Frame<Real>& frame, const Real* parameter, Judge& judge) {
     const Real heavier = sqrt(parameter[kWeightRatioSquared] / Real(usual(frame, 0)));

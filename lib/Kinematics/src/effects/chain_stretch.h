@@ -34,7 +34,7 @@ struct ChainStretch : Effect<Real> {
             "mm longer / 3000 mm / 98 N", 20};
   }
   static double usual(const Frame<Real>&, uint8_t) { return param(0).typical; }
-  static Example example(uint8_t) { return {"softer chain", {5.17e-6}}; }
+  static Example example(uint8_t) { return {"softer chain", {5.17e-6}, 20}; }
   template <class Judge>
   static void setJudge(const Frame<Real>&, const Real* parameter, Judge& judge) {
     judge.set("left.compliance", parameter[kCompliance]);

@@ -34,7 +34,7 @@ struct ChainZero : Effect<Real> {
             "mm of chain that are out at 12 o'clock", 8};
   }
   static Example example(uint8_t i) {
-    static const Example kExamples[] = {{"one each way", {2, -1}}, {"both alike", {2, 2}}};
+    static const Example kExamples[] = {{"one each way", {2, -1}, 20}, {"both alike", {2, 2}, 20}};
     return kExamples[i];
   }
   template <class Judge>

@@ -40,8 +40,9 @@ struct FrameFlex : Effect<Real> {
             "mm moved over newtons pulled, inwards and downwards", 20};
   }
   static Example example(uint8_t i) {
-    static const Example kExamples[] = {
-        {"inward and downward", {0.007, 0.02}}, {"inward", {0.007, 0}}, {"downward", {0, 0.02}}};
+    static const Example kExamples[] = {{"inward and downward", {0.007, 0.02}, 20},
+                                        {"inward", {0.007, 0}, 20},
+                                        {"downward", {0, 0.02}, 20}};
     return kExamples[i];
   }
   template <class Judge>

@@ -38,7 +38,7 @@ struct FrameLean : Effect<Real> {
             "line or an angle gauge.",
             "the tangent of that angle, squared (a plumb line: distance over height, squared)", 5};
   }
-  static Example example(uint8_t) { return {"leaning", {0.072}}; }
+  static Example example(uint8_t) { return {"leaning", {0.072}, 1}; }
 
   /// The frame's weights are those along the sheet; the judge wants the whole.
   template <class Judge>

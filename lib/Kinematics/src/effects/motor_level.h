@@ -31,7 +31,7 @@ struct MotorLevel : Effect<Real> {
             "measure how much higher the right one is, to 1 mm.",
             "mm, negative if the left one is higher", 8};
   }
-  static Example example(uint8_t) { return {"right motor higher", {4}}; }
+  static Example example(uint8_t) { return {"right motor higher", {4}, 20}; }
   template <class Judge>
   static void setJudge(const Frame<Real>&, const Real* parameter, Judge& judge) {
     judge.set("height_difference", parameter[kHeightDifference]);

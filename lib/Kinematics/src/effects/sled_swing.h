@@ -46,7 +46,7 @@ struct SledSwing : Effect<Real> {
   }
   static Example example(uint8_t i) {
     static const Example kExamples[] = {
-        {"right and up", {2, 2}}, {"right", {2, 0}}, {"up", {0, 2}}};
+        {"right and up", {2, 2}, 8}, {"right", {2, 0}, 4}, {"up", {0, 2}, 4}};
     return kExamples[i];
   }
   template <class Judge>

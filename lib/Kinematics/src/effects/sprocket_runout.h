@@ -44,7 +44,8 @@ struct SprocketRunout : Effect<Real> {
   /// None: few have ever read the phase of a runout right from a dial.
   static CheckInfo check() { return {"", "", "", 0}; }
   static Example example(uint8_t i) {
-    static const Example kExamples[] = {{"both", {0, -0.1, -0.1, 0}}, {"left", {0, -0.1, 0, 0}}};
+    static const Example kExamples[] = {{"both", {0, -0.1, -0.1, 0}, 1},
+                                        {"left", {0, -0.1, 0, 0}, 1}};
     return kExamples[i];
   }
 

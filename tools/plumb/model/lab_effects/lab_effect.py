@@ -1,16 +1,16 @@
-"""What a lab effect is: parameters, words for people, and how it changes what is measured.
-
-The words are those of the firmware's effects (lib/Kinematics/src/effect.h); the place differs.
-"""
+"""What a lab effect is: how it changes what is measured."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
+
+
+from plumb.model.python_effect import PythonEffect, PythonParameter
 
 Array = NDArray[np.float64]
 SLED = "sled"  # the sled comes to rest elsewhere, before the turn of the sheet
@@ -36,64 +36,16 @@ class Change:
     by_place: Array  # (n, 2, 2) of `moved` by the places themselves
 
 
-@dataclass(frozen=True)
-class LabParameter:
-    """The words of a parameter for people; zero always means absent."""
-
-    name: str
-    unit: str
-    low: float  # physically plausible range
-    high: float
-    typical: float  # size met in real workshops
-    summary: str
-
-    @property
-    def words(self) -> dict[str, Any]:
-        """The parameter in the form of the firmware's library; no setting holds it."""
-        return {
-            "name": self.name,
-            "setting": None,
-            "unit": self.unit,
-            "low": self.low,
-            "high": self.high,
-            "typical": self.typical,
-            "summary": self.summary,
-        }
+LabParameter = PythonParameter
 
 
-@dataclass(frozen=True)
-class LabEffect:
-    """One physical cause that lies in what is measured and never in what the machine is sent.
+@dataclass(frozen=True, kw_only=True)
+class LabEffect(PythonEffect):
+    """One physical cause that lies in what is measured and never in what the machine is sent."""
 
-    Two laws hold for each: with every parameter zero no bit of any place changes, and every
-    parameter has a slope at zero.
-    """
+    where: ClassVar[str] = "lab"
 
-    name: str
-    summary: str  # the cause, in a sentence
-    pattern: str  # what it does to marks on the sheet
-    look_alikes: str
-    remedy: str  # how to tell it apart or cure it
     needs: str  # what measurements must hold to feel it
     acts_on: str  # SLED, EDGES or TAPE
-    parameters: tuple[LabParameter, ...]
     change: Callable[[Array, Seen], Change]  # of parameters (p,) and what is seen
-
-    @property
-    def parameter_names(self) -> tuple[str, ...]:
-        """The parameters as a fit names them: `effect.parameter`."""
-        return tuple(f"{self.name}.{parameter.name}" for parameter in self.parameters)
-
-    @property
-    def words(self) -> dict[str, Any]:
-        """The effect in the form of the firmware's library, marked `lab`."""
-        return {
-            "name": self.name,
-            "where": "lab",
-            "summary": self.summary,
-            "pattern": self.pattern,
-            "look_alikes": self.look_alikes,
-            "remedy": self.remedy,
-            "empirical": False,
-            "parameters": [parameter.words for parameter in self.parameters],
-        }
+    hidden_as: str  # what the bench does to a board by the first parameter: drag, skew or strain

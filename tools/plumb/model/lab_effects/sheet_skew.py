@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from plumb.model.lab_effects.lab_effect import EDGES, Array, Change, LabEffect, LabParameter, Seen
+from plumb.model.python_effect import DirectCheck, Example
 
 
 def change(parameters: Array, seen: Seen) -> Change:
@@ -32,8 +33,22 @@ EFFECT = LabEffect(
     acts_on=EDGES,
     parameters=(
         LabParameter(
-            "angle", "rad", -0.01, 0.01, 0.001, "by which the reading x grows for each mm up"
+            "angle",
+            "rad",
+            -0.01,
+            0.01,
+            0.001,
+            "by which the reading x grows for each mm up",
+            0.0005,
         ),
     ),
+    check=DirectCheck(
+        "both diagonals of the sheet",
+        "Measure both diagonals of the sheet to 1 mm.",
+        "(top left to bottom right squared - bottom left to top right squared) / (4 width height)",
+        5.0,
+    ),
+    hidden_as="skew",
+    examples=(Example("skew", {"angle": 0.001}, most=4.0),),
     change=change,
 )

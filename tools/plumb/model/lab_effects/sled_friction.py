@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from plumb.model.lab_effects.lab_effect import SLED, Array, Change, LabEffect, LabParameter, Seen
+from plumb.model.python_effect import Example
 
 
 def change(parameters: Array, seen: Seen) -> Change:
@@ -34,5 +35,7 @@ EFFECT = LabEffect(
     parameters=(
         LabParameter("drag", "N", 0.0, 40.0, 6.0, "force of friction against the last motion"),
     ),
+    hidden_as="drag",
+    examples=(Example("drag", {"drag": 6.0}, most=20.0),),
     change=change,
 )

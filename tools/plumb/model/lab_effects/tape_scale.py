@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from plumb.model.lab_effects.lab_effect import TAPE, Array, Change, LabEffect, LabParameter, Seen
+from plumb.model.python_effect import DirectCheck, Example
 
 
 def change(parameters: Array, seen: Seen) -> Change:
@@ -26,7 +27,18 @@ EFFECT = LabEffect(
     needs="measured places or distances",
     acts_on=TAPE,
     parameters=(
-        LabParameter("strain", "1", -0.003, 0.003, 0.0003, "share by which readings are too long"),
+        LabParameter(
+            "strain", "1", -0.003, 0.003, 0.0003, "share by which readings are too long", 0.0001
+        ),
     ),
+    check=DirectCheck(
+        "the tape against a certified length",
+        "Hold the tape against a steel rule or a certified length of 1 m, or a second tape over "
+        "2 m, and read the difference to 0.1 mm per metre.",
+        "(what the tape reads - the true length) / the true length",
+        4.0,
+    ),
+    hidden_as="strain",
+    examples=(Example("long", {"strain": 0.0003}, most=4.0),),
     change=change,
 )

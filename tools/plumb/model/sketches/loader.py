@@ -67,13 +67,19 @@ def _read(path: Path) -> Sketch:
     strands = Strands(
         length, length / 2000, length / 2000, length / 25, length, length[:, ::-1] * 0.1
     )
+    hooks = {"extra": sketch.extra, "push": sketch.push}
+    if not any(hooks.values()):
+        raise ValueError("a sketch needs extra(), the chain it adds, or push(), a force")
     zero = np.zeros(len(sketch.parameters))
     typical = np.array([parameter.typical for parameter in sketch.parameters])
-    if np.any(np.asarray(sketch.extra(zero, strands)) != 0.0):
-        raise ValueError("with all parameters zero it must add no chain")
-    felt = np.asarray(sketch.extra(typical, strands), dtype=float)
-    if felt.shape != (1, 2) or not np.all(np.isfinite(felt)):
-        raise ValueError(f"extra() gave {felt.shape}, not finite numbers (n, 2)")
+    for word, hook in hooks.items():
+        if hook is None:
+            continue
+        if np.any(np.asarray(hook(zero, strands)) != 0.0):
+            raise ValueError(f"with all parameters zero {word}() must give zeros")
+        felt = np.asarray(hook(typical, strands), dtype=float)
+        if felt.shape != (1, 2) or not np.all(np.isfinite(felt)):
+            raise ValueError(f"{word}() gave {felt.shape}, not finite numbers (n, 2)")
     return sketch
 
 

@@ -1,18 +1,18 @@
-"""What a sketch is: words for people, parameters, and how much longer it makes each chain."""
+"""What a sketch is: an effect on trial that makes chains longer or pushes the sled."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plumb.model.lab_effects.lab_effect import LabParameter
+from plumb.model.python_effect import PythonEffect, PythonParameter
 
 Array = NDArray[np.float64]
-SketchParameter = LabParameter  # described in the same words
+SketchParameter = PythonParameter
 
 
 @dataclass(frozen=True)
@@ -27,34 +27,11 @@ class Strands:
     places: Array  # (n, 2) [mm] x and y of the sled
 
 
-@dataclass(frozen=True)
-class Sketch:
-    """One physical cause on trial. Two laws hold as for every effect: with all parameters zero the
-    chains are as long as before, and every parameter has a slope at zero."""
+@dataclass(frozen=True, kw_only=True)
+class Sketch(PythonEffect):
+    """One physical cause on trial: chain that it adds, or a push on the sled, or both."""
 
-    name: str
-    summary: str  # the cause, in a sentence
-    pattern: str  # what it does to marks on the sheet
-    look_alikes: str
-    remedy: str  # how to tell it apart or cure it
-    parameters: tuple[SketchParameter, ...]
-    extra: Callable[[Array, Strands], Array]  # of parameters (p,): chain more (n, 2) [mm]
+    where: ClassVar[str] = "sketch"
 
-    @property
-    def parameter_names(self) -> tuple[str, ...]:
-        """The parameters as a fit names them: `effect.parameter`."""
-        return tuple(f"{self.name}.{parameter.name}" for parameter in self.parameters)
-
-    @property
-    def words(self) -> dict[str, Any]:
-        """The effect in the form of the firmware's library, marked `sketch`."""
-        return {
-            "name": self.name,
-            "where": "sketch",
-            "summary": self.summary,
-            "pattern": self.pattern,
-            "look_alikes": self.look_alikes,
-            "remedy": self.remedy,
-            "empirical": False,
-            "parameters": [parameter.words for parameter in self.parameters],
-        }
+    extra: Callable[[Array, Strands], Array] | None = None  # of parameters (p,): chain (n, 2) [mm]
+    push: Callable[[Array, Strands], Array] | None = None  # force on the sled (n, 2) [N], x and y

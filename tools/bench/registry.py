@@ -1,0 +1,41 @@
+"""The registry of effects as its header has it: numbers and names, and the cases that time each."""
+
+import re
+from pathlib import Path
+
+HEADER = Path(__file__).resolve().parents[2] / "lib/Kinematics/src/effects.h"
+ENTRY = re.compile(r"At<(\d+), (\w+)>")
+# Timed one upon the other, as every machine has them: cases.h names these by hand.
+STEPS = {
+    "chain_sag": ("inverse, sag", "inverse, rigid"),
+    "chain_stretch": ("inverse, sag and stretch", "inverse, sag"),
+    "chain_pitch": ("inverse, sag, stretch and pitch", "inverse, sag and stretch"),
+}
+
+
+def text() -> str:
+    """The header."""
+    return HEADER.read_text(encoding="utf-8")
+
+
+def numbers() -> dict[str, int]:
+    """The first setting of every effect, by the name that files use."""
+    return {
+        re.sub(r"(?<!^)(?=[A-Z])", "_", name).lower(): int(number)
+        for number, name in ENTRY.findall(text())
+    }
+
+
+def case_of(name: str) -> str:
+    """The case that times an effect beside sag, stretch and pitch."""
+    return f"inverse, the same and {name}"
+
+
+def cases() -> str:
+    """Lines of a table of cases (see cases.h): each effect that no step times."""
+    lines = [
+        f'{{"{case_of(name)}", kInverse, kSagStretchPitch, kUsual, {number}}},\n'
+        for name, number in numbers().items()
+        if name not in STEPS
+    ]
+    return "// Written by registry.py.\n" + "".join(lines)

@@ -1,0 +1,174 @@
+// The library of effects seen from Python: words, traits, and what each is in the judge's numbers.
+#include "effects_binding.h"
+
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/string.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "arrays.h"
+#include "judged.h"
+
+namespace nb = nanobind;
+using namespace kinematics;
+
+namespace {
+
+/// Takes a machine in the judge's numbers, as setJudge() says them.
+struct Judged {
+  std::map<std::string, double> numbers, factors;
+
+  void set(const char* name, double value) { numbers[name] = value; }
+  void scale(const char* name, double factor) {
+    factors.insert({name, 1.0}).first->second *= factor;
+  }
+};
+
+std::map<std::string, double> judged(const core::Values& values, bool over_top) {
+  const std::vector<double> plain = core::numbers<double>(values);
+  const core::Described<double> machine = core::describedBy(plain, over_top);
+  Judged judge;
+  setJudge(machine.frame, machine.effects, judge);
+  for (const auto& [name, factor] : judge.factors) judge.numbers.at(name) *= factor;
+  return judge.numbers;
+}
+
+/// Sizes to expect on a machine of which only the frame is known.
+struct Usual {
+  const Frame<double>& frame;
+  nb::dict sizes;
+
+  template <class Own>
+  void effect(int) {
+    for (uint8_t i = 0; i < Own::kParamCount; ++i) {
+      const double size = Own::usual(frame, i);
+      const std::string name = std::string(Own::info().name) + "." + Own::param(i).name;
+      if (size != 0) sizes[name.c_str()] = size;
+    }
+  }
+};
+
+nb::dict usual(const core::Values& values, bool over_top) {
+  const Frame<double> frame = core::describedBy(core::numbers<double>(values), over_top).frame;
+  Usual each = {frame, {}};
+  Effects::For<double>::visit(each);
+  return each.sizes;
+}
+
+const char* const kOwners[] = {"machine", "chain", "zeroing"};  // as BelongsTo
+
+nb::object checkOf(const CheckInfo& info) {
+  if (!info.title || !*info.title) return nb::none();
+  nb::dict check;
+  check["title"] = info.title;
+  check["steps"] = info.steps;
+  check["value"] = info.value;
+  check["minutes"] = info.minutes;
+  return check;
+}
+
+template <class Own>
+nb::list examplesOf() {
+  nb::list examples;
+  for (uint8_t i = 0; i < Own::kExampleCount; ++i) {
+    const Example shown = Own::example(i);
+    if (!shown.label) continue;
+    nb::dict sizes, entry;
+    for (uint8_t k = 0; k < Own::kParamCount; ++k) sizes[Own::param(k).name] = shown.size[k];
+    entry["label"] = shown.label;
+    entry["sizes"] = sizes;
+    entry["most"] = shown.most;
+    examples.append(entry);
+  }
+  return examples;
+}
+
+template <class Own>
+nb::dict parameterOf(int first_setting, uint8_t i) {
+  const ParamInfo param = Own::param(i);
+  const PublishedInfo published = Own::published(i);
+  nb::dict entry;
+  entry["name"] = param.name;
+  entry["setting"] = first_setting + i;
+  entry["unit"] = param.unit;
+  entry["low"] = param.low;
+  entry["high"] = param.high;
+  entry["typical"] = param.typical;
+  entry["summary"] = param.summary;
+  entry["sigma"] = param.sigma;
+  entry["published"] = nb::none();
+  if (published.number) entry["published"] = nb::make_tuple(published.number, published.factor);
+  return entry;
+}
+
+struct Lister {
+  nb::list effects;
+
+  template <class Own>
+  void effect(int first_setting) {
+    const EffectInfo info = Own::info();
+    nb::list parameters;
+    for (uint8_t i = 0; i < Own::kParamCount; ++i)
+      parameters.append(parameterOf<Own>(first_setting, i));
+    nb::dict entry;
+    entry["name"] = info.name;
+    entry["summary"] = info.summary;
+    entry["pattern"] = info.pattern;
+    entry["look_alikes"] = info.look_alikes;
+    entry["remedy"] = info.remedy;
+    entry["empirical"] = bool(Own::kEmpirical);
+    entry["belongs_to"] = kOwners[Own::kBelongsTo];
+    entry["in_frame"] = bool(Own::kInFrame);
+    entry["weight_power"] = int(Own::kWeightPower);
+    entry["check"] = checkOf(Own::check());
+    entry["examples"] = examplesOf<Own>();
+    entry["parameters"] = parameters;
+    effects.append(entry);
+  }
+};
+
+nb::list effects() {
+  Lister lister;
+  Effects::For<double>::visit(lister);
+  return lister.effects;
+}
+
+/// The frame's numbers, in the order in which they lead the values array.
+nb::list frame() {
+  nb::list result;
+  for (int i = 0; i < kFrameFieldCount; ++i) {
+    const FrameField<double>& field = frameFields<double>()[i];
+    nb::dict entry;
+    entry["name"] = field.name;
+    entry["unit"] = field.unit;
+    entry["usual"] = field.usual;
+    entry["low"] = field.low;
+    entry["high"] = field.high;
+    entry["summary"] = field.summary;
+    result.append(entry);
+  }
+  return result;
+}
+
+nb::list settings() {
+  nb::list names;
+  for (nb::handle field : frame()) names.append(field["name"]);
+  for (nb::handle effect : effects())
+    for (nb::handle param : effect["parameters"])
+      names.append(nb::str("{}.{}").format(effect["name"], param["name"]));
+  return names;
+}
+
+}  // namespace
+
+void addEffects(nb::module_& module) {
+  module.def("frame", &frame, "The frame's numbers: name, unit, usual, low, high, summary.");
+  module.def("effects", &effects, "The library of effects, in the order they are applied.");
+  module.def("settings", &settings, "Names of the values array, in order.");
+  module.def("judged", &judged, nb::arg("values"), nb::arg("over_top"),
+             "The machine in the numbers of the judge, by name (see test/reference/numbers.h).");
+  module.def("usual", &usual, nb::arg("values"), nb::arg("over_top"),
+             "Sizes of parameters that every machine with this frame has, by full name.");
+}

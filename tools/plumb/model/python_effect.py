@@ -1,0 +1,114 @@
+"""What lab effects and sketches share: parameters and words, as the firmware's effects have them
+(lib/Kinematics/src/effect.h)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+
+@dataclass(frozen=True)
+class PythonParameter:
+    """What people read about one parameter; zero always means absent."""
+
+    name: str
+    unit: str
+    low: float  # physically plausible range
+    high: float
+    typical: float  # size met in real workshops
+    summary: str
+    sigma: float = 0.0  # accuracy of the direct check; 0: no check reads it
+
+    @property
+    def words(self) -> dict[str, Any]:
+        """The parameter as the firmware's library describes its own; no setting holds it."""
+        return {
+            "name": self.name,
+            "setting": None,
+            "unit": self.unit,
+            "low": self.low,
+            "high": self.high,
+            "typical": self.typical,
+            "summary": self.summary,
+            "sigma": self.sigma,
+            "published": None,
+        }
+
+
+@dataclass(frozen=True)
+class DirectCheck:
+    """How the owner measures an effect directly, without marks on a sheet."""
+
+    title: str
+    steps: str  # what to do, and how exactly
+    value: str  # how the parameters follow from what was measured
+    minutes: float
+
+    @property
+    def words(self) -> dict[str, Any]:
+        """The check as the firmware's library describes its own."""
+        return {
+            "title": self.title,
+            "steps": self.steps,
+            "value": self.value,
+            "minutes": self.minutes,
+        }
+
+
+@dataclass(frozen=True)
+class Example:
+    """A machine that suffers from the effect: the bench hides it."""
+
+    label: str
+    sizes: Mapping[str, float]  # by parameter
+    most: float  # [mm] RMS of marks by it on the worst of real machines, roughly
+
+    @property
+    def words(self) -> dict[str, Any]:
+        """The example as the firmware's library describes its own."""
+        return {"label": self.label, "sizes": dict(self.sizes), "most": self.most}
+
+
+@dataclass(frozen=True, kw_only=True)
+class PythonEffect:
+    """One physical cause that no setting of the firmware holds.
+
+    Two laws hold for each: with every parameter zero no bit of any place changes, and every
+    parameter has a slope at zero.
+    """
+
+    where: ClassVar[str]  # "lab" or "sketch"
+
+    name: str
+    summary: str  # the cause, in one sentence
+    pattern: str  # what it does to marks on the sheet
+    look_alikes: str
+    remedy: str  # how to tell it apart or cure it
+    parameters: tuple[PythonParameter, ...]
+    check: DirectCheck | None = None
+    examples: tuple[Example, ...] = ()
+
+    @property
+    def parameter_names(self) -> tuple[str, ...]:
+        """The parameters as a fit names them: `effect.parameter`."""
+        return tuple(f"{self.name}.{parameter.name}" for parameter in self.parameters)
+
+    @property
+    def words(self) -> dict[str, Any]:
+        """The effect as the firmware's library describes its own, with its place."""
+        return {
+            "name": self.name,
+            "where": self.where,
+            "summary": self.summary,
+            "pattern": self.pattern,
+            "look_alikes": self.look_alikes,
+            "remedy": self.remedy,
+            "empirical": False,
+            "belongs_to": "machine",
+            "in_frame": False,
+            "weight_power": 0,
+            "check": self.check.words if self.check else None,
+            "examples": [example.words for example in self.examples],
+            "parameters": [parameter.words for parameter in self.parameters],
+        }

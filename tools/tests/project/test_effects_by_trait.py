@@ -1,0 +1,61 @@
+"""The lab asks effects for their traits: no module picks an effect by its name."""
+
+import ast
+from pathlib import Path
+
+from plumb.model.catalogue import effect_names, empirical_effects
+
+PACKAGE = Path(__file__).resolve().parents[2] / "plumb"
+NAMES = {*effect_names(), *(effect["name"] for effect in empirical_effects())}
+# Where effects are written, and stories of particular effects on particular boards.
+OF_EFFECTS = ("model/lab_effects", "model/sketches")
+STORIES = {
+    "pages/real_data.py",
+    "pages/real_holes.py",
+    "pages/real_sets.py",
+    "bench/page.py",
+    "cure/demo.py",
+    "cli/demo.py",
+}
+REMEDY = "give the effect a trait (lib/Kinematics/src/effect.h) and ask plumb.model.catalogue"
+
+
+def test_no_module_names_an_effect():
+    named = [
+        f"{path.relative_to(PACKAGE)}:{line}: {name}: {REMEDY}"
+        for path in sorted(PACKAGE.rglob("*.py"))
+        if not is_exempt(path.relative_to(PACKAGE).as_posix())
+        for line, name in effects_named(path)
+    ]
+    assert not named, "\n".join(named)
+
+
+def test_every_story_is_still_there():
+    assert all((PACKAGE / story).is_file() for story in STORIES)
+
+
+def test_a_name_is_seen_in_text_of_any_kind(tmp_path):
+    module = tmp_path / "module.py"
+    module.write_text('"""chain_sag in words."""\nA = "chain_sag"\nB = f"{A}: chain_zero.left"\n')
+    assert [name for _, name in effects_named(module)] == ["chain_sag", "chain_zero"]
+
+
+def is_exempt(name):
+    """Whether a module may name effects."""
+    return name in STORIES or name.startswith(OF_EFFECTS)
+
+
+def effects_named(path):
+    """Line and name of each effect that a string of the module names; comments may."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    documented = (ast.Module, ast.ClassDef, ast.FunctionDef)
+    words = {
+        id(node.body[0].value)
+        for node in ast.walk(tree)
+        if isinstance(node, documented) and ast.get_docstring(node)
+    }
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in words:
+            for word in node.value.replace(".", " ").replace("=", " ").replace(":", " ").split():
+                if word.strip("`,;()[]'\"") in NAMES:
+                    yield node.lineno, word.strip("`,;()[]'\"")
