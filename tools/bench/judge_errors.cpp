@@ -1,13 +1,17 @@
 // Prints, for each effect, how far the laws' chain lengths are from the judge's over the sheet with
 // it, how far they would be without it, and how far the bit is off under all motors of the
-// box: {"name": [with, without, at the bit], ...} in mm.
+// box: {"name": [with, without, at the bit], ...} in mm. A word picks the effects that begin so.
 #include <cstdio>
+#include <stdexcept>
 
 #include "hidden.h"
 
-int main() {
+namespace {
+
+void print(const std::string& chosen) {
   const char* between = "{";
   for (const Hidden& hidden : everyEffect()) {
+    if (hidden.name.compare(0, chosen.size(), chosen) != 0) continue;
     const reference::Machine machine = judge(hidden.effects);
     std::printf("%s\"%s\": [%.4f, %.3f, %.4f]", between, hidden.name.c_str(),
                 worstOver(prepare(frameUnder({}), hidden.effects), machine),
@@ -16,4 +20,16 @@ int main() {
     between = ", ";
   }
   std::printf("}\n");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    print(argc > 1 ? argv[1] : "");
+  } catch (const std::invalid_argument& refusal) {
+    std::fprintf(stderr, "judge_errors: %s\n", refusal.what());
+    return 1;
+  }
+  return 0;
 }

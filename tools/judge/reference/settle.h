@@ -24,7 +24,7 @@ inline ChainForm drawCounted(const Machine& machine, Hand hand, const Eigen::Vec
   for (int i = 0; i < 40; ++i) {
     const Eigen::Vector3d tension = -pull + side.weight * free_length * downOf(machine);
     const double wrap = departAlong(machine, hand, tension).wrap;
-    const double better = side.lengthOf(paid_out - wrap);
+    const double better = side.lengthOf(paid_out - wrap, (tension.norm() + pull.norm()) / 2);
     const bool same = std::abs(better - free_length) < 1e-13 * machine.motor_gap;
     free_length = better;
     if (same) break;

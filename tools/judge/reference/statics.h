@@ -38,7 +38,8 @@ inline ChainForm drawChain(const Machine& machine, Hand hand, const ChainGuess& 
   ChainForm form;
   form.wrap = departure.wrap;
   form.free_length = guess.free_length;
-  form.paid_out = departure.wrap + side.counted(guess.free_length);
+  form.paid_out =
+      departure.wrap + side.counted(guess.free_length, (at_sprocket.norm() + at_ring.norm()) / 2);
   form.departure_angle = departure.angle;
   form.tension_at_sprocket = at_sprocket.norm();
   form.tension_at_ring = at_ring.norm();

@@ -10,6 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from hidden_boards import COMPLIANCE, MAKER, board, plan
+from plumb.bench.boards import cut
+from plumb.bench.causes import Cause, Hidden
 from plumb.model.sketches import SKETCHES, Strands
 from plumb.model.sketches.loader import load
 from plumb.settings.files import machine_toml
@@ -100,11 +102,12 @@ def test_a_sketch_is_marked_and_never_written_as_a_setting(stretched):
         ("SKETCH = 1", "no SKETCH"),
         ("this is no Python", "invalid syntax"),
         (TWIN.replace('name="twin"', 'name="chain_sag"'), "there is an effect chain_sag already"),
-        (TWIN.replace("- strands.length\n", "\n"), "must add no chain"),
-        (TWIN.replace("- strands.length\n", "- strands.length[:, :1].sum()\n"), "zero it must"),
+        (TWIN.replace("- strands.length\n", "\n"), "extra() must give zeros"),
+        (TWIN.replace("- strands.length\n", "- strands.length[:, :1].sum()\n"), "must give zeros"),
+        (TWIN.replace(", extra=extra", ""), "needs extra(), the chain it adds, or push()"),
         (TWIN.replace("strands.tension)", "strands.pull)"), "pull"),
     ],
-    ids=["empty", "syntax", "taken", "at zero", "shape", "word"],
+    ids=["empty", "syntax", "taken", "at zero", "shape", "no hook", "word"],
 )
 def test_a_sketch_that_cannot_be_used_is_told_in_one_line(tmp_path, text, hint):
     (tmp_path / "own").mkdir()
@@ -129,3 +132,19 @@ def test_what_is_set_aside_is_not_ranked_and_stands_by_when_it_is_not(tmp_path):
     assert loaded.sketches[0].extra(np.array([0.01]), strands) == pytest.approx(
         np.array([[-0.6, -0.8]])
     )
+
+
+def test_a_hose_that_pulls_the_sled_is_fitted_in_newtons(tmp_path):
+    (tmp_path / "own").mkdir()
+    shutil.copy(FOLDER / "_dust_hose.py", tmp_path / "own/dust_hose.py")
+    (tmp_path / "machine.toml").write_text(machine_toml(MAKER))
+    hose = Cause("", "", lambda _: {"push_right": 6.0, "push_up": -4.0})
+    marks = cut(Hidden(((hose, 1.0),)), plan(5, 5), seed=5, noise=0.05, tape_sigma=0.05)
+    lines = ["target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"]
+    lines += [",".join(map(repr, (*one.target, *one.measured))) for one in marks.measurements.marks]
+    (tmp_path / "marks.csv").write_text("\n".join(lines))
+    told = answer(tmp_path, "add", *BOARD[:2], *BOARD[4:], "--effect", "dust_hose")
+    found = {one["name"]: one["value"] for one in told["parameters"]}
+    assert found["dust_hose.right"] == pytest.approx(6.0, abs=0.3)
+    assert found["dust_hose.up"] == pytest.approx(-4.0, abs=0.6)
+    assert told["after"]["fit_rms_mm"] < 0.1 < told["before"]["fit_rms_mm"]

@@ -1,0 +1,69 @@
+"""The recipes of docs/ are carried out as they stand, in a copy of what they change."""
+
+import json
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+PAGE = ROOT / "docs/new-effect.md"
+EIGEN = ROOT / ".pio/libdeps/native/ArduinoEigen/ArduinoEigen"
+HEADER = re.compile(r"`([\w/.]+\.h)`, with the sketch's words.*?```cpp\n(.*?)```", re.DOTALL)
+DIFF = re.compile(r"```diff\n--- a/(\S+)\n\+\+\+ b/\S+\n(.*?)```", re.DOTALL)
+
+
+@pytest.fixture(scope="module")
+def copy(tmp_path_factory):
+    """What the recipe of a new effect touches, and the program that asks the judge."""
+    folder = tmp_path_factory.mktemp("tree")
+    for part in ("lib/Kinematics/src", "test/reference", "test/test_effects"):
+        shutil.copytree(ROOT / part, folder / part)
+    shutil.copy(ROOT / "tools/bench/judge_errors.cpp", folder)
+    return folder
+
+
+def test_the_page_of_a_new_effect_leads_to_the_judges_approval(copy):
+    path, header = HEADER.search(PAGE.read_text(encoding="utf-8")).groups()
+    (copy / path).write_text(header, encoding="utf-8")
+    assert "mount_give.h: has no setting: give it a line At<NUMBER, MountGive>" in checked(copy)
+    line, mechanics = DIFF.findall(PAGE.read_text(encoding="utf-8"))
+    apply(copy, *line)
+    assert "each has its line" in checked(copy)
+    refused = judged(copy)
+    assert refused.returncode and "no number left.give: add its mechanics" in refused.stderr
+    apply(copy, *mechanics)
+    approved = judged(copy)
+    assert approved.returncode == 0, approved.stderr
+    with_it, without, at_the_bit = json.loads(approved.stdout)["mount_give_soft_mounts"]
+    assert with_it < 0.006 and at_the_bit < 0.008 and without > 0.3
+
+
+def checked(folder):
+    """What the check of the registry says of a copy."""
+    command = [ROOT / ".venv/bin/python", ROOT / "tools/checks/effects.py", folder]
+    return subprocess.run(command, capture_output=True, text=True).stdout
+
+
+def apply(folder, path, hunks):
+    """Changes a file as a diff without line numbers says; each hunk must fit exactly once."""
+    text = (folder / path).read_text(encoding="utf-8")
+    for hunk in re.split(r"^@@.*\n", hunks, flags=re.MULTILINE)[1:]:
+        lines = hunk.splitlines(keepends=True)
+        old = "".join(line[1:] for line in lines if line[0] in " -")
+        new = "".join(line[1:] for line in lines if line[0] in " +")
+        assert text.count(old) == 1, f"{PAGE.name}: {path} has changed, correct the page:\n{hunk}"
+        text = text.replace(old, new)
+    (folder / path).write_text(text, encoding="utf-8")
+
+
+def judged(folder):
+    """How far the laws of a copy are from its judge."""
+    program = folder / "judge_errors"
+    includes = ["lib/Kinematics/src", "test", "test/test_effects"]
+    sources = ["judge_errors.cpp", "lib/Kinematics/src/Kinematics.cpp"]
+    options = ["-std=c++17", "-O1", "-isystem", EIGEN, *(f"-I{part}" for part in includes)]
+    subprocess.run(["g++", *options, *sources, "-o", program], cwd=folder, check=True)
+    return subprocess.run([program, "mount_give"], capture_output=True, text=True)
