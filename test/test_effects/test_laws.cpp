@@ -175,7 +175,7 @@ struct Missing {
     if (!said.sets)
       lines.push_back(header +
                       "say it in the judge's numbers: setJudge(); what he lacks is added "
-                      "in test/reference");
+                      "in tools/judge/reference");
   }
 };
 

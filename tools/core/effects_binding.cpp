@@ -167,8 +167,9 @@ void addEffects(nb::module_& module) {
   module.def("frame", &frame, "The frame's numbers: name, unit, usual, low, high, summary.");
   module.def("effects", &effects, "The library of effects, in the order they are applied.");
   module.def("settings", &settings, "Names of the values array, in order.");
-  module.def("judged", &judged, nb::arg("values"), nb::arg("over_top"),
-             "The machine in the numbers of the judge, by name (see test/reference/numbers.h).");
+  module.def(
+      "judged", &judged, nb::arg("values"), nb::arg("over_top"),
+      "The machine in the numbers of the judge, by name (see tools/judge/reference/numbers.h).");
   module.def("usual", &usual, nb::arg("values"), nb::arg("over_top"),
              "Sizes of parameters that every machine with this frame has, by full name.");
 }

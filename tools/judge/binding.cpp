@@ -57,10 +57,11 @@ nb::ndarray<nb::numpy, double> places(const std::map<std::string, double>& numbe
 
 NB_MODULE(_judge, module) {
   module.doc() = "The judge: exact statics of elastic catenaries, apart from the model.";
-  module.def("places", &places, nb::arg("numbers"), nb::arg("chains"), nb::kw_only(),
-             nb::arg("pushes"), nb::arg("weights"),
-             "Where the sled rests, (n, 2) [mm], NaN where it cannot hang. numbers: what differs "
-             "from the judge's default machine, by name; left.NAME and right.NAME are of one side. "
-             "chains (n, 2) [mm] paid out, more pushes (n, 2) [N] on the sled, weights (n,) [N] of it. "
-             "KeyError for an unknown name.");
+  module.def(
+      "places", &places, nb::arg("numbers"), nb::arg("chains"), nb::kw_only(), nb::arg("pushes"),
+      nb::arg("weights"),
+      "Where the sled rests, (n, 2) [mm], NaN where it cannot hang. numbers: what differs "
+      "from the judge's default machine, by name; left.NAME and right.NAME are of one side. "
+      "chains (n, 2) [mm] paid out, more pushes (n, 2) [N] on the sled, weights (n,) [N] of it. "
+      "KeyError for an unknown name.");
 }

@@ -37,7 +37,7 @@ def _names_of(owner: str) -> list[str]:
 
 def _other_chain() -> dict[str, str]:
     """Each parameter of a chain, and the same of the other chain."""
-    pairs = {}
+    pairs: dict[str, str] = {}
     for effect in library():
         names = [f"{effect['name']}.{parameter['name']}" for parameter in effect["parameters"]]
         if effect["belongs_to"] == "chain":

@@ -86,7 +86,7 @@ def with_parameters(settings: MachineSettings, parameters: Mapping[str, float]) 
 
 
 def judged(settings: MachineSettings) -> dict[str, float]:
-    """Our model of a machine in the numbers of the judge (test/reference/numbers.h)."""
+    """Our model of a machine in the numbers of the judge (tools/judge/reference/numbers.h)."""
     return _core.judged(values_of(settings), settings.feed == "top")
 
 

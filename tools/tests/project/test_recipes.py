@@ -19,7 +19,7 @@ DIFF = re.compile(r"```diff\n--- a/(\S+)\n\+\+\+ b/\S+\n(.*?)```", re.DOTALL)
 def copy(tmp_path_factory):
     """What the recipe of a new effect touches, and the program that asks the judge."""
     folder = tmp_path_factory.mktemp("tree")
-    for part in ("lib/Kinematics/src", "test/reference", "test/test_effects"):
+    for part in ("lib/Kinematics/src", "tools/judge/reference", "test/test_effects"):
         shutil.copytree(ROOT / part, folder / part)
     shutil.copy(ROOT / "tools/bench/judge_errors.cpp", folder)
     return folder
@@ -62,7 +62,7 @@ def apply(folder, path, hunks):
 def judged(folder):
     """How far the laws of a copy are from its judge."""
     program = folder / "judge_errors"
-    includes = ["lib/Kinematics/src", "test", "test/test_effects"]
+    includes = ["lib/Kinematics/src", "tools/judge", "test/test_effects"]
     sources = ["judge_errors.cpp", "lib/Kinematics/src/Kinematics.cpp"]
     options = ["-std=c++17", "-O1", "-isystem", EIGEN, *(f"-I{part}" for part in includes)]
     subprocess.run(["g++", *options, *sources, "-o", program], cwd=folder, check=True)

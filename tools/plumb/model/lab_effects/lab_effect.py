@@ -9,7 +9,6 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-
 from plumb.model.python_effect import PythonEffect, PythonParameter
 
 Array = NDArray[np.float64]

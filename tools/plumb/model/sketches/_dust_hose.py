@@ -5,10 +5,11 @@ Set aside by the underscore; as dust_hose.py it is ranked and fitted.
 
 import numpy as np
 
-from plumb.model.sketches import Sketch, SketchParameter
+from plumb.model.sketches import Sketch, SketchParameter, Strands
+from plumb.model.sketches.sketch import Array
 
 
-def push(parameters, strands):
+def push(parameters: Array, strands: Strands) -> Array:
     """Force (n, 2) [N] on the sled: x to the right, y up the sheet."""
     return np.tile(parameters, (len(strands.places), 1))
 
