@@ -43,8 +43,8 @@ TRUE_VALUES = {
     "sheet_skew.angle": lambda s: 0.001 * s,
     "tape_scale.strain": lambda s: 0.0003 * s,
     "sled_friction.drag": lambda s: 6 * s,
-    "sprocket_runout.left_cosine": lambda s: 0.2 * s,
-    "sprocket_runout.right_sine": lambda s: 0.1 * s,
+    "sprocket_runout.left_cosine": lambda s: -0.2 * s,
+    "sprocket_runout.right_sine": lambda s: -0.1 * s,
 }
 
 

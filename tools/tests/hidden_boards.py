@@ -47,7 +47,10 @@ _CAUSES["sprocket_runout"] = Cause(
     lambda s: {"left.eccentric_x": 0.2 * s, "right.eccentric_y": 0.1 * s},
 )
 # The judge's numbers for an effect of so many typical sizes; empty where the judge has no part.
-HIDDEN = {name: one.numbers for name, one in _CAUSES.items()}
+HIDDEN = {
+    name: lambda size, cause=cause: Hidden(((cause, size),)).numbers
+    for name, cause in _CAUSES.items()
+}
 
 
 def size_for(effect: str, own: Plan, millimetres: float) -> float:
