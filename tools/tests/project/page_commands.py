@@ -1,0 +1,141 @@
+"""The commands that pages show, and what they print; run as a script it writes that into the pages.
+
+In a block ```console the lines after `$ ` are commands, and below each stands what it prints. It
+exits with 0, or the page shows the code by `; echo "exit $?"`. In a block without a language the
+lines that begin with plumb, or with Python and a script, are commands that answer (exit 0 or 1).
+The commands of a page run one after the other, in a folder with a copy of docs/example.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[3]
+EXAMPLE = ROOT / "docs/example"
+BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.DOTALL | re.MULTILINE)
+PROMPT = re.compile(r"^\$ ", re.MULTILINE)
+# In a block without a language: the commands that need neither a board nor a compiler.
+PLAIN = re.compile(r"(?:\.venv/bin/)?plumb |python3 tools/")
+END = "--- end of a command, exit "
+# What the reader does after a command: he measures, and fills in the file that it wrote.
+FILLED_IN = {
+    "--marks marks.toml": "cp docs/example/marks.toml marks.toml",
+    "--marks readings.toml": "sed -i 's/# across = .*/across = [1907, 1906, 1904]/; "
+    "s/# upwards = .*/upwards = [901, 902, 901]/; s/# top_left = .*/top_left = [100, 101]/; "
+    "s/# top_right = .*/top_right = [101, 101]/' readings.toml",
+    "--marks more.toml": r"sed -i -E 's/^target = (\[.*\])/&\nmeasured = \1/' more.toml",
+}
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A command on a page, with the output below it; None in a block without a language."""
+
+    command: str
+    output: str | None
+
+
+@dataclass(frozen=True)
+class Printed:
+    """What a command printed, and its exit code."""
+
+    output: str
+    code: int
+
+
+def commands_on(text: str) -> list[Shown]:
+    """The commands of a page that can run, in their order."""
+    shown: list[Shown] = []
+    for language, block in BLOCK.findall(text):
+        if language == "console":
+            shown += [Shown(*part.split("\n", 1)) for part in PROMPT.split(block)[1:]]
+        elif not language:
+            shown += [Shown(line, None) for line in block.splitlines() if PLAIN.match(line)]
+    return shown
+
+
+def run_in(folder: Path, commands: list[str]) -> list[Printed]:
+    """What each command prints, all run by one shell in a folder with the example."""
+    script = "".join(f"{command}\necho '{END}'$?\n{fill_in(command)}\n" for command in commands)
+    shutil.copytree(EXAMPLE, folder / "docs/example")
+    for file in EXAMPLE.iterdir():
+        if f"--marks {file.name}" not in script:
+            shutil.copy(file, folder)
+    for name in ("tools", ".venv"):
+        (folder / name).symlink_to(ROOT / name)
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    done = subprocess.run(
+        ["bash", "-c", script],
+        cwd=folder,
+        env={**os.environ, "PATH": path, "COLUMNS": "80"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+    parts = re.split(rf"^{END}(\d+)\n", done.stdout, flags=re.MULTILINE)
+    return [Printed(*pair) for pair in zip(parts[0::2], map(int, parts[1::2]), strict=False)]
+
+
+def fill_in(command: str) -> str:
+    """What the reader does after a command."""
+    return "; ".join(deed for part, deed in FILLED_IN.items() if part in command)
+
+
+def faults_on(text: str, folder: Path) -> list[str]:
+    """What the commands of a page do that it does not show."""
+    shown = commands_on(text)
+    faults = []
+    for each, printed in zip(shown, run_in(folder, [each.command for each in shown]), strict=True):
+        if printed.code > (each.output is None):
+            faults.append(f"$ {each.command}\nexit {printed.code}:\n{printed.output}")
+        elif each.output is not None and printed.output.rstrip() != each.output.rstrip():
+            faults.append(
+                f"$ {each.command}\nshown:\n{each.output}\nprinted:\n{printed.output}\n"
+                f"If that is right: python {Path(__file__).relative_to(ROOT)} writes it."
+            )
+    return faults
+
+
+def rewritten(text: str, folder: Path) -> str:
+    """The page with the output as it is printed now."""
+    commands = [each.command for each in commands_on(text)]
+    printed = dict(zip(commands, run_in(folder, commands), strict=True))
+    return BLOCK.sub(lambda block: _block(block, lambda command: printed[command].output), text)
+
+
+def _block(block: re.Match[str], output_of: Callable[[str], str]) -> str:
+    """A block with the output as it is printed now."""
+    language, body = block[1], block[2]
+    if language != "console":
+        return block[0]
+    parts = []
+    for part in PROMPT.split(body)[1:]:
+        command, _, old = part.partition("\n")
+        gap = "\n" if old.endswith("\n\n") else ""
+        output = output_of(command).rstrip()
+        parts.append(f"$ {command}\n{output}{output and chr(10)}{gap}")
+    return f"```console\n{''.join(parts)}```"
+
+
+def pages() -> dict[str, str]:
+    """The pages with commands, by their path from the project's folder."""
+    files = (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))
+    texts = {str(file.relative_to(ROOT)): file.read_text(encoding="utf-8") for file in files}
+    return {name: text for name, text in texts.items() if commands_on(text)}
+
+
+if __name__ == "__main__":
+    for page, old_text in pages().items():
+        with tempfile.TemporaryDirectory() as new_folder:
+            new_text = rewritten(old_text, Path(new_folder))
+        if new_text != old_text:
+            (ROOT / page).write_text(new_text, encoding="utf-8")
+            print(f"{page}: written")

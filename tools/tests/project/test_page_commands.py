@@ -1,0 +1,43 @@
+"""The commands on the pages run as shown: they print what the page shows, and their exit codes."""
+
+from pathlib import Path
+
+import pytest
+from page_commands import faults_on, pages, rewritten
+
+PAGES = pages()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", PAGES)
+def test_the_commands_of_a_page_run_as_shown(page: str, tmp_path: Path) -> None:
+    faults = faults_on(PAGES[page], tmp_path)
+    assert not faults, "\n".join(faults)
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        ("```console\n$ echo a\na\n```\n", ""),
+        ("```console\n$ echo a\n```\n", "shown:\n\nprinted:\na\n"),
+        ("```console\n$ echo a\nb\n```\n", "shown:\nb\n\nprinted:\na\n"),
+        ("```console\n$ x=a\n\n$ echo $x\na\n```\n", ""),
+        ("```console\n$ false\n```\n", "$ false\nexit 1:\n"),
+        ('```console\n$ false; echo "exit $?"\nexit 1\n```\n', ""),
+        ("```\nplumb gird      # a comment\n```\n", "exit 2:"),
+        ("```\nplumb reach machine.toml --most-give 0.01\n```\n", ""),
+        ("```\ntools/test\n```\n", ""),
+        ("```toml\nplumb gird\n```\n", ""),
+    ],
+)
+def test_a_page_that_shows_something_else_is_caught(text: str, fault: str, tmp_path: Path) -> None:
+    said = "\n".join(faults_on(text, tmp_path))
+    assert bool(said) == bool(fault)
+    assert fault in said
+
+
+def test_a_page_is_written_with_what_its_commands_print(tmp_path: Path) -> None:
+    old = "text\n\n```console\n$ echo a\nb\n\n$ x=c\n$ echo $x\n```\n```\nplumb --help\n```\n"
+    new = "text\n\n```console\n$ echo a\na\n\n$ x=c\n$ echo $x\nc\n```\n```\nplumb --help\n```\n"
+    assert rewritten(old, tmp_path / "first") == new
+    assert rewritten(new, tmp_path / "second") == new
