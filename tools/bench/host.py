@@ -12,6 +12,7 @@ from plumb.bench.causes import MAKER, Hidden, causes_of
 from plumb.board.observations import observe
 from plumb.diagnose import diagnose
 from plumb.fit.fit import fit
+from plumb.fit.inputs import Inputs
 from plumb.marks.read import read_marks
 from plumb.model import predict
 from plumb.settings.files import read_settings
@@ -42,7 +43,7 @@ def lab_times() -> dict[str, float]:
     chains, _ = predict.lengths(settings, places)
     board = cut(Hidden(((causes_of("chain_pitch")[0], 1.5),)), plan(6, 6), seed=1).measurements
     return {
-        "lab: verdict on 36 marks, the whole library": best(lambda: diagnose(MAKER, board)),
+        "lab: verdict on 36 marks, the whole library": best(lambda: diagnose(Inputs(MAKER, board))),
         "lab: lengths of 100 places": best(lambda: predict.lengths(settings, places)),
         "lab: exact slopes of 100 places": best(
             lambda: predict.places_with_slopes(values, over_top=True, chains=chains)

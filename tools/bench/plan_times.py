@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 from plumb.diagnose import diagnose
+from plumb.fit.inputs import Inputs
 from plumb.marks.read import Mark, Measurements
 from plumb.model.predict import lengths, places
 from plumb.plan import propose
@@ -30,10 +31,10 @@ def plan_times(best: Callable[[Callable[[], object]], float]) -> dict[str, float
     times = {}
     for side, gives in GIVES.items():
         marks = board(side, gives)
-        found = diagnose(BELIEVED, marks, sigma=SIGMA)
+        found = diagnose(Inputs(BELIEVED, marks, sigma=SIGMA))
         left = len(found.explanations)
         name = f"lab: next after {side * side} marks, {left} suspects left"
-        times[name] = best(partial(propose, found, BELIEVED, marks))
+        times[name] = best(partial(propose, found, Inputs(BELIEVED, marks)))
     plan = board(6, 0.0)
     times["lab: preview of 36 marks"] = best(partial(preview, BELIEVED, plan, sigma=SIGMA))
     return times

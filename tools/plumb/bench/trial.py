@@ -14,6 +14,7 @@ from plumb.bench.hiding import slip
 from plumb.bench.outcome import Outcome, look_alikes, outcome_of
 from plumb.bench.scenarios import Scenario
 from plumb.diagnose import diagnose
+from plumb.fit.inputs import Inputs
 
 SEEDS = 1_000_003  # boards of one seed before those of the next
 
@@ -36,7 +37,7 @@ def run_one(scenario: Scenario, index: int, *, seed: int) -> Trial:
     slipped: tuple[str, ...] = ()
     if scenario.slip:
         board, slipped = slip(board, scenario.slip, np.random.default_rng(number + 17))
-    found = diagnose(MAKER, board.measurements)
+    found = diagnose(Inputs(MAKER, board.measurements))
     alike: frozenset[str] = frozenset()
     if len(hidden.causes) == 1:
         alike = look_alikes(*hidden.causes[0], own, scenario.noise)

@@ -80,20 +80,12 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.without:
         marks = without_marks(inputs.measurements, arguments.without)
         inputs = replace(inputs, measurements=marks)
+    inputs = replace(inputs, priors=priors_with(arguments.prior), sigma=arguments.sigma)
     if not arguments.effect and not arguments.patch:
         raise InputError("nothing to add: name effects with --effect, or give --effect auto")
     if "auto" in arguments.effect:
         return _run_auto(arguments, inputs)
-    result = add(
-        inputs.settings,
-        inputs.measurements,
-        effects=arguments.effect,
-        cut_with=inputs.cut_with,
-        controller=arguments.controller,
-        priors=priors_with(arguments.prior),
-        sigma=arguments.sigma,
-        patch=arguments.patch,
-    )
+    result = add(inputs, effects=arguments.effect, patch=arguments.patch)
     files, unsaid = _written(arguments, inputs, result)
     if arguments.json:
         print_json({**as_json(result), "written": files, "unsaid": unsaid})
@@ -106,15 +98,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _run_auto(arguments: argparse.Namespace, inputs: Inputs) -> int:
     if len(arguments.effect) > 1:
         raise InputError("--effect auto finds the effects itself; name no others with it")
-    result = add_auto(
-        inputs.settings,
-        inputs.measurements,
-        cut_with=inputs.cut_with,
-        controller=arguments.controller,
-        priors=priors_with(arguments.prior),
-        sigma=arguments.sigma,
-        patch=arguments.patch,
-    )
+    result = add_auto(inputs, patch=arguments.patch)
     files: list[str] = []
     unsaid: list[str] = []
     if result.addition:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from operator import itemgetter
 from typing import Any
 
@@ -11,7 +12,7 @@ from plumb.cli.files import add_json, add_marks, add_prior, add_sigma, inputs_of
 from plumb.cli.text import millimetres, number, print_json, sentences, table
 from plumb.cure.add import priors_with
 from plumb.diagnose import Diagnosis, diagnose
-from plumb.diagnose.diagnosis import Ranked, Together
+from plumb.diagnose.answer import Ranked, Together
 from plumb.diagnose.sentence import SHOWN, verdict_sentence
 from plumb.diagnose.sizes import Size
 from plumb.model.catalogue import every_effect, label, place_of
@@ -44,28 +45,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Diagnose, print, and return the exit code."""
-    inputs = inputs_of(arguments)
     priors = priors_with(arguments.prior)
-    checked = usable_checks(arguments.checked, priors)
-    diagnosis = diagnose(
-        inputs.settings,
-        inputs.measurements,
-        cut_with=inputs.cut_with,
-        controller=arguments.controller,
+    inputs = replace(
+        inputs_of(arguments),
         priors=priors,
-        checked=checked,
         sigma=arguments.sigma,
+        checked=usable_checks(arguments.checked, priors),
     )
+    diagnosis = diagnose(inputs)
     if arguments.json:
-        advice = propose(
-            diagnosis,
-            inputs.settings,
-            inputs.measurements,
-            cut_with=inputs.cut_with,
-            controller=arguments.controller,
-            priors=priors,
-            checked=checked,
-        )
+        advice = propose(diagnosis, inputs)
         proposals = [proposal_json(proposal) for proposal in advice.proposals]
         print_json({**as_json(diagnosis), "next": proposals})
     else:

@@ -6,25 +6,16 @@ import argparse
 import math
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
-from plumb.marks.read import Measurements, join_measurements, read_marks
+from plumb.fit.inputs import Inputs
+from plumb.marks.read import join_measurements, read_marks
 from plumb.model.predict import known_effects
 from plumb.pictures.sheet import FORMATS
 from plumb.settings.files import read_settings
 from plumb.settings.machine import CONTROLLERS, MachineSettings
 from plumb.text.errors import InputError, refusal
 from plumb.text.files import write_all
-
-
-@dataclass(frozen=True)
-class Inputs:
-    """What SETTINGS, --cut-with and MARKS say."""
-
-    settings: MachineSettings
-    cut_with: MachineSettings | None
-    measurements: Measurements
 
 
 def add_settings(parser: argparse.ArgumentParser) -> None:
@@ -128,7 +119,8 @@ def inputs_of(arguments: argparse.Namespace) -> Inputs:
     _refuse_the_same_twice(arguments.marks)
     known = known_effects()
     parts = [read_marks(path, sheet=sheet, known=known) for path in arguments.marks]
-    return Inputs(settings, cut_with, join_measurements(parts))
+    measurements = join_measurements(parts)
+    return Inputs(settings, measurements, cut_with=cut_with, controller=arguments.controller)
 
 
 def _refuse_the_same_twice(paths: Sequence[str]) -> None:

@@ -6,6 +6,7 @@ import argparse
 import sys
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,6 @@ import numpy as np
 from plumb.cli.checked import add_checked, usable_checks
 from plumb.cli.diagnose import proposal_json
 from plumb.cli.files import (
-    Inputs,
     add_json,
     add_marks,
     add_prior,
@@ -27,6 +27,7 @@ from plumb.cli.text import millimetres, number, print_json, sentences, table
 from plumb.cure.add import priors_with
 from plumb.diagnose import Diagnosis, diagnose
 from plumb.diagnose.sentence import verdict_sentence
+from plumb.fit.inputs import Inputs
 from plumb.pictures.plan import draw_plan
 from plumb.plan import Next, Proposal, propose
 from plumb.plan.plan_marks import marks_file
@@ -68,28 +69,15 @@ def run(arguments: argparse.Namespace) -> int:
     """Diagnose, propose, write, print, and return the exit code."""
     refuse_twins(arguments.picture, arguments.template)
     form = picture_form(arguments.picture) if arguments.picture else ""
-    inputs = inputs_of(arguments)
     priors = priors_with(arguments.prior)
-    checked = usable_checks(arguments.checked, priors)
-    diagnosis = diagnose(
-        inputs.settings,
-        inputs.measurements,
-        cut_with=inputs.cut_with,
-        controller=arguments.controller,
+    inputs = replace(
+        inputs_of(arguments),
         priors=priors,
-        checked=checked,
         sigma=arguments.sigma,
+        checked=usable_checks(arguments.checked, priors),
     )
-    advice = propose(
-        diagnosis,
-        inputs.settings,
-        inputs.measurements,
-        cut_with=inputs.cut_with,
-        controller=arguments.controller,
-        priors=priors,
-        checked=checked,
-        progress=progress_bar(),
-    )
+    diagnosis = diagnose(inputs)
+    advice = propose(diagnosis, inputs, progress=progress_bar())
     files = _files(arguments, advice, inputs, form)
     read = [arguments.settings, *arguments.marks, *filter(None, [arguments.cut_with])]
     write_outputs(files, inputs=read)

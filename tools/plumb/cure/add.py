@@ -7,11 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.board.observations import Observations, model_and_observations
+from plumb.board.observations import Observations
 from plumb.board.rounds import notes_on, unit_of
 from plumb.board.sighting import SHEET_ROTATION
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.fit import Estimate, Fit, fit, rms
+from plumb.fit.inputs import Inputs
 from plumb.fit.patch import PATCH, best_patch
 from plumb.fit.plausible import PlausibleRange, plausible_range
 from plumb.fit.problem import PRIORS
@@ -124,14 +125,9 @@ class Addition:
 
 
 def add(
-    settings: MachineSettings,
-    measurements: Measurements,
+    inputs: Inputs,
     *,
     effects: Sequence[str],
-    cut_with: MachineSettings | None = None,
-    controller: str | None = None,
-    priors: Mapping[str, float] = PRIORS,
-    sigma: float | None = None,
     patch: bool = False,
 ) -> Addition:
     """Fit frame and effects to the marks; effects that the settings have already stay as they are.
@@ -142,13 +138,14 @@ def add(
     """
     names = tuple(dict.fromkeys(effects))
     _refuse_unknown_effects(names)
-    raw = compare(settings, measurements, cut_with=cut_with, controller=controller)
-    model, rows = model_and_observations(
-        settings, measurements, cut_with=cut_with, controller=controller
+    measurements, priors = inputs.measurements, inputs.priors
+    raw = compare(
+        inputs.settings, measurements, cut_with=inputs.cut_with, controller=inputs.controller
     )
+    model, rows = inputs.model_and_observations()
     _refuse_too_few(measurements, rows, names, priors)
     _refuse_unfelt(measurements, rows, names)
-    noise = sigma or measurements.tape_sigma
+    noise = inputs.stated_sigma
     before_fit = fit(model, rows, priors=priors, sigma=noise)
     before = quality_of(before_fit, rows)
     fits = [
@@ -317,7 +314,7 @@ def _surprises(parameters: Sequence[Parameter]) -> list[str]:
 
 def _impossible(parameter: Parameter) -> str:
     plausible = parameter.plausible_range
-    near = "reaches that" if parameter.possible else "does not reach that either"
+    near = "comes near" if parameter.possible else "does not come near"
     return (
         f"{parameter.name} = {parameter.value:.3g} {parameter.unit} is impossible for a real "
         f"machine, which has {plausible.low:g} to {plausible.high:g} (the interval {near}): it "

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from plumb.cure.add import Addition, add
 from plumb.diagnose import Diagnosis, diagnose
-from plumb.fit.problem import PRIORS
+from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import every_effect
-from plumb.settings.machine import MachineSettings
 from plumb.text.checks import refuse_unknown
 from plumb.text.errors import InputError
 
@@ -36,13 +35,8 @@ class AutoAddition:
 
 
 def add_auto(
-    settings: MachineSettings,
-    measurements: Measurements,
+    inputs: Inputs,
     *,
-    cut_with: MachineSettings | None = None,
-    controller: str | None = None,
-    priors: Mapping[str, float] = PRIORS,
-    sigma: float | None = None,
     patch: bool = False,
 ) -> AutoAddition:
     """Diagnose the marks and add the best explanation that a real machine can have.
@@ -55,8 +49,7 @@ def add_auto(
     would; so with its effects nothing more is provable. Several of them: the first of the
     diagnosis. Raises InputError as diagnose() and add() do.
     """
-    told = {"cut_with": cut_with, "controller": controller, "priors": priors}
-    found = diagnose(settings, measurements, sigma=sigma, **told)
+    found = diagnose(inputs)
     if found.verdict == "slip":
         return AutoAddition(found, (), (), None, _slip_reason(found))
     known = found.verdict != "not_in_library"
@@ -65,13 +58,14 @@ def add_auto(
     best = (possible[0] if possible else ()) if known else found.to_add
     chosen = tuple(sorted(best, key=order.index))
     rivals = tuple(possible[1:])
-    noise = sigma if found.noise.source == "default" else found.noise.sigma
-    addition = add(settings, measurements, effects=chosen, sigma=noise, **told)
+    noise = inputs.sigma if found.noise.source == "default" else found.noise.sigma
+    fitted = replace(inputs, sigma=noise)
+    addition = add(fitted, effects=chosen)
     if not known and chosen and not _helps(addition):
-        chosen, addition = (), add(settings, measurements, effects=(), sigma=noise, **told)
+        chosen, addition = (), add(fitted, effects=())
     reason, offer = _reason(found, chosen, rivals), None
     if not known:
-        patched = add(settings, measurements, effects=chosen, sigma=noise, patch=True, **told)
+        patched = add(fitted, effects=chosen, patch=True)
         offer = addition.after.left_out_rms, patched.after.left_out_rms
         addition = patched if patch else addition
     settled_by = _settled_by(chosen, rivals)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from plumb.cure.add import Addition, Quality, add
+from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements, read_marks
 from plumb.model.predict import known_effects
 from plumb.settings.files import read_settings
@@ -44,16 +45,16 @@ def demonstrate(measurements: Measurements | None = None) -> Demonstration:
     """Add one effect after the other; an effect stays if marks left out are predicted better."""
     settings = read_settings(SETTINGS, known=known_effects())
     marks = measurements or read_marks(MARKS, sheet=settings.sheet)
-    chosen = add(settings, marks, effects=())
+    chosen = add(Inputs(settings, marks), effects=())
     steps = [Step("frame only", chosen.before, kept=True)]
     names: tuple[str, ...] = ()
     for effect in ORDER:
-        tried = add(settings, marks, effects=(*names, effect))
+        tried = add(Inputs(settings, marks), effects=(*names, effect))
         kept = is_better(tried.after, chosen.after)
         steps.append(Step(f"+ {effect}", tried.after, kept))
         if kept:
             chosen, names = tried, (*names, effect)
-    other_sign = add(settings, with_y_errors_flipped(marks), effects=names)
+    other_sign = add(Inputs(settings, with_y_errors_flipped(marks)), effects=names)
     return Demonstration(tuple(steps), chosen, other_sign)
 
 

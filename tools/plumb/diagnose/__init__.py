@@ -1,6 +1,8 @@
 """What the marks prove: slips, suspects, and what could still hide."""
 
-from plumb.diagnose.diagnosis import VERDICTS, Diagnosis, diagnose
+from plumb.diagnose.answer import VERDICTS, Diagnosis
+from plumb.diagnose.diagnosis import diagnose
+from plumb.fit.inputs import Inputs
 from plumb.fit.problem import Checked
 
-__all__ = ["VERDICTS", "Checked", "Diagnosis", "diagnose"]
+__all__ = ["VERDICTS", "Checked", "Diagnosis", "Inputs", "diagnose"]

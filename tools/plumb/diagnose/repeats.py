@@ -10,6 +10,7 @@ import numpy as np
 
 from plumb.board.observations import Observations
 from plumb.diagnose.significance import tail
+from plumb.diagnose.spread import Spread
 
 Array = np.ndarray
 SURE = 0.0027  # chance at which noise alone would move a round as a whole as much: 3 sigma
@@ -17,11 +18,11 @@ STEPS = (1.0, 0.5, 0.25, 0.1)  # [mm] to which people read a tape, coarsest firs
 FEWEST_LEFT = 2.0  # degrees of freedom that must be left to judge by
 
 
-def mark_spread(rows: Observations) -> tuple[float, float]:
-    """Sum of squares [mm^2] and degrees of freedom of marks made and read in the same way."""
+def mark_spread(rows: Observations) -> Spread:
+    """The spread of marks made and read in the same way."""
     repeated = [own for own in _alike(rows) if len(own) > 1]
     if not repeated:
-        return 0.0, 0.0
+        return Spread(0.0, 0.0)
     picked = np.concatenate(repeated)
     belongs = np.repeat(np.arange(len(repeated)), [len(own) for own in repeated])
     means = (belongs[:, np.newaxis] == np.arange(len(repeated))).astype(float)
@@ -30,7 +31,7 @@ def mark_spread(rows: Observations) -> tuple[float, float]:
     plain = _left(means, readings)
     whole = _round_columns(rows, picked)
     moved = _left(np.hstack([means, whole]), readings)
-    if whole.shape[1] and moved[1] >= FEWEST_LEFT and _is_sure(plain, moved):
+    if whole.shape[1] and moved.degrees >= FEWEST_LEFT and _is_sure(plain, moved):
         return moved
     return plain
 
@@ -56,7 +57,7 @@ def _alike(rows: Observations) -> list[list[int]]:
     return found
 
 
-def distance_spread(rows: Observations) -> tuple[float, float]:
+def distance_spread(rows: Observations) -> Spread:
     """The same of distances between the same two marks."""
     spans: dict[frozenset, list[int]] = {}
     for i, ends in enumerate(rows.distance_rows.tolist()):
@@ -65,7 +66,7 @@ def distance_spread(rows: Observations) -> tuple[float, float]:
     for own in spans.values():
         squares += float(np.sum((rows.distances[own] - rows.distances[own].mean()) ** 2))
         degrees += len(own) - 1
-    return squares, degrees
+    return Spread(squares, degrees)
 
 
 def rounding_sigma(rows: Observations) -> float:
@@ -92,16 +93,17 @@ def _round_columns(rows: Observations, picked: Array) -> Array:
     return np.hstack([linear * (number == one)[:, np.newaxis] for one in later])
 
 
-def _left(columns: Array, readings: Array) -> tuple[float, float]:
+def _left(columns: Array, readings: Array) -> Spread:
     """What columns leave of both coordinates, and its degrees of freedom."""
     fitted, _, rank, _ = np.linalg.lstsq(columns, readings, rcond=1e-9)
-    return float(np.sum((readings - columns @ fitted) ** 2)), 2.0 * (len(readings) - rank)
+    squares = float(np.sum((readings - columns @ fitted) ** 2))
+    return Spread(squares, 2.0 * (len(readings) - rank))
 
 
-def _is_sure(plain: tuple[float, float], moved: tuple[float, float]) -> bool:
+def _is_sure(plain: Spread, moved: Spread) -> bool:
     """Whether rounds moved as a whole, by the F-test."""
-    more = plain[1] - moved[1]
-    if more <= 0 or moved[0] <= 0:
-        return more > 0 and plain[0] > 0
-    gain = (plain[0] - moved[0]) / (moved[0] / moved[1])
-    return bool(tail(gain, more, moved[1]) < SURE)
+    more = plain.degrees - moved.degrees
+    if more <= 0 or moved.squares <= 0:
+        return more > 0 and plain.squares > 0
+    gain = (plain.squares - moved.squares) / moved.sigma**2
+    return bool(tail(gain, more, moved.degrees) < SURE)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from plumb.diagnose.diagnosis import Diagnosis
+from plumb.diagnose.answer import Diagnosis
 
 SHOWN = 8  # explanations that a sentence names; a Diagnosis holds all
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import chdtri, stdtrit
+from scipy.special import chdtri
 
 from plumb.diagnose.explanation import Explanation, span
 from plumb.diagnose.noise import Noise
@@ -113,7 +113,7 @@ def _room(effect: str, explanation: Explanation, noise: Noise) -> Room:
     start = explanation.unknowns[columns]
     middle = start + np.linalg.lstsq(beside, explanation.residual, rcond=1e-10)[0]
     total = board.problem.start[columns] / board.problem.scale[columns] + middle
-    reach = _one_sided(noise) * np.sqrt(np.diag(covariance))
+    reach = noise.upper_quantile * np.sqrt(np.diag(covariance))
     limits = []
     for i, name in enumerate(names):
         # What cannot be negative can only be as large as its upper end.
@@ -157,11 +157,6 @@ def _per_reading(explanation: Explanation, whitened: Array) -> float:
     counted = whitened[: rows.measured.size] if len(rows.measured) else whitened[: rows.count]
     count = len(rows.measured) or rows.count
     return float(np.linalg.norm(counted) * explanation.board.sigma / np.sqrt(count))
-
-
-def _one_sided(noise: Noise) -> float:
-    """Deviations to a 95 % upper limit."""
-    return 1.645 if np.isinf(noise.degrees) else float(stdtrit(noise.degrees, 0.95))
 
 
 def _covariance(columns: Array) -> Array:

@@ -14,8 +14,9 @@ import numpy as np
 from plumb.board.observations import Observations
 from plumb.diagnose.explanation import Board, Explanation, explain
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
-from plumb.diagnose.misfit import beside_library, library_basis, misfit_chance
-from plumb.diagnose.noise import Noise, Spread, noise_of, repeats_of
+from plumb.diagnose.misfit import library_basis, misfit_chance
+from plumb.diagnose.noise import Noise
+from plumb.diagnose.noise_sources import noise_on
 from plumb.diagnose.significance import tail
 from plumb.diagnose.sizes import possible
 
@@ -104,13 +105,6 @@ def without(rows: Observations, reading: Reading) -> Observations:
         targets=np.delete(rows.targets, reading.index, axis=0),
         names=rows.names[: reading.index] + rows.names[reading.index + 1 :],
     )
-
-
-def noise_on(board: Board, stated: float | None) -> Noise:
-    """The noise of what was measured on a board."""
-    left, spare = beside_library(explain(board))
-    scatter = Spread(left * board.sigma**2, max(spare, 0.0))
-    return noise_of(repeats_of(board.rows), scatter, stated=stated)
 
 
 def clear_slips(board: Board, candidates: Sequence[str], *, stated: float | None) -> Cleared:

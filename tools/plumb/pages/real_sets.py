@@ -12,6 +12,7 @@ from plumb.cure.add import Addition, add
 from plumb.diagnose import Diagnosis, diagnose
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.fit import rms
+from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements, join_measurements, read_marks
 from plumb.model.predict import FOUND, believed_lengths, known_effects, places
 from plumb.settings.files import read_settings
@@ -46,11 +47,11 @@ class RealSet:
 
     def diagnosed(self, **how: float) -> Diagnosis:
         """What `plumb diagnose` says."""
-        return diagnose(self.settings, self.marks, **how)
+        return diagnose(Inputs(self.settings, self.marks, **how))
 
     def with_effects(self, *effects: str) -> Addition:
         """What `plumb add` makes of it."""
-        return add(self.settings, self.marks, effects=effects)
+        return add(Inputs(self.settings, self.marks), effects=effects)
 
 
 @dataclass(frozen=True)
@@ -89,7 +90,7 @@ def refusal_of(name: str) -> str:
 def pooled(sets: Sequence[RealSet], effects: Sequence[str] = HOLE_EFFECTS) -> Pooled:
     """Fit several hole sets at once."""
     marks = join_measurements([one.marks for one in sets])
-    fitted = add(sets[0].settings, marks, effects=effects)
+    fitted = add(Inputs(sets[0].settings, marks), effects=effects)
     own, first = {}, 0
     for one in sets:
         count = len(one.marks.distances)

@@ -11,12 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.board.observations import model_and_observations
-from plumb.diagnose.diagnosis import Diagnosis, felt_effects
+from plumb.diagnose.answer import Diagnosis
+from plumb.diagnose.clean import felt_effects
 from plumb.diagnose.explanation import Board, Explanation, explain
 from plumb.diagnose.noise import Noise
-from plumb.fit.problem import PRIORS, Checked
-from plumb.marks.read import Measurements
+from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import effect_names
 from plumb.settings.machine import MachineSettings
 
@@ -71,24 +70,18 @@ class Case:
 
 def case_of(
     found: Diagnosis,
-    settings: MachineSettings,
-    measurements: Measurements,
-    *,
-    cut_with: MachineSettings | None = None,
-    controller: str | None = None,
-    priors: Mapping[str, float] = PRIORS,
-    checked: Sequence[Checked] = (),
+    inputs: Inputs,
 ) -> Case:
     """The case of a diagnosis, with the inputs it was made of."""
-    model, rows = model_and_observations(
-        settings, measurements, cut_with=cut_with, controller=controller
-    )
-    board = Board.of(model, rows, sigma=found.noise.sigma, priors=priors, checked=checked)
+    model, rows = inputs.model_and_observations()
+    sigma = found.noise.sigma
+    board = Board.of(model, rows, sigma=sigma, priors=inputs.priors, checked=inputs.checked)
     frame = explain(board)
     felt = felt_effects(frame)
     singles = {name: explain(board, (name,), start=frame) for name in felt}
     # New marks belong to the first round: its settings, its zeros and its sheet.
-    in_force = measurements.rounds[0].cut_with or cut_with or settings
+    measurements = inputs.measurements
+    in_force = measurements.rounds[0].cut_with or inputs.cut_with or inputs.settings
     if found.explanations:
         several = [one for one in found.explanations if len(one.effects) > 1]
         together = [explain(board, one.effects, start=frame) for one in several]
@@ -97,7 +90,7 @@ def case_of(
         hypotheses = hidden_hypotheses(frame)
     return Case(
         settings=in_force,
-        controller=controller or measurements.controller or in_force.controller,
+        controller=inputs.controller or measurements.controller or in_force.controller,
         verdict=found.verdict,
         board=board,
         noise=found.noise,

@@ -16,7 +16,8 @@ import numpy as np
 from plumb.diagnose.explanation import span
 from plumb.diagnose.gain import limit_of_noise
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
-from plumb.diagnose.noise import FEW_REPEATS, Noise, repeats_of
+from plumb.diagnose.noise import Noise
+from plumb.diagnose.noise_sources import FEW_REPEATS, repeats_of
 from plumb.diagnose.significance import surprises, tail
 from plumb.plan.ahead import Ahead, Check, ahead
 from plumb.plan.case import Case, Hypothesis

@@ -14,9 +14,10 @@ import numpy as np
 from scipy.special import chdtri, chndtrinc
 
 from plumb.board.observations import model_and_observations
-from plumb.diagnose.diagnosis import FEWEST_NUMBERS, felt_effects
+from plumb.diagnose.clean import felt_effects
 from plumb.diagnose.explanation import Board, Explanation, explain
 from plumb.diagnose.gain import search
+from plumb.diagnose.measured import FEWEST_NUMBERS
 from plumb.diagnose.noise import Noise
 from plumb.diagnose.significance import KNOWN
 from plumb.diagnose.sizes import hidden_share

@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.diagnose.diagnosis import Diagnosis
+from plumb.diagnose.answer import Diagnosis
 from plumb.diagnose.explanation import span
 from plumb.diagnose.sizes import Room
-from plumb.fit.problem import PRIORS, Checked
-from plumb.marks.read import Measurements
+from plumb.fit.inputs import Inputs
 from plumb.plan.ahead import ahead
 from plumb.plan.case import Case, case_of
 from plumb.plan.chance import outlook
 from plumb.plan.options import Option, many_marks, options
 from plumb.plan.separation import ENOUGH, apart, drawn_by
 from plumb.plan.strangers import for_slips, near_the_worst
-from plumb.settings.machine import MachineSettings
 
 Array = np.ndarray
 # A question: what the chance is the chance of.
@@ -70,28 +68,15 @@ class Next:
 
 def propose(
     found: Diagnosis,
-    settings: MachineSettings,
-    measurements: Measurements,
+    inputs: Inputs,
     *,
-    cut_with: MachineSettings | None = None,
-    controller: str | None = None,
-    priors: Mapping[str, float] = PRIORS,
-    checked: Sequence[Checked] = (),
     progress: Callable[[float], None] = lambda share: None,
 ) -> Next:
     """The next measurements for a diagnosis, given the inputs it was made of.
 
     `progress` is told the share of the work that is done.
     """
-    case = case_of(
-        found,
-        settings,
-        measurements,
-        cut_with=cut_with,
-        controller=controller,
-        priors=priors,
-        checked=checked,
-    )
+    case = case_of(found, inputs)
     if found.verdict == "slip":
         own = [
             Proposal(option, REREAD, chance, None)

@@ -8,7 +8,7 @@ from math import erf, sqrt
 import numpy as np
 
 from plumb.diagnose.explanation import Explanation
-from plumb.diagnose.slip_guess import Slip
+from plumb.diagnose.slip_cause import Slip
 from plumb.plan.case import Case
 from plumb.plan.options import MARK, READING, ROUND, Option, spots
 from plumb.plan.sites import usable

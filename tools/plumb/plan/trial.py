@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from plumb.diagnose import Checked, Diagnosis, diagnose
+from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names
 from plumb.plan.ahead import Check
@@ -70,11 +71,11 @@ def proposed(
     visits, checked, done = [first], [], []
     while True:
         board = owner.measured(*visits)
-        found = diagnose(settings, board, checked=checked)
+        found = diagnose(Inputs(settings, board, checked=checked))
         room = most - sum(cost(one.option) for one in done)
         if not room:
             return Trial(found, tuple(done))
-        answer = propose(found, settings, board, checked=checked)
+        answer = propose(found, Inputs(settings, board, checked=checked))
         fitting = [
             one
             for one in answer.proposals
@@ -93,4 +94,4 @@ def proposed(
 
 def blind(owner: Owner, settings: MachineSettings, first: Visits, more: Visits) -> Trial:
     """The owner cuts more marks, wherever."""
-    return Trial(diagnose(settings, owner.measured(first, more)), ())
+    return Trial(diagnose(Inputs(settings, owner.measured(first, more))), ())

@@ -21,6 +21,7 @@ from plumb.bench.report import run as run_bench
 from plumb.bench.scenarios import NAMES, SCENARIOS, Scenario
 from plumb.bench.trial import run_one
 from plumb.diagnose import diagnose
+from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import effect_names
 
 SEED = 77
@@ -50,7 +51,7 @@ def test_noise_from_few_repeats_invents_nothing():
     named = 0
     for seed in range(30):
         measured = cut(Hidden(), own, seed=seed, tape_sigma=None).measurements
-        named += diagnose(MAKER, measured).verdict in ("one_suspect", "cannot_tell")
+        named += diagnose(Inputs(MAKER, measured)).verdict in ("one_suspect", "cannot_tell")
     assert named <= 4
 
 

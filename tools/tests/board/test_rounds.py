@@ -8,6 +8,7 @@ from plumb.board.observations import model_and_observations, observe
 from plumb.board.rounds import round_priors
 from plumb.diagnose import diagnose
 from plumb.fit.fit import fit
+from plumb.fit.inputs import Inputs
 from plumb.fit.problem import Problem
 from plumb.marks.read import Distance, Mark, Measurements, Round, join_measurements, read_marks
 from plumb.model.predict import lengths
@@ -183,7 +184,7 @@ def test_a_round_of_its_own_zeros_does_not_hide_the_effect():
     later = marks_on(zeroed(pitch, 6.35, 0.0), BELIEVED, grid(5, 3), noise=0.3, seed=7)
     first = board(marks_on(pitch, BELIEVED, grid(5, 3), noise=0.3, seed=6), source="a.toml")
     both = join_measurements([first, board(later, source="b.toml", chains_rezeroed=True)])
-    found = diagnose(BELIEVED, both, sigma=0.3)
+    found = diagnose(Inputs(BELIEVED, both, sigma=0.3))
     assert "chain_pitch" in found.suspects and found.verdict in ("one_suspect", "cannot_tell")
     assert found.explanations[0].rms_after < 0.6
 

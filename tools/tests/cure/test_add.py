@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 from plumb.cure.add import add, priors_with
 from plumb.cure.demo import MARKS, SETTINGS
+from plumb.fit.inputs import Inputs
 from plumb.fit.problem import PRIORS
 from plumb.marks.read import Measurements, read_marks
 from plumb.model.predict import library
@@ -23,7 +24,7 @@ def warned(result, *words):
 
 
 def test_the_error_of_the_published_marks_falls_as_measured():
-    result = add(STOCK, PUBLISHED_MARKS, effects=["chain_pitch", "chain_sag"])
+    result = add(Inputs(STOCK, PUBLISHED_MARKS), effects=["chain_pitch", "chain_sag"])
     assert result.raw.rms == pytest.approx(7.29, abs=0.02)
     assert result.before.fit_rms == pytest.approx(2.65, abs=0.02)
     assert result.after.fit_rms == pytest.approx(0.65, abs=0.01)
@@ -35,7 +36,7 @@ def test_the_error_of_the_published_marks_falls_as_measured():
 
 
 def test_the_new_settings_are_ours_and_hold_what_was_fitted():
-    result = add(BELIEVED, BOARD, effects=list(EFFECTS))
+    result = add(Inputs(BELIEVED, BOARD), effects=list(EFFECTS))
     assert result.settings.controller == "plumb"
     for one in result.parameters:
         effect, _, parameter = one.name.rpartition(".")
@@ -47,7 +48,7 @@ def test_the_new_settings_are_ours_and_hold_what_was_fitted():
 
 
 def test_a_true_effect_pays_and_is_plausible():
-    result = add(BELIEVED, BOARD, effects=["chain_pitch", "chain_sag"])
+    result = add(Inputs(BELIEVED, BOARD), effects=["chain_pitch", "chain_sag"])
     assert result.pays and result.after.left_out_rms < 0.5 * result.before.left_out_rms
     assert all(one.plausible and one.low < one.value < one.high for one in result.parameters)
     assert not warned(result, "impossible")
@@ -55,7 +56,7 @@ def test_a_true_effect_pays_and_is_plausible():
 
 def test_an_effect_that_is_not_there_is_told_to_follow_the_noise():
     quiet = Measurements(marks_on(BELIEVED, BELIEVED, grid(3, 3), noise=0.5, seed=5))
-    result = add(BELIEVED, quiet, effects=["chain_pitch", "chain_sag", "chain_stretch"])
+    result = add(Inputs(BELIEVED, quiet), effects=["chain_pitch", "chain_sag", "chain_stretch"])
     assert result.after.fit_rms < result.before.fit_rms
     assert not result.pays
     assert warned(result, "left-out error rose", "do not keep")
@@ -64,10 +65,10 @@ def test_an_effect_that_is_not_there_is_told_to_follow_the_noise():
 
 def test_effects_that_the_machine_has_stay_unless_they_are_named():
     board = Measurements(marks_on(TRUE, STRETCHED, grid(5, 3)))
-    kept = add(STRETCHED, board, effects=["chain_sag"])
+    kept = add(Inputs(STRETCHED, board), effects=["chain_sag"])
     assert kept.settings.effects["chain_stretch"] == EFFECTS["chain_stretch"]
     assert kept.effects_added == ("chain_sag",)
-    refitted = add(STRETCHED, board, effects=["chain_sag", "chain_stretch"])
+    refitted = add(Inputs(STRETCHED, board), effects=["chain_sag", "chain_stretch"])
     assert refitted.settings.effects["chain_stretch"] != EFFECTS["chain_stretch"]
     assert refitted.effects_added == ("chain_sag",)
 
@@ -75,29 +76,29 @@ def test_effects_that_the_machine_has_stay_unless_they_are_named():
 def test_old_marks_are_fitted_with_the_settings_that_cut_them():
     board = Measurements(marks_on(TRUE, BELIEVED, grid(5, 3)))
     priors = priors_with([("motor_gap", 100.0)])
-    result = add(STRETCHED, board, effects=list(EFFECTS), cut_with=BELIEVED, priors=priors)
+    result = add(Inputs(STRETCHED, board, cut_with=BELIEVED, priors=priors), effects=list(EFFECTS))
     assert result.after.fit_rms < 0.001
     assert result.settings.effect("chain_pitch", "left") == pytest.approx(0.0021, rel=1e-3)
 
 
 def test_a_stated_reading_error_comes_from_the_option_then_from_the_file():
     stated = replace(BOARD, tape_sigma=0.4)
-    assert add(BELIEVED, BOARD, effects=["chain_sag"]).after_fit.sigma_from == "residuals"
-    assert add(BELIEVED, stated, effects=["chain_sag"]).after_fit.sigma == 0.4
-    assert add(BELIEVED, stated, effects=["chain_sag"], sigma=0.7).after_fit.sigma == 0.7
+    assert add(Inputs(BELIEVED, BOARD), effects=["chain_sag"]).after_fit.sigma_from == "residuals"
+    assert add(Inputs(BELIEVED, stated), effects=["chain_sag"]).after_fit.sigma == 0.4
+    assert add(Inputs(BELIEVED, stated, sigma=0.7), effects=["chain_sag"]).after_fit.sigma == 0.7
 
 
 def test_the_sheet_is_to_be_turned_back():
     # On the sheet the marks climb to the right: its right end hangs too low.
     turned = Measurements(marks_on(BELIEVED, BELIEVED, grid(5, 3), rotation=0.002))
-    result = add(BELIEVED, turned, effects=["chain_sag"])
+    result = add(Inputs(BELIEVED, turned), effects=["chain_sag"])
     assert result.sheet_rise == pytest.approx(0.002 * 2438.4, rel=0.01)
 
 
 def test_distances_alone_can_be_added_to():
     pitch = replace(BELIEVED, effects={"chain_pitch": EFFECTS["chain_pitch"]})
     board = distances_between(marks_on(pitch, BELIEVED, grid(4, 3)))
-    result = add(BELIEVED, board, effects=["chain_pitch"])
+    result = add(Inputs(BELIEVED, board), effects=["chain_pitch"])
     assert result.after.shape_rms is None
     assert result.after.fit_rms < 0.1 < result.before.fit_rms
     assert result.after.worst < 0.1
@@ -106,27 +107,30 @@ def test_distances_alone_can_be_added_to():
 def test_too_few_numbers_are_refused_with_a_remedy():
     few = Measurements(BOARD.marks[:3], source="few.csv")
     with pytest.raises(InputError, match=r"few\.csv: 6 measured numbers .* 7 unknowns .*--prior"):
-        add(BELIEVED, few, effects=["chain_pitch", "chain_sag"])
+        add(Inputs(BELIEVED, few), effects=["chain_pitch", "chain_sag"])
     held = priors_with([("motor_height", 0.0), ("motor_gap", 0.0)])
-    assert add(BELIEVED, few, effects=["chain_pitch", "chain_sag"], priors=held).after.fit_rms < 3
+    assert (
+        add(Inputs(BELIEVED, few, priors=held), effects=["chain_pitch", "chain_sag"]).after.fit_rms
+        < 3
+    )
 
 
 def test_repeats_are_no_new_numbers():
     twice = Measurements(BOARD.marks[:3] * 2, source="twice.csv")
     with pytest.raises(InputError, match="6 measured numbers"):
-        add(BELIEVED, twice, effects=["chain_pitch", "chain_sag"])
+        add(Inputs(BELIEVED, twice), effects=["chain_pitch", "chain_sag"])
 
 
 def test_every_number_may_be_held():
     held = priors_with([(name, 0.0) for name in PRIORS])
-    result = add(BELIEVED, BOARD, effects=["chain_pitch"], priors=held)
+    result = add(Inputs(BELIEVED, BOARD, priors=held), effects=["chain_pitch"])
     assert result.before.fit_rms == pytest.approx(result.raw.rms)
     assert result.settings.motor_gap == BELIEVED.motor_gap
 
 
 def test_an_unknown_effect_is_refused_with_the_known_ones():
     with pytest.raises(InputError) as refused:
-        add(BELIEVED, BOARD, effects=["chain_sog"])
+        add(Inputs(BELIEVED, BOARD), effects=["chain_sog"])
     assert all(one["name"] in str(refused.value) for one in library() if not one["empirical"])
 
 
@@ -139,4 +143,7 @@ def test_an_unknown_prior_is_refused_with_the_nearest():
 
 def test_marks_that_cannot_be_reached_are_refused():
     with pytest.raises(InputError, match="lead nowhere"):
-        add(replace(BELIEVED, motor_gap=9000.0), BOARD, effects=["chain_sag"], cut_with=BELIEVED)
+        add(
+            Inputs(replace(BELIEVED, motor_gap=9000.0), BOARD, cut_with=BELIEVED),
+            effects=["chain_sag"],
+        )

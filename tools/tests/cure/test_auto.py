@@ -11,6 +11,7 @@ from plumb.cli.main import main
 from plumb.cure.auto import add_auto, without_marks
 from plumb.cure.demo import MARKS, SETTINGS
 from plumb.diagnose import diagnose
+from plumb.fit.inputs import Inputs
 from plumb.marks.read import read_marks
 from plumb.settings.files import read_settings
 from plumb.text.errors import InputError
@@ -27,7 +28,7 @@ def moved(measurements, index, by):
 
 def test_one_hidden_effect_is_added_and_the_error_falls_to_the_noise():
     size = size_for("chain_plane", WIDE, 3.0)
-    result = add_auto(MAKER, board({"chain_plane": size}, WIDE, seed=4))
+    result = add_auto(Inputs(MAKER, board({"chain_plane": size}, WIDE, seed=4)))
     assert result.chosen == ("chain_plane",) and result.done
     own = result.addition
     assert own.settings.effect("chain_plane", "gap_squared") == pytest.approx(1600 * size, rel=0.2)
@@ -37,7 +38,7 @@ def test_one_hidden_effect_is_added_and_the_error_falls_to_the_noise():
 
 def test_two_hidden_effects_are_added_step_by_step():
     sizes = {name: size_for(name, WIDE, 6.0) for name in ("chain_pitch", "chain_plane")}
-    result = add_auto(MAKER, board(sizes, WIDE, seed=5))
+    result = add_auto(Inputs(MAKER, board(sizes, WIDE, seed=5)))
     assert set(result.chosen) == set(sizes)
     steps = [result.addition.before, *(one.quality for one in result.addition.steps)]
     assert [one.effect for one in result.addition.steps] == list(result.chosen)
@@ -49,9 +50,12 @@ def test_two_hidden_effects_are_added_step_by_step():
 def test_the_new_machine_leaves_nothing_to_prove_and_a_second_round_adds_nothing():
     sizes = {name: size_for(name, WIDE, 6.0) for name in ("chain_pitch", "chain_plane")}
     measured = board(sizes, WIDE, seed=5)
-    first = add_auto(MAKER, measured)
-    assert diagnose(first.addition.settings, measured, cut_with=MAKER).verdict == "nothing_provable"
-    again = add_auto(first.addition.settings, measured, cut_with=MAKER)
+    first = add_auto(Inputs(MAKER, measured))
+    assert (
+        diagnose(Inputs(first.addition.settings, measured, cut_with=MAKER)).verdict
+        == "nothing_provable"
+    )
+    again = add_auto(Inputs(first.addition.settings, measured, cut_with=MAKER))
     assert again.chosen == () and again.done
     assert again.addition.settings.effects == first.addition.settings.effects
 
@@ -60,7 +64,7 @@ def test_a_choice_is_said_to_be_one_with_what_would_settle_it():
     # On nine marks several effects draw nearly the same arrows.
     few = plan(3, 3)
     size = size_for("frame_flex", few, 3.0)
-    result = add_auto(MAKER, board({"frame_flex": size}, few, seed=2))
+    result = add_auto(Inputs(MAKER, board({"frame_flex": size}, few, seed=2)))
     assert result.found.verdict == "cannot_tell" and result.rivals and result.done
     assert result.reason.startswith("a choice: ") and "plumb next" in result.reason
     open_ones = {*result.chosen}.union(*result.rivals)
@@ -69,7 +73,7 @@ def test_a_choice_is_said_to_be_one_with_what_would_settle_it():
 
 
 def test_nothing_is_added_where_nothing_is_hidden():
-    result = add_auto(MAKER, board({}, WIDE, seed=6))
+    result = add_auto(Inputs(MAKER, board({}, WIDE, seed=6)))
     assert result.chosen == () and result.done
     assert result.addition.effects_added == () and result.addition.steps == ()
 
@@ -77,10 +81,10 @@ def test_nothing_is_added_where_nothing_is_hidden():
 def test_nothing_is_fitted_to_a_slip_until_it_is_left_out():
     clean = board({}, WIDE, seed=7)
     slipped = moved(clean, 11, (0.0, 7.0))
-    result = add_auto(MAKER, slipped)
+    result = add_auto(Inputs(MAKER, slipped))
     assert result.addition is None and not result.done
     assert clean.marks[11].name in result.reason and "--without" in result.reason
-    again = add_auto(MAKER, without_marks(slipped, [clean.marks[11].name]))
+    again = add_auto(Inputs(MAKER, without_marks(slipped, [clean.marks[11].name])))
     assert again.done and len(again.addition.after_fit.errors) == 24
 
 
@@ -90,7 +94,7 @@ def test_a_mark_that_is_not_there_cannot_be_left_out():
 
 
 def test_what_is_not_in_the_library_is_left_alone():
-    result = add_auto(MAKER, board({}, WIDE, seed=8, bump=3.0))
+    result = add_auto(Inputs(MAKER, board({}, WIDE, seed=8, bump=3.0)))
     assert result.found.verdict == "not_in_library"
     assert not result.done and "not all that the marks show is in the library" in result.reason
     own = result.addition
@@ -100,14 +104,16 @@ def test_what_is_not_in_the_library_is_left_alone():
 
 def test_a_known_effect_is_not_left_out_because_another_is_unknown():
     size = size_for("chain_plane", WIDE, 6.0)
-    result = add_auto(MAKER, board({"chain_plane": size}, WIDE, seed=12, bump=2.0))
+    result = add_auto(Inputs(MAKER, board({"chain_plane": size}, WIDE, seed=12, bump=2.0)))
     assert result.found.verdict == "not_in_library" and not result.done
     assert "chain_plane" in result.chosen
     assert result.addition.after.left_out_rms < 0.7 * result.addition.before.left_out_rms
 
 
 def test_a_tape_that_reads_long_is_fitted_along_and_its_remedy_told():
-    result = add_auto(MAKER, board({"tape_scale": 8.0}, WIDE, seed=9, noise=0.2, tape_sigma=0.2))
+    result = add_auto(
+        Inputs(MAKER, board({"tape_scale": 8.0}, WIDE, seed=9, noise=0.2, tape_sigma=0.2))
+    )
     assert "tape_scale" in {*result.chosen, *(name for one in result.rivals for name in one)}
     if "tape_scale" in result.chosen:
         assert "tape_scale" not in result.addition.settings.effects
@@ -116,7 +122,7 @@ def test_a_tape_that_reads_long_is_fitted_along_and_its_remedy_told():
 
 def test_impossible_sizes_are_never_added_by_themselves():
     stock = read_settings(SETTINGS)
-    result = add_auto(stock, read_marks(MARKS, sheet=stock.sheet))
+    result = add_auto(Inputs(stock, read_marks(MARKS, sheet=stock.sheet)))
     assert result.found.explanations and not any(one.possible for one in result.found.explanations)
     assert result.chosen == () and not result.done
     assert "no real machine has" in result.reason

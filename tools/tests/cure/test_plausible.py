@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 from plumb.cure.add import add
 from plumb.diagnose import diagnose
+from plumb.fit.inputs import Inputs
 from plumb.fit.plausible import PlausibleRange, plausible_range
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import parameter_words
@@ -26,7 +27,9 @@ def board_with(name, share):
 def judged(found, measurements, effect):
     """Of each parameter: whether it is plausible and possible by the diagnosis, and by the fit."""
     sizes = next(ranked for ranked in found.ranking if ranked.effect == effect).sizes
-    added = add(BELIEVED, measurements, effects=(effect,), sigma=found.noise.sigma).parameters
+    added = add(
+        Inputs(BELIEVED, measurements, sigma=found.noise.sigma), effects=(effect,)
+    ).parameters
     fitted = {one.name: one for one in added}
     return [
         (size.plausible, size.possible, one.plausible, one.possible)
@@ -39,7 +42,7 @@ def judged(found, measurements, effect):
 @pytest.mark.parametrize("share", [0.5, 1.25, 1.6, 3.0])
 def test_the_fit_and_the_diagnosis_agree_on_every_effect(name, share):
     measurements = board_with(name, share)
-    found = diagnose(BELIEVED, measurements, sigma=SIGMA)
+    found = diagnose(Inputs(BELIEVED, measurements, sigma=SIGMA))
     for ranked in found.ranking:
         if ranked.sizes[0].low is None:
             continue  # nothing was measured that feels it
@@ -51,7 +54,7 @@ def test_the_fit_and_the_diagnosis_agree_on_every_effect(name, share):
 def test_a_size_a_little_beyond_what_was_met_is_no_reason_to_look_elsewhere(name):
     measurements = board_with(name, 1.25)
     effect = name.partition(".")[0]
-    found = diagnose(BELIEVED, measurements, sigma=SIGMA)
+    found = diagnose(Inputs(BELIEVED, measurements, sigma=SIGMA))
     assert (effect,) in [one.effects for one in found.explanations if one.possible]
     for _, by_size, _, by_fit in judged(found, measurements, effect):
         assert by_size and by_fit
@@ -61,7 +64,7 @@ def test_a_size_a_little_beyond_what_was_met_is_no_reason_to_look_elsewhere(name
 def test_a_size_far_beyond_is_refused_by_both(name):
     measurements = board_with(name, 3.0)
     effect, _, parameter = name.partition(".")
-    found = diagnose(BELIEVED, measurements, sigma=SIGMA)
+    found = diagnose(Inputs(BELIEVED, measurements, sigma=SIGMA))
     sizes = next(ranked for ranked in found.ranking if ranked.effect == effect).sizes
     at = [size.name for size in sizes].index(parameter)
     assert judged(found, measurements, effect)[at] == (False, False, False, False)

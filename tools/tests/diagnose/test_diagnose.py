@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hidden_boards import HIDDEN, MAKER, board, joined, plan, size_for
 from plumb.diagnose import VERDICTS, diagnose
+from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names
 from plumb.text.errors import InputError
@@ -40,13 +41,13 @@ def moved(measurements, index, by):
 
 
 def test_the_judge_and_the_laws_agree_where_nothing_is_hidden():
-    found = diagnose(MAKER, board({}, WIDE, seed=1, noise=0.0), sigma=0.02)
+    found = diagnose(Inputs(MAKER, board({}, WIDE, seed=1, noise=0.0), sigma=0.02))
     assert found.verdict == "nothing_provable" and found.rms_before < 0.02
 
 
 def test_a_hidden_effect_of_three_millimetres_is_found(sizes):
     found = {
-        (name, seed): diagnose(MAKER, board({name: sizes[name]}, WIDE, seed=100 * i + seed))
+        (name, seed): diagnose(Inputs(MAKER, board({name: sizes[name]}, WIDE, seed=100 * i + seed)))
         for i, name in enumerate(FELT)
         for seed in range(2)
     }
@@ -64,7 +65,7 @@ def test_a_hidden_effect_of_three_millimetres_is_found(sizes):
 def test_intervals_hold_the_truth(sizes):
     size, held = sizes["chain_pitch"], 0
     for seed in range(12):
-        found = diagnose(MAKER, board({"chain_pitch": size}, WIDE, seed=400 + seed))
+        found = diagnose(Inputs(MAKER, board({"chain_pitch": size}, WIDE, seed=400 + seed)))
         own = next(one for one in found.ranking if one.effect == "chain_pitch").sizes
         held += own[0].low <= 0.001 * size <= own[0].high
         held += own[1].low <= 0.0003 * size <= own[1].high
@@ -76,14 +77,14 @@ def test_look_alikes_are_named_together():
     size = size_for("tape_scale", NINE, 2.0)
     both = 0
     for seed in range(8):
-        found = diagnose(MAKER, board({"tape_scale": size}, NINE, seed=seed))
+        found = diagnose(Inputs(MAKER, board({"tape_scale": size}, NINE, seed=seed)))
         both += {"tape_scale", "chain_pitch"} <= set(found.suspects)
         assert found.verdict != "one_suspect" or explains(found, "tape_scale")
     assert both >= 3
 
 
 def test_motors_out_of_level_are_not_told_from_a_turned_sheet():
-    found = diagnose(MAKER, board({"motor_level": 1.5}, WIDE, seed=2))
+    found = diagnose(Inputs(MAKER, board({"motor_level": 1.5}, WIDE, seed=2)))
     assert found.verdict == "nothing_provable"
     shares = {one.effect: one.hidden_share for one in found.ranking}
     assert shares["motor_level"] > 0.95
@@ -99,7 +100,7 @@ def test_a_slip_is_named_before_any_effect(sizes):
         clean, index = board(hidden, WIDE, seed=seed), int(source.integers(25))
         turn = source.uniform(0, 2 * np.pi)
         slipped = moved(clean, index, (5 * np.cos(turn), 5 * np.sin(turn)))
-        found = diagnose(MAKER, slipped)
+        found = diagnose(Inputs(MAKER, slipped))
         hits += found.verdict == "slip" and [s.name for s in found.slips] == [
             clean.marks[index].name
         ]
@@ -112,7 +113,7 @@ def test_a_slip_is_named_before_any_effect(sizes):
 
 def test_a_slip_of_one_repeat_is_found_among_its_twins():
     clean = board({}, plan(3, 3, times=3), seed=5, tape_sigma=None)
-    found = diagnose(MAKER, moved(clean, 13, (0.0, 6.0)))
+    found = diagnose(Inputs(MAKER, moved(clean, 13, (0.0, 6.0))))
     assert found.verdict == "slip" and found.slips[0].length == pytest.approx(6, abs=2)
     assert found.noise.source == "repeats" and found.noise.degrees == 34
     assert "too far up" in found.slips[0].sentence
@@ -127,7 +128,7 @@ def test_digits_that_were_swapped_are_guessed():
     )
     written = round(clean.marks[index].measured[1], 1)
     found = diagnose(
-        MAKER, moved(clean, index, (0.0, _swap(written) - clean.marks[index].measured[1]))
+        Inputs(MAKER, moved(clean, index, (0.0, _swap(written) - clean.marks[index].measured[1])))
     )
     assert found.verdict == "slip"
     assert "written for" in found.slips[0].guess
@@ -149,7 +150,7 @@ def test_a_heavier_sled_shortens_the_list():
         size = size_for(name, NINE, 2.5)
         for seed in range(4):
             for key, own in (("again", again), ("heavier", more)):
-                found = diagnose(MAKER, board({name: size}, own, seed=seed), sigma=0.5)
+                found = diagnose(Inputs(MAKER, board({name: size}, own, seed=seed), sigma=0.5))
                 counts[key] += len(found.explanations) if found.explanations else 9
     assert counts["heavier"] < counts["again"]
 
@@ -158,7 +159,7 @@ def test_repeats_give_the_noise_and_a_wrong_statement_does_not_fool_it():
     # Stated three times too small, it would see effects everywhere.
     quiet = 0
     for seed in range(12):
-        found = diagnose(MAKER, board({}, plan(3, 3, times=3), seed=seed, tape_sigma=0.17))
+        found = diagnose(Inputs(MAKER, board({}, plan(3, 3, times=3), seed=seed, tape_sigma=0.17)))
         assert found.noise.source == "repeats" and 0.3 < found.noise.sigma < 0.8
         quiet += found.verdict == "nothing_provable"
     assert quiet >= 10
@@ -167,7 +168,7 @@ def test_repeats_give_the_noise_and_a_wrong_statement_does_not_fool_it():
 def test_noise_that_nobody_stated_is_taken_from_the_scatter():
     quiet = 0
     for seed in range(12):
-        found = diagnose(MAKER, board({}, WIDE, seed=seed, noise=0.8, tape_sigma=None))
+        found = diagnose(Inputs(MAKER, board({}, WIDE, seed=seed, noise=0.8, tape_sigma=None)))
         assert found.noise.source in ("default", "scatter") and found.warnings
         quiet += found.verdict == "nothing_provable"
     assert quiet >= 9
@@ -175,9 +176,11 @@ def test_noise_that_nobody_stated_is_taken_from_the_scatter():
 
 def test_friction_needs_approaches():
     own = plan(5, 3)
-    found = diagnose(MAKER, board({"sled_friction": 1.0}, own, seed=1, noise=0.2), sigma=0.3)
+    found = diagnose(
+        Inputs(MAKER, board({"sled_friction": 1.0}, own, seed=1, noise=0.2), sigma=0.3)
+    )
     assert found.suspects[:1] == ("sled_friction",)
-    blind = diagnose(MAKER, board({}, plan(5, 3, approached=False), seed=1))
+    blind = diagnose(Inputs(MAKER, board({}, plan(5, 3, approached=False), seed=1)))
     room = next(one for one in blind.could_hide if one.effect == "sled_friction")
     assert room.mm is None
 
@@ -185,7 +188,7 @@ def test_friction_needs_approaches():
 def test_distances_alone_are_enough():
     given = marks_on(TRUE, BELIEVED, grid(4, 3), noise=0.0)
     spans = distances_between(given)
-    found = diagnose(BELIEVED, spans, sigma=0.3)
+    found = diagnose(Inputs(BELIEVED, spans, sigma=0.3))
     assert found.verdict in ("one_suspect", "cannot_tell") and "chain_pitch" in found.suspects
     shares = {one.effect: one.hidden_share for one in found.ranking}
     assert shares["sheet_skew"] is None  # edges play no part in distances
@@ -193,13 +196,15 @@ def test_distances_alone_are_enough():
 
 def test_too_few_marks_are_refused():
     with pytest.raises(InputError, match="too few"):
-        diagnose(BELIEVED, Measurements(marks_on(TRUE, BELIEVED, grid(2, 1)), source="two.csv"))
+        diagnose(
+            Inputs(BELIEVED, Measurements(marks_on(TRUE, BELIEVED, grid(2, 1)), source="two.csv"))
+        )
 
 
 def test_every_answer_is_complete(sizes):
-    found = diagnose(MAKER, board({"chain_plane": sizes["chain_plane"]}, WIDE, seed=3))
+    found = diagnose(Inputs(MAKER, board({"chain_plane": sizes["chain_plane"]}, WIDE, seed=3)))
     assert found.verdict in VERDICTS
     assert {one.effect for one in found.ranking} == set(effect_names())
     assert {one.effect for one in found.could_hide} == set(effect_names())
-    again = diagnose(MAKER, board({"chain_plane": sizes["chain_plane"]}, WIDE, seed=3))
+    again = diagnose(Inputs(MAKER, board({"chain_plane": sizes["chain_plane"]}, WIDE, seed=3)))
     assert again.verdict == found.verdict and again.limit == found.limit

@@ -8,10 +8,12 @@ from plumb.board.observations import observe
 from plumb.diagnose.explanation import Board, explain
 from plumb.diagnose.gain import LEVEL, bases_beside, limit_of_noise, search
 from plumb.diagnose.misfit import misfit_chance
-from plumb.diagnose.noise import Noise, Spread, noise_of, repeats_of
+from plumb.diagnose.noise import Noise
+from plumb.diagnose.noise_sources import noise_of, repeats_of
 from plumb.diagnose.significance import KNOWN, surprise, surprises, tail
 from plumb.diagnose.sizes import hidden_share, room_for, sizes_of
 from plumb.diagnose.slips import readings_of, shifts, without
+from plumb.diagnose.spread import Spread
 from plumb.fit.fit import fit
 from plumb.marks.read import Measurements, Round
 from plumb.model.catalogue import effect_names

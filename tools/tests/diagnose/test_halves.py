@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from plumb.board.observations import observe
 from plumb.diagnose import diagnose
-from plumb.diagnose.noise import repeats_of
+from plumb.diagnose.noise_sources import repeats_of
+from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements, Round, join_measurements
 from plumb.settings.files import machine_toml
 from synthetic import BELIEVED, grid, marks_on
@@ -36,7 +37,7 @@ def rounds(second, seed=1, **how):
     ],
 )
 def test_rounds_that_do_not_go_together_are_named_with_the_way_out(second, flag):
-    found = diagnose(BELIEVED, rounds(second), sigma=0.5)
+    found = diagnose(Inputs(BELIEVED, rounds(second), sigma=0.5))
     assert len(found.disagreements) == 1
     assert found.disagreements[0].startswith("b does not go with the other rounds")
     assert "do not pool them" in found.disagreements[0]
@@ -51,13 +52,16 @@ def test_rounds_that_do_not_go_together_are_named_with_the_way_out(second, flag)
     ],
 )
 def test_a_round_that_says_what_changed_goes_with_the_others(second, flag):
-    found = diagnose(BELIEVED, rounds(second, **{flag: True}), sigma=0.5)
+    found = diagnose(Inputs(BELIEVED, rounds(second, **{flag: True}), sigma=0.5))
     assert found.disagreements == ()
     assert found.verdict in ("one_suspect", "cannot_tell") and "chain_pitch" in found.suspects
 
 
 def test_alike_rounds_are_left_in_peace():
-    said = [diagnose(BELIEVED, rounds(PITCH, seed), sigma=0.5).disagreements for seed in range(9)]
+    said = [
+        diagnose(Inputs(BELIEVED, rounds(PITCH, seed), sigma=0.5)).disagreements
+        for seed in range(9)
+    ]
     assert said == [()] * 9
 
 
@@ -77,16 +81,20 @@ def test_a_torn_sheet_is_told_by_its_halves():
         replace(mark, measured=(mark.measured[0] + 2.5 * (mark.target[0] > 0), mark.measured[1]))
         for mark in marks_on(PITCH, BELIEVED, grid(5, 3), noise=0.3, seed=2)
     ]
-    found = diagnose(BELIEVED, Measurements(tuple(marks), source="a"), sigma=0.3)
+    found = diagnose(Inputs(BELIEVED, Measurements(tuple(marks), source="a"), sigma=0.3))
     assert any("left and right half" in one for one in found.disagreements)
 
 
 def test_whole_sheets_have_no_halves():
     said = [
         diagnose(
-            BELIEVED,
-            Measurements(marks_on(PITCH, BELIEVED, grid(5, 3), noise=0.5, seed=seed), source="a"),
-            sigma=0.5,
+            Inputs(
+                BELIEVED,
+                Measurements(
+                    marks_on(PITCH, BELIEVED, grid(5, 3), noise=0.5, seed=seed), source="a"
+                ),
+                sigma=0.5,
+            )
         ).disagreements
         for seed in range(12)
     ]

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from plumb.board.observations import observe
 from plumb.diagnose import diagnose
-from plumb.diagnose.noise import repeats_of
+from plumb.diagnose.noise_sources import repeats_of
+from plumb.fit.inputs import Inputs
 from plumb.marks.read import Mark, Measurements, read_marks
 from plumb.settings.files import machine_toml
 from plumb.text.errors import InputError
@@ -44,7 +45,7 @@ def toml(marks, change=lambda target, measured: measured):
 @pytest.mark.parametrize("pair", CLOSE_PAIRS)
 def test_two_exchanged_marks_are_both_named_with_the_correction(pair, seed):
     marks = marks_on(PITCH, BELIEVED, TARGETS, noise=0.3, seed=seed)
-    found = diagnose(BELIEVED, board(exchanged(marks, *pair)), sigma=0.3)
+    found = diagnose(Inputs(BELIEVED, board(exchanged(marks, *pair)), sigma=0.3))
     assert found.verdict == "slip" and found.explanations == ()
     assert {one.name for one in found.slips} == {str(one) for one in pair}
     for one, other in zip(found.slips, reversed(found.slips), strict=True):
@@ -60,7 +61,7 @@ def test_two_exchanged_distances_are_both_named(seed):
         replace(spans[3], length=spans[11].length),
         replace(spans[11], length=spans[3].length),
     )
-    found = diagnose(BELIEVED, replace(known, distances=tuple(spans)), sigma=0.3)
+    found = diagnose(Inputs(BELIEVED, replace(known, distances=tuple(spans)), sigma=0.3))
     named = {" - ".join(spans[i].between) for i in (3, 11)}
     assert found.verdict == "slip" and {one.name for one in found.slips} == named
     assert all("may be exchanged" in one.guess for one in found.slips)
@@ -69,14 +70,14 @@ def test_two_exchanged_distances_are_both_named(seed):
 def test_nothing_is_called_exchanged_without_need():
     for seed in range(6):
         marks = marks_on(PITCH, BELIEVED, TARGETS, noise=0.3, seed=seed)
-        assert diagnose(BELIEVED, board(marks), sigma=0.3).slips == ()
+        assert diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).slips == ()
 
 
 def test_one_slip_is_one_slip():
     marks = list(marks_on(PITCH, BELIEVED, TARGETS, noise=0.3, seed=1))
     x, y = marks[6].measured
     marks[6] = replace(marks[6], measured=(x + 5, y))
-    found = diagnose(BELIEVED, board(marks), sigma=0.3)
+    found = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3))
     assert [one.name for one in found.slips] == ["6"] and "exchanged" not in found.slips[0].guess
 
 
@@ -91,7 +92,7 @@ def test_y_errors_with_the_other_sign_are_found_out():
         replace(mark, measured=(mark.measured[0], 2 * mark.target[1] - mark.measured[1]))
         for mark in marks_on(PITCH, BELIEVED, grid(5, 3), noise=0.3, seed=5)
     ]
-    said = diagnose(BELIEVED, board(marks), sigma=0.3).warnings
+    said = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).warnings
     assert any(
         "y errors the other way round" in one and "chain_pitch" in one and "would explain" in one
         for one in said
@@ -101,7 +102,7 @@ def test_y_errors_with_the_other_sign_are_found_out():
 def test_the_right_sign_is_not_doubted():
     for seed in range(4):
         marks = marks_on(PITCH, BELIEVED, grid(5, 3), noise=0.3, seed=seed)
-        said = diagnose(BELIEVED, board(marks), sigma=0.3).warnings
+        said = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).warnings
         assert not any("would explain these" in one for one in said)
 
 
@@ -143,4 +144,4 @@ def test_a_whole_file_mixed_up_is_refused_with_the_likely_reason(file, change, h
 def test_where_everything_fits_nothing_is_called_exchanged():
     for seed in range(5):
         few = board(marks_on(PITCH, BELIEVED, grid(2, 2), noise=0.5, seed=seed))
-        assert diagnose(BELIEVED, few, sigma=0.5).slips == ()
+        assert diagnose(Inputs(BELIEVED, few, sigma=0.5)).slips == ()

@@ -10,6 +10,7 @@ from plumb.board.sighting import sighted
 from plumb.cli.add import as_json, as_text, toml_of
 from plumb.cure.add import add
 from plumb.fit.fit import fit
+from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements
 from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.predict import FOUND, known_effects, values_of
@@ -80,7 +81,7 @@ def test_distances_see_the_tape():
 
 def test_a_lab_effect_is_told_with_its_cure_and_pays():
     board = Measurements(marks({"tape_scale": {"strain": 0.001}}, noise=0.1), source="marks.toml")
-    result = add(BELIEVED, board, effects=[*EFFECTS, "tape_scale"])
+    result = add(Inputs(BELIEVED, board), effects=[*EFFECTS, "tape_scale"])
     assert result.pays and result.effects_added == (*EFFECTS, "tape_scale")
     assert len(result.cures) == 1
     for said in (result.cures[0], as_text(result), toml_of(result, source="marks.toml").decode()):
@@ -95,7 +96,7 @@ def test_a_lab_effect_is_told_with_its_cure_and_pays():
 
 def test_no_settings_ever_hold_a_lab_effect(tmp_path):
     board = Measurements(marks(HIDDEN, noise=0.1), source="marks.toml")
-    result = add(BELIEVED, board, effects=["chain_pitch", *HIDDEN])
+    result = add(Inputs(BELIEVED, board), effects=["chain_pitch", *HIDDEN])
     assert set(result.after_fit.lab_effects) == set(HIDDEN)
     assert set(result.settings.effects) == {"chain_pitch"}
     written = tomllib.loads(toml_of(result, source="marks.toml").decode())
@@ -117,14 +118,14 @@ def test_settings_with_a_lab_effect_are_refused(effect, tmp_path):
 def test_friction_without_any_approach_is_refused():
     board = Measurements(marks_on(TRUE, BELIEVED, grid(4, 3)), source="marks.toml")
     with pytest.raises(InputError, match=r"marks\.toml: sled_friction needs marks with an appr"):
-        add(BELIEVED, board, effects=["sled_friction"])
+        add(Inputs(BELIEVED, board), effects=["sled_friction"])
 
 
 def test_skew_from_distances_alone_is_refused():
     board = distances_between(marks_on(TRUE, BELIEVED, grid(4, 3)))
     with pytest.raises(InputError, match=r"sheet_skew needs .* not distances alone"):
-        add(BELIEVED, board, effects=["sheet_skew"])
-    assert add(BELIEVED, board, effects=["tape_scale"]).after_fit.lab_effects
+        add(Inputs(BELIEVED, board), effects=["sheet_skew"])
+    assert add(Inputs(BELIEVED, board), effects=["tape_scale"]).after_fit.lab_effects
 
 
 def test_one_side_only_hides_friction_behind_sag_and_two_sides_show_it():

@@ -11,6 +11,7 @@ from plumb.cure.add import add
 from plumb.cure.auto import add_auto
 from plumb.cure.demo import MARKS, SETTINGS
 from plumb.fit.compare import compare
+from plumb.fit.inputs import Inputs
 from plumb.fit.patch import PATCH, SIZES
 from plumb.model.catalogue import effect_names, parameter_names
 from plumb.settings.files import machine_toml, read_settings
@@ -47,7 +48,7 @@ def test_it_lowers_the_error_at_marks_that_it_never_saw(kind):
             strange = with_cubic(board({}, WIDE, seed=seed, noise=0.3), 1000 + seed, 3.0)
         seen, unseen = halves(strange)
         for patch, errors in ((False, before), (True, after)):
-            fitted = add(MAKER, seen, effects=(), patch=patch, sigma=0.3)
+            fitted = add(Inputs(MAKER, seen, sigma=0.3), effects=(), patch=patch)
             found = compare(fitted.settings, unseen, cut_with=MAKER)
             errors.append(found.shape_rms)
     assert np.mean(after) < 0.6 * np.mean(before)
@@ -57,17 +58,17 @@ def test_where_nothing_is_left_it_buys_nothing_and_is_not_added():
     added = 0
     for seed in range(12):
         clean = board({}, plan(5, 5), seed=seed)
-        added += PATCH in add(MAKER, clean, effects=(), patch=True, sigma=0.5).effects_added
+        added += PATCH in add(Inputs(MAKER, clean, sigma=0.5), effects=(), patch=True).effects_added
     assert added <= 1
 
 
 def test_auto_offers_it_and_adds_it_only_when_asked():
     strange = board({}, plan(5, 5), seed=8, bump=3.0)
-    offered = add_auto(MAKER, strange)
+    offered = add_auto(Inputs(MAKER, strange))
     assert offered.found.verdict == "not_in_library"
     assert offered.offer[1] < 0.8 * offered.offer[0]
     assert PATCH not in offered.addition.effects_added
-    taken = add_auto(MAKER, strange, patch=True)
+    taken = add_auto(Inputs(MAKER, strange), patch=True)
     assert taken.addition.effects_added == (PATCH,)
     assert taken.addition.after.left_out_rms == pytest.approx(offered.offer[1])
     assert taken.addition.settings.effects[PATCH]
@@ -76,12 +77,12 @@ def test_auto_offers_it_and_adds_it_only_when_asked():
 def test_it_is_never_a_suspect_and_never_named_as_an_effect():
     assert PATCH not in effect_names() and len(parameter_names(PATCH)) == 18
     with pytest.raises(InputError, match="--patch"):
-        add(MAKER, board({}, plan(5, 5), seed=1), effects=[PATCH])
+        add(Inputs(MAKER, board({}, plan(5, 5), seed=1)), effects=[PATCH])
 
 
 def test_it_goes_into_the_machine_and_comes_back(tmp_path):
     strange = board({}, plan(5, 5), seed=8, bump=3.0)
-    fitted = add(MAKER, strange, effects=(), patch=True, sigma=0.5)
+    fitted = add(Inputs(MAKER, strange, sigma=0.5), effects=(), patch=True)
     path = tmp_path / "machine.toml"
     path.write_text(machine_toml(fitted.settings))
     again = read_settings(
@@ -96,9 +97,13 @@ def test_it_goes_into_the_machine_and_comes_back(tmp_path):
 
 def test_the_settings_file_says_what_the_patch_is():
     strange = board({}, plan(5, 5), seed=8, bump=3.0)
-    said = toml_of(add(MAKER, strange, effects=(), patch=True, sigma=0.5), source="here").decode()
+    said = toml_of(
+        add(Inputs(MAKER, strange, sigma=0.5), effects=(), patch=True), source="here"
+    ).decode()
     assert "# residual_patch: It is no physics" in said
-    assert "no physics" not in toml_of(add(MAKER, strange, effects=()), source="here").decode()
+    assert (
+        "no physics" not in toml_of(add(Inputs(MAKER, strange), effects=()), source="here").decode()
+    )
 
 
 def test_nothing_to_add_is_refused(capsys):

@@ -8,6 +8,7 @@ from carried_out import TRUE_VALUES, Bench
 from hidden_boards import MAKER, board, plan, size_for
 from plumb.bench.causes import SLED
 from plumb.diagnose import Checked, diagnose
+from plumb.fit.inputs import Inputs
 from plumb.fit.problem import PRIORS
 from plumb.model.catalogue import effect_names, parameter_words
 from plumb.model.predict import FOUND, lengths
@@ -43,18 +44,18 @@ def pitch(first):
     """A board on which pitch cannot be told from its look-alikes."""
     owner = Bench("chain_pitch", size_for("chain_pitch", NINE, 3.0), 101)
     marks = owner.measured(first)
-    found = diagnose(MAKER, marks)
+    found = diagnose(Inputs(MAKER, marks))
     assert found.verdict == "cannot_tell"
-    return owner, marks, found, case_of(found, MAKER, marks)
+    return owner, marks, found, case_of(found, Inputs(MAKER, marks))
 
 
 @pytest.fixture(scope="module")
 def clean(first):
     """A board on which nothing is hidden."""
     marks = Bench(None, 0.0, 7).measured(first)
-    found = diagnose(MAKER, marks)
+    found = diagnose(Inputs(MAKER, marks))
     assert found.verdict == "nothing_provable"
-    return marks, found, case_of(found, MAKER, marks)
+    return marks, found, case_of(found, Inputs(MAKER, marks))
 
 
 def kinds(answer):
@@ -64,7 +65,7 @@ def kinds(answer):
 
 def test_every_intervention_is_among_the_options(pitch):
     _, marks, found, _ = pitch
-    answer = propose(found, MAKER, marks)
+    answer = propose(found, Inputs(MAKER, marks))
     assert set(kinds(answer)) >= {"marks", "repeats", "weight", "swap", "check", "frame"}
     assert answer.blind is not None and len(answer.blind.option.visits) == 28
     rates = [one.rate for one in answer.proposals]
@@ -155,16 +156,16 @@ def test_look_alikes_are_told_by_what_parts_them_only(first):
     # Sag and a leaning frame draw the same arrows under any weight; an angle gauge parts them.
     owner = Bench("chain_sag", size_for("chain_sag", NINE, 3.0), 101)
     marks = owner.measured(first)
-    found = diagnose(MAKER, marks)
+    found = diagnose(Inputs(MAKER, marks))
     assert set(found.suspects) == {"chain_sag", "frame_lean"}
-    answer = propose(found, MAKER, marks)
+    answer = propose(found, Inputs(MAKER, marks))
     best = answer.proposals[0]
     assert best.option.kind == "check" and best.chance > 0.9
     assert ("chain_sag", "frame_lean") in best.parts
     assert answer.blind.chance < 0.3
     heavier = max(one.chance for one in answer.proposals if one.option.kind == "weight")
     assert heavier < 0.3
-    done = diagnose(MAKER, marks, checked=owner.checked(best.option.checks))
+    done = diagnose(Inputs(MAKER, marks, checked=owner.checked(best.option.checks)))
     assert done.verdict == "one_suspect" and done.suspects == ("chain_sag",)
 
 
@@ -173,14 +174,14 @@ def test_swapped_chains_take_their_pitch_along(pitch):
     option = next(one for one in options(case) if one.kind == "swap")
     assert option.visits.swapped.all()
     board_now = owner.measured(visits_of(NINE), option.visits)
-    found = diagnose(MAKER, board_now)
+    found = diagnose(Inputs(MAKER, board_now))
     own = next(one for one in found.ranking if one.effect == "chain_pitch").sizes
     for size, side in zip(own, ("left", "right"), strict=True):
         truth = TRUE_VALUES[f"chain_pitch.{side}"](owner.size)
         assert size.low - 2e-4 <= truth <= size.high + 2e-4
     # Read as if they had not been swapped, the same marks fit nothing so well.
     marks = tuple(replace(mark, chains_swapped=False) for mark in board_now.marks)
-    wrong = diagnose(MAKER, replace(board_now, marks=marks))
+    wrong = diagnose(Inputs(MAKER, replace(board_now, marks=marks)))
     after = {one.effect: one.rms_after for one in found.ranking}["chain_pitch"]
     assert after < 0.8 * {one.effect: one.rms_after for one in wrong.ranking}["chain_pitch"]
 
@@ -188,13 +189,13 @@ def test_swapped_chains_take_their_pitch_along(pitch):
 def test_a_check_that_finds_nothing_clears_its_effect(pitch):
     _, marks, found, _ = pitch
     assert "tape_scale" in found.suspects
-    cleared = diagnose(MAKER, marks, checked=[Checked("tape_scale.strain", 0.0, 0.0001)])
+    cleared = diagnose(Inputs(MAKER, marks, checked=[Checked("tape_scale.strain", 0.0, 0.0001)]))
     assert "tape_scale" not in cleared.suspects and "chain_pitch" in cleared.suspects
 
 
 def test_where_nothing_is_provable_doubt_is_removed_first(clean):
     marks, found, _ = clean
-    answer = propose(found, MAKER, marks)
+    answer = propose(found, Inputs(MAKER, marks))
     best = answer.proposals[0]
     largest = max((one for one in found.could_hide if one.mm), key=lambda one: one.mm)
     assert best.question == "find" and best.rooms[0].effect == largest.effect
@@ -206,9 +207,9 @@ def test_where_nothing_is_provable_doubt_is_removed_first(clean):
 def test_one_suspect_is_confirmed_by_measuring_the_cause(first):
     owner = Bench("chain_plane", size_for("chain_plane", NINE, 3.0), 102)
     marks = owner.measured(first)
-    found = diagnose(MAKER, marks)
+    found = diagnose(Inputs(MAKER, marks))
     assert found.verdict == "one_suspect"
-    answer = propose(found, MAKER, marks)
+    answer = propose(found, Inputs(MAKER, marks))
     assert answer.proposals[0].option.kind == "check"
     assert answer.proposals[0].option.checks[0].name == "chain_plane.gap_squared"
     assert "repeats" not in kinds(answer)
@@ -221,18 +222,18 @@ def test_a_slip_is_read_again_and_nothing_else(first):
     slipped = list(marks.marks)
     slipped[7] = replace(slipped[7], measured=tuple(np.add(slipped[7].measured, (5.0, 0.0))))
     own = replace(marks, marks=tuple(slipped))
-    found = diagnose(MAKER, own)
+    found = diagnose(Inputs(MAKER, own))
     assert found.verdict == "slip"
-    answer = propose(found, MAKER, own)
+    answer = propose(found, Inputs(MAKER, own))
     assert kinds(answer) == ["reread"] and answer.proposals[0].chance > 0.9
     assert answer.proposals[0].option.visits.names == (slipped[7].name,)
 
 
 def test_what_nobody_explains_is_looked_at_where_it_is_worst():
     own = board({}, plan(5, 5), seed=905, bump=4.0)
-    found = diagnose(MAKER, own)
+    found = diagnose(Inputs(MAKER, own))
     assert found.verdict == "not_in_library"
-    answer = propose(found, MAKER, own)
+    answer = propose(found, Inputs(MAKER, own))
     assert set(kinds(answer)) == {"repeats", "near"}
     assert all(one.chance is None for one in answer.proposals)
     errors = own.measured - own.targets
@@ -250,9 +251,9 @@ def test_distances_that_nobody_explains_are_measured_again():
         for i, one in enumerate(board_now.distances)
     ]
     own = replace(board_now, distances=tuple(odd))
-    found = diagnose(BELIEVED, own, sigma=0.3)
+    found = diagnose(Inputs(BELIEVED, own, sigma=0.3))
     assert found.verdict in ("not_in_library", "slip")
-    answer = propose(found, BELIEVED, own)
+    answer = propose(found, Inputs(BELIEVED, own))
     told = " ".join(answer.proposals[0].option.do)
     assert any(" - ".join(one.between) in told for one in odd)
 
@@ -283,12 +284,12 @@ def test_chances_come_true(first):
     for name, seed in (("chain_pitch", 302), ("chain_pitch", 305), ("chain_sag", 303)):
         owner = Bench(name, size_for(name, NINE, 3.0), seed)
         marks = owner.measured(first)
-        found = diagnose(MAKER, marks)
+        found = diagnose(Inputs(MAKER, marks))
         assert found.verdict == "cannot_tell"
-        for one in _one_of_each_kind(propose(found, MAKER, marks)):
+        for one in _one_of_each_kind(propose(found, Inputs(MAKER, marks))):
             visits, checks = one.option.visits, owner.checked(one.option.checks)
             then = owner.measured(first, visits) if len(visits) else marks
-            after = diagnose(MAKER, then, checked=checks)
+            after = diagnose(Inputs(MAKER, then, checked=checks))
             promised.append(one.chance)
             came.append(after.verdict == "one_suspect" and after.suspects == (name,))
     promised, came = np.array(promised), np.array(came)

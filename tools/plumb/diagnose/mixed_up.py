@@ -12,7 +12,7 @@ import numpy as np
 
 from plumb.diagnose.explanation import Board, explain
 from plumb.diagnose.misfit import library_basis
-from plumb.diagnose.slip_guess import Slip
+from plumb.diagnose.slip_cause import Slip
 from plumb.marks.read import Measurements
 
 Array = np.ndarray
@@ -23,7 +23,7 @@ MOST = 3  # exchanges; with more the list is in disorder
 
 
 @dataclass(frozen=True)
-class Exchange:
+class MixedPair:
     """Two readings of one kind, by their indices among the marks or the distances."""
 
     first: int
@@ -32,26 +32,26 @@ class Exchange:
 
 
 @dataclass(frozen=True)
-class Exchanged:
+class MixedUp:
     """The exchanges that were found, and the board with them undone."""
 
-    pairs: tuple[Exchange, ...]
+    pairs: tuple[MixedPair, ...]
     board: Board
 
 
-def find_exchanged(board: Board) -> Exchanged:
+def find_mixed_up(board: Board) -> MixedUp:
     """Undo exchanges one after the other, the surest first."""
-    pairs: list[Exchange] = []
+    pairs: list[MixedPair] = []
     while len(pairs) < MOST:
         best = _best(board)
         if best is None:
             break
         pairs.append(best)
         board = _undone(board, best)
-    return Exchanged(tuple(pairs), board)
+    return MixedUp(tuple(pairs), board)
 
 
-def exchange_slips(found: Exchanged, measurements: Measurements) -> list[Slip]:
+def mixed_up_slips(found: MixedUp, measurements: Measurements) -> list[Slip]:
     """Both readings of every exchange, each to be looked at again."""
     slips = []
     for pair in found.pairs:
@@ -60,9 +60,7 @@ def exchange_slips(found: Exchanged, measurements: Measurements) -> list[Slip]:
     return slips
 
 
-def _slip(
-    found: Exchanged, measurements: Measurements, is_mark: bool, own: int, other: int
-) -> Slip:
+def _slip(found: MixedUp, measurements: Measurements, is_mark: bool, own: int, other: int) -> Slip:
     if is_mark:
         marks = measurements.measured_marks
         names = [marks[i].name for i in (own, other)]
@@ -81,7 +79,7 @@ def _slip(
     )
 
 
-def _best(board: Board) -> Exchange | None:
+def _best(board: Board) -> MixedPair | None:
     """The exchange that lowers chi-square most beside all that the library can draw."""
     frame, rows = explain(board), board.rows
     basis = library_basis(frame)
@@ -99,7 +97,7 @@ def _best(board: Board) -> Exchange | None:
             i, j = (int(at) for at in np.unravel_index(np.argmax(drops), drops.shape))
             free = _free(basis, left, np.concatenate([own[i], own[j]]))
             if drops[i, j] > SHARE * free:
-                best, most = Exchange(i, j, is_mark), float(drops[i, j])
+                best, most = MixedPair(i, j, is_mark), float(drops[i, j])
     # exp(-drop / 2) is the ratio of likelihoods of a guess that has no free number.
     return best if best and tried * np.exp(-most / 2) < LUCK else None
 
@@ -128,7 +126,7 @@ def _free(basis: Array, left: Array, own: Array) -> float:
     return float(left[own] @ np.linalg.pinv(kept, rcond=1e-6, hermitian=True) @ left[own])
 
 
-def _undone(board: Board, pair: Exchange) -> Board:
+def _undone(board: Board, pair: MixedPair) -> Board:
     rows, order = board.rows, [pair.second, pair.first]
     measured, distances = rows.measured.copy(), rows.distances.copy()
     if pair.is_mark:

@@ -1,0 +1,63 @@
+"""The verdict: what stands its tests, and what to go on with."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from plumb.diagnose.clean import CleanReadings
+from plumb.diagnose.explanation import Explanation
+from plumb.diagnose.gain import Search
+from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
+from plumb.diagnose.misfit import misfit_chance
+from plumb.diagnose.suspects import Suspects, best_at_hand, find_suspects
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """The verdict and the suspects that it rests on."""
+
+    verdict: str  # one of answer.VERDICTS
+    suspects: Suspects
+    to_add: tuple[str, ...]  # effects to go on with
+
+    @property
+    def explanations(self) -> tuple[Explanation, ...]:
+        """Those that stood their tests, best first."""
+        return tuple(survivor.explanation for survivor in self.suspects.survivors)
+
+    @property
+    def none_possible(self) -> bool:
+        """Whether something stood, but only with sizes that no real machine has."""
+        survivors = self.suspects.survivors
+        return bool(survivors) and not any(survivor.possible for survivor in survivors)
+
+
+def judge(readings: CleanReadings, gate: Search) -> Judgement:
+    """A slip comes first, then the gate, then the suspects."""
+    if readings.slips:
+        return Judgement("slip", Suspects((), True), ())
+    if not gate.proved:
+        return _without_proof(readings)
+    felt = [readings.singles[name] for name in readings.felt]
+    suspects = find_suspects(readings.frame, felt, readings.felt, readings.noise)
+    if not suspects.believable:
+        verdict = "not_in_library"
+    else:
+        verdict = "one_suspect" if len(suspects.survivors) == 1 else "cannot_tell"
+    return Judgement(verdict, suspects, _to_add(readings, suspects))
+
+
+def _without_proof(readings: CleanReadings) -> Judgement:
+    """No effect adds more than noise would: either nothing is there, or nothing in the library."""
+    missing = misfit_chance(readings.frame, readings.noise) <= MISFIT_LEVEL
+    suspects = Suspects((), not missing)
+    if not missing:
+        return Judgement("nothing_provable", suspects, ())
+    return Judgement("not_in_library", suspects, _to_add(readings, suspects))
+
+
+def _to_add(readings: CleanReadings, suspects: Suspects) -> tuple[str, ...]:
+    """The best explanation, or the effects that come nearest where none stands."""
+    if suspects.survivors:
+        return suspects.survivors[0].explanation.effects
+    return best_at_hand(readings.frame, readings.felt)
