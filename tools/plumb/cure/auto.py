@@ -73,8 +73,11 @@ def add_auto(
 
 
 def _helps(addition: Addition) -> bool:
-    """Whether effects that do not explain all are of use: no mere fit, and of possible sizes."""
-    return addition.pays and all(one.possible for one in addition.parameters)
+    """Whether effects that do not explain all are of use: no mere fit, and of plausible sizes.
+
+    The values themselves must be plausible: where physics is missing, no interval is to be trusted.
+    """
+    return addition.pays and all(parameter.plausible for parameter in addition.parameters)
 
 
 def _settled_by(chosen: tuple[str, ...], rivals: tuple[tuple[str, ...], ...]) -> tuple[str, ...]:
