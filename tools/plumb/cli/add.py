@@ -9,7 +9,6 @@ from typing import Any
 from plumb.cli.add_text import PATCH_WARNING, as_text, auto_text, turn_sentence
 from plumb.cli.compare import panel_of, score_json
 from plumb.cli.files import (
-    Inputs,
     add_json,
     add_marks,
     add_prior,
@@ -22,6 +21,7 @@ from plumb.cli.files import (
 from plumb.cli.text import about, print_json, sentences
 from plumb.cure.add import Addition, Parameter, Quality, add, priors_with
 from plumb.cure.auto import AutoAddition, add_auto, without_marks
+from plumb.fit.inputs import Inputs
 from plumb.fit.patch import PATCH
 from plumb.model.catalogue import effect_names, is_sketch
 from plumb.pictures.sheet import Panel, draw
