@@ -98,6 +98,12 @@ TEST(Table, EffectLimitsAreTheirPlausibleRangeWidened) {
   const Entry pitch = table.at(indexOf(table, 180));
   EXPECT_FLOAT_EQ(-0.008f, pitch.low);
   EXPECT_FLOAT_EQ(0.013f, pitch.high);
+  // Of both signs: 30 mm either way, and as much again as the whole range.
+  for (const uint8_t number : {200, 201}) {
+    const Entry zero = table.at(indexOf(table, number));
+    EXPECT_FLOAT_EQ(-90, zero.low) << int(number);
+    EXPECT_FLOAT_EQ(90, zero.high) << int(number);
+  }
 }
 
 TEST(Values, TakeAWholeNumberWrittenWithDecimals) {

@@ -1,0 +1,91 @@
+// When a motor owes too much travel for its duty: in ticks, from what a weak motor does.
+#include <Motion.h>
+#include <gtest/gtest.h>
+
+using motion::DueTravel;
+
+namespace {
+
+const float kTick = 0.01f, kCounts = 8113.73f;
+const int16_t kMean = DueTravel::kMean;
+
+DueTravel atRest(float counts = kCounts, float tick = kTick) {
+  DueTravel due;
+  due.tune(counts, tick);
+  due.rest();
+  return due;
+}
+
+/// Ticks until too much is due at a steady duty, with so many counts each tick; 0: not in 10 s.
+int ticksUntilDue(DueTravel due, int duty, int moved) {
+  for (int i = 1; i <= 1000; ++i)
+    if (due.look(int16_t(duty * kMean), int16_t(moved * kMean), int16_t(moved))) return i;
+  return 0;
+}
+
+/// Lets it learn what a motor needs that runs evenly.
+DueTravel learned(int duty, int moved, int ticks) {
+  DueTravel due = atRest();
+  for (int i = 0; i < ticks; ++i)
+    due.look(int16_t(duty * kMean), int16_t(moved * kMean), int16_t(moved));
+  due.rest();
+  return due;
+}
+
+}  // namespace
+
+// A weak motor makes 0.0014 turns a second for each step of duty beyond what it needs, and 0.007
+// turns may be due. What it needs is 120 until it has run; an eighth and 15 more are its margin.
+TEST(DueTravel, IsThatOfAWeakMotorBeyondItsMargin) {
+  for (const int sign : {-1, 1}) {
+    EXPECT_EQ(0, ticksUntilDue(atRest(), sign * 150, 0));
+    EXPECT_EQ(51, ticksUntilDue(atRest(), sign * 160, 0))
+        << "0.007 / (10 * 0.0014 * 0.01) and a rest";
+    EXPECT_EQ(5, ticksUntilDue(atRest(), sign * 255, 0)) << "0.007 / (105 * 0.0014 * 0.01)";
+  }
+  // At twice the rate it takes as many seconds.
+  EXPECT_NEAR(ticksUntilDue(atRest(kCounts, 0.005f), 160, 0), 101, 4);
+}
+
+TEST(DueTravel, IsPaidFourfoldByCountsThatCome) {
+  EXPECT_EQ(0, ticksUntilDue(atRest(), 255, 3)) << "11.9 counts are due, 12 paid";
+  EXPECT_EQ(8, ticksUntilDue(atRest(), 255, 1)) << "56.8 counts at 11.9 - 4 a tick";
+  EXPECT_EQ(4, ticksUntilDue(atRest(), 255, -1)) << "56.8 counts at 11.9 + 4 a tick";
+  EXPECT_EQ(5, ticksUntilDue(atRest(), 255, -2)) << "a chain that brakes owes nothing for it";
+}
+
+TEST(DueTravel, BeginsAgainInTheOtherDirectionAndAtRest) {
+  DueTravel due = atRest();
+  for (int i = 0; i < 40; ++i) EXPECT_FALSE(due.look(160 * kMean, 0, 0)) << i;
+  EXPECT_FALSE(due.look(-160 * kMean, 0, 0));
+  EXPECT_EQ(51, ticksUntilDue(due, 160, 0));
+  due.rest();
+  EXPECT_EQ(51, ticksUntilDue(due, 160, 0));
+}
+
+TEST(DueTravel, LearnsForEachDirectionByItself) {
+  // The usual motor makes 0.002 turns a second for each step: 20 counts a tick ask for 123 steps,
+  // so 77 of 200 overcome friction and load, and with its margin 77 + 9 + 15 = 101.
+  const DueTravel forward = learned(200, 20, 500);
+  EXPECT_EQ(0, ticksUntilDue(forward, 100, 0));
+  EXPECT_NEAR(ticksUntilDue(forward, 121, 0), 27, 2);
+  EXPECT_EQ(0, ticksUntilDue(forward, -150, 0)) << "the other way it still needs 120";
+  EXPECT_EQ(51, ticksUntilDue(forward, -160, 0));
+  const DueTravel backward = learned(-200, -20, 500);
+  EXPECT_EQ(51, ticksUntilDue(backward, 160, 0));
+  EXPECT_NEAR(ticksUntilDue(backward, -121, 0), 27, 2);
+}
+
+TEST(DueTravel, SomethingIsAlwaysDueFromTheWhole) {
+  const DueTravel stiff = learned(255, 2, 1000);
+  EXPECT_EQ(0, ticksUntilDue(stiff, 210, 0));
+  EXPECT_EQ(51, ticksUntilDue(stiff, 220, 0)) << "210 is the most that it may need";
+}
+
+TEST(DueTravel, LearnsNothingFromOneThatHardlyTurnsOrNotEvenly) {
+  EXPECT_EQ(51, ticksUntilDue(learned(200, 1, 500), 160, 0)) << "a count a tick";
+  DueTravel uneven = atRest();
+  for (int i = 0; i < 500; ++i) uneven.look(200 * kMean, 20 * kMean, int16_t(i % 2 ? 22 : 18));
+  uneven.rest();
+  EXPECT_EQ(51, ticksUntilDue(uneven, 160, 0)) << "two counts from tick to tick";
+}

@@ -1,0 +1,135 @@
+// What each gain of the two loops does, tick by tick.
+#include <Motion.h>
+#include <gtest/gtest.h>
+
+using motion::AxisLoop;
+using motion::Gains;
+
+namespace {
+
+const float kTick = 0.01f, kCounts = 8113.73f;
+const float kPerMinute = 60 / kTick;  // ticks a minute
+const Gains kNone = {0, 0, 0, 1};
+
+AxisLoop loopWith(const Gains& position, const Gains& speed = kNone, float tick = kTick) {
+  AxisLoop loop;
+  loop.tune(position, speed, kCounts, tick);
+  loop.rest();
+  return loop;
+}
+
+}  // namespace
+
+TEST(Ahead, IsThreeHundredthsOfASecondToTheNearestTick) {
+  EXPECT_EQ(3, AxisLoop::ticksAhead(0.01f));
+  EXPECT_EQ(6, AxisLoop::ticksAhead(0.005f));
+  EXPECT_EQ(4, AxisLoop::ticksAhead(0.0085f)) << "3.53 ticks";
+  EXPECT_EQ(3, AxisLoop::ticksAhead(0.0087f)) << "3.45 ticks";
+}
+
+TEST(PositionGains, SpeedAskedForCountsWhereThereIsAnyGain) {
+  for (const float gain : {0.5f, 1300.0f}) {
+    AxisLoop loop = loopWith({gain, 0, 0, 1});
+    loop.follow(0, 0.001f, 0);
+    EXPECT_NEAR(double(loop.wanted()), 6, 1e-4) << "gain " << gain;
+  }
+  AxisLoop none = loopWith({0, 0, 0, 1});
+  none.follow(0, 0.001f, 0);
+  EXPECT_EQ(0, none.wanted());
+}
+
+TEST(PositionGains, EachActsAlone) {
+  AxisLoop proportional = loopWith({4, 0, 0, 1});
+  proportional.follow(0.5f, 0, 0);
+  EXPECT_NEAR(double(proportional.wanted()), 2, 1e-5);
+  proportional.follow(-0.5f, 0, 0);
+  EXPECT_NEAR(double(proportional.wanted()), -2, 1e-5);
+
+  AxisLoop derivative = loopWith({0, 0, 0.05f, 1});
+  derivative.follow(0.5f, 0, 0);
+  EXPECT_NEAR(double(derivative.wanted()), 0.05 / 0.01 * 0.5, 1e-5);
+  derivative.follow(0.25f, 0, 0);
+  EXPECT_NEAR(double(derivative.wanted()), -0.05 / 0.01 * 0.25, 1e-5);
+
+  AxisLoop integral = loopWith({0, 10, 0, 1});
+  for (int tick = 1; tick < 4; ++tick) {
+    integral.follow(0.5f, 0, 0);
+    EXPECT_NEAR(double(integral.wanted()), 10 * 0.01 * 0.5 * tick, 1e-5);
+  }
+}
+
+TEST(PositionGains, WeightMovesTheProportionalPartFromTheErrorToTheMeasure) {
+  AxisLoop loop = loopWith({4, 0, 0, 0.25f});
+  loop.follow(1, 0, 0);
+  EXPECT_NEAR(double(loop.wanted()), 4 * 0.25, 1e-5) << "a jump of the set-point";
+  loop.follow(0.75f, 0, 0.25f);
+  EXPECT_NEAR(double(loop.wanted()), 4 * 0.25 - 4 * 0.25, 1e-5) << "less 4 for each turn it came";
+  loop.tune({4, 0, 0, 1}, kNone, kCounts, kTick);
+  loop.follow(0.75f, 0, 0);
+  EXPECT_NEAR(double(loop.wanted()), 4 * 0.75, 1e-5) << "the whole of it acts on the error";
+  loop.tune({4, 0, 0, 0.25f}, kNone, kCounts, kTick);
+  loop.follow(0.75f, 0, 0);
+  EXPECT_NEAR(double(loop.wanted()), 4 * 0.25 * 0.75, 1e-5) << "what was summed is forgotten";
+}
+
+TEST(PositionGains, AnErrorOfACountIsNoneAtRest) {
+  const float count = 1 / kCounts;
+  for (const float sign : {-1.0f, 1.0f}) {
+    AxisLoop loop = loopWith({1300, 0, 0, 1});
+    loop.follow(sign * 1.49f * count, 0, 0);
+    EXPECT_EQ(0, loop.wanted());
+    loop.follow(sign * 1.51f * count, 0, 0);
+    EXPECT_NEAR(double(loop.wanted()), double(sign * 1300 * 1.51f * count), 1e-5);
+    loop.follow(sign * 1.49f * count, 1e-9f, 0);
+    EXPECT_NEAR(double(loop.wanted()), double(sign * 1300 * 1.49f * count), 1e-4) << "moving";
+  }
+}
+
+TEST(SpeedGains, ProportionalAddsToTheDutyAtEachTick) {
+  AxisLoop loop = loopWith(kNone, {2, 0, 0, 1});
+  EXPECT_EQ(20, loop.run(10));
+  EXPECT_EQ(40, loop.run(10));
+  EXPECT_EQ(20, loop.run(-10));
+  // At twice the rate each tick adds half.
+  AxisLoop quick = loopWith(kNone, {2, 0, 0, 1}, 0.005f);
+  EXPECT_EQ(10, quick.run(10));
+  EXPECT_EQ(20, quick.run(10));
+}
+
+TEST(SpeedGains, IntegralAddsWhatItSums) {
+  // Each tick the sum grows by 32 * 0.01 * 10 = 3.2; the duty is told in whole steps.
+  AxisLoop loop = loopWith(kNone, {0, 32, 0, 1});
+  for (const int duty : {3, 9, 19}) EXPECT_EQ(duty, loop.run(10));
+  loop.tune(kNone, {2, 0, 0, 1}, kCounts, kTick);
+  EXPECT_EQ(39, loop.run(10)) << "without the gain the sum is gone";
+  loop.tune(kNone, {0, 32, 0, 1}, kCounts, kTick);
+  EXPECT_EQ(42, loop.run(10)) << "and begins at zero";
+}
+
+TEST(SpeedGains, DerivativeBrakesAChangeOfSpeedThatNobodyAskedFor) {
+  AxisLoop loop = loopWith({1, 0, 0, 1}, {0, 0, 0.02f, 1});
+  EXPECT_EQ(0, loop.run(10)) << "a wish changes no speed";
+  loop.measure(2 * 3 / kPerMinute);
+  EXPECT_EQ(-6, loop.run(10)) << "3 turns a minute more, at 2 for each";
+  // Set-points that grow faster by as much ask for it: the speed is 1.5 by the smoothing.
+  AxisLoop led = loopWith({1, 0, 0, 1}, {0, 0, 0.02f, 1});
+  led.measure(2 * 3 / kPerMinute);
+  EXPECT_EQ(0, led.follow(0, 3 / kPerMinute, 0)) << "speed and set-points changed alike";
+}
+
+TEST(SpeedGains, WeightMovesTheProportionalPartFromTheErrorToTheMeasure) {
+  AxisLoop loop = loopWith(kNone, {7, 0, 0, 0.25f});
+  EXPECT_EQ(17, loop.run(10)) << "7 * 0.25 * 10 = 17.5";
+  loop.measure(2 * 3 / kPerMinute);
+  EXPECT_EQ(14, loop.run(10)) << "17.5 + 7 * 0.25 * 7 - 7 * 0.75 * 3";
+}
+
+TEST(Measure, IsTheMeanOfTheLastTicks) {
+  AxisLoop loop = loopWith(kNone);
+  loop.measure(6 / kPerMinute);
+  EXPECT_NEAR(double(loop.rpm()), 3, 1e-5);
+  loop.measure(6 / kPerMinute);
+  EXPECT_NEAR(double(loop.rpm()), 4.5, 1e-5);
+  loop.rest();
+  EXPECT_EQ(0, loop.rpm());
+}

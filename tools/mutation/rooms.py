@@ -1,0 +1,46 @@
+"""The rooms that are mutated, their files, and the suites that judge them, the nearest first."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from cxx import CxxRoom
+from cxx_build import Build, flags_of, layout_of
+
+ROOT = Path(__file__).resolve().parents[2]
+FOLDER = ROOT / ".build/mutation"
+BORROWED = ROOT / ".pio/libdeps/native"
+
+
+@dataclass(frozen=True)
+class Room:
+    """A name for the command line, and what makes the room's mutants and judges them."""
+
+    name: str
+    open: Callable
+
+
+def cxx(name: str, *suites: str) -> Room:
+    """A folder of C++."""
+
+    def opened(is_quick: bool) -> CxxRoom:
+        folder = ROOT / name
+        source = folder / "src" if (folder / "src").is_dir() else folder
+        files = sorted(path for path in source.rglob("*") if path.suffix in (".h", ".cpp"))
+
+        def build() -> Build:
+            place = FOLDER / name.replace("/", "_")
+            return Build(ROOT, place, layout_of(ROOT, list(suites)), BORROWED, flags_of(ROOT))
+
+        return CxxRoom(ROOT, [path.relative_to(ROOT) for path in files], build, is_quick)
+
+    return Room(name, opened)
+
+
+ROOMS = (
+    cxx("lib/Kinematics", "test_kinematics", "test_effects"),
+    cxx("lib/Motion", "test_motion", "test_control"),
+    cxx("lib/GCode", "test_gcode"),
+    cxx("lib/Settings", "test_settings"),
+    cxx("src/machine", "test_machine", "test_control", "test_dialogues"),
+)
