@@ -15,7 +15,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 NINJA = HERE.parents[1] / ".venv/bin/ninja"
-COPIED = ("include", "lib", "src", "test")
+COPIED = ("include", "lib", "src", "test", "tools/judge", "tools/core")
 ERROR = re.compile(r"^(\S+?):(\d+):\d+: (?:fatal )?(error|note):", re.MULTILINE)
 # Compiles faster than -O2, and no test takes longer.
 OPTIMISED = ["-O1", "-w"]
@@ -44,7 +44,14 @@ class Layout:
 def layout_of(root: Path, suites: list[str]) -> Layout:
     """Plumb's own layout, as platformio.ini has it."""
     shared = [*root.glob("lib/*/src/**/*.cpp"), *root.glob("src/machine/**/*.cpp")]
-    includes = ["include", "src", *sorted(root.glob("lib/*/src")), "test"]
+    includes = [
+        "include",
+        "src",
+        *sorted(root.glob("lib/*/src")),
+        "test",
+        "tools/judge",
+        "tools/core",
+    ]
     return Layout(
         {name: Path("test") / name for name in suites},
         tuple(sorted(path.relative_to(root) for path in shared)),

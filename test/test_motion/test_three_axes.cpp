@@ -1,0 +1,130 @@
+// Moves over three axes, alone and mixed: every set-point lies on them, and its leg says how fast.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "plain.h"
+
+using namespace motion;
+
+namespace {
+
+const Limits kQuick = {300, 200, 1000, 40, 0.05f};
+
+double distanceToLine(const Asked& place, const Asked& a, const Asked& b) {
+  const double x = b.x - a.x, y = b.y - a.y, z = b.z - a.z, squared = x * x + y * y + z * z;
+  double share = ((place.x - a.x) * x + (place.y - a.y) * y + (place.z - a.z) * z) /
+                 (squared > 0 ? squared : 1);
+  share = std::min(1.0, std::max(0.0, share));
+  return distance(place, {a.x + share * x, a.y + share * y, a.z + share * z});
+}
+
+/// Moves of all kinds: along the sheet, of z alone, of both, and short ones.
+std::vector<Asked> randomCorners(unsigned seed, int count) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> way(-20, 20);
+  std::vector<Asked> corners = {{0, 0, 0}};
+  for (int i = 0; i < count; ++i) {
+    Asked next = corners.back();
+    const unsigned kind = random() % 4;
+    const double scale = random() % 3 == 0 ? 0.05 : 1;
+    if (kind != 0) next.x += scale * way(random), next.y += scale * way(random);
+    if (kind < 2) next.z += 0.3 * scale * way(random);
+    corners.push_back(next);
+  }
+  return corners;
+}
+
+}  // namespace
+
+TEST(ThreeAxes, EverySetPointLiesOnTheMoves) {
+  for (unsigned seed = 1; seed < 6; ++seed) {
+    const std::vector<Asked> corners = randomCorners(seed, 60);
+    Plain plain(kQuick);
+    for (const Asked& corner : corners) {
+      if (&corner != &corners[0])
+        plain.lineTo(float(corner.x), float(corner.y), float(corner.z), 25);
+    }
+    plain.run();
+    size_t passed = 1;
+    for (const Asked& place : plain.asked) {
+      // Forward only: the move in hand or a later one.
+      while (passed + 1 < corners.size() &&
+             distanceToLine(place, corners[passed - 1], corners[passed]) > 0.003)
+        ++passed;
+      ASSERT_LT(distanceToLine(place, corners[passed - 1], corners[passed]), 0.003)
+          << "seed " << seed << ", move " << passed;
+    }
+    EXPECT_GE(passed, corners.size() - 2) << seed;  // the last may be as short as that
+    EXPECT_EQ(toCounts(float(corners.back().x)), plain.now.left) << seed;
+    EXPECT_EQ(toCounts(float(corners.back().y)), plain.now.right) << seed;
+    EXPECT_EQ(toCounts(float(corners.back().z)), plain.now.z) << seed;
+  }
+}
+
+TEST(ThreeAxes, LegsSayHowFarTheyLeadAndHowFastThatMayChange) {
+  for (const Asked& to : {Asked{30, 0, 0}, {0, 0, 9}, {20, 15, 6}, {0, 0, -9}}) {
+    Plain plain(kQuick);
+    plain.lineTo(float(to.x), float(to.y), float(to.z), 12);
+    const double length = distance(to, {0, 0, 0});
+    const double across = std::hypot(to.x, to.y), rise = std::fabs(to.z);
+    double acceleration = 1e9;
+    if (across > 0) acceleration = 300 * length / across;
+    if (rise > 0) acceleration = std::min(acceleration, 200 * length / rise);
+    SetPoint before = {0, 0, 0};
+    Leg leg;
+    double legs = 0;
+    for (;; ++legs) {
+      plain.mover.fill(plain.set_points, plain.inverse);
+      if (!plain.set_points.take(leg)) break;
+      const double way = std::sqrt(std::pow(leg.to.left - before.left, 2.0) +
+                                   std::pow(leg.to.right - before.right, 2.0) +
+                                   std::pow(leg.to.z - before.z, 2.0));
+      // The last leg ends where the move does, wherever its speed would lead.
+      if (!plain.mover.isIdle()) {
+        EXPECT_NEAR(leg.way, way, 12) << legs << ", " << to.x << " " << to.z;
+      }
+      EXPECT_NEAR(leg.gain, acceleration * 1e-4 * kCountsPerMm, 2) << legs;
+      EXPECT_EQ(0, leg.beam) << "nobody asked for a beam";
+      before = leg.to;
+    }
+    EXPECT_GT(legs, 30);
+  }
+}
+
+TEST(ThreeAxes, RunningDryIsCountedOnceEachTime) {
+  Plain plain;
+  plain.lineTo(500, 0);
+  for (int i = 0; i < 100; ++i) plain.tick();
+  EXPECT_EQ(0, plain.mover.timesDry());
+  for (int round = 1; round <= 2; ++round) {
+    for (int i = 0; i < 30; ++i) plain.tickAlone();
+    for (int i = 0; i < 50; ++i) plain.tick();
+  }
+  EXPECT_EQ(2, plain.mover.timesDry());
+  EXPECT_EQ(0, plain.mover.timesDry()) << "since it was last asked";
+}
+
+TEST(ThreeAxes, AWayThatIsForgottenLeavesZWhereItStands) {
+  Plain plain(kQuick);
+  plain.lineTo(40, 0, 10);
+  for (int i = 0; i < 100; ++i) plain.tick();
+  plain.mover.forget();
+  plain.set_points.clear();
+  plain.playback.reset();
+  const SetPoint stood = plain.mover.last();
+  ASSERT_GT(stood.z, 0);
+  EXPECT_TRUE(plain.mover.isIdle());
+  EXPECT_EQ(0, plain.mover.walk().speed);
+  // The next move begins there: z goes on from where it stands, evenly.
+  plain.at = {toMm<float>(stood.left), toMm<float>(stood.right)};
+  plain.asked.clear();
+  plain.now = stood;
+  plain.lineTo(plain.at.x + 8, plain.at.y, 0);
+  plain.run();
+  EXPECT_EQ(0, plain.now.z);
+  const double x0 = toMm<double>(stood.left), z0 = toMm<double>(stood.z);
+  for (const Asked& place : plain.asked)
+    EXPECT_NEAR(place.z, z0 * (1 - (place.x - x0) / 8), 0.003) << place.x;
+}
