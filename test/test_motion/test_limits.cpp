@@ -106,6 +106,28 @@ TEST(Steepest, IsThatOfTheChainThatChangesMostAtEitherEnd) {
   }
 }
 
+TEST(Steepest, OfAnArcAndThroughASprocketIsTheWholeWay) {
+  const Sprockets<double> sprockets = {{-1000, 0}, {1000, 0}, {0.002, 0, 0}};
+  const Path<double> round =
+      arc(Point<double>{0, -500}, {10, -490}, {0, -490}, Turn::kCounterclockwise);
+  EXPECT_NEAR(steepest(round, sprockets), 1.002, 1e-9);
+  EXPECT_NEAR(steepest(line(Point<double>{-1000, 0}, {-1000, -300}), sprockets), 1.002, 1e-9);
+}
+
+TEST(Surroundings, AreThoseOfTheNearerSprocket) {
+  const Sprockets<double> sprockets = {{-1000, 200}, {1000, 100}, {0.1, 0.2, 0.3}};
+  for (const double side : {-1.0, 1.0}) {
+    const double height = side < 0 ? 200 : 100;
+    const Path<double> below = line(Point<double>{side * 980, -400}, {side * 1020, -400});
+    EXPECT_NEAR(surroundingsOf(below, sprockets).nearest, 400 + height, 1e-9) << side;
+    const Path<double> through = line(Point<double>{side * 1000, -9}, {side * 1000, 500});
+    EXPECT_EQ(1, surroundingsOf(through, sprockets).nearest) << "no nearer than a millimetre";
+    EXPECT_EQ(0.1, surroundingsOf(below, sprockets).effects.first);
+    EXPECT_EQ(0.2, surroundingsOf(below, sprockets).effects.second);
+    EXPECT_EQ(0.3, surroundingsOf(below, sprockets).effects.third);
+  }
+}
+
 TEST(Steepest, OfEachEndAlone) {
   const Sprockets<double> sprockets = {{-1000, 0}, {1000, 0}, {0, 0, 0}};
   // Each line runs to or from the foot under one sprocket; there that chain stands still.
