@@ -18,8 +18,10 @@ from plumb.pages.fingerprints import (
     FRAME_STEPS,
     ROWS,
     SHEET,
+    Array,
     Case,
     Field,
+    Fields,
     every_field,
     field_of,
     label_with_size,
@@ -34,7 +36,6 @@ PAGE = "docs/effects.md"
 PICTURES = "docs/pictures/effects"
 DRAWN_COLUMNS, DRAWN_ROWS = 9, 5
 _FRAME_NUMBERS = ", ".join(f"`{name}`" for name in FRAME_STEPS)
-Fields = Mapping[str, Sequence[tuple[Case, Field]]]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -97,7 +98,7 @@ def picture(effect: str, cases: Sequence[tuple[Case, Field]]) -> str:
     for case, whole in cases:
         drawn = field_of(case, columns=DRAWN_COLUMNS, rows=DRAWN_ROWS)
         grid = (DRAWN_ROWS, DRAWN_COLUMNS, 2)
-        sent, raw, shape = (one.reshape(grid) for one in (drawn.sent, drawn.raw, drawn.shape))
+        sent, raw, shape = (places.reshape(grid) for places in (drawn.sent, drawn.raw, drawn.shape))
         left = Picture(f"as it is: {_sizes(whole.raw)}", sent, raw)
         right = Picture(f"its shape: {_sizes(whole.shape)}", sent, shape)
         if not whole.has_shape:
@@ -110,7 +111,7 @@ def page(effects: Sequence[Mapping[str, Any]], fields: Fields) -> str:
     """The text of docs/effects.md."""
     parts = [HEAD, table_of_all(effects, fields), "## How to read this page", READING]
     parts += [section(effect, fields) for effect in effects]
-    parts += [no_cause(one) for one in empirical_effects()]
+    parts += [no_cause(patch) for patch in empirical_effects()]
     return "\n\n".join(parts) + "\n"
 
 
@@ -121,13 +122,13 @@ HEAD = f"""\
 
 What moves the sled, or its marks, away from where they should be. Effects of the *firmware* have
 settings, and the machine undoes them. Effects of the *lab* lie in what is measured:
-{NO_FIRMWARE}. They are found, told with their cure, and kept out of the settings.
-Worst: the largest error on the sheet while the effect has its typical size and nobody knows of
-it."""
+{NO_FIRMWARE}. The lab fits them, names the cure, and keeps them out of the settings.
+Worst: the largest error on the sheet while the effect has its typical size and the settings
+do not know it."""
 
 READING = f"""\
 Numbers hold for the default machine (motors 2978.4 mm apart, sled of 97.9 N) with sag and stretch
-at their typical sizes. One effect at its typical size is there and the machine knows nothing of it;
+at their typical sizes. A single effect has its typical size and the settings do not know it;
 {COLUMNS} x {ROWS} marks lie up to 1150 mm to both sides and 550 mm above and below the middle of a
 2438.4 x 1219.2 mm sheet.
 
@@ -136,11 +137,11 @@ at their typical sizes. One effect at its typical size is there and the machine 
   shape makes parts the wrong size; the rest moves the job on the sheet.
 - **RMS** and **worst**: of the lengths of all errors.
 - **Pictures**: a circle is where a mark was sent, its arrow points to where it lands, many times
-  too long. A thin line joins the tips of a row: so a straight row of cuts would bend. Each sheet
-  has its own scale.
-- **Look-alikes** are worked out: the cosine of the angle between two shapes, the nearest ones of
+  too long. A thin line joins the tips of a row: so a straight row of cuts would bend. The scale
+  differs from sheet to sheet.
+- **Look-alikes** are worked out: the cosine of the angle between two shapes, the nearest of
   any of an effect's parameters. 1 is the same shape, -1 the same with the other sign, 0 nothing in
-  common. Beyond 0.9 either way, marks on one sheet hardly tell two causes apart.
+  common. Beyond 0.9 either way, marks on a single sheet hardly tell two causes apart.
   Besides effects, these numbers of the frame are compared: {_FRAME_NUMBERS}."""
 
 
@@ -149,11 +150,11 @@ def table_of_all(effects: Sequence[Mapping[str, Any]], fields: Fields) -> str:
     lines = ["| effect | settings | worst, mm | worst of its shape, mm | firmware or lab |"]
     lines.append("|---|---|---|---|---|")
     for effect in effects:
-        own = [field for _, field in fields[effect["name"]]]
+        cases_fields = [field for _, field in fields[effect["name"]]]
         numbers = [p["setting"] for p in effect["parameters"] if p["setting"] is not None]
         settings = ", ".join(f"${number}" for number in numbers) or "none"
-        raw = max(worst(field.raw) for field in own)
-        shape = max(worst(field.shape) for field in own)
+        raw = max(worst(field.raw) for field in cases_fields)
+        shape = max(worst(field.shape) for field in cases_fields)
         name = effect["name"]
         lines.append(
             f"| [{name}](#{name}) | {settings} | {raw:.1f} | {shape:.1f} | {effect['where']} |"
@@ -162,7 +163,7 @@ def table_of_all(effects: Sequence[Mapping[str, Any]], fields: Fields) -> str:
 
 
 def section(effect: Mapping[str, Any], fields: Fields) -> str:
-    """Everything about one effect."""
+    """Everything about an effect."""
     name = effect["name"]
     lab = f" ({effect['where']}: {NO_FIRMWARE})" if effect["where"] == "lab" else ""
     return "\n\n".join(
@@ -179,17 +180,17 @@ def section(effect: Mapping[str, Any], fields: Fields) -> str:
     )
 
 
-def no_cause(one: Mapping[str, Any]) -> str:
+def no_cause(patch: Mapping[str, Any]) -> str:
     """What the firmware can apply though it is no effect."""
-    own = one["parameters"]
+    parameters = patch["parameters"]
     return "\n\n".join(
         [
-            f"## {one['name']}",
-            f"**No cause, and never a suspect**: {one['summary'].partition(': ')[2]}. "
-            f"`plumb add --patch` fits it, knowingly; {one['remedy']}.",
-            f"Its {len(own)} numbers ({_range(own)}, {own[0]['unit']}) are the sizes of smooth "
-            f"terms over the sheet, for the left chain and for the right: {_names(own)}. Each x "
-            "or y stands for one degree in that direction.",
+            f"## {patch['name']}",
+            f"**No cause, and never a suspect**: {patch['summary'].partition(': ')[2]}. "
+            f"`plumb add --patch` fits it, knowingly; {patch['remedy']}.",
+            f"Its {len(parameters)} numbers ({_range(parameters)}, {parameters[0]['unit']}) are "
+            "the sizes of smooth terms over the sheet, for the left chain and for the right: "
+            f"{_names(parameters)}. Each x or y is a degree in that direction.",
         ]
     )
 
@@ -199,17 +200,18 @@ def _range(parameters: Sequence[Mapping[str, Any]]) -> str:
 
 
 def _names(parameters: Sequence[Mapping[str, Any]]) -> str:
-    return ", ".join(f"`{one['name']}`" for one in parameters)
+    return ", ".join(f"`{parameter['name']}`" for parameter in parameters)
 
 
 def _parameters(effect: Mapping[str, Any]) -> str:
     lines = ["| parameter | unit | setting | plausible | typical | what it is |"]
     lines.append("|---|---|---|---|---|---|")
-    for one in effect["parameters"]:
-        setting = "none" if one["setting"] is None else f"${one['setting']}"
+    for parameter in effect["parameters"]:
+        setting = "none" if parameter["setting"] is None else f"${parameter['setting']}"
+        plausible = f"{parameter['low']:g} to {parameter['high']:g}"
         lines.append(
-            f"| `{one['name']}` | {one['unit']} | {setting} | {one['low']:g} to {one['high']:g} | "
-            f"{one['typical']:g} | {one['summary']} |"
+            f"| `{parameter['name']}` | {parameter['unit']} | {setting} | {plausible} | "
+            f"{parameter['typical']:g} | {parameter['summary']} |"
         )
     return "\n".join(lines)
 
@@ -226,19 +228,19 @@ def _size_table(cases: Sequence[tuple[Case, Field]]) -> str:
 
 def _alike(name: str, fields: Fields) -> str:
     """The computed look-alikes in words."""
-    found = look_alikes(name, fields)
-    if found:
-        return ", ".join(f"`{one.name}` {one.cosine + 0.0:.2f}" for one in found)
+    nearest = look_alikes(name, fields)
+    if nearest:
+        return ", ".join(f"`{alike.name}` {alike.cosine + 0.0:.2f}" for alike in nearest)
     shapeless = [
         f"`{other}`"
         for other, cases in fields.items()
         if other != name and not any(field.has_shape for _, field in cases)
     ]
     others = " and ".join([*shapeless, "`sheet_rotation`"])
-    return f"it has no shape of its own, so everything that shifts and turns the sheet: {others}"
+    return f"it has no shape, so everything that shifts and turns the sheet: {others}"
 
 
-def _sizes(errors: Any) -> str:
+def _sizes(errors: Array) -> str:
     return f"{rms(errors):.2f} mm RMS, worst {worst(errors):.2f}"
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -22,7 +22,7 @@ from plumb.model.catalogue import (
     parameter_words,
 )
 from plumb.model.predict import FOUND, frame_words, library, values_of
-from plumb.settings.machine import MachineSettings
+from plumb.settings.machine import MachineSettings, frame_of
 
 Array = np.ndarray
 SHEET = (2438.4, 1219.2)  # [mm]
@@ -35,7 +35,7 @@ SHAPELESS = 0.02  # [share of the raw error] below which there is no shape to sp
 
 @dataclass(frozen=True)
 class Case:
-    """One way in which an effect shows: some of its parameters at their typical size."""
+    """A way in which an effect shows: some of its parameters at their typical size."""
 
     label: str
     parameters: Mapping[str, float]  # by full name, or numbers of the frame [mm] off
@@ -56,6 +56,9 @@ class Field:
         return rms(self.shape) > SHAPELESS * rms(self.raw)
 
 
+Fields = Mapping[str, Sequence[tuple[Case, Field]]]
+
+
 @dataclass(frozen=True)
 class LookAlike:
     """Another cause with a similar shape."""
@@ -71,37 +74,37 @@ def default_machine() -> MachineSettings:
         sheet_width=width,
         sheet_height=height,
         feed="top",
-        **{one["name"]: one["usual"] for one in frame_words()},
+        **frame_of({number["name"]: number["usual"] for number in frame_words()}),
     )
     effects = {
-        one["name"]: {own["name"]: own["typical"] for own in one["parameters"]}
-        for one in library()
-        if one["name"] in EVERY_MACHINE
+        effect["name"]: {each["name"]: each["typical"] for each in effect["parameters"]}
+        for effect in library()
+        if effect["name"] in EVERY_MACHINE
     }
     return replace(plain, effects=effects)
 
 
 def cases_of(effect: Mapping[str, Any]) -> list[Case]:
     """The ways in which an effect is shown: each parameter, both sides alike, both approaches."""
-    own = {f"{effect['name']}.{one['name']}": one["typical"] for one in effect["parameters"]}
-    cases = [Case(name.rpartition(".")[2], {name: value}) for name, value in own.items()]
-    if [one.label for one in cases] == ["left", "right"]:
-        cases.append(Case("both alike", own))
+    typical = {f"{effect['name']}.{each['name']}": each["typical"] for each in effect["parameters"]}
+    cases = [Case(name.rpartition(".")[2], {name: value}) for name, value in typical.items()]
+    if [case.label for case in cases] == ["left", "right"]:
+        cases.append(Case("both alike", typical))
     if is_felt_by_approach(effect["name"]):
         ways = (("approached moving right", RIGHT), ("approached moving up", UP))
-        cases = [Case(f"{one.label}, {way}", own, to) for one in cases for way, to in ways]
+        cases = [Case(f"{case.label}, {way}", typical, to) for case in cases for way, to in ways]
     return cases
 
 
 def field_of(case: Case, *, columns: int = COLUMNS, rows: int = ROWS) -> Field:
-    """The field of one case on a grid of marks over the sheet."""
+    """The field of a case on a grid of marks over the sheet."""
     across, up = np.linspace(-EDGE[0], EDGE[0], columns), np.linspace(EDGE[1], -EDGE[1], rows)
     sent = np.array([(x, y) for y in up for x in across])
     true, believed, outside = _machines(case)
     marks = tuple(
         Mark(str(i), (float(x), float(y)), approach=case.approach) for i, (x, y) in enumerate(sent)
     )
-    found = sighted(
+    sighting = sighted(
         values_of(true),
         outside,
         observe(believed, Measurements(marks)),
@@ -109,15 +112,16 @@ def field_of(case: Case, *, columns: int = COLUMNS, rows: int = ROWS) -> Field:
         usual_weight=true.sled_weight,
         names=(),
     )
-    if (found.found != FOUND).any():
+    if (sighting.found != FOUND).any():
         raise ValueError(f"{case.label}: the default machine cannot reach every mark")
-    landed = found.read.where
+    landed = sighting.read.where
     pose = best_pose(sent, landed)
+    assert pose, "a grid of marks has a shape"
     return Field(sent, landed - sent, pose.errors)
 
 
 def _machines(case: Case) -> tuple[MachineSettings, MachineSettings, dict[str, float]]:
-    """The true machine, the one that is believed in, and what lies outside of both."""
+    """The true machine, the machine by the settings, and what lies outside of both."""
     true = believed = default_machine()
     outside = {}
     for name, value in case.parameters.items():
@@ -127,40 +131,44 @@ def _machines(case: Case) -> tuple[MachineSettings, MachineSettings, dict[str, f
         elif is_lab(effect) or is_sketch(effect):
             outside[name] = value
         elif effect in EVERY_MACHINE:
-            others = {key: own for key, own in believed.effects.items() if key != effect}
+            others = {name: sizes for name, sizes in believed.effects.items() if name != effect}
             believed = replace(believed, effects=others)
         else:
-            own = {**true.effects.get(effect, {}), parameter: value}
-            true = replace(true, effects={**true.effects, effect: own})
+            sizes = {**true.effects.get(effect, {}), parameter: value}
+            true = replace(true, effects={**true.effects, effect: sizes})
     return true, believed, outside
 
 
 def every_field() -> dict[str, list[tuple[Case, Field]]]:
     """The fields of all cases of all effects, and of the frame's numbers that marks feel."""
-    cases = {one["name"]: cases_of(one) for one in every_effect()}
+    cases = {effect["name"]: cases_of(effect) for effect in every_effect()}
     cases |= {name: [Case(name, {name: step})] for name, step in FRAME_STEPS.items()}
-    return {name: [(case, field_of(case)) for case in own] for name, own in cases.items()}
+    return {
+        name: [(case, field_of(case)) for case in cases_shown]
+        for name, cases_shown in cases.items()
+    }
 
 
-def look_alikes(
-    name: str, fields: Mapping[str, list[tuple[Case, Field]]], *, most: int = 3
-) -> list[LookAlike]:
-    """The other causes whose shape comes nearest to any of this one's, nearest first."""
+def look_alikes(name: str, fields: Fields, *, most: int = 3) -> list[LookAlike]:
+    """The other causes whose shape comes nearest to any shape of this effect, nearest first."""
     mine = [field for _, field in fields[name] if field.has_shape]
-    found = []
+    alikes = []
     for other, cases in fields.items():
         cosines = [
-            cosine(one.shape, field.shape) for one in mine for _, field in cases if field.has_shape
+            cosine(shown.shape, field.shape)
+            for shown in mine
+            for _, field in cases
+            if field.has_shape
         ]
         if other != name and cosines:
-            found.append(LookAlike(other, max(cosines, key=abs)))
+            alikes.append(LookAlike(other, max(cosines, key=abs)))
     # Rounded first, so that the order does not hang on the last bits.
-    return sorted(found, key=lambda one: (-round(abs(one.cosine), 2), one.name))[:most]
+    return sorted(alikes, key=lambda alike: (-round(abs(alike.cosine), 2), alike.name))[:most]
 
 
-def cosine(one: Array, other: Array) -> float:
-    """Of the angle between two fields (n, 2), taken as one long vector each."""
-    return float(np.sum(one * other) / (np.linalg.norm(one) * np.linalg.norm(other)))
+def cosine(first: Array, second: Array) -> float:
+    """Of the angle between two fields (n, 2), each taken as a long vector."""
+    return float(np.sum(first * second) / (np.linalg.norm(first) * np.linalg.norm(second)))
 
 
 def worst(errors: Array) -> float:

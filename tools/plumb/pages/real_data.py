@@ -42,7 +42,7 @@ HEAD = f"""\
 
 <!-- Written by `python -m {COMMAND}` from tools/plumb/examples. Do not edit this page. -->
 
-What the lab says of every published set of measured positions that could be found: what was fitted,
+What the lab says of every published set of measured positions that we know: what was fitted,
 the verdict of `plumb diagnose`, and what the numbers cannot tell. The files are in
 [tools/plumb/examples](../tools/plumb/examples), each with its source and its doubts; the numbers
 are those of their authors. Nobody stated a reading error, and nearly nobody read anything twice:
@@ -81,27 +81,27 @@ def pages() -> dict[str, str]:
     }
 
 
-def verdict_line(found: Diagnosis) -> str:
-    """The verdict and, in the lab's own words, its sentence."""
-    return f"`{found.verdict}`: {verdict_sentence(found)}"
+def verdict_line(diagnosis: Diagnosis) -> str:
+    """The verdict and the sentence of the lab."""
+    return f"`{diagnosis.verdict}`: {verdict_sentence(diagnosis)}"
 
 
 def _nine_section(nine: RealSet) -> str:
     flipped = RealSet(nine.name, nine.settings, with_y_errors_flipped(nine.marks))
     rows, said = [], []
-    for one, sign in ((nine, "as published"), (flipped, "y the other way")):
-        fitted = one.with_effects("chain_pitch", "chain_sag")
+    for board, sign in ((nine, "as published"), (flipped, "y the other way")):
+        fitted = board.with_effects("chain_pitch", "chain_sag")
         rows.append(
             [
                 sign,
-                mm(one.raw.rms),
-                mm(one.raw.shape_rms),
+                mm(board.raw.rms),
+                mm(board.raw.shape_rms),
                 mm(fitted.before.fit_rms),
                 mm(fitted.after.fit_rms),
                 mm(fitted.after.left_out_rms),
             ]
         )
-        said.append(f"- *{sign}*: {verdict_line(one.diagnosed())}")
+        said.append(f"- *{sign}*: {verdict_line(board.diagnosed())}")
     header = ["sign of y", "as set", "shape", "frame fitted", "+ pitch and sag", "left out"]
     return "\n\n".join(
         [
@@ -114,7 +114,7 @@ def _nine_section(nine: RealSet) -> str:
             "\n".join(said),
             "It cannot tell which settings were in force, and so not what the fitted sizes mean: a "
             "fitted sag is the sag that "
-            "*remains* beside an unknown correction. `tools/demo` shows the same marks step by "
+            "*remains* under an unknown correction. `tools/demo` shows the same marks step by "
             "step.",
             "![nine marks: errors as set, and their "
             f"shape](pictures/{Path(PICTURES).name}/mibproj.svg)",
@@ -123,22 +123,22 @@ def _nine_section(nine: RealSet) -> str:
 
 
 def _fifteen_section(fifteen: RealSet) -> str:
-    found, raw = fifteen.diagnosed(), fifteen.raw
-    largest = {one.effect: one for one in found.could_hide}
-    down = dict((name, size) for name, size, _ in largest["frame_flex"].limits)["downward"]
+    diagnosis, raw = fifteen.diagnosed(), fifteen.raw
+    shift = raw.shift[1] if raw.shift else None
+    stretch = next(each.mm for each in diagnosis.could_hide if each.effect == "chain_stretch")
     return "\n\n".join(
         [
             "## Fifteen marks of c0depr1sm (2019)",
             "The best tuned machine of all, with settings that are LIKELY and physical (sled and "
             "chain weighed). "
-            f"{mm(raw.rms)} RMS as set, of which a plain shift of {mm(raw.shift[1])} in y is the "
+            f"{mm(raw.rms)} RMS as set, of which a plain shift of {mm(shift)} in y is the "
             "most; "
-            f"{mm(raw.shape_rms)} are shape, {mm(found.rms_before)} with the frame fitted.",
-            verdict_line(found),
+            f"{mm(raw.shape_rms)} are shape, {mm(diagnosis.rms_before)} with the frame fitted.",
+            verdict_line(diagnosis),
             "What fifteen single readings leave open: every effect's largest size that would still "
             "go unnoticed here, such as a "
-            f"beam whose tips give {down:.3f} mm/N, or {mm(largest['chain_stretch'].mm)} of chain "
-            "stretch more or less (nearly "
+            f"beam whose tips give {largest_tip_give(diagnosis):.3f} mm/N, or {mm(stretch)} of "
+            "chain stretch more or less (nearly "
             "all of it hidden in the frame).",
             "![fifteen marks: errors as set, and their "
             f"shape](pictures/{Path(PICTURES).name}/c0depr1sm.svg)",
@@ -149,16 +149,18 @@ def _fifteen_section(fifteen: RealSet) -> str:
 def _brackets_section() -> str:
     rows = []
     for name in BRACKETS:
-        one = real_set(name, "squares.toml", "as-triangular.ini")
-        found = one.diagnosed()
-        rows.append([name, len(one.marks.distances), mm(one.raw.rms), f"`{found.verdict}`"])
+        squares = real_set(name, "squares.toml", "as-triangular.ini")
+        diagnosis = squares.diagnosed()
+        rows.append(
+            [name, len(squares.marks.distances), mm(squares.raw.rms), f"`{diagnosis.verdict}`"]
+        )
     header = ["set", "widths and heights", "as set", "verdict"]
     return "\n\n".join(
         [
             "## Not this machine: sleds on two brackets",
             "Three sets come from the older sled with two brackets (quadrilateral kinematics). The "
             "lab's effects are those of a "
-            "sled on one ring or linkage, and it says so. A groundcontrol.ini of such a machine is "
+            "sled on a ring or linkage, and it says so. A groundcontrol.ini of such a machine is "
             "refused:",
             f"> {refusal_of(BRACKETS[0])}",
             "If the file calls the machine triangular nevertheless, squares measured by caliper "
@@ -166,8 +168,8 @@ def _brackets_section() -> str:
             markdown_table(header, rows),
             "The eleven spacings that gero read with a ruler are too few and too coarse for that: "
             "the lab asks to measure the "
-            "one of 495 mm again, which its owner had boxed too. Bar's two straight cuts (domed by "
-            "1.0 and 2.4 mm over 2 m) "
+            "spacing of 495 mm again, which its owner had boxed too. Bar's two straight cuts "
+            "(domed by 1.0 and 2.4 mm over 2 m) "
             "are heights above a chord: no marks, no settings, nothing to fit.",
         ]
     )
@@ -176,10 +178,9 @@ def _brackets_section() -> str:
 def _independent_section(fifteen: RealSet) -> str:
     """Single published numbers against what is fitted here."""
     gap, reach = fifteen.settings.motor_gap, 1170.0
-    # Moments: the tip on one side carries (gap / 2 + x) / gap of the sled.
+    # Moments: the tip on that side carries (gap / 2 + x) / gap of the sled.
     load = fifteen.settings.sled_weight * 2 * reach / gap
-    limits = {one.effect: one for one in fifteen.diagnosed().could_hide}["frame_flex"].limits
-    down = dict((name, size) for name, size, _ in limits)["downward"]
+    down = largest_tip_give(fifteen.diagnosed())
     short = [percent(by_tape / by_chain - 1) for by_tape, by_chain in PULLED]
     rows = [
         [
@@ -189,7 +190,7 @@ def _independent_section(fifteen: RealSet) -> str:
             "agrees" if 2 / load <= down else "does not agree",
         ],
         [
-            "bit beside the middle, c0depr1sm",
+            "bit off the middle, c0depr1sm",
             "about 1.5 mm to the right with zero chain tolerance (forum topic 8349)",
             f"{middle_shift(fifteen.settings):.1f} mm by his two chain lengths",
             "right side, not the size",
@@ -215,11 +216,18 @@ def _independent_section(fifteen: RealSet) -> str:
     )
 
 
+def largest_tip_give(diagnosis: Diagnosis) -> float:
+    """How far a beam's tips could give downwards [mm/N] without showing in the marks."""
+    limits = next(each.limits for each in diagnosis.could_hide if each.effect == "frame_flex")
+    sizes = {name: size for name, size, _ in limits}
+    return sizes["downward"] or 0.0
+
+
 PULLED = ((3111.0, 3102.13), (3719.6, 3710.57))  # [mm] gap by tape, and by a pulled chain
 
 
-def _picture(one: RealSet, rows: int) -> str:
-    raw: Comparison = one.raw
+def _picture(board: RealSet, rows: int) -> str:
+    raw: Comparison = board.raw
     sent = np.array([mark.predicted for mark in raw.marks])
     errors = np.array([mark.error for mark in raw.marks])
     order = np.lexsort((sent[:, 0], -np.round(np.array([m.target[1] for m in raw.marks]))))
@@ -237,7 +245,7 @@ def _picture(one: RealSet, rows: int) -> str:
             left[order].reshape(shape),
         ),
     )
-    return drawing(f"errors of {one.name}", [(one.name, pictures)], sheet=one.settings.sheet)
+    return drawing(f"errors of {board.name}", [(board.name, pictures)], sheet=board.settings.sheet)
 
 
 def _shape_errors(raw: Comparison) -> np.ndarray:
@@ -246,6 +254,7 @@ def _shape_errors(raw: Comparison) -> np.ndarray:
         np.array([mark.predicted for mark in raw.marks]),
         np.array([mark.measured for mark in raw.marks]),
     )
+    assert pose, "a board of marks has a shape"
     return pose.errors
 
 

@@ -1,4 +1,4 @@
-"""The part of docs/real-data.md on the drilled holes: before and after on one machine."""
+"""The part of docs/real-data.md on the drilled holes: before and after on the same machine."""
 
 from __future__ import annotations
 
@@ -30,19 +30,19 @@ def holes_section() -> str:
             "## Holes of madgrizzle (2018): before and after",
             "One machine, four boards within a week, each with known settings and two of them cut "
             "with what their owner had "
-            "fitted to the one before. Only distances between holes, so shift, turn and tilt "
+            "fitted to the board before. Only distances between holes, so shift, turn and tilt "
             "cannot be seen.",
             "**Each set by itself**, and the verdicts:",
             _alone(sets),
             _verdicts(sets),
-            "**Predicted before it was cut.** The frame and one effect, `chain_pitch`, fitted to "
+            "**Predicted before it was cut.** The frame and an effect, `chain_pitch`, fitted to "
             "the first set only; then the "
             "distances of the next set from the settings that were in force there. No number of "
             "the second set was used:",
             _before_and_after(sets),
             "**All four at once** (`plumb diagnose .../groundcontrol.ini .../*/marks.toml`: each "
             "file names the settings it was "
-            "cut with): one machine, one frame, two effect parameters for all.",
+            "cut with): the same machine, frame and two effect parameters for all.",
             _all_at_once(sets, together),
             _check_on_cuts(sets, together),
             _what_is_left(sets, together),
@@ -52,14 +52,14 @@ def holes_section() -> str:
 
 def _alone(sets: dict[str, RealSet]) -> str:
     rows = []
-    for name, one in sets.items():
-        fitted = one.with_effects("chain_pitch")
+    for name, holes in sets.items():
+        fitted = holes.with_effects("chain_pitch")
         pitch = _pitch(fitted.parameters)
         rows.append(
             [
                 name,
-                len(one.marks.distances),
-                mm(one.raw.rms),
+                len(holes.marks.distances),
+                mm(holes.raw.rms),
                 mm(fitted.before.fit_rms),
                 mm(fitted.after.fit_rms),
                 f"{percent(pitch[0].value)} / {percent(pitch[1].value)} %",
@@ -71,10 +71,10 @@ def _alone(sets: dict[str, RealSet]) -> str:
 
 def _verdicts(sets: dict[str, RealSet]) -> str:
     lines = []
-    for name, one in sets.items():
-        found = one.diagnosed()
-        lines.append(f"- {name}: `{found.verdict}`: {verdict_sentence(found)}")
-    quiet = [f"`{one.diagnosed(sigma=0.8).verdict}`" for one in sets.values()]
+    for name, holes in sets.items():
+        diagnosis = holes.diagnosed()
+        lines.append(f"- {name}: `{diagnosis.verdict}`: {verdict_sentence(diagnosis)}")
+    quiet = [f"`{holes.diagnosed(sigma=0.8).verdict}`" for holes in sets.values()]
     return "\n".join(
         [
             *lines,
@@ -87,14 +87,14 @@ def _verdicts(sets: dict[str, RealSet]) -> str:
 def _before_and_after(sets: dict[str, RealSet]) -> str:
     rows, records = [], _records(sets)
     for before, after in PAIRS:
-        own = sets[before].with_effects("chain_pitch")
-        found = predicted(own.settings, sets[after])
+        fitted = sets[before].with_effects("chain_pitch")
+        after_fit = predicted(fitted.settings, sets[after])
         rows.append(
             [
                 f"{before} → {after}",
                 mm(sets[before].raw.rms),
-                mm(own.after.fit_rms),
-                f"**{mm(found.rms)}**",
+                mm(fitted.after.fit_rms),
+                f"**{mm(after_fit.rms)}**",
                 mm(sets[after].raw.rms),
                 mm(records[after]),
             ]
@@ -115,18 +115,19 @@ def _all_at_once(sets: dict[str, RealSet], together: Pooled) -> str:
     rows = [
         [
             what,
-            *(mm(rms(found.own[name])) for name in HOLES),
-            mm(found.fitted.after.fit_rms),
-            mm(found.fitted.after.left_out_rms),
+            *(mm(rms(fit.errors[name])) for name in HOLES),
+            mm(fit.fitted.after.fit_rms),
+            mm(fit.fitted.after.left_out_rms),
         ]
-        for what, found in (("chain_pitch", together), ("chain_pitch + sled_swing", swing))
+        for what, fit in (("chain_pitch", together), ("chain_pitch + sled_swing", swing))
     ]
     header = ["effects", *(name.removeprefix("madgrizzle-") for name in HOLES), "all", "left out"]
     pitch = _pitch(together.fitted.parameters)
     shown = " and ".join(
-        f"{percent(one.value)} ({percent(one.low)} to {percent(one.high)}) %" for one in pitch
+        f"{percent(strain.value)} ({percent(strain.low)} to {percent(strain.high)}) %"
+        for strain in pitch
     )
-    bit = next(one for one in swing.fitted.parameters if one.name == "sled_swing.right")
+    bit = next(each for each in swing.fitted.parameters if each.name == "sled_swing.right")
     return "\n\n".join(
         [
             markdown_table(header, rows),
@@ -145,8 +146,8 @@ def _all_at_once(sets: dict[str, RealSet], together: Pooled) -> str:
 
 def _check_on_cuts(sets: dict[str, RealSet], together: Pooled) -> str:
     cuts = real_set(CUTS)
-    in_force = [one.error for one in cuts.raw.distances]
-    found = [one.error for one in predicted(together.settings, cuts).distances]
+    in_force = [distance.error for distance in cuts.raw.distances]
+    left_open = [distance.error for distance in predicted(together.settings, cuts).distances]
     return (
         "**A check on another cut.** Days before, the same machine had cut the marks of the "
         "published calibration with quite other "
@@ -154,15 +155,15 @@ def _check_on_cuts(sets: dict[str, RealSet], together: Pooled) -> str:
         "Their two widths were "
         f"{mm(in_force[0])} and {mm(in_force[1])} mm off. The machine fitted to the four hole sets "
         "predicts them within "
-        f"**{mm(found[0])}** and **{mm(found[1])}** mm."
+        f"**{mm(left_open[0])}** and **{mm(left_open[1])}** mm."
     )
 
 
 def _what_is_left(sets: dict[str, RealSet], together: Pooled) -> str:
     records = _records(sets)
-    beaten = [name for name, record in records.items() if rms(together.own[name]) < record]
+    beaten = [name for name, record in records.items() if rms(together.errors[name]) < record]
     other = {
-        words: pooled([mirrored(one, *signs) for one in sets.values()]).fitted.after.fit_rms
+        words: pooled([mirrored(holes, *signs) for holes in sets.values()]).fitted.after.fit_rms
         for words, signs in (
             ("top and bottom exchanged", (1, -1)),
             ("left and right", (-1, 1)),
@@ -171,28 +172,28 @@ def _what_is_left(sets: dict[str, RealSet], together: Pooled) -> str:
     }
     named = ", ".join(f"{words} {mm(value)}" for words, value in other.items())
     reached = (
-        f"below the owner's own figures in both sets ({mm(records[HOLES[1]])} and "
+        f"below the owner's figures in both sets ({mm(records[HOLES[1]])} and "
         f"{mm(records[HOLES[3]])})"
         if len(beaten) == len(records)
-        else f"below the owner's own figure in {len(beaten)} of {len(records)} sets"
+        else f"below the owner's figure in {len(beaten)} of {len(records)} sets"
     )
     return (
-        f"**What is left.** With one machine for all sets the error is {reached}. It hardly gets "
-        "lower by physics: the same distance, cut again, differs from set to set by "
+        f"**What is left.** With the same machine for all sets the error is {reached}. It hardly "
+        "gets lower by physics: the same distance, cut again, differs from set to set by "
         f"{mm(together.scatter)} mm "
         f"({together.scatter_degrees} degrees of freedom), and only {mm(together.steady)} mm RMS "
         "is the same in all sets. "
         "That scatter is of holes, not of the tape (most tape readings agree around a triangle "
         "within 0.2 mm): where the sled "
-        "stops depends on how it came, and nobody wrote that down. The first set is the odd one "
-        f"({mm(rms(together.own[HOLES[0]]))}). Which hole is which follows the later scripts; with "
-        "other names the fit of all sets gives: "
+        "stops depends on how it came, and nobody wrote that down. The first set differs most "
+        f"({mm(rms(together.errors[HOLES[0]]))}). Which hole is which follows the later scripts; "
+        "with other names the fit of all sets gives: "
         f"{named}, so the numbers do not decide that either."
     )
 
 
 def _records(sets: dict[str, RealSet]) -> dict[str, float]:
-    """What the owner's own fits left in the sets that he cut with them [mm RMS]."""
+    """What the owner's fits left in the sets that he cut with them [mm RMS]."""
     left = {}
     for _, after in PAIRS:
         marks = sets[after].marks
@@ -202,4 +203,4 @@ def _records(sets: dict[str, RealSet]) -> dict[str, float]:
 
 
 def _pitch(parameters: tuple[Parameter, ...]) -> list[Parameter]:
-    return [one for one in parameters if one.name.startswith("chain_pitch.")]
+    return [parameter for parameter in parameters if parameter.name.startswith("chain_pitch.")]

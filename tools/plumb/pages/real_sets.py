@@ -34,7 +34,7 @@ HOLE_EFFECTS = ("chain_pitch",)
 
 @dataclass(frozen=True)
 class RealSet:
-    """One published set: settings said to be in force, and marks."""
+    """A published set: settings said to be in force, and marks."""
 
     name: str
     settings: MachineSettings
@@ -45,9 +45,9 @@ class RealSet:
         """Against the settings as they stand."""
         return compare(self.settings, self.marks)
 
-    def diagnosed(self, **how: float) -> Diagnosis:
-        """What `plumb diagnose` says."""
-        return diagnose(Inputs(self.settings, self.marks, **how))
+    def diagnosed(self, *, sigma: float | None = None) -> Diagnosis:
+        """What `plumb diagnose` says; sigma is the reading error [mm]."""
+        return diagnose(Inputs(self.settings, self.marks, sigma=sigma))
 
     def with_effects(self, *effects: str) -> Addition:
         """What `plumb add` makes of it."""
@@ -56,29 +56,29 @@ class RealSet:
 
 @dataclass(frozen=True)
 class Pooled:
-    """All hole sets fitted together: one machine, the settings of each set in force."""
+    """All hole sets fitted together: a single machine, the settings of each set in force."""
 
     fitted: Addition
-    own: Mapping[str, np.ndarray]  # errors [mm] of each set's distances
-    scatter: float  # [mm] of one distance from set to set
+    errors: Mapping[str, np.ndarray]  # errors [mm] of each set's distances
+    scatter: float  # [mm] of a distance from set to set
     scatter_degrees: int
     steady: float  # [mm] RMS of what is the same in all sets
 
     @property
     def settings(self) -> MachineSettings:
-        """The one machine."""
+        """The machine of all sets."""
         return self.fitted.settings
 
 
 def real_set(name: str, marks: str = "marks.toml", settings: str = "groundcontrol.ini") -> RealSet:
-    """One set of examples/ by its folder."""
+    """A set of examples/ by its folder."""
     folder, known = EXAMPLES / name, known_effects()
     machine = read_settings(folder / settings, known=known)
     return RealSet(name, machine, read_marks(folder / marks, sheet=machine.sheet, known=known))
 
 
 def refusal_of(name: str) -> str:
-    """What the lab says of a set's own groundcontrol.ini; empty if it takes it."""
+    """What the lab says of the groundcontrol.ini of a set; empty if it takes it."""
     path = EXAMPLES / name / "groundcontrol.ini"
     try:
         read_settings(path, known=known_effects())
@@ -89,53 +89,57 @@ def refusal_of(name: str) -> str:
 
 def pooled(sets: Sequence[RealSet], effects: Sequence[str] = HOLE_EFFECTS) -> Pooled:
     """Fit several hole sets at once."""
-    marks = join_measurements([one.marks for one in sets])
+    marks = join_measurements([holes.marks for holes in sets])
     fitted = add(Inputs(sets[0].settings, marks), effects=effects)
-    own, first = {}, 0
-    for one in sets:
-        count = len(one.marks.distances)
-        own[one.name] = fitted.after_fit.distance_errors[first : first + count]
+    errors, first = {}, 0
+    for holes in sets:
+        count = len(holes.marks.distances)
+        errors[holes.name] = fitted.after_fit.distance_errors[first : first + count]
         first += count
-    groups = list(_by_span(sets, own).values())
-    squares = sum(float(np.sum((each - each.mean()) ** 2)) for each in groups)
-    degrees = sum(len(each) - 1 for each in groups)
+    groups = list(_by_span(sets, errors).values())
+    squares = sum(float(np.sum((repeats - repeats.mean()) ** 2)) for repeats in groups)
+    degrees = sum(len(repeats) - 1 for repeats in groups)
     return Pooled(
         fitted=fitted,
-        own=own,
+        errors=errors,
         scatter=float(np.sqrt(squares / degrees)),
         scatter_degrees=degrees,
-        steady=rms(np.array([each.mean() for each in groups])),
+        steady=rms(np.array([repeats.mean() for repeats in groups])),
     )
 
 
 def predicted(settings: MachineSettings, other: RealSet) -> Comparison:
-    """How well one machine predicts a set that took no part in its fit."""
+    """How well a machine predicts a set that took no part in its fit."""
     return compare(settings, other.marks)
 
 
-def mirrored(one: RealSet, across: float, up: float) -> RealSet:
+def mirrored(holes: RealSet, across: float, up: float) -> RealSet:
     """The set with its holes named the other way round: across or up is -1."""
     marks = tuple(
         replace(mark, target=(across * mark.target[0], up * mark.target[1]))
-        for mark in one.marks.marks
+        for mark in holes.marks.marks
     )
-    return replace(one, marks=replace(one.marks, marks=marks))
+    return replace(holes, marks=replace(holes.marks, marks=marks))
 
 
 def middle_shift(machine: MachineSettings) -> float:
     """How far right [mm] of the middle the bit goes if the controller knows no chain pitch."""
-    effects = {name: own for name, own in machine.effects.items() if name != "chain_pitch"}
+    effects = {
+        name: parameters for name, parameters in machine.effects.items() if name != "chain_pitch"
+    }
     chains = believed_lengths(replace(machine, effects=effects), np.zeros((1, 2)))
-    where, found = places(machine, chains)
-    if found[0] != FOUND:
+    where, outcome = places(machine, chains)
+    if outcome[0] != FOUND:
         raise InputError("the sled cannot hang in the middle of the sheet")
     return float(where[0, 0])
 
 
-def _by_span(sets: Sequence[RealSet], own: Mapping[str, np.ndarray]) -> dict[frozenset, np.ndarray]:
-    """Errors of each distance that several sets have, one for each set [mm]."""
-    groups: dict[frozenset, list[float]] = {}
-    for one in sets:
-        for span, error in zip(one.marks.distances, own[one.name], strict=True):
+def _by_span(
+    sets: Sequence[RealSet], errors_of: Mapping[str, np.ndarray]
+) -> dict[frozenset[str], np.ndarray]:
+    """Errors of each distance that several sets have [mm], in the order of the sets."""
+    groups: dict[frozenset[str], list[float]] = {}
+    for holes in sets:
+        for span, error in zip(holes.marks.distances, errors_of[holes.name], strict=True):
             groups.setdefault(frozenset(span.between), []).append(float(error))
     return {ends: np.array(errors) for ends, errors in groups.items() if len(errors) > 1}

@@ -11,12 +11,12 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from plumb.firmware.settings import Setting, every_setting, format_value
-from plumb.text.errors import InputError
-from plumb.text.files import write_all
+from plumb.pages.tables import file_writer
 
 PAGE = "docs/settings.md"
+COMMAND = "plumb.pages.settings"
 ANY_BUT_ZERO = 255
-LAST_PUBLISHED, FIRST_OWN, FIRST_EFFECT = 44, 60, 100
+LAST_PUBLISHED, FIRST_OF_OURS, FIRST_EFFECT = 44, 60, 100
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -25,34 +25,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--check", action="store_true", help="write nothing, exit 1 if stale")
     parser.add_argument("--folder", default=".", help="the project [%(default)s]")
     parsed = parser.parse_args(arguments)
-    path, text = Path(parsed.folder) / PAGE, page(every_setting())
-    if parsed.check:
-        fresh = path.is_file() and path.read_bytes() == text.encode()
-        if not fresh:
-            print(f"{PAGE}: stale; run .venv/bin/python -m plumb.pages.settings")
-        return int(not fresh)
-    try:
-        write_all({str(path): text.encode()})
-    except (InputError, OSError) as error:
-        print(f"docs_settings: {error}", file=sys.stderr)
-        return 2
-    return 0
+    texts = {PAGE: page(every_setting())}
+    return file_writer(Path(parsed.folder), texts, check=parsed.check, command=COMMAND)
 
 
 def page(settings: Sequence[Setting]) -> str:
     """The text of docs/settings.md."""
-    listed = [one for one in settings if one.access == "listed"]
-    published = [one for one in listed if one.number <= LAST_PUBLISHED]
-    own = [one for one in listed if FIRST_OWN <= one.number < FIRST_EFFECT]
-    effects = [one for one in listed if one.number >= FIRST_EFFECT]
-    hidden = [one for one in settings if one.access != "listed"]
+    listed = [setting for setting in settings if setting.access == "listed"]
+    published = [setting for setting in listed if setting.number <= LAST_PUBLISHED]
+    ours = [setting for setting in listed if FIRST_OF_OURS <= setting.number < FIRST_EFFECT]
+    effects = [setting for setting in listed if setting.number >= FIRST_EFFECT]
+    hidden = [setting for setting in settings if setting.access != "listed"]
     parts = [
         HEAD.format(count=len(listed)),
         "## Published numbers",
         PUBLISHED,
         table(published, keys=True),
         "## Numbers of this firmware",
-        table(own),
+        table(ours),
         "## Effects",
         EFFECTS,
         table(effects),
@@ -74,19 +64,19 @@ def table(settings: Iterable[Setting], *, keys: bool = False) -> str:
     head = "| $ | name | unit | type | default | limits | takes effect |"
     head += " in the programs |" if keys else ""
     lines = [head + " what it is |", "|---" * (8 + keys) + "|"]
-    for one in settings:
+    for setting in settings:
         cells = [
-            str(one.number),
-            f"`{one.name}`",
-            one.unit,
-            one.kind,
-            format_value(one.usual),
-            limits(one),
-            takes_effect(one),
+            str(setting.number),
+            f"`{setting.name}`",
+            setting.unit,
+            setting.kind,
+            format_value(setting.usual),
+            limits(setting),
+            takes_effect(setting),
         ]
         if keys:
-            cells.append(one.key.replace(": ", ": `") + "`" if one.key else "none")
-        cells.append(sentence(one))
+            cells.append(setting.key.replace(": ", ": `") + "`" if setting.key else "none")
+        cells.append(sentence(setting))
         lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines)
 
@@ -125,10 +115,10 @@ HEAD = """\
 
 <!-- Written by `python -m plumb.pages.settings` from src/settings_table.h. Do not edit. -->
 
-`$$` lists the {count} settings below; `$n=value` sets one. Values may have any number of digits and
-an exponent; a whole number may be written `2.00000`. A value that cannot be right is refused with
-one line that begins with `error:`, and nothing changes. What is taken is stored within a fifth of
-a second, while the machine goes on.
+`$$` lists the {count} settings below; `$n=value` sets a number. Values may have any number of
+digits and an exponent; a whole number may be written `2.00000`. A value that cannot be right is
+refused with a line that begins with `error:`, and nothing changes. What is taken is stored within a
+fifth of a second, while the machine goes on.
 
 A `$` line waits until the moves before it are done. *Takes effect* says what happens then:
 
@@ -155,7 +145,7 @@ pictures and typical sizes: [effects.md](effects.md)."""
 
 HIDDEN = """\
 Kept like the others, but neither listed nor set by `$`: WebControl gives `$43` another meaning and
-would answer a listed one. It may write `$45` (chain elasticity, 1/N) and `$46` (sled weight, N):
+would answer a listed number. It may write `$45` (chain elasticity, 1/N) and `$46` (sled weight, N):
 these set `$170` and `$62`. `$#` shows `$230` to `$253`."""
 
 ERASING = """\
@@ -169,15 +159,15 @@ Storing all defaults takes up to two seconds, in which the machine goes on. A po
 leaves the old settings or the defaults."""
 
 KEPT = """\
-Settings lie in the EEPROM twice, each copy with a number and a CRC-32; a change is written to one
-copy, then to the other, only the bytes that differ. Power may fail in any byte: the old settings or
-the new ones are there afterwards, never a mixture.
+Settings lie in the EEPROM twice, each copy with a number and a CRC-32; a change is written to the
+first copy, then to the second, only the bytes that differ. Power may fail in any byte: the old
+settings or the new settings are there afterwards, never a mixture.
 
 The position (encoder counts of both chains and z, where that put the bit, and whether `$12`, `$13`,
 `$19` and `$20` are still the same) is kept each time the machine comes to rest, in a ring of 65
 places. Before a motor turns, a mark says that the place has been left; power lost in motion is
-therefore known at the next start, and told. A cell is written twice in 65 rests and bears 100,000
-writes: 3.2 million rests, at 300 a day 29 years.
+therefore known at the next start, and the machine says so. A cell is written twice in 65 rests and
+bears 100,000 writes: 3.2 million rests, at 300 a day 29 years.
 
 What the EEPROM holds, by address: 0 to 543 nothing (what the published firmware left is marked
 invalid), 544 and 1344 the copies, 2144 to 4093 the ring."""

@@ -16,13 +16,17 @@ def markdown_table(header: Sequence[str], rows: Sequence[Sequence[object]]) -> s
     return "\n".join("| " + " | ".join(str(cell) for cell in line) + " |" for line in lines)
 
 
-def mm(value: float) -> str:
-    """A length [mm] with two decimals."""
+def mm(value: float | None) -> str:
+    """A length [mm] with two decimals; a dash where there is none."""
+    if value is None:
+        return "-"
     return f"{value + 0.0:.2f}"
 
 
-def percent(strain: float) -> str:
-    """A strain in percent with two decimals."""
+def percent(strain: float | None) -> str:
+    """A strain in percent with two decimals; a dash where there is none."""
+    if strain is None:
+        return "-"
     return f"{100 * strain + 0.0:.2f}"
 
 

@@ -124,7 +124,7 @@ def test_check_tells_a_stale_page(tmp_path, capsys):
 def test_a_folder_that_cannot_be_written_is_refused(tmp_path, capsys):
     (tmp_path / "docs").write_text("a file")
     assert main(["--folder", str(tmp_path)]) == 2
-    assert capsys.readouterr().err.startswith("docs_settings: ")
+    assert capsys.readouterr().err.startswith("plumb.pages.settings: ")
 
 
 def test_every_row_says_when_it_takes_effect():
