@@ -18,7 +18,7 @@ TEXT = page(list(SETTINGS.values()))
 # The lab's name of a setting, and the firmware's where it is another.
 OTHER_NAMES = {"chain_sag_correction": "sag_correction"}
 # Keys whose numbers the clients compute from others, and those that no number of ours answers to.
-NOT_OWN_KEYS = {"gear_teeth", "chain_pitch", "kinematics", "feed"}
+NOT_OWN_KEYS = {"gear_teeth", "link_pitch", "kinematics", "feed"}
 OF_OTHER_FIRMWARE = {"chain_elasticity", "holey_sled_weight", "top_beam_tilt"}
 # Settings of ours begin here; 60 and 61 mean what they mean in the published beta.
 FIRST_OWN = 60
