@@ -1,6 +1,8 @@
 // Every shield's wiring, every driver's levels.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "board/drivers.h"
 
 using namespace board;
@@ -66,6 +68,25 @@ TEST(Wiring, KeepsDirectionAndDisableOfATle9201Apart) {
       EXPECT_EQ(channel.one, pinsOf(shieldOf(7), motor).first);
       EXPECT_EQ(channel.forward_is_high, over_top && motor != Motor::kZ);
     }
+}
+
+TEST(Shields, HaveStrapsAndPinsOfTheirOwn) {
+  std::set<uint8_t> straps;
+  for (const Shield& shield : kShields) {
+    EXPECT_TRUE(straps.insert(shield.straps).second) << "v1." << int(shield.version);
+    std::set<uint8_t> pins;
+    const auto take = [&](uint8_t pin) {
+      EXPECT_TRUE(pin == kNoPin || pins.insert(pin).second)
+          << "v1." << int(shield.version) << ": pin " << int(pin) << " is used twice";
+    };
+    for (const MotorPins& motor : {shield.right, shield.z, shield.left})
+      for (uint8_t pin :
+           {motor.encoder_a, motor.encoder_b, motor.first, motor.second, motor.enable})
+        take(pin);
+    take(shield.spindle);
+    take(shield.laser);
+    take(shield.probe);
+  }
 }
 
 TEST(Drivers, PulseTheEnableOfAnL298) {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -69,15 +69,20 @@ def read_plan(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
     return checked(meant, sheet=_sheet_of(plan, sheet))
 
 
+Source = str | PathLike[str]
+Known = Mapping[str, Sequence[str]] | None
+# How a file is read, by the form that _form_of() finds.
+READERS: Mapping[str, Callable[[Source, Sheet, Known], Measurements]] = {
+    "ini": lambda path, sheet, _: read_marks_ini(path, sheet=sheet),
+    "toml": lambda path, sheet, known: read_marks_toml(path, sheet=sheet, known=known),
+    "csv": lambda path, *_: read_marks_csv(path),
+}
+
+
 def _read(
     path: str | PathLike[str], sheet: Sheet, known: Mapping[str, Sequence[str]] | None = None
 ) -> Measurements:
-    form = _form_of(path)
-    if form == "ini":
-        return read_marks_ini(path, sheet=sheet)
-    if form == "toml":
-        return read_marks_toml(path, sheet=sheet, known=known)
-    return read_marks_csv(path)
+    return READERS[_form_of(path)](path, sheet, known)
 
 
 def _sheet_of(measurements: Measurements, sheet: Sheet) -> Sheet:
@@ -102,7 +107,7 @@ def _form_of(path: str | PathLike[str]) -> str:
     if lines and any(column in lines[0] for column in NEEDED):
         return "csv"
     ending = Path(path).suffix.lower().lstrip(".")
-    if ending in ("ini", "toml", "csv"):
+    if ending in READERS:
         return ending
     raise refusal(
         path,

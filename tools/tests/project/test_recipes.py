@@ -4,14 +4,19 @@ import json
 import re
 import shutil
 import subprocess
+import types
 from pathlib import Path
 
 import pytest
+from plumb.cli import main
 
 ROOT = Path(__file__).resolve().parents[3]
 PAGE = ROOT / "docs/new-effect.md"
 EIGEN = ROOT / ".pio/libdeps/native/ArduinoEigen/ArduinoEigen"
 HEADER = re.compile(r"`([\w/.]+\.h)`, with the sketch's words.*?```cpp\n(.*?)```", re.DOTALL)
+RECIPES = ROOT / "docs/recipes.md"
+NAMED = re.compile(r"\[`(\w+)`\]\(([^)#]+)[^)]*\)")
+LINES = 25  # of a recipe, at most
 DIFF = re.compile(r"```diff\n--- a/(\S+)\n\+\+\+ b/\S+\n(.*?)```", re.DOTALL)
 
 
@@ -27,7 +32,7 @@ def copy(tmp_path_factory):
 
 def test_the_page_of_a_new_effect_leads_to_the_judges_approval(copy):
     path, header = HEADER.search(PAGE.read_text(encoding="utf-8")).groups()
-    (copy / path).write_text(header, encoding="utf-8")
+    (copy / "lib/Kinematics/src" / path).write_text(header, encoding="utf-8")
     assert "mount_give.h: has no setting: give it a line At<NUMBER, MountGive>" in checked(copy)
     line, mechanics = DIFF.findall(PAGE.read_text(encoding="utf-8"))
     apply(copy, *line)
@@ -39,6 +44,60 @@ def test_the_page_of_a_new_effect_leads_to_the_judges_approval(copy):
     assert approved.returncode == 0, approved.stderr
     with_it, without, at_the_bit = json.loads(approved.stdout)["mount_give_soft_mounts"]
     assert with_it < 0.006 and at_the_bit < 0.008 and without > 0.3
+
+
+def section(title):
+    """One recipe of the page."""
+    return RECIPES.read_text(encoding="utf-8").partition(f"## {title}\n")[2].partition("\n## ")[0]
+
+
+def test_every_name_of_a_recipe_is_in_its_file():
+    named = NAMED.findall(RECIPES.read_text(encoding="utf-8"))
+    missing = [
+        f"docs/recipes.md: {path} has no {name}: correct the recipe"
+        for name, path in named
+        if not re.search(rf"\b{name}\b", (RECIPES.parent / path).read_text(encoding="utf-8"))
+    ]
+    assert len(named) > 15 and not missing, "\n".join(missing)
+
+
+def test_recipes_are_short():
+    for text in RECIPES.read_text(encoding="utf-8").split("\n## ")[1:]:
+        prose = re.sub(r"```.*?```", "", text, flags=re.DOTALL)
+        assert len(prose.strip().splitlines()) <= LINES, text.partition("\n")[0]
+
+
+def test_a_row_is_all_that_a_setting_needs(tmp_path):
+    for part in ("lib/Kinematics/src", "lib/Settings/src", "tools/core", "src"):
+        shutil.copytree(ROOT / part, tmp_path / part)
+    row = re.search(r"```cpp\n(.*?)```", section("A setting"), re.DOTALL)[1]
+    row = "".join(line.removeprefix("   ") for line in row.splitlines(keepends=True)).rstrip()
+    table = tmp_path / "src/settings_table.h"
+    text = table.read_text(encoding="utf-8")
+    assert text.count("\n\n#define PLUMB_KEPT_SETTINGS") == 1
+    text = text.replace(
+        "\n\n#define PLUMB_KEPT_SETTINGS", f" \\\n{row}\n\n#define PLUMB_KEPT_SETTINGS"
+    )
+    table.write_text(text, encoding="utf-8")
+    (tmp_path / "ask.cpp").write_text(
+        '#include <cstdio>\n#include "tools/core/plain_table.h"\n'
+        "int main() { std::puts(settings_host::kTexts[kBeepLength].label); "
+        "return settings_host::PlainTable().at(kBeepLength).number; }\n"
+    )
+    includes = ["-Ilib/Kinematics/src", "-Ilib/Settings/src", "-Isrc", "-I."]
+    sources = ["ask.cpp", *sorted(map(str, (tmp_path / "lib/Settings/src").glob("*.cpp")))]
+    command = ["g++", "-std=c++17", "-O0", *includes, *sources, "-o", "ask"]
+    subprocess.run(command, cwd=tmp_path, check=True)
+    said = subprocess.run([tmp_path / "ask"], capture_output=True, text=True)
+    assert (said.stdout, said.returncode) == ("beep_length, ms\n", 77)
+
+
+def test_a_module_and_a_line_are_all_that_a_command_needs(monkeypatch, capsys):
+    code = re.search(r"```python\n(.*?)```", section("A command of the lab"), re.DOTALL)[1]
+    module = types.ModuleType("plumb.cli.hello")
+    exec("".join(line.removeprefix("   ") for line in code.splitlines(True)), module.__dict__)
+    monkeypatch.setattr(main, "COMMANDS", {**main.COMMANDS, "hello": module})
+    assert main.main(["hello"]) == 0 and capsys.readouterr().out == "hello\n"
 
 
 def checked(folder):
