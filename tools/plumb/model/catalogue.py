@@ -91,7 +91,7 @@ def is_of_chain(effect: str) -> bool:
 
 def is_felt_by_approach(effect: str) -> bool:
     """Whether marks from opposite sides tell the effect: it moves the sled that comes to rest."""
-    return any(one.name == effect and one.acts_on == SLED for one in LAB_EFFECTS)
+    return any(known.name == effect and known.acts_on == SLED for known in LAB_EFFECTS)
 
 
 def place_of(effect: str) -> str:
