@@ -150,5 +150,5 @@ def _cosine(frame: Explanation, effect: str, left: Array) -> float:
     raw = frame.slopes[:, frame.board.columns([effect])]
     if not np.any(raw):
         return 0.0
-    basis = span(frame.beside([effect]), against=raw)
+    basis = span(frame.beyond_fit([effect]), against=raw)
     return float(np.linalg.norm(basis.T @ left) / max(np.linalg.norm(left), 1e-9))

@@ -1,1 +1,1 @@
-"""One measured board as the fit sees it: each reading, and where the sled went for it."""
+"""A measured board as the fit sees it: each reading, and where the sled went for it."""

@@ -1,4 +1,4 @@
-"""What a fit has to explain: chains that were paid out, and where the sled was found."""
+"""What a fit has to explain: chains that were paid out, and where the sled was measured."""
 
 from __future__ import annotations
 
@@ -34,14 +34,7 @@ class Observations:
     rounds: Array  # (r,) int: the file of each visit
     zero_groups: Array  # (r,) int: visits with equal numbers have the chains' zeros in common
     sheet_groups: Array  # (r,) int: visits with equal numbers lie on one sheet
-    swapped: Array | None = (
-        None  # (r,) whether each chain hung on the other's sprocket; None: never
-    )
-
-    @property
-    def exchanged(self) -> Array:
-        """Whether the chains were swapped on each visit (r,)."""
-        return np.zeros(len(self.chains), dtype=bool) if self.swapped is None else self.swapped
+    swapped: Array  # (r,) bool: each chain hung on the other's sprocket
 
     @property
     def count(self) -> int:
@@ -70,7 +63,7 @@ def observe(
     first: dict[str, int] = {}
     for i, mark in enumerate(marks):
         first.setdefault(mark.name, i)
-    ends = [[first[name] for name in one.between] for one in measurements.distances]
+    ends = [[first[name] for name in distance.between] for distance in measurements.distances]
     usual = measurements.sled_weight or sled_weight or settings.sled_weight
     return Observations(
         chains=chains,
@@ -95,8 +88,8 @@ def _paid_out(
     """Chain (r, 2) [mm] paid out for each target by the settings in force in its round."""
     chains = np.zeros_like(targets)
     number = _rounds(measurements)
-    for i, own in enumerate(measurements.rounds):
-        in_force = own.cut_with or settings
+    for i, file_round in enumerate(measurements.rounds):
+        in_force = file_round.cut_with or settings
         whose = controller or measurements.controller or in_force.controller
         mine = number == i
         try:
@@ -115,8 +108,11 @@ def _rounds(measurements: Measurements) -> Array:
 
 def _of_rounds(measurements: Measurements, name: str) -> Array:
     """A number of each visit's round (r,)."""
-    own = np.array([getattr(one, name) for one in measurements.rounds], dtype=int)
-    return own[_rounds(measurements)]
+    by_round = np.array(
+        [getattr(file_round, name) for file_round in measurements.rounds], dtype=int
+    )
+    of_visits: Array = by_round[_rounds(measurements)]
+    return of_visits
 
 
 def _directions(moves: list[tuple[float, float]]) -> Array:

@@ -1,13 +1,13 @@
-"""What later rounds of marks do not share with the first: chains zeroed anew, another sheet.
+"""What later rounds of marks do not share with the first: chains zeroed again, another sheet.
 
-Each such round has unknowns of its own beside those of the frame: how far the zeros of both chains
-moved, or how the sheet lies against the first one.
+Each such round adds unknowns to those of the frame: how far the zeros of both chains moved, or
+how the sheet lies against the first.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -25,7 +25,7 @@ _POSE = re.compile(r"sheet(\d+)\.(x|y|rotation)")
 
 
 class RoundUnknown(NamedTuple):
-    """One unknown of a later round."""
+    """An unknown of a later round."""
 
     group: int  # which zero group or sheet group
     axis: int  # index into ZERO_AXES or POSE_AXES
@@ -33,7 +33,7 @@ class RoundUnknown(NamedTuple):
 
 def round_priors(rows: Observations) -> dict[str, float]:
     """Standard deviations [mm, rad] of all unknowns that later rounds have, by name."""
-    priors = {}
+    priors: dict[str, float] = {}
     for group in range(1, _groups(rows.zero_groups)):
         priors |= {f"zero{group + 1}.{axis}": ZERO_SIGMA for axis in ZERO_AXES}
     # Distances between marks of one sheet do not feel where it lies.
@@ -47,8 +47,8 @@ def round_priors(rows: Observations) -> dict[str, float]:
 
 def unit_of(name: str) -> str | None:
     """The unit of an unknown of a round; None if it is none."""
-    own = zero_of(name) or pose_of(name)
-    if own is None:
+    unknown = zero_of(name) or pose_of(name)
+    if unknown is None:
         return None
     return "rad" if name.endswith(".rotation") else "mm"
 
@@ -57,10 +57,12 @@ def notes_on(names: Iterable[str]) -> list[str]:
     """A sentence for each group of round unknowns among these names."""
     groups = sorted({name.partition(".")[0] for name in names if unit_of(name)})
     meaning = {
-        "zero": "how much more chain is out at 12 o'clock since the chains were zeroed anew",
+        "zero": "how much more chain is out at 12 o'clock since the chains were zeroed again",
         "sheet": "how the new sheet lies against the first",
     }
-    return [f"{own}: {meaning[own.rstrip('0123456789')]}; no setting holds it" for own in groups]
+    return [
+        f"{group}: {meaning[group.rstrip('0123456789')]}; no setting holds it" for group in groups
+    ]
 
 
 def zero_of(name: str) -> RoundUnknown | None:
@@ -92,10 +94,15 @@ def _parsed(pattern: re.Pattern[str], axes: tuple[str, ...], name: str) -> Round
     return RoundUnknown(int(match[1]) - 1, axes.index(match[2])) if match else None
 
 
-def _filled(outside: Mapping[str, float], groups: int, axes: int, parse) -> Array:
-    found = np.zeros((groups, axes))
+def _filled(
+    outside: Mapping[str, float],
+    groups: int,
+    axes: int,
+    parse: Callable[[str], RoundUnknown | None],
+) -> Array:
+    values_of_groups = np.zeros((groups, axes))
     for name, value in outside.items():
-        own = parse(name)
-        if own is not None:
-            found[own] = value
-    return found
+        unknown = parse(name)
+        if unknown is not None:
+            values_of_groups[unknown] = value
+    return values_of_groups

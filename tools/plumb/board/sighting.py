@@ -42,7 +42,8 @@ class Sighting:
     def taped_spans(self, ends: Array) -> Array:
         """What a tape reads (m,) [mm] between the visits in each row of `ends` (m, 2)."""
         where = self.taped.where[ends]
-        return np.linalg.norm(where[:, 1] - where[:, 0], axis=1)
+        spans: Array = np.linalg.norm(where[:, 1] - where[:, 0], axis=1)
+        return spans
 
 
 def sighted(
@@ -59,14 +60,12 @@ def sighted(
     exact as long as no sketch is present."""
     view = _View(values, outside, rows, over_top, usual_weight, tuple(names))
     zeros = zeros_of(outside, rows)
-    machine = {"over_top": over_top, "usual_weight": usual_weight}
+
+    def hang(paid: Observations) -> tuple[Array, Array, Array]:
+        return visited(values, paid, zeros=zeros, over_top=over_top, usual_weight=usual_weight)
+
     hung = with_sketches(
-        values,
-        outside,
-        rows,
-        lambda paid: visited(values, paid, zeros=zeros, **machine),
-        names=names,
-        **machine,
+        values, outside, rows, hang, over_top=over_top, usual_weight=usual_weight, names=names
     )
     by_value = hung.by_value
     slopes = np.zeros((*hung.where.shape, len(names)))
@@ -75,9 +74,9 @@ def sighted(
             slopes[:, :, i] = by_value[:, :, NAMES.index(name)]
         elif name in hung.by_name:
             slopes[:, :, i] = hung.by_name[name]
-        elif (own := zero_of(name)) is not None:
-            mine = rows.zero_groups == own.group
-            slopes[mine, :, i] = by_value[mine][:, :, ZERO_COLUMNS[own.axis]]
+        elif (unknown := zero_of(name)) is not None:
+            mine = rows.zero_groups == unknown.group
+            slopes[mine, :, i] = by_value[mine][:, :, ZERO_COLUMNS[unknown.axis]]
     places = Places(hung.where, slopes)
     for effect in LAB_EFFECTS:
         if effect.acts_on == SLED:
@@ -92,7 +91,7 @@ def sighted(
 
 @dataclass(frozen=True)
 class _View:
-    """One machine and board, and the names whose slopes are asked for."""
+    """A machine and a board, and the names whose slopes are asked for."""
 
     values: Array
     outside: Mapping[str, float]
@@ -113,9 +112,9 @@ class _View:
         for i, name in enumerate(self.names):
             if name == SHEET_ROTATION:
                 slopes[:, :, i] += across
-            elif (own := pose_of(name)) is not None:
-                mine = self.rows.sheet_groups == own.group
-                by_axis = across[mine] if own.axis == 2 else np.eye(2)[own.axis]
+            elif (unknown := pose_of(name)) is not None:
+                mine = self.rows.sheet_groups == unknown.group
+                by_axis = across[mine] if unknown.axis == 2 else np.eye(2)[unknown.axis]
                 slopes[mine, :, i] += by_axis
         return Places(where + moved[:, :2], slopes)
 
@@ -129,7 +128,7 @@ class _View:
         )
         slopes = places.slopes + np.einsum("nij,njk->nik", change.by_place, places.slopes)
         return Places(
-            places.where + change.moved, self.with_own(effect, change.by_parameter, slopes)
+            places.where + change.moved, self.with_parameters(effect, change.by_parameter, slopes)
         )
 
     def on_sled(self, effect: LabEffect, places: Places) -> Places:
@@ -143,11 +142,11 @@ class _View:
             for i, name in enumerate(self.names):
                 slopes[:, :, i] += self.by_difference(effect, name, places, i)
         return Places(
-            places.where + change.moved, self.with_own(effect, change.by_parameter, slopes)
+            places.where + change.moved, self.with_parameters(effect, change.by_parameter, slopes)
         )
 
     def by_difference(self, effect: LabEffect, name: str, places: Places, i: int) -> Array:
-        """Slope (r, 2) of the effect's move by one name: machine and place change together.
+        """Slope (r, 2) of the effect's move by a name: machine and place change together.
 
         The core gives first slopes only, and the compliance is made of them already. Its central
         differences are right to about a millionth.
@@ -168,8 +167,8 @@ class _View:
         giving = np.zeros((len(where), 2, 2))
         for weight in np.unique(self.rows.sled_weights):
             mine = self.rows.sled_weights == weight
-            own, _ = loaded(values, weight, self.usual_weight)
-            giving[mine] = compliance(own, over_top=self.over_top, points=where[mine])
+            loaded_values, _ = loaded(values, weight, self.usual_weight)
+            giving[mine] = compliance(loaded_values, over_top=self.over_top, points=where[mine])
         return Seen(where, self.rows.approaches, giving)
 
     def parameters(self, effect: LabEffect) -> Array:
@@ -181,8 +180,8 @@ class _View:
         wanted = any(name in self.names for name in effect.parameter_names)
         return wanted or bool(self.parameters(effect).any())
 
-    def with_own(self, effect: LabEffect, by_parameter: Array, slopes: Array) -> Array:
-        """The slopes with those by the effect's own parameters added."""
+    def with_parameters(self, effect: LabEffect, by_parameter: Array, slopes: Array) -> Array:
+        """The slopes with those by the effect's parameters added."""
         for i, name in enumerate(effect.parameter_names):
             if name in self.names:
                 slopes[:, :, self.names.index(name)] += by_parameter[:, :, i]
@@ -191,11 +190,11 @@ class _View:
 
 def _sizes() -> dict[str, float]:
     """The usual size of every value of the core."""
-    sizes = {one["name"]: abs(one["usual"]) or 10.0 for one in frame_words()}
+    sizes = {frame["name"]: abs(frame["usual"]) or 10.0 for frame in frame_words()}
     return sizes | {
-        f"{one['name']}.{own['name']}": abs(own["typical"])
-        for one in library()
-        for own in one["parameters"]
+        f"{effect['name']}.{parameter['name']}": abs(parameter["typical"])
+        for effect in library()
+        for parameter in effect["parameters"]
     }
 
 

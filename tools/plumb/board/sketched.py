@@ -1,7 +1,7 @@
 """Where the sled hangs when sketches make its chains longer, with slopes.
 
 The machine pays out what it believes in, so a chain that is `extra` longer by the sketch counts as
-so much less paid out. The extra depends on the place and the place on the extra: found in a few
+so much less paid out. The extra depends on the place and the place on the extra: settled in a few
 rounds, since an extra of millimetres changes little over millimetres.
 """
 
@@ -19,7 +19,7 @@ from plumb.model.predict import NAMES
 from plumb.model.sketches import SKETCHES, Sketch, Strands
 
 Array = np.ndarray
-SKETCH_NAMES = tuple(name for one in SKETCHES for name in one.parameter_names)
+SKETCH_NAMES = tuple(name for sketch in SKETCHES for name in sketch.parameter_names)
 ROUNDS = 4  # each leaves about a thousandth of what was left
 PLACE_STEP = 0.5  # [mm] for differences by the place
 _SHARE = 1e-3  # of a parameter's usual size, for differences by it
@@ -53,7 +53,7 @@ def with_sketches(
     How an extra itself changes with the machine's values is left out of the slopes: it is a small
     part of a small part, and a fit comes to rest all the same.
     """
-    asked = [one for one in SKETCHES if _asked(one, outside, names)]
+    asked = [sketch for sketch in SKETCHES if _asked(sketch, outside, names)]
     where, by_value, found = hang(rows)
     if not asked:
         return Sketched(where, by_value, {}, found)
@@ -62,7 +62,7 @@ def with_sketches(
         return _strands(values, rows, places, over_top=over_top, usual_weight=usual_weight)
 
     def added(sketch: Sketch, parameters: Array, seen: Strands) -> Array:
-        """Chain more (r, 2) [mm] by one sketch, by what it adds and by the push."""
+        """Chain more (r, 2) [mm] by a sketch, by what it adds and by the push."""
         chain = np.zeros_like(seen.places)
         if sketch.extra:
             chain = chain + np.asarray(sketch.extra(parameters, seen), dtype=float)
@@ -75,9 +75,10 @@ def with_sketches(
 
     def extra(places: Array) -> Array:
         seen = strands(places)
-        return sum(added(one, _parameters(one, outside), seen) for one in present)
+        each = [added(sketch, _parameters(sketch, outside), seen) for sketch in present]
+        return np.asarray(np.sum(each, axis=0), dtype=float)
 
-    present = [one for one in asked if _parameters(one, outside).any()]
+    present = [sketch for sketch in asked if _parameters(sketch, outside).any()]
     gives = -np.eye(2)
     if present:
         for _ in range(ROUNDS):
@@ -88,39 +89,40 @@ def with_sketches(
         turned = np.linalg.inv(np.eye(2) - by_extra @ _by_place(extra, where))
         by_value, by_extra = turned @ by_value, turned @ by_extra
     seen = strands(where)
-    own = {
-        name: np.einsum("nij,nj->ni", by_extra, _by_parameter(added, one, i, outside, seen))
-        for one in asked
-        for i, name in enumerate(one.parameter_names)
+    by_name = {
+        name: np.einsum("nij,nj->ni", by_extra, _by_parameter(added, sketch, i, outside, seen))
+        for sketch in asked
+        for i, name in enumerate(sketch.parameter_names)
         if name in names
     }
-    return Sketched(where, by_value, own, found)
+    return Sketched(where, by_value, by_name, found)
 
 
-def _asked(one: Sketch, outside: Mapping[str, float], names: Sequence[str]) -> bool:
-    return any(name in names or outside.get(name) for name in one.parameter_names)
+def _asked(sketch: Sketch, outside: Mapping[str, float], names: Sequence[str]) -> bool:
+    return any(name in names or outside.get(name) for name in sketch.parameter_names)
 
 
-def _parameters(one: Sketch, outside: Mapping[str, float]) -> Array:
-    return np.array([outside.get(name, 0.0) for name in one.parameter_names])
+def _parameters(sketch: Sketch, outside: Mapping[str, float]) -> Array:
+    return np.array([outside.get(name, 0.0) for name in sketch.parameter_names])
 
 
 def _by_parameter(
     added: Callable[[Sketch, Array, Strands], Array],
-    one: Sketch,
+    sketch: Sketch,
     i: int,
     outside: Mapping[str, float],
     seen: Strands,
 ) -> Array:
-    """Slope (r, 2) [mm per unit] of the extra chain by one parameter."""
-    step = _SHARE * one.parameters[i].typical
-    parameters = _parameters(one, outside)
+    """Slope (r, 2) [mm per unit] of the extra chain by a parameter."""
+    step = _SHARE * sketch.parameters[i].typical
+    parameters = _parameters(sketch, outside)
     ends = []
     for signed in (step, -step):
         moved = parameters.copy()
         moved[i] += signed
-        ends.append(added(one, moved, seen))
-    return (ends[0] - ends[1]) / (2 * step)
+        ends.append(added(sketch, moved, seen))
+    slope: Array = (ends[0] - ends[1]) / (2 * step)
+    return slope
 
 
 def _by_place(extra: Callable[[Array], Array], where: Array) -> Array:
@@ -145,10 +147,10 @@ def _pushed(
     chain = np.zeros((len(where), 2))
     for weight in np.unique(rows.sled_weights):
         mine = rows.sled_weights == weight
-        own, _ = loaded(values, weight, usual_weight)
+        loaded_values, _ = loaded(values, weight, usual_weight)
         points, pushes = np.ascontiguousarray(where[mine]), np.ascontiguousarray(force[mine])
-        pushed, _ = _core.pushed_lengths(own, over_top, points, pushes)
-        still, _ = _core.pushed_lengths(own, over_top, points, 0 * pushes)
+        pushed, _ = _core.pushed_lengths(loaded_values, over_top, points, pushes)
+        still, _ = _core.pushed_lengths(loaded_values, over_top, points, 0 * pushes)
         chain[mine] = pushed - still
     return chain
 
@@ -160,11 +162,11 @@ def _strands(
     shown = {name: np.zeros((count, 2)) for name in ("free", "cosine", "sine", "pull", "length")}
     for weight in np.unique(rows.sled_weights):
         mine = rows.sled_weights == weight
-        own, _ = loaded(values, weight, usual_weight)
+        loaded_values, _ = loaded(values, weight, usual_weight)
         points = np.ascontiguousarray(where[mine])
-        for name, column in _core.strands(own, over_top, points).items():
+        for name, column in _core.strands(loaded_values, over_top, points).items():
             if name in shown:
                 shown[name][mine] = column
-        shown["pull"][mine] *= own[NAMES.index("sled_weight")]
+        shown["pull"][mine] *= loaded_values[NAMES.index("sled_weight")]
     free, cosine, sine, tension, length = shown.values()
     return Strands(free, cosine, sine, tension, length, where)

@@ -9,10 +9,10 @@ from plumb.model.catalogue import OTHER_CHAIN, WEIGHT_POWERS, ZEROING_NAMES
 from plumb.model.predict import NAMES, Array, lengths, places_with_slopes, settings_of, values_of
 from plumb.settings.machine import MachineSettings
 
-# Left and right: what each zeroing of the chains sets anew.
+# Left and right: what each zeroing of the chains sets again.
 ZERO_COLUMNS = tuple(NAMES.index(name) for name in ZEROING_NAMES)
 # What goes with a chain to the other sprocket.
-EXCHANGED = np.array([NAMES.index(OTHER_CHAIN.get(name, name)) for name in NAMES])
+SWAPPED = np.array([NAMES.index(OTHER_CHAIN.get(name, name)) for name in NAMES])
 
 
 def loaded(values: Array, weight: float, usual: float) -> tuple[Array, Array]:
@@ -20,16 +20,16 @@ def loaded(values: Array, weight: float, usual: float) -> tuple[Array, Array]:
 
     Some parameters are ratios to the sled's weight, so they follow a power of it.
     """
-    own, factors = values.copy(), np.ones(len(values))
+    loaded_values, factors = values.copy(), np.ones(len(values))
     if weight == usual:
-        return own, factors
-    own[NAMES.index("sled_weight")] = weight
+        return loaded_values, factors
+    loaded_values[NAMES.index("sled_weight")] = weight
     factors[NAMES.index("sled_weight")] = 0.0
     for name, power in WEIGHT_POWERS.items():
         column = NAMES.index(name)
         factors[column] = (weight / usual) ** power
-        own[column] *= factors[column]
-    return own, factors
+        loaded_values[column] *= factors[column]
+    return loaded_values, factors
 
 
 def visited(
@@ -47,19 +47,17 @@ def visited(
     where = np.zeros((len(rows.chains), 2))
     slopes = np.zeros((len(rows.chains), 2, len(NAMES)))
     found = np.zeros(len(rows.chains), dtype=int)
-    alike = {*zip(rows.sled_weights, rows.zero_groups, rows.exchanged, strict=True)}
-    for weight, group, exchanged in alike:
+    alike = {*zip(rows.sled_weights, rows.zero_groups, rows.swapped, strict=True)}
+    for weight, group, swapped in alike:
         mine = (
-            (rows.sled_weights == weight)
-            & (rows.zero_groups == group)
-            & (rows.exchanged == exchanged)
+            (rows.sled_weights == weight) & (rows.zero_groups == group) & (rows.swapped == swapped)
         )
-        own, factors = loaded(values, weight, usual_weight)
+        loaded_values, factors = loaded(values, weight, usual_weight)
         if zeros is not None:
-            own[list(ZERO_COLUMNS)] += zeros[group]
-        order = EXCHANGED if exchanged else slice(None)
+            loaded_values[list(ZERO_COLUMNS)] += zeros[group]
+        order = SWAPPED if swapped else slice(None)
         where[mine], of_mine, found[mine] = places_with_slopes(
-            own[order], over_top=over_top, chains=rows.chains[mine]
+            loaded_values[order], over_top=over_top, chains=rows.chains[mine]
         )
         slopes[mine] = of_mine[:, :, order] * factors
     return where, slopes, found
@@ -70,6 +68,6 @@ def chains_to(model: MachineSettings, points: Array, weights: Array) -> tuple[Ar
     chains, found = np.zeros((len(points), 2)), np.zeros(len(points), dtype=int)
     for weight in np.unique(weights):
         mine = weights == weight
-        own, _ = loaded(values_of(model), weight, model.sled_weight)
-        chains[mine], found[mine] = lengths(settings_of(own, like=model), points[mine])
+        loaded_values, _ = loaded(values_of(model), weight, model.sled_weight)
+        chains[mine], found[mine] = lengths(settings_of(loaded_values, like=model), points[mine])
     return chains, found

@@ -182,7 +182,7 @@ def add(
             *_bad_bargains(before, after, steps),
         ),
         steps=steps,
-        benchmark_after=score_of(measurements, after_fit.distance_errors),
+        benchmark_after=score_of(measurements, after_fit.distance_errors.tolist()),
     )
 
 

@@ -14,7 +14,7 @@ VERDICTS = ("nothing_provable", "one_suspect", "cannot_tell", "not_in_library", 
 
 @dataclass(frozen=True)
 class Ranked:
-    """One effect of the library by itself."""
+    """An effect of the library by itself."""
 
     effect: str
     gain: float  # drop of chi-square when it is added to the frame and all is refitted

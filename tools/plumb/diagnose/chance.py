@@ -36,7 +36,7 @@ def chance_of_imitation(
     fields -= basis @ (basis.T @ fields)
     lengths = np.linalg.norm(fields, axis=0)
     fields = fields[:, lengths > 1e-9] / lengths[lengths > 1e-9]
-    # A field of the misfit's own length, less what noise has in it.
+    # A field of the misfit's length, less what noise has in it.
     fields *= np.sqrt(max(frame.cost - spare, 0.0))
     drawn = np.zeros_like(fields)
     drawn[:count] = np.random.default_rng(SEED).standard_normal((count, fields.shape[1]))
@@ -53,15 +53,15 @@ def _explained(
     """Which columns these effects explain."""
     board = frame.board
     columns = board.columns(effects)
-    own = frame.beside(effects)
-    inverse = np.linalg.pinv(own, rcond=1e-6)
+    drawn = frame.beyond_fit(effects)
+    inverse = np.linalg.pinv(drawn, rcond=1e-6)
     sizes = inverse @ seen
-    left = seen - own @ sizes
+    left = seen - drawn @ sizes
     count = board.rows.count
     spare = count - len(columns) - float(np.sum(frame.basis[:count] ** 2))
     if spare < 1:
         return np.ones(seen.shape[1], dtype=bool)
-    fits = np.sum(left[:count] ** 2, axis=0) <= chdtri(spare, MISFIT_LEVEL)
+    fits: Array = np.sum(left[:count] ** 2, axis=0) <= chdtri(spare, MISFIT_LEVEL)
     if not real:
         return fits
     reach = noise.quantile * np.sqrt(np.sum(inverse**2, axis=1))
@@ -73,7 +73,7 @@ def _explained(
 
 
 def _fields(frame: Explanation) -> Array:
-    """Smooth random fields as they would be measured, whitened, one a column."""
+    """Smooth random fields as they would be measured, whitened, in columns."""
     rows = frame.board.rows
     sighting, _ = frame.board.problem.predict(frame.unknowns)
     places = sighting.taped.where
@@ -81,7 +81,7 @@ def _fields(frame: Explanation) -> Array:
     apart = (places[:, np.newaxis] - places[np.newaxis]) / half
     squares = np.sum(apart**2, axis=2)
     source = np.random.default_rng(SEED + 1)
-    found = []
+    fields = []
     for width in WIDTHS:
         values, axes = np.linalg.eigh(np.exp(-squares / (2 * width**2)))
         root = axes * np.sqrt(np.maximum(values, 0.0))
@@ -92,7 +92,7 @@ def _fields(frame: Explanation) -> Array:
         along = along[:, 1] - along[:, 0]
         along = along / np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-9)
         spans = np.einsum("mi,mid->md", along, ends[:, 1] - ends[:, 0])
-        found.append(np.vstack([marks, spans]))
-    measured = np.hstack(found) / frame.board.sigma
+        fields.append(np.vstack([marks, spans]))
+    measured = np.hstack(fields) / frame.board.sigma
     priors = np.zeros((len(frame.residual) - rows.count, measured.shape[1]))
     return np.vstack([measured, priors])

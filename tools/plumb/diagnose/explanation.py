@@ -22,7 +22,7 @@ class Board:
     """A measured board with every effect of the catalogue as an unknown."""
 
     problem: Problem
-    own: Mapping[str, tuple[int, ...]]  # columns of each effect, in the catalogue's order
+    effect_columns: Mapping[str, tuple[int, ...]]  # in the catalogue's order
 
     @staticmethod
     def of(
@@ -35,11 +35,11 @@ class Board:
     ) -> Board:
         """The board of a model that starts from these settings; sigma [mm] whitens it."""
         problem = Problem.of(settings, rows, effect_names(), priors, sigma, checked)
-        own = {
+        effect_columns = {
             effect: tuple(problem.names.index(name) for name in parameter_names(effect))
             for effect in effect_names()
         }
-        return Board(problem, own)
+        return Board(problem, effect_columns)
 
     @property
     def rows(self) -> Observations:
@@ -58,7 +58,7 @@ class Board:
 
     def columns(self, effects: Iterable[str]) -> Array:
         """Columns of these effects' parameters."""
-        return np.array([i for effect in effects for i in self.own[effect]], dtype=int)
+        return np.array([i for effect in effects for i in self.effect_columns[effect]], dtype=int)
 
     def with_rows(self, rows: Observations, *, sigma: float | None = None) -> Board:
         """The same machine with other observations, and another sigma [mm] if it is given."""
@@ -109,19 +109,20 @@ class Explanation:
     def rms(self) -> float:
         """Root mean square error of the marks (as vectors), or of distances without marks [mm]."""
         marks = self.board.rows.measured
-        own = self.numbers[: marks.size] if len(marks) else self.numbers
-        return float(np.sqrt(own @ own / max(len(marks) or len(own), 1)))
+        counted = self.numbers[: marks.size] if len(marks) else self.numbers
+        return float(np.sqrt(counted @ counted / max(len(marks) or len(counted), 1)))
 
     @property
     def basis(self) -> Array:
         """Orthonormal columns of what was fitted."""
         return span(self.slopes[:, self.free])
 
-    def beside(self, effects: Iterable[str], basis: Array | None = None) -> Array:
+    def beyond_fit(self, effects: Iterable[str], basis: Array | None = None) -> Array:
         """Columns of effects without what the fitted columns can imitate."""
-        own = self.slopes[:, self.board.columns(effects)]
+        columns = self.slopes[:, self.board.columns(effects)]
         fitted = self.basis if basis is None else basis
-        return own - fitted @ (fitted.T @ own)
+        beyond: Array = columns - fitted @ (fitted.T @ columns)
+        return beyond
 
 
 def span(columns: Array, *, against: Array | None = None) -> Array:

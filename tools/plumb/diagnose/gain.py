@@ -22,17 +22,17 @@ Array = np.ndarray
 DRAWS = 4000  # of noise: its LEVEL is then right to about 0.3 % in chance
 # With 1 % for slips and 1.5 % for misfit, five in a hundred together.
 LEVEL = 0.028
-ROUNDING = 0.2  # of a limit that was found by drawing
+ROUNDING = 0.2  # of a limit that rests on draws
 SEED = 20180902  # any number: the same marks shall always give the same answer
 
 
 @dataclass(frozen=True)
 class Gain:
-    """What one effect adds to an explanation."""
+    """What an effect adds to an explanation."""
 
     effect: str
     drop: float  # of chi-square
-    visible: int  # parameters that the layout lets one see beside what is fitted already
+    visible: int  # parameters that the layout shows beyond what is fitted already
     surprise: float  # -log of the chance of as much from noise
 
 
@@ -49,13 +49,13 @@ class Search:
         return bool(self.gains) and self.gains[0].surprise > self.limit
 
     def of(self, effect: str) -> Gain:
-        """The gain of one effect."""
-        return next(one for one in self.gains if one.effect == effect)
+        """The gain of an effect."""
+        return next(gain for gain in self.gains if gain.effect == effect)
 
 
 def search(explanation: Explanation, candidates: Sequence[str], noise: Noise) -> Search:
     """What each candidate outside the explanation would add to it."""
-    bases = bases_beside(explanation, candidates)
+    bases = bases_beyond_fit(explanation, candidates)
     return Search(gains_of(explanation, bases, noise), limit_of_noise(bases, noise))
 
 
@@ -65,7 +65,7 @@ def complete(explanation: Explanation, candidates: Sequence[str], noise: Noise) 
     The limit lies between that of a single candidate and Bonferroni's, so that noise need only be
     drawn for what falls between the two.
     """
-    bases = bases_beside(explanation, candidates)
+    bases = bases_beyond_fit(explanation, candidates)
     gains = gains_of(explanation, bases, noise)
     if not gains or gains[0].surprise < -np.log(LEVEL):
         return True
@@ -83,16 +83,16 @@ def gains_of(
         drop = float(np.sum((basis.T @ explanation.residual) ** 2))
         visible = basis.shape[1]
         gains.append(Gain(effect, drop, visible, surprise(drop, visible, noise.degrees)))
-    return tuple(sorted(gains, key=lambda one: -one.surprise))
+    return tuple(sorted(gains, key=lambda gain: -gain.surprise))
 
 
-def bases_beside(explanation: Explanation, candidates: Sequence[str]) -> dict[str, Array]:
+def bases_beyond_fit(explanation: Explanation, candidates: Sequence[str]) -> dict[str, Array]:
     """Orthonormal columns of each candidate that the explanation cannot imitate."""
     fitted = explanation.basis
     others = [name for name in candidates if name not in explanation.effects]
     return {
         name: span(
-            explanation.beside([name], fitted),
+            explanation.beyond_fit([name], fitted),
             against=explanation.slopes[:, explanation.board.columns([name])],
         )
         for name in others

@@ -1,7 +1,7 @@
 """Parts of a board that want different numbers: halves of the sheet, and rounds of marks.
 
 If parameters move by more than 3 sigma from one part to the other, physics is missing even where
-each part by itself fits well, or the rounds were not cut by one machine.
+each part by itself fits well, or the rounds were not cut by the same machine.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from plumb.model.catalogue import ZEROING_NAMES
 
 Array = np.ndarray
 CHANCE = 0.0027  # of a move beyond 3 sigma from noise alone
-FEWEST = 6  # measured numbers in a part: fewer tell nothing of its own
+FEWEST = 6  # measured numbers in a part: fewer tell nothing of it
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ def half_warnings(explanation: Explanation, noise: Noise) -> list[str]:
 def round_warnings(explanation: Explanation, noise: Noise, rounds: Sequence[str]) -> list[str]:
     """A sentence for each round (by its name) that does not go with all others.
 
-    Judged beside everything that the library can draw, so that no effect is blamed on a round.
+    Judged beyond everything that the library can draw, so that no effect is blamed on a round.
     """
     if len(rounds) < 2:
         return []
@@ -102,16 +102,16 @@ def _move(explanation: Explanation, basis: Array, mask: Array, noise: Noise) -> 
         return None
     names = explanation.board.problem.names
     free = [i for i in explanation.free if np.any(explanation.slopes[: mask.size, i])]
-    own = _columns(explanation, [names[i] for i in free], mask)
-    beside = own - basis @ (basis.T @ own)
+    masked = _columns(explanation, [names[i] for i in free], mask)
+    beyond = masked - basis @ (basis.T @ masked)
     left = explanation.residual - basis @ (basis.T @ explanation.residual)
-    together = span(beside, against=own)
+    together = span(beyond, against=masked)
     if not together.shape[1]:
         return None
     chance = float(tail(np.sum((together.T @ left) ** 2), together.shape[1], noise.degrees))
-    lengths = np.linalg.norm(beside, axis=0)
-    felt = lengths > 1e-5 * np.linalg.norm(own, axis=0)
-    pulls = np.where(felt, np.abs(beside.T @ left) / np.where(felt, lengths, 1.0), 0.0)
+    lengths = np.linalg.norm(beyond, axis=0)
+    felt = lengths > 1e-5 * np.linalg.norm(masked, axis=0)
+    pulls = np.where(felt, np.abs(beyond.T @ left) / np.where(felt, lengths, 1.0), 0.0)
     most = int(np.argmax(pulls))
     single = float(tail(pulls[most] ** 2, 1, noise.degrees)) * len(free)
     if min(chance, single) > CHANCE:
@@ -122,10 +122,10 @@ def _move(explanation: Explanation, basis: Array, mask: Array, noise: Noise) -> 
 def _columns(explanation: Explanation, names: Sequence[str], mask: Array) -> Array:
     """Slopes by some unknowns, on the masked numbers only (rows of the priors are zero)."""
     known = explanation.board.problem.names
-    own = explanation.slopes[:, [known.index(name) for name in names]].copy()
-    own[: mask.size][~mask] = 0.0
-    own[mask.size :] = 0.0
-    return own
+    masked = explanation.slopes[:, [known.index(name) for name in names]].copy()
+    masked[: mask.size][~mask] = 0.0
+    masked[mask.size :] = 0.0
+    return masked
 
 
 def _pose(explanation: Explanation, mask: Array) -> Array:

@@ -28,11 +28,11 @@ def spare_numbers(explanation: Explanation) -> float:
 
 
 def library_misfit_chance(explanation: Explanation, noise: Noise) -> float:
-    """The same beside everything that all effects of the library could draw at once."""
-    return _chance(*beside_library(explanation), noise)
+    """The same beyond everything that all effects of the library could draw at once."""
+    return _chance(*beyond_library(explanation), noise)
 
 
-def beside_library(explanation: Explanation) -> tuple[float, float]:
+def beyond_library(explanation: Explanation) -> tuple[float, float]:
     """Chi-square that no combination of effects takes away, and its degrees of freedom."""
     basis = library_basis(explanation)
     rest = explanation.residual - basis @ (basis.T @ explanation.residual)
@@ -41,7 +41,7 @@ def beside_library(explanation: Explanation) -> tuple[float, float]:
 
 def library_basis(explanation: Explanation) -> Array:
     """Orthonormal columns of what was fitted and of every effect of the library."""
-    raw = explanation.slopes[:, explanation.board.columns(explanation.board.own)]
+    raw = explanation.slopes[:, explanation.board.columns(explanation.board.effect_columns)]
     fitted = explanation.basis
     return np.hstack([fitted, span(raw - fitted @ (fitted.T @ raw), against=raw)])
 
@@ -49,8 +49,8 @@ def library_basis(explanation: Explanation) -> Array:
 def _left(explanation: Explanation, basis: Array, residual: Array) -> tuple[float, float]:
     """Chi-square of the measured numbers alone, and the numbers less those that the fit took.
 
-    The priors' own rows do not count: how near the frame is to what was stated says nothing of how
-    well the marks are explained.
+    The rows of the priors do not count: how near the frame is to what was stated says nothing of
+    how well the marks are explained.
     """
     count = explanation.board.rows.count
     return float(residual[:count] @ residual[:count]), count - float(np.sum(basis[:count] ** 2))

@@ -6,7 +6,7 @@ from scipy.special import chdtrc
 
 from plumb.board.observations import Observations
 from plumb.diagnose.explanation import Board, explain
-from plumb.diagnose.misfit import beside_library
+from plumb.diagnose.misfit import beyond_library
 from plumb.diagnose.noise import Noise
 from plumb.diagnose.repeats import distance_spread, mark_spread, rounding_sigma
 from plumb.diagnose.significance import KNOWN
@@ -23,7 +23,7 @@ SURE = 0.01  # chance at which two numbers for the noise are said to disagree
 
 def noise_on(board: Board, stated: float | None) -> Noise:
     """The noise of what was measured on a board; stated [mm]."""
-    left, spare = beside_library(explain(board))
+    left, spare = beyond_library(explain(board))
     scatter = Spread(left * board.sigma**2, max(spare, 0.0))
     return noise_of(repeats_of(board.rows), scatter, stated=stated)
 

@@ -1,4 +1,4 @@
-"""Every effect of the library by itself, the one that explains most first."""
+"""Every effect of the library by itself, what explains most first."""
 
 from __future__ import annotations
 

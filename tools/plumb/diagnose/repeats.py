@@ -6,6 +6,8 @@ round lies shifted, turned or stretched as a whole, that is no noise of reading:
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from plumb.board.observations import Observations
@@ -20,13 +22,13 @@ FEWEST_LEFT = 2.0  # degrees of freedom that must be left to judge by
 
 def mark_spread(rows: Observations) -> Spread:
     """The spread of marks made and read in the same way."""
-    repeated = [own for own in _alike(rows) if len(own) > 1]
+    repeated = [repeats for repeats in _alike(rows) if len(repeats) > 1]
     if not repeated:
         return Spread(0.0, 0.0)
     picked = np.concatenate(repeated)
-    belongs = np.repeat(np.arange(len(repeated)), [len(own) for own in repeated])
+    belongs = np.repeat(np.arange(len(repeated)), [len(repeats) for repeats in repeated])
     means = (belongs[:, np.newaxis] == np.arange(len(repeated))).astype(float)
-    # Repeats may be made beside each other: what they share is how far they are off.
+    # Repeats may be made next to each other: what they share is how far they are off.
     readings = rows.measured[picked] - rows.targets[picked]
     plain = _left(means, readings)
     whole = _round_columns(rows, picked)
@@ -37,35 +39,37 @@ def mark_spread(rows: Observations) -> Spread:
 
 
 def _alike(rows: Observations) -> list[list[int]]:
-    """Marks of one name, made in the same way: by the same chains, or in the same round beside."""
-    made: dict[tuple, dict[tuple, list[int]]] = {}
+    """Marks of a name that were made alike: by the same chains, or close by in the same round."""
+    made: dict[tuple[Any, ...], dict[tuple[float, ...], list[int]]] = {}
     for i, row in enumerate(rows.mark_rows):
-        side = (*rows.approaches[row], rows.exchanged[row])
+        side = (*rows.approaches[row], rows.swapped[row])
         way = (rows.names[i], rows.sled_weights[row], *side)
         made.setdefault(way, {}).setdefault(tuple(rows.chains[row]), []).append(i)
-    found = []
+    alike = []
     for by_chains in made.values():
         groups: list[list[int]] = []
-        for own in by_chains.values():
-            rounds = set(rows.rounds[rows.mark_rows[own]].tolist())
-            beside = [
-                one for one in groups if rounds & set(rows.rounds[rows.mark_rows[one]].tolist())
+        for repeats in by_chains.values():
+            rounds = set(rows.rounds[rows.mark_rows[repeats]].tolist())
+            joined = [
+                group
+                for group in groups
+                if rounds & set(rows.rounds[rows.mark_rows[group]].tolist())
             ]
-            groups = [one for one in groups if one not in beside]
-            groups.append([*(i for one in beside for i in one), *own])
-        found += groups
-    return found
+            groups = [group for group in groups if group not in joined]
+            groups.append([*(i for group in joined for i in group), *repeats])
+        alike += groups
+    return alike
 
 
 def distance_spread(rows: Observations) -> Spread:
     """The same of distances between the same two marks."""
-    spans: dict[frozenset, list[int]] = {}
+    spans: dict[frozenset[int], list[int]] = {}
     for i, ends in enumerate(rows.distance_rows.tolist()):
         spans.setdefault(frozenset(ends), []).append(i)
     squares, degrees = 0.0, 0.0
-    for own in spans.values():
-        squares += float(np.sum((rows.distances[own] - rows.distances[own].mean()) ** 2))
-        degrees += len(own) - 1
+    for repeats in spans.values():
+        squares += float(np.sum((rows.distances[repeats] - rows.distances[repeats].mean()) ** 2))
+        degrees += len(repeats) - 1
     return Spread(squares, degrees)
 
 
@@ -76,7 +80,7 @@ def rounding_sigma(rows: Observations) -> float:
     """
     whole = [rows.measured - rows.measured[:1]] if len(rows.measured) else []
     whole += [rows.distances - rows.distances[:1]] if len(rows.distances) else []
-    numbers = np.concatenate([one.ravel() for one in whole])
+    numbers = np.concatenate([part.ravel() for part in whole])
     for step in STEPS:
         if np.allclose(numbers, step * np.round(numbers / step), atol=1e-6, rtol=0):
             return float(step / np.sqrt(12))
@@ -90,7 +94,7 @@ def _round_columns(rows: Observations, picked: Array) -> Array:
     later = sorted(set(number.tolist()))[1:]
     if not later:
         return np.zeros((len(picked), 0))
-    return np.hstack([linear * (number == one)[:, np.newaxis] for one in later])
+    return np.hstack([linear * (number == later_round)[:, np.newaxis] for later_round in later])
 
 
 def _left(columns: Array, readings: Array) -> Spread:

@@ -9,11 +9,11 @@ from scipy.special import chdtrc, fdtrc, gammaln
 
 Array = np.ndarray
 KNOWN = np.inf  # degrees of freedom of a noise that needs no estimate
-_FAR = 200.0  # a gain beyond which the tail is taken from its own expansion, or it would be zero
+_FAR = 200.0  # a gain beyond which the tail is taken from its expansion, or it would be zero
 
 
 def tail(gain: Array | float, parameters: float, degrees: float) -> Array:
-    """Chance of a gain this large from noise alone, for an effect of so many parameters.
+    """Chance of a gain this large from noise alone, for an effect of some parameters.
 
     gain = drop of the sum of squares over sigma squared; chi-square for a known sigma, F for one
     that was estimated with `degrees` of freedom.
@@ -29,7 +29,7 @@ def surprise(gain: float, parameters: int, degrees: float) -> float:
     if parameters < 1 or gain <= 0:
         return 0.0
     if not np.isinf(degrees):
-        return float(-np.log(max(tail(gain, parameters, degrees), 1e-300)))
+        return float(-np.log(max(float(tail(gain, parameters, degrees)), 1e-300)))
     if gain < _FAR:
         return float(-np.log(tail(gain, parameters, degrees)))
     # Q(a, x) = x^(a - 1) exp(-x) / Gamma(a) * (1 + (a - 1) / x + ...)
@@ -40,7 +40,8 @@ def surprise(gain: float, parameters: int, degrees: float) -> float:
 def surprises(gains: Array, parameters: int, degrees: float) -> Array:
     """`surprise` of many gains, from a table: right to about a thousandth, and fast."""
     table = _table(parameters, degrees)
-    return np.interp(gains, _GAINS, table)
+    interpolated: Array = np.interp(gains, _GAINS, table)
+    return interpolated
 
 
 _GAINS = np.concatenate([[0.0], np.geomspace(1e-3, 1e5, 1500)])

@@ -15,7 +15,7 @@ def sign_warning(
     board: Board, felt: Sequence[str], noise: Noise, kept: Sequence[Explanation]
 ) -> str | None:
     """A sentence on the other sign of y, if nothing simple explains the marks as they stand."""
-    if not len(board.rows.measured) or any(_is_simple(one, noise) for one in kept):
+    if not len(board.rows.measured) or any(_is_simple(explanation, noise) for explanation in kept):
         return None
     turned = with_y_errors_turned(board)
     frame = explain(turned)
@@ -23,9 +23,9 @@ def sign_warning(
         simple = ["the frame alone"]
     else:
         fits = [explain(turned, (name,), start=frame) for name in felt]
-        fits = [one for one in fits if misfit_chance(one, noise) > LEVEL]
-        fits = [one for one in fits if _is_simple(one, noise)]
-        simple = [one.effects[0] for one in sorted(fits, key=lambda one: one.cost)]
+        fits = [single for single in fits if misfit_chance(single, noise) > LEVEL]
+        fits = [single for single in fits if _is_simple(single, noise)]
+        simple = [single.effects[0] for single in sorted(fits, key=lambda single: single.cost)]
     if not simple:
         return (
             "tried with all y errors the other way round as well: nothing simple explains the "
@@ -45,6 +45,6 @@ def with_y_errors_turned(board: Board) -> Board:
     return board.with_rows(replace(rows, measured=measured))
 
 
-def _is_simple(one: Explanation, noise: Noise) -> bool:
+def _is_simple(explanation: Explanation, noise: Noise) -> bool:
     """Whether at most one effect explains the marks, with sizes that a real machine can have."""
-    return len(one.effects) < 2 and possible(one, noise)
+    return len(explanation.effects) < 2 and possible(explanation, noise)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,7 +18,7 @@ Array = np.ndarray
 
 @dataclass(frozen=True)
 class Size:
-    """One parameter of an effect, fitted, with its 95 % interval."""
+    """A parameter of an effect, fitted, with its 95 % interval."""
 
     name: str  # without the effect's
     value: float
@@ -39,11 +39,11 @@ class Room:
 
 
 def sizes_of(explanation: Explanation, effect: str, noise: Noise) -> tuple[Size, ...]:
-    """The fitted parameters of one effect of an explanation."""
+    """The fitted parameters of an effect of an explanation."""
     problem, words = explanation.board.problem, parameter_words()
     free = explanation.free
     covariance = _covariance(explanation.slopes[:, free])
-    found = []
+    sizes = []
     for column in explanation.board.columns([effect]):
         name, scale = problem.names[column], problem.scale[column]
         value = float(problem.start[column] + scale * explanation.unknowns[column])
@@ -51,7 +51,7 @@ def sizes_of(explanation: Explanation, effect: str, noise: Noise) -> tuple[Size,
         half = noise.quantile * float(np.sqrt(variance)) * scale
         felt = bool(np.any(explanation.slopes[:, column]))
         plausible = plausible_range(name)
-        found.append(
+        sizes.append(
             Size(
                 name=name.partition(".")[2],
                 value=value,
@@ -62,7 +62,7 @@ def sizes_of(explanation: Explanation, effect: str, noise: Noise) -> tuple[Size,
                 possible=bool(plausible.is_near(value - half, value + half)),
             )
         )
-    return tuple(found)
+    return tuple(sizes)
 
 
 def possible(explanation: Explanation, noise: Noise) -> bool:
@@ -77,25 +77,29 @@ def hidden_share(frame: Explanation, effect: str) -> float | None:
 
     Parameters count in their typical sizes.
     """
-    own = frame.slopes[:, frame.board.columns([effect])]
-    whole = float(np.sum(own**2))
-    return 1 - float(np.sum(frame.beside([effect]) ** 2)) / whole if whole else None
+    columns = frame.slopes[:, frame.board.columns([effect])]
+    whole = float(np.sum(columns**2))
+    return 1 - float(np.sum(frame.beyond_fit([effect]) ** 2)) / whole if whole else None
 
 
 def room_for(effect: str, explanations: Sequence[Explanation], noise: Noise) -> Room:
     """The largest size that any of these explanations leaves to an effect (95 % upper limit), or
     what a real machine can have if that is less.
 
-    Where the effect is part of the explanation it is its own size there, else what could be added.
+    Where the effect is part of the explanation its fitted size counts, else what could be added.
     """
-    rooms = [_room(effect, one, noise) for one in explanations]
-    if any(one.mm is None for one in rooms):
-        return next(one for one in rooms if one.mm is None)
+    rooms = [_room(effect, explanation, noise) for explanation in explanations]
     limits = tuple(
-        (name, max(one.limits[i][1] for one in rooms), unit)
+        (name, _largest_of(room.limits[i][1] for room in rooms), unit)
         for i, (name, _, unit) in enumerate(rooms[0].limits)
     )
-    return Room(effect, limits, max(one.mm for one in rooms))
+    return Room(effect, limits, _largest_of(room.mm for room in rooms))
+
+
+def _largest_of(sizes: Iterable[float | None]) -> float | None:
+    """The largest; None if an explanation says nothing of it."""
+    known = list(sizes)
+    return None if None in known else max(size for size in known if size is not None)
 
 
 def _room(effect: str, explanation: Explanation, noise: Noise) -> Room:
@@ -108,10 +112,10 @@ def _room(effect: str, explanation: Explanation, noise: Noise) -> Room:
         nothing = tuple((name.partition(".")[2], None, words[name]["unit"]) for name in names)
         return Room(effect, nothing, None)
     fitted = span(explanation.slopes[:, free])
-    beside = raw - fitted @ (fitted.T @ raw)
-    covariance = _covariance(beside)
+    beyond = raw - fitted @ (fitted.T @ raw)
+    covariance = _covariance(beyond)
     start = explanation.unknowns[columns]
-    middle = start + np.linalg.lstsq(beside, explanation.residual, rcond=1e-10)[0]
+    middle = start + np.linalg.lstsq(beyond, explanation.residual, rcond=1e-10)[0]
     total = board.problem.start[columns] / board.problem.scale[columns] + middle
     reach = noise.upper_quantile * np.sqrt(np.diag(covariance))
     limits = []
@@ -128,7 +132,7 @@ def _room(effect: str, explanation: Explanation, noise: Noise) -> Room:
         whole = np.abs(raw) * limits[0][1] / board.problem.scale[columns[0]]
         return Room(effect, tuple(limits), _per_reading(explanation, whole[:, 0]))
     # Where little is measured the ellipsoid is boundless, but what is possible is not.
-    sizes = np.array([one[1] for one in limits]) / board.problem.scale[columns]
+    sizes = np.array([limit[1] for limit in limits]) / board.problem.scale[columns]
     at_limits = sum(_per_reading(explanation, column) for column in (raw * sizes).T)
     return Room(
         effect, tuple(limits), min(_largest(explanation, raw, total, covariance), at_limits)
@@ -140,7 +144,7 @@ def _largest(explanation: Explanation, raw: Array, total: Array, covariance: Arr
     # |E v| over the ellipsoid of v is at most |E middle| + its radius times the longest axis.
     values, directions = np.linalg.eigh(covariance)
     axes = raw @ (directions * np.sqrt(np.maximum(values, 0.0)))
-    radius = np.sqrt(chdtri(raw.shape[1], 0.10))
+    radius = float(np.sqrt(chdtri(raw.shape[1], 0.10)))
     middle = _per_reading(explanation, raw @ total)
     return middle + radius * max(_per_reading(explanation, axis) for axis in _main_axes(axes))
 
@@ -148,7 +152,8 @@ def _largest(explanation: Explanation, raw: Array, total: Array, covariance: Arr
 def _main_axes(columns: Array) -> Array:
     """Columns turned so that the first is the longest (as rows)."""
     left, sizes, _ = np.linalg.svd(columns, full_matrices=False)
-    return (left * sizes).T
+    main: Array = (left * sizes).T
+    return main
 
 
 def _per_reading(explanation: Explanation, whitened: Array) -> float:

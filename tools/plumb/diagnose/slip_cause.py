@@ -1,4 +1,4 @@
-"""What a slip most likely was: axes exchanged, digits swapped, a round number off."""
+"""What a slip most likely was: axes exchanged, digits transposed, a round number off."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def _guess(
         if len(wrong) != 1:
             continue
         number = frame.numbers[wrong[0]]
-        for other in _swapped(number):
+        for other in _transposed(number):
             changed = frame.numbers.copy()
             changed[wrong[0]] = other
             if _agree(frame.back(changed), expected, sigma):
@@ -100,7 +100,8 @@ class _Frame:
 
     def back(self, numbers: np.ndarray) -> np.ndarray:
         """In the machine frame."""
-        return self.sign * (numbers - self.middle)
+        places: np.ndarray = self.sign * (numbers - self.middle)
+        return places
 
 
 def _as_read(read: np.ndarray, sheet: tuple[float, float]) -> list[_Frame]:
@@ -114,10 +115,10 @@ def _as_read(read: np.ndarray, sheet: tuple[float, float]) -> list[_Frame]:
     ]
 
 
-def _swapped(number: float) -> list[float]:
-    """The number with two neighbouring digits exchanged, whole millimetres and tenths."""
+def _transposed(number: float) -> list[float]:
+    """The number with two neighbouring digits transposed, whole millimetres and tenths."""
     text = _shown(abs(number))
-    found = []
+    numbers = []
     for i in range(len(text) - 1):
         for j in (i + 1, i + 2):
             if j >= len(text) or not (text[i].isdigit() and text[j].isdigit()):
@@ -127,8 +128,8 @@ def _swapped(number: float) -> list[float]:
             digits = list(text)
             digits[i], digits[j] = digits[j], digits[i]
             if digits != list(text):
-                found.append(float(np.copysign(float("".join(digits)), number)))
-    return found
+                numbers.append(float(np.copysign(float("".join(digits)), number)))
+    return numbers
 
 
 def _shown(number: float) -> str:

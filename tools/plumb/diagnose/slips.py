@@ -22,12 +22,12 @@ from plumb.diagnose.sizes import possible
 
 Array = np.ndarray
 LEVEL = 0.01  # chance at which noise alone makes a slip of one of all readings
-READINGS_PER_SLIP = 12  # with more slips than one in so many readings the slips are not the story
+READINGS_PER_SLIP = 12  # with more slips than one in this many readings the slips are not the story
 
 
 @dataclass(frozen=True)
 class Reading:
-    """One reading: a mark's place or a distance, by its index among its kind."""
+    """A reading: a mark's place or a distance, by its index among its kind."""
 
     index: int
     is_mark: bool
@@ -46,7 +46,7 @@ class Reading:
 
 @dataclass(frozen=True)
 class Shift:
-    """How far a reading is off by one explanation."""
+    """How far a reading is off by an explanation."""
 
     reading: Reading
     offset: Array  # (2,) or (1,) [mm] read less what the rest says
@@ -78,20 +78,20 @@ def shifts(explanation: Explanation) -> list[Shift]:
     r_b^T (P_bb)^-1 r_b and moves them by (P_bb)^-1 r_b.
     """
     board, basis = explanation.board, explanation.basis
-    found = []
+    of_readings = []
     for reading in readings_of(board.rows):
-        own = reading.numbers(board.rows)
-        kept = np.eye(reading.size) - basis[own] @ basis[own].T
+        numbers = reading.numbers(board.rows)
+        kept = np.eye(reading.size) - basis[numbers] @ basis[numbers].T
         inverse = np.linalg.pinv(kept, rcond=1e-6, hermitian=True)
-        offset = inverse @ explanation.residual[own]
-        drop = float(explanation.residual[own] @ offset)
+        offset = inverse @ explanation.residual[numbers]
+        drop = float(explanation.residual[numbers] @ offset)
         sigma = np.sqrt(np.diag(inverse))
-        found.append(Shift(reading, offset * board.sigma, sigma * board.sigma, drop))
-    return found
+        of_readings.append(Shift(reading, offset * board.sigma, sigma * board.sigma, drop))
+    return of_readings
 
 
 def without(rows: Observations, reading: Reading) -> Observations:
-    """The observations without one reading; the visit itself stays."""
+    """The observations without a reading; the visit itself stays."""
     if not reading.is_mark:
         return replace(
             rows,
@@ -110,16 +110,17 @@ def without(rows: Observations, reading: Reading) -> Observations:
 def clear_slips(board: Board, candidates: Sequence[str], *, stated: float | None) -> Cleared:
     """Set slips aside one after the other, worst first, if the rest then fits."""
     start = noise_on(board, stated)
-    rows, noise, slips = board.rows, start, []
+    rows, noise = board.rows, start
+    slips: list[Shift] = []
     indices = readings_of(rows)  # of the readings still there, among all
     most = max(1, len(indices) // READINGS_PER_SLIP)
     whole = fitted = _single(board.with_rows(rows, sigma=noise.sigma), candidates)
     while len(slips) <= most:
-        found = _worst(fitted, stated, noise)
-        if found is None:
+        worst = _worst(fitted, stated, noise)
+        if worst is None:
             break
-        slips.append(replace(found, reading=indices.pop(_place(rows, found.reading))))
-        rows = without(rows, found.reading)
+        slips.append(replace(worst, reading=indices.pop(_place(rows, worst.reading))))
+        rows = without(rows, worst.reading)
         noise = noise_on(board.with_rows(rows, sigma=noise.sigma), stated)
         fitted = _single(board.with_rows(rows, sigma=noise.sigma), candidates)
     if slips and len(slips) <= most and _fits(fitted, noise):
@@ -135,14 +136,14 @@ def _worst(fitted: Sequence[Explanation], stated: float | None, noise: Noise) ->
     that of all others: a slip must not hide in what it makes of the noise.
     """
     explanations, board = _possible(fitted, noise), fitted[0].board
-    by_explanation = [shifts(one) for one in explanations]
-    drops = np.array([[one.drop for one in own] for own in by_explanation])
+    by_explanation = [shifts(explanation) for explanation in explanations]
+    drops = np.array([[shift.drop for shift in of_each] for of_each in by_explanation])
     if drops.shape[1] < 4:
         return None
-    everything = _beside_everything(explanations[0])
+    everything = _drops_beyond_library(explanations[0])
     # What remains by the explanation that needs the slip least, or by all effects at once.
     least = np.maximum(drops.min(axis=0), everything)
-    sizes = np.array([one.reading.size for one in by_explanation[0]])
+    sizes = np.array([shift.reading.size for shift in by_explanation[0]])
     chances = np.array([tail(g, s, np.inf) for g, s in zip(least, sizes, strict=True)])
     worst = int(np.lexsort((-least, chances))[0])
     reading = by_explanation[0][worst].reading
@@ -151,20 +152,23 @@ def _worst(fitted: Sequence[Explanation], stated: float | None, noise: Noise) ->
     if tail(drop, reading.size, others.degrees) * len(least) > LEVEL:
         return None
     costs = [
-        one.cost - own[worst].drop for one, own in zip(explanations, by_explanation, strict=True)
+        explanation.cost - of_each[worst].drop
+        for explanation, of_each in zip(explanations, by_explanation, strict=True)
     ]
     return by_explanation[int(np.argmin(costs))][worst]
 
 
-def _beside_everything(explanation: Explanation) -> Array:
-    """Each reading's drop of chi-square beside all effects of the library at once."""
+def _drops_beyond_library(explanation: Explanation) -> Array:
+    """Each reading's drop of chi-square beyond all effects of the library at once."""
     basis = library_basis(explanation)
     left = explanation.residual - basis @ (basis.T @ explanation.residual)
     drops = []
     for reading in readings_of(explanation.board.rows):
-        own = reading.numbers(explanation.board.rows)
-        kept = np.eye(reading.size) - basis[own] @ basis[own].T
-        drops.append(left[own] @ np.linalg.pinv(kept, rcond=1e-3, hermitian=True) @ left[own])
+        numbers = reading.numbers(explanation.board.rows)
+        kept = np.eye(reading.size) - basis[numbers] @ basis[numbers].T
+        drops.append(
+            left[numbers] @ np.linalg.pinv(kept, rcond=1e-3, hermitian=True) @ left[numbers]
+        )
     return np.array(drops)
 
 
@@ -176,12 +180,14 @@ def _single(board: Board, candidates: Sequence[str]) -> list[Explanation]:
 
 def _possible(fitted: Sequence[Explanation], noise: Noise) -> list[Explanation]:
     """Those of sizes that a real machine can have; the frame alone is the first."""
-    return [one for one in fitted if possible(one, noise)]
+    return [explanation for explanation in fitted if possible(explanation, noise)]
 
 
 def _fits(fitted: Sequence[Explanation], noise: Noise) -> bool:
     """Whether the frame alone or with one effect leaves no more than noise."""
-    return any(misfit_chance(one, noise) > MISFIT_LEVEL for one in _possible(fitted, noise))
+    return any(
+        misfit_chance(explanation, noise) > MISFIT_LEVEL for explanation in _possible(fitted, noise)
+    )
 
 
 def _place(rows: Observations, reading: Reading) -> int:

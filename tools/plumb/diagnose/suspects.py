@@ -19,7 +19,7 @@ from scipy.special import gammaln
 
 from plumb.diagnose.chance import BELIEVABLE, chance_of_imitation
 from plumb.diagnose.explanation import Explanation, explain, span
-from plumb.diagnose.gain import LEVEL, bases_beside, complete
+from plumb.diagnose.gain import LEVEL, bases_beyond_fit, complete
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
 from plumb.diagnose.misfit import library_misfit_chance, misfit_chance, spare_numbers
 from plumb.diagnose.noise import Noise
@@ -67,21 +67,21 @@ def find_suspects(
     library_fits = library_misfit_chance(frame, noise) > MISFIT_LEVEL
     chance = 0.0
     for size in range(2, MOST_TOGETHER + 1):
-        if any(one.possible for one in survivors) or not library_fits:
+        if any(survivor.possible for survivor in survivors) or not library_fits:
             break
         together = [
             explain(frame.board, effects, start=frame)
             for effects in _promising(frame, felt, size, noise)
         ]
         standing = _standing(together, felt, noise)
-        # More effects draw anything better: beside fewer they count only if they are possible.
+        # More effects draw anything better: where fewer stand they count only if possible.
         alone = not survivors
-        survivors += [one for one in standing if one.possible or alone]
-        if any(one.possible for one in survivors):
+        survivors += [survivor for survivor in standing if survivor.possible or alone]
+        if any(survivor.possible for survivor in survivors):
             chance = chance_of_imitation(frame, felt, size, noise, real=True)
-    survivors.sort(key=lambda one: -one.worth)
-    if survivors and not any(one.possible for one in survivors):
-        most = max(len(one.explanation.effects) for one in survivors)
+    survivors.sort(key=lambda survivor: -survivor.worth)
+    if survivors and not any(survivor.possible for survivor in survivors):
+        most = max(len(survivor.explanation.effects) for survivor in survivors)
         chance = chance_of_imitation(frame, felt, most, noise, real=False)
     return Suspects(tuple(survivors), library_fits, chance)
 
@@ -91,12 +91,12 @@ def _standing(
 ) -> list[Survivor]:
     """Explanations that leave no misfit and to which nothing can be added, best first."""
     standing = []
-    for one in explanations:
-        if spare_numbers(one) < FEWEST_SPARE:
+    for explanation in explanations:
+        if spare_numbers(explanation) < FEWEST_SPARE:
             continue  # as many unknowns as numbers explain anything
-        if misfit_chance(one, noise) > MISFIT_LEVEL and complete(one, felt, noise):
-            standing.append(Survivor(one, possible(one, noise)))
-    return sorted(standing, key=lambda one: -one.worth)
+        if misfit_chance(explanation, noise) > MISFIT_LEVEL and complete(explanation, felt, noise):
+            standing.append(Survivor(explanation, possible(explanation, noise)))
+    return sorted(standing, key=lambda survivor: -survivor.worth)
 
 
 def best_at_hand(frame: Explanation, felt: Sequence[str]) -> tuple[str, ...]:
@@ -111,7 +111,7 @@ def best_at_hand(frame: Explanation, felt: Sequence[str]) -> tuple[str, ...]:
             for name in felt
             if name not in chosen.effects
         ]
-        values = [worth(one) for one in more]
+        values = [worth(candidate) for candidate in more]
         if not more or max(values) <= best:
             break
         best, chosen = max(values), more[int(np.argmax(values))]
@@ -125,11 +125,11 @@ def worth(explanation: Explanation) -> float:
     typical: that favours usual sizes and forbids none. The integral over sizes is Laplace's.
     """
     board, effects = explanation.board, explanation.effects
-    own = explanation.slopes[:, board.columns(effects)]
+    columns = explanation.slopes[:, board.columns(effects)]
     fitted = span(explanation.slopes[:, board.frame])
-    own = own - fitted @ (fitted.T @ own)
-    count = own.shape[1]
-    spread = np.linalg.slogdet(np.eye(count) + own.T @ own)[1]
+    columns = columns - fitted @ (fitted.T @ columns)
+    count = columns.shape[1]
+    spread = np.linalg.slogdet(np.eye(count) + columns.T @ columns)[1]
     prior = sum(_log_cauchy(explanation.unknowns[board.columns([name])]) for name in effects)
     return float(prior - (explanation.cost + spread - count * np.log(2 * np.pi)) / 2)
 
@@ -148,7 +148,7 @@ def _promising(
 
     Their limit is Bonferroni's, which is wider than the simulated one that decides later.
     """
-    bases = bases_beside(frame, felt)
+    bases = bases_beyond_fit(frame, felt)
     limit = LEVEL / len(felt) / 10
     promising = []
     for effects in combinations(felt, size):
@@ -158,8 +158,8 @@ def _promising(
         for name in felt:
             if name in effects:
                 continue
-            own = bases[name] - fitted @ (fitted.T @ bases[name])
-            more = span(own)
+            rest = bases[name] - fitted @ (fitted.T @ bases[name])
+            more = span(rest)
             gain = float(np.sum((more.T @ left) ** 2))
             worst = min(worst, float(tail(gain, max(more.shape[1], 1), noise.degrees)))
             if worst < limit:

@@ -21,7 +21,7 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True)
 class ComparedMark:
-    """One measured mark beside its prediction [mm]."""
+    """A measured mark and its prediction [mm]."""
 
     name: str
     target: Point
@@ -39,7 +39,7 @@ class ComparedMark:
 
 @dataclass(frozen=True)
 class ComparedDistance:
-    """One measured distance beside its prediction [mm]."""
+    """A measured distance and its prediction [mm]."""
 
     between: tuple[str, str]
     predicted: float
@@ -49,7 +49,7 @@ class ComparedDistance:
 
 @dataclass(frozen=True)
 class ComparedRound:
-    """One file of several: its errors [mm]; None where it has no such readings."""
+    """A file of several: its errors [mm]; None where it has no such readings."""
 
     name: str
     date: str
@@ -94,7 +94,7 @@ def compare(
     marks = _marks(model, rows, where)
     distances = _distances(measurements, rows, where)
     errors = np.array([mark.error for mark in marks]).reshape(-1, 2)
-    spans = np.array([one.error for one in distances])
+    spans = np.array([distance.error for distance in distances])
     pose = best_pose(where[rows.mark_rows], rows.measured)
     counted = np.hypot(errors[:, 0], errors[:, 1]) if marks else np.abs(spans)
     return Comparison(
@@ -109,7 +109,7 @@ def compare(
         warnings=_warnings(settings, measurements, cut_with, controller),
         rounds=_rounds(measurements, errors, spans),
         benchmark=score_as_cut(measurements),
-        benchmark_left=score_of(measurements, spans),
+        benchmark_left=score_of(measurements, spans.tolist()),
     )
 
 
@@ -121,20 +121,22 @@ def _rounds(
         return ()
     of_name = {mark.name: mark.round for mark in measurements.marks}
     marks = np.array([mark.round for mark in measurements.measured_marks], dtype=int)
-    distances = np.array([of_name[one.between[0]] for one in measurements.distances], dtype=int)
-    found = []
-    for number, own in enumerate(measurements.rounds):
+    distances = np.array(
+        [of_name[distance.between[0]] for distance in measurements.distances], dtype=int
+    )
+    compared = []
+    for number, file_round in enumerate(measurements.rounds):
         of_marks, of_spans = errors[marks == number], spans[distances == number]
-        found.append(
+        compared.append(
             ComparedRound(
-                name=own.name,
-                date=own.date,
+                name=file_round.name,
+                date=file_round.date,
                 count=len(of_marks) or len(of_spans),
                 rms=rms(of_marks) if len(of_marks) else None,
                 distance_rms=rms(of_spans) if len(of_spans) else None,
             )
         )
-    return tuple(found)
+    return tuple(compared)
 
 
 def predicted_places(
@@ -180,8 +182,10 @@ def _distances(
     ends = where[rows.distance_rows]
     spans = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     return tuple(
-        ComparedDistance(one.between, float(span), one.length, float(one.length - span))
-        for one, span in zip(measurements.distances, spans, strict=True)
+        ComparedDistance(
+            distance.between, float(span), distance.length, float(distance.length - span)
+        )
+        for distance, span in zip(measurements.distances, spans, strict=True)
     )
 
 
@@ -196,7 +200,7 @@ def _warnings(
     controller: str | None,
 ) -> tuple[str, ...]:
     whose = controller or measurements.controller
-    known = cut_with or all(one.cut_with for one in measurements.rounds)
+    known = cut_with or all(file_round.cut_with for file_round in measurements.rounds)
     if known or settings.controller != "plumb" or whose in (None, "plumb"):
         return ()
     return (

@@ -10,9 +10,9 @@ from scipy.special import stdtrit
 
 from plumb.board.observations import Observations
 from plumb.board.sighting import OUTSIDE_NAMES, SHEET_ROTATION
-from plumb.fit.problem import PRIORS, USUAL_SIGMA, Array, Problem
+from plumb.fit.problem import PRIORS, USUAL_SIGMA, Problem
 from plumb.fit.solver import Solution, solve
-from plumb.model.predict import settings_of
+from plumb.model.predict import Array, settings_of
 from plumb.settings.machine import MachineSettings
 
 SMALLEST_SIGMA = 1e-9  # [mm] for marks that a model explains completely
@@ -20,7 +20,7 @@ SMALLEST_SIGMA = 1e-9  # [mm] for marks that a model explains completely
 
 @dataclass(frozen=True)
 class Estimate:
-    """One fitted number: its value, 95 % interval, and what was known of it before."""
+    """A fitted number: its value, 95 % interval, and what was known of it before."""
 
     name: str
     value: float
@@ -99,7 +99,7 @@ def _fit_of(problem: Problem, solution: Solution, stated: float | None) -> Fit:
     spare = max(len(errors) - spent, 1e-9)
     sigma = stated or max(float(np.sqrt(errors @ errors / spare)), SMALLEST_SIGMA)
     width = float(stdtrit(spare, 0.975)) if stated is None else 1.96
-    # Intervals for the noise that was found; what a prior holds grows no wider than the prior.
+    # Intervals for the noise as estimated; what a prior holds grows no wider than the prior.
     normal = slopes.T @ slopes * (problem.sigma / sigma) ** 2 + priors
     deviation = np.sqrt(np.diag(np.linalg.pinv(normal, hermitian=True)))
     marks, distances = errors[: rows.measured.size].reshape(-1, 2), errors[rows.measured.size :]
@@ -152,7 +152,7 @@ def _by_effect(outside: Mapping[str, float]) -> dict[str, dict[str, float]]:
 def _left_out(
     names: tuple[str, ...], marks: Array, distances: Array, leverage: Array
 ) -> tuple[Array, Array]:
-    """Errors of each mark or distance in a fit without it: (1 - its own leverage)^-1 error.
+    """Errors of each mark or distance in a fit without it: (1 - its leverage)^-1 error.
 
     Repeats of a mark are left out together, or each would be predicted by its twin.
     """

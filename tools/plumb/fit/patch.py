@@ -36,14 +36,14 @@ def best_patch(
     sigma: float | None,
     without: Fit,
 ) -> Patched | None:
-    """The patch beside the frame and these effects; None if it buys nothing.
+    """The patch with the frame and these effects; None if it buys nothing.
 
     `without` is the same fit without a patch.
     """
-    best = None
+    tried = []
     for size in SIZES:
         held = {**priors, **dict.fromkeys(parameter_names(PATCH), size)}
-        found = fit(settings, observations, effects=effects, priors=held, sigma=sigma)
-        if best is None or found.left_out_rms < best.fit.left_out_rms:
-            best = Patched(found, size)
+        fitted = fit(settings, observations, effects=effects, priors=held, sigma=sigma)
+        tried.append(Patched(fitted, size))
+    best = min(tried, key=lambda patched: patched.fit.left_out_rms)
     return best if best.fit.left_out_rms < WORTH * without.left_out_rms else None

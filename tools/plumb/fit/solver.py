@@ -5,10 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from plumb.fit.problem import Array, Linearized, Problem
+from plumb.fit.problem import Linearized, Problem
+from plumb.model.predict import Array
 from plumb.text.errors import InputError
 
+Columns = NDArray[np.int_]
 MOST_STEPS = 30
 MOST_HALVINGS = 8
 CLOSE_ENOUGH = 1e-12  # of chi-square: a step that promises less is not made
@@ -27,7 +30,7 @@ class Solution:
 def solve(
     problem: Problem,
     *,
-    free: Array | None = None,
+    free: Columns | None = None,
     start: Array | None = None,
     close_enough: float = CLOSE_ENOUGH,
 ) -> Solution:
@@ -38,7 +41,7 @@ def solve(
     here = problem.at(np.zeros(len(problem.names)) if start is None else start)
     if here is None:
         raise InputError("with these settings the sled cannot hang where the marks were sent")
-    columns = np.arange(len(problem.names)) if free is None else free
+    columns: Columns = np.arange(len(problem.names)) if free is None else free
     step, promised = _step(here, columns)
     for _ in range(MOST_STEPS):
         if promised < max(close_enough, ROUNDING * here.cost):
@@ -51,15 +54,15 @@ def solve(
     return Solution(here, settled=promised < max(close_enough, AT_REST, ROUNDING * here.cost))
 
 
-def _step(here: Linearized, columns: Array) -> tuple[Array, float]:
+def _step(here: Linearized, columns: Columns) -> tuple[Array, float]:
     """The step to the least of the linearized problem, and by how much it lowers chi-square."""
     slopes = here.slopes[:, columns]
     step = np.linalg.lstsq(slopes, here.residual, rcond=1e-10)[0]
     promised = 2 * step @ (slopes.T @ here.residual) - np.sum((slopes @ step) ** 2)
-    return step, float(promised)
+    return np.asarray(step, dtype=float), float(promised)
 
 
-def _lower(problem: Problem, here: Linearized, columns: Array, step: Array) -> Linearized | None:
+def _lower(problem: Problem, here: Linearized, columns: Columns, step: Array) -> Linearized | None:
     """The first of ever shorter steps that lowers chi-square; None if none does."""
     for halvings in range(MOST_HALVINGS):
         unknowns = here.unknowns.copy()

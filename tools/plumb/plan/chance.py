@@ -72,8 +72,8 @@ class Rediagnosis:
         self.rows, self.board = rows, board
         self.noise = noise
         self.frame = span(rows.slopes[:, board.frame])
-        self.nothing = len(board.own)  # explanations left where nothing is proved
-        self.columns = {name: board.columns([name]) for name in board.own}
+        self.nothing = len(board.effect_columns)  # explanations left where nothing is proved
+        self.columns = {name: board.columns([name]) for name in board.effect_columns}
         self.felt = [name for name, own in self.columns.items() if rows.slopes[:, own].any()]
         several = [one.effects for one in case.hypotheses if len(one.effects) > 1]
         self.names = [*((name,) for name in self.felt), *several]
@@ -168,7 +168,7 @@ def noise_after(case: Case, visits: Visits) -> Noise:
     """The noise as it will be known: marks that are visited again in the same way tell of it."""
     rows, noise = case.board.rows, case.noise
     known = {
-        (name, *rows.chains[row], rows.sled_weights[row], rows.exchanged[row])
+        (name, *rows.chains[row], rows.sled_weights[row], rows.swapped[row])
         for name, row in zip(rows.names, rows.mark_rows, strict=True)
     }
     planned = zip(visits.names, visits.chains, visits.sled_weights, visits.swapped, strict=True)

@@ -212,7 +212,7 @@ class _Shop:
             rows.chains[own],
             rows.sled_weights[own],
             rows.approaches[own],
-            rows.exchanged[own],
+            rows.swapped[own],
         )
 
     def visits(

@@ -110,5 +110,5 @@ def _old(case: Case, name: str) -> Visits:
         rows.chains[row],
         rows.sled_weights[row],
         rows.approaches[row],
-        rows.exchanged[row],
+        rows.swapped[row],
     )

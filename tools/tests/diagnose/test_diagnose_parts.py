@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from plumb.board.observations import observe
 from plumb.diagnose.explanation import Board, explain
-from plumb.diagnose.gain import LEVEL, bases_beside, limit_of_noise, search
+from plumb.diagnose.gain import LEVEL, bases_beyond_fit, limit_of_noise, search
 from plumb.diagnose.misfit import misfit_chance
 from plumb.diagnose.noise import Noise
 from plumb.diagnose.noise_sources import noise_of, repeats_of
@@ -130,7 +130,7 @@ def test_more_parameters_are_no_advantage_in_the_gate():
     # On noise alone each effect is first about as often as any other of its kind: the effect with
     # four parameters must not win because it has four.
     frame = explain(board_of(columns=5, rows=5))
-    bases = bases_beside(frame, effect_names())
+    bases = bases_beyond_fit(frame, effect_names())
     source = np.random.default_rng(3)
     drawn = source.standard_normal((3000, len(frame.residual)))
     names = [name for name in bases if bases[name].shape[1]]
@@ -147,7 +147,7 @@ def test_more_parameters_are_no_advantage_in_the_gate():
 
 
 def test_the_gate_rises_as_the_noise_is_known_less():
-    bases = bases_beside(explain(board_of()), effect_names())
+    bases = bases_beyond_fit(explain(board_of()), effect_names())
     known = limit_of_noise(bases, STATED)
     few = limit_of_noise(bases, Noise(0.5, 6.0, "repeats"))
     # The limit is a chance, so it hardly moves; the gain that reaches it grows a lot.
@@ -161,7 +161,7 @@ _GRID = np.linspace(0, 400, 40001)
 
 
 def test_the_noise_in_the_gate_is_the_same_each_time():
-    bases = bases_beside(explain(board_of()), effect_names())
+    bases = bases_beyond_fit(explain(board_of()), effect_names())
     assert limit_of_noise(bases, STATED) == limit_of_noise(bases, STATED)
 
 
