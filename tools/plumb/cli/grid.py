@@ -50,7 +50,7 @@ def run(arguments: argparse.Namespace) -> int:
             "program": None if arguments.output else marks_grid.program(grid, machine),
             "marks": [
                 {"name": mark.name, "target": [mark.x, mark.y], "visit": mark.visit}
-                for mark in marks_grid.marks(grid, machine)
+                for mark in marks_grid.touches_of(grid, machine)
             ],
             "approach": list(grid.approach),
             "written": [path for path in (arguments.output, arguments.marks) if path],
@@ -86,7 +86,7 @@ def refuse_out_of_reach(arguments: argparse.Namespace) -> None:
         raise InputError(f"{what} at x {x:.1f} y {y:.1f} {why}; see plumb reach")
 
 
-def _settings_of(path: str | None, machine: marks_grid.Machine) -> MachineSettings:
+def _settings_of(path: str | None, machine: marks_grid.PlainMachine) -> MachineSettings:
     """The machine of the settings file, with the numbers that the tool goes by."""
     plain = MachineSettings(
         motor_gap=machine.motor_spacing,

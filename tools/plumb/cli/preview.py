@@ -92,7 +92,7 @@ def _plan(arguments: argparse.Namespace, settings: MachineSettings) -> Measureme
             )
         return read_plan(arguments.plan, sheet=settings.sheet)
     grid = marks_grid.Grid(**{"columns": COLUMNS, "rows": ROWS, **asked})
-    machine = marks_grid.Machine()._replace(
+    machine = marks_grid.PlainMachine()._replace(
         sheet_width=settings.sheet_width, sheet_height=settings.sheet_height
     )
     try:
@@ -102,7 +102,7 @@ def _plan(arguments: argparse.Namespace, settings: MachineSettings) -> Measureme
     side = float(grid.approach[0]), float(grid.approach[1])
     marks = tuple(
         Mark(str(mark.name), (mark.x, mark.y), (mark.x, mark.y), approach=side)
-        for mark in marks_grid.marks(grid, machine)
+        for mark in marks_grid.touches_of(grid, machine)
     )
     return Measurements(marks, source=f"grid of {grid.columns} x {grid.rows}")
 

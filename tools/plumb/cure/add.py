@@ -31,8 +31,8 @@ from plumb.model.lab_effects.lab_effect import EDGES, SLED, TAPE
 from plumb.model.predict import frame_words
 from plumb.model.sketches import SKETCHES
 from plumb.settings.machine import FRAME_FIELDS, MachineSettings
-from plumb.text.checks import refuse_unknown
 from plumb.text.errors import InputError
+from plumb.text.values import refuse_unknown
 
 FAR = 2.0  # [prior sigmas] a stated number that moved farther was probably measured wrongly
 

@@ -10,8 +10,8 @@ from plumb.diagnose import Diagnosis, diagnose
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import every_effect
-from plumb.text.checks import refuse_unknown
 from plumb.text.errors import InputError
+from plumb.text.values import refuse_unknown
 
 
 @dataclass(frozen=True)

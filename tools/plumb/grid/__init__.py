@@ -3,24 +3,24 @@
 from plumb.grid.command import add_arguments, from_arguments, main, run
 from plumb.grid.form import marks_list
 from plumb.grid.gcode import program
-from plumb.grid.options import MIN_FREE_CHAIN, Grid, GridError, Machine
+from plumb.grid.options import MIN_FREE_CHAIN, Grid, GridError, PlainMachine
 from plumb.grid.picture import preview
-from plumb.grid.touches import marks
+from plumb.grid.touches import touches_of
 from plumb.grid.way import check, tensions
 
 __all__ = [
     "MIN_FREE_CHAIN",
     "Grid",
     "GridError",
-    "Machine",
+    "PlainMachine",
     "add_arguments",
     "check",
     "from_arguments",
     "main",
-    "marks",
     "marks_list",
     "preview",
     "program",
     "run",
     "tensions",
+    "touches_of",
 ]

@@ -15,7 +15,7 @@ from typing import Any, NoReturn
 from plumb.grid.form import marks_list
 from plumb.grid.gcode import program
 from plumb.grid.limits import demand
-from plumb.grid.options import GRID_OPTIONS, MACHINE_OPTIONS, Grid, GridError, Machine, pair
+from plumb.grid.options import GRID_OPTIONS, MACHINE_OPTIONS, Grid, GridError, PlainMachine, pair
 from plumb.grid.picture import preview
 
 COMPLAINT = "calibration grid: {}; --help lists the options\n"
@@ -41,7 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         group.add_argument("--" + name.replace("_", "-"), help=meaning, **how)
     group = parser.add_argument_group("machine")
     for name, _section, _key, meaning in MACHINE_OPTIONS:
-        option, usual = "--" + name.replace("_", "-"), Machine._field_defaults[name]
+        option, usual = "--" + name.replace("_", "-"), PlainMachine._field_defaults[name]
         group.add_argument(option, help=f"{meaning} [{usual}]", type=float, metavar="N")
     group.add_argument("--settings", metavar="FILE", help="groundcontrol.ini with these numbers")
     group = parser.add_argument_group("output")
@@ -51,7 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def read_settings(path: str) -> dict[str, float]:
-    """The numbers [mm, N] in a groundcontrol.ini, by their names in Machine."""
+    """The numbers [mm, N] in a groundcontrol.ini, by their names in PlainMachine."""
     parser = configparser.ConfigParser(interpolation=None, strict=False)
     try:
         with open(path, encoding="utf-8-sig") as file:
@@ -73,13 +73,15 @@ def read_settings(path: str) -> dict[str, float]:
     return numbers
 
 
-def from_arguments(arguments: argparse.Namespace) -> tuple[Grid, Machine]:
-    """Grid and Machine of parsed options; an option outweighs the settings file."""
+def from_arguments(arguments: argparse.Namespace) -> tuple[Grid, PlainMachine]:
+    """Grid and PlainMachine of parsed options; an option outweighs the settings file."""
     kept = read_settings(arguments.settings) if arguments.settings else {}
     given = {name: value for name, value in vars(arguments).items() if value is not None}
     grid = Grid(**{name: given[name] for name in Grid._fields if name in given})
     grid = grid._replace(repeats=0) if grid.pattern == "benchmark" else grid
-    return grid, Machine(**{n: v for n, v in {**kept, **given}.items() if n in Machine._fields})
+    return grid, PlainMachine(
+        **{n: v for n, v in {**kept, **given}.items() if n in PlainMachine._fields}
+    )
 
 
 def run(arguments: argparse.Namespace, name: str = "calibration grid") -> int:

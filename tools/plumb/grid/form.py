@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from plumb.grid import benchmark_pattern
-from plumb.grid.options import Grid, Machine
-from plumb.grid.touches import marks
+from plumb.grid.options import Grid, PlainMachine
+from plumb.grid.touches import touches_of
 
 
-def marks_list(grid: Grid, machine: Machine) -> str:
+def marks_list(grid: Grid, machine: PlainMachine) -> str:
     """The text of a marks.toml that waits for the tape's readings."""
     if grid.pattern == "benchmark":
         return benchmark_pattern.form(grid.approach)
@@ -16,7 +16,7 @@ def marks_list(grid: Grid, machine: Machine) -> str:
         "# Fill in each measured line and take away its #; delete a [[mark]] that you cannot read.",
         'frame = "sheet-top-left"',
     ]
-    for mark in marks(grid, machine):
+    for mark in touches_of(grid, machine):
         x, y = machine.sheet_width / 2 + mark.x, machine.sheet_height / 2 - mark.y
         lines += [
             f'\n[[mark]]\nname = "{mark.name}"\ntarget = [{x:.2f}, {y:.2f}]',

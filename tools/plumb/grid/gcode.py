@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from plumb.grid.options import Grid, Machine
-from plumb.grid.touches import lead_in, marks
+from plumb.grid.options import Grid, PlainMachine
+from plumb.grid.touches import lead_in, touches_of
 from plumb.grid.way import check
 
 
-def program(grid: Grid, machine: Machine) -> str:
+def program(grid: Grid, machine: PlainMachine) -> str:
     """The G-code as text; raises GridError if the grid cannot be made."""
     check(grid, machine)
 
@@ -16,7 +16,7 @@ def program(grid: Grid, machine: Machine) -> str:
         text = f"{length * scale:.{digits}f}".rstrip("0").rstrip(".")
         return letter + ("0" if text == "-0" else text)
 
-    touches = marks(grid, machine)
+    touches = touches_of(grid, machine)
     router = "leave the router off" if grid.mode == "touch" else "switch the router on first"
     up = f"G0 {word('Z', grid.safe_height)}"
     lines = [

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from plumb.grid.options import LIMITS, MIN_LEAD_IN, Grid, GridError, Machine
+from plumb.grid.options import LIMITS, MIN_LEAD_IN, Grid, GridError, PlainMachine
 
 
 def demand(holds: bool, sentence: str) -> None:
@@ -13,7 +13,7 @@ def demand(holds: bool, sentence: str) -> None:
         raise GridError(sentence)
 
 
-def check_numbers(grid: Grid, machine: Machine) -> None:
+def check_numbers(grid: Grid, machine: PlainMachine) -> None:
     """Refuses numbers that no grid can have."""
     given = {**machine._asdict(), **grid._asdict(), "depth": grid.bit_depth}
     for name, value in given.items():

@@ -60,8 +60,11 @@ class Grid(NamedTuple):
         return DEPTH[self.mode] if self.depth is None else self.depth
 
 
-class Machine(NamedTuple):
-    """The machine that cuts the grid; MACHINE_OPTIONS says what each number means."""
+class PlainMachine(NamedTuple):
+    """The machine as the grid sees it: straight chains without weight.
+
+    MACHINE_OPTIONS says what each number means.
+    """
 
     sheet_width: float = 2438.4
     sheet_height: float = 1219.2

@@ -5,16 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from plumb.grid.options import Grid, Machine
-from plumb.grid.touches import Mark, marks, stops_of
+from plumb.grid.options import Grid, PlainMachine
+from plumb.grid.touches import Touch, stops_of, touches_of
 from plumb.grid.way import tensions
 
 PICTURE_WIDTH = 77  # [characters] odd, so that the middle of the sheet has a column
 
 
-def preview(grid: Grid, machine: Machine) -> str:
+def preview(grid: Grid, machine: PlainMachine) -> str:
     """A picture of the sheet, and the marks in the order in which they are made."""
-    touches = marks(grid, machine)
+    touches = touches_of(grid, machine)
     places = [place for _, place in stops_of(grid, machine)]
     minutes = sum(map(math.dist, places, places[1:])) / grid.feed
     minutes += 2 * (grid.safe_height + grid.bit_depth) * len(touches) / grid.plunge_feed
@@ -35,7 +35,7 @@ def preview(grid: Grid, machine: Machine) -> str:
     return "\n".join([*lines, ""])
 
 
-def _picture(machine: Machine, touches: Sequence[Mark]) -> list[str]:
+def _picture(machine: PlainMachine, touches: Sequence[Touch]) -> list[str]:
     """The sheet in characters, which are twice as high as wide."""
     height = max(3, round(PICTURE_WIDTH * machine.sheet_height / machine.sheet_width / 2))
     canvas = [[" "] * PICTURE_WIDTH for _ in range(height)]

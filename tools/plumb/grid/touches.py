@@ -6,11 +6,11 @@ from typing import NamedTuple
 
 from plumb.grid import benchmark_pattern
 from plumb.grid.limits import check_numbers
-from plumb.grid.options import Grid, Machine
+from plumb.grid.options import Grid, PlainMachine
 
 
-class Mark(NamedTuple):
-    """One touch of the bit at x, y [mm]; the same name with visit 1, 2, ... is a repeat."""
+class Touch(NamedTuple):
+    """A touch of the bit at x, y [mm]; the same name with visit 1, 2, ... is a repeat."""
 
     name: str
     x: float
@@ -21,11 +21,11 @@ class Mark(NamedTuple):
         return f"mark {self.name}{' again' if self.visit else ''}"
 
 
-def marks(grid: Grid, machine: Machine) -> list[Mark]:
+def touches_of(grid: Grid, machine: PlainMachine) -> list[Touch]:
     """Every touch in the order in which it is made; names count by rows from the top left."""
     check_numbers(grid, machine)
     if grid.pattern == "benchmark":
-        return [Mark(*place, 0) for place in benchmark_pattern.places()]
+        return [Touch(*place, 0) for place in benchmark_pattern.places()]
     width = machine.sheet_width - 2 * grid.margin
     height = machine.sheet_height - 2 * grid.margin
     places = _places(grid)
@@ -34,7 +34,7 @@ def marks(grid: Grid, machine: Machine) -> list[Mark]:
         # Whole tenths: program, comment and list say the same number. Adding 0 turns -0 into 0.
         x = round(width * (column / (grid.columns - 1) - 0.5), 1) + 0.0
         y = round(height * (0.5 - row / (grid.rows - 1)), 1) + 0.0
-        first[row, column] = Mark(str(row * grid.columns + column + 1), x, y, 0)
+        first[row, column] = Touch(str(row * grid.columns + column + 1), x, y, 0)
     touches = list(first.values())
     for visit in range(1, grid.repeats + 1):
         # Backwards every other time: what the lead-in fails to forget then shows as noise.
@@ -61,14 +61,14 @@ def _is_extreme(grid: Grid, row: int, column: int) -> bool:
     return across in (0, 1, 2) and down in (0, 1, 2) and (across, down) != (1, 1)
 
 
-def lead_in(grid: Grid, mark: Mark) -> tuple[float, float]:
+def lead_in(grid: Grid, mark: Touch) -> tuple[float, float]:
     """x, y [mm] from which the sled travels straight into the mark."""
     return mark.x - grid.approach[0], mark.y - grid.approach[1]
 
 
-def stops_of(grid: Grid, machine: Machine) -> list[tuple[str, tuple[float, float]]]:
+def stops_of(grid: Grid, machine: PlainMachine) -> list[tuple[str, tuple[float, float]]]:
     """Names and places [mm] of all ends of sideways moves."""
     stops: list[tuple[str, tuple[float, float]]] = []
-    for mark in marks(grid, machine):
+    for mark in touches_of(grid, machine):
         stops += [(f"the lead-in of {mark}", lead_in(grid, mark)), (str(mark), (mark.x, mark.y))]
     return [("the start", (0.0, 0.0)), *stops, ("the end", (0.0, 0.0))]

@@ -6,14 +6,14 @@ import math
 from collections.abc import Callable
 
 from plumb.grid.limits import demand
-from plumb.grid.options import MIN_FREE_CHAIN, Grid, Machine
+from plumb.grid.options import MIN_FREE_CHAIN, Grid, PlainMachine
 from plumb.grid.touches import stops_of
 
 WAY_STEP = 25.0  # [mm] between the places on the way at which the chains are checked
-Question = Callable[[Grid, Machine, str, float, float], object]
+Question = Callable[[Grid, PlainMachine, str, float, float], object]
 
 
-def tensions(machine: Machine, x: float, y: float) -> tuple[float, float]:
+def tensions(machine: PlainMachine, x: float, y: float) -> tuple[float, float]:
     """Left and right chain tension [N] at x, y [mm]: weight * cos(other) / sin(left + right)."""
     height = machine.sheet_height / 2 + machine.motor_offset - y
     left = math.atan2(height, machine.motor_spacing / 2 + x)
@@ -22,7 +22,7 @@ def tensions(machine: Machine, x: float, y: float) -> tuple[float, float]:
     return share * math.cos(right), share * math.cos(left)
 
 
-def _check_place(grid: Grid, machine: Machine, what: str, x: float, y: float) -> None:
+def _check_place(grid: Grid, machine: PlainMachine, what: str, x: float, y: float) -> None:
     """Refuses a place [mm] that the sled must not go to."""
     what = f"{what} at x {x:.1f} y {y:.1f}"
     half_width, half_height = machine.sheet_width / 2, machine.sheet_height / 2
@@ -42,7 +42,7 @@ def _check_place(grid: Grid, machine: Machine, what: str, x: float, y: float) ->
     demand(min(pulls) >= grid.min_tension, slack)
 
 
-def check(grid: Grid, machine: Machine, ask: Question = _check_place) -> None:
+def check(grid: Grid, machine: PlainMachine, ask: Question = _check_place) -> None:
     """Asks about all places that the sled passes; refuses what leaves the sheet or its limits."""
     stops = stops_of(grid, machine)
     for what, place in stops:

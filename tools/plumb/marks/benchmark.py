@@ -7,8 +7,8 @@ from typing import Any
 
 from plumb.grid import benchmark_pattern
 from plumb.marks.model import Distance, Mark, Point
-from plumb.text.checks import number, pair, refuse_unknown
 from plumb.text.errors import naming, refusal
+from plumb.text.values import number, pair, refuse_unknown
 
 
 def read_benchmark(

@@ -7,9 +7,9 @@ from os import PathLike
 
 from plumb.marks.model import Mark, Measurements, Point
 from plumb.marks.toml import CHAIN_RANGE, sled_weight_in_newtons
-from plumb.text.checks import number_in, refuse_unknown, within
 from plumb.text.errors import naming, refusal
 from plumb.text.files import read_text
+from plumb.text.values import number_in, refuse_unknown, within
 
 NEEDED = ("target_x_mm", "target_y_mm", "measured_x_mm", "measured_y_mm")
 OPTIONAL = (

@@ -8,11 +8,11 @@ from __future__ import annotations
 import re
 from os import PathLike
 
-from plumb.marks.checks import Sheet, to_machine
 from plumb.marks.model import Mark, Measurements, Point
-from plumb.text.checks import number_in
+from plumb.marks.plausible import Sheet, to_machine
 from plumb.text.errors import naming, refusal
 from plumb.text.ini import IniText, read_ini
+from plumb.text.values import number_in
 
 _NUMBERED = re.compile(r"t?[xy](\d+)", re.IGNORECASE)
 

@@ -9,11 +9,11 @@ from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 
-from plumb.marks.checks import Sheet, checked
 from plumb.marks.csv import NEEDED, read_marks_csv
 from plumb.marks.ini import read_marks_ini
 from plumb.marks.join import join_measurements
 from plumb.marks.model import Distance, Mark, Measurements, Round
+from plumb.marks.plausible import Sheet, checked
 from plumb.marks.toml import read_marks_toml
 from plumb.text.errors import refusal
 from plumb.text.files import read_bytes

@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import Any
 
 from plumb.marks.benchmark import read_benchmark
-from plumb.marks.checks import Sheet, to_machine
 from plumb.marks.model import Distance, Mark, Measurements, Point, Round
+from plumb.marks.plausible import Sheet, to_machine
 from plumb.settings.files import read_settings
 from plumb.settings.machine import CONTROLLERS
-from plumb.text.checks import number, one_of, pair, refuse_unknown, text_of, within
 from plumb.text.errors import naming, refusal
 from plumb.text.files import read_text
+from plumb.text.values import number, one_of, pair, refuse_unknown, text_of, within
 
 FRAMES = ("sheet-top-left", "machine")
 ROUND_FLAGS = ("chains_rezeroed", "new_sheet", "frame_moved")

@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 PUBLISHED_PI = 3.14159
 
 
-class Strands(NamedTuple):
+class StraightStrands(NamedTuple):
     """Both chains at n points; each array is (n, 2), left and right."""
 
     angle: Array  # [rad] of the straight line below the horizontal
@@ -35,7 +35,7 @@ def chain_lengths(
 
     Targets off the sheet are moved to its edge first, as the controllers do.
     """
-    formulas: dict[str, Callable[[MachineSettings, Strands], Array]] = {
+    formulas: dict[str, Callable[[MachineSettings, StraightStrands], Array]] = {
         "stock": _stock,
         "holey": _holey,
     }
@@ -67,7 +67,7 @@ def _refuse_points(points: Array, bad: NDArray[np.bool_], why: str) -> None:
         raise ValueError(f"point ({x:g}, {y:g}) {why}")
 
 
-def _strands(settings: MachineSettings, points: Array) -> Strands:
+def _strands(settings: MachineSettings, points: Array) -> StraightStrands:
     """The straight chains from their tangent points to the bit.
 
     angle = asin(below / distance) + asin(radius / distance) over the top, minus below it.
@@ -82,7 +82,7 @@ def _strands(settings: MachineSettings, points: Array) -> Strands:
     side = 1.0 if over else -1.0
     # From the tangent point, which lies inwards and above the axis, or outwards and below it.
     inwards = np.array([1.0, -1.0]) * (points[:, :1] - motor_x)
-    return Strands(
+    return StraightStrands(
         angle=angle,
         wrapped=radius * (angle if over else PUBLISHED_PI - angle),
         straight=np.sqrt(distance**2 - radius**2),
@@ -91,7 +91,7 @@ def _strands(settings: MachineSettings, points: Array) -> Strands:
     )
 
 
-def _stock(settings: MachineSettings, strands: Strands) -> Array:
+def _stock(settings: MachineSettings, strands: StraightStrands) -> Array:
     """The published triangular formula: sag as a share of the straight part, then tolerance.
 
     sag share = correction * 1e-12 * cos(a)^2 * straight^2 * (tan(other) cos(a) + sin(a))^2
@@ -104,7 +104,7 @@ def _stock(settings: MachineSettings, strands: Strands) -> Array:
     return strands.wrapped + hanging / _longer(settings) - settings.rotation_radius
 
 
-def _holey(settings: MachineSettings, strands: Strands) -> Array:
+def _holey(settings: MachineSettings, strands: StraightStrands) -> Array:
     """The catenary release: a catenary under the static tension, then tolerance and stretch.
 
     hanging^2 = (2 a sinh(across / (2 a)))^2 + drop^2 with a = horizontal tension / chain weight

@@ -19,9 +19,9 @@ from plumb.pages.fingerprints import (
     ROWS,
     SHEET,
     Array,
-    Case,
     Field,
     Fields,
+    Showing,
     every_field,
     field_of,
     label_with_size,
@@ -92,7 +92,7 @@ def picture_name(effect: str) -> str:
     return f"{PICTURES}/{effect}.svg"
 
 
-def picture(effect: str, cases: Sequence[tuple[Case, Field]]) -> str:
+def picture(effect: str, cases: Sequence[tuple[Showing, Field]]) -> str:
     """The fingerprint: for each case what marks do, and the shape that is left of it."""
     rows = []
     for case, whole in cases:
@@ -216,7 +216,7 @@ def _parameters(effect: Mapping[str, Any]) -> str:
     return "\n".join(lines)
 
 
-def _size_table(cases: Sequence[tuple[Case, Field]]) -> str:
+def _size_table(cases: Sequence[tuple[Showing, Field]]) -> str:
     lines = ["| typical size | RMS, mm | worst, mm | shape RMS, mm | shape worst, mm |"]
     lines.append("|---|---|---|---|---|")
     for case, field in cases:

@@ -34,7 +34,7 @@ SHAPELESS = 0.02  # [share of the raw error] below which there is no shape to sp
 
 
 @dataclass(frozen=True)
-class Case:
+class Showing:
     """A way in which an effect shows: some of its parameters at their typical size."""
 
     label: str
@@ -56,7 +56,7 @@ class Field:
         return rms(self.shape) > SHAPELESS * rms(self.raw)
 
 
-Fields = Mapping[str, Sequence[tuple[Case, Field]]]
+Fields = Mapping[str, Sequence[tuple[Showing, Field]]]
 
 
 @dataclass(frozen=True)
@@ -84,19 +84,19 @@ def default_machine() -> MachineSettings:
     return replace(plain, effects=effects)
 
 
-def cases_of(effect: Mapping[str, Any]) -> list[Case]:
+def cases_of(effect: Mapping[str, Any]) -> list[Showing]:
     """The ways in which an effect is shown: each parameter, both sides alike, both approaches."""
     typical = {f"{effect['name']}.{each['name']}": each["typical"] for each in effect["parameters"]}
-    cases = [Case(name.rpartition(".")[2], {name: value}) for name, value in typical.items()]
+    cases = [Showing(name.rpartition(".")[2], {name: value}) for name, value in typical.items()]
     if [case.label for case in cases] == ["left", "right"]:
-        cases.append(Case("both alike", typical))
+        cases.append(Showing("both alike", typical))
     if is_felt_by_approach(effect["name"]):
         ways = (("approached moving right", RIGHT), ("approached moving up", UP))
-        cases = [Case(f"{case.label}, {way}", typical, to) for case in cases for way, to in ways]
+        cases = [Showing(f"{case.label}, {way}", typical, to) for case in cases for way, to in ways]
     return cases
 
 
-def field_of(case: Case, *, columns: int = COLUMNS, rows: int = ROWS) -> Field:
+def field_of(case: Showing, *, columns: int = COLUMNS, rows: int = ROWS) -> Field:
     """The field of a case on a grid of marks over the sheet."""
     across, up = np.linspace(-EDGE[0], EDGE[0], columns), np.linspace(EDGE[1], -EDGE[1], rows)
     sent = np.array([(x, y) for y in up for x in across])
@@ -120,7 +120,7 @@ def field_of(case: Case, *, columns: int = COLUMNS, rows: int = ROWS) -> Field:
     return Field(sent, landed - sent, pose.errors)
 
 
-def _machines(case: Case) -> tuple[MachineSettings, MachineSettings, dict[str, float]]:
+def _machines(case: Showing) -> tuple[MachineSettings, MachineSettings, dict[str, float]]:
     """The true machine, the machine by the settings, and what lies outside of both."""
     true = believed = default_machine()
     outside = {}
@@ -139,10 +139,10 @@ def _machines(case: Case) -> tuple[MachineSettings, MachineSettings, dict[str, f
     return true, believed, outside
 
 
-def every_field() -> dict[str, list[tuple[Case, Field]]]:
+def every_field() -> dict[str, list[tuple[Showing, Field]]]:
     """The fields of all cases of all effects, and of the frame's numbers that marks feel."""
     cases = {effect["name"]: cases_of(effect) for effect in every_effect()}
-    cases |= {name: [Case(name, {name: step})] for name, step in FRAME_STEPS.items()}
+    cases |= {name: [Showing(name, {name: step})] for name, step in FRAME_STEPS.items()}
     return {
         name: [(case, field_of(case)) for case in cases_shown]
         for name, cases_shown in cases.items()
@@ -176,7 +176,7 @@ def worst(errors: Array) -> float:
     return float(np.hypot(errors[:, 0], errors[:, 1]).max())
 
 
-def label_with_size(case: Case) -> str:
+def label_with_size(case: Showing) -> str:
     """The case with the sizes of its parameters, like `left = 2 mm`."""
     words = parameter_words()
     sizes = dict.fromkeys(

@@ -10,6 +10,7 @@ import numpy as np
 
 from plumb.pictures.sheet import EDGE, INK, MARGIN, WIDTH, WOOD
 from plumb.plan.visits import Visits
+from plumb.settings.machine import GRAVITY
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -126,7 +127,7 @@ def _legend(
     meant: dict[tuple[str, str], str] = {}
     for i in range(len(visits)):
         colour, symbol = _look(visits, i, usual_weight)
-        extra = (visits.sled_weights[i] - usual_weight) / 9.81
+        extra = (visits.sled_weights[i] - usual_weight) / GRAVITY
         words = {
             SWAPPED: "to measure with each chain on the other's sprocket",
             HEAVY: f"to measure with {extra:.1f} kg more on the sled",

@@ -14,9 +14,9 @@ from plumb.plan.checks import FRAME_CHECKS, NumberCheck, effect_checks
 from plumb.plan.separation import Chooser
 from plumb.plan.sites import grid, new_places, usable
 from plumb.plan.visits import Visits, joined, nowhere, sent
+from plumb.settings.machine import GRAVITY
 
 Array = np.ndarray
-NEWTON = 9.81  # [N] of a kilogram
 EXTRA_KILOGRAMS = (2.5, 5.0, 10.0)  # what a maker finds to hang on a sled
 FEW = 4  # marks of a proposal
 MANY_GRID, MANY_MARGIN = (7, 4), (0.07, 0.12)  # the 28 marks that it is compared with
@@ -132,7 +132,7 @@ class _Shop:
         """Marks under a sled on which more hangs: as chosen best, in fixed patterns, and all."""
         found = []
         for kilograms in EXTRA_KILOGRAMS:
-            weight = self.case.usual_weight + kilograms * NEWTON
+            weight = self.case.usual_weight + kilograms * GRAVITY
             if weight > 2.05 * self.case.usual_weight:
                 continue
             pool = self.pool(weight)

@@ -9,9 +9,9 @@ from os import PathLike
 
 from plumb.settings.limits import find_fault
 from plumb.settings.machine import SLED_WEIGHT, MachineSettings, PublishedSettings
-from plumb.text.checks import number_in
 from plumb.text.errors import naming, refusal
 from plumb.text.ini import IniText, read_ini
+from plumb.text.values import number_in
 
 MASLOW, ADVANCED = "Maslow Settings", "Advanced Settings"
 

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from plumb.settings.machine import CONTROLLERS, FEEDS, MachineSettings
-from plumb.text.checks import refuse_unknown
 from plumb.text.errors import refusal
+from plumb.text.values import refuse_unknown
 
 _INCH = "looks like inches; write millimetres (1 inch = 25.4 mm)"
 _NEWTON = "looks like kilograms or pounds; newtons are 9.81 times kilograms, 4.448 times pounds"

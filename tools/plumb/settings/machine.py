@@ -19,6 +19,7 @@ from plumb.settings.published import (
 )
 from plumb.text.errors import InputError
 
+GRAVITY = 9.81  # [N/kg]
 SLED_WEIGHT = 97.9  # [N] 22 pounds, the published default
 CHAIN_WEIGHT = 0.00137293  # [N/mm] 0.14 kg/m, the published data of #25 chain
 HOLEY_CHAIN_WEIGHT = 0.001372  # [N/mm] as the catenary release rounds it

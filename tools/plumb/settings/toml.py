@@ -17,9 +17,9 @@ from plumb.settings.machine import (
     MachineSettings,
     PublishedSettings,
 )
-from plumb.text.checks import number, one_of, refuse_unknown
 from plumb.text.errors import InputError, naming, refusal
 from plumb.text.files import read_text, write_whole
+from plumb.text.values import number, one_of, refuse_unknown
 
 NEEDED_FRAME = ("motor_gap", "motor_height", "rotation_radius")
 PUBLISHED_FIELDS = tuple(field.name for field in fields(PublishedSettings))

@@ -6,9 +6,9 @@ from os import PathLike
 
 import numpy as np
 
-from plumb.text.checks import number_in
 from plumb.text.errors import naming, refusal
 from plumb.text.files import read_text
+from plumb.text.values import number_in
 
 
 def read_pairs(path: str | PathLike[str], *, names: tuple[str, str]) -> np.ndarray:

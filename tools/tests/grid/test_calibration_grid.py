@@ -37,11 +37,11 @@ rotationRadius = 140
 
 
 def gcode(machine=None, **options):
-    return grids.program(grids.Grid(**options), machine or grids.Machine())
+    return grids.program(grids.Grid(**options), machine or grids.PlainMachine())
 
 
 def touches(**options):
-    return grids.marks(grids.Grid(**options), grids.Machine())
+    return grids.touches_of(grids.Grid(**options), grids.PlainMachine())
 
 
 def moves(text):
@@ -201,7 +201,7 @@ def test_repeats_stand_inwards_so_that_both_holes_can_be_measured():
 
 def test_tensions_agree_with_published_ones():
     def pulls(x, y):
-        return grids.tensions(grids.Machine(), x, y)
+        return grids.tensions(grids.PlainMachine(), x, y)
 
     # Straight lines between the centres leave out the radius of the sprocket.
     assert pulls(0, 550) == pytest.approx((145, 145), rel=0.03)
@@ -211,7 +211,7 @@ def test_tensions_agree_with_published_ones():
 
 
 def test_the_forces_at_every_place_balance_the_sled():
-    machine = grids.Machine()
+    machine = grids.PlainMachine()
     for x, y in [(0, 0), (900, 500), (-1100, -550)]:
         height = machine.sheet_height / 2 + machine.motor_offset - y
         sides = (machine.motor_spacing / 2 + x, machine.motor_spacing / 2 - x)
@@ -310,10 +310,10 @@ def test_unusable_settings_are_named_with_their_file_and_key(old, new, hint, tmp
 
 
 def test_the_list_of_marks_holds_every_target_and_approach_in_the_sheet_frame():
-    grid, machine = grids.Grid(approach=(10.0, 30.0)), grids.Machine()
+    grid, machine = grids.Grid(approach=(10.0, 30.0)), grids.PlainMachine()
     listed = tomllib.loads(grids.marks_list(grid, machine))
     assert listed["frame"] == "sheet-top-left"
-    made = grids.marks(grid, machine)
+    made = grids.touches_of(grid, machine)
     assert [entry["name"] for entry in listed["mark"]] == [mark.name for mark in made]
     for entry, mark in zip(listed["mark"], made, strict=True):
         assert entry["target"] == pytest.approx([mark.x + 1219.2, 609.6 - mark.y])
@@ -334,7 +334,7 @@ def test_the_preview_shows_each_mark_and_each_step(capsys):
 
 @pytest.mark.parametrize("options", [*CHOICES, {"columns": 31, "rows": 15, "repeats": 0}])
 def test_the_picture_keeps_its_shape_for_every_grid(options):
-    picture = grids.preview(grids.Grid(**options), grids.Machine())
+    picture = grids.preview(grids.Grid(**options), grids.PlainMachine())
     widths = {len(line) for line in picture.splitlines() if line[0:1] in ("|", "+")}
     assert len(widths) == 1
 
@@ -344,7 +344,7 @@ def test_with_an_output_file_the_program_goes_there_and_the_picture_to_the_scree
     code, picture, complaint = run(["--output", str(file), "--preview"], capsys)
     assert (code, complaint) == (0, "")
     assert file.read_bytes().decode("ascii") == gcode()
-    assert picture == grids.preview(grids.Grid(), grids.Machine())
+    assert picture == grids.preview(grids.Grid(), grids.PlainMachine())
 
 
 def test_the_same_request_always_gives_the_same_program_from_any_folder(tmp_path):

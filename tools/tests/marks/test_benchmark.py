@@ -64,7 +64,7 @@ def test_the_pattern_is_the_published_one():
 
 
 def test_the_program_touches_every_mark_once_in_the_usual_way():
-    text = grids.program(GRID, grids.Machine())
+    text = grids.program(GRID, grids.PlainMachine())
     assert text.count("G1 Z-0.5") == 19
     for x, y in pattern.targets().values():
         assert f"at x {x:.1f} y {y:.1f})" in text

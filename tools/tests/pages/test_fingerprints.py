@@ -6,7 +6,7 @@ from plumb.fit.fit import rms
 from plumb.model.catalogue import every_effect
 from plumb.pages.fingerprints import (
     FRAME_STEPS,
-    Case,
+    Showing,
     cases_of,
     cosine,
     default_machine,
@@ -19,7 +19,7 @@ FIELDS = every_field()
 
 
 def shape_cosine(one: dict, other: dict) -> float:
-    return cosine(*(field_of(Case("", own)).shape for own in (one, other)))
+    return cosine(*(field_of(Showing("", own)).shape for own in (one, other)))
 
 
 BOTH = {"chain_pitch.left": 0.001, "chain_pitch.right": 0.001}
@@ -50,7 +50,7 @@ def test_cosines_are_those_published(one, other, published):
 
 
 def test_sizes_are_those_published():
-    gap, radius = (field_of(Case("", {name: 1.0})) for name in ("motor_gap", "rotation_radius"))
+    gap, radius = (field_of(Showing("", {name: 1.0})) for name in ("motor_gap", "rotation_radius"))
     assert (rms(gap.raw), rms(gap.shape)) == pytest.approx((0.72, 0.39), abs=0.02)
     assert (rms(radius.raw), rms(radius.shape)) == pytest.approx((1.75, 0.61), abs=0.04)
 

@@ -1,7 +1,7 @@
 """Single checks on values that people type."""
 
 import pytest
-from plumb.text.checks import number, number_in, one_of, pair, refuse_unknown, within
+from plumb.text.values import number, number_in, one_of, pair, refuse_unknown, within
 
 
 @pytest.mark.parametrize(
