@@ -74,14 +74,14 @@ def read_settings(path: str) -> dict[str, float]:
 
 
 def from_arguments(arguments: argparse.Namespace) -> tuple[Grid, PlainMachine]:
-    """Grid and PlainMachine of parsed options; an option outweighs the settings file."""
+    """Grid and machine of parsed options; an option outweighs the settings file."""
     kept = read_settings(arguments.settings) if arguments.settings else {}
     given = {name: value for name, value in vars(arguments).items() if value is not None}
     grid = Grid(**{name: given[name] for name in Grid._fields if name in given})
     grid = grid._replace(repeats=0) if grid.pattern == "benchmark" else grid
-    return grid, PlainMachine(
-        **{n: v for n, v in {**kept, **given}.items() if n in PlainMachine._fields}
-    )
+    numbers = {**kept, **given}
+    of_machine = {name: numbers[name] for name in PlainMachine._fields if name in numbers}
+    return grid, PlainMachine(**of_machine)
 
 
 def run(arguments: argparse.Namespace, name: str = "calibration grid") -> int:

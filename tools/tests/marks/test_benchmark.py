@@ -69,7 +69,7 @@ def test_the_program_touches_every_mark_once_in_the_usual_way():
     for x, y in pattern.targets().values():
         assert f"at x {x:.1f} y {y:.1f})" in text
     with pytest.raises(grids.GridError, match="outside the sheet"):
-        grids.program(GRID, grids.Machine(sheet_width=1800.0))
+        grids.program(GRID, grids.PlainMachine(sheet_width=1800.0))
 
 
 def test_the_tool_and_plumb_give_the_same_program(run, capsys):
