@@ -45,7 +45,7 @@ def machine(tmp_path):
 
 def straight(**changes):
     """The tool's tensions (n, 2) [N] at PLACES."""
-    own = grids.Machine(**changes)
+    own = grids.PlainMachine(**changes)
     return np.array([grids.tensions(own, x, y) for x, y in PLACES])
 
 
