@@ -1,4 +1,4 @@
-"""Writes the G-code for a grid of calibration marks, each one approached in the same direction.
+"""Writes the G-code for a grid of calibration marks, each approached in the same direction.
 
 It needs only Python 3.9; tools/calibration_grid.py runs it without an installation.
 """
@@ -108,7 +108,7 @@ def run(arguments: argparse.Namespace, name: str = "calibration grid") -> int:
 
 
 def _write(files: Mapping[str, str]) -> None:
-    """Writes all texts or none: each goes beside its place first and is moved there last."""
+    """Writes all texts or none: each goes next to its place first and is moved there last."""
     path = ""
     try:
         for path, text in files.items():

@@ -56,7 +56,7 @@ def _places(grid: Grid) -> list[tuple[int, int]]:
 
 
 def _is_extreme(grid: Grid, row: int, column: int) -> bool:
-    """True for the corners and, where there is one, the middle of each edge (1; ends: 0, 2)."""
+    """True for corners and for the middle of an edge that has a mark there (1; ends: 0, 2)."""
     across, down = 2 * column / (grid.columns - 1), 2 * row / (grid.rows - 1)
     return across in (0, 1, 2) and down in (0, 1, 2) and (across, down) != (1, 1)
 

@@ -22,7 +22,7 @@ class Round:
     date: str = ""
     cut_with: MachineSettings | None = None  # in force; None: what the command line says
     chains_rezeroed: bool = False  # since the file before
-    new_sheet: bool = False  # or the old one lies elsewhere since the file before
+    new_sheet: bool = False  # or the old sheet lies elsewhere since the file before
     frame_moved: bool = False  # since the file before: a motor, the beam or the sled
     zero_group: int = 0  # counts how often the chains were zeroed again
     sheet_group: int = 0  # counts the sheets

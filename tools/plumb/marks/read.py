@@ -86,7 +86,7 @@ def _read(
 
 
 def _sheet_of(measurements: Measurements, sheet: Sheet) -> Sheet:
-    """The sheet of the settings that a file names, else the usual one."""
+    """The sheet of the settings that a file names, else the usual sheet."""
     cut_with = measurements.rounds[0].cut_with if measurements.rounds else None
     return cut_with.sheet if cut_with else sheet
 

@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 
 @dataclass(frozen=True)
 class PythonParameter:
-    """What people read about one parameter; zero always means absent."""
+    """What people read about a parameter; zero always means absent."""
 
     name: str
     unit: str
@@ -22,7 +22,7 @@ class PythonParameter:
 
     @property
     def words(self) -> dict[str, Any]:
-        """The parameter as the firmware's library describes its own; no setting holds it."""
+        """The parameter in the form of the firmware's library; no setting holds it."""
         return {
             "name": self.name,
             "setting": None,
@@ -47,7 +47,7 @@ class DirectCheck:
 
     @property
     def words(self) -> dict[str, Any]:
-        """The check as the firmware's library describes its own."""
+        """The check in the form of the firmware's library."""
         return {
             "title": self.title,
             "steps": self.steps,
@@ -66,7 +66,7 @@ class Example:
 
     @property
     def words(self) -> dict[str, Any]:
-        """The example as the firmware's library describes its own."""
+        """The example in the form of the firmware's library."""
         return {"label": self.label, "sizes": dict(self.sizes), "most": self.most}
 
 
@@ -81,7 +81,7 @@ class PythonEffect:
     where: ClassVar[str]  # "lab" or "sketch"
 
     name: str
-    summary: str  # the cause, in one sentence
+    summary: str  # the cause, in a sentence
     pattern: str  # what it does to marks on the sheet
     look_alikes: str
     remedy: str  # how to tell it apart or cure it
@@ -96,7 +96,7 @@ class PythonEffect:
 
     @property
     def words(self) -> dict[str, Any]:
-        """The effect as the firmware's library describes its own, with its place."""
+        """The effect in the form of the firmware's library, with its place."""
         return {
             "name": self.name,
             "where": self.where,

@@ -155,7 +155,7 @@ def frame_of(values: Mapping[str, float]) -> Frame:
 
 
 def radius_in_published(left: float, right: float) -> float:
-    """The published rotation radius as a multiple of the true one, for two chain pitch strains.
+    """The published rotation radius over the true radius, for two chain pitch strains.
 
     The published formula divides the whole straight part L by (1 + e), although its last piece, the
     radius R, is no chain: L/(1+e) - R' equals (L-R)/(1+e) if R' = R/(1+e). Both sides

@@ -1,6 +1,6 @@
 """Lab effects: they act on what is measured and never on what is sent to the machine.
 
-To add one, write its module in this folder, import it here and give it a line.
+To add an effect, write its module in this folder, import it here and give it a line.
 """
 
 from plumb.model.lab_effects import sheet_skew, sled_friction, tape_scale
