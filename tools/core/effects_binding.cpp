@@ -114,6 +114,7 @@ struct Lister {
       parameters.append(parameterOf<Own>(first_setting, i));
     nb::dict entry;
     entry["name"] = info.name;
+    entry["where"] = "firmware";
     entry["summary"] = info.summary;
     entry["pattern"] = info.pattern;
     entry["look_alikes"] = info.look_alikes;

@@ -1,13 +1,58 @@
 # The types of the compiled module: tools/core/binding.cpp says what the functions do.
 # tools/tests/project/test_core_types.py holds this file against the module.
 from collections.abc import Mapping
-from typing import Any, TypedDict
+from typing import TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
 
 Numbers = NDArray[np.float64]
 Answers = NDArray[np.uint8]
+
+class FrameWords(TypedDict):
+    name: str
+    unit: str
+    usual: float
+    low: float
+    high: float
+    summary: str
+
+class ParameterWords(TypedDict):
+    name: str
+    setting: int | None
+    unit: str
+    low: float
+    high: float
+    typical: float
+    summary: str
+    sigma: float
+    published: tuple[int, float] | None
+
+class CheckWords(TypedDict):
+    title: str
+    steps: str
+    value: str
+    minutes: float
+
+class ExampleWords(TypedDict):
+    label: str
+    sizes: dict[str, float]
+    most: float
+
+class EffectWords(TypedDict):
+    name: str
+    where: str
+    summary: str
+    pattern: str
+    look_alikes: str
+    remedy: str
+    empirical: bool
+    belongs_to: str
+    in_frame: bool
+    weight_power: int
+    check: CheckWords | None
+    examples: list[ExampleWords]
+    parameters: list[ParameterWords]
 
 class SettingRow(TypedDict):
     number: int
@@ -34,8 +79,8 @@ class Reach(TypedDict):
     tension: Numbers
     compliance: Numbers
 
-def frame() -> list[dict[str, Any]]: ...
-def effects() -> list[dict[str, Any]]: ...
+def frame() -> list[FrameWords]: ...
+def effects() -> list[EffectWords]: ...
 def settings() -> list[str]: ...
 def lengths(
     values: Numbers, over_top: bool, points: Numbers, float32: bool = False

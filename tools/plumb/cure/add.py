@@ -272,16 +272,14 @@ def _cure(name: str, parameters: Mapping[str, float]) -> str:
 
 
 def _parameter(estimate: Estimate) -> Parameter:
-    words = {one["name"]: one for one in frame_words()}
-    words |= parameter_words()
-    unit = unit_of(estimate.name) or "rad"
-    own = words.get(estimate.name, {"unit": unit})
+    units = {number["name"]: number["unit"] for number in frame_words()}
+    units |= {name: words["unit"] for name, words in parameter_words().items()}
     return Parameter(
         name=estimate.name,
         value=estimate.value,
         low=estimate.low,
         high=estimate.high,
-        unit=own["unit"],
+        unit=units.get(estimate.name, unit_of(estimate.name) or "rad"),
         before=estimate.before,
         prior_sigma=estimate.prior_sigma,
         plausible_range=plausible_range(estimate.name),

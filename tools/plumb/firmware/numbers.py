@@ -81,8 +81,9 @@ def _values(settings: MachineSettings) -> dict[int, float]:
     }
     for effect in library():
         for parameter in effect["parameters"]:
-            size = settings.effect(effect["name"], parameter["name"])
-            numbers[parameter["setting"]] = size
+            if parameter["setting"] is not None:
+                size = settings.effect(effect["name"], parameter["name"])
+                numbers[parameter["setting"]] = size
     return numbers
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,6 +11,9 @@ from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.lab_effects.lab_effect import SLED
 from plumb.model.predict import NAMES, frame_words, library
 from plumb.model.sketches import SKETCHES
+
+if TYPE_CHECKING:
+    from plumb._core import EffectWords, ParameterWords
 
 NO_FIRMWARE = "no firmware can cure this"
 
@@ -57,16 +60,16 @@ WEIGHT_POWERS = {
 }
 
 
-def every_effect() -> list[dict[str, Any]]:
+def every_effect() -> list[EffectWords]:
     """The words of every effect that may be a cause; `where` is "firmware", "lab" or "sketch"."""
-    firmware = [{**words, "where": "firmware"} for words in library() if not words["empirical"]]
+    firmware = [words for words in library() if not words["empirical"]]
     lab = [effect.words for effect in LAB_EFFECTS]
     return firmware + lab + [sketch.words for sketch in SKETCHES]
 
 
-def empirical_effects() -> list[dict[str, Any]]:
+def empirical_effects() -> list[EffectWords]:
     """The words of what the firmware can apply that is a mere fit and never a suspect."""
-    return [{**words, "where": "firmware"} for words in library() if words["empirical"]]
+    return [words for words in library() if words["empirical"]]
 
 
 def effect_names() -> tuple[str, ...]:
@@ -108,7 +111,7 @@ def label(effect: str) -> str:
     return f"{effect} (lab)" if is_lab(effect) else effect
 
 
-def parameter_words() -> dict[str, dict[str, Any]]:
+def parameter_words() -> dict[str, ParameterWords]:
     """The words of each parameter by its full name, `effect.parameter`."""
     return {
         f"{effect['name']}.{parameter['name']}": parameter

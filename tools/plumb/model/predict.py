@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,9 @@ from numpy.typing import NDArray
 from plumb import _core
 from plumb.model.controllers import chain_lengths
 from plumb.settings.machine import MachineSettings, frame_of
+
+if TYPE_CHECKING:
+    from plumb._core import EffectWords, FrameWords
 
 Array = NDArray[np.float64]
 Codes = NDArray[np.uint8]  # FOUND ... of each place or length, or USABLE ...
@@ -37,12 +40,12 @@ class Reached:
         return np.asarray(np.linalg.eigvalsh(self.compliance)[:, -1], dtype=float)
 
 
-def library() -> list[dict[str, Any]]:
+def library() -> list[EffectWords]:
     """Every effect of the firmware, in the order applied: words, parameters and units."""
     return _core.effects()
 
 
-def frame_words() -> list[dict[str, Any]]:
+def frame_words() -> list[FrameWords]:
     """The frame's numbers: name, unit, usual, low, high, summary."""
     return _core.frame()
 

@@ -5,7 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
+
+if TYPE_CHECKING:
+    from plumb._core import CheckWords, EffectWords, ExampleWords, ParameterWords
 
 
 @dataclass(frozen=True)
@@ -21,7 +24,7 @@ class PythonParameter:
     sigma: float = 0.0  # accuracy of the direct check; 0: no check reads it
 
     @property
-    def words(self) -> dict[str, Any]:
+    def words(self) -> ParameterWords:
         """The parameter in the form of the firmware's library; no setting holds it."""
         return {
             "name": self.name,
@@ -46,7 +49,7 @@ class DirectCheck:
     minutes: float
 
     @property
-    def words(self) -> dict[str, Any]:
+    def words(self) -> CheckWords:
         """The check in the form of the firmware's library."""
         return {
             "title": self.title,
@@ -65,7 +68,7 @@ class Example:
     most: float  # [mm] RMS of marks by it on the worst of real machines, roughly
 
     @property
-    def words(self) -> dict[str, Any]:
+    def words(self) -> ExampleWords:
         """The example in the form of the firmware's library."""
         return {"label": self.label, "sizes": dict(self.sizes), "most": self.most}
 
@@ -95,7 +98,7 @@ class PythonEffect:
         return tuple(f"{self.name}.{parameter.name}" for parameter in self.parameters)
 
     @property
-    def words(self) -> dict[str, Any]:
+    def words(self) -> EffectWords:
         """The effect in the form of the firmware's library, with its place."""
         return {
             "name": self.name,

@@ -14,6 +14,11 @@ VALUES = np.array([field["usual"] for field in _core.frame()] + [0.0] * 100)
 VALUES = VALUES[: len(_core.settings())]
 POINT = np.zeros((1, 2))
 RESULTS = {
+    "FrameWords": _core.frame()[0],
+    "EffectWords": _core.effects()[0],
+    "CheckWords": _core.effects()[0]["check"],
+    "ExampleWords": _core.effects()[0]["examples"][0],
+    "ParameterWords": _core.effects()[0]["parameters"][0],
     "SettingRow": _core.settings_table()[0],
     "Effective": _core.effective({}),
     "Reach": _core.reach(VALUES, True, POINT),
