@@ -20,36 +20,35 @@ INTRODUCTION = """# How often the diagnosis is right
 Written by `plumb bench --write docs/bench.md`; run it to see the same with other boards
 (`--seed`).
 
-Each board is cut by settings that believe in the frame, chain sag and stretch; the judge
-(tools/judge, exact elastic catenaries that share no formula with the laws) says where the sled
-really went, with something hidden. The frame lies off by chance in every board: spacing 3 mm,
-height and middle 5 mm, sheet turned by 2 mrad (standard deviations), and every reading has its
-noise.
+The settings that cut each board know the frame, chain sag and stretch. The judge (tools/judge,
+exact elastic catenaries that share no formula with the model) says where the sled really went, with
+something hidden. In every board the frame is off by chance: spacing 3 mm, height and middle 5 mm,
+sheet turned by 2 mrad (standard deviations). Every reading has its noise.
 
 - *Effects take turns*, and so do the directions of their parameters (the left chain long, both
   long, ...). `mm` is the RMS by which marks would move before anything is refitted.
 - A tilt of both motors and the chains' zeros *are* the frame: marks cannot show them, so they
   appear among usual sizes only. No real machine moves marks by 3 mm with frame lean or runout:
-  they have a scenario of their own (`huge-25`). Friction of 3 mm would leave marks in the lower
+  they have a separate scenario (`huge-25`). Friction of 3 mm would leave marks in the lower
   corners centimetres behind; it appears with up to 1.5 usual sizes.
 - *Right class first*: the first explanation is the truth, or draws the same arrows (|cosine| >
   0.98 with the frame refitted; here that is chain_pitch of both chains and tape_scale, chain_sag
   and frame_lean).
-- *Suspects*: mean number of effects named, over the boards where any was. *Truth inside*: the
-  truth is one of the explanations, or its size is below what "could hide" where nothing is
-  provable.
+- *Suspects*: mean number of effects named, over the boards where the lab named any. *Truth
+  inside*: the truth is one of the explanations, or its size is below what "could hide" where
+  nothing is provable.
 - *Unknown*: a bump as wide as 0.35 half sheets, a field of second and third degree, a sled that
-  tips over one edge. *Flagged*: not in the library, or a reading to look at again.
+  tips over an edge. *Flagged*: not in the library, or a reading to look at again.
 - *Pairs*: 6 mm each of two effects; *both*: both are among the suspects.
-- *Judged*: `open` means that it is not reached, but so few boards cannot tell.
+- *Judged*: `open` means that the line is not reached, but these boards are too few to tell.
 """
 CURES = """
 ## At the sled
 
 The error of the judge's sled over the whole sheet [mm]: RMS of its shape (the sheet laid at its
 best), mean over boards; with the settings as they were, with the frame refitted, with the best
-explanation added, and with the truth added. Where nothing is provable nothing is added; where
-nothing fits, the effect that stands out most.
+explanation added, and with the truth added. Where nothing is provable the lab adds nothing;
+where nothing fits, it adds the effect that stands out most.
 """
 
 

@@ -120,27 +120,27 @@ HEAD = f"""\
 
 <!-- Written by `python -m plumb.pages.effects` from the registry. Do not edit this page. -->
 
-What moves the sled, or its marks, away from where they should be. Effects of the *firmware* have
-settings, and the machine undoes them. Effects of the *lab* lie in what is measured:
+An effect moves the sled, or its marks, away from where they should be. Effects of the *firmware*
+have settings, and the machine undoes them. Effects of the *lab* act on what you measure:
 {NO_FIRMWARE}. The lab fits them, names the cure, and keeps them out of the settings.
 Worst: the largest error on the sheet while the effect has its typical size and the settings
 do not know it."""
 
 READING = f"""\
 Numbers hold for the default machine (motors 2978.4 mm apart, sled of 97.9 N) with sag and stretch
-at their typical sizes. A single effect has its typical size and the settings do not know it;
+at their typical sizes. A single effect has its typical size, and the settings do not know it.
 {COLUMNS} x {ROWS} marks lie up to 1150 mm to both sides and 550 mm above and below the middle of a
 2438.4 x 1219.2 mm sheet.
 
 - **As it is**: where marks land, or are read, against where they were sent.
-- **Shape**: what is left when all marks together are shifted and turned as well as can be. Only the
-  shape makes parts the wrong size; the rest moves the job on the sheet.
+- **Shape**: what is left after the best shift and turn of all marks together. Only the shape makes
+  parts the wrong size; the rest moves the job on the sheet.
 - **RMS** and **worst**: of the lengths of all errors.
 - **Pictures**: a circle is where a mark was sent, its arrow points to where it lands, many times
-  too long. A thin line joins the tips of a row: so a straight row of cuts would bend. The scale
-  differs from sheet to sheet.
-- **Look-alikes** are worked out: the cosine of the angle between two shapes, the nearest of
-  any of an effect's parameters. 1 is the same shape, -1 the same with the other sign, 0 nothing in
+  too long. A thin line joins the tips of a row: that is how a straight row of cuts would bend.
+  The scale differs from sheet to sheet.
+- **Look-alikes** are computed: the cosine of the angle between two shapes, for the nearest of an
+  effect's parameters. 1 is the same shape, -1 the same with the other sign, 0 nothing in
   common. Beyond 0.9 either way, marks on a single sheet hardly tell two causes apart.
   Besides effects, these numbers of the frame are compared: {_FRAME_NUMBERS}."""
 

@@ -159,28 +159,28 @@ Storing all defaults takes up to two seconds, in which the machine goes on. A po
 leaves the old settings or the defaults."""
 
 KEPT = """\
-Settings lie in the EEPROM twice, each copy with a number and a CRC-32; a change is written to the
-first copy, then to the second, only the bytes that differ. Power may fail in any byte: the old
-settings or the new settings are there afterwards, never a mixture.
+The EEPROM holds the settings twice, each copy with a number and a CRC-32. The machine writes a
+change to the first copy, then to the second, and only the bytes that differ. Power may fail in any
+byte: afterwards the old settings or the new settings are there, never a mixture.
 
-The position (encoder counts of both chains and z, where that put the bit, and whether `$12`, `$13`,
-`$19` and `$20` are still the same) is kept each time the machine comes to rest, in a ring of 65
-places. Before a motor turns, a mark says that the place has been left; power lost in motion is
-therefore known at the next start, and the machine says so. A cell is written twice in 65 rests and
-bears 100,000 writes: 3.2 million rests, at 300 a day 29 years.
+The machine keeps its position each time it comes to rest, in a ring of 65 places. A position is the
+encoder counts of both chains and z, where that put the bit, and whether `$12`, `$13`, `$19` and
+`$20` are still the same. Before a motor turns, a mark says that the place has been left. So the
+machine knows at the next start that power was lost in motion, and says so. A cell is written twice
+in 65 rests and bears 100,000 writes: 3.2 million rests, at 300 a day 29 years.
 
 What the EEPROM holds, by address: 0 to 543 nothing (what the published firmware left is marked
 invalid), 544 and 1344 the copies, 2144 to 4093 the ring."""
 
 COMING = """\
-At the first start (motors wait 2.5 s) the settings of firmware 1.24 to 1.29 (version 5 of its
-EEPROM, with or without Z limits) and its position are taken over, all or nothing, and then marked
-invalid there: should you flash it again, it starts with defaults and no position, and does not
-trust a place the sled has left long ago. What it stores from then on is taken over once more when
-you come back.
+At the first start (motors wait 2.5 s) the machine takes over the settings of firmware 1.24 to 1.29
+(version 5 of its EEPROM, with or without Z limits) and its position, all or nothing. Then it marks
+them invalid there. If you flash the published firmware again, it starts with defaults and no
+position, and does not trust a place that the sled left long ago. What it stores from then on is
+taken over again when you come back.
 
-Firmware 1.00 to 1.23 and the holey, optical and beta releases store other versions; these are not
-read. The firmware says so, and GroundControl or WebControl send their settings anyway; set the
+Firmware 1.00 to 1.23 and the holey, optical and beta releases store other versions, which the
+machine does not read. It says so. GroundControl or WebControl send their settings anyway; set the
 chains once."""
 
 
