@@ -1,15 +1,23 @@
-"""The types in tools/plumb/_core.pyi are those of the compiled module."""
+"""The types in tools/plumb/_core.pyi and _judge.pyi are those of the compiled modules."""
 
 import ast
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import plumb
 import pytest
 from nanobind.stubgen import StubGen
-from plumb import _core
+from plumb import _core, _judge
 
-STUB = Path(plumb.__file__).with_name("_core.pyi").read_text()
+
+def stub_of(module: ModuleType) -> str:
+    """The types of a compiled module as the tree has them."""
+    name = module.__name__.rpartition(".")[2]
+    return Path(plumb.__file__).with_name(f"{name}.pyi").read_text()
+
+
+STUB = stub_of(_core)
 VALUES = np.array([field["usual"] for field in _core.frame()] + [0.0] * 100)
 VALUES = VALUES[: len(_core.settings())]
 POINT = np.zeros((1, 2))
@@ -46,10 +54,11 @@ def fields_of(record: str) -> dict[str, str]:
     return {field.target.id: ast.unparse(field.annotation) for field in fields}
 
 
-def test_the_stub_has_the_functions_of_the_module():
-    generated = StubGen(_core)
-    generated.put(_core)
-    assert signatures(STUB) == signatures(generated.get())
+@pytest.mark.parametrize("module", [_core, _judge], ids=["core", "judge"])
+def test_the_stub_has_the_functions_of_the_module(module):
+    generated = StubGen(module)
+    generated.put(module)
+    assert signatures(stub_of(module)) == signatures(generated.get()) != {}
 
 
 @pytest.mark.parametrize("record", RESULTS)
