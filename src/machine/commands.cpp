@@ -1,10 +1,11 @@
-// A line becomes commands: cut in front of each G and M, run from left to right.
+// A line is executed: cut in front of each G and M, run from left to right, and answered.
+#include "b_lines.h"
 #include "machine.h"
 
 namespace machine {
 namespace {
 
-bool isSetting(char first) { return first == '$'; }
+using gcode::Words;
 
 /// An axis that other machines have, if there is a word for it; 0 if not.
 char foreignAxis(const Words& words) {
@@ -24,38 +25,45 @@ void Machine::loop() {
     finishStop();
     return;
   }
-  char line[Input::kRoom + 1];
-  if (!input_.takeLine(line)) {
-    clock_.sleep();
-    return;
-  }
-  is_answered_ = false;
+  char line[gcode::Input::kRoom + 1];
+  if (!input_.takeLine(line)) return clock_.sleep();
+  answers_.begin(line);
   const bool done = execute(line);
   // A sender that sends no more, as the clients' Hold and Pause do, soon stops the sled.
-  while (!stopping_ && !is_answered_ && isFarAhead()) serveAndSleep();
+  waitWhile([&] { return !answers_.isAnswered() && isFarAhead(); });
+  answer(done);
+}
+
+void Machine::answer(bool done) {
+  if (answers_.mustHalt()) halt();
   // What a stop or an alarm broke off is owed no answer.
-  if (stopping_ || is_answered_) return;
-  if (done) out_.line(FLASH("ok"));
+  if (done && !stopping_ && !answers_.isAnswered()) out_.line(FLASH("ok"));
+}
+
+void Machine::halt() {
+  lock_ = Lock::kHalted;
+  input_.clear();
+  // What was queued before is good: the path ends where the program meant it to.
+  if (drain()) spindle_.turn(false);
 }
 
 bool Machine::execute(char* line) {
-  line_ = line;
   if (input_.wasTooLong()) {
     if (isHalted()) return false;
-    line[0] = '\0';
-    return refuseMotion(FLASH("a line of more than 126 characters, which was skipped"));
+    answers_.begin("");
+    return answers_.refuseMotion(FLASH("a line of more than 126 characters, which was skipped"));
   }
   char* first = line;
   while (*first == ' ') ++first;
   if (*first == 'b' || *first == 'B') {
-    if (isHalted() && !isQuestion(first)) return false;
+    if (isHalted() && !isQuestion(bCodeOf(first))) return false;
     echo(first);
     gcode::clean(line);
     return runB(line);
   }
   gcode::clean(line);
   if (*line == '\0') return true;
-  if (isSetting(*line)) return runSetting(line);
+  if (*line == '$') return runSetting(line);
   return !isHalted() && runCode(line);
 }
 
@@ -70,7 +78,7 @@ void Machine::echo(const char* line) {
 
 bool Machine::runCode(const char* text) {
   const gcode::Mistake mistake = gcode::findMistake(text);
-  if (mistake.fault != gcode::Fault::kNone) return refuseMistake(mistake);
+  if (mistake.fault != gcode::Fault::kNone) return answers_.refuseMistake(mistake);
   modal_.beginLine();
   gcode::Pieces pieces(text);
   gcode::Piece piece;
@@ -82,78 +90,98 @@ bool Machine::runCode(const char* text) {
 bool Machine::runPiece(const gcode::Piece& piece) {
   const Words& words = piece.words;
   // Of a line that a stop broke off only its modes still count: a stopped jog ends in G90.
-  if (stopping_ || is_answered_) return piece.letter == 'G' && modal_.take(piece.tenths);
-  if (const char axis = foreignAxis(words)) return refuseMotion(FLASH("there is no axis "), axis);
+  if (stopping_ || answers_.isAnswered()) return piece.letter == 'G' && modal_.take(piece.tenths);
+  if (const char axis = foreignAxis(words))
+    return answers_.refuseMotion(FLASH("there is no axis "), axis);
   if (piece.letter != 'M' && words.has('T') && !setTool(words)) return false;
   // S of a G4 are seconds.
-  if (piece.letter != 'M' && !(piece.letter == 'G' && piece.tenths == 40) && !takeS(words))
+  if (piece.letter != 'M' && !(piece.letter == 'G' && piece.tenths == 40) && !spindle_.takeS(words))
     return false;
-  if (piece.letter == 'G') return runG(piece);
+  if (piece.letter == 'G' && modal_.take(piece.tenths)) return moveInMode(words);
+  if (piece.letter == 'G') return run(piece);
   if (piece.letter != 'M') return moveInMode(words);
   // What ends or pauses a program comes after the line's motion, all else before it.
-  if (endsLine(piece.tenths)) return moveInMode(words) && runM(piece.tenths, words);
-  return runM(piece.tenths, words) && moveInMode(words);
+  if (endsLine(piece.tenths)) return moveInMode(words) && run(piece);
+  return run(piece) && moveInMode(words);
 }
 
-bool Machine::ignoreM(uint16_t tenths) {
-  out_ << FLASH("Command M") << int32_t(tenths / 10);
-  if (tenths % 10 != 0) out_ << '.' << int32_t(tenths % 10);
-  out_.line(FLASH(" unsupported and ignored."));
-  return true;
-}
-
-bool Machine::runM(uint16_t tenths, const Words& words) {
-  // Everything but moves waits until the moves before it are over.
-  switch (tenths) {
-    case 0:
-    case 10:
-      return pauseAfterMoves();
-    case 20:
-    case 300:
-      modal_.endProgram();
-      if (!drain() || !switchSpindle(false)) return false;
-      cutter_.arm(false);
-      changeFeed(Quick::kFeedUsual);
-      return true;
-    case 50:
-      return drain() && switchSpindle(false);
-    case 30:
-    case 40:
-      return drain() && takeS(words) && switchSpindle(true);
-    case 60:
-      return (!words.has('T') || setTool(words)) && changeTool(modal_.tool);
-    case 1060:
-    case 1070:
-      // With the moves, not at once: what is queued keeps what it was queued with.
-      if (tenths == 1060) cutter_.setFull();
-      if (!takeS(words)) return false;
-      switchLaser(tenths == 1060);
-      return true;
-    case 970:
-    case 980:
-    case 990:
-      return refuseMotion(FLASH("subprograms are left to the program that sends"));
-    default:
-      return ignoreM(tenths);
-  }
+bool Machine::moveInMode(const Words& words) {
+  moves_.takeFeed(words);
+  const uint8_t mode = modal_.motion;
+  const bool is_arc = mode == 2 || mode == 3;
+  const bool turns = is_arc && (words.has('I') || words.has('J') || words.has('R'));
+  if (!words.hasPlace() && !turns) return true;
+  if (mode == gcode::kNoMotion)
+    return answers_.refuseMotion(FLASH("no motion is in force after G80; say G0 or G1"));
+  return mode > gcode::kNoMotion ? drilling_.drill(words) : moves_.move(mode, words);
 }
 
 bool Machine::setTool(const Words& words) {
   const float tool = words.value('T');
-  if (!(tool >= 0 && tool <= 65535)) return refuseMotion(FLASH("a tool's number is 0 to 65535"));
+  if (!(tool >= 0 && tool <= 65535))
+    return answers_.refuseMotion(FLASH("a tool's number is 0 to 65535"));
   modal_.tool = uint16_t(tool);
   out_ << FLASH("Tool change to tool ") << int32_t(modal_.tool);
   out_.end();
   return true;
 }
 
-bool Machine::declareZByWord(const Words& words) {
-  if (!drain()) return false;
-  if (!words.has('Z')) return true;
-  const float z = fromUnits(words.value('Z'));
-  if (!(float(fabs(z)) <= kMostTravel)) return refuseMotion(FLASH("no z axis is that long"));
-  declareZ(z);
+bool Machine::runQuestion(const char* line) {
+  if (*line == 'B') return runB(line);
+  settings_lines_.dump();
   return true;
+}
+
+bool Machine::runSetting(const char* line) {
+  const char* const text = line + 1;
+  if (*text == '\0') {
+    out_.line(
+        FLASH("$$ shows all settings, $n=value sets one, $RST=$ or # or * restores defaults"));
+    return true;
+  }
+  if (!drain()) return false;
+  if (*text == '$') {
+    if (text[1] != '\0') return answers_.refuse(FLASH("Invalid statement"));
+    settings_lines_.dump();
+    return true;
+  }
+  if (text[0] == '#' && text[1] == '\0') {
+    coordinates_.show();
+    return true;
+  }
+  if (strncmp_P(text, PSTR("RST="), 4) == 0) return runReset(text + 4);
+  return settings_lines_.set(text);
+}
+
+bool Machine::runReset(const char* what) {
+  using settings::Reset;
+  const bool is_known = (what[0] == '$' || what[0] == '#' || what[0] == '*') && what[1] == '\0';
+  if (!is_known) return answers_.refuse(FLASH("Invalid statement"));
+  restoreDefaults(what[0] == '$'   ? Reset::kSettings
+                  : what[0] == '#' ? Reset::kSettingsAndPosition
+                                   : Reset::kEverything);
+  return true;
+}
+
+void Machine::restoreDefaults(settings::Reset what) {
+  out_.line(FLASH("Message: Restoring defaults "));
+  spindle_.switchLaser(false);
+  memory_.reset(what);
+  const bool forgets_position = what != settings::Reset::kSettings;
+  if (forgets_position) {
+    axes_.setCounts(0, 0, 0);
+    keeper_.startAfresh();
+  }
+  axes_.simulate(values_.at(kSimulatedMotors) != 0);
+  new_values_.take(NewValues::kAll);
+  greeting_.sayBoard();
+  greeting_.sayMotors(axes_.isSimulated());
+  greeting_.sayReady();
+  answers_.setAnswered(true);
+  if (!forgets_position) return;
+  new_values_.prepareGeometry();
+  place_.search();
+  place_.sayUnset(true);
 }
 
 }  // namespace machine

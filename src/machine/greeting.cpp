@@ -1,10 +1,11 @@
-// What the machine says first: its board, where its settings come from, its name, that it is ready.
-#include "machine.h"
+// The words of a start.
+#include "greeting.h"
+
 #include "version.h"
 
 namespace machine {
 
-void Machine::greet() {
+void Greeting::sayBoard() {
   if (board_.driver == nullptr) {
     out_ << FLASH("ALARM: The Board version number from this Motor Control board is invalid. ");
     out_.line(FLASH("No motor will be driven; see the wiring page for its straps."));
@@ -14,7 +15,7 @@ void Machine::greet() {
   out_.line(FLASH(" Detected"));
 }
 
-void Machine::sayReady() {
+void Greeting::sayReady() {
   // Clients look for none of these lines, but other programs wait for "Grbl".
   out_.line(FLASH("Grbl v1.00"));
   out_.line(FLASH("Plumb " PLUMB_VERSION ", firmware for the Maslow CNC"));
@@ -22,18 +23,18 @@ void Machine::sayReady() {
   out_.line(FLASH("ok"));
 }
 
-void Machine::sayMotors() {
-  out_.line(axes_.isSimulated() ? FLASH("FAKE_SERVO on") : FLASH("FAKE_SERVO off"));
+void Greeting::sayMotors(bool are_simulated) {
+  out_.line(are_simulated ? FLASH("FAKE_SERVO on") : FLASH("FAKE_SERVO off"));
 }
 
-void Machine::sayStart() {
+void Greeting::sayStart() {
   if (board_.start == Start::kBrownOut)
     out_.line(FLASH("The 5 V of the Mega broke down and it started again: check its supply."));
   if (board_.start == Start::kWatchdog)
     out_.line(FLASH("The firmware hung and the watchdog started it again, with motors off."));
 }
 
-void Machine::saySource(const settings::Started& started) {
+void Greeting::saySource(const settings::Started& started) {
   using settings::Source;
   switch (started.source) {
     case Source::kOwn:

@@ -1,5 +1,5 @@
 // Tests of the loops: B13 sets speeds, B14 sets lengths, B16 sets duties; numbers come back.
-#include "machine.h"
+#include "axis_tests.h"
 
 namespace machine {
 namespace {
@@ -16,7 +16,7 @@ float stepOf(const LoopTest& test, uint8_t i) {
 
 }  // namespace
 
-void Machine::sayGains(Axis axis, bool position) {
+void AxisTests::sayGains(Axis axis, bool position) {
   const uint8_t first =
       uint8_t((axis == kZAxis ? kZPositionP : kMainPositionP) + (position ? 0 : 4));
   const char names[] = "pid";
@@ -28,7 +28,7 @@ void Machine::sayGains(Axis axis, bool position) {
   out_.end();
 }
 
-bool Machine::testLoop(uint8_t code, const LoopTest& test) {
+bool AxisTests::testLoop(uint8_t code, const LoopTest& test) {
   is_testing_ = true;
   const bool completed = code == 13   ? testSpeeds(test)
                          : code == 14 ? testLengths(test)
@@ -37,10 +37,10 @@ bool Machine::testLoop(uint8_t code, const LoopTest& test) {
   return completed;
 }
 
-bool Machine::sampleSpeed(Axis axis, float rpm, uint8_t version) {
+bool AxisTests::sampleSpeed(Axis axis, float rpm, uint8_t version) {
   axes_.turn(axis, rpm);
   for (uint16_t ms = 0; ms < kStepMs; ms += kSampleMs) {
-    if (!waitFor(kSampleMs)) return false;
+    if (!waiting_.waitFor(kSampleMs)) return false;
     const AxisState state = axes_.state(axis);
     if (version == 2) {
       out_.fixed(rpm, 4) << ',';
@@ -54,8 +54,8 @@ bool Machine::sampleSpeed(Axis axis, float rpm, uint8_t version) {
   return true;
 }
 
-bool Machine::testSpeeds(const LoopTest& test) {
-  if (!drain() || !wakeMotors()) return false;
+bool AxisTests::testSpeeds(const LoopTest& test) {
+  if (!waiting_.drain() || !motors_.wake()) return false;
   out_.line(FLASH("--PID Velocity Test Start--"));
   sayGains(test.axis, false);
   if (test.version == 2) out_.line(FLASH("setpoint,input,output"));
@@ -65,14 +65,14 @@ bool Machine::testSpeeds(const LoopTest& test) {
   axes_.release(test.axis);
   out_.line(FLASH("--PID Velocity Test Stop--"));
   out_.end();
-  searchPlace();
+  place_.search();
   return completed;
 }
 
-bool Machine::sampleLength(Axis axis, float goal, uint16_t ms, uint8_t version) {
+bool AxisTests::sampleLength(Axis axis, float goal, uint16_t ms, uint8_t version) {
   axes_.jumpTo(axis, goal);
   for (uint16_t at = 0; at < ms; at = uint16_t(at + kSampleMs)) {
-    if (!waitFor(kSampleMs)) return false;
+    if (!waiting_.waitFor(kSampleMs)) return false;
     const AxisState state = axes_.state(axis);
     const float is = axes_.length(axis);
     if (version == 2) {
@@ -89,8 +89,8 @@ bool Machine::sampleLength(Axis axis, float goal, uint16_t ms, uint8_t version) 
   return true;
 }
 
-bool Machine::testLengths(const LoopTest& test) {
-  if (!drain() || !wakeMotors()) return false;
+bool AxisTests::testLengths(const LoopTest& test) {
+  if (!waiting_.drain() || !motors_.wake()) return false;
   out_.line(FLASH("--PID Position Test Start--"));
   sayGains(test.axis, true);
   if (test.version == 2) out_.line(FLASH("setpoint,input,output,rpminput,voltage"));
@@ -102,19 +102,19 @@ bool Machine::testLengths(const LoopTest& test) {
   axes_.release(test.axis);
   out_.line(FLASH("--PID Position Test Stop--"));
   out_.end();
-  searchPlace();
+  place_.search();
   return completed;
 }
 
-bool Machine::testDuties(const LoopTest& test) {
-  if (!drain() || !wakeMotors()) return false;
+bool AxisTests::testDuties(const LoopTest& test) {
+  if (!waiting_.drain() || !motors_.wake()) return false;
   out_.line(FLASH("--Voltage Test Start--"));
   const int16_t last = int16_t(test.last), step = test.last < test.first ? -1 : 1;
   bool completed = true;
   for (int16_t duty = int16_t(test.first); completed; duty = int16_t(duty + step)) {
     axes_.driveOpen(test.axis, duty);
     for (uint16_t ms = 0; ms < kDutyMs && completed; ms += kDutySampleMs) {
-      completed = waitFor(kDutySampleMs);
+      completed = waiting_.waitFor(kDutySampleMs);
       if (!completed) break;
       out_ << int32_t(duty) << ',';
       out_.fixed(axes_.state(test.axis).rpm, 4).end();
@@ -124,7 +124,7 @@ bool Machine::testDuties(const LoopTest& test) {
   axes_.release(test.axis);
   out_.line(FLASH("--Voltage Test Stop--"));
   out_.end();
-  searchPlace();
+  place_.search();
   return completed;
 }
 

@@ -4,19 +4,36 @@
 namespace machine {
 
 Machine::Machine(const Ports& ports, const BoardName& board)
-    : wire_(ports.wire),
-      drives_(ports.drives),
-      aux_(ports.aux),
-      clock_(ports.clock),
-      board_(board),
+    : Waiting(ports.clock, axes_, mover_),
+      wire_(ports.wire),
       out_(ports.wire),
-      table_(ports.table),
-      values_(table_, value_room_),
+      values_(ports.table, value_room_),
       memory_(ports.bytes, values_),
       axes_(ports.drives, ports.clock),
       keeper_(memory_, axes_),
-      cutter_(aux_, values_),
-      offsets_(values_.from(kFirstPlaceSetting)) {}
+      cutter_(ports.aux, values_),
+      greeting_(board, out_),
+      answers_(out_, values_),
+      place_(out_, axes_, geometry_, mover_, keeper_, memory_, modal_),
+      reports_(ports.clock, modal_, axes_, input_, out_),
+      telemetry_(ports.drives, ports.aux, ports.clock, axes_, mover_, memory_, values_, out_,
+                 board.start),
+      motors_(axes_, keeper_, values_, ports.clock, *this),
+      spindle_(cutter_, ports.aux, out_, *this),
+      z_(memory_, values_, axes_, place_, modal_, out_, answers_),
+      new_values_(values_, geometry_, axes_, mover_, ports.drives, cutter_, keeper_, place_,
+                  ports.clock),
+      settings_lines_(memory_, values_, new_values_, ports.clock, out_, answers_, *this),
+      coordinates_(memory_, values_, modal_, place_, out_, answers_),
+      pauses_(interlude_, input_, modal_, spindle_, place_, out_, ports.clock, *this),
+      operator_lines_(interlude_, input_, modal_, axes_, motors_, z_, coordinates_, values_,
+                      ports.clock, out_, answers_, *this),
+      moves_(values_, geometry_, mover_, motors_, new_values_, coordinates_, place_, z_, cutter_,
+             pauses_, modal_, out_, answers_, *this),
+      drilling_(values_, modal_, new_values_, coordinates_, place_, z_, moves_, answers_, *this),
+      single_axis_(values_, geometry_, axes_, mover_, motors_, keeper_, place_, z_, ports.aux,
+                   modal_, out_, answers_, *this),
+      axis_tests_(axes_, values_, out_, motors_, place_, *this) {}
 
 void Machine::begin() {
   const settings::Started started = memory_.start();
@@ -24,19 +41,14 @@ void Machine::begin() {
   // The control tick's rate is taken over once: a new one counts after a reset.
   ticks_per_second_ = values_.at(kLoopRate) > 150 ? 200 : 100;
   axes_.setTicksPerSecond(ticks_per_second_);
-  axes_.prepare(values_);
-  mover_.prepare(values_, axes_.secondsPerTick());
-  geometry_.prepare(values_);
-  mover_.setGeometry(geometry_);
-  arrangeDrives();
-  cutter_.off();
+  new_values_.takeAll();
   modal_.feed = values_.at(kGreatestFeed) / 2;
-  greet();
-  sayMotors();
-  sayStart();
-  saySource(started);
-  sayReady();
-  restorePosition(started);
+  greeting_.sayBoard();
+  greeting_.sayMotors(axes_.isSimulated());
+  greeting_.sayStart();
+  greeting_.saySource(started);
+  greeting_.sayReady();
+  place_.restore(started);
 }
 
 }  // namespace machine

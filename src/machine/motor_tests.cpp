@@ -1,5 +1,5 @@
 // Motors driven without their loops: B04 tries each one, B11 pulls a chain tight.
-#include "machine.h"
+#include "axis_tests.h"
 
 namespace machine {
 namespace {
@@ -9,13 +9,13 @@ const uint16_t kRampMs = 500, kHoldMs = 2000;
 
 }  // namespace
 
-bool Machine::driveFor(Axis axis, int16_t duty, uint32_t ms) {
+bool AxisTests::driveFor(Axis axis, int16_t duty, uint32_t ms) {
   axes_.driveOpen(axis, duty);
-  const bool completed = waitFor(ms);
+  const bool completed = waiting_.waitFor(ms);
   return completed;
 }
 
-bool Machine::rampMotor(Axis axis, int8_t sign) {
+bool AxisTests::rampMotor(Axis axis, int8_t sign) {
   const uint8_t steps = 50;
   for (uint8_t i = 1; i <= steps; ++i)
     if (!driveFor(axis, int16_t(sign * (255 * i / steps)), kRampMs / steps)) return false;
@@ -25,7 +25,7 @@ bool Machine::rampMotor(Axis axis, int8_t sign) {
   return true;
 }
 
-bool Machine::testDirection(Axis axis, int8_t direction) {
+bool AxisTests::testDirection(Axis axis, int8_t direction) {
   const int32_t before = axes_.counts(axis);
   const int8_t sign = direction == 1 ? 1 : -1;
   if (!rampMotor(axis, sign)) return false;
@@ -36,8 +36,8 @@ bool Machine::testDirection(Axis axis, int8_t direction) {
   return true;
 }
 
-bool Machine::testMotors() {
-  if (!drain() || !wakeMotors()) return false;
+bool AxisTests::testMotors() {
+  if (!waiting_.drain() || !motors_.wake()) return false;
   bool completed = true;
   for (uint8_t i = 0; i < kAxisCount && completed; ++i) {
     out_ << FLASH("Testing ") << (i == kLeftAxis ? 'L' : i == kRightAxis ? 'R' : 'Z');
@@ -46,15 +46,15 @@ bool Machine::testMotors() {
     axes_.release(Axis(i));
   }
   if (completed) out_.line(FLASH("Tests complete."));
-  searchPlace();
+  place_.search();
   return completed;
 }
 
-bool Machine::pullChain(Axis axis, int16_t duty, float seconds) {
-  if (!drain() || !wakeMotors()) return false;
+bool AxisTests::pullChain(Axis axis, int16_t duty, float seconds) {
+  if (!waiting_.drain() || !motors_.wake()) return false;
   const bool completed = driveFor(axis, duty, uint32_t(seconds * 1000));
   axes_.release(axis);
-  searchPlace();
+  place_.search();
   return completed;
 }
 

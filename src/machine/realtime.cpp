@@ -6,28 +6,28 @@ namespace machine {
 
 void Machine::service() {
   readWire();
-  serveInterlude();
+  if (!stopping_) operator_lines_.serve();
   if (mover_.fill(axes_, geometry_) == Moved::kOutOfReach)
     raiseAlarm(FLASH("No sled can hang on the way; the machine has halted. Press Stop."));
   watchAxes();
-  watchBoard();
-  refreshGeometryWhenQuiet();
-  restWhenIdle();
-  keepWhenAtRest();
+  if (telemetry_.findsFailure()) raiseAlarm(telemetry_.failure());
+  new_values_.refreshWhenQuiet(isMoving());
+  // A test of loops stands between its jumps, and its motors hold.
+  motors_.restWhenIdle(isMoving() || axes_.isDriven() || axis_tests_.isTesting() ||
+                       interlude_.isOn());
+  place_.keepWhenAtRest(clock_.milliseconds());
   memory_.step();
-  reportWhenDue();
+  keepReporting();
   clock_.idle();
 }
 
-void Machine::serveAndSleep() {
-  service();
-  clock_.sleep();
-}
-
-bool Machine::waitFor(uint32_t ms) {
-  const uint32_t start = clock_.milliseconds();
-  while (!stopping_ && clock_.milliseconds() - start < ms) serveAndSleep();
-  return !stopping_;
+void Machine::keepReporting() {
+  if (!reports_.areDue()) return;
+  reports_.sayStatus(interlude_.isOn() ? FLASH("Pause")
+                     : isHalted()      ? FLASH("Stop")
+                                       : FLASH("Idle"),
+                     place_.now(isMoving()));
+  reports_.sayErrors();
 }
 
 bool Machine::isFarAhead() const {
@@ -37,55 +37,35 @@ bool Machine::isFarAhead() const {
   return mover_.lastsLonger(ahead > float(waiting) ? uint16_t(ahead) - waiting : 0);
 }
 
-bool Machine::drain() {
-  const bool moved = isMoving();
-  while (!stopping_ && isMoving()) serveAndSleep();
-  if (moved) settle();
-  return !stopping_;
-}
-
-void Machine::settle() {
-  const float kNear = 0.012f;      // [mm]
-  const uint32_t kPatience = 500;  // [ms] a motor without gains never comes nearer
-  const uint32_t start = clock_.milliseconds();
-  while (!stopping_ && clock_.milliseconds() - start < kPatience) {
-    bool is_near = true;
-    for (uint8_t i = 0; i < kAxisCount; ++i)
-      is_near = is_near && float(fabs(axes_.error(Axis(i)))) < kNear;
-    if (is_near) return;
-    serveAndSleep();
-  }
-}
-
 void Machine::readWire() {
   for (;;) {
     const int16_t character = wire_.read();
     if (character < 0) return;
-    const Quick quick = input_.put(char(character));
-    switch (quick) {
-      case Quick::kNone:
-        break;
-      case Quick::kStop:
-        out_.line(FLASH("ok"));
-        stopNow();
-        break;
-      case Quick::kResume:
-        out_.line(FLASH("ok"));
-        resumeInterlude();
-        break;
-      case Quick::kHold:
-        holdMotion();
-        break;
-      case Quick::kReset:
-        resetSoftly();
-        break;
-      case Quick::kOverflow:
-        raiseAlarm(FLASH("Buffer overflow: more lines came than there is room for. Press Stop."));
-        break;
-      default:
-        changeFeed(quick);
-        break;
-    }
+    takeQuick(input_.put(char(character)));
+  }
+}
+
+void Machine::takeQuick(gcode::Quick quick) {
+  using gcode::Quick;
+  switch (quick) {
+    case Quick::kNone:
+      return;
+    case Quick::kStop:
+      out_.line(FLASH("ok"));
+      return stopNow();
+    case Quick::kResume:
+      out_.line(FLASH("ok"));
+      return operator_lines_.resume();
+    case Quick::kHold:
+      if (!stopping_ && !isHalted()) operator_lines_.hold();
+      return;
+    case Quick::kReset:
+      return resetSoftly();
+    case Quick::kOverflow:
+      return raiseAlarm(
+          FLASH("Buffer overflow: more lines came than there is room for. Press Stop."));
+    default:
+      return changeFeed(quick);
   }
 }
 
@@ -100,30 +80,30 @@ void Machine::stopNow() {
 }
 
 void Machine::finishStop() {
-  while (isMoving()) serveAndSleep();
+  while (isMoving()) pass();
   // A new stop may come meanwhile; it is answered, and this one goes on.
   stopping_ = false;
   if (isHalted()) {
-    searchPlace();
-    switchSpindle(false);
+    place_.search();
+    spindle_.turn(false);
     return;
   }
-  switchSpindle(false);
+  spindle_.turn(false);
   out_.line(FLASH("Laser off"));
   if (keeper_.trustsChains())
-    findPlace();
+    place_.find();
   else
-    searchPlace();
-  if (keeper_.hasLost()) out_.line(whatIsLost());
+    place_.search();
+  if (keeper_.hasLost()) out_.line(place_.whatIsLost());
 }
 
 void Machine::resetSoftly() {
   stopNow();
-  changeFeed(Quick::kFeedUsual);
+  changeFeed(gcode::Quick::kFeedUsual);
   out_.end();
   out_.line(FLASH("soft reset commanded"));
-  greet();
-  sayReady();
+  greeting_.sayBoard();
+  greeting_.sayReady();
 }
 
 void Machine::raiseAlarm(FlashText text) {
@@ -143,11 +123,15 @@ void Machine::watchAxes() {
     hung_ = false;
     raiseAlarm(FLASH("The firmware was busy for too long; motors were switched off. Press Stop."));
   }
-  sayYield();
+  if (yield_notice_.isDue(axes_.hasYielded() && !axis_tests_.isTesting(), isMoving(),
+                          clock_.milliseconds()))
+    out_.line(
+        FLASH("The feed yields: a chain or z falls behind. Look for a weak supply or what holds "
+              "the sled, or ask for a slower feed."));
   const motion::Fault fault = axes_.fault();
   // Tests make errors on purpose.
-  if (is_testing_) return;
-  if (fault == motion::Fault::kStands || fault == motion::Fault::kTurnsBack) doubtCounts();
+  if (axis_tests_.isTesting()) return;
+  if (fault == motion::Fault::kStands || fault == motion::Fault::kTurnsBack) place_.doubtCounts();
   if (fault == motion::Fault::kLeftBehind)
     raiseAlarm(
         FLASH("The sled is not keeping up with its expected position and has halted. Press Stop, "
@@ -164,46 +148,17 @@ void Machine::watchAxes() {
               "chains (B06 or B08), or z (G10 Z0)."));
 }
 
-void Machine::sayYield() {
-  const uint32_t kGap = 100, kAWhile = 1000;  // [ms] what is blocked or unplugged is named before
-  const uint32_t now = clock_.milliseconds();
-  const bool goes_on = now - last_yield_ms_ < kGap;
-  if (!isMoving()) has_said_yield_ = false;
-  if (!axes_.hasYielded() || is_testing_) return;
-  if (!goes_on) yields_since_ms_ = now;
-  last_yield_ms_ = now;
-  if (has_said_yield_ || now - yields_since_ms_ < kAWhile || !isMoving()) return;
-  has_said_yield_ = true;
-  out_.line(
-      FLASH("The feed yields: a chain or z falls behind. Look for a weak supply or what holds the "
-            "sled, or ask for a slower feed."));
-}
-
 void Machine::noteHang() {
   hung_ = true;
   cutter_.off();
 }
 
-bool Machine::wakeMotors() {
-  if (!axes_.isPowered()) {
-    keeper_.beginMoving();
-    while (!stopping_ && !keeper_.mayMove()) serveAndSleep();
-  }
-  if (!stopping_) axes_.follow();
-  keeper_.endWait();
-  if (stopping_) return false;
-  last_motion_ms_ = clock_.milliseconds();
-  return true;
-}
-
-void Machine::restWhenIdle() {
-  const uint32_t now = clock_.milliseconds();
-  // A test of loops stands between its jumps, and its motors hold.
-  const bool is_busy = isMoving() || axes_.isDriven() || is_testing_ || interlude_.isOn();
-  if (is_busy) last_motion_ms_ = now;
-  if (is_busy || !axes_.isPowered()) return;
-  if (now - last_motion_ms_ < uint32_t(values_.at(kIdleTime))) return;
-  axes_.releaseAll();
+void Machine::changeFeed(gcode::Quick quick) {
+  if (!feed_.take(quick)) return;
+  axes_.goAt(uint16_t(feed_.shareOfPlan() * float(motion::Playback::kAllOfIt)));
+  mover_.boost(feed_.boost());
+  out_ << FLASH("[Feed: ") << int32_t(feed_.percent());
+  out_.line(FLASH(" %]"));
 }
 
 }  // namespace machine

@@ -1,30 +1,26 @@
-// Status, position errors, settings and measurements, as the clients parse them.
-#include "machine.h"
+// Status and position errors, as the clients parse them.
+#include "reports.h"
 
 namespace machine {
 
-const uint32_t kReportInterval = 200;  // [ms] clients give up after 2 s of silence
-
-void Machine::reportWhenDue() {
+bool Reports::areDue() {
+  const uint32_t kInterval = 200;  // [ms] clients give up after 2 s of silence
   const uint32_t now = clock_.milliseconds();
-  if (now - last_report_ms_ < kReportInterval) return;
-  last_report_ms_ = now;
-  reportStatus();
-  reportErrors();
+  if (now - last_ms_ < kInterval) return false;
+  last_ms_ = now;
+  return true;
 }
 
-void Machine::reportStatus() {
-  const Place place = placeNow();
+void Reports::sayStatus(FlashText state, const Place& place) {
   const uint8_t decimals = modal_.inches ? 4 : 2;
-  out_ << '<' << (interlude_.isOn() ? FLASH("Pause") : isHalted() ? FLASH("Stop") : FLASH("Idle"));
-  out_ << FLASH(",MPos:");
-  out_.fixed(inUnits(place.x), decimals) << ',';
-  out_.fixed(inUnits(place.y), decimals) << ',';
-  out_.fixed(inUnits(place.z), decimals);
+  out_ << '<' << state << FLASH(",MPos:");
+  out_.fixed(modal_.fromMm(place.x), decimals) << ',';
+  out_.fixed(modal_.fromMm(place.y), decimals) << ',';
+  out_.fixed(modal_.fromMm(place.z), decimals);
   out_.line(FLASH(",WPos:0.000,0.000,0.000>"));
 }
 
-void Machine::reportErrors() {
+void Reports::sayErrors() {
   out_ << FLASH("[PE:");
   out_.fixed(axes_.error(kLeftAxis), 2) << ',';
   out_.fixed(axes_.error(kRightAxis), 2) << ',';

@@ -1,27 +1,128 @@
-// Moves of one axis alone, in its own length: calibration moves and the probe.
-#include "machine.h"
+// Chains paid out and wound in, and z against the probe.
+#include "single_axis.h"
 
 namespace machine {
+namespace {
 
-bool Machine::moveAxis(Axis axis, float goal, float feed, bool until_probe) {
-  if (!drain() || !wakeMotors()) return false;
+const float kAxisFeed = 800;  // [mm/min] unless a command says otherwise
+// The clients send F1 in the units of the moment; the published firmware ignores it as well.
+const float kProbeFeed = 60;  // [mm/min]
+
+}  // namespace
+
+bool SingleAxis::move(Axis axis, float goal, float feed, bool until_probe) {
+  if (!waiting_.drain() || !motors_.wake()) return false;
   mover_.standAt(axes_.setPoint());
   mover_.addAxis(axis, goal, feed / 60);
   bool touched = false;
-  while (isMoving() && !touched && !isHalted()) {
+  // A stop brakes along the way, so this goes on until the axis stands.
+  while (waiting_.isMoving() && !touched) {
     touched = until_probe && aux_.probeTouches();
-    serveAndSleep();
+    waiting_.pass();
   }
   const float touched_at = axes_.length(axis);
   if (touched) {
     mover_.forget();
     axes_.dropSetPoints();
   }
-  settle();
+  waiting_.settle();
   // The axis ran on for a moment.
   if (touched) axes_.declare(axis, axes_.length(axis) - touched_at);
   mover_.standAt(axes_.setPoint());
-  return !stopping_ && (touched || !until_probe);
+  return !waiting_.isStopping() && (touched || !until_probe);
+}
+
+bool SingleAxis::measureOut(Axis axis) {
+  if (!isLength(values_.at(kExtendLength)))
+    return answers_.refuseMotion(FLASH("no chain is that long ($11)"));
+  out_.line(axis == kLeftAxis ? FLASH("Measuring out left chain")
+                              : FLASH("Measuring out right chain"));
+  const bool completed = move(axis, values_.at(kExtendLength), 0.9f * values_.at(kGreatestFeed));
+  axes_.release(axis);
+  place_.search();
+  if (!completed) return false;
+  out_.fixed(axes_.length(axis), 2).line(FLASH("mm"));
+  return true;
+}
+
+bool SingleAxis::setChains(float left, float right) {
+  if (!isLength(left) || !isLength(right))
+    return answers_.refuseMotion(FLASH("no chain is that long"));
+  axes_.declare(kLeftAxis, left);
+  axes_.declare(kRightAxis, right);
+  out_ << FLASH("Left: ");
+  out_.fixed(axes_.length(kLeftAxis), 2).line(FLASH("mm"));
+  out_ << FLASH("Right: ");
+  out_.fixed(axes_.length(kRightAxis), 2).line(FLASH("mm"));
+  keeper_.declareChains();
+  place_.find();
+  return true;
+}
+
+bool SingleAxis::setChainsToMarks() {
+  const float length = values_.at(kExtendLength);
+  if (!setChains(length, length)) return false;
+  out_.line(FLASH("Message: The machine chains have been manually re-calibrated."));
+  return true;
+}
+
+bool SingleAxis::moveChains(const gcode::Words& words) {
+  const float feed = words.value('F') > 0 ? words.value('F') : kAxisFeed;
+  bool completed = true;
+  for (uint8_t i = 0; i < 2; ++i) {
+    const Axis axis = Axis(i);
+    const float given = words.value(axis == kLeftAxis ? 'L' : 'R');
+    if (modal_.relative && given == 0) continue;
+    const float goal = modal_.relative ? axes_.target(axis) + given : given;
+    if (!isLength(goal)) return answers_.refuseMotion(FLASH("no chain is that long"));
+    completed = completed && move(axis, goal, feed);
+  }
+  place_.search();
+  return completed;
+}
+
+bool SingleAxis::goHome() {
+  const motion::Lengths<float> lengths = geometry_.inverse({0, 0});
+  if (!lengths.reachable)
+    return answers_.refuseMotion(FLASH("with these settings no sled can hang at 0,0"));
+  const bool completed =
+      move(kLeftAxis, lengths.left, kAxisFeed) && move(kRightAxis, lengths.right, kAxisFeed);
+  if (completed) place_.find();
+  return completed;
+}
+
+bool SingleAxis::measureChain(bool left) {
+  out_ << FLASH("[Measure: ");
+  out_.fixed(axes_.length(left ? kLeftAxis : kRightAxis), 2).line(FLASH("]"));
+  return true;
+}
+
+void SingleAxis::sayProbing(float target, float feed) {
+  out_.line(FLASH("probing for z axis zero"));
+  out_ << FLASH("max depth ");
+  out_.fixed(modal_.fromMm(target), 2).line(modal_.inches ? FLASH(" in.") : FLASH(" mm."));
+  out_ << FLASH("feedrate ");
+  out_.fixed(modal_.fromMm(feed), 2);
+  out_.line(modal_.inches ? FLASH(" in per min.") : FLASH(" mm per min."));
+}
+
+bool SingleAxis::probe(float target) {
+  if (!z_.hasMotor()) return answers_.refuseMotion(FLASH("a probe needs a z motor ($16)"));
+  if (!isLength(target)) return answers_.refuseMotion(FLASH("no z axis is that long"));
+  if (!waiting_.drain()) return false;
+  if (aux_.probeTouches())
+    return answers_.refuseMotion(FLASH("the probe touches already: lift z, or look for a short"));
+  const float feed = z_.mostFeed() < kProbeFeed ? z_.mostFeed() : kProbeFeed;
+  sayProbing(target, feed);
+  const bool touched = move(kZAxis, target, feed, true);
+  if (waiting_.isStopping()) return false;
+  if (!touched) {
+    place_.standHere();
+    return answers_.refuseMotion(FLASH("probe did not connect"));
+  }
+  z_.declare(axes_.length(kZAxis));
+  out_.line(FLASH("z axis zeroed"));
+  return true;
 }
 
 }  // namespace machine

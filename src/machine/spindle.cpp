@@ -1,5 +1,5 @@
-// Commands to spindle and laser, and how long a spindle takes.
-#include "machine.h"
+// Angles and times of the published firmware.
+#include "spindle.h"
 
 namespace machine {
 namespace {
@@ -10,36 +10,36 @@ const uint16_t kSwitchedMs = 1000;  // for the spindle to gain or lose speed
 
 }  // namespace
 
-bool Machine::turnServo(uint8_t angle) {
+bool Spindle::turnServo(uint8_t angle) {
   const uint8_t angles[] = {kIdleAngle, angle, kIdleAngle};
   bool completed = true;
   for (uint8_t i = 0; i < 3 && completed; ++i) {
     aux_.turnServo(angles[i]);
-    completed = waitFor(kServoMs);
+    completed = waiting_.waitFor(kServoMs);
   }
   aux_.turnServo(kNoServo);
   return completed;
 }
 
-bool Machine::switchSpindle(bool on) {
+bool Spindle::turn(bool on) {
   const SpindleKind kind = cutter_.kind();
   if (kind == SpindleKind::kNone) return true;
   out_.line(on ? FLASH("Turning Spindle On") : FLASH("Turning Spindle Off"));
   cutter_.setSpindle(on);
   if (kind == SpindleKind::kServo && !turnServo(on ? kOnAngle : kOffAngle)) return false;
-  return waitFor(kSwitchedMs);
+  return waiting_.waitFor(kSwitchedMs);
 }
 
-bool Machine::takeS(const Words& words) {
+bool Spindle::takeS(const gcode::Words& words) {
   if (!words.has('S')) return true;
   const float s = words.value('S');
   // The moves before it are made at the speed before it.
-  if (cutter_.changesSpeed(s) && !drain()) return false;
+  if (cutter_.changesSpeed(s) && !waiting_.drain()) return false;
   cutter_.takeS(s);
   return true;
 }
 
-void Machine::switchLaser(bool on) {
+void Spindle::switchLaser(bool on) {
   cutter_.arm(on);
   out_.line(on ? FLASH("Laser on") : FLASH("Laser off"));
 }

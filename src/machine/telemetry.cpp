@@ -1,29 +1,33 @@
-// B30: how the machine is doing, in a line that clients pass over; and what the board's watch says.
-#include "machine.h"
+// The board's watch in words, and the line of B30.
+#include "telemetry.h"
+
+#include "settings_table.h"
 
 namespace machine {
 
-void Machine::watchBoard() {
+bool Telemetry::findsFailure() {
   const uint32_t now = clock_.milliseconds();
-  if (now - board_looked_ms_ < BoardWatch::kInterval) return;
-  board_looked_ms_ = now;
+  if (now - looked_ms_ < BoardWatch::kInterval) return false;
+  looked_ms_ = now;
   const BoardLimits limits = {values_.at(kBandGap), values_.at(kLeastSupply)};
-  switch (board_watch_.look(aux_, limits, axes_.isPowered(), memory_.isWorn())) {
+  switch (watch_.look(aux_, limits, axes_.isPowered(), memory_.isWorn())) {
     case BoardEvent::kNone:
-      return;
+      break;
     case BoardEvent::kSupplyLow:
       out_ << FLASH("The Mega's supply is low: ");
-      out_.fixed(board_watch_.supply(), 2).line(FLASH(" V. Check its plug and USB cable ($76)."));
-      return;
+      out_.fixed(watch_.supply(), 2).line(FLASH(" V. Check its plug and USB cable ($76)."));
+      break;
     case BoardEvent::kWorn:
-      return out_.line(
-          FLASH("The EEPROM is worn: settings may be lost with the power. Note them."));
+      out_.line(FLASH("The EEPROM is worn: settings may be lost with the power. Note them."));
+      break;
     case BoardEvent::kDriverFails:
-      return raiseAlarm(driverText(board_watch_.failing()));
+      return true;
   }
+  return false;
 }
 
-FlashText Machine::driverText(Axis axis) {
+FlashText Telemetry::failure() const {
+  const Axis axis = watch_.failing();
   if (axis == kLeftAxis)
     return FLASH("The left motor's driver complains: too hot, a short, or no 12 V. Press Stop.");
   if (axis == kRightAxis)
@@ -31,7 +35,7 @@ FlashText Machine::driverText(Axis axis) {
   return FLASH("The z motor's driver complains: too hot, a short, or no 12 V. Press Stop.");
 }
 
-bool Machine::tellTelemetry() {
+void Telemetry::tell() {
   out_ << FLASH("[Telemetry|error:");
   for (uint8_t i = 0; i < kAxisCount; ++i) {
     if (i != 0) out_ << ',';
@@ -44,15 +48,14 @@ bool Machine::tellTelemetry() {
     out_ << int32_t(drives_.illegalSteps(Axis(i)));
   }
   out_ << FLASH("|supply:");
-  out_.fixed(board_watch_.supply(), 2) << ',';
-  out_.fixed(board_watch_.lowestSupply(), 2);
+  out_.fixed(watch_.supply(), 2) << ',';
+  out_.fixed(watch_.lowestSupply(), 2);
   out_ << (memory_.isWorn() ? FLASH("|eeprom:worn") : FLASH("|eeprom:ok"));
   out_ << FLASH("|start:");
-  out_ << (board_.start == Start::kUsual      ? FLASH("usual")
-           : board_.start == Start::kBrownOut ? FLASH("brown-out")
-                                              : FLASH("watchdog"));
+  out_ << (start_ == Start::kUsual      ? FLASH("usual")
+           : start_ == Start::kBrownOut ? FLASH("brown-out")
+                                        : FLASH("watchdog"));
   out_.line(FLASH("]"));
-  return true;
 }
 
 }  // namespace machine

@@ -1,6 +1,7 @@
-// Limits of z (B17 to B20): kept in machine coordinates of the moment, moved along when z is
-// declared anew.
-#include "machine.h"
+// Limits of z, and what follows when z is declared.
+#include "z_axis.h"
+
+#include <math.h>
 
 namespace machine {
 namespace {
@@ -9,55 +10,61 @@ const float kNoLimit = 10000;  // [mm] the table's "none"
 
 }  // namespace
 
-float Machine::withinZLimits(float z) const {
+float ZAxis::mostFeed() const { return values_.at(kZSpeed) * float(fabs(values_.at(kZPerTurn))); }
+
+float ZAxis::within(float z) const {
   const float high = values_.at(kZUpperLimit), low = values_.at(kZLowerLimit);
   if (z > high) return high;
   return z < low ? low : z;
 }
 
-bool Machine::setZLimit(bool upper) {
+bool ZAxis::setLimit(bool upper) {
   const float z = axes_.length(kZAxis);
   const settings::Refusal refusal = memory_.setRow(upper ? kZUpperLimit : kZLowerLimit, z);
   if (refusal != settings::Refusal::kNone)
-    return refuse(FLASH("that is no z at which a limit can be"));
+    return answers_.refuse(FLASH("that is no z at which a limit can be"));
   out_ << (upper ? FLASH("Upper") : FLASH("Lower")) << FLASH(" limit set to: ");
-  out_.fixed(inUnits(z), 2).end();
+  out_.fixed(modal_.fromMm(z), 2).end();
   return true;
 }
 
-bool Machine::clearZLimits() {
+bool ZAxis::clearLimits() {
   memory_.setRow(kZUpperLimit, kNoLimit);
   memory_.setRow(kZLowerLimit, -kNoLimit);
   out_.line(FLASH("Z Axis Limits Cleared"));
   return true;
 }
 
-void Machine::sayZLimit(float limit) {
+void ZAxis::sayLimit(float limit) {
   if (float(fabs(limit)) >= kNoLimit)
     out_ << FLASH("NAN");
   else
-    out_.fixed(inUnits(limit), 2);
+    out_.fixed(modal_.fromMm(limit), 2);
 }
 
-bool Machine::showZLimits() {
+bool ZAxis::showLimits() {
   out_ << FLASH("Z Axis Upper Limit: ");
-  sayZLimit(values_.at(kZUpperLimit));
+  sayLimit(values_.at(kZUpperLimit));
   out_ << FLASH(" Lower Limit: ");
-  sayZLimit(values_.at(kZLowerLimit));
+  sayLimit(values_.at(kZLowerLimit));
   out_.end();
   return true;
 }
 
-void Machine::declareZ(float z) {
+void ZAxis::declare(float z) {
   const float shift = z - axes_.length(kZAxis);
-  axes_.declare(kZAxis, z);
-  aim_.z = z;
-  mover_.standAt(axes_.setPoint());
-  shiftZLimits(shift);
-  keeper_.declareZ();
+  place_.declareZ(z);
+  shiftLimits(shift);
 }
 
-void Machine::shiftZLimits(float shift) {
+void ZAxis::declareInHold(float z) {
+  const float shift = z - axes_.length(kZAxis);
+  axes_.declareLifted(z);
+  place_.trustZ();
+  shiftLimits(shift);
+}
+
+void ZAxis::shiftLimits(float shift) {
   const float high = values_.at(kZUpperLimit), low = values_.at(kZLowerLimit);
   if (high < kNoLimit) memory_.setRow(kZUpperLimit, high + shift);
   if (low > -kNoLimit) memory_.setRow(kZLowerLimit, low + shift);

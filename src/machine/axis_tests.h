@@ -1,0 +1,65 @@
+// Single axes without set-points: tests of motors and loops, and the pull on a chain.
+#pragma once
+
+#include "motor_power.h"
+#include "printer.h"
+#include "settings_table.h"
+#include "sled_place.h"
+#include "waiting.h"
+
+namespace machine {
+
+/// A test of one axis' loops, as B13, B14 and B16 ask for it.
+struct LoopTest {
+  Axis axis;
+  float first, last;
+  uint8_t steps;
+  uint16_t step_ms;
+  uint8_t version;  ///< 2: more numbers in each line
+};
+
+/// B04, B11, B13, B14 and B16. Each waits for queued moves, powers the motors, and looks for the
+/// place of the sled again when it is over; each returns whether it was completed.
+class AxisTests {
+ public:
+  AxisTests(Axes& axes, const settings::Values& values, Printer& out, MotorPower& motors,
+            SledPlace& place, Waiting& waiting)
+      : axes_(axes),
+        values_(values),
+        out_(out),
+        motors_(motors),
+        place_(place),
+        waiting_(waiting) {}
+
+  /// B04: each motor to and fro, and whether its encoder counts the right way.
+  bool testMotors();
+  /// B11: drives a chain motor at a duty for a while.
+  bool pullChain(Axis axis, int16_t duty, float seconds);
+  /// B13, B14 and B16.
+  bool testLoop(uint8_t code, const LoopTest& test);
+  /// Whether a test of the loops makes errors on purpose.
+  bool isTesting() const { return is_testing_; }
+
+ private:
+  // motor_tests.cpp
+  bool driveFor(Axis axis, int16_t duty, uint32_t ms);
+  bool rampMotor(Axis axis, int8_t sign);
+  bool testDirection(Axis axis, int8_t direction);
+  // loop_tests.cpp
+  void sayGains(Axis axis, bool position);
+  bool sampleSpeed(Axis axis, float rpm, uint8_t version);
+  bool testSpeeds(const LoopTest& test);
+  bool sampleLength(Axis axis, float goal, uint16_t ms, uint8_t version);
+  bool testLengths(const LoopTest& test);
+  bool testDuties(const LoopTest& test);
+
+  Axes& axes_;
+  const settings::Values& values_;
+  Printer& out_;
+  MotorPower& motors_;
+  SledPlace& place_;
+  Waiting& waiting_;
+  bool is_testing_ = false;
+};
+
+}  // namespace machine

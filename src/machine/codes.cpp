@@ -1,0 +1,154 @@
+// What each G and M code does. Codes that only change how words are read are known to lib/GCode.
+#include "machine.h"
+
+namespace machine {
+
+using gcode::Words;
+
+/// A code and what does it.
+struct Machine::Code {
+  char letter;
+  uint16_t tenths;
+  RunPiece run;
+};
+
+bool Machine::find(const gcode::Piece& piece, Code& found) {
+  static const Code kCodes[] PROGMEM = {
+      {'G', 0, &Machine::beginMotion},
+      {'G', 10, &Machine::beginMotion},
+      {'G', 20, &Machine::beginMotion},
+      {'G', 30, &Machine::beginMotion},
+      {'G', 40, &Machine::dwell},
+      {'G', 100, &Machine::declare},
+      {'G', 280, &Machine::goToKept},
+      {'G', 281, &Machine::keepGoal},
+      {'G', 300, &Machine::goToKept},
+      {'G', 301, &Machine::keepGoal},
+      {'G', 382, &Machine::probeDown},
+      {'G', 430, &Machine::forgetToolLength},
+      {'G', 431, &Machine::takeToolLength},
+      {'G', 490, &Machine::forgetToolLength},
+      {'G', 810, &Machine::beginCycle},
+      {'G', 820, &Machine::beginCycle},
+      {'G', 830, &Machine::beginCycle},
+      {'G', 920, &Machine::shift},
+      {'G', 921, &Machine::endShift},
+      {'G', 922, &Machine::endShift},
+      {'G', 923, &Machine::endShift},
+      {'M', 0, &Machine::pause},
+      {'M', 10, &Machine::pause},
+      {'M', 20, &Machine::endProgram},
+      {'M', 30, &Machine::startSpindle},
+      {'M', 40, &Machine::startSpindle},
+      {'M', 50, &Machine::stopSpindle},
+      {'M', 60, &Machine::changeTool},
+      {'M', 300, &Machine::endProgram},
+      {'M', 970, &Machine::refuseSubprogram},
+      {'M', 980, &Machine::refuseSubprogram},
+      {'M', 990, &Machine::refuseSubprogram},
+      {'M', 1060, &Machine::armLaser},
+      {'M', 1070, &Machine::armLaser},
+  };
+  for (uint8_t i = 0; i < sizeof kCodes / sizeof kCodes[0]; ++i) {
+    memcpy_P(&found, kCodes + i, sizeof found);
+    if (found.letter == piece.letter && found.tenths == piece.tenths) return true;
+  }
+  return false;
+}
+
+bool Machine::run(const gcode::Piece& piece) {
+  Code code;
+  if (find(piece, code)) return (this->*code.run)(piece);
+  // Clients send M codes of other machines freely; a G code may have moved.
+  return piece.letter == 'M' ? ignoreM(piece) : answers_.refuseCode(piece);
+}
+
+bool Machine::ignoreM(const gcode::Piece& piece) {
+  out_ << FLASH("Command M") << int32_t(piece.tenths / 10);
+  if (piece.tenths % 10 != 0) out_ << '.' << int32_t(piece.tenths % 10);
+  out_.line(FLASH(" unsupported and ignored."));
+  return true;
+}
+
+bool Machine::beginMotion(const gcode::Piece& piece) {
+  modal_.motion = uint8_t(piece.tenths / 10);
+  return moves_.move(modal_.motion, piece.words);
+}
+
+bool Machine::dwell(const gcode::Piece& piece) {
+  const Words& words = piece.words;
+  const float seconds =
+      float(fabs(words.value('P') != 0 ? words.value('P') / 1000 : words.value('S')));
+  if (!(seconds < 86400)) return answers_.refuseMotion(FLASH("a dwell is shorter than a day"));
+  if (!drain()) return false;
+  out_ << FLASH("dwell time ");
+  out_.fixed(seconds, 3).line(FLASH(" s"));
+  return waitFor(uint32_t(seconds * 1000));
+}
+
+bool Machine::declare(const gcode::Piece& piece) {
+  const Words& words = piece.words;
+  if (words.has('L')) return coordinates_.declare(words);
+  if (goesAcross(words)) return answers_.refuseMotion(FLASH("G10 with X or Y needs L2 or L20"));
+  if (!drain()) return false;
+  if (!words.has('Z')) return true;
+  const float z = modal_.toMm(words.value('Z'));
+  if (!SingleAxis::isLength(z)) return answers_.refuseMotion(FLASH("no z axis is that long"));
+  z_.declare(z);
+  return true;
+}
+
+bool Machine::probeDown(const gcode::Piece& piece) {
+  return single_axis_.probe(moves_.targetOf(piece.words).z);
+}
+
+bool Machine::takeToolLength(const gcode::Piece& piece) {
+  return coordinates_.takeToolLength(piece.words);
+}
+
+bool Machine::forgetToolLength(const gcode::Piece& piece) {
+  // G43 H too: there is no table of tools, z is set for the tool in the spindle.
+  coordinates_.forgetToolLength();
+  return moveInMode(piece.words);
+}
+
+bool Machine::beginCycle(const gcode::Piece& piece) {
+  drilling_.begin(uint8_t(piece.tenths / 10));
+  return moveInMode(piece.words);
+}
+
+bool Machine::endShift(const gcode::Piece& piece) {
+  coordinates_.endShift(piece.tenths);
+  return moveInMode(piece.words);
+}
+
+bool Machine::endProgram(const gcode::Piece&) {
+  modal_.endProgram();
+  if (!drain() || !spindle_.turn(false)) return false;
+  cutter_.arm(false);
+  changeFeed(gcode::Quick::kFeedUsual);
+  return true;
+}
+
+bool Machine::startSpindle(const gcode::Piece& piece) {
+  return drain() && spindle_.takeS(piece.words) && spindle_.turn(true);
+}
+
+bool Machine::changeTool(const gcode::Piece& piece) {
+  return (!piece.words.has('T') || setTool(piece.words)) && pauses_.changeTool(modal_.tool);
+}
+
+bool Machine::armLaser(const gcode::Piece& piece) {
+  // With the moves, not at once: what is queued keeps what it was queued with.
+  const bool on = piece.tenths == 1060;
+  if (on) cutter_.setFull();
+  if (!spindle_.takeS(piece.words)) return false;
+  spindle_.switchLaser(on);
+  return true;
+}
+
+bool Machine::refuseSubprogram(const gcode::Piece&) {
+  return answers_.refuseMotion(FLASH("subprograms are left to the program that sends"));
+}
+
+}  // namespace machine

@@ -1,0 +1,66 @@
+// Where a program's coordinates begin, and the places to which G28 and G30 go.
+#pragma once
+
+#include "answers.h"
+#include "sled_place.h"
+
+namespace machine {
+
+/// G10 L2 and L20, G28.1, G30.1, G43.1, G49, G92, and `$#`. Moves nothing.
+class Coordinates {
+ public:
+  Coordinates(settings::Memory& memory, const settings::Values& values, const gcode::Modal& modal,
+              const SledPlace& place, Printer& out, Answers& answers)
+      : memory_(memory),
+        values_(values),
+        modal_(modal),
+        place_(place),
+        out_(out),
+        answers_(answers),
+        offsets_(values.from(kFirstPlaceSetting)) {}
+
+  /// [mm] Where the coordinate of an axis begins, in the system in force.
+  float begin(uint8_t axis) const { return offsets_.at(modal_.system, axis); }
+
+  /// Whether the sled may cross the sheet; refuses the line if not.
+  bool mayCrossSheet();
+
+  /// G10 with L.
+  bool declare(const gcode::Words& words);
+  /// G92.
+  bool shift(const gcode::Words& words);
+  /// G92.1 to G92.3.
+  void endShift(uint16_t tenths);
+  /// G43.1.
+  bool takeToolLength(const gcode::Words& words);
+  void forgetToolLength() { offsets_.setToolLength(0); }
+  /// G28.1 and G30.1.
+  bool keepGoal(const gcode::Piece& piece);
+  /// The place that G28 or G30 goes to, x, y and z [mm]; null and refused if nobody has set it.
+  const float* goal(const gcode::Piece& piece);
+  /// `$#`.
+  void show();
+
+ private:
+  bool keep(uint8_t row, float value);
+  void say(FlashText name, int32_t number, float x, float y, float z);
+
+  settings::Memory& memory_;
+  const settings::Values& values_;
+  const gcode::Modal& modal_;
+  const SledPlace& place_;
+  Printer& out_;
+  Answers& answers_;
+  gcode::WorkOffsets offsets_;
+};
+
+/// Whether a line moves along the sheet.
+inline bool goesAcross(const gcode::Words& words) { return words.has('X') || words.has('Y'); }
+
+/// Letters of the axes, and a place's coordinates, by 0, 1, 2.
+const char kAxisLetters[] = "XYZ";
+inline float& part(Place& place, uint8_t axis) {
+  return axis == 0 ? place.x : axis == 1 ? place.y : place.z;
+}
+
+}  // namespace machine

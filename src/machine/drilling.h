@@ -1,0 +1,45 @@
+// Drilling cycles: G81 to G83.
+#pragma once
+
+#include "moves.h"
+
+namespace machine {
+
+/// The cycle in force; its steps come from lib/GCode.
+class Drilling {
+ public:
+  Drilling(const settings::Values& values, gcode::Modal& modal, NewValues& new_values,
+           const Coordinates& coordinates, const SledPlace& place, const ZAxis& z, Moves& moves,
+           Answers& answers, Waiting& waiting)
+      : values_(values),
+        modal_(modal),
+        new_values_(new_values),
+        coordinates_(coordinates),
+        place_(place),
+        z_(z),
+        moves_(moves),
+        answers_(answers),
+        waiting_(waiting) {}
+
+  /// G81 to G83 by their number; the words of this line and the next drill.
+  void begin(uint8_t cycle);
+  /// One line's holes.
+  bool drill(const gcode::Words& words);
+
+ private:
+  bool refuse(gcode::DrillFault fault);
+  bool runStep(const gcode::DrillStep& step);
+
+  const settings::Values& values_;
+  gcode::Modal& modal_;
+  NewValues& new_values_;
+  const Coordinates& coordinates_;
+  const SledPlace& place_;
+  const ZAxis& z_;
+  Moves& moves_;
+  Answers& answers_;
+  Waiting& waiting_;
+  gcode::Drilling cycle_;
+};
+
+}  // namespace machine

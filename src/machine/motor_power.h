@@ -1,0 +1,34 @@
+// When motors get power, and when they lose it at rest.
+#pragma once
+
+#include "position_keeper.h"
+#include "waiting.h"
+
+namespace machine {
+
+/// Powers the motors, never before the EEPROM says that the machine moves; switches them off after
+/// a rest of $9.
+class MotorPower {
+ public:
+  MotorPower(Axes& axes, PositionKeeper& keeper, const settings::Values& values, Clock& clock,
+             Waiting& waiting)
+      : axes_(axes), keeper_(keeper), values_(values), clock_(clock), waiting_(waiting) {}
+
+  bool areOn() const { return axes_.isPowered(); }
+  /// Returns when all motors hold their set-points; false after a stop.
+  bool wake();
+  /// To be called often; `is_busy`: something moves or holds on purpose.
+  void restWhenIdle(bool is_busy);
+  /// Waits a second at most for the position's record.
+  bool awaitRecord();
+
+ private:
+  Axes& axes_;
+  PositionKeeper& keeper_;
+  const settings::Values& values_;
+  Clock& clock_;
+  Waiting& waiting_;
+  uint32_t last_busy_ms_ = 0;
+};
+
+}  // namespace machine

@@ -1,0 +1,77 @@
+// G0 to G3: from words to paths in the queue.
+#pragma once
+
+#include "coordinates.h"
+#include "cutter.h"
+#include "edge_cut.h"
+#include "motor_power.h"
+#include "new_values.h"
+#include "pauses.h"
+#include "z_axis.h"
+
+namespace machine {
+
+/// Lines and arcs over the sheet. What is refused or stopped returns false.
+class Moves {
+ public:
+  Moves(const settings::Values& values, const Geometry& geometry, Mover& mover, MotorPower& motors,
+        NewValues& new_values, Coordinates& coordinates, SledPlace& place, ZAxis& z, Cutter& cutter,
+        Pauses& pauses, gcode::Modal& modal, Printer& out, Answers& answers, Waiting& waiting)
+      : values_(values),
+        geometry_(geometry),
+        mover_(mover),
+        motors_(motors),
+        new_values_(new_values),
+        coordinates_(coordinates),
+        place_(place),
+        z_(z),
+        cutter_(cutter),
+        pauses_(pauses),
+        modal_(modal),
+        out_(out),
+        answers_(answers),
+        waiting_(waiting) {}
+
+  /// Takes an F word.
+  void takeFeed(const gcode::Words& words);
+  /// Where the words of a line lead.
+  Place targetOf(const gcode::Words& words) const;
+  /// G0 to G3.
+  bool move(uint8_t kind, const gcode::Words& words);
+  /// `feed` [mm/min], or below zero how often a minute the move would fit.
+  bool moveStraight(Place target, bool across, float feed);
+  /// G28 and G30: first up, then across, then down.
+  bool goToKept(const gcode::Piece& piece);
+
+ private:
+  bool goSafely(const Place& target, bool across);
+  float feedOf(uint8_t kind) const;
+  bool isNear(const Place& target);
+  bool mayTurn(const gcode::Words& words);
+  motion::Point<float> centreAhead(const gcode::Words& words, motion::Point<float> from) const;
+  bool moveRound(bool clockwise, motion::Point<float> from, const Place& target,
+                 const gcode::Words& words, float feed);
+  float fittingFeed(const motion::Path<float>& path, const Place& target, float times) const;
+  bool queue(const motion::Path<float>& path, const Place& target, float feed);
+  bool mayGo(const motion::Path<float>& path, const Area& area);
+  bool queuePieces(EdgeCut cut, float z_to, float feed, uint8_t beam);
+  bool queuePiece(const motion::Path<float>& piece, float z, float feed, uint8_t beam);
+  void sayBeyondSheet(motion::Point<float> end);
+
+  const settings::Values& values_;
+  const Geometry& geometry_;
+  Mover& mover_;
+  MotorPower& motors_;
+  NewValues& new_values_;
+  Coordinates& coordinates_;
+  SledPlace& place_;
+  ZAxis& z_;
+  Cutter& cutter_;
+  Pauses& pauses_;
+  gcode::Modal& modal_;
+  Printer& out_;
+  Answers& answers_;
+  Waiting& waiting_;
+};
+
+}  // namespace machine

@@ -1,0 +1,44 @@
+// Pauses: M0, tool changes, the z axis that is set by hand; all wait for `~`.
+#pragma once
+
+#include "interlude.h"
+#include "sled_place.h"
+#include "spindle.h"
+
+namespace machine {
+
+/// Each waits for queued moves first, and returns false after a stop.
+class Pauses {
+ public:
+  Pauses(Interlude& interlude, gcode::Input& input, gcode::Modal& modal, Spindle& spindle,
+         SledPlace& place, Printer& out, Clock& clock, Waiting& waiting)
+      : interlude_(interlude),
+        input_(input),
+        modal_(modal),
+        spindle_(spindle),
+        place_(place),
+        out_(out),
+        clock_(clock),
+        waiting_(waiting) {}
+
+  /// M0 and M1.
+  bool pauseAfterMoves();
+  /// M6.
+  bool changeTool(uint16_t tool);
+  /// Asks the operator to bring z to a height [mm]; then it is there.
+  bool setZByHand(float z);
+
+ private:
+  bool pause(bool resumed);
+
+  Interlude& interlude_;
+  gcode::Input& input_;
+  gcode::Modal& modal_;
+  Spindle& spindle_;
+  SledPlace& place_;
+  Printer& out_;
+  Clock& clock_;
+  Waiting& waiting_;
+};
+
+}  // namespace machine

@@ -1,0 +1,41 @@
+// Lines with a `$` that show or set a value.
+#pragma once
+
+#include "answers.h"
+#include "new_values.h"
+#include "waiting.h"
+
+namespace machine {
+
+/// `$$` and `$n=value`.
+class SettingsLines {
+ public:
+  SettingsLines(settings::Memory& memory, const settings::Values& values, NewValues& new_values,
+                Clock& clock, Printer& out, Answers& answers, Waiting& waiting)
+      : memory_(memory),
+        values_(values),
+        new_values_(new_values),
+        clock_(clock),
+        out_(out),
+        answers_(answers),
+        waiting_(waiting) {}
+
+  /// All that are listed, a line each.
+  void dump();
+  /// What stands behind the `$`: a number, `=`, a value.
+  bool set(const char* text);
+
+ private:
+  bool setValue(uint8_t number, float value);
+  bool refuseChainSpeed();
+
+  settings::Memory& memory_;
+  const settings::Values& values_;
+  NewValues& new_values_;
+  Clock& clock_;
+  Printer& out_;
+  Answers& answers_;
+  Waiting& waiting_;
+};
+
+}  // namespace machine

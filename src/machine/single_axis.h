@@ -1,0 +1,69 @@
+// Moves of one axis alone, in its own length: calibration, chains by hand, the probe.
+#pragma once
+
+#include "answers.h"
+#include "motor_power.h"
+#include "sled_place.h"
+#include "waiting.h"
+#include "z_axis.h"
+
+namespace machine {
+
+/// B02, B06, B08 to B10, B15 and G38.2.
+class SingleAxis {
+ public:
+  SingleAxis(const settings::Values& values, const Geometry& geometry, Axes& axes, Mover& mover,
+             MotorPower& motors, PositionKeeper& keeper, SledPlace& place, ZAxis& z, Aux& aux,
+             const gcode::Modal& modal, Printer& out, Answers& answers, Waiting& waiting)
+      : values_(values),
+        geometry_(geometry),
+        axes_(axes),
+        mover_(mover),
+        motors_(motors),
+        keeper_(keeper),
+        place_(place),
+        z_(z),
+        aux_(aux),
+        modal_(modal),
+        out_(out),
+        answers_(answers),
+        waiting_(waiting) {}
+
+  /// [mm] Whether a chain or z can be that long.
+  static bool isLength(float value) { return float(fabs(value)) <= kMostTravel; }
+
+  /// B02: pays out a chain to the length at which the sled is hooked on.
+  bool measureOut(Axis axis);
+  /// B06: the chains are this long [mm].
+  bool setChains(float left, float right);
+  /// B08: the chains are at their marks.
+  bool setChainsToMarks();
+  /// B09: to lengths, or by lengths with G91.
+  bool moveChains(const gcode::Words& words);
+  /// B15: to the middle of the sheet, chain by chain.
+  bool goHome();
+  /// B10.
+  bool measureChain(bool left);
+  /// G38.2: z goes down until the probe touches, and is zero there.
+  bool probe(float target);
+
+ private:
+  bool move(Axis axis, float goal, float feed, bool until_probe = false);
+  void sayProbing(float target, float feed);
+
+  const settings::Values& values_;
+  const Geometry& geometry_;
+  Axes& axes_;
+  Mover& mover_;
+  MotorPower& motors_;
+  PositionKeeper& keeper_;
+  SledPlace& place_;
+  ZAxis& z_;
+  Aux& aux_;
+  const gcode::Modal& modal_;
+  Printer& out_;
+  Answers& answers_;
+  Waiting& waiting_;
+};
+
+}  // namespace machine

@@ -1,0 +1,34 @@
+// Commands to spindle and laser, and how long a spindle takes.
+#pragma once
+
+#include <GCode.h>
+
+#include "cutter.h"
+#include "printer.h"
+#include "waiting.h"
+
+namespace machine {
+
+/// Switches the cutter with all that belongs to it: words to the operator, the servo, the wait.
+class Spindle {
+ public:
+  Spindle(Cutter& cutter, Aux& aux, Printer& out, Waiting& waiting)
+      : cutter_(cutter), aux_(aux), out_(out), waiting_(waiting) {}
+
+  /// Returns when the spindle has gained or lost its speed.
+  bool turn(bool on);
+  /// Takes an S word; waits for queued moves where the speed of a turning spindle changes.
+  bool takeS(const gcode::Words& words);
+  /// M106 and M107.
+  void switchLaser(bool on);
+
+ private:
+  bool turnServo(uint8_t angle);
+
+  Cutter& cutter_;
+  Aux& aux_;
+  Printer& out_;
+  Waiting& waiting_;
+};
+
+}  // namespace machine

@@ -1,0 +1,32 @@
+// The waits that more than one command needs.
+#include "waiting.h"
+
+#include <math.h>
+
+namespace machine {
+
+bool Waiting::waitFor(uint32_t ms) {
+  const uint32_t start = clock_.milliseconds();
+  return waitWhile([&] { return clock_.milliseconds() - start < ms; });
+}
+
+bool Waiting::drain() {
+  if (!isMoving()) return !stopping_;
+  waitWhile([&] { return isMoving(); });
+  settle();
+  return !stopping_;
+}
+
+void Waiting::settle() {
+  const float kNear = 0.012f;      // [mm]
+  const uint32_t kPatience = 500;  // [ms] a motor without gains never comes nearer
+  const uint32_t start = clock_.milliseconds();
+  waitWhile([&] {
+    if (clock_.milliseconds() - start >= kPatience) return false;
+    for (uint8_t i = 0; i < kAxisCount; ++i)
+      if (!(float(fabs(axes_.error(Axis(i)))) < kNear)) return true;
+    return false;
+  });
+}
+
+}  // namespace machine
