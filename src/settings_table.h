@@ -203,7 +203,7 @@ enum Setting : uint8_t {
 #undef PLUMB_NAME
 
 // Two copies and the ring of positions must fit, and 255 says "none".
-static_assert(10 + 5 * kSettingCount <= settings::Memory::kApart, "a copy has no room");
+static_assert(10 + 5 * kSettingCount <= settings::Memory::kCopyRoom, "a copy has no room");
 static_assert(kSettingCount < settings::kNoIndex, "too many settings");
 
 /// The number that a client means: WebControl's sled weight is ours, and effects say theirs.

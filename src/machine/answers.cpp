@@ -24,6 +24,10 @@ FlashText textOf(gcode::Fault fault) {
 
 }  // namespace
 
+FlashText tooLongForChains() { return FLASH("no chain is that long"); }
+FlashText tooLongForZ() { return FLASH("no z axis is that long"); }
+FlashText tooFar() { return FLASH("that is farther than any machine reaches"); }
+
 void Answers::beginError() {
   out_ << FLASH("error: ");
   is_answered_ = true;
@@ -35,10 +39,17 @@ bool Answers::refuse(FlashText why) {
   return false;
 }
 
-bool Answers::refuseMotion(FlashText why, char letter) {
+bool Answers::refuseStatement() { return refuse(FLASH("Invalid statement")); }
+
+bool Answers::refuseMotion(FlashText why) {
   beginRefusal();
   out_ << why;
-  if (letter != gcode::kNoLetter) out_ << letter;
+  return endRefusal();
+}
+
+bool Answers::refuseMotion(FlashText why, char letter) {
+  beginRefusal();
+  out_ << why << letter;
   return endRefusal();
 }
 

@@ -37,8 +37,12 @@ class Answers {
   void beginError();
   bool refuse(FlashText why);
   /// For whatever leaves the machine where the program does not think it is: halts it, or answers
-  /// `error:`, by setting $70. `letter` ends the sentence, if there is one.
-  bool refuseMotion(FlashText why, char letter = gcode::kNoLetter);
+  /// `error:`, by setting $70.
+  bool refuseMotion(FlashText why);
+  /// The same; `letter` ends the sentence.
+  bool refuseMotion(FlashText why, char letter);
+  /// What the published firmware says to a line that it cannot make sense of.
+  bool refuseStatement();
   bool refuseMistake(gcode::Mistake mistake);
   bool refuseCode(const gcode::Piece& piece);
 
@@ -53,5 +57,10 @@ class Answers {
   const char* line_ = "";
   bool is_answered_ = false, must_halt_ = false;
 };
+
+// What more than one part refuses.
+FlashText tooLongForChains();
+FlashText tooLongForZ();
+FlashText tooFar();
 
 }  // namespace machine

@@ -68,14 +68,14 @@ bool Machine::runB(const char* line) {
       new_values_.refreshGeometry();
     }
     if (!SingleAxis::isLength(words.value('L')) || !SingleAxis::isLength(words.value('R')))
-      return answers_.refuseMotion(FLASH("no chain is that long"));
+      return answers_.refuseMotion(tooLongForChains());
   }
   for (uint8_t i = 0; i < sizeof kCodes / sizeof kCodes[0]; ++i) {
     BCode found;
     memcpy_P(&found, kCodes + i, sizeof found);
     if (found.code == code) return (this->*found.run)(code, words);
   }
-  return answers_.refuse(FLASH("Invalid statement"));
+  return answers_.refuseStatement();
 }
 
 bool Machine::sayVersion(uint8_t, const Words&) {
@@ -132,7 +132,7 @@ bool Machine::simulateMotors(bool on) {
   if (on && !was_on && !motors_.awaitRecord()) return false;
   memory_.setRow(kSimulatedMotors, on);
   axes_.simulate(on);
-  out_.line(on ? FLASH("FAKE_SERVO on") : FLASH("FAKE_SERVO off"));
+  greeting_.sayMotors(on);
   if (was_on && !on && axes_.isImagined())
     place_.lose(FLASH("Motion was simulated, so the chains are elsewhere."));
   return true;

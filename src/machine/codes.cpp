@@ -93,7 +93,7 @@ bool Machine::declare(const gcode::Piece& piece) {
   if (!drain()) return false;
   if (!words.has('Z')) return true;
   const float z = modal_.toMm(words.value('Z'));
-  if (!SingleAxis::isLength(z)) return answers_.refuseMotion(FLASH("no z axis is that long"));
+  if (!SingleAxis::isLength(z)) return answers_.refuseMotion(tooLongForZ());
   z_.declare(z);
   return true;
 }

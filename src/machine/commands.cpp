@@ -141,7 +141,7 @@ bool Machine::runSetting(const char* line) {
   }
   if (!drain()) return false;
   if (*text == '$') {
-    if (text[1] != '\0') return answers_.refuse(FLASH("Invalid statement"));
+    if (text[1] != '\0') return answers_.refuseStatement();
     settings_lines_.dump();
     return true;
   }
@@ -156,7 +156,7 @@ bool Machine::runSetting(const char* line) {
 bool Machine::runReset(const char* what) {
   using settings::Reset;
   const bool is_known = (what[0] == '$' || what[0] == '#' || what[0] == '*') && what[1] == '\0';
-  if (!is_known) return answers_.refuse(FLASH("Invalid statement"));
+  if (!is_known) return answers_.refuseStatement();
   restoreDefaults(what[0] == '$'   ? Reset::kSettings
                   : what[0] == '#' ? Reset::kSettingsAndPosition
                                    : Reset::kEverything);

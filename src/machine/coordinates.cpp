@@ -22,7 +22,7 @@ bool Coordinates::mayCrossSheet() {
 
 bool Coordinates::keep(uint8_t row, float value) {
   if (memory_.setRow(row, value) == settings::Refusal::kNone) return true;
-  return answers_.refuseMotion(FLASH("that is farther than any machine reaches"));
+  return answers_.refuseMotion(tooFar());
 }
 
 bool Coordinates::declare(const gcode::Words& words) {

@@ -50,9 +50,7 @@ bool Drilling::runStep(const gcode::DrillStep& step) {
   if (step.kind == gcode::DrillStep::kDwell)
     return waiting_.drain() && waiting_.waitFor(cycle_.dwell());
   const bool across = step.kind == gcode::DrillStep::kAcross;
-  const float most = values_.at(kGreatestFeed);
-  const float feed =
-      step.kind == gcode::DrillStep::kFeed && modal_.feed < most ? modal_.feed : most;
+  const float feed = moves_.feedOf(step.kind == gcode::DrillStep::kFeed ? 1 : 0);
   const float z = z_.within(step.z);
   if (across) {
     if (!moves_.moveStraight({step.x, step.y, place_.aim().z}, true, feed)) return false;

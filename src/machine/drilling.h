@@ -8,11 +8,9 @@ namespace machine {
 /// The cycle in force; its steps come from lib/GCode.
 class Drilling {
  public:
-  Drilling(const settings::Values& values, gcode::Modal& modal, NewValues& new_values,
-           const Coordinates& coordinates, const SledPlace& place, const ZAxis& z, Moves& moves,
-           Answers& answers, Waiting& waiting)
-      : values_(values),
-        modal_(modal),
+  Drilling(gcode::Modal& modal, NewValues& new_values, const Coordinates& coordinates,
+           const SledPlace& place, const ZAxis& z, Moves& moves, Answers& answers, Waiting& waiting)
+      : modal_(modal),
         new_values_(new_values),
         coordinates_(coordinates),
         place_(place),
@@ -30,7 +28,6 @@ class Drilling {
   bool refuse(gcode::DrillFault fault);
   bool runStep(const gcode::DrillStep& step);
 
-  const settings::Values& values_;
   gcode::Modal& modal_;
   NewValues& new_values_;
   const Coordinates& coordinates_;

@@ -4,7 +4,7 @@
 namespace machine {
 
 Machine::Machine(const Ports& ports, const BoardName& board)
-    : Waiting(ports.clock, axes_, mover_),
+    : Waiting(ports.clock, axes_, planner_),
       wire_(ports.wire),
       out_(ports.wire),
       values_(ports.table, value_room_),
@@ -14,25 +14,24 @@ Machine::Machine(const Ports& ports, const BoardName& board)
       cutter_(ports.aux, values_),
       greeting_(board, out_),
       answers_(out_, values_),
-      place_(out_, axes_, geometry_, mover_, keeper_, memory_, modal_),
+      place_(out_, axes_, geometry_, planner_, keeper_, memory_, modal_),
       reports_(ports.clock, modal_, axes_, input_, out_),
-      telemetry_(ports.drives, ports.aux, ports.clock, axes_, mover_, memory_, values_, out_,
+      telemetry_(ports.drives, ports.aux, ports.clock, axes_, planner_, memory_, values_, out_,
                  board.start),
-      motors_(axes_, keeper_, values_, ports.clock, *this),
+      motors_(axes_, keeper_, values_, *this),
       spindle_(cutter_, ports.aux, out_, *this),
       z_(memory_, values_, axes_, place_, modal_, out_, answers_),
-      new_values_(values_, geometry_, axes_, mover_, ports.drives, cutter_, keeper_, place_,
-                  ports.clock),
-      settings_lines_(memory_, values_, new_values_, ports.clock, out_, answers_, *this),
+      new_values_(values_, geometry_, axes_, planner_, ports.drives, cutter_, place_, ports.clock),
+      settings_lines_(memory_, values_, new_values_, out_, answers_, *this),
       coordinates_(memory_, values_, modal_, place_, out_, answers_),
-      pauses_(interlude_, input_, modal_, spindle_, place_, out_, ports.clock, *this),
-      operator_lines_(interlude_, input_, modal_, axes_, motors_, z_, coordinates_, values_,
-                      ports.clock, out_, answers_, *this),
-      moves_(values_, geometry_, mover_, motors_, new_values_, coordinates_, place_, z_, cutter_,
+      pauses_(interlude_, input_, modal_, spindle_, place_, out_, *this),
+      operator_lines_(interlude_, input_, modal_, axes_, motors_, z_, coordinates_, ports.clock,
+                      out_, answers_, *this),
+      moves_(values_, geometry_, planner_, motors_, new_values_, coordinates_, place_, z_, cutter_,
              pauses_, modal_, out_, answers_, *this),
-      drilling_(values_, modal_, new_values_, coordinates_, place_, z_, moves_, answers_, *this),
-      single_axis_(values_, geometry_, axes_, mover_, motors_, keeper_, place_, z_, ports.aux,
-                   modal_, out_, answers_, *this),
+      drilling_(modal_, new_values_, coordinates_, place_, z_, moves_, answers_, *this),
+      single_axis_(values_, geometry_, axes_, planner_, motors_, place_, z_, ports.aux, modal_,
+                   out_, answers_, *this),
       axis_tests_(axes_, values_, out_, motors_, place_, *this) {}
 
 void Machine::begin() {
@@ -49,6 +48,7 @@ void Machine::begin() {
   greeting_.saySource(started);
   greeting_.sayReady();
   place_.restore(started);
+  telemetry_.noteStart();
 }
 
 }  // namespace machine

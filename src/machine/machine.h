@@ -67,7 +67,10 @@ class Machine : private Waiting, private Dispatch {
   void finishStop();
   void resetSoftly();
   void raiseAlarm(FlashText text);
+  /// Says the texts as one line.
+  void raiseAlarm(FlashText text, FlashText more, FlashText end);
   void watchAxes();
+  void raiseAlarmOf(motion::Fault fault);
   void changeFeed(gcode::Quick quick);
   bool isHalted() const { return lock_ != Lock::kOpen; }
   bool isFarAhead() const;
@@ -138,7 +141,7 @@ class Machine : private Waiting, private Dispatch {
   gcode::Input input_;
   gcode::Modal modal_;
   Axes axes_;
-  Mover mover_;
+  Planner planner_;
   PositionKeeper keeper_;
   Cutter cutter_;
   Interlude interlude_;

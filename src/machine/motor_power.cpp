@@ -13,12 +13,12 @@ bool MotorPower::wake() {
   const bool may = !waiting_.isStopping();
   if (may) axes_.follow();
   keeper_.endWait();
-  if (may) last_busy_ms_ = clock_.milliseconds();
+  if (may) last_busy_ms_ = waiting_.milliseconds();
   return may;
 }
 
 void MotorPower::restWhenIdle(bool is_busy) {
-  const uint32_t now = clock_.milliseconds();
+  const uint32_t now = waiting_.milliseconds();
   if (is_busy) last_busy_ms_ = now;
   if (is_busy || !axes_.isPowered()) return;
   if (now - last_busy_ms_ >= uint32_t(values_.at(kIdleTime))) axes_.releaseAll();
@@ -26,9 +26,9 @@ void MotorPower::restWhenIdle(bool is_busy) {
 
 bool MotorPower::awaitRecord() {
   const uint32_t kRecordMs = 1000;  // a record is written in 0.3 s
-  const uint32_t start = clock_.milliseconds();
+  const uint32_t start = waiting_.milliseconds();
   return waiting_.waitWhile(
-      [&] { return !keeper_.isSettled() && clock_.milliseconds() - start < kRecordMs; });
+      [&] { return !keeper_.isSettled() && waiting_.milliseconds() - start < kRecordMs; });
 }
 
 }  // namespace machine

@@ -10,9 +10,8 @@ namespace machine {
 /// a rest of $9.
 class MotorPower {
  public:
-  MotorPower(Axes& axes, PositionKeeper& keeper, const settings::Values& values, Clock& clock,
-             Waiting& waiting)
-      : axes_(axes), keeper_(keeper), values_(values), clock_(clock), waiting_(waiting) {}
+  MotorPower(Axes& axes, PositionKeeper& keeper, const settings::Values& values, Waiting& waiting)
+      : axes_(axes), keeper_(keeper), values_(values), waiting_(waiting) {}
 
   bool areOn() const { return axes_.isPowered(); }
   /// Returns when all motors hold their set-points; false after a stop.
@@ -26,7 +25,6 @@ class MotorPower {
   Axes& axes_;
   PositionKeeper& keeper_;
   const settings::Values& values_;
-  Clock& clock_;
   Waiting& waiting_;
   uint32_t last_busy_ms_ = 0;
 };

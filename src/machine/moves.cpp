@@ -59,7 +59,7 @@ bool Moves::move(uint8_t kind, const Words& words) {
 bool Moves::isNear(const Place& target) {
   if (fabs(target.x) < kMostTravel && fabs(target.y) < kMostTravel && fabs(target.z) < kMostTravel)
     return true;
-  return answers_.refuseMotion(FLASH("that is farther than any machine reaches"));
+  return answers_.refuseMotion(tooFar());
 }
 
 bool Moves::mayTurn(const Words& words) {
@@ -206,8 +206,8 @@ bool Moves::queuePieces(EdgeCut cut, float z_to, float feed, uint8_t beam) {
 
 /// Waits for room in the queue: here a program is held up while its moves are made.
 bool Moves::queuePiece(const motion::Path<float>& piece, float z, float feed, uint8_t beam) {
-  if (!waiting_.waitWhile([&] { return !mover_.hasRoom(); }) || !motors_.wake()) return false;
-  if (mover_.add(piece, z, feed / 60, geometry_, beam) != Moved::kYes)
+  if (!waiting_.waitWhile([&] { return !planner_.hasRoom(); }) || !motors_.wake()) return false;
+  if (!planner_.add(piece, z, feed / 60, geometry_, beam))
     return answers_.refuseMotion(FLASH("that is no path"));
   if (piece.drawn == motion::Drawn::kYes)
     place_.aimAt({piece.to.x, piece.to.y, z});

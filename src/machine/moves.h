@@ -14,12 +14,13 @@ namespace machine {
 /// Lines and arcs over the sheet. What is refused or stopped returns false.
 class Moves {
  public:
-  Moves(const settings::Values& values, const Geometry& geometry, Mover& mover, MotorPower& motors,
-        NewValues& new_values, Coordinates& coordinates, SledPlace& place, ZAxis& z, Cutter& cutter,
-        Pauses& pauses, gcode::Modal& modal, Printer& out, Answers& answers, Waiting& waiting)
+  Moves(const settings::Values& values, const Geometry& geometry, Planner& mover,
+        MotorPower& motors, NewValues& new_values, Coordinates& coordinates, SledPlace& place,
+        ZAxis& z, Cutter& cutter, Pauses& pauses, gcode::Modal& modal, Printer& out,
+        Answers& answers, Waiting& waiting)
       : values_(values),
         geometry_(geometry),
-        mover_(mover),
+        planner_(mover),
         motors_(motors),
         new_values_(new_values),
         coordinates_(coordinates),
@@ -34,6 +35,8 @@ class Moves {
 
   /// Takes an F word.
   void takeFeed(const gcode::Words& words);
+  /// The feed of G0 to G3 [mm/min]; with G93 below zero, how often a minute the move would fit.
+  float feedOf(uint8_t kind) const;
   /// Where the words of a line lead.
   Place targetOf(const gcode::Words& words) const;
   /// G0 to G3.
@@ -45,7 +48,6 @@ class Moves {
 
  private:
   bool goSafely(const Place& target, bool across);
-  float feedOf(uint8_t kind) const;
   bool isNear(const Place& target);
   bool mayTurn(const gcode::Words& words);
   motion::Point<float> centreAhead(const gcode::Words& words, motion::Point<float> from) const;
@@ -60,7 +62,7 @@ class Moves {
 
   const settings::Values& values_;
   const Geometry& geometry_;
-  Mover& mover_;
+  Planner& planner_;
   MotorPower& motors_;
   NewValues& new_values_;
   Coordinates& coordinates_;

@@ -16,8 +16,8 @@ void NewValues::takeAll() {
 void NewValues::take(uint8_t touches) {
   using namespace settings;
   if (touches & kDrives) arrangeDrives();
-  if ((touches & (kScale | kLoops)) && axes_.prepare(values_)) keeper_.reconsider();
-  if (touches & kLimits) mover_.prepare(values_, axes_.secondsPerTick());
+  if ((touches & (kScale | kLoops)) && axes_.prepare(values_)) place_.reconsider();
+  if (touches & kLimits) planner_.prepare(values_, axes_.secondsPerTick());
   if (touches & kCutter) cutter_.off();
   if (!(touches & kGeometry)) return;
   is_geometry_stale_ = true;
@@ -35,21 +35,21 @@ void NewValues::arrangeDrives() {
 void NewValues::prepareGeometry() {
   is_geometry_stale_ = false;
   geometry_.prepare(values_);
-  mover_.setGeometry(geometry_);
+  planner_.setGeometry(geometry_);
 }
 
 void NewValues::refreshGeometry() {
   if (!is_geometry_stale_) return;
   prepareGeometry();
   place_.search();
-  keeper_.reconsider();
+  place_.reconsider();
 }
 
 void NewValues::refreshWhenQuiet(bool is_moving) {
   if (!is_geometry_stale_ || is_moving || clock_.milliseconds() - geometry_changed_ms_ < kQuietMs)
     return;
   refreshGeometry();
-  if (keeper_.trustsChains()) place_.find();
+  if (place_.trustsChains()) place_.find();
 }
 
 }  // namespace machine

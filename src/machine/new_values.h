@@ -11,15 +11,14 @@ class NewValues {
  public:
   enum : uint8_t { kAll = 255 };  ///< everything is touched
 
-  NewValues(const settings::Values& values, Geometry& geometry, Axes& axes, Mover& mover,
-            Drives& drives, Cutter& cutter, PositionKeeper& keeper, SledPlace& place, Clock& clock)
+  NewValues(const settings::Values& values, Geometry& geometry, Axes& axes, Planner& mover,
+            Drives& drives, Cutter& cutter, SledPlace& place, Clock& clock)
       : values_(values),
         geometry_(geometry),
         axes_(axes),
-        mover_(mover),
+        planner_(mover),
         drives_(drives),
         cutter_(cutter),
-        keeper_(keeper),
         place_(place),
         clock_(clock) {}
 
@@ -41,10 +40,9 @@ class NewValues {
   const settings::Values& values_;
   Geometry& geometry_;
   Axes& axes_;
-  Mover& mover_;
+  Planner& planner_;
   Drives& drives_;
   Cutter& cutter_;
-  PositionKeeper& keeper_;
   SledPlace& place_;
   Clock& clock_;
   uint32_t geometry_changed_ms_ = 0;

@@ -108,12 +108,11 @@ bool OperatorLines::run(const char* line) {
 bool OperatorLines::jogZ(const Words& words) {
   const float target =
       z_.within(modal_.targetOf(axes_.liftedTo(), words.value('Z'), coordinates_.begin(kZAxis)));
-  if (!(float(fabs(target)) <= kMostTravel))
-    return answers_.refuse(FLASH("no z axis is that long"));
+  if (!(float(fabs(target)) <= kMostTravel)) return answers_.refuse(tooLongForZ());
   if (!motors_.areOn() && !motors_.wake()) return false;
   const float most = z_.mostFeed();
   const float asked = words.has('F') ? modal_.toMm(words.value('F')) : most;
-  axes_.lift(target, (asked < most ? asked : most) / 60, values_.at(kAccelerationZ));
+  axes_.lift(target, (asked < most ? asked : most) / 60, z_.acceleration());
   return true;
 }
 

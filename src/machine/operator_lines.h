@@ -24,9 +24,8 @@ class Dispatch {
 class OperatorLines {
  public:
   OperatorLines(Interlude& interlude, gcode::Input& input, gcode::Modal& modal, Axes& axes,
-                MotorPower& motors, ZAxis& z, const Coordinates& coordinates,
-                const settings::Values& values, Clock& clock, Printer& out, Answers& answers,
-                Dispatch& dispatch)
+                MotorPower& motors, ZAxis& z, const Coordinates& coordinates, Clock& clock,
+                Printer& out, Answers& answers, Dispatch& dispatch)
       : interlude_(interlude),
         input_(input),
         modal_(modal),
@@ -34,7 +33,6 @@ class OperatorLines {
         motors_(motors),
         z_(z),
         coordinates_(coordinates),
-        values_(values),
         clock_(clock),
         out_(out),
         answers_(answers),
@@ -63,7 +61,6 @@ class OperatorLines {
   MotorPower& motors_;
   ZAxis& z_;
   const Coordinates& coordinates_;
-  const settings::Values& values_;
   Clock& clock_;
   Printer& out_;
   Answers& answers_;

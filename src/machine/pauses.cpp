@@ -5,7 +5,7 @@ namespace machine {
 
 bool Pauses::pause(bool resumed) {
   out_.line(FLASH("Maslow Paused"));
-  interlude_.pause(modal_, clock_.milliseconds(), input_.isEmpty());
+  interlude_.pause(modal_, waiting_.milliseconds(), input_.isEmpty());
   if (resumed) interlude_.resume();
   // The operator's `~` brings z back and ends it.
   const bool completed = waiting_.waitWhile([&] { return interlude_.isPaused(); });

@@ -11,14 +11,13 @@ namespace machine {
 class Pauses {
  public:
   Pauses(Interlude& interlude, gcode::Input& input, gcode::Modal& modal, Spindle& spindle,
-         SledPlace& place, Printer& out, Clock& clock, Waiting& waiting)
+         SledPlace& place, Printer& out, Waiting& waiting)
       : interlude_(interlude),
         input_(input),
         modal_(modal),
         spindle_(spindle),
         place_(place),
         out_(out),
-        clock_(clock),
         waiting_(waiting) {}
 
   /// M0 and M1.
@@ -37,7 +36,6 @@ class Pauses {
   Spindle& spindle_;
   SledPlace& place_;
   Printer& out_;
-  Clock& clock_;
   Waiting& waiting_;
 };
 

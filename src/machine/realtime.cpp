@@ -7,10 +7,12 @@ namespace machine {
 void Machine::service() {
   readWire();
   if (!stopping_) operator_lines_.serve();
-  if (mover_.fill(axes_, geometry_) == Moved::kOutOfReach)
+  if (!planner_.fill(axes_, geometry_))
     raiseAlarm(FLASH("No sled can hang on the way; the machine has halted. Press Stop."));
   watchAxes();
-  if (telemetry_.findsFailure()) raiseAlarm(telemetry_.failure());
+  if (telemetry_.findsFailure())
+    raiseAlarm(telemetry_.failing(), FLASH(" complains: too hot, a short, or no 12 V"),
+               FLASH(". Press Stop."));
   new_values_.refreshWhenQuiet(isMoving());
   // A test of loops stands between its jumps, and its motors hold.
   motors_.restWhenIdle(isMoving() || axes_.isDriven() || axis_tests_.isTesting() ||
@@ -18,10 +20,10 @@ void Machine::service() {
   place_.keepWhenAtRest(clock_.milliseconds());
   memory_.step();
   keepReporting();
-  clock_.idle();
 }
 
 void Machine::keepReporting() {
+  clock_.idle();
   if (!reports_.areDue()) return;
   reports_.sayStatus(interlude_.isOn() ? FLASH("Pause")
                      : isHalted()      ? FLASH("Stop")
@@ -34,7 +36,7 @@ bool Machine::isFarAhead() const {
   const float ahead =
       values_.at(kMotionAhead) * 1e-3f * float(ticks_per_second_) * feed_.shareOfPlan();
   const uint8_t waiting = axes_.waiting();
-  return mover_.lastsLonger(ahead > float(waiting) ? uint16_t(ahead) - waiting : 0);
+  return planner_.lastsLonger(ahead > float(waiting) ? uint16_t(ahead) - waiting : 0);
 }
 
 void Machine::readWire() {
@@ -76,7 +78,7 @@ void Machine::stopNow() {
   input_.clear();
   // At once, whatever else the stop has to wait for.
   cutter_.off();
-  mover_.stop(axes_);
+  planner_.stop(axes_);
 }
 
 void Machine::finishStop() {
@@ -89,7 +91,7 @@ void Machine::finishStop() {
     return;
   }
   spindle_.turn(false);
-  out_.line(FLASH("Laser off"));
+  spindle_.switchLaser(false);
   if (keeper_.trustsChains())
     place_.find();
   else
@@ -106,15 +108,17 @@ void Machine::resetSoftly() {
   greeting_.sayReady();
 }
 
-void Machine::raiseAlarm(FlashText text) {
+void Machine::raiseAlarm(FlashText text) { raiseAlarm(text, FLASH(""), FLASH("")); }
+
+void Machine::raiseAlarm(FlashText text, FlashText more, FlashText end) {
   if (lock_ == Lock::kAlarm) return;
   stopNow();
   lock_ = Lock::kAlarm;
   axes_.releaseAll();
-  mover_.forget();
+  planner_.forget();
   axes_.standStill();
-  out_ << FLASH("ALARM: ");
-  out_.line(text);
+  out_ << FLASH("ALARM: ") << text << more;
+  out_.line(end);
 }
 
 void Machine::watchAxes() {
@@ -131,21 +135,23 @@ void Machine::watchAxes() {
   const motion::Fault fault = axes_.fault();
   // Tests make errors on purpose.
   if (axis_tests_.isTesting()) return;
-  if (fault == motion::Fault::kStands || fault == motion::Fault::kTurnsBack) place_.doubtCounts();
+  if (fault != motion::Fault::kNone) raiseAlarmOf(fault);
+}
+
+void Machine::raiseAlarmOf(motion::Fault fault) {
+  const FlashText kFirst = FLASH("The sled is not keeping up with its expected position");
   if (fault == motion::Fault::kLeftBehind)
-    raiseAlarm(
-        FLASH("The sled is not keeping up with its expected position and has halted. Press Stop, "
-              "then look for what holds it."));
+    return raiseAlarm(kFirst, FLASH(" and has halted. Press Stop"),
+                      FLASH(", then look for what holds it."));
+  // Either proves counts wrong.
+  place_.doubtCounts();
+  const FlashText kEnd =
+      FLASH("Check the cables, press Stop, set the chains (B06 or B08), or z (G10 Z0).");
   if (fault == motion::Fault::kStands)
-    raiseAlarm(FLASH(
-        "The sled is not keeping up with its expected position: a motor is driven and its "
-        "encoder stands still. Check the cables, press Stop, set the chains (B06 or B08), or z "
-        "(G10 Z0)."));
-  if (fault == motion::Fault::kTurnsBack)
-    raiseAlarm(
-        FLASH("The sled is not keeping up with its expected position: a motor turns against its "
-              "drive; it or its encoder is wired in reverse. Check the cables, press Stop, set the "
-              "chains (B06 or B08), or z (G10 Z0)."));
+    return raiseAlarm(kFirst, FLASH(": a motor is driven and its encoder stands still. "), kEnd);
+  raiseAlarm(kFirst,
+             FLASH(": a motor turns against its drive; it or its encoder is wired in reverse. "),
+             kEnd);
 }
 
 void Machine::noteHang() {
@@ -156,7 +162,7 @@ void Machine::noteHang() {
 void Machine::changeFeed(gcode::Quick quick) {
   if (!feed_.take(quick)) return;
   axes_.goAt(uint16_t(feed_.shareOfPlan() * float(motion::Playback::kAllOfIt)));
-  mover_.boost(feed_.boost());
+  planner_.boost(feed_.boost());
   out_ << FLASH("[Feed: ") << int32_t(feed_.percent());
   out_.line(FLASH(" %]"));
 }

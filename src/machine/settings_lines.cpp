@@ -19,7 +19,6 @@ void SettingsLines::dump() {
     settings::putSetting(values_, i, put);
     out_.end();
     waiting_.keepReporting();
-    clock_.idle();
   }
 }
 
@@ -27,21 +26,20 @@ bool SettingsLines::set(const char* text) {
   // The published firmware passes over one other character in front of a number.
   if (*text >= 'A' && *text <= 'Z') ++text;
   const gcode::Number number = gcode::readNumber(text);
-  if (number.fault != gcode::Fault::kNone || *text != '=')
-    return answers_.refuse(FLASH("Bad number format"));
-  ++text;
+  const bool has_number = number.fault == gcode::Fault::kNone && *text == '=';
+  if (has_number) ++text;
   const gcode::Number value = gcode::readNumber(text);
-  if (value.fault != gcode::Fault::kNone || *text != '\0')
+  if (!has_number || value.fault != gcode::Fault::kNone || *text != '\0')
     return answers_.refuse(FLASH("Bad number format"));
   if (!(number.value >= 0 && number.value <= 255) || number.value != float(uint8_t(number.value)))
-    return answers_.refuse(FLASH("Invalid statement"));
+    return answers_.refuseStatement();
   return setValue(uint8_t(number.value), value.value);
 }
 
 bool SettingsLines::setValue(uint8_t number, float value) {
   const settings::Table& table = values_.table();
   const uint8_t meant = meantBy(number);
-  if (meant == table.at(kChainSpeed).number && value > Mover::mostChainSpeed(values_))
+  if (meant == table.at(kChainSpeed).number && value > Planner::mostChainSpeed(values_))
     return refuseChainSpeed();
   const settings::Refusal refusal = memory_.set(meant, value);
   if (refusal == settings::Refusal::kNone) {
@@ -58,7 +56,7 @@ bool SettingsLines::setValue(uint8_t number, float value) {
 bool SettingsLines::refuseChainSpeed() {
   answers_.beginError();
   out_ << FLASH("$68 must be at most ");
-  out_.fixed(Mover::mostChainSpeed(values_), 0);
+  out_.fixed(Planner::mostChainSpeed(values_), 0);
   out_.line(FLASH(": the gearbox turns a sprocket 20 times a minute at most"));
   return false;
 }

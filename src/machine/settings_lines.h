@@ -11,11 +11,10 @@ namespace machine {
 class SettingsLines {
  public:
   SettingsLines(settings::Memory& memory, const settings::Values& values, NewValues& new_values,
-                Clock& clock, Printer& out, Answers& answers, Waiting& waiting)
+                Printer& out, Answers& answers, Waiting& waiting)
       : memory_(memory),
         values_(values),
         new_values_(new_values),
-        clock_(clock),
         out_(out),
         answers_(answers),
         waiting_(waiting) {}
@@ -32,7 +31,6 @@ class SettingsLines {
   settings::Memory& memory_;
   const settings::Values& values_;
   NewValues& new_values_;
-  Clock& clock_;
   Printer& out_;
   Answers& answers_;
   Waiting& waiting_;

@@ -12,8 +12,8 @@ const float kProbeFeed = 60;  // [mm/min]
 
 bool SingleAxis::move(Axis axis, float goal, float feed, bool until_probe) {
   if (!waiting_.drain() || !motors_.wake()) return false;
-  mover_.standAt(axes_.setPoint());
-  mover_.addAxis(axis, goal, feed / 60);
+  planner_.standAt(axes_.setPoint());
+  planner_.addAxis(axis, goal, feed / 60);
   bool touched = false;
   // A stop brakes along the way, so this goes on until the axis stands.
   while (waiting_.isMoving() && !touched) {
@@ -22,13 +22,13 @@ bool SingleAxis::move(Axis axis, float goal, float feed, bool until_probe) {
   }
   const float touched_at = axes_.length(axis);
   if (touched) {
-    mover_.forget();
+    planner_.forget();
     axes_.dropSetPoints();
   }
   waiting_.settle();
   // The axis ran on for a moment.
   if (touched) axes_.declare(axis, axes_.length(axis) - touched_at);
-  mover_.standAt(axes_.setPoint());
+  planner_.standAt(axes_.setPoint());
   return !waiting_.isStopping() && (touched || !until_probe);
 }
 
@@ -46,15 +46,14 @@ bool SingleAxis::measureOut(Axis axis) {
 }
 
 bool SingleAxis::setChains(float left, float right) {
-  if (!isLength(left) || !isLength(right))
-    return answers_.refuseMotion(FLASH("no chain is that long"));
+  if (!isLength(left) || !isLength(right)) return answers_.refuseMotion(tooLongForChains());
   axes_.declare(kLeftAxis, left);
   axes_.declare(kRightAxis, right);
   out_ << FLASH("Left: ");
   out_.fixed(axes_.length(kLeftAxis), 2).line(FLASH("mm"));
   out_ << FLASH("Right: ");
   out_.fixed(axes_.length(kRightAxis), 2).line(FLASH("mm"));
-  keeper_.declareChains();
+  place_.trustChains();
   place_.find();
   return true;
 }
@@ -74,7 +73,7 @@ bool SingleAxis::moveChains(const gcode::Words& words) {
     const float given = words.value(axis == kLeftAxis ? 'L' : 'R');
     if (modal_.relative && given == 0) continue;
     const float goal = modal_.relative ? axes_.target(axis) + given : given;
-    if (!isLength(goal)) return answers_.refuseMotion(FLASH("no chain is that long"));
+    if (!isLength(goal)) return answers_.refuseMotion(tooLongForChains());
     completed = completed && move(axis, goal, feed);
   }
   place_.search();
@@ -108,7 +107,7 @@ void SingleAxis::sayProbing(float target, float feed) {
 
 bool SingleAxis::probe(float target) {
   if (!z_.hasMotor()) return answers_.refuseMotion(FLASH("a probe needs a z motor ($16)"));
-  if (!isLength(target)) return answers_.refuseMotion(FLASH("no z axis is that long"));
+  if (!isLength(target)) return answers_.refuseMotion(tooLongForZ());
   if (!waiting_.drain()) return false;
   if (aux_.probeTouches())
     return answers_.refuseMotion(FLASH("the probe touches already: lift z, or look for a short"));

@@ -12,15 +12,14 @@ namespace machine {
 /// B02, B06, B08 to B10, B15 and G38.2.
 class SingleAxis {
  public:
-  SingleAxis(const settings::Values& values, const Geometry& geometry, Axes& axes, Mover& mover,
-             MotorPower& motors, PositionKeeper& keeper, SledPlace& place, ZAxis& z, Aux& aux,
-             const gcode::Modal& modal, Printer& out, Answers& answers, Waiting& waiting)
+  SingleAxis(const settings::Values& values, const Geometry& geometry, Axes& axes, Planner& mover,
+             MotorPower& motors, SledPlace& place, ZAxis& z, Aux& aux, const gcode::Modal& modal,
+             Printer& out, Answers& answers, Waiting& waiting)
       : values_(values),
         geometry_(geometry),
         axes_(axes),
-        mover_(mover),
+        planner_(mover),
         motors_(motors),
-        keeper_(keeper),
         place_(place),
         z_(z),
         aux_(aux),
@@ -54,9 +53,8 @@ class SingleAxis {
   const settings::Values& values_;
   const Geometry& geometry_;
   Axes& axes_;
-  Mover& mover_;
+  Planner& planner_;
   MotorPower& motors_;
-  PositionKeeper& keeper_;
   SledPlace& place_;
   ZAxis& z_;
   Aux& aux_;

@@ -37,13 +37,13 @@ void SledPlace::standHere() {
   place_.z = axes_.length(kZAxis);
   aim_ = place_;
   countFromAim();
-  mover_.standAt(axes_.setPoint());
+  planner_.standAt(axes_.setPoint());
 }
 
 void SledPlace::declareZ(float z) {
   axes_.declare(kZAxis, z);
   aim_.z = z;
-  mover_.standAt(axes_.setPoint());
+  planner_.standAt(axes_.setPoint());
   keeper_.declareZ();
 }
 

@@ -4,7 +4,7 @@
 #include <GCode.h>
 
 #include "geometry.h"
-#include "mover.h"
+#include "planner.h"
 #include "position_keeper.h"
 #include "printer.h"
 
@@ -19,12 +19,12 @@ struct Place {
 /// where the program believes that to be (counted: also beyond the sheet).
 class SledPlace {
  public:
-  SledPlace(Printer& out, Axes& axes, const Geometry& geometry, Mover& mover,
+  SledPlace(Printer& out, Axes& axes, const Geometry& geometry, Planner& mover,
             PositionKeeper& keeper, settings::Memory& memory, const gcode::Modal& modal)
       : out_(out),
         axes_(axes),
         geometry_(geometry),
-        mover_(mover),
+        planner_(mover),
         keeper_(keeper),
         memory_(memory),
         modal_(modal) {}
@@ -52,6 +52,12 @@ class SledPlace {
   void standHere();
   /// The tool is at this z from now on [mm].
   void declareZ(float z);
+  /// Somebody said how long both chains are.
+  void trustChains() { keeper_.declareChains(); }
+  /// Lengths stay as they are, but counts mean others, or the chains another place.
+  void reconsider() { keeper_.reconsider(); }
+  /// Whether the lengths of both chains can be trusted.
+  bool trustsChains() const { return keeper_.trustsChains(); }
   /// Somebody said where z is; nothing else changes.
   void trustZ() { keeper_.declareZ(); }
 
@@ -78,7 +84,7 @@ class SledPlace {
   Printer& out_;
   Axes& axes_;
   const Geometry& geometry_;
-  Mover& mover_;
+  Planner& planner_;
   PositionKeeper& keeper_;
   settings::Memory& memory_;
   const gcode::Modal& modal_;

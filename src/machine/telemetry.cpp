@@ -5,6 +5,11 @@
 
 namespace machine {
 
+void Telemetry::noteStart() {
+  if (start_ == Start::kBrownOut) memory_.note(settings::Event::kBrownOut);
+  if (start_ == Start::kWatchdog) memory_.note(settings::Event::kWatchdog);
+}
+
 bool Telemetry::findsFailure() {
   const uint32_t now = clock_.milliseconds();
   if (now - looked_ms_ < BoardWatch::kInterval) return false;
@@ -14,6 +19,7 @@ bool Telemetry::findsFailure() {
     case BoardEvent::kNone:
       break;
     case BoardEvent::kSupplyLow:
+      memory_.note(settings::Event::kSupplyLow);
       out_ << FLASH("The Mega's supply is low: ");
       out_.fixed(watch_.supply(), 2).line(FLASH(" V. Check its plug and USB cable ($76)."));
       break;
@@ -21,18 +27,16 @@ bool Telemetry::findsFailure() {
       out_.line(FLASH("The EEPROM is worn: settings may be lost with the power. Note them."));
       break;
     case BoardEvent::kDriverFails:
+      memory_.note(settings::Event::kDriverFails);
       return true;
   }
   return false;
 }
 
-FlashText Telemetry::failure() const {
+FlashText Telemetry::failing() const {
   const Axis axis = watch_.failing();
-  if (axis == kLeftAxis)
-    return FLASH("The left motor's driver complains: too hot, a short, or no 12 V. Press Stop.");
-  if (axis == kRightAxis)
-    return FLASH("The right motor's driver complains: too hot, a short, or no 12 V. Press Stop.");
-  return FLASH("The z motor's driver complains: too hot, a short, or no 12 V. Press Stop.");
+  if (axis == kLeftAxis) return FLASH("The left motor's driver");
+  return axis == kRightAxis ? FLASH("The right motor's driver") : FLASH("The z motor's driver");
 }
 
 void Telemetry::tell() {
@@ -41,7 +45,7 @@ void Telemetry::tell() {
     if (i != 0) out_ << ',';
     out_.fixed(axes_.mostBehind(Axis(i)), 3);
   }
-  out_ << FLASH("|dry:") << int32_t(mover_.timesDry());
+  out_ << FLASH("|dry:") << int32_t(planner_.timesDry());
   out_ << FLASH("|tick:") << int32_t(clock_.longestTick()) << FLASH("|illegal:");
   for (uint8_t i = 0; i < kAxisCount; ++i) {
     if (i != 0) out_ << ',';
@@ -55,7 +59,34 @@ void Telemetry::tell() {
   out_ << (start_ == Start::kUsual      ? FLASH("usual")
            : start_ == Start::kBrownOut ? FLASH("brown-out")
                                         : FLASH("watchdog"));
+  tellLog();
   out_.line(FLASH("]"));
+}
+
+void Telemetry::tellLog() {
+  using settings::Event;
+  const settings::EventLog& log = memory_.log();
+  out_ << FLASH("|events:");
+  for (uint8_t i = 0; i < uint8_t(Event::kCount); ++i) {
+    if (i != 0) out_ << ',';
+    out_ << int32_t(log.count(Event(i)));
+  }
+  out_ << FLASH("|last:") << lastEvent() << ',' << int32_t(log.total());
+}
+
+FlashText Telemetry::lastEvent() const {
+  using settings::Event;
+  if (memory_.log().total() == 0) return FLASH("none");
+  switch (memory_.log().last()) {
+    case Event::kBrownOut:
+      return FLASH("brown-out");
+    case Event::kWatchdog:
+      return FLASH("watchdog");
+    case Event::kSupplyLow:
+      return FLASH("supply");
+    default:
+      return FLASH("driver");
+  }
 }
 
 }  // namespace machine

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "axes.h"
-#include "mover.h"
+#include "planner.h"
 
 namespace machine {
 
@@ -13,16 +13,18 @@ namespace machine {
 /// wait returns false once a stop was asked for: then the command unwinds.
 class Waiting {
  public:
-  Waiting(Clock& clock, Axes& axes, const Mover& mover)
-      : clock_(clock), axes_(axes), mover_(mover) {}
+  Waiting(Clock& clock, Axes& axes, const Planner& mover)
+      : clock_(clock), axes_(axes), planner_(mover) {}
 
   /// One round of everything that goes on by itself.
   virtual void service() = 0;
-  /// Says the status if it is due, for those who write much and do not wait.
+  /// Says the status if it is due and shows that the program lives; for those who write much and
+  /// do not wait.
   virtual void keepReporting() = 0;
 
+  uint32_t milliseconds() { return clock_.milliseconds(); }
   bool isStopping() const { return stopping_; }
-  bool isMoving() const { return !mover_.isIdle() || !axes_.isEmpty(); }
+  bool isMoving() const { return !planner_.isIdle() || !axes_.isEmpty(); }
 
   /// One round of a wait: the processor sleeps until something comes, for a millisecond at most.
   void pass() {
@@ -50,7 +52,7 @@ class Waiting {
   bool stopping_ = false;  ///< a stop was asked for; every wait ends
 
  private:
-  const Mover& mover_;
+  const Planner& planner_;
 };
 
 }  // namespace machine

@@ -20,7 +20,8 @@ class ZAxis {
         answers_(answers) {}
 
   bool hasMotor() const { return values_.at(kZMotor) != 0; }
-  float mostFeed() const;       ///< [mm/min]
+  float mostFeed() const;                                            ///< [mm/min]
+  float acceleration() const { return values_.at(kAccelerationZ); }  ///< [mm/s^2]
   float within(float z) const;  ///< [mm] brought back to the limits
   bool setLimit(bool upper);
   bool clearLimits();

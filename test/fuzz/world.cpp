@@ -42,7 +42,7 @@ class World : public Wire, public Drives, public Aux, public Clock {
     Machine machine({*this, *this, *this, *this, eeprom, table}, {2, ""});
     machine_ = &machine;
     is_greeting_ = true;
-    answers_ = Answers();
+    answers_ = ::Answers();
     machine.begin();
     is_greeting_ = false;
     for (;;) {
@@ -204,7 +204,7 @@ class World : public Wire, public Drives, public Aux, public Clock {
 
   const Story& story_;
   Machine* machine_ = nullptr;
-  Answers answers_;
+  ::Answers answers_;
   SimulatedMotor motor_[kAxisCount];
   std::string wire_, partial_;
   std::size_t at_ = 0;

@@ -1,7 +1,7 @@
 // The control tick with its ring of set-points, its loops and its watch, on motors as they come.
 #include <gtest/gtest.h>
 
-#include "machine/mover.h"
+#include "machine/planner.h"
 #include "motor.h"
 #include "settings_flash.h"
 
@@ -45,20 +45,20 @@ class Bench {
   Bench(unsigned seed, float ticks) : drives(seed), values_(table_, room_), axes(drives, clock_) {
     axes.setTicksPerSecond(ticks);
     axes.prepare(values_);
-    mover_.prepare(values_, axes.secondsPerTick());
-    mover_.standAt(axes.setPoint());
+    planner_.prepare(values_, axes.secondsPerTick());
+    planner_.standAt(axes.setPoint());
     axes.follow();
   }
 
-  void travel(float length, float feed) { mover_.addAxis(kLeftAxis, length, feed / 60); }
+  void travel(float length, float feed) { planner_.addAxis(kLeftAxis, length, feed / 60); }
 
   void tick() {
-    ASSERT_EQ(Moved::kYes, mover_.fill(axes, geometry_));
+    ASSERT_TRUE(planner_.fill(axes, geometry_));
     axes.tick();
     drives.pass(double(axes.secondsPerTick()));
   }
 
-  bool isMoving() const { return !mover_.isIdle() || !axes.isEmpty(); }
+  bool isMoving() const { return !planner_.isIdle() || !axes.isEmpty(); }
   double chain() const { return drives.motors[kLeftAxis].turns() * 63.5; }
 
   MotorDrives drives;
@@ -68,7 +68,7 @@ class Bench {
   FlashTable table_;
   float room_[kSettingCount];
   settings::Values values_;
-  Mover mover_;
+  Planner planner_;
   Geometry geometry_;
 
  public:

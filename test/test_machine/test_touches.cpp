@@ -132,20 +132,20 @@ Signature howItMoves(const Values& values) {
   axes.prepare(usual.values);
   Geometry geometry;
   geometry.prepare(usual.values);
-  Mover mover;
-  mover.setGeometry(geometry);
-  mover.prepare(values, axes.secondsPerTick());
-  mover.boost(1.5f);
+  Planner planner;
+  planner.setGeometry(geometry);
+  planner.prepare(values, axes.secondsPerTick());
+  planner.boost(1.5f);
   const motion::Lengths<float> from = geometry.inverse({0, 0});
   axes.declare(kLeftAxis, from.left);
   axes.declare(kRightAxis, from.right);
-  mover.standAt(axes.setPoint());
+  planner.standAt(axes.setPoint());
   const motion::Point<float> places[] = {{0, 0}, {0, 30}, {6, 30}, {6, 36}};
   for (int i = 1; i < 4; ++i)
-    mover.add(motion::line(places[i - 1], places[i]), i == 2 ? 1.0f : 0.0f, 14, geometry);
+    planner.add(motion::line(places[i - 1], places[i]), i == 2 ? 1.0f : 0.0f, 14, geometry);
   Signature result;
-  while (!mover.isIdle() || !axes.isEmpty()) {
-    mover.fill(axes, geometry);
+  while (!planner.isIdle() || !axes.isEmpty()) {
+    planner.fill(axes, geometry);
     axes.tick();
     result.push_back(float(axes.setPoint().left));
     result.push_back(float(axes.setPoint().z));

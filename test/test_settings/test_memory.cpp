@@ -164,5 +164,6 @@ TEST(Scale, ChangesOfItAreSeen) {
 TEST(Memory, FitsBesideThePublishedMap) {
   EXPECT_LE(Memory::kFirstCopy + Memory::kApart, Memory::kFirstSlot - Memory::kApart);
   EXPECT_LE(Memory::kFirstSlot + Memory::kSlots * PositionSlots::kBytesPerSlot, 4095);
-  EXPECT_LE(Copies::bytesFor(kSettingCount), Memory::kApart);
+  EXPECT_LE(Copies::bytesFor(kSettingCount), Memory::kCopyRoom);
+  EXPECT_LE(Memory::kFirstLog + EventLog::kBytes, Memory::kFirstCopy + Memory::kApart);
 }

@@ -214,6 +214,7 @@ class Player {
     const vm::VirtualBoard& board = machine_->board;
     std::printf("tick_share_%s %.4f\n", when, board.tickShare());
     std::printf("longest_tick_%s %ld\n", when, board.longestTick());
+    std::printf("longest_gap_%s %ld\n", when, board.longestGap());
     std::printf("ticks_per_second_%s %.2f\n", when, board.ticksPerSecond());
     std::printf("sleep_share_%s %.4f\n", when, board.sleepShare());
   }

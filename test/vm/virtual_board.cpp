@@ -216,6 +216,7 @@ void VirtualBoard::stopTickTimer() {
 
 void VirtualBoard::noteTick() {
   if (avr_->pc != kTickVector) return;
+  longest_gap_ = longestGap();
   tick_since_ = avr_->cycle;
   ++ticks_;
   was_ticking_ = true;

@@ -8,6 +8,7 @@
 #include <simavr/sim_avr.h>
 #include <simavr/sim_elf.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -88,11 +89,16 @@ class VirtualBoard {
   /// interrupt off while it runs. Other interrupts in between count.
   double tickShare() const { return double(in_tick_) / double(avr_->cycle - watched_from_); }
   void watchTicksFromNow() {
-    in_tick_ = longest_tick_ = asleep_ = 0;
+    in_tick_ = longest_tick_ = longest_gap_ = asleep_ = 0;
     ticks_ = 0;
     watched_from_ = avr_->cycle;
   }
   long longestTick() const { return long(longest_tick_); }
+  /// Cycles at most from the beginning of a tick to that of the next, and from the last one on.
+  long longestGap() const {
+    const avr_cycle_count_t since = std::max(tick_since_, watched_from_);
+    return long(std::max(longest_gap_, avr_->cycle - since));
+  }
   double ticksPerSecond() const {
     return ticks_ * double(kClock) / double(avr_->cycle - watched_from_);
   }
@@ -133,7 +139,7 @@ class VirtualBoard {
   uint16_t data_end_;
   avr_flashaddr_t hung_at_ = 0;
   avr_cycle_count_t in_tick_ = 0, longest_tick_ = 0, tick_since_ = 0, watched_from_ = 0;
-  avr_cycle_count_t asleep_ = 0;
+  avr_cycle_count_t longest_gap_ = 0, asleep_ = 0;
   avr_cycle_count_t bitten_since_ = 0;
   int ticks_ = 0, resets_ = 0;
   bool are_interrupts_held_ = false;

@@ -34,6 +34,7 @@ Memory::Memory(Bytes& bytes, Values& values)
       values_(values),
       copies_(bytes, kFirstCopy, kApart),
       slots_(bytes, kFirstSlot, kSlots),
+      log_(bytes, kFirstLog, kApart),
       remains_(false),
       retiring_(false) {}
 
@@ -45,6 +46,7 @@ Started Memory::start() {
   const Loaded loaded = copies_.load(values_);
   started.source = sourceOf(loaded);
   started.known = slots_.load(started.position);
+  log_.load();
   remains_ = nextToRetire(bytes_) != kNothingLeft;
   retiring_ = remains_ && loaded != Loaded::kNothing;
   if (loaded == Loaded::kSome) copies_.save();
@@ -91,6 +93,7 @@ void Memory::step() {
   // A motion waits for the position's mark, nobody waits for the rest.
   if (slots_.isBusy()) return slots_.step();
   if (copies_.isBusy()) return copies_.step(values_);
+  if (log_.isBusy()) return log_.step();
   if (!retiring_) return;
   const uint16_t address = nextToRetire(bytes_);
   remains_ = retiring_ = address != kNothingLeft;

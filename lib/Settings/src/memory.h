@@ -2,6 +2,7 @@
 #pragma once
 
 #include "copies.h"
+#include "event_log.h"
 #include "position.h"
 #include "published.h"
 
@@ -34,11 +35,14 @@ enum class Reset : uint8_t {
 };
 
 /// The EEPROM as a whole: settings, position, and the published firmware's remains.
+/// What went wrong with the board is counted beside them.
 ///
 /// Nothing blocks: step() writes at most one byte, and values are in force at once.
 class Memory {
  public:
   enum : uint16_t { kFirstCopy = 544, kApart = 800, kFirstSlot = 2144 };
+  /// Behind each copy, in the same 800 bytes, is a record of the log.
+  enum : uint16_t { kCopyRoom = kApart - 16, kFirstLog = kFirstCopy + kCopyRoom };
   enum : uint8_t { kSlots = 65 };
 
   Memory(Bytes& bytes, Values& values);
@@ -71,6 +75,10 @@ class Memory {
   /// cut, until keepPosition().
   void doubtPosition() { slots_.doubt(); }
 
+  /// Something has gone wrong with the board; kept whatever is reset.
+  void note(Event event) { log_.note(event); }
+  const EventLog& log() const { return log_; }
+
   /// True once a power cut would be noticed. Until then no motor may turn.
   bool mayMove() const;
 
@@ -81,7 +89,9 @@ class Memory {
   bool isWorn() const { return copies_.isWorn(); }
 
   /// True when nothing is left to write.
-  bool isIdle() const { return !retiring_ && !copies_.isBusy() && !slots_.isBusy(); }
+  bool isIdle() const {
+    return !retiring_ && !copies_.isBusy() && !slots_.isBusy() && !log_.isBusy();
+  }
 
  private:
   void takeOver(const Recognised& found, Started& started);
@@ -92,6 +102,7 @@ class Memory {
   Values& values_;
   Copies copies_;
   PositionSlots slots_;
+  EventLog log_;
   bool remains_;   ///< data of other firmware may still look valid
   bool retiring_;  ///< and is to be overwritten
 };

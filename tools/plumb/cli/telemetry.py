@@ -7,7 +7,7 @@ from dataclasses import asdict
 
 from plumb.cli.files import add_json
 from plumb.cli.text import print_json, sentences, table
-from plumb.firmware.telemetry import latest, warnings
+from plumb.firmware.telemetry import EVENTS, Telemetry, latest, warnings
 from plumb.text.files import read_text
 
 HELP = "how the machine is doing, from a client's log with an answer to B30"
@@ -28,6 +28,28 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_json(parser)
 
 
+def history(telemetry: Telemetry) -> str:
+    """How often each kind of event has happened since the board was new."""
+    if telemetry.total_events == 0:
+        return "never any"
+    counts = zip(telemetry.events, EVENTS.values(), strict=True)
+    return ", ".join(f"{count} {plural(name, count)}" for count, name in counts)
+
+
+def last_event(telemetry: Telemetry) -> str:
+    """The last event and its place in the order."""
+    if telemetry.total_events == 0:
+        return "none"
+    return f"{EVENTS[telemetry.last_event]}, number {telemetry.total_events}"
+
+
+def plural(name: str, count: int) -> str:
+    """`low supply` or `low supplies`."""
+    if count == 1:
+        return name
+    return f"{name[:-1]}ies" if name.endswith("y") else f"{name}s"
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Print the figures and what to look at."""
     telemetry = latest(read_text(arguments.log), arguments.log)
@@ -44,6 +66,8 @@ def run(arguments: argparse.Namespace) -> int:
         ["supply", f"{telemetry.supply_v:.2f} V, lowest {telemetry.least_supply_v:.2f} V"],
         ["EEPROM", "worn" if telemetry.eeprom_worn else "ok"],
         ["reason of the start", telemetry.start],
+        ["went wrong so far", history(telemetry)],
+        ["the last of it", last_event(telemetry)],
     ]
     print(table(["what", "measured"], rows))
     print()

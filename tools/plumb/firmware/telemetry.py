@@ -14,6 +14,13 @@ from plumb.text.errors import InputError
 LINE = re.compile(r"\[Telemetry\|([^\]\n]*)\]")
 LEAST_SUPPLY_V = 4.5
 STARTS = ("usual", "brown-out", "watchdog")
+# Kinds of events in the order of their counts, and how an owner hears of them.
+EVENTS = {
+    "brown-out": "brown-out",
+    "watchdog": "hang",
+    "supply": "low supply",
+    "driver": "driver error",
+}
 
 
 @dataclass(frozen=True)
@@ -28,6 +35,9 @@ class Telemetry:
     least_supply_v: float
     eeprom_worn: bool
     start: str
+    events: tuple[int, ...]  # how often each of EVENTS has happened, ever
+    last_event: str  # one of EVENTS, or "none"
+    total_events: int  # place of the last one in their order
 
 
 def latest(text: str, path: str) -> Telemetry:
@@ -48,7 +58,11 @@ def _read(fields: dict[str, str]) -> Telemetry:
     left, right, z = (float(number) for number in fields["error"].split(","))
     left_illegal, right_illegal, z_illegal = (int(n) for n in fields["illegal"].split(","))
     supply, least = (float(number) for number in fields["supply"].split(","))
+    events = tuple(int(number) for number in fields["events"].split(","))
+    last_event, total_events = fields["last"].split(",")
     if fields["eeprom"] not in ("ok", "worn") or fields["start"] not in STARTS:
+        raise ValueError
+    if len(events) != len(EVENTS) or last_event not in (*EVENTS, "none"):
         raise ValueError
     return Telemetry(
         error_mm=(left, right, z),
@@ -59,6 +73,9 @@ def _read(fields: dict[str, str]) -> Telemetry:
         least_supply_v=least,
         eeprom_worn=fields["eeprom"] == "worn",
         start=fields["start"],
+        events=events,
+        last_event=last_event,
+        total_events=int(total_events),
     )
 
 

@@ -170,7 +170,7 @@ machine knows at the next start that power was lost in motion, and says so. A ce
 in 65 rests and bears 100,000 writes: 3.2 million rests, at 300 a day 29 years.
 
 What the EEPROM holds, by address: 0 to 543 nothing (what the published firmware left is marked
-invalid), 544 and 1344 the copies, 2144 to 4093 the ring."""
+invalid), 544 and 1344 the copies, 1328 and 2128 the log of `B30`, 2144 to 4093 the ring."""
 
 COMING = """\
 At the first start (motors wait 2.5 s) the machine takes over the settings of firmware 1.24 to 1.29

@@ -16,6 +16,7 @@ SOURCES = [VM / name for name in ("play_firmware.cpp", "virtual_board.cpp")]
 STRICT = ["-std=c++17", "-O2", "-Wall", "-Wextra", "-Werror"]
 TOLERANCE = 0.011  # [mm] two decimals, and a chain count or two
 RAM = 8192
+TICK_CYCLES = 160_000  # 10 ms at 16 MHz
 CORNERS = [(x, y) for x in (-1219.2, 1219.2) for y in (-609.6, 609.6)]
 PLACES = [(0.0, 0.0), (100.0, -50.25), *CORNERS]
 RING = {7: 2, 8: 139.1, 63: 0.00137293, 160: 8.2e-12, 170: 5.2e-6}
@@ -95,8 +96,11 @@ def test_sum_product_and_quotient_are_those_of_avr_libc_and_faster():
 
 
 def test_no_control_tick_is_missed_in_motion(hard):
+    # From tick to tick: a single one that did not come leaves two periods between its neighbours.
+    assert hard["longest_gap_moving"] <= 1.5 * TICK_CYCLES
+    assert hard["longest_gap_streaming"] <= 1.5 * TICK_CYCLES
+    # And none comes twice. What is watched begins and ends between two ticks: one more or less.
     assert hard["ticks_per_second_moving"] == pytest.approx(100, abs=0.1)
-    # 600 lines take 3.4 s, which begin and end between two ticks: one tick more or less.
     assert hard["ticks_per_second_streaming"] == pytest.approx(100, abs=1 / 3.4)
 
 

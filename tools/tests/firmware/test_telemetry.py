@@ -7,6 +7,7 @@ from plumb.cli import main as cli
 
 WELL = (
     "error:0.094,0.074,0.002|dry:0|tick:1208|illegal:0,0,0|supply:5.01,4.96|eeprom:ok|start:usual"
+    "|events:2,0,5,1|last:supply,8"
 )
 
 
@@ -72,6 +73,18 @@ def test_the_bounds_follow_the_settings(ask):
     assert ask(WELL.replace("1208", "2501"), "--rate", "200")[0] == 1
 
 
+def test_what_ever_went_wrong_is_told_and_is_no_warning(ask):
+    code, said, _ = ask(WELL)
+    assert code == 0
+    assert "2 brown-outs, 0 hangs, 5 low supplies, 1 driver error" in said
+    assert "low supply, number 8" in said
+    told = json.loads(ask(WELL, "--json")[1])
+    assert told["events"] == [2, 0, 5, 1]
+    assert (told["last_event"], told["total_events"]) == ("supply", 8)
+    nothing = WELL.replace("2,0,5,1", "0,0,0,0").replace("supply,8", "none,0")
+    assert "never any" in ask(nothing)[1]
+
+
 def test_the_last_line_of_a_log_counts(ask):
     code, said, _ = ask(f"{WELL.replace('dry:0', 'dry:9')}]\n[Telemetry|{WELL}")
     assert (code, "All is well." in said) == (0, True)
@@ -86,6 +99,8 @@ def test_the_last_line_of_a_log_counts(ask):
         WELL.replace("1208", "12o8"),
         WELL.replace("eeprom:ok", "eeprom:?"),
         WELL.replace("start:usual", "start:later"),
+        WELL.replace("events:2,0,5,1", "events:2,0,5"),
+        WELL.replace("last:supply", "last:flood"),
     ],
 )
 def test_a_damaged_line_is_refused(ask, fields):

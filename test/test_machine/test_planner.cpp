@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "machine/mover.h"
+#include "machine/planner.h"
 #include "settings_flash.h"
 
 using namespace machine;
@@ -44,9 +44,9 @@ class World {
       EXPECT_EQ(values_.set(uint8_t(number), value), settings::Refusal::kNone);
     axes_.simulate(true);
     axes_.prepare(values_);
-    mover_.prepare(values_, axes_.secondsPerTick());
+    planner_.prepare(values_, axes_.secondsPerTick());
     geometry_.prepare(values_);
-    mover_.setGeometry(geometry_);
+    planner_.setGeometry(geometry_);
     standAt(0, 0);
   }
 
@@ -54,7 +54,7 @@ class World {
     const motion::Lengths<float> lengths = geometry_.inverse({x, y});
     axes_.declare(kLeftAxis, lengths.left);
     axes_.declare(kRightAxis, lengths.right);
-    mover_.standAt(axes_.setPoint());
+    planner_.standAt(axes_.setPoint());
     at_ = {x, y};
   }
 
@@ -65,7 +65,7 @@ class World {
     const FoundPlace found =
         geometry_.forward(axes_.length(kLeftAxis), axes_.length(kRightAxis), {0, 0});
     ASSERT_TRUE(found.found);
-    mover_.standAt(axes_.setPoint());
+    planner_.standAt(axes_.setPoint());
     at_ = found.at;
   }
 
@@ -75,12 +75,12 @@ class World {
   }
 
   void add(const motion::Path<float>& path, float z, float feed) {
-    while (!mover_.hasRoom()) tick();
-    ASSERT_EQ(mover_.add(path, z, feed, geometry_), Moved::kYes);
+    while (!planner_.hasRoom()) tick();
+    ASSERT_TRUE(planner_.add(path, z, feed, geometry_));
   }
 
   void tick() {
-    ASSERT_EQ(mover_.fill(axes_, geometry_), Moved::kYes);
+    ASSERT_TRUE(planner_.fill(axes_, geometry_));
     axes_.tick();
     const SetPoint point = axes_.setPoint();
     const FoundPlace found = geometry_.forward(
@@ -91,12 +91,12 @@ class World {
     places.push_back({found.at.x, found.at.y, motion::toMm<double>(point.z)});
   }
 
-  bool isDone() { return mover_.isIdle() && axes_.isEmpty(); }
+  bool isDone() { return planner_.isIdle() && axes_.isEmpty(); }
   void run() {
     while (!isDone()) tick();
   }
 
-  void stop() { mover_.stop(axes_); }
+  void stop() { planner_.stop(axes_); }
   Geometry& geometry() { return geometry_; }
   SetPoint setPoint() { return axes_.setPoint(); }
 
@@ -109,7 +109,7 @@ class World {
   NoDrives drives_;
   NoClock clock_;
   Axes axes_;
-  Mover mover_;
+  Planner planner_;
   Geometry geometry_;
   motion::Point<float> at_;
 };
@@ -126,7 +126,7 @@ std::vector<double> steps(const std::vector<Place3>& places) {
 
 }  // namespace
 
-TEST(Mover, EndsEveryMoveOnTheExactLengths) {
+TEST(Planner, EndsEveryMoveOnTheExactLengths) {
   World world;
   std::mt19937 random(3);
   for (int i = 0; i < 40; ++i) {
@@ -139,7 +139,7 @@ TEST(Mover, EndsEveryMoveOnTheExactLengths) {
   }
 }
 
-TEST(Mover, KeepsToTheLine) {
+TEST(Planner, KeepsToTheLine) {
   World world;
   world.lineTo(600, 300, 0, 15);
   world.run();
@@ -147,7 +147,7 @@ TEST(Mover, KeepsToTheLine) {
     EXPECT_NEAR((place.x * 300 - place.y * 600) / std::hypot(600, 300), 0, 0.01);
 }
 
-TEST(Mover, KeepsFeedAndRadiusOnAnArc) {
+TEST(Planner, KeepsFeedAndRadiusOnAnArc) {
   World world;
   world.standAt(100, 0);
   world.add(motion::arc(motion::Point<float>{100, 0}, motion::Point<float>{100, 0},
@@ -162,7 +162,7 @@ TEST(Mover, KeepsFeedAndRadiusOnAnArc) {
   for (const Place3& place : world.places) EXPECT_NEAR(std::hypot(place.x, place.y), 100, 0.01);
 }
 
-TEST(Mover, GainsAndLosesSpeedWithinTheLimit) {
+TEST(Planner, GainsAndLosesSpeedWithinTheLimit) {
   World world;
   std::mt19937 random(4);
   for (int i = 0; i < 60; ++i)
@@ -176,7 +176,7 @@ TEST(Mover, GainsAndLosesSpeedWithinTheLimit) {
   }
 }
 
-TEST(Mover, PassesSmoothCurvesOfShortMovesWithoutStopping) {
+TEST(Planner, PassesSmoothCurvesOfShortMovesWithoutStopping) {
   World world;
   world.standAt(50, 0);
   for (int i = 1; i <= 400; ++i)
@@ -188,7 +188,7 @@ TEST(Mover, PassesSmoothCurvesOfShortMovesWithoutStopping) {
   EXPECT_LT(double(world.places.size()) * kTick, 1.15 * 400 / 10);
 }
 
-TEST(Mover, CutsACornerNoMoreThanItMay) {
+TEST(Planner, CutsACornerNoMoreThanItMay) {
   World world;
   world.lineTo(100, 0, 0, 15);
   world.lineTo(100, 100, 0, 15);
@@ -199,7 +199,7 @@ TEST(Mover, CutsACornerNoMoreThanItMay) {
   EXPECT_LT(nearest, 0.05);
 }
 
-TEST(Mover, BrakesOnAStopAndForgetsTheRest) {
+TEST(Planner, BrakesOnAStopAndForgetsTheRest) {
   World world;
   world.lineTo(500, 0, 0, 15);
   world.lineTo(0, 0, 0, 15);
@@ -212,7 +212,7 @@ TEST(Mover, BrakesOnAStopAndForgetsTheRest) {
   EXPECT_LT(told.back() / kTick, 2.5);
 }
 
-TEST(Mover, BringsZAlongWithinItsOwnSpeed) {
+TEST(Planner, BringsZAlongWithinItsOwnSpeed) {
   World world;
   world.lineTo(10, 0, -5, 15);
   world.run();
@@ -222,7 +222,7 @@ TEST(Mover, BringsZAlongWithinItsOwnSpeed) {
     EXPECT_LE(std::fabs(world.places[i].z - world.places[i - 1].z) / kTick, most * 1.02);
 }
 
-TEST(Mover, DoesNotDriftOverManyShortMoves) {
+TEST(Planner, DoesNotDriftOverManyShortMoves) {
   World world;
   for (int i = 0; i < 20000; ++i) {
     const float y = i % 2 ? 0.0f : 0.037f;
@@ -240,7 +240,7 @@ const double kFound = 0.06;  // [mm]
 // Below a motor the far chain sags so much that it runs faster than the sled.
 const double kSagging = 1.2;
 
-TEST(Mover, ComesBackFromBeyondTheSheetWithoutAJump) {
+TEST(Planner, ComesBackFromBeyondTheSheetWithoutAJump) {
   const motion::Point<float> places[] = {
       {0, -800}, {-1260, -300}, {1300, -700}, {0, 700}, {1230, 640}};
   for (const motion::Point<float>& place : places) {

@@ -1,15 +1,15 @@
 // Settings become limits; paths say whether the sheet's edge is on their way.
-#include "mover.h"
+#include "planner.h"
 
 #include "settings_table.h"
 
 namespace machine {
 
-float Mover::mostChainSpeed(const settings::Values& values) {
+float Planner::mostChainSpeed(const settings::Values& values) {
   return AxisLoop::kMostRpm * float(fabs(values.at(kChainPerTurn)));
 }
 
-void Mover::prepare(const settings::Values& values, float seconds_per_tick) {
+void Planner::prepare(const settings::Values& values, float seconds_per_tick) {
   // $13 may have become less since $68 was set.
   const float most = mostChainSpeed(values), asked = values.at(kChainSpeed);
   const float chain_speed = asked < most ? asked : most;
@@ -21,26 +21,25 @@ void Mover::prepare(const settings::Values& values, float seconds_per_tick) {
   moves_.boost(boost_, greatest_feed_);
 }
 
-void Mover::boost(float times) {
+void Planner::boost(float times) {
   boost_ = times;
   moves_.boost(times, greatest_feed_);
 }
 
-void Mover::setGeometry(const Geometry& geometry) {
+void Planner::setGeometry(const Geometry& geometry) {
   moves_.setSprockets(geometry.sprockets());
   moves_.setArea(geometry.smoothArea());
 }
 
-Moved Mover::add(const motion::Path<float>& path, float z_to, float feed, const Geometry& geometry,
-                 uint8_t beam) {
+bool Planner::add(const motion::Path<float>& path, float z_to, float feed, const Geometry& geometry,
+                  uint8_t beam) {
   const motion::Space space =
       geometry.sheet().holds(path) ? motion::Space::kSheet : motion::Space::kEdge;
   const motion::Added added = moves_.add(path, z_to, feed, space, beam);
-  return added == motion::Added::kYes || added == motion::Added::kNothing ? Moved::kYes
-                                                                          : Moved::kNoPath;
+  return added == motion::Added::kYes || added == motion::Added::kNothing;
 }
 
-void Mover::addAxis(Axis axis, float length, float feed) {
+void Planner::addAxis(Axis axis, float length, float feed) {
   const SetPoint& at = moves_.last();
   const motion::Point<float> from = {motion::toMm<float>(at.left), motion::toMm<float>(at.right)};
   motion::Point<float> to = from;
@@ -49,12 +48,12 @@ void Mover::addAxis(Axis axis, float length, float feed) {
   moves_.add(motion::line(from, to), z_to, feed, motion::Space::kChains);
 }
 
-void Mover::stop(Axes& axes) {
+void Planner::stop(Axes& axes) {
   axes.hold(true);
   is_stopping_ = true;
 }
 
-Moved Mover::fill(Axes& axes, const Geometry& geometry) {
+bool Planner::fill(Axes& axes, const Geometry& geometry) {
   if (is_stopping_ && axes.isAtRest()) {
     is_stopping_ = false;
     axes.dropSetPoints();
@@ -63,7 +62,7 @@ Moved Mover::fill(Axes& axes, const Geometry& geometry) {
   }
   const auto exactly = [&geometry](motion::Point<float> place) { return geometry.inverse(place); };
   const motion::Filled filled = moves_.fill(axes.setPoints(), exactly);
-  return filled == motion::Filled::kYes ? Moved::kYes : Moved::kOutOfReach;
+  return filled == motion::Filled::kYes;
 }
 
 }  // namespace machine

@@ -1,4 +1,4 @@
-// The mover of lib/Motion, with the machine's settings, geometry and axes around it.
+// The mover of lib/Motion behind the machine's settings, geometry and axes.
 #pragma once
 
 #include <Settings.h>
@@ -8,15 +8,8 @@
 
 namespace machine {
 
-/// How it went.
-enum class Moved : uint8_t {
-  kYes,
-  kNoPath,      ///< an arc that is none
-  kOutOfReach,  ///< no sled can hang on the way
-};
-
-/// All of it runs in the main program.
-class Mover {
+/// Queued moves and the set-points they become. All of it runs in the main program.
+class Planner {
  public:
   /// [mm/min] that the gearbox of a chain does at most.
   static float mostChainSpeed(const settings::Values& values);
@@ -33,15 +26,16 @@ class Mover {
   bool lastsLonger(uint16_t ticks) const { return moves_.lastsLonger(ticks); }
 
   /// Queues a move over the sheet from where the last one ends; `feed` [mm/s] over all three axes,
-  /// `beam`: strength of a laser on it.
-  Moved add(const motion::Path<float>& path, float z_to, float feed, const Geometry& geometry,
-            uint8_t beam = 0);
+  /// `beam`: strength of a laser on it. False if the path is none.
+  bool add(const motion::Path<float>& path, float z_to, float feed, const Geometry& geometry,
+           uint8_t beam = 0);
 
   /// Queues a move of one axis alone to a length [mm], at rest; `feed` [mm/s].
   void addAxis(Axis axis, float length, float feed);
 
-  /// Gives the axes as many set-points as they have room for.
-  Moved fill(Axes& axes, const Geometry& geometry);
+  /// Gives the axes as many set-points as they have room for; false where no sled can hang on the
+  /// way.
+  bool fill(Axes& axes, const Geometry& geometry);
 
   /// Brakes along the way; fill() forgets the rest where the axes then stand.
   void stop(Axes& axes);
