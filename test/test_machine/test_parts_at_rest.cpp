@@ -56,11 +56,17 @@ TEST_F(WaitingAlone, HasPatienceOfHalfASecondForAnAxisThatNeverComes) {
   EXPECT_EQ(500, waiting.rounds);
 }
 
-struct MotorPowerAlone : Parts {};
+struct MotorPowerAlone : Parts {
+  /// As after a rest: the EEPROM holds a record that motion makes invalid.
+  void keepRecord() {
+    memory.keepPosition(settings::Position{});
+    settings_host::settle(memory);
+    axes.simulate(false);
+  }
+};
 
 TEST_F(MotorPowerAlone, ComesAfterTheMarkOfMotion) {
-  axes.simulate(false);
-  settings_host::settle(memory);
+  keepRecord();
   bool was_too_early = false;
   waiting.in_each_round = [&] { was_too_early |= axes.isPowered() && !memory.mayMove(); };
   EXPECT_FALSE(motors.areOn());
@@ -72,7 +78,7 @@ TEST_F(MotorPowerAlone, ComesAfterTheMarkOfMotion) {
 }
 
 TEST_F(MotorPowerAlone, NeverComesAfterAStop) {
-  axes.simulate(false);
+  keepRecord();
   waiting.in_each_round = [&] { waiting.stop(); };
   EXPECT_FALSE(motors.wake());
   EXPECT_FALSE(motors.areOn());
@@ -133,7 +139,7 @@ TEST_F(ZAxisAlone, KeepsItsLimitsWithTheMachineWhenZIsDeclared) {
   z.declare(5);
   EXPECT_TRUE(z.setLimit(true));
   expectSaid("Upper limit set to: 5.00");
-  EXPECT_FLOAT_EQ(5, z.within(7));
+  EXPECT_NEAR(5, z.within(7), 1e-3);
   EXPECT_FLOAT_EQ(-99, z.within(-99));
   z.declare(0);
   EXPECT_NEAR(0, z.within(7), 1e-3);
