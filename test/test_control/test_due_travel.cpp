@@ -87,5 +87,9 @@ TEST(DueTravel, LearnsNothingFromOneThatHardlyTurnsOrNotEvenly) {
   DueTravel uneven = atRest();
   for (int i = 0; i < 500; ++i) uneven.look(200 * kMean, 20 * kMean, int16_t(i % 2 ? 22 : 18));
   uneven.rest();
-  EXPECT_EQ(51, ticksUntilDue(uneven, 160, 0)) << "two counts from tick to tick";
+  EXPECT_EQ(51, ticksUntilDue(uneven, 160, 0)) << "two counts from the mean";
+  DueTravel even = atRest();
+  for (int i = 0; i < 500; ++i) even.look(200 * kMean, 20 * kMean, int16_t(i % 2 ? 21 : 19));
+  even.rest();
+  EXPECT_NEAR(ticksUntilDue(even, 121, 0), 27, 2) << "one count from the mean is even";
 }

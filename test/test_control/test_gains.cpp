@@ -33,9 +33,15 @@ TEST(PositionGains, SpeedAskedForCountsWhereThereIsAnyGain) {
     loop.follow(0, 0.001f, 0);
     EXPECT_NEAR(double(loop.wanted()), 6, 1e-4) << "gain " << gain;
   }
-  AxisLoop none = loopWith({0, 0, 0, 1});
-  none.follow(0, 0.001f, 0);
-  EXPECT_EQ(0, none.wanted());
+  AxisLoop loop = loopWith({0, 0, 0, 1});
+  loop.follow(0, 0.001f, 0);
+  EXPECT_EQ(0, loop.wanted());
+  loop.tune({0.5f, 0, 0, 1}, kNone, kCounts, kTick);
+  loop.follow(0, 0.001f, 0);
+  EXPECT_NEAR(double(loop.wanted()), 6, 1e-4);
+  loop.tune({0, 0, 0, 1}, kNone, kCounts, kTick);
+  loop.follow(0, 0.001f, 0);
+  EXPECT_EQ(0, loop.wanted()) << "a gain that was taken back";
 }
 
 TEST(PositionGains, EachActsAlone) {

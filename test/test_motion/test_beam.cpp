@@ -73,7 +73,7 @@ TEST(Beam, IsAsStrongAsTheSpeedHoweverThatChanges) {
     if (i == 400) engraver.playback.resume();
   }
   for (const Engraver::Lit& each : engraver.beams)
-    EXPECT_NEAR(200 * (each.to - each.from) / 0.1, each.beam, 3) << each.from;
+    EXPECT_NEAR(200 * (each.to - each.from) / 0.1, each.beam, 1.3) << each.from;
   EXPECT_EQ(0, engraver.beams[399].beam);
 }
 

@@ -60,6 +60,12 @@ TEST(Lift, TakesANewGoalAtAnyMoment) {
 
 TEST(Lift, StandsWhereItIsDeclared) {
   Lift lift;
+  EXPECT_TRUE(lift.isAtRest());
+  EXPECT_EQ(0, lift.at());
+  EXPECT_EQ(0, lift.goal());
+  lift.goTo(10000, kTop, kGain);
+  for (int i = 0; i < 5; ++i) lift.advance();
+  EXPECT_GT(lift.speed(), 0);
   lift.standAt(500);
   EXPECT_TRUE(lift.isAtRest());
   EXPECT_EQ(500, lift.at());
@@ -75,5 +81,8 @@ TEST(Lift, KeepsItsSumsFromOverflowing) {
     lift.advance();
     EXPECT_GT(lift.speed(), 0);
     EXPECT_LE(lift.speed(), 1 << 17);
+    // It is braked within a thousand ticks, whatever gain was asked for.
+    EXPECT_EQ(std::min((i + 1) * ((1 << 17) / 1000 + 1), 1 << 17), lift.speed()) << i;
   }
+  EXPECT_EQ(1 << 17, lift.speed());
 }

@@ -95,7 +95,7 @@ TEST(CornerLimit, CountsTheTurnOfZ) {
 }
 
 TEST(Steepest, IsThatOfTheChainThatChangesMostAtEitherEnd) {
-  const Sprockets<double> sprockets = {{-1489, 1073}, {1489, 1073}, {0.002, 0, 0}};
+  const Sprockets<double> sprockets = {{-1289, 1073}, {1689, 973}, {0.002, 0, 0}};
   std::mt19937 random(7);
   std::uniform_real_distribution<double> x(-1200, 1200), y(-600, 600);
   for (int i = 0; i < 200; ++i) {

@@ -79,11 +79,14 @@ TEST(Queue, MoveKeepsTheLimitsOfTheSheetAndOfZ) {
     // In float the share of z comes from that of the sheet.
     EXPECT_NEAR(double(move.top), top, 0.01 * top) << way.dx << " " << way.dz;
     EXPECT_EQ(0, move.entry_squared);
+    EXPECT_EQ(0, move.beam) << "nobody asked for one";
   }
 }
 
 TEST(Queue, CornerIsThatOfBothDirectionsOverThreeAxes) {
-  const Shift ways[] = {{10, 0, 0}, {10, 3, 0}, {0, 8, 6}, {0, 0, -5}, {6, 0, -8}, {-3, 4, 0}};
+  // Long ones, and others so short that each corner is spread over them.
+  const Shift ways[] = {{10, 0, 0}, {10, 3, 0},         {0, 8, 6},     {0, 0, -5}, {6, 0, -8},
+                        {3, 0, 1},  {0.02f, 0.006f, 0}, {0.02f, 0, 0}, {-3, 4, 0}};
   for (const Shift& one : ways)
     for (const Shift& other : ways) {
       Queued queued;

@@ -103,6 +103,8 @@ TEST(Stretch, AreFew) {
   EXPECT_LE(walked(60, 0, 0.15f, 0, 0.001f, 181).stretches, 9);
   EXPECT_LE(walked(60, 0, 0.15f, 0, 0.01f, 181).stretches, 9);
   EXPECT_LE(walked(25, 0.14f, 0.15f, 0.04f, 0.001f, 181).stretches, 9);
+  EXPECT_LE(walked(60, 0.08f, 0.15f, 0, 0.001f, 181).stretches, 9);
+  EXPECT_LE(walked(4, 0.05f, 1, 0, 0.001f, 181).stretches, 9);
 }
 
 TEST(Stretch, KeepsItsMostTicks) {

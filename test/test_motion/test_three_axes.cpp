@@ -24,7 +24,8 @@ double distanceToLine(const Asked& place, const Asked& a, const Asked& b) {
 std::vector<Asked> randomCorners(unsigned seed, int count) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> way(-20, 20);
-  std::vector<Asked> corners = {{0, 0, 0}};
+  // Lengths and rises of exactly a millimetre first.
+  std::vector<Asked> corners = {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {1, 1, 2}, {1, 0, 2}};
   for (int i = 0; i < count; ++i) {
     Asked next = corners.back();
     const unsigned kind = random() % 4;
@@ -93,6 +94,52 @@ TEST(ThreeAxes, LegsSayHowFarTheyLeadAndHowFastThatMayChange) {
   }
 }
 
+TEST(ThreeAxes, ALevelMoveAboveTheSheetIsAsFastAsOnIt) {
+  Plain plain({100, 100, 1000, 1, 0.05f});
+  plain.lineTo(0, 0, 5, 15);
+  plain.run();
+  const size_t lifting = plain.asked.size();
+  EXPECT_NEAR(double(lifting) * kTick, 5.01, 0.06) << "z at 1 mm/s";
+  plain.lineTo(30, 0, 5, 15);
+  plain.run();
+  EXPECT_NEAR(double(plain.asked.size() - lifting) * kTick, 2.15, 0.06) << "30 mm at 15 mm/s";
+}
+
+TEST(ThreeAxes, WhatComesAfterAForgottenMoveKeepsTheGainOfZ) {
+  Plain plain(kQuick);
+  plain.lineTo(40, 0);
+  for (int i = 0; i < 20; ++i) plain.tick();
+  plain.mover.forget();
+  plain.set_points.clear();
+  plain.mover.add(line(Point<float>{0, 0}, {0, 0}), 9, 12);
+  plain.mover.fill(plain.set_points, plain.inverse);
+  Leg leg;
+  ASSERT_TRUE(plain.set_points.take(leg));
+  EXPECT_NEAR(leg.gain, 200 * 1e-4 * kCountsPerMm, 2) << "that of z alone";
+}
+
+TEST(ThreeAxes, LegsKeepWithinWhatTheTickCounts) {
+  // A millimetre is 65536 counts; a way has 17 bits, a gain 16, and neither is zero.
+  struct {
+    float acceleration, feed;
+    double seconds;
+    uint32_t way, gain;
+  } cases[] = {{1e6f, 400, 0.01, (1u << 17) - 1, 65535}, {0.1f, 15, 0.005, 1, 1}};
+  for (const auto& each : cases) {
+    Plain plain({each.acceleration, 10, 1e6f, 10, 0.05f}, each.seconds);
+    plain.lineTo(900, 0, 0, each.feed);
+    Leg leg = {};
+    for (int i = 0; i < 3; ++i) {
+      plain.mover.fill(plain.set_points, plain.inverse);
+      ASSERT_TRUE(plain.set_points.take(leg));
+      if (each.gain != 1) continue;
+      EXPECT_EQ(1u, leg.way) << "0.16 counts a tick and a little more with each";
+    }
+    EXPECT_EQ(each.way, leg.way) << each.acceleration;
+    EXPECT_EQ(each.gain, leg.gain) << each.acceleration;
+  }
+}
+
 TEST(ThreeAxes, RunningDryIsCountedOnceEachTime) {
   Plain plain;
   plain.lineTo(500, 0);
@@ -104,6 +151,11 @@ TEST(ThreeAxes, RunningDryIsCountedOnceEachTime) {
   }
   EXPECT_EQ(2, plain.mover.timesDry());
   EXPECT_EQ(0, plain.mover.timesDry()) << "since it was last asked";
+  plain.run();
+  for (int i = 0; i < 30; ++i) plain.tickAlone();
+  plain.lineTo(400, 0);
+  plain.run();
+  EXPECT_EQ(0, plain.mover.timesDry()) << "nothing was missing at rest";
 }
 
 TEST(ThreeAxes, AWayThatIsForgottenLeavesZWhereItStands) {
