@@ -144,7 +144,16 @@ def walk(node: Node, is_constant: bool) -> Iterator[tuple[Node, bool]]:
             continue
         if node.type == "array_declarator" and field == "size":
             continue
+        if is_row_of_words(node):
+            continue
         yield from walk(child, is_constant or node.type == "enumerator")
+
+
+def is_row_of_words(node: Node) -> bool:
+    """Whether numbers stand in a row with words for people: data, which a test could only repeat."""
+    return node.type == "initializer_list" and any(
+        child.type in ("string_literal", "concatenated_string") for child in node.named_children
+    )
 
 
 def site(node: Node, is_constant: bool, anchor: Node, edit: tuple, is_condition=False) -> Site:

@@ -108,6 +108,7 @@ def changes(code: str) -> list[str]:
     [
         ("// a < b\nint a = f<3>(); char c[4]; static_assert(1 < 2, \"3 < 4\");", []),
         ("#if N < 3\n#endif\n#include <a/b.h>", []),
+        ("Row r = {\"left\", \"mm\", -30, 30};", []),
         ("float f = 0.5f;", ["float f = 0.25f;"]),
         ("bool b = !a;", ["bool b = a;"]),
         ("float f = -a;", ["float f = a;"]),
