@@ -150,7 +150,7 @@ def walk(node: Node, is_constant: bool) -> Iterator[tuple[Node, bool]]:
 
 
 def is_row_of_words(node: Node) -> bool:
-    """Whether numbers stand in a row with words for people: data, which a test could only repeat."""
+    """Whether numbers stand in a row with words: data, which a test could only repeat."""
     return node.type == "initializer_list" and any(
         child.type in ("string_literal", "concatenated_string") for child in node.named_children
     )

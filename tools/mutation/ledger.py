@@ -52,10 +52,14 @@ def state_of(root: Path, folders: tuple[str, ...]) -> str:
     return digest.hexdigest()
 
 
-def reasons(path: Path) -> dict[tuple[str, str, str], str]:
-    """Why some mutants may survive: by file, original and mutant."""
-    rows = tomllib.loads(path.read_text()).get("survivor", []) if path.is_file() else []
-    return {(row["file"], row["original"], row["mutant"]): row["reason"] for row in rows}
+def reasons(folder: Path) -> dict[tuple[str, str, str], str]:
+    """Why some mutants may survive: by file, original and mutant; from one TOML file a room."""
+    return {
+        (file, row["original"], row["mutant"]): row["reason"]
+        for path in sorted(folder.glob("*.toml"))
+        for file, rows in tomllib.loads(path.read_text()).items()
+        for row in rows
+    }
 
 
 @dataclass

@@ -70,7 +70,7 @@ def run(room: Room, asked: argparse.Namespace) -> int:
     if waiting:
         judge.judge(waiting, tell)
     judged = {each: ledger.verdicts[each.key] for each in mutants if each.key in ledger.verdicts}
-    result = score(room.name, judged, reasons(ROOT / "tools/mutation/reasons.toml"))
+    result = score(room.name, judged, reasons(ROOT / "tools/mutation/reasons"))
     print(*result.survivors, result, sep="\n", flush=True)
     return len(result.survivors)
 

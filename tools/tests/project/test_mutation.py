@@ -157,18 +157,17 @@ def test_verdicts_outlive_a_run_and_excused_survivors_do_not_count(tmp_path):
     assert again.is_same
     assert {each.key: Verdict(what) for each, what in outcomes.items()} == again.verdicts
     assert not Ledger(tmp_path / "room.json", "changed").is_same
-    (tmp_path / "reasons.toml").write_text(
-        '[[survivor]]\nfile = "a.h"\noriginal = "z < 1"\nmutant = "z <= 1"\n'
-        'reason = "z is never 1"\n'
+    (tmp_path / "toy.toml").write_text(
+        '[["a.h"]]\noriginal = "z < 1"\nmutant = "z <= 1"\nreason = "z is never 1"\n'
     )
     judged = {each: again.verdicts[each.key] for each in outcomes}
-    result = score("toy", judged, reasons(tmp_path / "reasons.toml"))
+    result = score("toy", judged, reasons(tmp_path))
     assert result.survivors == ["a.h:2: y < 1  ->  y <= 1"]
     assert str(result).startswith("toy: 50.0% of 2 mutants fall; 1 survive, 1 more with a reason")
 
 
 def test_every_reason_names_a_line_that_the_tree_has():
-    for file, original, mutant in reasons(ROOT / "tools/mutation/reasons.toml"):
+    for file, original, mutant in reasons(ROOT / "tools/mutation/reasons"):
         text = (ROOT / file).read_bytes()
         known = {shown(text, site) for site in cxx_sites.read(text)[0]}
         assert (original, mutant) in known, f"{file}: {original}"
