@@ -23,6 +23,9 @@ namespace {
 const avr_io_addr_t kMarkRegister = 0x3E;  // GPIOR0
 const uint16_t kMemory = 0x200;            // first byte that is no register
 
+// Marks are noted at their instruction; nothing else is looked at.
+const avr_cycle_count_t kMostAtOnce = 1000000;
+
 const uint8_t kPaint = 0xA5;  // fills the free memory before each call; what differs was used
 
 struct Clock {
@@ -105,6 +108,7 @@ int main(int argc, char** argv) {
   Clock clock;
   clock.end_of_variables = uint16_t(kMemory + firmware.datasize + firmware.bsssize);
   avr_register_io_write(avr, kMarkRegister, onMark, &clock);
+  avr->run_cycle_limit = kMostAtOnce;
   while (!clock.finished) {
     const int state = avr_run(avr);
     if (state == cpu_Done || state == cpu_Crashed) {

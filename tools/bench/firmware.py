@@ -2,6 +2,7 @@
 
 import re
 import subprocess
+from pathlib import Path
 
 import board
 
@@ -27,7 +28,8 @@ def measure() -> dict[str, float]:
     """The figures of the firmware as built by PlatformIO, by playing dialogues on simavr."""
     told = board.output("avr-size", "-A", board.FIRMWARE)
     size = {name: int(value) for name, value in re.findall(r"^(\.\w+)\s+(\d+)", told, re.M)}
-    slow, fast, hard = play("stream.nc"), play("fast_loop.nc"), play("hard.nc")
+    player = built_player()
+    slow, fast, hard = (play(player, name) for name in ("stream.nc", "fast_loop.nc", "hard.nc"))
     ram = size[".data"] + size[".bss"]
     stack = max(slow["stack"], fast["stack"], hard["stack"])
     return {
@@ -51,13 +53,18 @@ def most(told: dict[str, float], name: str) -> float:
     return max(told[f"{name}_moving"], told[f"{name}_streaming"])
 
 
-def play(dialogue: str) -> dict[str, float]:
-    """What test/vm/play_firmware measures while it plays a dialogue."""
+def built_player() -> Path:
+    """The program that plays a dialogue with the flashed firmware."""
     board.BUILD.mkdir(parents=True, exist_ok=True)
     program = board.BUILD / "play_firmware"
     sources = [VM / "play_firmware.cpp", VM / "virtual_board.cpp"]
     board.output("g++", "-std=c++17", "-O2", *sources, "-lsimavr", "-lelf", "-o", program)
-    command = [program, board.FIRMWARE, VM / "dialogues", dialogue]
+    return program
+
+
+def play(player: Path, dialogue: str) -> dict[str, float]:
+    """What the player measures in a dialogue."""
+    command = [player, board.FIRMWARE, VM / "dialogues", dialogue]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode:
         raise board.ToolError(f"{dialogue}: {done.stderr.strip()}")
