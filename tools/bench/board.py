@@ -123,7 +123,9 @@ def linked(number: int) -> tuple[int, int]:
 def firmware(compiler: str) -> dict[str, Bytes]:
     """The whole firmware as it is flashed; left out if another compiler built it."""
     pio = ROOT / ".venv/bin/pio"
-    output(pio, "run", "--silent", "--project-dir", ROOT, "--environment", "megaatmega2560")
+    # The tests, which may run at the same time, build it too.
+    alone = ["flock", ROOT / ".pio"]
+    output(*alone, pio, "run", "--silent", "--project-dir", ROOT, "--environment", "megaatmega2560")
     if compiler not in output("avr-readelf", "-p", ".comment", FIRMWARE):
         return {}
     return {"whole firmware": Bytes(*sizes(FIRMWARE), None)}

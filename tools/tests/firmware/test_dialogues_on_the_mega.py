@@ -32,8 +32,9 @@ INCLUDES = [
 @pytest.fixture(scope="module")
 def player() -> Path:
     """The program that plays a dialogue on the simulated board; the firmware is built too."""
-    pio = [ROOT / ".venv/bin/pio", "run", "-s", "-d", ROOT, "-e", "megaatmega2560"]
-    subprocess.run(pio, check=True)
+    # Other tests and the bench, which may run at the same time, build it too.
+    pio = ["flock", ROOT / ".pio", ROOT / ".venv/bin/pio"]
+    subprocess.run([*pio, "run", "-s", "-d", ROOT, "-e", "megaatmega2560"], check=True)
     BUILD.mkdir(parents=True, exist_ok=True)
     program = BUILD / "play_dialogues"
     strict = ["-std=c++17", "-O2", "-Wall", "-Wextra", "-Werror"]
