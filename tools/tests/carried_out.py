@@ -23,7 +23,7 @@ from hidden_boards import (
 from plumb.diagnose import Checked
 from plumb.marks.read import Mark, Measurements
 from plumb.plan.ahead import Check
-from plumb.plan.visits import Visits
+from plumb.plan.planned_visits import Visits
 
 # What an owner would find who measured the parameter itself, for so many typical sizes.
 TRUE_VALUES = {

@@ -10,7 +10,7 @@ from plumb.bench.boards import (
     GAP_SIGMA,
     POSE_SIGMA,
     TURN_SIGMA,
-    Machine,
+    TrueMachine,
     chains_for,
     cut,
     joined,
@@ -79,7 +79,7 @@ def board(
 def ask_judge(numbers: Mapping[str, float], own: Plan) -> np.ndarray:
     """Places (n, 2) [mm] of the sled of a machine with these numbers, sent by the maker's."""
     cause = Cause("", "", lambda _: dict(numbers))
-    machine = Machine(Hidden(((cause, 1.0),)))
+    machine = TrueMachine(Hidden(((cause, 1.0),)))
     return machine.sleds(chains_for(own), weights=own.sled_weights)
 
 
@@ -88,7 +88,7 @@ def places_with(
 ) -> np.ndarray:
     """Where marks are read (n, 2) [mm] with an effect of so many typical sizes."""
     hidden = Hidden(((_CAUSES[effect], size),)) if effect else Hidden()
-    machine = Machine(hidden, **frame)
+    machine = TrueMachine(hidden, **frame)
     chains = chains_for(own)
     where = machine.sleds(chains, approaches=own.approaches, weights=own.sled_weights)
     return hidden.read(where)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from itertools import combinations
 from math import cos
+from typing import Any
 
 import numpy as np
 
@@ -29,7 +30,7 @@ def plan(
     repeats: bool = False,
     spans: bool = False,
 ) -> Plan:
-    """A grid over the sheet, cut so many times; with `repeats` three marks are read three times."""
+    """A grid over the sheet, cut `times`; with `repeats` three marks are read three times."""
     across = np.linspace(-WIDTH / 2, WIDTH / 2, columns)
     up = np.linspace(HEIGHT / 2, -HEIGHT / 2, rows)
     once = np.array([(x, y) for y in up for x in across])
@@ -48,12 +49,15 @@ def plan(
 
 def joined(*plans: Plan) -> Plan:
     """Several plans as one board."""
-    parts = ("targets", "approaches", "sled_weights")
-    return Plan(*(np.concatenate([getattr(p, part) for p in plans]) for part in parts))
+    return Plan(
+        targets=np.concatenate([plan.targets for plan in plans]),
+        approaches=np.concatenate([plan.approaches for plan in plans]),
+        sled_weights=np.concatenate([plan.sled_weights for plan in plans]),
+    )
 
 
 @dataclass(frozen=True)
-class Machine:
+class TrueMachine:
     """The true machine: the maker's with its frame off, and what is hidden."""
 
     hidden: Hidden
@@ -87,31 +91,31 @@ class Machine:
 class BoardCut:
     """A board, and the machine that cut it."""
 
-    machine: Machine
+    machine: TrueMachine
     measurements: Measurements
 
 
 def cut(
-    hidden: Hidden, own: Plan, *, seed: int, noise: float = 0.5, tape_sigma: float | None = 0.5
+    hidden: Hidden, plan: Plan, *, seed: int, noise: float = 0.5, tape_sigma: float | None = 0.5
 ) -> BoardCut:
     """A board as measured; frame and sheet lie off by chance. noise, tape_sigma [mm]."""
     source = np.random.default_rng(seed)
-    machine = Machine(
+    machine = TrueMachine(
         hidden,
         motor_gap=MAKER.motor_gap + GAP_SIGMA * source.standard_normal(),
         motor_height=MAKER.motor_height + POSE_SIGMA * source.standard_normal(),
         motor_center_x=POSE_SIGMA * source.standard_normal(),
         turn=TURN_SIGMA * source.standard_normal(),
     )
-    where = _read(machine, own)
+    where = _read(machine, plan)
     if hidden.outside:
-        where = where + hidden.outside_mm * _unit(OUTSIDE[hidden.outside](own.targets, source))
-    return BoardCut(machine, _measured(where, own, source, noise, tape_sigma))
+        where = where + hidden.outside_mm * _unit(OUTSIDE[hidden.outside](plan.targets, source))
+    return BoardCut(machine, _measured(where, plan, source, noise, tape_sigma))
 
 
-def _read(machine: Machine, own: Plan) -> Array:
+def _read(machine: TrueMachine, plan: Plan) -> Array:
     """Where marks would be read (n, 2) [mm] without noise."""
-    where = machine.sleds(chains_for(own), approaches=own.approaches, weights=own.sled_weights)
+    where = machine.sleds(chains_for(plan), approaches=plan.approaches, weights=plan.sled_weights)
     if not np.isfinite(where).all():
         raise ValueError("the judge's sled cannot hang at some mark")
     turn = machine.turn
@@ -120,29 +124,29 @@ def _read(machine: Machine, own: Plan) -> Array:
 
 
 def _measured(
-    where: Array, own: Plan, source: np.random.Generator, noise: float, tape_sigma: float | None
+    where: Array, plan: Plan, source: np.random.Generator, noise: float, tape_sigma: float | None
 ) -> Measurements:
     """What is written down of places (n, 2) [mm]."""
     marks = [
         Mark(
             name=f"{target[0]:.0f}/{target[1]:.0f}",
             target=tuple(target),
-            measured=None if own.spans else tuple(place),
+            measured=None if plan.spans else tuple(place),
             approach=tuple(side) if any(side) else None,
             sled_weight=weight,
         )
         for target, place, side, weight in zip(
-            own.targets.tolist(),
+            plan.targets.tolist(),
             (where + noise * source.standard_normal(where.shape)).tolist(),
-            own.approaches.tolist(),
-            own.sled_weights.tolist(),
+            plan.approaches.tolist(),
+            plan.sled_weights.tolist(),
             strict=True,
         )
     ]
     spans: tuple[Distance, ...] = ()
-    if own.spans:
+    if plan.spans:
         ends = list(combinations(range(len(marks)), 2))
-        ends += ends[:: len(ends) // 6][:6] * 2 if own.again else []
+        ends += ends[:: len(ends) // 6][:6] * 2 if plan.again else []
         spans = tuple(
             Distance(
                 (marks[i].name, marks[j].name),
@@ -155,7 +159,7 @@ def _measured(
             replace(
                 marks[i], measured=tuple((where[i] + noise * source.standard_normal(2)).tolist())
             )
-            for i in own.again
+            for i in plan.again
         ]
     return Measurements(tuple(marks), spans, tape_sigma=tape_sigma, source="hidden")
 
@@ -165,29 +169,37 @@ def _unit(moved: Array) -> Array:
     return moved / max(float(np.sqrt(np.mean(np.sum(moved**2, axis=1)))), 1e-9)
 
 
-def chains_for(own: Plan) -> Array:
+def chains_for(plan: Plan) -> Array:
     """What the maker's machine pays out (n, 2) [mm]."""
-    chains, found = lengths(MAKER, own.targets)
+    chains, found = lengths(MAKER, plan.targets)
     if not (found == FOUND).all():
         raise ValueError("a plan reaches beyond the machine")
     return chains
 
 
-def raw_field(cause: Cause, size: float, own: Plan) -> Array:
-    """How far marks (n, 2) [mm] move by a cause of so many typical sizes, nothing refitted."""
-    return _read(Machine(Hidden(((cause, size),))), own) - _read(Machine(Hidden()), own)
+def raw_field(cause: Cause, size: float, plan: Plan) -> Array:
+    """How far marks (n, 2) [mm] move by a cause of some typical sizes, nothing refitted."""
+    there = _read(TrueMachine(Hidden(((cause, size),))), plan)
+    moved: Array = there - _read(TrueMachine(Hidden()), plan)
+    return moved
 
 
-_SIZES: dict[tuple, float] = {}
+_SIZES: dict[tuple[Any, ...], float] = {}
 
 
-def size_for(cause: Cause, own: Plan, millimetres: float) -> float:
+def size_for(cause: Cause, plan: Plan, millimetres: float) -> float:
     """How many typical sizes move the marks by so much RMS, before anything is refitted."""
-    key = (cause.effect, cause.label, own.targets.tobytes(), own.approaches.tobytes(), millimetres)
+    key = (
+        cause.effect,
+        cause.label,
+        plan.targets.tobytes(),
+        plan.approaches.tobytes(),
+        millimetres,
+    )
     if key not in _SIZES:
         size = 1.0
         for _ in range(3):
-            moved = raw_field(cause, size, own)
+            moved = raw_field(cause, size, plan)
             size *= millimetres / np.sqrt(np.mean(np.sum(moved**2, axis=1)))
         _SIZES[key] = float(size)
     return _SIZES[key]

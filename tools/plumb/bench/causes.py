@@ -1,4 +1,4 @@
-"""What can be hidden in a board: each effect of the library in the judge's own numbers, and things
+"""What can be hidden in a board: each effect of the library in the judge's numbers, and things
 that the library has no word for.
 """
 
@@ -53,14 +53,16 @@ class Cause:
     in_frame: bool = False  # a refitted frame or a turned sheet looks nearly the same
 
 
-def _cause(effect: Mapping[str, Any], example: Mapping[str, Any], **board: float) -> Cause:
+def _cause(effect: Mapping[str, Any], example: Mapping[str, Any], **board: Any) -> Cause:
     """A cause by an effect's words; what the maker's chain has already comes on top."""
     name, typical = effect["name"], example["sizes"]
-    believed = {one: CHAIN.get(f"{name}.{one}", 0.0) for one in typical}
+    believed = {parameter: CHAIN.get(f"{name}.{parameter}", 0.0) for parameter in typical}
     return Cause(
         name,
         example["label"],
-        sizes=lambda size: {one: believed[one] + size * typical[one] for one in typical},
+        sizes=lambda size: {
+            parameter: believed[parameter] + size * typical[parameter] for parameter in typical
+        },
         most=example["most"],
         in_frame=effect["in_frame"],
         **board,
@@ -81,8 +83,8 @@ CAUSES: tuple[Cause, ...] = tuple(_causes())
 
 
 def causes_of(effect: str) -> tuple[Cause, ...]:
-    """All causes of one effect, the usual one first."""
-    return tuple(one for one in CAUSES if one.effect == effect)
+    """All causes of an effect, the usual one first."""
+    return tuple(cause for cause in CAUSES if cause.effect == effect)
 
 
 @dataclass(frozen=True)
@@ -109,10 +111,10 @@ class Hidden:
         known = {name: value for name, value in parameters.items() if name in NAMES}
         believed = judged(MAKER)
         hidden = judged(with_parameters(MAKER, known)).items()
-        found = {name: value for name, value in hidden if value != believed[name]}
+        changed = {name: value for name, value in hidden if value != believed[name]}
         for cause, size in self.causes:
-            found |= cause.numbers(size)
-        return found
+            changed |= cause.numbers(size)
+        return changed
 
     @property
     def drag(self) -> float:
@@ -132,7 +134,8 @@ def _bump(targets: Array, source: np.random.Generator) -> Array:
     middle = source.uniform(-0.8, 0.8, 2)
     shape = np.exp(-np.sum((targets / HALF - middle) ** 2, axis=1) / (2 * 0.35**2))
     turn = source.uniform(0, 2 * np.pi)
-    return shape[:, np.newaxis] * np.array([np.cos(turn), np.sin(turn)])
+    moved: Array = shape[:, np.newaxis] * np.array([np.cos(turn), np.sin(turn)])
+    return moved
 
 
 def _cubic(targets: Array, source: np.random.Generator) -> Array:
@@ -154,7 +157,8 @@ def _tipping(targets: Array, source: np.random.Generator) -> Array:
     axis, sign = side % 2, 1 - 2 * (side // 2)
     out = np.maximum(sign * targets[:, axis] + 230.0 - HALF[axis], 0.0)
     turn = source.uniform(0, 2 * np.pi)
-    return out[:, np.newaxis] * np.array([np.cos(turn), np.sin(turn)])
+    moved: Array = out[:, np.newaxis] * np.array([np.cos(turn), np.sin(turn)])
+    return moved
 
 
 OUTSIDE: Mapping[str, Callable[[Array, np.random.Generator], Array]] = {

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.bench.boards import BoardCut, Machine
+from plumb.bench.boards import BoardCut, TrueMachine
 from plumb.bench.causes import HALF, MAKER
 from plumb.board.observations import observe
-from plumb.fit.fit import fit
+from plumb.fit.fit import fit, rms
 from plumb.fit.shape import best_pose
 from plumb.marks.read import Measurements
 from plumb.model.predict import FOUND, lengths
@@ -37,16 +37,15 @@ def sheet() -> np.ndarray:
     return np.array([(x, y) for y in up for x in across])
 
 
-def shape_error(machine: Machine, settings: MachineSettings) -> float:
+def shape_error(machine: TrueMachine, settings: MachineSettings) -> float:
     """RMS [mm] of how far the judge's sled, sent by these settings to places all over the sheet,
     is from them once the sheet is laid at its best. Nothing rubs: no setting knows of friction."""
     wanted = sheet()
     chains, found = lengths(settings, wanted)
     if not (found == FOUND).all():
         return float("inf")
-    there = machine.sleds(chains)
-    errors = best_pose(wanted, there).errors
-    return float(np.sqrt(np.mean(np.sum(errors**2, axis=1))))
+    pose = best_pose(wanted, machine.sleds(chains))
+    return rms(pose.errors) if pose else 0.0
 
 
 def refitted(measurements: Measurements, effects: Sequence[str], sigma: float) -> MachineSettings:
@@ -58,7 +57,7 @@ def cure_of(board: BoardCut, effects: Sequence[str], *, sigma: float) -> Cure:
     """What naming these effects is worth on a board; sigma [mm] as the diagnosis took it."""
     truth = board.machine.hidden.effects
     fits = {
-        own: shape_error(board.machine, refitted(board.measurements, own, sigma))
-        for own in {(), tuple(effects), truth}
+        named: shape_error(board.machine, refitted(board.measurements, named, sigma))
+        for named in {(), tuple(effects), truth}
     }
     return Cure(shape_error(board.machine, MAKER), fits[()], fits[tuple(effects)], fits[truth])

@@ -18,14 +18,14 @@ SLIP_MM = 5.0
 Hide = Callable[[int, Plan], Hidden]
 REAL_MM, LARGE_MM = 3.0, 6.0  # how far marks are moved
 # What real machines can have by so much; friction by millimetres sticks for centimetres elsewhere.
-OUTSIDE_FRAME = tuple(one for one in CAUSES if not one.in_frame)
-REAL = tuple(one for one in OUTSIDE_FRAME if one.most >= REAL_MM and not one.drag)
-HUGE = tuple(one for one in OUTSIDE_FRAME if one.most < REAL_MM)
-LARGE = tuple(one for one in REAL if one.most >= LARGE_MM)
+OUTSIDE_FRAME = tuple(cause for cause in CAUSES if not cause.in_frame)
+REAL = tuple(cause for cause in OUTSIDE_FRAME if cause.most >= REAL_MM and not cause.drag)
+HUGE = tuple(cause for cause in OUTSIDE_FRAME if cause.most < REAL_MM)
+LARGE = tuple(cause for cause in REAL if cause.most >= LARGE_MM)
 SMALL = OUTSIDE_FRAME
 
 
-def nothing(index: int, own: Plan) -> Hidden:
+def nothing(index: int, plan: Plan) -> Hidden:
     """Only the frame is off."""
     return Hidden()
 
@@ -33,24 +33,24 @@ def nothing(index: int, own: Plan) -> Hidden:
 def by_effect(causes: tuple[Cause, ...]) -> tuple[tuple[Cause, ...], ...]:
     """The causes of each effect."""
     return tuple(
-        tuple(one for one in causes if one.effect == effect)
-        for effect in dict.fromkeys(one.effect for one in causes)
+        tuple(cause for cause in causes if cause.effect == effect)
+        for effect in dict.fromkeys(cause.effect for cause in causes)
     )
 
 
 def _turns(causes: tuple[Cause, ...], index: int) -> Cause:
     """Effects take turns, and so do the causes of each."""
     effects = by_effect(causes)
-    own = effects[index % len(effects)]
-    return own[index // len(effects) % len(own)]
+    of_effect = effects[index % len(effects)]
+    return of_effect[index // len(effects) % len(of_effect)]
 
 
 def raw(millimetres: float, causes: tuple[Cause, ...]) -> Hide:
     """One cause after the other, as large as moves marks by so much RMS before any refit."""
 
-    def hide(index: int, own: Plan) -> Hidden:
+    def hide(index: int, plan: Plan) -> Hidden:
         cause = _turns(causes, index)
-        return Hidden(((cause, size_for(cause, own, millimetres)),))
+        return Hidden(((cause, size_for(cause, plan, millimetres)),))
 
     return hide
 
@@ -58,7 +58,7 @@ def raw(millimetres: float, causes: tuple[Cause, ...]) -> Hide:
 def typical(low: float, high: float, causes: tuple[Cause, ...]) -> Hide:
     """One cause after the other, of some typical sizes."""
 
-    def hide(index: int, own: Plan) -> Hidden:
+    def hide(index: int, plan: Plan) -> Hidden:
         cause = _turns(causes, index)
         share = np.random.default_rng(index).uniform()
         size = low + (high - low) * share
@@ -73,9 +73,9 @@ def pairs(millimetres: float, causes: tuple[Cause, ...]) -> Hide:
     both = [both[i] for i in np.random.default_rng(7).permutation(len(both))]
     both = [(a, b) for a, b in both if a.effect != b.effect]
 
-    def hide(index: int, own: Plan) -> Hidden:
+    def hide(index: int, plan: Plan) -> Hidden:
         return Hidden(
-            tuple((one, size_for(one, own, millimetres)) for one in both[index % len(both)])
+            tuple((cause, size_for(cause, plan, millimetres)) for cause in both[index % len(both)])
         )
 
     return hide
@@ -84,7 +84,7 @@ def pairs(millimetres: float, causes: tuple[Cause, ...]) -> Hide:
 def outside(millimetres: float) -> Hide:
     """What the library has no word for."""
 
-    def hide(index: int, own: Plan) -> Hidden:
+    def hide(index: int, plan: Plan) -> Hidden:
         return Hidden(outside=list(OUTSIDE)[index % len(OUTSIDE)], outside_mm=millimetres)
 
     return hide
@@ -96,7 +96,7 @@ def slip(
     """The board with one reading written down wrongly, and the mark's name."""
     marks = list(board.measurements.marks)
     index = int(source.integers(len(marks)))
-    x, y = marks[index].measured
+    x, y = marks[index].measured or marks[index].target
     if kind == "axes":
         moved = (y, x)
     elif kind == "digits":

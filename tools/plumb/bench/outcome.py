@@ -1,8 +1,9 @@
-"""What a diagnosis of one board was worth, as the bench, which knows the truth, sees it."""
+"""What the diagnosis of a board was worth, as the bench, which knows the truth, sees it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -36,35 +37,36 @@ class Outcome:
 
 
 def outcome_of(
-    found: Diagnosis, board: BoardCut, *, alike: frozenset[str], slipped: tuple[str, ...] = ()
+    diagnosis: Diagnosis, board: BoardCut, *, alike: frozenset[str], slipped: tuple[str, ...] = ()
 ) -> Outcome:
-    """Judge one diagnosis; alike are effects that draw the same arrows as the one hidden."""
+    """Judge a diagnosis; alike are effects that draw the same arrows as the hidden effect."""
     hidden = board.machine.hidden
     truth = set(hidden.effects)
-    named = found.verdict in NAMED
-    first = _first(found)
-    limits = _limits(found, hidden)
+    named = diagnosis.verdict in NAMED
+    first = _first(diagnosis)
+    limits = _limits(diagnosis, hidden)
     own_limits = [good for effect, good in limits if effect in truth]
-    held = any(set(one.effects) == truth for one in found.explanations)
+    held = any(set(explanation.effects) == truth for explanation in diagnosis.explanations)
     return Outcome(
         cause=_words(hidden),
-        verdict=found.verdict,
-        suspects=found.suspects,
+        verdict=diagnosis.verdict,
+        suspects=diagnosis.suspects,
         named=named,
         right_first=set(first) == truth or (len(truth) == 1 and set(first) <= truth | alike),
         exactly_first=set(first) == truth,
-        inside=held or (found.verdict == "nothing_provable" and all(own_limits)),
-        both=bool(truth) and truth <= set(found.suspects),
-        slip_named=found.verdict == "slip" and {one.name for one in found.slips} == set(slipped),
-        intervals=_intervals(found, hidden),
+        inside=held or (diagnosis.verdict == "nothing_provable" and all(own_limits)),
+        both=bool(truth) and truth <= set(diagnosis.suspects),
+        slip_named=diagnosis.verdict == "slip"
+        and {slip.name for slip in diagnosis.slips} == set(slipped),
+        intervals=_intervals(diagnosis, hidden),
         limits=(sum(good for _, good in limits), len(limits)),
     )
 
 
-def _first(found: Diagnosis) -> tuple[str, ...]:
-    if found.explanations:
-        return found.explanations[0].effects
-    return (found.ranking[0].effect,)
+def _first(diagnosis: Diagnosis) -> tuple[str, ...]:
+    if diagnosis.explanations:
+        return diagnosis.explanations[0].effects
+    return (diagnosis.ranking[0].effect,)
 
 
 def _words(hidden: Hidden) -> str:
@@ -74,60 +76,60 @@ def _words(hidden: Hidden) -> str:
 
 def _truths(hidden: Hidden) -> dict[str, float]:
     """The true value of each parameter of the library by its full name."""
-    found = {
+    diagnosis = {
         name: MAKER.effects.get(name.partition(".")[0], {}).get(name.partition(".")[2], 0.0)
         for name in parameter_words()
     }
     for cause, size in hidden.causes:
         for name, value in cause.sizes(size).items():
-            found[f"{cause.effect}.{name}"] = value
-    return found
+            diagnosis[f"{cause.effect}.{name}"] = value
+    return diagnosis
 
 
-def _intervals(found: Diagnosis, hidden: Hidden) -> tuple[int, int]:
-    """Of the explanation that is the truth, wherever it stands in the list."""
+def _intervals(diagnosis: Diagnosis, hidden: Hidden) -> tuple[int, int]:
+    """Of the explanation that is the truth, wherever it is in the list."""
     truths, good, count = _truths(hidden), 0, 0
-    for one in found.explanations:
-        if set(one.effects) != set(hidden.effects):
+    for explanation in diagnosis.explanations:
+        if set(explanation.effects) != set(hidden.effects):
             continue
-        for effect, sizes in one.sizes.items():
+        for effect, sizes in explanation.sizes.items():
             for size in sizes:
-                if size.low is not None:
+                if size.low is not None and size.high is not None:
                     good += size.low <= truths[f"{effect}.{size.name}"] <= size.high
                     count += 1
     return good, count
 
 
-def _limits(found: Diagnosis, hidden: Hidden) -> list[tuple[str, bool]]:
+def _limits(diagnosis: Diagnosis, hidden: Hidden) -> list[tuple[str, bool]]:
     """For each effect that the marks feel: whether its true size is below what could hide."""
     truths, judged = _truths(hidden), []
-    if hidden.outside or found.verdict in ("slip", "not_in_library"):
+    if hidden.outside or diagnosis.verdict in ("slip", "not_in_library"):
         return []
-    for room in found.could_hide:
-        if room.mm is None:
-            continue
-        good = all(
+    for room in diagnosis.could_hide:
+        below = [
             abs(truths[f"{room.effect}.{name}"]) <= largest * (1 + 1e-9)
             for name, largest, _ in room.limits
-        )
-        judged.append((room.effect, good))
+            if largest is not None
+        ]
+        if room.mm is not None:
+            judged.append((room.effect, all(below)))
     return judged
 
 
-_ALIKE: dict[tuple, frozenset[str]] = {}
+_ALIKE: dict[tuple[Any, ...], frozenset[str]] = {}
 
 
-def look_alikes(cause: Cause, size: float, own: Plan, noise: float) -> frozenset[str]:
+def look_alikes(cause: Cause, size: float, plan: Plan, noise: float) -> frozenset[str]:
     """Effects that draw the same arrows as this cause on these marks, with the frame refitted."""
-    key = (cause.effect, cause.label, own.targets.tobytes(), own.spans, round(size, 3), noise)
+    key = (cause.effect, cause.label, plan.targets.tobytes(), plan.spans, round(size, 3), noise)
     if key not in _ALIKE:
-        _ALIKE[key] = _look_alikes(cause, size, own, noise)
+        _ALIKE[key] = _look_alikes(cause, size, plan, noise)
     return _ALIKE[key]
 
 
-def _look_alikes(cause: Cause, size: float, own: Plan, noise: float) -> frozenset[str]:
+def _look_alikes(cause: Cause, size: float, plan: Plan, noise: float) -> frozenset[str]:
     there, clean = (
-        observe(MAKER, cut(hidden, own, seed=0, noise=0.0).measurements)
+        observe(MAKER, cut(hidden, plan, seed=0, noise=0.0).measurements)
         for hidden in (Hidden(((cause, size),)), Hidden())
     )
     frame = explain(Board.of(MAKER, clean, sigma=noise))
@@ -146,9 +148,9 @@ def _numbers(rows: Observations) -> Array:
 
 
 def _cosine(frame: Explanation, effect: str, left: Array) -> float:
-    """Of the angle between what a cause leaves beside the frame and the nearest of an effect."""
+    """Of the angle between what a cause leaves beyond the frame and the nearest of an effect."""
     raw = frame.slopes[:, frame.board.columns([effect])]
     if not np.any(raw):
         return 0.0
     basis = span(frame.beyond_fit([effect]), against=raw)
-    return float(np.linalg.norm(basis.T @ left) / max(np.linalg.norm(left), 1e-9))
+    return float(np.linalg.norm(basis.T @ left)) / max(float(np.linalg.norm(left)), 1e-9)

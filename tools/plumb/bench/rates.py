@@ -1,4 +1,4 @@
-"""Rates over many boards, with how far they may be off, beside the lines to be reached."""
+"""Rates over many boards, with how far they may be off, next to the lines to be reached."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Line:
     most: float | None = None
 
     def judge(self, rate: Rate) -> str:
-        """`reached`, `missed`, or `open` where so many boards cannot tell."""
+        """`reached`, `missed`, or `open` where this many boards cannot tell."""
         low = -np.inf if self.least is None else self.least
         high = np.inf if self.most is None else self.most
         if low <= rate.value <= high:
@@ -47,32 +47,34 @@ class Line:
         return f">= {self.least:g}" if self.least is not None else f"<= {self.most:g}"
 
 
-Counted = Callable[[Outcome], "tuple[float, float]"]  # of one board: how much, of how much
+Counted = Callable[[Outcome], "tuple[float, float]"]  # of a board: how much, of how much
 
 
 def _share(of: Callable[[Outcome], bool]) -> Counted:
-    return lambda one: (float(of(one)), 1.0)
+    return lambda outcome: (float(of(outcome)), 1.0)
 
 
 MEASURES: Mapping[str, Counted] = {
-    "false naming": _share(lambda one: one.verdict in NAMED),
-    "silent": _share(lambda one: one.verdict == "nothing_provable"),
-    "named": _share(lambda one: one.verdict in NAMED),
-    "right class first": _share(lambda one: one.right_first),
-    "suspects": lambda one: (float(len(one.suspects)), float(bool(one.suspects))),
-    "truth inside": _share(lambda one: one.inside),
-    "both": _share(lambda one: one.both),
-    "flagged": _share(lambda one: one.verdict in ("not_in_library", "slip")),
-    "slip named": _share(lambda one: one.slip_named),
-    "effect named first": _share(lambda one: one.verdict in NAMED),
-    "interval holds": lambda one: (float(one.intervals[0]), float(one.intervals[1])),
-    "limit holds": lambda one: (float(one.limits[0]), float(one.limits[1])),
+    "false naming": _share(lambda outcome: outcome.verdict in NAMED),
+    "silent": _share(lambda outcome: outcome.verdict == "nothing_provable"),
+    "named": _share(lambda outcome: outcome.verdict in NAMED),
+    "right class first": _share(lambda outcome: outcome.right_first),
+    "suspects": lambda outcome: (float(len(outcome.suspects)), float(bool(outcome.suspects))),
+    "truth inside": _share(lambda outcome: outcome.inside),
+    "both": _share(lambda outcome: outcome.both),
+    "flagged": _share(lambda outcome: outcome.verdict in ("not_in_library", "slip")),
+    "slip named": _share(lambda outcome: outcome.slip_named),
+    "effect named first": _share(lambda outcome: outcome.verdict in NAMED),
+    "interval holds": lambda outcome: (float(outcome.intervals[0]), float(outcome.intervals[1])),
+    "limit holds": lambda outcome: (float(outcome.limits[0]), float(outcome.limits[1])),
 }
 
 
 def rate_of(name: str, outcomes: Sequence[Outcome]) -> Rate:
     """One rate over boards; a share that was 0 or 1 throughout is given the error of one board."""
-    counted = np.array([MEASURES[name](one) for one in outcomes], dtype=float).reshape(-1, 2)
+    counted = np.array([MEASURES[name](outcome) for outcome in outcomes], dtype=float).reshape(
+        -1, 2
+    )
     of = counted[:, 1].sum()
     if not of:
         return Rate(name, float("nan"), float("nan"), 0)

@@ -1,4 +1,4 @@
-"""The bench run through, and the tables of its rates beside the lines to be reached."""
+"""The bench run through, and the tables of its rates next to the lines to be reached."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from plumb.bench.cure import Cure
+from plumb.bench.judged_board import JudgedBoard, judge_board
 from plumb.bench.outcome import Outcome
 from plumb.bench.rates import Line, Rate, rate_of
 from plumb.bench.scenarios import CURE, SCENARIOS, Scenario
-from plumb.bench.trial import Trial, run_one
 
-Progress = Callable[[str, int], None]  # told of each scenario how many more boards are done
+Progress = Callable[[str, int], None]  # called with each scenario and how many more boards are done
 AT_ONCE = 4  # boards between two steps of the progress
 
 
@@ -78,42 +78,51 @@ def run(
         for scenario in scenarios
         for start in range(0, boards, AT_ONCE)
     ]
-    trials: dict[str, list[Trial]] = {scenario.name: [] for scenario in scenarios}
+    trials: dict[str, list[JudgedBoard]] = {scenario.name: [] for scenario in scenarios}
     with ExitStack() as stack:
         if jobs > 1:
             done = stack.enter_context(ProcessPoolExecutor(jobs)).map(_some, tasks)
         else:
             done = map(_some, tasks)
-        for (name, indices, _), found in zip(tasks, done, strict=True):
-            trials[name] += found
+        for (name, indices, _), trials_done in zip(tasks, done, strict=True):
+            trials[name] += trials_done
             progress(name, len(indices))
     return _report(scenarios, trials, boards, seed)
 
 
-def _some(task: tuple[str, tuple[int, ...], int]) -> list[Trial]:
+def _some(task: tuple[str, tuple[int, ...], int]) -> list[JudgedBoard]:
     """Some boards of the scenario of a name."""
     name, indices, seed = task
-    scenario = next(one for one in SCENARIOS if one.name == name)
-    return [run_one(scenario, index, seed=seed) for index in indices]
+    scenario = next(scenario for scenario in SCENARIOS if scenario.name == name)
+    return [judge_board(scenario, index, seed=seed) for index in indices]
 
 
 def _report(
-    scenarios: Sequence[Scenario], trials: Mapping[str, Sequence[Trial]], boards: int, seed: int
+    scenarios: Sequence[Scenario],
+    trials: Mapping[str, Sequence[JudgedBoard]],
+    boards: int,
+    seed: int,
 ) -> Report:
     rows: list[Row] = []
     kinds: list[tuple[str, str, Rate]] = []
     cures: list[tuple[str, list[Cure]]] = []
     for scenario in scenarios:
-        outcomes = [one.outcome for one in trials[scenario.name]]
+        outcomes = [trial.outcome for trial in trials[scenario.name]]
         rows += rows_of(scenario, outcomes)
         kinds += _by_kind(scenario, outcomes)
         if scenario.cured:
-            own = [one.cure for one in trials[scenario.name] if one.cure]
-            cures.append((scenario.name, own))
+            cures_of_scenario = [trial.cure for trial in trials[scenario.name] if trial.cure]
+            cures.append((scenario.name, cures_of_scenario))
     if len(cures) > 1:
-        cures.append(("all of these", [cure for _, own in cures for cure in own]))
+        cures.append(
+            ("all of these", [cure for _, cures_of_scenario in cures for cure in cures_of_scenario])
+        )
     return Report(
-        tuple(rows), tuple(kinds), tuple(_cured(name, own) for name, own in cures), boards, seed
+        tuple(rows),
+        tuple(kinds),
+        tuple(_cured(name, cures_of_scenario) for name, cures_of_scenario in cures),
+        boards,
+        seed,
     )
 
 
@@ -128,7 +137,7 @@ def rows_of(scenario: Scenario, outcomes: Sequence[Outcome]) -> list[Row]:
 
 def _by_kind(scenario: Scenario, outcomes: Sequence[Outcome]) -> list[tuple[str, str, Rate]]:
     """The first rate with a line, by what was hidden."""
-    causes = dict.fromkeys(one.cause.partition(",")[0] for one in outcomes)
+    causes = dict.fromkeys(outcome.cause.partition(",")[0] for outcome in outcomes)
     if not scenario.lines or len(causes) < 2 or scenario.name.startswith("pairs"):
         return []
     name = scenario.lines[0].name
@@ -136,18 +145,20 @@ def _by_kind(scenario: Scenario, outcomes: Sequence[Outcome]) -> list[tuple[str,
         (
             scenario.name,
             cause,
-            rate_of(name, [one for one in outcomes if one.cause.partition(",")[0] == cause]),
+            rate_of(
+                name, [outcome for outcome in outcomes if outcome.cause.partition(",")[0] == cause]
+            ),
         )
         for cause in causes
     ]
 
 
 def _cured(name: str, cures: Sequence[Cure]) -> Cured:
-    own = np.array([(one.before, one.frame, one.after, one.known) for one in cures])
-    before, frame, after, known = own.mean(axis=0).tolist()
-    apart = own[:, 2] - after / known * own[:, 3]
-    error = float(np.sqrt(np.sum(apart**2))) / (len(own) * known)
-    return Cured(name, len(own), before, frame, after, known, error)
+    errors = np.array([(cure.before, cure.frame, cure.after, cure.known) for cure in cures])
+    before, frame, after, known = errors.mean(axis=0).tolist()
+    apart = errors[:, 2] - after / known * errors[:, 3]
+    error = float(np.sqrt(np.sum(apart**2))) / (len(errors) * known)
+    return Cured(name, len(errors), before, frame, after, known, error)
 
 
 def value_words(rate: Rate) -> str:
@@ -195,10 +206,10 @@ def cure_cells(report: Report) -> list[list[str]]:
     """The rows of the table of errors at the sled."""
     return [
         [
-            one.scenario,
-            str(one.boards),
-            *(f"{value:.2f} mm" for value in (one.before, one.frame, one.after, one.known)),
-            value_words(one.ratio),
+            cured.scenario,
+            str(cured.boards),
+            *(f"{value:.2f} mm" for value in (cured.before, cured.frame, cured.after, cured.known)),
+            value_words(cured.ratio),
         ]
-        for one in report.cures
+        for cured in report.cures
     ]

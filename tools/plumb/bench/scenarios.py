@@ -97,7 +97,7 @@ SCENARIOS: tuple[Scenario, ...] = (
     Scenario(
         "one-spans",
         _ONE,
-        raw(3.0, tuple(one for one in REAL if not one.skew)),
+        raw(3.0, tuple(cause for cause in REAL if not cause.skew)),
         (INSIDE,),
         marks=9,
         spans=True,
@@ -150,5 +150,5 @@ SCENARIOS: tuple[Scenario, ...] = (
         shown=("slip named", "effect named first"),
     ),
 )
-NAMES = tuple(one.name for one in SCENARIOS)
+NAMES = tuple(scenario.name for scenario in SCENARIOS)
 CURE = Line("error over that of the known truth", most=1.3)

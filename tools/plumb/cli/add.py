@@ -250,10 +250,10 @@ def as_json(addition: Addition) -> dict[str, Any]:
 def auto_json(result: AutoAddition) -> dict[str, Any]:
     """How the effects were chosen."""
     return {
-        "verdict": result.found.verdict,
+        "verdict": result.diagnosis.verdict,
         "chosen": result.chosen,
         "rivals": result.rivals,
-        "slips": [slip.name for slip in result.found.slips],
+        "slips": [slip.name for slip in result.diagnosis.slips],
         "reason": result.reason,
         "settled_by": result.settled_by,
         "patch_offer_mm": result.offer,

@@ -11,9 +11,11 @@ from plumb.fit.patch import PATCH
 
 def auto_text(result: AutoAddition) -> str:
     """The diagnosis and the choice for people, then the addition."""
-    said = [sentences([verdict_sentence(result.found)], mark="")]
+    said = [sentences([verdict_sentence(result.diagnosis)], mark="")]
     said += (
-        [sentences([slip.sentence for slip in result.found.slips])] if result.found.slips else []
+        [sentences([slip.sentence for slip in result.diagnosis.slips])]
+        if result.diagnosis.slips
+        else []
     )
     reason = result.reason[0].upper() + result.reason[1:] + "."
     said.append(sentences([reason], mark=""))

@@ -50,7 +50,7 @@ class Quality:
 
 @dataclass(frozen=True)
 class Step:
-    """The fit after one more effect."""
+    """The fit after another effect."""
 
     effect: str
     quality: Quality
@@ -132,7 +132,7 @@ def add(
 ) -> Addition:
     """Fit frame and effects to the marks; effects that the settings have already stay as they are.
 
-    patch: beside them a residual patch, if marks left out are then predicted better.
+    patch: with them a residual patch, if marks left out are then predicted better.
 
     Raises InputError for unknown effects, too few marks, and marks that cannot be reached.
     """
@@ -152,18 +152,19 @@ def add(
         fit(model, rows, effects=names[: i + 1], priors=priors, sigma=noise)
         for i in range(len(names))
     ]
-    steps = _steps(names, before, [quality_of(one, rows) for one in fits])
+    steps = _steps(names, before, [quality_of(fitted, rows) for fitted in fits])
     after_fit = fits[-1] if fits else before_fit
     if patch:
-        told = {"effects": names, "priors": priors, "sigma": noise}
-        patched = best_patch(model, rows, **told, without=after_fit)
+        patched = best_patch(
+            model, rows, effects=names, priors=priors, sigma=noise, without=after_fit
+        )
         if patched:
             after_fit, names = patched.fit, (*names, PATCH)
             steps += _steps(
                 [PATCH], steps[-1].quality if steps else before, [quality_of(after_fit, rows)]
             )
     after = steps[-1].quality if steps else before
-    parameters = tuple(_parameter(one) for one in after_fit.estimates)
+    parameters = tuple(_parameter(estimate) for estimate in after_fit.estimates)
     return Addition(
         raw=raw,
         before=before,
@@ -177,7 +178,7 @@ def add(
         warnings=(
             *raw.warnings,
             *_unsettled(after_fit),
-            *notes_on(one.name for one in parameters),
+            *notes_on(parameter.name for parameter in parameters),
             *_surprises(parameters),
             *_bad_bargains(before, after, steps),
         ),
@@ -236,7 +237,7 @@ def _refuse_too_few(
     priors: Mapping[str, float],
 ) -> None:
     """Repeats do not count: they tell of the noise, not of another place."""
-    spans = {frozenset(one.between) for one in measurements.distances}
+    spans = {frozenset(distance.between) for distance in measurements.distances}
     count = 2 * len(set(rows.names)) + len(spans)
     frame = sum(sigma > 0 for sigma in priors.values())
     free = sum(len(parameter_names(name)) for name in effects)
@@ -252,23 +253,24 @@ def _refuse_unfelt(measurements: Measurements, rows: Observations, effects: Sequ
     """Refuse a lab effect that changes none of the measured numbers."""
     approached = bool(rows.approaches[[*rows.mark_rows, *rows.distance_rows.ravel()]].any())
     felt = {SLED: approached, EDGES: len(rows.mark_rows) > 0, TAPE: True}
-    for one in LAB_EFFECTS:
-        if one.name in effects and not felt[one.acts_on]:
+    for effect in LAB_EFFECTS:
+        if effect.name in effects and not felt[effect.acts_on]:
             raise InputError(
-                f"{measurements.source}: {one.name} needs {one.needs}: nothing here depends on it"
+                f"{measurements.source}: {effect.name} needs {effect.needs}: nothing here depends "
+                "on it"
             )
 
 
 def _cure(name: str, parameters: Mapping[str, float]) -> str:
     """What to do about a lab effect or sketch that was fitted."""
-    own = next(one for one in (*LAB_EFFECTS, *SKETCHES) if one.name == name)
-    found = ", ".join(
-        f"{one.name} = {parameters[one.name]:.3g} {one.unit}".removesuffix(" 1")
-        for one in own.parameters
+    effect = next(each for each in (*LAB_EFFECTS, *SKETCHES) if each.name == name)
+    sizes = ", ".join(
+        f"{parameter.name} = {parameters[parameter.name]:.3g} {parameter.unit}".removesuffix(" 1")
+        for parameter in effect.parameters
     )
     if is_sketch(name):
-        return f"{name} ({found}): a sketch, which no firmware has until it is written in C++"
-    return f"{name} ({found}): {NO_FIRMWARE}, and no setting holds it: {own.remedy}"
+        return f"{name} ({sizes}): a sketch, which no firmware has until it is written in C++"
+    return f"{name} ({sizes}): {NO_FIRMWARE}, and no setting holds it: {effect.remedy}"
 
 
 def _parameter(estimate: Estimate) -> Parameter:
@@ -295,19 +297,32 @@ def _unsettled(fitted: Fit) -> list[str]:
 def _surprises(parameters: Sequence[Parameter]) -> list[str]:
     """Sentences about numbers that no real machine has, that moved too far, or that may be zero."""
     said = []
-    for one in parameters:
-        moved = one.value - one.before
-        if one.prior_sigma is None and one.low < 0 < one.high and one.before == 0:
-            impossible = "" if one.plausible else f" ({one.value:.3g} {one.unit} is impossible)"
-            said.append(f"{one.name}{impossible} may as well be zero: its interval contains it")
-        elif not one.plausible:
-            said.append(_impossible(one))
-        if one.prior_sigma and not one.of_patch and abs(moved) > FAR * one.prior_sigma:
+    for parameter in parameters:
+        if _may_be_zero(parameter):
+            said.append(_zero_sentence(parameter))
+        elif not parameter.plausible:
+            said.append(_impossible(parameter))
+        moved = parameter.value - parameter.before
+        trusted = parameter.prior_sigma
+        if trusted and not parameter.of_patch and abs(moved) > FAR * trusted:
             said.append(
-                f"{one.name} moved by {moved:+.3g} {one.unit} from the stated {one.before:g}, more "
-                f"than twice the {one.prior_sigma:g} it was trusted to: measure it again"
+                f"{parameter.name} moved by {moved:+.3g} {parameter.unit} from the stated "
+                f"{parameter.before:g}, more than twice the {trusted:g} it was trusted to: measure "
+                "it again"
             )
     return said
+
+
+def _may_be_zero(parameter: Parameter) -> bool:
+    """Whether a free parameter that was absent before may be absent still."""
+    free = parameter.prior_sigma is None and parameter.before == 0
+    return free and parameter.low < 0 < parameter.high
+
+
+def _zero_sentence(parameter: Parameter) -> str:
+    size = f" ({parameter.value:.3g} {parameter.unit} is impossible)"
+    impossible = "" if parameter.plausible else size
+    return f"{parameter.name}{impossible} may as well be zero: its interval contains it"
 
 
 def _impossible(parameter: Parameter) -> str:
@@ -341,8 +356,8 @@ def _bad_bargains(before: Quality, after: Quality, steps: Sequence[Step]) -> lis
             f"{after.left_out_rms:.2f} mm: the effects follow the noise, do not keep them"
         ]
     return [
-        f"with {one.effect} only the fit got better; marks left out of it are predicted worse "
-        f"({one.quality.left_out_rms:.2f} mm): it may follow the noise"
-        for one in steps
-        if one.only_fit
+        f"with {step.effect} only the fit got better; marks left out of it are predicted worse "
+        f"({step.quality.left_out_rms:.2f} mm): it may follow the noise"
+        for step in steps
+        if step.only_fit
     ]

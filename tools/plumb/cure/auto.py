@@ -18,20 +18,21 @@ from plumb.text.values import refuse_unknown
 class AutoAddition:
     """What was added without anybody naming it, and why."""
 
-    found: Diagnosis
-    chosen: tuple[str, ...]  # effects added, the one that explains most first
+    diagnosis: Diagnosis
+    chosen: tuple[str, ...]  # effects added, what explains most first
     rivals: tuple[tuple[str, ...], ...]  # explanations that the marks allow as well
     addition: Addition | None  # None for a slip: nothing is fitted to a wrong reading
     reason: str  # one sentence
     offer: tuple[float, float] | None = None  # [mm] left-out error without a patch, and with one
-    settled_by: tuple[str, ...] = ()  # what would tell the chosen from their rivals, one each
+    # How to tell the chosen from their rivals.
+    settled_by: tuple[str, ...] = ()
 
     @property
     def done(self) -> bool:
         """Whether nothing more is provable once the chosen effects are there."""
-        if self.found.verdict in ("one_suspect", "cannot_tell"):
+        if self.diagnosis.verdict in ("one_suspect", "cannot_tell"):
             return bool(self.chosen)
-        return self.found.verdict == "nothing_provable"
+        return self.diagnosis.verdict == "nothing_provable"
 
 
 def add_auto(
@@ -49,27 +50,31 @@ def add_auto(
     would; so with its effects nothing more is provable. Several of them: the first of the
     diagnosis. Raises InputError as diagnose() and add() do.
     """
-    found = diagnose(inputs)
-    if found.verdict == "slip":
-        return AutoAddition(found, (), (), None, _slip_reason(found))
-    known = found.verdict != "not_in_library"
-    possible = [one.effects for one in found.explanations if one.possible and known]
-    order = [one.effect for one in found.ranking]
-    best = (possible[0] if possible else ()) if known else found.to_add
+    diagnosis = diagnose(inputs)
+    if diagnosis.verdict == "slip":
+        return AutoAddition(diagnosis, (), (), None, _slip_reason(diagnosis))
+    known = diagnosis.verdict != "not_in_library"
+    possible = [
+        explanation.effects
+        for explanation in diagnosis.explanations
+        if explanation.possible and known
+    ]
+    order = [ranked.effect for ranked in diagnosis.ranking]
+    best = (possible[0] if possible else ()) if known else diagnosis.to_add
     chosen = tuple(sorted(best, key=order.index))
     rivals = tuple(possible[1:])
-    noise = inputs.sigma if found.noise.source == "default" else found.noise.sigma
+    noise = inputs.sigma if diagnosis.noise.source == "default" else diagnosis.noise.sigma
     fitted = replace(inputs, sigma=noise)
     addition = add(fitted, effects=chosen)
     if not known and chosen and not _helps(addition):
         chosen, addition = (), add(fitted, effects=())
-    reason, offer = _reason(found, chosen, rivals), None
+    reason, offer = _reason(diagnosis, chosen, rivals), None
     if not known:
         patched = add(fitted, effects=chosen, patch=True)
         offer = addition.after.left_out_rms, patched.after.left_out_rms
         addition = patched if patch else addition
     settled_by = _settled_by(chosen, rivals)
-    return AutoAddition(found, chosen, rivals, addition, reason, offer, settled_by)
+    return AutoAddition(diagnosis, chosen, rivals, addition, reason, offer, settled_by)
 
 
 def _helps(addition: Addition) -> bool:
@@ -84,11 +89,13 @@ def _settled_by(chosen: tuple[str, ...], rivals: tuple[tuple[str, ...], ...]) ->
     """How to look directly at each effect that is in some explanations only."""
     if not rivals:
         return ()
-    all_of_them = (chosen, *rivals)
-    names = dict.fromkeys(name for one in all_of_them for name in one)
-    remedies = {one["name"]: one["remedy"] for one in every_effect()}
-    open_ones = (name for name in names if not all(name in one for one in all_of_them))
-    return tuple(f"{name}: {remedies[name]}" for name in open_ones)
+    explanations = (chosen, *rivals)
+    names = dict.fromkeys(name for explanation in explanations for name in explanation)
+    remedies = {effect["name"]: effect["remedy"] for effect in every_effect()}
+    undecided = (
+        name for name in names if not all(name in explanation for explanation in explanations)
+    )
+    return tuple(f"{name}: {remedies[name]}" for name in undecided)
 
 
 def without_marks(measurements: Measurements, names: Iterable[str]) -> Measurements:
@@ -97,37 +104,41 @@ def without_marks(measurements: Measurements, names: Iterable[str]) -> Measureme
     Raises InputError for a name that is not there.
     """
     gone = tuple(names)
-    known = [one.name for one in measurements.marks]
+    known = [mark.name for mark in measurements.marks]
     try:
         refuse_unknown(gone, known)
     except ValueError as error:
         raise InputError(f"--without {error}") from None
     return replace(
         measurements,
-        marks=tuple(one for one in measurements.marks if one.name not in gone),
-        distances=tuple(one for one in measurements.distances if not {*one.between} & {*gone}),
+        marks=tuple(mark for mark in measurements.marks if mark.name not in gone),
+        distances=tuple(
+            distance for distance in measurements.distances if not {*distance.between} & {*gone}
+        ),
     )
 
 
-def _slip_reason(found: Diagnosis) -> str:
-    names = ", ".join(dict.fromkeys(one.name for one in found.slips))
+def _slip_reason(diagnosis: Diagnosis) -> str:
+    names = ", ".join(dict.fromkeys(slip.name for slip in diagnosis.slips))
     return (
         f"nothing was added: look at the reading of {names} again first and correct it in the "
         "file, or leave the mark out with --without NAME"
     )
 
 
-def _reason(found: Diagnosis, chosen: tuple[str, ...], rivals: tuple[tuple[str, ...], ...]) -> str:
-    if found.verdict == "nothing_provable":
+def _reason(
+    diagnosis: Diagnosis, chosen: tuple[str, ...], rivals: tuple[tuple[str, ...], ...]
+) -> str:
+    if diagnosis.verdict == "nothing_provable":
         return "the marks prove no effect: only the frame was fitted"
-    if found.verdict == "not_in_library":
+    if diagnosis.verdict == "not_in_library":
         part = f"only {' + '.join(chosen)}, as far as it goes," if chosen else "no effect"
         return (
             f"not all that the marks show is in the library, so {part} was added; read the worst "
             "marks again, and see plumb next for what to measure"
         )
     if not chosen:
-        tried = "; ".join(" + ".join(one.effects) for one in found.explanations)
+        tried = "; ".join(" + ".join(explanation.effects) for explanation in diagnosis.explanations)
         return (
             "every explanation needs sizes that no real machine has, so none was added and only "
             f"the frame was fitted ({tried}): check which settings were in force and the marks' "
@@ -135,9 +146,9 @@ def _reason(found: Diagnosis, chosen: tuple[str, ...], rivals: tuple[tuple[str, 
         )
     name = " + ".join(chosen)
     if rivals:
-        others = ", ".join(" + ".join(one) for one in rivals)
+        others = ", ".join(" + ".join(rival) for rival in rivals)
         return (
             f"a choice: {name} explains the marks best, but they allow {others} as well; plumb "
             "next says what to measure to tell them apart"
         )
-    return f"{name} explains the marks; beside it nothing more is provable"
+    return f"{name} explains the marks; with it nothing more is provable"

@@ -19,7 +19,7 @@ GOAL = 0.9  # [mm] RMS below which the error has fallen far enough
 
 
 @dataclass(frozen=True)
-class Step:
+class DemoStep:
     """One effect more, and whether it is kept."""
 
     name: str
@@ -29,9 +29,9 @@ class Step:
 
 @dataclass(frozen=True)
 class Demonstration:
-    """What the demo found."""
+    """What the demo shows."""
 
-    steps: tuple[Step, ...]  # frame only, then one effect more each
+    steps: tuple[DemoStep, ...]  # frame only, then one effect more each
     chosen: Addition
     flipped: Addition  # the same effects, the y errors with the other sign
 
@@ -46,12 +46,12 @@ def demonstrate(measurements: Measurements | None = None) -> Demonstration:
     settings = read_settings(SETTINGS, known=known_effects())
     marks = measurements or read_marks(MARKS, sheet=settings.sheet)
     chosen = add(Inputs(settings, marks), effects=())
-    steps = [Step("frame only", chosen.before, kept=True)]
+    steps = [DemoStep("frame only", chosen.before, kept=True)]
     names: tuple[str, ...] = ()
     for effect in ORDER:
         tried = add(Inputs(settings, marks), effects=(*names, effect))
         kept = is_better(tried.after, chosen.after)
-        steps.append(Step(f"+ {effect}", tried.after, kept))
+        steps.append(DemoStep(f"+ {effect}", tried.after, kept))
         if kept:
             chosen, names = tried, (*names, effect)
     other_sign = add(Inputs(settings, with_y_errors_flipped(marks)), effects=names)

@@ -17,9 +17,9 @@ from itertools import combinations
 import numpy as np
 from scipy.special import gammaln
 
-from plumb.diagnose.chance import BELIEVABLE, chance_of_imitation
 from plumb.diagnose.explanation import Explanation, explain, span
 from plumb.diagnose.gain import LEVEL, bases_beyond_fit, complete
+from plumb.diagnose.imitation import BELIEVABLE, chance_of_imitation
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
 from plumb.diagnose.misfit import library_misfit_chance, misfit_chance, spare_numbers
 from plumb.diagnose.noise import Noise

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from plumb.pictures.sheet import EDGE, INK, MARGIN, WIDTH, WOOD
-from plumb.plan.visits import Visits
+from plumb.plan.planned_visits import Visits
 from plumb.settings.machine import GRAVITY
 
 if TYPE_CHECKING:

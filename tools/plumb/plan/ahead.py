@@ -9,7 +9,7 @@ import numpy as np
 
 from plumb.diagnose.explanation import Explanation
 from plumb.model.predict import FOUND
-from plumb.plan.visits import Visits
+from plumb.plan.planned_visits import Visits
 
 Array = np.ndarray
 
@@ -59,7 +59,7 @@ def check_slopes(at: Explanation, checks: Sequence[Check]) -> Array:
     """Whitened slopes (c, u) of numbers that are measured directly."""
     problem = at.board.problem
     rows = np.zeros((len(checks), len(problem.names)))
-    for i, one in enumerate(checks):
-        column = problem.names.index(one.name)
-        rows[i, column] = problem.scale[column] / one.sigma
+    for i, check in enumerate(checks):
+        column = problem.names.index(check.name)
+        rows[i, column] = problem.scale[column] / check.sigma
     return rows

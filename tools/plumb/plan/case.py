@@ -1,7 +1,7 @@
 """What is known before the next measurement: the explanations that stand, and how far each is open.
 
 A hypothesis is one effect (or several at once) with the numbers it may have, given the marks so
-far: a mean and a covariance of the frame and its own parameters, by the slopes at its fit.
+far: a mean and a covariance of the frame and its parameters, by the slopes at its fit.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from plumb.diagnose.answer import Diagnosis
 from plumb.diagnose.clean import felt_effects
 from plumb.diagnose.explanation import Board, Explanation, explain
 from plumb.diagnose.noise import Noise
+from plumb.diagnose.sizes import Size
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import effect_names
 from plumb.settings.machine import MachineSettings
@@ -65,16 +66,18 @@ class Case:
     @property
     def effects(self) -> tuple[str, ...]:
         """The effects of all hypotheses, most probable first."""
-        return tuple(dict.fromkeys(name for one in self.hypotheses for name in one.effects))
+        return tuple(
+            dict.fromkeys(name for hypothesis in self.hypotheses for name in hypothesis.effects)
+        )
 
 
 def case_of(
-    found: Diagnosis,
+    diagnosis: Diagnosis,
     inputs: Inputs,
 ) -> Case:
     """The case of a diagnosis, with the inputs it was made of."""
     model, rows = inputs.model_and_observations()
-    sigma = found.noise.sigma
+    sigma = diagnosis.noise.sigma
     board = Board.of(model, rows, sigma=sigma, priors=inputs.priors, checked=inputs.checked)
     frame = explain(board)
     felt = felt_effects(frame)
@@ -82,31 +85,39 @@ def case_of(
     # New marks belong to the first round: its settings, its zeros and its sheet.
     measurements = inputs.measurements
     in_force = measurements.rounds[0].cut_with or inputs.cut_with or inputs.settings
-    if found.explanations:
-        several = [one for one in found.explanations if len(one.effects) > 1]
-        together = [explain(board, one.effects, start=frame) for one in several]
-        hypotheses = _weighed([*singles.values(), *together], _possible(found))
+    if diagnosis.explanations:
+        several = [
+            explanation for explanation in diagnosis.explanations if len(explanation.effects) > 1
+        ]
+        together = [explain(board, explanation.effects, start=frame) for explanation in several]
+        hypotheses = _weighed([*singles.values(), *together], _possible(diagnosis))
     else:
         hypotheses = hidden_hypotheses(frame)
     return Case(
         settings=in_force,
         controller=inputs.controller or measurements.controller or in_force.controller,
-        verdict=found.verdict,
+        verdict=diagnosis.verdict,
         board=board,
-        noise=found.noise,
+        noise=diagnosis.noise,
         frame=frame,
         singles=singles,
         hypotheses=hypotheses,
-        spans=tuple(" - ".join(one.between) for one in measurements.distances),
+        spans=tuple(" - ".join(distance.between) for distance in measurements.distances),
     )
 
 
-def _possible(found: Diagnosis) -> set[tuple[str, ...]]:
+def _possible(diagnosis: Diagnosis) -> set[tuple[str, ...]]:
     """The explanations whose sizes a real machine can have, or nearly so."""
-    sizes = {(one.effect,): one.sizes for one in found.ranking}
-    for one in found.explanations:
-        sizes[one.effects] = tuple(size for own in one.sizes.values() for size in own)
-    return {effects for effects, own in sizes.items() if all(size.possible for size in own)}
+    sizes: dict[tuple[str, ...], tuple[Size, ...]] = {
+        (ranked.effect,): ranked.sizes for ranked in diagnosis.ranking
+    }
+    for explanation in diagnosis.explanations:
+        sizes[explanation.effects] = tuple(
+            size for sizes_of_effect in explanation.sizes.values() for size in sizes_of_effect
+        )
+    return {
+        effects for effects, own_sizes in sizes.items() if all(size.possible for size in own_sizes)
+    }
 
 
 def _weighed(
@@ -117,25 +128,33 @@ def _weighed(
     The weight is exp(-(chi-square + 2 parameters) / 2), the order of the diagnosis itself. Effects
     that did not stand their test take part: one in twenty of them is the truth all the same.
     """
-    prices = [one.cost + 2 * len(one.board.columns(one.effects)) for one in explanations]
+    prices = [
+        explanation.cost + 2 * len(explanation.board.columns(explanation.effects))
+        for explanation in explanations
+    ]
     weights = np.exp(-(np.array(prices) - min(prices)) / 2)
-    weights *= [1.0 if one.effects in possible else IMPOSSIBLE for one in explanations]
+    weights *= [
+        1.0 if explanation.effects in possible else IMPOSSIBLE for explanation in explanations
+    ]
     best = np.argsort(-weights, kind="stable")[:MOST_HYPOTHESES]
     best = best[weights[best] > LIGHT * weights.sum()]
     return tuple(_as_fitted(explanations[i], weights[i] / weights[best].sum()) for i in best)
 
 
-def _as_fitted(one: Explanation, weight: float) -> Hypothesis:
-    own = one.board.columns(one.effects)
-    columns = np.concatenate([one.board.frame, own])
-    mean = np.concatenate([np.zeros(len(one.board.frame)), one.unknowns[own]])
+def _as_fitted(explanation: Explanation, weight: float) -> Hypothesis:
+    of_effects = explanation.board.columns(explanation.effects)
+    columns = np.concatenate([explanation.board.frame, of_effects])
+    mean = np.concatenate(
+        [np.zeros(len(explanation.board.frame)), explanation.unknowns[of_effects]]
+    )
     return Hypothesis(
-        effects=one.effects,
-        at=one,
-        data=one.residual + one.slopes[:, own] @ one.unknowns[own],
+        effects=explanation.effects,
+        at=explanation,
+        data=explanation.residual
+        + explanation.slopes[:, of_effects] @ explanation.unknowns[of_effects],
         columns=columns,
         mean=mean,
-        root=_root(one.slopes[:, columns]),
+        root=_root(explanation.slopes[:, columns]),
         weight=float(weight),
     )
 
@@ -145,19 +164,19 @@ def hidden_hypotheses(frame: Explanation) -> tuple[Hypothesis, ...]:
 
     A standard normal of each parameter in typical sizes, and then what the marks say of it.
     """
-    board, found = frame.board, []
+    board, hypotheses = frame.board, []
     names = effect_names()
     for name in names:
-        own = board.columns([name])
-        columns = np.concatenate([board.frame, own])
-        usual = np.zeros((len(own), len(columns)))
-        usual[:, len(board.frame) :] = np.eye(len(own))
+        of_effect = board.columns([name])
+        columns = np.concatenate([board.frame, of_effect])
+        usual = np.zeros((len(of_effect), len(columns)))
+        usual[:, len(board.frame) :] = np.eye(len(of_effect))
         slopes = np.vstack([frame.slopes[:, columns], usual])
-        data = np.concatenate([frame.residual, np.zeros(len(own))])
+        data = np.concatenate([frame.residual, np.zeros(len(of_effect))])
         mean = np.linalg.lstsq(slopes, data, rcond=1e-10)[0]
-        own_data, share = frame.residual, 1 / len(names)
-        found.append(Hypothesis((name,), frame, own_data, columns, mean, _root(slopes), share))
-    return tuple(found)
+        readings, share = frame.residual, 1 / len(names)
+        hypotheses.append(Hypothesis((name,), frame, readings, columns, mean, _root(slopes), share))
+    return tuple(hypotheses)
 
 
 def _root(slopes: Array) -> Array:
@@ -165,4 +184,5 @@ def _root(slopes: Array) -> Array:
     drawn."""
     _, sizes, turned = np.linalg.svd(slopes, full_matrices=False)
     felt = sizes > 1e-6 * sizes[0]
-    return turned[felt].T / sizes[felt]
+    root: Array = turned[felt].T / sizes[felt]
+    return root

@@ -10,10 +10,10 @@ import numpy as np
 from plumb.model.catalogue import is_felt_by_approach, is_of_chain
 from plumb.plan.ahead import Check
 from plumb.plan.case import Case
-from plumb.plan.checks import FRAME_CHECKS, NumberCheck, effect_checks
+from plumb.plan.direct_checks import FRAME_CHECKS, NumberCheck, effect_checks
+from plumb.plan.planned_visits import Visits, joined, nowhere, sent
 from plumb.plan.separation import Chooser
 from plumb.plan.sites import grid, new_places, usable
-from plumb.plan.visits import Visits, joined, nowhere, sent
 from plumb.settings.machine import GRAVITY
 
 Array = np.ndarray
@@ -26,7 +26,9 @@ MOST_AGAIN = 12  # marks that are all visited again with another weight
 # Minutes: a round at the machine, a mark cut and read, a mark read once more, a change of weight,
 # chains swapped and brought to 12 o'clock again.
 ROUND, MARK, READING, HANGING, SWAPPING = 3.0, 1.5, 0.75, 4.0, 15.0
-BESIDE = 20.0  # [mm] inwards of a mark is room for a second one; in the same hole nothing is read
+ROOM_FOR_A_SECOND = (
+    20.0  # [mm] inwards of a mark is room for a second one; in the same hole nothing is read
+)
 SIDES = np.array([(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)])
 
 
@@ -48,10 +50,10 @@ def options(case: Case) -> list[Option]:
     shop = _Shop(case)
     if case.verdict == "one_suspect":
         # Repeats share every systematic error with what they repeat: they confirm nothing.
-        own = [*shop.ordinary(), *shop.heavier(), *shop.swapped()]
-        return own + [one for one in checks_for(case) if one.kind == "check"]
-    found = [*shop.ordinary(), shop.repeats(), *shop.heavier(), *shop.sides(), *shop.swapped()]
-    return [one for one in found if one is not None] + checks_for(case)
+        about_causes = [*shop.ordinary(), *shop.heavier(), *shop.swapped()]
+        return about_causes + [option for option in checks_for(case) if option.kind == "check"]
+    everything = [*shop.ordinary(), shop.repeats(), *shop.heavier(), *shop.sides(), *shop.swapped()]
+    return [option for option in everything if option is not None] + checks_for(case)
 
 
 def many_marks(case: Case) -> Option | None:
@@ -61,19 +63,22 @@ def many_marks(case: Case) -> Option | None:
 
 def checks_for(case: Case) -> list[Option]:
     """Direct measurements of the suspects and of the frame's numbers that were not made yet."""
-    problem, made = case.board.problem, {one.name: one.sigma for one in case.board.problem.checked}
+    problem, made = (
+        case.board.problem,
+        {check.name: check.sigma for check in case.board.problem.checked},
+    )
     held = np.flatnonzero(problem.held)
     known = {problem.names[i]: float(problem.scale[i]) for i in held} | made
-    found = []
-    for name, own in effect_checks().items():
-        each = tuple(Check(f"{name}.{part}", sigma) for part, sigma in own.sigmas.items())
-        if name in case.effects and any(_sharper(one, known) for one in each):
-            found.append(_check("check", own, each))
-    for name, own in FRAME_CHECKS.items():
-        one = Check(name, own.sigmas[name])
-        if name in known and _sharper(one, known):
-            found.append(_check("frame", own, (one,)))
-    return found
+    offered = []
+    for name, direct in effect_checks().items():
+        each = tuple(Check(f"{name}.{part}", sigma) for part, sigma in direct.sigmas.items())
+        if name in case.effects and any(_sharper(check, known) for check in each):
+            offered.append(_check("check", direct, each))
+    for name, direct in FRAME_CHECKS.items():
+        check = Check(name, direct.sigmas[name])
+        if name in known and _sharper(check, known):
+            offered.append(_check("frame", direct, (check,)))
+    return offered
 
 
 def _sharper(check: Check, known: Mapping[str, float]) -> bool:
@@ -89,7 +94,7 @@ def _check(kind: str, number: NumberCheck, each: tuple[Check, ...]) -> Option:
 
 
 class _Shop:
-    """Makes options for one case."""
+    """Makes options for a case."""
 
     def __init__(self, case: Case) -> None:
         self.case, self.rows = case, case.board.rows
@@ -130,7 +135,7 @@ class _Shop:
 
     def heavier(self) -> list[Option]:
         """Marks under a sled on which more hangs: as chosen best, in fixed patterns, and all."""
-        found = []
+        offered = []
         for kilograms in EXTRA_KILOGRAMS:
             weight = self.case.usual_weight + kilograms * GRAVITY
             if weight > 2.05 * self.case.usual_weight:
@@ -139,11 +144,11 @@ class _Shop:
             if len(pool) < FEW:
                 continue
             visits = pool.taken(self.spread(pool))
-            found.append(_heavier(f"{FEW} marks", kilograms, visits))
-            beside = self.visits(self.beside(BESIDE), weight)
-            if kilograms == EXTRA_KILOGRAMS[1] and FEW < len(beside) <= MOST_AGAIN:
-                found.append(_heavier(f"{len(beside)} marks beside the old", kilograms, beside))
-        return found
+            offered.append(_heavier(f"{FEW} marks", kilograms, visits))
+            near = self.visits(self.inwards(ROOM_FOR_A_SECOND), weight)
+            if kilograms == EXTRA_KILOGRAMS[1] and FEW < len(near) <= MOST_AGAIN:
+                offered.append(_heavier(f"{len(near)} marks near the old", kilograms, near))
+        return offered
 
     def spread(self, pool: Visits) -> list[int]:
         """The best few of a pool: as chosen one by one, or one of the patterns that often do."""
@@ -154,13 +159,17 @@ class _Shop:
             wanted = np.array(pattern) * (width / 2, height / 2)
             gaps = np.linalg.norm(pool.targets[:, np.newaxis] - wanted, axis=2)
             tries.append([int(i) for i in gaps.argmin(axis=0)])
-        return max((one for one in tries if len(set(one)) == FEW), key=chooser.worth)
+        return max((chosen for chosen in tries if len(set(chosen)) == FEW), key=chooser.worth)
 
     def sides(self) -> list[Option]:
         """Two marks close together, touched from opposite sides, where friction may play a part."""
         if not any(map(is_felt_by_approach, self.case.effects)) or not self.known:
             return []
-        weight, near, far = self.case.usual_weight, self.beside(BESIDE), self.beside(2 * BESIDE)
+        weight, near, far = (
+            self.case.usual_weight,
+            self.inwards(ROOM_FOR_A_SECOND),
+            self.inwards(2 * ROOM_FOR_A_SECOND),
+        )
         # Which of both is touched from where is all the same: one pool for each pair of sides.
         groups = [
             self.visits(near if i % 2 == 0 else far, weight, sides=side)
@@ -173,7 +182,7 @@ class _Shop:
         both = {twin for i in chosen for twin in (i, (i // count ^ 1) * count + i % count)}
         visits = pool.taken(sorted(both, key=lambda i: (i % count, i)))
         do = (
-            "Touch two marks beside each other from opposite sides, the last 100 mm straight "
+            "Touch two marks next to each other from opposite sides, the last 100 mm straight "
             f"towards the mark, at {spots(visits)}; write down the approach."
         )
         return [_marks("approach", "marks from opposite sides", do, visits)]
@@ -193,26 +202,26 @@ class _Shop:
         return [_marks("swap", f"chains swapped, {FEW} marks", do, visits, more=SWAPPING)]
 
     def pool(self, weight: float, *, swapped: bool = False) -> Visits:
-        """Places beside the marks there are and new ones, as far as they are usable so loaded."""
-        places = np.vstack([self.beside(BESIDE), self.new_targets])
+        """Places near the marks there are, and new ones, as far as they are usable so loaded."""
+        places = np.vstack([self.inwards(ROOM_FOR_A_SECOND), self.new_targets])
         places = places[usable(self.case.settings, places, weight)]
         return self.visits(places, weight, swapped=swapped)
 
-    def beside(self, millimetres: float) -> Array:
+    def inwards(self, millimetres: float) -> Array:
         """Places (n, 2) so far inwards of the marks there are."""
         return self.old_targets - millimetres * np.where(self.old_targets > 0, 1.0, -1.0)
 
     def old(self) -> Visits:
         """The marks there are, as they were visited."""
-        rows, own = self.rows, list(self.known.values())
+        rows, first_rows = self.rows, list(self.known.values())
         first = [rows.names.index(name) for name in self.known]
         return Visits(
             tuple(self.known),
             rows.targets[first],
-            rows.chains[own],
-            rows.sled_weights[own],
-            rows.approaches[own],
-            rows.swapped[own],
+            rows.chains[first_rows],
+            rows.sled_weights[first_rows],
+            rows.approaches[first_rows],
+            rows.swapped[first_rows],
         )
 
     def visits(
@@ -223,14 +232,14 @@ class _Shop:
         sides: Array | None = None,
         swapped: bool = False,
     ) -> Visits:
-        """Visits of new places, from where the nearest mark was approached unless told."""
+        """Visits of new places, approached as the nearest mark was, or from the sides given."""
         approaches = np.zeros((len(places), 2))
         if sides is not None:
             approaches = np.tile(sides, (len(places), 1))
         elif len(self.old_targets) and len(places):
             gaps = np.linalg.norm(places[:, np.newaxis] - self.old_targets, axis=2)
-            own = np.array(list(self.known.values()))[gaps.argmin(axis=1)]
-            approaches = self.rows.approaches[own]
+            nearest = np.array(list(self.known.values()))[gaps.argmin(axis=1)]
+            approaches = self.rows.approaches[nearest]
         try:
             return sent(
                 self.case.settings,

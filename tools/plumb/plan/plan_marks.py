@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from plumb.plan.visits import Visits
+from plumb.plan.planned_visits import Visits
 
 
 def marks_file(
@@ -12,7 +12,7 @@ def marks_file(
     lines = [
         "# Measured from the sheet's left and top edges, in mm: take away the # before `measured`",
         "# and write what the tape says. Give this file to plumb after the marks you have.",
-        *(f"# {one}" for one in said),
+        *(f"# {sentence}" for sentence in said),
         'frame = "sheet-top-left"',
         f'controller = "{controller}"',
     ]

@@ -33,8 +33,8 @@ from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 
 Array = np.ndarray
-POWER = 0.8  # chance with which the smallest size that counts as found is found
-APART = 3.0  # sigmas from which two effects are told apart in most cases
+POWER = 0.8  # chance with which the smallest size that counts as proved is proved
+APART = 3.0  # sigmas from which two effects are distinguished in most cases
 
 
 @dataclass(frozen=True)
@@ -44,14 +44,14 @@ class Outline:
     effect: str
     raw: float  # [mm] RMS of what its typical size draws, before the frame is refitted
     hidden_share: float | None  # None: nothing that is measured feels it
-    seen: float  # [sigmas] of its typical size beside the frame
-    smallest: float | None  # times typical, found with POWER
+    seen: float  # [sigmas] of its typical size beyond the frame
+    smallest: float | None  # times typical, proved with POWER
     parameters: tuple[tuple[str, float | None, str], ...]  # name, that smallest size, unit
     alike: tuple[str, ...]  # effects it would be taken for
 
 
 @dataclass(frozen=True)
-class Addition:
+class PlanAddition:
     """What could be added to the plan, and what that brings."""
 
     option: Option
@@ -72,9 +72,9 @@ class Preview:
     marks: int
     distances: int
     effects: tuple[str, ...]
-    matrix: Array  # (e, e) [sigmas] of the row beside frame and column; diagonal beside the frame
+    matrix: Array  # (e, e) [sigmas] of the row beyond frame and column; diagonal: beyond the frame
     outlines: tuple[Outline, ...]  # in the order of the effects
-    additions: tuple[Addition, ...]  # best first
+    additions: tuple[PlanAddition, ...]  # best first
     targets: Array  # (k, 2) [mm]
 
     @property
@@ -142,26 +142,26 @@ def _as_planned(
 
 
 def _matrix(frame: Explanation, slopes: Array) -> Array:
-    """Sigmas of each effect (row) beside the frame and each other one (column)."""
+    """Sigmas of each effect (row) beyond the frame and each other effect (column)."""
     board, names = frame.board, effect_names()
-    found = np.zeros((len(names), len(names)))
-    for i, one in enumerate(names):
-        drawn = np.eye(slopes.shape[1])[:, board.columns([one])]
+    sigmas = np.zeros((len(names), len(names)))
+    for i, effect in enumerate(names):
+        drawn = np.eye(slopes.shape[1])[:, board.columns([effect])]
         for j, other in enumerate(names):
-            beside = board.columns([other]) if i != j else np.zeros(0, dtype=int)
-            found[i, j] = apart(slopes, drawn, np.concatenate([board.frame, beside]))
-    return np.sqrt(found)
+            fitted_too = board.columns([other]) if i != j else np.zeros(0, dtype=int)
+            sigmas[i, j] = apart(slopes, drawn, np.concatenate([board.frame, fitted_too]))
+    return np.sqrt(sigmas)
 
 
 def _outline(frame: Explanation, i: int, matrix: Array, limit: float) -> Outline:
     names, words = effect_names(), parameter_words()
     name, seen = names[i], float(matrix[i, i])
-    own = frame.board.columns([name])
+    columns = frame.board.columns([name])
     count = frame.board.rows.count
     places = len(frame.board.rows.measured) or count
-    raw = float(np.linalg.norm(frame.slopes[:count, own])) * frame.board.sigma / np.sqrt(places)
-    smallest = _needed(len(own), limit) / seen if seen > 0.01 else None
-    typical = [words[frame.board.problem.names[column]] for column in own]
+    raw = float(np.linalg.norm(frame.slopes[:count, columns])) * frame.board.sigma / np.sqrt(places)
+    smallest = _needed(len(columns), limit) / seen if seen > 0.01 else None
+    typical = [words[frame.board.problem.names[column]] for column in columns]
     alike = [
         (matrix[i, j], other)
         for j, other in enumerate(names)
@@ -174,8 +174,12 @@ def _outline(frame: Explanation, i: int, matrix: Array, limit: float) -> Outline
         seen=seen,
         smallest=smallest,
         parameters=tuple(
-            (one["name"], None if smallest is None else smallest * abs(one["typical"]), one["unit"])
-            for one in typical
+            (
+                parameter["name"],
+                None if smallest is None else smallest * abs(parameter["typical"]),
+                parameter["unit"],
+            )
+            for parameter in typical
         ),
         alike=tuple(other for _, other in sorted(alike)),
     )
@@ -187,17 +191,17 @@ def _needed(parameters: int, limit: float) -> float:
     return float(np.sqrt(chndtrinc(gate, parameters, 1 - POWER)))
 
 
-def _additions(case: Case, matrix: Array) -> tuple[Addition, ...]:
+def _additions(case: Case, matrix: Array) -> tuple[PlanAddition, ...]:
     """Everything that could be added, by what it does for all cells."""
     blind = many_marks(case)
-    found = []
+    additions = []
     for option in [*options(case), *([blind] if blind else [])]:
         if option.kind == "repeats":
             continue
         then = _matrix(case.frame, ahead(case.frame, option.visits, option.checks).slopes)
         worth = float(np.sum(np.minimum(then**2, ENOUGH) - np.minimum(matrix**2, ENOUGH)))
-        found.append(Addition(option, _reached(then), worth))
-    return tuple(sorted(found, key=lambda one: -one.rate))
+        additions.append(PlanAddition(option, _reached(then), worth))
+    return tuple(sorted(additions, key=lambda addition: -addition.rate))
 
 
 def _reached(matrix: Array) -> int:

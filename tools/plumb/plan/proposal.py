@@ -13,8 +13,8 @@ from plumb.diagnose.sizes import Room
 from plumb.fit.inputs import Inputs
 from plumb.plan.ahead import ahead
 from plumb.plan.case import Case, case_of
-from plumb.plan.chance import outlook
 from plumb.plan.options import Option, many_marks, options
+from plumb.plan.outlook import outlook
 from plumb.plan.separation import ENOUGH, apart, drawn_by
 from plumb.plan.strangers import for_slips, near_the_worst
 
@@ -22,7 +22,7 @@ Array = np.ndarray
 # A question: what the chance is the chance of.
 SETTLE, CONFIRM, FIND, REREAD, EXPLORE = "settle", "confirm", "find", "reread", "explore"
 AGAIN = 10.0  # minutes that one more round costs when this one did not settle it
-TOLD_APART = 0.75 * ENOUGH  # lambda from which a pair counts as told apart
+DISTINGUISHED = 0.75 * ENOUGH  # lambda from which a pair counts as distinguished
 MOST_PARTED = 6
 QUESTIONS = {"cannot_tell": SETTLE, "one_suspect": CONFIRM, "nothing_provable": FIND}
 
@@ -44,14 +44,16 @@ class Proposal:
     question: str  # SETTLE ...
     chance: float | None  # None: nothing can be computed
     left: float | None  # suspects that will be left on average
-    parts: tuple[tuple[str, str], ...] = ()  # pairs told apart then, and not by the marks so far
+    parts: tuple[tuple[str, str], ...] = ()  # pairs distinguished then, and not by the marks so far
     rooms: tuple[RoomThen, ...] = ()  # what the largest hidden effects could then still be
 
     @property
     def rate(self) -> float:
         """The order: chance (or millimetres of doubt removed, where nothing is provable) per
         minute, with one more round added in case it fails."""
-        gained = sum(one.now - one.then for one in self.rooms) if self.rooms else self.chance or 0.0
+        gained = (
+            sum(room.now - room.then for room in self.rooms) if self.rooms else self.chance or 0.0
+        )
         return gained / (self.option.minutes + AGAIN)
 
 
@@ -63,45 +65,47 @@ class Next:
     case: Case | None
     proposals: tuple[Proposal, ...]
     blind: Proposal | None  # as many more marks as patience allows
-    stable: tuple[int, int] | None  # of one suspect: deletions of a mark that keep it, of how many
+    stable: (
+        tuple[int, int] | None
+    )  # of a single suspect: deletions of a mark that keep it, of how many
 
 
 def propose(
-    found: Diagnosis,
+    diagnosis: Diagnosis,
     inputs: Inputs,
     *,
     progress: Callable[[float], None] = lambda share: None,
 ) -> Next:
     """The next measurements for a diagnosis, given the inputs it was made of.
 
-    `progress` is told the share of the work that is done.
+    `progress` is called with the share of the work that is done.
     """
-    case = case_of(found, inputs)
-    if found.verdict == "slip":
-        own = [
+    case = case_of(diagnosis, inputs)
+    if diagnosis.verdict == "slip":
+        proposals = [
             Proposal(option, REREAD, chance, None)
-            for option, chance in for_slips(case, found.slips)
+            for option, chance in for_slips(case, diagnosis.slips)
         ]
-        return Next(found.verdict, case, tuple(own), None, None)
-    if found.verdict == "not_in_library":
-        own = [Proposal(option, EXPLORE, None, None) for option in near_the_worst(case)]
-        return Next(found.verdict, case, tuple(own), None, None)
+        return Next(diagnosis.verdict, case, tuple(proposals), None, None)
+    if diagnosis.verdict == "not_in_library":
+        proposals = [Proposal(option, EXPLORE, None, None) for option in near_the_worst(case)]
+        return Next(diagnosis.verdict, case, tuple(proposals), None, None)
     several = options(case)
     blind = many_marks(case)
     everything = [*several, *([blind] if blind else [])]
     weighed = []
     for number, option in enumerate(everything):
-        weighed.append(_weighed(case, option, found.could_hide))
+        weighed.append(_weighed(case, option, diagnosis.could_hide))
         progress((number + 1) / len(everything))
     against = weighed.pop() if blind else None
     ranked = tuple(sorted(weighed, key=_order))
-    stable = _stability(case) if found.verdict == "one_suspect" else None
-    return Next(found.verdict, case, ranked, against, stable)
+    stable = _stability(case) if diagnosis.verdict == "one_suspect" else None
+    return Next(diagnosis.verdict, case, ranked, against, stable)
 
 
-def _order(one: Proposal) -> tuple[bool, float]:
+def _order(proposal: Proposal) -> tuple[bool, float]:
     """Best first; one suspect is confirmed best by what measures the cause itself."""
-    return one.question == CONFIRM and one.option.kind != "check", -one.rate
+    return proposal.question == CONFIRM and proposal.option.kind != "check", -proposal.rate
 
 
 def _weighed(case: Case, option: Option, rooms: Sequence[Room]) -> Proposal:
@@ -114,24 +118,28 @@ def _weighed(case: Case, option: Option, rooms: Sequence[Room]) -> Proposal:
 
 
 def _parted(case: Case, option: Option) -> tuple[tuple[str, str], ...]:
-    """Pairs of suspects that are told apart afterwards and are not now, most probable first."""
-    lambdas: dict[frozenset, list[float]] = {}
-    for one in case.hypotheses:
-        rows, drawn = ahead(one.at, option.visits, option.checks), drawn_by(one)
+    """Pairs of suspects that are distinguished afterwards and are not now, most probable first."""
+    lambdas: dict[frozenset[str], list[float]] = {}
+    for hypothesis in case.hypotheses:
+        rows, drawn = ahead(hypothesis.at, option.visits, option.checks), drawn_by(hypothesis)
         for other in case.hypotheses:
-            if other is one:
+            if other is hypothesis:
                 continue
             fitted = np.concatenate([case.board.frame, case.board.columns(other.effects)])
-            pair = frozenset((_name(one.effects), _name(other.effects)))
+            pair = frozenset((_name(hypothesis.effects), _name(other.effects)))
             now, then = lambdas.setdefault(pair, [np.inf, np.inf])
             lambdas[pair] = [
-                min(now, apart(one.at.slopes, drawn, fitted)),
+                min(now, apart(hypothesis.at.slopes, drawn, fitted)),
                 min(then, apart(rows.slopes, drawn, fitted)),
             ]
-    parted = [pair for pair, (now, then) in lambdas.items() if then >= TOLD_APART > now]
-    order = [_name(one.effects) for one in case.hypotheses]
-    named = [tuple(sorted(pair, key=order.index)) for pair in parted]
-    return tuple(sorted(named, key=lambda pair: [order.index(name) for name in pair])[:MOST_PARTED])
+    parted = [pair for pair, (now, then) in lambdas.items() if then >= DISTINGUISHED > now]
+    order = [_name(hypothesis.effects) for hypothesis in case.hypotheses]
+    named = []
+    for pair in parted:
+        first, second = sorted(pair, key=order.index)
+        named.append((first, second))
+    named.sort(key=lambda pair: [order.index(name) for name in pair])
+    return tuple(named[:MOST_PARTED])
 
 
 def _name(effects: Sequence[str]) -> str:
@@ -144,35 +152,37 @@ def _rooms(case: Case, option: Option, rooms: Sequence[Room]) -> tuple[RoomThen,
     About: the interval of an effect's least visible direction shrinks by so much, and with it what
     the diagnosis says could hide.
     """
-    frame, found = case.frame, []
+    frame, rooms_then = case.frame, []
     rows = ahead(frame, option.visits, option.checks)
     for room in rooms:
         if room.mm is None:
             continue
-        own = case.board.columns([room.effect])
-        now = _smallest(frame.slopes, own, case.board.frame)
-        then = _smallest(rows.slopes, own, case.board.frame)
-        found.append(RoomThen(room.effect, room.mm, room.mm * (now / then if then > 0 else 1.0)))
-    return tuple(sorted(found, key=lambda one: one.then - one.now))
+        columns = case.board.columns([room.effect])
+        now = _smallest(frame.slopes, columns, case.board.frame)
+        then = _smallest(rows.slopes, columns, case.board.frame)
+        rooms_then.append(
+            RoomThen(room.effect, room.mm, room.mm * (now / then if then > 0 else 1.0))
+        )
+    return tuple(sorted(rooms_then, key=lambda room: room.then - room.now))
 
 
-def _smallest(slopes: Array, own: Array, frame: Array) -> float:
-    """Visible length of the least visible direction of an effect beside the frame."""
+def _smallest(slopes: Array, columns: Array, frame: Array) -> float:
+    """Visible length of the least visible direction of an effect beyond the frame."""
     fitted = span(slopes[:, frame])
-    beside = slopes[:, own] - fitted @ (fitted.T @ slopes[:, own])
-    return float(np.linalg.svd(beside, compute_uv=False)[-1])
+    beyond = slopes[:, columns] - fitted @ (fitted.T @ slopes[:, columns])
+    return float(np.linalg.svd(beyond, compute_uv=False)[-1])
 
 
 def _stability(case: Case) -> tuple[int, int]:
-    """In how many of all deletions of one reading the suspect remains the best single effect."""
+    """In how many of all deletions of a reading the suspect remains the best single effect."""
     suspect = case.hypotheses[0]
     if len(suspect.effects) > 1:
         return 0, 0
     board, frame = case.board, case.frame
     groups = _readings(case)
     kept = 0
-    for own in groups:
-        rows = np.setdiff1d(np.arange(len(frame.slopes)), own)
+    for reading in groups:
+        rows = np.setdiff1d(np.arange(len(frame.slopes)), reading)
         costs = {}
         for name in case.singles:
             columns = np.concatenate([board.frame, board.columns([name])])
@@ -188,5 +198,5 @@ def _readings(case: Case) -> list[Array]:
     rows = case.board.rows
     names = np.array(rows.names)
     marks = [np.flatnonzero(names == name) for name in dict.fromkeys(rows.names)]
-    groups = [np.concatenate([2 * own, 2 * own + 1]) for own in marks]
+    groups = [np.concatenate([2 * repeats, 2 * repeats + 1]) for repeats in marks]
     return groups + [np.array([rows.measured.size + i]) for i in range(len(rows.distances))]

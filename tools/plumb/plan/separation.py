@@ -1,7 +1,7 @@
-"""How well two effects are told apart by a plan, and the visits that tell them apart best.
+"""How well a plan distinguishes two effects, and the visits that do it best.
 
 lambda = squared length, in sigmas, of what one effect draws and neither the refitted frame nor the
-other effect can imitate. A pair is told apart nearly always at 12, so more of it counts no more:
+other effect can imitate. A pair is distinguished nearly always at 12, so more of it counts no more:
 no single pair may eat the whole effort (T-optimal design, capped).
 """
 
@@ -15,10 +15,10 @@ import numpy as np
 from plumb.diagnose.explanation import Board, Explanation
 from plumb.plan.ahead import visit_slopes
 from plumb.plan.case import Case, Hypothesis
-from plumb.plan.visits import Visits
+from plumb.plan.planned_visits import Visits
 
 Array = np.ndarray
-ENOUGH = 12.0  # lambda at which two effects are told apart in more than nine of ten cases
+ENOUGH = 12.0  # lambda at which two effects are distinguished in more than nine of ten cases
 MOST_TRUTHS = 6  # hypotheses among which visits are chosen
 _RIDGE = 1e-9  # for unknowns that nothing feels
 
@@ -38,27 +38,30 @@ def pairs_of(case: Case) -> list[Pair]:
     alone."""
     board, truths = case.board, case.hypotheses[:MOST_TRUTHS]
     if case.verdict == "nothing_provable":
-        return [Pair(one.at, drawn_by(one), board.frame, one.weight) for one in case.hypotheses]
+        return [
+            Pair(hypothesis.at, drawn_by(hypothesis), board.frame, hypothesis.weight)
+            for hypothesis in case.hypotheses
+        ]
     if len(truths) == 1:
-        one = truths[0]
-        rivals = [name for name in case.singles if name not in one.effects]
-        return [Pair(one.at, drawn_by(one), _fitted(board, (rival,)), 1.0) for rival in rivals]
+        truth = truths[0]
+        rivals = [name for name in case.singles if name not in truth.effects]
+        return [Pair(truth.at, drawn_by(truth), _fitted(board, (rival,)), 1.0) for rival in rivals]
     return [
-        Pair(one.at, drawn_by(one), _fitted(board, other.effects), one.weight + other.weight)
-        for one in truths
+        Pair(truth.at, drawn_by(truth), _fitted(board, other.effects), truth.weight + other.weight)
+        for truth in truths
         for other in truths
-        if one is not other
+        if truth is not other
     ]
 
 
-def drawn_by(one: Hypothesis) -> Array:
+def drawn_by(hypothesis: Hypothesis) -> Array:
     """What a hypothesis draws (u, d): as it fits, or each parameter at its typical size."""
-    own = one.at.board.columns(one.effects)
-    width = len(one.at.unknowns)
-    if not one.at.effects:
-        return np.eye(width)[:, own]
+    columns = hypothesis.at.board.columns(hypothesis.effects)
+    width = len(hypothesis.at.unknowns)
+    if not hypothesis.at.effects:
+        return np.eye(width)[:, columns]
     drawn = np.zeros((width, 1))
-    drawn[own, 0] = one.at.unknowns[own]
+    drawn[columns, 0] = hypothesis.at.unknowns[columns]
     return drawn
 
 
@@ -67,19 +70,20 @@ def _fitted(board: Board, effects: Sequence[str]) -> Array:
 
 
 def apart(slopes: Array, drawn: Array, fitted: Array) -> float:
-    """lambda of what is drawn beside the fitted columns, both by these whitened slopes."""
+    """lambda of what is drawn beyond the fitted columns, both by these whitened slopes."""
     both = np.hstack([slopes[:, fitted], slopes @ drawn])
     return float(_schur((both.T @ both)[np.newaxis], drawn.shape[1])[0])
 
 
 def _schur(gram: Array, last: int) -> Array:
-    """Trace of what is left of the last columns beside the first, of Gram matrices (v, p, p)."""
+    """Trace of what is left of the last columns beyond the first, of Gram matrices (v, p, p)."""
     first = gram.shape[1] - last
     fitted, mixed = gram[:, :first, :first], gram[:, :first, first:]
     size = np.trace(fitted, axis1=1, axis2=2)[:, np.newaxis, np.newaxis]
     solved = np.linalg.solve(fitted + _RIDGE * size * np.eye(first), mixed)
     taken = np.einsum("vpd,vpd->v", mixed, solved)
-    return np.maximum(np.trace(gram[:, first:, first:], axis1=1, axis2=2) - taken, 0.0)
+    left: Array = np.maximum(np.trace(gram[:, first:, first:], axis1=1, axis2=2) - taken, 0.0)
+    return left
 
 
 class Chooser:
@@ -92,8 +96,8 @@ class Chooser:
         self._start, self._each = [], []
         for pair in self._pairs:
             now = np.hstack([pair.at.slopes[:, pair.fitted], pair.at.slopes @ pair.drawn])
-            own = slopes[id(pair.at)]
-            more = np.concatenate([own[:, :, pair.fitted], own @ pair.drawn], axis=2)
+            of_visits = slopes[id(pair.at)]
+            more = np.concatenate([of_visits[:, :, pair.fitted], of_visits @ pair.drawn], axis=2)
             self._start.append(now.T @ now)
             self._each.append(np.einsum("vkp,vkq->vpq", more, more))
 
@@ -103,19 +107,20 @@ class Chooser:
         return float(self._worths(list(chosen), none)[0])
 
     def best(self, allowed: Sequence[int], count: int) -> list[int]:
-        """So many visits of those allowed, none twice: one after the other, then each exchanged
+        """A number of visits of those allowed, none twice: one after the other, then each replaced
         once."""
-        options, chosen = np.array(allowed, dtype=int), []
+        options = np.array(allowed, dtype=int)
+        chosen: list[int] = []
         for _ in range(count):
-            chosen.append(self._best_beside(chosen, options))
+            chosen.append(self._best_with(chosen, options))
         for i in range(count):
             others = chosen[:i] + chosen[i + 1 :]
-            other = self._best_beside(others, options)
+            other = self._best_with(others, options)
             if self.worth([*others, other]) > self.worth(chosen) + 1e-9:
                 chosen = [*others, other]
         return chosen
 
-    def _best_beside(self, chosen: list[int], options: Array) -> int:
+    def _best_with(self, chosen: list[int], options: Array) -> int:
         left = options[~np.isin(options, chosen)]
         return int(left[np.argmax(self._worths(chosen, left))])
 

@@ -11,8 +11,8 @@ from plumb.diagnose.explanation import Explanation
 from plumb.diagnose.slip_cause import Slip
 from plumb.plan.case import Case
 from plumb.plan.options import MARK, READING, ROUND, Option, spots
+from plumb.plan.planned_visits import Visits, joined, nowhere, sent
 from plumb.plan.sites import usable
-from plumb.plan.visits import Visits, joined, nowhere, sent
 
 Array = np.ndarray
 SURE = 3.0  # deviations by which a second reading shows that the first was wrong
@@ -23,16 +23,16 @@ READ_AGAIN = 3
 
 def for_slips(case: Case, slips: Sequence[Slip]) -> list[tuple[Option, float]]:
     """Reading those marks or distances again, with the chance that it shows the slip."""
-    found = []
+    offered = []
     for slip in slips:
         # Two readings with the same noise differ by its square root of two.
         chance = 0.5 * (1 + erf((slip.length / (sqrt(2) * case.noise.sigma) - SURE) / sqrt(2)))
         what = slip.name if slip.name in case.board.rows.names else f"the distance {slip.name}"
         do = f"Read {what} again with a newly laid tape, before anything else."
-        found.append(
+        offered.append(
             (Option("reread", f"{slip.name} again", (do,), 2.0, _old(case, slip.name)), chance)
         )
-    return found
+    return offered
 
 
 def near_the_worst(case: Case) -> list[Option]:
@@ -40,7 +40,7 @@ def near_the_worst(case: Case) -> list[Option]:
     rows = case.board.rows
     best = min(
         [case.frame, *case.singles.values()],
-        key=lambda one: one.cost + 2 * len(case.board.columns(one.effects)),
+        key=lambda explanation: explanation.cost + 2 * len(case.board.columns(explanation.effects)),
     )
     if not len(rows.measured):
         return [_worst_distances(case, best)]
@@ -54,7 +54,7 @@ def near_the_worst(case: Case) -> list[Option]:
     near = _around(case, list(places.values()))
     names = ", ".join(places)
     again = joined(*[_old(case, name) for name in places for _ in range(READ_AGAIN)])
-    found = [
+    offered = [
         Option(
             "repeats",
             "the worst marks read again",
@@ -69,8 +69,8 @@ def near_the_worst(case: Case) -> list[Option]:
             "is local (a bent frame, a bump in the sheet, a sticking chain) shows itself here."
         )
         minutes = ROUND + MARK * len(near)
-        found.append(Option("near", "marks around the worst places", (do,), minutes, near))
-    return found
+        offered.append(Option("near", "marks around the worst places", (do,), minutes, near))
+    return offered
 
 
 def _worst_distances(case: Case, best: Explanation) -> Option:
@@ -83,7 +83,7 @@ def _worst_distances(case: Case, best: Explanation) -> Option:
 
 
 def _around(case: Case, places: Sequence[Array]) -> Visits:
-    """Two new marks beside each place, on the sheet."""
+    """Two new marks near each place, on the sheet."""
     half = np.array(case.settings.sheet) / 2 - 50.0
     wanted = [
         np.round(np.clip(at + side, -half, half), -1)

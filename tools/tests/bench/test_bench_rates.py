@@ -14,12 +14,12 @@ from plumb.bench.boards import chains_for, cut, plan, raw_field, size_for
 from plumb.bench.causes import CAUSES, MAKER, OUTSIDE, Hidden, causes_of
 from plumb.bench.cure import shape_error
 from plumb.bench.hiding import REAL, SLIP_MM, nothing, raw, slip
+from plumb.bench.judged_board import judge_board
 from plumb.bench.outcome import Outcome, look_alikes
 from plumb.bench.page import page
 from plumb.bench.rates import Line, Rate, rate_of
 from plumb.bench.report import run as run_bench
 from plumb.bench.scenarios import NAMES, SCENARIOS, Scenario
-from plumb.bench.trial import run_one
 from plumb.diagnose import diagnose
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import effect_names
@@ -30,7 +30,7 @@ SEED = 77
 def outcomes(name, boards):
     """What came of the first boards of a scenario."""
     scenario = next(one for one in SCENARIOS if one.name == name)
-    return [run_one(scenario, index, seed=SEED).outcome for index in range(boards)]
+    return [judge_board(scenario, index, seed=SEED).outcome for index in range(boards)]
 
 
 def value(rate, of):
@@ -87,7 +87,7 @@ def test_two_effects_are_both_named():
 
 def test_what_is_added_brings_the_sled_near_to_the_known_truth():
     scenario = next(one for one in SCENARIOS if one.name == "one-25")
-    cures = [run_one(scenario, index, seed=SEED).cure for index in range(10)]
+    cures = [judge_board(scenario, index, seed=SEED).cure for index in range(10)]
     before, frame, after, known = (
         np.mean([getattr(one, part) for one in cures])
         for part in ("before", "frame", "after", "known")

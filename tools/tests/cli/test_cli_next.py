@@ -5,7 +5,7 @@ import pytest
 from plumb.cure.demo import MARKS, SETTINGS
 from plumb.marks.read import read_plan
 from plumb.plan.plan_marks import marks_file
-from plumb.plan.visits import sent
+from plumb.plan.planned_visits import sent
 from plumb.settings.files import write_machine_toml
 from synthetic import BELIEVED, EFFECTS, TRUE, grid, marks_on
 

@@ -65,7 +65,7 @@ def test_a_choice_is_said_to_be_one_with_what_would_settle_it():
     few = plan(3, 3)
     size = size_for("frame_flex", few, 3.0)
     result = add_auto(Inputs(MAKER, board({"frame_flex": size}, few, seed=2)))
-    assert result.found.verdict == "cannot_tell" and result.rivals and result.done
+    assert result.diagnosis.verdict == "cannot_tell" and result.rivals and result.done
     assert result.reason.startswith("a choice: ") and "plumb next" in result.reason
     open_ones = {*result.chosen}.union(*result.rivals)
     told = [one.partition(":")[0] for one in result.settled_by]
@@ -95,7 +95,7 @@ def test_a_mark_that_is_not_there_cannot_be_left_out():
 
 def test_what_is_not_in_the_library_is_left_alone():
     result = add_auto(Inputs(MAKER, board({}, WIDE, seed=8, bump=3.0)))
-    assert result.found.verdict == "not_in_library"
+    assert result.diagnosis.verdict == "not_in_library"
     assert not result.done and "not all that the marks show is in the library" in result.reason
     own = result.addition
     assert own.effects_added == result.chosen
@@ -105,7 +105,7 @@ def test_what_is_not_in_the_library_is_left_alone():
 def test_a_known_effect_is_not_left_out_because_another_is_unknown():
     size = size_for("chain_plane", WIDE, 6.0)
     result = add_auto(Inputs(MAKER, board({"chain_plane": size}, WIDE, seed=12, bump=2.0)))
-    assert result.found.verdict == "not_in_library" and not result.done
+    assert result.diagnosis.verdict == "not_in_library" and not result.done
     assert "chain_plane" in result.chosen
     assert result.addition.after.left_out_rms < 0.7 * result.addition.before.left_out_rms
 
@@ -123,7 +123,9 @@ def test_a_tape_that_reads_long_is_fitted_along_and_its_remedy_told():
 def test_impossible_sizes_are_never_added_by_themselves():
     stock = read_settings(SETTINGS)
     result = add_auto(Inputs(stock, read_marks(MARKS, sheet=stock.sheet)))
-    assert result.found.explanations and not any(one.possible for one in result.found.explanations)
+    assert result.diagnosis.explanations and not any(
+        one.possible for one in result.diagnosis.explanations
+    )
     assert result.chosen == () and not result.done
     assert "no real machine has" in result.reason
 

@@ -65,7 +65,7 @@ def test_where_nothing_is_left_it_buys_nothing_and_is_not_added():
 def test_auto_offers_it_and_adds_it_only_when_asked():
     strange = board({}, plan(5, 5), seed=8, bump=3.0)
     offered = add_auto(Inputs(MAKER, strange))
-    assert offered.found.verdict == "not_in_library"
+    assert offered.diagnosis.verdict == "not_in_library"
     assert offered.offer[1] < 0.8 * offered.offer[0]
     assert PATCH not in offered.addition.effects_added
     taken = add_auto(Inputs(MAKER, strange), patch=True)

@@ -15,13 +15,13 @@ from plumb.model.predict import FOUND, lengths
 from plumb.plan import propose
 from plumb.plan.ahead import Check, ahead
 from plumb.plan.case import case_of
-from plumb.plan.chance import Rediagnosis, outlook
-from plumb.plan.checks import FRAME_CHECKS, effect_checks
-from plumb.plan.options import BESIDE, many_marks, options
+from plumb.plan.direct_checks import FRAME_CHECKS, effect_checks
+from plumb.plan.options import ROOM_FOR_A_SECOND, many_marks, options
+from plumb.plan.outlook import Rediagnosis, outlook
+from plumb.plan.owner import blind, cost, proposed
+from plumb.plan.planned_visits import nowhere, sent
 from plumb.plan.separation import ENOUGH, Chooser, apart, drawn_by
 from plumb.plan.sites import usable
-from plumb.plan.trial import blind, cost, proposed
-from plumb.plan.visits import nowhere, sent
 from synthetic import BELIEVED, distances_between, grid, marks_on
 
 NINE = plan(3, 3)
@@ -82,7 +82,7 @@ def test_new_marks_lie_where_the_sled_can_go_and_not_in_old_holes(pitch):
         if option.kind == "repeats" or not len(visits):
             continue
         gaps = np.linalg.norm(visits.targets[:, np.newaxis] - NINE.targets, axis=2)
-        assert gaps.min() >= BESIDE
+        assert gaps.min() >= ROOM_FOR_A_SECOND
         assert (np.abs(visits.targets) <= np.array(MAKER.sheet) / 2).all()
         for weight in np.unique(visits.sled_weights):
             own = visits.sled_weights == weight

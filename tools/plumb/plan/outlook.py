@@ -21,7 +21,7 @@ from plumb.diagnose.noise_sources import FEW_REPEATS, repeats_of
 from plumb.diagnose.significance import surprises, tail
 from plumb.plan.ahead import Ahead, Check, ahead
 from plumb.plan.case import Case, Hypothesis
-from plumb.plan.visits import Visits
+from plumb.plan.planned_visits import Visits
 
 Array = np.ndarray
 DRAWS = 240  # of all hypotheses together: a chance is then right to about 3 in 100
@@ -51,15 +51,19 @@ def outlook(
     noise = noise_after(case, visits)
     tests: dict[int, Rediagnosis] = {}
     settled = left = 0.0
-    for number, one in enumerate(case.hypotheses):
-        if id(one.at) not in tests:
+    for number, hypothesis in enumerate(case.hypotheses):
+        if id(hypothesis.at) not in tests:
             twin = next(iter(tests.values()), None)
-            tests[id(one.at)] = Rediagnosis(case, ahead(one.at, visits, checks), noise, twin)
+            tests[id(hypothesis.at)] = Rediagnosis(
+                case, ahead(hypothesis.at, visits, checks), noise, twin
+            )
         source = np.random.default_rng([SEED, number])
-        boards = tests[id(one.at)].boards(one, source, max(FEWEST, round(draws * one.weight)))
-        right, count = tests[id(one.at)].judged(one, boards, alone=alone)
-        settled += one.weight * right
-        left += one.weight * count
+        boards = tests[id(hypothesis.at)].boards(
+            hypothesis, source, max(FEWEST, round(draws * hypothesis.weight))
+        )
+        right, count = tests[id(hypothesis.at)].judged(hypothesis, boards, alone=alone)
+        settled += hypothesis.weight * right
+        left += hypothesis.weight * count
     return Outlook(float(settled), float(left) if alone else None)
 
 
@@ -74,15 +78,23 @@ class Rediagnosis:
         self.frame = span(rows.slopes[:, board.frame])
         self.nothing = len(board.effect_columns)  # explanations left where nothing is proved
         self.columns = {name: board.columns([name]) for name in board.effect_columns}
-        self.felt = [name for name, own in self.columns.items() if rows.slopes[:, own].any()]
-        several = [one.effects for one in case.hypotheses if len(one.effects) > 1]
+        self.felt = [
+            name for name, columns in self.columns.items() if rows.slopes[:, columns].any()
+        ]
+        several = [
+            hypothesis.effects for hypothesis in case.hypotheses if len(hypothesis.effects) > 1
+        ]
         self.names = [*((name,) for name in self.felt), *several]
-        self.names += [one.effects for one in case.hypotheses if one.effects not in self.names]
-        # Beside an explanation it is lower by so little that the chances stay the same.
-        self.limit = twin.limit if twin else self._limit()
+        self.names += [
+            hypothesis.effects
+            for hypothesis in case.hypotheses
+            if hypothesis.effects not in self.names
+        ]
+        # With an explanation fitted it is lower by so little that the chances stay the same.
+        self.limit: float = twin.limit if twin else self._limit()
 
     def _limit(self) -> float:
-        """The surprise that noise hardly exceeds beside the frame."""
+        """The surprise that noise hardly exceeds beyond the frame."""
         bases = {}
         for name in self.felt:
             raw = self.rows.slopes[:, self.board.columns([name])]
@@ -103,15 +115,15 @@ class Rediagnosis:
         stands = self._stands(truth.effects, boards)
         if not alone:
             return float((proved & stands).mean()), float("nan")
-        others = [self._stands(one, boards) for one in self.names if one != truth.effects]
+        others = [self._stands(rival, boards) for rival in self.names if rival != truth.effects]
         counts = stands + np.sum(others, axis=0)
         left = np.where(proved, np.maximum(counts, 1), self.nothing)
         return float((proved & stands & (counts == 1)).mean()), float(left.mean())
 
     def _stands(self, effects: tuple[str, ...], readings: Array) -> Array:
         """Whether nothing is to be added to an explanation, and it fits (count,)."""
-        own = np.concatenate([self.board.frame, self.board.columns(effects)])
-        fitted = span(self.rows.slopes[:, own])
+        columns = np.concatenate([self.board.frame, self.board.columns(effects)])
+        fitted = span(self.rows.slopes[:, columns])
         sample = readings[:, :: max(1, readings.shape[1] // FEWEST)]
         if self._gains(fitted, effects, sample)[0].min() > self.limit + HOPELESS:
             return np.zeros(readings.shape[1], dtype=bool)
@@ -126,23 +138,28 @@ class Rediagnosis:
             spare, squares = spare - self.noise.degrees, squares - self.noise.degrees
         if spare < 0.5 or not self.noise.testable:
             return np.ones(left.shape[1])
-        return tail(squares, spare, self.noise.degrees)
+        chances: Array = np.asarray(tail(squares, spare, self.noise.degrees))
+        return chances
 
-    def _gains(self, fitted: Array, effects: tuple[str, ...], readings: Array) -> tuple:
+    def _gains(
+        self, fitted: Array, effects: tuple[str, ...], readings: Array
+    ) -> tuple[Array, Array]:
         """The largest surprise of any other effect (count,), and what the fit leaves."""
         left = readings - fitted @ (fitted.T @ readings)
         slopes = self.rows.slopes
-        beside = slopes - fitted @ (fitted.T @ slopes)
-        gram, along = beside.T @ beside, beside.T @ left
+        beyond = slopes - fitted @ (fitted.T @ slopes)
+        gram, along = beyond.T @ beyond, beyond.T @ left
         lengths = np.einsum("ru,ru->u", slopes, slopes)
         # Among effects with as many parameters the largest drop is the largest surprise.
         drops: dict[int, Array] = {}
         for name in self.felt:
             if name in effects:
                 continue
-            own = self.columns[name]
-            own = own[lengths[own] > 0]
-            seen, drop = _drop(gram[np.ix_(own, own)], along[own], np.sqrt(lengths[own]))
+            columns = self.columns[name]
+            columns = columns[lengths[columns] > 0]
+            seen, drop = _drop(
+                gram[np.ix_(columns, columns)], along[columns], np.sqrt(lengths[columns])
+            )
             if seen:
                 drops[seen] = np.maximum(drops.get(seen, 0.0), drop)
         best = np.zeros(readings.shape[1])
@@ -152,7 +169,7 @@ class Rediagnosis:
 
 
 def _drop(gram: Array, along: Array, lengths: Array) -> tuple[int, Array | float]:
-    """How many parameters of an effect are seen beside what is fitted, and the drop of chi-square
+    """How many parameters of an effect are seen beyond what is fitted, and the drop of chi-square
     (count,) that they bring."""
     if len(lengths) == 1:
         if gram[0, 0] <= _TINY * lengths[0] ** 2:

@@ -20,28 +20,28 @@ SEEDS = 1_000_003  # boards of one seed before those of the next
 
 
 @dataclass(frozen=True)
-class Trial:
-    """What came of one board."""
+class JudgedBoard:
+    """What came of a board."""
 
     outcome: Outcome
     cure: Cure | None  # where the sled was measured too
 
 
-def run_one(scenario: Scenario, index: int, *, seed: int) -> Trial:
+def judge_board(scenario: Scenario, index: int, *, seed: int) -> JudgedBoard:
     """Board number `index` of a scenario."""
-    own = scenario.plan
-    hidden = scenario.hide(index, own)
-    # Each scenario has chances of its own, or one odd board would show in all of them.
+    plan = scenario.plan
+    hidden = scenario.hide(index, plan)
+    # Each scenario draws by itself, or one odd board would show in all of them.
     number = SEEDS * seed + crc32(scenario.name.encode()) + index
-    board = cut(hidden, own, seed=number, noise=scenario.noise, tape_sigma=scenario.stated)
+    board = cut(hidden, plan, seed=number, noise=scenario.noise, tape_sigma=scenario.stated)
     slipped: tuple[str, ...] = ()
     if scenario.slip:
         board, slipped = slip(board, scenario.slip, np.random.default_rng(number + 17))
-    found = diagnose(Inputs(MAKER, board.measurements))
+    diagnosis = diagnose(Inputs(MAKER, board.measurements))
     alike: frozenset[str] = frozenset()
     if len(hidden.causes) == 1:
-        alike = look_alikes(*hidden.causes[0], own, scenario.noise)
+        alike = look_alikes(*hidden.causes[0], plan, scenario.noise)
     cure = None
     if scenario.cured:
-        cure = cure_of(board, found.to_add, sigma=found.noise.sigma)
-    return Trial(outcome_of(found, board, alike=alike, slipped=slipped), cure)
+        cure = cure_of(board, diagnosis.to_add, sigma=diagnosis.noise.sigma)
+    return JudgedBoard(outcome_of(diagnosis, board, alike=alike, slipped=slipped), cure)

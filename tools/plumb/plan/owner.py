@@ -1,4 +1,4 @@
-"""A trial of the proposals: an owner who carries out what is proposed, and one who cuts more marks.
+"""Two owners on trial: the first carries out what is proposed, the second just cuts more marks.
 
 The owner is whoever can answer: a made-up machine in the tests and the bench.
 """
@@ -15,8 +15,8 @@ from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names
 from plumb.plan.ahead import Check
 from plumb.plan.options import Option
+from plumb.plan.planned_visits import Visits
 from plumb.plan.proposal import Proposal, propose
-from plumb.plan.visits import Visits
 from plumb.settings.machine import MachineSettings
 
 MEASUREMENTS = 4  # marks and checks together
@@ -33,24 +33,24 @@ class Owner(Protocol):
 
 
 @dataclass(frozen=True)
-class Trial:
+class Measured:
     """How a board was judged, and what was measured for it."""
 
-    found: Diagnosis
+    diagnosis: Diagnosis
     done: tuple[Proposal, ...]
 
     def right(self, effect: str) -> bool:
         """Whether the effect comes first."""
-        return self.found.suspects[:1] == (effect,)
+        return self.diagnosis.suspects[:1] == (effect,)
 
     def settled(self, effect: str) -> bool:
         """Whether the effect alone is left."""
-        return self.found.verdict == "one_suspect" and self.found.suspects == (effect,)
+        return self.diagnosis.verdict == "one_suspect" and self.diagnosis.suspects == (effect,)
 
     @property
     def left(self) -> int:
         """Explanations that stand; every effect where nothing is proved or known."""
-        return len(self.found.explanations) or len(effect_names())
+        return len(self.diagnosis.explanations) or len(effect_names())
 
 
 def cost(option: Option) -> int:
@@ -65,26 +65,28 @@ def proposed(
     *,
     most: int = MEASUREMENTS,
     with_checks: bool = True,
-) -> Trial:
+) -> Measured:
     """The owner carries out the best proposals, one after the other, until the measurements are
     used up; one suspect that is left over early is put to the proof."""
-    visits, checked, done = [first], [], []
+    visits = [first]
+    checked: list[Checked] = []
+    done: list[Proposal] = []
     while True:
         board = owner.measured(*visits)
-        found = diagnose(Inputs(settings, board, checked=checked))
-        room = most - sum(cost(one.option) for one in done)
+        diagnosis = diagnose(Inputs(settings, board, checked=checked))
+        room = most - sum(cost(proposal.option) for proposal in done)
         if not room:
-            return Trial(found, tuple(done))
-        answer = propose(found, Inputs(settings, board, checked=checked))
+            return Measured(diagnosis, tuple(done))
+        answer = propose(diagnosis, Inputs(settings, board, checked=checked))
         fitting = [
-            one
-            for one in answer.proposals
-            if 0 < cost(one.option) <= room
-            and (with_checks or not one.option.checks)
-            and one.option.title not in {own.option.title for own in done}
+            proposal
+            for proposal in answer.proposals
+            if 0 < cost(proposal.option) <= room
+            and (with_checks or not proposal.option.checks)
+            and proposal.option.title not in {earlier.option.title for earlier in done}
         ]
         if not fitting:
-            return Trial(found, tuple(done))
+            return Measured(diagnosis, tuple(done))
         best = fitting[0]
         done.append(best)
         if len(best.option.visits):
@@ -92,6 +94,6 @@ def proposed(
         checked += owner.checked(best.option.checks)
 
 
-def blind(owner: Owner, settings: MachineSettings, first: Visits, more: Visits) -> Trial:
+def blind(owner: Owner, settings: MachineSettings, first: Visits, more: Visits) -> Measured:
     """The owner cuts more marks, wherever."""
-    return Trial(diagnose(Inputs(settings, owner.measured(first, more))), ())
+    return Measured(diagnose(Inputs(settings, owner.measured(first, more))), ())

@@ -31,9 +31,9 @@ class Visits:
 
     def taken(self, indices: Sequence[int]) -> Visits:
         """Some of them, in that order."""
-        own = np.array(indices, dtype=int)
-        names = tuple(self.names[i] for i in own)
-        return Visits(names, *(getattr(self, field.name)[own] for field in fields(self)[1:]))
+        chosen = np.array(indices, dtype=int)
+        names = tuple(self.names[i] for i in chosen)
+        return Visits(names, *(getattr(self, field.name)[chosen] for field in fields(self)[1:]))
 
     def rows(self) -> Observations:
         """The visits as observations whose readings are still zero."""
@@ -58,7 +58,7 @@ class Visits:
 
 def joined(*several: Visits) -> Visits:
     """Visits one after the other."""
-    names = tuple(name for one in several for name in one.names)
+    names = tuple(name for visits in several for name in visits.names)
     rest = [np.concatenate([getattr(v, f.name) for v in several]) for f in fields(Visits)[1:]]
     return Visits(names, *rest)
 
@@ -84,7 +84,7 @@ def sent(
     where = np.array(targets, dtype=float).reshape(-1, 2)
     count = len(where)
     return Visits(
-        names=tuple(names) if names is not None else tuple(place_name(one) for one in where),
+        names=tuple(names) if names is not None else tuple(place_name(target) for target in where),
         targets=where,
         chains=believed_lengths(settings, where, controller=controller),
         sled_weights=np.full(count, float(sled_weight)),

@@ -26,7 +26,11 @@ def effect_checks() -> dict[str, NumberCheck]:
     return {
         effect["name"]: NumberCheck(
             DirectCheck(**effect["check"]),
-            {one["name"]: one["sigma"] for one in effect["parameters"] if one["sigma"]},
+            {
+                parameter["name"]: parameter["sigma"]
+                for parameter in effect["parameters"]
+                if parameter["sigma"]
+            },
         )
         for effect in every_effect()
         if effect["check"]
