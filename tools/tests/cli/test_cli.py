@@ -48,7 +48,7 @@ def test_the_installed_command_runs():
         text=True,
     )
     assert done.returncode == 0 and done.stderr == ""
-    assert [one["name"] for one in json.loads(done.stdout)["effects"]] == list(effect_names())
+    assert [each["name"] for each in json.loads(done.stdout)["effects"]] == list(effect_names())
 
 
 def test_compare_begins_with_its_conclusion(run):
@@ -59,11 +59,11 @@ def test_compare_begins_with_its_conclusion(run):
 
 
 def test_compare_gives_every_key_of_the_interface(ask):
-    code, found = ask("compare", *BOARD)
+    code, answer = ask("compare", *BOARD)
     assert code == 0
-    assert found["rms_mm"] == pytest.approx(7.29, abs=0.02)
-    assert found["worst_mm"] > found["rms_mm"] > found["shape_rms_mm"] > 4
-    mark = found["marks"][1]
+    assert answer["rms_mm"] == pytest.approx(7.29, abs=0.02)
+    assert answer["worst_mm"] > answer["rms_mm"] > answer["shape_rms_mm"] > 4
+    mark = answer["marks"][1]
     assert mark["name"] == "1" and mark["target"] == [0.0, 550.0]
     assert mark["error"] == pytest.approx(np.subtract(mark["measured"], mark["predicted"]))
     assert mark["left_chain_residual"] < 0 and mark["right_chain_residual"] < 0
@@ -75,10 +75,10 @@ def test_compare_of_distances_has_no_shape(ask, file):
         'frame = "machine"\n[[mark]]\nname = "a"\ntarget = [0, 0]\n[[mark]]\nname = "b"\n'
         'target = [500, 0]\n[[distance]]\nbetween = ["a", "b"]\nmm = 501.5\n',
     )
-    code, found = ask("compare", SETTINGS, marks)
-    assert code == 0 and found["marks"] == [] and found["shape_rms_mm"] is None
-    assert found["rms_mm"] == found["distance_rms_mm"] == pytest.approx(1.5, abs=0.01)
-    assert found["distances"][0]["between"] == ["a", "b"]
+    code, answer = ask("compare", SETTINGS, marks)
+    assert code == 0 and answer["marks"] == [] and answer["shape_rms_mm"] is None
+    assert answer["rms_mm"] == answer["distance_rms_mm"] == pytest.approx(1.5, abs=0.01)
+    assert answer["distances"][0]["between"] == ["a", "b"]
 
 
 def test_compare_above_the_limit_is_bad_news(run):
@@ -92,24 +92,24 @@ def test_several_files_of_marks_are_one_board(ask, file):
     _, once = ask("compare", *BOARD)
     _, both = ask("compare", *BOARD, more)
     assert both["marks"][:9] == once["marks"] and len(both["marks"]) == 11
-    assert [one["count"] for one in both["rounds"]] == [9, 2]
+    assert [each["count"] for each in both["rounds"]] == [9, 2]
     assert both["rounds"][0]["rms_mm"] == pytest.approx(once["rms_mm"])
 
 
 def test_add_writes_settings_that_explain_the_marks(ask, tmp_path):
     new, ini = tmp_path / "machine.toml", tmp_path / "new.ini"
-    code, found = ask("add", *BOARD, *EFFECTS, "-o", new, "--groundcontrol", ini)
-    assert code == 0 and found["written"] == [str(new), str(ini)]
-    assert found["effects_added"] == ["chain_pitch", "chain_sag"]
-    assert found["raw"]["rms_mm"] > found["before"]["fit_rms_mm"] > found["after"]["fit_rms_mm"]
-    assert found["after"]["fit_rms_mm"] < found["after"]["priced_rms_mm"] < 0.9
-    sag = found["parameters"][-1]
+    code, answer = ask("add", *BOARD, *EFFECTS, "-o", new, "--groundcontrol", ini)
+    assert code == 0 and answer["written"] == [str(new), str(ini)]
+    assert answer["effects_added"] == ["chain_pitch", "chain_sag"]
+    assert answer["raw"]["rms_mm"] > answer["before"]["fit_rms_mm"] > answer["after"]["fit_rms_mm"]
+    assert answer["after"]["fit_rms_mm"] < answer["after"]["priced_rms_mm"] < 0.9
+    sag = answer["parameters"][-1]
     assert sag["name"] == "chain_sag.weight_ratio_squared" and sag["unit"] == "1/mm^2"
     assert sag["low"] < sag["value"] < sag["high"] < 0 and sag["plausible"] is False
-    assert any("off the middle" in line for line in found["unsaid"])
+    assert any("off the middle" in line for line in answer["unsaid"])
     _, again = ask("compare", new, MARKS, "--cut-with", SETTINGS)
     # All but the sheet's rotation is in the settings.
-    assert again["shape_rms_mm"] == pytest.approx(found["after"]["shape_rms_mm"], abs=1e-3)
+    assert again["shape_rms_mm"] == pytest.approx(answer["after"]["shape_rms_mm"], abs=1e-3)
     assert again["rms_mm"] < 0.75
     _, published = ask("compare", ini, MARKS, "--cut-with", SETTINGS)
     assert published["shape_rms_mm"] < 0.9
@@ -119,7 +119,9 @@ def test_add_keeps_every_key_of_the_ini_that_it_does_not_change(run, tmp_path):
     ini = tmp_path / "new.ini"
     assert run("add", *BOARD, *EFFECTS, "--groundcontrol", ini)[0] == 0
     old, new = SETTINGS.read_text().splitlines(), ini.read_text().splitlines()
-    changed = {line.split(" = ")[0] for line, own in zip(old, new, strict=True) if line != own}
+    changed = {
+        line.split(" = ")[0] for line, new_line in zip(old, new, strict=True) if line != new_line
+    }
     assert changed == {
         "motorspacingx",
         "motoroffsety",
@@ -150,16 +152,16 @@ def test_add_of_an_effect_that_does_not_pay_is_bad_news(run, tmp_path):
 
 
 def test_add_holds_what_a_prior_says(ask):
-    _, found = ask("add", *BOARD, *EFFECTS, "--prior", "motor_gap=0", "--sigma", "0.8")
-    assert found["frame"]["motor_gap"] == 2978.4 and found["sigma_mm"] == 0.8
-    assert "motor_gap" not in [one["name"] for one in found["parameters"]]
+    _, answer = ask("add", *BOARD, *EFFECTS, "--prior", "motor_gap=0", "--sigma", "0.8")
+    assert answer["frame"]["motor_gap"] == 2978.4 and answer["sigma_mm"] == 0.8
+    assert "motor_gap" not in [each["name"] for each in answer["parameters"]]
 
 
 def test_inverse_of_an_ini_is_what_the_published_controller_paid_out(ask, file):
     points = file("points.csv", "x,y\n0,0\n1150,-550\n")
-    code, found = ask("inverse", SETTINGS, "--points", points)
-    assert code == 0 and found["found"] == ["yes", "yes"] and found["controller"] == "stock"
-    left, right = found["lengths"][0]
+    code, answer = ask("inverse", SETTINGS, "--points", points)
+    assert code == 0 and answer["found"] == ["yes", "yes"] and answer["controller"] == "stock"
+    left, right = answer["lengths"][0]
     # By hand: distance 1835.262, angle 0.62970 rad, wrap 6.364, straight 1835.234, less 139.1.
     assert left == pytest.approx(right) == pytest.approx(1702.498, abs=0.001)
 
@@ -168,9 +170,9 @@ def test_inverse_and_forward_of_our_model_undo_each_other(ask, file, tmp_path):
     machine = tmp_path / "machine.toml"
     write_machine_toml(machine, TRUE)
     points = file("points.csv", "0,0\n1150,-550\n-900,400\n")
-    code, found = ask("inverse", machine, "--points", points)
-    assert code == 0 and found["controller"] == "plumb"
-    pairs = "\n".join(f"{left!r},{right!r}" for left, right in found["lengths"])
+    code, answer = ask("inverse", machine, "--points", points)
+    assert code == 0 and answer["controller"] == "plumb"
+    pairs = "\n".join(f"{left!r},{right!r}" for left, right in answer["lengths"])
     chains = file("chains.csv", f"left,right\n{pairs}\n")
     code, back = ask("forward", machine, "--lengths", chains)
     assert code == 0 and back["found"] == ["yes"] * 3
@@ -192,22 +194,22 @@ def test_inverse_by_the_board_s_arithmetic_differs_a_little(ask, file):
 
 def test_a_place_out_of_reach_is_null_and_bad_news(ask, run, file):
     points = file("points.csv", "0,0\n0,5000\n")
-    code, found = ask("inverse", SETTINGS, "--points", points, "--controller", "plumb")
-    assert code == 1 and found["lengths"][1] is None and found["found"] == ["yes", "out of reach"]
+    code, answer = ask("inverse", SETTINGS, "--points", points, "--controller", "plumb")
+    assert code == 1 and answer["lengths"][1] is None and answer["found"] == ["yes", "out of reach"]
     code, said, _ = run("inverse", SETTINGS, "--points", points, "--controller", "plumb")
     assert code == 1 and said.startswith("1 of 2 places found") and "out of reach" in said
 
 
 def test_lengths_that_lead_nowhere_are_null_and_bad_news(ask, file):
-    code, found = ask("forward", SETTINGS, "--lengths", file("l.csv", "1000,1000\n1700,1700\n"))
-    assert code == 1 and found["places"][0] is None and found["found"][1] == "yes"
-    assert found["places"][1] == pytest.approx([0, 4.1], abs=0.5)
+    code, answer = ask("forward", SETTINGS, "--lengths", file("l.csv", "1000,1000\n1700,1700\n"))
+    assert code == 1 and answer["places"][0] is None and answer["found"][1] == "yes"
+    assert answer["places"][1] == pytest.approx([0, 4.1], abs=0.5)
 
 
 def test_places_off_the_sheet_are_moved_to_its_edge_and_that_is_said(ask, run, file):
     points = file("points.csv", "9000,0\n0,0\n")
-    _, found = ask("inverse", SETTINGS, "--points", points)
-    assert found["moved_to_edge"] == [True, False]
+    _, answer = ask("inverse", SETTINGS, "--points", points)
+    assert answer["moved_to_edge"] == [True, False]
     assert "1 off the sheet" in run("inverse", SETTINGS, "--points", points)[1]
 
 
@@ -221,18 +223,18 @@ def test_effects_names_every_effect_with_its_look_alikes(run):
 def test_effects_marks_those_of_the_lab(run, ask):
     said = run("effects")[1]
     assert "tape_scale (lab)" in said and "chain_sag (lab)" not in said
-    lab = [one for one in ask("effects")[1]["effects"] if one["where"] == "lab"]
-    assert [one["name"] for one in lab] == ["sled_friction", "sheet_skew", "tape_scale"]
-    assert all(own["setting"] is None for one in lab for own in one["parameters"])
+    lab = [each for each in ask("effects")[1]["effects"] if each["where"] == "lab"]
+    assert [each["name"] for each in lab] == ["sled_friction", "sheet_skew", "tape_scale"]
+    assert all(each["setting"] is None for effect in lab for each in effect["parameters"])
 
 
 def test_grid_is_the_tool_beside_the_package(run, ask, tmp_path, capsys):
     assert grids.main(["--columns", "3"]) == 0
     assert capsys.readouterr().out == run("grid", "--columns", 3)[1]
     program = tmp_path / "grid.nc"
-    code, found = ask("grid", "--columns", 3, "--rows", 2, "--repeats", 0, "--output", program)
-    assert code == 0 and found["written"] == [str(program)] and found["program"] is None
-    assert [mark["name"] for mark in found["marks"]] == ["1", "2", "3", "6", "5", "4"]
+    code, answer = ask("grid", "--columns", 3, "--rows", 2, "--repeats", 0, "--output", program)
+    assert code == 0 and answer["written"] == [str(program)] and answer["program"] is None
+    assert [mark["name"] for mark in answer["marks"]] == ["1", "2", "3", "6", "5", "4"]
     assert "G21" in program.read_text()
 
 
@@ -258,8 +260,8 @@ def test_a_reader_that_leaves_early_is_no_error():
 
 
 def test_what_is_no_number_is_null():
-    found = plain({"a": float("nan"), "b": [np.float64("inf"), np.int64(3)], "c": np.eye(1)})
-    assert found == {"a": None, "b": [None, 3], "c": [[1.0]]}
+    answer = plain({"a": float("nan"), "b": [np.float64("inf"), np.int64(3)], "c": np.eye(1)})
+    assert answer == {"a": None, "b": [None, 3], "c": [[1.0]]}
 
 
 def test_columns_are_aligned():

@@ -36,15 +36,15 @@ def csv(marks):
 
 
 def test_the_published_marks_get_a_verdict(ask):
-    code, found = ask("diagnose", SETTINGS, MARKS)
-    assert code == int(found["verdict"] in ("slip", "not_in_library"))
-    assert found["verdict"] in VERDICTS and set(found) >= KEYS
-    assert {one["effect"] for one in found["ranking"]} == set(effect_names())
-    for one in found["ranking"]:
-        assert set(one) >= {"gain", "parameters", "rms_after_mm", "hidden_share", "plausible"}
-        for size in one["parameters"]:
+    code, answer = ask("diagnose", SETTINGS, MARKS)
+    assert code == int(answer["verdict"] in ("slip", "not_in_library"))
+    assert answer["verdict"] in VERDICTS and set(answer) >= KEYS
+    assert {each["effect"] for each in answer["ranking"]} == set(effect_names())
+    for each in answer["ranking"]:
+        assert set(each) >= {"gain", "parameters", "rms_after_mm", "hidden_share", "plausible"}
+        for size in each["parameters"]:
             assert set(size) == {"name", "value", "low", "high", "unit", "plausible"}
-    assert found["sigma_from"] == "default" and found["warnings"]
+    assert answer["sigma_from"] == "default" and answer["warnings"]
 
 
 def test_clean_marks_say_so_first(run, file, maker):
@@ -64,18 +64,18 @@ def test_a_slip_is_bad_news(run, ask, file, maker):
     code, said, _ = run("diagnose", maker, path, "--sigma", "0.3")
     assert code == 1 and said.startswith("One reading disagrees with every explanation")
     assert "off to the right" in said
-    code, found = ask("diagnose", maker, path, "--sigma", "0.3")
-    assert code == 1 and found["suspects"] == [] and found["slips"][0]["name"] == "7"
-    assert np.hypot(*found["slips"][0]["offset_mm"]) == pytest.approx(5.1, abs=1.2)
+    code, answer = ask("diagnose", maker, path, "--sigma", "0.3")
+    assert code == 1 and answer["suspects"] == [] and answer["slips"][0]["name"] == "7"
+    assert np.hypot(*answer["slips"][0]["offset_mm"]) == pytest.approx(5.1, abs=1.2)
 
 
 def test_suspects_come_with_size_and_remedy(run, ask, file, maker):
     path = file("m.csv", csv(marks_on(TRUE, BELIEVED, grid(5, 5), noise=0.2, seed=1)))
     code, said, _ = run("diagnose", maker, path, "--sigma", "0.2")
     assert code == 0 and "To be sure" in said and "error falls to" in said
-    code, found = ask("diagnose", maker, path, "--sigma", "0.2")
-    assert found["sigma_mm"] == 0.2 and found["sigma_from"] == "stated"
-    assert set(found["suspects"]) >= {"chain_pitch", "chain_sag"}
+    code, answer = ask("diagnose", maker, path, "--sigma", "0.2")
+    assert answer["sigma_mm"] == 0.2 and answer["sigma_from"] == "stated"
+    assert set(answer["suspects"]) >= {"chain_pitch", "chain_sag"}
 
 
 @pytest.mark.parametrize(

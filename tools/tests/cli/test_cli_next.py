@@ -33,20 +33,20 @@ def csv(file):
 
 
 def test_the_published_marks_get_proposals(ask):
-    code, found = ask("next", SETTINGS, MARKS)
-    assert code == 0 and found["verdict"] == "cannot_tell"
-    for one in found["next"]:
-        assert set(one) >= {"kind", "title", "do", "minutes", "chance", "parts", "marks", "checks"}
-        assert one["minutes"] > 0 and one["do"]
-    assert found["more_marks"]["kind"] == "many"
-    chances = [one["chance"] / (one["minutes"] + 10) for one in found["next"]]
+    code, answer = ask("next", SETTINGS, MARKS)
+    assert code == 0 and answer["verdict"] == "cannot_tell"
+    for each in answer["next"]:
+        assert set(each) >= {"kind", "title", "do", "minutes", "chance", "parts", "marks", "checks"}
+        assert each["minutes"] > 0 and each["do"]
+    assert answer["more_marks"]["kind"] == "many"
+    chances = [each["chance"] / (each["minutes"] + 10) for each in answer["next"]]
     assert chances == sorted(chances, reverse=True)
 
 
 def test_diagnose_carries_the_same_proposals(ask):
-    _, found = ask("diagnose", SETTINGS, MARKS)
-    _, own = ask("next", SETTINGS, MARKS)
-    assert found["next"] == own["next"]
+    _, answer = ask("diagnose", SETTINGS, MARKS)
+    _, command = ask("next", SETTINGS, MARKS)
+    assert answer["next"] == command["next"]
 
 
 def test_people_are_told_what_to_do_first(run):
@@ -61,12 +61,12 @@ def test_people_are_told_what_to_do_first(run):
 def test_a_proposal_is_drawn_and_waits_for_the_tape(run, ask, csv, maker, tmp_path):
     marks = marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.3, seed=2)
     path, picture, form = csv("m.csv", marks), tmp_path / "next.svg", tmp_path / "next.toml"
-    own = ["next", maker, path, "--sigma", "0.3"]
-    code, found = ask(*own, "--picture", picture, "--marks", form)
-    assert code == 0 and found["written"] == [str(picture), str(form)]
+    command = ["next", maker, path, "--sigma", "0.3"]
+    code, answer = ask(*command, "--picture", picture, "--marks", form)
+    assert code == 0 and answer["written"] == [str(picture), str(form)]
     drawn = picture.read_text()
     assert drawn.startswith("<?xml") and "</svg>" in drawn
-    chosen = next(one for one in found["next"] if one["marks"])
+    chosen = next(each for each in answer["next"] if each["marks"])
     text = form.read_text()
     assert text.count(FILL) == len(chosen["marks"])
     # As it is, it waits; with readings it is a file like any other.
@@ -105,20 +105,20 @@ def test_a_form_keeps_place_side_weight_and_swap(file, swapped):
 def test_a_check_enters_both_commands(ask, csv, maker):
     marks = marks_on(TRUE, BELIEVED, grid(5, 3), noise=0.2, seed=2)
     path, size = csv("m.csv", marks), EFFECTS["chain_pitch"]["left"]
-    own = ["diagnose", maker, path, "--sigma", "0.2"]
-    _, before = ask(*own)
-    _, after = ask(*own, "--checked", f"chain_pitch.left={size}+-0.00001")
+    command = ["diagnose", maker, path, "--sigma", "0.2"]
+    _, before = ask(*command)
+    _, after = ask(*command, "--checked", f"chain_pitch.left={size}+-0.00001")
     sizes = [
-        next(one for one in found["ranking"] if one["effect"] == "chain_pitch")["parameters"][0]
-        for found in (before, after)
+        next(each for each in answer["ranking"] if each["effect"] == "chain_pitch")["parameters"][0]
+        for answer in (before, after)
     ]
     assert sizes[1]["high"] - sizes[1]["low"] < 0.2 * (sizes[0]["high"] - sizes[0]["low"])
     assert sizes[1]["value"] == pytest.approx(size, abs=3e-5)
 
 
 def test_what_was_checked_is_not_proposed_again(ask):
-    code, found = ask("next", SETTINGS, MARKS, "--checked", "motor_gap=2978.4±0.5")
-    titles = [one["title"] for one in found["next"]]
+    code, answer = ask("next", SETTINGS, MARKS, "--checked", "motor_gap=2978.4±0.5")
+    titles = [each["title"] for each in answer["next"]]
     assert code == 0 and "the gap between the motors" not in titles
     assert "the height of the motors" in titles
 
@@ -152,18 +152,18 @@ def test_marks_that_were_read_are_never_overwritten(run, csv, maker):
 
 def test_a_grid_is_previewed_before_it_is_cut(ask, run, maker, tmp_path):
     picture = tmp_path / "preview.png"
-    code, found = ask("preview", maker, "--columns", 5, "--rows", 5, "--picture", picture)
+    code, answer = ask("preview", maker, "--columns", 5, "--rows", 5, "--picture", picture)
     assert code == 0 and picture.read_bytes().startswith(b"\x89PNG")
-    cells = np.array(found["snr"])
-    assert cells.shape == (len(found["effects"]),) * 2
+    cells = np.array(answer["snr"])
+    assert cells.shape == (len(answer["effects"]),) * 2
     # Nothing is seen better beside one more effect than without it.
     assert (cells <= np.diag(cells)[:, np.newaxis] * (1 + 1e-3) + 1e-6).all()
-    sag = found["effects"].index("chain_sag")
-    assert cells[sag, sag] > 5 > cells[sag, found["effects"].index("frame_lean")]
-    own = {one["effect"]: one for one in found["outlines"]}
-    assert own["motor_level"]["hidden_share"] > 0.95
-    assert "frame_lean" in own["chain_sag"]["alike"]
-    assert found["additions"][0]["pairs_told_apart"] > found["pairs_told_apart"]
+    sag = answer["effects"].index("chain_sag")
+    assert cells[sag, sag] > 5 > cells[sag, answer["effects"].index("frame_lean")]
+    command = {each["effect"]: each for each in answer["outlines"]}
+    assert command["motor_level"]["hidden_share"] > 0.95
+    assert "frame_lean" in command["chain_sag"]["alike"]
+    assert answer["additions"][0]["pairs_told_apart"] > answer["pairs_told_apart"]
     code, said, _ = run("preview", maker, "--columns", 5, "--rows", 5)
     assert code == 0 and "Best addition" in said and "told apart" in said
     assert max(len(line) for line in said.splitlines()) <= 100
@@ -175,7 +175,7 @@ def test_a_sharper_tape_and_more_marks_tell_more(ask, maker):
     _, more = ask(*wide)
     _, sharp = ask(*wide, "--sigma", 0.2)
     assert nine["pairs_told_apart"] < more["pairs_told_apart"] < sharp["pairs_told_apart"]
-    seen = [[one["smallest"] for one in found["outlines"]] for found in (nine, more, sharp)]
+    seen = [[each["smallest"] for each in answer["outlines"]] for answer in (nine, more, sharp)]
     for a, b, c in zip(*seen, strict=True):
         # The gate of a wider layout is a little higher, so what few marks feel may lose by it.
         assert None in (a, b, c) or (1.1 * a >= b and 1.1 * b >= c)
@@ -184,11 +184,11 @@ def test_a_sharper_tape_and_more_marks_tell_more(ask, maker):
 def test_what_grid_writes_is_a_plan(run, ask, maker, tmp_path):
     form = tmp_path / "marks.toml"
     run("grid", "--columns", 4, "--rows", 3, "--marks", form, "--output", tmp_path / "grid.nc")
-    code, found = ask("preview", maker, form)
+    code, answer = ask("preview", maker, form)
     assert code == 0
     _, grid_itself = ask("preview", maker, "--columns", 4, "--rows", 3)
-    assert found["marks"] == grid_itself["marks"]
-    assert np.allclose(found["snr"], grid_itself["snr"], rtol=1e-2, atol=0.02)
+    assert answer["marks"] == grid_itself["marks"]
+    assert np.allclose(answer["snr"], grid_itself["snr"], rtol=1e-2, atol=0.02)
 
 
 @pytest.mark.parametrize(

@@ -17,26 +17,28 @@ from synthetic import TRUE, grid
 FULL = replace(
     TRUE,
     effects={
-        one["name"]: {own["name"]: own["typical"] for own in one["parameters"]} for one in library()
+        effect["name"]: {each["name"]: each["typical"] for each in effect["parameters"]}
+        for effect in library()
     },
 )
 
 
 @pytest.mark.parametrize("machine", [TRUE, FULL], ids=["three effects", "every effect"])
 def test_the_firmware_reads_the_lines_as_the_machine_that_was_fitted(machine):
-    numbers = {one.number: float(one.text) for one in firmware_numbers(machine)}
+    numbers = {row.number: float(row.text) for row in firmware_numbers(machine)}
     theirs = machine_of(numbers, sheet=machine.sheet)
     places = grid(7, 5)
     ours, _ = lengths(machine, places)
-    own, found = lengths(theirs, places)
-    assert not found.any() and np.abs(ours - own).max() < 0.003
+    paid_out, outcome = lengths(theirs, places)
+    assert not outcome.any() and np.abs(ours - paid_out).max() < 0.003
 
 
 def test_every_effect_has_its_line_and_the_published_corrections_are_zero():
-    lines = {one.number: one.line for one in firmware_numbers(TRUE)}
+    lines = {row.number: row.line for row in firmware_numbers(TRUE)}
     assert lines[37] == "$37=0" and lines[40] == "$40=0" and lines[41] == "$41=0"
     assert lines[180].startswith("$180=0.0021") and lines[181].startswith("$181=0.0008")
-    assert {own["setting"] for one in library() for own in one["parameters"]} <= set(lines)
+    settings = {each["setting"] for effect in library() for each in effect["parameters"]}
+    assert settings <= set(lines)
 
 
 def test_a_size_that_the_firmware_does_not_take_is_refused():
@@ -50,9 +52,9 @@ def test_the_clients_file_disturbs_nothing(tmp_path, capsys):
     machine.write_text(machine_toml(TRUE))
     more = ["--to", "groundcontrol.ini", "--original", str(SETTINGS), "-o", str(new)]
     assert main(["settings", str(machine), *more]) == 0
-    told = read_settings(new)
-    assert told.motor_gap == pytest.approx(TRUE.motor_gap, abs=1e-4)
-    assert told.published.chain_sag_correction == 0.0
+    written = read_settings(new)
+    assert written.motor_gap == pytest.approx(TRUE.motor_gap, abs=1e-4)
+    assert written.published.chain_sag_correction == 0.0
     assert main(["settings", str(machine), "--to", "groundcontrol.ini"]) == 2
     assert "--original" in capsys.readouterr().err
 

@@ -12,26 +12,26 @@ from plumb.settings.files import read_settings
 
 
 @pytest.fixture(scope="module")
-def found():
+def demonstration():
     return demonstrate()
 
 
-def test_the_error_falls_step_by_step_below_the_goal(found):
-    kept = [step.quality.fit_rms for step in found.steps if step.kept]
+def test_the_error_falls_step_by_step_below_the_goal(demonstration):
+    kept = [step.quality.fit_rms for step in demonstration.steps if step.kept]
     assert kept == sorted(kept, reverse=True) and len(kept) == 3
-    assert found.chosen.raw.rms > 7 and kept[-1] < GOAL and found.reached
+    assert demonstration.chosen.raw.rms > 7 and kept[-1] < GOAL and demonstration.reached
 
 
-def test_an_effect_that_does_not_pay_is_tried_and_not_kept(found):
-    last = found.steps[-1]
+def test_an_effect_that_does_not_pay_is_tried_and_not_kept(demonstration):
+    last = demonstration.steps[-1]
     assert last.name == "+ chain_stretch" and not last.kept
-    assert last.quality.left_out_rms > found.chosen.after.left_out_rms
-    assert found.chosen.effects_added == ("chain_pitch", "chain_sag")
+    assert last.quality.left_out_rms > demonstration.chosen.after.left_out_rms
+    assert demonstration.chosen.effects_added == ("chain_pitch", "chain_sag")
 
 
-def test_the_other_sign_of_y_is_worse_and_told(found):
-    assert found.flipped.after.fit_rms == pytest.approx(1.19, abs=0.02)
-    assert "1.19 mm RMS" in as_text(found)
+def test_the_other_sign_of_y_is_worse_and_told(demonstration):
+    assert demonstration.flipped.after.fit_rms == pytest.approx(1.19, abs=0.02)
+    assert "1.19 mm RMS" in as_text(demonstration)
 
 
 def test_flipping_turns_errors_in_y_round_and_nothing_else():
@@ -41,8 +41,8 @@ def test_flipping_turns_errors_in_y_round_and_nothing_else():
     assert flipped.marks[1] == board.marks[1]
 
 
-def test_what_is_doubtful_is_said(found):
-    said = " ".join(as_text(found).split())
+def test_what_is_doubtful_is_said(demonstration):
+    said = " ".join(as_text(demonstration).split())
     for words in ("settings are assumed", "sign of y is doubtful", "NEGATIVE", "NOT kept"):
         assert words in said
 
@@ -61,8 +61,10 @@ def test_the_command_writes_what_it_says_and_ends_with_the_fall(tmp_path, capsys
     assert for_published.motor_gap == pytest.approx(new.motor_gap, abs=1e-4)
 
 
-def test_the_command_fails_when_the_error_does_not_fall(tmp_path, capsys, monkeypatch, found):
-    worse = replace(found, chosen=found.flipped)
+def test_the_command_fails_when_the_error_does_not_fall(
+    tmp_path, capsys, monkeypatch, demonstration
+):
+    worse = replace(demonstration, chosen=demonstration.flipped)
     monkeypatch.setattr("plumb.cli.demo.demonstrate", lambda: worse)
     assert main(["--folder", str(tmp_path)]) == 1
     assert "not below 0.9" in capsys.readouterr().out.splitlines()[-1]

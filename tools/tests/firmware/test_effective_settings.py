@@ -24,8 +24,8 @@ def both(numbers):
         controller="stock",
         published=PublishedSettings(numbers.get(37, 0), numbers.get(40, 0), numbers.get(41, 0)),
     )
-    ours, found = lengths(machine_of({7: 2, **numbers}, sheet=SHEET), POINTS)
-    assert (found == FOUND).all()
+    ours, outcome = lengths(machine_of({7: 2, **numbers}, sheet=SHEET), POINTS)
+    assert (outcome == FOUND).all()
     return chain_lengths(stock, POINTS), ours
 
 

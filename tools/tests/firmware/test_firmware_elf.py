@@ -48,17 +48,19 @@ def figures(done: subprocess.CompletedProcess) -> dict[str, float]:
 
 
 def static_ram() -> int:
-    told = subprocess.run(["avr-size", "-A", ELF], capture_output=True, text=True, check=True)
-    rows = [line.split() for line in told.stdout.splitlines() if line.startswith((".data", ".bss"))]
+    counted = subprocess.run(["avr-size", "-A", ELF], capture_output=True, text=True, check=True)
+    rows = [
+        line.split() for line in counted.stdout.splitlines() if line.startswith((".data", ".bss"))
+    ]
     return sum(int(row[1]) for row in rows)
 
 
 def test_it_boots_keeps_a_setting_over_a_reset_and_moves_its_motors(player):
-    told = figures(play(player, DIALOGUES, "smoke.nc"))
+    counted = figures(play(player, DIALOGUES, "smoke.nc"))
     # A client gives up after two seconds, of which the bootloader takes one.
-    assert 0 < told["first_line_ms"] < 500
+    assert 0 < counted["first_line_ms"] < 500
     # Static RAM and the deepest stack leave a kilobyte that nobody has ever touched.
-    assert static_ram() + told["stack"] < RAM - 1024
+    assert static_ram() + counted["stack"] < RAM - 1024
 
 
 @pytest.fixture(scope="module")
@@ -75,10 +77,10 @@ def test_the_simulated_mega_keeps_masked_interrupts_and_pulled_pins():
     sources = [VM / "check_board.cpp", VM / "virtual_board.cpp"]
     subprocess.run(["g++", *STRICT, *sources, "-lsimavr", "-lelf", "-o", check], check=True)
     done = subprocess.run([check, elf], capture_output=True, text=True, timeout=60)
-    told = figures(done)
-    assert told["masked"] == 10  # an interrupt waits behind its mask
-    assert told["taken_back"] == 0  # unless its flag is cleared
-    assert told["edges_low"] == 0  # writing to a port moves no pin that is held from outside
+    counted = figures(done)
+    assert counted["masked"] == 10  # an interrupt waits behind its mask
+    assert counted["taken_back"] == 0  # unless its flag is cleared
+    assert counted["edges_low"] == 0  # writing to a port moves no pin that is held from outside
 
 
 def test_sum_product_and_quotient_are_those_of_avr_libc_and_faster():
@@ -89,11 +91,11 @@ def test_sum_product_and_quotient_are_those_of_avr_libc_and_faster():
     board = [VM / "check_board.cpp", VM / "virtual_board.cpp"]
     subprocess.run(["g++", *STRICT, *board, "-lsimavr", "-lelf", "-o", check], check=True)
     done = subprocess.run([check, elf, "16000"], capture_output=True, text=True, timeout=400)
-    told = figures(done)
-    assert [told[name] for name in ("products", "sums", "differences", "quotients")] == [0] * 4
-    assert told["product_cycles"] < 0.85 * told["product_cycles_of_libc"]
-    assert told["sum_cycles"] < 0.85 * told["sum_cycles_of_libc"]
-    assert told["quotient_cycles"] < 0.5 * told["quotient_cycles_of_libc"]
+    counted = figures(done)
+    assert [counted[name] for name in ("products", "sums", "differences", "quotients")] == [0] * 4
+    assert counted["product_cycles"] < 0.85 * counted["product_cycles_of_libc"]
+    assert counted["sum_cycles"] < 0.85 * counted["sum_cycles_of_libc"]
+    assert counted["quotient_cycles"] < 0.5 * counted["quotient_cycles_of_libc"]
 
 
 def test_no_control_tick_is_missed_in_motion(hard):
@@ -126,19 +128,19 @@ def test_the_firmware_tells_how_it_is_doing(hard):
 
 
 def test_short_moves_are_taken_as_fast_as_a_streaming_sender_gives_them(player):
-    told = figures(play(player, DIALOGUES, "stream.nc"))
-    assert told["lines_per_second"] >= 180
-    assert told["tick_share_streaming"] <= 0.12
+    counted = figures(play(player, DIALOGUES, "stream.nc"))
+    assert counted["lines_per_second"] >= 180
+    assert counted["tick_share_streaming"] <= 0.12
 
 
 def test_every_effect_at_200_hz_leaves_time_for_short_moves(player):
-    told = figures(play(player, DIALOGUES, "every_effect.nc"))
-    assert told["mm_per_minute"] >= 0.9 * 1000
+    counted = figures(play(player, DIALOGUES, "every_effect.nc"))
+    assert counted["mm_per_minute"] >= 0.9 * 1000
 
 
 def test_the_loop_runs_at_200_hz_if_a_setting_asks_for_it(player):
-    told = figures(play(player, DIALOGUES, "fast_loop.nc"))
-    assert 0.12 < told["tick_share_streaming"] < 0.3
+    counted = figures(play(player, DIALOGUES, "fast_loop.nc"))
+    assert 0.12 < counted["tick_share_streaming"] < 0.3
 
 
 @pytest.mark.parametrize("dialogue", ["hangs.nc", "held.nc", "watchdog.nc", "board.nc"])
@@ -160,9 +162,9 @@ def test_every_shield_is_known_by_its_straps(player):
 def test_places_are_those_of_the_lab(player, tmp_path):
     numbers = [field["usual"] for field in _core.frame()]
     for effect in _core.effects():
-        numbers += [RING.get(one["setting"], 0.0) for one in effect["parameters"]]
-    chains, found = _core.lengths(np.array(numbers), True, np.array(PLACES))
-    assert not found.any()
+        numbers += [RING.get(parameter["setting"], 0.0) for parameter in effect["parameters"]]
+    chains, outcome = _core.lengths(np.array(numbers), True, np.array(PLACES))
+    assert not outcome.any()
     lines = list(BOOT)
     for number, value in RING.items():
         lines += [f"-> ${number}={value}", "<- ok"]

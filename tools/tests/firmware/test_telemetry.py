@@ -35,7 +35,7 @@ def test_a_machine_that_is_well_is_called_well(ask):
 
 
 @pytest.mark.parametrize(
-    ("was", "now", "told"),
+    ("was", "now", "hint"),
     [
         ("error:0.094", "error:1.010", "left chain fell 1.01 mm behind"),
         ("0.074", "1.010", "right chain fell 1.01 mm behind"),
@@ -51,13 +51,13 @@ def test_a_machine_that_is_well_is_called_well(ask):
         ("start:usual", "start:watchdog", "the firmware hung"),
     ],
 )
-def test_each_figure_that_is_off_is_one_warning(ask, was, now, told):
+def test_each_figure_that_is_off_is_one_warning(ask, was, now, hint):
     code, said, _ = ask(WELL.replace(was, now), "--json")
     (warning,) = json.loads(said)["warnings"]
     assert code == 1
-    assert told in warning
+    assert hint in warning
     # What an owner reads is wrapped, and says the same.
-    assert told in " ".join(ask(WELL.replace(was, now))[1].split())
+    assert hint in " ".join(ask(WELL.replace(was, now))[1].split())
 
 
 @pytest.mark.parametrize(
@@ -78,9 +78,9 @@ def test_what_ever_went_wrong_is_told_and_is_no_warning(ask):
     assert code == 0
     assert "2 brown-outs, 0 hangs, 5 low supplies, 1 driver error" in said
     assert "low supply, number 8" in said
-    told = json.loads(ask(WELL, "--json")[1])
-    assert told["events"] == [2, 0, 5, 1]
-    assert (told["last_event"], told["total_events"]) == ("supply", 8)
+    hint = json.loads(ask(WELL, "--json")[1])
+    assert hint["events"] == [2, 0, 5, 1]
+    assert (hint["last_event"], hint["total_events"]) == ("supply", 8)
     nothing = WELL.replace("2,0,5,1", "0,0,0,0").replace("supply,8", "none,0")
     assert "never any" in ask(nothing)[1]
 

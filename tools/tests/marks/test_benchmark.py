@@ -34,8 +34,8 @@ def measured_on(machine):
         where[name] = places(machine, chains)[0][0]
     lines = ['frame = "machine"', "[benchmark]"]
     for name, spans in pattern.SPANS.items():
-        found = [float(np.hypot(*(where[a] - where[b]))) for a, b in spans]
-        lines.append(f"{name} = {[round(one, 2) for one in found]}")
+        measurements = [float(np.hypot(*(where[a] - where[b]))) for a, b in spans]
+        lines.append(f"{name} = {[round(one, 2) for one in measurements]}")
     return "\n".join(lines)
 
 
@@ -43,8 +43,8 @@ def test_the_pattern_is_the_published_one():
     places_of = pattern.targets()
     spans = [
         np.subtract(places_of[b], places_of[a])
-        for own in (pattern.ACROSS_SPANS, pattern.UPWARDS_SPANS)
-        for a, b in own
+        for spans_of in (pattern.ACROSS_SPANS, pattern.UPWARDS_SPANS)
+        for a, b in spans_of
     ]
     assert [abs(one[0]) for one in spans] == [1905] * 3 + [0] * 3
     assert [abs(one[1]) for one in spans] == [0] * 3 + [900] * 3
@@ -88,15 +88,15 @@ def test_the_form_it_writes_can_be_read_once_filled_in(file, tmp_path):
         line = next(one for one in text.splitlines() if one.startswith(f"# {name} ="))
         numbers = [100.0 if len(spans) == 2 else 1905.0 if name == "across" else 900.0] * len(spans)
         text = text.replace(line, f"{name} = {numbers}")
-    found = read_marks(file("filled.toml", text), sheet=SHEET)
-    assert len(found.distances) == 16 and len(found.marks) == 19
-    assert all(mark.approach == (0.0, 40.0) for mark in found.marks)
-    assert str(score_as_cut(found)) == "0.00-0.00"
+    measurements = read_marks(file("filled.toml", text), sheet=SHEET)
+    assert len(measurements.distances) == 16 and len(measurements.marks) == 19
+    assert all(mark.approach == (0.0, 40.0) for mark in measurements.marks)
+    assert str(score_as_cut(measurements)) == "0.00-0.00"
 
 
 def test_the_score_is_that_of_the_published_example(file):
-    found = score_as_cut(read_marks(file("b.toml", PUBLISHED), sheet=SHEET))
-    assert str(found) == "0.50-?" and not found.complete
+    measurements = score_as_cut(read_marks(file("b.toml", PUBLISHED), sheet=SHEET))
+    assert str(measurements) == "0.50-?" and not measurements.complete
 
 
 @pytest.mark.parametrize(
@@ -147,5 +147,5 @@ def test_marks_without_the_test_have_no_score(ask):
 
 
 def test_a_score_names_what_was_not_measured(file):
-    found = read_marks(file("b.toml", PUBLISHED), sheet=SHEET)
-    assert score_of(found, [0.0] * 6).small is None
+    measurements = read_marks(file("b.toml", PUBLISHED), sheet=SHEET)
+    assert score_of(measurements, [0.0] * 6).small is None

@@ -26,14 +26,14 @@ def read(tmp_path, text, name="marks.csv"):
 @pytest.mark.parametrize("ending", ["\n", "\r\n"])
 @pytest.mark.parametrize("start", ["", "\ufeff"])
 def test_all_columns_are_read(tmp_path, ending, start):
-    found = read(tmp_path, start + GOOD.replace("\n", ending))
-    assert found.marks == (
+    measurements = read(tmp_path, start + GOOD.replace("\n", ending))
+    assert measurements.marks == (
         Mark("A, left", (-900.0, 400.0), (-901.5, 402.0), (1.0, 0.0), 110.0, (1500.0, 2500.0)),
         Mark("B", (0.0, 0.0), (0.5, -0.25)),
         Mark("3", (900.0, -400.0), (901.0, -401.0)),
         Mark("3", (900.0, -400.0), (901.5, -401.5)),
     )
-    assert found.repeats == {"3": (2, 3)}
+    assert measurements.repeats == {"3": (2, 3)}
 
 
 HEADER = "target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"

@@ -13,17 +13,17 @@ EXAMPLE = Path(plumb.__file__).parent / "examples" / "mibproj" / "Calibration Me
 
 
 def test_the_example_is_read_into_the_machine_frame():
-    found = read_marks(EXAMPLE, sheet=SHEET)
-    assert [mark.name for mark in found.marks] == [str(i) for i in range(9)]
+    measurements = read_marks(EXAMPLE, sheet=SHEET)
+    assert [mark.name for mark in measurements.marks] == [str(i) for i in range(9)]
     # Mark 0: 69.2 - 1219.2 and 609.6 - 59.6; measured 67 - 1219.2 and 609.6 - 52.
-    assert found.targets[0] == pytest.approx([-1150.0, 550.0])
-    assert found.measured[0] == pytest.approx([-1152.2, 557.6])
-    errors = np.hypot(*(found.measured - found.targets).T)
+    assert measurements.targets[0] == pytest.approx([-1150.0, 550.0])
+    assert measurements.measured[0] == pytest.approx([-1152.2, 557.6])
+    errors = np.hypot(*(measurements.measured - measurements.targets).T)
     # Published summary of this set: 7.29 mm RMS, worst 14.9 mm.
     assert np.sqrt(np.mean(errors**2)) == pytest.approx(7.29, abs=0.005)
     assert errors.max() == pytest.approx(14.95, abs=0.02)
-    assert found.controller is None
-    assert found.source == str(EXAMPLE)
+    assert measurements.controller is None
+    assert measurements.source == str(EXAMPLE)
 
 
 def spoilt(tmp_path, old, new, name="marks.ini"):

@@ -40,39 +40,43 @@ def read(tmp_path, text):
 
 
 def test_all_that_can_be_said_is_read(tmp_path):
-    found = read(tmp_path, GOOD)
-    assert found.marks == (
+    measurements = read(tmp_path, GOOD)
+    assert measurements.marks == (
         # x - 1200 and 600 - y; an approach with y down turns round as well.
         Mark("A", (-1000.0, 500.0), (-998.5, 502.0), (1.0, -2.0), 110.0, (1500.25, 1600.0)),
         Mark("A", (-1000.0, 500.0), (-999.0, 501.5), None, 90.0, None),
         Mark("2", (0.0, 0.0), None, None, 110.0, None),
     )
-    assert found.distances == (Distance(("A", "2"), 1119.5),)
-    assert (found.controller, found.tape_sigma, found.sled_weight) == ("holey", 0.5, 110.0)
-    assert found.repeats == {"A": (0, 1)}
-    assert found.targets.shape == found.measured.shape == (2, 2)
-    assert found.distance_targets.tolist() == [[[-1000.0, 500.0], [0.0, 0.0]]]
-    assert found.distance_lengths.tolist() == [1119.5]
+    assert measurements.distances == (Distance(("A", "2"), 1119.5),)
+    assert (measurements.controller, measurements.tape_sigma, measurements.sled_weight) == (
+        "holey",
+        0.5,
+        110.0,
+    )
+    assert measurements.repeats == {"A": (0, 1)}
+    assert measurements.targets.shape == measurements.measured.shape == (2, 2)
+    assert measurements.distance_targets.tolist() == [[[-1000.0, 500.0], [0.0, 0.0]]]
+    assert measurements.distance_lengths.tolist() == [1119.5]
 
 
 def test_the_machine_frame_is_taken_as_it_is(tmp_path):
-    found = read(
+    measurements = read(
         tmp_path,
         'frame = "machine"\n[[mark]]\ntarget = [5, 6]\nmeasured = [7, 8]\napproach = [0, -1]\n',
     )
-    assert found.marks == (Mark("1", (5.0, 6.0), (7.0, 8.0), (0.0, -1.0)),)
-    assert found.controller is None
+    assert measurements.marks == (Mark("1", (5.0, 6.0), (7.0, 8.0), (0.0, -1.0)),)
+    assert measurements.controller is None
 
 
 def test_distances_alone_are_measurements_too():
     path = Path(__file__).parents[1] / "data" / "madgrizzle_2018-09-02.toml"
-    found = read_marks(path, sheet=(2438.4, 1219.2))
-    assert found.measured.shape == (0, 2)
-    assert len(found.distances) == 16
-    ends = found.distance_targets
+    measurements = read_marks(path, sheet=(2438.4, 1219.2))
+    assert measurements.measured.shape == (0, 2)
+    assert len(measurements.distances) == 16
+    ends = measurements.distance_targets
     meant = ((ends[:, 0] - ends[:, 1]) ** 2).sum(axis=1) ** 0.5
     # Published summary of this set: 2.82 mm RMS, worst 6.6 mm.
-    wrong = found.distance_lengths - meant
+    wrong = measurements.distance_lengths - meant
     assert (wrong**2).mean() ** 0.5 == pytest.approx(2.82, abs=0.005)
     assert abs(wrong).max() == pytest.approx(6.6, abs=0.001)
 

@@ -19,9 +19,9 @@ INI = (
 def test_what_a_file_says_counts_more_than_its_ending(tmp_path, text, ending):
     path = tmp_path / f"marks.{ending}"
     path.write_text(text)
-    found = read_marks(path, sheet=SHEET)
-    assert np.allclose(found.targets, [[1, 2]])
-    assert np.allclose(found.measured, [[3, 4]])
+    measurements = read_marks(path, sheet=SHEET)
+    assert np.allclose(measurements.targets, [[1, 2]])
+    assert np.allclose(measurements.measured, [[3, 4]])
 
 
 @pytest.mark.parametrize(
@@ -53,14 +53,14 @@ A = Mark("A", (0.0, 0.0), (1.0, 1.0), sled_weight=98.0)
 
 
 def test_one_file_joined_is_itself():
-    one = Measurements((A,), source="one.toml")
-    assert join_measurements([one]) is one
+    first = Measurements((A,), source="one.toml")
+    assert join_measurements([first]) is first
 
 
 def test_the_same_name_and_target_is_a_repeat():
-    one = Measurements((A,), controller="stock", sled_weight=98.0, source="one.toml")
-    two = Measurements((A,), tape_sigma=0.5, sled_weight=120.0, source="two.toml")
-    both = join_measurements([one, two])
+    first = Measurements((A,), controller="stock", sled_weight=98.0, source="one.toml")
+    second = Measurements((A,), tape_sigma=0.5, sled_weight=120.0, source="two.toml")
+    both = join_measurements([first, second])
     assert both.repeats == {"A": (0, 1)}
     assert (both.controller, both.tape_sigma, both.sled_weight) == ("stock", 0.5, None)
     assert both.source == "one.toml + two.toml"
@@ -68,17 +68,17 @@ def test_the_same_name_and_target_is_a_repeat():
 
 def test_the_same_name_with_another_target_is_another_mark():
     other = Mark("A", (9.0, 9.0), (9.0, 8.0))
-    two = Measurements(
+    second = Measurements(
         (other, Mark("B", (5.0, 5.0))), (Distance(("A", "B"), 5.7),), source="/tmp/two.toml"
     )
-    both = join_measurements([Measurements((A,), source="one.toml"), two])
+    both = join_measurements([Measurements((A,), source="one.toml"), second])
     assert [mark.name for mark in both.marks] == ["A", "two:A", "two:B"]
     assert both.distances[0].between == ("two:A", "two:B")
     assert both.target_of("two:A") == (9.0, 9.0)
 
 
 def test_contradictions_between_files_are_refused():
-    one = Measurements((A,), controller="stock", source="one.toml")
-    two = Measurements((A,), controller="holey", source="two.toml")
+    first = Measurements((A,), controller="stock", source="one.toml")
+    second = Measurements((A,), controller="holey", source="two.toml")
     with pytest.raises(InputError, match=r"two\.toml: controller is holey here and stock in one"):
-        join_measurements([one, two])
+        join_measurements([first, second])

@@ -50,11 +50,11 @@ PUBLISHED = {
 
 
 def machine(weight=97.9, **changes):
-    own = {
+    matrix = {
         "chain_sag": {"weight_ratio_squared": (CHAIN_WEIGHT / weight) ** 2 / 24},
         "chain_stretch": {"compliance": COMPLIANCE},
     } | changes.pop("effects", {})
-    return replace(BELIEVED, sled_weight=weight, effects=own, **changes)
+    return replace(BELIEVED, sled_weight=weight, effects=matrix, **changes)
 
 
 def giving(settings, points):
@@ -81,24 +81,24 @@ def giving(settings, points):
     ids=["default", "flexible", "wide"],
 )
 def test_it_is_that_of_the_judge_within_a_percent(settings, judged):
-    found = giving(settings, list(judged))
-    for own, (xx, xy, yy) in zip(found, judged.values(), strict=True):
+    compliances = giving(settings, list(judged))
+    for matrix, (xx, xy, yy) in zip(compliances, judged.values(), strict=True):
         expected = np.array([[xx, xy], [xy, yy]])
-        assert own == pytest.approx(expected, abs=0.01 * np.abs(expected).max())
+        assert matrix == pytest.approx(expected, abs=0.01 * np.abs(expected).max())
 
 
 def test_it_is_near_the_published_figures():
-    found = giving(machine(), list(PUBLISHED))
-    for own, expected in zip(found, PUBLISHED.values(), strict=True):
+    compliances = giving(machine(), list(PUBLISHED))
+    for matrix, expected in zip(compliances, PUBLISHED.values(), strict=True):
         # They have two digits, and chains that stretch to first order only.
-        assert np.diag(own) == pytest.approx(expected, rel=0.08, abs=0.0012)
+        assert np.diag(matrix) == pytest.approx(expected, rel=0.08, abs=0.0012)
 
 
 def test_work_is_the_same_either_way():
     # Elastic chains give back what they take: the compliance is symmetric and positive.
-    found = giving(machine(), [(x, y) for x in (-1100, -300, 800) for y in (500, -500)])
-    assert found[:, 0, 1] == pytest.approx(found[:, 1, 0], abs=2e-5)
-    assert (np.linalg.eigvalsh((found + found.transpose(0, 2, 1)) / 2) > 0).all()
+    compliances = giving(machine(), [(x, y) for x in (-1100, -300, 800) for y in (500, -500)])
+    assert compliances[:, 0, 1] == pytest.approx(compliances[:, 1, 0], abs=2e-5)
+    assert (np.linalg.eigvalsh((compliances + compliances.transpose(0, 2, 1)) / 2) > 0).all()
 
 
 def test_mirrored_places_give_mirrored_answers():
@@ -112,5 +112,5 @@ def test_a_sled_on_stiff_weightless_chains_does_not_give():
 
 
 def test_where_no_sled_can_hang_nothing_gives():
-    found = giving(machine(), [(0, 3000), (0, 0)])
-    assert not found[0].any() and found[1].any()
+    compliances = giving(machine(), [(0, 3000), (0, 0)])
+    assert not compliances[0].any() and compliances[1].any()

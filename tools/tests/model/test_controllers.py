@@ -62,8 +62,8 @@ def stock_by_hand(settings, x, y):
 @pytest.mark.parametrize("published", [PublishedSettings(), PublishedSettings(27.4, 0.348, -0.08)])
 def test_stock_agrees_with_a_derivation_by_vectors(feed, published):
     settings = replace(OWNER, feed=feed, published=published)
-    found = chain_lengths(settings, POINTS)
-    for row, (x, y) in zip(found, POINTS, strict=True):
+    lengths = chain_lengths(settings, POINTS)
+    for row, (x, y) in zip(lengths, POINTS, strict=True):
         # The published 3.14159 makes the wrap under the sprocket 0.00003 mm shorter.
         assert row == pytest.approx(stock_by_hand(settings, x, y), abs=4e-5)
 
@@ -91,9 +91,9 @@ def test_tolerance_divides_the_whole_straight_part():
     longer = replace(OWNER, published=PublishedSettings(0.0, 0.2, 0.0))
     straight = math.sqrt(1801.3**2 + 1078.0**2 - RADIUS**2)
     expected = chain_lengths(plain, [(0, 0)])[0, 0] - straight * (1 - 1 / 1.002) - 139.1
-    found = chain_lengths(longer, [(0, 0)])[0]
-    assert found[0] == pytest.approx(expected, abs=1e-9)
-    assert found[1] == pytest.approx(chain_lengths(OWNER, [(0, 0)])[0, 1], abs=1e-12)
+    lengths = chain_lengths(longer, [(0, 0)])[0]
+    assert lengths[0] == pytest.approx(expected, abs=1e-9)
+    assert lengths[1] == pytest.approx(chain_lengths(OWNER, [(0, 0)])[0, 1], abs=1e-12)
 
 
 HOLEY = replace(
@@ -113,7 +113,9 @@ def holey_by_hand(settings, x, y):
             motor_x, settings.motor_height, x, y, settings.feed == "top"
         )
         lines.append((wrapped, abs(x - at_x), at_y - y))
-    weight = published.holey_sled_weight + density / 2 * sum(math.hypot(*one[1:]) for one in lines)
+    weight = published.holey_sled_weight + density / 2 * sum(
+        math.hypot(*line[1:]) for line in lines
+    )
     # Equal horizontal pulls H; H (drop/across left + drop/across right) carries the weight.
     horizontal = weight / sum(drop / across for _, across, drop in lines)
     lengths = []
@@ -134,8 +136,8 @@ def holey_by_hand(settings, x, y):
 @pytest.mark.parametrize("feed", ["top", "bottom"])
 def test_holey_agrees_with_a_catenary_by_its_equation(feed):
     settings = replace(HOLEY, feed=feed)
-    found = chain_lengths(settings, POINTS)
-    for row, (x, y) in zip(found, POINTS, strict=True):
+    lengths = chain_lengths(settings, POINTS)
+    for row, (x, y) in zip(lengths, POINTS, strict=True):
         assert row == pytest.approx(holey_by_hand(settings, x, y), abs=5e-5)
 
 

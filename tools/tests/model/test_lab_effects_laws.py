@@ -16,8 +16,8 @@ from synthetic import BELIEVED, TRUE, grid, marks_on
 
 APPROACHES = ((3.0, 4.0), (-1.0, 0.0), (0.0, 2.0), None)
 EVERY = (*NAMES, SHEET_ROTATION, *LAB_NAMES)
-SIZES = {one["name"]: abs(one["usual"]) or 10.0 for one in frame_words()}
-SIZES |= {name: own["typical"] for name, own in parameter_words().items()}
+SIZES = {parameter["name"]: abs(parameter["usual"]) or 10.0 for parameter in frame_words()}
+SIZES |= {name: slopes["typical"] for name, slopes in parameter_words().items()}
 SIZES[SHEET_ROTATION] = 1.0
 TYPICAL = {name: SIZES[name] for name in LAB_NAMES}
 
@@ -47,7 +47,7 @@ def seen(outside, values=None, names=EVERY):
     )
 
 
-@pytest.mark.parametrize("effect", LAB_EFFECTS, ids=lambda one: one.name)
+@pytest.mark.parametrize("effect", LAB_EFFECTS, ids=lambda parameter: parameter.name)
 class TestEach:
     def test_speaks_as_the_firmware_s_effects_do(self, effect):
         words = effect.words
@@ -63,7 +63,10 @@ class TestEach:
         assert parameter_names(effect.name) == effect.parameter_names
 
     def test_zero_is_plausible_and_so_is_what_is_typical(self, effect):
-        assert all(one.low <= 0 < one.typical < one.high for one in effect.parameters)
+        assert all(
+            parameter.low <= 0 < parameter.typical < parameter.high
+            for parameter in effect.parameters
+        )
 
     def test_zero_means_absent(self, effect):
         without = seen({}, names=())
@@ -79,12 +82,12 @@ class TestEach:
         rows = np.arange(12.0).reshape(6, 2) * 100
         giving = np.random.default_rng(1).uniform(0, 0.1, (6, 2, 2))
         look = Seen(rows, np.tile([0.6, 0.8], (6, 1)), giving)
-        start = np.array([one.typical for one in effect.parameters])
+        start = np.array([parameter.typical for parameter in effect.parameters])
         change = effect.change(start, look)
-        for i, one in enumerate(effect.parameters):
-            step = np.eye(len(start))[i] * one.typical
+        for i, parameter in enumerate(effect.parameters):
+            step = np.eye(len(start))[i] * parameter.typical
             ends = [effect.change(start + sign * step, look).moved for sign in (1, -1)]
-            difference = (ends[0] - ends[1]) / (2 * one.typical)
+            difference = (ends[0] - ends[1]) / (2 * parameter.typical)
             assert change.by_parameter[:, :, i] == pytest.approx(difference, abs=1e-9)
         for i in range(2):
             step = np.eye(2)[i]
@@ -100,7 +103,7 @@ class TestEach:
 def test_the_slopes_of_all_that_is_measured_are_those_of_finite_differences(name):
     outside = TYPICAL | {SHEET_ROTATION: 0.1}
     values = values_of(TRUE)
-    found = seen(outside)
+    sighting = seen(outside)
     # Places come back within 1e-5 mm or so; a longer step hides that, a shorter one bends less.
     step = (1e-2 if "." in name else 1e-3) * SIZES[name]
     ends = []
@@ -115,8 +118,8 @@ def test_the_slopes_of_all_that_is_measured_are_those_of_finite_differences(name
     for which in ("read", "taped"):
         above, below = (getattr(end, which).where for end in ends)
         difference = (above - below) / (2 * step)
-        own = getattr(found, which).slopes[:, :, EVERY.index(name)]
-        assert own == pytest.approx(difference, abs=1e-3 * np.abs(difference).max() + 1e-9)
+        slopes = getattr(sighting, which).slopes[:, :, EVERY.index(name)]
+        assert slopes == pytest.approx(difference, abs=1e-3 * np.abs(difference).max() + 1e-9)
 
 
 def test_what_is_not_asked_for_is_not_worked_out_and_changes_nothing():
@@ -131,7 +134,7 @@ def test_what_is_not_asked_for_is_not_worked_out_and_changes_nothing():
 def test_a_visit_where_no_sled_can_hang_stays_still():
     chains = ROWS.chains.copy()
     chains[0] = 900.0
-    found = sighted(
+    sighting = sighted(
         values_of(TRUE),
         TYPICAL,
         replace(ROWS, chains=chains),
@@ -139,5 +142,5 @@ def test_a_visit_where_no_sled_can_hang_stays_still():
         usual_weight=TRUE.sled_weight,
         names=EVERY,
     )
-    assert found.found[0] != 0 and not found.found[1:].any()
-    assert np.isfinite(found.read.where).all() and np.isfinite(found.read.slopes).all()
+    assert sighting.found[0] != 0 and not sighting.found[1:].any()
+    assert np.isfinite(sighting.read.where).all() and np.isfinite(sighting.read.slopes).all()

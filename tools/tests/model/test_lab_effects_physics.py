@@ -52,7 +52,7 @@ def lag(place, approach, drag=6.6):
 def test_friction_holds_the_sled_back_as_far_as_published(place, axis, published, slack):
     ahead = [0.0, 0.0]
     ahead[axis] = 30.0
-    back = [-one for one in ahead]
+    back = [-part for part in ahead]
     assert lag(place, tuple(ahead))[axis] == pytest.approx(-published, abs=slack)
     assert lag(place, tuple(back))[axis] == pytest.approx(published, abs=slack)
 
@@ -81,18 +81,18 @@ def test_a_heavier_sled_sags_less_and_lags_less():
 
 
 def test_a_tape_that_reads_too_long_gives_larger_numbers():
-    found = seen(TWO, (Distance(("corner", "middle"), 1.0),), tape_scale__strain=0.001)
-    for places in (found.read, found.taped):
+    sighting = seen(TWO, (Distance(("corner", "middle"), 1.0),), tape_scale__strain=0.001)
+    for places in (sighting.read, sighting.taped):
         assert places.where == pytest.approx(np.array([(1001.0, 500.5), (0, 0)]), abs=1e-4)
 
 
 def test_a_skew_sheet_moves_the_top_right_in_readings_and_leaves_distances_alone():
-    found = seen(TWO, (Distance(("corner", "middle"), 1.0),), sheet_skew__angle=0.002)
-    assert found.read.where == pytest.approx(np.array([(1001.0, 500.0), (0, 0)]), abs=1e-4)
-    assert found.taped.where == pytest.approx(np.array([CORNER, (0, 0)]), abs=1e-4)
+    sighting = seen(TWO, (Distance(("corner", "middle"), 1.0),), sheet_skew__angle=0.002)
+    assert sighting.read.where == pytest.approx(np.array([(1001.0, 500.0), (0, 0)]), abs=1e-4)
+    assert sighting.taped.where == pytest.approx(np.array([CORNER, (0, 0)]), abs=1e-4)
 
 
 def test_what_the_edges_say_is_of_the_turned_sheet():
     # A quarter turn: what was to the right is up, and is read too far right.
-    found = seen(TWO, sheet_skew__angle=0.01, **{SHEET_ROTATION: np.pi / 2})
-    assert found.read.where[0] == pytest.approx([-500.0 + 10.0, 1000.0], abs=1e-3)
+    sighting = seen(TWO, sheet_skew__angle=0.01, **{SHEET_ROTATION: np.pi / 2})
+    assert sighting.read.where[0] == pytest.approx([-500.0 + 10.0, 1000.0], abs=1e-3)

@@ -25,7 +25,7 @@ from plumb.settings.machine import PublishedSettings
 from synthetic import BELIEVED, TRUE, grid, marks_on
 
 CHAINS = lengths(TRUE, grid(5, 3))[0]
-SIZES = {one["name"]: abs(one["usual"]) or 10.0 for one in frame_words()}
+SIZES = {number["name"]: abs(number["usual"]) or 10.0 for number in frame_words()}
 SIZES |= {f"{e['name']}.{p['name']}": abs(p["typical"]) for e in library() for p in e["parameters"]}
 
 
@@ -40,13 +40,13 @@ def test_an_effect_without_a_value_is_absent():
 
 
 def test_every_parameter_of_the_library_has_its_place_among_the_values():
-    own = {name for effect in known_effects() for name in parameter_names(effect)}
-    assert own == {name for name in NAMES if "." in name}
+    names = {name for effect in known_effects() for name in parameter_names(effect)}
+    assert names == {name for name in NAMES if "." in name}
 
 
 def test_places_undo_lengths():
-    where, found = places(TRUE, CHAINS)
-    assert (found == FOUND).all()
+    where, outcome = places(TRUE, CHAINS)
+    assert (outcome == FOUND).all()
     assert where == pytest.approx(grid(5, 3), abs=5e-5)
 
 
@@ -61,8 +61,8 @@ def test_the_slope_of_places_is_that_of_finite_differences(name, feed):
     values, over_top = values_of(TRUE), feed == "top"
     chains = lengths(replace(TRUE, feed=feed), grid(5, 3))[0]
     column = NAMES.index(name)
-    _, slopes, found = places_with_slopes(values, over_top=over_top, chains=chains)
-    assert (found == FOUND).all()
+    _, slopes, outcome = places_with_slopes(values, over_top=over_top, chains=chains)
+    assert (outcome == FOUND).all()
     # Places come back within 1e-5 mm or so; a longer step hides that, a shorter one bends less.
     step = (1e-2 if "." in name else 1e-3) * SIZES[name]
     ends = []
@@ -77,10 +77,10 @@ def test_the_slope_of_places_is_that_of_finite_differences(name, feed):
 
 
 def test_a_place_out_of_reach_has_no_slope():
-    _, slopes, found = places_with_slopes(
+    _, slopes, outcome = places_with_slopes(
         values_of(TRUE), over_top=True, chains=np.array([[900.0, 900.0], [1700.0, 1700.0]])
     )
-    assert found[0] != FOUND and found[1] == FOUND
+    assert outcome[0] != FOUND and outcome[1] == FOUND
     assert not slopes[0].any() and slopes[1].any()
 
 

@@ -45,8 +45,8 @@ def machine(tmp_path):
 
 def straight(**changes):
     """The tool's tensions (n, 2) [N] at PLACES."""
-    own = grids.PlainMachine(**changes)
-    return np.array([grids.tensions(own, x, y) for x, y in PLACES])
+    plain = grids.PlainMachine(**changes)
+    return np.array([grids.tensions(plain, x, y) for x, y in PLACES])
 
 
 def test_every_verdict_has_its_place():
@@ -57,8 +57,8 @@ def test_every_verdict_has_its_place():
 
 
 def test_where_nothing_hangs_all_is_zero():
-    found = reach(SOFT, [[0, 1100]])
-    assert not found.tension.any() and not found.compliance.any() and not found.give.any()
+    answer = reach(SOFT, [[0, 1100]])
+    assert not answer.tension.any() and not answer.compliance.any() and not answer.give.any()
 
 
 def test_compliance_is_what_a_changed_load_does_to_the_sled():
@@ -78,11 +78,11 @@ def test_compliance_is_what_a_changed_load_does_to_the_sled():
 
 
 def test_compliance_is_symmetric_and_give_its_larger_root():
-    found = reach(TRUE, PLACES)
-    xx, xy, yy = (found.compliance[:, i, j] for i, j in ((0, 0), (0, 1), (1, 1)))
-    assert (found.compliance[:, 1, 0] == xy).all() and np.abs(xy).max() > 0.05
-    assert found.give**2 - found.give * (xx + yy) + xx * yy - xy**2 == pytest.approx(0, abs=1e-12)
-    assert (found.give >= np.maximum(xx, yy)).all()
+    answer = reach(TRUE, PLACES)
+    xx, xy, yy = (answer.compliance[:, i, j] for i, j in ((0, 0), (0, 1), (1, 1)))
+    assert (answer.compliance[:, 1, 0] == xy).all() and np.abs(xy).max() > 0.05
+    assert answer.give**2 - answer.give * (xx + yy) + xx * yy - xy**2 == pytest.approx(0, abs=1e-12)
+    assert (answer.give >= np.maximum(xx, yy)).all()
 
 
 def test_straight_chains_without_weight_are_the_tools_within_5_percent():
@@ -121,23 +121,23 @@ def test_chains_that_no_setting_makes_soft_are_made_so():
     sag = SOFT.effect("chain_sag", "weight_ratio_squared")
     assert sag == pytest.approx(8.2e-12, rel=0.01)
     assert SOFT.effect("chain_stretch", "compliance") == pytest.approx(5.2e-6)
-    known, told = with_soft_chains(TRUE)
-    assert known == TRUE and told == ()
+    known, assumed = with_soft_chains(TRUE)
+    assert known == TRUE and assumed == ()
     absurd = {**TRUE.effects, "chain_sag": {"weight_ratio_squared": -4e-12}}
-    cured, told = with_soft_chains(replace(TRUE, effects=absurd))
+    cured, assumed = with_soft_chains(replace(TRUE, effects=absurd))
     assert cured.effect("chain_sag", "weight_ratio_squared") == sag
-    assert len(told) == 1 and "97.9 N of sled" in told[0]
+    assert len(assumed) == 1 and "97.9 N of sled" in assumed[0]
 
 
 def test_the_survey_finds_the_lower_corners_of_the_usual_machine():
-    found = survey_sheet(SOFT)
-    assert 0.99 < found.shares["usable"] < 1
-    assert found.slackest.place[1] == found.softest.place[1] == pytest.approx(-609.6)
-    assert abs(found.softest.place[0]) == pytest.approx(1219.2)
-    assert found.tightest.value == pytest.approx(165.14, rel=0.01)  # published
-    assert found.slackest.value == pytest.approx(18.04, rel=0.015)
-    far = {-1: "right", 1: "left"}[int(np.sign(found.slackest.place[0]))]
-    assert found.slackest.side == far
+    answer = survey_sheet(SOFT)
+    assert 0.99 < answer.shares["usable"] < 1
+    assert answer.slackest.place[1] == answer.softest.place[1] == pytest.approx(-609.6)
+    assert abs(answer.softest.place[0]) == pytest.approx(1219.2)
+    assert answer.tightest.value == pytest.approx(165.14, rel=0.01)  # published
+    assert answer.slackest.value == pytest.approx(18.04, rel=0.015)
+    far = {-1: "right", 1: "left"}[int(np.sign(answer.slackest.place[0]))]
+    assert answer.slackest.side == far
 
 
 def test_the_map_shows_the_sheet_as_it_hangs():
@@ -165,20 +165,20 @@ def test_a_machine_for_the_whole_sheet_is_good_news(run, machine):
 
 
 def test_no_place_at_all_is_bad_news(ask, machine):
-    code, found = ask("reach", machine(), "--most-tension", 30, "--least-tension", 29)
-    assert code == 1 and found["usable_share"] == 0
-    code, found = ask("reach", machine(motor_height=700.0), "--least-free", 5000)
-    assert code == 1 and found["shares"]["cannot_hang"] == 1
-    assert found["tightest"] is found["slackest"] is found["softest"] is None
+    code, answer = ask("reach", machine(), "--most-tension", 30, "--least-tension", 29)
+    assert code == 1 and answer["usable_share"] == 0
+    code, answer = ask("reach", machine(motor_height=700.0), "--least-free", 5000)
+    assert code == 1 and answer["shares"]["cannot_hang"] == 1
+    assert answer["tightest"] is answer["slackest"] is answer["softest"] is None
 
 
 def test_json_has_every_number(ask, machine):
-    code, found = ask("reach", machine(), "--most-give", 0.3)
-    assert code == 1 and found["limits"] == {**REACH_LIMITS, "most_give": 0.3}
-    assert sum(found["shares"].values()) == pytest.approx(1)
-    assert found["shares"]["too_vertical"] > 0.01 and found["assumed"] == []
-    assert found["softest"]["give_mm_per_n"] == pytest.approx(0.89, abs=0.02)
-    assert found["tightest"]["tension_n"] > 160 > 20 > found["slackest"]["tension_n"]
+    code, answer = ask("reach", machine(), "--most-give", 0.3)
+    assert code == 1 and answer["limits"] == {**REACH_LIMITS, "most_give": 0.3}
+    assert sum(answer["shares"].values()) == pytest.approx(1)
+    assert answer["shares"]["too_vertical"] > 0.01 and answer["assumed"] == []
+    assert answer["softest"]["give_mm_per_n"] == pytest.approx(0.89, abs=0.02)
+    assert answer["tightest"]["tension_n"] > 160 > 20 > answer["slackest"]["tension_n"]
 
 
 @pytest.mark.parametrize("form", ["png", "svg"])

@@ -44,14 +44,14 @@ def stretched(tmp_path_factory):
     (folder / "cut.toml").write_text(machine_toml(MAKER))
     (folder / "machine.toml").write_text(machine_toml(replace(MAKER, effects=sag)))
     lines = ["target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"]
-    lines += [",".join(map(repr, (*one.target, *one.measured))) for one in marks.marks]
+    lines += [",".join(map(repr, (*words.target, *words.measured))) for words in marks.marks]
     (folder / "marks.csv").write_text("\n".join(lines))
     return folder
 
 
-def run(folder, *arguments, own="own"):
+def run(folder, *arguments, folder_of_user="own"):
     """`plumb` in the folder, with the owner's sketches."""
-    environment = {**os.environ, "PLUMB_SKETCHES": str(folder / own)}
+    environment = {**os.environ, "PLUMB_SKETCHES": str(folder / folder_of_user)}
     return subprocess.run(
         [PLUMB, *arguments], cwd=folder, env=environment, capture_output=True, text=True
     )
@@ -68,23 +68,23 @@ BOARD = ("machine.toml", "marks.csv", "--cut-with", "cut.toml", "--sigma", "0.05
 
 
 def test_a_twin_is_ranked_like_the_effect_itself(stretched):
-    told = answer(stretched, "diagnose", *BOARD)
-    ranking = {one["effect"]: one for one in told["ranking"]}
+    said = answer(stretched, "diagnose", *BOARD)
+    ranking = {words["effect"]: words for words in said["ranking"]}
     twin, real = ranking["twin"], ranking["chain_stretch"]
     assert twin["where"] == "sketch" and real["where"] == "firmware"
     assert twin["gain"] == pytest.approx(real["gain"], rel=1e-3) and real["gain"] > 100
-    assert {"twin", "chain_stretch"} <= set(told["suspects"])
+    assert {"twin", "chain_stretch"} <= set(said["suspects"])
 
 
 def test_a_twin_is_fitted_like_the_effect_itself(stretched):
-    found = {}
+    sizes = {}
     for name in ("twin", "chain_stretch"):
-        told = answer(stretched, "add", *BOARD, "--effect", name)
-        found[name] = {one["name"]: one for one in told["parameters"]}[f"{name}.compliance"]
-        assert told["after"]["fit_rms_mm"] < 0.1
-    assert found["twin"]["value"] == pytest.approx(found["chain_stretch"]["value"], rel=0.01)
-    assert found["twin"]["low"] == pytest.approx(found["chain_stretch"]["low"], rel=0.02)
-    assert found["twin"]["low"] < 3 * COMPLIANCE < found["twin"]["high"]
+        said = answer(stretched, "add", *BOARD, "--effect", name)
+        sizes[name] = {words["name"]: words for words in said["parameters"]}[f"{name}.compliance"]
+        assert said["after"]["fit_rms_mm"] < 0.1
+    assert sizes["twin"]["value"] == pytest.approx(sizes["chain_stretch"]["value"], rel=0.01)
+    assert sizes["twin"]["low"] == pytest.approx(sizes["chain_stretch"]["low"], rel=0.02)
+    assert sizes["twin"]["low"] < 3 * COMPLIANCE < sizes["twin"]["high"]
 
 
 def test_a_sketch_is_marked_and_never_written_as_a_setting(stretched):
@@ -118,17 +118,17 @@ def test_a_sketch_that_cannot_be_used_is_told_in_one_line(tmp_path, text, hint):
 
 
 def test_the_folder_that_is_named_must_be_there(tmp_path):
-    done = run(tmp_path, "effects", own="nowhere")
+    done = run(tmp_path, "effects", folder_of_user="nowhere")
     assert done.returncode == 2 and "PLUMB_SKETCHES" in done.stderr
 
 
 def test_what_is_set_aside_is_not_ranked_and_stands_by_when_it_is_not(tmp_path):
-    assert "mount_give" not in [one.name for one in SKETCHES]
+    assert "mount_give" not in [words.name for words in SKETCHES]
     shutil.copy(FOLDER / "_mount_give.py", tmp_path / "mount_give.py")
     loaded = load([tmp_path])
-    assert [one.name for one in loaded.sketches] == ["mount_give"] and loaded.broken == ()
-    one = np.array([[1500.0, 1600.0]])
-    strands = Strands(one, one, one, np.array([[60.0, 80.0]]), one, one)
+    assert [words.name for words in loaded.sketches] == ["mount_give"] and loaded.broken == ()
+    words = np.array([[1500.0, 1600.0]])
+    strands = Strands(words, words, words, np.array([[60.0, 80.0]]), words, words)
     assert loaded.sketches[0].extra(np.array([0.01]), strands) == pytest.approx(
         np.array([[-0.6, -0.8]])
     )
@@ -141,10 +141,12 @@ def test_a_hose_that_pulls_the_sled_is_fitted_in_newtons(tmp_path):
     hose = Cause("", "", lambda _: {"push_right": 6.0, "push_up": -4.0})
     marks = cut(Hidden(((hose, 1.0),)), plan(5, 5), seed=5, noise=0.05, tape_sigma=0.05)
     lines = ["target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"]
-    lines += [",".join(map(repr, (*one.target, *one.measured))) for one in marks.measurements.marks]
+    lines += [
+        ",".join(map(repr, (*words.target, *words.measured))) for words in marks.measurements.marks
+    ]
     (tmp_path / "marks.csv").write_text("\n".join(lines))
-    told = answer(tmp_path, "add", *BOARD[:2], *BOARD[4:], "--effect", "dust_hose")
-    found = {one["name"]: one["value"] for one in told["parameters"]}
-    assert found["dust_hose.right"] == pytest.approx(6.0, abs=0.3)
-    assert found["dust_hose.up"] == pytest.approx(-4.0, abs=0.6)
-    assert told["after"]["fit_rms_mm"] < 0.1 < told["before"]["fit_rms_mm"]
+    said = answer(tmp_path, "add", *BOARD[:2], *BOARD[4:], "--effect", "dust_hose")
+    sizes = {words["name"]: words["value"] for words in said["parameters"]}
+    assert sizes["dust_hose.right"] == pytest.approx(6.0, abs=0.3)
+    assert sizes["dust_hose.up"] == pytest.approx(-4.0, abs=0.6)
+    assert said["after"]["fit_rms_mm"] < 0.1 < said["before"]["fit_rms_mm"]

@@ -10,7 +10,7 @@ from plumb.pages.effects import PAGE, PICTURES, main, pages, picture_name
 from plumb.pictures.fingerprints import LONGEST, SCALE, Picture, drawing, factor_for
 
 TEXTS = pages()
-EFFECTS = {one["name"]: one for one in every_effect()}
+EFFECTS = {element["name"]: element for element in every_effect()}
 SVG = "{http://www.w3.org/2000/svg}"
 
 
@@ -32,9 +32,9 @@ def test_every_effect_has_a_section_a_picture_and_a_remedy(name):
     for word in ("summary", "pattern", "look_alikes", "remedy"):
         assert effect[word] in text
     assert f"(pictures/effects/{name}.svg)" in text and picture_name(name) in TEXTS
-    for own in effect["parameters"]:
-        assert f"`{own['name']}` | {own['unit']} |" in text
-        assert own["setting"] is None or f"${own['setting']}" in text
+    for parameter in effect["parameters"]:
+        assert f"`{parameter['name']}` | {parameter['unit']} |" in text
+        assert parameter["setting"] is None or f"${parameter['setting']}" in text
     assert ("no firmware can cure this" in text) == (effect["where"] == "lab")
     assert len(re.findall(r"`\w+` -?\d\.\d\d", text)) == 3 or "it has no shape" in text
 
@@ -52,13 +52,13 @@ def test_every_effect_has_a_row_in_the_table_on_top(name):
 def test_every_picture_is_an_svg_with_its_scale_told(name):
     root = ElementTree.fromstring(TEXTS[picture_name(name)])
     assert root.tag == f"{SVG}svg" and name in root.find(f"{SVG}title").text
-    said = [one.text for one in root.iter(f"{SVG}text")]
+    said = [element.text for element in root.iter(f"{SVG}text")]
     sheets = len(list(root.iter(f"{SVG}rect"))) - 1
     scales = [line for line in said if re.search(r"mm; arrows \d+ times life size", line)]
     assert sheets == 2 * sum("as it is" in line for line in said)
     assert len(scales) + sum("no shape" in line for line in said) == sheets
     # Positions to a tenth of a pixel, so that the last bits of a sum never show.
-    assert not re.search(r"\d\.\d\d", "".join(one.get("d", "") for one in root.iter()))
+    assert not re.search(r"\d\.\d\d", "".join(element.get("d", "") for element in root.iter()))
 
 
 def test_the_same_registry_gives_the_same_bytes():

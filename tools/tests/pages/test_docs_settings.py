@@ -12,8 +12,8 @@ from plumb.settings.ini import SOURCES
 from plumb.settings.limits import FRAME_LIMITS, PUBLISHED_LIMITS
 from plumb.settings.machine import MachineSettings
 
-SETTINGS = {one.number: one for one in every_setting()}
-BY_NAME = {one.name: one for one in SETTINGS.values()}
+SETTINGS = {setting.number: setting for setting in every_setting()}
+BY_NAME = {setting.name: setting for setting in SETTINGS.values()}
 TEXT = page(list(SETTINGS.values()))
 # The lab's name of a setting, and the firmware's where it is another.
 OTHER_NAMES = {"chain_sag_correction": "sag_correction"}
@@ -37,7 +37,11 @@ PUBLISHED = """
 
 def test_published_numbers_types_and_defaults():
     expected = [tuple(row.split()) for row in PUBLISHED.replace("\n", " ").split(",")]
-    listed = [one for one in SETTINGS.values() if one.access == "listed" and one.number < FIRST_OWN]
+    listed = [
+        setting
+        for setting in SETTINGS.values()
+        if setting.access == "listed" and setting.number < FIRST_OWN
+    ]
     assert [(str(o.number), o.kind, format_value(o.usual)) for o in listed] == expected
 
 
@@ -54,20 +58,20 @@ def test_lab_and_firmware_mean_the_same_key(name):
 
 def test_what_the_lab_writes_for_groundcontrol_has_a_number():
     machine = MachineSettings(2978.4, 1072.6, 139.1, 2438.4, 1219.2, "top")
-    keys = {one.key for one in SETTINGS.values()}
+    keys = {setting.key for setting in SETTINGS.values()}
     for section, key in groundcontrol_changes(machine).values:
         assert f"{section.removesuffix(' Settings')}: {key}" in keys
 
 
 def test_every_effect_parameter_has_its_number():
     for effect in library():
-        for own in effect["parameters"]:
-            setting = SETTINGS[own["setting"]]
-            assert setting.name == f"{effect['name']}.{own['name']}"
-            span = own["high"] - own["low"]
-            assert setting.low == pytest.approx(own["low"] - span, rel=1e-6)
-            assert setting.high == pytest.approx(own["high"] + span, rel=1e-6)
-            assert setting.low <= own["typical"] <= setting.high and setting.usual == 0
+        for parameter in effect["parameters"]:
+            setting = SETTINGS[parameter["setting"]]
+            assert setting.name == f"{effect['name']}.{parameter['name']}"
+            span = parameter["high"] - parameter["low"]
+            assert setting.low == pytest.approx(parameter["low"] - span, rel=1e-6)
+            assert setting.high == pytest.approx(parameter["high"] + span, rel=1e-6)
+            assert setting.low <= parameter["typical"] <= setting.high and setting.usual == 0
 
 
 @pytest.mark.parametrize("name", sorted(PUBLISHED_LIMITS))
@@ -84,7 +88,7 @@ def test_the_firmware_takes_every_frame_that_the_lab_takes():
             assert BY_NAME[name].low <= (0 if limit.zero else limit.low), name
             assert BY_NAME[name].high >= limit.high * (1 - 1e-7), name
     # The other two are computed: height from $1 and $3, radius from $13.
-    names = {one["name"] for one in frame_words()} - set(BY_NAME)
+    names = {setting["name"] for setting in frame_words()} - set(BY_NAME)
     assert names == {"motor_height", "sprocket_radius"}
     assert BY_NAME["chain_per_turn"].high >= 2 * math.pi * FRAME_LIMITS["sprocket_radius"].high
 
@@ -131,7 +135,7 @@ def test_every_row_says_when_it_takes_effect():
     cells = {n: row.split(" | ")[6] for n, row in rows_of_numbers().items()}
     assert cells[9] == "at once" and cells[69] == "after a restart"
     assert cells[13] == "at rest: scale, geometry, limits"
-    touches = {word for one in SETTINGS.values() for word in one.touches}
+    touches = {word for setting in SETTINGS.values() for word in setting.touches}
     assert touches == {"scale", "geometry", "loops", "limits", "drives", "cutter", "restart"}
     explained = TEXT.split("## Published")[0]
     assert all(re.search(rf"^\| a.*{word}", explained, re.MULTILINE) for word in touches)

@@ -18,8 +18,8 @@ from plumb.pages.fingerprints import (
 FIELDS = every_field()
 
 
-def shape_cosine(one: dict, other: dict) -> float:
-    return cosine(*(field_of(Showing("", own)).shape for own in (one, other)))
+def shape_cosine(cause: dict, other: dict) -> float:
+    return cosine(*(field_of(Showing("", parameters)).shape for parameters in (cause, other)))
 
 
 BOTH = {"chain_pitch.left": 0.001, "chain_pitch.right": 0.001}
@@ -30,7 +30,7 @@ TAPE = {"tape_scale.strain": 0.001}
 
 # Published cosines of shapes, 13 x 7 marks on the same machine, computed independently.
 @pytest.mark.parametrize(
-    ("one", "other", "published"),
+    ("cause", "other", "published"),
     [
         ({"motor_gap": 1.0}, {"rotation_radius": 1.0}, -0.99),
         ({"motor_gap": 1.0}, STRETCH, -0.88),
@@ -45,8 +45,8 @@ TAPE = {"tape_scale.strain": 0.001}
         ({"chain_pitch.left": 0.001}, {"chain_pitch.right": 0.001}, 0.60),
     ],
 )
-def test_cosines_are_those_published(one, other, published):
-    assert shape_cosine(one, other) == pytest.approx(published, abs=0.05)
+def test_cosines_are_those_published(cause, other, published):
+    assert shape_cosine(cause, other) == pytest.approx(published, abs=0.05)
 
 
 def test_sizes_are_those_published():
@@ -67,17 +67,17 @@ def test_both_chain_zeros_are_the_rotation_radius():
 
 
 def test_every_cause_has_its_field_and_three_others_beside_it():
-    assert set(FIELDS) == {one["name"] for one in every_effect()} | set(FRAME_STEPS)
+    assert set(FIELDS) == {cause["name"] for cause in every_effect()} | set(FRAME_STEPS)
     for name, cases in FIELDS.items():
         assert all(rms(field.raw) > 0.01 for _, field in cases)
-        found = look_alikes(name, FIELDS)
+        alikes = look_alikes(name, FIELDS)
         if any(field.has_shape for _, field in cases):
-            assert len(found) == 3 and name not in [one.name for one in found]
-            assert np.all(np.diff([abs(one.cosine) for one in found]) < 0.005)
+            assert len(alikes) == 3 and name not in [cause.name for cause in alikes]
+            assert np.all(np.diff([abs(cause.cosine) for cause in alikes]) < 0.005)
 
 
 def test_sides_are_shown_together_and_friction_from_two_sides():
-    cases = {one["name"]: [case.label for case in cases_of(one)] for one in every_effect()}
+    cases = {cause["name"]: [case.label for case in cases_of(cause)] for cause in every_effect()}
     assert cases["chain_pitch"] == ["left", "right", "both alike"]
     assert cases["sled_swing"] == ["right", "up"]
     assert cases["sled_friction"] == [

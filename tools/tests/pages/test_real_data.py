@@ -47,23 +47,23 @@ def test_every_set_says_where_it_comes_from_and_what_is_not_known(folder):
 
 @pytest.mark.parametrize(("before", "after"), PAIRS)
 def test_a_machine_fitted_to_one_set_predicts_the_next_better_than_its_owner_did(before, after):
-    own = SETS[before].with_effects("chain_pitch")
-    found = predicted(own.settings, SETS[after])
-    assert found.rms < SETS[after].raw.rms < RECORDS[after]
-    assert found.rms < 0.85
+    fitted = SETS[before].with_effects("chain_pitch")
+    after_fit = predicted(fitted.settings, SETS[after])
+    assert after_fit.rms < SETS[after].raw.rms < RECORDS[after]
+    assert after_fit.rms < 0.85
 
 
 def test_one_machine_explains_all_four_sets_better_than_the_owners_fits():
     assert all(rms(TOGETHER.errors[name]) < record for name, record in RECORDS.items())
     assert TOGETHER.fitted.after.left_out_rms < 1.1
-    pitch = [one for one in TOGETHER.fitted.parameters if one.name.startswith("chain_pitch")]
-    assert all(0.001 < one.value < 0.0026 for one in pitch)  # the standard allows 0.26 %
+    pitch = [each for each in TOGETHER.fitted.parameters if each.name.startswith("chain_pitch")]
+    assert all(0.001 < each.value < 0.0026 for each in pitch)  # the standard allows 0.26 %
 
 
 def test_it_predicts_a_cut_of_other_settings_that_took_no_part():
     cuts = real_set(CUTS)
-    assert min(abs(one.error) for one in cuts.raw.distances) > 1.5
-    assert max(abs(one.error) for one in predicted(TOGETHER.settings, cuts).distances) < 0.5
+    assert min(abs(each.error) for each in cuts.raw.distances) > 1.5
+    assert max(abs(each.error) for each in predicted(TOGETHER.settings, cuts).distances) < 0.5
 
 
 def test_the_same_distance_scatters_from_set_to_set_as_much_as_the_fit_leaves():
@@ -90,9 +90,9 @@ def test_two_widths_are_too_few_for_a_diagnosis_and_the_lab_says_so(run):
 
 def test_all_hole_sets_go_into_one_command(ask):
     paths = [EXAMPLES / name / "marks.toml" for name in HOLES]
-    code, found = ask("diagnose", EXAMPLES / HOLES[0] / "groundcontrol.ini", *paths)
-    assert code == int(found["verdict"] == "not_in_library") and found["disagreements"] == []
-    assert "chain_pitch" in found["suspects"]
+    code, answer = ask("diagnose", EXAMPLES / HOLES[0] / "groundcontrol.ini", *paths)
+    assert code == int(answer["verdict"] == "not_in_library") and answer["disagreements"] == []
+    assert "chain_pitch" in answer["suspects"]
 
 
 def test_the_page_shows_every_set():
@@ -113,7 +113,7 @@ def test_both_signs_of_the_doubtful_set_are_tried():
 
 
 def test_eight_distances_carry_no_seven_parameters_and_hide_no_miles():
-    found = SETS[HOLES[0]].diagnosed()
-    for one in found.explanations:
-        assert sum(len(own) for own in one.sizes.values()) < 7
-    assert all(one.mm is None or one.mm < 30 for one in found.could_hide)
+    diagnosis = SETS[HOLES[0]].diagnosed()
+    for each in diagnosis.explanations:
+        assert sum(len(sizes) for sizes in each.sizes.values()) < 7
+    assert all(each.mm is None or each.mm < 30 for each in diagnosis.could_hide)

@@ -89,7 +89,7 @@ def test_what_cannot_be_said_is_listed():
         },
     )
     unsaid = groundcontrol_changes(settings).unsaid
-    assert [one.name for one in unsaid] == ["motor_center_x", "chain_stretch.compliance"]
+    assert [loss.name for loss in unsaid] == ["motor_center_x", "chain_stretch.compliance"]
     assert "5e-06" in unsaid[1].sentence
 
 

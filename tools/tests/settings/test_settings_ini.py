@@ -20,15 +20,15 @@ def spoilt(tmp_path, old, new):
 
 
 def test_the_example():
-    found = read_settings(EXAMPLE)
-    assert (found.motor_gap, found.motor_height) == (2978.4, 609.6 + 463)
-    assert (found.sheet_width, found.sheet_height) == (2438.4, 1219.2)
-    assert (found.rotation_radius, found.motor_center_x) == (139.1, 0.0)
-    assert found.sprocket_radius == pytest.approx(10.1063, abs=1e-4)
-    assert (found.feed, found.controller) == ("top", "stock")
-    assert (found.sled_weight, found.chain_weight) == (97.9, 0.00137293)
-    assert found.published == PublishedSettings()
-    assert found.effects == {}
+    settings = read_settings(EXAMPLE)
+    assert (settings.motor_gap, settings.motor_height) == (2978.4, 609.6 + 463)
+    assert (settings.sheet_width, settings.sheet_height) == (2438.4, 1219.2)
+    assert (settings.rotation_radius, settings.motor_center_x) == (139.1, 0.0)
+    assert settings.sprocket_radius == pytest.approx(10.1063, abs=1e-4)
+    assert (settings.feed, settings.controller) == ("top", "stock")
+    assert (settings.sled_weight, settings.chain_weight) == (97.9, 0.00137293)
+    assert settings.published == PublishedSettings()
+    assert settings.effects == {}
 
 
 def test_corrections_and_the_keys_of_webcontrol(tmp_path):
@@ -45,16 +45,16 @@ def test_corrections_and_the_keys_of_webcontrol(tmp_path):
         text = text.replace(old, new, 1)
     path = tmp_path / "anything.txt"
     path.write_bytes(b"\xef\xbb\xbf" + text.replace("\n", "\r\n").encode())
-    found = read_settings(path)
-    assert found.published == PublishedSettings(
+    settings = read_settings(path)
+    assert settings.published == PublishedSettings(
         27.394023, 0.3479, -0.08, 5.1685e-6, 113.68, 3360.0, 0.07
     )
-    assert (found.sled_weight, found.feed) == (113.68, "bottom")
+    assert (settings.sled_weight, settings.feed) == (113.68, "bottom")
 
 
 def test_a_sled_weight_of_zero_is_a_switch_and_no_weight(tmp_path):
-    found = read_settings(spoilt(tmp_path, "sledcg = 79", "sledcg = 79\nsledweight = 0"))
-    assert (found.sled_weight, found.published.holey_sled_weight) == (97.9, 0.0)
+    settings = read_settings(spoilt(tmp_path, "sledcg = 79", "sledcg = 79\nsledweight = 0"))
+    assert (settings.sled_weight, settings.published.holey_sled_weight) == (97.9, 0.0)
 
 
 def test_foreign_bytes_in_a_file_name_do_no_harm(tmp_path):

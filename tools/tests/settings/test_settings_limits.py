@@ -10,7 +10,7 @@ GOOD = MachineSettings(2978.4, 1072.6, 139.1, 2438.4, 1219.2, "top")
 
 
 def test_every_number_has_a_limit():
-    numbers = {one.name for one in fields(MachineSettings)} - {
+    numbers = {field.name for field in fields(MachineSettings)} - {
         "motor_height",
         "feed",
         "controller",
@@ -18,7 +18,7 @@ def test_every_number_has_a_limit():
         "published",
     }
     assert set(FRAME_LIMITS) == numbers | {"motor_offset"}
-    assert set(PUBLISHED_LIMITS) == {one.name for one in fields(PublishedSettings)}
+    assert set(PUBLISHED_LIMITS) == {field.name for field in fields(PublishedSettings)}
 
 
 @pytest.mark.parametrize("gap", [2978.4, 3000, 3102.1, 3602.71093, 3719.6])
@@ -32,8 +32,8 @@ def test_machines_that_exist_are_accepted(gap, offset, radius):
 @pytest.mark.parametrize("name", sorted(set(FRAME_LIMITS) - {"motor_offset"}))
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), -1e9])
 def test_impossible_numbers_are_named(name, value):
-    found, sentence = find_fault(replace(GOOD, **{name: value}))
-    assert found == name or name == "sheet_height"
+    faulty, sentence = find_fault(replace(GOOD, **{name: value}))
+    assert faulty == name or name == "sheet_height"
     assert sentence
 
 

@@ -63,9 +63,9 @@ def test_what_need_not_be_said_has_defaults(tmp_path):
         'feed = "top"\n[sheet]\nwidth = 2438\nheight = 1219\n'
         "[frame]\nmotor_gap = 3000\nmotor_height = 1072\nrotation_radius = 139\n"
     )
-    found = read_settings(path)
-    assert found == MachineSettings(3000.0, 1072.0, 139.0, 2438.0, 1219.0, "top")
-    assert found.controller == "plumb"
+    settings = read_settings(path)
+    assert settings == MachineSettings(3000.0, 1072.0, 139.0, 2438.0, 1219.0, "top")
+    assert settings.controller == "plumb"
 
 
 @pytest.mark.parametrize(

@@ -23,8 +23,8 @@ def test_entries_are_those_configparser_finds():
     parser = configparser.ConfigParser(interpolation=None)
     parser.read_string(TEXT)
     expected = [(s, k, v) for s in parser.sections() for k, v in parser[s].items()]
-    found = [(e.section, e.key.lower(), e.value) for e in parse_ini(TEXT, source="x").entries]
-    assert found == expected
+    entries = [(e.section, e.key.lower(), e.value) for e in parse_ini(TEXT, source="x").entries]
+    assert entries == expected
 
 
 def test_keys_are_found_whatever_their_case():

@@ -61,7 +61,7 @@ def test_a_failed_write_leaves_the_old_file_and_no_other(tmp_path, monkeypatch):
             with pytest.raises(InputError, match="No space left"):
                 write_whole(path, b"new")
         assert path.read_text() == "old"
-        assert [one.name for one in tmp_path.iterdir()] == ["machine.toml"]
+        assert [file.name for file in tmp_path.iterdir()] == ["machine.toml"]
 
 
 def test_write_keeps_rights_and_follows_links(tmp_path):
