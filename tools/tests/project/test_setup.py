@@ -17,7 +17,7 @@ apt-get() { echo "runs: apt-get $*"; }
 env() { shift; "$@"; }
 source "$root/tools/setup_steps/debian.sh"
 """
-LAB = "g++ cmake python3-dev python3 python3-venv"
+LAB = "g++ cmake python3-dev python3 python3-venv libeigen3-dev"
 
 
 def step(tmp_path: Path, machine: str, packages: str) -> list[str]:

@@ -53,6 +53,20 @@ def test_counts_of_an_earlier_run_are_forgotten(tmp_path):
     assert run(tmp_path, "parts=(a); one a true; set_out; summary").returncode == 1
 
 
+def test_each_check_counts(tmp_path):
+    folder = tmp_path / "tools/checks"
+    folder.mkdir(parents=True)
+    (folder / "arrows.py").write_text("print('no arrow is wrong')")
+    (folder / "size.py").write_text("raise SystemExit(1)")
+    done = run(tmp_path, f"parts=(checks); cd {tmp_path}; checks; summary")
+    assert done.returncode == 1
+    assert "no arrow is wrong" in done.stdout
+    # Those that are not there fail, too.
+    names = len(list((ROOT / "tools/checks").glob("*.py")))
+    row = done.stdout.splitlines()[-2].split()
+    assert row[1] == "1" and 5 < int(row[3]) < names
+
+
 def touched(tmp_path: Path, file: str) -> str:
     script = f"suites=() rooms=() builds_firmware=no; touched_by {file}\n"
     show = 'echo "${suites[*]} ${rooms[*]} $builds_firmware"'
