@@ -1,0 +1,129 @@
+// What the axes say of lengths, heights and motion in imagination, and which axis makes them yield.
+#include <gtest/gtest.h>
+
+#include "board_at_rest.h"
+#include "machine/axes.h"
+#include "settings_flash.h"
+
+using namespace machine;
+
+namespace {
+
+/// Axes with gains, powered, on a board whose encoders stand still unless the test turns them.
+struct Driven {
+  Driven() : values(table, room) {
+    values.setRow(kZPositionP, 1300);
+    axes.prepare(values);
+    axes.forgetRawCounts();
+  }
+  void ticks(int count) {
+    for (int i = 0; i < count; ++i) axes.tick();
+  }
+
+  const FlashTable table;
+  float room[kSettingCount];
+  settings::Values values;
+  BoardAtRest board;
+  Axes axes{board, board};
+};
+
+}  // namespace
+
+TEST(AxesYield, BecauseOfAnyAxisThatIsFarOff) {
+  for (const Axis axis : {kLeftAxis, kRightAxis, kZAxis}) {
+    Driven driven;
+    driven.axes.follow();
+    driven.ticks(2);
+    EXPECT_FALSE(driven.axes.hasYielded()) << int(axis);
+    driven.axes.jumpTo(axis, 1.9f);  // of 2 mm that are the limit
+    driven.ticks(1);
+    EXPECT_TRUE(driven.axes.hasYielded()) << int(axis);
+    EXPECT_NEAR(1.9, double(driven.axes.mostBehind(axis)), 1e-4) << int(axis);
+  }
+}
+
+TEST(AxesLift, KnowsWhereZIsPlannedAndWhereItGoes) {
+  Driven driven;
+  driven.axes.simulate(true);
+  driven.axes.declare(kZAxis, 3);
+  driven.axes.follow();
+  EXPECT_FALSE(driven.axes.isLifted());
+  driven.axes.lift(8, 5, 50);
+  EXPECT_TRUE(driven.axes.isLifted()) << "it is about to";
+  EXPECT_FLOAT_EQ(8, driven.axes.liftedTo());
+  EXPECT_FLOAT_EQ(3, driven.axes.plannedZ());
+  driven.ticks(50);
+  EXPECT_GT(driven.axes.length(kZAxis), 4);
+  EXPECT_LT(driven.axes.length(kZAxis), 7);
+  EXPECT_FLOAT_EQ(8, driven.axes.liftedTo());
+  driven.ticks(200);
+  EXPECT_NEAR(double(driven.axes.length(kZAxis)), 8, 0.001);
+  EXPECT_FLOAT_EQ(3, driven.axes.plannedZ());
+  driven.axes.declareLifted(1);
+  EXPECT_NEAR(double(driven.axes.length(kZAxis)), 1, 0.001);
+  EXPECT_FLOAT_EQ(1, driven.axes.target(kZAxis));
+  EXPECT_FLOAT_EQ(3, driven.axes.plannedZ()) << "the way keeps its heights";
+  EXPECT_TRUE(driven.axes.isLifted());
+  driven.axes.lower();
+  EXPECT_TRUE(driven.axes.isLifted()) << "it is on its way back";
+  driven.ticks(200);
+  EXPECT_FALSE(driven.axes.isLifted());
+  EXPECT_NEAR(double(driven.axes.length(kZAxis)), 3, 0.001);
+}
+
+TEST(AxesImagination, StaysKnownUntilMotorsRunForReal) {
+  Driven driven;
+  driven.axes.simulate(true);
+  EXPECT_FALSE(driven.axes.isImagined());
+  driven.axes.declare(kLeftAxis, 100);
+  EXPECT_TRUE(driven.axes.isImagined());
+  driven.axes.simulate(true);
+  EXPECT_TRUE(driven.axes.isImagined()) << "asked for once more";
+  driven.axes.simulate(false);
+  driven.axes.simulate(true);
+  EXPECT_FALSE(driven.axes.isImagined()) << "begun again";
+}
+
+TEST(AxesImagination, ChainsThatAreTurnedByHandAreOtherThanSaid) {
+  for (const int sign : {-1, 1}) {
+    Driven driven;
+    driven.axes.simulate(true);
+    driven.board.counted[kRightAxis] = uint16_t(12 * sign);
+    driven.ticks(1);
+    EXPECT_FALSE(driven.axes.isImagined()) << "0.1 mm, " << sign;
+    EXPECT_EQ(0, driven.axes.counts(kRightAxis)) << "encoders do not count";
+    driven.board.counted[kRightAxis] = uint16_t(13 * sign);
+    driven.ticks(1);
+    EXPECT_TRUE(driven.axes.isImagined()) << sign;
+  }
+}
+
+TEST(AxesLengths, AreWithinWhatAnyMachineTravels) {
+  Driven driven;
+  for (const float sign : {-1.0f, 1.0f}) {
+    driven.axes.declare(kLeftAxis, sign * 1e9f);
+    EXPECT_NEAR(double(driven.axes.length(kLeftAxis)), double(sign * kMostTravel), 0.01);
+    EXPECT_NEAR(double(driven.axes.target(kLeftAxis)), double(sign * kMostTravel), 0.01);
+    // Counts that were kept under other settings.
+    driven.axes.setCounts(0, int32_t(sign) * 2000000000, 0);
+    driven.axes.standStill();
+    EXPECT_NEAR(double(driven.axes.target(kRightAxis)), double(sign * kMostTravel), 0.01);
+  }
+}
+
+TEST(AxesLengths, StandingStillForgetsWhatWaits) {
+  Driven driven;
+  driven.axes.setPoints().push({{65536, 65536, 0}, 100, 10, 0});
+  EXPECT_FALSE(driven.axes.isEmpty());
+  driven.axes.standStill();
+  EXPECT_TRUE(driven.axes.isEmpty());
+  EXPECT_EQ(0, driven.axes.waiting());
+}
+
+TEST(AxesRate, IsThatOfTheTicks) {
+  Driven driven;
+  for (const float rate : {100.0f, 200.0f}) {
+    driven.axes.setTicksPerSecond(rate);
+    EXPECT_FLOAT_EQ(1 / rate, driven.axes.secondsPerTick());
+  }
+}
