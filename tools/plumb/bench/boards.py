@@ -171,8 +171,8 @@ def _unit(moved: Array) -> Array:
 
 def chains_for(plan: Plan) -> Array:
     """What the maker's machine pays out (n, 2) [mm]."""
-    chains, found = lengths(MAKER, plan.targets)
-    if not (found == FOUND).all():
+    chains, outcome = lengths(MAKER, plan.targets)
+    if not (outcome == FOUND).all():
         raise ValueError("a plan reaches beyond the machine")
     return chains
 

@@ -41,8 +41,8 @@ def shape_error(machine: TrueMachine, settings: MachineSettings) -> float:
     """RMS [mm] of how far the judge's sled, sent by these settings to places all over the sheet,
     is from them once the sheet is laid at its best. Nothing rubs: no setting knows of friction."""
     wanted = sheet()
-    chains, found = lengths(settings, wanted)
-    if not (found == FOUND).all():
+    chains, outcome = lengths(settings, wanted)
+    if not (outcome == FOUND).all():
         return float("inf")
     pose = best_pose(wanted, machine.sleds(chains))
     return rms(pose.errors) if pose else 0.0

@@ -37,7 +37,7 @@ class Sighting:
 
     read: Places  # from the sheet's edges
     taped: Places  # places whose distances are those that a tape gives
-    found: Array  # (r,) FOUND where the sled can hang
+    outcome: Array  # (r,) FOUND where the sled can hang
 
     def taped_spans(self, ends: Array) -> Array:
         """What a tape reads (m,) [mm] between the visits in each row of `ends` (m, 2)."""
@@ -86,7 +86,7 @@ def sighted(
         if effect.acts_on != SLED:
             read = view.on_sheet(effect, read)
             taped = taped if effect.acts_on == EDGES else view.on_sheet(effect, taped)
-    return Sighting(read, taped, hung.found)
+    return Sighting(read, taped, hung.outcome)
 
 
 @dataclass(frozen=True)

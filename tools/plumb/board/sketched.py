@@ -35,7 +35,7 @@ class Sketched:
     where: Array  # (r, 2) [mm]
     by_value: Array  # (r, 2, v)
     by_name: Mapping[str, Array]  # (r, 2) by each sketch parameter that was asked for
-    found: Array  # (r,) FOUND where the sled can hang
+    outcome: Array  # (r,) FOUND where the sled can hang
 
 
 def with_sketches(
@@ -54,9 +54,9 @@ def with_sketches(
     part of a small part, and a fit comes to rest all the same.
     """
     asked = [sketch for sketch in SKETCHES if _asked(sketch, outside, names)]
-    where, by_value, found = hang(rows)
+    where, by_value, outcome = hang(rows)
     if not asked:
-        return Sketched(where, by_value, {}, found)
+        return Sketched(where, by_value, {}, outcome)
 
     def strands(places: Array) -> Strands:
         return _strands(values, rows, places, over_top=over_top, usual_weight=usual_weight)
@@ -82,7 +82,7 @@ def with_sketches(
     gives = -np.eye(2)
     if present:
         for _ in range(ROUNDS):
-            where, by_value, found = hang(replace(rows, chains=rows.chains - extra(where)))
+            where, by_value, outcome = hang(replace(rows, chains=rows.chains - extra(where)))
     # A chain that is a millimetre longer acts as one with a millimetre less out at 12 o'clock.
     by_extra = by_value[:, :, list(ZERO_COLUMNS)] @ gives
     if present:
@@ -95,7 +95,7 @@ def with_sketches(
         for i, name in enumerate(sketch.parameter_names)
         if name in names
     }
-    return Sketched(where, by_value, by_name, found)
+    return Sketched(where, by_value, by_name, outcome)
 
 
 def _asked(sketch: Sketch, outside: Mapping[str, float], names: Sequence[str]) -> bool:

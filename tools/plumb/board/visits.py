@@ -46,7 +46,7 @@ def visited(
     """
     where = np.zeros((len(rows.chains), 2))
     slopes = np.zeros((len(rows.chains), 2, len(NAMES)))
-    found = np.zeros(len(rows.chains), dtype=int)
+    outcome = np.zeros(len(rows.chains), dtype=int)
     alike = {*zip(rows.sled_weights, rows.zero_groups, rows.swapped, strict=True)}
     for weight, group, swapped in alike:
         mine = (
@@ -56,18 +56,18 @@ def visited(
         if zeros is not None:
             loaded_values[list(ZERO_COLUMNS)] += zeros[group]
         order = SWAPPED if swapped else slice(None)
-        where[mine], of_mine, found[mine] = places_with_slopes(
+        where[mine], of_mine, outcome[mine] = places_with_slopes(
             loaded_values[order], over_top=over_top, chains=rows.chains[mine]
         )
         slopes[mine] = of_mine[:, :, order] * factors
-    return where, slopes, found
+    return where, slopes, outcome
 
 
 def chains_to(model: MachineSettings, points: Array, weights: Array) -> tuple[Array, Array]:
     """Chain (n, 2) [mm] to places (n, 2) [mm] for sleds of these weights (n,) [N], and FOUND."""
-    chains, found = np.zeros((len(points), 2)), np.zeros(len(points), dtype=int)
+    chains, outcome = np.zeros((len(points), 2)), np.zeros(len(points), dtype=int)
     for weight in np.unique(weights):
         mine = weights == weight
         loaded_values, _ = loaded(values_of(model), weight, model.sled_weight)
-        chains[mine], found[mine] = lengths(settings_of(loaded_values, like=model), points[mine])
-    return chains, found
+        chains[mine], outcome[mine] = lengths(settings_of(loaded_values, like=model), points[mine])
+    return chains, outcome

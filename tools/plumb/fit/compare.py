@@ -143,14 +143,14 @@ def predicted_places(
     model: MachineSettings, rows: Observations, measurements: Measurements
 ) -> np.ndarray:
     """Where our model puts the sled on every visit, (r, 2) [mm]; InputError if it cannot hang."""
-    where, _, found = visited(
+    where, _, outcome = visited(
         values_of(model), rows, over_top=model.feed == "top", usual_weight=model.sled_weight
     )
-    for i in np.flatnonzero(found != FOUND)[:1]:
+    for i in np.flatnonzero(outcome != FOUND)[:1]:
         raise InputError(
             f"{measurements.source}, mark {measurements.marks[i].name}: with these settings its "
-            f"chains lead nowhere ({FOUND_WORDS[found[i]]}); check the settings, or give those it "
-            "was cut with by --cut-with"
+            f"chains lead nowhere ({FOUND_WORDS[outcome[i]]}); check the settings, or give those "
+            "it was cut with by --cut-with"
         )
     return where
 
@@ -158,7 +158,7 @@ def predicted_places(
 def _marks(
     model: MachineSettings, rows: Observations, where: np.ndarray
 ) -> tuple[ComparedMark, ...]:
-    needed, found = chains_to(model, rows.measured, rows.sled_weights[rows.mark_rows])
+    needed, outcome = chains_to(model, rows.measured, rows.sled_weights[rows.mark_rows])
     marks = []
     for i, row in enumerate(rows.mark_rows):
         left, right = needed[i] - rows.chains[row]
@@ -169,8 +169,8 @@ def _marks(
                 predicted=_point(where[row]),
                 measured=_point(rows.measured[i]),
                 error=_point(rows.measured[i] - where[row]),
-                left_chain_residual=float(left) if found[i] == FOUND else None,
-                right_chain_residual=float(right) if found[i] == FOUND else None,
+                left_chain_residual=float(left) if outcome[i] == FOUND else None,
+                right_chain_residual=float(right) if outcome[i] == FOUND else None,
             )
         )
     return tuple(marks)

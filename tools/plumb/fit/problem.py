@@ -145,7 +145,7 @@ class Problem:
             usual_weight=self.settings.sled_weight,
             names=self.names,
         )
-        return sighting, bool((sighting.found == FOUND).all())
+        return sighting, bool((sighting.outcome == FOUND).all())
 
     def data_slopes(self, sighting: Sighting) -> Array:
         """Slopes of all predicted numbers by the unknowns, (2k + m, u) [mm]."""

@@ -112,7 +112,7 @@ def field_of(case: Showing, *, columns: int = COLUMNS, rows: int = ROWS) -> Fiel
         usual_weight=true.sled_weight,
         names=(),
     )
-    if (sighting.found != FOUND).any():
+    if (sighting.outcome != FOUND).any():
         raise ValueError(f"{case.label}: the default machine cannot reach every mark")
     landed = sighting.read.where
     pose = best_pose(sent, landed)

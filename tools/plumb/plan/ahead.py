@@ -52,7 +52,7 @@ def visit_slopes(at: Explanation, visits: Visits) -> Array:
         return np.zeros((0, 2, width))
     sighting, _ = problem.predict(at.unknowns)
     slopes = (problem.data_slopes(sighting) / problem.sigma).reshape(-1, 2, width)
-    return np.where((sighting.found == FOUND)[:, np.newaxis, np.newaxis], slopes, 0.0)
+    return np.where((sighting.outcome == FOUND)[:, np.newaxis, np.newaxis], slopes, 0.0)
 
 
 def check_slopes(at: Explanation, checks: Sequence[Check]) -> Array:

@@ -38,7 +38,7 @@ def marks(hidden, *, noise=0.0, columns=7, approaches=SIDES):
     found = sighted(
         values_of(TRUE), outside, rows, over_top=True, usual_weight=TRUE.sled_weight, names=()
     )
-    assert (found.found == FOUND).all()
+    assert (found.outcome == FOUND).all()
     where = found.read.where
     where = where + noise * np.random.default_rng(3).standard_normal(where.shape)
     return tuple(

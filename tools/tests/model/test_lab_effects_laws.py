@@ -142,5 +142,5 @@ def test_a_visit_where_no_sled_can_hang_stays_still():
         usual_weight=TRUE.sled_weight,
         names=EVERY,
     )
-    assert sighting.found[0] != 0 and not sighting.found[1:].any()
+    assert sighting.outcome[0] != 0 and not sighting.outcome[1:].any()
     assert np.isfinite(sighting.read.where).all() and np.isfinite(sighting.read.slopes).all()
