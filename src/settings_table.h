@@ -173,7 +173,7 @@
   PLUMB_KEPT_SETTINGS(KEPT)
 // clang-format on
 
-// What is said of settings: for $n=v that is refused, and at the start. See Word in Settings.h.
+// What is said of settings: for $n=v that is refused. See Word in Settings.h.
 // clang-format off
 #define PLUMB_SETTINGS_WORDS(WORD) \
   WORD(kUnknown, "is no setting") \
@@ -183,14 +183,7 @@
   WORD(kFrom, "must be from ") \
   WORD(kTo, " to ") \
   WORD(kWhole, ", a whole number") \
-  WORD(kSteps, ", in steps of ") \
-  WORD(kInPart, "error: EEPROM: a setting was beyond its limits and has its default now; check $$.") \
-  WORD(kImported, "Settings of the published firmware taken over.") \
-  WORD(kDefaults, "error: EEPROM read fail. Using default settings.") \
-  WORD(kOther, "error: EEPROM has data of another firmware (settings version ") \
-  WORD(kOtherEnd, "), which is not read: send the settings again and set the chains.") \
-  WORD(kBadValue, "error: EEPROM: $") \
-  WORD(kBadValueEnd, " of the published firmware cannot be right; none of its settings is taken over.")
+  WORD(kSteps, ", in steps of ")
 // clang-format on
 
 /// The rows by name; the effects' parameters follow in the registry's order, and then the places.

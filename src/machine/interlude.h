@@ -30,7 +30,6 @@ class Interlude {
 
   bool isOn() const { return is_paused_ || is_held_; }
   bool isPaused() const { return is_paused_; }
-  bool isHeld() const { return is_held_; }
   bool isEnding() const { return is_ending_; }
 
   /// Modes of the program, to be restored.

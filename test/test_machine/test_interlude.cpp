@@ -48,7 +48,7 @@ TEST(Interlude, EndsOnceResumedAndKeepsTheProgramsModes) {
   gcode::Modal later;
   interlude.pause(later, 10, true);
   EXPECT_EQ(3, interlude.modal().motion);
-  EXPECT_TRUE(interlude.isPaused() && interlude.isHeld() && !interlude.isEnding());
+  EXPECT_TRUE(interlude.isOn() && interlude.isPaused() && !interlude.isEnding());
   interlude.resume();
   EXPECT_TRUE(interlude.isEnding());
   EXPECT_TRUE(interlude.beginsLowering());

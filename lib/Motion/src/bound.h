@@ -54,19 +54,12 @@ Real secondSlope(Real curvature, const Surroundings<Real>& around) {
   return curvature * (Real(1) + effects.first) + Real(1) / around.nearest + effects.second;
 }
 
-/// Error [mm], at most, of a quadratic through both ends and the middle of a segment [mm].
-///
-/// The remainder is f'''/6 * (s - 0)(s - h/2)(s - h), whose product is at most
-/// (h/2)^3 * 2 / (3 sqrt 3): together third slope * h^3 / (72 sqrt 3).
-template <class Real>
-Real missed(Real third_slope, Real segment_length) {
-  return third_slope * segment_length * segment_length * segment_length / Real(124.7077);
-}
-
 /// Longest time, in the unit of speed and acceleration, in which a quadratic of time through both
 /// ends and the middle misses no more than kMostMissed, where a path is walked evenly faster or
 /// slower: of a length L at a place s(t)
 ///     L''' = L'''(s) speed^3 + 3 L''(s) speed acceleration
+/// A quadratic misses at most (third slope) / 6 * (t - 0)(t - h/2)(t - h), whose product is at most
+/// (h/2)^3 * 2 / (3 sqrt 3): together third slope * h^3 / (72 sqrt 3).
 template <class Real>
 Real longestTime(Real third_slope, Real second_slope, Real speed, Real acceleration) {
   const Real along = third_slope * speed * speed + Real(3) * second_slope * acceleration;

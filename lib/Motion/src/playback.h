@@ -33,7 +33,6 @@ class Playback {
     goAt(asked_);
   }
 
-  bool isHeld() const { return is_held_; }
   bool isAtRest() const { return speed_ == 0; }
   /// Nothing is left of what was taken.
   bool isDone() const { return in_step_; }

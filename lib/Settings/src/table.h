@@ -54,14 +54,6 @@ enum class Word : uint8_t {
   kTo,        ///< between the lowest and the highest
   kWhole,     ///< after the limits: whole numbers only
   kSteps,     ///< after the limits: before the step
-  // Whole lines about what was found at the start.
-  kInPart,       ///< a value beyond its limits became its default
-  kImported,     ///< the published firmware's settings were taken over
-  kDefaults,     ///< nothing was found
-  kOther,        ///< before the number of a version that is not read
-  kOtherEnd,     ///< after it
-  kBadValue,     ///< before the number of a published setting that cannot be right
-  kBadValueEnd,  ///< after it
   kCount
 };
 

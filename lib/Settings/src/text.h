@@ -2,7 +2,6 @@
 #pragma once
 
 #include "format.h"
-#include "memory.h"
 #include "values.h"
 
 namespace settings {
@@ -67,30 +66,6 @@ void putRefusal(const Table& table, uint8_t number, Refusal why, Put& put) {
   if (entry.step > 1 && entry.step != kAnyButZero) {
     putWord(table, Word::kSteps, put);
     putNumber(entry.step, put);
-  }
-}
-
-/// The line about the settings found at the start, or nothing if they are our own, as they were
-/// left; without the line's end. A line that begins with "error:" is an acknowledgement.
-template <class Put>
-void putStart(const Table& table, const Started& started, Put& put) {
-  switch (started.source) {
-    case Source::kOwn:
-      return;
-    case Source::kOwnInPart:
-      return putWord(table, Word::kInPart, put);
-    case Source::kImported:
-      return putWord(table, Word::kImported, put);
-    case Source::kDefaults:
-      return putWord(table, Word::kDefaults, put);
-    case Source::kOtherVersion:
-      putWord(table, Word::kOther, put);
-      putNumber(started.version, put);
-      return putWord(table, Word::kOtherEnd, put);
-    case Source::kBadValue:
-      putWord(table, Word::kBadValue, put);
-      putNumber(started.number, put);
-      return putWord(table, Word::kBadValueEnd, put);
   }
 }
 

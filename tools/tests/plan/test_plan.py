@@ -18,7 +18,7 @@ from plumb.plan.case import case_of
 from plumb.plan.direct_checks import FRAME_CHECKS, effect_checks
 from plumb.plan.options import ROOM_FOR_A_SECOND, many_marks, options
 from plumb.plan.outlook import Rediagnosis, outlook
-from plumb.plan.owner import blind, cost, proposed
+from owner import blind, cost, proposed
 from plumb.plan.planned_visits import nowhere, sent
 from plumb.plan.separation import ENOUGH, Chooser, apart, drawn_by
 from plumb.plan.sites import usable
