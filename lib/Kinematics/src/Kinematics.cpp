@@ -4,12 +4,11 @@
 
 #include <math.h>
 
+#include "search.h"
+
 namespace kinematics {
 
 namespace {
-
-const double kQuarterPi = 0.78539816339744831;
-const double kPi = 3.14159265358979324;
 
 // The wrap of a chain towards a direction with sine s and cosine c below the horizontal is
 // radius * angle, and angle = pi/4 + asin((s - c) / sqrt(2)). These odd coefficients give it within
@@ -20,14 +19,10 @@ const double kArc[3] = {0.70749505, 0.05527136, 0.02142412};
 // The line of the motors is kept clear by this share of their gap.
 const float kFlattest = 1.0f / 128;
 
-const uint8_t kMostTries = 20;
-// The slopes leave out that sag and stretch change along a step. What a step misses for this is
-// 2 to 5 per cent of it, 12 at worst under a light sled; after this one that is an encoder count.
-const float kLastStep = 0.15f;  // [mm]
-// Steps up to this length need no care; longer ones are kept among the places that have slopes,
-// and those longer than the next leave the neighbourhood in which slopes mean anything.
-const float kSafeStep = 10.0f;      // [mm]
-const float kLongestStep = 400.0f;  // [mm]
+// Steps up to this length need no care; longer ones are kept among the places that have slopes.
+// (The slopes leave out that sag and stretch change along a step. What a step misses for this is
+// 2 to 5 per cent of it, 12 at worst under a light sled.)
+const float kSafeStep = 10.0f;  // [mm]
 
 /// Free chain and direction of one strand; returns sine less cosine of the line of centres.
 template <class Real>
@@ -61,9 +56,7 @@ PLUMB_INLINE void drawStraight(const Machine<Real>& machine, Real run, Real drop
     u = (drop - run) / distance;
   }
   strand.length = strand.free;
-  const Real v = u * u;
-  strand.wrap = machine.wrap_middle +
-                u * (machine.wrap_slope + v * (machine.wrap_cubic + v * machine.wrap_quintic));
+  strand.wrap = machine.wrap.at(u);
 }
 
 /// Both strands, straight; their directions only if they are asked for. `span` [mm], unless null,
@@ -142,12 +135,6 @@ void shareLoad(const Machine<Real>& machine, Push push, Hanging<Real>& hanging) 
       machine.ease * (left.free * left.free * left.lean + right.free * right.free * right.lean);
 }
 
-template <class Real>
-Real clamp(Real value, Real low, Real high) {
-  if (value > high) return high;
-  return value > low ? value : low;  // a NaN ends here too
-}
-
 /// The nearest place that has slopes: below the motors and between them.
 template <class Real>
 Point<Real> insideReach(const Machine<Real>& machine, Point<Real> place) {
@@ -166,39 +153,23 @@ Point<Real> stepFrom(const Machine<Real>& machine, Point<Real> place, Point<Real
 /// True where both parts of a step are shorter than `length`.
 template <class Real>
 bool isShort(Point<Real> step, float length) {
-  return fabs(step.x) < Real(length) && fabs(step.y) < Real(length);
-}
-
-/// One Newton step [mm]: the slopes of both lengths are the directions of the strands.
-template <class Real>
-Point<Real> stepTowards(const Hanging<Real>& hanging, Real left_error, Real right_error) {
-  const Strand<Real>& left = hanging.strand[kLeft];
-  const Strand<Real>& right = hanging.strand[kRight];
-  const Real scale = Real(1) / hanging.sine_of_sum;
-  return {(right.sine * left_error - left.sine * right_error) * scale,
-          -(right.cosine * left_error + left.cosine * right_error) * scale};
+  return isWithin(step.x, length) && isWithin(step.y, length);
 }
 
 /// Whether the chains, laid straight from sprocket to sprocket, reach each other at all.
 template <class Real>
 bool canMeet(const Machine<Real>& machine, Chains<Real> chains) {
-  const Real arms = machine.frame.rotation_radius + machine.frame.rotation_radius;
-  const Real sum = chains.left + chains.right + arms;
-  return sum > machine.frame.motor_gap && sum < Real(8) * machine.frame.motor_gap;
+  const Real arm = machine.frame.rotation_radius;
+  return canMeet(chains, arm + arm, machine.frame.motor_gap);
 }
 
 /// Where two straight chains meet whose wrap is that of a 45 degree strand.
 template <class Real>
 Point<Real> meetStraight(const Machine<Real>& machine, Chains<Real> chains) {
-  const Real more = machine.rotation_radius - machine.wrap_middle;
-  const Real left = chains.left + more;
-  const Real right = chains.right + more;
+  const Real more = machine.rotation_radius - machine.wrap.middle;
   const Point<Real> from = machine.sprocket[kLeft];
-  const Real gap = machine.frame.motor_gap;
-  const Real run = (gap + (left - right) * (left + right) / gap) * Real(0.5);
-  const Real drop_squared = left * left - run * run;
-  const Real drop = drop_squared > Real(0) ? sqrt(drop_squared) : Real(0);
-  return {from.x + run, from.y - drop};
+  const Point<Real> span = meet(chains.left + more, chains.right + more, machine.frame.motor_gap);
+  return {from.x + span.x, from.y - span.y};
 }
 
 /// What two strands do under a load, without a push.
@@ -285,16 +256,9 @@ Machine<Real> prepare(const Frame<Real>& frame, const EffectParams<Real>& effect
   const Real half_gap = frame.motor_gap * Real(0.5);
   machine.sprocket[kLeft] = {frame.motor_center_x - half_gap, frame.motor_height};
   machine.sprocket[kRight] = {frame.motor_center_x + half_gap, frame.motor_height};
-  // Off the bottom everything about the sprocket is mirrored, and the chain first goes half round.
-  const bool over_top = frame.feed == Feed::kOverTop;
-  const Real radius = over_top ? frame.sprocket_radius : -frame.sprocket_radius;
-  machine.feed_radius = radius;
-  machine.radius_squared = radius * radius;
-  machine.wrap_middle = radius * Real(kQuarterPi);
-  if (!over_top) machine.wrap_middle += frame.sprocket_radius * Real(kPi);
-  machine.wrap_slope = radius * Real(kArc[0]);
-  machine.wrap_cubic = radius * Real(kArc[1]);
-  machine.wrap_quintic = radius * Real(kArc[2]);
+  machine.feed_radius = feedRadius(frame);
+  machine.radius_squared = frame.sprocket_radius * frame.sprocket_radius;
+  machine.wrap = wrapOf(frame, kArc);
   machine.rotation_radius = frame.rotation_radius;
   // Half of each chain's weight, as far as its middle is towards the bit: free^2 / reach of it.
   // That is free - radius + radius^2 / reach, the last one small: taken at a middling reach.
@@ -356,7 +320,9 @@ Place<Real> forward(const Machine<Real>& machine, Chains<Real> chains, Point<Rea
   for (place.tries = 1; place.tries <= kMostTries; ++place.tries) {
     const Hanging<Real> hanging = hang(machine, place.sled, true);
     const Chains<Real> now = paidOut(hanging);
-    const Point<Real> step = stepTowards(hanging, chains.left - now.left, chains.right - now.right);
+    const Point<Real> step =
+        stepOf(hanging.strand[kLeft], hanging.strand[kRight], hanging.sine_of_sum,
+               chains.left - now.left, chains.right - now.right);
     const Point<Real> next = {place.sled.x + step.x, place.sled.y + step.y};
     if (isShort(step, kLastStep)) return {next, hanging.found, place.tries};
     place.sled = isShort(step, kSafeStep) ? next : stepFrom(machine, place.sled, step);

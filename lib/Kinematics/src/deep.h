@@ -1,7 +1,7 @@
 // Deep chains: the second order of sag, for light sleds and unusual rings; constants only.
 #pragma once
 
-#include "strand.h"
+#include "wrap.h"
 
 namespace kinematics {
 
@@ -85,7 +85,7 @@ template <class Real>
 DeepSag<Real> deepSagOf(const Frame<Real>& frame) {
   const Real ratio = weightRatio(frame);
   const Real arm = armShare(frame);
-  const Real radius = frame.feed == Feed::kOverTop ? frame.sprocket_radius : -frame.sprocket_radius;
+  const Real radius = feedRadius(frame);
   return {ratio * arm * (Real(kLeanByArm) + Real(kLeanByArmSquared) * arm),
           ratio * ratio * Real(kLeanAndCurl), ratio * (radius / frame.motor_gap) * Real(kCurl)};
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "effects.h"
+#include "wrap.h"
 
 namespace kinematics {
 
@@ -22,19 +23,18 @@ struct EffectParams {
 /// What each call reads comes first: the board reaches the first 63 bytes fastest.
 template <class Real>
 struct Machine {
-  Point<Real> sprocket[kSideCount];           ///< [mm] centres
-  Real radius_squared;                        ///< [mm^2] of the sprocket
-  Real rotation_radius;                       ///< [mm] as in the frame
-  Real feed_radius;                           ///< [mm] sprocket's, negative off the bottom
-  Real wrap_middle;                           ///< [mm] wrap of a chain at 45 degrees
-  Real wrap_slope, wrap_cubic, wrap_quintic;  ///< [mm] see kArc in Kinematics.cpp
-  Real load_at_nothing;                       ///< [1] load / sled weight for chains without length
-  Real load_slope;                            ///< [1/mm] and how it grows with the length of both
-  Real ease;                                  ///< [1/mm^2] see easeOf in deep.h
-  bool deep;                                  ///< the second order of sag counts
-  bool level;                                 ///< both sprockets are equally high
-  bool forces;                                ///< some present effect asks for tensions
-  uint16_t present;                           ///< a bit for each effect that is not zero
+  Point<Real> sprocket[kSideCount];  ///< [mm] centres
+  Real radius_squared;               ///< [mm^2] of the sprocket
+  Real rotation_radius;              ///< [mm] as in the frame
+  Real feed_radius;                  ///< [mm] sprocket's, negative off the bottom
+  Wrap<Real> wrap;                   ///< by kArc in Kinematics.cpp
+  Real load_at_nothing;              ///< [1] load / sled weight for chains without length
+  Real load_slope;                   ///< [1/mm] and how it grows with the length of both
+  Real ease;                         ///< [1/mm^2] see easeOf in deep.h
+  bool deep;                         ///< the second order of sag counts
+  bool level;                        ///< both sprockets are equally high
+  bool forces;                       ///< some present effect asks for tensions
+  uint16_t present;                  ///< a bit for each effect that is not zero
   Real coefficient[kEffectCoefficientCount];
   Real highest, lowest, leftmost, rightmost;  ///< [mm] between these a sled can hang
   Frame<Real> frame;

@@ -20,12 +20,11 @@
 
 #include <math.h>
 
+#include "search.h"
+
 namespace kinematics {
 
 namespace {
-
-const double kQuarterPi = 0.78539816339744831;
-const double kPi = 3.14159265358979324;
 
 // Wrap is radius * angle, and angle = pi/4 + asin((sine - cosine) / sqrt(2)). From level to
 // upright these odd coefficients give it within 0.00016 rad: 0.0016 mm. Those of a sled on a ring
@@ -35,12 +34,9 @@ const double kArc[3] = {0.70818114, 0.05135919, 0.02569482};
 // A chain pulls with at most weight / sine_of_sum: no more than any chain could stand.
 const float kLeastSine = 1.0f / 32;
 
-const uint8_t kMostTries = 20;
 // After a last step as long as this, what the first order misses is 0.0005 mm of chain.
-const float kLastTurn = 0.002f;     // [rad]
-const float kLongestTurn = 0.3f;    // [rad]
-const float kLastStep = 0.15f;      // [mm]
-const float kLongestStep = 400.0f;  // [mm]
+const float kLastTurn = 0.002f;   // [rad]
+const float kLongestTurn = 0.3f;  // [rad]
 // A guess that asks for more than this is dropped for the search's own start.
 const float kNearStep = 100.0f;  // [mm]
 const float kNearTurn = 0.2f;    // [rad]
@@ -66,12 +62,6 @@ struct Balance {
   Real slope;                       // [mm] moment per rad of tilt about a bit that stays
   Real left_turned, right_turned;   // [1] moment per mm of a bracket across its strand
 };
-
-template <class Real>
-Real clamp(Real value, Real low, Real high) {
-  if (value > high) return high;
-  return value > low ? value : low;  // a NaN ends here too
-}
 
 /// A strand to a bracket `run` [mm] inwards of its sprocket and `drop` [mm] below it. The bracket
 /// is `out` and `up` [mm] from the bit, out towards the strand's own side.
@@ -158,11 +148,7 @@ Real roughTilt(const Quadrilateral<Real>& machine, Point<Real> bit) {
 /// [mm] chain from 12 o'clock to a bracket, in nominal links.
 template <class Real>
 Real paidOut(const Quadrilateral<Real>& machine, Side side, const Held<Real>& held) {
-  const Real u = held.sine - held.cosine;
-  const Real v = u * u;
-  const Real wrap = machine.wrap_middle +
-                    u * (machine.wrap_slope + v * (machine.wrap_cubic + v * machine.wrap_quintic));
-  return wrap + machine.links[side] * held.free;
+  return machine.wrap.at(held.sine - held.cosine) + machine.links[side] * held.free;
 }
 
 /// Whether both chains lead down and inwards, so that they pull, and none by far too much.
@@ -185,18 +171,11 @@ Point<Real> keptWithin(const Quadrilateral<Real>& machine, Point<Real> bit) {
           clamp(bit.y, machine.lowest, machine.highest)};
 }
 
-/// True for a part of a step that is short; false for NaN.
-template <class Real>
-bool isShort(Real part, float most) {
-  return fabs(part) < Real(most);
-}
-
 /// Whether the chains, laid straight from sprocket to sprocket, reach each other's bracket at all.
 template <class Real>
 bool canMeet(const Quadrilateral<Real>& machine, Chains<Real> chains) {
-  const Real sum = chains.left + chains.right;
   const Real gap = machine.center[kRight] - machine.center[kLeft];
-  return sum + machine.half_gap + machine.half_gap > gap && sum < Real(8) * gap;
+  return canMeet(chains, machine.half_gap + machine.half_gap, gap);
 }
 
 /// One Newton step of the forward search.
@@ -222,9 +201,7 @@ Motion<Real> motionTowards(const Balance<Real>& balance, Real left_error, Real r
             Real(-kLongestTurn), Real(kLongestTurn));  // a NaN is a long turn
   left_error += left.lever * motion.turn;
   right_error -= right.lever * motion.turn;
-  const Real scale = Real(1) / sum;
-  motion.step = {(right.sine * left_error - left.sine * right_error) * scale,
-                 -(right.cosine * left_error + left.cosine * right_error) * scale};
+  motion.step = stepOf(left, right, sum, left_error, right_error);
   return motion;
 }
 
@@ -232,15 +209,12 @@ Motion<Real> motionTowards(const Balance<Real>& balance, Real left_error, Real r
 /// is that of a 45 degree strand.
 template <class Real>
 void startLevel(const Quadrilateral<Real>& machine, Chains<Real> chains, TiltedPlace<Real>& place) {
-  const Real left = chains.left - machine.wrap_middle;
-  const Real right = chains.right - machine.wrap_middle;
   const Real from = machine.center[kLeft] + machine.half_gap;
   const Real gap = machine.center[kRight] - machine.half_gap - from;
-  const Real run = (gap + (left - right) * (left + right) / gap) * Real(0.5);
-  const Real drop_squared = left * left - run * run;
-  const Real drop = drop_squared > Real(0) ? sqrt(drop_squared) : Real(0);
-  place.sled =
-      keptWithin(machine, Point<Real>{from + run, machine.height - machine.mount_height - drop});
+  const Point<Real> span =
+      meet(chains.left - machine.wrap.middle, chains.right - machine.wrap.middle, gap);
+  const Real height = machine.height - machine.mount_height;
+  place.sled = keptWithin(machine, Point<Real>{from + span.x, height - span.y});
   place.tilt_sine = roughTilt(machine, place.sled);
 }
 
@@ -258,7 +232,8 @@ void moveFar(const Quadrilateral<Real>& machine, const Motion<Real>& motion, Rea
 /// True where a step stays below a length [mm] and a turn [rad].
 template <class Real>
 bool isShort(const Motion<Real>& motion, float step, float turn) {
-  return isShort(motion.turn, turn) && isShort(motion.step.x, step) && isShort(motion.step.y, step);
+  return isWithin(motion.turn, turn) && isWithin(motion.step.x, step) &&
+         isWithin(motion.step.y, step);
 }
 
 /// Searches from a place, or from a better one if that turns out to be far off and `guessed`.
@@ -297,16 +272,9 @@ Quadrilateral<Real> prepare(const Frame<Real>& frame, const BracketSled<Real>& s
   const Real half_frame = frame.motor_gap * Real(0.5);
   machine.center[kLeft] = frame.motor_center_x - half_frame;
   machine.center[kRight] = frame.motor_center_x + half_frame;
-  // Off the bottom everything about the sprocket is mirrored, and the chain first goes half round.
-  const bool over_top = frame.feed == Feed::kOverTop;
-  const Real radius = over_top ? frame.sprocket_radius : -frame.sprocket_radius;
-  machine.feed_radius = radius;
-  machine.radius_squared = radius * radius;
-  machine.wrap_middle = radius * Real(kQuarterPi);
-  if (!over_top) machine.wrap_middle += frame.sprocket_radius * Real(kPi);
-  machine.wrap_slope = radius * Real(kArc[0]);
-  machine.wrap_cubic = radius * Real(kArc[1]);
-  machine.wrap_quintic = radius * Real(kArc[2]);
+  machine.feed_radius = feedRadius(frame);
+  machine.radius_squared = frame.sprocket_radius * frame.sprocket_radius;
+  machine.wrap = wrapOf(frame, kArc);
   machine.links[kLeft] = Real(1) / (Real(1) + pitch.left);
   machine.links[kRight] = Real(1) / (Real(1) + pitch.right);
   const Real half_gap = sled.mount_gap * Real(0.5);
@@ -337,7 +305,7 @@ TiltedPaidOut<Real> inverse(const Quadrilateral<Real>& machine, Point<Real> bit,
     const Balance<Real> balance = balanceAt(machine, bit, paid.tilt_sine);
     // The slope falls; where it does not, close below a motor, the way is still the moment's.
     const Real turn = balance.moment / fabs(balance.slope);
-    if (isShort(turn, kLastTurn)) {
+    if (isWithin(turn, kLastTurn)) {
       if (!bothPull(balance)) return paid;
       paid.chains = {paidOut(machine, kLeft, balance.left) - balance.left.lever * turn,
                      paidOut(machine, kRight, balance.right) + balance.right.lever * turn};

@@ -35,19 +35,18 @@ PitchStrain<Real> pitchAmong(Parameter parameter) {
 /// A machine with such a sled, made ready for computing. Made by prepare().
 template <class Real>
 struct Quadrilateral {
-  Real half_gap;                              ///< [mm] bit to either bracket, while level
-  Real mount_height;                          ///< [mm] as in the sled
-  Real center_depth;                          ///< [mm] as in the sled
-  Real center[kSideCount], height;            ///< [mm] x and y of the sprockets' centres
-  Real feed_radius;                           ///< [mm] sprocket's, negative off the bottom
-  Real radius_squared;                        ///< [mm^2] of the sprocket
-  Real wrap_middle;                           ///< [mm] wrap of a chain at 45 degrees
-  Real wrap_slope, wrap_cubic, wrap_quintic;  ///< [mm] see kArc in quadrilateral.cpp
-  Real links[kSideCount];                     ///< [1] nominal length of chain per length
-  Real steepest;                              ///< [1] tilt_sine of the most tilted sled
-  Real rough_drop;                            ///< [mm] see roughTilt in quadrilateral.cpp
-  Real highest, leftmost, rightmost;          ///< [mm] below and between these a bit can hang
-  Real lowest;                                ///< [mm] forward() searches down to here
+  Real half_gap;                      ///< [mm] bit to either bracket, while level
+  Real mount_height;                  ///< [mm] as in the sled
+  Real center_depth;                  ///< [mm] as in the sled
+  Real center[kSideCount], height;    ///< [mm] x and y of the sprockets' centres
+  Real feed_radius;                   ///< [mm] sprocket's, negative off the bottom
+  Real radius_squared;                ///< [mm^2] of the sprocket
+  Wrap<Real> wrap;                    ///< by kArc in quadrilateral.cpp
+  Real links[kSideCount];             ///< [1] nominal length of chain per length
+  Real steepest;                      ///< [1] tilt_sine of the most tilted sled
+  Real rough_drop;                    ///< [mm] see roughTilt in quadrilateral.cpp
+  Real highest, leftmost, rightmost;  ///< [mm] below and between these a bit can hang
+  Real lowest;                        ///< [mm] forward() searches down to here
 };
 
 /// Chain lengths for a place of the bit; lengths are zero unless found is kYes.

@@ -1,0 +1,53 @@
+// What the searches for a place share, whether the sled hangs on a ring or on two brackets.
+#pragma once
+
+#include <math.h>
+
+#include "strand.h"
+
+namespace kinematics {
+
+const uint8_t kMostTries = 20;
+// A step so short is the last: what it misses for a slope that changes on the way is an encoder
+// count at most. A longer one than the next leaves the neighbourhood in which slopes mean anything.
+const float kLastStep = 0.15f;      // [mm]
+const float kLongestStep = 400.0f;  // [mm]
+
+template <class Real>
+Real clamp(Real value, Real low, Real high) {
+  if (value > high) return high;
+  return value > low ? value : low;  // a NaN ends here too
+}
+
+/// True for a part of a step that is no longer than `most`; false for NaN.
+template <class Real>
+bool isWithin(Real part, float most) {
+  return fabs(part) < Real(most);
+}
+
+/// Whether chains that hold `across` [mm] of sled between them reach from sprocket to sprocket.
+template <class Real>
+bool canMeet(Chains<Real> chains, Real across, Real gap) {
+  const Real sum = chains.left + chains.right + across;
+  return sum > gap && sum < Real(8) * gap;
+}
+
+/// Where two lines of these lengths meet, `gap` [mm] apart: run from the left one's end, and drop.
+template <class Real>
+Point<Real> meet(Real left, Real right, Real gap) {
+  const Real run = (gap + (left - right) * (left + right) / gap) * Real(0.5);
+  const Real drop_squared = left * left - run * run;
+  return {run, drop_squared > Real(0) ? sqrt(drop_squared) : Real(0)};
+}
+
+/// Step of a bit whose chains are short by these errors [mm]: the slopes of both lengths are the
+/// directions of the strands. A strand needs sine and cosine.
+template <class Strand, class Real>
+Point<Real> stepOf(const Strand& left, const Strand& right, Real sine_of_sum, Real left_error,
+                   Real right_error) {
+  const Real scale = Real(1) / sine_of_sum;
+  return {(right.sine * left_error - left.sine * right_error) * scale,
+          -(right.cosine * left_error + left.cosine * right_error) * scale};
+}
+
+}  // namespace kinematics
