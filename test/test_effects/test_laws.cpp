@@ -181,6 +181,49 @@ struct Missing {
 
 }  // namespace
 
+TEST(Registry, ClearsWhatBendsAndNothingElse) {
+  EffectParams<double> effects;
+  for (double& value : effects.value) value = 1;
+  Effects::For<double>::clearBends(effects.value);
+  for (const AnyParam& any : everyParam()) {
+    const bool bends = any.effect == "chain_sag" || any.effect == "chain_stretch";
+    EXPECT_EQ(bends ? 0 : 1, effects.value[any.index]) << any.effect;
+  }
+}
+
+TEST(Registry, AddsUpTheWavesOfBothSprockets) {
+  EffectParams<double> effects = {};
+  for (const AnyParam& any : everyParam())
+    effects.value[any.index] = any.effect == "sprocket_runout" ? -0.25 : 3;
+  EXPECT_DOUBLE_EQ(1, Effects::For<double>::wavesOf(effects.value));
+}
+
+TEST(Registry, FindsTheFirstParameterOfAnEffect) {
+  for (const AnyParam& any : everyParam())
+    if (any.setting == 180 || any.setting == 100)
+      EXPECT_EQ(any.index, any.setting == 180
+                               ? Effects::For<double>::firstOf<ChainPitch<double>>()
+                               : Effects::For<double>::firstOf<MotorLevel<double>>());
+}
+
+TEST(Registry, TakesOverWhatThePublishedSettingsSay) {
+  const Frame<double> frame = {2978.4, 1072.6, 0, 139.1, 10.1063, 97.9, 0.00137293, Feed::kOverTop};
+  EffectParams<double> effects = {}, expected = {};
+  const PublishedChains<double> published = {8.2e-12, {0.002, -0.001}, 2438.4, 1219.2};
+  Effects::For<double>::addPublished(frame, published, effects.value);
+  // The longest line on the sheet is hypot(2708.4, 1682.2) mm.
+  const double share = 139.1 / hypot(2708.4, 1682.2), chain = 1 - share;
+  expected.set(160, 8.2e-12 / (chain * chain * chain * (1 + 3 * share)));
+  expected.set(180, 0.002);
+  expected.set(181, -0.001);
+  expected.set(200, 139.1 * 0.002 / 1.002);
+  expected.set(201, -139.1 * 0.001 / 0.999);
+  for (const AnyParam& any : everyParam())
+    EXPECT_NEAR(expected.value[any.index], effects.value[any.index],
+                1e-12 * fabs(expected.value[any.index]))
+        << any.setting;
+}
+
 TEST(Registry, EveryHeaderSaysAllThatTheLabAsks) {
   Missing missing;
   Effects::For<double>::visit(missing);
