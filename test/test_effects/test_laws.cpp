@@ -199,11 +199,9 @@ TEST(Registry, AddsUpTheWavesOfBothSprockets) {
 }
 
 TEST(Registry, FindsTheFirstParameterOfAnEffect) {
-  for (const AnyParam& any : everyParam())
-    if (any.setting == 180 || any.setting == 100)
-      EXPECT_EQ(any.index, any.setting == 180
-                               ? Effects::For<double>::firstOf<ChainPitch<double>>()
-                               : Effects::For<double>::firstOf<MotorLevel<double>>());
+  typedef Effects::For<double> All;
+  EXPECT_EQ(All::indexOf(100), All::firstOf<MotorLevel<double>>());
+  EXPECT_EQ(All::indexOf(180), All::firstOf<ChainPitch<double>>());
 }
 
 TEST(Registry, TakesOverWhatThePublishedSettingsSay) {
