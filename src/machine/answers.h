@@ -22,7 +22,6 @@ class Answers {
     line_ = line;
     is_answered_ = false;
   }
-  void nameLine(const char* line) { line_ = line; }
   bool isAnswered() const { return is_answered_; }
   /// Says whether the line counts as answered.
   void setAnswered(bool yes) { is_answered_ = yes; }
