@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from carried_out import TRUE_VALUES, Bench
 from hidden_boards import MAKER, board, plan, size_for
+from owner import blind, cost, proposed
 from plumb.bench.causes import SLED
 from plumb.diagnose import Checked, diagnose
 from plumb.fit.inputs import Inputs
@@ -18,7 +19,6 @@ from plumb.plan.case import case_of
 from plumb.plan.direct_checks import FRAME_CHECKS, effect_checks
 from plumb.plan.options import ROOM_FOR_A_SECOND, many_marks, options
 from plumb.plan.outlook import Rediagnosis, outlook
-from owner import blind, cost, proposed
 from plumb.plan.planned_visits import nowhere, sent
 from plumb.plan.separation import ENOUGH, Chooser, apart, drawn_by
 from plumb.plan.sites import usable
