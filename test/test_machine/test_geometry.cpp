@@ -1,6 +1,8 @@
 // What the settings of the frame mean for the chains.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <utility>
 
@@ -57,6 +59,37 @@ TEST(FrameSettings, NoMoreChainIsPaidOutThanThereIs) {
   EXPECT_TRUE(enough.geometry.isReachable(corner)) << lengths.right;
   EXPECT_FALSE(tooShort.geometry.isReachable(corner)) << "right, " << lengths.right;
   EXPECT_FALSE(tooShort.geometry.isReachable({1000, -500})) << "left, " << lengths.right;
+}
+
+TEST(FrameSettings, SprocketsStandAsFarApartAndAsHighAsTheySay) {
+  for (const float kinematics : {1.0f, 2.0f}) {
+    const Shaped shaped({{7, kinematics}, {1, 1000}, {2, 3000}, {3, 450}});
+    const motion::Sprockets<float>& sprockets = shaped.geometry.sprockets();
+    EXPECT_FLOAT_EQ(-1500, sprockets.left.x);
+    EXPECT_FLOAT_EQ(1500, sprockets.right.x);
+    EXPECT_FLOAT_EQ(950, sprockets.left.y);
+    EXPECT_FLOAT_EQ(950, sprockets.right.y);
+  }
+}
+
+TEST(FrameSettings, SprocketsThatRunOutBendTheChainsNoMoreThanTheBoundSays) {
+  const Shaped round({{7, 2}, {8, 139}, {10, 5000}});
+  const Shaped uneven({{7, 2}, {8, 139}, {10, 5000}, {190, 0.5f}});
+  const double allowed = double(uneven.geometry.sprockets().effects.first) -
+                         double(round.geometry.sprockets().effects.first);
+  const auto added = [&](float x, float y) {
+    return double(uneven.geometry.inverse({x, y}).left) -
+           double(round.geometry.inverse({x, y}).left);
+  };
+  double steepest = 0;
+  for (float x = -1000; x < 1000; x += 37)
+    for (float y = -500; y < 500; y += 41) {
+      steepest = std::max(steepest, std::fabs(added(x + 4, y) - added(x, y)) / 4);
+      steepest = std::max(steepest, std::fabs(added(x, y + 4) - added(x, y)) / 4);
+    }
+  EXPECT_GT(steepest, 0.02) << "half a millimetre on a sprocket of 10";
+  EXPECT_LE(steepest, allowed + 2e-4);
+  EXPECT_LE(allowed, 2 * steepest) << "and the bound is no excuse";
 }
 
 TEST(FrameSettings, SheetIsCentredOnTheOrigin) {
