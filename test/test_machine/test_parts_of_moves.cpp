@@ -25,6 +25,17 @@ TEST_F(MovesAlone, KeepToTheSheetWhileTheProgramCountsBeyondIt) {
   EXPECT_FLOAT_EQ(1300, place.counted().x);
   EXPECT_TRUE(place.isCountedBeyond());
   expectSaid("leads beyond the sheet");
+  board.said.clear();
+  EXPECT_TRUE(moves.move(0, words("G0 X1301")));
+  EXPECT_EQ("", board.said) << "once for each time that the path leaves it";
+  // In motion a jog goes on from where the program counts, after a rest from where the sled is.
+  modal.relative = true;
+  EXPECT_TRUE(moves.move(0, words("G0 X-1")));
+  EXPECT_FLOAT_EQ(1300, place.counted().x);
+  EXPECT_TRUE(waiting.drain());
+  axes.releaseAll();
+  EXPECT_TRUE(moves.move(0, words("G0 X-1")));
+  EXPECT_NEAR(1218.2, place.aim().x, 0.01);
 }
 
 TEST_F(MovesAlone, AreRefusedWhereThePlaceIsNotKnown) {
@@ -127,6 +138,8 @@ TEST_F(CoordinatesAlone, RefuseWhatHasNoMeaning) {
   EXPECT_FALSE(coordinates.keepGoal(piece("G28.1 X1")));
   keeper.doubt(kZAxis);
   EXPECT_FALSE(coordinates.shift(words("G92 X0")));
+  EXPECT_FALSE(coordinates.declare(words("G10 L20 P1 X0")));
+  EXPECT_TRUE(coordinates.declare(words("G10 L2 P1 X0")));
   EXPECT_TRUE(coordinates.shift(words("G92 Z0")));
 }
 
@@ -167,6 +180,7 @@ TEST_F(SingleAxisAlone, MakesZeroWhereTheProbeTouches) {
   waiting.in_each_round = [] {};
   EXPECT_FALSE(single_axis.probe(-0.5f));
   expectSaid("probe did not connect");
+  EXPECT_NEAR(axes.length(kZAxis), place.aim().z, 0.01) << "the next move begins there";
 }
 
 struct AxisTestsAlone : Parts {};
