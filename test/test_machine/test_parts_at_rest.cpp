@@ -56,6 +56,15 @@ TEST_F(WaitingAlone, HasPatienceOfHalfASecondForAnAxisThatNeverComes) {
   EXPECT_EQ(500, waiting.rounds);
 }
 
+TEST_F(WaitingAlone, GoesOnAfterTheLastSetPointUntilTheMotorsAreThere) {
+  axes.simulate(false);
+  EXPECT_TRUE(moves.move(0, words("G0 Z-0.1")));
+  int rounds_still = 0;
+  waiting.in_each_round = [&] { rounds_still += !waiting.isMoving(); };
+  EXPECT_TRUE(waiting.drain());
+  EXPECT_NEAR(500, rounds_still, 2);
+}
+
 struct MotorPowerAlone : Parts {
   /// As after a rest: the EEPROM holds a record that motion makes invalid.
   void keepRecord() {
@@ -131,6 +140,22 @@ TEST_F(PlaceAlone, IsFollowedInMotionAndIsTheAimAtRest) {
   EXPECT_GT(middle, 3);
   EXPECT_LT(middle, 27);
   EXPECT_FLOAT_EQ(30, place.now(false).x);
+}
+
+TEST_F(PlaceAlone, IsLookedForWhereAChainWasPulledAtRest) {
+  axes.simulate(false);
+  waiting.in_each_round = [&] { place.keepWhenAtRest(board.now_ms); };
+  waiting.waitFor(1000);
+  for (const auto& [counts, least, most] :
+       {std::tuple<int, float, float>{45, 0, 0}, {128, 0.3f, 2}}) {
+    place.search();
+    const Place before = place.aim();
+    board.counted[kLeftAxis] = uint16_t(board.counted[kLeftAxis] + counts);
+    waiting.waitFor(1000);
+    const float moved = float(std::hypot(place.aim().x - before.x, place.aim().y - before.y));
+    EXPECT_GE(moved, least) << counts;
+    EXPECT_LE(moved, most) << counts;
+  }
 }
 
 struct ZAxisAlone : Parts {};
@@ -254,6 +279,17 @@ TEST_F(OperatorAlone, EndsAPauseAndOneThatCameBeforeIt) {
   expectSaid("Maslow Paused");
   EXPECT_TRUE(pauses.changeTool(0));
   EXPECT_EQ(1001, waiting.rounds);
+}
+
+TEST_F(OperatorAlone, EndsAPauseThatItsResumeCameBefore) {
+  input.put('~');
+  waiting.in_each_round = [&] {
+    operator_lines.serve();
+    if (waiting.rounds == 100) waiting.stop();
+  };
+  EXPECT_TRUE(pauses.pauseAfterMoves());
+  EXPECT_LT(waiting.rounds, 5);
+  EXPECT_FALSE(pauses.pauseAfterMoves()) << "it counts once";
 }
 
 TEST_F(OperatorAlone, SetsZByHandWhereThereIsNoMotor) {

@@ -74,6 +74,13 @@ TEST_F(MovesAlone, TakeTheFeedInItsUnitsAndCapIt) {
   EXPECT_FLOAT_EQ(-4, moves.feedOf(1));
 }
 
+TEST_F(MovesAlone, TakeTheTimeThatInverseTimeAsksFor) {
+  modal.inverse_time = true;
+  EXPECT_FALSE(moves.move(1, words("G1 X10")));
+  EXPECT_TRUE(moves.move(1, words("G1 X10 F6")) && waiting.drain());
+  EXPECT_NEAR(10000, waiting.rounds, 300);
+}
+
 TEST_F(MovesAlone, GoToAKeptPlaceFirstUpThenAcross) {
   EXPECT_FALSE(moves.goToKept(piece("G28")));
   expectSaid("nobody has set that place");

@@ -134,8 +134,8 @@ Signature howItMoves(const Values& values) {
   geometry.prepare(usual.values);
   Planner planner;
   planner.setGeometry(geometry);
-  planner.prepare(values, axes.secondsPerTick());
   planner.boost(1.5f);
+  planner.prepare(values, axes.secondsPerTick());
   const motion::Lengths<float> from = geometry.inverse({0, 0});
   axes.declare(kLeftAxis, from.left);
   axes.declare(kRightAxis, from.right);
