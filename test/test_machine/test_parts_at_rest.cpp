@@ -260,7 +260,9 @@ TEST_F(OperatorAlone, JogsZInAHoldAndTheProgramGoesOnAsItWas) {
   EXPECT_NEAR(1, axes.length(kZAxis), 0.01);
   EXPECT_EQ((std::vector<bool>{true, true, true}), answered);
   EXPECT_EQ("B20", asked);
-  EXPECT_TRUE(modal.relative && interlude.isHeld());
+  EXPECT_TRUE(modal.relative);
+  EXPECT_TRUE(interlude.isOn());
+  EXPECT_FALSE(interlude.isPaused()) << "it is held";
   operator_lines.resume();
   serveFor(4000);
   expectSaid("Z goes back to 0.00");
