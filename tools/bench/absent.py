@@ -45,7 +45,7 @@ def built(effects: str) -> Cycles:
         copy / "reach.cpp",
         board.FLOAT,
     ]
-    includes = [f"-I{copy}", f"-I{board.BENCH}"]
+    includes = [f"-I{copy}", f"-I{board.BENCH}", f"-I{board.BUILD}"]
     board.output("avr-g++", *board.AVR_FLAGS, *includes, *sources, "-o", elf)
     found = json.loads(board.output(board.BUILD / "count_cycles", elf).splitlines()[-1])
     return Cycles(*found[CASE]["cycles"])

@@ -64,7 +64,7 @@ def built(text: str) -> int:
     shutil.copytree(board.KINEMATICS, copy)
     (copy / "effects.h").write_text(text, encoding="utf-8")
     elf = board.BUILD / "other_effects.elf"
-    includes = [f"-I{copy}", f"-I{board.BENCH}"]
+    includes = [f"-I{copy}", f"-I{board.BENCH}", f"-I{board.BUILD}"]
     sources = [
         board.BENCH / "part_program.cpp",
         copy / "Kinematics.cpp",
