@@ -209,8 +209,9 @@ PLUMB_RARE void spanBetweenEnds(const Machine<Real>& machine, Point<Real> bit, P
 }
 
 template <class Push, class Real>
-PLUMB_INLINE void hangUnder(const Machine<Real>& machine, Point<Real> bit, bool directed, Push push,
-                            Hanging<Real>& hanging) {
+PLUMB_INLINE Hanging<Real> hangUnder(const Machine<Real>& machine, const Point<Real>& bit,
+                                     bool directed, Push push) {
+  Hanging<Real> hanging;
   typedef Effects::For<Real> All;
   Point<Real> room[kSideCount];
   const Point<Real>* span = nullptr;
@@ -220,9 +221,10 @@ PLUMB_INLINE void hangUnder(const Machine<Real>& machine, Point<Real> bit, bool 
   }
   drawBoth(machine, bit, span, directed || machine.forces, hanging);
   if (directed || machine.forces) shareLoad(machine, push, hanging);
-  if (machine.present == 0) return;
+  if (machine.present == 0) return hanging;
   for (uint8_t side = kLeft; side < kSideCount; ++side)
     All::adjustLength(machine.coefficient, machine.present, hanging.strand[side]);
+  return hanging;
 }
 
 /// The push of all effects at a place.
@@ -238,7 +240,7 @@ template <bool kPushed>
 struct Pushed {};
 
 template <class Real>
-PLUMB_INLINE NoPush pushOf(Pushed<false>, const Machine<Real>&, Point<Real>) {
+PLUMB_INLINE NoPush pushOf(Pushed<false>, const Machine<Real>&, const Point<Real>&) {
   return NoPush();
 }
 
@@ -288,18 +290,14 @@ Machine<Real> prepare(const Frame<Real>& frame, const EffectParams<Real>& effect
 template <class Real>
 Hanging<Real> hang(const Machine<Real>& machine, Point<Real> bit, bool directed) {
   typedef Pushed<Effects::For<Real>::kPushMask != 0> IsPushed;
-  Hanging<Real> hanging;
-  hangUnder(machine, bit, directed, pushOf(IsPushed(), machine, bit), hanging);
-  return hanging;
+  return hangUnder(machine, bit, directed, pushOf(IsPushed(), machine, bit));
 }
 
 template <class Real>
 Hanging<Real> hangPushed(const Machine<Real>& machine, Point<Real> bit, Point<Real> push) {
   const Point<Real> effects = pushAt(machine, bit);
   const Point<Real> all = {push.x + effects.x, push.y + effects.y};
-  Hanging<Real> hanging;
-  hangUnder(machine, bit, true, all, hanging);
-  return hanging;
+  return hangUnder(machine, bit, true, all);
 }
 
 template <class Real>
