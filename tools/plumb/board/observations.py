@@ -82,6 +82,12 @@ def observe(
     )
 
 
+def different_numbers(measurements: Measurements, rows: Observations) -> int:
+    """How many numbers tell of different places: repeats tell of the noise alone."""
+    spans = {frozenset(distance.between) for distance in measurements.distances}
+    return 2 * len(set(rows.names)) + len(spans)
+
+
 def _paid_out(
     settings: MachineSettings, measurements: Measurements, targets: Array, controller: str | None
 ) -> Array:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.board.observations import Observations
+from plumb.board.observations import Observations, different_numbers
 from plumb.board.rounds import notes_on, unit_of
 from plumb.board.sighting import SHEET_ROTATION
 from plumb.fit.compare import Comparison, compare
@@ -236,9 +236,7 @@ def _refuse_too_few(
     effects: Sequence[str],
     priors: Mapping[str, float],
 ) -> None:
-    """Repeats do not count: they tell of the noise, not of another place."""
-    spans = {frozenset(distance.between) for distance in measurements.distances}
-    count = 2 * len(set(rows.names)) + len(spans)
+    count = different_numbers(measurements, rows)
     frame = sum(sigma > 0 for sigma in priors.values())
     free = sum(len(parameter_names(name)) for name in effects)
     if count < frame + free:

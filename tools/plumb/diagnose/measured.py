@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from plumb.board.observations import Observations
+from plumb.board.observations import Observations, different_numbers
 from plumb.diagnose.explanation import Board
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import USUAL_SIGMA
@@ -20,14 +20,8 @@ def measured_board(inputs: Inputs) -> Board:
     return Board.of(model, rows, sigma=sigma, priors=inputs.priors, checked=inputs.checked)
 
 
-def places_measured(measurements: Measurements, rows: Observations) -> int:
-    """How many numbers tell of different places: repeats tell of the noise alone."""
-    spans = {frozenset(distance.between) for distance in measurements.distances}
-    return 2 * len(set(rows.names)) + len(spans)
-
-
 def _refuse_too_few(measurements: Measurements, rows: Observations) -> None:
-    count = places_measured(measurements, rows)
+    count = different_numbers(measurements, rows)
     if count < FEWEST_NUMBERS:
         raise InputError(
             f"{measurements.source}: {count} measured numbers are too few for a diagnosis; measure "

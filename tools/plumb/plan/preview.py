@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.special import chdtri, chndtrinc
 
-from plumb.board.observations import model_and_observations
+from plumb.board.observations import different_numbers, model_and_observations
 from plumb.diagnose.clean import felt_effects
 from plumb.diagnose.explanation import Board, Explanation, explain
 from plumb.diagnose.gain import search
@@ -129,7 +129,7 @@ def _as_planned(
 ) -> Explanation:
     """The frame's explanation of readings that are just what the model says."""
     model, rows = model_and_observations(settings, plan, controller=controller)
-    if 2 * len(set(rows.names)) + len(rows.distances) < FEWEST_NUMBERS:
+    if different_numbers(plan, rows) < FEWEST_NUMBERS:
         raise InputError(f"{plan.source}: too few marks for a diagnosis; plan at least three")
     board = Board.of(model, rows, sigma=sigma, priors=priors)
     sighting, _ = board.problem.predict(np.zeros(len(board.problem.names)))
