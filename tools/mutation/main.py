@@ -5,7 +5,6 @@ import random
 import sys
 import time
 
-from cxx_build import COPIED
 from ledger import Ledger, reasons, score, state_of
 from mutants import SURVIVED, Mutant, Verdict
 from rooms import FOLDER, ROOMS, ROOT, Room
@@ -58,7 +57,7 @@ def run(room: Room, asked: argparse.Namespace) -> int:
     if asked.list:
         print(*mutants, sep="\n")
         return 0
-    state = state_of(ROOT, (*COPIED, "tools/mutation"))
+    state = state_of(ROOT, room.watched)
     ledger = Ledger(FOLDER / f"{room.name.replace('/', '_')}.json", state)
     waiting = waiting_in(ledger, mutants, asked.survivors)
     progress = Progress(room.name, len(waiting))

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from cxx import CxxRoom
-from cxx_build import Build, flags_of, layout_of
+from cxx_build import COPIED, Build, flags_of, layout_of
+from python import PythonRoom
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / ".build/mutation"
@@ -18,6 +19,7 @@ class Room:
 
     name: str
     open: Callable
+    watched: tuple[str, ...]  # folders whose change voids the verdicts
 
 
 def cxx(name: str, *suites: str) -> Room:
@@ -34,7 +36,17 @@ def cxx(name: str, *suites: str) -> Room:
 
         return CxxRoom(ROOT, [path.relative_to(ROOT) for path in files], build, is_quick)
 
-    return Room(name, opened)
+    return Room(name, opened, (*COPIED, "tools/mutation"))
+
+
+def python(name: str, *tests: str) -> Room:
+    """A folder of Python below tools."""
+
+    def opened(is_quick: bool) -> PythonRoom:
+        files = sorted(path.relative_to(ROOT) for path in (ROOT / name).glob("*.py"))
+        return PythonRoom(ROOT, files, list(tests), is_quick)
+
+    return Room(name, opened, ("tools/plumb", "tools/tests", "tools/mutation"))
 
 
 ROOMS = (
@@ -43,4 +55,11 @@ ROOMS = (
     cxx("lib/GCode", "test_gcode"),
     cxx("lib/Settings", "test_settings"),
     cxx("src/machine", "test_machine", "test_control", "test_dialogues"),
+    python(
+        "tools/plumb/diagnose",
+        "tools/tests/diagnose/test_limits.py",
+        "tools/tests/diagnose/test_diagnose_parts.py",
+        "tools/tests/diagnose/test_mixed_up.py",
+        "tools/tests/diagnose/test_halves.py",
+    ),
 )

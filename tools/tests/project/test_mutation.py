@@ -14,6 +14,7 @@ from cxx_build import Build, Layout, flags_of  # noqa: E402
 from cxx_schema import mutated, shown, with_switches  # noqa: E402
 from ledger import Ledger, reasons, score  # noqa: E402
 from mutants import EQUIVALENT, KILLED, STILLBORN, SURVIVED, Mutant, Verdict  # noqa: E402
+from python import PythonRoom, changes_of  # noqa: E402
 
 TOY = """// A comment with 1 < 2 in it.
 #pragma once
@@ -166,8 +167,68 @@ def test_verdicts_outlive_a_run_and_excused_survivors_do_not_count(tmp_path):
     assert str(result).startswith("toy: 50.0% of 2 mutants fall; 1 survive, 1 more with a reason")
 
 
+THING = """\"\"\"A toy.\"\"\"
+
+
+def bounded(value):
+    if value > 9:
+        return 9
+    return value
+
+
+def is_small(value):
+    return value < 3
+"""
+THING_TESTS = """from toy.thing import bounded, is_small
+
+
+def test_bounds():
+    assert bounded(12) == 9 and bounded(9) == 9 and bounded(3) == 3
+
+
+def test_small():
+    assert is_small(1) and not is_small(5)
+"""
+PYTHON_EXPECTED = {
+    "if value >= 9:": SURVIVED,
+    "if value < 9:": KILLED,
+    "return 10": KILLED,
+    "return value <= 3": SURVIVED,
+    "return value > 3": KILLED,
+    "return value < 4": SURVIVED,
+}
+
+
+@pytest.mark.parametrize("is_quick", [False, True])
+def test_each_mutant_of_a_python_toy_has_the_verdict_that_its_tests_deserve(tmp_path, is_quick):
+    folders = {"toy/thing.py": THING, "tests/test_thing.py": THING_TESTS, "conftest.py": ""}
+    for name, text in folders.items():
+        path = tmp_path / "tools" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    file = Path("tools/toy/thing.py")
+    room = PythonRoom(tmp_path, [file], ["tools/tests/test_thing.py"], is_quick)
+    asked = [mutant for mutant in room.mutants() if mutant.changed in PYTHON_EXPECTED]
+    verdicts = {}
+    room.judge(asked, lambda mutant, verdict: verdicts.update({mutant.changed: verdict}))
+    assert {changed: verdict.outcome for changed, verdict in verdicts.items()} == PYTHON_EXPECTED
+    assert "test_small" in verdicts["return value > 3"].by
+    assert (tmp_path / file).read_text() == THING
+
+
+def test_a_python_toy_that_fails_by_itself_is_not_judged(tmp_path):
+    (tmp_path / "test_thing.py").write_text("def test_nothing():\n    assert 1 == 2\n")
+    room = PythonRoom(tmp_path, [], ["test_thing.py"], False)
+    with pytest.raises(SystemExit, match="fail without any mutant"):
+        room.judge([], lambda mutant, verdict: None)
+
+
 def test_every_reason_names_a_line_that_the_tree_has():
     for file, original, mutant in reasons(ROOT / "tools/mutation/reasons"):
         text = (ROOT / file).read_bytes()
-        known = {shown(text, site) for site in cxx_sites.read(text)[0]}
+        if file.endswith(".py"):
+            changes = changes_of(ROOT, Path(file))
+            known = {(change.mutant.original, change.mutant.changed) for change in changes}
+        else:
+            known = {shown(text, site) for site in cxx_sites.read(text)[0]}
         assert (original, mutant) in known, f"{file}: {original}"
