@@ -58,6 +58,7 @@ ROOMS = (
     python(
         "tools/plumb/diagnose",
         "tools/tests/diagnose/test_limits.py",
+        "tools/tests/diagnose/test_slip_cause.py",
         "tools/tests/diagnose/test_diagnose_parts.py",
         "tools/tests/diagnose/test_mixed_up.py",
         "tools/tests/diagnose/test_halves.py",

@@ -1,0 +1,82 @@
+"""What a slip most likely was, in words; and the pieces that only slow boards would feel."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from plumb.board.observations import observe
+from plumb.diagnose.explanation import Board, explain, span
+from plumb.diagnose.noise import Noise
+from plumb.diagnose.sentence import verdict_sentence
+from plumb.diagnose.significance import KNOWN
+from plumb.diagnose.sizes import sizes_of
+from plumb.diagnose.slip_cause import described
+from plumb.diagnose.slips import Reading, Shift
+from plumb.marks.read import Distance, Mark, Measurements
+from synthetic import BELIEVED, SHEET, TRUE, grid, marks_on
+
+
+def slip_of(read, expected, sigma=0.3):
+    """The slip of a mark that was read here and expected there."""
+    marks = Measurements((Mark("A", (0.0, 0.0), read),))
+    offset = np.subtract(read, expected)
+    return described(Shift(Reading(0, True), offset, np.full(2, sigma), 99.0), marks, SHEET)
+
+
+def slip_of_distance(read, expected):
+    """The slip of a distance."""
+    ends = (Mark("A", (0.0, 0.0)), Mark("B", (900.0, 0.0)))
+    marks = Measurements(ends, (Distance(("A", "B"), read),))
+    offset = np.array([read - expected])
+    return described(Shift(Reading(0, False), offset, np.array([0.3]), 99.0), marks, SHEET)
+
+
+@pytest.mark.parametrize(
+    ("read", "expected", "guess"),
+    [
+        ((412.0, 100.0), (421.0, 100.0), "412 written for 421?"),
+        ((300.0, -200.0), (-200.0, 300.0), "x and y may be exchanged"),
+        ((410.0, 100.0), (400.0, 100.0), "misread by 10 mm in x?"),
+        ((400.0, 125.4), (400.0, 100.0), "misread by an inch in y?"),
+        ((407.3, 107.3), (400.0, 100.0), ""),
+    ],
+)
+def test_usual_mistakes_are_guessed(read, expected, guess):
+    slip = slip_of(read, expected)
+    assert slip.guess == guess and slip.expected == pytest.approx(expected)
+    assert slip.length == pytest.approx(np.hypot(*np.subtract(read, expected)))
+
+
+def test_a_distance_has_no_axis():
+    slip = slip_of_distance(925.4, 900.0)
+    assert slip.guess == "misread by an inch?" and slip.way == "too long"
+    assert slip_of_distance(890.0, 900.0).way == "too short"
+
+
+@pytest.mark.parametrize(
+    ("count", "words"), [(1, "One reading disagrees"), (2, "Some readings disagree")]
+)
+def test_the_sentence_counts_the_slips(count, words):
+    slips = [SimpleNamespace(name=name) for name in "AB"[:count]]
+    sentence = verdict_sentence(SimpleNamespace(verdict="slip", slips=slips))
+    assert sentence.startswith(words) and "A" in sentence
+
+
+def test_a_span_sees_short_columns_and_drops_what_repeats():
+    assert span(np.diag([1.0, 1e-8])).shape == (2, 2)
+    assert span(np.array([[1.0, 2.0], [1.0, 2.0]])).shape == (2, 1)
+    tiny = np.array([[1e-9], [0.0]])
+    assert span(tiny).shape == (2, 1) and span(tiny, against=np.eye(2)[:, :1]).shape == (2, 0)
+
+
+def test_sizes_come_with_names_units_and_intervals():
+    rows = observe(BELIEVED, Measurements(marks_on(TRUE, BELIEVED, grid(5, 3), noise=0.2, seed=3)))
+    fitted = explain(Board.of(BELIEVED, rows, sigma=0.2), ("chain_pitch",))
+    sizes = sizes_of(fitted, "chain_pitch", Noise(0.2, KNOWN, "stated"))
+    assert [size.name for size in sizes] == ["left", "right"]
+    column = fitted.board.columns(["chain_pitch"])[0]
+    curvature = fitted.slopes[:, fitted.free].T @ fitted.slopes[:, fitted.free]
+    deviation = np.sqrt(np.linalg.inv(curvature)[len(fitted.board.frame), len(fitted.board.frame)])
+    half = 1.96 * deviation * fitted.board.problem.scale[column]
+    assert sizes[0].high - sizes[0].value == pytest.approx(half, rel=1e-6)
+    assert sizes[0].value - sizes[0].low == pytest.approx(half, rel=1e-6)
