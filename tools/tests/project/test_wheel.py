@@ -7,6 +7,7 @@ import subprocess
 import sys
 import sysconfig
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -46,7 +47,8 @@ def plumb(wheel, tmp_path_factory):
     empty = tmp_path_factory.mktemp("empty")
     shutil.copy(SETTINGS, empty / "groundcontrol.ini")
     shutil.copy(MARKS, empty / "marks.ini")
-    (empty / "machine.toml").write_text(machine_toml(read_settings(SETTINGS)))
+    machine = replace(read_settings(SETTINGS), controller="plumb")
+    (empty / "machine.toml").write_text(machine_toml(machine))
     (empty / "points.csv").write_text("0,0\n")
     (empty / "chains.csv").write_text("1700,1700\n")
     # Without -S the project's own installation would answer to the name plumb.
