@@ -223,6 +223,21 @@ def test_room_for_what_is_not_there_holds_the_truth():
     assert held >= 34  # 38 on average
 
 
+def test_room_of_two_parameters_is_that_of_both_together():
+    # Pitch of both chains moves these marks by 4.67 mm RMS; each chain alone by 4.22 and 1.61.
+    board = Board.of(BELIEVED, rows_of(noise=0.0, columns=5, rows=5), sigma=0.05)
+    others = explain(board, ("chain_sag", "chain_stretch"))
+    room = room_for("chain_pitch", (others,), Noise(0.05, KNOWN, "stated"))
+    assert room.mm == pytest.approx(4.672, abs=0.12)
+
+
+def test_what_points_below_nothing_leaves_no_room_above():
+    shrinking = {**TRUE.effects, "chain_stretch": {"compliance": -4e-6}}
+    board = board_of(noise=0.0, columns=5, rows=5, true=replace(TRUE, effects=shrinking))
+    others = explain(board, ("chain_sag", "chain_pitch"))
+    assert room_for("chain_stretch", (others,), STATED).limits[0][1] == 0.0
+
+
 def test_what_no_mark_feels_has_no_room():
     room = room_for("sled_friction", (explain(board_of()),), STATED)
     assert room.mm is None and room.limits[0][1] is None

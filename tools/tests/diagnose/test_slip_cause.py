@@ -47,6 +47,17 @@ def test_usual_mistakes_are_guessed(read, expected, guess):
     assert slip.length == pytest.approx(np.hypot(*np.subtract(read, expected)))
 
 
+def test_digits_on_both_sides_of_the_point_are_neighbours():
+    assert slip_of((412.3, 100.0), (413.2, 100.0), sigma=0.05).guess == "412.3 written for 413.2?"
+    # With a digit between them they are not.
+    assert slip_of((214.0, 100.0), (412.0, 100.0)).guess == ""
+
+
+def test_five_deviations_are_surely_wrong():
+    assert slip_of((412.0, 100.0), (421.0, 100.0), sigma=9 / 5.5).guess == "412 written for 421?"
+    assert "written" not in slip_of((412.0, 100.0), (421.0, 100.0), sigma=9 / 4.5).guess
+
+
 def test_a_distance_has_no_axis():
     slip = slip_of_distance(925.4, 900.0)
     assert slip.guess == "misread by an inch?" and slip.way == "too long"
