@@ -4,38 +4,9 @@
 #include <Kinematics.h>
 #include <Motion.h>
 
-#include <ostream>
 #include <random>
-#include <string>
-#include <vector>
 
-const double kHalfWidth = 1219.2, kHalfHeight = 609.6;  // [mm] of the 8 x 4 ft sheet
-
-/// A machine in plain numbers.
-struct Tried {
-  const char* name;
-  double motor_gap = 2978.4;       // [mm]
-  double motor_offset = 463;       // [mm] above the sheet's top edge
-  double rotation_radius = 139.1;  // [mm]
-  double sled_weight = 97.9;       // [N]
-  bool over_top = true;
-  double compliance = 5.17e-6;  // [1/N]
-};
-
-inline std::vector<Tried> triedMachines() {
-  std::vector<Tried> all(10);
-  all[0].name = "Default";
-  all[1].name = "OffBottom", all[1].over_top = false;
-  all[2].name = "LightSled", all[2].sled_weight = 60;
-  all[3].name = "HeavySled", all[3].sled_weight = 150;
-  all[4].name = "NoRing", all[4].rotation_radius = 0;
-  all[5].name = "WideRing", all[5].rotation_radius = 250;
-  all[6].name = "NarrowLow", all[6].motor_gap = 2900, all[6].motor_offset = 300;
-  all[7].name = "NarrowHigh", all[7].motor_gap = 2900, all[7].motor_offset = 900;
-  all[8].name = "WideLow", all[8].motor_gap = 3700, all[8].motor_offset = 300;
-  all[9].name = "SoftChain", all[9].compliance = 1e-5;
-  return all;
-}
+#include "tried/tried.h"
 
 /// The exact inverse of a machine, in the form in which the laws of motion ask it.
 template <class Real>
@@ -52,22 +23,7 @@ struct Exactly {
 /// Sag, stretch and pitch times a share, 0 for the bare frame.
 template <class Real>
 Exactly<Real> exactly(const Tried& tried, double sag = 1, double pitch = 1) {
-  const double chain_weight = 0.00137293;  // [N/mm] 0.14 kg/m
-  kinematics::Frame<Real> frame = {};
-  frame.motor_gap = Real(tried.motor_gap);
-  frame.motor_height = Real(kHalfHeight + tried.motor_offset);
-  frame.rotation_radius = Real(tried.rotation_radius);
-  frame.sprocket_radius = Real(63.5 / 6.283185307179586);
-  frame.sled_weight = Real(tried.sled_weight);
-  frame.chain_weight = Real(chain_weight);
-  frame.feed = tried.over_top ? kinematics::Feed::kOverTop : kinematics::Feed::kOffBottom;
-  const double ratio = chain_weight / tried.sled_weight;
-  kinematics::EffectParams<Real> effects = {};
-  effects.set(160, Real(sag * ratio * ratio / 24));
-  effects.set(170, Real(sag * tried.compliance));
-  effects.set(180, Real(pitch * 0.0012));
-  effects.set(181, Real(pitch * 0.0004));
-  return {prepare(frame, effects)};
+  return {lawsOf<Real>(tried, sag, pitch)};
 }
 
 inline motion::Point<double> sprocketOf(const Tried& tried, int side) {
@@ -162,13 +118,3 @@ motion::Path<Real> as(const motion::Path<double>& path) {
   return motion::arc(from, to, centre,
                      path.sweep > 0 ? motion::Turn::kCounterclockwise : motion::Turn::kClockwise);
 }
-
-/// Test names from machine names.
-struct NameOfTried {
-  template <class Info>
-  std::string operator()(const Info& info) const {
-    return info.param.name;
-  }
-};
-
-inline void PrintTo(const Tried& tried, std::ostream* out) { *out << tried.name; }

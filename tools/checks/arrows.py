@@ -25,6 +25,7 @@ ARROWS = {
     "src": (["include", "lib/*", "src/machine", "src/board", "test/avr"], ARDUINO),
     "tools/judge": ([], HOST + r"|(unsupported/)?Eigen/\w+|nanobind/.*"),
     "test/curves": ([], HOST),
+    "test/tried": (["lib/Kinematics"], HOST + r"|Kinematics\.h"),
     "test/vm": (["tools/judge", "test/test_dialogues"], ANYTHING),
     # Stands in on the host for a header of avr-libc that src includes.
     "test/avr": ([], C_HEADERS),
@@ -35,6 +36,7 @@ ARROWS = {
             "tools/judge",
             "tools/core",
             "test/curves",
+            "test/tried",
             "test/vm",
             "test/settings_host",
             "test/test_settings",
