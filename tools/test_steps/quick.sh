@@ -38,7 +38,7 @@ edited() {
 
 # touched_by FILE: adds the suites (folders of test) and rooms (folders of tools/tests) to run.
 touched_by() {
-  local room
+  local room project=tools/tests/project
   case "$1" in
     lib/* | src/* | include/* | platformio.ini) builds_firmware=yes ;;
   esac
@@ -55,9 +55,18 @@ touched_by() {
     tools/judge/*) suites+=(test_reference) ;;
     tools/plumb/*/* | tools/tests/*/*)
       room=tools/tests/$(cut -d / -f 3 <<<"$1")
-      [ ! -d "$room" ] || rooms+=("$room")
+      # An edited test alone asks for itself.
+      case "$1" in tools/tests/*/test_*.py) room=$1 ;; esac
+      [ ! -e "$room" ] || rooms+=("$room")
       ;;
-    tools/* | docs/* | *.md) rooms+=(tools/tests/project) ;;
+    tools/checks/*) rooms+=("$project/test_project_checks.py" "$project/test_cxx_checks.py") ;;
+    tools/mutation/*) rooms+=("$project/test_mutation.py") ;;
+    tools/setup | tools/setup_steps/*) rooms+=("$project/test_setup.py") ;;
+    tools/test | tools/test_steps/*) rooms+=("$project/test_test_run.py") ;;
+    tools/bench/*) rooms+=("$project/test_bench.py") ;;
+    tools/core/*) rooms+=("$project/test_core_types.py" tools/tests/model) ;;
+    tools/*) rooms+=("$project") ;;
+    docs/* | *.md) rooms+=("$project/test_docs.py" "$project/test_recipes.py") ;;
   esac
 }
 

@@ -81,6 +81,7 @@ def toy(tmp_path) -> CxxRoom:
     return CxxRoom(tmp_path, [HEADER], build, is_quick=False)
 
 
+@pytest.mark.slow
 def test_each_mutant_of_a_toy_room_has_the_verdict_that_its_tests_deserve(toy):
     verdicts = {}
     toy.judge(toy.mutants(), lambda mutant, verdict: verdicts.update({mutant: verdict}))

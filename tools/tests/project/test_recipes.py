@@ -30,6 +30,7 @@ def copy(tmp_path_factory):
     return folder
 
 
+@pytest.mark.slow
 def test_the_page_of_a_new_effect_leads_to_the_judges_approval(copy):
     path, header = HEADER.search(PAGE.read_text(encoding="utf-8")).groups()
     (copy / "lib/Kinematics/src" / path).write_text(header, encoding="utf-8")

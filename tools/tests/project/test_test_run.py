@@ -80,8 +80,15 @@ def test_the_short_run_runs_the_suites_and_rooms_of_an_edited_file(tmp_path):
     assert touched(tmp_path, "lib/GCode/src/Words.cpp") == "test_gcode test_dialogues  yes"
     assert touched(tmp_path, "test/test_motion/test_mover.cpp") == "test_motion  no"
     assert touched(tmp_path, "tools/plumb/fit/fit.py") == "tools/tests/fit no"
-    assert touched(tmp_path, "tools/tests/fit/test_fit.py") == "tools/tests/fit no"
-    assert touched(tmp_path, "docs/words.md") == "tools/tests/project no"
+    # An edited test alone asks for itself, and a tool or a page for its own tests.
+    assert touched(tmp_path, "tools/tests/fit/test_fit.py") == "tools/tests/fit/test_fit.py no"
+    project = "tools/tests/project"
+    assert touched(tmp_path, "docs/words.md") == (
+        f"{project}/test_docs.py {project}/test_recipes.py no"
+    )
+    assert touched(tmp_path, "tools/setup_steps/debian.sh") == f"{project}/test_setup.py no"
+    assert touched(tmp_path, "tools/mutation/cxx.py") == f"{project}/test_mutation.py no"
+    assert touched(tmp_path, "tools/demo") == f"{project} no"
 
 
 def test_every_suite_and_room_that_the_short_run_names_is_there():
@@ -89,6 +96,10 @@ def test_every_suite_and_room_that_the_short_run_names_is_there():
     named = {word.strip("()") for word in text.replace("+=(", " ").split()}
     suites = {word for word in named if word.startswith("test_") and word.isidentifier()}
     rooms = {word for word in named if word.startswith("tools/tests/") and "$" not in word}
+    named_files = {word.strip('"()') for word in named if word.startswith('"$project/')}
+    for file in named_files:
+        assert (ROOT / file.replace("$project", "tools/tests/project")).is_file(), file
+    assert len(named_files) >= 8
     assert all((ROOT / "test" / suite).is_dir() for suite in suites)
     assert {"test_kinematics", "test_dialogues"} <= suites
     assert all((ROOT / room).is_dir() for room in rooms if "*" not in room)
