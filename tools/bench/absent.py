@@ -47,5 +47,5 @@ def built(effects: str) -> Cycles:
     ]
     includes = [f"-I{copy}", f"-I{board.BENCH}", f"-I{board.BUILD}"]
     board.output("avr-g++", *board.AVR_FLAGS, *includes, *sources, "-o", elf)
-    found = json.loads(board.output(board.BUILD / "count_cycles", elf).splitlines()[-1])
-    return Cycles(*found[CASE]["cycles"])
+    counted = json.loads(board.output(board.BUILD / "count_cycles", elf).splitlines()[-1])
+    return Cycles(*counted[CASE]["cycles"])

@@ -68,11 +68,11 @@ def simulated() -> tuple[dict[str, Cycles], dict[str, int]]:
         # A function dissolved into its caller would have no stack of its own to measure.
         if not re.search(rf"kinematics::{part}<float>", symbols):
             raise ToolError(f"board_program.cpp: the compiler dissolved {part}() into its caller")
-    found = counted(elf, simulator)
-    for name, cost in found.items():
+    cases = counted(elf, simulator)
+    for name, cost in cases.items():
         part = name.partition(",")[0]
         stack[part] = max(stack.get(part, 0), cost["stack"])
-    return {name: Cycles(*cost["cycles"]) for name, cost in found.items()}, stack
+    return {name: Cycles(*cost["cycles"]) for name, cost in cases.items()}, stack
 
 
 def two_brackets() -> dict[str, Cycles]:
@@ -80,8 +80,8 @@ def two_brackets() -> dict[str, Cycles]:
     elf = BUILD / "quadrilateral_program.elf"
     source = [BENCH / "quadrilateral_program.cpp", KINEMATICS / "quadrilateral.cpp", FLOAT]
     output("avr-g++", *AVR_FLAGS, *INCLUDES, *source, "-o", elf)
-    found = counted(elf, BUILD / "count_quadrilateral", '-DCASES="quadrilateral_cases.h"')
-    return {name: Cycles(*cost["cycles"]) for name, cost in found.items()}
+    cases = counted(elf, BUILD / "count_quadrilateral", '-DCASES="quadrilateral_cases.h"')
+    return {name: Cycles(*cost["cycles"]) for name, cost in cases.items()}
 
 
 def motion() -> dict[str, Cycles]:
@@ -89,8 +89,8 @@ def motion() -> dict[str, Cycles]:
     elf = BUILD / "motion_program.elf"
     source = [*sources("motion_program.cpp"), FLOAT]
     output("avr-g++", *AVR_FLAGS, *INCLUDES, f"-I{MOTION}", *source, "-o", elf)
-    found = counted(elf, BUILD / "count_motion_cycles", '-DCASES="motion_cases.h"')
-    return {name: Cycles(*cost["cycles"]) for name, cost in found.items()}
+    cases = counted(elf, BUILD / "count_motion_cycles", '-DCASES="motion_cases.h"')
+    return {name: Cycles(*cost["cycles"]) for name, cost in cases.items()}
 
 
 def counted(elf: Path, simulator: Path, *cases: str) -> dict:
@@ -103,13 +103,14 @@ def counted(elf: Path, simulator: Path, *cases: str) -> dict:
 def parts(stack: dict[str, int]) -> dict[str, Bytes]:
     """What each part adds to a program that already has the four operations and the root."""
     base = linked(0)
-    found = {}
+    sections = {}
     for name, number in PARTS.items():
         flash, ram = (more - less for more, less in zip(linked(number), base, strict=True))
-        found[name] = Bytes(flash, ram, stack.get(name))
+        sections[name] = Bytes(flash, ram, stack.get(name))
     # The harness's own way of naming its storage; a machine's constants lie in RAM alone.
-    found["constants of one machine"] = Bytes(None, found["constants of one machine"].ram, None)
-    return found
+    constants = sections["constants of one machine"].ram
+    sections["constants of one machine"] = Bytes(None, constants, None)
+    return sections
 
 
 def linked(number: int) -> tuple[int, int]:

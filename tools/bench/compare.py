@@ -17,15 +17,16 @@ def risen(now: Costs, recorded: Costs | None) -> list[str]:
     if now.compiler != recorded.compiler:
         return []
     old, new = recorded.figures(), now.figures()
-    told = []
+    lines = []
     for name in old | new:
         if name not in new:
-            told.append(f"{name}: recorded, but no longer measured")
+            lines.append(f"{name}: recorded, but no longer measured")
         elif name not in old:
-            told.append(f"{name}: measured, but not recorded")
+            lines.append(f"{name}: measured, but not recorded")
         elif new[name] > old[name] * (1 + MOST_RISE):
-            told.append(f"{name} rose from {old[name]:,} to {new[name]:,}{percent(old, new, name)}")
-    return told
+            rise = percent(old, new, name)
+            lines.append(f"{name} rose from {old[name]:,} to {new[name]:,}{rise}")
+    return lines
 
 
 def percent(old: Mapping[str, int], new: Mapping[str, int], name: str) -> str:
@@ -35,11 +36,11 @@ def percent(old: Mapping[str, int], new: Mapping[str, int], name: str) -> str:
 
 def over_budget(now: Costs, budgets: Mapping[str, int]) -> list[str]:
     """One line for each case whose median is over its budget, or that does not exist."""
-    told = []
+    lines = []
     for name, most in budgets.items():
         if name not in now.cycles:
-            told.append(f"{name}: has a budget, but no such case is measured")
+            lines.append(f"{name}: has a budget, but no such case is measured")
         elif now.cycles[name].median > most:
             median = now.cycles[name].median
-            told.append(f"{name}: {median:,} cycles, the budget is {most:,}")
-    return told
+            lines.append(f"{name}: {median:,} cycles, the budget is {most:,}")
+    return lines

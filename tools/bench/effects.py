@@ -35,13 +35,13 @@ def table(costs: Costs) -> str:
 def row(name: str, costs: Costs, errors: dict[str, list[float]]) -> str:
     present, absent = registry.STEPS.get(name, (registry.case_of(name), BASE))
     cycles = costs.cycles[present].median - costs.cycles[absent].median
-    own = [value for key, value in errors.items() if key.startswith(f"{name}_")]
-    if not own:  # the residual patch: the judge has no cause for it
+    of_effect = [value for key, value in errors.items() if key.startswith(f"{name}_")]
+    if not of_effect:  # the residual patch: the judge has no cause for it
         with_it = without = at_the_bit = "–"
     else:
-        with_it = f"{max(value[0] for value in own):.4f}"
-        without = f"{max(value[1] for value in own):.2f}"
-        at_the_bit = f"{max(value[2] for value in own):.4f}"
+        with_it = f"{max(value[0] for value in of_effect):.4f}"
+        without = f"{max(value[1] for value in of_effect):.2f}"
+        at_the_bit = f"{max(value[2] for value in of_effect):.4f}"
     return f"| {name} | {cycles:,} | {flash(name):,} B | {with_it} | {without} | {at_the_bit} |"
 
 
@@ -88,7 +88,7 @@ def judge_errors() -> dict[str, list[float]]:
 def replaced(text: str, shown: str) -> str:
     """CHANGELOG.md with this table between its marks."""
     before, _, rest = text.partition(BEGIN)
-    _, found, after = rest.partition(END)
-    if not found:
+    _, end, after = rest.partition(END)
+    if not end:
         raise board.ToolError(f"CHANGELOG.md: the marks of the effects' table are missing: {BEGIN}")
     return f"{before}{BEGIN}\n{shown}\n{END}{after}"

@@ -26,8 +26,8 @@ RAM = 8192
 
 def measure() -> dict[str, float]:
     """The figures of the firmware as built by PlatformIO, by playing dialogues on simavr."""
-    told = board.output("avr-size", "-A", board.FIRMWARE)
-    size = {name: int(value) for name, value in re.findall(r"^(\.\w+)\s+(\d+)", told, re.M)}
+    sizes = board.output("avr-size", "-A", board.FIRMWARE)
+    size = {name: int(value) for name, value in re.findall(r"^(\.\w+)\s+(\d+)", sizes, re.M)}
     player = built_player()
     slow, fast, hard = (play(player, name) for name in ("stream.nc", "fast_loop.nc", "hard.nc"))
     ram = size[".data"] + size[".bss"]
@@ -48,9 +48,9 @@ def measure() -> dict[str, float]:
     }
 
 
-def most(told: dict[str, float], name: str) -> float:
+def most(figures: dict[str, float], name: str) -> float:
     """The worse of one long move and short moves."""
-    return max(told[f"{name}_moving"], told[f"{name}_streaming"])
+    return max(figures[f"{name}_moving"], figures[f"{name}_streaming"])
 
 
 def built_player() -> Path:
@@ -103,7 +103,7 @@ def over_budget(figures: dict[str, float]) -> list[str]:
 def replaced(text: str, written: str) -> str:
     """The text of CHANGELOG.md with the table renewed."""
     before, _, rest = text.partition(BEGIN)
-    _, found, after = rest.partition(END)
-    if not found:
+    _, end, after = rest.partition(END)
+    if not end:
         raise board.ToolError(f"CHANGELOG.md lacks the marks {BEGIN} and {END}")
     return f"{before}{BEGIN}\n{written}\n{END}{after}"

@@ -31,10 +31,10 @@ def plan_times(best: Callable[[Callable[[], object]], float]) -> dict[str, float
     times = {}
     for side, gives in GIVES.items():
         marks = board(side, gives)
-        found = diagnose(Inputs(BELIEVED, marks, sigma=SIGMA))
-        left = len(found.explanations)
+        diagnosis = diagnose(Inputs(BELIEVED, marks, sigma=SIGMA))
+        left = len(diagnosis.explanations)
         name = f"lab: next after {side * side} marks, {left} suspects left"
-        times[name] = best(partial(propose, found, Inputs(BELIEVED, marks)))
+        times[name] = best(partial(propose, diagnosis, Inputs(BELIEVED, marks)))
     plan = board(6, 0.0)
     times["lab: preview of 36 marks"] = best(partial(preview, BELIEVED, plan, sigma=SIGMA))
     return times
@@ -48,7 +48,7 @@ def board(side: int, gives: float) -> Measurements:
     where, _ = places(true, lengths(BELIEVED, targets)[0])
     read = where + SIGMA * np.random.default_rng(SEED).standard_normal(where.shape)
     marks = [
-        Mark(str(i), tuple(at), tuple(found))
-        for i, (at, found) in enumerate(zip(targets.tolist(), read.tolist(), strict=True))
+        Mark(str(i), tuple(at), tuple(measured))
+        for i, (at, measured) in enumerate(zip(targets.tolist(), read.tolist(), strict=True))
     ]
     return Measurements(tuple(marks), controller="plumb", source="made up")

@@ -18,7 +18,7 @@ class TableError(Exception):
 
 
 def exact_part(costs: Costs, published: Published) -> str:
-    """The figures of the board as two tables, the published firmware's beside them."""
+    """The figures of the board as two tables, the published firmware's comparison them."""
     cycles = [
         f"On the Mega at 16 MHz, {costs.compiler}, flags of platformio.ini: least / median / most.",
         "",
@@ -27,10 +27,10 @@ def exact_part(costs: Costs, published: Published) -> str:
     ]
     for name, row in costs.cycles.items():
         theirs = published["cycles"].get(name)
-        beside = f"{NOTHING} | {NOTHING}"
+        comparison = f"{NOTHING} | {NOTHING}"
         if theirs:
-            beside = f"{several(theirs)} | {theirs[1] / row.median:.1f}"
-        cycles.append(f"| {name} | {several(row)} | {row.median / CLOCK:.2f} ms | {beside} |")
+            comparison = f"{several(theirs)} | {theirs[1] / row.median:.1f}"
+        cycles.append(f"| {name} | {several(row)} | {row.median / CLOCK:.2f} ms | {comparison} |")
     sizes = [
         "",
         "| bytes | flash | static RAM | stack | published firmware |",

@@ -162,7 +162,7 @@ def rooms_imported(path: Path) -> Iterator[tuple[int, str]]:
 def refusal(root: Path, path: Path, part: str, rule: str, header: str) -> str | None:
     """Why a file of this part may not include the header; None if it may."""
     allowed, outside = ARROWS[rule]
-    parts = {part_of(found.relative_to(root))[0] for found in candidates(root, path, header)}
+    parts = {part_of(each.relative_to(root))[0] for each in candidates(root, path, header)}
     if not parts:
         return None if re.fullmatch(outside, header) else "not in the list for this part"
     if part in parts or any(Path(to).match(each) for to in parts for each in allowed):
@@ -172,12 +172,12 @@ def refusal(root: Path, path: Path, part: str, rule: str, header: str) -> str | 
 
 def candidates(root: Path, path: Path, header: str) -> list[Path]:
     """What an include may mean: the file beside, else any in the searched folders."""
-    beside = (path.parent / header).resolve()
-    if beside.is_file() and beside.is_relative_to(root):
-        return [beside]
+    neighbour = (path.parent / header).resolve()
+    if neighbour.is_file() and neighbour.is_relative_to(root):
+        return [neighbour]
     folders = [folder for pattern in SEARCHED for folder in root.glob(pattern)]
-    found = [(folder / header).resolve() for folder in folders]
-    return [each for each in found if each.is_file() and each.is_relative_to(root)]
+    headers = [(folder / header).resolve() for folder in folders]
+    return [each for each in headers if each.is_file() and each.is_relative_to(root)]
 
 
 if __name__ == "__main__":

@@ -38,16 +38,16 @@ def programs_in(
     `functions` are those that other scripts bring along when they source this file.
     """
     if tree.is_shell(path):
-        found = in_shell(text, functions)
+        called = in_shell(text, functions)
     elif path.name == "Makefile":
-        found = in_makefile(text)
+        called = in_makefile(text)
     elif tree.is_python(path):
-        found = in_python(text)
+        called = in_python(text)
     elif path.suffix in tree.CXX:
-        found = ((text.count("\n", 0, at.start()) + 1, at[1]) for at in IN_CXX.finditer(text))
+        called = ((text.count("\n", 0, at.start()) + 1, at[1]) for at in IN_CXX.finditer(text))
     else:
         return
-    yield from ((line, name) for line, name in found if PROGRAM.fullmatch(name))
+    yield from ((line, name) for line, name in called if PROGRAM.fullmatch(name))
 
 
 def functions_of(text: str) -> frozenset[str]:

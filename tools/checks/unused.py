@@ -30,12 +30,12 @@ def violations(root: Path) -> Iterator[str]:
         if path.suffix not in tree.CXX or name.parts[0] not in USED_IN:
             continue
         top = _parser.parse(tree.text_of(path).encode()).root_node
-        own = {} if name.parts[0] not in DECLARED_IN else declared
+        declarations = {} if name.parts[0] not in DECLARED_IN else declared
         for kind, word, line in words_of(top):
             if kind == "used":
                 used.add(word)
             else:
-                own.setdefault(word, f"{name}:{line}")
+                declarations.setdefault(word, f"{name}:{line}")
     for word, place in declared.items():
         if word not in used and word not in BY_OTHERS and word not in FOR_TESTS:
             yield f"{place}: only tests use {word}(): use it, or remove it with its test"

@@ -1,5 +1,6 @@
 """The Calibration Benchmark Test: its pattern, its form, and its score before and after."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -35,7 +36,7 @@ def measured_on(machine):
     lines = ['frame = "machine"', "[benchmark]"]
     for name, spans in pattern.SPANS.items():
         measurements = [float(np.hypot(*(where[a] - where[b]))) for a, b in spans]
-        lines.append(f"{name} = {[round(one, 2) for one in measurements]}")
+        lines.append(f"{name} = {[round(length, 2) for length in measurements]}")
     return "\n".join(lines)
 
 
@@ -46,8 +47,8 @@ def test_the_pattern_is_the_published_one():
         for spans_of in (pattern.ACROSS_SPANS, pattern.UPWARDS_SPANS)
         for a, b in spans_of
     ]
-    assert [abs(one[0]) for one in spans] == [1905] * 3 + [0] * 3
-    assert [abs(one[1]) for one in spans] == [0] * 3 + [900] * 3
+    assert [abs(span[0]) for span in spans] == [1905] * 3 + [0] * 3
+    assert [abs(span[1]) for span in spans] == [0] * 3 + [900] * 3
     # Corners of the published G-code's squares and ticks.
     for corner in [
         (-952.5, -350),
@@ -85,7 +86,7 @@ def test_the_form_it_writes_can_be_read_once_filled_in(file, tmp_path):
         read_marks(form, sheet=SHEET)
     text = form.read_text()
     for name, spans in pattern.SPANS.items():
-        line = next(one for one in text.splitlines() if one.startswith(f"# {name} ="))
+        line = re.search(rf"^# {name} =.*$", text, re.MULTILINE)[0]
         numbers = [100.0 if len(spans) == 2 else 1905.0 if name == "across" else 900.0] * len(spans)
         text = text.replace(line, f"{name} = {numbers}")
     measurements = read_marks(file("filled.toml", text), sheet=SHEET)

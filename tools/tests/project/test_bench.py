@@ -151,8 +151,8 @@ def test_a_rise_is_told_in_one_line(now, line):
 
 def test_a_case_that_vanished_is_told():
     fewer = replace(COSTS, cycles={"forward, no guess": COSTS.cycles["forward, no guess"]})
-    told = compare.risen(fewer, COSTS)
-    assert len(told) == 3 and all("inverse, sag" in line for line in told)
+    lines = compare.risen(fewer, COSTS)
+    assert len(lines) == 3 and all("inverse, sag" in line for line in lines)
 
 
 def test_figures_of_another_compiler_are_not_compared():

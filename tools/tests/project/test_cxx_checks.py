@@ -16,8 +16,8 @@ from test_project_checks import plant, said
 )
 def test_unused_refuses_what_only_a_test_calls(tmp_path, name, text):
     files = {name: text, "test/test_motion/test_path.cpp": "int seen = lonely(3);\n"}
-    code, told = said("unused", plant(tmp_path, files))
-    assert code == 1 and f"{name}:1: only tests use lonely()" in told
+    code, output = said("unused", plant(tmp_path, files))
+    assert code == 1 and f"{name}:1: only tests use lonely()" in output
 
 
 @pytest.mark.parametrize(
@@ -48,5 +48,5 @@ def test_effects_refuse_a_header_without_its_line(tmp_path, registry, expected):
         "lib/Kinematics/src/effects.h": registry,
         "lib/Kinematics/src/effects/chain_wear.h": "struct ChainWear : Effect<Real> {\n",
     }
-    code, told = said("effects", plant(tmp_path, files))
-    assert code == 1 and expected in told
+    code, output = said("effects", plant(tmp_path, files))
+    assert code == 1 and expected in output

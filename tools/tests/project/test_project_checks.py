@@ -189,7 +189,8 @@ def test_names_let_a_room_hold_no_more_crutches_than_it_did(tmp_path, most, refu
     plant(tmp_path, {"tools/plumb/text/new.py": "one = 1\nown = 2\nfound = 3\n"})
     code = (
         "import pathlib, sys; sys.path.insert(0, sys.argv[1]); import names;"
-        f"print(*names.crutches(pathlib.Path(sys.argv[2]), {{'text': {most}}}), sep='\\n')"
+        f"most = {{'tools/plumb/text': {most}}};"
+        "print(*names.crutches(pathlib.Path(sys.argv[2]), most), sep='\\n')"
     )
     command = [sys.executable, "-B", "-c", code, CHECKS, tmp_path]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
