@@ -73,6 +73,33 @@ def test_the_sentence_counts_the_slips(count, words):
     assert sentence.startswith(words) and "A" in sentence
 
 
+def explained(*effects, possible=True, rms_after=0.5):
+    return SimpleNamespace(effects=effects, possible=possible, rms_after=rms_after)
+
+
+@pytest.mark.parametrize(
+    ("verdict", "explanations", "words"),
+    [
+        ("nothing_provable", (), "Nothing is provable: 2.00 mm RMS are left"),
+        ("one_suspect", (explained("sag"),), "One suspect: sag. The error falls from 2.00 to 0.50"),
+        ("one_suspect", (explained("sag", "lean"),), "Several effects at once: sag + lean."),
+        ("one_suspect", (explained("sag", possible=False),), "no real machine has"),
+        ("cannot_tell", (explained("sag", possible=False),), "no real machine has"),
+        ("cannot_tell", (explained("a"), explained("b")), "cannot tell which: a, b."),
+        ("cannot_tell", (explained("a"),) * 8, "a, a, a, a, a, a, a, a."),
+        ("cannot_tell", (explained("a"),) * 10, "a, a, a, a, a, a, a, a or 2 more."),
+        ("not_in_library", (), "alone or up to three together (unless more than three"),
+        ("not_in_library", (explained("a"),), "these marks one effect would explain 40 %"),
+        ("not_in_library", (explained("a", "b"),), "these marks 2 effects at once would explain"),
+    ],
+)
+def test_each_verdict_has_its_sentence(verdict, explanations, words):
+    diagnosis = SimpleNamespace(
+        verdict=verdict, explanations=explanations, rms_before=2.0, chance=0.4, library_fits=True
+    )
+    assert words in verdict_sentence(diagnosis)
+
+
 def test_a_span_sees_short_columns_and_drops_what_repeats():
     assert span(np.diag([1.0, 1e-8])).shape == (2, 2)
     assert span(np.array([[1.0, 2.0], [1.0, 2.0]])).shape == (2, 1)
