@@ -21,7 +21,8 @@ Machine::Machine(const Ports& ports, const BoardName& board)
       motors_(axes_, keeper_, values_, *this),
       spindle_(cutter_, ports.aux, out_, *this),
       z_(memory_, values_, axes_, place_, modal_, out_, answers_),
-      new_values_(values_, geometry_, axes_, planner_, ports.drives, cutter_, place_, ports.clock),
+      new_values_(values_, geometry_, axes_, planner_, ports.drives, cutter_, place_, ports.clock,
+                  out_),
       settings_lines_(memory_, values_, new_values_, out_, answers_, *this),
       coordinates_(memory_, values_, modal_, place_, out_, answers_),
       pauses_(interlude_, input_, modal_, spindle_, place_, out_, *this),
@@ -46,6 +47,7 @@ void Machine::begin() {
   greeting_.sayMotors(axes_.isSimulated());
   greeting_.sayStart();
   greeting_.saySource(started);
+  new_values_.sayCarriedTwice();
   greeting_.sayReady();
   place_.restore(started);
   telemetry_.noteStart();

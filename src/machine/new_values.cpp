@@ -1,10 +1,20 @@
 // Which part takes over what.
 #include "new_values.h"
 
+#include "carried_twice.h"
+
 namespace machine {
 namespace {
 
 const uint32_t kQuietMs = 700;  // clients send their settings about 20 a second
+
+/// A bit for each correction that two settings carry.
+uint8_t twiceBits(const settings::Values& values) {
+  uint8_t bits = 0;
+  for (uint8_t i = 0; carriersOf(i).published != 0; ++i)
+    if (areBothSet(values, carriersOf(i))) bits = uint8_t(bits | 1 << i);
+  return bits;
+}
 
 }  // namespace
 
@@ -36,11 +46,31 @@ void NewValues::prepareGeometry() {
   is_geometry_stale_ = false;
   geometry_.prepare(values_);
   planner_.setGeometry(geometry_);
+  // What was cured is news when it comes back.
+  said_twice_ &= twiceBits(values_);
+}
+
+void NewValues::sayCarriedTwice() {
+  const uint8_t twice = twiceBits(values_);
+  if (twice == said_twice_) return;
+  said_twice_ = twice;
+  // Clients show it among their other lines; they drop "[" and stop for "Message:".
+  out_ << FLASH("Corrected twice: the machine adds");
+  bool is_first = true;
+  for (uint8_t i = 0; twice >> i != 0; ++i) {
+    if (!(twice >> i & 1)) continue;
+    const Carriers carriers = carriersOf(i);
+    out_ << (is_first ? FLASH(" $") : FLASH(", $")) << int32_t(carriers.published);
+    out_ << FLASH(" to $") << int32_t(carriers.ours);
+    is_first = false;
+  }
+  out_.line(FLASH(". Set one of each pair to 0, in your client too."));
 }
 
 void NewValues::refreshGeometry() {
   if (!is_geometry_stale_) return;
   prepareGeometry();
+  sayCarriedTwice();
   place_.search();
   place_.reconsider();
 }

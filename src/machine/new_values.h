@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cutter.h"
+#include "printer.h"
 #include "sled_place.h"
 
 namespace machine {
@@ -12,7 +13,7 @@ class NewValues {
   enum : uint8_t { kAll = 255 };  ///< everything is touched
 
   NewValues(const settings::Values& values, Geometry& geometry, Axes& axes, Planner& mover,
-            Drives& drives, Cutter& cutter, SledPlace& place, Clock& clock)
+            Drives& drives, Cutter& cutter, SledPlace& place, Clock& clock, Printer& out)
       : values_(values),
         geometry_(geometry),
         axes_(axes),
@@ -20,7 +21,8 @@ class NewValues {
         drives_(drives),
         cutter_(cutter),
         place_(place),
-        clock_(clock) {}
+        clock_(clock),
+        out_(out) {}
 
   /// At the start: takes over all of them; the place is not looked for.
   void takeAll();
@@ -33,6 +35,8 @@ class NewValues {
   void refreshWhenQuiet(bool is_moving);
   /// Takes over the geometry without a look for the place.
   void prepareGeometry();
+  /// Says in one line which corrections two settings carry, if some are new among them.
+  void sayCarriedTwice();
 
  private:
   void arrangeDrives();
@@ -45,7 +49,9 @@ class NewValues {
   Cutter& cutter_;
   SledPlace& place_;
   Clock& clock_;
+  Printer& out_;
   uint32_t geometry_changed_ms_ = 0;
+  uint8_t said_twice_ = 0;  ///< a bit for each correction that was said and is carried twice still
   bool is_geometry_stale_ = false;
 };
 

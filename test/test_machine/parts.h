@@ -58,7 +58,7 @@ struct Parts : testing::Test, machine::Dispatch {
         motors(axes, keeper, values, waiting),
         spindle(cutter, board, out, waiting),
         z(memory, values, axes, place, modal, out, answers),
-        new_values(values, geometry, axes, planner, board, cutter, place, board),
+        new_values(values, geometry, axes, planner, board, cutter, place, board, out),
         coordinates(memory, values, modal, place, out, answers),
         pauses(interlude, input, modal, spindle, place, out, waiting),
         operator_lines(interlude, input, modal, axes, motors, z, coordinates, board, out, answers,

@@ -2,12 +2,17 @@
 #include "settings_binding.h"
 
 #include <nanobind/stl/map.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include <array>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "../../src/carried_twice.h"
 #include "../../src/effective.h"
 #include "plain_table.h"
 
@@ -143,6 +148,20 @@ nb::dict effective(const std::map<int, double>& given) {
   return result;
 }
 
+/// The $-numbers of corrections that a published number and an effect's both carry.
+std::vector<std::pair<int, int>> carriedTwice(const std::map<int, double>& given) {
+  const PlainTable rows;
+  Room room;
+  Values values(rows, room.data());
+  setAll(values, given);
+  std::vector<std::pair<int, int>> result;
+  for (uint8_t i = 0; carriersOf(i).published != 0; ++i) {
+    const Carriers carriers = carriersOf(i);
+    if (areBothSet(values, carriers)) result.emplace_back(carriers.published, carriers.ours);
+  }
+  return result;
+}
+
 std::string format(double value) { return formatValue(float(value)).text; }
 
 }  // namespace
@@ -154,5 +173,8 @@ void addSettings(nb::module_& module) {
   module.def("effective", &effective, nb::arg("settings"),
              "Frame, effects and over_top [mm, N, rad] that the firmware computes with, given\n"
              "{number: value} for what is not at its default.");
+  module.def("carried_twice", &carriedTwice, nb::arg("settings"),
+             "The corrections that both a published number and ours carry, given {number: value}\n"
+             "for what is not at its default: pairs of $-numbers that the firmware adds.");
   module.def("format_value", &format, nb::arg("value"), "A value as the firmware's dump has it.");
 }

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from plumb import _core
 from plumb.firmware.settings import machine_of
 from plumb.model.controllers import chain_lengths
 from plumb.model.predict import FOUND, lengths
@@ -114,3 +115,18 @@ def test_elasticity_and_sled_weight_of_webcontrol_are_ours():
 def test_what_the_firmware_refuses_is_refused_in_its_words(numbers, said):
     with pytest.raises(ValueError, match=said):
         machine_of(numbers, sheet=SHEET)
+
+
+@pytest.mark.parametrize(
+    ("numbers", "twice"),
+    [
+        ({37: 8.2, 40: 0.1, 41: -0.1}, []),
+        ({160: 8e-12, 180: 0.001, 181: 0.001}, []),
+        ({37: 8.2, 160: 8e-12, 40: 0.1, 181: 0.001}, [(37, 160)]),
+        ({40: 0.1, 180: 0.001, 41: -0.1, 181: -0.001}, [(40, 180), (41, 181)]),
+        ({45: 5e-6, 170: 5e-6}, []),
+    ],
+)
+def test_a_correction_that_two_settings_carry_is_named(numbers, twice):
+    assert _core.carried_twice({7: 2, **numbers}) == twice
+    assert _core.carried_twice({7: 1, **numbers}) == []
