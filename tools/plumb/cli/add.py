@@ -9,10 +9,6 @@ from typing import Any
 from plumb.cli.add_text import PATCH_WARNING, as_text, auto_text, turn_sentence
 from plumb.cli.compare import panel_of, score_json
 from plumb.cli.files import (
-    add_json,
-    add_marks,
-    add_prior,
-    add_sigma,
     inputs_of,
     picture_form,
     refuse_twins,
@@ -23,54 +19,10 @@ from plumb.cure.add import Addition, Parameter, Quality, add, priors_with
 from plumb.cure.auto import AutoAddition, add_auto, without_marks
 from plumb.fit.inputs import Inputs
 from plumb.fit.patch import PATCH
-from plumb.model.catalogue import effect_names, is_sketch
+from plumb.model.catalogue import is_sketch
 from plumb.pictures.sheet import Panel, draw
 from plumb.settings.files import changed_ini, groundcontrol_changes, machine_toml
 from plumb.text.errors import InputError, refusal
-
-HELP = "fit the frame and the named effects to the marks, and write the new settings"
-EXIT = (
-    "Exit: 0 done; 1 done, but marks left out of the fit are not predicted better than without the "
-    "effects, or auto cannot explain the marks (nothing is written for a slip); 2 an input cannot "
-    "be used, and nothing was written."
-)
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb add`."""
-    add_marks(parser)
-    parser.add_argument(
-        "--effect",
-        metavar="NAME",
-        nargs="+",
-        action="extend",
-        default=[],
-        help="effects to fit, after the marks, or auto: what plumb diagnose proves. Effects are "
-        f"{', '.join(effect_names())}; those that SETTINGS have and that are not named stay as "
-        "they are",
-    )
-    parser.add_argument(
-        "--patch",
-        action="store_true",
-        help="also fit a smooth map of what is left: no physics, for when no effect explains it",
-    )
-    parser.add_argument(
-        "--without",
-        metavar="MARK",
-        action="append",
-        default=[],
-        help="leave this mark out, say because its reading was a slip",
-    )
-    parser.add_argument("-o", "--output", metavar="FILE", help="write the machine.toml")
-    parser.add_argument(
-        "--groundcontrol",
-        metavar="FILE",
-        help="also write a groundcontrol.ini: other keys as they were in SETTINGS or --cut-with",
-    )
-    add_prior(parser)
-    add_sigma(parser, usual="tape_sigma_mm of MARKS, else from the residuals")
-    parser.add_argument("--picture", metavar="FILE", help="draw before and after: .png, .svg, .pdf")
-    add_json(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -8,10 +8,7 @@ from typing import Any
 import numpy as np
 
 from plumb.cli.files import (
-    add_json,
-    add_marks,
     inputs_of,
-    length,
     picture_form,
     write_outputs,
 )
@@ -20,17 +17,6 @@ from plumb.fit.compare import Comparison, compare
 from plumb.marks.score import Score
 from plumb.pictures.sheet import Panel, draw
 from plumb.text.errors import InputError
-
-HELP = "how far the marks lie from where the settings predict them"
-EXIT = "Exit: 0 done; 1 the RMS is above --limit; 2 an input cannot be used."
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb compare`."""
-    add_marks(parser)
-    parser.add_argument("--limit", metavar="MM", type=length, help="exit 1 if the RMS is above it")
-    parser.add_argument("--picture", metavar="FILE", help="draw the errors: .png, .svg or .pdf")
-    add_json(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -10,11 +10,12 @@ from pathlib import Path
 
 from plumb.cli.add import ini_of, panels_of, toml_of, unsaid_of
 from plumb.cli.add_text import turn_sentence
-from plumb.cli.main import Parser
+from plumb.cli.ending import ended
+from plumb.cli.parser import Parser
 from plumb.cli.text import millimetres, sentences, table
 from plumb.cure.demo import GOAL, MARKS, SETTINGS, Demonstration, demonstrate
 from plumb.pictures.sheet import draw
-from plumb.text.errors import InputError, refusal
+from plumb.text.errors import refusal
 from plumb.text.files import write_all
 
 PICTURE = "error-falls"
@@ -22,18 +23,18 @@ PICTURE = "error-falls"
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the demo; 0 if the error falls below the goal, else 1; 2 if a file cannot be written."""
+    return ended(lambda: _run(arguments), name="demo")
+
+
+def _run(arguments: Sequence[str] | None) -> int:
+    parsed = _parser().parse_args(arguments)
+    demonstration = demonstrate()
+    files = _files(demonstration, parsed.folder, parsed.picture)
     try:
-        parsed = _parser().parse_args(arguments)
-        demonstration = demonstrate()
-        files = _files(demonstration, parsed.folder, parsed.picture)
-        try:
-            Path(parsed.folder).mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise refusal(parsed.folder, f"cannot be made ({error.strerror})") from None
-        write_all(files)
-    except InputError as error:
-        print(f"demo: {error}", file=sys.stderr)
-        return 2
+        Path(parsed.folder).mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise refusal(parsed.folder, f"cannot be made ({error.strerror})") from None
+    write_all(files)
     print(as_text(demonstration))
     print("\nWritten:")
     print(sentences([os.path.relpath(path) for path in files], mark="  "))

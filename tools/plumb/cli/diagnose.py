@@ -7,8 +7,8 @@ from dataclasses import replace
 from operator import itemgetter
 from typing import Any
 
-from plumb.cli.checked import add_checked, usable_checks
-from plumb.cli.files import add_json, add_marks, add_prior, add_sigma, inputs_of
+from plumb.cli.checked import usable_checks
+from plumb.cli.files import inputs_of
 from plumb.cli.text import millimetres, number, print_json, sentences, table
 from plumb.cure.add import priors_with
 from plumb.diagnose import Diagnosis, diagnose
@@ -18,11 +18,6 @@ from plumb.diagnose.sizes import Size
 from plumb.model.catalogue import every_effect, label, place_of
 from plumb.plan import Proposal, propose
 
-HELP = "which effect the settings miss, as far as the marks can prove it"
-EXIT = (
-    "Exit: 0 done; 1 done, but a mark should be measured again or no effect of the library "
-    "explains the marks; 2 an input cannot be used."
-)
 BAD_NEWS = ("slip", "not_in_library")
 UNKNOWN_ADVICE = (
     "is it such a machine? The library is that of a sled on a ring or linkage; on two brackets "
@@ -32,15 +27,6 @@ UNKNOWN_ADVICE = (
     "does y run the way the file says, and are all numbers of the same kind? Measure a mark again",
     "if all that is so, look where the errors are: plumb compare ... --picture errors.png",
 )
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb diagnose`."""
-    add_marks(parser)
-    add_prior(parser)
-    add_sigma(parser, usual="repeats, else tape_sigma_mm of MARKS, else 0.5")
-    add_checked(parser)
-    add_json(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:

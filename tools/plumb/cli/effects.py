@@ -5,17 +5,8 @@ from __future__ import annotations
 import argparse
 from collections import Counter
 
-from plumb.cli.files import add_json
 from plumb.cli.text import number, print_json, sentences, table
 from plumb.model.catalogue import NO_FIRMWARE, empirical_effects, every_effect, label
-
-HELP = "the library of effects: what each does, its units, and what looks like it"
-EXIT = "Exit: 0 done."
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb effects`."""
-    add_json(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -4,26 +4,11 @@ from __future__ import annotations
 
 import argparse
 
-from plumb.cli.files import add_json, add_settings, settings_in
+from plumb.cli.files import settings_in
 from plumb.cli.places_text import answered, answers_table, count_sentence
 from plumb.cli.text import print_json
 from plumb.model.predict import FOUND, places
 from plumb.text.points import read_pairs
-
-HELP = "places for chain lengths, by our model"
-EXIT = "Exit: 0 done; 1 some lengths lead nowhere; 2 an input cannot be used."
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb forward`."""
-    add_settings(parser)
-    parser.add_argument(
-        "--lengths",
-        metavar="FILE",
-        required=True,
-        help="CSV: left,right per line, mm paid out from 12 o'clock; a header is allowed",
-    )
-    add_json(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -10,28 +10,12 @@ from dataclasses import replace
 import numpy as np
 
 import plumb.grid as marks_grid
-from plumb.cli.files import limit, settings_in
+from plumb.cli.files import settings_in
 from plumb.cli.text import print_json
-from plumb.model.predict import CANNOT_HANG, REACH_LIMITS, TOO_SLACK, TOO_TIGHT, USABLE, reach
+from plumb.model.predict import CANNOT_HANG, TOO_SLACK, TOO_TIGHT, USABLE, reach
 from plumb.model.reach import with_soft_chains
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
-
-HELP = "the G-code for a grid of calibration marks"
-EXIT = "Exit: 0 done; 2 the grid cannot be made, and nothing was written."
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb grid`: those of the tool, and --json."""
-    marks_grid.add_arguments(parser)
-    parser.add_argument(
-        "--most-give",
-        metavar="MM_PER_N",
-        type=limit,
-        default=REACH_LIMITS["most_give"],
-        help="how far a newton may move the sled; see plumb reach [%(default)g]",
-    )
-    parser.add_argument("--json", action="store_true", help="print a JSON object and nothing else")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -6,7 +6,7 @@ import argparse
 
 import numpy as np
 
-from plumb.cli.files import add_controller, add_json, add_settings, settings_in
+from plumb.cli.files import settings_in
 from plumb.cli.places_text import answered, answers_table, count_sentence
 from plumb.cli.text import print_json
 from plumb.model.controllers import chain_lengths, clamped
@@ -14,23 +14,6 @@ from plumb.model.predict import FOUND, OUT_OF_REACH, Array, Codes, lengths
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.text.points import read_pairs
-
-HELP = "chain lengths for places, by the controller's formula or by our model"
-EXIT = "Exit: 0 done; 1 some place is out of reach; 2 an input cannot be used."
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb inverse`."""
-    add_settings(parser)
-    parser.add_argument(
-        "--points",
-        metavar="FILE",
-        required=True,
-        help="CSV: x,y per line, mm from the middle of the sheet, y up; a header is allowed",
-    )
-    parser.add_argument("--float32", action="store_true", help="compute as the board does")
-    add_controller(parser)
-    add_json(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:

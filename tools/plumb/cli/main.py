@@ -1,14 +1,18 @@
-"""The command line: `plumb COMMAND ...`; prints, and returns 0 done, 1 bad news, 2 refused."""
+"""The command line: `plumb COMMAND ...`; prints, and returns 0 done, 1 bad news, 2 refused.
+
+Help and refusals of words come from `arguments/` alone, which needs no numpy; the file of a command
+is loaded when it runs.
+"""
 
 from __future__ import annotations
 
 import argparse
-import os
 import sys
-from collections.abc import Mapping, Sequence
-from typing import NoReturn, Protocol
+from collections.abc import Callable, Mapping, Sequence
+from importlib import import_module as loaded
+from typing import Protocol
 
-from plumb.cli import (
+from plumb.cli.arguments import (
     add,
     bench,
     compare,
@@ -22,8 +26,9 @@ from plumb.cli import (
     settings,
     telemetry,
 )
-from plumb.cli import next as next_measurement
-from plumb.model.sketches import BROKEN
+from plumb.cli.arguments import next as next_measurement
+from plumb.cli.ending import ended
+from plumb.cli.parser import Parser, Version
 from plumb.text.errors import InputError
 
 DESCRIPTION = "Find and cure the errors of a hanging CNC: grid, compare, diagnose, next, add."
@@ -31,7 +36,7 @@ EPILOG = "Lengths are mm, forces N, angles rad. plumb COMMAND --help explains ea
 
 
 class Command(Protocol):
-    """What the module of a command holds."""
+    """What the file of a command in `arguments/` holds."""
 
     HELP: str  # a sentence for `plumb --help`
     EXIT: str  # what its exit codes mean
@@ -39,11 +44,8 @@ class Command(Protocol):
     def add_arguments(self, parser: argparse.ArgumentParser) -> None:
         """Tell the parser the arguments of this command."""
 
-    def run(self, arguments: argparse.Namespace) -> int:
-        """Do it and return the exit code."""
 
-
-# In the order of `plumb --help`. To add a command, write its module and give it a line.
+# In the order of `plumb --help`. To add a command, write its two files and give it a line.
 COMMANDS: Mapping[str, Command] = {
     "grid": grid,
     "preview": preview,
@@ -61,36 +63,26 @@ COMMANDS: Mapping[str, Command] = {
 }
 
 
-class Parser(argparse.ArgumentParser):
-    """Complains on a single line, like every other refusal."""
-
-    def error(self, message: str) -> NoReturn:
-        """Refuse the command line."""
-        raise InputError(f"{' '.join(message.split())}; see {self.prog} --help")
-
-
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command and return its exit code."""
-    try:
-        parsed = build_parser().parse_args(arguments)
-        for line in BROKEN:
-            raise InputError(f"sketch {line}")
-        code: int = parsed.run(parsed)
-        sys.stdout.flush()
-        return code
-    except InputError as error:
-        print(f"plumb: {error}", file=sys.stderr)
-        return 2
-    except BrokenPipeError:
-        # The reader (head, less) has seen enough; nothing may be printed at exit either.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
+    return ended(lambda: _run(arguments), name="plumb")
+
+
+def _run(arguments: Sequence[str] | None) -> int:
+    parsed = build_parser().parse_args(arguments)
+    run: Callable[[argparse.Namespace], int] = loaded(f"plumb.cli.{parsed.command}").run
+    for line in loaded("plumb.model.sketches").BROKEN:
+        raise InputError(f"sketch {line}")
+    return run(parsed)
 
 
 def build_parser() -> Parser:
     """The parser of all commands."""
     parser = Parser(prog="plumb", description=DESCRIPTION, epilog=EPILOG, allow_abbrev=False)
-    commands = parser.add_subparsers(metavar="COMMAND", required=True, title="commands")
+    parser.add_argument("--version", action=Version, help="show the version and exit")
+    commands = parser.add_subparsers(
+        metavar="COMMAND", required=True, title="commands", dest="command"
+    )
     for name, command in COMMANDS.items():
         subparser = commands.add_parser(
             name,
@@ -100,7 +92,6 @@ def build_parser() -> Parser:
             allow_abbrev=False,
         )
         command.add_arguments(subparser)
-        subparser.set_defaults(run=command.run)
     return parser
 
 

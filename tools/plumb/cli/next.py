@@ -11,13 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from plumb.cli.checked import add_checked, usable_checks
+from plumb.cli.checked import usable_checks
 from plumb.cli.diagnose import proposal_json
 from plumb.cli.files import (
-    add_json,
-    add_marks,
-    add_prior,
-    add_sigma,
     inputs_of,
     picture_form,
     refuse_twins,
@@ -34,8 +30,6 @@ from plumb.plan.plan_marks import marks_file
 from plumb.plan.proposal import AGAIN, CONFIRM, EXPLORE, FIND, REREAD, SETTLE
 from plumb.text.errors import InputError
 
-HELP = "what to measure next: the chance that it settles the question, and the minutes it costs"
-EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
 SHOWN, SPOKEN = 8, 3  # proposals in the table, and in whole sentences; --json has all
 PATIENCE = 2.0  # seconds before a bar shows how far the work is
 BAR = 30  # [characters]
@@ -46,23 +40,6 @@ HEADS = {
     REREAD: "chance to show it",
     EXPLORE: "",
 }
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb next`."""
-    add_marks(parser)
-    add_prior(parser)
-    add_sigma(parser, usual="as plumb diagnose takes it")
-    add_checked(parser)
-    parser.add_argument(
-        "--choose",
-        metavar="N",
-        type=int,
-        help="the proposal that --picture and --marks are of [the best that has marks]",
-    )
-    parser.add_argument("--picture", metavar="FILE", help="draw it on the sheet: .png, .svg, .pdf")
-    parser.add_argument("--marks", dest="template", metavar="FILE", help="a marks.toml to fill in")
-    add_json(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -6,12 +6,8 @@ import argparse
 from typing import Any
 
 import plumb.grid as marks_grid
+from plumb.cli.arguments.preview import COLUMNS, ROWS
 from plumb.cli.files import (
-    add_controller,
-    add_json,
-    add_prior,
-    add_settings,
-    length,
     picture_form,
     settings_in,
     write_outputs,
@@ -25,37 +21,8 @@ from plumb.plan.preview import APART, POWER, Outline, Preview, preview
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 
-HELP = "before any hole is drilled: which effects a plan of marks could tell apart"
-EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
-COLUMNS, ROWS = 5, 3
 SHOWN = 6  # additions that people are shown; --json has all
 ALIKE = 2  # look-alikes in the table
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb preview`."""
-    add_settings(parser)
-    parser.add_argument(
-        "plan",
-        metavar="PLAN",
-        nargs="?",
-        help="marks whose targets are the plan, like the file of plumb grid --marks [a grid]",
-    )
-    for name, usual in (("columns", COLUMNS), ("rows", ROWS)):
-        parser.add_argument(f"--{name}", metavar="N", type=int, help=f"of a grid [{usual}]")
-    parser.add_argument(
-        "--margin", metavar="MM", type=length, help="from outer marks to the sheet's edge [100]"
-    )
-    parser.add_argument(
-        "--sigma",
-        metavar="MM",
-        type=length,
-        help=f"reading error of a coordinate [tape_sigma_mm of PLAN, else {USUAL_SIGMA:g}]",
-    )
-    add_prior(parser)
-    add_controller(parser)
-    parser.add_argument("--picture", metavar="FILE", help="draw the table: .png, .svg or .pdf")
-    add_json(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:

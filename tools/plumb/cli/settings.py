@@ -4,32 +4,16 @@ from __future__ import annotations
 
 import argparse
 
-from plumb.cli.files import add_json, add_settings, settings_in, write_outputs
+from plumb.cli.files import settings_in, write_outputs
 from plumb.cli.text import print_json, sentences, table
 from plumb.firmware.numbers import Number, firmware_numbers, groundcontrol_values
 from plumb.settings.files import changed_ini
 from plumb.text.errors import InputError, refusal
 
-HELP = "a fitted machine as $ lines for the firmware, as a groundcontrol.ini, or as a table"
-EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
-FORMS = ("gcode", "groundcontrol.ini", "table")
 KEPT_BY_CLIENT = (
     "GroundControl and WebControl keep $2, $3, $8, $37, $40 and $41 themselves and send theirs "
     "when they connect: give them the file of --to groundcontrol.ini, or these numbers, too"
 )
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb settings`."""
-    add_settings(parser)
-    parser.add_argument("--to", choices=FORMS, default="table", help="the form [%(default)s]")
-    parser.add_argument(
-        "--original",
-        metavar="INI",
-        help="the groundcontrol.ini whose other keys --to groundcontrol.ini keeps",
-    )
-    parser.add_argument("-o", "--output", metavar="FILE", help="write it there instead of printing")
-    add_json(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from itertools import combinations
 
 import numpy as np
-from scipy.special import chdtri
+import scipy
 
 from plumb.diagnose.explanation import Explanation
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
@@ -61,7 +61,7 @@ def _explained(
     spare = count - len(columns) - float(np.sum(frame.basis[:count] ** 2))
     if spare < 1:
         return np.ones(seen.shape[1], dtype=bool)
-    fits: Array = np.sum(left[:count] ** 2, axis=0) <= chdtri(spare, MISFIT_LEVEL)
+    fits: Array = np.sum(left[:count] ** 2, axis=0) <= scipy.special.chdtri(spare, MISFIT_LEVEL)
     if not real:
         return fits
     reach = noise.quantile * np.sqrt(np.sum(inverse**2, axis=1))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import stdtrit
+import scipy
 
 
 @dataclass(frozen=True)
@@ -20,12 +20,12 @@ class Noise:
     @property
     def quantile(self) -> float:
         """Half-width of a 95 % interval, in standard deviations."""
-        return 1.96 if np.isinf(self.degrees) else float(stdtrit(self.degrees, 0.975))
+        return 1.96 if np.isinf(self.degrees) else float(scipy.special.stdtrit(self.degrees, 0.975))
 
     @property
     def upper_quantile(self) -> float:
         """Distance of a 95 % upper limit, in standard deviations."""
-        return 1.645 if np.isinf(self.degrees) else float(stdtrit(self.degrees, 0.95))
+        return 1.645 if np.isinf(self.degrees) else float(scipy.special.stdtrit(self.degrees, 0.95))
 
     @property
     def testable(self) -> bool:

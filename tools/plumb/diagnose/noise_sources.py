@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from scipy.special import chdtrc
+import scipy
 
 from plumb.board.observations import Observations
 from plumb.diagnose.explanation import Board, explain
@@ -70,7 +70,7 @@ def _from_repeats(repeats: Spread, stated: float | None) -> Noise:
 
 def _exceeds(spread: Spread, sigma: float) -> bool:
     """Whether readings of this sigma hardly ever spread as much."""
-    return bool(chdtrc(spread.degrees, spread.squares / sigma**2) < SURE)
+    return bool(scipy.special.chdtrc(spread.degrees, spread.squares / sigma**2) < SURE)
 
 
 _ASK = (

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from scipy.special import chdtrc, fdtrc, gammaln
+import scipy
 
 Array = np.ndarray
 KNOWN = np.inf  # degrees of freedom of a noise that needs no estimate
@@ -20,8 +20,8 @@ def tail(gain: Array | float, parameters: float, degrees: float) -> Array:
     """
     above = np.maximum(gain, 0.0)
     if np.isinf(degrees):
-        return chdtrc(parameters, above)
-    return fdtrc(parameters, degrees, above / parameters)
+        return scipy.special.chdtrc(parameters, above)
+    return scipy.special.fdtrc(parameters, degrees, above / parameters)
 
 
 def surprise(gain: float, parameters: int, degrees: float) -> float:
@@ -34,7 +34,7 @@ def surprise(gain: float, parameters: int, degrees: float) -> float:
         return float(-np.log(tail(gain, parameters, degrees)))
     # Q(a, x) = x^(a - 1) exp(-x) / Gamma(a) * (1 + (a - 1) / x + ...)
     a, x = parameters / 2, gain / 2
-    return float(x - (a - 1) * np.log(x) + gammaln(a) - np.log1p((a - 1) / x))
+    return float(x - (a - 1) * np.log(x) + scipy.special.gammaln(a) - np.log1p((a - 1) / x))
 
 
 def surprises(gains: Array, parameters: int, degrees: float) -> Array:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import chdtri
+import scipy
 
 from plumb.diagnose.explanation import Explanation, span
 from plumb.diagnose.noise import Noise
@@ -144,7 +144,7 @@ def _largest(explanation: Explanation, raw: Array, total: Array, covariance: Arr
     # |E v| over the ellipsoid of v is at most |E middle| + its radius times the longest axis.
     values, directions = np.linalg.eigh(covariance)
     axes = raw @ (directions * np.sqrt(np.maximum(values, 0.0)))
-    radius = float(np.sqrt(chdtri(raw.shape[1], 0.10)))
+    radius = float(np.sqrt(scipy.special.chdtri(raw.shape[1], 0.10)))
     middle = _per_reading(explanation, raw @ total)
     return middle + radius * max(_per_reading(explanation, axis) for axis in _main_axes(axes))
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
-from scipy.special import gammaln
+import scipy
 
 from plumb.diagnose.explanation import Explanation, explain, span
 from plumb.diagnose.gain import LEVEL, bases_beyond_fit, complete
@@ -137,7 +137,8 @@ def worth(explanation: Explanation) -> float:
 def _log_cauchy(sizes: np.ndarray) -> float:
     """Logarithm of the density of sizes in typical ones."""
     half = (1 + len(sizes)) / 2
-    constant = gammaln(half) - gammaln(0.5) - len(sizes) / 2 * np.log(np.pi)
+    gammas = scipy.special.gammaln(half) - scipy.special.gammaln(0.5)
+    constant = gammas - len(sizes) / 2 * np.log(np.pi)
     return float(constant - half * np.log1p(sizes @ sizes))
 
 

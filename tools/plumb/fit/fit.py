@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import stdtrit
+import scipy
 
 from plumb.board.observations import Observations
 from plumb.board.sighting import OUTSIDE_NAMES, SHEET_ROTATION
@@ -98,7 +98,7 @@ def _fit_of(problem: Problem, solution: Solution, stated: float | None) -> Fit:
     spent = float(np.trace(leverage))
     spare = max(len(errors) - spent, 1e-9)
     sigma = stated or max(float(np.sqrt(errors @ errors / spare)), SMALLEST_SIGMA)
-    width = float(stdtrit(spare, 0.975)) if stated is None else 1.96
+    width = float(scipy.special.stdtrit(spare, 0.975)) if stated is None else 1.96
     # Intervals for the noise as estimated; what a prior holds grows no wider than the prior.
     normal = slopes.T @ slopes * (problem.sigma / sigma) ** 2 + priors
     deviation = np.sqrt(np.diag(np.linalg.pinv(normal, hermitian=True)))

@@ -11,8 +11,8 @@ from typing import Any
 from plumb.marks.benchmark import read_benchmark
 from plumb.marks.model import Distance, Mark, Measurements, Point, Round
 from plumb.marks.plausible import Sheet, to_machine
+from plumb.settings.controllers import CONTROLLERS
 from plumb.settings.files import read_settings
-from plumb.settings.machine import CONTROLLERS
 from plumb.text.errors import naming, refusal
 from plumb.text.files import read_text
 from plumb.text.values import number, one_of, pair, refuse_unknown, text_of, within

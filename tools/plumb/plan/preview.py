@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.special import chdtri, chndtrinc
+import scipy
 
 from plumb.board.observations import different_numbers, model_and_observations
 from plumb.diagnose.clean import felt_effects
@@ -187,8 +187,8 @@ def _outline(frame: Explanation, i: int, matrix: Array, limit: float) -> Outline
 
 def _needed(parameters: int, limit: float) -> float:
     """Sigmas that an effect must draw to pass the gate in POWER of all cases."""
-    gate = float(chdtri(parameters, np.exp(-limit)))
-    return float(np.sqrt(chndtrinc(gate, parameters, 1 - POWER)))
+    gate = float(scipy.special.chdtri(parameters, np.exp(-limit)))
+    return float(np.sqrt(scipy.special.chndtrinc(gate, parameters, 1 - POWER)))
 
 
 def _additions(case: Case, matrix: Array) -> tuple[PlanAddition, ...]:

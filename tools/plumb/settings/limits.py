@@ -6,7 +6,8 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from plumb.settings.machine import CONTROLLERS, FEEDS, MachineSettings
+from plumb.settings.controllers import CONTROLLERS
+from plumb.settings.machine import FEEDS, MachineSettings
 from plumb.text.errors import refusal
 from plumb.text.values import refuse_unknown
 

@@ -25,7 +25,6 @@ CHAIN_WEIGHT = 0.00137293  # [N/mm] 0.14 kg/m, the published data of #25 chain
 HOLEY_CHAIN_WEIGHT = 0.001372  # [N/mm] as the catenary release rounds it
 SPROCKET_RADIUS = 10 * 6.35 / (2 * math.pi)  # [mm] ten teeth of 6.35 mm
 FEEDS = ("top", "bottom")
-CONTROLLERS = ("stock", "holey", "plumb")  # whose formulas paid the chains out
 
 
 class Frame(TypedDict):

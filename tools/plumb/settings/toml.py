@@ -9,9 +9,9 @@ from dataclasses import fields
 from os import PathLike
 from typing import Any
 
+from plumb.settings.controllers import CONTROLLERS
 from plumb.settings.limits import check_effects, find_fault
 from plumb.settings.machine import (
-    CONTROLLERS,
     FEEDS,
     FRAME_FIELDS,
     MachineSettings,

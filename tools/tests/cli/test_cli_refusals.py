@@ -9,9 +9,9 @@ BOARD = [str(SETTINGS), str(MARKS)]
 EFFECTS = ["--effect", "chain_pitch", "chain_sag"]
 BAD = [
     ("no command", [], "COMMAND"),
-    ("unknown command", ["diagnoze"], "invalid choice: 'diagnoze'"),
+    ("unknown command", ["diagnoze"], "there is no command 'diagnoze'; did you mean diagnose?"),
     ("no marks", ["compare", SETTINGS], "MARKS"),
-    ("unknown option", ["effects", "--colour"], "unrecognized arguments: --colour"),
+    ("unknown option", ["effects", "--colour"], "there is no option --colour"),
     ("text for a number", ["compare", *BOARD, "--limit", "big"], "--limit"),
     ("a limit below zero", ["compare", *BOARD, "--limit=-1"], "--limit"),
     ("unknown controller", ["compare", *BOARD, "--controller", "grbl"], "stock"),

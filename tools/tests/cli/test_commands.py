@@ -1,6 +1,9 @@
-"""Tests of the table of commands: a file for each, with the same four names."""
+"""Tests of the table of commands: two files for each, with the same names."""
 
 import inspect
+import subprocess
+import sys
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -9,24 +12,57 @@ from plumb.cli.main import COMMANDS, build_parser
 
 FOLDER = Path(main.__file__).parent
 # Files of the room that are no commands.
-SHARED = {"__init__", "add_text", "checked", "demo", "files", "main", "places_text", "text"}
+SHARED = {
+    *("__init__", "add_text", "checked", "demo", "ending", "files", "main", "parser"),
+    *("places_text", "text"),
+}
+SHARED_ARGUMENTS = {"__init__", "checked", "shared"}
+# What takes longer to load than a command needs to refuse a wrong word.
+HEAVY = ("numpy", "scipy", "matplotlib")
 
 
 def test_each_file_is_a_command_or_shared():
     assert {path.stem for path in FOLDER.glob("*.py")} == set(COMMANDS) | SHARED
+    arguments = {path.stem for path in (FOLDER / "arguments").glob("*.py")}
+    assert arguments == set(COMMANDS) | SHARED_ARGUMENTS
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_a_command_has_its_file_and_its_four_names(name):
+def test_a_command_has_its_two_files_and_its_four_names(name):
     module = COMMANDS[name]
-    assert module.__name__ == f"plumb.cli.{name}"
+    assert module.__name__ == f"plumb.cli.arguments.{name}"
     assert module.HELP and module.HELP[0].islower() and not module.HELP.endswith(".")
     assert module.EXIT.startswith("Exit: 0 ")
     assert list(inspect.signature(module.add_arguments).parameters) == ["parser"]
-    assert list(inspect.signature(module.run).parameters) == ["arguments"]
+    run = import_module(f"plumb.cli.{name}").run
+    assert list(inspect.signature(run).parameters) == ["arguments"]
 
 
 def test_help_lists_the_commands_in_the_order_of_the_table():
     lines = build_parser().format_help().splitlines()
     listed = [line.split()[0] for line in lines if line.startswith("    ") and line[4:5].isalpha()]
     assert listed == [*COMMANDS]
+
+
+@pytest.mark.parametrize(
+    ("command", "code"),
+    [
+        (["--help"], 0),
+        *(([name, "--help"], 0) for name in COMMANDS),
+        (["--version"], 0),
+        (["diagnoze"], 2),
+        (["compare", "none.ini", "none.toml"], 2),
+        (["compare", __file__, "none.toml"], 2),
+        (["add", __file__, __file__, "--efect", "chain_sag"], 2),
+    ],
+)
+def test_help_and_refusals_of_words_load_no_numerics(command, code):
+    program = (
+        "import sys\nfrom plumb.cli.main import main\n"
+        "try:\n    code = main(sys.argv[1:])\nexcept SystemExit as end:\n    code = end.code\n"
+        f"heavy = [name for name in {HEAVY} if name in sys.modules]\n"
+        "print(code, *heavy)"
+    )
+    asked = [sys.executable, "-c", program, *command]
+    done = subprocess.run(asked, capture_output=True, text=True)
+    assert done.stdout.splitlines()[-1] == str(code)

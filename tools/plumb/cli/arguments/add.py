@@ -1,0 +1,50 @@
+"""The arguments of `plumb add`."""
+
+from __future__ import annotations
+
+import argparse
+
+from plumb.cli.arguments.shared import add_json, add_marks, add_prior, add_sigma
+
+HELP = "fit the frame and the named effects to the marks, and write the new settings"
+EXIT = (
+    "Exit: 0 done; 1 done, but marks left out of the fit are not predicted better than without the "
+    "effects, or auto cannot explain the marks (nothing is written for a slip); 2 an input cannot "
+    "be used, and nothing was written."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb add`."""
+    add_marks(parser)
+    parser.add_argument(
+        "--effect",
+        metavar="NAME",
+        nargs="+",
+        action="extend",
+        default=[],
+        help="effects to fit, after the marks (plumb effects lists them), or auto: what plumb "
+        "diagnose proves. Those that SETTINGS have and that are not named stay as they are",
+    )
+    parser.add_argument(
+        "--patch",
+        action="store_true",
+        help="also fit a smooth map of what is left: no physics, for when no effect explains it",
+    )
+    parser.add_argument(
+        "--without",
+        metavar="MARK",
+        action="append",
+        default=[],
+        help="leave this mark out, say because its reading was a slip",
+    )
+    parser.add_argument("-o", "--output", metavar="FILE", help="write the machine.toml")
+    parser.add_argument(
+        "--groundcontrol",
+        metavar="FILE",
+        help="also write a groundcontrol.ini: other keys as they were in SETTINGS or --cut-with",
+    )
+    add_prior(parser)
+    add_sigma(parser, usual="tape_sigma_mm of MARKS, else from the residuals")
+    parser.add_argument("--picture", metavar="FILE", help="draw before and after: .png, .svg, .pdf")
+    add_json(parser)

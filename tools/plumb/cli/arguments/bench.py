@@ -1,0 +1,38 @@
+"""The arguments of `plumb bench`."""
+
+from __future__ import annotations
+
+import argparse
+
+from plumb.cli.arguments.shared import add_json
+
+HELP = "how often the diagnosis is right: rates over boards with hidden effects"
+BOARDS, FAST = 200, 20  # of each scenario
+EXIT = "Exit: 0 no line is missed; 1 a line is missed by more than chance; 2 the bench cannot run."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb bench`."""
+    parser.add_argument(
+        "--scenario",
+        metavar="NAME",
+        nargs="+",
+        action="extend",
+        default=[],
+        help="only these, or all that begin so (docs/bench.md lists them)",
+    )
+    parser.add_argument(
+        "--boards", metavar="N", type=_count, help=f"boards of each scenario [{BOARDS}]"
+    )
+    parser.add_argument("--fast", action="store_true", help=f"{FAST} boards of each scenario")
+    parser.add_argument("--seed", metavar="S", type=int, default=1, help="other boards [1]")
+    parser.add_argument("--jobs", metavar="N", type=_count, default=1, help="programs at once [1]")
+    parser.add_argument("--write", metavar="FILE", help="write the page with all rates (markdown)")
+    add_json(parser)
+
+
+def _count(text: str) -> int:
+    count = int(text) if text.isdecimal() else 0
+    if count < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a whole number, like 100")
+    return count

@@ -1,0 +1,18 @@
+"""The arguments of `plumb compare`."""
+
+from __future__ import annotations
+
+import argparse
+
+from plumb.cli.arguments.shared import add_json, add_marks, length
+
+HELP = "how far the marks lie from where the settings predict them"
+EXIT = "Exit: 0 done; 1 the RMS is above --limit; 2 an input cannot be used."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb compare`."""
+    add_marks(parser)
+    parser.add_argument("--limit", metavar="MM", type=length, help="exit 1 if the RMS is above it")
+    parser.add_argument("--picture", metavar="FILE", help="draw the errors: .png, .svg or .pdf")
+    add_json(parser)

@@ -1,0 +1,28 @@
+"""The arguments of `plumb next`."""
+
+from __future__ import annotations
+
+import argparse
+
+from plumb.cli.arguments.checked import add_checked
+from plumb.cli.arguments.shared import add_json, add_marks, add_prior, add_sigma
+
+HELP = "what to measure next: the chance that it settles the question, and the minutes it costs"
+EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb next`."""
+    add_marks(parser)
+    add_prior(parser)
+    add_sigma(parser, usual="as plumb diagnose takes it")
+    add_checked(parser)
+    parser.add_argument(
+        "--choose",
+        metavar="N",
+        type=int,
+        help="the proposal that --picture and --marks are of [the best that has marks]",
+    )
+    parser.add_argument("--picture", metavar="FILE", help="draw it on the sheet: .png, .svg, .pdf")
+    parser.add_argument("--marks", dest="template", metavar="FILE", help="a marks.toml to fill in")
+    add_json(parser)

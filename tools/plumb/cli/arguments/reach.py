@@ -1,0 +1,33 @@
+"""The arguments of `plumb reach`."""
+
+from __future__ import annotations
+
+import argparse
+
+from plumb import _core
+from plumb.cli.arguments.shared import add_json, add_settings, limit
+
+OPTIONS = {
+    "most_tension": ("N", "of a chain at its sprocket; motors stall near 290 N"),
+    "least_tension": ("N", "of a chain at its sprocket; a slack-side bungee pulls about 18 N"),
+    "least_free": ("MM", "of chain between ring and sprocket"),
+    "most_give": ("MM_PER_N", "how far the sled may move for each newton that pushes it"),
+}
+HELP = "which part of the sheet a machine can use: chains too tight, too slack, sled too soft"
+EXIT = "Exit: 0 done; 2 an input cannot be used."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb reach`."""
+    usual = _core.reach_limits()
+    add_settings(parser)
+    parser.add_argument("-o", "--output", metavar="FILE", help="draw the map: .png, .svg or .pdf")
+    for name, (unit, meaning) in OPTIONS.items():
+        parser.add_argument(
+            "--" + name.replace("_", "-"),
+            metavar=unit,
+            type=limit,
+            default=usual[name],
+            help=f"{meaning} [%(default)g]",
+        )
+    add_json(parser)

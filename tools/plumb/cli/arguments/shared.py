@@ -1,0 +1,108 @@
+"""The arguments that several commands share, and the values that they take."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+
+from plumb.settings.controllers import CONTROLLERS
+from plumb.text.files import read_bytes
+
+
+def add_settings(parser: argparse.ArgumentParser) -> None:
+    """The argument SETTINGS."""
+    parser.add_argument(
+        "settings", metavar="SETTINGS", type=file, help="groundcontrol.ini or machine.toml"
+    )
+
+
+def add_marks(parser: argparse.ArgumentParser) -> None:
+    """SETTINGS, MARKS and how the marks were cut."""
+    add_settings(parser)
+    parser.add_argument(
+        "marks",
+        metavar="MARKS",
+        type=file,
+        nargs="+",
+        help="Calibration Measurements.ini, marks.toml or marks.csv; several make one board",
+    )
+    parser.add_argument(
+        "--cut-with",
+        metavar="SETTINGS",
+        type=file,
+        help="the settings in force when the marks were cut, if they are not SETTINGS",
+    )
+    add_controller(parser)
+
+
+def add_controller(parser: argparse.ArgumentParser) -> None:
+    """The option --controller."""
+    parser.add_argument(
+        "--controller",
+        choices=CONTROLLERS,
+        help="whose formula turned targets into chain lengths "
+        "[what MARKS say, else stock for a groundcontrol.ini]",
+    )
+
+
+def add_prior(parser: argparse.ArgumentParser) -> None:
+    """The option --prior."""
+    parser.add_argument(
+        "--prior",
+        metavar="NAME=SIGMA",
+        action="append",
+        type=prior,
+        default=[],
+        help="how far (one sigma; mm, N, rad) a stated number may be wrong; 0 holds it",
+    )
+
+
+def add_sigma(parser: argparse.ArgumentParser, *, usual: str) -> None:
+    """The option --sigma; `usual` says what holds without it."""
+    parser.add_argument(
+        "--sigma",
+        metavar="MM",
+        type=length,
+        help=f"reading error of a coordinate [{usual}]",
+    )
+
+
+def add_json(parser: argparse.ArgumentParser) -> None:
+    """The option --json."""
+    parser.add_argument("--json", action="store_true", help="print a JSON object and nothing else")
+
+
+def file(path: str) -> str:
+    """The name of a file that exists; another is refused before the model is loaded."""
+    if not Path(path).exists() or Path(path).is_dir():
+        read_bytes(path)  # refuses it; what comes through a pipe is read only once, and later
+    return path
+
+
+def length(text: str) -> float:
+    """A length above zero [mm]."""
+    value = float(text)
+    if not (math.isfinite(value) and value > 0):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number above zero")
+    return value
+
+
+def limit(text: str) -> float:
+    """A limit of zero or more."""
+    value = float(text)
+    if not (math.isfinite(value) and value >= 0):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number of zero or more")
+    return value
+
+
+def prior(text: str) -> tuple[str, float]:
+    """Reads NAME=SIGMA."""
+    name, separator, value = text.partition("=")
+    try:
+        sigma = float(value)
+    except ValueError:
+        sigma = -1.0
+    if not (separator and math.isfinite(sigma) and sigma >= 0):
+        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=SIGMA, like motor_gap=1.5")
+    return name, sigma

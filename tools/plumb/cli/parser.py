@@ -1,0 +1,65 @@
+"""A parser that complains on a single line, and says what was probably meant."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterable, Sequence
+from difflib import get_close_matches
+from typing import Any, NoReturn
+
+from plumb.text.errors import InputError
+
+
+class Parser(argparse.ArgumentParser):
+    """Complains like every other refusal, and knows the nearest word for a wrong one."""
+
+    def error(self, message: str) -> NoReturn:
+        """Refuse the command line."""
+        raise InputError(f"{' '.join(message.split())}; see {self.prog} --help")
+
+    def parse_known_args(  # type: ignore[override]  # two overloads that nobody here uses
+        self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
+    ) -> tuple[argparse.Namespace, list[str]]:
+        """Parse, and refuse here what is not known: the parser of a command knows its options."""
+        parsed, extra = super().parse_known_args(args, namespace)
+        if extra:
+            unknown = next((word for word in extra if word.startswith("-")), extra[0])
+            name = unknown.partition("=")[0]
+            known = [word for word in self._option_string_actions if word.startswith("--")]
+            what = "option" if name.startswith("-") else "argument"
+            raise InputError(
+                f"there is no {what} {name} here{meant(name, known)}; see {self.prog} --help"
+            )
+        return parsed, extra
+
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        """Refuse a word that is no choice, with the nearest choice."""
+        if action.choices is None or value in action.choices:
+            return
+        choices = [str(choice) for choice in action.choices]
+        if isinstance(action, argparse._SubParsersAction):
+            raise InputError(
+                f"there is no command '{value}'{meant(value, choices)}; see plumb --help"
+            )
+        hint = meant(str(value), choices) or f"; give {', '.join(choices)}"
+        raise argparse.ArgumentError(action, f"'{value}' is not known{hint}")
+
+
+def meant(word: str, known: Iterable[str]) -> str:
+    """`; did you mean ...?` with the nearest known word, or nothing."""
+    near = get_close_matches(word.lower(), list(known), 1)
+    return f"; did you mean {near[0]}?" if near else ""
+
+
+class Version(argparse.Action):
+    """Prints the version of the package, which is looked up only then."""
+
+    def __init__(self, option_strings: Sequence[str], dest: str, help: str) -> None:
+        super().__init__(option_strings, dest=argparse.SUPPRESS, nargs=0, help=help)
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        """Print it and stop."""
+        from importlib.metadata import version
+
+        print(f"{parser.prog} {version('plumb')}")
+        parser.exit()

@@ -1,0 +1,89 @@
+"""How a command ends when it is interrupted, nobody reads it, or the disk is full."""
+
+import os
+import signal
+import subprocess
+import sys
+from importlib.metadata import version
+
+import pytest
+from plumb.cli.ending import INTERRUPTED, ended
+from plumb.cure.demo import MARKS, SETTINGS
+
+PLUMB = [sys.executable, "-m", "plumb.cli.main"]
+COMPARE = [*PLUMB, "compare", str(SETTINGS), str(MARKS)]
+
+
+def test_version_is_that_of_the_package(capsys, run):
+    with pytest.raises(SystemExit) as end:
+        run("--version")
+    assert end.value.code == 0
+    assert capsys.readouterr().out == f"plumb {version('plumb')}\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["diagnoze"], "there is no command 'diagnoze'; did you mean diagnose?; see plumb --help"),
+        (["xyz"], "there is no command 'xyz'; see plumb --help"),
+        (["effects", "--jason"], "no option --jason here; did you mean --json?; see plumb effects"),
+        (["effects", "--jason=1"], "no option --jason here; did you mean --json?"),
+        (["effects", "--colour"], "there is no option --colour here; see plumb effects --help"),
+        (["effects", "more"], "there is no argument more here; see plumb effects --help"),
+        (["bench", "--scenario"], "expected at least one argument; see plumb bench --help"),
+        (
+            ["compare", str(SETTINGS), str(MARKS), "--controller", "holy"],
+            "--controller: 'holy' is not known; did you mean holey?; see plumb compare --help",
+        ),
+        (
+            ["compare", str(SETTINGS), str(MARKS), "--controller", "grbl"],
+            "'grbl' is not known; give stock, holey, plumb; see plumb compare --help",
+        ),
+    ],
+)
+def test_a_wrong_word_is_answered_by_the_nearest_right_one(words, said, run):
+    code, out, complaint = run(*words)
+    assert code == 2 and out == "" and complaint.count("\n") == 1
+    assert said in complaint
+
+
+def test_ctrl_c_ends_quietly(tmp_path):
+    pipe = tmp_path / "log"
+    os.mkfifo(pipe)
+    command = [*PLUMB, "telemetry", str(pipe)]
+    with (
+        subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as started,
+        open(pipe, "wb"),  # opens when the command reads
+    ):
+        started.send_signal(signal.SIGINT)
+        said, complaint = started.communicate(timeout=60)
+    assert (started.returncode, said, complaint) == (INTERRUPTED, b"", b"")
+
+
+def test_an_interruption_anywhere_is_130(capsys):
+    def interrupted() -> int:
+        raise KeyboardInterrupt
+
+    assert ended(interrupted, name="plumb") == 130
+    assert capsys.readouterr().err == ""
+
+
+def test_a_closed_pipe_ends_quietly():
+    reader, writer = os.pipe()
+    os.close(reader)
+    done = subprocess.run([*COMPARE, "--json"], stdout=writer, stderr=subprocess.PIPE)
+    os.close(writer)
+    assert (done.returncode, done.stderr) == (141, b"")
+
+
+def test_a_full_disk_is_a_line():
+    with open("/dev/full", "w") as full:
+        done = subprocess.run(COMPARE, stdout=full, stderr=subprocess.PIPE, text=True)
+    assert done.returncode == 2
+    assert done.stderr == "plumb: the output cannot be written: No space left on device\n"
+
+
+def test_a_closed_standard_output_is_no_crash():
+    command = " ".join(f"'{word}'" for word in COMPARE)
+    done = subprocess.run(["bash", "-c", f"{command} >&-"], capture_output=True, text=True)
+    assert "Traceback" not in done.stderr
