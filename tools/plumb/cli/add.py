@@ -190,7 +190,7 @@ def as_json(addition: Addition) -> dict[str, Any]:
         "sheet_rotation": addition.after_fit.sheet_rotation,
         "sheet_rise_mm": addition.sheet_rise,
         "sigma_mm": addition.after_fit.sigma,
-        "sigma_from": addition.after_fit.sigma_from,
+        "sigma_from": addition.sigma_from,
         "benchmark": {
             "before": score_json(addition.raw.benchmark),
             "after": score_json(addition.benchmark_after),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from plumb.cli.text import millimetres, number, sentences, table
 from plumb.cure.add import Addition
 from plumb.cure.auto import AutoAddition
+from plumb.diagnose.noise import origin_words
 from plumb.diagnose.sentence import verdict_sentence
 from plumb.fit.patch import PATCH
 
@@ -59,12 +60,10 @@ def as_text(result: Addition, *, asked_patch: bool = False) -> str:
     parts = [sentences([first], mark=""), _quality_table(result), _parameter_table(result)]
     if result.benchmark_after:
         parts.insert(1, _benchmark_sentence(result))
-    sigma = result.after_fit
-    origin = "as stated" if sigma.sigma_from == "stated" else "from the residuals"
     parts.append(
         "Priced: scaled up for the numbers the fit took from the data. Left out: each mark "
         "predicted\nby a fit that did not see it. Intervals: 95 %, for a reading error of "
-        f"{sigma.sigma:.2f} mm ({origin})."
+        f"{result.after_fit.sigma:.2f} mm ({origin_words(result.sigma_from)})."
     )
     said = [turn_sentence(result), *result.cures, *result.warnings]
     if PATCH in result.effects_added:

@@ -242,13 +242,7 @@ def _remedies(diagnosis: Diagnosis) -> str:
 
 def _noise_sentence(diagnosis: Diagnosis) -> str:
     noise = diagnosis.noise
-    origin = {
-        "stated": "as stated",
-        "repeats": f"from repeats, {noise.degrees:.0f} degrees of freedom",
-        "scatter": "from the scatter of the marks",
-        "default": "usual for a tape",
-    }[noise.source]
-    return f"Noise of a reading: {noise.sigma:.2f} mm ({origin}). Intervals: 95 %."
+    return f"Noise of a reading: {noise.sigma:.2f} mm ({noise.origin}). Intervals: 95 %."
 
 
 def _hiding(diagnosis: Diagnosis) -> str:

@@ -10,12 +10,17 @@ import numpy as np
 from plumb.board.observations import Observations, different_numbers
 from plumb.board.rounds import notes_on, unit_of
 from plumb.board.sighting import SHEET_ROTATION
+from plumb.diagnose.explanation import Board
+from plumb.diagnose.noise import Noise
+from plumb.diagnose.noise_sources import known_noise, repeats_of
+from plumb.diagnose.slip_cause import described
+from plumb.diagnose.slips_in_repeats import clear_repeats
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.fit import Estimate, Fit, fit, rms
 from plumb.fit.inputs import Inputs
 from plumb.fit.patch import PATCH, best_patch
 from plumb.fit.plausible import PlausibleRange, plausible_range
-from plumb.fit.problem import PRIORS
+from plumb.fit.problem import PRIORS, USUAL_SIGMA
 from plumb.fit.shape import best_pose
 from plumb.marks.read import Measurements
 from plumb.marks.score import Score, score_of
@@ -99,6 +104,7 @@ class Addition:
     effects_added: tuple[str, ...]  # those of the lab too
     warnings: tuple[str, ...]
     steps: tuple[Step, ...]  # effect by effect, in the order given; the last one is `after`
+    sigma_from: str  # where the sigma of the fits comes from: noise_sources.py, or "residuals"
     benchmark_after: Score | None = None  # of the community's test: what the fit leaves of it
 
     @property
@@ -145,18 +151,19 @@ def add(
     model, rows = inputs.model_and_observations()
     _refuse_too_few(measurements, rows, names, priors)
     _refuse_unfelt(measurements, rows, names)
-    noise = inputs.stated_sigma
-    before_fit = fit(model, rows, priors=priors, sigma=noise)
+    noise, odd_repeats = _noise_of(inputs, model, rows)
+    sigma = noise.sigma if noise else None
+    before_fit = fit(model, rows, priors=priors, sigma=sigma)
     before = quality_of(before_fit, rows)
     fits = [
-        fit(model, rows, effects=names[: i + 1], priors=priors, sigma=noise)
+        fit(model, rows, effects=names[: i + 1], priors=priors, sigma=sigma)
         for i in range(len(names))
     ]
     steps = _steps(names, before, [quality_of(fitted, rows) for fitted in fits])
     after_fit = fits[-1] if fits else before_fit
     if patch:
         patched = best_patch(
-            model, rows, effects=names, priors=priors, sigma=noise, without=after_fit
+            model, rows, effects=names, priors=priors, sigma=sigma, without=after_fit
         )
         if patched:
             after_fit, names = patched.fit, (*names, PATCH)
@@ -177,14 +184,31 @@ def add(
         ),
         warnings=(
             *raw.warnings,
+            *odd_repeats,
+            *(noise.notes if noise else ()),
             *_unsettled(after_fit),
             *notes_on(parameter.name for parameter in parameters),
             *_surprises(parameters),
             *_bad_bargains(before, after, steps),
         ),
         steps=steps,
+        sigma_from=noise.source if noise else "residuals",
         benchmark_after=score_of(measurements, after_fit.distance_errors.tolist()),
     )
+
+
+def _noise_of(
+    inputs: Inputs, model: MachineSettings, rows: Observations
+) -> tuple[Noise | None, list[str]]:
+    """What is known of the noise, and a sentence for each reading against its repeats."""
+    stated = inputs.stated
+    board = Board.of(model, rows, sigma=stated.sigma if stated else USUAL_SIGMA)
+    cleared = clear_repeats(board, stated)
+    said = [
+        described(shift, inputs.measurements, inputs.settings.sheet).sentence
+        for shift in cleared.slips
+    ]
+    return known_noise(repeats_of(cleared.rows), stated), said
 
 
 def priors_with(changes: Iterable[tuple[str, float]]) -> dict[str, float]:

@@ -63,14 +63,12 @@ def add_auto(
     best = (possible[0] if possible else ()) if known else diagnosis.to_add
     chosen = tuple(sorted(best, key=order.index))
     rivals = tuple(possible[1:])
-    noise = inputs.sigma if diagnosis.noise.source == "default" else diagnosis.noise.sigma
-    fitted = replace(inputs, sigma=noise)
-    addition = add(fitted, effects=chosen)
+    addition = add(inputs, effects=chosen)
     if not known and chosen and not _helps(addition):
-        chosen, addition = (), add(fitted, effects=())
+        chosen, addition = (), add(inputs, effects=())
     reason, offer = _reason(diagnosis, chosen, rivals), None
     if not known:
-        patched = add(fitted, effects=chosen, patch=True)
+        patched = add(inputs, effects=chosen, patch=True)
         offer = addition.after.left_out_rms, patched.after.left_out_rms
         addition = patched if patch else addition
     settled_by = _settled_by(chosen, rivals)

@@ -31,7 +31,7 @@ def clean_readings(board: Board, inputs: Inputs) -> CleanReadings:
     """Look for mixed-up readings and slips before any effect is suspected."""
     felt = felt_effects(explain(board))
     mixed_up = find_mixed_up(board)
-    cleared = clear_slips(mixed_up.board, felt, stated=inputs.stated_sigma)
+    cleared = clear_slips(mixed_up.board, felt, stated=inputs.stated)
     frame = cleared.frame
     singles = {single.effects[0]: single for single in cleared.singles}
     for name in effect_names():

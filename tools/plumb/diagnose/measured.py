@@ -16,7 +16,7 @@ def measured_board(inputs: Inputs) -> Board:
     """The board of these inputs; raises InputError for too few marks, and for bad targets."""
     model, rows = inputs.model_and_observations()
     _refuse_too_few(inputs.measurements, rows)
-    sigma = inputs.stated_sigma or USUAL_SIGMA
+    sigma = inputs.stated.sigma if inputs.stated else USUAL_SIGMA
     return Board.of(model, rows, sigma=sigma, priors=inputs.priors, checked=inputs.checked)
 
 

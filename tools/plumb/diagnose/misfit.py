@@ -15,11 +15,11 @@ LEVEL = 0.015  # chance at which noise alone is called a misfit
 def misfit_chance(explanation: Explanation, noise: Noise) -> float:
     """Chance that noise alone leaves as much as this explanation does; 1 if nothing can tell.
 
-    Chi-square for a known sigma. With sigma from repeats, F of what is left between places over
-    what is left within repeats, which is what sigma was made of.
+    Chi-square for a known sigma. With repeats in sigma, F of what is left between places over
+    sigma, and what is left within repeats does not count: sigma was made of it.
     """
     left, spare = _left(explanation, explanation.basis, explanation.residual)
-    return _chance(left, spare, noise)
+    return _chance(explanation, left, spare, noise)
 
 
 def spare_numbers(explanation: Explanation) -> float:
@@ -29,7 +29,7 @@ def spare_numbers(explanation: Explanation) -> float:
 
 def library_misfit_chance(explanation: Explanation, noise: Noise) -> float:
     """The same beyond everything that all effects of the library could draw at once."""
-    return _chance(*beyond_library(explanation), noise)
+    return _chance(explanation, *beyond_library(explanation), noise)
 
 
 def beyond_library(explanation: Explanation) -> tuple[float, float]:
@@ -56,9 +56,9 @@ def _left(explanation: Explanation, basis: Array, residual: Array) -> tuple[floa
     return float(residual[:count] @ residual[:count]), count - float(np.sum(basis[:count] ** 2))
 
 
-def _chance(left: float, spare: float, noise: Noise) -> float:
-    if noise.source == "repeats":
-        spare, left = spare - noise.degrees, left - noise.degrees
+def _chance(explanation: Explanation, left: float, spare: float, noise: Noise) -> float:
+    within = noise.within
+    spare, left = spare - within.degrees, left - within.squares / explanation.board.sigma**2
     if spare < 0.5 or not noise.testable:
         return 1.0
     return float(tail(left, spare, noise.degrees))

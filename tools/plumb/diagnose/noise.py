@@ -7,6 +7,17 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
+from plumb.diagnose.spread import NOTHING, Spread
+
+_ORIGINS = {
+    "stated": "as stated",
+    "repeats": "from repeats",
+    "stated and repeats": "as stated, and from repeats",
+    "scatter": "from the scatter of the marks",
+    "default": "usual for a tape",
+    "residuals": "from what the fit leaves",
+}
+
 
 @dataclass(frozen=True)
 class Noise:
@@ -14,8 +25,9 @@ class Noise:
 
     sigma: float  # [mm]
     degrees: float  # of freedom; KNOWN if it was not estimated
-    source: str  # "stated", "repeats", "scatter" or "default"
+    source: str  # "stated", "repeats", "stated and repeats", "scatter" or "default"
     notes: tuple[str, ...] = ()
+    within: Spread = NOTHING  # of repeats, as far as sigma was made of it
 
     @property
     def quantile(self) -> float:
@@ -31,3 +43,14 @@ class Noise:
     def testable(self) -> bool:
         """Whether it comes from elsewhere than the misfit, so that a misfit can be tested."""
         return self.source != "scatter"
+
+    @property
+    def origin(self) -> str:
+        """Where it comes from, for people."""
+        counted = f", {self.degrees:.0f} degrees of freedom" if self.within.degrees else ""
+        return origin_words(self.source) + counted
+
+
+def origin_words(source: str) -> str:
+    """Where a sigma of this source comes from, for people."""
+    return _ORIGINS[source]

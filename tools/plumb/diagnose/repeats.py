@@ -6,13 +6,14 @@ round lies shifted, turned or stretched as a whole, that is no noise of reading:
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from plumb.board.observations import Observations
 from plumb.diagnose.significance import tail
-from plumb.diagnose.spread import Spread
+from plumb.diagnose.spread import NOTHING, Spread
 
 Array = np.ndarray
 SURE = 0.0027  # chance at which noise alone would move a round as a whole as much: 3 sigma
@@ -20,11 +21,41 @@ STEPS = (1.0, 0.5, 0.25, 0.1)  # [mm] to which people read a tape, coarsest firs
 FEWEST_LEFT = 2.0  # degrees of freedom that must be left to judge by
 
 
+@dataclass(frozen=True)
+class Repeats:
+    """Marks that were read more than once, and what their readings have in common."""
+
+    picked: Array  # (n,) readings, by their indices among the marks
+    off: Array  # (n, 2) [mm] of each from its target
+    columns: Array  # (n, c) a mean for each mark, and what moved whole rounds
+    groups: tuple[tuple[int, ...], ...]  # readings of the same mark, made in the same way
+
+    @property
+    def spread(self) -> Spread:
+        """What the columns leave of both coordinates."""
+        return _left(self.columns, self.off)
+
+    def apart(self) -> tuple[Array, Array]:
+        """What is left of each reading (n, 2) [mm], and the share (n,) that it keeps of a slip."""
+        basis, sizes, _ = np.linalg.svd(self.columns, full_matrices=False)
+        basis = basis[:, sizes > 1e-9 * sizes[0]]
+        return self.off - basis @ (basis.T @ self.off), 1 - np.sum(basis**2, axis=1)
+
+
 def mark_spread(rows: Observations) -> Spread:
     """The spread of marks made and read in the same way."""
-    repeated = [repeats for repeats in _alike(rows) if len(repeats) > 1]
+    repeats = repeated_marks(rows)
+    return repeats.spread if repeats else NOTHING
+
+
+def repeated_marks(rows: Observations, *, in_a_round: bool = False) -> Repeats | None:
+    """The marks that were read more than once, or more than once in a round; None without any."""
+    alike = _alike(rows)
+    if in_a_round:
+        alike = [part for repeats in alike for part in _by_round(rows, repeats)]
+    repeated = [repeats for repeats in alike if len(repeats) > 1]
     if not repeated:
-        return Spread(0.0, 0.0)
+        return None
     picked = np.concatenate(repeated)
     belongs = np.repeat(np.arange(len(repeated)), [len(repeats) for repeats in repeated])
     means = (belongs[:, np.newaxis] == np.arange(len(repeated))).astype(float)
@@ -33,9 +64,26 @@ def mark_spread(rows: Observations) -> Spread:
     plain = _left(means, readings)
     whole = _round_columns(rows, picked)
     moved = _left(np.hstack([means, whole]), readings)
-    if whole.shape[1] and moved.degrees >= FEWEST_LEFT and _is_sure(plain, moved):
-        return moved
-    return plain
+    are_moved = whole.shape[1] and moved.degrees >= FEWEST_LEFT and _is_sure(plain, moved)
+    columns = np.hstack([means, whole]) if are_moved else means
+    return Repeats(picked, readings, columns, tuple(tuple(repeats) for repeats in repeated))
+
+
+def _by_round(rows: Observations, repeats: list[int]) -> list[list[int]]:
+    """These readings, those of a round together."""
+    rounds = rows.rounds[rows.mark_rows[repeats]].tolist()
+    return [
+        [index for index, number in zip(repeats, rounds, strict=True) if number == each]
+        for each in sorted(set(rounds))
+    ]
+
+
+def repeated_distances(rows: Observations) -> list[list[int]]:
+    """Indices of distances between the same two marks, where there are several."""
+    spans: dict[frozenset[int], list[int]] = {}
+    for i, ends in enumerate(rows.distance_rows.tolist()):
+        spans.setdefault(frozenset(ends), []).append(i)
+    return [repeats for repeats in spans.values() if len(repeats) > 1]
 
 
 def _alike(rows: Observations) -> list[list[int]]:
@@ -63,11 +111,8 @@ def _alike(rows: Observations) -> list[list[int]]:
 
 def distance_spread(rows: Observations) -> Spread:
     """The same of distances between the same two marks."""
-    spans: dict[frozenset[int], list[int]] = {}
-    for i, ends in enumerate(rows.distance_rows.tolist()):
-        spans.setdefault(frozenset(ends), []).append(i)
     squares, degrees = 0.0, 0.0
-    for repeats in spans.values():
+    for repeats in repeated_distances(rows):
         squares += float(np.sum((rows.distances[repeats] - rows.distances[repeats].mean()) ** 2))
         degrees += len(repeats) - 1
     return Spread(squares, degrees)

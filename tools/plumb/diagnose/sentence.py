@@ -13,9 +13,12 @@ def verdict_sentence(diagnosis: Diagnosis) -> str:
 
 
 def _slip(diagnosis: Diagnosis) -> str:
-    names = ", ".join(slip.name for slip in diagnosis.slips)
+    names = ", ".join(dict.fromkeys(slip.name for slip in diagnosis.slips))
     which = "One reading disagrees" if len(diagnosis.slips) == 1 else "Some readings disagree"
-    return f"{which} with every explanation: look at {names} again before anything else."
+    against = {slip.against for slip in diagnosis.slips}
+    what = against.pop() if len(against) == 1 else "every explanation or with their repeats"
+    what = "their repeats" if what == "its repeats" and len(diagnosis.slips) > 1 else what
+    return f"{which} with {what}: look at {names} again before anything else."
 
 
 def _nothing_provable(diagnosis: Diagnosis) -> str:

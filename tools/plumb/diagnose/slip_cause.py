@@ -6,10 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.diagnose.slips import Shift
+from plumb.diagnose.readings import Shift
 from plumb.marks.read import Measurements
 
 ROUND = (1.0, 2.0, 5.0, 10.0, 20.0, 25.4, 40.0, 50.0, 100.0)  # [mm] off by a tick, a hook, an inch
+_EITHER = "its other reading may be the wrong one"
 CLOSE = 2.5  # [deviations] within which a guess agrees with the shift
 SURELY = 5.0  # [deviations] beyond which a coordinate is surely wrong
 
@@ -24,6 +25,7 @@ class Slip:
     read: tuple[float, ...]  # [mm] as it was read, in the machine frame
     expected: tuple[float, ...]  # [mm] what the rest says
     guess: str  # the likely cause, or nothing
+    against: str = "every explanation"  # what it disagrees with
 
     @property
     def length(self) -> float:
@@ -64,7 +66,8 @@ def described(shift: Shift, measurements: Measurements, sheet: tuple[float, floa
         name = " - ".join(measurements.distances[index].between)
         read = (measurements.distances[index].length,)
     expected = tuple(a - b for a, b in zip(read, offset, strict=True))
-    return Slip(name, offset, sigma, read, expected, _guess(read, offset, sigma, sheet))
+    guess = _EITHER if shift.is_one_of_two else _guess(read, offset, sigma, sheet)
+    return Slip(name, offset, sigma, read, expected, guess, shift.against)
 
 
 def _guess(

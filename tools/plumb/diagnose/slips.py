@@ -17,41 +17,15 @@ from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
 from plumb.diagnose.misfit import library_basis, misfit_chance
 from plumb.diagnose.noise import Noise
 from plumb.diagnose.noise_sources import noise_on
+from plumb.diagnose.readings import Shift, readings_of, without
 from plumb.diagnose.significance import tail
 from plumb.diagnose.sizes import possible
+from plumb.diagnose.slips_in_repeats import clear_repeats, twins_that_agree
+from plumb.fit.inputs import Stated
 
 Array = np.ndarray
 LEVEL = 0.01  # chance at which noise alone makes a slip of one of all readings
 READINGS_PER_SLIP = 12  # with more slips than one in this many readings the slips are not the story
-
-
-@dataclass(frozen=True)
-class Reading:
-    """A reading: a mark's place or a distance, by its index among its kind."""
-
-    index: int
-    is_mark: bool
-
-    @property
-    def size(self) -> int:
-        """How many numbers were read."""
-        return 2 if self.is_mark else 1
-
-    def numbers(self, rows: Observations) -> Array:
-        """Its entries among all measured numbers."""
-        if self.is_mark:
-            return np.array([2 * self.index, 2 * self.index + 1])
-        return np.array([rows.measured.size + self.index])
-
-
-@dataclass(frozen=True)
-class Shift:
-    """How far a reading is off by an explanation."""
-
-    reading: Reading
-    offset: Array  # (2,) or (1,) [mm] read less what the rest says
-    sigma: Array  # of each [mm]
-    drop: float  # of chi-square when the reading is set free
 
 
 @dataclass(frozen=True)
@@ -63,12 +37,6 @@ class Cleared:
     noise: Noise
     frame: Explanation  # of what is left
     singles: tuple[Explanation, ...]  # the same with each candidate
-
-
-def readings_of(rows: Observations) -> list[Reading]:
-    """All readings."""
-    marks = [Reading(i, True) for i in range(len(rows.measured))]
-    return marks + [Reading(i, False) for i in range(len(rows.distances))]
 
 
 def shifts(explanation: Explanation) -> list[Shift]:
@@ -90,45 +58,30 @@ def shifts(explanation: Explanation) -> list[Shift]:
     return of_readings
 
 
-def without(rows: Observations, reading: Reading) -> Observations:
-    """The observations without a reading; the visit itself stays."""
-    if not reading.is_mark:
-        return replace(
-            rows,
-            distance_rows=np.delete(rows.distance_rows, reading.index, axis=0),
-            distances=np.delete(rows.distances, reading.index),
-        )
-    return replace(
-        rows,
-        mark_rows=np.delete(rows.mark_rows, reading.index),
-        measured=np.delete(rows.measured, reading.index, axis=0),
-        targets=np.delete(rows.targets, reading.index, axis=0),
-        names=rows.names[: reading.index] + rows.names[reading.index + 1 :],
-    )
-
-
-def clear_slips(board: Board, candidates: Sequence[str], *, stated: float | None) -> Cleared:
-    """Set slips aside one after the other, worst first, if the rest then fits."""
-    start = noise_on(board, stated)
-    rows, noise = board.rows, start
+def clear_slips(board: Board, candidates: Sequence[str], *, stated: Stated | None) -> Cleared:
+    """Set slips aside one after the other, worst first, if the rest then fits; before all else
+    those that disagree with their repeats."""
+    repeats = clear_repeats(board, stated)
+    rows, indices = repeats.rows, list(repeats.indices)
+    start = noise = noise_on(board.with_rows(rows), stated)
     slips: list[Shift] = []
-    indices = readings_of(rows)  # of the readings still there, among all
     most = max(1, len(indices) // READINGS_PER_SLIP)
     whole = fitted = _single(board.with_rows(rows, sigma=noise.sigma), candidates)
     while len(slips) <= most:
         worst = _worst(fitted, stated, noise)
         if worst is None:
             break
-        slips.append(replace(worst, reading=indices.pop(_place(rows, worst.reading))))
+        slips.append(replace(worst, reading=indices.pop(worst.reading.place(rows))))
         rows = without(rows, worst.reading)
         noise = noise_on(board.with_rows(rows, sigma=noise.sigma), stated)
         fitted = _single(board.with_rows(rows, sigma=noise.sigma), candidates)
     if slips and len(slips) <= most and _fits(fitted, noise):
-        return Cleared(tuple(slips), rows, noise, fitted[0], tuple(fitted[1:]))
-    return Cleared((), board.rows, start, whole[0], tuple(whole[1:]))
+        all_slips = (*repeats.slips, *slips)
+        return Cleared(all_slips, rows, noise, fitted[0], tuple(fitted[1:]))
+    return Cleared(repeats.slips, repeats.rows, start, whole[0], tuple(whole[1:]))
 
 
-def _worst(fitted: Sequence[Explanation], stated: float | None, noise: Noise) -> Shift | None:
+def _worst(fitted: Sequence[Explanation], stated: Stated | None, noise: Noise) -> Shift | None:
     """The reading that no single effect explains, with its shift by the frame alone or the best
     effect; None if there is none.
 
@@ -137,14 +90,20 @@ def _worst(fitted: Sequence[Explanation], stated: float | None, noise: Noise) ->
     """
     explanations, board = _possible(fitted, noise), fitted[0].board
     by_explanation = [shifts(explanation) for explanation in explanations]
+    twins = twins_that_agree(board.rows)
     drops = np.array([[shift.drop for shift in of_each] for of_each in by_explanation])
     if drops.shape[1] < 4:
         return None
+    # A reading that its repeats confirm is no slip, whatever explanations say of it.
+    confirmed = np.array([shift.reading in twins for shift in by_explanation[0]])
     everything = _drops_beyond_library(explanations[0])
     # What remains by the explanation that needs the slip least, or by all effects at once.
     least = np.maximum(drops.min(axis=0), everything)
     sizes = np.array([shift.reading.size for shift in by_explanation[0]])
     chances = np.array([tail(g, s, np.inf) for g, s in zip(least, sizes, strict=True)])
+    chances[confirmed] = 1.0
+    if confirmed.all():
+        return None
     worst = int(np.lexsort((-least, chances))[0])
     reading = by_explanation[0][worst].reading
     others = noise_on(board.with_rows(without(board.rows, reading), sigma=board.sigma), stated)
@@ -188,8 +147,3 @@ def _fits(fitted: Sequence[Explanation], noise: Noise) -> bool:
     return any(
         misfit_chance(explanation, noise) > MISFIT_LEVEL for explanation in _possible(fitted, noise)
     )
-
-
-def _place(rows: Observations, reading: Reading) -> int:
-    """The reading's place among all readings."""
-    return reading.index if reading.is_mark else len(rows.measured) + reading.index

@@ -22,3 +22,6 @@ class Spread:
     def __add__(self, other: Spread) -> Spread:
         """Both together."""
         return Spread(self.squares + other.squares, self.degrees + other.degrees)
+
+
+NOTHING = Spread(0.0, 0.0)

@@ -12,6 +12,14 @@ from plumb.settings.machine import MachineSettings
 
 
 @dataclass(frozen=True)
+class Stated:
+    """What somebody said that a reading is good to."""
+
+    sigma: float  # [mm]
+    is_final: bool = False  # given to the command: it is used as it is, whatever repeats say
+
+
+@dataclass(frozen=True)
 class Inputs:
     """A machine as its settings say, what was measured, and what is known besides."""
 
@@ -22,13 +30,18 @@ class Inputs:
     controller: str | None = None  # whose formula moved the sled; None: as marks or settings say
     # Standard deviations of the frame's numbers.
     priors: Mapping[str, float] = field(default_factory=lambda: PRIORS)
-    sigma: float | None = None  # [mm] of one reading; None: as the marks say, or from the marks
+    sigma: float | None = (
+        None  # [mm] of one reading, used as it is; None: diagnose/noise_sources.py
+    )
     checked: Sequence[Checked] = ()  # numbers that were measured directly
 
     @property
-    def stated_sigma(self) -> float | None:
-        """[mm] of one reading, as stated here or in the file of the marks."""
-        return self.sigma or self.measurements.tape_sigma
+    def stated(self) -> Stated | None:
+        """What a reading is good to, as stated here or in the file of the marks."""
+        if self.sigma:
+            return Stated(self.sigma, is_final=True)
+        tape = self.measurements.tape_sigma
+        return Stated(tape) if tape else None
 
     def model_and_observations(self) -> tuple[MachineSettings, Observations]:
         """Our model of the settings, and what was observed; InputError for a bad target."""

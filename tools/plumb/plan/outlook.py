@@ -17,8 +17,9 @@ from plumb.diagnose.explanation import span
 from plumb.diagnose.gain import limit_of_noise
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
 from plumb.diagnose.noise import Noise
-from plumb.diagnose.noise_sources import FEW_REPEATS, repeats_of
+from plumb.diagnose.noise_sources import FEW_REPEATS, STATEMENT, repeats_of
 from plumb.diagnose.significance import surprises, tail
+from plumb.diagnose.spread import Spread
 from plumb.plan.ahead import Ahead, Check, ahead
 from plumb.plan.case import Case, Hypothesis
 from plumb.plan.planned_visits import Visits
@@ -134,8 +135,8 @@ class Rediagnosis:
 
     def _misfit(self, left: Array, spare: float) -> Array:
         squares = np.sum(left**2, axis=0)
-        if self.noise.source == "repeats":
-            spare, squares = spare - self.noise.degrees, squares - self.noise.degrees
+        within = self.noise.within
+        spare, squares = spare - within.degrees, squares - within.squares / self.noise.sigma**2
         if spare < 0.5 or not self.noise.testable:
             return np.ones(left.shape[1])
         chances: Array = np.asarray(tail(squares, spare, self.noise.degrees))
@@ -192,8 +193,12 @@ def noise_after(case: Case, visits: Visits) -> Noise:
     again = sum(
         (name, *chains, weight, swapped) in known for name, chains, weight, swapped in planned
     )
-    before = noise.degrees if noise.source == "repeats" else repeats_of(rows).degrees
-    degrees = before + 2 * again
-    if not again or degrees < FEW_REPEATS:
+    if not again:
         return noise
-    return Noise(noise.sigma, degrees, "repeats")
+    more = 2.0 * again + (noise.within if noise.within.degrees else repeats_of(rows)).degrees
+    within = Spread(more * noise.sigma**2, more)
+    if noise.source in ("stated", "stated and repeats"):
+        return Noise(noise.sigma, STATEMENT + more, "stated and repeats", within=within)
+    if more < FEW_REPEATS:
+        return noise
+    return Noise(noise.sigma, more, "repeats", within=within)

@@ -9,12 +9,14 @@ from plumb.diagnose.explanation import Board, explain
 from plumb.diagnose.gain import LEVEL, bases_beyond_fit, limit_of_noise, search
 from plumb.diagnose.misfit import misfit_chance
 from plumb.diagnose.noise import Noise
-from plumb.diagnose.noise_sources import noise_of, repeats_of
+from plumb.diagnose.noise_sources import guessed_noise, known_noise, repeats_of
+from plumb.diagnose.readings import readings_of, without
 from plumb.diagnose.significance import KNOWN, surprise, surprises, tail
 from plumb.diagnose.sizes import hidden_share, room_for, sizes_of
-from plumb.diagnose.slips import readings_of, shifts, without
+from plumb.diagnose.slips import shifts
 from plumb.diagnose.spread import Spread
 from plumb.fit.fit import fit
+from plumb.fit.inputs import Stated
 from plumb.marks.read import Measurements, Round
 from plumb.model.catalogue import effect_names
 from scipy import stats
@@ -80,26 +82,48 @@ def test_repeats_count_only_what_was_done_alike():
 
 
 @pytest.mark.parametrize(
-    ("repeats", "scatter", "stated", "source", "sigma"),
+    ("repeats", "stated", "source", "sigma", "degrees"),
     [
-        (Spread(12 * 0.09, 12), Spread(9.0, 20), 0.5, "repeats", 0.3),
-        (Spread(2 * 0.09, 2), Spread(9.0, 20), 0.5, "stated", 0.5),
-        (Spread(2 * 0.09, 2), Spread(9.0, 20), None, "repeats", 0.3),
-        (Spread(0.0, 0), Spread(20 * 0.04, 20), None, "default", 0.5),
-        (Spread(0.0, 0), Spread(20 * 0.64, 20), None, "scatter", 0.8),
-        (Spread(0.0, 0), Spread(20 * 9.0, 20), None, "default", 1.0),
-        (Spread(0.0, 0), Spread(4 * 0.64, 4), None, "default", 0.5),
+        (Spread(12 * 0.09, 12), None, "repeats", 0.3, 12),
+        (Spread(2 * 0.09, 2), None, "repeats", 0.3, 2),
+        (Spread(0.0, 0), Stated(0.5), "stated", 0.5, np.inf),
+        # 12 of 0.4^2 and 10 of 0.5^2 are 22 of 0.448^2.
+        (Spread(12 * 0.16, 12), Stated(0.5), "stated and repeats", 0.4484, 22),
+        (Spread(2 * 0.16, 2), Stated(0.5), "stated and repeats", 0.4848, 12),
+        (Spread(12 * 1.0, 12), Stated(0.5), "repeats", 1.0, 12),
+        (Spread(12 * 0.01, 12), Stated(0.5), "repeats", 0.1, 12),
+        (Spread(12 * 1.0, 12), Stated(0.5, is_final=True), "stated", 0.5, np.inf),
     ],
 )
-def test_the_noise_comes_from_the_best_there_is(repeats, scatter, stated, source, sigma):
-    found = noise_of(repeats, scatter, stated=stated)
-    assert found.source == source and found.sigma == pytest.approx(sigma)
-    assert np.isfinite(found.degrees) == (source in ("repeats", "scatter"))
+def test_statements_and_repeats_count_together(repeats, stated, source, sigma, degrees):
+    noise = known_noise(repeats, stated)
+    assert noise.source == source and noise.sigma == pytest.approx(sigma, rel=1e-3)
+    assert noise.degrees == degrees
+    contradicted = stated is not None and repeats.degrees > 2 and not 0.3 < repeats.sigma < 0.7
+    assert contradicted == any("chance alone hardly does that" in note for note in noise.notes)
 
 
-def test_a_stated_noise_that_repeats_contradict_is_told():
-    found = noise_of(Spread(12 * 1.0, 12), Spread(0.0, 0), stated=0.3)
-    assert found.sigma == pytest.approx(1.0) and any("believed" in note for note in found.notes)
+@pytest.mark.parametrize(
+    ("scatter", "source", "sigma"),
+    [
+        (Spread(20 * 0.04, 20), "default", 0.5),
+        (Spread(20 * 0.64, 20), "scatter", 0.8),
+        (Spread(20 * 9.0, 20), "default", 1.0),
+        (Spread(4 * 0.64, 4), "default", 0.5),
+    ],
+)
+def test_the_scatter_is_asked_where_nobody_said_anything(scatter, source, sigma):
+    assert known_noise(Spread(0.0, 0.0), None) is None
+    noise = guessed_noise(scatter)
+    assert noise.source == source and noise.sigma == pytest.approx(sigma)
+    assert np.isfinite(noise.degrees) == (source == "scatter")
+
+
+def test_repeats_by_chance_alone_do_not_make_a_statement_wrong():
+    # The 1 % and 99 % points of chi-square with 12 degrees of freedom, from any printed table.
+    for squares, said in ((3.60, False), (3.54, True), (26.1, False), (26.3, True)):
+        notes = known_noise(Spread(squares, 12), Stated(1.0)).notes
+        assert any("stated 1 mm" in note for note in notes) == said
 
 
 @pytest.mark.parametrize(

@@ -45,6 +45,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="also write a groundcontrol.ini: other keys as they were in SETTINGS or --cut-with",
     )
     add_prior(parser)
-    add_sigma(parser, usual="tape_sigma_mm of MARKS, else from the residuals")
+    add_sigma(parser, usual="tape_sigma_mm of MARKS and repeats, else from the residuals")
     parser.add_argument("--picture", metavar="FILE", help="draw before and after: .png, .svg, .pdf")
     add_json(parser)

@@ -18,6 +18,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of `plumb diagnose`."""
     add_marks(parser)
     add_prior(parser)
-    add_sigma(parser, usual="repeats, else tape_sigma_mm of MARKS, else 0.5")
+    add_sigma(parser, usual="tape_sigma_mm of MARKS and repeats, else 0.5")
     add_checked(parser)
     add_json(parser)
