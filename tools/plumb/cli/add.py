@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from plumb.cli.add_text import PATCH_WARNING, as_text, auto_text, turn_sentence
+from plumb.cli.client import client_files_of, client_text, typed_json
 from plumb.cli.compare import panel_of, score_json
 from plumb.cli.files import (
     inputs_of,
@@ -14,20 +16,21 @@ from plumb.cli.files import (
     refuse_twins,
     write_outputs,
 )
-from plumb.cli.text import about, print_json, sentences
+from plumb.cli.text import about, print_json
 from plumb.cure.add import Addition, Parameter, Quality, add, priors_with
 from plumb.cure.auto import AutoAddition, add_auto, without_marks
+from plumb.firmware.client_files import ClientFiles
 from plumb.fit.inputs import Inputs
 from plumb.fit.patch import PATCH
 from plumb.model.catalogue import is_sketch
 from plumb.pictures.sheet import Panel, draw
-from plumb.settings.files import changed_ini, groundcontrol_changes, machine_toml
-from plumb.text.errors import InputError, refusal
+from plumb.settings.files import machine_toml, published_machine
+from plumb.text.errors import InputError
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Fit, write, print, and return the exit code."""
-    refuse_twins(arguments.output, arguments.groundcontrol, arguments.picture)
+    refuse_twins(arguments.output, arguments.picture)
     inputs = inputs_of(arguments)
     if arguments.without:
         marks = without_marks(inputs.measurements, arguments.without)
@@ -38,12 +41,12 @@ def run(arguments: argparse.Namespace) -> int:
     if "auto" in arguments.effect:
         return _run_auto(arguments, inputs)
     result = add(inputs, effects=arguments.effect, patch=arguments.patch)
-    files, unsaid = _written(arguments, inputs, result)
+    files, client = _written(arguments, inputs, result)
     if arguments.json:
-        print_json({**as_json(result), "written": files, "unsaid": unsaid})
+        print_json({**as_json(result), **_written_json(files, client)})
     else:
         print(as_text(result, asked_patch=arguments.patch))
-        _print_written(files, unsaid)
+        _print_written(files, client)
     return int(not result.pays)
 
 
@@ -52,76 +55,70 @@ def _run_auto(arguments: argparse.Namespace, inputs: Inputs) -> int:
         raise InputError("--effect auto finds the effects itself; name no others with it")
     result = add_auto(inputs, patch=arguments.patch)
     files: list[str] = []
-    unsaid: list[str] = []
+    client: ClientFiles | None = None
     if result.addition:
-        files, unsaid = _written(arguments, inputs, result.addition)
+        files, client = _written(arguments, inputs, result.addition)
     if arguments.json:
         addition = as_json(result.addition) if result.addition else {}
-        print_json({**addition, "auto": auto_json(result), "written": files, "unsaid": unsaid})
+        print_json({**addition, "auto": auto_json(result), **_written_json(files, client)})
     else:
         print(auto_text(result))
-        _print_written(files, unsaid)
+        _print_written(files, client)
     return int(not result.done)
 
 
 def _written(
     arguments: argparse.Namespace, inputs: Inputs, result: Addition
-) -> tuple[list[str], list[str]]:
-    """Write the files; their names, and what the groundcontrol.ini cannot hold."""
+) -> tuple[list[str], ClientFiles | None]:
+    """Write the files; their names, and what belongs to the client."""
     _refuse_sketches(arguments, result)
+    client = client_files_of(
+        arguments,
+        result.settings,
+        lines=arguments.output and str(Path(arguments.output).with_suffix(".nc")),
+        firmware=arguments.firmware,
+        originals=[arguments.settings, arguments.cut_with],
+    )
     files = _files(arguments, inputs, result)
-    read = [arguments.settings, *arguments.marks]
-    read += [arguments.cut_with] if arguments.cut_with else []
-    write_outputs(files, inputs=read)
-    return list(files), unsaid_of(result) if arguments.groundcontrol else []
+    refuse_twins(*files, *(client.files if client else ()))
+    files |= client.files if client else {}
+    read = [arguments.settings, *arguments.marks, arguments.cut_with, arguments.original]
+    write_outputs(files, inputs=[path for path in read if path])
+    return list(files), client
 
 
 def _refuse_sketches(arguments: argparse.Namespace, result: Addition) -> None:
     """Refuse to write settings without a sketch that was fitted with them."""
     for name in filter(is_sketch, result.after_fit.lab_effects):
-        for option, path in (
-            ("-o", arguments.output),
-            ("--groundcontrol", arguments.groundcontrol),
-        ):
-            if path:
-                raise InputError(
-                    f"{option} {path}: {name} is a sketch, which no firmware has; write it in C++ "
-                    f"first (docs/new-effect.md), or leave {option} away to look at the fit"
-                )
+        if arguments.output:
+            raise InputError(
+                f"-o {arguments.output}: {name} is a sketch, which no firmware has; write it in "
+                "C++ first (docs/new-effect.md), or leave -o away to look at the fit"
+            )
 
 
-def _print_written(files: list[str], unsaid: list[str]) -> None:
+def _print_written(files: list[str], client: ClientFiles | None) -> None:
     if files:
         print(f"\nWritten: {', '.join(files)}")
-    if unsaid:
-        print("\nWhat the published firmware cannot do with the groundcontrol.ini:")
-        print(sentences(unsaid))
+    if client:
+        print(client_text(client))
+
+
+def _written_json(files: list[str], client: ClientFiles | None) -> dict[str, Any]:
+    return {
+        "written": files,
+        "steps": client.steps if client else (),
+        "typed": typed_json(client),
+        "unsaid": client.unsaid if client else (),
+    }
 
 
 def _files(arguments: argparse.Namespace, inputs: Inputs, result: Addition) -> dict[str, bytes]:
-    """All files to write, complete before the first is written."""
+    """The machine and its picture, complete before the first is written."""
     files: dict[str, bytes] = {}
     if arguments.output:
-        files[arguments.output] = toml_of(result, source=inputs.measurements.source)
-    if arguments.groundcontrol:
-        original = next(
-            (
-                path
-                for path, read in (
-                    (arguments.settings, inputs.settings),
-                    (arguments.cut_with, inputs.cut_with),
-                )
-                if read and path.lower().endswith(".ini")
-            ),
-            None,
-        )
-        if original is None:
-            raise refusal(
-                arguments.groundcontrol,
-                "needs a groundcontrol.ini whose other keys it keeps",
-                remedy="give it as SETTINGS or with --cut-with",
-            )
-        files[arguments.groundcontrol] = ini_of(result, original)
+        source = inputs.measurements.source
+        files[arguments.output] = toml_of(result, source=source, firmware=arguments.firmware)
     if arguments.picture:
         form = picture_form(arguments.picture)
         drawn = draw(panels_of(result), sheet=result.settings.sheet, form=form)
@@ -129,8 +126,10 @@ def _files(arguments: argparse.Namespace, inputs: Inputs, result: Addition) -> d
     return files
 
 
-def toml_of(result: Addition, *, source: str) -> bytes:
-    """The new machine as the bytes of a machine.toml."""
+def toml_of(result: Addition, *, source: str, firmware: str = "plumb") -> bytes:
+    """The new machine as the bytes of a machine.toml, with the formula of its firmware."""
+    ours = result.settings
+    settings = published_machine(ours) if firmware == "published" else ours
     lines = [
         f"Fitted to {source}: {result.after.fit_rms:.2f} mm RMS "
         f"(priced {result.after.priced_rms:.2f}, left out {result.after.left_out_rms:.2f}), "
@@ -140,17 +139,7 @@ def toml_of(result: Addition, *, source: str) -> bytes:
         *([f"{PATCH}: {PATCH_WARNING}"] if PATCH in result.effects_added else []),
         *result.warnings,
     ]
-    return machine_toml(result.settings, comment="\n".join(lines)).encode()
-
-
-def ini_of(result: Addition, original: str) -> bytes:
-    """The new machine as far as a groundcontrol.ini can hold it."""
-    return changed_ini(original, groundcontrol_changes(result.settings).values)
-
-
-def unsaid_of(result: Addition) -> list[str]:
-    """What a groundcontrol.ini cannot hold."""
-    return [loss.sentence for loss in groundcontrol_changes(result.settings).unsaid]
+    return machine_toml(settings, comment="\n".join(lines)).encode()
 
 
 def panels_of(result: Addition) -> list[Panel]:

@@ -8,12 +8,13 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from plumb.cli.add import ini_of, panels_of, toml_of, unsaid_of
+from plumb.cli.add import panels_of, toml_of
 from plumb.cli.add_text import turn_sentence
 from plumb.cli.ending import ended
 from plumb.cli.parser import Parser
 from plumb.cli.text import millimetres, sentences, table
 from plumb.cure.demo import GOAL, MARKS, SETTINGS, Demonstration, demonstrate
+from plumb.firmware.client_files import client_files
 from plumb.pictures.sheet import draw
 from plumb.text.errors import refusal
 from plumb.text.files import write_all
@@ -64,9 +65,15 @@ def _files(demonstration: Demonstration, folder: str, picture: str | None) -> di
         os.path.join(folder, f"{PICTURE}.png"): drawn,
         os.path.join(folder, f"{PICTURE}.svg"): draw(panels, sheet=sheet, form="svg"),
         os.path.join(folder, "machine.toml"): toml_of(demonstration.chosen, source=source),
-        os.path.join(folder, "groundcontrol.ini"): ini_of(demonstration.chosen, str(SETTINGS)),
     }
-    return files | ({picture: drawn} if picture else {})
+    client = client_files(
+        demonstration.chosen.settings,
+        client="groundcontrol",
+        firmware="plumb",
+        original=str(SETTINGS),
+        lines=os.path.join(folder, "machine.nc"),
+    )
+    return files | client.files | ({picture: drawn} if picture else {})
 
 
 def as_text(demonstration: Demonstration) -> str:
@@ -86,7 +93,7 @@ def as_text(demonstration: Demonstration) -> str:
             "What is doubtful:",
             sentences(_doubts(demonstration)),
             "What the settings files do not hold:",
-            sentences([turn_sentence(chosen), *unsaid_of(chosen)]),
+            sentences([turn_sentence(chosen)]),
         ]
     )
 

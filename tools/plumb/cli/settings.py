@@ -1,19 +1,15 @@
-"""`plumb settings`: a fitted machine as lines for our firmware, or as a GroundControl file."""
+"""`plumb settings`: a fitted machine as lines for our firmware, with what its client needs."""
 
 from __future__ import annotations
 
 import argparse
 
+from plumb.cli.client import client_files_of, client_text, typed_json
 from plumb.cli.files import settings_in, write_outputs
-from plumb.cli.text import print_json, sentences, table
-from plumb.firmware.numbers import Number, firmware_numbers, groundcontrol_values
-from plumb.settings.files import changed_ini
+from plumb.cli.text import print_json, table
+from plumb.firmware.client_files import gcode
+from plumb.firmware.numbers import Number, firmware_numbers
 from plumb.text.errors import InputError, refusal
-
-KEPT_BY_CLIENT = (
-    "GroundControl and WebControl keep $2, $3, $8, $37, $40 and $41 themselves and send theirs "
-    "when they connect: give them the file of --to groundcontrol.ini, or these numbers, too"
-)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -23,31 +19,41 @@ def run(arguments: argparse.Namespace) -> int:
         raise refusal(
             arguments.settings,
             "holds the published numbers, which GroundControl or WebControl sends",
-            remedy="give the machine.toml of plumb add",
+            remedy="give a machine.toml that plumb add wrote for our firmware",
         )
     numbers = firmware_numbers(settings)
-    if arguments.to == "groundcontrol.ini":
-        if not (arguments.original and arguments.output):
-            raise InputError("--to groundcontrol.ini needs --original INI and --output FILE")
-        content = changed_ini(arguments.original, groundcontrol_values(settings))
-    else:
-        content = _text(numbers, arguments.to).encode()
-    read = [arguments.settings, *filter(None, [arguments.original])]
+    _refuse_lines_alone(arguments)
+    content = gcode(numbers) if arguments.to == "gcode" else _table(numbers).encode()
+    printed = arguments.client == "none" and not arguments.output
+    client = None if printed else client_files_of(arguments, settings, lines=arguments.output)
+    files = client.files if client else {}
     if arguments.output:
-        write_outputs({arguments.output: content}, inputs=read)
+        files = {arguments.output: content} | files
+        write_outputs(files, inputs=[arguments.settings, *filter(None, [arguments.original])])
     if arguments.json:
-        print_json({"settings": [vars(row) for row in numbers], "written": arguments.output})
+        written = {"written": list(files), "typed": typed_json(client)}
+        print_json({"settings": [vars(row) for row in numbers], **written})
     elif arguments.output:
-        print(f"Written: {arguments.output}")
-        if arguments.to == "gcode":
-            print(sentences([KEPT_BY_CLIENT]))
+        print(f"Written: {', '.join(files)}")
+        if client:
+            print(client_text(client))
     else:
         print(content.decode(), end="")
     return 0
 
 
-def _text(numbers: tuple[Number, ...], form: str) -> str:
-    if form == "gcode":
-        return "".join(f"{row.line}\n" for row in numbers)
+def _refuse_lines_alone(arguments: argparse.Namespace) -> None:
+    """Lines carry all corrections; a client that carries some too would double them."""
+    if arguments.to == "gcode" and arguments.client is None:
+        raise InputError(
+            "--to gcode needs --client: GroundControl and WebControl send their own corrections "
+            "each time they connect, and the machine would apply them twice; give --client "
+            "groundcontrol --original groundcontrol.ini, --client webcontrol, or --client none"
+        )
+    if arguments.to == "table" and arguments.client:
+        raise InputError("--client goes with --to gcode: a table sets no machine")
+
+
+def _table(numbers: tuple[Number, ...]) -> str:
     rows = [[f"${row.number}", row.name, row.text, row.unit] for row in numbers]
     return table(["number", "name", "value", "unit"], rows) + "\n"

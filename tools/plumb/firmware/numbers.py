@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from math import tau
+from math import inf, tau
 
 import numpy as np
 
 from plumb.firmware.settings import every_setting, format_value, machine_of
 from plumb.model.predict import FOUND, lengths, library
-from plumb.settings.groundcontrol import Key
-from plumb.settings.ini import SOURCES
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 
@@ -49,19 +48,6 @@ def firmware_numbers(settings: MachineSettings) -> tuple[Number, ...]:
     return numbers
 
 
-def groundcontrol_values(settings: MachineSettings) -> dict[Key, float]:
-    """What a groundcontrol.ini must say so that its program disturbs none of these numbers."""
-    said = {
-        "motor_gap": settings.motor_gap,
-        "motor_offset": settings.motor_offset,
-        "rotation_radius": settings.rotation_radius,
-        "chain_sag_correction": 0.0,
-        "left_tolerance": 0.0,
-        "right_tolerance": 0.0,
-    }
-    return {SOURCES[name]: round(value, 4) for name, value in said.items()}
-
-
 def _values(settings: MachineSettings) -> dict[int, float]:
     numbers = {
         0: settings.sheet_width,
@@ -89,17 +75,26 @@ def _values(settings: MachineSettings) -> dict[int, float]:
 
 def _refuse_what_differs(settings: MachineSettings, numbers: dict[int, float]) -> None:
     try:
-        theirs = machine_of(numbers, sheet=settings.sheet)
+        apart = chains_apart(settings, numbers)
     except ValueError as error:
         raise InputError(f"the firmware refuses these settings: {error}") from None
+    if apart > WORST:
+        raise InputError(
+            f"the firmware would pay out chain that differs by {apart:.3f} mm from this machine's: "
+            "check its numbers for sizes that no real machine has"
+        )
+
+
+def chains_apart(settings: MachineSettings, numbers: Mapping[int, float]) -> float:
+    """By how much the firmware's chains with these numbers differ from the machine's, over its
+    sheet [mm]; infinite where the sled hangs nowhere.
+
+    Raises ValueError in the firmware's words for a number that it refuses.
+    """
+    theirs = machine_of(numbers, sheet=settings.sheet)
     half = np.array(settings.sheet) / 2 - 50
     places = half * np.array([(x, y) for x in (-1, 0, 1) for y in (-1, 0, 1)])
     ours, outcome = lengths(settings, places)
     kept, kept_outcome = lengths(theirs, places)
     reached = (outcome == FOUND) & (kept_outcome == FOUND)
-    apart = float(np.abs(ours - kept)[reached].max(initial=0.0))
-    if apart > WORST or not reached.any():
-        raise InputError(
-            f"the firmware would pay out chain that differs by {apart:.3f} mm from this machine's: "
-            "check its numbers for sizes that no real machine has"
-        )
+    return float(np.abs(ours - kept)[reached].max()) if reached.any() else inf

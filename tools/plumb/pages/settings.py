@@ -140,8 +140,9 @@ is section and key of `groundcontrol.ini` and `webcontrol.json`."""
 EFFECTS = """\
 What the lab finds and adds; 0 means absent, and is the default of all, so a machine nobody has
 fitted behaves as under the published firmware. `$160`, `$180` and `$181` are added to what `$37`,
-`$40` and `$41` say. Limits are the plausible range and as much again on both sides. Causes,
-pictures and typical sizes: [effects.md](effects.md)."""
+`$40` and `$41` say; where both are set the machine says `Corrected twice: ...`. Limits are the
+plausible range and as much again on both sides. Causes, pictures and typical sizes:
+[effects.md](effects.md)."""
 
 HIDDEN = """\
 Kept like the others, but neither listed nor set by `$`: WebControl gives `$43` another meaning and

@@ -16,6 +16,7 @@ from plumb.settings.groundcontrol import (
     Unsaid,
     changed_ini,
     groundcontrol_changes,
+    published_machine,
     write_groundcontrol_ini,
 )
 from plumb.settings.ini import read_settings_ini
@@ -32,6 +33,7 @@ __all__ = [
     "changed_ini",
     "groundcontrol_changes",
     "machine_toml",
+    "published_machine",
     "read_settings",
     "write_groundcontrol_ini",
     "write_machine_toml",

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from os import PathLike
 
 from plumb.settings.ini import SOURCES
-from plumb.settings.machine import MachineSettings, radius_in_published
+from plumb.settings.machine import MachineSettings, PublishedSettings, radius_in_published
 from plumb.settings.published import is_tuned, tuned_numbers
 from plumb.text.errors import refusal
 from plumb.text.files import write_whole
@@ -42,17 +42,29 @@ class GroundControlChanges:
 def groundcontrol_changes(settings: MachineSettings) -> GroundControlChanges:
     """The keys that express these settings for the published firmware, in its units."""
     ours = settings.as_plumb_model()
-    chains = tuned_numbers(ours.effects)
+    published = published_machine(ours)
     said = {
-        "motor_gap": ours.motor_gap,
-        "motor_offset": ours.motor_offset,
-        **chains,
-        "rotation_radius": ours.rotation_radius
-        * radius_in_published(chains["left_tolerance"] / 100, chains["right_tolerance"] / 100),
+        "motor_gap": published.motor_gap,
+        "motor_offset": published.motor_offset,
+        **tuned_numbers(ours.effects),
+        "rotation_radius": published.rotation_radius,
     }
     # Rounded far below what any of them means, so that 1072.6 - 609.6 is 463 again.
     values = {SOURCES[name]: round(value, 10) for name, value in said.items()}
     return GroundControlChanges(values=values, unsaid=_unsaid(ours))
+
+
+def published_machine(settings: MachineSettings) -> MachineSettings:
+    """This machine with the published firmware, which gets of it what its numbers can say."""
+    ours = settings.as_plumb_model()
+    chains = tuned_numbers(ours.effects)
+    left, right = chains["left_tolerance"] / 100, chains["right_tolerance"] / 100
+    return replace(
+        ours,
+        controller="stock",
+        rotation_radius=ours.rotation_radius * radius_in_published(left, right),
+        published=replace(PublishedSettings(), **chains),
+    )
 
 
 def _unsaid(ours: MachineSettings) -> tuple[Unsaid, ...]:

@@ -97,8 +97,9 @@ def test_several_files_of_marks_are_one_board(ask, file):
 
 
 def test_add_writes_settings_that_explain_the_marks(ask, tmp_path):
-    new, ini = tmp_path / "machine.toml", tmp_path / "new.ini"
-    code, answer = ask("add", *BOARD, *EFFECTS, "-o", new, "--groundcontrol", ini)
+    new, ini = tmp_path / "machine.toml", tmp_path / "machine-groundcontrol.ini"
+    options = ("--client", "groundcontrol", "--firmware", "published")
+    code, answer = ask("add", *BOARD, *EFFECTS, "-o", new, *options)
     assert code == 0 and answer["written"] == [str(new), str(ini)]
     assert answer["effects_added"] == ["chain_pitch", "chain_sag"]
     assert answer["raw"]["rms_mm"] > answer["before"]["fit_rms_mm"] > answer["after"]["fit_rms_mm"]
@@ -116,8 +117,9 @@ def test_add_writes_settings_that_explain_the_marks(ask, tmp_path):
 
 
 def test_add_keeps_every_key_of_the_ini_that_it_does_not_change(run, tmp_path):
-    ini = tmp_path / "new.ini"
-    assert run("add", *BOARD, *EFFECTS, "--groundcontrol", ini)[0] == 0
+    ini = tmp_path / "new-groundcontrol.ini"
+    options = ("--client", "groundcontrol", "--firmware", "published")
+    assert run("add", *BOARD, *EFFECTS, *options, "-o", tmp_path / "new.toml")[0] == 0
     old, new = SETTINGS.read_text().splitlines(), ini.read_text().splitlines()
     changed = {
         line.split(" = ")[0] for line, new_line in zip(old, new, strict=True) if line != new_line

@@ -44,7 +44,7 @@ def test_what_cannot_be_used_is_told_in_one_line(
     arguments, hint, as_json, run, tmp_path, monkeypatch
 ):
     monkeypatch.chdir(tmp_path)
-    extra = ["-o", "new.toml", "--groundcontrol", "new.ini"] if arguments[:1] == ["add"] else []
+    extra = ["-o", "new.toml", "--client", "groundcontrol"] if arguments[:1] == ["add"] else []
     code, said, complaint = run(*arguments, *extra, *as_json)
     assert code == 2 and said == ""
     assert complaint.startswith("plumb: ") and complaint.count("\n") == 1
@@ -86,13 +86,15 @@ def test_points_may_have_a_header_comments_and_spaces(ask, file):
 @pytest.mark.parametrize(
     "outputs",
     [
-        ("-o", "nowhere/machine.toml", "--groundcontrol", "new.ini"),
-        ("-o", "new.toml", "--groundcontrol", "nowhere/new.ini"),
-        ("-o", "new.toml", "--groundcontrol", "."),
-        ("-o", "new.toml", "--groundcontrol", "new.toml"),
+        ("-o", "nowhere/machine.toml", "--client", "groundcontrol"),
+        ("-o", "new.nc", "--client", "none"),
+        ("-o", "new.toml", "--picture", "new.toml"),
+        ("--client", "groundcontrol"),
+        ("-o", "new.toml", "--client", "none", "--firmware", "published"),
+        ("-o", "new.toml", "--original", str(SETTINGS)),
         ("-o", "new.toml", "--picture", "nowhere/fall.png"),
         ("-o", str(SETTINGS)),
-        ("--groundcontrol", str(MARKS), "-o", "new.toml"),
+        ("-o", "new.toml", "--picture", str(MARKS)),
     ],
 )
 def test_if_one_result_cannot_be_written_none_is(outputs, run, tmp_path, monkeypatch):
@@ -105,13 +107,15 @@ def test_if_one_result_cannot_be_written_none_is(outputs, run, tmp_path, monkeyp
 
 
 def test_a_groundcontrol_ini_needs_an_old_one(run, tmp_path):
-    machine = tmp_path / "machine.toml"
+    machine, out = tmp_path / "machine.toml", tmp_path / "new.toml"
     write_machine_toml(machine, BELIEVED)
-    out = tmp_path / "new.ini"
-    code, _, complaint = run("add", machine, MARKS, *EFFECTS, "--groundcontrol", out)
-    assert code == 2 and "needs a groundcontrol.ini" in complaint and not out.exists()
-    options = ("--groundcontrol", out, "--cut-with", SETTINGS)
-    assert run("add", machine, MARKS, *EFFECTS, *options)[0] == 0 and out.exists()
+    options = ("-o", out, "--client", "groundcontrol")
+    code, _, complaint = run("add", machine, MARKS, *EFFECTS, *options)
+    assert code == 2 and "needs your groundcontrol.ini" in complaint and not out.exists()
+    for given in ("--cut-with", "--original"):
+        assert run("add", machine, MARKS, *EFFECTS, *options, given, SETTINGS)[0] == 0
+        assert (tmp_path / "new-groundcontrol.ini").exists()
+        (tmp_path / "new-groundcontrol.ini").unlink()
 
 
 def test_too_few_marks_are_refused_and_nothing_is_written(run, file, tmp_path):

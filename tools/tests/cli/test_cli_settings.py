@@ -10,7 +10,7 @@ from plumb.cure.demo import SETTINGS
 from plumb.firmware.numbers import firmware_numbers
 from plumb.firmware.settings import machine_of
 from plumb.model.predict import lengths, library
-from plumb.settings.files import machine_toml, read_settings
+from plumb.settings.files import machine_toml
 from plumb.text.errors import InputError
 from synthetic import TRUE, grid
 
@@ -47,18 +47,6 @@ def test_a_size_that_the_firmware_does_not_take_is_refused():
         firmware_numbers(wild)
 
 
-def test_the_clients_file_disturbs_nothing(tmp_path, capsys):
-    machine, new = tmp_path / "machine.toml", tmp_path / "new.ini"
-    machine.write_text(machine_toml(TRUE))
-    more = ["--to", "groundcontrol.ini", "--original", str(SETTINGS), "-o", str(new)]
-    assert main(["settings", str(machine), *more]) == 0
-    written = read_settings(new)
-    assert written.motor_gap == pytest.approx(TRUE.motor_gap, abs=1e-4)
-    assert written.published.chain_sag_correction == 0.0
-    assert main(["settings", str(machine), "--to", "groundcontrol.ini"]) == 2
-    assert "--original" in capsys.readouterr().err
-
-
 def test_published_settings_are_left_to_their_own_program(capsys):
     assert main(["settings", str(SETTINGS)]) == 2
     assert "machine.toml" in capsys.readouterr().err
@@ -67,7 +55,7 @@ def test_published_settings_are_left_to_their_own_program(capsys):
 def test_lines_can_be_sent_as_they_are(tmp_path, capsys):
     machine = tmp_path / "machine.toml"
     machine.write_text(machine_toml(TRUE))
-    assert main(["settings", str(machine), "--to", "gcode"]) == 0
+    assert main(["settings", str(machine), "--to", "gcode", "--client", "none"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert all(line.startswith("$") and " " not in line for line in lines)
     assert main(["settings", str(machine), "--json"]) == 0

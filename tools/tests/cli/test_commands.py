@@ -13,10 +13,10 @@ from plumb.cli.main import COMMANDS, build_parser
 FOLDER = Path(main.__file__).parent
 # Files of the room that are no commands.
 SHARED = {
-    *("__init__", "add_text", "checked", "demo", "ending", "files", "main", "parser"),
+    *("__init__", "add_text", "checked", "client", "demo", "ending", "files", "main", "parser"),
     *("places_text", "text"),
 }
-SHARED_ARGUMENTS = {"__init__", "checked", "shared"}
+SHARED_ARGUMENTS = {"__init__", "checked", "client", "shared"}
 # What takes longer to load than a command needs to refuse a wrong word.
 HEAVY = ("numpy", "scipy", "matplotlib")
 

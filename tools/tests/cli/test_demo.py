@@ -57,8 +57,10 @@ def test_the_command_writes_what_it_says_and_ends_with_the_fall(tmp_path, capsys
     assert (tmp_path / "demo" / "error-falls.png").read_bytes() == picture.read_bytes()
     new = read_settings(tmp_path / "demo" / "machine.toml", known=known_effects())
     assert set(new.effects) == {"chain_pitch", "chain_sag"}
-    for_published = read_settings(tmp_path / "demo" / "groundcontrol.ini")
-    assert for_published.motor_gap == pytest.approx(new.motor_gap, abs=1e-4)
+    client = read_settings(tmp_path / "demo" / "machine-groundcontrol.ini")
+    assert client.motor_gap == pytest.approx(new.motor_gap, abs=1e-4)
+    assert client.published.chain_sag_correction == 0
+    assert "$160=-" in (tmp_path / "demo" / "machine.nc").read_text()
 
 
 def test_the_command_fails_when_the_error_does_not_fall(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 
+from plumb.cli.arguments.client import add_client, add_firmware
 from plumb.cli.arguments.shared import add_json, add_marks, add_prior, add_sigma
 
 HELP = "fit the frame and the named effects to the marks, and write the new settings"
@@ -39,11 +40,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="leave this mark out, say because its reading was a slip",
     )
     parser.add_argument("-o", "--output", metavar="FILE", help="write the machine.toml")
-    parser.add_argument(
-        "--groundcontrol",
-        metavar="FILE",
-        help="also write a groundcontrol.ini: other keys as they were in SETTINGS or --cut-with",
-    )
+    add_client(parser)
+    add_firmware(parser)
     add_prior(parser)
     add_sigma(parser, usual="tape_sigma_mm of MARKS and repeats, else from the residuals")
     parser.add_argument("--picture", metavar="FILE", help="draw before and after: .png, .svg, .pdf")

@@ -1,0 +1,53 @@
+"""What belongs to the client that was named, and what the owner does with it."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+
+from plumb.cli.text import sentences, table
+from plumb.firmware.client_files import ClientFiles, client_files
+from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError
+
+
+def client_files_of(
+    arguments: argparse.Namespace,
+    settings: MachineSettings,
+    *,
+    lines: str | None,
+    firmware: str = "plumb",
+    originals: Sequence[str | None] = (),
+) -> ClientFiles | None:
+    """The lines for the machine, and what belongs to the client; None if no client was named."""
+    if arguments.original and arguments.client != "groundcontrol":
+        raise InputError("--original is for --client groundcontrol; name the client too")
+    if arguments.client is None:
+        return None
+    if not lines:
+        raise InputError("--client writes several files; name the first with -o FILE")
+    given = [path for path in originals if path and path.lower().endswith(".ini")]
+    return client_files(
+        settings,
+        client=arguments.client,
+        firmware=firmware,
+        original=arguments.original or next(iter(given), None),
+        lines=lines,
+    )
+
+
+def client_text(files: ClientFiles) -> str:
+    """What the owner does with the files, for people."""
+    parts = [sentences([f"{step[0].upper()}{step[1:]}." for step in files.steps])]
+    if files.typed:
+        rows = [[section, key, value] for (section, key), value in files.typed.items()]
+        parts.append(table(["section", "key", "value"], rows, left=2))
+    if files.unsaid:
+        parts.append("What the published firmware cannot do:\n" + sentences(files.unsaid))
+    return "\n\n".join(parts)
+
+
+def typed_json(files: ClientFiles | None) -> dict[str, str]:
+    """What the owner types into the client, by section and key."""
+    typed = files.typed if files else {}
+    return {f"{section}: {key}": value for (section, key), value in typed.items()}

@@ -1,0 +1,170 @@
+"""The files that belong together: for the machine and its client, with a single carrier for each
+correction.
+
+A client sends the numbers that it keeps each time it connects, and the firmware adds them to its
+corrections. So whoever writes lines for the machine writes the client's numbers with them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from plumb import _core
+from plumb.firmware.numbers import WORST, Number, chains_apart, firmware_numbers
+from plumb.firmware.settings import every_setting
+from plumb.settings.files import changed_ini, groundcontrol_changes
+from plumb.settings.groundcontrol import Key, number_for_firmware
+from plumb.settings.ini import SOURCES
+from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError, naming, refusal
+from plumb.text.ini import IniEntry, IniText, parse_ini
+from plumb.text.values import number_in
+
+# What clients work out before they send it.
+KINEMATICS, CHAIN_PER_TURN, FEED = 7, 13, 38
+CORRECTIONS = ("chain_sag_correction", "left_tolerance", "right_tolerance")
+
+
+@dataclass(frozen=True)
+class ClientFiles:
+    """What to write, and what the owner does with it."""
+
+    files: dict[str, bytes]  # by name; empty if there is nothing but to type
+    steps: tuple[str, ...]  # in their order, a sentence each
+    typed: dict[Key, str]  # numbers that the owner types into the client
+    unsaid: tuple[str, ...]  # what the firmware cannot do, a sentence each
+
+
+def client_files(
+    settings: MachineSettings, *, client: str, firmware: str, original: str | None, lines: str
+) -> ClientFiles:
+    """The files that make this machine out of the owner's: its lines, and the client's beside it.
+
+    `lines` is the name of the first; `original` is the groundcontrol.ini whose other keys are kept.
+    Raises InputError if it is missing, or if what the client sends would change the machine.
+    """
+    if firmware == "published":
+        return _for_published(settings, client, original, lines)
+    return _for_plumb(settings, client, original, lines)
+
+
+def _for_plumb(
+    settings: MachineSettings, client: str, original: str | None, lines: str
+) -> ClientFiles:
+    """Lines that carry all corrections, and a client that carries none."""
+    numbers = firmware_numbers(settings)
+    files = {lines: gcode(numbers)}
+    send = f"open {lines} in your sender like a program and run it: it sets the machine"
+    if client == "none":
+        return ClientFiles(files, (send,), {}, ())
+    kept = _kept_by_client(settings)
+    if client == "webcontrol":
+        typed = {key: number_for_firmware(value) for key, value in kept.items()}
+        steps = ("type these numbers into WebControl's settings", send)
+        return ClientFiles(files, steps, typed, ())
+    name, content = _groundcontrol_ini(kept, original, lines)
+    refuse_what_disturbs(settings, numbers, content, source=str(original))
+    return ClientFiles({**files, name: content}, (_put_in_place(name), send), {}, ())
+
+
+def _for_published(
+    settings: MachineSettings, client: str, original: str | None, lines: str
+) -> ClientFiles:
+    """A client that carries all corrections, and no lines."""
+    changes = groundcontrol_changes(settings)
+    unsaid = tuple(loss.sentence for loss in changes.unsaid)
+    if client == "none":
+        raise InputError(
+            "--client none: the published firmware gets its numbers from a client; give --client "
+            "groundcontrol or webcontrol"
+        )
+    if client == "webcontrol":
+        typed = {key: number_for_firmware(value) for key, value in changes.values.items()}
+        return ClientFiles({}, ("type these numbers into WebControl's settings",), typed, unsaid)
+    name, content = _groundcontrol_ini(changes.values, original, lines)
+    return ClientFiles({name: content}, (_put_in_place(name),), {}, unsaid)
+
+
+def gcode(numbers: tuple[Number, ...]) -> bytes:
+    """The numbers as lines for the machine."""
+    return "".join(f"{row.line}\n" for row in numbers).encode()
+
+
+def client_numbers(ini: IniText) -> dict[int, float]:
+    """What GroundControl sends of this file that says where the sled hangs, by $-number."""
+    numbers = {
+        KINEMATICS: 1.0 if _said(ini, "kinematics").value.lower() == "quadrilateral" else 2.0,
+        CHAIN_PER_TURN: _number(_said(ini, "gear_teeth"), ini)
+        * _number(_said(ini, "link_pitch"), ini),
+        FEED: 1.0 if _said(ini, "feed").value.lower() == "top" else 2.0,
+    }
+    for setting in every_setting():
+        section, _, key = setting.key.partition(": ")
+        entry = ini.find(key, section=f"{section} Settings") if key else None
+        if entry and "geometry" in setting.touches and setting.number not in numbers:
+            numbers[setting.number] = _number(entry, ini)
+    return numbers
+
+
+def refuse_what_disturbs(
+    settings: MachineSettings, numbers: tuple[Number, ...], content: bytes, *, source: str
+) -> None:
+    """Refuse a client's file that would change the machine once its lines are there."""
+    lines = {row.number: float(row.text) for row in numbers}
+    sent = client_numbers(parse_ini(content.decode("utf-8", "surrogateescape"), source=source))
+    both = {**lines, **sent}
+    apart = chains_apart(settings, both)
+    same_kind = sent[KINEMATICS] == lines[KINEMATICS]
+    if same_kind and not _core.carried_twice(both) and apart <= WORST:
+        return
+    other = [n for n, value in sent.items() if n in lines and not np.isclose(value, lines[n])]
+    said = ", ".join(f"${n} = {sent[n]:g} instead of {lines[n]:g}" for n in other)
+    raise refusal(
+        source,
+        f"GroundControl would send {said}, which is another machine",
+        remedy="correct the file, or give the groundcontrol.ini of this machine",
+    )
+
+
+def _kept_by_client(settings: MachineSettings) -> dict[Key, float]:
+    """What a client must keep so that it disturbs none of the lines."""
+    said = {
+        "motor_gap": settings.motor_gap,
+        "motor_offset": settings.motor_offset,
+        "rotation_radius": settings.rotation_radius,
+        **dict.fromkeys(CORRECTIONS, 0.0),
+    }
+    return {SOURCES[name]: round(value, 4) for name, value in said.items()}
+
+
+def _groundcontrol_ini(
+    values: Mapping[Key, float], original: str | None, lines: str
+) -> tuple[str, bytes]:
+    if original is None:
+        raise InputError(
+            "--client groundcontrol needs your groundcontrol.ini, whose other keys it keeps: give "
+            "it with --original"
+        )
+    name = Path(lines).with_name(f"{Path(lines).stem}-groundcontrol.ini")
+    return str(name), changed_ini(original, values)
+
+
+def _put_in_place(name: str) -> str:
+    return f"close GroundControl, put {name} in place of its groundcontrol.ini, and connect"
+
+
+def _said(ini: IniText, name: str) -> IniEntry:
+    section, key = SOURCES[name]
+    entry = ini.find(key, section=section)
+    if entry is None:
+        raise refusal(ini.source, f"{key} is missing in [{section}]")
+    return entry
+
+
+def _number(entry: IniEntry, ini: IniText) -> float:
+    with naming(ini.source, entry.place):
+        return number_in(entry.value)
