@@ -81,9 +81,11 @@ class Bench:
         source = np.random.default_rng([self.seed, 2])
         return [
             Checked(
-                one.name, self._truth(one.name) + one.sigma * source.standard_normal(), one.sigma
+                check.name,
+                self._truth(check.name) + check.sigma * source.standard_normal(),
+                check.sigma,
             )
-            for one in checks
+            for check in checks
         ]
 
     def _truth(self, name: str) -> float:
@@ -93,12 +95,12 @@ class Bench:
         return TRUE_VALUES[name](size) if name in TRUE_VALUES else 0.0
 
     def _read(self, visits: Visits, number: int) -> np.ndarray:
-        own = Plan(visits.targets, visits.approaches, visits.sled_weights)
-        where = places_with(self.effect, self.size, own, self.frame).reshape(-1, 2)
+        plan = Plan(visits.targets, visits.approaches, visits.sled_weights)
+        where = places_with(self.effect, self.size, plan, self.frame).reshape(-1, 2)
         if visits.swapped.any() and self.effect == "chain_pitch":
             numbers = HIDDEN["chain_pitch"](self.size)
             other = {"left.pitch": numbers["right.pitch"], "right.pitch": numbers["left.pitch"]}
-            swapped = ask_judge({**self.frame, **other}, own)
+            swapped = ask_judge({**self.frame, **other}, plan)
             where = np.where(visits.swapped[:, np.newaxis], swapped, where)
         turn = TURN_SIGMA * np.random.default_rng([self.seed, 3]).standard_normal()
         where = where @ np.array([[cos(turn), turn], [-turn, cos(turn)]])

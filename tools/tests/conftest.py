@@ -11,7 +11,7 @@ def run(capsys):
     """Runs one command; gives exit code, standard output and standard error."""
 
     def command(*arguments):
-        code = main([str(one) for one in arguments])
+        code = main([str(argument) for argument in arguments])
         said = capsys.readouterr()
         return code, said.out, said.err
 

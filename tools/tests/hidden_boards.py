@@ -39,8 +39,8 @@ __all__ = [
 
 WEIGHT, COMPLIANCE = MAKER.chain_weight, MAKER.effect("chain_stretch", "compliance")
 # One cause of each effect; the chains' pitch and the sprockets differ from side to side.
-_CAUSES = {one.effect: one for one in reversed(CAUSES)}
-_CAUSES["chain_pitch"] = next(one for one in CAUSES if one.label == "left more")
+_CAUSES = {cause.effect: cause for cause in reversed(CAUSES)}
+_CAUSES["chain_pitch"] = next(cause for cause in CAUSES if cause.label == "left more")
 _CAUSES["sprocket_runout"] = Cause(
     "sprocket_runout",
     "left more",
@@ -53,14 +53,14 @@ HIDDEN = {
 }
 
 
-def size_for(effect: str, own: Plan, millimetres: float) -> float:
+def size_for(effect: str, layout: Plan, millimetres: float) -> float:
     """How many typical sizes move the marks by so much RMS, before anything is refitted."""
-    return boards.size_for(_CAUSES[effect], own, millimetres)
+    return boards.size_for(_CAUSES[effect], layout, millimetres)
 
 
 def board(
     effects: Mapping[str, float],
-    own: Plan,
+    layout: Plan,
     *,
     seed: int,
     noise: float = 0.5,
@@ -73,22 +73,22 @@ def board(
         outside="bump" if bump else "",
         outside_mm=bump,
     )
-    return cut(hidden, own, seed=seed, noise=noise, tape_sigma=tape_sigma).measurements
+    return cut(hidden, layout, seed=seed, noise=noise, tape_sigma=tape_sigma).measurements
 
 
-def ask_judge(numbers: Mapping[str, float], own: Plan) -> np.ndarray:
+def ask_judge(numbers: Mapping[str, float], layout: Plan) -> np.ndarray:
     """Places (n, 2) [mm] of the sled of a machine with these numbers, sent by the maker's."""
     cause = Cause("", "", lambda _: dict(numbers))
     machine = TrueMachine(Hidden(((cause, 1.0),)))
-    return machine.sleds(chains_for(own), weights=own.sled_weights)
+    return machine.sleds(chains_for(layout), weights=layout.sled_weights)
 
 
 def places_with(
-    effect: str | None, size: float, own: Plan, frame: Mapping[str, float]
+    effect: str | None, size: float, layout: Plan, frame: Mapping[str, float]
 ) -> np.ndarray:
     """Where marks are read (n, 2) [mm] with an effect of so many typical sizes."""
     hidden = Hidden(((_CAUSES[effect], size),)) if effect else Hidden()
     machine = TrueMachine(hidden, **frame)
-    chains = chains_for(own)
-    where = machine.sleds(chains, approaches=own.approaches, weights=own.sled_weights)
+    chains = chains_for(layout)
+    where = machine.sleds(chains, approaches=layout.approaches, weights=layout.sled_weights)
     return hidden.read(where)

@@ -45,12 +45,12 @@ def marks_on(
     prefix: str = "",
 ) -> tuple[Mark, ...]:
     """Marks that the true machine makes, on a sheet turned by `rotation` [rad] against it."""
-    chains, found = lengths(believed, targets)
-    assert (found == FOUND).all()
+    chains, outcome = lengths(believed, targets)
+    assert (outcome == FOUND).all()
     weight = sled_weight or true.sled_weight
-    own = settings_of(loaded(values_of(true), weight, true.sled_weight)[0], like=true)
-    where, found = places(own, chains)
-    assert (found == FOUND).all()
+    settings = settings_of(loaded(values_of(true), weight, true.sled_weight)[0], like=true)
+    where, outcome = places(settings, chains)
+    assert (outcome == FOUND).all()
     cosine, sine = np.cos(rotation), np.sin(rotation)
     where = where @ np.array([[cosine, sine], [-sine, cosine]])
     where = where + noise * np.random.default_rng(seed).standard_normal(where.shape)

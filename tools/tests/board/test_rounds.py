@@ -34,7 +34,7 @@ def moved(marks, shift, turn):
     """The same marks, read on a sheet that lies elsewhere."""
     cosine, sine = np.cos(turn), np.sin(turn)
     spin = np.array([[cosine, -sine], [sine, cosine]])
-    return [replace(one, measured=tuple(spin @ one.measured + np.array(shift))) for one in marks]
+    return [replace(mark, measured=tuple(spin @ mark.measured + np.array(shift))) for mark in marks]
 
 
 def test_a_file_names_the_settings_it_was_cut_with(file):
@@ -67,14 +67,14 @@ def test_what_a_round_cannot_mean_is_refused(file, line, complaint):
 
 def test_each_round_has_the_chains_of_its_own_settings():
     targets = grid(3, 3)
-    one = board(marks_on(TRUE, BELIEVED, targets), cut_with=BELIEVED, source="a.toml")
+    first = board(marks_on(TRUE, BELIEVED, targets), cut_with=BELIEVED, source="a.toml")
     two = board(marks_on(TRUE, OTHER, targets), cut_with=OTHER, source="b.toml")
-    both = join_measurements([one, two])
+    both = join_measurements([first, two])
     assert both.marks[9].name == "b:0" and both.repeats == {}
     _, rows = model_and_observations(BELIEVED, both)
-    found = fit(BELIEVED, rows, effects=("chain_sag", "chain_stretch", "chain_pitch"), sigma=0.1)
+    fitted = fit(BELIEVED, rows, effects=("chain_sag", "chain_stretch", "chain_pitch"), sigma=0.1)
     # Without its own settings the second round would be millimetres off.
-    assert found.rms < 0.05
+    assert fitted.rms < 0.05
     wrong = replace(both, rounds=(both.rounds[0], replace(both.rounds[1], cut_with=None)))
     _, rows = model_and_observations(BELIEVED, wrong)
     assert fit(BELIEVED, rows, effects=("chain_pitch",), sigma=0.1).rms > 0.5
@@ -83,12 +83,14 @@ def test_each_round_has_the_chains_of_its_own_settings():
 def test_distances_of_a_later_round_join_its_own_holes():
     targets = grid(3, 2)
     parts = [
-        replace(distances_between(marks_on(TRUE, own, targets)), source=name, rounds=(Round(),))
-        for name, own in (("a.toml", BELIEVED), ("b.toml", OTHER))
+        replace(
+            distances_between(marks_on(TRUE, settings, targets)), source=name, rounds=(Round(),)
+        )
+        for name, settings in (("a.toml", BELIEVED), ("b.toml", OTHER))
     ]
     parts = [
-        replace(part, rounds=(Round(cut_with=own),))
-        for part, own in zip(parts, (BELIEVED, OTHER), strict=True)
+        replace(part, rounds=(Round(cut_with=settings),))
+        for part, settings in zip(parts, (BELIEVED, OTHER), strict=True)
     ]
     both = join_measurements(parts)
     rows = observe(BELIEVED, both)
@@ -115,11 +117,11 @@ def test_files_of_one_name_are_told_apart_by_their_folders():
 
 
 def test_a_moved_frame_is_refused_with_advice():
-    one, two = (board([Mark("A", (0.0, 0.0), (1.0, 1.0))]) for _ in range(2))
+    first, two = (board([Mark("A", (0.0, 0.0), (1.0, 1.0))]) for _ in range(2))
     two = replace(two, rounds=(Round(frame_moved=True),), source="b.toml")
     assert join_measurements([two]) is two
     with pytest.raises(InputError, match=r"b\.toml: frame_moved .* give it alone"):
-        join_measurements([one, two])
+        join_measurements([first, two])
 
 
 def two_rounds(second, **how):
@@ -132,9 +134,9 @@ def test_chains_zeroed_anew_get_zeros_of_their_own():
     both = two_rounds(later, chains_rezeroed=True)
     model, rows = model_and_observations(TRUE, both, cut_with=BELIEVED)
     assert set(round_priors(rows)) == {"zero2.left", "zero2.right"}
-    found = fit(model, rows, sigma=0.05)
-    values = {one.name: one.value for one in found.estimates}
-    assert found.rms < 0.01
+    fitted = fit(model, rows, sigma=0.05)
+    values = {estimate.name: estimate.value for estimate in fitted.estimates}
+    assert fitted.rms < 0.01
     assert values["zero2.left"] == pytest.approx(6.0, abs=0.1)
     assert values["zero2.right"] == pytest.approx(-3.0, abs=0.1)
     _, rows = model_and_observations(TRUE, two_rounds(later), cut_with=BELIEVED)
@@ -145,9 +147,9 @@ def test_another_sheet_lies_where_it_lies():
     later = moved(marks_on(TRUE, BELIEVED, grid(3, 3)), (4.0, -7.0), 0.003)
     both = two_rounds(later, new_sheet=True)
     model, rows = model_and_observations(TRUE, both, cut_with=BELIEVED)
-    found = fit(model, rows, sigma=0.05)
-    values = {one.name: one.value for one in found.estimates}
-    assert found.rms < 0.01
+    fitted = fit(model, rows, sigma=0.05)
+    values = {estimate.name: estimate.value for estimate in fitted.estimates}
+    assert fitted.rms < 0.01
     assert values["sheet2.x"] == pytest.approx(4.0, abs=0.1)
     assert values["sheet2.y"] == pytest.approx(-7.0, abs=0.1)
     assert values["sheet2.rotation"] == pytest.approx(0.003, abs=1e-4)
@@ -184,20 +186,23 @@ def test_a_round_of_its_own_zeros_does_not_hide_the_effect():
     later = marks_on(zeroed(pitch, 6.35, 0.0), BELIEVED, grid(5, 3), noise=0.3, seed=7)
     first = board(marks_on(pitch, BELIEVED, grid(5, 3), noise=0.3, seed=6), source="a.toml")
     both = join_measurements([first, board(later, source="b.toml", chains_rezeroed=True)])
-    found = diagnose(Inputs(BELIEVED, both, sigma=0.3))
-    assert "chain_pitch" in found.suspects and found.verdict in ("one_suspect", "cannot_tell")
-    assert found.explanations[0].rms_after < 0.6
+    diagnosis = diagnose(Inputs(BELIEVED, both, sigma=0.3))
+    assert "chain_pitch" in diagnosis.suspects and diagnosis.verdict in (
+        "one_suspect",
+        "cannot_tell",
+    )
+    assert diagnosis.explanations[0].rms_after < 0.6
 
 
 def test_a_copy_of_a_file_is_no_repeat():
-    one = board(marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.5), source="a.toml")
+    first = board(marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.5), source="a.toml")
     with pytest.raises(InputError, match=r"b\.csv: its 9 readings are those of a\.toml .* a copy"):
-        join_measurements([one, replace(one, source="b.csv")])
-    spans = distances_between(one.marks)
+        join_measurements([first, replace(first, source="b.csv")])
+    spans = distances_between(first.marks)
     with pytest.raises(InputError, match="a copy is no repeat"):
         join_measurements([spans, replace(spans, source="b.toml")])
     again = board(marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.5, seed=2), source="b.toml")
-    assert len(join_measurements([one, again]).repeats) == 9
+    assert len(join_measurements([first, again]).repeats) == 9
 
 
 def test_compare_tells_the_error_of_each_file(run, ask, file):
@@ -208,8 +213,8 @@ def test_compare_tells_the_error_of_each_file(run, ask, file):
             place = np.round(mark.measured, 2).tolist()
             lines += ["[[mark]]", f"target = {list(mark.target)}", f"measured = {place}"]
         paths.append(file(f"{name}.toml", "\n".join(lines)))
-    _, found = ask("compare", *paths)
-    calm, wild = found["rounds"]
+    _, answer = ask("compare", *paths)
+    calm, wild = answer["rounds"]
     assert (calm["name"], calm["count"], calm["date"]) == ("calm", 9, "2026-05-01")
     assert calm["rms_mm"] < 0.3 < 2 < wild["rms_mm"] and wild["distance_rms_mm"] is None
     assert "distances, RMS" in run("compare", *paths)[1]

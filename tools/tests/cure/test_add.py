@@ -38,11 +38,11 @@ def test_the_error_of_the_published_marks_falls_as_measured():
 def test_the_new_settings_are_ours_and_hold_what_was_fitted():
     result = add(Inputs(BELIEVED, BOARD), effects=list(EFFECTS))
     assert result.settings.controller == "plumb"
-    for one in result.parameters:
-        effect, _, parameter = one.name.rpartition(".")
+    for estimate in result.parameters:
+        effect, _, parameter = estimate.name.rpartition(".")
         if effect:
-            assert result.settings.effect(effect, parameter) == one.value
-    gap = next(one for one in result.parameters if one.name == "motor_gap")
+            assert result.settings.effect(effect, parameter) == estimate.value
+    gap = next(estimate for estimate in result.parameters if estimate.name == "motor_gap")
     assert result.settings.motor_gap == gap.value
     assert (gap.before, gap.prior_sigma, gap.unit) == (2978.4, PRIORS["motor_gap"], "mm")
 
@@ -50,7 +50,10 @@ def test_the_new_settings_are_ours_and_hold_what_was_fitted():
 def test_a_true_effect_pays_and_is_plausible():
     result = add(Inputs(BELIEVED, BOARD), effects=["chain_pitch", "chain_sag"])
     assert result.pays and result.after.left_out_rms < 0.5 * result.before.left_out_rms
-    assert all(one.plausible and one.low < one.value < one.high for one in result.parameters)
+    assert all(
+        parameter.plausible and parameter.low < parameter.value < parameter.high
+        for parameter in result.parameters
+    )
     assert not warned(result, "impossible")
 
 
@@ -131,7 +134,9 @@ def test_every_number_may_be_held():
 def test_an_unknown_effect_is_refused_with_the_known_ones():
     with pytest.raises(InputError) as refused:
         add(Inputs(BELIEVED, BOARD), effects=["chain_sog"])
-    assert all(one["name"] in str(refused.value) for one in library() if not one["empirical"])
+    assert all(
+        effect["name"] in str(refused.value) for effect in library() if not effect["empirical"]
+    )
 
 
 def test_an_unknown_prior_is_refused_with_the_nearest():

@@ -30,18 +30,22 @@ def test_one_hidden_effect_is_added_and_the_error_falls_to_the_noise():
     size = size_for("chain_plane", WIDE, 3.0)
     result = add_auto(Inputs(MAKER, board({"chain_plane": size}, WIDE, seed=4)))
     assert result.chosen == ("chain_plane",) and result.done
-    own = result.addition
-    assert own.settings.effect("chain_plane", "gap_squared") == pytest.approx(1600 * size, rel=0.2)
-    assert own.before.left_out_rms > 1.2 * own.after.left_out_rms
-    assert own.after.fit_rms < 0.85  # 0.5 mm in each of two coordinates, less what the fit took
+    addition = result.addition
+    assert addition.settings.effect("chain_plane", "gap_squared") == pytest.approx(
+        1600 * size, rel=0.2
+    )
+    assert addition.before.left_out_rms > 1.2 * addition.after.left_out_rms
+    assert (
+        addition.after.fit_rms < 0.85
+    )  # 0.5 mm in each of two coordinates, less what the fit took
 
 
 def test_two_hidden_effects_are_added_step_by_step():
     sizes = {name: size_for(name, WIDE, 6.0) for name in ("chain_pitch", "chain_plane")}
     result = add_auto(Inputs(MAKER, board(sizes, WIDE, seed=5)))
     assert set(result.chosen) == set(sizes)
-    steps = [result.addition.before, *(one.quality for one in result.addition.steps)]
-    assert [one.effect for one in result.addition.steps] == list(result.chosen)
+    steps = [result.addition.before, *(step.quality for step in result.addition.steps)]
+    assert [step.effect for step in result.addition.steps] == list(result.chosen)
     for earlier, later in pairwise(steps):
         assert later.left_out_rms < earlier.left_out_rms
         assert later.priced_rms < earlier.priced_rms
@@ -68,8 +72,8 @@ def test_a_choice_is_said_to_be_one_with_what_would_settle_it():
     assert result.diagnosis.verdict == "cannot_tell" and result.rivals and result.done
     assert result.reason.startswith("a choice: ") and "plumb next" in result.reason
     open_ones = {*result.chosen}.union(*result.rivals)
-    told = [one.partition(":")[0] for one in result.settled_by]
-    assert told and {*told} <= open_ones and len(told) == len({*told})
+    checks = [line.partition(":")[0] for line in result.settled_by]
+    assert checks and {*checks} <= open_ones and len(checks) == len({*checks})
 
 
 def test_nothing_is_added_where_nothing_is_hidden():
@@ -97,9 +101,9 @@ def test_what_is_not_in_the_library_is_left_alone():
     result = add_auto(Inputs(MAKER, board({}, WIDE, seed=8, bump=3.0)))
     assert result.diagnosis.verdict == "not_in_library"
     assert not result.done and "not all that the marks show is in the library" in result.reason
-    own = result.addition
-    assert own.effects_added == result.chosen
-    assert not result.chosen or own.after.left_out_rms < own.before.left_out_rms
+    addition = result.addition
+    assert addition.effects_added == result.chosen
+    assert not result.chosen or addition.after.left_out_rms < addition.before.left_out_rms
 
 
 def test_a_known_effect_is_not_left_out_because_another_is_unknown():
@@ -114,17 +118,17 @@ def test_a_tape_that_reads_long_is_fitted_along_and_its_remedy_told():
     result = add_auto(
         Inputs(MAKER, board({"tape_scale": 8.0}, WIDE, seed=9, noise=0.2, tape_sigma=0.2))
     )
-    assert "tape_scale" in {*result.chosen, *(name for one in result.rivals for name in one)}
+    assert "tape_scale" in {*result.chosen, *(name for rival in result.rivals for name in rival)}
     if "tape_scale" in result.chosen:
         assert "tape_scale" not in result.addition.settings.effects
-        assert any("no firmware can cure" in one for one in result.addition.cures)
+        assert any("no firmware can cure" in cure for cure in result.addition.cures)
 
 
 def test_impossible_sizes_are_never_added_by_themselves():
     stock = read_settings(SETTINGS)
     result = add_auto(Inputs(stock, read_marks(MARKS, sheet=stock.sheet)))
     assert result.diagnosis.explanations and not any(
-        one.possible for one in result.diagnosis.explanations
+        explanation.possible for explanation in result.diagnosis.explanations
     )
     assert result.chosen == () and not result.done
     assert "no real machine has" in result.reason
@@ -134,15 +138,15 @@ def test_the_command_writes_nothing_for_a_slip_and_says_so(tmp_path, capsys):
     stock = read_settings(SETTINGS)
     marks = read_marks(MARKS, sheet=stock.sheet)
     lines = ["target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"]
-    for i, one in enumerate(marks.marks):
-        x, y = one.target[0], one.target[1] + (25.0 if i == 4 else 0.0)
-        lines.append(",".join(str(v) for v in (*one.target, x, y)))
+    for i, mark in enumerate(marks.marks):
+        x, y = mark.target[0], mark.target[1] + (25.0 if i == 4 else 0.0)
+        lines.append(",".join(str(v) for v in (*mark.target, x, y)))
     path, out = tmp_path / "marks.csv", tmp_path / "machine.toml"
     path.write_text("\n".join(lines))
     code = main(["add", str(SETTINGS), str(path), "--effect", "auto", "-o", str(out), "--json"])
-    told = json.loads(capsys.readouterr().out)
+    report = json.loads(capsys.readouterr().out)
     assert code == 1 and not out.exists()
-    assert told["auto"]["verdict"] == "slip" and told["written"] == []
+    assert report["auto"]["verdict"] == "slip" and report["written"] == []
 
 
 def test_auto_stands_alone():

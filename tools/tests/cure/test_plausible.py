@@ -24,17 +24,17 @@ def board_with(name, share):
     return Measurements(marks_on(true, BELIEVED, WIDE, noise=SIGMA, seed=3), source="made up")
 
 
-def judged(found, measurements, effect):
+def judged(diagnosis, measurements, effect):
     """Of each parameter: whether it is plausible and possible by the diagnosis, and by the fit."""
-    sizes = next(ranked for ranked in found.ranking if ranked.effect == effect).sizes
+    sizes = next(ranked for ranked in diagnosis.ranking if ranked.effect == effect).sizes
     added = add(
-        Inputs(BELIEVED, measurements, sigma=found.noise.sigma), effects=(effect,)
+        Inputs(BELIEVED, measurements, sigma=diagnosis.noise.sigma), effects=(effect,)
     ).parameters
-    fitted = {one.name: one for one in added}
+    fitted = {estimate.name: estimate for estimate in added}
     return [
-        (size.plausible, size.possible, one.plausible, one.possible)
+        (size.plausible, size.possible, estimate.plausible, estimate.possible)
         for size in sizes
-        for one in [fitted[f"{effect}.{size.name}"]]
+        for estimate in [fitted[f"{effect}.{size.name}"]]
     ]
 
 
@@ -42,11 +42,11 @@ def judged(found, measurements, effect):
 @pytest.mark.parametrize("share", [0.5, 1.25, 1.6, 3.0])
 def test_the_fit_and_the_diagnosis_agree_on_every_effect(name, share):
     measurements = board_with(name, share)
-    found = diagnose(Inputs(BELIEVED, measurements, sigma=SIGMA))
-    for ranked in found.ranking:
+    diagnosis = diagnose(Inputs(BELIEVED, measurements, sigma=SIGMA))
+    for ranked in diagnosis.ranking:
         if ranked.sizes[0].low is None:
             continue  # nothing was measured that feels it
-        for by_size, near_size, by_fit, near_fit in judged(found, measurements, ranked.effect):
+        for by_size, near_size, by_fit, near_fit in judged(diagnosis, measurements, ranked.effect):
             assert (by_size, near_size) == (by_fit, near_fit), ranked.effect
 
 
@@ -54,9 +54,11 @@ def test_the_fit_and_the_diagnosis_agree_on_every_effect(name, share):
 def test_a_size_a_little_beyond_what_was_met_is_no_reason_to_look_elsewhere(name):
     measurements = board_with(name, 1.25)
     effect = name.partition(".")[0]
-    found = diagnose(Inputs(BELIEVED, measurements, sigma=SIGMA))
-    assert (effect,) in [one.effects for one in found.explanations if one.possible]
-    for _, by_size, _, by_fit in judged(found, measurements, effect):
+    diagnosis = diagnose(Inputs(BELIEVED, measurements, sigma=SIGMA))
+    assert (effect,) in [
+        explanation.effects for explanation in diagnosis.explanations if explanation.possible
+    ]
+    for _, by_size, _, by_fit in judged(diagnosis, measurements, effect):
         assert by_size and by_fit
 
 
@@ -64,10 +66,10 @@ def test_a_size_a_little_beyond_what_was_met_is_no_reason_to_look_elsewhere(name
 def test_a_size_far_beyond_is_refused_by_both(name):
     measurements = board_with(name, 3.0)
     effect, _, parameter = name.partition(".")
-    found = diagnose(Inputs(BELIEVED, measurements, sigma=SIGMA))
-    sizes = next(ranked for ranked in found.ranking if ranked.effect == effect).sizes
+    diagnosis = diagnose(Inputs(BELIEVED, measurements, sigma=SIGMA))
+    sizes = next(ranked for ranked in diagnosis.ranking if ranked.effect == effect).sizes
     at = [size.name for size in sizes].index(parameter)
-    assert judged(found, measurements, effect)[at] == (False, False, False, False)
+    assert judged(diagnosis, measurements, effect)[at] == (False, False, False, False)
 
 
 def test_a_range_holds_its_ends_and_is_near_half_as_far_again():

@@ -28,9 +28,11 @@ NINE = plan(3, 3)
 NOISE = 0.5
 
 
-def visits_of(own):
+def visits_of(layout):
     """A plan of the judge as visits."""
-    return sent(MAKER, own.targets, controller="plumb", sled_weight=SLED, approaches=own.approaches)
+    return sent(
+        MAKER, layout.targets, controller="plumb", sled_weight=SLED, approaches=layout.approaches
+    )
 
 
 @pytest.fixture(scope="module")
@@ -44,35 +46,35 @@ def pitch(first):
     """A board on which pitch cannot be told from its look-alikes."""
     owner = Bench("chain_pitch", size_for("chain_pitch", NINE, 3.0), 101)
     marks = owner.measured(first)
-    found = diagnose(Inputs(MAKER, marks))
-    assert found.verdict == "cannot_tell"
-    return owner, marks, found, case_of(found, Inputs(MAKER, marks))
+    diagnosis = diagnose(Inputs(MAKER, marks))
+    assert diagnosis.verdict == "cannot_tell"
+    return owner, marks, diagnosis, case_of(diagnosis, Inputs(MAKER, marks))
 
 
 @pytest.fixture(scope="module")
 def clean(first):
     """A board on which nothing is hidden."""
     marks = Bench(None, 0.0, 7).measured(first)
-    found = diagnose(Inputs(MAKER, marks))
-    assert found.verdict == "nothing_provable"
-    return marks, found, case_of(found, Inputs(MAKER, marks))
+    diagnosis = diagnose(Inputs(MAKER, marks))
+    assert diagnosis.verdict == "nothing_provable"
+    return marks, diagnosis, case_of(diagnosis, Inputs(MAKER, marks))
 
 
 def kinds(answer):
     """The kinds of all proposals, best first."""
-    return [one.option.kind for one in answer.proposals]
+    return [proposal.option.kind for proposal in answer.proposals]
 
 
 def test_every_intervention_is_among_the_options(pitch):
-    _, marks, found, _ = pitch
-    answer = propose(found, Inputs(MAKER, marks))
+    _, marks, diagnosis, _ = pitch
+    answer = propose(diagnosis, Inputs(MAKER, marks))
     assert set(kinds(answer)) >= {"marks", "repeats", "weight", "swap", "check", "frame"}
     assert answer.blind is not None and len(answer.blind.option.visits) == 28
-    rates = [one.rate for one in answer.proposals]
+    rates = [proposal.rate for proposal in answer.proposals]
     assert rates == sorted(rates, reverse=True)
-    for one in answer.proposals:
-        assert 0 <= one.chance <= 1 and one.option.minutes > 0 and one.option.do
-        assert 1 <= one.left <= len(effect_names())
+    for proposal in answer.proposals:
+        assert 0 <= proposal.chance <= 1 and proposal.option.minutes > 0 and proposal.option.do
+        assert 1 <= proposal.left <= len(effect_names())
 
 
 def test_new_marks_lie_where_the_sled_can_go_and_not_in_old_holes(pitch):
@@ -85,10 +87,10 @@ def test_new_marks_lie_where_the_sled_can_go_and_not_in_old_holes(pitch):
         assert gaps.min() >= ROOM_FOR_A_SECOND
         assert (np.abs(visits.targets) <= np.array(MAKER.sheet) / 2).all()
         for weight in np.unique(visits.sled_weights):
-            own = visits.sled_weights == weight
-            assert usable(MAKER, visits.targets[own], weight).all()
-        chains, found = lengths(MAKER, visits.targets)
-        assert (found == FOUND).all() and visits.chains == pytest.approx(chains)
+            alike = visits.sled_weights == weight
+            assert usable(MAKER, visits.targets[alike], weight).all()
+        chains, outcome = lengths(MAKER, visits.targets)
+        assert (outcome == FOUND).all() and visits.chains == pytest.approx(chains)
 
 
 def test_a_sled_that_is_too_heavy_for_a_place_is_not_proposed():
@@ -99,13 +101,13 @@ def test_a_sled_that_is_too_heavy_for_a_place_is_not_proposed():
 
 def test_lambda_is_what_a_full_refit_of_the_rival_leaves(pitch):
     *_, case = pitch
-    one, other = case.hypotheses[:2]
+    truth, other = case.hypotheses[:2]
     fitted = np.concatenate([case.board.frame, case.board.columns(other.effects)])
-    found = apart(one.at.slopes, drawn_by(one), fitted)
-    drawn = (one.at.slopes @ drawn_by(one))[:, 0]
-    columns = one.at.slopes[:, fitted]
+    distances = apart(truth.at.slopes, drawn_by(truth), fitted)
+    drawn = (truth.at.slopes @ drawn_by(truth))[:, 0]
+    columns = truth.at.slopes[:, fitted]
     left = drawn - columns @ np.linalg.lstsq(columns, drawn, rcond=1e-12)[0]
-    assert found == pytest.approx(left @ left, rel=1e-3)
+    assert distances == pytest.approx(left @ left, rel=1e-3)
 
 
 def test_more_rows_never_lower_lambda_and_chosen_ones_beat_random_ones(pitch):
@@ -141,29 +143,31 @@ def test_a_sharp_check_settles_what_a_blunt_one_does_not(pitch):
 
 def test_simulated_readings_scatter_by_what_is_open_and_by_their_noise(pitch):
     *_, case = pitch
-    visits, one = many_marks(case).visits, case.hypotheses[0]
-    test = Rediagnosis(case, ahead(one.at, visits), case.noise, None)
-    boards = test.boards(one, np.random.default_rng(1), 4000)
+    visits, hypothesis = many_marks(case).visits, case.hypotheses[0]
+    test = Rediagnosis(case, ahead(hypothesis.at, visits), case.noise, None)
+    boards = test.boards(hypothesis, np.random.default_rng(1), 4000)
     so_far = test.rows.so_far
-    assert (boards[:so_far] == one.data[:, np.newaxis]).all()
-    slopes = test.rows.slopes[so_far:, one.columns]
-    wanted = np.sum((slopes @ one.root) ** 2, axis=1) + 1
+    assert (boards[:so_far] == hypothesis.data[:, np.newaxis]).all()
+    slopes = test.rows.slopes[so_far:, hypothesis.columns]
+    wanted = np.sum((slopes @ hypothesis.root) ** 2, axis=1) + 1
     assert boards[so_far:].var(axis=1) == pytest.approx(wanted, rel=0.15)
-    assert boards[so_far:].mean(axis=1) == pytest.approx(slopes @ one.mean, abs=0.2)
+    assert boards[so_far:].mean(axis=1) == pytest.approx(slopes @ hypothesis.mean, abs=0.2)
 
 
 def test_look_alikes_are_told_by_what_parts_them_only(first):
     # Sag and a leaning frame draw the same arrows under any weight; an angle gauge parts them.
     owner = Bench("chain_sag", size_for("chain_sag", NINE, 3.0), 101)
     marks = owner.measured(first)
-    found = diagnose(Inputs(MAKER, marks))
-    assert set(found.suspects) == {"chain_sag", "frame_lean"}
-    answer = propose(found, Inputs(MAKER, marks))
+    diagnosis = diagnose(Inputs(MAKER, marks))
+    assert set(diagnosis.suspects) == {"chain_sag", "frame_lean"}
+    answer = propose(diagnosis, Inputs(MAKER, marks))
     best = answer.proposals[0]
     assert best.option.kind == "check" and best.chance > 0.9
     assert ("chain_sag", "frame_lean") in best.parts
     assert answer.blind.chance < 0.3
-    heavier = max(one.chance for one in answer.proposals if one.option.kind == "weight")
+    heavier = max(
+        proposal.chance for proposal in answer.proposals if proposal.option.kind == "weight"
+    )
     assert heavier < 0.3
     done = diagnose(Inputs(MAKER, marks, checked=owner.checked(best.option.checks)))
     assert done.verdict == "one_suspect" and done.suspects == ("chain_sag",)
@@ -171,45 +175,49 @@ def test_look_alikes_are_told_by_what_parts_them_only(first):
 
 def test_swapped_chains_take_their_pitch_along(pitch):
     owner, _, _, case = pitch
-    option = next(one for one in options(case) if one.kind == "swap")
+    option = next(option for option in options(case) if option.kind == "swap")
     assert option.visits.swapped.all()
     board_now = owner.measured(visits_of(NINE), option.visits)
-    found = diagnose(Inputs(MAKER, board_now))
-    own = next(one for one in found.ranking if one.effect == "chain_pitch").sizes
-    for size, side in zip(own, ("left", "right"), strict=True):
+    diagnosis = diagnose(Inputs(MAKER, board_now))
+    sizes = next(ranked for ranked in diagnosis.ranking if ranked.effect == "chain_pitch").sizes
+    for size, side in zip(sizes, ("left", "right"), strict=True):
         truth = TRUE_VALUES[f"chain_pitch.{side}"](owner.size)
         assert size.low - 2e-4 <= truth <= size.high + 2e-4
     # Read as if they had not been swapped, the same marks fit nothing so well.
     marks = tuple(replace(mark, chains_swapped=False) for mark in board_now.marks)
     wrong = diagnose(Inputs(MAKER, replace(board_now, marks=marks)))
-    after = {one.effect: one.rms_after for one in found.ranking}["chain_pitch"]
-    assert after < 0.8 * {one.effect: one.rms_after for one in wrong.ranking}["chain_pitch"]
+    after = {ranked.effect: ranked.rms_after for ranked in diagnosis.ranking}["chain_pitch"]
+    assert (
+        after < 0.8 * {ranked.effect: ranked.rms_after for ranked in wrong.ranking}["chain_pitch"]
+    )
 
 
 def test_a_check_that_finds_nothing_clears_its_effect(pitch):
-    _, marks, found, _ = pitch
-    assert "tape_scale" in found.suspects
+    _, marks, diagnosis, _ = pitch
+    assert "tape_scale" in diagnosis.suspects
     cleared = diagnose(Inputs(MAKER, marks, checked=[Checked("tape_scale.strain", 0.0, 0.0001)]))
     assert "tape_scale" not in cleared.suspects and "chain_pitch" in cleared.suspects
 
 
 def test_where_nothing_is_provable_doubt_is_removed_first(clean):
-    marks, found, _ = clean
-    answer = propose(found, Inputs(MAKER, marks))
+    marks, diagnosis, _ = clean
+    answer = propose(diagnosis, Inputs(MAKER, marks))
     best = answer.proposals[0]
-    largest = max((one for one in found.could_hide if one.mm), key=lambda one: one.mm)
+    largest = max(
+        (hidden for hidden in diagnosis.could_hide if hidden.mm), key=lambda hidden: hidden.mm
+    )
     assert best.question == "find" and best.rooms[0].effect == largest.effect
     assert best.rooms[0].then < 0.5 * best.rooms[0].now
-    for one in answer.proposals:
-        assert all(room.then <= room.now * (1 + 1e-6) for room in one.rooms)
+    for proposal in answer.proposals:
+        assert all(room.then <= room.now * (1 + 1e-6) for room in proposal.rooms)
 
 
 def test_one_suspect_is_confirmed_by_measuring_the_cause(first):
     owner = Bench("chain_plane", size_for("chain_plane", NINE, 3.0), 102)
     marks = owner.measured(first)
-    found = diagnose(Inputs(MAKER, marks))
-    assert found.verdict == "one_suspect"
-    answer = propose(found, Inputs(MAKER, marks))
+    diagnosis = diagnose(Inputs(MAKER, marks))
+    assert diagnosis.verdict == "one_suspect"
+    answer = propose(diagnosis, Inputs(MAKER, marks))
     assert answer.proposals[0].option.kind == "check"
     assert answer.proposals[0].option.checks[0].name == "chain_plane.gap_squared"
     assert "repeats" not in kinds(answer)
@@ -221,24 +229,28 @@ def test_a_slip_is_read_again_and_nothing_else(first):
     marks = board({}, plan(5, 5), seed=3)
     slipped = list(marks.marks)
     slipped[7] = replace(slipped[7], measured=tuple(np.add(slipped[7].measured, (5.0, 0.0))))
-    own = replace(marks, marks=tuple(slipped))
-    found = diagnose(Inputs(MAKER, own))
-    assert found.verdict == "slip"
-    answer = propose(found, Inputs(MAKER, own))
+    changed = replace(marks, marks=tuple(slipped))
+    diagnosis = diagnose(Inputs(MAKER, changed))
+    assert diagnosis.verdict == "slip"
+    answer = propose(diagnosis, Inputs(MAKER, changed))
     assert kinds(answer) == ["reread"] and answer.proposals[0].chance > 0.9
     assert answer.proposals[0].option.visits.names == (slipped[7].name,)
 
 
 def test_what_nobody_explains_is_looked_at_where_it_is_worst():
-    own = board({}, plan(5, 5), seed=905, bump=4.0)
-    found = diagnose(Inputs(MAKER, own))
-    assert found.verdict == "not_in_library"
-    answer = propose(found, Inputs(MAKER, own))
+    measured = board({}, plan(5, 5), seed=905, bump=4.0)
+    diagnosis = diagnose(Inputs(MAKER, measured))
+    assert diagnosis.verdict == "not_in_library"
+    answer = propose(diagnosis, Inputs(MAKER, measured))
     assert set(kinds(answer)) == {"repeats", "near"}
-    assert all(one.chance is None for one in answer.proposals)
-    errors = own.measured - own.targets
-    worst = own.targets[np.argsort(-np.linalg.norm(errors - np.median(errors, axis=0), axis=1))[:6]]
-    near = next(one for one in answer.proposals if one.option.kind == "near").option.visits
+    assert all(proposal.chance is None for proposal in answer.proposals)
+    errors = measured.measured - measured.targets
+    worst = measured.targets[
+        np.argsort(-np.linalg.norm(errors - np.median(errors, axis=0), axis=1))[:6]
+    ]
+    near = next(
+        proposal for proposal in answer.proposals if proposal.option.kind == "near"
+    ).option.visits
     gaps = np.linalg.norm(near.targets[:, np.newaxis] - worst, axis=2).min(axis=1)
     assert gaps.max() <= 450
 
@@ -247,24 +259,24 @@ def test_distances_that_nobody_explains_are_measured_again():
     true = replace(BELIEVED, motor_gap=2980.0)
     board_now = distances_between(marks_on(true, BELIEVED, grid(4, 3)))
     odd = [
-        replace(one, length=one.length + (6.0 if i % 5 == 0 else 0.0))
-        for i, one in enumerate(board_now.distances)
+        replace(distance, length=distance.length + (6.0 if i % 5 == 0 else 0.0))
+        for i, distance in enumerate(board_now.distances)
     ]
-    own = replace(board_now, distances=tuple(odd))
-    found = diagnose(Inputs(BELIEVED, own, sigma=0.3))
-    assert found.verdict in ("not_in_library", "slip")
-    answer = propose(found, Inputs(BELIEVED, own))
-    told = " ".join(answer.proposals[0].option.do)
-    assert any(" - ".join(one.between) in told for one in odd)
+    changed = replace(board_now, distances=tuple(odd))
+    diagnosis = diagnose(Inputs(BELIEVED, changed, sigma=0.3))
+    assert diagnosis.verdict in ("not_in_library", "slip")
+    answer = propose(diagnosis, Inputs(BELIEVED, changed))
+    words = " ".join(answer.proposals[0].option.do)
+    assert any(" - ".join(distance.between) in words for distance in odd)
 
 
 def test_checks_are_of_numbers_that_exist():
-    for effect, own in effect_checks().items():
+    for effect, check in effect_checks().items():
         assert effect in effect_names()
-        assert {f"{effect}.{part}" for part in own.sigmas} == {
+        assert {f"{effect}.{part}" for part in check.sigmas} == {
             name for name in parameter_words() if name.startswith(f"{effect}.")
         }
-        for part, sigma in own.sigmas.items():
+        for part, sigma in check.sigmas.items():
             # What is no better than the whole range says nothing.
             words = parameter_words()[f"{effect}.{part}"]
             assert 0 < sigma < (words["high"] - words["low"]) / 4
@@ -284,13 +296,13 @@ def test_chances_come_true(first):
     for name, seed in (("chain_pitch", 302), ("chain_pitch", 305), ("chain_sag", 303)):
         owner = Bench(name, size_for(name, NINE, 3.0), seed)
         marks = owner.measured(first)
-        found = diagnose(Inputs(MAKER, marks))
-        assert found.verdict == "cannot_tell"
-        for one in _one_of_each_kind(propose(found, Inputs(MAKER, marks))):
-            visits, checks = one.option.visits, owner.checked(one.option.checks)
+        diagnosis = diagnose(Inputs(MAKER, marks))
+        assert diagnosis.verdict == "cannot_tell"
+        for proposal in _one_of_each_kind(propose(diagnosis, Inputs(MAKER, marks))):
+            visits, checks = proposal.option.visits, owner.checked(proposal.option.checks)
             then = owner.measured(first, visits) if len(visits) else marks
             after = diagnose(Inputs(MAKER, then, checked=checks))
-            promised.append(one.chance)
+            promised.append(proposal.chance)
             came.append(after.verdict == "one_suspect" and after.suspects == (name,))
     promised, came = np.array(promised), np.array(came)
     assert len(came) >= 14
@@ -302,8 +314,8 @@ def test_chances_come_true(first):
 def _one_of_each_kind(answer):
     """The best proposal of each kind."""
     best = {}
-    for one in answer.proposals:
-        best.setdefault(one.option.kind, one)
+    for proposal in answer.proposals:
+        best.setdefault(proposal.option.kind, proposal)
     return best.values()
 
 
@@ -314,9 +326,9 @@ def test_four_proposed_measurements_beat_many_blind_ones(first):
     for name, seed in (("chain_pitch", 200), ("chain_sag", 200), ("tape_scale", 200)):
         owner = Bench(name, size_for(name, NINE, 3.0), seed)
         asked = proposed(owner, MAKER, first)
-        assert sum(cost(one.option) for one in asked.done) <= 4
-        for key, own in (("next", asked), ("blind", blind(owner, MAKER, first, more))):
-            sure[key] += own.right(name)
-            left[key] += own.left
+        assert sum(cost(step.option) for step in asked.done) <= 4
+        for key, campaign in (("next", asked), ("blind", blind(owner, MAKER, first, more))):
+            sure[key] += campaign.right(name)
+            left[key] += campaign.left
     assert sure["next"] == 3
     assert left["next"] < left["blind"]
