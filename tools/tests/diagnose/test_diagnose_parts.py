@@ -46,7 +46,7 @@ def test_chances_are_those_of_the_tables():
 @pytest.mark.parametrize("parameters", [1, 2, 4])
 @pytest.mark.parametrize("degrees", [KNOWN, 4.0, 24.0])
 def test_surprise_is_the_logarithm_of_the_chance_and_never_runs_out(parameters, degrees):
-    gains = np.array([0.5, 3.0, 11.0, 60.0, 199.0])
+    gains = np.array([0.5, 3.0, 11.0, 60.0, 199.0, 500.0])
     wanted = [
         stats.chi2.logsf(g, parameters)
         if np.isinf(degrees)

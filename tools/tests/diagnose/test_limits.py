@@ -9,9 +9,11 @@ from plumb.cure.add import add
 from plumb.diagnose import diagnose
 from plumb.diagnose.explanation import Board, explain
 from plumb.diagnose.halves import half_warnings
+from plumb.diagnose.misfit import misfit_chance
 from plumb.diagnose.noise import Noise
 from plumb.diagnose.repeats import mark_spread
 from plumb.diagnose.significance import KNOWN
+from plumb.diagnose.sizes import room_for
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import PRIORS
 from plumb.marks.read import Distance, Measurements, Round, join_measurements
@@ -49,6 +51,33 @@ def test_a_half_is_off_only_beyond_what_the_worst_of_all_parameters_reaches(axis
         names[axis] in sentence and f"{PRIORED[parameter]} by 3.4 sigma" in sentence
         for sentence in said
     )
+
+
+def pulled(effect, sigmas):
+    """The frame's explanation of marks that an effect of one parameter pulls by so many sigma."""
+    rows = observe(BELIEVED, Measurements(marks_on(BELIEVED, BELIEVED, grid(5, 4))))
+    frame = explain(Board.of(BELIEVED, rows, sigma=0.5))
+    (beyond,) = frame.beyond_fit([effect]).T
+    size = np.linalg.norm(beyond)
+    scale = frame.board.problem.scale[frame.board.columns([effect])[0]]
+    rest = replace(frame, at=replace(frame.at, residual=sigmas * beyond / size))
+    return rest, scale / size
+
+
+@pytest.mark.parametrize("effect", ["sheet_skew", "tape_scale"])
+def test_a_limit_reaches_as_far_below_zero_as_above(effect):
+    # One-sided 95 % of what is measured as 4 sigma, whichever way it points.
+    for sigmas in (4.0, -4.0):
+        frame, sigma_of_size = pulled(effect, sigmas)
+        ((_, limit, _),) = room_for(effect, (frame,), STATED).limits
+        assert limit == pytest.approx((4 + stats.norm.isf(0.05)) * sigma_of_size, rel=0.01)
+
+
+def test_a_limit_of_what_cannot_be_negative_is_its_upper_end():
+    for sigmas, left in ((4.0, 4 + stats.norm.isf(0.05)), (-4.0, 0.0)):
+        frame, sigma_of_size = pulled("chain_plane", sigmas)
+        ((_, limit, _),) = room_for("chain_plane", (frame,), STATED).limits
+        assert limit == pytest.approx(left * sigma_of_size, rel=0.01, abs=1e-12)
 
 
 def test_halves_of_few_marks_are_not_compared():
@@ -92,6 +121,29 @@ def test_a_round_has_moved_once_an_f_test_says_so():
     still, moved = (mark_spread(observe(BELIEVED, two_rounds(shift + by))) for by in (-0.02, 0.02))
     assert still.degrees == 18 and still.squares == pytest.approx(squares_of(shift - 0.02)[0])
     assert moved.degrees == 12 and moved.squares == pytest.approx(squares_of(shift + 0.02)[1])
+
+
+@pytest.mark.parametrize("missing", [0.0, 1.0])
+def test_a_misfit_between_places_is_judged_by_an_f_test_against_repeats(missing):
+    # Lack of fit as in any textbook: what the means of 12 places leave, over the scatter in them.
+    readings = [
+        replace(mark, measured=(mark.measured[0], mark.measured[1] + missing * (i % 2)))
+        for seed in (1, 2, 3)
+        for i, mark in enumerate(marks_on(BELIEVED, BELIEVED, grid(4, 3), noise=0.5, seed=seed))
+    ]
+    rows = observe(BELIEVED, Measurements(tuple(readings)))
+    read = rows.measured.reshape(3, 12, 2)
+    within, degrees = np.sum((read - read.mean(axis=0)) ** 2), 2 * 12 * 2
+    sigma = np.sqrt(within / degrees)
+    frame = explain(Board.of(BELIEVED, rows, sigma=sigma))
+    left = frame.numbers[: rows.measured.size].reshape(3, 12, 2)
+    spent = np.sum(frame.basis[: rows.count] ** 2)
+    spare = 2 * 12 - spent
+    expected = stats.f.sf(np.sum(3 * left.mean(axis=0) ** 2) / spare / sigma**2, spare, degrees)
+    assert misfit_chance(frame, Noise(sigma, degrees, "repeats")) == pytest.approx(
+        expected, rel=1e-6
+    )
+    assert (expected < 0.015) == bool(missing)
 
 
 @pytest.mark.parametrize("judge", [diagnose, lambda inputs: add(inputs, effects=["chain_pitch"])])
