@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "brain/simulated_eeprom.h"
 #include "machine/machine.h"
 #include "settings_flash.h"
-#include "test_dialogues/simulated_eeprom.h"
 #include "test_dialogues/simulated_motor.h"
 
 /// Thrown out of the main program wherever it waits.

@@ -7,8 +7,8 @@
 #include <deque>
 #include <vector>
 
-#include "motor.h"
 #include "published_loop.h"
+#include "world/motor.h"
 
 const double kChainPerTurn = 63.5;                 // [mm]
 const motion::Gains kPosition = {1300, 0, 34, 1};  // the published defaults
@@ -24,9 +24,9 @@ struct Asked {
 template <class Loop>
 class AxisWith {
  public:
-  AxisWith(unsigned seed, double rate) : AxisWith(simulated::anyMotor(seed), seed, rate) {}
+  AxisWith(unsigned seed, double rate) : AxisWith(world::anyMotor(seed), seed, rate) {}
 
-  AxisWith(const simulated::MotorConstants& constants, unsigned seed, double rate)
+  AxisWith(const world::MotorConstants& constants, unsigned seed, double rate)
       : constants_(constants), motor(constants_, seed), seconds(1 / rate) {
     loop_.tune(kPosition, kSpeed, float(constants_.counts_per_turn), float(seconds));
     loop_.rest();
@@ -52,13 +52,13 @@ class AxisWith {
   double tick(double set_point) { return tick(Asked{set_point, 0}); }
 
  private:
-  simulated::MotorConstants constants_;
+  world::MotorConstants constants_;
   Loop loop_;
   motion::Watch watch_;
   int32_t counts_ = 0;
 
  public:
-  simulated::Motor motor;
+  world::Motor motor;
   double seconds;
   int duty = 0;
   motion::Fault fault = motion::Fault::kNone;

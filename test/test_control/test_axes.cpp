@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "machine/planner.h"
-#include "motor.h"
 #include "settings_flash.h"
+#include "world/motor.h"
 
 using namespace machine;
 
@@ -20,7 +20,7 @@ struct StillClock : Clock {
 class MotorDrives : public Drives {
  public:
   explicit MotorDrives(unsigned seed) {
-    for (unsigned i = 0; i < kAxisCount; ++i) motors.emplace_back(simulated::anyMotor(seed + i), i);
+    for (unsigned i = 0; i < kAxisCount; ++i) motors.emplace_back(world::anyMotor(seed + i), i);
   }
   void drive(Axis axis, int16_t duty) override { duty_[axis] = duty; }
   void release(Axis axis) override { duty_[axis] = 0; }
@@ -33,7 +33,7 @@ class MotorDrives : public Drives {
     for (unsigned i = 0; i < kAxisCount; ++i) motors[i].run(-duty_[i], seconds);
   }
 
-  std::vector<simulated::Motor> motors;
+  std::vector<world::Motor> motors;
 
  private:
   int duty_[kAxisCount] = {0, 0, 0};

@@ -11,7 +11,7 @@ namespace {
 /// all the time.
 class Work {
  public:
-  Work(unsigned seed, double rate, const simulated::MotorConstants& constants)
+  Work(unsigned seed, double rate, const world::MotorConstants& constants)
       : axis(constants, seed, rate), rate_(rate), random_(seed) {}
 
   /// Works for so long; the fault that was seen.
@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Both, Honest, testing::Values(100.0, 200.0));
 
 TEST_P(Honest, HourOfCuttingSeesNoFault) {
   for (unsigned seed = 0; seed < kMotors; ++seed) {
-    simulated::MotorConstants constants = simulated::anyMotor(seed);
+    world::MotorConstants constants = world::anyMotor(seed);
     // Every second one sticks until it moves.
     constants.stiction = seed % 2 ? 1.5 : 1;
     Work work(seed, GetParam(), constants);

@@ -14,7 +14,7 @@ enum class Lost { kAtRest, kOnTheWay, kBeforeTheFirstMove };
 struct Case {
   double rate, feed;  // [Hz], [mm/min]
   Lost lost;
-  simulated::Wires wires;
+  world::Wires wires;
 };
 
 struct Run {
@@ -63,14 +63,14 @@ std::vector<double> ranOf(const Case& lost, Fault expected, int& unseen) {
   return ran;
 }
 
-simulated::Wires unplugged() {
-  simulated::Wires wires;
+world::Wires unplugged() {
+  world::Wires wires;
   wires.encoder_unplugged = true;
   return wires;
 }
 
-simulated::Wires withOneChannel() {
-  simulated::Wires wires;
+world::Wires withOneChannel() {
+  world::Wires wires;
   wires.channel_lost = true;
   return wires;
 }
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Both, LostEncoder, testing::Values(100.0, 200.0));
 
 TEST_P(LostEncoder, IsNoticedOnTheWayWithinThreeMillimetres) {
   int unseen;
-  for (const simulated::Wires& wires : {unplugged(), withOneChannel()})
+  for (const world::Wires& wires : {unplugged(), withOneChannel()})
     for (const double feed : {20.0, 60.0, 200.0, 800.0}) {
       EXPECT_LT(ranOf({GetParam(), feed, Lost::kOnTheWay, wires}, Fault::kStands, unseen).back(),
                 2);
@@ -93,7 +93,7 @@ TEST_P(LostEncoder, IsNoticedOnTheWayWithinThreeMillimetres) {
 
 TEST_P(LostEncoder, IsNoticedInTheFirstJogWithinThreeMillimetres) {
   int unseen;
-  for (const simulated::Wires& wires : {unplugged(), withOneChannel()})
+  for (const world::Wires& wires : {unplugged(), withOneChannel()})
     for (const double feed : {20.0, 60.0, 200.0, 800.0}) {
       const Case lost = {GetParam(), feed, Lost::kBeforeTheFirstMove, wires};
       EXPECT_LT(ranOf(lost, Fault::kStands, unseen).back(), 3);
@@ -110,7 +110,7 @@ TEST_P(LostEncoder, DoesNotLetAMotorAtRestRunAway) {
 }
 
 TEST_P(LostEncoder, InReverseIsNoticedWithinThreeMillimetres) {
-  simulated::Wires reversed;
+  world::Wires reversed;
   reversed.encoder_reversed = true;
   int unseen;
   for (const double feed : {20.0, 60.0, 200.0, 800.0}) {

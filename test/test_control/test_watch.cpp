@@ -17,7 +17,7 @@ struct Said {
   double astray;   ///< [mm] that the chain then was from where it should be
 };
 
-Said saidOf(unsigned seed, double rate, const simulated::Wires& wires) {
+Said saidOf(unsigned seed, double rate, const world::Wires& wires) {
   Axis axis(seed, rate);
   ToAndFro way(800, axis.seconds);
   for (int i = 0; i < int(rate); ++i) axis.tick(way.towards(60));
@@ -49,7 +49,7 @@ TEST_P(Watched, CuttingIsNeverAFault) {
 
 TEST_P(Watched, BlockedMotorAndUnpluggedEncoderStand) {
   for (unsigned seed = 0; seed < kMotors; ++seed) {
-    simulated::Wires blocked, unplugged;
+    world::Wires blocked, unplugged;
     blocked.blocked = true;
     unplugged.encoder_unplugged = true;
     const Said first = saidOf(seed, GetParam(), blocked);
@@ -63,10 +63,10 @@ TEST_P(Watched, BlockedMotorAndUnpluggedEncoderStand) {
 
 TEST_P(Watched, ReversedMotorAndReversedEncoderTurnBack) {
   for (unsigned seed = 0; seed < kMotors; ++seed) {
-    simulated::Wires motor, encoder;
+    world::Wires motor, encoder;
     motor.motor_reversed = true;
     encoder.encoder_reversed = true;
-    for (const simulated::Wires& wires : {motor, encoder}) {
+    for (const world::Wires& wires : {motor, encoder}) {
       // From the first tick on, as after a repair.
       Axis axis(seed, GetParam());
       axis.motor.wires = wires;

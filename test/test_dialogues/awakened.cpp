@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "brain/simulated_eeprom.h"
 #include "machine/machine.h"
 #include "settings_flash.h"
-#include "simulated_eeprom.h"
 
 namespace {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "brain/simulated_eeprom.h"
 #include "machine/ports.h"
 #include "reference/machine.h"
-#include "simulated_eeprom.h"
 #include "simulated_motor.h"
 #include "vm/line_match.h"
 #include "vm/script.h"

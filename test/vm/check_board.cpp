@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "virtual_board.h"
+#include "mega/virtual_board.h"
 
 int main(int argc, char** argv) {
   if (argc != 2 && argc != 3) return 2;

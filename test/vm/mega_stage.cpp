@@ -9,13 +9,6 @@ using machine::kAxisCount;
 namespace vm {
 namespace {
 
-// Bridge inputs in the order that means "wind in", and the pin of the PWM.
-struct DriverPins {
-  int one, two, enable;
-};
-
-const DriverPins kDrivers[kAxisCount] = {{12, 11, 10}, {4, 6, 5}, {7, 9, 8}};
-const int kSpindlePin = 17, kLaserPin = 16, kProbePin = 14;
 const uint16_t kTimsk5 = 0x73, kOcr5b = 0x12a;
 const int kSlicesPerMs = 4;  // no motor makes more edges in a millisecond
 // The driver looks the same at a duty of zero and without power. A motor that follows its
@@ -24,18 +17,7 @@ const int kUnpoweredMs = 150;
 
 }  // namespace
 
-void EncoderPins::step(VirtualBoard& board, uint16_t count) {
-  const int left = missing(count);
-  if (left == 0) return;
-  count_ = uint16_t(count_ + (left > 0 ? 1 : -1));
-  // second, first: 00, 10, 11, 01
-  const int phase = uint16_t(count_ - start_) % 4;
-  board.setPin(second_, phase == 1 || phase == 2);
-  board.setPin(first_, phase == 2 || phase == 3);
-}
-
-MegaStage::MegaStage(std::string elf, Stage& stage)
-    : elf_(std::move(elf)), stage_(stage), encoders_{{{3, 2}, {20, 21}, {18, 19}}} {}
+MegaStage::MegaStage(std::string elf, Stage& stage) : elf_(std::move(elf)), stage_(stage) {}
 
 void MegaStage::live() {
   startBoard(std::vector<uint8_t>(4096, 0xff));
@@ -57,7 +39,7 @@ void MegaStage::startBoard(const std::vector<uint8_t>& eeprom) {
   spindle_ = std::make_unique<PulseMeter>(*board_, kSpindlePin);
   laser_ = std::make_unique<PulseMeter>(*board_, kLaserPin);
   for (int axis = 0; axis < kAxisCount; ++axis) {
-    encoders_[axis].restart(stage_.count(Axis(axis)));
+    encoders_.of[axis].restart(stage_.count(Axis(axis)));
     since_driven_ms_[axis] = kUnpoweredMs;
   }
 }
@@ -84,21 +66,13 @@ void MegaStage::passWire() {
 
 void MegaStage::turnEncoders() {
   for (int axis = 0; axis < kAxisCount; ++axis)
-    encoders_[axis].step(*board_, stage_.count(Axis(axis)));
-}
-
-int16_t MegaStage::dutyOf(Axis axis) const {
-  const DriverPins& pins = kDrivers[axis];
-  const int16_t duty = board_->pin(pins.enable).level;
-  const bool one = board_->pin(pins.one).level != 0, two = board_->pin(pins.two).level != 0;
-  if (one == two) return 0;
-  return one ? duty : int16_t(-duty);
+    encoders_.of[axis].step(*board_, stage_.count(Axis(axis)));
 }
 
 void MegaStage::showPins() {
   for (int i = 0; i < kAxisCount; ++i) {
     const Axis axis = Axis(i);
-    const int16_t duty = dutyOf(axis);
+    const int16_t duty = int16_t(kDrivers[axis].duty(*board_));
     since_driven_ms_[axis] = duty != 0 ? 0 : since_driven_ms_[axis] + 1;
     if (since_driven_ms_[axis] < kUnpoweredMs)
       stage_.drive(axis, duty);

@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "line_match.h"
+#include "mega/virtual_board.h"
 #include "script.h"
-#include "virtual_board.h"
 #include "virtual_motor.h"
 
 namespace {

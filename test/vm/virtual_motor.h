@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "virtual_board.h"
+#include "mega/virtual_board.h"
 
 namespace vm {
 

@@ -58,7 +58,8 @@ def built_player() -> Path:
     """The program that plays a dialogue with the flashed firmware."""
     board.BUILD.mkdir(parents=True, exist_ok=True)
     program = board.BUILD / "play_firmware"
-    sources = [VM / "play_firmware.cpp", VM / "virtual_board.cpp"]
+    parts = board.ROOT / "tools/vm"
+    sources = [f"-I{parts}", VM / "play_firmware.cpp", parts / "mega/virtual_board.cpp"]
     board.output("g++", "-std=c++17", "-O2", *sources, "-lsimavr", "-lelf", "-o", program)
     return program
 

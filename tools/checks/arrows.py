@@ -20,17 +20,24 @@ ANYTHING = r".*"
 ARROWS = {
     "lib/*": ([], C_HEADERS),
     "include": ([], C_HEADERS),
-    "src/machine": (["include", "lib/*", "src", "test/avr"], C_HEADERS),
+    "src/machine": (["include", "lib/*", "src", "tools/vm/host_avr"], C_HEADERS),
     "src/board": (["include", "lib/*", "src/machine"], ARDUINO),
-    "src": (["include", "lib/*", "src/machine", "src/board", "test/avr"], ARDUINO),
+    "src": (["include", "lib/*", "src/machine", "src/board", "tools/vm/host_avr"], ARDUINO),
     "tools/judge": ([], HOST + r"|(unsupported/)?Eigen/\w+|nanobind/.*"),
     "test/curves": ([], HOST),
     "test/tried": (["lib/Kinematics"], HOST + r"|Kinematics\.h"),
-    "test/vm": (["tools/judge", "test/test_dialogues"], ANYTHING),
+    "test/vm": (["tools/judge", "tools/vm/*", "test/test_dialogues"], ANYTHING),
     # Stands in on the host for a header of avr-libc that src includes.
-    "test/avr": ([], C_HEADERS),
+    "tools/vm/host_avr": ([], C_HEADERS),
+    "tools/vm/world": (["tools/judge"], HOST + r"|Eigen/\w+"),
+    "tools/vm/mega": ([], HOST + r"|simavr/.*"),
+    "tools/vm/brain": (
+        ["tools/vm/world", "tools/vm/mega", "src", "src/machine", "lib/*"],
+        HOST + r"|Settings\.h",
+    ),
+    "tools/vm": (["tools/vm/*", "tools/judge"], ANYTHING),
     "test/settings_host": (["tools/core", "src", "include", "lib/*"], ANYTHING),
-    "test/fuzz": (["src", "src/machine", "lib/*", "test/avr", "test/test_dialogues"], ANYTHING),
+    "test/fuzz": (["src", "src/machine", "lib/*", "tools/vm/*", "test/test_dialogues"], ANYTHING),
     "test/test_*": (
         [
             "tools/judge",
@@ -38,6 +45,7 @@ ARROWS = {
             "test/curves",
             "test/tried",
             "test/vm",
+            "tools/vm/*",
             "test/settings_host",
             "test/test_settings",
             "src",
@@ -52,7 +60,18 @@ ARROWS = {
     "tools/bench": (["lib/*", "tools/judge", "test/test_effects"], ANYTHING),
 }
 # Folders in which an include is looked up after the folder of the file itself.
-SEARCHED = ["include", "src", "lib/*/src", "lib/*", "test", "test/*", "tools/core", "tools/judge"]
+SEARCHED = [
+    "include",
+    "src",
+    "lib/*/src",
+    "lib/*",
+    "test",
+    "test/*",
+    "tools/core",
+    "tools/judge",
+    "tools/vm",
+    "tools/vm/host_avr",
+]
 
 # The rooms of the package, floor by floor from the top: a room may import those on floors below.
 PACKAGE = "tools/plumb"
@@ -67,7 +86,7 @@ FLOORS = (
     ("marks", "model"),
     ("settings",),
     ("text", "grid"),
-    ("_core", "_judge"),
+    ("_core", "_judge", "_vm"),
 )
 
 # What tools/calibration_grid.py runs without an installation.

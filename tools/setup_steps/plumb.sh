@@ -2,8 +2,7 @@
 
 # A change in one of these needs a new build; other Python files are used where they stand.
 plumb_sources=(
-  tools/pyproject.toml tools/CMakeLists.txt tools/core tools/judge lib/Kinematics lib/Settings
-  src/settings_table.h src/settings_effects.h src/effective.h
+  tools/pyproject.toml tools/CMakeLists.txt tools/core tools/judge tools/vm lib src
   tools/requirements_lab.txt
 )
 

@@ -19,12 +19,12 @@ NAMES = sorted({path.name for path in DIALOGUES.glob("*.nc")} - ON_OTHER_SHIELDS
 PARTS = [
     "test/vm/play_dialogues.cpp",
     "test/vm/mega_stage.cpp",
-    "test/vm/virtual_board.cpp",
+    "tools/vm/mega/virtual_board.cpp",
     "test/test_dialogues/stage.cpp",
     "test/test_dialogues/stage_questions.cpp",
 ]
 INCLUDES = [
-    *(f"-I{folder}" for folder in ("src", "test", "test/avr", "tools/judge")),
+    *(f"-I{folder}" for folder in ("src", "test", "tools/vm", "tools/vm/host_avr", "tools/judge")),
     *(f"-I{path.relative_to(ROOT)}" for path in sorted(ROOT.glob("lib/*/src"))),
 ]
 

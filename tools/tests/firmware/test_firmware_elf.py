@@ -12,7 +12,8 @@ ELF = ROOT / ".pio/build/megaatmega2560/firmware.elf"
 BUILD = ROOT / ".build/vm"
 VM = ROOT / "test/vm"
 DIALOGUES = VM / "dialogues"
-SOURCES = [VM / name for name in ("play_firmware.cpp", "virtual_board.cpp")]
+BOARD = ROOT / "tools/vm/mega/virtual_board.cpp"
+SOURCES = [f"-I{ROOT}/tools/vm", VM / "play_firmware.cpp", BOARD]
 STRICT = ["-std=c++17", "-O2", "-Wall", "-Wextra", "-Werror"]
 TOLERANCE = 0.011  # [mm] two decimals, and a chain count or two
 RAM = 8192
@@ -74,7 +75,7 @@ def test_the_simulated_mega_keeps_masked_interrupts_and_pulled_pins():
     elf, check = BUILD / "board_program.elf", BUILD / "check_board"
     avr = ["avr-gcc", "-mmcu=atmega2560", "-DF_CPU=16000000UL", "-Os", VM / "board_program.cpp"]
     subprocess.run([*avr, "-o", elf], check=True)
-    sources = [VM / "check_board.cpp", VM / "virtual_board.cpp"]
+    sources = [f"-I{ROOT}/tools/vm", VM / "check_board.cpp", BOARD]
     subprocess.run(["g++", *STRICT, *sources, "-lsimavr", "-lelf", "-o", check], check=True)
     done = subprocess.run([check, elf], capture_output=True, text=True, timeout=60)
     counted = figures(done)
@@ -88,7 +89,7 @@ def test_sum_product_and_quotient_are_those_of_avr_libc_and_faster():
     sources = [VM / "float_program.cpp", VM / "float_of_libc.S", ROOT / "src/board/float.S"]
     avr = ["avr-g++", "-mmcu=atmega2560", "-DF_CPU=16000000UL", "-Os", "-std=gnu++11"]
     subprocess.run([*avr, *sources, "-o", elf], check=True)
-    board = [VM / "check_board.cpp", VM / "virtual_board.cpp"]
+    board = [f"-I{ROOT}/tools/vm", VM / "check_board.cpp", BOARD]
     subprocess.run(["g++", *STRICT, *board, "-lsimavr", "-lelf", "-o", check], check=True)
     done = subprocess.run([check, elf, "16000"], capture_output=True, text=True, timeout=400)
     counted = figures(done)

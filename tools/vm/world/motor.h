@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <random>
 
-namespace simulated {
+namespace world {
 
 const double kTurn = 6.283185307179586;  // [rad]
 
@@ -44,8 +44,9 @@ class Motor {
   Motor(const MotorConstants& constants, unsigned seed) : c_(constants), source_(seed) {}
 
   Wires wires;
-  double weaker = 0;  ///< [V] that others take from the supply
-  double pull = 0;    ///< [Nm] of the cut, in addition to the load
+  double weaker = 0;       ///< [V] that others take from the supply
+  double pull = 0;         ///< [Nm] of the cut, in addition to the load
+  bool is_powered = true;  ///< without power no current flows: only friction brakes
 
   /// Lets `seconds` pass with a duty of -255 to 255.
   void run(int duty, double seconds) {
@@ -55,9 +56,14 @@ class Motor {
     const double given = std::fabs(share) * (c_.supply - weaker) - c_.bridge_drop;
     const double volts = std::copysign(std::max(given, 0.0), share);
     const double whole = c_.resistance + c_.supply_resistance * std::fabs(share);
-    for (double t = 0; t < seconds - kStep / 2; t += kStep)
-      step(c_.torque_constant * (volts - c_.torque_constant * speed_) / whole, kStep);
+    for (double t = 0; t < seconds - kStep / 2; t += kStep) {
+      current_ = is_powered ? (volts - c_.torque_constant * speed_) / whole : 0;
+      step(c_.torque_constant * current_, kStep);
+    }
   }
+
+  /// [V] by which its current makes the supply of all motors sag.
+  double sag() const { return std::fabs(current_) * c_.supply_resistance; }
 
   /// Turns of the sprocket since the start.
   double turns() const { return sprocket_ / kTurn; }
@@ -65,9 +71,8 @@ class Motor {
   /// Counts as the board sees them.
   int32_t counts() {
     if (wires.encoder_unplugged) return told_;
-    std::normal_distribution<double> early(0, c_.count_noise);
     const double sign = wires.encoder_reversed ? -1 : 1;
-    const double seen = sign * rotor_ / kTurn * c_.counts_per_turn + early(source_);
+    const double seen = sign * rotor_ / kTurn * c_.counts_per_turn + earliness();
     if (wires.channel_lost)
       told_ = kept_ + (int64_t(std::floor(seen)) / 2) % 2;
     else
@@ -103,9 +108,16 @@ class Motor {
     rotor_ += speed_ * seconds;
   }
 
+  /// [counts] by which an edge comes early.
+  double earliness() {
+    if (c_.count_noise <= 0) return 0;
+    return std::normal_distribution<double>(0, c_.count_noise)(source_);
+  }
+
   MotorConstants c_;
   std::mt19937 source_;
   double rotor_ = 0, sprocket_ = 0, speed_ = 0;  // [rad], [rad/s], at the sprocket's side
+  double current_ = 0;                           // [A]
   int32_t told_ = 0, kept_ = 0;                  ///< [counts] last; and while all channels came
 };
 
@@ -125,4 +137,4 @@ inline MotorConstants anyMotor(unsigned seed) {
   return c;
 }
 
-}  // namespace simulated
+}  // namespace world

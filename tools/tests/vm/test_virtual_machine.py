@@ -1,0 +1,133 @@
+"""The virtual machine: motors, chains and sled under the firmware built for the host."""
+
+import numpy as np
+import pytest
+from plumb import _judge, _vm
+from plumb.bench.causes import MAKER
+from plumb.model.predict import judged
+
+NUMBERS = judged(MAKER)
+COUNT = 63.5 / 8113.73  # [mm] of chain
+# What the client sends: the model's numbers are those of the judge, and z moves at all.
+SETTINGS = "$29=1300\n$7=2\n$8=139.1\n$62=97.9\n$63=0.00137293\n$160=8.2e-12\n$170=5.17e-6\n"
+
+
+def said_by(machine, line: str, milliseconds: int) -> list[str]:
+    """The machine's lines after a line was sent, status reports left out."""
+    machine.send(line.encode() + b"\n")
+    machine.advance(milliseconds)
+    lines = machine.take_said().decode().splitlines()
+    return [line for line in lines if not line.startswith(("<", "[PE"))]
+
+
+def started(**options) -> _vm.VirtualMachine:
+    """A machine that knows its settings and its chains."""
+    machine = _vm.VirtualMachine(NUMBERS, **options)
+    machine.start()
+    machine.advance(3000)
+    assert "ready" in machine.take_said().decode()
+    assert said_by(machine, SETTINGS.strip(), 3000) == ["ok"] * 7
+    assert "ok" in said_by(machine, "B06 L1651 R1651", 1000)
+    return machine
+
+
+@pytest.fixture
+def machine():
+    return started()
+
+
+def test_the_sled_is_where_the_judge_says(machine):
+    said_by(machine, "G0 X300 Y-200", 40_000)
+    chains = np.array([machine.chains])
+    rest = _judge.places(NUMBERS, chains, pushes=0 * chains, weights=np.array([97.9]))
+    assert machine.sled == pytest.approx(tuple(rest[0]), abs=1e-6)
+    assert machine.sled == pytest.approx((300, -200), abs=0.05)
+
+
+def test_the_encoder_counts_what_the_motor_pays_out(machine):
+    before, chains = machine.count("left"), machine.chains
+    said_by(machine, "G0 X-300", 25_000)
+    paid = machine.chains[0] - chains[0]
+    assert (machine.count("left") - before) * COUNT == pytest.approx(paid, abs=2 * COUNT)
+    assert paid < -100
+
+
+def test_a_plunge_leaves_a_mark_where_the_bit_was(machine):
+    assert said_by(machine, "G0 Z2\nG0 X50\nG1 Z-1 F500\nG0 Z2", 60_000) == ["ok"] * 4
+    plunges = {cut[0] for cut in machine.cuts()}
+    assert len(plunges) == 1
+    deepest = max(machine.cuts(), key=lambda cut: cut[4])
+    assert deepest[2] == pytest.approx(50, abs=0.05)
+    assert deepest[4] == pytest.approx(1, abs=0.03)
+    machine.replace_sheet()
+    assert machine.cuts() == []
+
+
+def test_friction_leaves_the_sled_behind_on_the_side_it_came_from():
+    places = []
+    for first in (-100, 300):
+        machine = started(friction=8.0)
+        said_by(machine, f"G0 X{first}", 30_000)
+        said_by(machine, "G0 X100", 30_000)
+        places.append(machine.sled[0])
+    assert 0.02 < places[1] - places[0] < 1
+    free = started()
+    said_by(free, "G0 X100", 30_000)
+    assert places[0] < free.sled[0] < places[1]
+
+
+def test_the_position_outlives_a_power_cut(machine):
+    said_by(machine, "G0 X100", 30_000)
+    memory, place = machine.eeprom, machine.sled
+    machine.stop()
+    assert not machine.is_running
+    machine.advance(1000)
+    assert machine.eeprom == memory
+    machine.start()
+    machine.advance(3000)
+    assert "position loaded at:" in machine.take_said().decode()
+    assert machine.sled == pytest.approx(place, abs=0.01)
+
+
+def test_a_skipped_tooth_moves_the_sled_and_not_the_count(machine):
+    count, place = machine.count("left"), machine.sled
+    machine.slip("left", 6.35)
+    machine.advance(100)
+    assert machine.count("left") == count
+    assert np.hypot(*np.subtract(machine.sled, place)) > 3
+
+
+def test_a_beam_that_creeps_lowers_the_sled(machine):
+    place = machine.sled
+    machine.creep("motor_height", -0.01)
+    machine.advance(10_000)
+    assert machine.sled[1] - place[1] == pytest.approx(-0.1, abs=0.03)
+
+
+def test_an_unplugged_encoder_stops_the_machine(machine):
+    machine.set_wire("left", "encoder_unplugged", True)
+    assert any("ALARM" in line for line in said_by(machine, "G0 X200", 10_000))
+
+
+def test_motors_are_drawn_by_a_seed():
+    runs = [started(seed=seed) for seed in (1, 1, 2)]
+    for machine in runs:
+        machine.send(b"G0 X100\n")
+        machine.advance(5000)
+    assert runs[0].chains == runs[1].chains != runs[2].chains
+
+
+def test_what_cannot_be_is_refused():
+    with pytest.raises(ValueError, match="no number color"):
+        _vm.VirtualMachine({"color": 1.0})
+    with pytest.raises(ValueError, match="no sled can hang"):
+        _vm.VirtualMachine(NUMBERS, paid_out=100.0)
+    with pytest.raises(RuntimeError, match=r"cannot read absent\.elf"):
+        _vm.VirtualMachine(NUMBERS, elf="absent.elf")
+    machine = _vm.VirtualMachine(NUMBERS)
+    with pytest.raises(ValueError, match="left, right or z"):
+        machine.count("x")
+    with pytest.raises(ValueError, match="no wire has the fault rust"):
+        machine.set_wire("z", "rust", True)
+    with pytest.raises(ValueError, match="4096"):
+        machine.eeprom = b""

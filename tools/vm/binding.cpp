@@ -1,0 +1,157 @@
+// The virtual machine seen from Python: a world, and a firmware that drives it.
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <memory>
+#include <optional>
+#include <tuple>
+
+#include "brain/host_brain.h"
+#ifdef PLUMB_HAS_SIMAVR
+#include "brain/mega_brain.h"
+#endif
+
+namespace nb = nanobind;
+
+namespace {
+
+using Pair = std::pair<double, double>;
+using CutRow = std::tuple<int, double, double, double, double>;
+
+std::unique_ptr<brain::Brain> brainFor(world::World& world, const std::optional<std::string>& elf) {
+  if (!elf) return std::make_unique<brain::HostBrain>(world);
+#ifdef PLUMB_HAS_SIMAVR
+  return std::make_unique<brain::MegaBrain>(world, *elf);
+#else
+  throw std::runtime_error(
+      "this build of plumb has no simulated Mega: install libsimavr-dev and build it again");
+#endif
+}
+
+world::Axis axisNamed(const std::string& name) {
+  if (name == "left") return world::kLeft;
+  if (name == "right") return world::kRight;
+  if (name == "z") return world::kZ;
+  throw nb::value_error("an axis is left, right or z");
+}
+
+/// A machine in its garage, with the firmware that drives it.
+class VirtualMachine {
+ public:
+  VirtualMachine(const std::map<std::string, double>& numbers, double friction, unsigned seed,
+                 double paid_out, const std::optional<std::string>& elf)
+      : world_({numbers, friction, seed}, paid_out), brain_(brainFor(world_, elf)) {}
+
+  void advance(int milliseconds) { brain_->advance(milliseconds); }
+  void start() { brain_->start(); }
+  void stop() { brain_->stop(); }
+  bool isRunning() const { return brain_->isRunning(); }
+  void send(const nb::bytes& characters) { brain_->send({characters.c_str(), characters.size()}); }
+  nb::bytes takeSaid() {
+    const std::string said = brain_->takeSaid();
+    return nb::bytes(said.data(), said.size());
+  }
+
+  nb::bytes eeprom() const {
+    const std::vector<uint8_t> bytes = brain_->eeprom();
+    return nb::bytes(bytes.data(), bytes.size());
+  }
+  void setEeprom(const nb::bytes& bytes) {
+    if (brain_->isRunning()) throw nb::value_error("stop the machine before its memory is changed");
+    if (bytes.size() != 4096) throw nb::value_error("an EEPROM of the Mega has 4096 bytes");
+    const uint8_t* const data = reinterpret_cast<const uint8_t*>(bytes.c_str());
+    brain_->setEeprom({data, data + bytes.size()});
+  }
+
+  double seconds() const { return world_.seconds(); }
+  Pair sled() const { return {world_.sled().place().x(), world_.sled().place().y()}; }
+  Pair chains() const { return {world_.travel(world::kLeft), world_.travel(world::kRight)}; }
+  Pair tensions() const { return {world_.sled().leftTension(), world_.sled().rightTension()}; }
+  double height() const { return world_.travel(world::kZ); }
+  bool hangs() const { return world_.hangs(); }
+  int count(const std::string& axis) { return world_.count(axisNamed(axis)); }
+  int duty(const std::string& axis) const { return world_.duty(axisNamed(axis)); }
+
+  std::vector<CutRow> cuts() {
+    std::vector<CutRow> rows;
+    for (const world::Cut& cut : world_.sheet().cuts())
+      rows.emplace_back(cut.plunge, cut.seconds, cut.x, cut.y, cut.depth);
+    return rows;
+  }
+  void replaceSheet() { world_.sheet().replace(); }
+
+  void hangAt(double x, double y) { world_.hangAt({x, y}); }
+  void setHeight(double z) { world_.setHeight(z); }
+  void slip(const std::string& axis, double mm) { world_.slip(axisNamed(axis), mm); }
+  void set(const std::string& number, double value) { world_.set(number, value); }
+  void creep(const std::string& number, double per_second) { world_.creep(number, per_second); }
+  void setProbeHeight(double z) { world_.setProbeHeight(z); }
+  void setWire(const std::string& axis, const std::string& fault, bool is_so) {
+    world::Wires& wires = world_.wires(axisNamed(axis));
+    const std::map<std::string, bool*> faults = {{"motor_reversed", &wires.motor_reversed},
+                                                 {"encoder_reversed", &wires.encoder_reversed},
+                                                 {"encoder_unplugged", &wires.encoder_unplugged},
+                                                 {"channel_lost", &wires.channel_lost},
+                                                 {"blocked", &wires.blocked}};
+    const auto found = faults.find(fault);
+    if (found == faults.end()) throw nb::value_error(("no wire has the fault " + fault).c_str());
+    *found->second = is_so;
+  }
+
+ private:
+  world::World world_;
+  std::unique_ptr<brain::Brain> brain_;
+};
+
+}  // namespace
+
+NB_MODULE(_vm, module) {
+  module.doc() = "The virtual machine: motors, chains, sled and sheet, driven by the firmware.";
+  using nb::arg;
+  nb::class_<VirtualMachine>(module, "VirtualMachine",
+                             "A machine in its garage. numbers: what differs from the judge's "
+                             "default machine; friction [N] of the sled; seed draws the motors, 0: "
+                             "as they are meant to be; paid_out [mm] of both chains at first; elf: "
+                             "the flashed program, else the firmware built for the host.")
+      .def(nb::init<const std::map<std::string, double>&, double, unsigned, double,
+                    const std::optional<std::string>&>(),
+           arg("numbers"), nb::kw_only(), arg("friction") = 0.0, arg("seed") = 0,
+           arg("paid_out") = 1651.0, arg("elf") = nb::none())
+      .def("advance", &VirtualMachine::advance, arg("milliseconds"),
+           nb::call_guard<nb::gil_scoped_release>(), "Lets time pass.")
+      .def("start", &VirtualMachine::start, "Power comes, or the reset button is let go.")
+      .def("stop", &VirtualMachine::stop, "Power goes at once. The EEPROM keeps what it has.")
+      .def_prop_ro("is_running", &VirtualMachine::isRunning)
+      .def("send", &VirtualMachine::send, arg("characters"),
+           "Puts characters on the line; they arrive at 57,600 baud.")
+      .def("take_said", &VirtualMachine::takeSaid, "All that was said since this was last asked.")
+      .def_prop_rw("eeprom", &VirtualMachine::eeprom, &VirtualMachine::setEeprom)
+      .def_prop_ro("seconds", &VirtualMachine::seconds, "Since the world began.")
+      .def_prop_ro("sled", &VirtualMachine::sled, "(x, y) [mm] of the bit from mid sheet.")
+      .def_prop_ro("chains", &VirtualMachine::chains, "[mm] of nominal links, left and right.")
+      .def_prop_ro("tensions", &VirtualMachine::tensions, "[N] at the sprockets.")
+      .def_prop_ro("height", &VirtualMachine::height, "[mm] of the bit above the sheet's face.")
+      .def_prop_ro("hangs", &VirtualMachine::hangs, "Whether a sled can hang from these chains.")
+      .def("count", &VirtualMachine::count, arg("axis"), "Encoder counts since the world began.")
+      .def("duty", &VirtualMachine::duty, arg("axis"), "-255 to 255; positive winds in.")
+      .def("cuts", &VirtualMachine::cuts,
+           "Where the bit was in the sheet: rows of plunge, seconds, x, y, depth [mm].")
+      .def("replace_sheet", &VirtualMachine::replaceSheet, "A new sheet lies on the frame.")
+      .def("hang_at", &VirtualMachine::hangAt, arg("x"), arg("y"),
+           "Lays the chains so that the bit is there [mm].")
+      .def("set_height", &VirtualMachine::setHeight, arg("z"), "Turns the screw of z by hand.")
+      .def("slip", &VirtualMachine::slip, arg("axis"), arg("mm"),
+           "A chain jumps on its sprocket: so much more is paid out than was counted.")
+      .def("set", &VirtualMachine::set, arg("number"), arg("value"),
+           "Gives a number of the judge's machine a new value.")
+      .def("creep", &VirtualMachine::creep, arg("number"), arg("per_second"),
+           "Lets a number of the judge's machine change with time.")
+      .def("set_probe_height", &VirtualMachine::setProbeHeight, arg("z"))
+      .def("set_wire", &VirtualMachine::setWire, arg("axis"), arg("fault"), arg("is_so"),
+           "A fault: motor_reversed, encoder_reversed, encoder_unplugged, channel_lost, blocked.");
+}

@@ -1,0 +1,60 @@
+// A millisecond of the Mega, then a millisecond of the world.
+#include "brain/mega_brain.h"
+
+namespace brain {
+namespace {
+
+const int kSlicesPerMs = 4;  // no motor makes more edges in a millisecond
+
+}  // namespace
+
+MegaBrain::MegaBrain(world::World& world, std::string elf) : world_(world), elf_(std::move(elf)) {
+  // So that a file that cannot be read is refused here.
+  vm::VirtualBoard try_it(elf_);
+}
+
+void MegaBrain::start() {
+  stop();
+  board_ = std::make_unique<vm::VirtualBoard>(elf_);
+  board_->setEeprom(eeprom_);
+  for (int axis = 0; axis < world::kAxisCount; ++axis)
+    encoders_.of[axis].restart(uint16_t(world_.count(world::Axis(axis))));
+}
+
+void MegaBrain::stop() {
+  if (board_) eeprom_ = board_->eeprom();
+  board_.reset();
+  for (const world::Axis axis : {world::kLeft, world::kRight, world::kZ}) world_.drive(axis, 0);
+}
+
+void MegaBrain::advance(int milliseconds) {
+  for (int i = 0; i < milliseconds; ++i) {
+    if (board_) passMillisecond();
+    world_.advance(0.001);
+  }
+}
+
+void MegaBrain::passMillisecond() {
+  for (int slice = 0; slice < kSlicesPerMs; ++slice) {
+    turnEncoders();
+    board_->runMs(1.0 / kSlicesPerMs);
+  }
+  for (int axis = 0; axis < world::kAxisCount; ++axis)
+    world_.drive(world::Axis(axis), vm::kDrivers[axis].duty(*board_));
+  board_->setPin(vm::kProbePin, !world_.probeTouches());
+}
+
+void MegaBrain::turnEncoders() {
+  for (int axis = 0; axis < world::kAxisCount; ++axis)
+    encoders_.of[axis].step(*board_, uint16_t(world_.count(world::Axis(axis))));
+}
+
+std::string MegaBrain::takeSaid() {
+  std::string said;
+  said.swap(said_);
+  if (!board_) return said;
+  for (; !board_->lines.empty(); board_->lines.pop_front()) said += board_->lines.front() + "\r\n";
+  return said;
+}
+
+}  // namespace brain

@@ -1,0 +1,40 @@
+// The firmware as it is flashed: the ELF file in a simulated Mega, its pins on the world's motors.
+#pragma once
+
+#include <memory>
+
+#include "brain/brain.h"
+#include "mega/pins.h"
+#include "world/world.h"
+
+namespace brain {
+
+/// A Mega with shield v1.2.
+class MegaBrain : public Brain {
+ public:
+  /// `elf`: the file that is flashed. `world` must live as long as this. Throws
+  /// std::runtime_error if the file cannot be read.
+  MegaBrain(world::World& world, std::string elf);
+  ~MegaBrain() override = default;
+
+  void advance(int milliseconds) override;
+  void start() override;
+  void stop() override;
+  bool isRunning() const override { return board_ != nullptr; }
+  void send(const std::string& characters) override { board_->send(characters); }
+  std::string takeSaid() override;
+  std::vector<uint8_t> eeprom() const override { return board_ ? board_->eeprom() : eeprom_; }
+  void setEeprom(const std::vector<uint8_t>& bytes) override { eeprom_ = bytes; }
+
+ private:
+  void passMillisecond();
+  void turnEncoders();
+
+  world::World& world_;
+  std::string elf_, said_;
+  std::vector<uint8_t> eeprom_ = std::vector<uint8_t>(4096, 0xff);
+  std::unique_ptr<vm::VirtualBoard> board_;
+  vm::Encoders encoders_;
+};
+
+}  // namespace brain

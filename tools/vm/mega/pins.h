@@ -1,0 +1,61 @@
+// The Mega's pins on shield v1.2, with chains over the top of their sprockets.
+#pragma once
+
+#include <cstdint>
+
+#include "mega/virtual_board.h"
+
+namespace vm {
+
+const int kMotors = 3;  // left, right, z
+
+/// Bridge inputs in the order that means "wind in", and the pin of the PWM.
+struct DriverPins {
+  int one, two, enable;
+
+  /// -255 to 255 as the pins stand; positive winds in.
+  int duty(const VirtualBoard& board) const {
+    const bool is_one = board.pin(one).level != 0, is_two = board.pin(two).level != 0;
+    if (is_one == is_two) return 0;
+    const int level = board.pin(enable).level;
+    return is_one ? level : -level;
+  }
+};
+
+const DriverPins kDrivers[kMotors] = {{12, 11, 10}, {4, 6, 5}, {7, 9, 8}};
+
+/// An encoder on two inputs of the Mega.
+class EncoderPins {
+ public:
+  EncoderPins(int first, int second) : first_(first), second_(second) {}
+
+  /// Where the count stands when the board starts; both channels are low there.
+  void restart(uint16_t count) { count_ = start_ = count; }
+
+  /// Edges that are still missing to a count, which wraps round.
+  int missing(uint16_t count) const { return int16_t(count - count_); }
+
+  /// Makes one edge towards a count, if any is missing.
+  void step(VirtualBoard& board, uint16_t count) {
+    const int left = missing(count);
+    if (left == 0) return;
+    count_ = uint16_t(count_ + (left > 0 ? 1 : -1));
+    // second, first: 00, 10, 11, 01
+    const int phase = uint16_t(count_ - start_) % 4;
+    board.setPin(second_, phase == 1 || phase == 2);
+    board.setPin(first_, phase == 2 || phase == 3);
+  }
+
+ private:
+  int first_, second_;
+  uint16_t count_ = 0, start_ = 0;
+};
+
+/// The encoders of all motors.
+struct Encoders {
+  EncoderPins of[kMotors] = {{3, 2}, {20, 21}, {18, 19}};
+};
+
+const int kSpindlePin = 17, kLaserPin = 16, kProbePin = 14;
+
+}  // namespace vm

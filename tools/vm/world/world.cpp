@@ -1,0 +1,83 @@
+// Motors pull chains, the judge hangs the sled, the sled pulls on the motors.
+#include "world/world.h"
+
+namespace world {
+namespace {
+
+const double kHangEvery = 0.01;  // [s] in which no chain runs more than 0.3 mm
+
+/// A motor of a chain: what it carries is added as the sled hangs. Its encoder is exact.
+MotorConstants chainMotor(unsigned seed) {
+  MotorConstants constants = seed ? anyMotor(seed) : MotorConstants();
+  constants.load = 0;
+  constants.count_noise = 0;
+  return constants;
+}
+
+/// The motor of the z axis: the same, on a screw that carries the router.
+MotorConstants zMotor(unsigned seed) {
+  MotorConstants constants = chainMotor(seed);
+  constants.counts_per_turn = 7560;
+  constants.load = -0.02;
+  return constants;
+}
+
+unsigned seedOf(const Parts& parts, Axis axis) { return parts.seed ? 3 * parts.seed + axis : 0; }
+
+}  // namespace
+
+World::World(const Parts& parts, double paid_out)
+    : sled_(parts.numbers, parts.friction),
+      motors_{{{chainMotor(seedOf(parts, kLeft)), parts.seed},
+               {chainMotor(seedOf(parts, kRight)), parts.seed + 1},
+               {zMotor(seedOf(parts, kZ)), parts.seed + 2}}},
+      per_turn_{{parts.chain_per_turn, parts.chain_per_turn, parts.z_per_turn}},
+      laid_{{paid_out, paid_out, 0}} {
+  for (Motor& motor : motors_) motor.is_powered = false;
+  hang();
+  if (!hangs_) throw std::invalid_argument("no sled can hang from chains of this length");
+}
+
+void World::drive(Axis axis, int duty) {
+  duties_[axis] = duty;
+  // The bridge is pulsed by its enable pin: at a duty of zero the motor runs free.
+  motors_[axis].is_powered = duty != 0;
+}
+
+double World::travel(Axis axis) const {
+  return laid_[axis] + motors_[axis].turns() * per_turn_[axis];
+}
+
+void World::hangAt(const Eigen::Vector2d& place) {
+  const Eigen::Vector2d paid_out = sled_.chainsTo(place);
+  laid_[kLeft] += paid_out.x() - travel(kLeft);
+  laid_[kRight] += paid_out.y() - travel(kRight);
+  hang();
+}
+
+void World::advance(double seconds) {
+  double sag = 0;
+  for (const Motor& motor : motors_) sag += motor.sag();
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    Motor& motor = motors_[axis];
+    motor.weaker = sag - motor.sag();
+    motor.run(-duties_[axis], seconds);
+  }
+  seconds_ += seconds;
+  for (const auto& creep : creeps_)
+    sled_.set(creep.first, sled_.get(creep.first) + creep.second * seconds);
+  if (seconds_ - hung_ < kHangEvery - seconds / 2) return;
+  hung_ = seconds_;
+  hang();
+  sheet_.touch(seconds_, sled_.place(), travel(kZ));
+}
+
+void World::hang() {
+  hangs_ = sled_.hang({travel(kLeft), travel(kRight)});
+  const double kMetre = 1000;  // [mm]
+  const double radius = per_turn_[kLeft] / kTurn / kMetre;
+  motors_[kLeft].pull = sled_.leftTension() * radius;
+  motors_[kRight].pull = sled_.rightTension() * radius;
+}
+
+}  // namespace world

@@ -1,0 +1,82 @@
+// A whole machine without its firmware: motors, chains, sled, sheet and time.
+// The firmware, built for the host or flashed on a simulated Mega, drives it and reads its
+// encoders.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "world/motor.h"
+#include "world/sheet.h"
+#include "world/sled.h"
+
+namespace world {
+
+/// The motors, used as an index.
+enum Axis { kLeft, kRight, kZ, kAxisCount };
+
+/// What a world is made of.
+struct Parts {
+  std::map<std::string, double> numbers;  ///< of the judge's machine, where they differ
+  double friction = 0;                    ///< [N] of the sled on the sheet
+  unsigned seed = 0;                      ///< draws the motors; 0: motors as they are meant to be
+  double chain_per_turn = 63.5;           ///< [mm] of nominal links that a sprocket pays out
+  double z_per_turn = 3.17;               ///< [mm] of the z axis' screw
+};
+
+/// The machine in its garage.
+class World {
+ public:
+  /// Both chains are `paid_out` [mm] long, the bit touches the sheet. Throws std::invalid_argument
+  /// where no sled can hang, or for a number that the judge does not know.
+  World(const Parts& parts, double paid_out);
+
+  /// Drives a motor with a duty of -255 to 255; a positive duty winds chain in, or the bit down.
+  void drive(Axis axis, int duty);
+  /// Encoder counts since the world began; rising as chain is paid out and as the bit rises.
+  int32_t count(Axis axis) { return motors_[axis].counts(); }
+
+  /// Lets time pass: a millisecond at most.
+  void advance(double seconds);
+
+  double seconds() const { return seconds_; }
+  /// [mm] of nominal links that a motor has paid out; the height of the bit for z.
+  double travel(Axis axis) const;
+  int duty(Axis axis) const { return duties_[axis]; }
+  const Sled& sled() const { return sled_; }
+  Sheet& sheet() { return sheet_; }
+  /// Whether a sled can hang from these chains.
+  bool hangs() const { return hangs_; }
+  bool probeTouches() const { return travel(kZ) <= probe_height_; }
+
+  // What a hand, or a fault, changes.
+  /// Lays the chain anew: the sprockets stand, the links on them move on.
+  void slip(Axis axis, double links_mm) { laid_[axis] += links_mm; }
+  /// Chains so long that this sled's bit is at a place [mm].
+  void hangAt(const Eigen::Vector2d& place);
+  /// Turns the screw by hand until the bit is so high [mm].
+  void setHeight(double z) { laid_[kZ] += z - travel(kZ); }
+  /// Gives a number of the judge's machine a new value, or lets it creep by so much a second.
+  void set(const std::string& number, double value) { sled_.set(number, value); }
+  void creep(const std::string& number, double per_second) { creeps_[number] = per_second; }
+  Wires& wires(Axis axis) { return motors_[axis].wires; }
+  void setProbeHeight(double z) { probe_height_ = z; }
+
+ private:
+  void hang();
+
+  Sled sled_;
+  Sheet sheet_;
+  std::array<Motor, kAxisCount> motors_;
+  std::array<int, kAxisCount> duties_ = {{0, 0, 0}};
+  std::array<double, kAxisCount> per_turn_;  // [mm]
+  std::array<double, kAxisCount> laid_;      // [mm] of travel when the motors began
+  std::map<std::string, double> creeps_;     // by number, a second
+  double seconds_ = 0, hung_ = 0, probe_height_ = -1e9;
+  bool hangs_ = false;
+};
+
+}  // namespace world
