@@ -53,7 +53,7 @@ touched_by() {
     test/test_*/*) suites+=("$(cut -d / -f 2 <<<"$1")") ;;
     test/vm/*) rooms+=(tools/tests/firmware) ;;
     tools/judge/*) suites+=(test_reference) ;;
-    tools/vm/*) suites+=(test_control test_dialogues) rooms+=(tools/tests/firmware) ;;
+    tools/vm/*) suites+=(test_control test_dialogues) rooms+=(tools/tests/firmware tools/tests/vm) ;;
     tools/plumb/*/* | tools/tests/*/*)
       room=tools/tests/$(cut -d / -f 3 <<<"$1")
       # An edited test alone asks for itself.
