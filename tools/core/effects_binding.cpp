@@ -85,6 +85,19 @@ nb::list examplesOf() {
   return examples;
 }
 
+const char* const kShown[] = {"as is", "root", "angle"};  // as Shown
+
+nb::object plainOf(const PlainInfo& info) {
+  if (!*info.more) return nb::none();
+  nb::dict words;
+  words["more"] = info.more;
+  words["less"] = info.less;
+  words["unit"] = info.unit;
+  words["times"] = info.times;
+  words["shown"] = kShown[info.shown];
+  return words;
+}
+
 template <class Own>
 nb::dict parameterOf(int first_setting, uint8_t i) {
   const ParamInfo param = Own::param(i);
@@ -98,6 +111,7 @@ nb::dict parameterOf(int first_setting, uint8_t i) {
   entry["typical"] = param.typical;
   entry["summary"] = param.summary;
   entry["sigma"] = param.sigma;
+  entry["plain"] = plainOf(Own::plain(i));
   entry["published"] = nb::none();
   if (published.number) entry["published"] = nb::make_tuple(published.number, published.factor);
   return entry;
@@ -114,6 +128,7 @@ struct Lister {
       parameters.append(parameterOf<Own>(first_setting, i));
     nb::dict entry;
     entry["name"] = info.name;
+    entry["noun"] = *Own::noun() ? Own::noun() : info.name;
     entry["where"] = "firmware";
     entry["summary"] = info.summary;
     entry["pattern"] = info.pattern;
@@ -148,6 +163,7 @@ nb::list frame() {
     entry["low"] = field.low;
     entry["high"] = field.high;
     entry["summary"] = field.summary;
+    entry["noun"] = field.noun;
     result.append(entry);
   }
   return result;

@@ -16,6 +16,14 @@ class FrameWords(TypedDict):
     low: float
     high: float
     summary: str
+    noun: str
+
+class PlainWords(TypedDict):
+    more: str
+    less: str
+    unit: str
+    times: float
+    shown: str
 
 class ParameterWords(TypedDict):
     name: str
@@ -26,6 +34,7 @@ class ParameterWords(TypedDict):
     typical: float
     summary: str
     sigma: float
+    plain: PlainWords | None
     published: tuple[int, float] | None
 
 class CheckWords(TypedDict):
@@ -41,6 +50,7 @@ class ExampleWords(TypedDict):
 
 class EffectWords(TypedDict):
     name: str
+    noun: str
     where: str
     summary: str
     pattern: str

@@ -39,6 +39,26 @@ struct ParamInfo {
   double sigma;  ///< accuracy of the direct check (see CheckInfo); 0: no check reads this parameter
 };
 
+/// How a parameter is shown to a maker.
+enum Shown {
+  kAsIs,
+  kRoot,   ///< the parameter is a square
+  kAngle,  ///< the parameter is the square of a tangent; shown in degrees
+};
+
+/// The size of a parameter in a maker's words: # in the words is the size with its unit.
+struct PlainInfo {
+  const char* more;  ///< above zero, like "left chain # too long"; empty: no such words
+  const char* less;  ///< below zero; empty: the words above, and a minus
+  const char* unit;
+  double times;  ///< the size shown is this times the parameter, before its root or angle
+  Shown shown;
+
+  constexpr PlainInfo(const char* more_words, const char* less_words, const char* its_unit,
+                      double factor = 1, Shown how = kAsIs)
+      : more(more_words), less(less_words), unit(its_unit), times(factor), shown(how) {}
+};
+
 /// How the owner measures an effect directly, without marks on a sheet.
 struct CheckInfo {
   const char* title;  ///< what is measured; empty: no direct way is known
@@ -128,6 +148,12 @@ struct Effect {
 
   /// The setting of the published programs that says the same as parameter i.
   static PublishedInfo published(uint8_t) { return {0, 0}; }
+
+  /// The effect in a maker's words, as a noun; empty: its name has to do.
+  static const char* noun() { return ""; }
+
+  /// Parameter i in a maker's words.
+  static PlainInfo plain(uint8_t) { return {"", "", ""}; }
 
   // These two and setJudge, described in judged.h, are to be hidden by every effect; a test says
   // so.

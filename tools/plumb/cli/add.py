@@ -132,8 +132,8 @@ def toml_of(result: Addition, *, source: str, firmware: str = "plumb") -> bytes:
     settings = published_machine(ours) if firmware == "published" else ours
     lines = [
         f"Fitted to {source}: {result.after.fit_rms:.2f} mm RMS "
-        f"(priced {result.after.priced_rms:.2f}, left out {result.after.left_out_rms:.2f}), "
-        f"{result.raw.rms:.2f} mm before.",
+        f"(counted for the numbers fitted {result.after.priced_rms:.2f}, checked on marks not used "
+        f"{result.after.left_out_rms:.2f}), {result.raw.rms:.2f} mm before.",
         turn_sentence(result),
         *result.cures,
         *([f"{PATCH}: {PATCH_WARNING}"] if PATCH in result.effects_added else []),

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from plumb.cli.text import millimetres, number, sentences, table
+from plumb.cli.screen import sentences, table
+from plumb.cli.text import millimetres
 from plumb.cure.add import Addition
 from plumb.cure.auto import AutoAddition
 from plumb.diagnose.noise import origin_words
 from plumb.diagnose.sentence import verdict_sentence
 from plumb.fit.patch import PATCH
+from plumb.model.plain import noun_of, plain_before, plain_size
 
 
 def auto_text(result: AutoAddition) -> str:
@@ -33,13 +35,18 @@ def auto_text(result: AutoAddition) -> str:
 def _offer_sentence(without: float, with_patch: float, *, added: bool) -> str:
     """What a residual patch would buy, or has bought."""
     if with_patch >= without:
-        return f"A residual patch would buy nothing ({without:.2f} mm for marks left out)."
-    bought = f"{without:.2f} to {with_patch:.2f} mm for marks left out"
+        return f"A residual patch would buy nothing ({without:.2f} mm on marks not used)."
+    bought = f"{without:.2f} to {with_patch:.2f} mm on marks not used"
     if added:
         return f"The residual patch bought {bought}."
     return f"A residual patch (--patch) would buy {bought}. {PATCH_WARNING}"
 
 
+# What the columns of the tables of errors mean, one family of words for all commands.
+COLUMNS = (
+    "Counted: the RMS, counted for the numbers fitted. Checked: on marks not used, each predicted "
+    "by a fit without it."
+)
 PATCH_WARNING = (
     "It is no physics: a smooth map that holds for this machine, sled and sheet as they are, and "
     "only where marks were measured."
@@ -53,23 +60,23 @@ def as_text(result: Addition, *, asked_patch: bool = False) -> str:
     first = f"From {raw.rms:.2f} to {after.fit_rms:.2f} mm RMS"
     if result.steps:
         first += (
-            f"; marks left out of the fit are predicted {verdict} with the effects "
+            f"; checked on marks not used, it is {verdict} with the effects "
             f"({before.left_out_rms:.2f} to {after.left_out_rms:.2f} mm)"
         )
     first += "."
     parts = [sentences([first], mark=""), _quality_table(result), _parameter_table(result)]
     if result.benchmark_after:
         parts.insert(1, _benchmark_sentence(result))
-    parts.append(
-        "Priced: scaled up for the numbers the fit took from the data. Left out: each mark "
-        "predicted\nby a fit that did not see it. Intervals: 95 %, for a reading error of "
-        f"{result.after_fit.sigma:.2f} mm ({origin_words(result.sigma_from)})."
+    note = (
+        f"{COLUMNS} Intervals hold for a reading error of {result.after_fit.sigma:.2f} mm "
+        f"({origin_words(result.sigma_from)})."
     )
+    parts.append(sentences([note], mark=""))
     said = [turn_sentence(result), *result.cures, *result.warnings]
     if PATCH in result.effects_added:
         said.append(PATCH_WARNING)
     elif asked_patch:
-        said.append("a residual patch would predict marks left out no better, so none was added")
+        said.append("a residual patch would predict marks not used no better, so none was added")
     parts.append(sentences(said))
     return "\n\n".join(parts)
 
@@ -96,9 +103,9 @@ def turn_sentence(result: Addition) -> str:
 def _quality_table(result: Addition) -> str:
     raw = result.raw
     start = (raw.rms, None, None, raw.worst, raw.shape_rms)
-    rows = [["as the settings are", *map(millimetres, start)]]
-    named = [("frame fitted", result.before)]
-    named += [(f"+ {step.effect}", step.quality) for step in result.steps]
+    rows = [["raw: the settings as they are", *map(millimetres, start)]]
+    named = [("fitted: the frame", result.before)]
+    named += [(f"fitted: + {noun_of(step.effect)}", step.quality) for step in result.steps]
     for name, quality in named:
         errors = (
             quality.fit_rms,
@@ -108,7 +115,7 @@ def _quality_table(result: Addition) -> str:
             quality.shape_rms,
         )
         rows.append([name, *map(millimetres, errors)])
-    return table(["error in mm", "RMS", "priced", "left out", "worst", "shape"], rows)
+    return table(["error in mm", "RMS", "counted", "checked", "worst", "shape"], rows)
 
 
 def _parameter_table(result: Addition) -> str:
@@ -116,16 +123,11 @@ def _parameter_table(result: Addition) -> str:
     for parameter in result.parameters:
         if parameter.of_patch:
             continue
-        trusted = "free" if parameter.prior_sigma is None else number(parameter.prior_sigma)
         rows.append(
             [
-                parameter.name,
-                number(parameter.value),
-                f"{number(parameter.low)} .. {number(parameter.high)}",
-                number(parameter.before),
-                trusted,
-                parameter.unit,
+                plain_size(parameter.name, parameter.value, parameter.low, parameter.high),
+                plain_before(parameter.name, parameter.before),
                 "" if parameter.plausible else "impossible",
             ]
         )
-    return table(["number", "value", "interval", "before", "trusted to", "unit", ""], rows)
+    return table(["fitted, with its 95 % interval", "before", ""], rows, words=[-1])

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import argparse
-import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from plumb.bench.page import page
@@ -23,21 +22,22 @@ from plumb.bench.report import (
 from plumb.bench.scenarios import CURE, NAMES, SCENARIOS, Scenario
 from plumb.cli.arguments.bench import BOARDS, FAST
 from plumb.cli.files import write_outputs
-from plumb.cli.text import print_json, sentences, table
+from plumb.cli.screen import Bar, sentences, table
+from plumb.cli.text import print_json
 from plumb.text.errors import InputError
-
-BAR = 30  # [characters]
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the bench, print its table, and return the exit code."""
     chosen = chosen_of(arguments.scenario)
     boards = arguments.boards or (FAST if arguments.fast else BOARDS)
-    bar = _Bar(len(chosen) * boards)
     report = run_bench(
-        chosen, boards=boards, seed=arguments.seed, progress=bar.step, jobs=arguments.jobs
+        chosen,
+        boards=boards,
+        seed=arguments.seed,
+        progress=_counted(len(chosen) * boards),
+        jobs=arguments.jobs,
     )
-    bar.clear()
     if arguments.write:
         write_outputs({arguments.write: page(report).encode()}, inputs=[])
     if arguments.json:
@@ -62,32 +62,21 @@ def chosen_of(names: Sequence[str]) -> tuple[Scenario, ...]:
     )
 
 
-class _Bar:
-    """A line on standard error that grows, if someone watches."""
+def _counted(total: int) -> Callable[[str, int], None]:
+    """A bar that is moved on by a number of boards of a scenario."""
+    bar, done = Bar("boards", patience=0.0), 0
 
-    def __init__(self, total: int) -> None:
-        self._total, self._done = total, 0
-        self._shown = sys.stderr.isatty()
+    def step(name: str, boards: int) -> None:
+        nonlocal done
+        done += boards
+        bar.show(done / total, f"{done} of {total} boards, {name}")
 
-    def step(self, name: str, boards: int) -> None:
-        """So many boards more of a scenario."""
-        self._done += boards
-        if self._shown:
-            filled = BAR * self._done // self._total
-            bar = "#" * filled + "." * (BAR - filled)
-            sys.stderr.write(f"\r{bar} {self._done}/{self._total} {name:<18}")
-            sys.stderr.flush()
-
-    def clear(self) -> None:
-        """Leave nothing behind."""
-        if self._shown:
-            sys.stderr.write("\r" + " " * (BAR + 40) + "\r")
-            sys.stderr.flush()
+    return step
 
 
 def as_text(report: Report) -> str:
     """The tables for people, what is missed last."""
-    parts = [table(HEADER, cells(report), left=5)]
+    parts = [_rates_of(name, report) for name in dict.fromkeys(row[0] for row in cells(report))]
     if report.cures:
         parts.append(table(CURE_HEADER, cure_cells(report)))
         parts.append(
@@ -109,6 +98,14 @@ def as_text(report: Report) -> str:
     reached = f"{report.boards} boards of each scenario, seed {report.seed}: no line is missed"
     parts.append(sentences(missed or [reached], mark=""))
     return "\n\n".join(parts)
+
+
+def _rates_of(name: str, report: Report) -> str:
+    """The rates of a scenario, below what it hides."""
+    rows = [row for row in cells(report) if row[0] == name]
+    _, hidden, marks, noise, *_ = rows[0]
+    said = f"{name}: {hidden}, {marks} marks, noise {noise}"
+    return f"{said}\n{table(HEADER[4:], [row[4:] for row in rows], words=[-2, -1])}"
 
 
 def as_json(report: Report) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 
-from plumb.cli.text import sentences, table
+from plumb.cli.screen import sentences, table
 from plumb.firmware.client_files import ClientFiles, client_files
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError

@@ -12,7 +12,8 @@ from plumb.cli.files import (
     picture_form,
     write_outputs,
 )
-from plumb.cli.text import about, millimetres, print_json, sentences, signed, table
+from plumb.cli.screen import sentences, table
+from plumb.cli.text import about, millimetres, print_json, signed
 from plumb.fit.compare import Comparison, compare
 from plumb.marks.score import Score
 from plumb.pictures.sheet import Panel, draw
@@ -123,10 +124,11 @@ def as_text(comparison: Comparison, *, sheet_width: float) -> str:
         parts.append(_rounds_table(comparison))
     if comparison.marks:
         parts.append(_marks_table(comparison))
-        parts.append(
-            "Error: measured - predicted. Chains: how much more of each the measured place needs\n"
+        note = (
+            "Error: measured - predicted. Chains: how much more of each the measured place needs "
             "than was paid out. All in mm; from the middle of the sheet, x right, y up."
         )
+        parts.append(sentences([note], mark=""))
     if comparison.distances:
         rows = [
             [
@@ -158,21 +160,21 @@ def _conclusion(comparison: Comparison, sheet_width: float) -> str:
             f"worst {comparison.worst:.2f} mm ({' - '.join(farthest.between)})."
         )
     worst = max(comparison.marks, key=lambda mark: mark.length)
-    lines = [
+    said = [
         f"The marks lie {comparison.rms:.2f} mm RMS from where the settings predict them, "
         f"worst {comparison.worst:.2f} mm (mark {worst.name})."
     ]
     shape, shift, rotation = comparison.shape_rms, comparison.shift, comparison.rotation
     if shape is not None and shift is not None and rotation is not None:
         rise = np.tan(rotation) * sheet_width
-        lines.append(
-            f"{shape:.2f} mm RMS of that is shape: it stays when all marks together are shifted\n"
+        said.append(
+            f"{shape:.2f} mm RMS of that is shape: it stays when all marks together are shifted "
             f"(x {shift[0]:+.2f}, y {shift[1]:+.2f} mm) and turned "
             f"({rise:+.2f} mm over the sheet's width)."
         )
     if comparison.distance_rms is not None:
-        lines.append(f"The distances between marks are {comparison.distance_rms:.2f} mm RMS off.")
-    return "\n".join(lines)
+        said.append(f"The distances between marks are {comparison.distance_rms:.2f} mm RMS off.")
+    return sentences(said, mark="")
 
 
 def _rounds_table(comparison: Comparison) -> str:

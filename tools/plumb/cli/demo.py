@@ -9,10 +9,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from plumb.cli.add import panels_of, toml_of
-from plumb.cli.add_text import turn_sentence
+from plumb.cli.add_text import COLUMNS, turn_sentence
 from plumb.cli.ending import ended
 from plumb.cli.parser import Parser
-from plumb.cli.text import millimetres, sentences, table
+from plumb.cli.screen import sentences, table
+from plumb.cli.text import millimetres
 from plumb.cure.demo import GOAL, MARKS, SETTINGS, Demonstration, demonstrate
 from plumb.firmware.client_files import client_files
 from plumb.pictures.sheet import draw
@@ -82,12 +83,13 @@ def as_text(demonstration: Demonstration) -> str:
     effects = ", ".join(chosen.effects_added)
     return "\n\n".join(
         [
-            "Nine marks of a real machine (published by mibproj.info in May 2020; see "
-            f"tools/plumb/\nexamples/{MARKS.parent.name}/SOURCE.md). Each row adds an effect. "
-            "Errors in mm.",
+            _paragraph(
+                "Nine marks of a real machine (published by mibproj.info in May 2020; see "
+                f"tools/plumb/examples/{MARKS.parent.name}/SOURCE.md). Each row adds an effect. "
+                "Errors in mm."
+            ),
             _steps_table(demonstration),
-            "Priced: scaled up for the numbers the fit took from the data. Left out: each mark "
-            "predicted\nby a fit that did not see it. An effect is kept if both fall.",
+            _paragraph(f"{COLUMNS} An effect is kept if both fall."),
             f"Kept: {effects}.",
             _parameters(demonstration),
             "What is doubtful:",
@@ -98,17 +100,25 @@ def as_text(demonstration: Demonstration) -> str:
     )
 
 
+def _paragraph(text: str) -> str:
+    return sentences([text], mark="")
+
+
 def _steps_table(demonstration: Demonstration) -> str:
     raw = demonstration.chosen.raw
     rows = [
-        ["as the settings are", *map(millimetres, (raw.rms, None, None, raw.worst)), "start"],
+        [
+            "raw: the settings as they are",
+            *map(millimetres, (raw.rms, None, None, raw.worst)),
+            "start",
+        ],
         ["  best shift and turn", *map(millimetres, (raw.shape_rms, None, None, None)), ""],
     ]
     for step in demonstration.steps:
         quality = step.quality
         values = (quality.fit_rms, quality.priced_rms, quality.left_out_rms, quality.worst)
         rows.append([step.name, *map(millimetres, values), "kept" if step.kept else "NOT kept"])
-    return table(["", "RMS", "priced", "left out", "worst", ""], rows)
+    return table(["error in mm", "RMS", "counted", "checked", "worst", ""], rows)
 
 
 def _parameters(demonstration: Demonstration) -> str:
@@ -133,8 +143,8 @@ def _doubts(demonstration: Demonstration) -> list[str]:
         "defaults stand for them (no sag correction, no chain tolerance).",
         "The sign of y is doubtful: the source's words and its numbers disagree. Assumed here: the "
         "numbers as the page says to read them, from the top edge down. With the other sign the "
-        f"same effects end at {flipped.after.fit_rms:.2f} mm RMS (priced "
-        f"{flipped.after.priced_rms:.2f}, left out {flipped.after.left_out_rms:.2f}), "
+        f"same effects end at {flipped.after.fit_rms:.2f} mm RMS (counted "
+        f"{flipped.after.priced_rms:.2f}, checked {flipped.after.left_out_rms:.2f}), "
         f"{_impossible_pitch(demonstration)}",
     ]
     sag = next((p for p in chosen.parameters if p.name == "chain_sag.weight_ratio_squared"), None)

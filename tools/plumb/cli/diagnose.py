@@ -9,13 +9,15 @@ from typing import Any
 
 from plumb.cli.checked import usable_checks
 from plumb.cli.files import inputs_of
-from plumb.cli.text import millimetres, number, print_json, sentences, table
+from plumb.cli.screen import sentences, table
+from plumb.cli.text import millimetres, print_json
 from plumb.cure.add import priors_with
 from plumb.diagnose import Diagnosis, diagnose
 from plumb.diagnose.answer import Ranked, Together
 from plumb.diagnose.sentence import SHOWN, verdict_sentence
 from plumb.diagnose.sizes import Size
 from plumb.model.catalogue import every_effect, label, place_of
+from plumb.model.plain import named, noun_of, nouns_of, plain_size
 from plumb.plan import Proposal, propose
 
 BAD_NEWS = ("slip", "not_in_library")
@@ -192,28 +194,20 @@ def _unknown_advice(diagnosis: Diagnosis) -> list[str]:
 def _explanation_table(diagnosis: Diagnosis) -> str:
     rows: list[list[str]] = []
     for explanation in diagnosis.explanations[:SHOWN]:
-        rows += [["or"] + [""] * 5] if rows else []
+        rows += [["or", "", ""]] if rows else []
         for name in explanation.effects:
             rows += _size_rows(explanation, name)
-    header = ["suspect", "size", "interval", "unit", "error falls to", ""]
-    return table(header, rows)
+    return table(["suspect, with its 95 % interval", "error falls to", ""], rows, words=[-1])
 
 
 def _size_rows(explanation: Together, name: str) -> list[list[str]]:
-    rows = []
-    for i, size in enumerate(explanation.sizes[name]):
-        first = i == 0 and name == explanation.effects[0]
-        interval = "-" if size.low is None else f"{number(size.low)} .. {number(size.high)}"
-        rows.append(
-            [
-                f"{'' if name == explanation.effects[0] else '+ '}{name}.{size.name}",
-                number(size.value),
-                interval,
-                size.unit,
-                f"{millimetres(explanation.rms_after)} mm" if first else "",
-                "" if size.plausible else "impossible: something else looks like it",
-            ]
-        )
+    first = name == explanation.effects[0]
+    falls_to = f"{millimetres(explanation.rms_after)} mm" if first else ""
+    rows = [[f"{'' if first else '+ '}{named(name)}", falls_to, ""]]
+    for size in explanation.sizes[name]:
+        said = plain_size(f"{name}.{size.name}", size.value, size.low, size.high)
+        impossible = "" if size.plausible else "impossible: something else looks like it"
+        rows.append([f"  {said}", "", impossible])
     return rows
 
 
@@ -223,9 +217,9 @@ def _reasons(diagnosis: Diagnosis) -> str:
     for (i, j), apart in sorted(diagnosis.differences.items(), key=itemgetter(1)):
         if j >= SHOWN or len(said) == 3:
             continue
-        names = [" + ".join(diagnosis.explanations[k].effects) for k in (i, j)]
+        nouns = [nouns_of(diagnosis.explanations[k].effects) for k in (i, j)]
         said.append(
-            f"{names[0]} and {names[1]} draw nearly the same arrows on these marks: they differ by "
+            f"{nouns[0]} and {nouns[1]} draw nearly the same arrows on these marks: they differ by "
             f"{apart:.2f} mm RMS, the noise is {diagnosis.noise.sigma:.2f} mm"
         )
     return sentences(said)
@@ -242,7 +236,8 @@ def _remedies(diagnosis: Diagnosis) -> str:
 
 def _noise_sentence(diagnosis: Diagnosis) -> str:
     noise = diagnosis.noise
-    return f"Noise of a reading: {noise.sigma:.2f} mm ({noise.origin}). Intervals: 95 %."
+    said = f"Noise of a reading: {noise.sigma:.2f} mm ({noise.origin}). Intervals: 95 %."
+    return sentences([said], mark="")
 
 
 def _hiding(diagnosis: Diagnosis) -> str:
@@ -254,10 +249,9 @@ def _hiding(diagnosis: Diagnosis) -> str:
     shares = {ranked.effect: ranked.hidden_share for ranked in diagnosis.ranking}
     rows = [
         [
-            hidden.effect,
+            noun_of(hidden.effect),
             f"{millimetres(hidden.mm, 1)} mm",
             percent_of(shares[hidden.effect]),
-            ", ".join(_limit(name, largest, unit) for name, largest, unit in hidden.limits),
         ]
         for hidden in hiding[:SHOWN]
         if hidden.mm
@@ -265,17 +259,13 @@ def _hiding(diagnosis: Diagnosis) -> str:
     blind = [hidden.effect for hidden in unproved if hidden.mm is None]
     parts = []
     if rows:
-        header = ["could still hide", "up to", "in the frame", "each at most"]
+        header = ["could still hide", "up to", "in the frame"]
         parts.append(table(header, rows))
     if blind:
-        parts.append(sentences([f"these marks say nothing of {', '.join(blind)}"]))
+        parts.append(sentences([f"these marks say nothing of {nouns_of(blind)}"]))
     return "\n".join(parts)
 
 
 def percent_of(share: float | None) -> str:
     """A share for people; a dash where there is none."""
     return "-" if share is None else f"{100 * share:.0f} %"
-
-
-def _limit(name: str, largest: float | None, unit: str) -> str:
-    return f"{name} {number(largest)} {unit}".removesuffix(" 1") if largest is not None else name

@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 from collections import Counter
 
-from plumb.cli.text import number, print_json, sentences, table
+from plumb.cli.screen import sentences, table
+from plumb.cli.text import number, print_json
 from plumb.model.catalogue import NO_FIRMWARE, empirical_effects, every_effect, label
 
 
@@ -16,12 +17,16 @@ def run(arguments: argparse.Namespace) -> int:
         print_json({"effects": effects})
         return 0
     count = Counter(effect["where"] for effect in effects)
-    print(
-        f"{count['firmware']} effects can be added to the machine, in the order they are applied;"
+    first = (
+        f"{count['firmware']} effects can be added to the machine, in the order they are applied; "
+        f"then {count['lab']} of the lab, which act on what is measured: {NO_FIRMWARE}."
     )
-    print(f"then {count['lab']} of the lab, which act on what is measured: {NO_FIRMWARE}.")
+    print(sentences([first], mark=""))
     if count["sketch"]:
-        print(f"Last, sketches ({count['sketch']}), which no firmware has until they are in C++.")
+        sketches = (
+            f"Last, sketches ({count['sketch']}), which no firmware has until they are in C++."
+        )
+        print(sentences([sketches], mark=""))
     for effect in effects:
         print(f"\n{label(effect['name'])}")
         for word, fact in (
@@ -43,7 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
         ]
         print(table(["  parameter", "usual", "possible", "unit", "setting"], rows))
     for patch in empirical_effects():
-        first, last = (patch["parameters"][i]["setting"] for i in (0, -1))
-        print(f"\n{patch['name']} (${first} to ${last}): no cause, and never a suspect (--patch)")
+        low, high = (patch["parameters"][i]["setting"] for i in (0, -1))
+        print(f"\n{patch['name']} (${low} to ${high}): no cause, and never a suspect (--patch)")
         print(sentences([patch["summary"], patch["remedy"]], mark="  "))
     return 0

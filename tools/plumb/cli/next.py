@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
-import time
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -19,7 +16,8 @@ from plumb.cli.files import (
     refuse_twins,
     write_outputs,
 )
-from plumb.cli.text import millimetres, number, print_json, sentences, table
+from plumb.cli.screen import bar, sentences, table
+from plumb.cli.text import millimetres, number, print_json
 from plumb.cure.add import priors_with
 from plumb.diagnose import Diagnosis, diagnose
 from plumb.diagnose.sentence import verdict_sentence
@@ -31,8 +29,6 @@ from plumb.plan.proposal import AGAIN, CONFIRM, EXPLORE, FIND, REREAD, SETTLE
 from plumb.text.errors import InputError
 
 SHOWN, SPOKEN = 8, 3  # proposals in the table, and in whole sentences; --json has all
-PATIENCE = 2.0  # seconds before a bar shows how far the work is
-BAR = 30  # [characters]
 HEADS = {
     SETTLE: "chance to settle",
     CONFIRM: "chance to confirm",
@@ -54,7 +50,7 @@ def run(arguments: argparse.Namespace) -> int:
         checked=usable_checks(arguments.checked, priors),
     )
     diagnosis = diagnose(inputs)
-    advice = propose(diagnosis, inputs, progress=progress_bar())
+    advice = propose(diagnosis, inputs, progress=bar("simulating"))
     files = _files(arguments, advice, inputs, form)
     read = [arguments.settings, *arguments.marks, *filter(None, [arguments.cut_with])]
     write_outputs(files, inputs=read)
@@ -63,26 +59,6 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         print(as_text(diagnosis, advice))
     return 0
-
-
-def progress_bar() -> Callable[[float], None]:
-    """Shows on standard error how far the work is, if it takes long and somebody looks."""
-    start = time.monotonic()
-    shown = False
-
-    def show(share: float) -> None:
-        nonlocal shown
-        if not sys.stderr.isatty() or not (shown or time.monotonic() - start > PATIENCE):
-            return
-        shown = True
-        done = round(BAR * share)
-        end = "\r" + " " * (BAR + 12) + "\r" if share >= 1 else ""
-        print(
-            f"\r[{'#' * done}{'.' * (BAR - done)}] {100 * share:3.0f} %", end=end, file=sys.stderr
-        )
-        sys.stderr.flush()
-
-    return show
 
 
 def _files(

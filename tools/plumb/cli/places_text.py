@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from plumb.cli.text import millimetres, table
+from plumb.cli.screen import table
+from plumb.cli.text import millimetres
 from plumb.model.predict import FOUND, FOUND_WORDS, Array, Codes
 
 Row = list[float] | None  # two numbers, or None where there is no answer

@@ -12,10 +12,12 @@ from plumb.cli.files import (
     settings_in,
     write_outputs,
 )
-from plumb.cli.text import millimetres, number, print_json, sentences, table
+from plumb.cli.screen import sentences, table
+from plumb.cli.text import millimetres, print_json
 from plumb.cure.add import priors_with
 from plumb.fit.problem import USUAL_SIGMA
 from plumb.marks.read import Mark, Measurements, read_plan
+from plumb.model.plain import plain_before
 from plumb.pictures.preview import draw_preview, shown
 from plumb.plan.preview import APART, POWER, Outline, Preview, preview
 from plumb.settings.machine import MachineSettings
@@ -152,15 +154,16 @@ def _outline_table(outlook: Preview) -> str:
         f"found from: the smallest size that is found in {100 * POWER:.0f} % of all cases, times "
         "the usual size"
     )
-    return table(header, rows, left=2) + "\n" + sentences([note], mark="")
+    return table(header, rows, left=2, words=[-2, -1]) + "\n" + sentences([note], mark="")
 
 
 def _smallest(outline: Outline) -> str:
     if outline.smallest is None:
         return "never"
-    first = outline.parameters[0]
-    size = f" ({number(first[1])} {first[2]})" if len(outline.parameters) == 1 else ""
-    return f"x {outline.smallest:.2g}{size}".replace(" 1)", ")")
+    name, smallest, _ = outline.parameters[0]
+    alone = len(outline.parameters) == 1 and smallest is not None
+    size = f" ({plain_before(f'{outline.effect}.{name}', smallest or 0.0)})" if alone else ""
+    return f"x {outline.smallest:.2g}{size}"
 
 
 def _cells(outlook: Preview) -> str:
@@ -169,7 +172,7 @@ def _cells(outlook: Preview) -> str:
         [str(i + 1), name, *(shown(float(value)) for value in outlook.matrix[i])]
         for i, name in enumerate(outlook.effects)
     ]
-    return table(header, rows, left=2)
+    return table(header, rows, left=2, gap=1)
 
 
 def _addition_table(outlook: Preview) -> str:

@@ -7,7 +7,8 @@ from typing import Any
 
 from plumb.cli.arguments.reach import OPTIONS
 from plumb.cli.files import picture_form, settings_in, write_outputs
-from plumb.cli.text import print_json, sentences, table
+from plumb.cli.screen import sentences, table
+from plumb.cli.text import print_json
 from plumb.model.predict import REACH_WORDS
 from plumb.model.reach import Extreme, Survey, percent, survey_sheet
 from plumb.pictures.reach import draw_map
@@ -80,7 +81,7 @@ def as_text(survey: Survey) -> str:
     edge = "+" + "-" * len(lines[0]) + "+"
     shares = survey.shares.values()
     legend = [
-        f"  {sign}  {percent(share):>6s}  {meaning}"
+        sentences([meaning], mark=f"  {sign}  {percent(share):>6s}  ")
         for sign, share, meaning in zip(SIGNS, shares, MEANING, strict=True)
         if share
     ]
@@ -116,4 +117,4 @@ def _worst(survey: Survey, tightest: Extreme, slackest: Extreme, softest: Extrem
     for row, extreme in zip(rows, (tightest, slackest, softest), strict=True):
         row += [f"{extreme.place[0]:.0f}, {extreme.place[1]:.0f}", extreme.side]
     rows[2][-1] = f"{CUT:g} N move it {CUT * softest.value:.1f} mm"
-    return table(["", "", "limit", "at x, y", ""], rows)
+    return table(["", "", "limit", "at x, y", ""], rows, words=[-1])

@@ -6,7 +6,8 @@ import argparse
 
 from plumb.cli.client import client_files_of, client_text, typed_json
 from plumb.cli.files import settings_in, write_outputs
-from plumb.cli.text import print_json, table
+from plumb.cli.screen import table
+from plumb.cli.text import print_json
 from plumb.firmware.client_files import gcode
 from plumb.firmware.numbers import Number, firmware_numbers
 from plumb.text.errors import InputError, refusal
@@ -56,4 +57,4 @@ def _refuse_lines_alone(arguments: argparse.Namespace) -> None:
 
 def _table(numbers: tuple[Number, ...]) -> str:
     rows = [[f"${row.number}", row.name, row.text, row.unit] for row in numbers]
-    return table(["number", "name", "value", "unit"], rows) + "\n"
+    return table(["number", "name", "value", "unit"], rows, left=2, words=[-1]) + "\n"

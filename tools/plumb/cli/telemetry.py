@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 from dataclasses import asdict
 
-from plumb.cli.text import print_json, sentences, table
+from plumb.cli.screen import sentences, table
+from plumb.cli.text import print_json
 from plumb.firmware.telemetry import EVENTS, Telemetry, latest, warnings
 from plumb.text.files import read_text
 
@@ -51,7 +52,7 @@ def run(arguments: argparse.Namespace) -> int:
         ["went wrong so far", history(telemetry)],
         ["the last of it", last_event(telemetry)],
     ]
-    print(table(["what", "measured"], rows))
+    print(table(["what", "measured"], rows, words=[-1]))
     print()
     print(sentences(said or ["All is well."]))
     return int(bool(said))

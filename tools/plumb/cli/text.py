@@ -1,16 +1,13 @@
-"""What the commands print: a JSON object, or aligned tables."""
+"""What the commands print: a JSON object, and numbers for people."""
 
 from __future__ import annotations
 
 import json
 import math
-import textwrap
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-
-WIDTH = 96  # [characters] of wrapped sentences
 
 
 def print_json(answer: Mapping[str, Any]) -> None:
@@ -31,28 +28,6 @@ def plain(value: Any) -> Any:
     if isinstance(value, float) and not math.isfinite(value):
         return None
     return value
-
-
-def table(header: Sequence[str], rows: Sequence[Sequence[str]], *, left: int = 1) -> str:
-    """Aligned columns; the first `left` of them to the left, numbers to the right."""
-    grid = [list(header), *(list(row) for row in rows)]
-    widths = [max(len(row[i]) for row in grid) for i in range(len(header))]
-    lines = []
-    for row in grid:
-        cells = [
-            cell.ljust(width) if i < left else cell.rjust(width)
-            for i, (cell, width) in enumerate(zip(row, widths, strict=True))
-        ]
-        lines.append("  ".join(cells).rstrip())
-    return "\n".join(lines)
-
-
-def sentences(lines: Sequence[str], *, mark: str = "- ") -> str:
-    """Sentences below each other, long ones wrapped."""
-    return "\n".join(
-        textwrap.fill(line, WIDTH, initial_indent=mark, subsequent_indent=" " * len(mark))
-        for line in lines
-    )
 
 
 def millimetres(value: float | None, digits: int = 2) -> str:

@@ -33,6 +33,7 @@ from plumb.model.catalogue import (
 )
 from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.lab_effects.lab_effect import EDGES, SLED, TAPE
+from plumb.model.plain import named, plain_name, plain_range, plain_size
 from plumb.model.predict import frame_words
 from plumb.model.sketches import SKETCHES
 from plumb.settings.machine import FRAME_FIELDS, MachineSettings
@@ -287,12 +288,12 @@ def _cure(name: str, parameters: Mapping[str, float]) -> str:
     """What to do about a lab effect or sketch that was fitted."""
     effect = next(each for each in (*LAB_EFFECTS, *SKETCHES) if each.name == name)
     sizes = ", ".join(
-        f"{parameter.name} = {parameters[parameter.name]:.3g} {parameter.unit}".removesuffix(" 1")
+        plain_size(f"{name}.{parameter.name}", parameters[parameter.name])
         for parameter in effect.parameters
     )
     if is_sketch(name):
-        return f"{name} ({sizes}): a sketch, which no firmware has until it is written in C++"
-    return f"{name} ({sizes}): {NO_FIRMWARE}, and no setting holds it: {effect.remedy}"
+        return f"{sizes} ({name}): a sketch, which no firmware has until it is written in C++"
+    return f"{sizes} ({name}): {NO_FIRMWARE}, and no setting holds it: {effect.remedy}"
 
 
 def _parameter(estimate: Estimate) -> Parameter:
@@ -328,8 +329,8 @@ def _surprises(parameters: Sequence[Parameter]) -> list[str]:
         trusted = parameter.prior_sigma
         if trusted and not parameter.of_patch and abs(moved) > FAR * trusted:
             said.append(
-                f"{parameter.name} moved by {moved:+.3g} {parameter.unit} from the stated "
-                f"{parameter.before:g}, more than twice the {trusted:g} it was trusted to: measure "
+                f"{plain_name(parameter.name)} moved by {moved:+.3g} {parameter.unit} from the "
+                f"stated {parameter.before:g}, more than twice the {trusted:g} it was trusted to: measure "
                 "it again"
             )
     return said
@@ -342,18 +343,18 @@ def _may_be_zero(parameter: Parameter) -> bool:
 
 
 def _zero_sentence(parameter: Parameter) -> str:
-    size = f" ({parameter.value:.3g} {parameter.unit} is impossible)"
-    impossible = "" if parameter.plausible else size
-    return f"{parameter.name}{impossible} may as well be zero: its interval contains it"
+    impossible = "" if parameter.plausible else ", which is impossible,"
+    size = plain_size(parameter.name, parameter.value)
+    return f"{size}{impossible} may as well be zero: its interval contains it"
 
 
 def _impossible(parameter: Parameter) -> str:
     plausible = parameter.plausible_range
     near = "comes near" if parameter.possible else "does not come near"
     return (
-        f"{parameter.name} = {parameter.value:.3g} {parameter.unit} is impossible for a real "
-        f"machine, which has {plausible.low:g} to {plausible.high:g} (the interval {near}): it "
-        "takes the place of another cause; check which settings were in force and the signs of "
+        f"{plain_size(parameter.name, parameter.value)}: that is impossible for a real machine, "
+        f"which has {plain_range(parameter.name, plausible.low, plausible.high)} (the interval "
+        f"{near}); it takes the place of another cause; check which settings were in force and the signs of "
         "the marks"
     )
 
@@ -374,11 +375,11 @@ def _bad_bargains(before: Quality, after: Quality, steps: Sequence[Step]) -> lis
     """Sentences about effects that serve the fit alone."""
     if after.fit_rms < before.fit_rms and after.left_out_rms > before.left_out_rms:
         return [
-            f"the fit got better but the left-out error rose from {before.left_out_rms:.2f} to "
+            f"the fit got better but, checked on marks not used, the error rose from {before.left_out_rms:.2f} to "
             f"{after.left_out_rms:.2f} mm: the effects follow the noise, do not keep them"
         ]
     return [
-        f"with {step.effect} only the fit got better; marks left out of it are predicted worse "
+        f"with {named(step.effect)} only the fit got better; marks not used are predicted worse "
         f"({step.quality.left_out_rms:.2f} mm): it may follow the noise"
         for step in steps
         if step.only_fit

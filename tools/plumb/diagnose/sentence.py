@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from plumb.diagnose.answer import Diagnosis
+from plumb.model.plain import nouns_of
 
 SHOWN = 8  # explanations that a sentence names; a Diagnosis holds all
 
@@ -81,7 +82,8 @@ def _error_left(diagnosis: Diagnosis) -> str:
 
 def _suspects(diagnosis: Diagnosis) -> str:
     shown = diagnosis.explanations[:SHOWN]
-    return ", ".join(" + ".join(explanation.effects) for explanation in shown)
+    *others, last = [nouns_of(explanation.effects) for explanation in shown]
+    return f"{'; '.join(others)}; or {last}" if others else last
 
 
 _SENTENCES = {

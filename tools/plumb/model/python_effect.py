@@ -8,7 +8,28 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 if TYPE_CHECKING:
-    from plumb._core import CheckWords, EffectWords, ExampleWords, ParameterWords
+    from plumb._core import CheckWords, EffectWords, ExampleWords, ParameterWords, PlainWords
+
+
+@dataclass(frozen=True)
+class Plain:
+    """The size of a parameter in a maker's words: # in the words is the size with its unit."""
+
+    more: str  # above zero
+    less: str  # below zero; empty: the words above, and a minus
+    unit: str
+    times: float = 1.0  # the size shown is this times the parameter
+
+    @property
+    def words(self) -> PlainWords:
+        """The words in the form of the firmware's library."""
+        return {
+            "more": self.more,
+            "less": self.less,
+            "unit": self.unit,
+            "times": self.times,
+            "shown": "as is",
+        }
 
 
 @dataclass(frozen=True)
@@ -22,6 +43,7 @@ class PythonParameter:
     typical: float  # size met in real workshops
     summary: str
     sigma: float = 0.0  # accuracy of the direct check; 0: no check reads it
+    plain: Plain | None = None  # None: its name has to do
 
     @property
     def words(self) -> ParameterWords:
@@ -35,6 +57,7 @@ class PythonParameter:
             "typical": self.typical,
             "summary": self.summary,
             "sigma": self.sigma,
+            "plain": self.plain.words if self.plain else None,
             "published": None,
         }
 
@@ -90,6 +113,7 @@ class PythonEffect:
     remedy: str  # how to tell it apart or cure it
     parameters: tuple[PythonParameter, ...]
     check: DirectCheck | None = None
+    noun: str = ""  # the effect in a maker's words; empty: its name has to do
     examples: tuple[Example, ...] = ()
 
     @property
@@ -102,6 +126,7 @@ class PythonEffect:
         """The effect in the form of the firmware's library, with its place."""
         return {
             "name": self.name,
+            "noun": self.noun or self.name,
             "where": self.where,
             "summary": self.summary,
             "pattern": self.pattern,

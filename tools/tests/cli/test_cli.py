@@ -8,7 +8,8 @@ import numpy as np
 import plumb.grid as grids
 import pytest
 from plumb.cli.main import main
-from plumb.cli.text import plain, table
+from plumb.cli.screen import table
+from plumb.cli.text import plain
 from plumb.cure.demo import MARKS, SETTINGS
 from plumb.marks.read import read_marks
 from plumb.model.catalogue import effect_names

@@ -14,7 +14,7 @@ FOLDER = Path(main.__file__).parent
 # Files of the room that are no commands.
 SHARED = {
     *("__init__", "add_text", "checked", "client", "demo", "ending", "files", "main", "parser"),
-    *("places_text", "text"),
+    *("places_text", "screen", "text"),
 }
 SHARED_ARGUMENTS = {"__init__", "checked", "client", "shared"}
 # What takes longer to load than a command needs to refuse a wrong word.

@@ -86,7 +86,7 @@ def test_a_lab_effect_is_told_with_its_cure_and_pays():
     assert len(result.cures) == 1
     for said in (result.cures[0], as_text(result), toml_of(result, source="marks.toml").decode()):
         said = " ".join(said.replace("#", " ").split())
-        assert "tape_scale (strain = " in said and "no firmware can cure this" in said
+        assert "% too long (tape_scale): " in said and "no firmware can cure this" in said
         assert "a length that you trust" in said
     answer = as_json(result)
     assert set(answer["lab_effects"]) == {"tape_scale"} and "tape_scale" not in answer["effects"]

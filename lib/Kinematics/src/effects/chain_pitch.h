@@ -27,6 +27,11 @@ struct ChainPitch : Effect<Real> {
       return {"left", "1", -0.001, 0.006, 0.001, "strain of the left chain", 0.0003};
     return {"right", "1", -0.001, 0.006, 0.001, "strain of the right chain", 0.0003};
   }
+  static const char* noun() { return "chains too long or too short"; }
+  static PlainInfo plain(uint8_t i) {
+    if (i == kLeftStrain) return {"left chain # too long", "left chain # too short", "%", 100};
+    return {"right chain # too long", "right chain # too short", "%", 100};
+  }
 
   static CheckInfo check() {
     return {"100 links of each chain",

@@ -29,6 +29,10 @@ struct ChainPlane : Effect<Real> {
             "square of the difference in distance from the sheet, sprockets against ring",
             250};
   }
+  static const char* noun() { return "chains that are not parallel to the sheet"; }
+  static PlainInfo plain(uint8_t) {
+    return {"sprockets and ring differ by # in their distance from the sheet", "", "mm", 1, kRoot};
+  }
 
   static CheckInfo check() {
     return {"a ruler at sprocket and ring",

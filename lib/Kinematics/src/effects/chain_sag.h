@@ -43,6 +43,10 @@ struct ChainSag : Effect<Real> {
             "(chain weight per mm / sled weight)^2 / 24; 1e12 times it is chainSagCorrection",
             4e-13};
   }
+  static const char* noun() { return "chain sag"; }
+  static PlainInfo plain(uint8_t) {
+    return {"chains sag # the usual amount", "", "times", 1 / 8.2e-12};
+  }
 
   static CheckInfo check() {
     return {"sled and chain on a scale",

@@ -27,6 +27,11 @@ struct ChainStretch : Effect<Real> {
   static ParamInfo param(uint8_t) {
     return {"compliance", "1/N", 0, 2e-5, 5.2e-6, "strain per newton of tension", 7e-7};
   }
+  static const char* noun() { return "chain stretch"; }
+  static PlainInfo plain(uint8_t) {
+    return {"chains # longer for each metre at 100 N", "chains # shorter for each metre at 100 N",
+            "mm", 1e5};
+  }
 
   static CheckInfo check() {
     return {"a weight on a measured chain",

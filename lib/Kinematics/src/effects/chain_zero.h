@@ -26,6 +26,12 @@ struct ChainZero : Effect<Real> {
     if (i == kLeftOut) return {"left", "mm", -30, 30, 2, "left chain out at 12 o'clock", 1};
     return {"right", "mm", -30, 30, 2, "right chain out at 12 o'clock", 1};
   }
+  static const char* noun() { return "chains that were not zeroed right"; }
+  static PlainInfo plain(uint8_t i) {
+    if (i == kLeftOut)
+      return {"left chain out # too far at zero", "left chain out # too little at zero", "mm"};
+    return {"right chain out # too far at zero", "right chain out # too little at zero", "mm"};
+  }
 
   static CheckInfo check() {
     return {"both chains at 12 o'clock",

@@ -32,6 +32,13 @@ struct FrameFlex : Effect<Real> {
               0.002};
     return {"downward", "mm/N", 0, 0.08, 0.02, "each motor, per vertical pull of its chain", 0.002};
   }
+  static const char* noun() { return "motor arms that bend"; }
+  static PlainInfo plain(uint8_t i) {
+    if (i == kInward)
+      return {"each motor comes inward by # at 100 N", "each motor goes outward by # at 100 N",
+              "mm", 100};
+    return {"each motor sinks by # at 100 N", "each motor rises by # at 100 N", "mm", 100};
+  }
 
   static CheckInfo check() {
     return {"a gauge at the motor arms",

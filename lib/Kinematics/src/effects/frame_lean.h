@@ -31,6 +31,10 @@ struct FrameLean : Effect<Real> {
             "square of the tangent of the frame's angle from the vertical",
             0.005};
   }
+  static const char* noun() { return "a leaning frame"; }
+  static PlainInfo plain(uint8_t) {
+    return {"frame leans # from the vertical", "", "degrees", 1, kAngle};
+  }
 
   static CheckInfo check() {
     return {"the angle of the frame",

@@ -24,6 +24,8 @@ struct MotorLevel : Effect<Real> {
   static ParamInfo param(uint8_t) {
     return {"height_difference", "mm", -30, 30, 4, "right sprocket above the left one", 1};
   }
+  static const char* noun() { return "motors that are not level"; }
+  static PlainInfo plain(uint8_t) { return {"right motor # higher", "right motor # lower", "mm"}; }
 
   static CheckInfo check() {
     return {"a level over the motors",

@@ -37,6 +37,12 @@ struct SledSwing : Effect<Real> {
     if (i == kBitRight) return {"right", "mm", -10, 10, 2, "bit right of the ring's centre", 0.3};
     return {"up", "mm", -10, 10, 2, "bit above the ring's centre", 0.3};
   }
+  static const char* noun() { return "a bit off the ring's centre"; }
+  static PlainInfo plain(uint8_t i) {
+    if (i == kBitRight)
+      return {"bit # right of the ring's centre", "bit # left of the ring's centre", "mm"};
+    return {"bit # above the ring's centre", "bit # below the ring's centre", "mm"};
+  }
 
   static CheckInfo check() {
     return {"the sled turned on its ring",

@@ -40,6 +40,13 @@ struct SprocketRunout : Effect<Real> {
             0.5,       0.1,  "amplitude of the length error, by the turn of the sprocket",
             0};
   }
+  static const char* noun() { return "sprockets off their middle"; }
+  static PlainInfo plain(uint8_t i) {
+    if (i == kLeftSine) return {"left sprocket # off its middle (sine)", "", "mm"};
+    if (i == kLeftCosine) return {"left sprocket # off its middle (cosine)", "", "mm"};
+    if (i == kRightSine) return {"right sprocket # off its middle (sine)", "", "mm"};
+    return {"right sprocket # off its middle (cosine)", "", "mm"};
+  }
 
   /// None: few have ever read the phase of a runout right from a dial.
   static CheckInfo check() { return {"", "", "", 0}; }

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from plumb.model.lab_effects.lab_effect import EDGES, Array, Change, LabEffect, LabParameter, Seen
-from plumb.model.python_effect import DirectCheck, Example
+from plumb.model.python_effect import DirectCheck, Example, Plain
 
 
 def change(parameters: Array, seen: Seen) -> Change:
@@ -25,6 +25,7 @@ def change(parameters: Array, seen: Seen) -> Change:
 
 EFFECT = LabEffect(
     name="sheet_skew",
+    noun="sheet edges that are not square",
     summary="the edges from which marks are measured are not square to each other",
     pattern="the top row lies to one side of the bottom row; each row by itself is right",
     look_alikes="sled_swing, sheet_rotation in part",
@@ -40,6 +41,7 @@ EFFECT = LabEffect(
             0.001,
             "by which the reading x grows for each mm up",
             0.0005,
+            Plain("sheet edges # out of square for each metre", "", "mm", 1000.0),
         ),
     ),
     check=DirectCheck(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from plumb.model.lab_effects.lab_effect import SLED, Array, Change, LabEffect, LabParameter, Seen
-from plumb.model.python_effect import Example
+from plumb.model.python_effect import Example, Plain
 
 
 def change(parameters: Array, seen: Seen) -> Change:
@@ -25,6 +25,7 @@ def change(parameters: Array, seen: Seen) -> Change:
 
 EFFECT = LabEffect(
     name="sled_friction",
+    noun="a sled that rubs",
     summary="the sled rubs on the sheet and stops short of where it would hang freely",
     pattern="marks lag behind their approach: millimetres in the lower corners, little elsewhere",
     look_alikes="chain_sag, frame_lean, noise if the approaches differ",
@@ -33,7 +34,15 @@ EFFECT = LabEffect(
     needs="marks with an approach",
     acts_on=SLED,
     parameters=(
-        LabParameter("drag", "N", 0.0, 40.0, 6.0, "force of friction against the last motion"),
+        LabParameter(
+            "drag",
+            "N",
+            0.0,
+            40.0,
+            6.0,
+            "force of friction against the last motion",
+            plain=Plain("sled held back by #", "", "N"),
+        ),
     ),
     hidden_as="drag",
     examples=(Example("drag", {"drag": 6.0}, most=20.0),),

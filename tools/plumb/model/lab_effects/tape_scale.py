@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from plumb.model.lab_effects.lab_effect import TAPE, Array, Change, LabEffect, LabParameter, Seen
-from plumb.model.python_effect import DirectCheck, Example
+from plumb.model.python_effect import DirectCheck, Example, Plain
 
 
 def change(parameters: Array, seen: Seen) -> Change:
@@ -20,6 +20,7 @@ def change(parameters: Array, seen: Seen) -> Change:
 
 EFFECT = LabEffect(
     name="tape_scale",
+    noun="a tape that reads wrong",
     summary="the tape reads too long (positive) or too short, by the same share everywhere",
     pattern="all marks lie farther from the middle, in x and y alike, by the same share",
     look_alikes="chain_pitch of both chains, sled_swing, frame_flex",
@@ -28,7 +29,14 @@ EFFECT = LabEffect(
     acts_on=TAPE,
     parameters=(
         LabParameter(
-            "strain", "1", -0.003, 0.003, 0.0003, "share by which readings are too long", 0.0001
+            "strain",
+            "1",
+            -0.003,
+            0.003,
+            0.0003,
+            "share by which readings are too long",
+            0.0001,
+            Plain("tape reads # too long", "tape reads # too short", "%", 100.0),
         ),
     ),
     check=DirectCheck(

@@ -1,0 +1,118 @@
+"""Sizes and effects in a maker's words: `left chain 0.24 % too long (0.21 to 0.27)`.
+
+The words of an effect are its own (`plain` in its file); here they become sentences.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from plumb.model.catalogue import every_effect, parameter_words
+from plumb.model.predict import frame_words
+
+if TYPE_CHECKING:
+    from plumb._core import PlainWords
+
+# What the marks are measured from is no number of the machine, so its words are here.
+SHEET: dict[str, PlainWords] = {
+    "sheet_rotation": {
+        "more": "sheet turned by # for each metre",
+        "less": "",
+        "unit": "mm",
+        "times": 1000.0,
+        "shown": "as is",
+    }
+}
+
+
+def plain_name(name: str) -> str:
+    """A number of the frame in a maker's words; `effect.parameter` stays as it is."""
+    return next((words["noun"] for words in frame_words() if words["name"] == name), name)
+
+
+def noun_of(effect: str) -> str:
+    """The effect in a maker's words, like `chain sag`."""
+    return next((words["noun"] for words in every_effect() if words["name"] == effect), effect)
+
+
+def named(effect: str) -> str:
+    """The effect in a maker's words, with the name that commands take."""
+    noun = noun_of(effect)
+    return noun if noun == effect else f"{noun} ({effect})"
+
+
+def nouns_of(effects: list[str] | tuple[str, ...], *, last: str = "and") -> str:
+    """Several effects in a maker's words, with their names."""
+    *others, final = [named(effect) for effect in effects]
+    return f"{', '.join(others)} {last} {final}" if others else final
+
+
+def plain_size(name: str, value: float, low: float | None = None, high: float | None = None) -> str:
+    """A parameter of an effect with its size and, in brackets, its interval."""
+    words = words_of(name)
+    below = value < 0 and bool(words["less"])
+    sign = -1.0 if below else 1.0
+    shown, *ends = [
+        shown_size(words, sign * number)
+        for number in (value, *((low, high) if low is not None and high is not None else ()))
+    ]
+    digits = digits_for(shown, ends)
+    said = (words["less"] if below else words["more"]).replace(
+        "#", f"{_rounded(shown, digits)} {words['unit']}"
+    )
+    if not ends:
+        return said
+    least, most = (_rounded(end, digits) for end in sorted(ends))
+    return f"{said} ({least} to {most})"
+
+
+def plain_before(name: str, value: float) -> str:
+    """A size as it was before, in the unit of its words."""
+    words = words_of(name)
+    shown = shown_size(words, value)
+    return f"{_rounded(shown, digits_for(shown, []))} {words['unit']}" if shown else "0"
+
+
+def plain_range(name: str, low: float, high: float) -> str:
+    """From the smallest to the largest size that real machines have, in the unit of its words."""
+    words = words_of(name)
+    ends = sorted(shown_size(words, end) for end in (low, high))
+    digits = digits_for(max(map(abs, ends)), [])
+    return f"{_rounded(ends[0], digits)} to {_rounded(ends[1], digits)} {words['unit']}"
+
+
+def words_of(name: str) -> PlainWords:
+    """The words of `effect.parameter`; its name where it has none."""
+    if name in SHEET:
+        return SHEET[name]
+    parameter = parameter_words().get(name)
+    if parameter and parameter["plain"]:
+        return parameter["plain"]
+    frame = {words["name"]: words for words in frame_words()}
+    if name in frame:
+        noun, unit = frame[name]["noun"], frame[name]["unit"]
+    else:
+        noun, unit = name, parameter["unit"] if parameter else ""
+    return {"more": f"{noun} #", "less": "", "unit": unit, "times": 1.0, "shown": "as is"}
+
+
+def shown_size(words: PlainWords, value: float) -> float:
+    """The size as it is shown, in the unit of its words; the sign stays."""
+    scaled = value * words["times"]
+    if words["shown"] == "as is":
+        return scaled
+    root = math.copysign(math.sqrt(abs(scaled)), scaled)
+    return root if words["shown"] == "root" else math.degrees(math.atan(root))
+
+
+def digits_for(shown: float, ends: list[float]) -> int:
+    """Decimals that are worth showing: two figures of the interval's half, three of the size."""
+    scale = abs(ends[1] - ends[0]) / 2 / 3 if ends else abs(shown) / 100
+    if scale <= 0 or not math.isfinite(scale):
+        return 2
+    return max(0, min(6, -math.floor(math.log10(scale))))
+
+
+def _rounded(value: float, digits: int) -> str:
+    return f"{round(value, digits) + 0.0:.{digits}f}"

@@ -1,0 +1,111 @@
+"""What people see fits into 80 columns, loses nothing, and has colour only on a screen."""
+
+import re
+from pathlib import Path
+
+import pytest
+from plumb.cli import screen
+from plumb.cli.screen import Bar, headline, sentences, table
+
+EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
+INI, MARKS = EXAMPLE / "groundcontrol.ini", EXAMPLE / "marks.toml"
+COLOUR = re.compile(r"\x1b\[[0-9;]*3[0-9]")
+LONG = "a sentence of words that go on and on " * 4
+
+
+@pytest.fixture(autouse=True)
+def _no_screen(monkeypatch):
+    for name in ("COLUMNS", "NO_COLOR", "FORCE_COLOR"):
+        monkeypatch.delenv(name, raising=False)
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("grid", "--preview"),
+        ("preview", INI),
+        ("compare", INI, MARKS),
+        ("diagnose", INI, MARKS),
+        ("next", INI, MARKS),
+        ("add", INI, MARKS, "--effect", "auto", "--patch"),
+        ("add", INI, MARKS, "--effect", "sprocket_runout", "frame_flex"),
+        ("effects",),
+        ("telemetry", EXAMPLE / "client.log"),
+        ("bench", "--scenario", "one-9", "--boards", "1"),
+        ("inverse", INI, "--points", EXAMPLE / "places.csv"),
+        ("forward", INI, "--lengths", EXAMPLE / "lengths.csv"),
+        ("settings", EXAMPLE / "machine.toml"),
+        ("reach", EXAMPLE / "machine.toml"),
+    ],
+    ids=lambda command: command[0],
+)
+def test_no_line_is_longer_than_80_columns(command, run):
+    code, said, complaint = run(*command)
+    assert code < 2 and complaint == ""
+    assert max(map(len, said.splitlines())) <= 80, said
+    assert "…" not in said and "\x1b" not in said
+
+
+def test_columns_of_words_wrap_and_numbers_stay_whole():
+    rows = [["first", "1234.5678", LONG], ["second", "-1.0", "short"]]
+    lines = table(["name", "number", "words"], rows, words=[-1]).splitlines()
+    assert max(map(len, lines)) <= 80 and len(lines) == 5
+    assert "first   1234.5678  a sentence" in lines[1] and "second       -1.0  short" in lines[-1]
+    assert " ".join(" ".join(lines).split()).count("on and on") == 4
+
+
+def test_a_table_too_wide_for_the_screen_loses_nothing(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "20")
+    numbers = [f"{number}.123456" for number in range(9)]
+    said = table([f"n{number}" for number in range(9)], [numbers], left=0)
+    assert all(number in said for number in numbers)
+
+
+def test_a_narrow_screen_is_kept_and_a_wide_one_is_not_filled(monkeypatch):
+    for columns, widest in (("50", 50), ("200", 80)):
+        monkeypatch.setenv("COLUMNS", columns)
+        assert widest - 10 < max(map(len, sentences([LONG]).splitlines())) <= widest
+
+
+@pytest.mark.parametrize(
+    ("variables", "coloured"),
+    [({}, False), ({"FORCE_COLOR": "1"}, True), ({"FORCE_COLOR": "1", "NO_COLOR": "1"}, False)],
+)
+def test_colour_only_where_it_is_wanted(variables, coloured, monkeypatch):
+    monkeypatch.setenv("TERM", "xterm")
+    for name, value in variables.items():
+        monkeypatch.setenv(name, value)
+    said = table(["number", ""], [["a", "impossible: b"], ["c", "d"]], words=[-1])
+    assert bool(COLOUR.search(said)) == coloured
+    assert len(COLOUR.findall(said)) in (0, 1)
+    assert ("\x1b" in headline("All is well.")) == bool(variables)
+
+
+class Terminal:
+    """A standard error on which somebody looks."""
+
+    def __init__(self, *, watched):
+        self.said, self._watched = "", watched
+
+    def write(self, text):
+        self.said += text
+        return len(text)
+
+    def flush(self):
+        """Nothing is kept back."""
+
+    def isatty(self):
+        return self._watched
+
+
+@pytest.mark.parametrize(
+    ("watched", "patience", "shown"), [(True, 0.0, True), (True, 60.0, False), (False, 0.0, False)]
+)
+def test_a_bar_is_shown_to_who_looks_and_waits(watched, patience, shown, monkeypatch):
+    terminal = Terminal(watched=watched)
+    monkeypatch.setattr(screen.sys, "stderr", terminal)
+    bar = Bar("boards", patience=patience)
+    bar.show(0.5, "half of them")
+    bar.show(1.0)
+    assert ("half of them" in terminal.said) == shown
+    assert bool(terminal.said) == shown

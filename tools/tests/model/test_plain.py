@@ -1,0 +1,85 @@
+"""Sizes in a maker's words: the size that is meant, its sign, its interval, and no more figures."""
+
+import math
+
+import pytest
+from plumb.model.catalogue import every_effect, parameter_words
+from plumb.model.plain import named, noun_of, nouns_of, plain_before, plain_range, plain_size
+
+
+@pytest.mark.parametrize(
+    ("name", "numbers", "said"),
+    [
+        ("chain_pitch.left", (0.0024, 0.0021, 0.0027), "left chain 0.24 % too long (0.21 to 0.27)"),
+        (
+            "chain_pitch.right",
+            (-0.0024, -0.0027, -0.0021),
+            "right chain 0.24 % too short (0.21 to 0.27)",
+        ),
+        ("tape_scale.strain", (-0.0005,), "tape reads 0.0500 % too short"),
+        ("motor_level.height_difference", (-4, -9, 1), "right motor 4 mm lower (-1 to 9)"),
+        # The parameter is a square: 1600 mm^2 is 40 mm.
+        (
+            "chain_plane.gap_squared",
+            (1600, 900, 2500),
+            "sprockets and ring differ by 40 mm in their distance from the sheet (30 to 50)",
+        ),
+        # The square of the tangent of 15 degrees.
+        ("frame_lean.tangent_squared", (0.0718,), "frame leans 15.0 degrees from the vertical"),
+        ("chain_sag.weight_ratio_squared", (4.1e-12,), "chains sag 0.500 times the usual amount"),
+        (
+            "chain_stretch.compliance",
+            (5e-6, 4e-6, 6e-6),
+            "chains 0.50 mm longer for each metre at 100 N (0.40 to 0.60)",
+        ),
+        ("sheet_skew.angle", (-0.001,), "sheet edges -1.00 mm out of square for each metre"),
+        ("sheet_rotation", (0.001,), "sheet turned by 1.00 mm for each metre"),
+        (
+            "motor_gap",
+            (2978.27, 2977.2, 2979.3),
+            "gap between the motors 2978.3 mm (2977.2 to 2979.3)",
+        ),
+        ("residual_patch.left_x", (0.5,), "residual_patch.left_x 0.500 mm"),
+    ],
+)
+def test_a_size_is_said_as_a_maker_would(name, numbers, said):
+    assert plain_size(name, *numbers) == said
+
+
+def test_the_size_before_and_the_range_are_in_the_same_unit():
+    assert plain_before("chain_pitch.left", 0.0012) == "0.120 %"
+    assert plain_before("chain_pitch.left", 0.0) == "0"
+    assert plain_range("chain_pitch.left", -0.001, 0.006) == "-0.100 to 0.600 %"
+    assert plain_range("frame_lean.tangent_squared", 0.0, 0.2) == "0.0 to 24.1 degrees"
+
+
+@pytest.mark.parametrize(
+    "name", [f"{e['name']}.{p['name']}" for e in every_effect() for p in e["parameters"]]
+)
+def test_every_parameter_has_plain_words_and_its_size_can_be_read_back(name):
+    words = parameter_words()[name]["plain"]
+    assert words and words["more"].count("#") == 1 and words["less"].count("#") <= 1
+    assert words["more"] != words["less"]
+    said = plain_size(name, parameter_words()[name]["typical"])
+    shown = float(said.partition(f" {words['unit']}")[0].split()[-1])
+    back = {
+        "as is": shown,
+        "root": shown**2,
+        "angle": math.tan(math.radians(shown)) ** 2,
+    }[words["shown"]]
+    assert back / words["times"] == pytest.approx(parameter_words()[name]["typical"], rel=0.01)
+
+
+def test_every_effect_has_a_noun_and_keeps_the_name_that_commands_take():
+    for effect in every_effect():
+        assert noun_of(effect["name"]) != effect["name"]
+        assert named(effect["name"]) == f"{effect['noun']} ({effect['name']})"
+    assert named("mount_give") == "mount_give"
+
+
+def test_several_effects_are_listed_with_an_and():
+    assert nouns_of(["chain_sag"]) == "chain sag (chain_sag)"
+    assert nouns_of(["chain_sag", "chain_stretch"]) == (
+        "chain sag (chain_sag) and chain stretch (chain_stretch)"
+    )
+    assert nouns_of(["a", "b", "c"], last="or") == "a, b or c"
