@@ -354,8 +354,8 @@ def _impossible(parameter: Parameter) -> str:
     return (
         f"{plain_size(parameter.name, parameter.value)}: that is impossible for a real machine, "
         f"which has {plain_range(parameter.name, plausible.low, plausible.high)} (the interval "
-        f"{near}); it takes the place of another cause; check which settings were in force and the signs of "
-        "the marks"
+        f"{near}); it takes the place of another cause; check which settings were in force and the "
+        "signs of the marks"
     )
 
 

@@ -35,10 +35,11 @@ def _not_in_library(diagnosis: Diagnosis) -> str:
             f"{left}, more than noise."
         )
     least = min(len(explanation.effects) for explanation in diagnosis.explanations)
+    suspects = _suspects(diagnosis)
     kind = "one effect" if least == 1 else f"{least} effects at once"
     return (
         f"No single effect of the library explains these marks as it should ({left}). "
-        f"{_suspects(diagnosis)} would, but that proves nothing: on these marks {kind} would "
+        f"{suspects[0].upper()}{suspects[1:]} would, but that proves nothing: on these marks {kind} would "
         f"explain {100 * diagnosis.chance:.0f} % of all smooth errors of this size that none of "
         "them made. More marks tell."
     )
