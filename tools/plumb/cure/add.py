@@ -330,8 +330,8 @@ def _surprises(parameters: Sequence[Parameter]) -> list[str]:
         if trusted and not parameter.of_patch and abs(moved) > FAR * trusted:
             said.append(
                 f"{plain_name(parameter.name)} moved by {moved:+.3g} {parameter.unit} from the "
-                f"stated {parameter.before:g}, more than twice the {trusted:g} it was trusted to: measure "
-                "it again"
+                f"stated {parameter.before:g}, more than twice the {trusted:g} it was trusted "
+                "to: measure it again"
             )
     return said
 
