@@ -375,8 +375,8 @@ def _bad_bargains(before: Quality, after: Quality, steps: Sequence[Step]) -> lis
     """Sentences about effects that serve the fit alone."""
     if after.fit_rms < before.fit_rms and after.left_out_rms > before.left_out_rms:
         return [
-            f"the fit got better but, checked on marks not used, the error rose from {before.left_out_rms:.2f} to "
-            f"{after.left_out_rms:.2f} mm: the effects follow the noise, do not keep them"
+            "the fit got better but, checked on marks not used, the error rose from "
+            f"{before.left_out_rms:.2f} to {after.left_out_rms:.2f} mm: the effects follow the noise, do not keep them"
         ]
     return [
         f"with {named(step.effect)} only the fit got better; marks not used are predicted worse "

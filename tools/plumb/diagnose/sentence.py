@@ -39,9 +39,9 @@ def _not_in_library(diagnosis: Diagnosis) -> str:
     kind = "one effect" if least == 1 else f"{least} effects at once"
     return (
         f"No single effect of the library explains these marks as it should ({left}). "
-        f"{suspects[0].upper()}{suspects[1:]} would, but that proves nothing: on these "
-        f"marks {kind} would explain {100 * diagnosis.chance:.0f} % of all smooth errors of this size that none of "
-        "them made. More marks tell."
+        f"{suspects[0].upper()}{suspects[1:]} would, but that proves nothing: on these marks "
+        f"{kind} would explain {100 * diagnosis.chance:.0f} % of all smooth errors of this size "
+        "that none of them made. More marks tell."
     )
 
 
