@@ -143,5 +143,6 @@ def model_and_observations(
     whose = controller or measurements.controller or in_force.controller
     published = settings.controller != "plumb" and whose != "plumb"
     model = settings.as_plumb_model(controller=whose if published else None)
-    rows = observe(in_force, measurements, controller=whose, sled_weight=model.sled_weight)
+    # Each round was moved by the formula of its settings, unless somebody says otherwise.
+    rows = observe(in_force, measurements, controller=controller, sled_weight=model.sled_weight)
     return model, rows

@@ -19,12 +19,14 @@ from plumb.cli.files import (
 from plumb.cli.text import about, print_json
 from plumb.cure.add import Addition, Parameter, Quality, add, priors_with
 from plumb.cure.auto import AutoAddition, add_auto, without_marks
+from plumb.cure.record import record_of
 from plumb.firmware.client_files import ClientFiles
 from plumb.fit.inputs import Inputs
 from plumb.fit.patch import PATCH
 from plumb.model.catalogue import is_sketch
 from plumb.pictures.sheet import Panel, draw
 from plumb.settings.files import machine_toml, published_machine
+from plumb.settings.fit_record import FitRecord
 from plumb.text.errors import InputError
 
 
@@ -117,8 +119,12 @@ def _files(arguments: argparse.Namespace, inputs: Inputs, result: Addition) -> d
     """The machine and its picture, complete before the first is written."""
     files: dict[str, bytes] = {}
     if arguments.output:
-        source = inputs.measurements.source
-        files[arguments.output] = toml_of(result, source=source, firmware=arguments.firmware)
+        files[arguments.output] = toml_of(
+            result,
+            source=inputs.measurements.source,
+            firmware=arguments.firmware,
+            record=record_of(result, inputs, without=arguments.without),
+        )
     if arguments.picture:
         form = picture_form(arguments.picture)
         drawn = draw(panels_of(result), sheet=result.settings.sheet, form=form)
@@ -126,9 +132,15 @@ def _files(arguments: argparse.Namespace, inputs: Inputs, result: Addition) -> d
     return files
 
 
-def toml_of(result: Addition, *, source: str, firmware: str = "plumb") -> bytes:
+def toml_of(
+    result: Addition,
+    *,
+    source: str,
+    firmware: str = "plumb",
+    record: FitRecord | None = None,
+) -> bytes:
     """The new machine as the bytes of a machine.toml, with the formula of its firmware."""
-    ours = result.settings
+    ours = replace(result.settings, fitted=record)
     settings = published_machine(ours) if firmware == "published" else ours
     lines = [
         f"Fitted to {source}: {result.after.fit_rms:.2f} mm RMS "

@@ -17,6 +17,7 @@ from plumb.cli.text import about, millimetres, print_json, signed
 from plumb.fit.compare import Comparison, compare
 from plumb.marks.score import Score
 from plumb.pictures.sheet import Panel, draw
+from plumb.settings.fit_record import FitRecord
 from plumb.text.errors import InputError
 
 
@@ -94,6 +95,7 @@ def as_json(comparison: Comparison) -> dict[str, Any]:
             }
             for cut in comparison.rounds
         ],
+        "promised_rms_mm": comparison.promised.rms if comparison.promised else None,
         "benchmark": score_json(comparison.benchmark),
         "benchmark_left": score_json(comparison.benchmark_left),
         "warnings": comparison.warnings,
@@ -115,6 +117,8 @@ def score_json(score: Score | None) -> dict[str, Any] | None:
 def as_text(comparison: Comparison, *, sheet_width: float) -> str:
     """The comparison for people, its conclusion first."""
     parts = [_conclusion(comparison, sheet_width)]
+    if comparison.promised:
+        parts.append(sentences([promised_sentence(comparison.promised, sheet_width)], mark=""))
     if comparison.benchmark:
         score = benchmark_sentence(comparison.benchmark, comparison.benchmark_left)
         parts.append(sentences([score], mark=""))
@@ -141,6 +145,19 @@ def as_text(comparison: Comparison, *, sheet_width: float) -> str:
         ]
         parts.append(table(["distance", "predicted", "measured", "error"], rows))
     return "\n\n".join(parts)
+
+
+def promised_sentence(record: FitRecord, sheet_width: float) -> str:
+    """What the settings' file knows of these marks."""
+    names = [board.cut_with.file.name for board in record.boards if board.cut_with.file]
+    cut = f", cut with {' and '.join(dict.fromkeys(names))}" if names else ""
+    rise = np.tan(record.sheet_rotation) * sheet_width
+    without = f", without {', '.join(record.without)}" if record.without else ""
+    return (
+        f"These settings were fitted to these marks{cut}: {record.rms:.2f} mm RMS was left"
+        f"{without}, {record.start_rms:.2f} before. The sheet counts as turned by {rise:+.2f} mm "
+        "over its width, as the fit saw it."
+    )
 
 
 def benchmark_sentence(score: Score, left: Score | None) -> str:

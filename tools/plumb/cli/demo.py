@@ -15,6 +15,7 @@ from plumb.cli.parser import Parser
 from plumb.cli.screen import sentences, table
 from plumb.cli.text import millimetres
 from plumb.cure.demo import GOAL, MARKS, SETTINGS, Demonstration, demonstrate
+from plumb.cure.record import record_of
 from plumb.firmware.client_files import client_files
 from plumb.pictures.sheet import draw
 from plumb.text.errors import refusal
@@ -62,10 +63,12 @@ def _files(demonstration: Demonstration, folder: str, picture: str | None) -> di
     panels, sheet = panels_of(demonstration.chosen), demonstration.chosen.settings.sheet
     drawn = draw(panels, sheet=sheet)
     source = f"{MARKS.parent.name}/{MARKS.name}"
+    record = record_of(demonstration.chosen, demonstration.inputs)
+    machine = toml_of(demonstration.chosen, source=source, record=record)
     files = {
         os.path.join(folder, f"{PICTURE}.png"): drawn,
         os.path.join(folder, f"{PICTURE}.svg"): draw(panels, sheet=sheet, form="svg"),
-        os.path.join(folder, "machine.toml"): toml_of(demonstration.chosen, source=source),
+        os.path.join(folder, "machine.toml"): machine,
     }
     client = client_files(
         demonstration.chosen.settings,

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from plumb.fit.inputs import Inputs
+from plumb.fit.known_boards import with_settings_in_force
 from plumb.marks.read import join_measurements, read_marks
 from plumb.model.predict import known_effects
 from plumb.pictures.sheet import FORMATS
@@ -31,6 +32,7 @@ def inputs_of(arguments: argparse.Namespace) -> Inputs:
     _refuse_the_same_twice(arguments.marks)
     known = known_effects()
     parts = [read_marks(path, sheet=sheet, known=known) for path in arguments.marks]
+    parts = [with_settings_in_force(settings, part, cut_with=cut_with) for part in parts]
     measurements = join_measurements(parts)
     return Inputs(settings, measurements, cut_with=cut_with, controller=arguments.controller)
 

@@ -34,6 +34,7 @@ class Demonstration:
     steps: tuple[DemoStep, ...]  # frame only, then one effect more each
     chosen: Addition
     flipped: Addition  # the same effects, the y errors with the other sign
+    inputs: Inputs
 
     @property
     def reached(self) -> bool:
@@ -55,7 +56,7 @@ def demonstrate(measurements: Measurements | None = None) -> Demonstration:
         if kept:
             chosen, names = tried, (*names, effect)
     other_sign = add(Inputs(settings, with_y_errors_flipped(marks)), effects=names)
-    return Demonstration(tuple(steps), chosen, other_sign)
+    return Demonstration(tuple(steps), chosen, other_sign, Inputs(settings, marks))
 
 
 def is_better(tried: Quality, known: Quality) -> bool:

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from plumb.board.observations import Observations, model_and_observations
-from plumb.board.visits import chains_to, visited
+from plumb.board.sighting import Sighting, sighted
+from plumb.board.visits import chains_to
 from plumb.fit.fit import rms
+from plumb.fit.known_boards import known_outside
 from plumb.fit.shape import best_pose
 from plumb.marks.read import Measurements
 from plumb.marks.score import Score, score_as_cut, score_of
 from plumb.model.predict import FOUND, FOUND_WORDS, values_of
+from plumb.settings.fit_record import FitRecord
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 
@@ -70,6 +74,7 @@ class Comparison:
     shape_rms: float | None  # [mm] of the marks after the best shift and rotation
     shift: Point | None  # [mm] that best shift
     rotation: float | None  # [rad] and rotation, counter-clockwise
+    promised: FitRecord | None = None  # of the fit that gave the settings, if these are its marks
     warnings: tuple[str, ...] = ()
     rounds: tuple[ComparedRound, ...] = ()  # if there are several files
     benchmark: Score | None = None  # of the community's test, as cut
@@ -90,9 +95,11 @@ def compare(
     model, rows = model_and_observations(
         settings, measurements, cut_with=cut_with, controller=controller
     )
-    where = predicted_places(model, rows, measurements)
-    marks = _marks(model, rows, where)
-    distances = _distances(measurements, rows, where)
+    outside = known_outside(settings, measurements, cut_with=cut_with)
+    seen = predicted_sighting(model, rows, measurements, outside)
+    where = seen.read.where
+    marks = _marks(model, rows, seen, predicted_sighting(model, rows, measurements, {}))
+    distances = _distances(measurements, seen.taped_spans(rows.distance_rows))
     errors = np.array([mark.error for mark in marks]).reshape(-1, 2)
     spans = np.array([distance.error for distance in distances])
     pose = best_pose(where[rows.mark_rows], rows.measured)
@@ -106,11 +113,22 @@ def compare(
         shape_rms=rms(pose.errors) if pose else None,
         shift=pose.shift if pose else None,
         rotation=pose.rotation if pose else None,
+        promised=_promised(settings, measurements, outside),
         warnings=_warnings(settings, measurements, cut_with, controller),
         rounds=_rounds(measurements, errors, spans),
         benchmark=score_as_cut(measurements),
         benchmark_left=score_of(measurements, spans.tolist()),
     )
+
+
+def _promised(
+    settings: MachineSettings, measurements: Measurements, outside: Mapping[str, float]
+) -> FitRecord | None:
+    """The record of the fit, if all its boards are here, cut as it took them."""
+    digests = {file_round.digest for file_round in measurements.rounds}
+    record = settings.fitted
+    whole = record and {board.digest for board in record.boards} == digests
+    return record if whole and outside else None
 
 
 def _rounds(
@@ -139,26 +157,37 @@ def _rounds(
     return tuple(compared)
 
 
-def predicted_places(
-    model: MachineSettings, rows: Observations, measurements: Measurements
-) -> np.ndarray:
-    """Where our model puts the sled on every visit, (r, 2) [mm]; InputError if it cannot hang."""
-    where, _, outcome = visited(
-        values_of(model), rows, over_top=model.feed == "top", usual_weight=model.sled_weight
+def predicted_sighting(
+    model: MachineSettings,
+    rows: Observations,
+    measurements: Measurements,
+    outside: Mapping[str, float],
+) -> Sighting:
+    """What our model says is measured on every visit; InputError where the sled cannot hang."""
+    sighting = sighted(
+        values_of(model),
+        outside,
+        rows,
+        over_top=model.feed == "top",
+        usual_weight=model.sled_weight,
+        names=(),
     )
-    for i in np.flatnonzero(outcome != FOUND)[:1]:
+    for i in np.flatnonzero(sighting.outcome != FOUND)[:1]:
         raise InputError(
             f"{measurements.source}, mark {measurements.marks[i].name}: with these settings its "
-            f"chains lead nowhere ({FOUND_WORDS[outcome[i]]}); check the settings, or give those "
-            "it was cut with by --cut-with"
+            f"chains lead nowhere ({FOUND_WORDS[sighting.outcome[i]]}); check the settings, or "
+            "give those it was cut with by --cut-with"
         )
-    return where
+    return sighting
 
 
 def _marks(
-    model: MachineSettings, rows: Observations, where: np.ndarray
+    model: MachineSettings, rows: Observations, seen: Sighting, hung: Sighting
 ) -> tuple[ComparedMark, ...]:
-    needed, outcome = chains_to(model, rows.measured, rows.sled_weights[rows.mark_rows])
+    """Each mark as it is seen; `hung` is where the sled was, whatever the sheet did."""
+    where, measured = seen.read.where[rows.mark_rows], rows.measured
+    on_machine = measured - (where - hung.read.where[rows.mark_rows])
+    needed, outcome = chains_to(model, on_machine, rows.sled_weights[rows.mark_rows])
     marks = []
     for i, row in enumerate(rows.mark_rows):
         left, right = needed[i] - rows.chains[row]
@@ -166,9 +195,9 @@ def _marks(
             ComparedMark(
                 name=rows.names[i],
                 target=_point(rows.targets[i]),
-                predicted=_point(where[row]),
-                measured=_point(rows.measured[i]),
-                error=_point(rows.measured[i] - where[row]),
+                predicted=_point(where[i]),
+                measured=_point(measured[i]),
+                error=_point(measured[i] - where[i]),
                 left_chain_residual=float(left) if outcome[i] == FOUND else None,
                 right_chain_residual=float(right) if outcome[i] == FOUND else None,
             )
@@ -176,11 +205,7 @@ def _marks(
     return tuple(marks)
 
 
-def _distances(
-    measurements: Measurements, rows: Observations, where: np.ndarray
-) -> tuple[ComparedDistance, ...]:
-    ends = where[rows.distance_rows]
-    spans = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+def _distances(measurements: Measurements, spans: np.ndarray) -> tuple[ComparedDistance, ...]:
     return tuple(
         ComparedDistance(
             distance.between, float(span), distance.length, float(distance.length - span)

@@ -33,7 +33,7 @@ _FORM = """\
 # Readings of the Calibration Benchmark Test, mm. Fill in what you read and take away its #.
 # From mark to mark, or from one side of a cut to the same side of the other. T and B, L and R are
 # the middles of top and bottom, left and right; TL the outer corner of the top left square.
-frame = "machine"
+frame = "machine"{}
 
 [benchmark]
 approach = [{:.1f}, {:.1f}]
@@ -67,7 +67,7 @@ def places() -> list[tuple[str, float, float]]:
     return ordered
 
 
-def form(approach: tuple[float, float]) -> str:
+def form(approach: tuple[float, float], cut_with: str = "") -> str:
     """The text of a marks file that waits for the readings; approach [mm] into every mark."""
     squares = [f"# {SQUARES[name]} = [ , ]" for name in CORNERS]
-    return "\n".join([_FORM.format(*approach) + squares[0], *squares[1:], ""])
+    return "\n".join([_FORM.format(cut_with, *approach) + squares[0], *squares[1:], ""])

@@ -7,11 +7,13 @@ from __future__ import annotations
 
 import argparse
 import configparser
+import importlib
 import os
 import sys
 from collections.abc import Mapping, Sequence
 from typing import Any, NoReturn
 
+from plumb.grid.cut_with import cut_with_lines
 from plumb.grid.form import marks_list
 from plumb.grid.gcode import program
 from plumb.grid.limits import demand
@@ -43,7 +45,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     for name, _section, _key, meaning in MACHINE_OPTIONS:
         option, usual = "--" + name.replace("_", "-"), PlainMachine._field_defaults[name]
         group.add_argument(option, help=f"{meaning} [{usual}]", type=float, metavar="N")
-    group.add_argument("--settings", metavar="FILE", help="groundcontrol.ini with these numbers")
+    group.add_argument(
+        "--settings", metavar="FILE", help="groundcontrol.ini or machine.toml with these numbers"
+    )
     group = parser.add_argument_group("output")
     group.add_argument("--output", metavar="FILE", help="where the program goes [the screen]")
     group.add_argument("--marks", metavar="FILE", help="also write a marks.toml to fill in")
@@ -51,7 +55,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def read_settings(path: str) -> dict[str, float]:
-    """The numbers [mm, N] in a groundcontrol.ini, by their names in PlainMachine."""
+    """The numbers [mm, N] in a file of settings, by their names in PlainMachine."""
+    if path.lower().endswith(".toml"):
+        return _numbers_in_toml(path)
     parser = configparser.ConfigParser(interpolation=None, strict=False)
     try:
         with open(path, encoding="utf-8-sig") as file:
@@ -71,6 +77,30 @@ def read_settings(path: str) -> dict[str, float]:
                 wrong = f"{path}: {key} in [{section}] is {text!r}: give a number there"
                 raise GridError(wrong) from None
     return numbers
+
+
+def _numbers_in_toml(path: str) -> dict[str, float]:
+    """The numbers [mm, N] in a machine.toml."""
+    try:
+        loaded = importlib.import_module("tomllib").loads
+    except ImportError:
+        raise GridError(f"{path}: a machine.toml needs Python 3.11: give its numbers") from None
+    try:
+        with open(path, encoding="utf-8-sig") as file:
+            machine = loaded(file.read())
+        sheet, frame = machine["sheet"], machine["frame"]
+        return {
+            "sheet_width": float(sheet["width"]),
+            "sheet_height": float(sheet["height"]),
+            "motor_spacing": float(frame["motor_gap"]),
+            "motor_offset": float(frame["motor_height"]) - float(sheet["height"]) / 2,
+            "rotation_radius": float(frame["rotation_radius"]),
+            **({"sled_weight_n": float(frame["sled_weight"])} if "sled_weight" in frame else {}),
+        }
+    except OSError as error:
+        raise GridError(f"{path}: {error.strerror}: check the name after --settings") from None
+    except (ValueError, TypeError, LookupError):
+        raise GridError(f"{path} is not a machine.toml: let plumb add write it") from None
 
 
 def from_arguments(arguments: argparse.Namespace) -> tuple[Grid, PlainMachine]:
@@ -95,7 +125,8 @@ def run(arguments: argparse.Namespace, name: str = "calibration grid") -> int:
             # Readings that took an hour must not be lost to a second run.
             kept = f"{arguments.marks} exists: move it away or give --marks another name"
             demand(not os.path.exists(arguments.marks), kept)
-            files[arguments.marks] = marks_list(grid, machine)
+            named = cut_with_lines(arguments.settings, arguments.marks)
+            files[arguments.marks] = marks_list(grid, machine, named)
         _write(files)
     except GridError as refusal:
         print(f"{name}: {refusal}", file=sys.stderr)

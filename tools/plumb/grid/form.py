@@ -7,14 +7,15 @@ from plumb.grid.options import Grid, PlainMachine
 from plumb.grid.touches import touches_of
 
 
-def marks_list(grid: Grid, machine: PlainMachine) -> str:
-    """The text of a marks.toml that waits for the tape's readings."""
+def marks_list(grid: Grid, machine: PlainMachine, cut_with: str = "") -> str:
+    """The text of a marks.toml that waits for the tape's readings; `cut_with` are lines that name
+    the settings in force."""
     if grid.pattern == "benchmark":
-        return benchmark_pattern.form(grid.approach)
+        return benchmark_pattern.form(grid.approach, cut_with)
     lines = [
         "# Calibration marks, mm from the sheet's top left corner; x right, y down, approach too.",
         "# Fill in each measured line and take away its #; delete a [[mark]] that you cannot read.",
-        'frame = "sheet-top-left"',
+        f'frame = "sheet-top-left"{cut_with}',
     ]
     for mark in touches_of(grid, machine):
         x, y = machine.sheet_width / 2 + mark.x, machine.sheet_height / 2 - mark.y

@@ -21,6 +21,8 @@ class Round:
     name: str = ""  # of the file, for messages
     date: str = ""
     cut_with: MachineSettings | None = None  # in force; None: what the command line says
+    changed: str = ""  # name of the settings in force, if their file is another by now
+    digest: str = ""  # of the file's readings
     chains_rezeroed: bool = False  # since the file before
     new_sheet: bool = False  # or the old sheet lies elsewhere since the file before
     frame_moved: bool = False  # since the file before: a motor, the beam or the sled

@@ -10,6 +10,7 @@ from os import PathLike
 from pathlib import Path
 
 from plumb.marks.csv import NEEDED, read_marks_csv
+from plumb.marks.digest import digest_of
 from plumb.marks.ini import read_marks_ini
 from plumb.marks.join import join_measurements
 from plumb.marks.model import Distance, Mark, Measurements, Round
@@ -41,6 +42,8 @@ def read_marks(
     effect's parameters for them.
     """
     measurements = _read(path, sheet, known)
+    named = replace(measurements.rounds[0], digest=digest_of(measurements))
+    measurements = replace(measurements, rounds=(named, *measurements.rounds[1:]))
     return checked(measurements, sheet=_sheet_of(measurements, sheet))
 
 

@@ -8,6 +8,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+from plumb.grid.cut_with import digest_of
 from plumb.marks.benchmark import read_benchmark
 from plumb.marks.model import Distance, Mark, Measurements, Point, Round
 from plumb.marks.plausible import Sheet, to_machine
@@ -23,6 +24,7 @@ HEAD_KEYS = (
     "frame",
     "date",
     "cut_with",
+    "cut_with_digest",
     "controller",
     "tape_sigma_mm",
     "sled_weight_n",
@@ -85,11 +87,16 @@ def _round(
         flags[name] = head.get(name, False)
         if not isinstance(flags[name], bool):
             raise refusal(path, f"{name} is neither true nor false", remedy="write true or false")
-    cut_with = None
+    cut_with, changed = None, ""
     if "cut_with" in head:
         with naming(path, "cut_with"):
-            cut_with = read_settings(Path(path).parent / text_of(head["cut_with"]), known=known)
-    return Round(date=str(head.get("date", "")), cut_with=cut_with, **flags)
+            name = text_of(head["cut_with"])
+            cut_with = read_settings(Path(path).parent / name, known=known)
+        with naming(path, "cut_with_digest"):
+            was = text_of(head.get("cut_with_digest", ""))
+        if was not in ("", digest_of(Path(path).parent / name)):
+            cut_with, changed = None, name
+    return Round(date=str(head.get("date", "")), cut_with=cut_with, changed=changed, **flags)
 
 
 def _controller(path: str | PathLike[str], head: dict[str, Any]) -> str | None:

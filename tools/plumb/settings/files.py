@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from hashlib import sha256
 from os import PathLike
 from pathlib import Path
 
@@ -20,7 +22,7 @@ from plumb.settings.groundcontrol import (
     write_groundcontrol_ini,
 )
 from plumb.settings.ini import read_settings_ini
-from plumb.settings.machine import MachineSettings, PublishedSettings
+from plumb.settings.machine import MachineSettings, PublishedSettings, SettingsFile
 from plumb.settings.toml import machine_toml, read_machine_toml, write_machine_toml
 from plumb.text.errors import refusal
 from plumb.text.files import read_bytes
@@ -44,6 +46,11 @@ def read_settings(
     path: str | PathLike[str], *, known: Mapping[str, Sequence[str]] | None = None
 ) -> MachineSettings:
     """The settings in a groundcontrol.ini or machine.toml; known lists each effect's parameters."""
+    file = SettingsFile(Path(path).name, sha256(read_bytes(path)).hexdigest())
+    return replace(_read(path, known), file=file)
+
+
+def _read(path: str | PathLike[str], known: Mapping[str, Sequence[str]] | None) -> MachineSettings:
     text = read_bytes(path).decode("utf-8-sig", "replace").lstrip()
     if text.startswith("{"):
         raise refusal(path, "is a JSON file", remedy="give a groundcontrol.ini or a machine.toml")

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import TypedDict
+from typing import TYPE_CHECKING, NamedTuple, TypedDict
 
 from plumb.settings.published import (
     ELASTICITY,
@@ -18,6 +18,9 @@ from plumb.settings.published import (
     usual_effects,
 )
 from plumb.text.errors import InputError
+
+if TYPE_CHECKING:
+    from plumb.settings.fit_record import FitRecord
 
 GRAVITY = 9.81  # [N/kg]
 SLED_WEIGHT = 97.9  # [N] 22 pounds, the published default
@@ -76,6 +79,13 @@ class PublishedSettings:
         return self.holey_sled_weight, self.chain_elasticity
 
 
+class SettingsFile(NamedTuple):
+    """The file that settings were read from."""
+
+    name: str
+    sha256: str
+
+
 @dataclass(frozen=True)
 class MachineSettings:
     """A machine: frame [mm, N], effects by name, and whose formula the controller uses."""
@@ -93,6 +103,9 @@ class MachineSettings:
     controller: str = "plumb"  # "stock", "holey" or "plumb"
     effects: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     published: PublishedSettings = PublishedSettings()
+    # How the numbers came about; no part of the machine.
+    file: SettingsFile | None = field(default=None, compare=False, repr=False)
+    fitted: FitRecord | None = field(default=None, compare=False, repr=False)
 
     @property
     def sheet(self) -> tuple[float, float]:

@@ -42,6 +42,20 @@ def pair(value: object) -> tuple[float, float]:
     return number(value[0]), number(value[1])
 
 
+def numbers(value: object, count: int) -> tuple[float, ...]:
+    """The finite numbers of a TOML array of that length."""
+    if not isinstance(value, list) or len(value) != count:
+        raise ValueError(f"an array of {count} numbers is needed")
+    return tuple(number(each) for each in value)
+
+
+def texts(value: object) -> tuple[str, ...]:
+    """The texts of a TOML array."""
+    if not isinstance(value, list):
+        raise ValueError("an array of texts in quotes is needed")
+    return tuple(text_of(each) for each in value)
+
+
 def text_of(value: object) -> str:
     """The text of a TOML string."""
     if not isinstance(value, str):

@@ -16,6 +16,8 @@ def test_every_number_has_a_limit():
         "controller",
         "effects",
         "published",
+        "file",
+        "fitted",
     }
     assert set(FRAME_LIMITS) == numbers | {"motor_offset"}
     assert set(PUBLISHED_LIMITS) == {field.name for field in fields(PublishedSettings)}

@@ -1,0 +1,185 @@
+"""What a fit promised can be seen again: machine.toml knows its marks and how they were cut."""
+
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+from plumb.grid.cut_with import KEYS
+from plumb.settings.files import machine_toml, read_settings
+from plumb.settings.ini import SOURCES
+
+EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
+
+
+def with_readings(text, moved):
+    """The text of a marks.toml with each reading moved."""
+
+    def replaced(match):
+        x, y = moved(float(match[1]), float(match[2]))
+        return f"measured = [{x:.3f}, {y:.3f}]"
+
+    return re.sub(r"measured = \[(\S+), (\S+)\]", replaced, text)
+
+
+def filled_in(form):
+    """The text of a form with every reading at its target."""
+    return re.sub(r"target = (.*)\n(.*\n)# measured.*", r"target = \1\n\2measured = \1", form)
+
+
+@pytest.fixture
+def fitted(run, tmp_path, monkeypatch):
+    """A machine fitted to the example's marks; the folder is the current one."""
+    for name in ("groundcontrol.ini", "marks.toml"):
+        shutil.copy(EXAMPLE / name, tmp_path)
+    monkeypatch.chdir(tmp_path)
+    # A sheet that hangs askew by 12 mm over its width: no setting holds that.
+    turned = with_readings(
+        Path("marks.toml").read_text(), lambda x, y: (x - 0.005 * y, y + 0.005 * x)
+    )
+    Path("marks.toml").write_text(turned)
+    code, said, _ = run(
+        "add", "groundcontrol.ini", "marks.toml", "--effect", "chain_pitch", "-o", "machine.toml"
+    )
+    assert code == 0
+    return float(re.match(r"From \S+ to (\S+) mm", said)[1])
+
+
+def test_compare_finds_the_error_that_add_promised(fitted, ask, run):
+    _, answer = ask("compare", "machine.toml", "marks.toml")
+    assert answer["rms_mm"] == pytest.approx(answer["promised_rms_mm"], abs=1e-9)
+    assert round(answer["rms_mm"], 2) == fitted
+    assert abs(answer["rotation"]) < 1e-4
+    _, same = ask("compare", "machine.toml", "marks.toml", "--cut-with", "groundcontrol.ini")
+    assert same["rms_mm"] == pytest.approx(answer["rms_mm"], abs=1e-9)
+    residuals = [mark["left_chain_residual"] for mark in answer["marks"]]
+    assert max(map(abs, residuals)) < 2
+    said = run("compare", "machine.toml", "marks.toml")[1]
+    assert "cut with groundcontrol.ini" in said and "turned by" in said
+    _, old = ask("compare", "groundcontrol.ini", "marks.toml")
+    assert old["promised_rms_mm"] is None and old["rms_mm"] > 5
+
+
+def test_diagnose_finds_no_more_to_add(fitted, ask):
+    _, answer = ask("diagnose", "machine.toml", "marks.toml")
+    assert answer["verdict"] == "nothing_provable"
+
+
+def test_marks_that_say_what_they_were_cut_with_use_the_formula_of_that(fitted, ask):
+    text = Path("marks.toml").read_text()
+    Path("marks.toml").write_text(f'cut_with = "groundcontrol.ini"\n{text}')
+    _, answer = ask("compare", "machine.toml", "marks.toml")
+    assert round(answer["rms_mm"], 2) == fitted
+
+
+def test_marks_of_unknown_settings_are_asked_about(fitted, ask, run):
+    text = Path("marks.toml").read_text()
+    Path("second.toml").write_text(with_readings(text, lambda x, y: (x + 0.1, y)))
+    code, _, complaint = run("compare", "machine.toml", "second.toml")
+    assert code == 2 and complaint.count("\n") == 1
+    assert "machine.toml was fitted to marks that were cut with groundcontrol.ini" in complaint
+    for command in (["diagnose"], ["next"], ["add", "--effect", "chain_pitch"]):
+        assert run(*command[:1], "machine.toml", "second.toml", *command[1:])[0] == 2
+    for cut_with, least, most in (("groundcontrol.ini", 0, 8), ("machine.toml", 8, 20)):
+        _, answer = ask("compare", "machine.toml", "second.toml", "--cut-with", cut_with)
+        assert least < answer["rms_mm"] < most
+    # Reported chains need no settings, and settings that were never fitted ask nothing.
+    chains = re.sub(r"(approach = .*)", r"\1\nchains = [1700, 1700]", text)
+    Path("chains.toml").write_text(chains)
+    assert run("compare", "machine.toml", "chains.toml")[0] == 0
+    assert run("compare", "groundcontrol.ini", "second.toml")[0] == 0
+
+
+def test_the_record_comes_back_bit_for_bit(fitted, tmp_path):
+    machine = read_settings("machine.toml")
+    text = machine_toml(machine)
+    Path("again.toml").write_text(text)
+    assert read_settings("again.toml").fitted == machine.fitted
+    record = machine.fitted
+    assert [board.marks for board in record.boards] == ["marks.toml"]
+    board = record.boards[0]
+    assert board.cut_with == read_settings("groundcontrol.ini")
+    assert board.cut_with.file == read_settings("groundcontrol.ini").file
+    assert record.effects == ("chain_pitch",) and round(record.rms, 2) == fitted
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "hint"),
+    [
+        (r"^rms = .*", "", "[fit]: rms is missing"),
+        (r"^rms = .*", "rms = 'good'", "[fit] rms: a number is needed"),
+        (r"^digest = .*", "digest = 4", "[[board]]: text in quotes"),
+        (r"^sheet = .*", "sheet = [1, 2]", "[[board]]: an array of 3 numbers"),
+        (r"^\[board.cut_with.frame\]", "[board.cut_with.fram]", "unknown name 'fram'"),
+        (r"^effects = .*", "effects = 'all'", "[fit]: an array of texts"),
+        (r"^\[\[board\]\]", "[board]", "board is not a list of tables"),
+    ],
+)
+def test_a_damaged_record_is_refused_with_its_place(old, new, hint, fitted, run):
+    text = Path("machine.toml").read_text()
+    Path("machine.toml").write_text(re.sub(old, new, text, count=1, flags=re.MULTILINE))
+    code, _, complaint = run("compare", "machine.toml", "marks.toml")
+    assert code == 2 and complaint.startswith("plumb: machine.toml") and hint in complaint
+
+
+def test_two_sheets_keep_their_poses_and_zeros(run, ask, fitted):
+    text = Path("marks.toml").read_text()
+    moved = with_readings(text, lambda x, y: (x + 6, y - 4))
+    Path("second.toml").write_text(f"new_sheet = true\nchains_rezeroed = true\n{moved}")
+    both = ("marks.toml", "second.toml")
+    options = ("--effect", "chain_pitch", "-o", "two.toml")
+    assert run("add", "groundcontrol.ini", *both, *options)[0] == 0
+    _, answer = ask("compare", "two.toml", *both)
+    assert answer["rms_mm"] == pytest.approx(answer["promised_rms_mm"], abs=1e-9)
+    assert answer["rms_mm"] < 2
+    # Either sheet alone lies where it lay.
+    for name in both:
+        _, alone = ask("compare", "two.toml", name)
+        assert alone["rms_mm"] < 2 and alone["promised_rms_mm"] is None
+        assert max(map(abs, alone["shift"])) < 0.5
+
+
+def test_a_lab_effect_is_seen_again_too(run, ask, fitted):
+    distances = [("2", "4", 1122.0), ("2", "12", 1021.0), ("4", "14", 1022.0)]
+    with open("marks.toml", "a") as file:
+        for a, b, mm in distances:
+            file.write(f'\n[[distance]]\nbetween = ["{a}", "{b}"]\nmm = {mm}\n')
+    options = ("--effect", "chain_pitch", "tape_scale", "-o", "taped.toml")
+    assert run("add", "groundcontrol.ini", "marks.toml", *options)[0] <= 1
+    _, answer = ask("compare", "taped.toml", "marks.toml")
+    assert answer["rms_mm"] == pytest.approx(answer["promised_rms_mm"], abs=1e-9)
+
+
+def test_the_form_of_a_grid_names_the_settings_in_force(run, ask, fitted, tmp_path):
+    (tmp_path / "cuts").mkdir()
+    form = Path("cuts/form.toml")
+    for settings in ("machine.toml", "groundcontrol.ini"):
+        grid = ("grid", "--settings", settings, "--marks", form, "--output", "grid.nc")
+        assert run(*grid)[0] == 0
+        assert f'cut_with = "../{settings}"' in form.read_text()
+        form.write_text(filled_in(form.read_text()))
+        assert run("compare", "machine.toml", form)[0] == 0
+        form.unlink()
+    benchmark = ("grid", "--pattern", "benchmark", "--settings", "machine.toml", "--marks", form)
+    assert run(*benchmark, "--output", "grid.nc")[0] == 0
+    assert 'cut_with = "../machine.toml"' in form.read_text()
+
+
+def test_settings_that_changed_since_the_cut_are_noticed(run, ask, fitted):
+    grid = ("grid", "--settings", "groundcontrol.ini", "--marks", "f.toml", "--output", "g")
+    assert run(*grid)[0] == 0
+    Path("f.toml").write_text(filled_in(Path("f.toml").read_text()))
+    assert run("compare", "groundcontrol.ini", "f.toml")[0] == 0
+    old = Path("groundcontrol.ini").read_text()
+    # GroundControl keeps its windows in the same file, and writes numbers as it likes.
+    kept = old.replace("viewscale = .45", "viewscale = .5").replace("= 463", "= 463.0")
+    Path("groundcontrol.ini").write_text(kept)
+    assert run("compare", "groundcontrol.ini", "f.toml")[0] == 0
+    Path("groundcontrol.ini").write_text(old.replace("= 463", "= 460"))
+    code, _, complaint = run("compare", "groundcontrol.ini", "f.toml")
+    assert code == 2 and "groundcontrol.ini, which has changed since" in complaint
+    assert run("compare", "groundcontrol.ini", "f.toml", "--cut-with", "machine.toml")[0] == 0
+
+
+def test_the_digest_of_settings_counts_every_number_that_moves_the_sled():
+    assert {*KEYS, "chainlength"} == {key.lower() for _, key in SOURCES.values()}
