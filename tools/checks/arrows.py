@@ -77,12 +77,12 @@ SEARCHED = [
 PACKAGE = "tools/plumb"
 FLOORS = (
     ("cli",),
-    ("pages",),
+    ("pages", "vm"),
     ("bench", "pictures"),
     ("cure", "plan"),
     ("diagnose",),
     ("fit",),
-    ("board", "firmware"),
+    ("board", "firmware", "line"),
     ("marks", "model"),
     ("settings",),
     ("text", "grid"),
@@ -91,8 +91,9 @@ FLOORS = (
 
 # What tools/calibration_grid.py runs without an installation.
 STANDARD_LIBRARY_ONLY = "tools/plumb/grid"
-# The judge shares nothing with the model, so only the bench may ask it.
-ASKS_JUDGE = "bench"
+# The judge shares nothing with the model, so only the bench may ask it; only the virtual machine's
+# room has the world that it hangs in.
+ONLY = {"_judge": "bench", "_vm": "vm"}
 
 
 def violations(root: Path) -> Iterator[str]:
@@ -156,8 +157,8 @@ def upward(path: Path, name: Path) -> Iterator[tuple[int, str]]:
     for line, to in rooms_imported(path):
         if to != room and floor_of.get(to, -1) <= floor_of[room]:
             yield line, f"{room} may not import {to}: imports only go down the floors"
-        elif to == "_judge" and room != ASKS_JUDGE:
-            yield line, f"{room} may not import {to}: only {ASKS_JUDGE} may ask the judge"
+        elif room != ONLY.get(to, room):
+            yield line, f"{room} may not import {to}: only {ONLY[to]} may"
 
 
 def rooms_imported(path: Path) -> Iterator[tuple[int, str]]:

@@ -1,0 +1,152 @@
+"""Sends lines to a machine as its clients do: ahead of its answers, and no line twice.
+
+The machine answers each line with a single `ok` or `error:`. Its buffer holds 127 characters, so
+that many may be on their way at once.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+
+from plumb.line.port import Port
+from plumb.text.errors import InputError
+
+AHEAD = 126  # characters on their way at most
+SILENCE = 5.0  # [s] the machine reports five times a second, so this long a silence has a reason
+START = 12.0  # [s] a board that was reset by the line takes up to six
+HOLD, STOP = b"\x84", b"!\n"
+STATUS = re.compile(r"<(\w+),MPos:(-?[\d.]+),(-?[\d.]+),(-?[\d.]+)")
+
+
+class Refused(InputError):
+    """The machine refused a line, or raised an alarm."""
+
+
+@dataclass(frozen=True)
+class Status:
+    """What the machine last reported."""
+
+    state: str
+    place: tuple[float, float, float]  # [mm] x, y, z
+
+
+@dataclass
+class Sender:
+    """A machine at the end of a line."""
+
+    port: Port
+    said: Callable[[str], None] = lambda line: None  # hears what the machine says besides answers
+    status: Status | None = None
+    _partial: str = ""
+    _heard_at: float = 0.0
+    _on_the_way: deque[tuple[str, int]] = field(default_factory=deque)
+
+    def await_start(self) -> None:
+        """Wait until the machine reports; what it said before that was its greeting."""
+        begin = self.port.seconds()
+        while self.status is None:
+            for line in self._lines():
+                if not self._note_status(line):
+                    self.said(line)
+            if self.port.seconds() - begin > START:
+                raise InputError(
+                    "the machine does not answer: check the cable, its power, and that no other "
+                    "program has the line"
+                )
+
+    def stream(self, lines: Iterable[str], *, answered: Callable[[int], None] | None = None) -> int:
+        """Send lines and wait for all answers; how many there were.
+
+        `answered` hears how many are done. Raises Refused at the first line that the machine
+        refuses; nothing more is sent then.
+        """
+        done = 0
+        self._heard_at = self.port.seconds()
+        for line in cleaned(lines):
+            while self._characters() + len(line) + 1 > AHEAD:
+                done = self._hear(done, answered)
+            self.port.write(line.encode("ascii") + b"\n")
+            self._on_the_way.append((line, len(line) + 1))
+        while self._on_the_way:
+            done = self._hear(done, answered)
+        return done
+
+    def ask(self, line: str) -> list[str]:
+        """What the machine says to a line before its `ok`."""
+        heard: list[str] = []
+        said, self.said = self.said, heard.append
+        try:
+            self.stream([line])
+        finally:
+            self.said = said
+        return heard
+
+    def hold(self) -> None:
+        """Stop along the path, as soon as the motors can; `~` goes on."""
+        self.port.write(HOLD)
+
+    def _characters(self) -> int:
+        return sum(length for _, length in self._on_the_way)
+
+    def _hear(self, done: int, answered: Callable[[int], None] | None) -> int:
+        """Take what came; the count of answers."""
+        came = False
+        for line in self._lines():
+            came = True
+            if self._note_status(line):
+                continue
+            if line == "ok" and self._on_the_way:
+                self._on_the_way.popleft()
+                done += 1
+                if answered:
+                    answered(done)
+            elif line.startswith(("error:", "ALARM")):
+                self._refuse(line)
+            else:
+                self.said(line)
+        if came:
+            self._heard_at = self.port.seconds()
+        elif self.port.seconds() - self._heard_at > SILENCE:
+            raise InputError(
+                f"the machine has been silent for {SILENCE:.0f} s: check its cable and power"
+            )
+        return done
+
+    def _refuse(self, answer: str) -> None:
+        line = self._on_the_way[0][0] if self._on_the_way else ""
+        self._on_the_way.clear()
+        where = f"{line!r}: " if line else ""
+        raise Refused(f"{where}the machine says: {answer}")
+
+    def _lines(self) -> Iterator[str]:
+        """Whole lines that came."""
+        text = self._partial + self.port.read().decode("ascii", errors="replace")
+        *lines, self._partial = text.split("\n")
+        yield from (line.strip("\r") for line in lines)
+
+    def _note_status(self, line: str) -> bool:
+        """Whether a line is a report."""
+        match = STATUS.match(line)
+        if match:
+            x, y, z = map(float, match.groups()[1:])
+            self.status = Status(match[1], (x, y, z))
+        return match is not None or line.startswith("[PE:")
+
+
+def cleaned(lines: Iterable[str]) -> Iterator[str]:
+    """Lines without comments and blanks around them; empty ones are left out.
+
+    Raises InputError for a line that the machine's buffer cannot hold, or that is no ASCII text.
+    """
+    for number, line in enumerate(lines, start=1):
+        text = re.sub(r"\([^)]*\)", "", line).partition(";")[0].strip()
+        if not text:
+            continue
+        if not text.isascii() or not text.isprintable():
+            raise InputError(f"line {number} is no plain text: {text!r}")
+        if len(text) + 1 > AHEAD:
+            raise InputError(f"line {number} is longer than the {AHEAD} characters of the buffer")
+        yield text

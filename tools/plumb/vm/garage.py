@@ -1,0 +1,84 @@
+"""A machine in its garage: what is true of it, and what its owner believes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from math import cos, sin
+
+import numpy as np
+
+from plumb._vm import VirtualMachine
+from plumb.bench.causes import MAKER, Hidden
+from plumb.firmware.client_files import gcode
+from plumb.firmware.numbers import firmware_numbers
+from plumb.line.sender import Sender
+from plumb.model.predict import judged
+from plumb.settings.machine import MachineSettings
+
+Array = np.ndarray
+GAP_SIGMA, POSE_SIGMA, TURN_SIGMA = 3.0, 5.0, 0.002  # [mm, mm, rad] how far a frame is off
+FRICTION = 3.0  # [N] of any sled on its sheet
+EXTENDED = 1651.0  # [mm] of both chains when they were laid over the sprockets
+# What a client sends besides the numbers of the frame: without it z stands still.
+CLIENT_LINES = ("$29=1300", "$15=1000", "$18=18")
+
+
+@dataclass(frozen=True)
+class Garage:
+    """What is true of a machine and of the sheet on it."""
+
+    hidden: Hidden
+    motor_gap: float = MAKER.motor_gap  # [mm]
+    motor_height: float = MAKER.motor_height  # [mm]
+    sheet_center: tuple[float, float] = (0.0, 0.0)  # [mm] of the sheet from where it should lie
+    sheet_turn: float = 0.0  # [rad] counter-clockwise
+    friction: float = FRICTION  # [N]
+    seed: int = 0  # of the motors
+    settings: MachineSettings = field(default_factory=lambda: MAKER)  # what the owner believes
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """The judge's numbers of the machine."""
+        true = {"motor_gap": self.motor_gap, "motor_height": self.motor_height}
+        return {**judged(MAKER), **true, **self.hidden.numbers}
+
+    def machine(self, *, elf: str | None = None) -> VirtualMachine:
+        """The machine with an empty memory, its chains laid, without power."""
+        friction = self.friction + self.hidden.drag
+        return VirtualMachine(
+            self.numbers, friction=friction, seed=self.seed, paid_out=EXTENDED, elf=elf
+        )
+
+    def on_sheet(self, places: Array) -> Array:
+        """Places (n, 2) [mm] of the sled as the sheet has them, from its middle."""
+        turn = self.sheet_turn
+        back = np.array([[cos(turn), sin(turn)], [-sin(turn), cos(turn)]])
+        turned: Array = (places - np.array(self.sheet_center)) @ back.T
+        return turned
+
+
+def random_garage(hidden: Hidden, seed: int) -> Garage:
+    """A garage whose frame and sheet lie off by chance."""
+    source = np.random.default_rng(seed)
+    gap, height, x, y, turn = source.standard_normal(5)
+    return Garage(
+        hidden,
+        motor_gap=MAKER.motor_gap + GAP_SIGMA * gap,
+        motor_height=MAKER.motor_height + POSE_SIGMA * height,
+        sheet_center=(POSE_SIGMA * x, POSE_SIGMA * y),
+        sheet_turn=TURN_SIGMA * turn,
+        seed=1 + seed,
+    )
+
+
+def with_new_sheet(garage: Garage, seed: int) -> Garage:
+    """The same machine with another sheet, laid as carefully as the first."""
+    x, y, turn = np.random.default_rng(seed).standard_normal(3)
+    center = (POSE_SIGMA * x, POSE_SIGMA * y)
+    return replace(garage, sheet_center=center, sheet_turn=TURN_SIGMA * turn)
+
+
+def set_up(sender: Sender, settings: MachineSettings) -> None:
+    """Send the owner's numbers and the lengths of the chains, as on the first day."""
+    lines = gcode(firmware_numbers(settings)).decode().splitlines()
+    sender.stream([*CLIENT_LINES, *lines, f"B06 L{EXTENDED:g} R{EXTENDED:g}", "G10 Z0"])

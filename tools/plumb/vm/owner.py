@@ -1,0 +1,126 @@
+"""The owner of a virtual machine: cuts marks, reads them with a tape, sends new numbers.
+
+The owner knows what an owner can know: the settings, the sheet's edges and the tape. What is true
+of the machine is the garage's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from plumb._vm import VirtualMachine
+from plumb.bench.causes import CHAIN
+from plumb.diagnose import Checked
+from plumb.firmware.client_files import gcode
+from plumb.firmware.numbers import firmware_numbers
+from plumb.grid.form import marks_list
+from plumb.grid.gcode import program
+from plumb.grid.options import Grid, PlainMachine
+from plumb.line.sender import Sender
+from plumb.plan.ahead import Check
+from plumb.plan.plan_marks import marks_file
+from plumb.plan.planned_visits import Visits
+from plumb.settings.machine import MachineSettings
+from plumb.vm.garage import Garage, set_up, with_new_sheet
+from plumb.vm.in_process import InProcessPort
+from plumb.vm.tape import filled_form, read_with_tape
+from plumb.vm.visits_program import visit_lines
+
+FRICTION_NAME = "sled_friction.drag"
+
+
+class VirtualOwner:
+    """Somebody with a garage, a machine and a tape."""
+
+    def __init__(self, garage: Garage, *, noise: float = 0.4, elf: str | None = None) -> None:
+        """noise [mm] of the tape; elf: the flashed program, else the firmware for the host."""
+        self.garage = garage
+        self.settings = garage.settings
+        self.noise = noise
+        self.machine: VirtualMachine = garage.machine(elf=elf)
+        self.sender = Sender(InProcessPort(self.machine))
+        self._source = np.random.default_rng([garage.seed, 5])
+        self._read = 0  # marks on this sheet that were read already
+
+    def switch_on(self) -> None:
+        """Power on; the owner's numbers go to the machine and the chains are declared."""
+        self.machine.start()
+        self.sender.await_start()
+        set_up(self.sender, self.settings)
+
+    def grid_program(self, grid: Grid) -> tuple[list[str], str]:
+        """The G-code of a grid for this sheet, and the form for its marks."""
+        machine = plain_machine(self.settings)
+        return program(grid, machine).splitlines(), marks_list(grid, machine)
+
+    def cut_grid(self, grid: Grid, *, answered: Callable[[int], None] | None = None) -> str:
+        """Cut a grid and read it: the filled form."""
+        lines, form = self.grid_program(grid)
+        self.sender.stream(lines, answered=answered)
+        return self._filled(form)
+
+    def carry_out(self, visits: Visits) -> str:
+        """Cut what `plumb next` proposes on the same sheet and read it: the filled form."""
+        usual = self.garage.numbers["sled_weight"]
+        for lines, weight in zip(visit_lines(visits), visits.sled_weights, strict=True):
+            self.machine.set("sled_weight", usual * weight / self.settings.sled_weight)
+            self.sender.stream([*lines, "G4 P1"])
+        self.machine.set("sled_weight", usual)
+        return self._filled(
+            marks_file(visits, sheet=self.settings.sheet, controller="plumb", said=())
+        )
+
+    def check(self, checks: Sequence[Check]) -> list[Checked]:
+        """Numbers measured directly, each with its own error."""
+        return [
+            Checked(
+                check.name,
+                true_value(self.garage, check.name)
+                + check.sigma * float(self._source.standard_normal()),
+                check.sigma,
+            )
+            for check in checks
+        ]
+
+    def send(self, settings: MachineSettings) -> None:
+        """Send the numbers of a fitted machine; from now on it computes with them."""
+        self.sender.stream(gcode(firmware_numbers(settings)).decode().splitlines())
+        self.settings = settings
+
+    def lay_new_sheet(self, seed: int) -> None:
+        """Take the sheet off and lay another, as carefully as the first."""
+        self.garage = with_new_sheet(self.garage, seed)
+        self.machine.replace_sheet()
+        self._read = 0
+
+    def _filled(self, form: str) -> str:
+        readings = read_with_tape(self.machine, self.garage, self._source, noise=self.noise)
+        new, self._read = readings[self._read :], len(readings)
+        return filled_form(form, new, sheet=self.settings.sheet)
+
+
+def plain_machine(settings: MachineSettings) -> PlainMachine:
+    """The machine as a grid sees it."""
+    return PlainMachine(
+        sheet_width=settings.sheet_width,
+        sheet_height=settings.sheet_height,
+        motor_spacing=settings.motor_gap,
+        motor_offset=settings.motor_height - settings.sheet_height / 2,
+        rotation_radius=settings.rotation_radius,
+        sled_weight_n=settings.sled_weight,
+    )
+
+
+def true_value(garage: Garage, name: str) -> float:
+    """What a perfect measurement of a number of the frame or of an effect would find."""
+    if "." not in name:
+        return float(garage.numbers[name])
+    hidden = {
+        f"{cause.effect}.{parameter}": value
+        for cause, size in garage.hidden.causes
+        for parameter, value in cause.sizes(size).items()
+    }
+    always = garage.friction if name == FRICTION_NAME else 0.0
+    return float(hidden.get(name, CHAIN.get(name, 0.0))) + always

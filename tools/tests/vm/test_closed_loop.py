@@ -1,0 +1,77 @@
+"""The closed loop: a hidden effect is found, added, and the next sheet is better."""
+
+import numpy as np
+import pytest
+from plumb.bench.boards import plan, size_for
+from plumb.bench.causes import MAKER, Hidden, causes_of
+from plumb.grid.options import Grid
+from plumb.marks.read import read_marks
+from plumb.plan.ahead import Check
+from plumb.vm.garage import Garage, random_garage
+from plumb.vm.loop import closed_loop
+from plumb.vm.owner import VirtualOwner, true_value
+from plumb.vm.tape import filled_form, marks_on
+
+GRID = Grid(columns=5, rows=5, repeats=1)
+NOISE = 0.4
+
+
+def hiding(effect: str, millimetres: float = 3.0) -> Hidden:
+    cause = causes_of(effect)[0]
+    return Hidden(((cause, size_for(cause, plan(5, 5), millimetres)),))
+
+
+@pytest.mark.slow
+def test_a_level_that_is_off_is_found_and_the_error_falls():
+    owner = VirtualOwner(random_garage(hiding("motor_level"), 1), noise=NOISE)
+    heard = []
+    loop = closed_loop(owner, grid=GRID, said=heard.append)
+    assert loop.auto.chosen == ("motor_level",)
+    assert loop.before.rms > 4
+    assert loop.left < 1.5 * NOISE * np.sqrt(2)
+    assert abs(loop.promised - loop.left) < 0.4
+    assert loop.done
+    assert "on another sheet" in heard[-1]
+
+
+def test_a_machine_without_a_fault_cuts_where_it_should(tmp_path):
+    owner = VirtualOwner(Garage(Hidden(), friction=0.0), noise=0.0)
+    owner.switch_on()
+    path = tmp_path / "marks.toml"
+    path.write_text(owner.cut_grid(Grid(columns=2, rows=2, repeats=0)))
+    marks = read_marks(path, sheet=MAKER.sheet).marks
+    assert [mark.name for mark in marks] == ["1", "2", "4", "3"]
+    for mark in marks:
+        assert mark.measured == pytest.approx(mark.target, abs=0.12)
+
+
+def test_an_owner_measures_what_is_true_and_no_better():
+    owner = VirtualOwner(Garage(hiding("chain_pitch"), motor_gap=2981.0))
+    (gap,) = owner.check([Check("motor_gap", 1.0)])
+    assert abs(gap.value - 2981.0) < 4
+    assert gap.value != 2981.0
+    assert true_value(owner.garage, "chain_pitch.left") > 5e-4
+    assert true_value(owner.garage, "chain_stretch.compliance") == 5.17e-6
+    assert true_value(owner.garage, "motor_level.height_difference") == 0
+    assert true_value(owner.garage, "sled_friction.drag") == owner.garage.friction
+
+
+def test_a_cut_that_goes_sideways_is_no_mark():
+    dimple = [(1, 0.1, 5.0, 6.0, 0.1), (1, 0.2, 5.1, 6.0, 0.4)]
+    line = [(2, 1.0, 5.0, 6.0, 0.4), (2, 2.0, 9.0, 6.0, 0.4)]
+    assert marks_on(dimple + line).tolist() == [[5.1, 6.0]]
+    assert marks_on([]).shape == (0, 2)
+
+
+def test_a_form_takes_a_reading_for_each_mark():
+    form = "# measured = [ , ]\n# measured = [ , ]\n"
+    filled = filled_form(form, np.array([(0.0, 0.0), (-100.0, 50.0)]), sheet=(2000.0, 1000.0))
+    assert filled == "measured = [1000.0, 500.0]\nmeasured = [900.0, 450.0]\n"
+    with pytest.raises(ValueError, match="waits for 2 marks, and the sheet has 1"):
+        filled_form(form, np.zeros((1, 2)), sheet=(2000.0, 1000.0))
+
+
+def test_a_turned_sheet_reads_turned():
+    garage = Garage(Hidden(), sheet_center=(2.0, 1.0), sheet_turn=0.01)
+    x, y = garage.on_sheet(np.array([[1002.0, 1.0]]))[0]
+    assert (x, y) == pytest.approx((999.95, -10.0), abs=0.001)
