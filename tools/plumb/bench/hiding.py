@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
@@ -81,6 +81,22 @@ def pairs(millimetres: float, causes: tuple[Cause, ...]) -> Hide:
     return hide
 
 
+def several(count: int, low: float, high: float, causes: tuple[Cause, ...]) -> Hide:
+    """So many effects at once, drawn by chance, each of some typical sizes."""
+    effects = by_effect(causes)
+
+    def hide(index: int, plan: Plan) -> Hidden:
+        source = np.random.default_rng(1000 + index)
+        hidden = []
+        for i in source.choice(len(effects), count, replace=False):
+            cause = effects[i][int(source.integers(len(effects[i])))]
+            size = float(source.uniform(low, high))
+            hidden.append((cause, min(size, LARGEST_DRAG) if cause.drag else size))
+        return Hidden(tuple(hidden))
+
+    return hide
+
+
 def outside(millimetres: float) -> Hide:
     """What the library has no word for."""
 
@@ -90,24 +106,42 @@ def outside(millimetres: float) -> Hide:
     return hide
 
 
+@dataclass(frozen=True)
+class Slip:
+    """How a reading is written down wrongly."""
+
+    kind: str  # "turned": by `millimetres` in any direction; "digits"; "axes"
+    millimetres: float = SLIP_MM
+    where: str = ""  # "once": at a mark that is read once; "repeated": at one read again
+
+
 def slip(
-    board: BoardCut, kind: str, source: np.random.Generator
+    board: BoardCut, kind: Slip, source: np.random.Generator
 ) -> tuple[BoardCut, tuple[str, ...]]:
     """The board with one reading written down wrongly, and the mark's name."""
     marks = list(board.measurements.marks)
-    index = int(source.integers(len(marks)))
+    index = _slipped(board, kind.where, source)
     x, y = marks[index].measured or marks[index].target
-    if kind == "axes":
+    if kind.kind == "axes":
         moved = (y, x)
-    elif kind == "digits":
+    elif kind.kind == "digits":
         moved = (_digits_swapped(x, source), y)
     else:
-        turn = source.uniform(0, 2 * np.pi)
-        moved = (x + SLIP_MM * np.cos(turn), y + SLIP_MM * np.sin(turn))
+        turn, length = source.uniform(0, 2 * np.pi), kind.millimetres
+        moved = (x + length * np.cos(turn), y + length * np.sin(turn))
     marks[index] = replace(marks[index], measured=moved)
     return replace(board, measurements=replace(board.measurements, marks=tuple(marks))), (
         marks[index].name,
     )
+
+
+def _slipped(board: BoardCut, where: str, source: np.random.Generator) -> int:
+    """The mark whose reading is wrong."""
+    names = [mark.name for mark in board.measurements.marks]
+    if not where:
+        return int(source.integers(len(names)))
+    again = [names.count(name) > 1 for name in names]
+    return int(source.choice(np.flatnonzero(np.array(again) == (where == "repeated"))))
 
 
 def _digits_swapped(number: float, source: np.random.Generator) -> float:

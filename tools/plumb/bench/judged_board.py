@@ -16,6 +16,7 @@ from plumb.bench.scenarios import Scenario
 from plumb.diagnose import diagnose
 from plumb.fit.inputs import Inputs
 
+LARGE_SLIP = 10.0  # [mm]
 SEEDS = 1_000_003  # boards of one seed before those of the next
 
 
@@ -35,8 +36,9 @@ def judge_board(scenario: Scenario, index: int, *, seed: int) -> JudgedBoard:
     number = SEEDS * seed + crc32(scenario.name.encode()) + index
     board = cut(hidden, plan, seed=number, noise=scenario.noise, tape_sigma=scenario.stated)
     slipped: tuple[str, ...] = ()
-    if scenario.slip:
-        board, slipped = slip(board, scenario.slip, np.random.default_rng(number + 17))
+    kind = scenario.slips[index % len(scenario.slips)] if scenario.slips else None
+    if kind:
+        board, slipped = slip(board, kind, np.random.default_rng(number + 17))
     diagnosis = diagnose(Inputs(MAKER, board.measurements))
     alike: frozenset[str] = frozenset()
     if len(hidden.causes) == 1:
@@ -44,4 +46,6 @@ def judge_board(scenario: Scenario, index: int, *, seed: int) -> JudgedBoard:
     cure = None
     if scenario.cured:
         cure = cure_of(board, diagnosis.to_add, sigma=diagnosis.noise.sigma)
-    return JudgedBoard(outcome_of(diagnosis, board, alike=alike, slipped=slipped), cure)
+    small = kind is not None and kind.millimetres < LARGE_SLIP
+    outcome = outcome_of(diagnosis, board, alike=alike, slipped=slipped, small_slip=small)
+    return JudgedBoard(outcome, cure)

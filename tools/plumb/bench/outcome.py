@@ -32,12 +32,19 @@ class Outcome:
     inside: bool  # the truth is among what was named, or could hide where nothing was proved
     both: bool  # all hidden effects are among the suspects
     slip_named: bool  # the slipped readings, and only they, were named
+    false_slip: bool  # a reading was named that is right
+    small_slip: bool  # the slip, if there is one, is a small one
     intervals: tuple[int, int]  # parameters of the truth inside their intervals, and in all
     limits: tuple[int, int]  # effects whose truth lies below what could hide, and in all
 
 
 def outcome_of(
-    diagnosis: Diagnosis, board: BoardCut, *, alike: frozenset[str], slipped: tuple[str, ...] = ()
+    diagnosis: Diagnosis,
+    board: BoardCut,
+    *,
+    alike: frozenset[str],
+    slipped: tuple[str, ...] = (),
+    small_slip: bool = False,
 ) -> Outcome:
     """Judge a diagnosis; alike are effects that draw the same arrows as the hidden effect."""
     hidden = board.machine.hidden
@@ -58,6 +65,8 @@ def outcome_of(
         both=bool(truth) and truth <= set(diagnosis.suspects),
         slip_named=diagnosis.verdict == "slip"
         and {slip.name for slip in diagnosis.slips} == set(slipped),
+        false_slip=bool({slip.name for slip in diagnosis.slips} - set(slipped)),
+        small_slip=small_slip,
         intervals=_intervals(diagnosis, hidden),
         limits=(sum(good for _, good in limits), len(limits)),
     )

@@ -54,6 +54,18 @@ def _share(of: Callable[[Outcome], bool]) -> Counted:
     return lambda outcome: (float(of(outcome)), 1.0)
 
 
+def _among(of: Callable[[Outcome], bool], good: Callable[[Outcome], bool]) -> Counted:
+    return lambda outcome: (float(of(outcome) and good(outcome)), float(of(outcome)))
+
+
+def _has_small_slip(outcome: Outcome) -> bool:
+    return outcome.small_slip
+
+
+def _has_large_slip(outcome: Outcome) -> bool:
+    return not outcome.small_slip
+
+
 MEASURES: Mapping[str, Counted] = {
     "false naming": _share(lambda outcome: outcome.verdict in NAMED),
     "silent": _share(lambda outcome: outcome.verdict == "nothing_provable"),
@@ -64,6 +76,9 @@ MEASURES: Mapping[str, Counted] = {
     "both": _share(lambda outcome: outcome.both),
     "flagged": _share(lambda outcome: outcome.verdict in ("not_in_library", "slip")),
     "slip named": _share(lambda outcome: outcome.slip_named),
+    "large slip named": _among(_has_large_slip, lambda outcome: outcome.slip_named),
+    "small slip named": _among(_has_small_slip, lambda outcome: outcome.slip_named),
+    "false slip": _share(lambda outcome: outcome.false_slip),
     "effect named first": _share(lambda outcome: outcome.verdict in NAMED),
     "interval holds": lambda outcome: (float(outcome.intervals[0]), float(outcome.intervals[1])),
     "limit holds": lambda outcome: (float(outcome.limits[0]), float(outcome.limits[1])),

@@ -6,7 +6,20 @@ from dataclasses import dataclass
 
 from plumb.bench.boards import plan
 from plumb.bench.causes import CAUSES, Plan
-from plumb.bench.hiding import HUGE, LARGE, REAL, SMALL, Hide, nothing, outside, pairs, raw, typical
+from plumb.bench.hiding import (
+    HUGE,
+    LARGE,
+    REAL,
+    SMALL,
+    Hide,
+    Slip,
+    nothing,
+    outside,
+    pairs,
+    raw,
+    several,
+    typical,
+)
 from plumb.bench.rates import Line
 
 GRIDS = {9: (3, 3), 15: (5, 3), 25: (5, 5), 35: (7, 5)}
@@ -27,7 +40,7 @@ class Scenario:
     stated: float | None = 0.5  # [mm] what the file says of it
     repeats: bool = False  # three marks are read three times, which gives 12 degrees of freedom
     spans: bool = False  # distances between all marks instead of places
-    slip: str = ""  # "turned": 5 mm in any direction; "digits"; "axes"
+    slips: tuple[Slip, ...] = ()  # of a reading, in turns
     shown: tuple[str, ...] = ()  # rates without a line that are worth a look
     cured: bool = False  # whether the sled is measured too, with what was named added
 
@@ -54,9 +67,50 @@ def _unknown(least: float) -> tuple[Line, ...]:
     return (Line("flagged", least=least),)
 
 
+_NONE = "2 mm of no effect"
 _ONE = "one effect of 3 mm"
 _MORE = ("named", "interval holds", "limit holds")
 _SLIP = (Line("slip named", least=0.99), Line("effect named first", most=0.01))
+
+_ANY_SLIP = tuple(
+    Slip("turned", millimetres, where)
+    for where in ("once", "repeated")
+    for millimetres in (5.0, 10.0, 30.0)
+)
+_NO_SLIP = Line("false slip", most=0.01)
+_COUNTS = {1: "one effect", 2: "two effects"}
+
+
+def _slips(count: int, marks: int) -> Scenario:
+    """Slips of any size on a machine with so many effects of usual sizes."""
+    small = (Line("small slip named", least=0.95),) if marks == 25 else ()
+    return Scenario(
+        f"slips-{count}-{marks}",
+        f"{_COUNTS[count]} of 1 to 3 usual sizes, slips of 5, 10 and 30 mm",
+        several(count, 1.0, 3.0, SMALL),
+        (Line("large slip named", least=0.99), *small, _NO_SLIP),
+        marks=marks,
+        noise=0.4,
+        stated=0.4,
+        repeats=True,
+        slips=_ANY_SLIP,
+        shown=() if small else ("small slip named",),
+    )
+
+
+def _no_slips(count: int) -> Scenario:
+    """The same without a slip."""
+    return Scenario(
+        f"no-slips-{count}",
+        f"{_COUNTS[count]} of 1 to 3 usual sizes",
+        several(count, 1.0, 3.0, SMALL),
+        (_NO_SLIP,),
+        noise=0.4,
+        stated=0.4,
+        repeats=True,
+        shown=("named", "truth inside", "both"),
+    )
+
 
 SCENARIOS: tuple[Scenario, ...] = (
     Scenario("none-9", "nothing", nothing, (QUIET,), marks=9, shown=("silent",)),
@@ -131,24 +185,30 @@ SCENARIOS: tuple[Scenario, ...] = (
         (Line("both", least=0.90),),
         shown=("named", "truth inside"),
     ),
-    Scenario("unknown-9", "2 mm of no effect", outside(2.0), _unknown(0.92), marks=9),
-    Scenario("unknown-15", "2 mm of no effect", outside(2.0), _unknown(0.97), marks=15),
-    Scenario("unknown-25", "2 mm of no effect", outside(2.0), _unknown(0.97)),
-    Scenario("slip-9", "a slip of 5 mm", nothing, _SLIP, marks=9, slip="turned"),
-    Scenario("slip-25", "a slip of 5 mm", nothing, _SLIP, slip="turned"),
-    Scenario("slip-digits", "two digits exchanged", nothing, _SLIP, slip="digits"),
-    Scenario("slip-axes", "x and y exchanged", nothing, _SLIP, slip="axes"),
+    Scenario("unknown-9", _NONE, outside(2.0), _unknown(0.92), marks=9, shown=("false slip",)),
+    Scenario("unknown-15", _NONE, outside(2.0), _unknown(0.97), marks=15, shown=("false slip",)),
+    Scenario("unknown-25", _NONE, outside(2.0), _unknown(0.97), shown=("false slip",)),
+    Scenario("slip-9", "a slip of 5 mm", nothing, _SLIP, marks=9, slips=(Slip("turned"),)),
+    Scenario("slip-25", "a slip of 5 mm", nothing, _SLIP, slips=(Slip("turned"),)),
+    Scenario("slip-digits", "two digits exchanged", nothing, _SLIP, slips=(Slip("digits"),)),
+    Scenario("slip-axes", "x and y exchanged", nothing, _SLIP, slips=(Slip("axes"),)),
     Scenario(
-        "slip-one-25", "a slip of 5 mm, an effect of 3 mm", raw(3.0, REAL), _SLIP, slip="turned"
+        "slip-one-25",
+        "a slip of 5 mm, an effect of 3 mm",
+        raw(3.0, REAL),
+        _SLIP,
+        slips=(Slip("turned"),),
     ),
     Scenario(
         "slip-one-9",
         "a slip of 5 mm, an effect of 3 mm",
         raw(3.0, REAL),
         marks=9,
-        slip="turned",
+        slips=(Slip("turned"),),
         shown=("slip named", "effect named first"),
     ),
+    *(_slips(count, marks) for count in (1, 2) for marks in (9, 15, 25, 35)),
+    *(_no_slips(count) for count in (1, 2)),
 )
 NAMES = tuple(scenario.name for scenario in SCENARIOS)
 CURE = Line("error over that of the known truth", most=1.3)

@@ -5,14 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from plumb.diagnose.answer import Ranked
 from plumb.diagnose.clean import CleanReadings
-from plumb.diagnose.explanation import Explanation
+from plumb.diagnose.explanation import Explanation, explain
 from plumb.diagnose.gain import Search
 from plumb.diagnose.halves import half_warnings, round_warnings
 from plumb.diagnose.judgement import Judgement
 from plumb.diagnose.signs import sign_warning
 from plumb.diagnose.sizes import Room, room_for
+from plumb.diagnose.slips import shifts
+from plumb.diagnose.slips_in_repeats import twins_that_agree
 from plumb.model.catalogue import effect_names
 
 _IMPOSSIBLE = (
@@ -45,6 +49,7 @@ def find_doubts(
         warnings=(
             *readings.noise.notes,
             *([_IMPOSSIBLE] if judgement.none_possible else []),
+            *_place_warnings(readings, judgement),
             *_order_warnings(gate, ranking),
             *_unsettled_warnings((readings.frame, *judgement.explanations)),
             *_sign_warnings(readings, judgement),
@@ -61,6 +66,26 @@ def _order_warnings(gate: Search, ranking: Sequence[Ranked]) -> list[str]:
     return [
         f"the full refit puts {ranking[0].effect} before {first}, which the "
         "slopes at the frame's fit put first: the error is large; fit one and diagnose again"
+    ]
+
+
+def _place_warnings(readings: CleanReadings, judgement: Judgement) -> list[str]:
+    """Where to look first if nothing in the library explains the marks."""
+    board = readings.frame.board
+    if judgement.verdict != "not_in_library" or not len(board.rows.measured):
+        return []
+    nearest = explain(board, judgement.to_add, start=readings.frame)
+    worst = max(
+        (shift for shift in shifts(nearest) if shift.reading.is_mark), key=lambda shift: shift.drop
+    )
+    name, off = board.rows.names[worst.reading.index], float(np.hypot(*worst.offset))
+    if worst.reading in twins_that_agree(board.rows, board.sigma):
+        return [
+            f"mark {name} stays {off:.1f} mm off when it is read again: it is the machine there"
+        ]
+    return [
+        f"the marks are farthest off at {name}, by {off:.1f} mm: read it again; if it stays, it is "
+        "the machine there"
     ]
 
 

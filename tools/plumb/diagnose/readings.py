@@ -9,6 +9,7 @@ import numpy as np
 from plumb.board.observations import Observations
 
 Array = np.ndarray
+EXPLANATIONS, REPEATS = "every explanation", "its repeats"  # what a reading may disagree with
 
 
 @dataclass(frozen=True)
@@ -42,7 +43,7 @@ class Shift:
     offset: Array  # (2,) or (1,) [mm] read less what the rest says
     sigma: Array  # of each [mm]
     drop: float  # of chi-square when the reading is set free
-    against: str = "every explanation"  # what it disagrees with, for people
+    against: str = EXPLANATIONS  # what it disagrees with, for people
     is_one_of_two: bool = False  # of the same mark, and the other may be the wrong one
 
 

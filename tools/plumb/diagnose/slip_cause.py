@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.diagnose.readings import Shift
+from plumb.diagnose.readings import EXPLANATIONS, Shift
 from plumb.marks.read import Measurements
 
 ROUND = (1.0, 2.0, 5.0, 10.0, 20.0, 25.4, 40.0, 50.0, 100.0)  # [mm] off by a tick, a hook, an inch
@@ -25,7 +25,7 @@ class Slip:
     read: tuple[float, ...]  # [mm] as it was read, in the machine frame
     expected: tuple[float, ...]  # [mm] what the rest says
     guess: str  # the likely cause, or nothing
-    against: str = "every explanation"  # what it disagrees with
+    against: str = EXPLANATIONS  # what it disagrees with
 
     @property
     def length(self) -> float:
@@ -37,7 +37,16 @@ class Slip:
         """What to do, for people."""
         what = "distance" if len(self.offset) == 1 else "mark"
         cause = f"; {self.guess}" if self.guess else ""
-        return f"remeasure {what} {self.name}: it reads {self.length:.1f} mm {self.way}{cause}"
+        advice = "" if self.guess else self._advice
+        said = f"it reads {self.length:.1f} mm {self.way}{cause}{advice}"
+        return f"remeasure {what} {self.name}: {said}"
+
+    @property
+    def _advice(self) -> str:
+        """What it is if it is no slip: where nothing was read twice, the marks cannot know."""
+        if self.against != EXPLANATIONS or len(self.offset) == 1:
+            return ""
+        return "; if it stays, it is the machine there"
 
     @property
     def way(self) -> str:

@@ -15,7 +15,7 @@ import numpy as np
 from plumb.board.observations import Observations
 from plumb.diagnose.explanation import Board, explain
 from plumb.diagnose.noise_sources import STATEMENT, repeats_of
-from plumb.diagnose.readings import Reading, Shift, readings_of, without
+from plumb.diagnose.readings import REPEATS, Reading, Shift, readings_of, without
 from plumb.diagnose.repeats import repeated_distances, repeated_marks
 from plumb.diagnose.significance import tail
 from plumb.diagnose.spread import Spread
@@ -25,6 +25,7 @@ from plumb.fit.problem import USUAL_SIGMA
 Array = np.ndarray
 LEVEL = 0.002  # chance at which noise alone makes a slip of one of all repeats
 READINGS_PER_SLIP = 6  # with more slips than one in this many repeats, repeats are no help
+AGREE = 0.01  # chance from which on readings of two rounds agree
 TAPE = 4.0  # degrees of freedom that the usual sigma of a tape is worth where none is stated
 KEPT = 1e-6  # share of a slip that a reading must keep to show it
 
@@ -76,15 +77,22 @@ def clear_repeats(board: Board, stated: Stated | None) -> RepeatsCleared:
     return states[surely]
 
 
-def twins_that_agree(rows: Observations) -> frozenset[Reading]:
-    """Readings that repeats confirm; what stood out among these has been set aside before."""
-    return frozenset(apart.reading for apart in _all_apart(rows))
+def twins_that_agree(rows: Observations, sigma: float) -> frozenset[Reading]:
+    """Readings that repeats confirm, of another round too; sigma [mm].
+
+    What stood out among the repeats of a round has been set aside before.
+    """
+    confirmed = {apart.reading for apart in _all_apart(rows)}
+    for apart in _all_apart(rows, in_a_round=False):
+        if tail(apart.drop / sigma**2, apart.reading.size, np.inf) > AGREE:
+            confirmed.add(apart.reading)
+    return frozenset(confirmed)
 
 
-def _all_apart(rows: Observations) -> list[_Apart]:
-    """Every reading that was repeated."""
+def _all_apart(rows: Observations, *, in_a_round: bool = True) -> list[_Apart]:
+    """Every reading that was repeated, in its round or in any."""
     readings: list[_Apart] = []
-    repeats = repeated_marks(rows, in_a_round=True)
+    repeats = repeated_marks(rows, in_a_round=in_a_round)
     if repeats:
         left, kept = repeats.apart()
         groups = {index: group for group in repeats.groups for index in group}
@@ -134,6 +142,6 @@ def _shift(apart: _Apart, sigma: float) -> Shift:
         offset=apart.offset,
         sigma=np.full(apart.reading.size, sigma / np.sqrt(apart.kept)),
         drop=apart.drop / sigma**2,
-        against="its repeats",
+        against=REPEATS,
         is_one_of_two=len(apart.twins) == 2,
     )

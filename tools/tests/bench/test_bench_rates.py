@@ -13,7 +13,7 @@ from plumb.bench import judge
 from plumb.bench.boards import chains_for, cut, plan, raw_field, size_for
 from plumb.bench.causes import CAUSES, MAKER, OUTSIDE, Hidden, causes_of
 from plumb.bench.cure import shape_error
-from plumb.bench.hiding import REAL, SLIP_MM, nothing, raw, slip
+from plumb.bench.hiding import REAL, SLIP_MM, Slip, nothing, raw, several, slip
 from plumb.bench.judged_board import judge_board
 from plumb.bench.outcome import Outcome, look_alikes
 from plumb.bench.page import page
@@ -137,12 +137,28 @@ def test_unknown_fields_have_the_size_that_they_should(kind):
 def test_a_slip_moves_one_reading():
     clean = cut(Hidden(), plan(5, 5), seed=1)
     for kind in ("turned", "digits", "axes"):
-        wrong, names = slip(clean, kind, np.random.default_rng(4))
+        wrong, names = slip(clean, Slip(kind), np.random.default_rng(4))
         apart = np.hypot(*(wrong.measurements.measured - clean.measurements.measured).T)
         assert np.count_nonzero(apart) == 1 and len(names) == 1
-    turned, _ = slip(clean, "turned", np.random.default_rng(4))
+    turned, _ = slip(clean, Slip("turned"), np.random.default_rng(4))
     apart = turned.measurements.measured - clean.measurements.measured
     assert np.linalg.norm(apart) == pytest.approx(SLIP_MM)
+
+
+def test_a_slip_can_be_kept_to_marks_that_are_read_again():
+    board = cut(Hidden(), plan(5, 5, repeats=True), seed=1)
+    names = [mark.name for mark in board.measurements.marks]
+    for where, is_repeated in (("once", False), ("repeated", True)):
+        for seed in range(8):
+            _, slipped = slip(board, Slip("turned", 9.0, where), np.random.default_rng(seed))
+            assert (names.count(slipped[0]) > 1) == is_repeated
+
+
+def test_several_effects_are_different_ones_of_usual_size():
+    for index in range(12):
+        hidden = several(2, 1.0, 2.0, REAL)(index, plan(5, 5))
+        assert len(set(hidden.effects)) == 2
+        assert all(1.0 <= size <= 2.0 for _, size in hidden.causes)
 
 
 def test_tape_and_pitch_draw_the_same_arrows():
@@ -176,6 +192,8 @@ def outcome(**changes):
         inside=True,
         both=False,
         slip_named=False,
+        false_slip=False,
+        small_slip=False,
         intervals=(0, 0),
         limits=(12, 13),
     )

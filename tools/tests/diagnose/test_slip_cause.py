@@ -68,7 +68,7 @@ def test_a_distance_has_no_axis():
     ("count", "words"), [(1, "One reading disagrees"), (2, "Some readings disagree")]
 )
 def test_the_sentence_counts_the_slips(count, words):
-    slips = [SimpleNamespace(name=name) for name in "AB"[:count]]
+    slips = [SimpleNamespace(name=name, against="every explanation") for name in "AB"[:count]]
     sentence = verdict_sentence(SimpleNamespace(verdict="slip", slips=slips))
     assert sentence.startswith(words) and "A" in sentence
 
