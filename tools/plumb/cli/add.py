@@ -10,12 +10,8 @@ from typing import Any
 from plumb.cli.add_text import PATCH_WARNING, as_text, auto_text, turn_sentence
 from plumb.cli.client import client_files_of, client_text, typed_json
 from plumb.cli.compare import panel_of, score_json
-from plumb.cli.files import (
-    inputs_of,
-    picture_form,
-    refuse_twins,
-    write_outputs,
-)
+from plumb.cli.files import inputs_of, picture_form
+from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.text import about, print_json
 from plumb.cure.add import Addition, Parameter, Quality, add, priors_with
 from plumb.cure.auto import AutoAddition, add_auto, without_marks

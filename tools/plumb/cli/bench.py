@@ -21,7 +21,7 @@ from plumb.bench.report import (
 )
 from plumb.bench.scenarios import CURE, NAMES, SCENARIOS, Scenario
 from plumb.cli.arguments.bench import BOARDS, FAST
-from plumb.cli.files import write_outputs
+from plumb.cli.output import write_outputs
 from plumb.cli.screen import Bar, sentences, table
 from plumb.cli.text import print_json
 from plumb.text.errors import InputError

@@ -7,11 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from plumb.cli.files import (
-    inputs_of,
-    picture_form,
-    write_outputs,
-)
+from plumb.cli.files import inputs_of, picture_form
+from plumb.cli.output import write_outputs
 from plumb.cli.screen import sentences, table
 from plumb.cli.text import about, millimetres, print_json, signed
 from plumb.fit.compare import Comparison, compare

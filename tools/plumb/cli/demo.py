@@ -11,6 +11,7 @@ from pathlib import Path
 from plumb.cli.add import panels_of, toml_of
 from plumb.cli.add_text import COLUMNS, turn_sentence
 from plumb.cli.ending import ended
+from plumb.cli.output import write_outputs
 from plumb.cli.parser import Parser
 from plumb.cli.screen import sentences, table
 from plumb.cli.text import millimetres
@@ -19,7 +20,6 @@ from plumb.cure.record import record_of
 from plumb.firmware.client_files import client_files
 from plumb.pictures.sheet import draw
 from plumb.text.errors import refusal
-from plumb.text.files import write_all
 
 PICTURE = "error-falls"
 
@@ -37,7 +37,7 @@ def _run(arguments: Sequence[str] | None) -> int:
         Path(parsed.folder).mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise refusal(parsed.folder, f"cannot be made ({error.strerror})") from None
-    write_all(files)
+    write_outputs(files, inputs=[])
     print(as_text(demonstration))
     print("\nWritten:")
     print(sentences([os.path.relpath(path) for path in files], mark="  "))

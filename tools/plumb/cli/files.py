@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 from plumb.fit.inputs import Inputs
@@ -15,7 +15,6 @@ from plumb.pictures.sheet import FORMATS
 from plumb.settings.files import read_settings
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError, refusal
-from plumb.text.files import write_all
 
 
 def settings_in(path: str) -> MachineSettings:
@@ -45,23 +44,6 @@ def _refuse_the_same_twice(paths: Sequence[str]) -> None:
         if real in seen:
             raise refusal(path, "is given twice", remedy="name each file of marks once")
         seen.add(real)
-
-
-def write_outputs(files: Mapping[str, bytes], *, inputs: Sequence[str]) -> None:
-    """Write all files or none; what was read is never overwritten."""
-    taken = {os.path.realpath(path) for path in inputs}
-    for path in files:
-        if os.path.realpath(path) in taken:
-            raise refusal(path, "is read here and kept", remedy="give the result another name")
-    write_all(files)
-
-
-def refuse_twins(*paths: str | None) -> None:
-    """Refuse two results with the same name."""
-    named = [os.path.realpath(path) for path in paths if path]
-    for path in paths:
-        if path and named.count(os.path.realpath(path)) > 1:
-            raise refusal(path, "is the name of two results", remedy="give each another name")
 
 
 def picture_form(path: str, *, option: str = "--picture") -> str:

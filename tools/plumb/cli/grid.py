@@ -11,6 +11,7 @@ import numpy as np
 
 import plumb.grid as marks_grid
 from plumb.cli.files import settings_in
+from plumb.cli.output import write_outputs
 from plumb.cli.text import print_json
 from plumb.model.predict import CANNOT_HANG, TOO_SLACK, TOO_TIGHT, USABLE, reach
 from plumb.model.reach import with_soft_chains
@@ -22,10 +23,10 @@ def run(arguments: argparse.Namespace) -> int:
     """Make the grid as the tool does, unless our model of the machine refuses a place."""
     refuse_out_of_reach(arguments)
     if not arguments.json:
-        return marks_grid.run(arguments, "plumb")
+        return _made(arguments)
     said = io.StringIO()
     with contextlib.redirect_stdout(said):
-        code = marks_grid.run(arguments, "plumb")
+        code = _made(arguments)
     if code:
         return code
     grid, machine = marks_grid.from_arguments(arguments)
@@ -41,6 +42,12 @@ def run(arguments: argparse.Namespace) -> int:
         }
     )
     return 0
+
+
+def _made(arguments: argparse.Namespace) -> int:
+    """The grid as the tool makes it, written as all results of the lab are."""
+    read = [arguments.settings] if arguments.settings else []
+    return marks_grid.run(arguments, "plumb", lambda contents: write_outputs(contents, inputs=read))
 
 
 def refuse_out_of_reach(arguments: argparse.Namespace) -> None:

@@ -28,6 +28,7 @@ from plumb.cli.arguments import (
 )
 from plumb.cli.arguments import next as next_measurement
 from plumb.cli.ending import ended
+from plumb.cli.output import results_of
 from plumb.cli.parser import Parser, Version
 from plumb.text.errors import InputError
 
@@ -73,7 +74,8 @@ def _run(arguments: Sequence[str] | None) -> int:
     run: Callable[[argparse.Namespace], int] = loaded(f"plumb.cli.{parsed.command}").run
     for line in loaded("plumb.model.sketches").BROKEN:
         raise InputError(f"sketch {line}")
-    return run(parsed)
+    with results_of(parsed):
+        return run(parsed)
 
 
 def build_parser() -> Parser:

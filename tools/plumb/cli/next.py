@@ -10,12 +10,8 @@ import numpy as np
 
 from plumb.cli.checked import usable_checks
 from plumb.cli.diagnose import proposal_json
-from plumb.cli.files import (
-    inputs_of,
-    picture_form,
-    refuse_twins,
-    write_outputs,
-)
+from plumb.cli.files import inputs_of, picture_form
+from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import bar, sentences, table
 from plumb.cli.text import millimetres, number, print_json
 from plumb.cure.add import priors_with

@@ -7,11 +7,8 @@ from typing import Any
 
 import plumb.grid as marks_grid
 from plumb.cli.arguments.preview import COLUMNS, ROWS
-from plumb.cli.files import (
-    picture_form,
-    settings_in,
-    write_outputs,
-)
+from plumb.cli.files import picture_form, settings_in
+from plumb.cli.output import write_outputs
 from plumb.cli.screen import sentences, table
 from plumb.cli.text import millimetres, print_json
 from plumb.cure.add import priors_with

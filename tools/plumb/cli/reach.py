@@ -6,7 +6,8 @@ import argparse
 from typing import Any
 
 from plumb.cli.arguments.reach import OPTIONS
-from plumb.cli.files import picture_form, settings_in, write_outputs
+from plumb.cli.files import picture_form, settings_in
+from plumb.cli.output import write_outputs
 from plumb.cli.screen import sentences, table
 from plumb.cli.text import print_json
 from plumb.model.predict import REACH_WORDS

@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 
 from plumb.cli.client import client_files_of, client_text, typed_json
-from plumb.cli.files import settings_in, write_outputs
+from plumb.cli.files import settings_in
+from plumb.cli.output import write_outputs
 from plumb.cli.screen import table
 from plumb.cli.text import print_json
 from plumb.firmware.client_files import gcode

@@ -10,12 +10,12 @@ import configparser
 import importlib
 import os
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NoReturn
 
 from plumb.grid.cut_with import cut_with_lines
 from plumb.grid.form import marks_list
-from plumb.grid.gcode import program
+from plumb.grid.gcode import FIRST_LINE, program
 from plumb.grid.limits import demand
 from plumb.grid.options import GRID_OPTIONS, MACHINE_OPTIONS, Grid, GridError, PlainMachine, pair
 from plumb.grid.picture import preview
@@ -51,6 +51,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("output")
     group.add_argument("--output", metavar="FILE", help="where the program goes [the screen]")
     group.add_argument("--marks", metavar="FILE", help="also write a marks.toml to fill in")
+    force = "replace files that this program did not write"
+    group.add_argument("--force", action="store_true", help=force)
     group.add_argument("--preview", action="store_true", help="show a picture, not the program")
 
 
@@ -114,7 +116,11 @@ def from_arguments(arguments: argparse.Namespace) -> tuple[Grid, PlainMachine]:
     return grid, PlainMachine(**of_machine)
 
 
-def run(arguments: argparse.Namespace, name: str = "calibration grid") -> int:
+def run(
+    arguments: argparse.Namespace,
+    name: str = "calibration grid",
+    write: Callable[[Mapping[str, bytes]], None] | None = None,
+) -> int:
     """Does what the parsed options ask; 0 done, 2 refused with one line of that name on stderr."""
     try:
         grid, machine = from_arguments(arguments)
@@ -124,10 +130,12 @@ def run(arguments: argparse.Namespace, name: str = "calibration grid") -> int:
             demand(arguments.marks != arguments.output, "--marks and --output are the same file")
             # Readings that took an hour must not be lost to a second run.
             kept = f"{arguments.marks} exists: move it away or give --marks another name"
-            demand(not os.path.exists(arguments.marks), kept)
+            free = arguments.force or not os.path.isfile(arguments.marks)
+            demand(free, kept)
             named = cut_with_lines(arguments.settings, arguments.marks)
             files[arguments.marks] = marks_list(grid, machine, named)
-        _write(files)
+        writing = write or (lambda contents: _write(contents, force=arguments.force))
+        writing({path: said.encode("ascii") for path, said in files.items()})
     except GridError as refusal:
         print(f"{name}: {refusal}", file=sys.stderr)
         return 2
@@ -138,19 +146,46 @@ def run(arguments: argparse.Namespace, name: str = "calibration grid") -> int:
     return 0
 
 
-def _write(files: Mapping[str, str]) -> None:
-    """Writes all texts or none: each goes next to its place first and is moved there last."""
-    path = ""
+def _write(files: Mapping[str, bytes], force: bool) -> None:
+    """Writes all texts or none: each goes next to its place first and is moved there last.
+
+    Devices and pipes stay what they are and get the bytes; `-` is the standard output.
+    """
+    path, parts = "", {}
     try:
-        for path, text in files.items():
-            with open(f"{path}.part", "w", encoding="ascii", newline="\n") as file:
-                file.write(text)
         for path in files:
-            os.replace(f"{path}.part", path)
+            demand(force or _is_free(path), f"{path} exists: give another name, or --force")
+            if not _is_poured_into(path):
+                parts[path] = f"{os.path.realpath(path)}.part"
+                with open(parts[path], "wb") as file:
+                    file.write(files[path])
+        for path in files.keys() - parts.keys():
+            if path == "-":
+                sys.stdout.write(files[path].decode("ascii"))
+                continue
+            with open(path, "wb") as file:
+                file.write(files[path])
+        for path, part in parts.items():
+            os.replace(part, os.path.realpath(path))
     except OSError as error:
-        for part in filter(os.path.exists, [f"{place}.part" for place in files]):
-            os.remove(part)
         raise GridError(f"cannot write {path}: {error.strerror}: give another name") from None
+    finally:
+        for part in filter(os.path.exists, parts.values()):
+            os.remove(part)
+
+
+def _is_free(path: str) -> bool:
+    """Whether there is no file of that name, or an empty one, or a program of this tool."""
+    if not os.path.isfile(path):
+        return True
+    with open(path, "rb") as file:
+        beginning = file.read(len(FIRST_LINE))
+    return beginning in (b"", FIRST_LINE.encode())
+
+
+def _is_poured_into(path: str) -> bool:
+    """Whether it is the standard output, a device or a pipe."""
+    return path == "-" or (os.path.exists(path) and not os.path.isfile(path))
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -6,6 +6,8 @@ from plumb.grid.options import Grid, PlainMachine
 from plumb.grid.touches import lead_in, touches_of
 from plumb.grid.way import check
 
+FIRST_LINE = "(Plumb calibration grid)"
+
 
 def program(grid: Grid, machine: PlainMachine) -> str:
     """The G-code as text; raises GridError if the grid cannot be made."""
@@ -20,7 +22,7 @@ def program(grid: Grid, machine: PlainMachine) -> str:
     router = "leave the router off" if grid.mode == "touch" else "switch the router on first"
     up = f"G0 {word('Z', grid.safe_height)}"
     lines = [
-        "(Plumb calibration grid)",
+        FIRST_LINE,
         f"(pattern: {grid.pattern}, {len(touches)} marks with repeats)",
         "(X0 Y0 middle of sheet, Z0 surface, comments in mm)",
         f"({grid.mode} {grid.bit_depth:g} mm deep: {router})",

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from plumb.pictures.saved import saved
 from plumb.pictures.sheet import EDGE, INK, MARGIN, WIDTH, WOOD
 from plumb.plan.planned_visits import Visits
 from plumb.settings.machine import GRAVITY
@@ -49,11 +49,7 @@ def draw_plan(
     left = MARGIN / (1 + 2 * MARGIN)
     figure.text(left, 1 - 0.36 / tall, title, fontsize=15, fontweight="bold", color=INK)
     _draw_legend(figure.add_axes((0, 0, 1, foot / tall)), legend, foot)
-    file = io.BytesIO()
-    # No date in the file: the same plan gives the same bytes.
-    dated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(form, {})
-    figure.savefig(file, format=form, dpi=130, facecolor="white", metadata=dated)
-    return file.getvalue()
+    return saved(figure, form)
 
 
 def _draw_sheet(

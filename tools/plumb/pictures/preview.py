@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import io
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from plumb.pictures.saved import saved
 from plumb.pictures.sheet import EDGE, INK, WIDTH, WOOD
 from plumb.plan.preview import APART, Preview
 
@@ -47,11 +47,7 @@ def draw_preview(preview: Preview, *, sheet: tuple[float, float], form: str = "p
     for i, line in enumerate(said):
         y = (GAP + low - 0.05 - 0.25 * i) / tall
         figure.text((LEFT + SHEET + GAP) / WIDTH, y, line, fontsize=10.5, color=INK, va="top")
-    file = io.BytesIO()
-    # No date in the file: the same plan gives the same bytes.
-    dated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(form, {})
-    figure.savefig(file, format=form, dpi=130, facecolor="white", metadata=dated)
-    return file.getvalue()
+    return saved(figure, form)
 
 
 def _write_cells(axis: Axes, preview: Preview) -> None:

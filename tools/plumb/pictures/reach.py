@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING, TypeVar
@@ -20,6 +19,7 @@ from plumb.model.predict import (
     Array,
 )
 from plumb.model.reach import Survey, percent
+from plumb.pictures.saved import saved
 from plumb.pictures.sheet import EDGE, INK, MARGIN, WIDTH, WOOD
 
 if TYPE_CHECKING:
@@ -70,11 +70,7 @@ def draw_map(survey: Survey, *, form: str = "png") -> bytes:
         y = (low + strip - TITLE + 0.04) / tall
         figure.text(left, y, title, fontsize=15, fontweight="bold", color=INK, va="bottom")
     _draw_legend(figure.add_axes((0, 0, 1, FOOT / tall)), survey)
-    file = io.BytesIO()
-    # No date in the file: the same machine gives the same bytes.
-    dated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(form, {})
-    figure.savefig(file, format=form, dpi=130, facecolor="white", metadata=dated)
-    return file.getvalue()
+    return saved(figure, form)
 
 
 def _grid(survey: Survey, values: NDArray[Number]) -> NDArray[Number]:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from plumb.pictures.saved import saved
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -59,11 +60,7 @@ def draw(panels: Sequence[Panel], *, sheet: tuple[float, float], form: str = "pn
         y = (upper + inch * (top - bottom) + 0.06) / tall
         figure.text(left, y, panel.title, fontsize=16, fontweight="bold", color=colour, va="bottom")
     _draw_scale(figure.add_axes((0, 0, 1, FOOT / tall)), factor, largest, inch)
-    file = io.BytesIO()
-    # No date in the file: the same errors give the same bytes.
-    dated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(form, {})
-    figure.savefig(file, format=form, dpi=130, facecolor="white", metadata=dated)
-    return file.getvalue()
+    return saved(figure, form)
 
 
 def _range(panel: Panel, height: float, factor: float) -> tuple[float, float]:

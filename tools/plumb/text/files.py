@@ -13,6 +13,7 @@ from plumb.text.errors import refusal
 
 # A file of marks or settings has a few kilobytes; more is some other file picked by mistake.
 LARGEST_FILE_BYTES = 5_000_000
+_PIPED: dict[str, bytes] = {}  # what came through pipes, which can be read only once
 
 
 def read_bytes(path: str | PathLike[str]) -> bytes:
@@ -23,7 +24,9 @@ def read_bytes(path: str | PathLike[str]) -> bytes:
             raise refusal(path, "is a folder", remedy="name the file inside it")
         if place.stat().st_size > LARGEST_FILE_BYTES:
             raise refusal(path, "is larger than 5 MB", remedy="check that it is the right file")
-        content = place.read_bytes()
+        content = _PIPED.get(str(path)) or place.read_bytes()
+        if not place.is_file():
+            _PIPED[str(path)] = content
     except FileNotFoundError:
         raise refusal(path, "there is no such file", remedy="check the name") from None
     except (OSError, ValueError) as error:
@@ -60,21 +63,20 @@ def write_whole(path: str | PathLike[str], content: bytes) -> None:
 
 
 def write_all(files: Mapping[str, bytes]) -> None:
-    """Replace several files: if any of them cannot be written, none is."""
+    """Replace several files: if any of them cannot be written, none is.
+
+    Devices and pipes stay what they are: they get the bytes, just before the files are replaced.
+    """
     staged: dict[str, tuple[str, Path]] = {}
     path = ""
     try:
-        for path, content in files.items():
-            target = Path(os.path.realpath(path))
-            if target.is_dir():
-                raise refusal(path, "is a folder", remedy="name a file inside it")
-            handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
-            staged[path] = name, target
-            with os.fdopen(handle, "wb") as file:
-                file.write(content)
-                file.flush()
-                os.fsync(file.fileno())
-            os.chmod(name, _mode_for(target))
+        poured = [path for path in files if _is_poured_into(path)]
+        for path in files:
+            if path not in poured:
+                staged[path] = _staged(Path(os.path.realpath(path)), files[path])
+        for path in poured:
+            with open(path, "wb") as stream:
+                stream.write(files[path])
         for path in staged:
             os.replace(*staged[path])
     except OSError as error:
@@ -82,6 +84,38 @@ def write_all(files: Mapping[str, bytes]) -> None:
     finally:
         for name, _ in staged.values():
             Path(name).unlink(missing_ok=True)
+
+
+def _is_poured_into(path: str | PathLike[str]) -> bool:
+    """Whether it is a device or a pipe, which takes bytes and cannot be replaced; InputError for
+    what takes no result at all."""
+    try:
+        mode = os.stat(path).st_mode
+    except FileNotFoundError:
+        return False
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise refusal(path, f"cannot be written ({reason})") from None
+    if stat.S_ISDIR(mode):
+        raise refusal(path, "is a folder", remedy="name a file inside it")
+    if stat.S_ISBLK(mode) or stat.S_ISSOCK(mode):
+        raise refusal(path, "is a disk or a socket, not a file", remedy="name a file")
+    return stat.S_ISFIFO(mode) or stat.S_ISCHR(mode)
+
+
+def _staged(target: Path, content: bytes) -> tuple[str, Path]:
+    """The content in a new file beside the target, whose place it takes later."""
+    handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        os.chmod(name, _mode_for(target))
+    except OSError:
+        Path(name).unlink(missing_ok=True)
+        raise
+    return name, target
 
 
 def _mode_for(target: Path) -> int:

@@ -13,7 +13,18 @@ from plumb.cli.main import COMMANDS, build_parser
 FOLDER = Path(main.__file__).parent
 # Files of the room that are no commands.
 SHARED = {
-    *("__init__", "add_text", "checked", "client", "demo", "ending", "files", "main", "parser"),
+    *(
+        "__init__",
+        "add_text",
+        "checked",
+        "client",
+        "demo",
+        "ending",
+        "files",
+        "main",
+        "output",
+        "parser",
+    ),
     *("places_text", "screen", "text"),
 }
 SHARED_ARGUMENTS = {"__init__", "checked", "client", "shared"}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from plumb.cli.arguments.client import add_client, add_firmware
-from plumb.cli.arguments.shared import add_json, add_marks, add_prior, add_sigma
+from plumb.cli.arguments.shared import add_force, add_json, add_marks, add_prior, add_sigma
 
 HELP = "fit the frame and the named effects to the marks, and write the new settings"
 EXIT = (
@@ -45,4 +45,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_prior(parser)
     add_sigma(parser, usual="tape_sigma_mm of MARKS and repeats, else from the residuals")
     parser.add_argument("--picture", metavar="FILE", help="draw before and after: .png, .svg, .pdf")
+    add_force(parser)
     add_json(parser)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from plumb.cli.arguments.shared import add_json
+from plumb.cli.arguments.shared import add_force, add_json
 
 HELP = "how often the diagnosis is right: rates over boards with hidden effects"
 BOARDS, FAST = 200, 20  # of each scenario
@@ -28,6 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", metavar="S", type=int, default=1, help="other boards [1]")
     parser.add_argument("--jobs", metavar="N", type=_count, default=1, help="programs at once [1]")
     parser.add_argument("--write", metavar="FILE", help="write the page with all rates (markdown)")
+    add_force(parser)
     add_json(parser)
 
 

@@ -6,6 +6,7 @@ import argparse
 
 from plumb.cli.arguments.shared import (
     add_controller,
+    add_force,
     add_json,
     add_prior,
     add_settings,
@@ -42,4 +43,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_prior(parser)
     add_controller(parser)
     parser.add_argument("--picture", metavar="FILE", help="draw the table: .png, .svg or .pdf")
+    add_force(parser)
     add_json(parser)

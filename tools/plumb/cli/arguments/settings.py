@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from plumb.cli.arguments.client import add_client
-from plumb.cli.arguments.shared import add_json, add_settings
+from plumb.cli.arguments.shared import add_force, add_json, add_settings
 
 FORMS = ("gcode", "table")
 HELP = "a fitted machine as $ lines for the firmware, with its client's file, or as a table"
@@ -18,4 +18,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--to", choices=FORMS, default="table", help="the form [%(default)s]")
     add_client(parser)
     parser.add_argument("-o", "--output", metavar="FILE", help="write it there instead of printing")
+    add_force(parser)
     add_json(parser)

@@ -73,6 +73,13 @@ def add_json(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="print a JSON object and nothing else")
 
 
+def add_force(parser: argparse.ArgumentParser) -> None:
+    """The option --force."""
+    parser.add_argument(
+        "--force", action="store_true", help="replace files that plumb did not write"
+    )
+
+
 def file(path: str) -> str:
     """The name of a file that exists; another is refused before the model is loaded."""
     if not Path(path).exists() or Path(path).is_dir():

@@ -1,0 +1,42 @@
+"""Whether a file was written by the lab, so that the next run may replace it."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+# How our text files begin: a machine.toml, a grid's program, the page of the bench.
+BEGINNINGS = (
+    b"# Settings of one hanging machine, for plumb.",
+    b"(Plumb calibration grid)",
+    b"# How often the diagnosis is right",
+)
+MAKER = "Plumb"  # what a picture says of the program that drew it
+# Where the forms of a picture say it.
+PICTURES = (
+    (b"\x89PNG", b"Software\0Plumb"),
+    (b"<?xml", b"<dc:title>Plumb</dc:title>"),
+    (b"%PDF", b"/Creator (Plumb)"),
+)
+LINES = re.compile(rb"(\$\d+=[-+.\de]+\n)+")  # for the machine
+CLIENT_FILE = "-groundcontrol.ini"  # how the name of a client's file ends
+
+
+def picture_metadata(form: str) -> dict[str, str | None]:
+    """What a picture says of itself; no date, so that the same data give the same bytes."""
+    words: dict[str, dict[str, str | None]] = {
+        "png": {"Software": MAKER},
+        "svg": {"Creator": MAKER, "Date": None},
+        "pdf": {"Creator": MAKER, "CreationDate": None},
+    }
+    return words[form]
+
+
+def is_ours(path: Path) -> bool:
+    """Whether the lab wrote this file, or nobody wrote anything into it."""
+    content = path.read_bytes()
+    if not content or content.startswith(BEGINNINGS) or LINES.fullmatch(content):
+        return True
+    if any(content.startswith(form) and said in content for form, said in PICTURES):
+        return True
+    return path.name.endswith(CLIENT_FILE) and b"[maslow settings]" in content.lower()

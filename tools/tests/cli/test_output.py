@@ -1,0 +1,213 @@
+"""Where results go: nothing is replaced that plumb did not write, devices and pipes stay."""
+
+import json
+import os
+import stat
+import subprocess
+import sys
+import threading
+import tomllib
+from pathlib import Path
+
+import pytest
+from plumb.cli.main import main
+
+ROOT = Path(__file__).resolve().parents[3]
+EXAMPLE = ROOT / "docs/example"
+SETTINGS, MARKS, MACHINE = (
+    str(EXAMPLE / name) for name in ("groundcontrol.ini", "marks.toml", "machine.toml")
+)
+ADD = ("add", SETTINGS, MARKS, "--effect", "chain_pitch")
+LINES = ("settings", MACHINE, "--to", "gcode", "--client", "none")
+GRID = ("grid", "--columns", "3", "--rows", "3")
+TOOL = [sys.executable, str(ROOT / "tools/calibration_grid.py"), "--columns", "3", "--rows", "3"]
+# Commands with the option that names their result, and the name of a file for it.
+WRITERS = [
+    pytest.param((*ADD, "-o"), "machine.toml", id="add"),
+    pytest.param((*LINES, "-o"), "machine.nc", id="settings"),
+    pytest.param(("compare", SETTINGS, MARKS, "--picture"), "errors.png", id="png"),
+    pytest.param(("compare", SETTINGS, MARKS, "--picture"), "errors.svg", id="svg"),
+    pytest.param(("compare", SETTINGS, MARKS, "--picture"), "errors.pdf", id="pdf"),
+    pytest.param(("reach", MACHINE, "-o"), "reach.png", id="reach"),
+    pytest.param((*GRID, "--output"), "grid.nc", id="grid"),
+]
+
+
+@pytest.fixture(autouse=True)
+def in_a_folder(tmp_path, monkeypatch):
+    """Every test has a folder for itself."""
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.mark.parametrize(("command", "name"), WRITERS)
+def test_a_second_run_replaces_its_result_and_no_other_file(command, name, run):
+    assert run(*command, name)[0] == 0
+    first = Path(name).read_bytes()
+    assert run(*command, name)[0] == 0
+    assert Path(name).read_bytes() == first
+    Path(name).write_text("my notes of a year\n")
+    code, said, complaint = run(*command, name)
+    assert code == 2 and said == "" and "--force" in complaint and complaint.count("\n") == 1
+    assert Path(name).read_text() == "my notes of a year\n"
+    assert run(*command, name, "--force")[0] == 0
+    assert Path(name).read_bytes() == first
+    Path(name).write_text("")
+    assert run(*command, name)[0] == 0
+
+
+def test_the_owners_files_are_no_results_of_ours(run):
+    for name in ("groundcontrol.ini", "marks.toml"):
+        Path(name).write_bytes((EXAMPLE / name).read_bytes())
+        kept = Path(name).read_bytes()
+        assert run(*ADD, "-o", name)[0] == 2 and Path(name).read_bytes() == kept
+    Path("mixed.nc").write_text("$37=0\nG0 X0\n")
+    assert run(*LINES, "-o", "mixed.nc")[0] == 2
+
+
+def test_of_two_results_none_is_written_if_the_other_is_foreign(run):
+    Path("fall.png").write_bytes(b"\x89PNG of a camera")
+    assert run(*ADD, "-o", "machine.toml", "--picture", "fall.png")[0] == 2
+    assert not Path("machine.toml").exists()
+
+
+def test_the_clients_file_is_replaced_by_its_name(run):
+    options = ("-o", "machine.toml", "--client", "groundcontrol")
+    assert run(*ADD, *options)[0] == 0
+    assert run(*ADD, *options)[0] == 0
+    Path("machine-groundcontrol.ini").write_text("[something else]\n")
+    assert run(*ADD, *options)[0] == 2
+
+
+def test_a_form_with_readings_is_not_replaced(run):
+    grid = (*GRID, "--marks", "form.toml", "--output", "grid.nc")
+    assert run(*grid)[0] == 0
+    code, _, complaint = run(*grid)
+    assert code == 2 and "exists" in complaint
+    assert run(*grid, "--force")[0] == 0
+
+
+def read_from(pipe, into):
+    into.append(Path(pipe).read_bytes())
+
+
+def through_a_pipe(name, write):
+    """What `write` pours into a new pipe of that name, and what it returns."""
+    os.mkfifo(name)
+    got = []
+    reader = threading.Thread(target=read_from, args=(name, got), daemon=True)
+    reader.start()
+    answer = write()
+    reader.join(10)
+    assert stat.S_ISFIFO(os.stat(name).st_mode)
+    return got[0], answer
+
+
+@pytest.mark.parametrize(("command", "name"), WRITERS)
+def test_a_pipe_stays_a_pipe_and_gets_the_bytes(command, name, run):
+    got, answer = through_a_pipe(name, lambda: run(*command, name))
+    Path(name).unlink()
+    assert answer[0] == 0 and run(*command, name)[0] == 0
+    assert got == Path(name).read_bytes()
+
+
+def test_a_link_to_a_pipe_or_a_device_is_no_file_to_replace(run):
+    os.symlink("/dev/null", "null.toml")
+    os.symlink("pipe", "link.toml")
+    assert run(*ADD, "-o", "null.toml")[0] == 0
+    assert os.path.islink("null.toml") and stat.S_ISCHR(os.stat("/dev/null").st_mode)
+    got, answer = through_a_pipe("pipe", lambda: run(*ADD, "-o", "link.toml"))
+    assert answer[0] == 0 and b"[frame]" in got and os.path.islink("link.toml")
+
+
+def test_a_link_to_a_file_stays_and_its_file_is_replaced(run):
+    assert run(*ADD, "-o", "machine.toml")[0] == 0
+    written = Path("machine.toml").read_bytes()
+    os.symlink("machine.toml", "link.toml")
+    os.symlink("nothing.toml", "dangling.toml")
+    assert run(*ADD, "-o", "link.toml")[0] == 0 and os.path.islink("link.toml")
+    assert run(*ADD, "-o", "dangling.toml")[0] == 0
+    assert Path("nothing.toml").read_bytes() == written
+    Path("machine.toml").write_text("notes\n")
+    assert run(*ADD, "-o", "link.toml")[0] == 2 and Path("machine.toml").read_text() == "notes\n"
+
+
+def test_a_full_disk_is_a_line_and_leaves_nothing(run):
+    picture = ("--picture", "fall.png")
+    for command in ((*ADD, *picture, "-o"), (*LINES, "-o"), (*GRID, "--output")):
+        code, said, complaint = run(*command, "/dev/full")
+        assert code == 2 and said == "" and complaint.count("\n") == 1
+        assert "/dev/full" in complaint and "No space left" in complaint
+        assert stat.S_ISCHR(os.stat("/dev/full").st_mode)
+    assert os.listdir() == []
+
+
+@pytest.mark.parametrize("force", [[], ["--force"]], ids=["", "force"])
+def test_a_folder_is_no_place_for_a_result(force, run):
+    os.mkdir("here.toml")
+    for command in ((*ADD, "-o"), (*LINES, "-o"), (*GRID, "--output")):
+        code, _, complaint = run(*command, "here.toml", *force)
+        assert code == 2 and "here.toml" in complaint
+    assert os.listdir("here.toml") == []
+
+
+def test_a_dash_is_the_standard_output_and_the_report_goes_beside(run):
+    code, said, report = run(*ADD, "-o", "-")
+    assert code == 0 and "frame" in tomllib.loads(said) and report.startswith("From ")
+    code, said, report = run(*LINES, "-o", "-")
+    assert code == 0 and said.startswith("$0=2438.4\n") and "Written" in report
+    assert said == run(*LINES)[1]
+    code, said, _ = run(*GRID, "--output", "-")
+    assert code == 0 and said == run(*GRID)[1]
+    code, said, _ = run(*GRID, "--output", "grid.nc", "--marks", "-")
+    assert code == 0 and "mark" in tomllib.loads(said)
+    assert not Path("-").exists()
+
+
+def test_the_standard_output_takes_a_single_result(run):
+    for command in ((*ADD, "-o", "-", "--json"), (*GRID, "--output", "-", "--marks", "-")):
+        code, said, complaint = run(*command)
+        assert code == 2 and said == "" and "standard output" in complaint
+
+
+def test_json_names_what_was_written(ask):
+    _, answer = ask(*LINES, "-o", "machine.nc")
+    assert answer["written"] == ["machine.nc"] and json.dumps(answer)
+
+
+def test_what_comes_through_a_pipe_is_read_once(run):
+    os.mkfifo("settings.ini")
+    content = Path(SETTINGS).read_bytes()
+    writer = threading.Thread(target=Path("settings.ini").write_bytes, args=(content,), daemon=True)
+    writer.start()
+    code, said, _ = run("compare", "settings.ini", MARKS)
+    assert code == 0 and said == run("compare", SETTINGS, MARKS)[1]
+
+
+def test_the_tool_without_installation_keeps_the_same_laws():
+    def tool(*options):
+        return subprocess.run([*TOOL, *options], capture_output=True, text=True)
+
+    assert tool("--output", "grid.nc").returncode == 0
+    program = Path("grid.nc").read_bytes()
+    assert tool("--output", "grid.nc").returncode == 0
+    Path("notes.nc").write_text("notes\n")
+    refused = tool("--output", "notes.nc")
+    assert refused.returncode == 2 and "--force" in refused.stderr
+    assert Path("notes.nc").read_text() == "notes\n"
+    assert tool("--output", "notes.nc", "--force").returncode == 0
+    assert Path("notes.nc").read_bytes() == program
+    full = tool("--output", "/dev/full")
+    assert full.returncode == 2 and full.stderr.count("\n") == 1 and "No space" in full.stderr
+    got, done = through_a_pipe("pipe.nc", lambda: tool("--output", "pipe.nc"))
+    assert done.returncode == 0 and got == program
+    os.symlink("grid.nc", "link.nc")
+    assert tool("--output", "link.nc").returncode == 0 and os.path.islink("link.nc")
+    assert tool("--output", "-").stdout.encode() == program
+    assert sorted(os.listdir()) == ["grid.nc", "link.nc", "notes.nc", "pipe.nc"]
+
+
+def test_main_forgets_the_force_of_an_earlier_run():
+    Path("machine.nc").write_text("notes\n")
+    assert main([*LINES, "-o", "machine.nc", "--force"]) == 0
+    Path("machine.nc").write_text("notes\n")
+    assert main([*LINES, "-o", "machine.nc"]) == 2
