@@ -11,7 +11,8 @@ from plumb.cli.add_text import PATCH_WARNING, as_text, auto_text, turn_sentence
 from plumb.cli.client import client_files_of, client_text, typed_json
 from plumb.cli.compare import panel_of, score_json
 from plumb.cli.files import inputs_of, picture_form
-from plumb.cli.output import refuse_twins, write_outputs
+from plumb.cli.output import STDOUT, refuse_twins, write_outputs
+from plumb.cli.steps import add_named, next_step, same_inputs, second_round, usual_client
 from plumb.cli.text import about, print_json
 from plumb.cure.add import Addition, Parameter, Quality, add, priors_with
 from plumb.cure.auto import AutoAddition, add_auto, without_marks
@@ -39,12 +40,12 @@ def run(arguments: argparse.Namespace) -> int:
     if "auto" in arguments.effect:
         return _run_auto(arguments, inputs)
     result = add(inputs, effects=arguments.effect, patch=arguments.patch)
-    files, client = _written(arguments, inputs, result)
+    files, client = written(arguments, inputs, result)
     if arguments.json:
         print_json({**as_json(result), **_written_json(files, client)})
     else:
         print(as_text(result, asked_patch=arguments.patch))
-        _print_written(files, client)
+        _print_written(files, client, arguments)
     return int(not result.pays)
 
 
@@ -55,17 +56,21 @@ def _run_auto(arguments: argparse.Namespace, inputs: Inputs) -> int:
     files: list[str] = []
     client: ClientFiles | None = None
     if result.addition:
-        files, client = _written(arguments, inputs, result.addition)
+        files, client = written(arguments, inputs, result.addition)
     if arguments.json:
         addition = as_json(result.addition) if result.addition else {}
         print_json({**addition, "auto": auto_json(result), **_written_json(files, client)})
     else:
         print(auto_text(result))
-        _print_written(files, client)
+        if result.addition:
+            _print_written(files, client, arguments)
+        else:
+            corrected = ["add", *same_inputs(arguments), "--effect", "auto"]
+            print(f"\n{next_step('When the file is corrected:', corrected)}")
     return int(not result.done)
 
 
-def _written(
+def written(
     arguments: argparse.Namespace, inputs: Inputs, result: Addition
 ) -> tuple[list[str], ClientFiles | None]:
     """Write the files; their names, and what belongs to the client."""
@@ -95,11 +100,30 @@ def _refuse_sketches(arguments: argparse.Namespace, result: Addition) -> None:
             )
 
 
-def _print_written(files: list[str], client: ClientFiles | None) -> None:
+def _print_written(
+    files: list[str], client: ClientFiles | None, arguments: argparse.Namespace
+) -> None:
     if files:
         print(f"\nWritten: {', '.join(files)}")
     if client:
         print(client_text(client))
+    if arguments.output == STDOUT:
+        return
+    if client and arguments.output:
+        print(f"\n{second_round(arguments, [arguments.output, *client.files])}")
+    elif arguments.output:
+        sent = str(Path(arguments.output).with_suffix(".nc"))
+        words = ["settings", arguments.output, "--to", "gcode", *usual_client(arguments)]
+        original = [] if "--original" in words else _original(arguments)
+        print(f"\n{next_step('For the machine:', [*words, *original, '-o', sent])}")
+    else:
+        print(f"\n{next_step('Write it:', add_named(arguments, arguments.effect))}")
+
+
+def _original(arguments: argparse.Namespace) -> list[str]:
+    """Where the client's other keys are, if the settings came from a client."""
+    is_ini = arguments.settings.lower().endswith(".ini")
+    return ["--original", arguments.settings] if is_ini else []
 
 
 def _written_json(files: list[str], client: ClientFiles | None) -> dict[str, Any]:

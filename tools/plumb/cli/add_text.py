@@ -64,7 +64,7 @@ def as_text(result: Addition, *, asked_patch: bool = False) -> str:
             f"({before.left_out_rms:.2f} to {after.left_out_rms:.2f} mm)"
         )
     first += "."
-    parts = [sentences([first], mark=""), _quality_table(result), _parameter_table(result)]
+    parts = [sentences([first], mark=""), quality_table(result), parameter_table(result)]
     if result.benchmark_after:
         parts.insert(1, _benchmark_sentence(result))
     note = (
@@ -100,7 +100,7 @@ def turn_sentence(result: Addition) -> str:
     )
 
 
-def _quality_table(result: Addition) -> str:
+def quality_table(result: Addition) -> str:
     raw = result.raw
     start = (raw.rms, None, None, raw.worst, raw.shape_rms)
     rows = [["raw: the settings as they are", *map(millimetres, start)]]
@@ -118,7 +118,7 @@ def _quality_table(result: Addition) -> str:
     return table(["error in mm", "RMS", "counted", "checked", "worst", "shape"], rows)
 
 
-def _parameter_table(result: Addition) -> str:
+def parameter_table(result: Addition) -> str:
     rows = []
     for parameter in result.parameters:
         if parameter.of_patch:

@@ -10,6 +10,7 @@ import numpy as np
 from plumb.cli.files import inputs_of, picture_form
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import sentences, table
+from plumb.cli.steps import next_step, same_inputs
 from plumb.cli.text import about, millimetres, print_json, signed
 from plumb.fit.compare import Comparison, compare
 from plumb.marks.score import Score
@@ -35,6 +36,7 @@ def run(arguments: argparse.Namespace) -> int:
         print_json(as_json(comparison))
     else:
         print(as_text(comparison, sheet_width=inputs.settings.sheet_width))
+        print(f"\n{next_step('What is missing:', ['calibrate', *same_inputs(arguments)])}")
     return int(arguments.limit is not None and comparison.rms > arguments.limit)
 
 
@@ -113,7 +115,7 @@ def score_json(score: Score | None) -> dict[str, Any] | None:
 
 def as_text(comparison: Comparison, *, sheet_width: float) -> str:
     """The comparison for people, its conclusion first."""
-    parts = [_conclusion(comparison, sheet_width)]
+    parts = [conclusion(comparison, sheet_width)]
     if comparison.promised:
         parts.append(sentences([promised_sentence(comparison.promised, sheet_width)], mark=""))
     if comparison.benchmark:
@@ -166,7 +168,7 @@ def benchmark_sentence(score: Score, left: Score | None) -> str:
     )
 
 
-def _conclusion(comparison: Comparison, sheet_width: float) -> str:
+def conclusion(comparison: Comparison, sheet_width: float) -> str:
     if not comparison.marks:
         farthest = max(comparison.distances, key=lambda distance: abs(distance.error))
         return (

@@ -10,6 +10,7 @@ from typing import Any
 from plumb.cli.checked import usable_checks
 from plumb.cli.files import inputs_of
 from plumb.cli.screen import sentences, table
+from plumb.cli.steps import add_auto, add_named, next_step, same_inputs
 from plumb.cli.text import millimetres, print_json
 from plumb.cure.add import priors_with
 from plumb.diagnose import Diagnosis, diagnose
@@ -46,8 +47,21 @@ def run(arguments: argparse.Namespace) -> int:
         proposals = [proposal_json(proposal) for proposal in advice.proposals]
         print_json({**as_json(diagnosis), "next": proposals})
     else:
-        print(as_text(diagnosis))
+        print(f"{as_text(diagnosis)}\n\n{_next(diagnosis, arguments)}")
     return int(diagnosis.verdict in BAD_NEWS)
+
+
+def _next(diagnosis: Diagnosis, arguments: argparse.Namespace) -> str:
+    """The command that follows from the verdict."""
+    if diagnosis.verdict == "slip":
+        corrected = ["diagnose", *same_inputs(arguments)]
+        return next_step("When the file is corrected:", corrected)
+    if diagnosis.verdict == "nothing_provable":
+        return next_step("Fit the frame:", add_auto(arguments))
+    first = diagnosis.explanations[0] if diagnosis.explanations else None
+    if diagnosis.verdict == "one_suspect" and first and first.possible:
+        return next_step("Add it:", add_named(arguments, first.effects))
+    return next_step("What to measure next:", ["next", *same_inputs(arguments)])
 
 
 def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
@@ -167,7 +181,7 @@ def as_text(diagnosis: Diagnosis) -> str:
     elif diagnosis.verdict == "not_in_library":
         parts.append(sentences(_unknown_advice(diagnosis)))
     if diagnosis.explanations:
-        parts.append(_explanation_table(diagnosis))
+        parts.append(explanation_table(diagnosis))
         if diagnosis.verdict == "cannot_tell":
             parts.append(_reasons(diagnosis))
         parts.append(_remedies(diagnosis))
@@ -175,7 +189,6 @@ def as_text(diagnosis: Diagnosis) -> str:
     parts.append(_hiding(diagnosis))
     if diagnosis.warnings:
         parts.append(sentences(diagnosis.warnings))
-    parts.append("What to measure next: plumb next, with the same files.")
     return "\n\n".join(parts)
 
 
@@ -191,7 +204,7 @@ def _unknown_advice(diagnosis: Diagnosis) -> list[str]:
     return [doubt, *UNKNOWN_ADVICE]
 
 
-def _explanation_table(diagnosis: Diagnosis) -> str:
+def explanation_table(diagnosis: Diagnosis) -> str:
     rows: list[list[str]] = []
     for explanation in diagnosis.explanations[:SHOWN]:
         rows += [["or", "", ""]] if rows else []

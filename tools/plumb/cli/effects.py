@@ -6,6 +6,7 @@ import argparse
 from collections import Counter
 
 from plumb.cli.screen import sentences, table
+from plumb.cli.steps import next_step
 from plumb.cli.text import number, print_json
 from plumb.model.catalogue import NO_FIRMWARE, empirical_effects, every_effect, label
 
@@ -51,4 +52,6 @@ def run(arguments: argparse.Namespace) -> int:
         low, high = (patch["parameters"][i]["setting"] for i in (0, -1))
         print(f"\n{patch['name']} (${low} to ${high}): no cause, and never a suspect (--patch)")
         print(sentences([patch["summary"], patch["remedy"]], mark="  "))
+    measured = ["calibrate", "groundcontrol.ini", "marks.toml"]
+    print(f"\n{next_step('Which of them your machine has, by its marks:', measured)}")
     return 0

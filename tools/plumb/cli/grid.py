@@ -12,6 +12,7 @@ import numpy as np
 import plumb.grid as marks_grid
 from plumb.cli.files import settings_in
 from plumb.cli.output import write_outputs
+from plumb.cli.steps import next_step
 from plumb.cli.text import print_json
 from plumb.model.predict import CANNOT_HANG, TOO_SLACK, TOO_TIGHT, USABLE, reach
 from plumb.model.reach import with_soft_chains
@@ -23,7 +24,12 @@ def run(arguments: argparse.Namespace) -> int:
     """Make the grid as the tool does, unless our model of the machine refuses a place."""
     refuse_out_of_reach(arguments)
     if not arguments.json:
-        return _made(arguments)
+        code = _made(arguments)
+        if code == 0 and arguments.output and arguments.marks and not arguments.preview:
+            words = f"Cut {arguments.output}, write what you measure into {arguments.marks}, then:"
+            measured = ["calibrate", arguments.settings or "groundcontrol.ini", arguments.marks]
+            print(next_step(words, measured))
+        return code
     said = io.StringIO()
     with contextlib.redirect_stdout(said):
         code = _made(arguments)

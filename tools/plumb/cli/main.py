@@ -15,6 +15,7 @@ from typing import Protocol
 from plumb.cli.arguments import (
     add,
     bench,
+    calibrate,
     compare,
     diagnose,
     effects,
@@ -32,7 +33,7 @@ from plumb.cli.output import results_of
 from plumb.cli.parser import Parser, Version
 from plumb.text.errors import InputError
 
-DESCRIPTION = "Find and cure the errors of a hanging CNC: grid, compare, diagnose, next, add."
+DESCRIPTION = "Find and cure the errors of a hanging CNC: grid, cut, measure, then calibrate."
 EPILOG = "Lengths are mm, forces N, angles rad. plumb COMMAND --help explains each command."
 
 
@@ -50,6 +51,7 @@ class Command(Protocol):
 COMMANDS: Mapping[str, Command] = {
     "grid": grid,
     "preview": preview,
+    "calibrate": calibrate,
     "compare": compare,
     "diagnose": diagnose,
     "next": next_measurement,

@@ -13,11 +13,13 @@ from plumb.cli.diagnose import proposal_json
 from plumb.cli.files import inputs_of, picture_form
 from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import bar, sentences, table
-from plumb.cli.text import millimetres, number, print_json
+from plumb.cli.steps import free_name, next_step, same_inputs
+from plumb.cli.text import millimetres, print_json
 from plumb.cure.add import priors_with
 from plumb.diagnose import Diagnosis, diagnose
 from plumb.diagnose.sentence import verdict_sentence
 from plumb.fit.inputs import Inputs
+from plumb.model.plain import noun_of
 from plumb.pictures.plan import draw_plan
 from plumb.plan import Next, Proposal, propose
 from plumb.plan.plan_marks import marks_file
@@ -54,6 +56,8 @@ def run(arguments: argparse.Namespace) -> int:
         print_json({**as_json(diagnosis, advice), "written": list(files)})
     else:
         print(as_text(diagnosis, advice))
+        if advice.proposals:
+            print(f"\n{after(advice.proposals[0], arguments)}")
     return 0
 
 
@@ -124,7 +128,7 @@ def as_text(diagnosis: Diagnosis, advice: Next) -> str:
     if not advice.proposals:
         parts.append("Nothing that can be proposed would tell more.")
         return "\n\n".join(parts)
-    parts.append(_first(advice.proposals[0]))
+    parts.append(first_proposal(advice.proposals[0]))
     if advice.stable and advice.stable[1]:
         parts.append(sentences([_stable(*advice.stable)], mark=""))
     if len(advice.proposals) > 1:
@@ -140,30 +144,45 @@ def as_text(diagnosis: Diagnosis, advice: Next) -> str:
     return "\n\n".join(parts)
 
 
-def _first(best: Proposal) -> str:
+def after(best: Proposal, arguments: argparse.Namespace) -> str:
+    """The commands after the measurement."""
+    if best.option.checks or not len(best.option.visits):
+        checks = [
+            word
+            for check in best.option.checks
+            for word in ("--checked", f"{check.name}=VALUE+-{check.sigma:g}")
+        ]
+        again = ["calibrate", *same_inputs(arguments), *checks]
+        return next_step("When that is measured:", again)
+    written: str | None = getattr(arguments, "template", None)
+    form = written or free_name("more", ".toml")
+    again = ["calibrate", *same_inputs(arguments, form)]
+    said = next_step("When they are measured:", again)
+    if written:
+        return said
+    asked = ["next", *same_inputs(arguments), "--marks", form]
+    return f"{next_step('A form for them:', asked)}\n{said}"
+
+
+def first_proposal(best: Proposal) -> str:
     """The best proposal in sentences."""
     minutes = f"about {best.option.minutes:.0f} minutes"
-    said = [f"Next: {best.option.title}; {minutes}{_promise(best)}.", *best.option.do]
+    said = [*best.option.do]
     if best.parts:
-        pairs = [f"{a} from {b}" for a, b in best.parts]
+        pairs = [f"{noun_of(a)} from {noun_of(b)}" for a, b in best.parts]
         said.append(f"It tells {'; '.join(pairs)}.")
     if best.option.checks:
-        terms = " ".join(
-            f"--checked {check.name}=VALUE+-{number(check.sigma)}" for check in best.option.checks
-        )
-        said.append(f"Then run this again with {terms}; VALUE: {best.option.value}.")
-    elif len(best.option.visits):
-        said.append("Then give the new marks as another file; --marks FILE writes it to fill in.")
-    return sentences(said[:1], mark="") + "\n" + sentences(said[1:], mark="  ")
+        said.append(f"VALUE: {best.option.value}.")
+    first = sentences([f"Next: {best.option.title}; {minutes}{_promise(best)}."], mark="")
+    return f"{first}\n{sentences(said, mark='  ')}"
 
 
 def _promise(best: Proposal) -> str:
     if best.question == FIND and best.rooms:
         first = best.rooms[0]
-        return (
-            f". {first.effect} could hide {millimetres(first.now, 1)} mm now, "
-            f"{millimetres(first.then, 1)} mm then"
-        )
+        noun = noun_of(first.effect)
+        now, then = (millimetres(size, 1) for size in (first.now, first.then))
+        return f". {noun[0].upper()}{noun[1:]} could hide {now} mm now, {then} mm then"
     if best.chance is None:
         return ""
     verb = {SETTLE: "settle it", CONFIRM: "confirm it", REREAD: "show it"}.get(best.question, "")
@@ -196,9 +215,9 @@ def _table(advice: Next) -> str:
 def _row(place: str, proposal: Proposal, counted: bool) -> list[str]:
     if proposal.question == FIND and proposal.rooms:
         promise = ", ".join(
-            f"{doubt.effect} {millimetres(doubt.now, 1)} -> {millimetres(doubt.then, 1)} mm"
-            for doubt in proposal.rooms[:2]
-            if doubt.then < 0.9 * doubt.now
+            f"{noun_of(room.effect)} {millimetres(room.now, 1)} -> {millimetres(room.then, 1)} mm"
+            for room in proposal.rooms[:2]
+            if room.then < 0.9 * room.now
         )
     else:
         promise = _percent(proposal.chance)

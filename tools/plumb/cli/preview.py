@@ -10,6 +10,7 @@ from plumb.cli.arguments.preview import COLUMNS, ROWS
 from plumb.cli.files import picture_form, settings_in
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import sentences, table
+from plumb.cli.steps import next_step
 from plumb.cli.text import millimetres, print_json
 from plumb.cure.add import priors_with
 from plumb.fit.problem import USUAL_SIGMA
@@ -44,7 +45,18 @@ def run(arguments: argparse.Namespace) -> int:
         print_json(as_json(outlook, written=arguments.picture))
     else:
         print(as_text(outlook))
+        if not arguments.plan:
+            print(f"\n{next_step('Cut it:', _cut(arguments))}")
     return 0
+
+
+def _cut(arguments: argparse.Namespace) -> list[str]:
+    """The command that makes this grid."""
+    words = ["grid", "--settings", arguments.settings]
+    for name in ("columns", "rows", "margin"):
+        if getattr(arguments, name) is not None:
+            words += [f"--{name}", f"{getattr(arguments, name):g}"]
+    return [*words, "--marks", "marks.toml", "--output", "grid.nc"]
 
 
 def _plan(arguments: argparse.Namespace, settings: MachineSettings) -> Measurements:

@@ -9,6 +9,7 @@ from plumb.cli.arguments.reach import OPTIONS
 from plumb.cli.files import picture_form, settings_in
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import sentences, table
+from plumb.cli.steps import next_step
 from plumb.cli.text import print_json
 from plumb.model.predict import REACH_WORDS
 from plumb.model.reach import Extreme, Survey, percent, survey_sheet
@@ -23,6 +24,7 @@ MEANING = (
     "too vertical: only a slack chain holds the sled, which gives sideways",
     "no sled hangs there, or its ring touches a sprocket",
 )
+CUT_THERE = ("--marks", "marks.toml", "--output", "grid.nc")
 CUT = 10.0  # [N] the side force of a light cut
 MAP_STEP = 4  # every fourth place of the survey
 MAP_ROWS = 8  # characters are twice as high as wide
@@ -45,6 +47,8 @@ def run(arguments: argparse.Namespace) -> int:
         print_json(as_json(survey, written=arguments.output))
     else:
         print(as_text(survey))
+        cut = ["grid", "--settings", arguments.settings, *CUT_THERE]
+        print(f"\n{next_step('Cut marks where it is usable:', cut)}")
     return 0
 
 

@@ -8,6 +8,7 @@ from plumb.cli.client import client_files_of, client_text, typed_json
 from plumb.cli.files import settings_in
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import table
+from plumb.cli.steps import next_step
 from plumb.cli.text import print_json
 from plumb.firmware.client_files import gcode
 from plumb.firmware.numbers import Number, firmware_numbers
@@ -41,7 +42,14 @@ def run(arguments: argparse.Namespace) -> int:
             print(client_text(client))
     else:
         print(content.decode(), end="")
+        if arguments.to == "table":
+            print(f"\n{next_step('For the machine:', _to_gcode(arguments.settings))}")
     return 0
+
+
+def _to_gcode(machine: str) -> list[str]:
+    kept = ["--client", "groundcontrol", "--original", "groundcontrol.ini"]
+    return ["settings", machine, "--to", "gcode", *kept, "-o", "machine.nc"]
 
 
 def _refuse_lines_alone(arguments: argparse.Namespace) -> None:

@@ -376,7 +376,8 @@ def _bad_bargains(before: Quality, after: Quality, steps: Sequence[Step]) -> lis
     if after.fit_rms < before.fit_rms and after.left_out_rms > before.left_out_rms:
         return [
             "the fit got better but, checked on marks not used, the error rose from "
-            f"{before.left_out_rms:.2f} to {after.left_out_rms:.2f} mm: the effects follow the noise, do not keep them"
+            f"{before.left_out_rms:.2f} to {after.left_out_rms:.2f} mm: the effects follow the "
+            "noise, do not keep them"
         ]
     return [
         f"with {named(step.effect)} only the fit got better; marks not used are predicted worse "

@@ -16,6 +16,7 @@ SHARED = {
     *(
         "__init__",
         "add_text",
+        "calibrate_text",
         "checked",
         "client",
         "demo",
@@ -25,7 +26,7 @@ SHARED = {
         "output",
         "parser",
     ),
-    *("places_text", "screen", "text"),
+    *("places_text", "screen", "steps", "text"),
 }
 SHARED_ARGUMENTS = {"__init__", "checked", "client", "shared"}
 # What takes longer to load than a command needs to refuse a wrong word.

@@ -70,6 +70,7 @@ MEASURED = ("groundcontrol.ini", "marks.ini")
 COMMANDS = {
     "grid": ("--columns", "3", "--rows", "3"),
     "preview": ("groundcontrol.ini", "--columns", "3", "--rows", "3"),
+    "calibrate": MEASURED,
     "compare": MEASURED,
     "diagnose": MEASURED,
     "next": MEASURED,

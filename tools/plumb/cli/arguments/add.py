@@ -5,7 +5,14 @@ from __future__ import annotations
 import argparse
 
 from plumb.cli.arguments.client import add_client, add_firmware
-from plumb.cli.arguments.shared import add_force, add_json, add_marks, add_prior, add_sigma
+from plumb.cli.arguments.shared import (
+    add_force,
+    add_json,
+    add_marks,
+    add_prior,
+    add_sigma,
+    add_without,
+)
 
 HELP = "fit the frame and the named effects to the marks, and write the new settings"
 EXIT = (
@@ -32,13 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="also fit a smooth map of what is left: no physics, for when no effect explains it",
     )
-    parser.add_argument(
-        "--without",
-        metavar="MARK",
-        action="append",
-        default=[],
-        help="leave this mark out, say because its reading was a slip",
-    )
+    add_without(parser)
     parser.add_argument("-o", "--output", metavar="FILE", help="write the machine.toml")
     add_client(parser)
     add_firmware(parser)

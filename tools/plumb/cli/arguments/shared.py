@@ -68,6 +68,17 @@ def add_sigma(parser: argparse.ArgumentParser, *, usual: str) -> None:
     )
 
 
+def add_without(parser: argparse.ArgumentParser) -> None:
+    """The option --without."""
+    parser.add_argument(
+        "--without",
+        metavar="MARK",
+        action="append",
+        default=[],
+        help="leave this mark out, say because its reading was a slip",
+    )
+
+
 def add_json(parser: argparse.ArgumentParser) -> None:
     """The option --json."""
     parser.add_argument("--json", action="store_true", help="print a JSON object and nothing else")

@@ -1,0 +1,114 @@
+"""What `plumb calibrate` says to people: what the marks show, a sentence, and the next command."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import dataclass
+
+from plumb.cli.add_text import COLUMNS, parameter_table, quality_table, turn_sentence
+from plumb.cli.client import client_text
+from plumb.cli.compare import conclusion
+from plumb.cli.diagnose import explanation_table
+from plumb.cli.next import after, first_proposal
+from plumb.cli.screen import headline, sentences
+from plumb.cli.steps import add_auto, next_step, same_inputs, second_round
+from plumb.cure.auto import AutoAddition
+from plumb.diagnose.sentence import verdict_sentence
+from plumb.firmware.client_files import ClientFiles
+from plumb.fit.compare import Comparison
+from plumb.model.plain import nouns_of
+from plumb.plan import Next, Proposal
+
+
+@dataclass(frozen=True)
+class Round:
+    """A round of measuring: what was compared, diagnosed, added, and proposed."""
+
+    comparison: Comparison
+    result: AutoAddition
+    advice: Next | None = None  # if something has to be measured first
+
+    @property
+    def done(self) -> bool:
+        """Whether new settings can be written: nothing is left that the marks could decide."""
+        return self.result.addition is not None and self.result.done and not self.result.rivals
+
+
+def as_text(
+    this: Round,
+    arguments: argparse.Namespace,
+    files: list[str],
+    client: ClientFiles | None,
+    *,
+    sheet_width: float,
+) -> str:
+    """The whole round for people: what is, what is missing, what was done, what comes next."""
+    diagnosis, addition = this.result.diagnosis, this.result.addition
+    parts = [conclusion(this.comparison, sheet_width)]
+    parts.append(sentences([verdict_sentence(diagnosis)], mark=""))
+    if diagnosis.slips:
+        parts.append(sentences([slip.sentence for slip in diagnosis.slips]))
+    elif this.done and addition:
+        parts += [quality_table(addition), parameter_table(addition)]
+        parts.append(sentences([COLUMNS], mark=""))
+        said = [turn_sentence(addition), *addition.cures, *addition.warnings]
+        parts.append(sentences(said))
+    elif diagnosis.explanations:
+        parts.append(explanation_table(diagnosis))
+    parts.append(headline(sentence(this)))
+    if this.done:
+        parts.append(_written_text(files, client))
+        parts.append(second_round(arguments, files))
+    else:
+        parts += _first_measure(this, arguments)
+    return "\n\n".join(parts)
+
+
+def sentence(this: Round) -> str:
+    """The end of the round in one sentence."""
+    diagnosis, addition = this.result.diagnosis, this.result.addition
+    if this.done and addition:
+        chosen = this.result.chosen
+        what = f"with {nouns_of(chosen)} added" if chosen else "with the frame fitted"
+        return (
+            f"Done: {what}, the error falls from {addition.raw.rms:.2f} to "
+            f"{addition.after.fit_rms:.2f} mm RMS, {addition.after.left_out_rms:.2f} mm checked on "
+            "marks not used."
+        )
+    if diagnosis.slips:
+        names = ", ".join(dict.fromkeys(slip.name for slip in diagnosis.slips))
+        return f"Not yet: read {names} again, and correct the file."
+    best = _best(this)
+    if best is None:
+        return "Not yet: nothing that can be proposed would tell more."
+    return (
+        f"Not yet: first measure {best.option.title}, about {best.option.minutes:.0f} minutes; "
+        "nothing was written."
+    )
+
+
+def _best(this: Round) -> Proposal | None:
+    return this.advice.proposals[0] if this.advice and this.advice.proposals else None
+
+
+def _written_text(files: list[str], client: ClientFiles | None) -> str:
+    written = sentences([f"Written: {', '.join(files)}"], mark="")
+    return f"{written}\n{client_text(client)}" if client else written
+
+
+def _first_measure(this: Round, arguments: argparse.Namespace) -> list[str]:
+    """What has to be done before anything is written."""
+    same = same_inputs(arguments)
+    if this.result.diagnosis.slips:
+        names = dict.fromkeys(slip.name for slip in this.result.diagnosis.slips)
+        without = [word for name in names for word in ("--without", name)]
+        corrected = next_step("When the file is corrected:", ["calibrate", *same])
+        left = next_step("If it cannot be read again:", ["calibrate", *same, *without])
+        return [f"{corrected}\n{left}"]
+    best = _best(this)
+    if best is None:
+        return []
+    parts = [first_proposal(best), after(best, arguments)]
+    if this.result.chosen:
+        parts.append(next_step("Or take the most likely one untested:", add_auto(arguments)))
+    return parts

@@ -1,0 +1,105 @@
+"""The next step: the exact command, so that it can be copied."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shlex
+from collections.abc import Iterable, Sequence
+
+from plumb.cli.screen import console
+
+INDENT = "  "
+# What the next command has to be given again, by the name that the parser has for it.
+REPEATED = {
+    "--cut-with": "cut_with",
+    "--controller": "controller",
+    "--sigma": "sigma",
+    "--without": "without",
+}
+
+
+def next_step(words: str, command: Sequence[str]) -> str:
+    """What to do next, and its command below; a long command goes on after a backslash."""
+    return f"{words}\n{command_text(['plumb', *command])}"
+
+
+def command_text(words: Iterable[str]) -> str:
+    """A command that a shell reads, on lines that fit the screen; an option keeps its value."""
+    parts: list[str] = []
+    for word in map(shlex.quote, words):
+        value_of_last = parts and parts[-1].startswith("-") and " " not in parts[-1]
+        if value_of_last and not word.startswith("-"):
+            parts[-1] += f" {word}"
+        else:
+            parts.append(word)
+    width = console().width - 2  # a blank and the backslash
+    lines = [f"{INDENT}{parts[0]}"]
+    for part in parts[1:]:
+        if len(f"{lines[-1]} {part}") > width:
+            lines.append(f"{2 * INDENT}{part}")
+        else:
+            lines[-1] += f" {part}"
+    return " \\\n".join(lines)
+
+
+def same_inputs(arguments: argparse.Namespace, *more: str, checked: bool = True) -> list[str]:
+    """The settings, the marks (with `more` of them) and how they are read, as they were given."""
+    words = [arguments.settings, *arguments.marks, *more]
+    for option, name in REPEATED.items():
+        value = getattr(arguments, name, None)
+        for each in value if isinstance(value, list) else [value]:
+            if each is not None:
+                words += [option, f"{each:g}" if isinstance(each, float) else str(each)]
+    for name, sigma in getattr(arguments, "prior", None) or ():
+        words += ["--prior", f"{name}={sigma:g}"]
+    for check in (getattr(arguments, "checked", None) or ()) if checked else ():
+        words += ["--checked", f"{check.name}={check.value:g}+-{check.sigma:g}"]
+    return words
+
+
+def usual_client(arguments: argparse.Namespace) -> list[str]:
+    """The client as it was named, or as the name of the settings file tells it."""
+    client = getattr(arguments, "client", None)
+    if client is None and arguments.settings.lower().endswith(".ini"):
+        client = "groundcontrol"
+    words = ["--client", client or "none"]
+    original = getattr(arguments, "original", None)
+    return [*words, "--original", original] if original else words
+
+
+def add_named(arguments: argparse.Namespace, effects: Sequence[str]) -> list[str]:
+    """The command that adds these effects and writes the files."""
+    same = same_inputs(arguments, checked=False)
+    machine = free_name("machine", ".toml")
+    named = ["--effect", *effects] if effects else []
+    patch = ["--patch"] if getattr(arguments, "patch", False) else []
+    return ["add", *same, *named, *patch, *usual_client(arguments), "-o", machine]
+
+
+def add_auto(arguments: argparse.Namespace) -> list[str]:
+    """The command that adds what is most likely and writes the files."""
+    return add_named(arguments, ["auto"])
+
+
+def second_round(arguments: argparse.Namespace, files: Sequence[str]) -> str:
+    """How to see on new marks that the new settings hold; the machine leads the files."""
+    machine = files[0]
+    marks, program = free_name("marks", ".toml"), free_name("grid", ".nc")
+    grid = ["grid", "--settings", machine, "--marks", marks, "--output", program]
+    again = ["calibrate", machine, marks, *usual_client(arguments)]
+    kept = [path for path in files if path.endswith(".ini")]
+    if kept:
+        again = ["calibrate", machine, marks, "--client", "groundcontrol", "--original", kept[0]]
+    cut = next_step("See that it holds on new marks, cut with the new settings:", grid)
+    return f"{cut}\n{next_step('and when they are measured:', again)}"
+
+
+def free_name(stem: str, ending: str) -> str:
+    """The first of `machine.toml`, `machine-2.toml` ... that no file has."""
+    number = 1
+    while True:
+        name = f"{stem}{ending}" if number == 1 else f"{stem}-{number}{ending}"
+        if not os.path.exists(name):
+            return name
+        number += 1

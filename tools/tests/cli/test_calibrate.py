@@ -1,0 +1,161 @@
+"""plumb calibrate: from marks to files in one go, a second round, and what comes first if anything.
+
+Each command ends with the next one; here the printed commands are run as they are printed.
+"""
+
+import re
+import shlex
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from plumb.cli.main import build_parser
+from plumb.settings.files import read_settings, write_machine_toml
+from synthetic import BELIEVED, EFFECTS, TRUE, grid, marks_on
+
+EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
+INI = "groundcontrol.ini"
+COMMAND = re.compile(r"^  plumb (?:.*\\\n)*.*", re.MULTILINE)
+
+
+@pytest.fixture(autouse=True)
+def _shop(tmp_path, monkeypatch):
+    """A folder with the example's files."""
+    for name in (INI, "marks.toml", "client.log"):
+        shutil.copy(EXAMPLE / name, tmp_path)
+    monkeypatch.chdir(tmp_path)
+
+
+def printed(said):
+    """The commands that an answer ends with."""
+    commands = [shlex.split(text.replace("\\\n", " ")) for text in COMMAND.findall(said)]
+    return [words[1:] for words in commands]
+
+
+def write_marks(name, marks):
+    rows = ["name,target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"]
+    rows += [",".join(map(str, (mark.name, *mark.target, *mark.measured))) for mark in marks]
+    Path(name).write_text("\n".join(rows))
+
+
+def test_an_open_question_is_said_with_what_to_measure_and_nothing_is_written(run):
+    before = set(Path().iterdir())
+    code, said, _ = run("calibrate", INI, "marks.toml")
+    assert code == 1 and set(Path().iterdir()) == before
+    assert "Not yet: first measure the tape against a certified length" in said
+    assert said.startswith("The marks lie 8.91 mm RMS")
+    first, other = printed(said)
+    assert first == ["calibrate", INI, "marks.toml", "--checked", "tape_scale.strain=VALUE+-0.0001"]
+    assert other[:5] == ["add", INI, "marks.toml", "--effect", "auto"]
+    assert max(map(len, said.splitlines())) <= 80
+
+
+def test_the_printed_commands_lead_to_the_files_and_to_a_second_round(run):
+    first, _ = printed(run("calibrate", INI, "marks.toml")[1])
+    code, said, _ = run(*(word.replace("VALUE", "0") for word in first))
+    assert code == 0
+    assert "Done: with chains too long or too short (chain_pitch) added" in said
+    written = ("machine.toml", "machine.nc", "machine-groundcontrol.ini")
+    assert f"Written: {', '.join(written)}" in said
+    assert all(Path(name).exists() for name in written)
+    cut, again = printed(said)
+    assert run(*cut)[0] == 0
+    # The machine is now as it was fitted, and a little more: its second round is done too.
+    settings = read_settings("machine.toml")
+    write_marks("round-2.csv", marks_on(settings, settings, grid(5, 3), noise=0.3, seed=2))
+    code, said, _ = run(*(word.replace("marks-2.toml", "round-2.csv") for word in again))
+    assert code == 0 and "Done: with the frame fitted" in said
+    assert Path("machine-2.toml").exists() and Path("machine-2-groundcontrol.ini").exists()
+    # What was read is never written.
+    assert read_settings("machine.toml") == settings
+
+
+def test_a_hidden_effect_is_added_and_the_second_round_starts_from_the_new_machine(run, ask):
+    known = {name: sizes for name, sizes in EFFECTS.items() if name != "chain_pitch"}
+    believed = replace(BELIEVED, effects=known)
+    write_machine_toml("first.toml", believed)
+    write_marks("a.csv", marks_on(TRUE, believed, grid(7, 5), noise=0.2, seed=3))
+    code, answer = ask("calibrate", "first.toml", "a.csv", "--sigma", "0.2", "-o", "second.toml")
+    assert code == 0 and answer["done"] and answer["written"] == ["second.toml"]
+    assert set(answer["addition"]["effects_added"]) >= {"chain_pitch"}
+    believed = read_settings("second.toml")
+    write_marks("b.csv", marks_on(TRUE, believed, grid(7, 5), noise=0.2, seed=4))
+    _, again = ask("calibrate", "second.toml", "b.csv", "--sigma", "0.2")
+    before, after = answer["comparison"]["rms_mm"], again["comparison"]["shape_rms_mm"]
+    assert before > 3.0 and after < 0.35
+
+
+def test_a_slip_comes_first_and_the_mark_can_be_left_out(run):
+    marks = list(marks_on(TRUE, TRUE, grid(7, 5), noise=0.2, seed=5))
+    x, y = marks[11].measured
+    marks[11] = replace(marks[11], measured=(x + 30.0, y))
+    write_machine_toml("first.toml", TRUE)
+    write_marks("a.csv", marks)
+    code, said, _ = run("calibrate", "first.toml", "a.csv", "--sigma", "0.2")
+    assert code == 1 and "Not yet: read 11 again, and correct the file." in said
+    assert not Path("machine.toml").exists()
+    corrected, without = printed(said)
+    assert corrected == ["calibrate", "first.toml", "a.csv", "--sigma", "0.2"]
+    assert without == [*corrected, "--without", "11"]
+    code, said, _ = run(*without)
+    assert code == 0 and Path("machine.toml").exists()
+
+
+def test_the_client_that_was_named_counts(run):
+    options = ("--checked", "tape_scale.strain=0+-0.0001", "--client", "webcontrol")
+    code, said, _ = run("calibrate", INI, "marks.toml", *options)
+    assert code == 0 and not Path("machine-groundcontrol.ini").exists()
+    assert "type these numbers into WebControl" in said.replace("Type", "type")
+    assert "--client webcontrol" in said
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("grid", "--settings", INI, "--output", "grid.nc", "--marks", "cut.toml"),
+        ("preview", INI, "--columns", "3"),
+        ("compare", INI, "marks.toml", "--cut-with", INI),
+        ("diagnose", INI, "marks.toml", "--sigma", "0.5", "--prior", "motor_gap=2"),
+        ("next", INI, "marks.toml"),
+        ("add", INI, "marks.toml", "--effect", "chain_pitch"),
+        ("add", INI, "marks.toml", "--effect", "chain_pitch", "-o", "new.toml"),
+        ("add", INI, "marks.toml", "--patch", "-o", "new.toml", "--client", "groundcontrol"),
+        ("effects",),
+        ("settings", EXAMPLE / "machine.toml"),
+        ("reach", EXAMPLE / "machine.toml"),
+    ],
+    ids=lambda command: "-".join(map(str, command[:1])),
+)
+def test_a_command_ends_with_a_next_one_that_can_be_given(command, run):
+    code, said, _ = run(*command)
+    assert code < 2
+    following = printed(said)
+    assert following and said.rstrip().endswith(said.splitlines()[-1])
+    assert COMMAND.findall(said)[-1] in said[-400:]
+    for words in following:
+        for word in words:
+            if word.endswith((".toml", ".ini")):
+                Path(word).touch()
+        parsed = build_parser().parse_args([word.replace("VALUE", "0") for word in words])
+        assert parsed.command == words[0] != "next" or command[0] in ("diagnose", "next")
+
+
+def test_what_was_given_is_given_again(run):
+    said = run("diagnose", INI, "marks.toml", "--sigma", "0.5", "--prior", "motor_gap=2")[1]
+    (words,) = printed(said)
+    assert words == ["next", INI, "marks.toml", "--sigma", "0.5", "--prior", "motor_gap=2"]
+
+
+def test_a_grid_takes_the_numbers_of_a_machine_toml(run):
+    machine = EXAMPLE / "machine.toml"
+    said = run("grid", "--settings", machine)[1]
+    numbers = read_settings(machine)
+    options = (
+        *("--motor-spacing", numbers.motor_gap, "--rotation-radius", numbers.rotation_radius),
+        *("--motor-offset", numbers.motor_height - numbers.sheet_height / 2),
+    )
+    assert said == run("grid", *options)[1]
+    assert said == run("grid", "--settings", machine, "--sled-weight-n", numbers.sled_weight)[1]
+    wider = run("grid", "--settings", machine, "--margin", "300")[1]
+    assert wider != said
