@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from plumb.cli.add_text import PATCH_WARNING, as_text, auto_text, turn_sentence
+from plumb.cli.add_text import PATCH_WARNING, as_text, auto_text, turn_sentences
 from plumb.cli.client import client_files_of, client_text, typed_json
 from plumb.cli.compare import panel_of, score_json
 from plumb.cli.files import inputs_of, picture_form
@@ -166,7 +166,7 @@ def toml_of(
         f"Fitted to {source}: {result.after.fit_rms:.2f} mm RMS "
         f"(counted for the numbers fitted {result.after.priced_rms:.2f}, checked on marks not used "
         f"{result.after.left_out_rms:.2f}), {result.raw.rms:.2f} mm before.",
-        turn_sentence(result),
+        *turn_sentences(result),
         *result.cures,
         *([f"{PATCH}: {PATCH_WARNING}"] if PATCH in result.effects_added else []),
         *result.warnings,
@@ -190,6 +190,7 @@ def panels_of(result: Addition) -> list[Panel]:
 
 def as_json(addition: Addition) -> dict[str, Any]:
     """The addition by the names of the interface."""
+    turned = addition.after_fit.shows_sheet_rotation
     return {
         "raw": {
             "rms_mm": addition.raw.rms,
@@ -208,8 +209,8 @@ def as_json(addition: Addition) -> dict[str, Any]:
         "lab_effects": addition.after_fit.lab_effects,
         "cures": addition.cures,
         "frame": addition.settings.frame,
-        "sheet_rotation": addition.after_fit.sheet_rotation,
-        "sheet_rise_mm": addition.sheet_rise,
+        "sheet_rotation": addition.after_fit.sheet_rotation if turned else None,
+        "sheet_rise_mm": addition.sheet_rise if turned else None,
         "sigma_mm": addition.after_fit.sigma,
         "sigma_from": addition.sigma_from,
         "benchmark": {

@@ -72,7 +72,7 @@ def as_text(result: Addition, *, asked_patch: bool = False) -> str:
         f"({origin_words(result.sigma_from)})."
     )
     parts.append(sentences([note], mark=""))
-    said = [turn_sentence(result), *result.cures, *result.warnings]
+    said = [*turn_sentences(result), *result.cures, *result.warnings]
     if PATCH in result.effects_added:
         said.append(PATCH_WARNING)
     elif asked_patch:
@@ -90,14 +90,16 @@ def _benchmark_sentence(result: Addition) -> str:
     return sentences([said], mark="")
 
 
-def turn_sentence(result: Addition) -> str:
-    """What to do about the sheet's rotation."""
+def turn_sentences(result: Addition) -> list[str]:
+    """What to do about the sheet's rotation, if the marks show it."""
+    if not result.after_fit.shows_sheet_rotation:
+        return []
     rise = result.sheet_rise
     which = "raise" if rise > 0 else "lower"
-    return (
+    return [
         f"no setting holds the sheet's rotation: {which} its right end by {abs(rise):.2f} mm over "
         f"its width of {result.settings.sheet_width:.0f} mm"
-    )
+    ]
 
 
 def quality_table(result: Addition) -> str:

@@ -152,11 +152,13 @@ def promised_sentence(record: FitRecord, sheet_width: float) -> str:
     cut = f", cut with {' and '.join(dict.fromkeys(names))}" if names else ""
     rise = np.tan(record.sheet_rotation) * sheet_width
     without = f", without {', '.join(record.without)}" if record.without else ""
-    return (
+    said = (
         f"These settings were fitted to these marks{cut}: {record.rms:.2f} mm RMS was left"
-        f"{without}, {record.start_rms:.2f} before. The sheet counts as turned by {rise:+.2f} mm "
-        "over its width, as the fit saw it."
+        f"{without}, {record.start_rms:.2f} before."
     )
+    if record.sheet_rotation:
+        said += f" The sheet counts as turned by {rise:+.2f} mm over its width, as the fit saw it."
+    return said
 
 
 def benchmark_sentence(score: Score, left: Score | None) -> str:

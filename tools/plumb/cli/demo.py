@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from plumb.cli.add import panels_of, toml_of
-from plumb.cli.add_text import COLUMNS, turn_sentence
+from plumb.cli.add_text import COLUMNS, turn_sentences
 from plumb.cli.ending import ended
 from plumb.cli.output import write_outputs
 from plumb.cli.parser import Parser
@@ -98,7 +98,7 @@ def as_text(demonstration: Demonstration) -> str:
             "What is doubtful:",
             sentences(_doubts(demonstration)),
             "What the settings files do not hold:",
-            sentences([turn_sentence(chosen)]),
+            sentences(turn_sentences(chosen)),
         ]
     )
 

@@ -172,7 +172,7 @@ def add(
                 [PATCH], steps[-1].quality if steps else before, [quality_of(after_fit, rows)]
             )
     after = steps[-1].quality if steps else before
-    parameters = tuple(_parameter(estimate) for estimate in after_fit.estimates)
+    parameters = tuple(_parameter(each) for each in after_fit.estimates if each.felt)
     return Addition(
         raw=raw,
         before=before,
@@ -188,6 +188,7 @@ def add(
             *odd_repeats,
             *(noise.notes if noise else ()),
             *_unsettled(after_fit),
+            *_unfelt(after_fit),
             *notes_on(parameter.name for parameter in parameters),
             *_surprises(parameters),
             *_bad_bargains(before, after, steps),
@@ -309,6 +310,16 @@ def _parameter(estimate: Estimate) -> Parameter:
         prior_sigma=estimate.prior_sigma,
         plausible_range=plausible_range(estimate.name),
     )
+
+
+def _unfelt(fitted: Fit) -> list[str]:
+    """A sentence on what the measured numbers cannot tell at all."""
+    names = [each.name for each in fitted.estimates if not each.felt]
+    if not names:
+        return []
+    listed = " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
+    stays = "it stays as it was" if len(names) == 1 else "they stay as they were"
+    return [f"no measured number depends on {listed}: {stays}"]
 
 
 def _unsettled(fitted: Fit) -> list[str]:

@@ -15,6 +15,7 @@ from plumb.fit.solver import Solution, solve
 from plumb.model.predict import Array, settings_of
 from plumb.settings.machine import MachineSettings
 
+UNFELT = 1e-6  # [sigmas of a reading] that an unknown moves by its typical size, at most
 SMALLEST_SIGMA = 1e-9  # [mm] for marks that a model explains completely
 
 
@@ -28,6 +29,7 @@ class Estimate:
     high: float
     before: float
     prior_sigma: float | None  # None: free
+    felt: bool = True  # False: no measured number depends on it
 
 
 @dataclass(frozen=True)
@@ -48,6 +50,11 @@ class Fit:
     sigma: float  # [mm] of one number, stated or estimated
     sigma_from: str  # "stated" or "residuals"
     settled: bool  # False: the search stopped at its limit of tries
+
+    @property
+    def shows_sheet_rotation(self) -> bool:
+        """Whether the measured numbers depend on it: distances alone do not."""
+        return any(each.name == SHEET_ROTATION and each.felt for each in self.estimates)
 
     @property
     def rms(self) -> float:
@@ -104,12 +111,15 @@ def _fit_of(problem: Problem, solution: Solution, stated: float | None) -> Fit:
     deviation = np.sqrt(np.diag(np.linalg.pinv(normal, hermitian=True)))
     marks, distances = errors[: rows.measured.size].reshape(-1, 2), errors[rows.measured.size :]
     left_marks, left_distances = _left_out(rows.names, marks, distances, leverage)
-    values, outside = problem.values(here.unknowns)
+    # What no measured number depends on stays where it was, to the last bit.
+    felt = np.linalg.norm(slopes, axis=0) > UNFELT
+    unknowns = np.where(felt, here.unknowns, 0.0)
+    values, outside = problem.values(unknowns)
     return Fit(
         settings=settings_of(values, like=problem.settings),
         sheet_rotation=outside.get(SHEET_ROTATION, 0.0),
         lab_effects=_by_effect(outside),
-        estimates=_estimates(problem, here.unknowns, width * deviation),
+        estimates=_estimates(problem, unknowns, width * deviation, felt),
         predicted=here.predicted,
         errors=marks,
         left_out_errors=left_marks,
@@ -122,7 +132,9 @@ def _fit_of(problem: Problem, solution: Solution, stated: float | None) -> Fit:
     )
 
 
-def _estimates(problem: Problem, unknowns: Array, half_widths: Array) -> tuple[Estimate, ...]:
+def _estimates(
+    problem: Problem, unknowns: Array, half_widths: Array, felt: Array
+) -> tuple[Estimate, ...]:
     """Each unknown with its interval of these half-widths, in its unit."""
     values = problem.start + problem.scale * unknowns
     reach = problem.scale * half_widths
@@ -134,6 +146,7 @@ def _estimates(problem: Problem, unknowns: Array, half_widths: Array) -> tuple[E
             high=float(values[i] + reach[i]),
             before=float(problem.start[i]),
             prior_sigma=float(problem.scale[i]) if problem.held[i] else None,
+            felt=bool(felt[i]),
         )
         for i, name in enumerate(problem.names)
     )

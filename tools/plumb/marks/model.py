@@ -63,6 +63,7 @@ class Measurements:
     sled_weight: float | None = None  # [N] of the whole file; each mark carries its weight already
     source: str = ""  # the path, for messages
     rounds: tuple[Round, ...] = (Round(),)  # in the order of the files
+    steered: bool = False  # to drawn points: these are the readings, and the targets what it took
     _by_name: dict[str, Mark] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:

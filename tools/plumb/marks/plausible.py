@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+from plumb.marks.exchanged import refuse_exchanged_columns
 from plumb.marks.model import Mark, Measurements, Point
 from plumb.text.errors import refusal
 
@@ -34,6 +35,7 @@ def checked(measurements: Measurements, *, sheet: Sheet) -> Measurements:
         _refuse_outside(measurements, mark, sheet)
         _refuse_far(measurements, mark, sheet)
     _refuse_odd_distances(measurements)
+    refuse_exchanged_columns(measurements)
     return measurements
 
 

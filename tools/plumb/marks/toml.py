@@ -28,6 +28,7 @@ HEAD_KEYS = (
     "controller",
     "tape_sigma_mm",
     "sled_weight_n",
+    "steered",
     *ROUND_FLAGS,
     "mark",
     "distance",
@@ -75,6 +76,7 @@ def read_marks_toml(
         sled_weight=weight,
         source=str(path),
         rounds=(file_round,),
+        steered=_flag(path, head, "steered"),
     )
 
 
@@ -82,11 +84,6 @@ def _round(
     path: str | PathLike[str], head: dict[str, Any], known: Mapping[str, Sequence[str]] | None
 ) -> Round:
     """How the file's marks were cut; the path in cut_with starts at the file's folder."""
-    flags = {}
-    for name in ROUND_FLAGS:
-        flags[name] = head.get(name, False)
-        if not isinstance(flags[name], bool):
-            raise refusal(path, f"{name} is neither true nor false", remedy="write true or false")
     cut_with, changed = None, ""
     if "cut_with" in head:
         with naming(path, "cut_with"):
@@ -96,7 +93,22 @@ def _round(
             was = text_of(head.get("cut_with_digest", ""))
         if was not in ("", digest_of(Path(path).parent / name)):
             cut_with, changed = None, name
-    return Round(date=str(head.get("date", "")), cut_with=cut_with, changed=changed, **flags)
+    return Round(
+        date=str(head.get("date", "")),
+        cut_with=cut_with,
+        changed=changed,
+        chains_rezeroed=_flag(path, head, "chains_rezeroed"),
+        new_sheet=_flag(path, head, "new_sheet"),
+        frame_moved=_flag(path, head, "frame_moved"),
+    )
+
+
+def _flag(path: str | PathLike[str], head: dict[str, Any], name: str) -> bool:
+    """A value that is true or false; false if it is missing."""
+    value = head.get(name, False)
+    if not isinstance(value, bool):
+        raise refusal(path, f"{name} is neither true nor false", remedy="write true or false")
+    return value
 
 
 def _controller(path: str | PathLike[str], head: dict[str, Any]) -> str | None:

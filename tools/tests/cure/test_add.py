@@ -152,3 +152,25 @@ def test_marks_that_cannot_be_reached_are_refused():
             Inputs(replace(BELIEVED, motor_gap=9000.0), BOARD, cut_with=BELIEVED),
             effects=["chain_sag"],
         )
+
+
+def test_distances_alone_say_nothing_of_where_the_sheet_lies(run, ask, tmp_path):
+    """Neither its rotation nor the middle of the motors is printed, and both stay as they were."""
+    folder = SETTINGS.parents[1] / "madgrizzle-2018-08-30"
+    board = (folder / "groundcontrol.ini", folder / "marks.toml")
+    machine = tmp_path / "machine.toml"
+    options = ("--effect", "chain_pitch", "-o", machine)
+    code, said, _ = run("add", *board, *options)
+    assert code <= 1 and "right end" not in said and "turned by" not in said
+    unfelt = "no measured number depends on motor_height, motor_center_x and sheet_rotation:"
+    assert unfelt in " ".join(said.split())
+    assert "0.00 mm over" not in machine.read_text()
+    assert "motor_center_x = 0.0 " in machine.read_text()
+    assert "sheet_rotation = 0.0\n" in machine.read_text()
+    _, answer = ask("add", *board, *options)
+    assert answer["sheet_rotation"] is None and answer["sheet_rise_mm"] is None
+    assert answer["frame"]["motor_center_x"] == 0
+    names = [parameter["name"] for parameter in answer["parameters"]]
+    assert names == ["motor_gap", "chain_pitch.left", "chain_pitch.right"]
+    said = run("compare", machine, board[1])[1]
+    assert "fitted to these marks" in said and "turned" not in said
