@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from dataclasses import dataclass
 
-from plumb.cli.add_text import COLUMNS, parameter_table, quality_table, turn_sentence
+from plumb.cli.add_text import COLUMNS, parameter_table, quality_table, turn_sentences
 from plumb.cli.client import client_text
 from plumb.cli.compare import conclusion
 from plumb.cli.diagnose import explanation_table
@@ -51,7 +51,7 @@ def as_text(
     elif this.done and addition:
         parts += [quality_table(addition), parameter_table(addition)]
         parts.append(sentences([COLUMNS], mark=""))
-        said = [turn_sentence(addition), *addition.cures, *addition.warnings]
+        said = [*turn_sentences(addition), *addition.cures, *addition.warnings]
         parts.append(sentences(said))
     elif diagnosis.explanations:
         parts.append(explanation_table(diagnosis))
