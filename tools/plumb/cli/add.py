@@ -12,7 +12,7 @@ from plumb.cli.client import client_files_of, client_text, typed_json
 from plumb.cli.compare import panel_of, score_json
 from plumb.cli.files import inputs_of, picture_form
 from plumb.cli.output import STDOUT, refuse_twins, write_outputs
-from plumb.cli.steps import add_named, next_step, same_inputs, second_round, usual_client
+from plumb.cli.steps import CLIENT_OF, add_named, next_step, same_inputs, second_round, usual_client
 from plumb.cli.text import about, print_json
 from plumb.cure.add import Addition, Parameter, Quality, add, priors_with
 from plumb.cure.auto import AutoAddition, add_auto, without_marks
@@ -122,8 +122,8 @@ def _print_written(
 
 def _original(arguments: argparse.Namespace) -> list[str]:
     """Where the client's other keys are, if the settings came from a client."""
-    is_ini = arguments.settings.lower().endswith(".ini")
-    return ["--original", arguments.settings] if is_ini else []
+    is_client = Path(arguments.settings).suffix.lower() in CLIENT_OF
+    return ["--original", arguments.settings] if is_client else []
 
 
 def _written_json(files: list[str], client: ClientFiles | None) -> dict[str, Any]:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from pathlib import Path
 
 from plumb.cli.screen import sentences, table
-from plumb.firmware.client_files import ClientFiles, client_files
+from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 
@@ -20,13 +21,14 @@ def client_files_of(
     originals: Sequence[str | None] = (),
 ) -> ClientFiles | None:
     """The lines for the machine, and what belongs to the client; None if no client was named."""
-    if arguments.original and arguments.client != "groundcontrol":
-        raise InputError("--original is for --client groundcontrol; name the client too")
+    if arguments.original and arguments.client not in CLIENT_FILES:
+        raise InputError("--original is the file of a client; name the client too, with --client")
     if arguments.client is None:
         return None
     if not lines:
         raise InputError("--client writes several files; name the first with -o FILE")
-    given = [path for path in originals if path and path.lower().endswith(".ini")]
+    ending = Path(CLIENT_FILES.get(arguments.client, "")).suffix or None
+    given = [path for path in originals if path and ending and path.lower().endswith(ending)]
     return client_files(
         settings,
         client=arguments.client,

@@ -6,10 +6,12 @@ import argparse
 import os
 import shlex
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 
 from plumb.cli.screen import console
 
 INDENT = "  "
+CLIENT_OF = {".ini": "groundcontrol", ".json": "webcontrol"}  # by the ending of its file
 # What the next command has to be given again, by the name that the parser has for it.
 REPEATED = {
     "--cut-with": "cut_with",
@@ -61,8 +63,8 @@ def same_inputs(arguments: argparse.Namespace, *more: str, checked: bool = True)
 def usual_client(arguments: argparse.Namespace) -> list[str]:
     """The client as it was named, or as the name of the settings file tells it."""
     client = getattr(arguments, "client", None)
-    if client is None and arguments.settings.lower().endswith(".ini"):
-        client = "groundcontrol"
+    if client is None:
+        client = CLIENT_OF.get(Path(arguments.settings).suffix.lower())
     words = ["--client", client or "none"]
     original = getattr(arguments, "original", None)
     return [*words, "--original", original] if original else words
@@ -88,9 +90,10 @@ def second_round(arguments: argparse.Namespace, files: Sequence[str]) -> str:
     marks, program = free_name("marks", ".toml"), free_name("grid", ".nc")
     grid = ["grid", "--settings", machine, "--marks", marks, "--output", program]
     again = ["calibrate", machine, marks, *usual_client(arguments)]
-    kept = [path for path in files if path.endswith(".ini")]
+    kept = [path for path in files if Path(path).suffix in CLIENT_OF]
     if kept:
-        again = ["calibrate", machine, marks, "--client", "groundcontrol", "--original", kept[0]]
+        client = CLIENT_OF[Path(kept[0]).suffix]
+        again = ["calibrate", machine, marks, "--client", client, "--original", kept[0]]
     cut = next_step("See that it holds on new marks, cut with the new settings:", grid)
     return f"{cut}\n{next_step('and when they are measured:', again)}"
 

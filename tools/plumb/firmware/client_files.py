@@ -16,16 +16,19 @@ import numpy as np
 from plumb import _core
 from plumb.firmware.numbers import WORST, Number, chains_apart, firmware_numbers
 from plumb.firmware.settings import every_setting
-from plumb.settings.files import changed_ini, groundcontrol_changes
+from plumb.settings.files import changed_client_file, groundcontrol_changes, parse_client_file
 from plumb.settings.groundcontrol import Key, number_for_firmware
 from plumb.settings.ini import SOURCES
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError, naming, refusal
-from plumb.text.ini import IniEntry, IniText, parse_ini
+from plumb.text.ini import IniEntry, IniText
 from plumb.text.values import number_in
 
 # What clients work out before they send it.
 KINEMATICS, CHAIN_PER_TURN, FEED = 7, 13, 38
+# The file in which each client keeps its numbers.
+CLIENT_FILES = {"groundcontrol": "groundcontrol.ini", "webcontrol": "webcontrol.json"}
+TYPE_THEM = "type these numbers into WebControl's settings"
 CORRECTIONS = ("chain_sag_correction", "left_tolerance", "right_tolerance")
 
 
@@ -62,13 +65,12 @@ def _for_plumb(
     if client == "none":
         return ClientFiles(files, (send,), {}, ())
     kept = _kept_by_client(settings)
-    if client == "webcontrol":
+    if client == "webcontrol" and original is None:
         typed = {key: number_for_firmware(value) for key, value in kept.items()}
-        steps = ("type these numbers into WebControl's settings", send)
-        return ClientFiles(files, steps, typed, ())
-    name, content = _groundcontrol_ini(kept, original, lines)
+        return ClientFiles(files, (TYPE_THEM, send), typed, ())
+    name, content = _client_file(client, kept, original, lines)
     refuse_what_disturbs(settings, numbers, content, source=str(original))
-    return ClientFiles({**files, name: content}, (_put_in_place(name), send), {}, ())
+    return ClientFiles({**files, name: content}, (_put_in_place(client, name), send), {}, ())
 
 
 def _for_published(
@@ -82,11 +84,11 @@ def _for_published(
             "--client none: the published firmware gets its numbers from a client; give --client "
             "groundcontrol or webcontrol"
         )
-    if client == "webcontrol":
+    if client == "webcontrol" and original is None:
         typed = {key: number_for_firmware(value) for key, value in changes.values.items()}
-        return ClientFiles({}, ("type these numbers into WebControl's settings",), typed, unsaid)
-    name, content = _groundcontrol_ini(changes.values, original, lines)
-    return ClientFiles({name: content}, (_put_in_place(name),), {}, unsaid)
+        return ClientFiles({}, (TYPE_THEM,), typed, unsaid)
+    name, content = _client_file(client, changes.values, original, lines)
+    return ClientFiles({name: content}, (_put_in_place(client, name),), {}, unsaid)
 
 
 def gcode(numbers: tuple[Number, ...]) -> bytes:
@@ -95,7 +97,7 @@ def gcode(numbers: tuple[Number, ...]) -> bytes:
 
 
 def client_numbers(ini: IniText) -> dict[int, float]:
-    """What GroundControl sends of this file that says where the sled hangs, by $-number."""
+    """What a client sends of this file that says where the sled hangs, by $-number."""
     numbers = {
         KINEMATICS: 1.0 if _said(ini, "kinematics").value.lower() == "quadrilateral" else 2.0,
         CHAIN_PER_TURN: _number(_said(ini, "gear_teeth"), ini)
@@ -115,7 +117,7 @@ def refuse_what_disturbs(
 ) -> None:
     """Refuse a client's file that would change the machine once its lines are there."""
     lines = {row.number: float(row.text) for row in numbers}
-    sent = client_numbers(parse_ini(content.decode("utf-8", "surrogateescape"), source=source))
+    sent = client_numbers(parse_client_file(content, source=source))
     both = {**lines, **sent}
     apart = chains_apart(settings, both)
     same_kind = sent[KINEMATICS] == lines[KINEMATICS]
@@ -125,8 +127,8 @@ def refuse_what_disturbs(
     said = ", ".join(f"${n} = {sent[n]:g} instead of {lines[n]:g}" for n in other)
     raise refusal(
         source,
-        f"GroundControl would send {said}, which is another machine",
-        remedy="correct the file, or give the groundcontrol.ini of this machine",
+        f"the client would send {said}, which is another machine",
+        remedy="correct the file, or give the file of this machine",
     )
 
 
@@ -141,19 +143,25 @@ def _kept_by_client(settings: MachineSettings) -> dict[Key, float]:
     return {SOURCES[name]: round(value, 4) for name, value in said.items()}
 
 
-def _groundcontrol_ini(
-    values: Mapping[Key, float], original: str | None, lines: str
+def _client_file(
+    client: str, values: Mapping[Key, float], original: str | None, lines: str
 ) -> tuple[str, bytes]:
+    """Name and content of the client's new file."""
+    file = CLIENT_FILES[client]
     if original is None:
         raise InputError(
-            "--client groundcontrol needs your groundcontrol.ini, whose other keys it keeps: give "
-            "it with --original"
+            f"--client {client} needs your {file}, whose other keys it keeps: give it with "
+            "--original"
         )
-    name = Path(lines).with_name(f"{Path(lines).stem}-groundcontrol.ini")
-    return str(name), changed_ini(original, values)
+    if Path(original).suffix.lower() != Path(file).suffix:
+        raise refusal(original, f"is no {file}", remedy=f"--client {client} needs that file")
+    name = Path(lines).with_name(f"{Path(lines).stem}-{file}")
+    return str(name), changed_client_file(original, values)
 
 
-def _put_in_place(name: str) -> str:
+def _put_in_place(client: str, name: str) -> str:
+    if client == "webcontrol":
+        return f"stop WebControl, put {name} in place of its webcontrol.json, and start it again"
     return f"close GroundControl, put {name} in place of its groundcontrol.ini, and connect"
 
 

@@ -19,6 +19,7 @@ from plumb.grid.gcode import FIRST_LINE, program
 from plumb.grid.limits import demand
 from plumb.grid.options import GRID_OPTIONS, MACHINE_OPTIONS, Grid, GridError, PlainMachine, pair
 from plumb.grid.picture import preview
+from plumb.grid.webcontrol import as_ini, is_webcontrol
 
 COMPLAINT = "calibration grid: {}; --help lists the options\n"
 
@@ -45,9 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     for name, _section, _key, meaning in MACHINE_OPTIONS:
         option, usual = "--" + name.replace("_", "-"), PlainMachine._field_defaults[name]
         group.add_argument(option, help=f"{meaning} [{usual}]", type=float, metavar="N")
-    group.add_argument(
-        "--settings", metavar="FILE", help="groundcontrol.ini or machine.toml with these numbers"
-    )
+    group.add_argument("--settings", metavar="FILE", help="file of settings with these numbers")
     group = parser.add_argument_group("output")
     group.add_argument("--output", metavar="FILE", help="where the program goes [the screen]")
     group.add_argument("--marks", metavar="FILE", help="also write a marks.toml to fill in")
@@ -60,14 +59,19 @@ def read_settings(path: str) -> dict[str, float]:
     """The numbers [mm, N] in a file of settings, by their names in PlainMachine."""
     if path.lower().endswith(".toml"):
         return _numbers_in_toml(path)
-    parser = configparser.ConfigParser(interpolation=None, strict=False)
+    parser = configparser.RawConfigParser(strict=False)
     try:
         with open(path, encoding="utf-8-sig") as file:
-            parser.read_file(file)
+            text = file.read()
+        if is_webcontrol(text):
+            parser = as_ini(text)
+        else:
+            parser.read_string(text)
     except OSError as error:
         raise GridError(f"{path}: {error.strerror}: check the name after --settings") from None
-    except (configparser.Error, UnicodeDecodeError):
-        raise GridError(f"{path} is not a groundcontrol.ini: give its numbers as options") from None
+    except (configparser.Error, ValueError, LookupError, TypeError, AttributeError):
+        wrong = f"{path} is not a groundcontrol.ini or webcontrol.json: give its numbers as options"
+        raise GridError(wrong) from None
     numbers = {}
     for name, section, key, _ in MACHINE_OPTIONS:
         text = parser.get(section, key, fallback="")

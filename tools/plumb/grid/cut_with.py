@@ -11,6 +11,8 @@ import hashlib
 import json
 import os
 
+from plumb.grid.webcontrol import as_ini, is_webcontrol
+
 # Keys of a groundcontrol.ini, small, that say how long the chains are for a place.
 KEYS = (
     "motorspacingx",
@@ -41,13 +43,17 @@ def cut_with_lines(settings: str | None, form: str) -> str:
 
 
 def digest_of(settings: str | os.PathLike[str]) -> str:
-    """The SHA-256 of what a groundcontrol.ini says of the chains, or of a whole machine.toml."""
+    """The SHA-256 of what a client's file says of the chains, or of a whole machine.toml."""
     with open(settings, "rb") as file:
         content = file.read()
     parser = configparser.RawConfigParser(strict=False)
     try:
-        parser.read_string(content.decode("utf-8-sig"))
-    except (configparser.Error, UnicodeDecodeError):
+        text = content.decode("utf-8-sig")
+        if is_webcontrol(text):
+            parser = as_ini(text)
+        else:
+            parser.read_string(text)
+    except (configparser.Error, ValueError, LookupError, TypeError, AttributeError):
         return hashlib.sha256(content).hexdigest()
     said = {
         key: _plain(value)

@@ -8,11 +8,12 @@ from typing import Any
 from plumb.grid import benchmark_pattern
 from plumb.marks.model import Distance, Mark, Point
 from plumb.text.errors import naming, refusal
-from plumb.text.values import number, pair, refuse_unknown
+from plumb.text.lengths import length
+from plumb.text.values import pair, refuse_unknown
 
 
 def read_benchmark(
-    path: str | PathLike[str], table: object, *, weight: float | None
+    path: str | PathLike[str], table: object, *, weight: float | None, unit: float = 1.0
 ) -> tuple[tuple[Mark, ...], tuple[Distance, ...]]:
     """Marks and distances of a table [benchmark]; readings that were not taken are left out."""
     place = "[benchmark]"
@@ -27,7 +28,7 @@ def read_benchmark(
     distances = [
         Distance(ends, length)
         for name, spans in benchmark_pattern.SPANS.items()
-        for ends, length in zip(spans, _readings(path, table, name, len(spans)), strict=False)
+        for ends, length in zip(spans, _readings(path, table, name, len(spans), unit), strict=False)
     ]
     if not distances:
         raise refusal(path, "has no reading", place=place, remedy="fill in what you measured")
@@ -46,7 +47,7 @@ def span_kind(ends: tuple[Point, Point]) -> str | None:
 
 
 def _readings(
-    path: str | PathLike[str], table: dict[str, Any], name: str, count: int
+    path: str | PathLike[str], table: dict[str, Any], name: str, count: int, unit: float
 ) -> list[float]:
     """The numbers of a line of the form [mm]; none if the line is not there."""
     if name not in table:
@@ -58,10 +59,10 @@ def _readings(
                 f"{count} numbers are needed, as in the form; put a # before a line that you "
                 "did not measure"
             )
-        lengths = [number(length) for length in given]
-        for length in lengths:
-            if length <= 0:
-                raise ValueError(f"{length:g}; a distance is above zero")
+        lengths = [length(reading, unit=unit) for reading in given]
+        for size in lengths:
+            if size <= 0:
+                raise ValueError(f"{size:g}; a distance is above zero")
     return lengths
 
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import csv
+from collections.abc import Mapping
 from os import PathLike
 
 from plumb.marks.model import Mark, Measurements, Point
 from plumb.marks.toml import CHAIN_RANGE, sled_weight_in_newtons
 from plumb.text.errors import naming, refusal
 from plumb.text.files import read_text
-from plumb.text.values import number_in, refuse_unknown, within
+from plumb.text.lengths import INCH, length_in
+from plumb.text.values import refuse_unknown, within
 
 NEEDED = ("target_x_mm", "target_y_mm", "measured_x_mm", "measured_y_mm")
 OPTIONAL = (
@@ -29,7 +31,9 @@ def read_marks_csv(path: str | PathLike[str]) -> Measurements:
     if not rows:
         raise refusal(path, "has comments only", remedy=f"begin with a line {','.join(NEEDED)}")
     line, header = rows[0]
-    columns = [cell.lower() for cell in header]
+    titles = [cell.lower() for cell in header]
+    columns = [_in_millimetres(title) for title in titles]
+    units = {column: INCH for column, title in zip(columns, titles, strict=True) if column != title}
     _check_header(path, line, columns)
     if len(rows) == 1:
         raise refusal(path, "has no marks below its header", remedy="add one line for each mark")
@@ -43,8 +47,17 @@ def read_marks_csv(path: str | PathLike[str]) -> Measurements:
                 place=f"line {line}",
                 remedy="write one value for each column",
             )
-        marks.append(_mark(path, line, dict(zip(columns, cells, strict=True)), index, names))
+        row = dict(zip(columns, cells, strict=True))
+        marks.append(_mark(path, line, row, index, names, units))
     return Measurements(marks=tuple(marks), source=str(path))
+
+
+def _in_millimetres(title: str) -> str:
+    """The column of a title; one in inches, like target_x_inch, is the same column in mm."""
+    for ending in ("_inches", "_inch", "_in"):
+        if title.endswith(ending) and f"{title.removesuffix(ending)}_mm" in NEEDED + OPTIONAL:
+            return f"{title.removesuffix(ending)}_mm"
+    return title
 
 
 def _rows(path: str | PathLike[str]) -> list[tuple[int, list[str]]]:
@@ -75,14 +88,6 @@ def _check_header(path: str | PathLike[str], line: int, columns: list[str]) -> N
             place=place,
             remedy="save it comma-separated, with decimal points",
         )
-    for column in columns:
-        if column.endswith(("_in", "_inch", "_inches")):
-            raise refusal(
-                path,
-                f"column {column} is in inches",
-                place=place,
-                remedy=f"write millimetres: {', '.join(NEEDED)}",
-            )
     if len(set(columns)) < len(columns):
         twin = next(column for column in columns if columns.count(column) > 1)
         raise refusal(path, f"column {twin} stands twice", place=place, remedy="remove a column")
@@ -106,13 +111,14 @@ def _mark(
     row: dict[str, str],
     index: int,
     names: dict[Point, str],
+    units: Mapping[str, float],
 ) -> Mark:
     """The mark of a line; without a name, an equal target makes it a repeat."""
     values: dict[str, float] = {}
     for column, text in row.items():
         if column != "name" and (text or column in NEEDED):
             with naming(path, f"line {line}, {column}"):
-                values[column] = number_in(text)
+                values[column] = length_in(text, unit=units.get(column, 1.0))
     for first, second in PAIRS:
         if (first in values) != (second in values):
             raise refusal(

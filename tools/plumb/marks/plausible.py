@@ -8,18 +8,18 @@ from collections.abc import Callable
 from plumb.marks.exchanged import refuse_exchanged_columns
 from plumb.marks.model import Mark, Measurements, Point
 from plumb.text.errors import refusal
+from plumb.text.lengths import INCH
 
 MOST_ERROR = 500.0  # [mm] farther from its target a mark is a slip of the pen
 FARTHEST_REPEAT = 100.0  # [mm] a repeat may lie this far from the first mark, whose hole is used up
 OUTSIDE = 100.0  # [mm] a target may lie beyond the sheet's edge by this much
-INCH = 25.4  # [mm]
 # [mm] marks closer together than this on a sheet ten times as wide were not spread on purpose
 TOO_CLOSE = 100.0
 SUSPICIOUS = 120.0  # [mm] nearer than this even a chain on the wrong tooth or link may be the cause
 MOST_DISTANCE_ERROR = 200.0  # [mm]
 
 Sheet = tuple[float, float]
-_INCH_HINT = "looks like inches; write millimetres (1 inch = 25.4 mm)"
+_INCH_HINT = 'looks like inches; write units = "inch" at the top, or millimetres'
 
 
 def to_machine(point: Point, *, sheet: Sheet) -> Point:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -16,12 +17,14 @@ from plumb.settings.controllers import CONTROLLERS
 from plumb.settings.files import read_settings
 from plumb.text.errors import naming, refusal
 from plumb.text.files import read_text
+from plumb.text.lengths import UNITS, length, point
 from plumb.text.values import number, one_of, pair, refuse_unknown, text_of, within
 
 FRAMES = ("sheet-top-left", "machine")
 ROUND_FLAGS = ("chains_rezeroed", "new_sheet", "frame_moved")
 HEAD_KEYS = (
     "frame",
+    "units",
     "date",
     "cut_with",
     "cut_with_digest",
@@ -35,8 +38,18 @@ HEAD_KEYS = (
     "benchmark",
 )
 MARK_KEYS = ("name", "target", "measured", "approach", "sled_weight_n", "chains", "chains_swapped")
-DISTANCE_KEYS = ("between", "mm")
+DISTANCE_KEYS = ("between", "mm", "inch")
 SLED_WEIGHT_RANGE = (30.0, 1000.0)  # [N] below it somebody wrote kilograms or pounds
+
+
+@dataclass(frozen=True)
+class Frame:
+    """How the places of a file are typed."""
+
+    sheet: Sheet | None  # they count from its top left corner, y down; None: machine frame
+    unit: float  # [mm]
+
+
 TAPE_SIGMA_RANGE = (0.001, 50.0)  # [mm]
 CHAIN_RANGE = (0.0, 20000.0)  # [mm]
 
@@ -60,13 +73,16 @@ def read_marks_toml(
         )
     with naming(path, "frame"):
         top_left = one_of(head["frame"], FRAMES) == "sheet-top-left"
+    with naming(path, "units"):
+        unit = UNITS[one_of(head.get("units", "mm"), UNITS)]
     weight = _optional_weight(path, "sled_weight_n", head)
     file_round = _round(path, head, known)
     sheet = file_round.cut_with.sheet if file_round.cut_with else sheet
-    marks = _marks(path, head, sheet=sheet if top_left else None, weight=weight)
+    frame = Frame(sheet if top_left else None, unit)
+    marks = _marks(path, head, frame=frame, weight=weight)
     distances = _distances(path, head)
     if "benchmark" in head:
-        more = read_benchmark(path, head["benchmark"], weight=weight)
+        more = read_benchmark(path, head["benchmark"], weight=weight, unit=unit)
         marks, distances = (*marks, *more[0]), (*distances, *more[1])
     return Measurements(
         marks=marks,
@@ -153,9 +169,9 @@ def _tables(path: str | PathLike[str], head: dict[str, Any], key: str) -> list[d
 
 
 def _marks(
-    path: str | PathLike[str], head: dict[str, Any], *, sheet: Sheet | None, weight: float | None
+    path: str | PathLike[str], head: dict[str, Any], *, frame: Frame, weight: float | None
 ) -> tuple[Mark, ...]:
-    """All marks, moved to the machine frame if a sheet is given."""
+    """All marks, moved to the machine frame."""
     marks: list[Mark] = []
     names: dict[Point, str] = {}
     for index, table in enumerate(_tables(path, head, "mark"), 1):
@@ -166,15 +182,15 @@ def _marks(
                 raise ValueError("target is missing; write target = [x, y] in mm")
             name = _name(table["name"]) if "name" in table else None
         place = f"mark {name}" if name else place
-        target = _point(path, place, table["target"], "target", sheet)
+        target = _point(path, place, table["target"], "target", frame)
         name = name or names.setdefault(target, str(index))
         mark_weight = _optional_weight(path, f"{place} sled_weight_n", table)
         marks.append(
             Mark(
                 name=name,
                 target=target,
-                measured=_place(path, place, table, "measured", sheet),
-                approach=_approach(path, place, table, sheet),
+                measured=_place(path, place, table, "measured", frame),
+                approach=_approach(path, place, table, frame),
                 sled_weight=weight if mark_weight is None else mark_weight,
                 chains=_chains(path, place, table),
                 chains_swapped=_yes_or_no(path, place, table, "chains_swapped"),
@@ -192,21 +208,19 @@ def _name(value: object) -> str:
 
 
 def _place(
-    path: str | PathLike[str], place: str, table: dict[str, Any], key: str, sheet: Sheet | None
+    path: str | PathLike[str], place: str, table: dict[str, Any], key: str, frame: Frame
 ) -> Point | None:
-    return _point(path, place, table[key], key, sheet) if key in table else None
+    return _point(path, place, table[key], key, frame) if key in table else None
 
 
-def _point(
-    path: str | PathLike[str], place: str, value: object, key: str, sheet: Sheet | None
-) -> Point:
+def _point(path: str | PathLike[str], place: str, value: object, key: str, frame: Frame) -> Point:
     with naming(path, f"{place} {key}"):
-        point = pair(value)
-    return point if sheet is None else to_machine(point, sheet=sheet)
+        typed = point(value, unit=frame.unit)
+    return typed if frame.sheet is None else to_machine(typed, sheet=frame.sheet)
 
 
 def _approach(
-    path: str | PathLike[str], place: str, table: dict[str, Any], sheet: Sheet | None
+    path: str | PathLike[str], place: str, table: dict[str, Any], frame: Frame
 ) -> Point | None:
     """The direction of the last move; in the top-left frame y runs down here as well."""
     if "approach" not in table:
@@ -215,7 +229,7 @@ def _approach(
         along, across = pair(table["approach"])
         if along == across == 0:
             raise ValueError("[0, 0] is no direction; leave approach out if it is not known")
-    return (along, across) if sheet is None else (along, -across)
+    return (along, across) if frame.sheet is None else (along, -across)
 
 
 def _chains(path: str | PathLike[str], place: str, table: dict[str, Any]) -> Point | None:
@@ -240,17 +254,18 @@ def _distances(path: str | PathLike[str], head: dict[str, Any]) -> tuple[Distanc
     for index, table in enumerate(_tables(path, head, "distance"), 1):
         with naming(path, f"[[distance]] number {index}"):
             refuse_unknown(table, DISTANCE_KEYS)
-            for key in DISTANCE_KEYS:
-                if key not in table:
-                    raise ValueError(f'{key} is missing; write between = ["1", "2"] and mm = 500.0')
+            given = [key for key in UNITS if key in table]
+            if "between" not in table or len(given) != 1:
+                key = "mm or inch" if "between" in table else "between"
+                raise ValueError(f'{key} is missing; write between = ["1", "2"] and mm = 500.0')
             ends = table["between"]
             if not isinstance(ends, list) or len(ends) != 2:
                 raise ValueError('between needs two names, as ["1", "2"]')
             first, second = _name(ends[0]), _name(ends[1])
             if first == second:
                 raise ValueError(f"'{first}' is named twice; two different marks are needed")
-            length = number(table["mm"])
-            if length <= 0:
-                raise ValueError(f"mm = {length:g}; a distance is above zero")
-            distances.append(Distance((first, second), length))
+            size = length(table[given[0]], unit=UNITS[given[0]])
+            if size <= 0:
+                raise ValueError(f"{given[0]} = {table[given[0]]}; a distance is above zero")
+            distances.append(Distance((first, second), size))
     return tuple(distances)

@@ -118,7 +118,7 @@ def changed_ini(original_path: str | PathLike[str], changes: Mapping[Key, float 
             if not math.isfinite(value):
                 raise refusal(original_path, f"{value} is not a usable number", place=place)
             new = number_for_firmware(value)
-        if entry is None or not _same(entry.value, value):
+        if entry is None or not same_number(entry.value, value):
             needed[section, key] = new
     text = with_values(ini, needed)
     parse_ini(text, source=str(original_path))
@@ -135,7 +135,8 @@ def number_for_firmware(value: float) -> str:
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 
-def _same(old: str, new: float | str) -> bool:
+def same_number(old: str, new: float | str) -> bool:
+    """Whether a value of the file says the same already."""
     if isinstance(new, str):
         return old == new
     try:

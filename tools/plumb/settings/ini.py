@@ -49,7 +49,11 @@ NEIGHBOURS = (
 
 def read_settings_ini(path: str | PathLike[str]) -> MachineSettings:
     """The settings of a groundcontrol.ini; it belongs to the stock controller."""
-    ini = _settings_text(path)
+    return published_settings(_settings_text(path))
+
+
+def published_settings(ini: IniText) -> MachineSettings:
+    """The settings that the entries of a client's file hold."""
     _refuse_other_kinematics(ini)
     height = _needed(ini, "sheet_height")
     weight = _optional(ini, "holey_sled_weight")
@@ -75,7 +79,7 @@ def read_settings_ini(path: str | PathLike[str]) -> MachineSettings:
     )
     fault = find_fault(settings)
     if fault:
-        raise refusal(path, fault[1], place=_place_of(ini, fault[0]))
+        raise refusal(ini.source, fault[1], place=_place_of(ini, fault[0]))
     return settings
 
 

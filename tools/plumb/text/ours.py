@@ -19,7 +19,7 @@ PICTURES = (
     (b"%PDF", b"/Creator (Plumb)"),
 )
 LINES = re.compile(rb"(\$\d+=[-+.\de]+\n)+")  # for the machine
-CLIENT_FILE = "-groundcontrol.ini"  # how the name of a client's file ends
+CLIENT_FILES = ("-groundcontrol.ini", "-webcontrol.json")  # how the names of clients' files end
 
 
 def picture_metadata(form: str) -> dict[str, str | None]:
@@ -39,4 +39,4 @@ def is_ours(path: Path) -> bool:
         return True
     if any(content.startswith(form) and said in content for form, said in PICTURES):
         return True
-    return path.name.endswith(CLIENT_FILE) and b"[maslow settings]" in content.lower()
+    return path.name.endswith(CLIENT_FILES) and b"maslow settings" in content.lower()

@@ -133,7 +133,7 @@ def test_bad_files_are_refused_with_the_place(tmp_path, old, new, hint):
         ("a.ini", "", "empty"),
         ("a.ini", "[global]\nnumpositions = 9\n", "holds marks"),
         ("a.ini", "[other]\na = 1\n", "has no section .Maslow Settings"),
-        ("webcontrol.json", '{"Maslow Settings": []}', "is a JSON file"),
+        ("webcontrol.json", '{"Maslow Settings": []}', "kinematicsType is missing"),
         ("marks.csv", "target_x_mm,target_y_mm\n", "none of the known forms"),
         ("a.toml", "hello", "not valid TOML"),
         ("a.ini", "hello", "is not key = value"),

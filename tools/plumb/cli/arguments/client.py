@@ -20,7 +20,7 @@ def add_client(parser: argparse.ArgumentParser) -> None:
         "--original",
         metavar="INI",
         type=file,
-        help="the groundcontrol.ini whose other keys --client groundcontrol keeps",
+        help="the groundcontrol.ini or webcontrol.json of the client, whose other keys are kept",
     )
 
 

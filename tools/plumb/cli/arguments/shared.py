@@ -13,7 +13,10 @@ from plumb.text.files import read_bytes
 def add_settings(parser: argparse.ArgumentParser) -> None:
     """The argument SETTINGS."""
     parser.add_argument(
-        "settings", metavar="SETTINGS", type=file, help="groundcontrol.ini or machine.toml"
+        "settings",
+        metavar="SETTINGS",
+        type=file,
+        help="groundcontrol.ini, webcontrol.json or machine.toml",
     )
 
 

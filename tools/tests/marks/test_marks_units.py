@@ -1,0 +1,92 @@
+"""Marks in inches are the same marks: toml, csv and the benchmark's form."""
+
+import pytest
+from plumb.marks.read import read_marks
+from plumb.text.errors import InputError
+
+SHEET = (2438.4, 1219.2)
+MILLIMETRES = """
+frame = "sheet-top-left"
+[[mark]]
+name = "1"
+target = [127.0, 127.0]
+measured = [130.175, 125.4125]
+approach = [0, -40]
+chains = [1700.0, 1800.0]
+[[mark]]
+name = "2"
+target = [1270.0, 127.0]
+[[distance]]
+between = ["1", "2"]
+mm = 1144.5875
+"""
+INCHES = """
+frame = "sheet-top-left"
+units = "inch"
+[[mark]]
+name = "1"
+target = [5, 5.0]
+measured = ["5 1/8", "4 15/16"]
+approach = [0, -40]
+chains = [1700.0, 1800.0]
+[[mark]]
+name = "2"
+target = [50, 5]
+[[distance]]
+between = ["1", "2"]
+inch = "45 1/16"
+"""
+
+
+def read(tmp_path, text, name="marks.toml"):
+    path = tmp_path / name
+    path.write_text(text)
+    return read_marks(path, sheet=SHEET)
+
+
+def test_a_toml_in_inches_holds_the_same_marks(tmp_path):
+    ours, theirs = read(tmp_path, INCHES), read(tmp_path, MILLIMETRES)
+    for mark, same in zip(ours.marks, theirs.marks, strict=True):
+        assert mark.target == pytest.approx(same.target)
+        assert mark.measured == (same.measured and pytest.approx(same.measured))
+        assert (mark.approach, mark.chains) == (same.approach, same.chains)
+    assert ours.distances[0].length == pytest.approx(theirs.distances[0].length)
+
+
+def test_a_distance_says_its_unit_itself(tmp_path):
+    millimetres = INCHES.replace('inch = "45 1/16"', "mm = 1144.5875")
+    assert read(tmp_path, millimetres).distances[0].length == pytest.approx(1144.5875)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "hint"),
+    [
+        ('units = "inch"', 'units = "feet"', "units: 'feet' is not known; write one of mm, inch"),
+        ("[5, 5.0]", '[5, "5 1/0"]', "target: '5 1/0' divides by zero"),
+        ("[5, 5.0]", "[5, 0, 5, 0]", "target: two numbers are needed, as [x, y]; is a comma"),
+        ('inch = "45 1/16"', "", "mm or inch is missing"),
+        ('inch = "45 1/16"', 'inch = "45 1/16"\nmm = 3', "mm or inch is missing"),
+        ('inch = "45 1/16"', "inch = -2", "inch = -2; a distance is above zero"),
+    ],
+)
+def test_what_is_no_length_is_named(old, new, hint, tmp_path):
+    with pytest.raises(InputError) as refused:
+        read(tmp_path, INCHES.replace(old, new))
+    assert hint in str(refused.value)
+
+
+def test_a_csv_may_mix_columns_of_both_units(tmp_path):
+    text = (
+        "name,target_x_mm,target_y_mm,measured_x_inch,measured_y_in\n"
+        "a,127,254,5 1/8,10\nb,-127,0,-5,0.0\n"
+    )
+    marks = read(tmp_path, text, "marks.csv").marks
+    assert marks[0].measured == pytest.approx((130.175, 254.0))
+    assert marks[1].measured == pytest.approx((-127.0, 0.0))
+    assert marks[0].target == (127.0, 254.0)
+
+
+def test_inches_without_a_word_are_still_noticed(tmp_path):
+    rows = "".join(f"{x},{y},{x / 25.4},{y / 25.4}\n" for x in (-900, 0, 900) for y in (-400, 400))
+    with pytest.raises(InputError, match='write units = "inch" at the top'):
+        read(tmp_path, f"target_x_mm,target_y_mm,measured_x_mm,measured_y_mm\n{rows}", "m.csv")
