@@ -5,17 +5,20 @@ from __future__ import annotations
 import argparse
 import contextlib
 import io
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
 
 import plumb.grid as marks_grid
 from plumb.cli.files import settings_in
-from plumb.cli.output import write_outputs
+from plumb.cli.measuring import content_of
+from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.steps import next_step
 from plumb.cli.text import print_json
 from plumb.model.predict import CANNOT_HANG, TOO_SLACK, TOO_TIGHT, USABLE, reach
 from plumb.model.reach import with_soft_chains
+from plumb.pictures.measuring_sheet import measuring_sheet
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 
@@ -44,7 +47,9 @@ def run(arguments: argparse.Namespace) -> int:
                 for mark in marks_grid.touches_of(grid, machine)
             ],
             "approach": list(grid.approach),
-            "written": [path for path in (arguments.output, arguments.marks) if path],
+            "written": [
+                path for path in (arguments.output, arguments.marks, arguments.paper) if path
+            ],
         }
     )
     return 0
@@ -53,7 +58,22 @@ def run(arguments: argparse.Namespace) -> int:
 def _made(arguments: argparse.Namespace) -> int:
     """The grid as the tool makes it, written as all results of the lab are."""
     read = [arguments.settings] if arguments.settings else []
-    return marks_grid.run(arguments, "plumb", lambda contents: write_outputs(contents, inputs=read))
+    refuse_twins(arguments.output, arguments.marks, arguments.paper)
+    if arguments.paper and not arguments.paper.lower().endswith(".pdf"):
+        raise InputError(f"--paper {arguments.paper}: end the name with .pdf")
+
+    def write(files: Mapping[str, bytes]) -> None:
+        paper = {arguments.paper: _paper(arguments)} if arguments.paper else {}
+        write_outputs({**files, **paper}, inputs=read)
+
+    return marks_grid.run(arguments, "plumb", write)
+
+
+def _paper(arguments: argparse.Namespace) -> bytes:
+    """The sheet of paper for the readings."""
+    grid, machine = marks_grid.from_arguments(arguments)
+    form = arguments.marks or "marks.toml"
+    return measuring_sheet(content_of(grid, machine, settings=arguments.settings, form=form))
 
 
 def refuse_out_of_reach(arguments: argparse.Namespace) -> None:

@@ -5,7 +5,7 @@ from plumb.grid.form import marks_list
 from plumb.grid.gcode import program
 from plumb.grid.options import MIN_FREE_CHAIN, Grid, GridError, PlainMachine
 from plumb.grid.picture import preview
-from plumb.grid.touches import touches_of
+from plumb.grid.touches import listed, touches_of
 from plumb.grid.way import check, tensions
 
 __all__ = [
@@ -16,6 +16,7 @@ __all__ = [
     "add_arguments",
     "check",
     "from_arguments",
+    "listed",
     "main",
     "marks_list",
     "preview",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from plumb.grid import benchmark_pattern
 from plumb.grid.options import Grid, PlainMachine
-from plumb.grid.touches import touches_of
+from plumb.grid.touches import listed, touches_of
 
 
 def marks_list(grid: Grid, machine: PlainMachine, cut_with: str = "") -> str:
@@ -17,7 +17,7 @@ def marks_list(grid: Grid, machine: PlainMachine, cut_with: str = "") -> str:
         "# Fill in each measured line and take away its #; delete a [[mark]] that you cannot read.",
         f'frame = "sheet-top-left"{cut_with}',
     ]
-    for mark in touches_of(grid, machine):
+    for mark in listed(touches_of(grid, machine)):
         x, y = machine.sheet_width / 2 + mark.x, machine.sheet_height / 2 - mark.y
         lines += [
             f'\n[[mark]]\nname = "{mark.name}"\ntarget = [{x:.2f}, {y:.2f}]',

@@ -46,6 +46,13 @@ def touches_of(grid: Grid, machine: PlainMachine) -> list[Touch]:
     return touches
 
 
+def listed(touches: list[Touch]) -> list[Touch]:
+    """The touches as an owner looks for them: by their names, a repeat after its mark."""
+    if not all(touch.name.isdigit() for touch in touches):
+        return touches
+    return sorted(touches, key=lambda touch: (int(touch.name), touch.visit))
+
+
 def _places(grid: Grid) -> list[tuple[int, int]]:
     """Pairs of row and column in the order of the visit."""
     rows, columns = range(grid.rows), range(grid.columns)

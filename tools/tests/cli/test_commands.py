@@ -23,6 +23,7 @@ SHARED = {
         "ending",
         "files",
         "main",
+        "measuring",
         "output",
         "parser",
     ),

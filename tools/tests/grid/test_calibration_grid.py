@@ -313,7 +313,7 @@ def test_the_list_of_marks_holds_every_target_and_approach_in_the_sheet_frame():
     grid, machine = grids.Grid(approach=(10.0, 30.0)), grids.PlainMachine()
     listed = tomllib.loads(grids.marks_list(grid, machine))
     assert listed["frame"] == "sheet-top-left"
-    made = grids.touches_of(grid, machine)
+    made = sorted(grids.touches_of(grid, machine), key=lambda mark: (int(mark.name), mark.visit))
     assert [entry["name"] for entry in listed["mark"]] == [mark.name for mark in made]
     for entry, mark in zip(listed["mark"], made, strict=True):
         assert entry["target"] == pytest.approx([mark.x + 1219.2, 609.6 - mark.y])

@@ -22,4 +22,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=_core.reach_limits()["most_give"],
         help="how far a newton may move the sled; see plumb reach [%(default)g]",
     )
+    parser.add_argument(
+        "--paper",
+        metavar="FILE.pdf",
+        help="also write a sheet to print: the holes with their numbers, and boxes to fill in",
+    )
     parser.add_argument("--json", action="store_true", help="print a JSON object and nothing else")
