@@ -81,6 +81,7 @@ bool SingleAxis::moveChains(const gcode::Words& words) {
 }
 
 bool SingleAxis::goHome() {
+  if (!place_.trustsChains()) return answers_.refuseMotion(place_.whatIsLost());
   const motion::Lengths<float> lengths = geometry_.inverse({0, 0});
   if (!lengths.reachable)
     return answers_.refuseMotion(FLASH("with these settings no sled can hang at 0,0"));

@@ -13,3 +13,10 @@
 ; Not before somebody has set the chains does a move over the sheet make sense.
 -> G0 X10
 <- ALARM: Halted at G0 X10: Position Lost: set the chain lengths first*
+>> !^N
+<* Laser off
+; Nor the way to the middle by single chains: nobody knows how much chain that would pay out.
+-> B15
+<* ALARM: Halted at B15: Position Lost: set the chain lengths first*
+~~ wait 1
+~~ chains L1651 R1651 within 0.01

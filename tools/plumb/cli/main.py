@@ -19,13 +19,17 @@ from plumb.cli.arguments import (
     compare,
     diagnose,
     effects,
+    flash,
     forward,
     grid,
     inverse,
     preview,
     reach,
+    read,
+    send,
     settings,
     telemetry,
+    vm,
 )
 from plumb.cli.arguments import next as next_measurement
 from plumb.cli.ending import ended
@@ -56,6 +60,10 @@ COMMANDS: Mapping[str, Command] = {
     "diagnose": diagnose,
     "next": next_measurement,
     "add": add,
+    "send": send,
+    "read": read,
+    "flash": flash,
+    "vm": vm,
     "effects": effects,
     "telemetry": telemetry,
     "bench": bench,

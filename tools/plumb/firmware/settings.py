@@ -43,14 +43,19 @@ def machine_of(numbers: Mapping[int, float], *, sheet: tuple[float, float]) -> M
     for name, value in effective["effects"].items():
         effect, _, parameter = name.partition(".")
         if value:
-            effects.setdefault(effect, {})[parameter] = value
+            effects.setdefault(effect, {})[parameter] = _plain(value)
     return MachineSettings(
         sheet_width=sheet[0],
         sheet_height=sheet[1],
         feed="top" if effective["over_top"] else "bottom",
         effects=effects,
-        **frame_of(effective["frame"]),
+        **{name: _plain(value) for name, value in frame_of(effective["frame"]).items()},
     )
+
+
+def _plain(value: float) -> float:
+    """A number with the seven digits that the firmware's float holds."""
+    return float(f"{value:.7g}")
 
 
 def format_value(value: float) -> str:

@@ -17,11 +17,15 @@ from plumb.text.errors import InputError
 AHEAD = 126  # characters on their way at most
 SILENCE = 5.0  # [s] the machine reports five times a second, so this long a silence has a reason
 START = 12.0  # [s] a board that was reset by the line takes up to six
-HOLD, STOP = b"\x84", b"!\n"
+HOLD = b"\x84"
+WRONG = ("ALARM", "error:")  # how lines begin that nobody may miss
+STANDS = 0.02  # [mm] between two reports of a machine at rest
+REPORTS = 0.6  # [s] it reports five times a second
+KEPT = 4.0  # [s] after which motors are off and the position is in the memory
 STATUS = re.compile(r"<(\w+),MPos:(-?[\d.]+),(-?[\d.]+),(-?[\d.]+)")
 
 
-class Refused(InputError):
+class RefusedError(InputError):
     """The machine refused a line, or raised an alarm."""
 
 
@@ -45,22 +49,26 @@ class Sender:
     _on_the_way: deque[tuple[str, int]] = field(default_factory=deque)
 
     def await_start(self) -> None:
-        """Wait until the machine reports; what it said before that was its greeting."""
+        """Wait until the machine reports; of its greeting only what is wrong is heard."""
         begin = self.port.seconds()
+        greeted, said = list[str](), self.said
+        self.said = greeted.append
         while self.status is None:
-            for line in self._lines():
-                if not self._note_status(line):
-                    self.said(line)
+            self.listen()
             if self.port.seconds() - begin > START:
                 raise InputError(
                     "the machine does not answer: check the cable, its power, and that no other "
                     "program has the line"
                 )
+        self.said = said
+        for line in greeted:
+            if line.startswith(WRONG):
+                said(line)
 
     def stream(self, lines: Iterable[str], *, answered: Callable[[int], None] | None = None) -> int:
         """Send lines and wait for all answers; how many there were.
 
-        `answered` hears how many are done. Raises Refused at the first line that the machine
+        `answered` hears how many are done. Raises RefusedError at the first line that the machine
         refuses; nothing more is sent then.
         """
         done = 0
@@ -84,6 +92,26 @@ class Sender:
             self.said = said
         return heard
 
+    def await_rest(self) -> None:
+        """Wait until the sled stands and the machine has kept its position.
+
+        The next program that opens the line resets the board; a board that still moves then loses
+        its position.
+        """
+        first = place = self.status.place if self.status else None
+        since = self.port.seconds()
+        while self.port.seconds() - since < (KEPT if place != first else REPORTS):
+            self.listen()
+            now = self.status.place if self.status else None
+            if now and place and max(map(abs, map(float.__sub__, now, place))) > STANDS:
+                place, since = now, self.port.seconds()
+
+    def listen(self) -> None:
+        """Take what comes while nothing is asked."""
+        for line in self._lines():
+            if not self._note_status(line):
+                self.said(line)
+
     def hold(self) -> None:
         """Stop along the path, as soon as the motors can; `~` goes on."""
         self.port.write(HOLD)
@@ -103,7 +131,7 @@ class Sender:
                 done += 1
                 if answered:
                     answered(done)
-            elif line.startswith(("error:", "ALARM")):
+            elif line.startswith(WRONG):
                 self._refuse(line)
             else:
                 self.said(line)
@@ -119,7 +147,7 @@ class Sender:
         line = self._on_the_way[0][0] if self._on_the_way else ""
         self._on_the_way.clear()
         where = f"{line!r}: " if line else ""
-        raise Refused(f"{where}the machine says: {answer}")
+        raise RefusedError(f"{where}the machine says: {answer}")
 
     def _lines(self) -> Iterator[str]:
         """Whole lines that came."""

@@ -15,6 +15,8 @@ from plumb.line.sender import Sender
 from plumb.model.predict import judged
 from plumb.settings.machine import MachineSettings
 
+__all__ = ["Garage", "VirtualMachine", "random_garage", "set_up", "with_new_sheet"]
+
 Array = np.ndarray
 GAP_SIGMA, POSE_SIGMA, TURN_SIGMA = 3.0, 5.0, 0.002  # [mm, mm, rad] how far a frame is off
 FRICTION = 3.0  # [N] of any sled on its sheet

@@ -25,7 +25,7 @@ from plumb.plan.planned_visits import Visits
 from plumb.settings.machine import MachineSettings
 from plumb.vm.garage import Garage, set_up, with_new_sheet
 from plumb.vm.in_process import InProcessPort
-from plumb.vm.tape import filled_form, read_with_tape
+from plumb.vm.tape import Tape
 from plumb.vm.visits_program import visit_lines
 
 FRICTION_NAME = "sled_friction.drag"
@@ -38,11 +38,10 @@ class VirtualOwner:
         """noise [mm] of the tape; elf: the flashed program, else the firmware for the host."""
         self.garage = garage
         self.settings = garage.settings
-        self.noise = noise
         self.machine: VirtualMachine = garage.machine(elf=elf)
         self.sender = Sender(InProcessPort(self.machine))
         self._source = np.random.default_rng([garage.seed, 5])
-        self._read = 0  # marks on this sheet that were read already
+        self.tape = Tape(garage, self._source, noise=noise)
 
     def switch_on(self) -> None:
         """Power on; the owner's numbers go to the machine and the chains are declared."""
@@ -59,7 +58,7 @@ class VirtualOwner:
         """Cut a grid and read it: the filled form."""
         lines, form = self.grid_program(grid)
         self.sender.stream(lines, answered=answered)
-        return self._filled(form)
+        return self.tape.fill(form, self.machine)
 
     def carry_out(self, visits: Visits) -> str:
         """Cut what `plumb next` proposes on the same sheet and read it: the filled form."""
@@ -68,9 +67,8 @@ class VirtualOwner:
             self.machine.set("sled_weight", usual * weight / self.settings.sled_weight)
             self.sender.stream([*lines, "G4 P1"])
         self.machine.set("sled_weight", usual)
-        return self._filled(
-            marks_file(visits, sheet=self.settings.sheet, controller="plumb", said=())
-        )
+        form = marks_file(visits, sheet=self.settings.sheet, controller="plumb", said=())
+        return self.tape.fill(form, self.machine)
 
     def check(self, checks: Sequence[Check]) -> list[Checked]:
         """Numbers measured directly, each with its own error."""
@@ -93,12 +91,7 @@ class VirtualOwner:
         """Take the sheet off and lay another, as carefully as the first."""
         self.garage = with_new_sheet(self.garage, seed)
         self.machine.replace_sheet()
-        self._read = 0
-
-    def _filled(self, form: str) -> str:
-        readings = read_with_tape(self.machine, self.garage, self._source, noise=self.noise)
-        new, self._read = readings[self._read :], len(readings)
-        return filled_form(form, new, sheet=self.settings.sheet)
+        self.tape.lay(self.garage)
 
 
 def plain_machine(settings: MachineSettings) -> PlainMachine:

@@ -27,13 +27,33 @@ def marks_on(cuts: Sequence[Cut]) -> Array:
     return np.array(places).reshape(-1, 2)
 
 
-def read_with_tape(
-    machine: VirtualMachine, garage: Garage, source: np.random.Generator, *, noise: float
-) -> Array:
-    """All marks on the sheet (n, 2) [mm from its middle] as a tape reads them; noise [mm]."""
-    places = garage.hidden.read(garage.on_sheet(marks_on(machine.cuts())))
-    read: Array = places + noise * source.standard_normal(places.shape)
-    return read
+class Tape:
+    """Somebody who reads marks on a garage's sheet."""
+
+    def __init__(self, garage: Garage, source: np.random.Generator, *, noise: float) -> None:
+        """noise [mm] of a coordinate."""
+        self.garage, self._source, self._noise = garage, source, noise
+        self._read = 0  # marks on this sheet that were read already
+
+    def lay(self, garage: Garage) -> None:
+        """Another sheet."""
+        self.garage, self._read = garage, 0
+
+    def fill(self, form: str, machine: VirtualMachine) -> str:
+        """A form with the marks that were cut since the last one; ValueError if it waits for more
+        or fewer."""
+        places = marks_on(machine.cuts())
+        new, self._read = places[self._read :], len(places)
+        seen = self.garage.hidden.read(self.garage.on_sheet(new))
+        read = seen + self._noise * self._source.standard_normal(seen.shape)
+        return filled_form(form, read, sheet=self.garage.settings.sheet)
+
+    def fill_when_cut(self, form: str, machine: VirtualMachine) -> str | None:
+        """The same, once the sheet has all the marks of the form and the bit is out of it."""
+        waiting = len(marks_on(machine.cuts())) - self._read
+        if waiting < form.count(BLANK) or machine.height <= 0:
+            return None
+        return self.fill(form, machine)
 
 
 def filled_form(form: str, readings: Array, *, sheet: tuple[float, float]) -> str:

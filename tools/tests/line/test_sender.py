@@ -1,7 +1,7 @@
 """The sender: ahead of the answers, never beyond the machine's buffer, and stopped by a refusal."""
 
 import pytest
-from plumb.line.sender import AHEAD, HOLD, Refused, Sender, Status, cleaned
+from plumb.line.sender import AHEAD, HOLD, RefusedError, Sender, Status, cleaned
 from plumb.text.errors import InputError
 
 REPORT = "<Idle,MPos:1.00,-2.50,0.00,WPos:0.000,0.000,0.000>\r\n[PE:0.00,0.00,127]\r\n"
@@ -55,7 +55,7 @@ def test_nothing_more_is_sent_after_a_refusal():
     lines = [
         f"G1 X{i} (a comment so that only a few lines fit) Y1.23456789 Z1.2345678" for i in range(9)
     ]
-    with pytest.raises(Refused, match=r"'G1 X3 .*': the machine says: error: no such word"):
+    with pytest.raises(RefusedError, match=r"'G1 X3 .*': the machine says: error: no such word"):
         sender.stream(lines)
     assert b"X8" not in board.written
     assert sender.stream(["G0 X0"]) == 1
@@ -63,7 +63,7 @@ def test_nothing_more_is_sent_after_a_refusal():
 
 def test_an_alarm_stops_the_stream_too():
     board = Board(lambda line: "ALARM: the sled was not keeping up")
-    with pytest.raises(Refused, match="ALARM: the sled"):
+    with pytest.raises(RefusedError, match="ALARM: the sled"):
         Sender(board).stream(["G0 X1"])
 
 
@@ -91,7 +91,39 @@ def test_a_greeting_counts_for_no_line():
     board.read = iter([b"Grbl v1.00\r\nready\r\nok\r\n", REPORT.encode()]).__next__
     sender = Sender(board, said.append)
     sender.await_start()
-    assert said == ["Grbl v1.00", "ready", "ok"]
+    assert said == []
+
+
+def test_what_is_wrong_with_a_machine_is_heard_from_its_greeting():
+    said = []
+    board = Board()
+    board.read = iter([b"ready\r\nok\r\nALARM: Position Lost.\r\n" + REPORT.encode()]).__next__
+    Sender(board, said.append).await_start()
+    assert said == ["ALARM: Position Lost."]
+
+
+def test_at_the_end_the_machine_must_have_kept_its_position():
+    places = [0.0, 0.0, 1.0, 2.0, 3.0] + [3.0] * 100
+    board = Board()
+    reports = (f"<Idle,MPos:{x},0.00,0.00,WPos:0,0,0>\r\n".encode() for x in places)
+
+    def read():
+        board.time += 0.2
+        return next(reports)
+
+    board.read = read
+    sender = Sender(board)
+    sender.await_start()
+    sender.await_rest()
+    assert board.time == pytest.approx(5 * 0.2 + 4.0, abs=0.21)
+
+
+def test_a_machine_that_stands_is_not_waited_for():
+    board = Board()
+    sender = Sender(board)
+    sender.await_start()
+    sender.await_rest()
+    assert board.time < 1.1
 
 
 def test_a_line_may_come_in_pieces():

@@ -2,6 +2,8 @@
 #include "virtual_board.h"
 
 #include <algorithm>
+#include <cstdarg>
+#include <fstream>
 
 namespace vm {
 namespace {
@@ -70,9 +72,15 @@ void slowDownPhaseCorrectTimers(avr_t* avr) {
   }
 }
 
+/// simavr tells what it loads and what it lacks on standard output.
+void logNothing(avr_t*, const int, const char*, va_list) {}
+
 }  // namespace
 
 VirtualBoard::VirtualBoard(const std::string& elf) {
+  avr_global_logger_set(logNothing);
+  if (!std::ifstream(elf))
+    throw std::runtime_error("cannot read " + elf + "; build it with pio run");
   elf_firmware_t firmware;
   std::memset(&firmware, 0, sizeof firmware);
   if (elf_read_firmware(elf.c_str(), &firmware) != 0)

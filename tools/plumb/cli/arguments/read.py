@@ -1,0 +1,17 @@
+"""The arguments of `plumb read`."""
+
+from __future__ import annotations
+
+import argparse
+
+from plumb.cli.arguments.send import add_port
+
+HELP = "read the machine's numbers and where its sled is"
+EXIT = "Exit: 0 done; 2 no machine answers, or the file cannot be written."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb read`."""
+    add_port(parser)
+    parser.add_argument("-o", "--output", metavar="FILE", help="write a machine.toml")
+    parser.add_argument("--json", action="store_true", help="print a JSON object and nothing else")

@@ -1,0 +1,30 @@
+"""The arguments of `plumb send`."""
+
+from __future__ import annotations
+
+import argparse
+
+HELP = "send a program, a line of G-code or a machine's numbers to the machine"
+EXIT = "Exit: 0 all was done; 1 stopped by Ctrl-C, the machine holds; 2 refused, or no machine."
+
+
+def add_port(parser: argparse.ArgumentParser) -> None:
+    """The option --port."""
+    parser.add_argument(
+        "--port", metavar="PATH", help="the machine's line [that of the only board on USB]"
+    )
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb send`."""
+    parser.add_argument(
+        "what",
+        metavar="FILE|LINE",
+        help="a program; a machine.toml, whose numbers are written and read back; or a line",
+    )
+    add_port(parser)
+    parser.add_argument(
+        "--undo",
+        action="store_true",
+        help="write back the numbers that the machine had before FILE was sent",
+    )

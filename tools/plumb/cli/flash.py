@@ -1,0 +1,43 @@
+"""`plumb flash`: writes the firmware to the Mega by avrdude."""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+import subprocess
+from pathlib import Path
+
+from plumb.line.serial_port import port_for
+from plumb.text.errors import InputError, refusal
+
+# The Mega's bootloader, as Arduino's programs address it.
+BOARD = ("-p", "atmega2560", "-c", "wiring", "-b", "115200", "-D")
+STORE = Path(".platformio/packages/tool-avrdude")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Write it, and return the exit code."""
+    port = port_for(arguments.port)
+    if not Path(port).exists():
+        raise refusal(port, "there is no such line", remedy="connect the Mega and check the name")
+    if not Path(arguments.hex).is_file():
+        remedy = "build it with .venv/bin/pio run -e megaatmega2560"
+        raise refusal(arguments.hex, "there is no such file", remedy=remedy)
+    command = [_avrdude(), *BOARD, "-P", port, "-U", f"flash:w:{arguments.hex}:i"]
+    done = subprocess.run(command)
+    if done.returncode:
+        raise InputError(
+            "avrdude could not write it: close GroundControl or WebControl, check the cable, and "
+            "try again"
+        )
+    print("Written. The machine starts again; open your client.")
+    return 0
+
+
+def _avrdude() -> str:
+    """The program, from the system or PlatformIO's store."""
+    stored = next(STORE.rglob("avrdude"), None) if STORE.is_dir() else None
+    name = shutil.which("avrdude") or (str(stored) if stored else None)
+    if not name:
+        raise InputError("avrdude is missing: tools/setup installs it")
+    return name

@@ -1,0 +1,87 @@
+"""The machine's numbers over the line: read all, write some, read back what was written."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from plumb.firmware.settings import every_setting
+from plumb.line.sender import REPORTS, STANDS, Sender
+from plumb.text.errors import InputError
+
+ROW = re.compile(r"\$(\d+)=([-+\d.eE]+)")
+SETTING = re.compile(r"\$(\d+)\s*=\s*(\S+)")
+SAME = 1e-5  # of a value: the machine prints seven digits
+
+
+@dataclass(frozen=True)
+class Written:
+    """What became of numbers that were sent."""
+
+    before: dict[int, float]  # all numbers of the machine
+    changed: dict[int, tuple[float, float]]  # old and new value by number
+
+
+def read_numbers(sender: Sender) -> dict[int, float]:
+    """All numbers that the machine lists, by their $-number."""
+    rows = (ROW.match(line) for line in sender.ask("$$"))
+    numbers = {int(row[1]): float(row[2]) for row in rows if row}
+    if not numbers:
+        raise InputError("the machine lists no numbers: is it a Maslow's firmware?")
+    return numbers
+
+
+def write_numbers(sender: Sender, lines: list[str]) -> Written:
+    """Send lines `$N=VALUE`, read all numbers back, and compare.
+
+    Raises InputError while the machine moves, for a line of something else, and if the machine
+    holds another number than was sent.
+    """
+    wanted = {}
+    for line in lines:
+        row = SETTING.fullmatch(line)
+        if not row:
+            raise InputError(f"{line!r} is no number for the machine: $N=VALUE")
+        wanted[int(row[1])] = float(row[2])
+    refuse_while_moving(sender)
+    before = read_numbers(sender)
+    sender.stream(lines)
+    after = read_numbers(sender)
+    for number, value in wanted.items():
+        if number not in after or not _same(after[number], value):
+            raise InputError(
+                f"the machine holds ${number}={after.get(number)} though {value} was sent: send "
+                "the numbers again"
+            )
+    changed = {
+        number: (value, after[number])
+        for number, value in before.items()
+        if number in after and not _same(after[number], value)
+    }
+    return Written(before, changed)
+
+
+def _same(told: float, value: float) -> bool:
+    """Whether two numbers are the same as far as the machine prints them."""
+    return abs(told - value) <= SAME * abs(value)
+
+
+def refuse_while_moving(sender: Sender) -> None:
+    """InputError if the sled is not where it was a moment ago."""
+    sender.await_start()
+    first = sender.status
+    end = sender.port.seconds() + REPORTS
+    while sender.port.seconds() < end:
+        sender.listen()
+    second = sender.status
+    if first and second and max(map(abs, map(float.__sub__, first.place, second.place))) > STANDS:
+        raise InputError("the machine moves: wait until it stands, then send the numbers")
+
+
+def as_lines(numbers: Mapping[int, float]) -> str:
+    """Numbers as lines that can be sent again; those that no line may set are left out."""
+    settable = {row.number for row in every_setting() if row.access == "listed"}
+    return "".join(
+        f"${number}={value:.9g}\n" for number, value in numbers.items() if number in settable
+    )

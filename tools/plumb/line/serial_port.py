@@ -1,0 +1,66 @@
+"""The serial line of a board on USB, or of a virtual machine."""
+
+from __future__ import annotations
+
+import time
+
+import serial
+from serial.tools import list_ports
+
+from plumb.text.errors import InputError, refusal
+
+BAUD = 57600
+PATIENCE = 0.1  # [s] that a read waits
+
+
+class SerialPort:
+    """An open line. Opening it resets the Mega."""
+
+    def __init__(self, path: str) -> None:
+        """Raises InputError if the line cannot be opened."""
+        self.path = path
+        try:
+            self._line = serial.Serial(path, BAUD, timeout=PATIENCE, exclusive=True)
+        except serial.SerialException as error:
+            busy = "busy" in str(error).lower() or "lock" in str(error).lower()
+            remedy = "close the program that has it" if busy else "check the cable and the name"
+            raise refusal(path, "cannot be opened", remedy=remedy) from None
+
+    def write(self, characters: bytes) -> None:
+        """Put characters on the line."""
+        try:
+            self._line.write(characters)
+        except serial.SerialException:
+            raise self._lost() from None
+
+    def read(self) -> bytes:
+        """What came; waits a moment if nothing did."""
+        try:
+            came: bytes = self._line.read(max(1, self._line.in_waiting))
+        except (serial.SerialException, OSError):
+            raise self._lost() from None
+        return came
+
+    def seconds(self) -> float:
+        """The time of this computer."""
+        return time.monotonic()
+
+    def close(self) -> None:
+        """Let go of the line."""
+        self._line.close()
+
+    def _lost(self) -> InputError:
+        return refusal(self.path, "the line was lost", remedy="check the cable")
+
+
+def port_for(path: str | None) -> str:
+    """The line that was named, else that of the only board on USB; InputError if there is none."""
+    if path:
+        return path
+    boards = [port for port in list_ports.comports() if port.vid is not None]
+    if len(boards) == 1:
+        return str(boards[0].device)
+    if not boards:
+        raise InputError("no board on USB: connect the Mega, or name its line with --port")
+    names = ", ".join(str(port.device) for port in boards)
+    raise InputError(f"several boards on USB ({names}): name one with --port")

@@ -1,0 +1,49 @@
+"""What is hidden in a virtual machine: effects by name, or one that is drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from plumb.bench.boards import plan, size_for
+from plumb.bench.causes import Cause, Hidden, causes_of
+from plumb.bench.hiding import REAL
+from plumb.text.errors import InputError
+from plumb.text.values import refuse_unknown
+
+RANDOM = "random"
+BOARD = plan(5, 5)  # on which an effect moves marks by so many millimetres RMS
+
+
+def hide(names: Sequence[str], *, millimetres: float, seed: int) -> Hidden:
+    """Effects that move marks by so much RMS each, before a frame is refitted.
+
+    The name `random` draws one that real machines have. Raises InputError for an unknown name.
+    """
+    known = sorted({cause.effect for cause in REAL})
+    try:
+        refuse_unknown([name for name in names if name != RANDOM], known)
+    except ValueError as error:
+        raise InputError(f"--hide {error}") from None
+    source = np.random.default_rng([seed, 11])
+    causes = [_drawn(source) if name == RANDOM else _one_of(name, source) for name in names]
+    return Hidden(tuple((cause, size_for(cause, BOARD, millimetres)) for cause in causes))
+
+
+def described(hidden: Hidden) -> str:
+    """What is hidden, in a few words."""
+    if not hidden.causes:
+        return "nothing"
+    return " and ".join(f"{cause.effect} ({cause.label})" for cause, _ in hidden.causes)
+
+
+def _drawn(source: np.random.Generator) -> Cause:
+    effects = sorted({cause.effect for cause in REAL})
+    return _one_of(effects[source.integers(len(effects))], source)
+
+
+def _one_of(effect: str, source: np.random.Generator) -> Cause:
+    """One of the directions that an effect has."""
+    several = [cause for cause in causes_of(effect) if cause in REAL]
+    return several[source.integers(len(several))]
