@@ -49,7 +49,7 @@ def machine_of(numbers: Mapping[int, float], *, sheet: tuple[float, float]) -> M
         sheet_height=sheet[1],
         feed="top" if effective["over_top"] else "bottom",
         effects=effects,
-        **{name: _plain(value) for name, value in frame_of(effective["frame"]).items()},
+        **frame_of({name: _plain(value) for name, value in effective["frame"].items()}),
     )
 
 

@@ -62,9 +62,9 @@ def write_numbers(sender: Sender, lines: list[str]) -> Written:
     return Written(before, changed)
 
 
-def _same(told: float, value: float) -> bool:
+def _same(printed: float, value: float) -> bool:
     """Whether two numbers are the same as far as the machine prints them."""
-    return abs(told - value) <= SAME * abs(value)
+    return abs(printed - value) <= SAME * abs(value)
 
 
 def refuse_while_moving(sender: Sender) -> None:

@@ -63,8 +63,8 @@ def test_a_program_is_cut_read_with_a_tape_and_the_machine_tells_its_place(serve
     server = served("--form", "form.toml", "--readings", "read.toml", "--reveal")
     sent = plumb("send", "--port", "maslow", "grid.nc", folder=tmp_path)
     assert "and the machine took each" in sent
-    told = plumb("read", "--port", "maslow", "-o", "machine.toml", folder=tmp_path)
-    assert "The sled is at x " in told and "$160" in told and "$210" not in told
+    printed = plumb("read", "--port", "maslow", "-o", "machine.toml", folder=tmp_path)
+    assert "The sled is at x " in printed and "$160" in printed and "$210" not in printed
     readings = (tmp_path / "read.toml").read_text()
     assert readings.count("\nmeasured = [") == 4
     compared = plumb("compare", "machine.toml", "read.toml", folder=tmp_path)
