@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from plumb.cli.files import write_outputs
+from plumb.cli.output import write_outputs
 from plumb.cli.screen import table
 from plumb.cli.text import print_json
 from plumb.firmware.settings import every_setting, machine_of

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from plumb.cli.arguments.send import add_port
+from plumb.cli.arguments.shared import add_force, add_json
 
 HELP = "read the machine's numbers and where its sled is"
 EXIT = "Exit: 0 done; 2 no machine answers, or the file cannot be written."
@@ -14,4 +15,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of `plumb read`."""
     add_port(parser)
     parser.add_argument("-o", "--output", metavar="FILE", help="write a machine.toml")
-    parser.add_argument("--json", action="store_true", help="print a JSON object and nothing else")
+    add_force(parser)
+    add_json(parser)
