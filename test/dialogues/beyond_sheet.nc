@@ -1,9 +1,12 @@
 ; Beyond the sheet the sled waits at its edge, which is said once; the program goes on counting.
 ~~ include setup.inc
+~~ hang X0 Y590
+~~ declare
+<* ok
 -> G0 Y620
 <- This line leads beyond the sheet: the sled keeps to the edge and ends it at X0.00 Y609.60
 <- ok
-~~ wait 50
+~~ wait 4
 ~~ sled X0 Y609.6 within 0.1
 ~~ status <Idle,MPos:0.00,609.60,0.00,WPos:0.000,0.000,0.000> within 0.05
 -> G0 Y630
@@ -31,33 +34,33 @@
 ~~ wait 12
 ~~ sled X20 Y609.6 within 0.1
 ; A target far off costs no time, and z goes along.
--> G0 X500 Y600 Z-1
+-> G0 X60 Y600 Z-1
 <- ok
--> G1 X520 Y5000 Z-2
-<- This line leads beyond the sheet: the sled keeps to the edge and ends it at X520.00 Y609.60
+-> G1 X80 Y5000 Z-2
+<- This line leads beyond the sheet: the sled keeps to the edge and ends it at X80.00 Y609.60
 <- ok
-~~ wait 60
-~~ status <Idle,MPos:520.00,609.60,-2.00,WPos:0.000,0.000,0.000> within 0.05
--> G0 X520 Y600
+~~ wait 12
+~~ status <Idle,MPos:80.00,609.60,-2.00,WPos:0.000,0.000,0.000> within 0.05
+-> G0 X80 Y600
 <- ok
 ~~ wait 2
-~~ sled X520 Y600 within 0.1
+~~ sled X80 Y600 within 0.1
 ; z keeps to its share of the whole way; the rest of it comes at the edge.
--> G0 X0 Y0 Z0
+-> G0 X0 Y500 Z0
 <- ok
 -> G4 P0
 <* ok
--> G1 X0 Y1219.2 Z-2 F800
+-> G1 X0 Y719.2 Z-2 F800
 <- This line leads beyond the sheet: *
-~~ wait 23
+~~ wait 4
 ~~ z -0.5 within 0.1
 <- ok
 ~~ wait 3
 ~~ status <Idle,MPos:0.00,609.60,-2.00,WPos:0.000,0.000,0.000> within 0.05
--> G0 X520 Y600
+-> G0 X80 Y600
 <- ok
 ; After a rest a jog starts where the sled is.
--> G0 X530 Y700
+-> G0 X90 Y700
 <- This line leads beyond the sheet: *
 <- ok
 ~~ wait 5
@@ -65,7 +68,7 @@
 -> G91 G0 Y-10 G90
 <- ok
 ~~ wait 3
-~~ sled X530 Y599.6 within 0.1
+~~ sled X90 Y599.6 within 0.1
 ; What rests at the edge is at the same place after the next start.
 -> G0 Y5000
 <- This line leads beyond the sheet: *
@@ -77,7 +80,7 @@
 <- ok
 <- [Forward Calculating Position]
 <- position loaded at:
-<- 530.00 within 0.05
+<- 90.00 within 0.05
 <- 609.60 within 0.05
 ~~ wait 1
 ~~ quiet

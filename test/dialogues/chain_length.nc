@@ -2,9 +2,9 @@
 ~~ include setup.inc
 -> $70=1
 <- ok
--> $10=1800
+-> $10=1740
 <- ok
--> G0 X1000
+-> G0 X100
 <- error: no sled can hang there
 -> G0 X20
 <- ok
@@ -17,7 +17,7 @@
 <- position loaded at:
 <- 20.00 within 0.02
 <- 0.00 within 0.02
--> G0 X1000
+-> G0 X100
 <- ok
-~~ wait 70
-~~ sled X1000 Y0 within 0.06
+~~ wait 8
+~~ sled X100 Y0 within 0.06

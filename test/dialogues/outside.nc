@@ -23,15 +23,18 @@
 <- ok
 ~~ wait 11
 ~~ sled X-100 Y-700 within 0.06
-; Through the sheet and out at the other side.
--> G0 X0 Y5000
+; Through a corner of the sheet and out at the other side.
+~~ hang X1150 Y-650
+~~ declare
+<* ok
+-> G0 X1250 Y-550
 <- This line leads beyond the sheet: *
 <- ok
 ~~ wait 3
 ~~ errors [PE:0.00,0.00,127] within 0.6
-~~ wait 110
+~~ wait 6
 ~~ status <Idle,MPos:*
-~~ sled X0 Y609.6 within 0.06
+~~ sled X1219.2 Y-550 within 0.06
 ; Single chains may be let out and wound in anywhere.
 ~~ hang X0 Y-700
 ~~ declare
@@ -46,7 +49,7 @@
 <- ok
 ~~ wait 1
 ~~ sled X0 Y-700 within 0.06
--> G0 X0 Y0
+-> G0 X0 Y-600
 <- ok
-~~ wait 60
-~~ sled X0 Y0 within 0.06
+~~ wait 9
+~~ sled X0 Y-600 within 0.06

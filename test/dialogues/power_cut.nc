@@ -1,24 +1,24 @@
 ; At rest the position survives; in motion the machine says that it is lost, and asks.
 ~~ include setup.inc
--> G0 X200 Y100
+-> G0 X40 Y20
 <- ok
 -> G0 Z-3
 <- ok
-~~ wait 40
+~~ wait 8
 ~~ power cut
 <* FAKE_SERVO off
 <- Grbl v1.00
 <* ok
 <- [Forward Calculating Position]
 <- position loaded at:
-<- 200.00 within 0.02
-<- 100.00 within 0.02
+<- 40.00 within 0.02
+<- 20.00 within 0.02
 ~~ wait 1
-~~ status <Idle,MPos:200.00,100.00,-3.00,WPos:0.000,0.000,0.000> within 0.02
--> G0 X210
+~~ status <Idle,MPos:40.00,20.00,-3.00,WPos:0.000,0.000,0.000> within 0.02
+-> G0 X50
 <- ok
 ~~ wait 4
-~~ sled X210 Y100 within 0.06
+~~ sled X50 Y20 within 0.06
 ~~ wait 4
 -> G1 X0 F500
 ~~ wait 3
