@@ -43,7 +43,8 @@ class Layout:
 
 def layout_of(root: Path, suites: list[str]) -> Layout:
     """Plumb's own layout, as platformio.ini has it."""
-    shared = [*root.glob("lib/*/src/**/*.cpp"), *root.glob("src/machine/**/*.cpp")]
+    folders = ("lib/*/src/**", "src/machine/**", "tools/judge/reference")
+    shared = [path for folder in folders for path in root.glob(f"{folder}/*.cpp")]
     includes = [
         "include",
         "src",

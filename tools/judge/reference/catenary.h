@@ -2,23 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
 
 namespace reference {
 
 /// (atanh(z) / z - 1) / z^2 as a function of z^2, smooth through zero, where it is 1/3.
-inline double atanhExcess(double z_squared) {
-  if (z_squared > 0.1) {
-    const double z = std::sqrt(z_squared);
-    return (std::atanh(z) / z - 1) / z_squared;
-  }
-  double sum = 0, power = 1;
-  for (int k = 3; power > 1e-18 && k < 60; k += 2) {
-    sum += power / k;
-    power *= z_squared;
-  }
-  return sum;
-}
+double atanhExcess(double z_squared);
 
 /// Vector [mm] from the start to the end of a chain of `length` [mm] without load on it.
 ///
@@ -29,15 +17,7 @@ inline double atanhExcess(double z_squared) {
 ///   length * (m * 2/s * (1 + z^2 g) - d * (m.d) * 2/s^3 * g),  z = |d|/s,  g = atanhExcess(z^2),
 /// which is Irvine's elastic catenary (Cable Structures, 1981, section 1.4) with the difference of
 /// two asinh written as twice an atanh, so that nothing cancels when the chain weighs nothing.
-inline Eigen::Vector3d spanOf(const Eigen::Vector3d& start, const Eigen::Vector3d& end,
-                              double length, double compliance) {
-  const Eigen::Vector3d mean = (start + end) / 2, change = end - start;
-  const double sum = start.norm() + end.norm();
-  const double z_squared = change.squaredNorm() / (sum * sum);
-  const double excess = atanhExcess(z_squared);
-  const double along_mean = 2 / sum * (1 + z_squared * excess) + compliance;
-  const double along_change = -mean.dot(change) * 2 / (sum * sum * sum) * excess;
-  return length * (along_mean * mean + along_change * change);
-}
+Eigen::Vector3d spanOf(const Eigen::Vector3d& start, const Eigen::Vector3d& end, double length,
+                       double compliance);
 
 }  // namespace reference

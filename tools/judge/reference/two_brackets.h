@@ -1,7 +1,7 @@
 // The older sled, held at two brackets: a rigid body at rest under two chains and its weight.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "reference/settle.h"
 
@@ -24,136 +24,23 @@ struct TiltedHang {
 };
 
 /// [mm] from the bit to a bracket.
-inline Eigen::Vector2d bracketFromBit(const TwoBrackets& sled, Hand hand, double tilt) {
-  return Eigen::Rotation2Dd(tilt) *
-         Eigen::Vector2d(-inwardSign(hand) * sled.mount_gap / 2, sled.mount_height);
-}
+Eigen::Vector2d bracketFromBit(const TwoBrackets& sled, Hand hand, double tilt);
 
 /// [mm] from the bit to the centre of gravity.
-inline Eigen::Vector2d centerFromBit(const TwoBrackets& sled, double tilt) {
-  return Eigen::Rotation2Dd(tilt) * Eigen::Vector2d(0, -sled.center_depth);
-}
+Eigen::Vector2d centerFromBit(const TwoBrackets& sled, double tilt);
 
 /// [N mm] moment about the centre of gravity of both pulls on the brackets and of a push on the
 /// bit; weight has none there.
-inline double momentOf(const Machine& machine, const TwoBrackets& sled, double tilt,
-                       const ChainForm& left, const ChainForm& right) {
-  const Eigen::Vector2d center = centerFromBit(sled, tilt);
-  const auto moment = [](const Eigen::Vector2d& lever, const Eigen::Vector2d& force) {
-    return lever.x() * force.y() - lever.y() * force.x();
-  };
-  return moment(bracketFromBit(sled, Hand::kLeft, tilt) - center, left.pull.head<2>()) +
-         moment(bracketFromBit(sled, Hand::kRight, tilt) - center, right.pull.head<2>()) +
-         moment(-center, machine.push);
-}
-
-namespace detail {
-
-/// Pull left, pull right, tilt, then two lengths or a place.
-using TiltedUnknowns = Eigen::Matrix<double, 9, 1>;
-
-inline Eigen::Vector3d missOfBracket(const ChainForm& form, const TwoBrackets& sled, Hand hand,
-                                     double tilt, const Eigen::Vector2d& bit) {
-  const Eigen::Vector2d bracket = bit + bracketFromBit(sled, hand, tilt);
-  return form.ends - Eigen::Vector3d(bracket.x(), bracket.y(), 0);
-}
-
-inline TiltedUnknowns defects(const Machine& machine, const TwoBrackets& sled, double tilt,
-                              const ChainForm& left, const ChainForm& right,
-                              const Eigen::Vector2d& bit) {
-  const double arm = sled.mount_gap + sled.mount_height + sled.center_depth;
-  TiltedUnknowns packed;
-  packed << missOfBracket(left, sled, Hand::kLeft, tilt, bit) / machine.motor_gap,
-      missOfBracket(right, sled, Hand::kRight, tilt, bit) / machine.motor_gap,
-      unbalance(machine, left, right) / machine.sled_weight,
-      momentOf(machine, sled, tilt, left, right) / (machine.sled_weight * arm);
-  return packed;
-}
-
-inline TiltedUnknowns pack(const Machine& machine, const Eigen::Vector3d& left,
-                           const Eigen::Vector3d& right, double tilt, const Eigen::Vector2d& rest) {
-  TiltedUnknowns packed;
-  packed << left / machine.sled_weight, right / machine.sled_weight, tilt, rest / machine.motor_gap;
-  return packed;
-}
-
-inline TiltedHang tiltedHangOf(bool found, double tilt, const Eigen::Vector2d& bit,
-                               const ChainForm& left, const ChainForm& right) {
-  // Upside down it could rest, too, but no machine gets it there.
-  const double least = std::remainder(tilt, 2 * M_PI);
-  const bool solved = found && isSound(left, Hand::kLeft) && isSound(right, Hand::kRight) &&
-                      std::abs(least) < M_PI / 2;
-  if (!solved) return TiltedHang();
-  return {true, least, bit, {left.paid_out, right.paid_out}, left, right};
-}
-
-/// Rough start: at some tilt, on straight chains from the axes that carry the weight without its
-/// moment.
-inline TiltedUnknowns roughTilted(const Machine& machine, const TwoBrackets& sled,
-                                  const Eigen::Vector2d& bit, double tilt) {
-  Eigen::Matrix2d span;  // from each bracket to its axis
-  Eigen::Vector2d depth;
-  for (Hand hand : {Hand::kLeft, Hand::kRight}) {
-    const int side = hand == Hand::kLeft ? 0 : 1;
-    const Eigen::Vector3d axis = axisAtRest(machine, hand);
-    span.col(side) = axis.head<2>() - bit - bracketFromBit(sled, hand, tilt);
-    depth[side] = axis.z();
-  }
-  const Eigen::Vector2d share =
-      span.partialPivLu().solve(Eigen::Vector2d(0, machine.sled_weight));  // [N/mm]
-  const auto pull = [&](int side) -> Eigen::Vector3d {
-    return share[side] * Eigen::Vector3d(span(0, side), span(1, side), depth[side]);
-  };
-  return pack(machine, pull(0), pull(1), tilt, span.colwise().norm().transpose());
-}
-
-}  // namespace detail
+double momentOf(const Machine& machine, const TwoBrackets& sled, double tilt, const ChainForm& left,
+                const ChainForm& right);
 
 /// The chains and the tilt that hold the sled still with its bit at `bit` [mm].
-inline TiltedHang hangTilted(const Machine& machine, const TwoBrackets& sled,
-                             const Eigen::Vector2d& bit) {
-  using detail::TiltedUnknowns;
-  const auto draw = [&](const TiltedUnknowns& packed, Hand hand) {
-    const int side = hand == Hand::kLeft ? 0 : 1;
-    return drawChain(
-        machine, hand,
-        {packed.segment<3>(3 * side) * machine.sled_weight, packed[7 + side] * machine.motor_gap});
-  };
-  const auto defect = [&](const TiltedUnknowns& packed) {
-    return detail::defects(machine, sled, packed[6], draw(packed, Hand::kLeft),
-                           draw(packed, Hand::kRight), bit);
-  };
-  // Close below a motor, the brackets of a level sled are on both sides of it.
-  for (double tilt : {0.0, 0.3, -0.3, 0.6, -0.6}) {
-    const Root<9> root = findRoot<9>(defect, detail::roughTilted(machine, sled, bit, tilt));
-    const TiltedHang hang = detail::tiltedHangOf(
-        root.found, root.at[6], bit, draw(root.at, Hand::kLeft), draw(root.at, Hand::kRight));
-    if (hang.solved) return hang;
-  }
-  return TiltedHang();
-}
+TiltedHang hangTilted(const Machine& machine, const TwoBrackets& sled, const Eigen::Vector2d& bit);
 
 /// The place and the tilt at which the sled rests on chains of `paid_out` [mm left, right], looked
 /// for from `start` [mm], which must be a place where it could hang.
-inline TiltedHang settleTilted(const Machine& machine, const TwoBrackets& sled,
-                               const Eigen::Vector2d& paid_out,
-                               const Eigen::Vector2d& start = Eigen::Vector2d::Zero()) {
-  using detail::TiltedUnknowns;
-  const TiltedHang first = hangTilted(machine, sled, start);
-  if (!first.solved) return TiltedHang();
-  const auto draw = [&](const TiltedUnknowns& packed, Hand hand) {
-    const int side = hand == Hand::kLeft ? 0 : 1;
-    return drawCounted(machine, hand, packed.segment<3>(3 * side) * machine.sled_weight,
-                       paid_out[side]);
-  };
-  const auto defect = [&](const TiltedUnknowns& packed) {
-    return detail::defects(machine, sled, packed[6], draw(packed, Hand::kLeft),
-                           draw(packed, Hand::kRight), packed.tail<2>() * machine.motor_gap);
-  };
-  const Root<9> root = findRoot<9>(
-      defect, detail::pack(machine, first.left.pull, first.right.pull, first.tilt, start));
-  return detail::tiltedHangOf(root.found, root.at[6], root.at.tail<2>() * machine.motor_gap,
-                              draw(root.at, Hand::kLeft), draw(root.at, Hand::kRight));
-}
+TiltedHang settleTilted(const Machine& machine, const TwoBrackets& sled,
+                        const Eigen::Vector2d& paid_out,
+                        const Eigen::Vector2d& start = Eigen::Vector2d::Zero());
 
 }  // namespace reference

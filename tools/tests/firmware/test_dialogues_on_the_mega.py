@@ -22,6 +22,7 @@ PARTS = [
     "tools/vm/mega/virtual_board.cpp",
     "test/test_dialogues/stage.cpp",
     "test/test_dialogues/stage_questions.cpp",
+    *sorted(ROOT.glob("tools/judge/reference/*.cpp")),
 ]
 INCLUDES = [
     *(f"-I{folder}" for folder in ("src", "test", "tools/vm", "tools/vm/host_avr", "tools/judge")),
