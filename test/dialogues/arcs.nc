@@ -19,3 +19,23 @@
 ~~ z -1 within 0.02
 -> G2 X200 Y200 R10
 <- error: *
+; G90.1: the centre is a place.
+-> G0 X0 Y0
+<- ok
+-> G90.1 G2 X0 Y10 I0 J5
+<- ok
+-> G91.1 G4 P0
+<* ok
+~~ wait 0.5
+~~ sled X0 Y10 within 0.06
+; An arc's line needs no place, and none of I and J: a full circle.
+-> G3 X0 Y0 J-5
+<- ok
+-> J5
+<- ok
+~~ wait 1
+~~ errors [PE:0.00,0.00,127] within 0.6
+-> G4 P0
+<* ok
+~~ wait 0.5
+~~ sled X0 Y0 within 0.06

@@ -168,3 +168,13 @@
 <- error: this machine does no G54.1
 ~~ wait 0.5
 ~~ status <Idle,MPos:25.40,25.40,4.00,WPos:0.000,0.000,0.000> within 0.02
+; A tool has a length and nothing across; inches have four decimals.
+-> $70=1
+<- ok
+-> G43.1 X1 Z1
+<- error: G43.1 needs Z*
+-> G20
+<- ok
+-> $#
+<- G54 X0.0000 Y0.0000 Z0.0000
+<* ok

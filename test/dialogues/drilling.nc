@@ -66,6 +66,9 @@
 ~~ wait 0.5
 ~~ status <Idle,MPos:1.00,0.00,3.00,WPos:0.000,0.000,0.000> within 0.02
 ; No hole at the edge instead of one beyond it.
+~~ hang X0 Y590
+~~ declare
+<* ok
 -> G0 X0 Y600
 <- ok
 -> G81 Y620 Z-1 R1
@@ -74,3 +77,19 @@
 <* ok
 ~~ wait 0.5
 ~~ status <Idle,MPos:0.00,609.60,3.00,WPos:0.000,0.000,0.000> within 0.02
+; Holes count from where each axis begins.
+~~ hang X0 Y0
+~~ declare
+<* ok
+-> G10 Z0
+<- ok
+-> G10 L2 P2 X10 Y20 Z1
+<- ok
+-> G55 G0 Z2
+<- ok
+-> G98 G81 X5 Y-15 Z-2 R1
+<- ok
+-> G4 P0
+<* ok
+~~ wait 0.5
+~~ status <Idle,MPos:15.00,5.00,3.00,WPos:0.000,0.000,0.000> within 0.02

@@ -21,3 +21,11 @@
 <- ok
 -> G0 Z-3.05
 <- ok
+~~ status <Idle,MPos:10.00,0.00,-3.00,WPos:0.000,0.000,0.000> within 0.02
+; An arc that falls meanwhile asks as well, or keeps its height.
+-> G2 X10 Y0 I5 J0 Z-6
+<- ok
+-> G4 P0
+<* ok
+~~ wait 0.5
+~~ status <Idle,MPos:10.00,0.00,-3.00,WPos:0.000,0.000,0.000> within 0.02

@@ -54,3 +54,12 @@
 <* dwell*
 <- ok
 ~~ sled X10 Y10 within 0.05 mm
+; Two digits make a code.
+-> BJ0
+<- BJ0
+<- error: *
+; A setting has a number, which no sign makes smaller than none.
+-> $=5
+<- error: *
+-> $-1=5
+<- error: *

@@ -48,3 +48,14 @@
 <- ok
 -> $RST=x
 <- error: *
+; That motors run in imagination is forgotten by the star alone.
+-> B99 ON
+<* ok
+-> $RST=#
+<- Message: Restoring defaults 
+<* FAKE_SERVO on
+<* Settings are the defaults. Chain lengths are not known yet*
+-> $RST=*
+<- Message: Restoring defaults 
+<* FAKE_SERVO off
+<* Settings are the defaults. Chain lengths are not known yet*

@@ -85,3 +85,15 @@
 <* FAKE_SERVO off
 <- ALARM: Position Lost*
 <- ok
+; Motors lose their power before they run in imagination.
+~~ hang X0 Y0
+~~ declare
+<* ok
+-> G0 X5
+<- ok
+-> G4 P0
+<* ok
+~~ on left
+-> B99 ON
+<* ok
+~~ off left

@@ -71,3 +71,14 @@
 <- Turning Spindle Off
 <- ok
 ~~ spindle low
+; The spindle turns until what was queued before M5 is done.
+-> M3
+<* ok
+-> G1 X0 F600
+<- ok
+-> M5
+~~ wait 1
+~~ spindle high
+<- Turning Spindle Off
+<- ok
+~~ sled X0 Y0 within 0.06

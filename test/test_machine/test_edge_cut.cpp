@@ -79,6 +79,16 @@ TEST(EdgeCut, LeavesAPathOnTheSheetAlone) {
   EXPECT_FALSE(cut.next());
 }
 
+TEST(EdgeCut, ALineOfOneMillimetreIsCutLikeAnyOther) {
+  const Path<float> paths[] = {motion::line(Point<float>{1199.5f, 0}, Point<float>{1200.5f, 0}),
+                               motion::line(Point<float>{0, 599.5f}, Point<float>{0, 600.5f})};
+  for (const Path<float>& path : paths) {
+    const std::vector<Piece> pieces = piecesOf(path, kSheet);
+    ASSERT_EQ(2u, pieces.size()) << "to " << path.to.x << ", " << path.to.y;
+    EXPECT_NEAR(0.5, pieces[0].last, 1e-3) << "to " << path.to.x << ", " << path.to.y;
+  }
+}
+
 TEST(EdgeCut, FarBeyondACornerTheSledWaitsThere) {
   const std::vector<Piece> pieces =
       piecesOf(motion::line(Point<float>{900, 0}, Point<float>{1500, 6000}), kSheet);

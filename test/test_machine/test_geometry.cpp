@@ -61,6 +61,22 @@ TEST(FrameSettings, NoMoreChainIsPaidOutThanThereIs) {
   EXPECT_FALSE(tooShort.geometry.isReachable({1000, -500})) << "left, " << lengths.right;
 }
 
+TEST(FrameSettings, NoSledHangsAboveItsMotors) {
+  const Shaped usual({{7, 2}, {8, 139}, {10, 5000}});
+  EXPECT_FALSE(usual.geometry.isReachable({0, 1500}));
+  EXPECT_FALSE(usual.geometry.isReachable({300, 1100}));
+}
+
+TEST(FrameSettings, APlaceIsFoundFromAnyGuess) {
+  const Shaped usual({{7, 2}, {8, 139}, {10, 5000}});
+  const motion::Lengths<float> lengths = usual.geometry.inverse({500, -300});
+  for (const motion::Point<float>& guess : {motion::Point<float>{0, 0}, {-1200, 600}, {0, 9000}}) {
+    const FoundPlace place = usual.geometry.forward(lengths.left, lengths.right, guess);
+    EXPECT_TRUE(place.found) << guess.x << ", " << guess.y;
+    EXPECT_NEAR(500, double(place.at.x), 0.01) << guess.x << ", " << guess.y;
+  }
+}
+
 TEST(FrameSettings, SprocketsStandAsFarApartAndAsHighAsTheySay) {
   for (const float kinematics : {1.0f, 2.0f}) {
     const Shaped shaped({{7, kinematics}, {1, 1000}, {2, 3000}, {3, 450}});

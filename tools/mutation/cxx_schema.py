@@ -60,7 +60,13 @@ def _switched(text: bytes, body: bytes, sites: dict[int, Site]) -> bytes:
     is_condition = any(site.is_condition for site in sites.values())
     kind = b"bool" if is_condition else b""
     choices = [
-        b"MUTANT(%d) ? %s(%s) : " % (number, kind, one_line(alternative(text, site)))
+        b"%s(%d) ? %s(%s) : "
+        % (
+            b"MUTANT_KEPT" if site.is_kept else b"MUTANT",
+            number,
+            kind,
+            one_line(alternative(text, site)),
+        )
         for number, site in sites.items()
     ]
     return b"(%s%s(%s))" % (b"".join(choices), kind, body)

@@ -110,6 +110,7 @@ class Site:
     is_statement: bool
     is_condition: bool
     is_constant: bool  # known to the compiler alone, so that no switch can choose it at run time
+    is_kept: bool  # of a function's static variable, which is worked out once for all tests
     edit: tuple[int, int, bytes]
 
 
@@ -163,8 +164,17 @@ def site(node: Node, is_constant: bool, anchor: Node, edit: tuple, is_condition=
     line = 1 + node.start_point[0]
     return Site(
         anchor.start_byte, anchor.end_byte, line if first <= line <= last else first, last,
-        statement, is_condition, is_constant, edit,
+        statement, is_condition, is_constant, is_kept(node), edit,
     )  # fmt: skip
+
+
+def is_kept(node: Node) -> bool:
+    """Whether a node stands in the initial value of a static variable of a function."""
+    while node.parent is not None and node.type != "declaration":
+        node = node.parent
+    words = [child.text for child in node.children if child.type == "storage_class_specifier"]
+    inside = node.parent is not None and node.parent.type == "compound_statement"
+    return node.type == "declaration" and b"static" in words and inside
 
 
 def mutants_of(node: Node) -> Iterator[tuple]:

@@ -10,6 +10,7 @@ namespace mutation {
 
 unsigned alive = 0;
 unsigned char reached[kMostMutants];
+unsigned char kept[kMostMutants];
 
 namespace {
 
@@ -36,7 +37,7 @@ class Recorder : public testing::EmptyTestEventListener {
   void write(const char* test, long long ms) {
     fprintf(file_, "%s %lld", test, ms);
     for (unsigned i = 0; i < kMostMutants; ++i)
-      if (reached[i]) fprintf(file_, " %u", i);
+      if (reached[i] || kept[i]) fprintf(file_, " %u", i);
     fputc('\n', file_);
     memset(reached, 0, sizeof(reached));
   }

@@ -31,6 +31,10 @@ inline int sumTo(int last) {
   return sum;
 }
 inline int sign(int value) { return -value; }
+inline int third() {
+  static const int kTable[] = {3};
+  return kTable[0];
+}
 """
 SUITE = """#include <gtest/gtest.h>
 #include "toy.h"
@@ -40,6 +44,8 @@ TEST(Toy, Bounds) {
 }
 TEST(Toy, IsSmall) { EXPECT_TRUE(isSmall(1)); }
 TEST(Toy, Sums) { EXPECT_EQ(6, sumTo(3)); }
+TEST(Toy, ReadsItsTable) { EXPECT_LT(0, third()); }
+TEST(Toy, ReadsItsTableAgain) { EXPECT_EQ(3, third()); }
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
@@ -64,6 +70,9 @@ EXPECTED = {
     "for (int i = 0; i <= last; --i) sum += i;": KILLED,
     "for (int i = 0; i <= last; ++i) sum -= i;": KILLED,
     "inline int sign(int value) { return value; }": SURVIVED,
+    "static const int kTable[] = {4};": KILLED,
+    "static const int kTable[] = {2};": KILLED,
+    "return kTable[1];": KILLED,
 }
 
 
@@ -147,6 +156,14 @@ def test_constexpr_gives_way_to_a_switch():
     switched = with_switches(text, dict(enumerate(sites, 1)), words).decode()
     assert "static inline const float k = (MUTANT(1) ? (1.0f) : (2.0f));" in switched
     assert "inline int f()" in switched
+
+
+def test_what_is_worked_out_once_is_reached_by_all_tests_that_follow():
+    text = b"int f() {\n  static const int kept[] = {3};\n  const int fresh = 4;\n  return 5;\n}"
+    sites, words = cxx_sites.read(text)
+    switched = with_switches(text, dict(enumerate(sites, 1)), words).decode().splitlines()
+    assert "MUTANT_KEPT(1)" in switched[1] and "MUTANT(" not in switched[1]
+    assert "MUTANT(3)" in switched[2] and "MUTANT(5)" in switched[3]
 
 
 def test_verdicts_outlive_a_run_and_excused_survivors_do_not_count(tmp_path):
