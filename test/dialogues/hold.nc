@@ -5,7 +5,12 @@
 ~~ hold within 1.28
 ~~ status <Pause,MPos:*
 ~~ wait 70
+; The motors keep the sled where it is.
+~~ pull left 2
+~~ wait 0.5
 ~~ on left
+~~ pull left 0
+~~ wait 0.5
 ~~ quiet
 >> ~
 <- ok
