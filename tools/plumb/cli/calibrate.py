@@ -26,10 +26,7 @@ from plumb.plan import propose
 def run(arguments: argparse.Namespace) -> int:
     """Compare, diagnose, add or propose, write, print, and return the exit code."""
     inputs = _inputs(arguments)
-    this = _round(inputs, arguments.controller)
-    if not this.done:
-        advice = propose(this.result.diagnosis, inputs, progress=bar("simulating"))
-        this = replace(this, advice=advice)
+    this = round_of(inputs)
     files, client = _written(arguments, inputs, this)
     if arguments.json:
         print_json(
@@ -66,12 +63,19 @@ def _inputs(arguments: argparse.Namespace) -> Inputs:
     return replace(inputs, priors=priors, sigma=arguments.sigma, checked=checks)
 
 
-def _round(inputs: Inputs, controller: str | None) -> Round:
-    """What the marks say, and what was added by it."""
+def round_of(inputs: Inputs) -> Round:
+    """What the marks say, what was added by it, and what to measure first if it is open."""
     comparison = compare(
-        inputs.settings, inputs.measurements, cut_with=inputs.cut_with, controller=controller
+        inputs.settings,
+        inputs.measurements,
+        cut_with=inputs.cut_with,
+        controller=inputs.controller,
     )
-    return Round(comparison, add_auto(inputs))
+    this = Round(comparison, add_auto(inputs))
+    if this.done:
+        return this
+    advice = propose(this.result.diagnosis, inputs, progress=bar("simulating"))
+    return replace(this, advice=advice)
 
 
 def _written(

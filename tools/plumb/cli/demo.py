@@ -10,6 +10,8 @@ from pathlib import Path
 
 from plumb.cli.add import panels_of, toml_of
 from plumb.cli.add_text import COLUMNS, turn_sentences
+from plumb.cli.calibrate import round_of
+from plumb.cli.calibrate_text import sentence
 from plumb.cli.ending import ended
 from plumb.cli.output import write_outputs
 from plumb.cli.parser import Parser
@@ -17,7 +19,9 @@ from plumb.cli.screen import sentences, table
 from plumb.cli.text import millimetres
 from plumb.cure.demo import GOAL, MARKS, SETTINGS, Demonstration, demonstrate
 from plumb.cure.record import record_of
+from plumb.diagnose.sentence import verdict_sentence
 from plumb.firmware.client_files import client_files
+from plumb.fit.inputs import Inputs
 from plumb.pictures.sheet import draw
 from plumb.text.errors import refusal
 
@@ -41,7 +45,8 @@ def _run(arguments: Sequence[str] | None) -> int:
     print(as_text(demonstration))
     print("\nWritten:")
     print(sentences([os.path.relpath(path) for path in files], mark="  "))
-    print(f"\n{_last_line(demonstration)}")
+    print(f"\n{_last_line(demonstration)}\n")
+    print(calibrated(demonstration.inputs))
     return 0 if demonstration.reached else 1
 
 
@@ -178,6 +183,13 @@ def _impossible_pitch(demonstration: Demonstration) -> str:
         f"and both chains would have to be too short, by {left:.2f} and {right:.2f} %: chains are "
         "made long and wear longer, which speaks for the sign assumed."
     )
+
+
+def calibrated(inputs: Inputs) -> str:
+    """What plumb calibrate says of these marks, which knows nothing of the steps above."""
+    this = round_of(inputs)
+    said = f"plumb calibrate says of them: {verdict_sentence(this.result.diagnosis)}"
+    return sentences([said, sentence(this)], mark="")
 
 
 def _last_line(demonstration: Demonstration) -> str:
