@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from contextlib import ExitStack
 from dataclasses import dataclass
 
+import joblib  # type: ignore[import-untyped]  # it brings no types
 import numpy as np
 
 from plumb.bench.cure import Cure
@@ -57,6 +56,8 @@ class Report:
     cures: tuple[Cured, ...]  # the last is that of all boards together
     boards: int  # of each scenario
     seed: int
+    counted: int  # boards of all scenarios; fewer than asked for if the bench was interrupted
+    interrupted: bool = False
 
     @property
     def missed(self) -> tuple[Row, ...]:
@@ -72,22 +73,30 @@ class Report:
 def run(
     scenarios: Sequence[Scenario], *, boards: int, seed: int, progress: Progress, jobs: int = 1
 ) -> Report:
-    """Diagnose so many boards of each scenario, in so many programs at once."""
+    """Diagnose so many boards of each scenario, in so many programs at once.
+
+    joblib carries the boards, so a backend that the caller sets (a Dask cluster) carries them too.
+    An interruption keeps what is done; with nothing done it goes on up.
+    """
     tasks = [
         (scenario.name, tuple(range(start, min(start + AT_ONCE, boards))), seed)
-        for scenario in scenarios
         for start in range(0, boards, AT_ONCE)
+        for scenario in scenarios
     ]
     trials: dict[str, list[JudgedBoard]] = {scenario.name: [] for scenario in scenarios}
-    with ExitStack() as stack:
-        if jobs > 1:
-            done = stack.enter_context(ProcessPoolExecutor(jobs)).map(_some, tasks)
-        else:
-            done = map(_some, tasks)
+    interrupted = False
+    try:
+        parallel = joblib.Parallel(n_jobs=jobs, return_as="generator")
+        done = parallel(joblib.delayed(_some)(task) for task in tasks)
         for (name, indices, _), trials_done in zip(tasks, done, strict=True):
             trials[name] += trials_done
             progress(name, len(indices))
-    return _report(scenarios, trials, boards, seed)
+    except KeyboardInterrupt:
+        interrupted = True
+        if not any(trials.values()):
+            raise
+    begun = [scenario for scenario in scenarios if trials[scenario.name]]
+    return _report(begun, trials, boards, seed, interrupted=interrupted)
 
 
 def _some(task: tuple[str, tuple[int, ...], int]) -> list[JudgedBoard]:
@@ -102,6 +111,8 @@ def _report(
     trials: Mapping[str, Sequence[JudgedBoard]],
     boards: int,
     seed: int,
+    *,
+    interrupted: bool,
 ) -> Report:
     rows: list[Row] = []
     kinds: list[tuple[str, str, Rate]] = []
@@ -123,6 +134,8 @@ def _report(
         tuple(_cured(name, cures_of_scenario) for name, cures_of_scenario in cures),
         boards,
         seed,
+        sum(map(len, trials.values())),
+        interrupted,
     )
 
 

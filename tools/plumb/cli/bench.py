@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, nullcontext
+from importlib import import_module
 from typing import Any
+
+import joblib  # type: ignore[import-untyped]  # it brings no types
 
 from plumb.bench.page import page
 from plumb.bench.report import (
@@ -21,6 +25,7 @@ from plumb.bench.report import (
 )
 from plumb.bench.scenarios import CURE, NAMES, SCENARIOS, Scenario
 from plumb.cli.arguments.bench import BOARDS, FAST
+from plumb.cli.ending import INTERRUPTED
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import Bar, sentences, table
 from plumb.cli.text import print_json
@@ -31,20 +36,38 @@ def run(arguments: argparse.Namespace) -> int:
     """Run the bench, print its table, and return the exit code."""
     chosen = chosen_of(arguments.scenario)
     boards = arguments.boards or (FAST if arguments.fast else BOARDS)
-    report = run_bench(
-        chosen,
-        boards=boards,
-        seed=arguments.seed,
-        progress=_counted(len(chosen) * boards),
-        jobs=arguments.jobs,
-    )
+    with _on_cluster(arguments.cluster) if arguments.cluster else nullcontext():
+        report = run_bench(
+            chosen,
+            boards=boards,
+            seed=arguments.seed,
+            progress=_counted(len(chosen) * boards),
+            jobs=-1 if arguments.cluster else arguments.jobs,
+        )
     if arguments.write:
         write_outputs({arguments.write: page(report).encode()}, inputs=[])
     if arguments.json:
         print_json(as_json(report))
     else:
         print(as_text(report))
-    return int(bool(report.missed) or report.cure_judged == "missed")
+    return INTERRUPTED if report.interrupted else 0
+
+
+@contextmanager
+def _on_cluster(address: str) -> Iterator[None]:
+    """Lets joblib send the boards to the Dask cluster at that address."""
+    try:
+        client = import_module("distributed").Client
+    except ImportError:
+        raise InputError(
+            "--cluster needs Dask: pip install distributed, and plumb on every worker"
+        ) from None
+    try:
+        connected = client(address)
+    except (OSError, ValueError) as error:
+        raise InputError(f"--cluster {address}: no cluster answers ({error})") from None
+    with connected, joblib.parallel_config(backend="dask"):
+        yield
 
 
 def chosen_of(names: Sequence[str]) -> tuple[Scenario, ...]:
@@ -97,6 +120,8 @@ def as_text(report: Report) -> str:
     ]
     reached = f"{report.boards} boards of each scenario, seed {report.seed}: no line is missed"
     parts.append(sentences(missed or [reached], mark=""))
+    if report.interrupted:
+        parts.append(f"Interrupted: {report.counted} boards are counted.")
     return "\n\n".join(parts)
 
 
@@ -112,6 +137,8 @@ def as_json(report: Report) -> dict[str, Any]:
     """The rates by the names of the table."""
     return {
         "boards": report.boards,
+        "counted": report.counted,
+        "interrupted": report.interrupted,
         "seed": report.seed,
         "rates": [
             {

@@ -34,7 +34,7 @@ from plumb.cli.arguments import (
 from plumb.cli.arguments import next as next_measurement
 from plumb.cli.ending import ended
 from plumb.cli.output import results_of
-from plumb.cli.parser import Parser, Version
+from plumb.cli.parser import Completion, Parser, Version
 from plumb.text.errors import InputError
 
 DESCRIPTION = "Find and cure the errors of a hanging CNC: grid, cut, measure, then calibrate."
@@ -92,6 +92,8 @@ def build_parser() -> Parser:
     """The parser of all commands."""
     parser = Parser(prog="plumb", description=DESCRIPTION, epilog=EPILOG, allow_abbrev=False)
     parser.add_argument("--version", action=Version, help="show the version and exit")
+    completion = "print what lets a shell complete commands; see docs/README.md"
+    parser.add_argument("--completion", action=Completion, help=completion)
     commands = parser.add_subparsers(
         metavar="COMMAND", required=True, title="commands", dest="command"
     )

@@ -5,9 +5,13 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
+from importlib import import_module
 from typing import Any, NoReturn
 
 from plumb.text.errors import InputError
+
+# How the help calls arguments that are names of files.
+FILES = ("SETTINGS", "MARKS", "PLAN", "FILE", "INI", "LOG")
 
 
 class Parser(argparse.ArgumentParser):
@@ -59,7 +63,37 @@ class Version(argparse.Action):
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         """Print it and stop."""
-        from importlib.metadata import version
-
-        print(f"{parser.prog} {version('plumb')}")
+        version = import_module("importlib.metadata").version("plumb")
+        print(f"{parser.prog} {version}")
         parser.exit()
+
+
+class Completion(argparse.Action):
+    """Prints what makes a shell complete commands, options and files."""
+
+    def __init__(self, option_strings: Sequence[str], dest: str, help: str) -> None:
+        shells = ("bash", "zsh", "tcsh")
+        super().__init__(option_strings, dest=argparse.SUPPRESS, choices=shells, help=help)
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: Any,
+        option_string: str | None = None,
+    ) -> None:
+        """Print it and stop."""
+        shtab = import_module("shtab")
+        _complete_files(parser, shtab.FILE)
+        print(shtab.complete(parser, values))
+        parser.exit()
+
+
+def _complete_files(parser: argparse.ArgumentParser, how: object) -> None:
+    """Let arguments that are names of files be completed so, in the commands too."""
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            for command in action.choices.values():
+                _complete_files(command, how)
+        elif action.metavar in FILES:
+            vars(action)["complete"] = how

@@ -5,6 +5,8 @@ one of its parts (search correction, refitted frame, slips first, degrees of fre
 """
 
 import json
+import sys
+import types
 from dataclasses import replace
 
 import numpy as np
@@ -241,12 +243,43 @@ def test_the_same_seed_gives_the_same_rates_however_many_programs_run():
     assert json.dumps(page(alone)) == json.dumps(page(together))
 
 
-def test_a_missed_line_is_bad_news(run, monkeypatch):
+def test_a_missed_line_is_said_and_the_bench_still_ran(run, monkeypatch):
     strict = Scenario("strict", "an effect", raw(3.0, REAL), (Line("silent", least=1.0),), marks=9)
     monkeypatch.setattr("plumb.bench.report.SCENARIOS", (strict,))
     monkeypatch.setattr("plumb.cli.bench.chosen_of", lambda _: (strict,))
     code, said, _ = run("bench", "--boards", 6)
-    assert code == 1 and "missed: strict, silent" in said
+    assert code == 0 and "missed: strict, silent" in said
+
+
+def test_an_interruption_keeps_the_boards_that_are_done(run, ask, monkeypatch):
+    judged = []
+
+    def interrupted(scenario, index, *, seed):
+        if len(judged) == 8:
+            raise KeyboardInterrupt
+        judged.append(index)
+        return judge_board(scenario, index, seed=seed)
+
+    monkeypatch.setattr("plumb.bench.report.judge_board", interrupted)
+    code, answer = ask("bench", "--scenario", "none-9", "--boards", 20)
+    assert code == 130 and answer["interrupted"] and answer["counted"] == 8
+    assert {rate["count"] for rate in answer["rates"]} == {8}
+    # With nothing done there is nothing to show.
+    assert run("bench", "--scenario", "none-9", "--boards", 20) == (130, "", "")
+
+
+def test_a_cluster_that_is_not_there_is_refused_in_one_line(run, monkeypatch):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    code, said, complaint = run("bench", "--cluster", "tcp://127.0.0.1:1")
+    assert code == 2 and said == "" and "pip install distributed" in complaint
+
+    class Away:
+        def __init__(self, address):
+            raise OSError("timed out")
+
+    monkeypatch.setitem(sys.modules, "distributed", types.SimpleNamespace(Client=Away))
+    code, said, complaint = run("bench", "--cluster", "tcp://127.0.0.1:1")
+    assert code == 2 and "tcp://127.0.0.1:1: no cluster answers (timed out)" in complaint
 
 
 def test_names_of_scenarios_are_all_different():

@@ -79,3 +79,23 @@ def test_help_and_refusals_of_words_load_no_numerics(command, code):
     asked = [sys.executable, "-c", program, *command]
     done = subprocess.run(asked, capture_output=True, text=True)
     assert done.stdout.splitlines()[-1] == str(code)
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "tcsh"])
+def test_a_shell_can_complete_commands_options_and_files(shell, run, capsys):
+    with pytest.raises(SystemExit) as end:
+        run("--completion", shell)
+    said = capsys.readouterr().out
+    assert end.value.code == 0
+    for word in ("calibrate", "diagnose", "--cut-with" if shell != "tcsh" else "cut-with"):
+        assert word in said
+
+
+def test_bash_completes_a_command_and_an_option():
+    script = (
+        f"source <({sys.executable} -m plumb.cli.main --completion bash)\n"
+        "COMP_WORDS=(plumb calib); COMP_CWORD=1; _shtab_plumb; echo ${COMPREPLY[@]}\n"
+        "COMP_WORDS=(plumb compare --lim); COMP_CWORD=2; _shtab_plumb; echo ${COMPREPLY[@]}\n"
+    )
+    done = subprocess.run(["bash", "-c", script], capture_output=True, text=True)
+    assert done.stdout.split() == ["calibrate", "--limit"], done.stderr
