@@ -2,6 +2,7 @@
 
 import re
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -58,6 +59,30 @@ def test_compare_finds_the_error_that_add_promised(fitted, ask, run):
     assert "cut with groundcontrol.ini" in said and "turned by" in said
     _, old = ask("compare", "groundcontrol.ini", "marks.toml")
     assert old["promised_rms_mm"] is None and old["rms_mm"] > 5
+
+
+def test_the_same_marks_with_other_settings_are_no_board_of_the_fit(fitted, ask):
+    options = ("machine.toml", "marks.toml", "--cut-with", "machine.toml")
+    _, answer = ask("compare", *options)
+    assert answer["promised_rms_mm"] is None and abs(answer["rotation"]) > 0.004
+
+
+def test_settings_that_cut_their_marks_are_taken_for_those_of_other_marks(fitted, run):
+    machine = read_settings("machine.toml")
+    own = replace(machine.fitted.boards[0], cut_with=replace(machine, fitted=None))
+    record = replace(machine.fitted, boards=(own,))
+    Path("again.toml").write_text(machine_toml(replace(machine, fitted=record)))
+    text = Path("marks.toml").read_text()
+    Path("second.toml").write_text(with_readings(text, lambda x, y: (x + 0.1, y)))
+    assert run("compare", "machine.toml", "second.toml")[0] == 2
+    assert run("compare", "again.toml", "second.toml")[0] == 0
+
+
+def test_marks_that_took_no_part_are_named(fitted, run):
+    options = ("--effect", "chain_pitch", "--without", "13", "--without", "7")
+    assert run("add", "groundcontrol.ini", "marks.toml", *options, "-o", "less.toml")[0] == 0
+    said = " ".join(run("compare", "less.toml", "marks.toml")[1].split())
+    assert "RMS was left, without 13, 7" in said
 
 
 def test_diagnose_finds_no_more_to_add(fitted, ask):
