@@ -69,8 +69,8 @@ def test_the_same_marks_with_other_settings_are_no_board_of_the_fit(fitted, ask)
 
 def test_settings_that_cut_their_marks_are_taken_for_those_of_other_marks(fitted, run):
     machine = read_settings("machine.toml")
-    own = replace(machine.fitted.boards[0], cut_with=replace(machine, fitted=None))
-    record = replace(machine.fitted, boards=(own,))
+    board = replace(machine.fitted.boards[0], cut_with=replace(machine, fitted=None))
+    record = replace(machine.fitted, boards=(board,))
     Path("again.toml").write_text(machine_toml(replace(machine, fitted=record)))
     text = Path("marks.toml").read_text()
     Path("second.toml").write_text(with_readings(text, lambda x, y: (x + 0.1, y)))
