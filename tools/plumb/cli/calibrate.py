@@ -48,8 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
             }
         )
     else:
-        sheet_width = inputs.settings.sheet_width
-        print(as_text(this, arguments, files, client, sheet_width=sheet_width))
+        print(as_text(this, arguments, files, client, inputs))
     return int(not this.done)
 
 

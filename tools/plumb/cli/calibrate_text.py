@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from plumb.cli.add_text import COLUMNS, parameter_table, quality_table, turn_sentences
 from plumb.cli.client import client_text
-from plumb.cli.compare import conclusion
+from plumb.cli.compare import conclusion, typed_as
 from plumb.cli.diagnose import explanation_table
 from plumb.cli.next import after, first_proposal
 from plumb.cli.screen import headline, sentences
@@ -16,6 +16,7 @@ from plumb.cure.auto import AutoAddition
 from plumb.diagnose.sentence import verdict_sentence
 from plumb.firmware.client_files import ClientFiles
 from plumb.fit.compare import Comparison
+from plumb.fit.inputs import Inputs
 from plumb.model.plain import nouns_of
 from plumb.plan import Next, Proposal
 
@@ -39,12 +40,12 @@ def as_text(
     arguments: argparse.Namespace,
     files: list[str],
     client: ClientFiles | None,
-    *,
-    sheet_width: float,
+    inputs: Inputs,
 ) -> str:
     """The whole round for people: what is, what is missing, what was done, what comes next."""
     diagnosis, addition = this.result.diagnosis, this.result.addition
-    parts = [conclusion(this.comparison, sheet_width)]
+    typed = typed_as(inputs.measurements.typed, arguments.units)
+    parts = [conclusion(this.comparison, inputs.settings.sheet_width, typed)]
     parts.append(sentences([verdict_sentence(diagnosis)], mark=""))
     if diagnosis.slips:
         parts.append(sentences([slip.sentence for slip in diagnosis.slips]))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,10 +14,18 @@ from plumb.cli.screen import sentences, table
 from plumb.cli.steps import next_step, same_inputs
 from plumb.cli.text import about, millimetres, print_json, signed
 from plumb.fit.compare import Comparison, compare
+from plumb.marks.model import Typed
 from plumb.marks.score import Score
 from plumb.pictures.sheet import Panel, draw
 from plumb.settings.fit_record import FitRecord
 from plumb.text.errors import InputError
+
+MACHINE = Typed()  # places count from the middle of the sheet, in mm
+DIGITS = {"mm": 2, "inch": 3}  # decimals of an error; a place has one less
+FRAMES = (
+    "from the sheet's top left corner, x right, y down",
+    "from the middle of the sheet, x right, y up",
+)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -35,7 +44,8 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json(as_json(comparison))
     else:
-        print(as_text(comparison, sheet_width=inputs.settings.sheet_width))
+        typed = typed_as(inputs.measurements.typed, arguments.units)
+        print(as_text(comparison, sheet_width=inputs.settings.sheet_width, typed=typed))
         print(f"\n{next_step('What is missing:', ['calibrate', *same_inputs(arguments)])}")
     return int(arguments.limit is not None and comparison.rms > arguments.limit)
 
@@ -113,9 +123,14 @@ def score_json(score: Score | None) -> dict[str, Any] | None:
     }
 
 
-def as_text(comparison: Comparison, *, sheet_width: float) -> str:
+def typed_as(typed: Typed, unit: str | None) -> Typed:
+    """How places are shown: as they were typed, or in another unit."""
+    return replace(typed, unit=unit) if unit else typed
+
+
+def as_text(comparison: Comparison, *, sheet_width: float, typed: Typed = MACHINE) -> str:
     """The comparison for people, its conclusion first."""
-    parts = [conclusion(comparison, sheet_width)]
+    parts = [conclusion(comparison, sheet_width, typed)]
     if comparison.promised:
         parts.append(sentences([promised_sentence(comparison.promised, sheet_width)], mark=""))
     if comparison.benchmark:
@@ -126,10 +141,10 @@ def as_text(comparison: Comparison, *, sheet_width: float) -> str:
     if comparison.rounds:
         parts.append(_rounds_table(comparison))
     if comparison.marks:
-        parts.append(_marks_table(comparison))
+        parts.append(_marks_table(comparison, typed))
         note = (
             "Error: measured - predicted. Chains: how much more of each the measured place needs "
-            "than was paid out. All in mm; from the middle of the sheet, x right, y up."
+            f"than was paid out. All in {typed.unit}; {FRAMES[typed.sheet is None]}."
         )
         parts.append(sentences([note], mark=""))
     if comparison.distances:
@@ -170,7 +185,7 @@ def benchmark_sentence(score: Score, left: Score | None) -> str:
     )
 
 
-def conclusion(comparison: Comparison, sheet_width: float) -> str:
+def conclusion(comparison: Comparison, sheet_width: float, typed: Typed = MACHINE) -> str:
     if not comparison.marks:
         farthest = max(comparison.distances, key=lambda distance: abs(distance.error))
         return (
@@ -179,19 +194,23 @@ def conclusion(comparison: Comparison, sheet_width: float) -> str:
         )
     worst = max(comparison.marks, key=lambda mark: mark.length)
     said = [
-        f"The marks lie {comparison.rms:.2f} mm RMS from where the settings predict them, "
-        f"worst {comparison.worst:.2f} mm (mark {worst.name})."
+        f"The marks lie {_size(comparison.rms, typed)} RMS from where the settings predict them, "
+        f"worst {_size(comparison.worst, typed)} (mark {worst.name})."
     ]
     shape, shift, rotation = comparison.shape_rms, comparison.shift, comparison.rotation
     if shape is not None and shift is not None and rotation is not None:
         rise = np.tan(rotation) * sheet_width
+        across, up = typed.shift(shift)
+        digits = DIGITS[typed.unit]
         said.append(
-            f"{shape:.2f} mm RMS of that is shape: it stays when all marks together are shifted "
-            f"(x {shift[0]:+.2f}, y {shift[1]:+.2f} mm) and turned "
-            f"({rise:+.2f} mm over the sheet's width)."
+            f"{_size(shape, typed)} RMS of that is shape: it stays when all marks together are "
+            f"shifted (x {across:+.{digits}f}, y {up:+.{digits}f} {typed.unit}) and turned "
+            f"({typed.size(rise):+.{digits}f} {typed.unit} over the sheet's width)."
         )
     if comparison.distance_rms is not None:
-        said.append(f"The distances between marks are {comparison.distance_rms:.2f} mm RMS off.")
+        said.append(
+            f"The distances between marks are {_size(comparison.distance_rms, typed)} RMS off."
+        )
     return sentences(said, mark="")
 
 
@@ -203,17 +222,30 @@ def _rounds_table(comparison: Comparison) -> str:
     return table(["file", "readings", "marks, RMS", "distances, RMS", "date"], rows)
 
 
-def _marks_table(comparison: Comparison) -> str:
+def _size(length: float, typed: Typed) -> str:
+    """A length [mm] in the unit that was typed."""
+    return f"{typed.size(length):.{DIGITS[typed.unit]}f} {typed.unit}"
+
+
+def _marks_table(comparison: Comparison, typed: Typed) -> str:
+    digits = DIGITS[typed.unit]
     rows = [
         [
             mark.name,
-            *(millimetres(value, 1) for value in (*mark.target, *mark.measured)),
-            *(signed(value) for value in mark.error),
-            millimetres(mark.length),
-            signed(mark.left_chain_residual),
-            signed(mark.right_chain_residual),
+            *(
+                millimetres(value, digits - 1)
+                for value in (*typed.place(mark.target), *typed.place(mark.measured))
+            ),
+            *(signed(value, digits) for value in typed.shift(mark.error)),
+            millimetres(typed.size(mark.length), digits),
+            signed(_in_unit(mark.left_chain_residual, typed), digits),
+            signed(_in_unit(mark.right_chain_residual, typed), digits),
         ]
         for mark in comparison.marks
     ]
     header = ["mark", "target x", "y", "measured x", "y", "error x", "y", "length"]
     return table([*header, "left chain", "right"], rows)
+
+
+def _in_unit(length: float | None, typed: Typed) -> float | None:
+    return None if length is None else typed.size(length)

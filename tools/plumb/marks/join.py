@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TypeVar
 
-from plumb.marks.model import Mark, Measurements, Point, Round
+from plumb.marks.model import Mark, Measurements, Point, Round, Typed
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import refusal
 
@@ -48,8 +48,15 @@ def join_measurements(parts: Iterable[Measurements]) -> Measurements:
         tape_sigma=_agreed([(part, part.tape_sigma) for part in several], "tape_sigma_mm"),
         sled_weight=_shared_weight(several),
         source=" + ".join(part.source for part in several),
+        typed=_typed(several),
         rounds=tuple(rounds),
     )
+
+
+def _typed(parts: tuple[Measurements, ...]) -> Typed:
+    """How the places were typed, if it was alike in all files."""
+    first, *others = [part.typed for part in parts]
+    return first if all(other == first for other in others) else Typed()
 
 
 def _refuse_a_copy(part: Measurements, before: tuple[Measurements, ...]) -> None:

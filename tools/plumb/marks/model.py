@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from plumb.settings.machine import MachineSettings
+from plumb.text.lengths import UNITS
 
 Point = tuple[float, float]
 
@@ -53,6 +54,29 @@ class Distance:
 
 
 @dataclass(frozen=True)
+class Typed:
+    """How the places of a file were typed."""
+
+    sheet: Point | None = None  # from its top left corner, y down; None: from its middle, y up
+    unit: str = "mm"  # of UNITS in text/lengths.py
+
+    def place(self, point: Point) -> Point:
+        """A place of the machine frame [mm], as it was typed."""
+        x, y = point
+        if self.sheet:
+            x, y = x + self.sheet[0] / 2, self.sheet[1] / 2 - y
+        return self.size(x), self.size(y)
+
+    def shift(self, shift: Point) -> Point:
+        """A shift in the machine frame [mm], in the axes that were typed."""
+        return self.size(shift[0]), self.size(-shift[1] if self.sheet else shift[1])
+
+    def size(self, length: float) -> float:
+        """A length [mm] in the unit that was typed."""
+        return length / UNITS[self.unit]
+
+
+@dataclass(frozen=True)
 class Measurements:
     """All marks and distances of a board, and what is known about how they were taken."""
 
@@ -63,6 +87,7 @@ class Measurements:
     sled_weight: float | None = None  # [N] of the whole file; each mark carries its weight already
     source: str = ""  # the path, for messages
     rounds: tuple[Round, ...] = (Round(),)  # in the order of the files
+    typed: Typed = Typed()  # how the places were typed, so that they can be shown so
     steered: bool = False  # to drawn points: these are the readings, and the targets what it took
     _by_name: dict[str, Mark] = field(init=False, repr=False, compare=False)
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from plumb.grid.cut_with import digest_of
 from plumb.marks.benchmark import read_benchmark
-from plumb.marks.model import Distance, Mark, Measurements, Point, Round
+from plumb.marks.model import Distance, Mark, Measurements, Point, Round, Typed
 from plumb.marks.plausible import Sheet, to_machine
 from plumb.settings.controllers import CONTROLLERS
 from plumb.settings.files import read_settings
@@ -92,6 +92,7 @@ def read_marks_toml(
         sled_weight=weight,
         source=str(path),
         rounds=(file_round,),
+        typed=Typed(frame.sheet, head.get("units", "mm")),
         steered=_flag(path, head, "steered"),
     )
 

@@ -12,6 +12,7 @@ from plumb.cli.arguments.shared import (
     add_marks,
     add_prior,
     add_sigma,
+    add_units,
     add_without,
 )
 
@@ -37,5 +38,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_prior(parser)
     add_sigma(parser, usual="as plumb diagnose takes it")
     add_checked(parser)
+    add_units(parser)
     add_force(parser)
     add_json(parser)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from plumb.cli.arguments.shared import add_force, add_json, add_marks, length
+from plumb.cli.arguments.shared import add_force, add_json, add_marks, add_units, length
 
 HELP = "how far the marks lie from where the settings predict them"
 EXIT = "Exit: 0 done; 1 the RMS is above --limit; 2 an input cannot be used."
@@ -14,6 +14,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of `plumb compare`."""
     add_marks(parser)
     parser.add_argument("--limit", metavar="MM", type=length, help="exit 1 if the RMS is above it")
+    add_units(parser)
     parser.add_argument("--picture", metavar="FILE", help="draw the errors: .png, .svg or .pdf")
     add_force(parser)
     add_json(parser)

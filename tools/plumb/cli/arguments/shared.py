@@ -82,6 +82,15 @@ def add_without(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_units(parser: argparse.ArgumentParser) -> None:
+    """The option --units."""
+    parser.add_argument(
+        "--units",
+        choices=("mm", "inch"),
+        help="in which places and errors are shown [as they were typed]",
+    )
+
+
 def add_json(parser: argparse.ArgumentParser) -> None:
     """The option --json."""
     parser.add_argument("--json", action="store_true", help="print a JSON object and nothing else")

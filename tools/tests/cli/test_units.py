@@ -1,0 +1,65 @@
+"""Places and errors are shown as they were typed, or in the unit that is asked for."""
+
+from pathlib import Path
+
+import pytest
+from plumb.marks.model import Typed
+from plumb.marks.read import join_measurements, read_marks
+
+EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
+INI, MARKS = EXAMPLE / "groundcontrol.ini", EXAMPLE / "marks.toml"
+SHEET = (2438.4, 1219.2)
+
+
+def row_of(said, name="1"):
+    return next(line.split() for line in said.splitlines() if line.split()[:1] == [name])
+
+
+def test_places_from_the_corner_are_shown_from_the_corner(run):
+    said = run("compare", INI, MARKS)[1]
+    # The file says target = [100.00, 100.00] and measured = [98.0, 106.0], y down.
+    assert row_of(said)[1:5] == ["100.0", "100.0", "98.0", "106.0"]
+    assert row_of(said)[5:7] == ["-1.98", "+5.99"]
+    assert "from the sheet's top left corner, x right, y down" in " ".join(said.split())
+
+
+def test_places_from_the_middle_are_shown_from_the_middle(run, tmp_path):
+    marks = tmp_path / "marks.csv"
+    head = "target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"
+    marks.write_text(f"{head}\n-1119.2,509.6,-1121.2,503.6\n0,0,1,-9\n900,-400,903,-408\n")
+    said = run("compare", INI, marks)[1]
+    assert row_of(said)[1:7] == ["-1119.2", "509.6", "-1121.2", "503.6", "-1.98", "-5.99"]
+    assert "from the middle of the sheet, x right, y up" in " ".join(said.split())
+
+
+@pytest.mark.parametrize("command", ["compare", "calibrate"])
+def test_inches_on_request(command, run):
+    said = " ".join(run(command, INI, MARKS, "--units", "inch")[1].split())
+    assert "The marks lie 0.351 inch RMS" in said and "worst 0.481 inch" in said
+    assert "(x +0.079, y +0.315 inch)" in said
+    if command == "compare":
+        assert "1 3.94 3.94 3.86 4.17 -0.078 +0.236" in said and "All in inch" in said
+
+
+def test_what_was_typed_in_inches_is_shown_in_inches_unless_mm_are_asked_for(run, tmp_path):
+    marks = tmp_path / "marks.toml"
+    places = [(5, 5), (48, 24), (90, 40)]
+    text = "".join(
+        f'[[mark]]\ntarget = [{x}, {y}]\nmeasured = ["{x} 1/10", {y}]\n' for x, y in places
+    )
+    marks.write_text(f'frame = "sheet-top-left"\nunits = "inch"\n{text}')
+    assert row_of(run("compare", INI, marks)[1])[1:5] == ["5.00", "5.00", "5.10", "5.00"]
+    said = run("compare", INI, marks, "--units", "mm")[1]
+    assert row_of(said)[1:5] == ["127.0", "127.0", "129.5", "127.0"]
+
+
+def test_files_that_were_typed_alike_stay_so_together_and_others_are_shown_from_the_middle(
+    tmp_path,
+):
+    corner = read_marks(MARKS, sheet=SHEET)
+    assert corner.typed == Typed(SHEET, "mm")
+    path = tmp_path / "b.csv"
+    path.write_text("target_x_mm,target_y_mm,measured_x_mm,measured_y_mm\n7,8,7.5,8.5\n")
+    middle = read_marks(path, sheet=SHEET)
+    assert join_measurements([corner, middle]).typed == Typed()
+    assert join_measurements([corner]).typed == corner.typed
