@@ -19,6 +19,7 @@ __all__ = ["Garage", "VirtualMachine", "random_garage", "set_up", "with_new_shee
 
 Array = np.ndarray
 GAP_SIGMA, POSE_SIGMA, TURN_SIGMA = 3.0, 5.0, 0.002  # [mm, mm, rad] how far a frame is off
+STOP_SIGMA = 0.3  # [mm] by which a sheet lies otherwise on the same stops
 FRICTION = 3.0  # [N] of any sled on its sheet
 EXTENDED = 1651.0  # [mm] of both chains when they were laid over the sprockets
 # What a client sends besides the numbers of the frame: without it z stands still.
@@ -73,11 +74,15 @@ def random_garage(hidden: Hidden, seed: int) -> Garage:
     )
 
 
-def with_new_sheet(garage: Garage, seed: int) -> Garage:
-    """The same machine with another sheet, laid as carefully as the first."""
+def with_new_sheet(garage: Garage, seed: int, *, raised: float = 0.0) -> Garage:
+    """The same machine with another sheet on the same stops, its right end `raised` [mm]."""
     x, y, turn = np.random.default_rng(seed).standard_normal(3)
-    center = (POSE_SIGMA * x, POSE_SIGMA * y)
-    return replace(garage, sheet_center=center, sheet_turn=TURN_SIGMA * turn)
+    was_x, was_y = garage.sheet_center
+    return replace(
+        garage,
+        sheet_center=(was_x + STOP_SIGMA * x, was_y + STOP_SIGMA * y),
+        sheet_turn=garage.sheet_turn + (raised + STOP_SIGMA * turn) / garage.settings.sheet_width,
+    )
 
 
 def set_up(sender: Sender, settings: MachineSettings) -> None:

@@ -49,8 +49,8 @@ class Loop:
 
     @property
     def left(self) -> float | None:
-        """[mm] RMS at the marks of the second sheet, the sheet laid at its best."""
-        return self.after.shape_rms if self.after else None
+        """[mm] RMS at the marks of the second sheet, none of which took part in the fit."""
+        return self.after.rms if self.after else None
 
 
 def closed_loop(
@@ -71,7 +71,7 @@ def closed_loop(
     if auto.addition:
         said("The new numbers go to the machine, and it cuts the grid again on another sheet.")
         owner.send(auto.addition.settings)
-        owner.lay_new_sheet(owner.garage.seed + 1)
+        owner.lay_new_sheet(owner.garage.seed + 1, raised=auto.addition.sheet_rise)
         after = compare(owner.settings, _read(owner, owner.cut_grid(grid)))
     return Loop(owner, before, first, done, auto, after)
 

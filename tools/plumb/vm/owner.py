@@ -87,9 +87,9 @@ class VirtualOwner:
         self.sender.stream(gcode(firmware_numbers(settings)).decode().splitlines())
         self.settings = settings
 
-    def lay_new_sheet(self, seed: int) -> None:
-        """Take the sheet off and lay another, as carefully as the first."""
-        self.garage = with_new_sheet(self.garage, seed)
+    def lay_new_sheet(self, seed: int, *, raised: float) -> None:
+        """Take the sheet off and lay another on the same stops, the right one `raised` [mm]."""
+        self.garage = with_new_sheet(self.garage, seed, raised=raised)
         self.machine.replace_sheet()
         self.tape.lay(self.garage)
 

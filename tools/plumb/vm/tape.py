@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 import numpy as np
+from scipy.optimize import linear_sum_assignment
+from scipy.spatial.distance import cdist
 
 from plumb._vm import VirtualMachine
 from plumb.vm.garage import Garage
 
 Array = np.ndarray
 Cut = tuple[int, float, float, float, float]
+BLANK = "# measured = [ , ]"
+NUMBER = re.compile(r"-?[\d.]+")
 DIMPLE = 3.0  # [mm] a plunge that went farther sideways is a line, not a mark
 
 
@@ -57,18 +62,31 @@ class Tape:
 
 
 def filled_form(form: str, readings: Array, *, sheet: tuple[float, float]) -> str:
-    """The form that `plumb grid` wrote, with readings (n, 2) [mm from mid sheet] in its order.
+    """The form that `plumb grid` or `plumb next` wrote, with readings (n, 2) [mm from mid sheet].
 
-    The form counts from the sheet's top left corner, y down. Raises ValueError unless there is a
+    The form counts from the sheet's top left corner, y down. Each reading goes to the mark that it
+    belongs to, so that all together lie as near as can be. Raises ValueError unless there is a
     reading for each mark.
     """
-    blanks = form.count(BLANK)
-    if blanks != len(readings):
-        raise ValueError(f"the form waits for {blanks} marks, and the sheet has {len(readings)}")
-    for x, y in readings:
-        across, down = sheet[0] / 2 + x, sheet[1] / 2 - y
-        form = form.replace(BLANK, f"measured = [{across:.1f}, {down:.1f}]", 1)
+    targets = _waiting_targets(form)
+    if len(targets) != len(readings):
+        raise ValueError(
+            f"the form waits for {len(targets)} marks, and the sheet has {len(readings)}"
+        )
+    corner = np.array([sheet[0] / 2, sheet[1] / 2])
+    read = (readings * (1, -1) + corner).reshape(-1, 2)
+    _, order = linear_sum_assignment(cdist(targets, read))
+    for x, y in read[order]:
+        form = form.replace(BLANK, f"measured = [{x:.1f}, {y:.1f}]", 1)
     return form
 
 
-BLANK = "# measured = [ , ]"
+def _waiting_targets(form: str) -> Array:
+    """Targets (n, 2) [mm] of the marks that wait for a reading."""
+    target, waiting = "", []
+    for line in form.splitlines():
+        if line.startswith("target = "):
+            target = line
+        elif line == BLANK:
+            waiting.append([float(number) for number in NUMBER.findall(target)])
+    return np.array(waiting).reshape(-1, 2)
