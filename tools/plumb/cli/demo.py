@@ -1,13 +1,15 @@
-"""`tools/demo`: how the error of a real machine falls, with all that is doubtful about it."""
+"""`tools/demo`: how the error of a machine falls; `--real`: of nine published marks, with all that
+is doubtful about them."""
 
 from __future__ import annotations
 
 import math
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from plumb.cli import demo_loop
 from plumb.cli.add import panels_of, toml_of
 from plumb.cli.add_text import COLUMNS, turn_sentences
 from plumb.cli.calibrate import round_of
@@ -35,24 +37,40 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(arguments: Sequence[str] | None) -> int:
     parsed = _parser().parse_args(arguments)
+    _make(parsed.folder)
+    if not parsed.real:
+        shown = demo_loop.shown(parsed.folder, seed=parsed.seed, elf=parsed.mega)
+        files = shown.files | ({parsed.picture: shown.picture} if parsed.picture else {})
+        write_outputs(files, inputs=[])
+        print(demo_loop.as_text(shown.loop))
+        _say_written(files)
+        print(f"\n{demo_loop.reveal(shown.loop)}")
+        return int(not shown.fell)
     demonstration = demonstrate()
     files = _files(demonstration, parsed.folder, parsed.picture)
-    try:
-        Path(parsed.folder).mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise refusal(parsed.folder, f"cannot be made ({error.strerror})") from None
     write_outputs(files, inputs=[])
     print(as_text(demonstration))
-    print("\nWritten:")
-    print(sentences([os.path.relpath(path) for path in files], mark="  "))
+    _say_written(files)
     print(f"\n{_last_line(demonstration)}\n")
     print(calibrated(demonstration.inputs))
     return 0 if demonstration.reached else 1
 
 
+def _make(folder: str) -> None:
+    try:
+        Path(folder).mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise refusal(folder, f"cannot be made ({error.strerror})") from None
+
+
+def _say_written(files: Iterable[str]) -> None:
+    print("\nWritten:")
+    print(sentences([os.path.relpath(path) for path in files], mark="  "))
+
+
 def _parser() -> Parser:
     parser = Parser(
-        prog="demo", description="Show how the error of a real machine falls.", allow_abbrev=False
+        prog="demo", description="Show how the error of a machine falls.", allow_abbrev=False
     )
     parser.add_argument(
         "--folder",
@@ -61,6 +79,15 @@ def _parser() -> Parser:
         help="where the results go [%(default)s]",
     )
     parser.add_argument("--picture", metavar="FILE", help="a copy of the picture (.png)")
+    parser.add_argument(
+        "--real", action="store_true", help="nine published marks, not the virtual machine"
+    )
+    parser.add_argument(
+        "--seed", metavar="N", type=int, default=1, help="another machine, another effect [1]"
+    )
+    parser.add_argument(
+        "--mega", metavar="ELF", help="run this flashed program on a simulated Mega: ten minutes"
+    )
     return parser
 
 

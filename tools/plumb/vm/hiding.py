@@ -39,7 +39,8 @@ def described(hidden: Hidden) -> str:
 
 
 def _drawn(source: np.random.Generator) -> Cause:
-    effects = sorted({cause.effect for cause in REAL})
+    """One that the firmware can correct; a wrong tape would stay wrong on the next sheet."""
+    effects = sorted({cause.effect for cause in REAL if not (cause.skew or cause.strain)})
     return _one_of(effects[source.integers(len(effects))], source)
 
 

@@ -16,6 +16,7 @@ from plumb.diagnose import Checked, Diagnosis, diagnose
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
 from plumb.grid.options import Grid
+from plumb.line.sender import cleaned
 from plumb.marks.join import join_measurements
 from plumb.marks.read import Measurements, read_marks
 from plumb.plan import Proposal, propose
@@ -30,6 +31,7 @@ class Loop:
     """What came of a closed loop."""
 
     owner: VirtualOwner
+    forms: tuple[str, ...]  # what was read, as files of marks: the first sheet, the last one
     before: Comparison  # the first sheet, with the owner's first settings
     first: Diagnosis
     done: tuple[Proposal, ...]  # what was measured besides
@@ -58,11 +60,14 @@ def closed_loop(
     *,
     grid: Grid,
     said: Callable[[str], None] = lambda sentence: None,
+    progress: Callable[[float], None] = lambda share: None,
 ) -> Loop:
-    """Go once round; `said` hears what happens."""
+    """Go once round; `said` hears what happens, `progress` the share of the cutting so far."""
+    cut = _Cutting(owner, grid, progress)
     said("The machine cuts a first grid.")
     owner.switch_on()
-    board = _read(owner, owner.cut_grid(grid))
+    forms = [cut.next()]
+    board = _read(owner, forms[0])
     inputs = Inputs(owner.settings, board)
     before, first = compare(owner.settings, board), diagnose(inputs)
     inputs, done = _measured_more(owner, inputs, first, said)
@@ -72,8 +77,29 @@ def closed_loop(
         said("The new numbers go to the machine, and it cuts the grid again on another sheet.")
         owner.send(auto.addition.settings)
         owner.lay_new_sheet(owner.garage.seed + 1, raised=auto.addition.sheet_rise)
-        after = compare(owner.settings, _read(owner, owner.cut_grid(grid)))
-    return Loop(owner, before, first, done, auto, after)
+        forms.append(cut.next())
+        after = compare(owner.settings, _read(owner, forms[-1]))
+    progress(1.0)
+    return Loop(owner, tuple(forms), before, first, done, auto, after)
+
+
+class _Cutting:
+    """The two sheets of a loop, with the share of both that is done."""
+
+    def __init__(self, owner: VirtualOwner, grid: Grid, progress: Callable[[float], None]) -> None:
+        self._owner, self._grid, self._progress = owner, grid, progress
+        self._lines = 2 * len(list(cleaned(owner.grid_program(grid)[0])))
+        self._done = 0
+
+    def next(self) -> str:
+        """Cut a sheet: its form, filled."""
+        before = self._done
+
+        def answered(lines: int) -> None:
+            self._done = before + lines
+            self._progress(self._done / self._lines)
+
+        return self._owner.cut_grid(self._grid, answered=answered)
 
 
 def _measured_more(

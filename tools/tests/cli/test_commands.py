@@ -20,6 +20,7 @@ SHARED = {
         "checked",
         "client",
         "demo",
+        "demo_loop",
         "ending",
         "files",
         "main",

@@ -49,7 +49,7 @@ def test_what_is_doubtful_is_said(demonstration):
 
 def test_the_command_ends_with_the_fall_and_what_calibrate_says(tmp_path, capsys):
     picture = tmp_path / "copy.png"
-    assert main(["--folder", str(tmp_path / "demo"), "--picture", str(picture)]) == 0
+    assert main(["--real", "--folder", str(tmp_path / "demo"), "--picture", str(picture)]) == 0
     said = capsys.readouterr().out
     fall, verdict = said.split("\n\n")[-2:]
     assert fall == "The error falls from 7.3 mm RMS (4.1 of it shape) to 0.65 mm, below 0.9."
@@ -72,13 +72,13 @@ def test_the_command_fails_when_the_error_does_not_fall(
 ):
     worse = replace(demonstration, chosen=demonstration.flipped)
     monkeypatch.setattr("plumb.cli.demo.demonstrate", lambda: worse)
-    assert main(["--folder", str(tmp_path)]) == 1
+    assert main(["--real", "--folder", str(tmp_path)]) == 1
     assert "not below 0.9" in capsys.readouterr().out.split("\n\n")[-2]
 
 
 def test_a_folder_that_cannot_be_made_is_refused_in_one_line(tmp_path, capsys):
     (tmp_path / "file").write_text("no folder")
-    assert main(["--folder", str(tmp_path / "file" / "demo")]) == 2
+    assert main(["--real", "--folder", str(tmp_path / "file" / "demo")]) == 2
     said = capsys.readouterr()
     assert said.out == "" and said.err.startswith("demo: ") and said.err.count("\n") == 1
 

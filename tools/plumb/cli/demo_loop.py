@@ -1,0 +1,127 @@
+"""The demo: something is hidden in a virtual machine, and the lab finds it from marks alone."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+
+from plumb.cli.add import toml_of
+from plumb.cli.compare import panel_of
+from plumb.cli.screen import bar, headline, sentences, table
+from plumb.cli.text import millimetres
+from plumb.diagnose.sentence import verdict_sentence
+from plumb.fit.compare import Comparison
+from plumb.grid.options import Grid
+from plumb.model.plain import nouns_of
+from plumb.pictures.sheet import draw
+from plumb.vm.garage import random_garage
+from plumb.vm.hiding import RANDOM, described, hide
+from plumb.vm.loop import Loop, closed_loop
+from plumb.vm.owner import VirtualOwner
+
+GRID = Grid(columns=5, rows=5, repeats=1)
+MILLIMETRES = 3.0  # RMS by which what is hidden moves the marks
+FALLEN = 0.5  # of the error before, at most, for the demo to have worked
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What the demo came to."""
+
+    loop: Loop
+    files: dict[str, bytes]
+    picture: bytes
+
+    @property
+    def fell(self) -> bool:
+        """Whether the error fell on marks that took no part."""
+        left = self.loop.left
+        return left is not None and left < FALLEN * self.loop.before.rms
+
+
+def shown(folder: str, *, seed: int, elf: str | None) -> Shown:
+    """Hide something, go round once, and make the files."""
+    print(sentences([INTRODUCTION.format(seed=seed)], mark=""))
+    hidden = hide([RANDOM], millimetres=MILLIMETRES, seed=seed)
+    owner = VirtualOwner(random_garage(hidden, seed), elf=elf)
+    loop = closed_loop(owner, grid=GRID, progress=bar("the machine cuts"))
+    picture = _picture(loop)
+    named = {"error-falls.png": picture, **_texts(loop)}
+    files = {os.path.join(folder, name): content for name, content in named.items()}
+    return Shown(loop, files, picture)
+
+
+INTRODUCTION = (
+    "A virtual machine (seed {seed}): Plumb's own firmware drives simulated motors, and exact "
+    "mechanics hang the sled. One physical effect is hidden in it, its frame and its sheet are off "
+    "by a few millimetres, and its sled rubs. The lab sees settings and marks, nothing else."
+)
+
+
+def as_text(loop: Loop) -> str:
+    """Step by step what happened."""
+    steps = [
+        f"The machine cut {len(loop.before.marks)} marks, and a tape read them. They lie "
+        f"{loop.before.rms:.2f} mm RMS from their targets.",
+        f"plumb diagnose: {verdict_sentence(loop.first)}",
+    ]
+    steps += [f"plumb next: {proposal.option.title}. The owner did it." for proposal in loop.done]
+    return "\n\n".join(
+        [
+            sentences([*steps, *_cure(loop)]),
+            _numbers(loop),
+        ]
+    )
+
+
+def _cure(loop: Loop) -> list[str]:
+    """What was added, and what the owner did with it."""
+    if loop.auto.addition is None:
+        return [f"plumb add: nothing was added: {loop.auto.reason}."]
+    what = nouns_of(loop.auto.chosen) if loop.auto.chosen else "the frame alone"
+    rise = loop.addition.sheet_rise
+    return [
+        f"plumb add: {what}. It promises {loop.promised:.2f} mm RMS at marks that it did not see.",
+        f"The new numbers went to the machine. The owner {'raised' if rise > 0 else 'lowered'} the "
+        f"sheet's right end by {abs(rise):.1f} mm, as told, and cut the grid on a new sheet.",
+    ]
+
+
+def _numbers(loop: Loop) -> str:
+    """The three numbers: before, promised, and measured at marks that took no part."""
+    rows = [_row("before", loop.before)]
+    if loop.after:
+        rows += [
+            ["promised", millimetres(None), millimetres(loop.promised), millimetres(None)],
+            _row("measured on the new sheet", loop.after),
+        ]
+    return table(["error in mm", "RMS", "sheet laid at its best", "worst"], rows)
+
+
+def _row(name: str, comparison: Comparison) -> list[str]:
+    errors = (comparison.rms, comparison.shape_rms, comparison.worst)
+    return [name, *map(millimetres, errors)]
+
+
+def reveal(loop: Loop) -> str:
+    """The last line: what it was, and whether the lab was right."""
+    hidden = loop.owner.garage.hidden
+    right = set(loop.auto.chosen) == set(hidden.effects)
+    verdict = "The lab named it" if right else "The lab named something else"
+    return headline(f"Hidden was {described(hidden)}. {verdict}.")
+
+
+def _picture(loop: Loop) -> bytes:
+    panels = [panel_of(loop.before)]
+    if loop.after:
+        what = " + ".join(loop.auto.chosen) or "frame"
+        panels.append(panel_of(loop.after, when=f"With {what}, on a new sheet", good=True))
+    return draw(panels, sheet=loop.owner.settings.sheet)
+
+
+def _texts(loop: Loop) -> dict[str, bytes]:
+    files = {"marks.toml": loop.forms[0].encode()}
+    if loop.auto.addition:
+        files["marks-2.toml"] = loop.forms[-1].encode()
+        files["machine.toml"] = toml_of(loop.addition, source="marks.toml")
+    return files

@@ -1,0 +1,22 @@
+"""demo: what is hidden in a virtual machine is named, and the error falls on a new sheet."""
+
+import pytest
+from plumb.cli.demo import main
+from plumb.settings.files import read_settings
+
+
+@pytest.mark.slow
+def test_the_lab_names_what_is_hidden_and_says_so_last(tmp_path, capsys):
+    assert main(["--folder", str(tmp_path), "--seed", "1"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[-1] == "Hidden was sled_swing (right and up). The lab named it."
+    assert "sled_swing (right" not in "\n".join(lines[:-1])
+    rows = {line.split("  ")[0]: line.split() for line in lines}
+    before, promised, after = (
+        rows[name] for name in ("before", "promised", "measured on the new sheet")
+    )
+    assert float(after[-3]) < 0.2 * float(before[-3])
+    assert float(after[-2]) < 1.3 * float(promised[-2])
+    assert set(read_settings(tmp_path / "machine.toml").effects) >= {"sled_swing"}
+    assert (tmp_path / "marks-2.toml").read_text().count("\nmeasured = ") == 33
+    assert max(map(len, lines[: lines.index("Written:")])) <= 80
