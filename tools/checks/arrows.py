@@ -76,6 +76,7 @@ SEARCHED = [
 # The rooms of the package, floor by floor from the top: a room may import those on floors below.
 PACKAGE = "tools/plumb"
 FLOORS = (
+    ("api",),
     ("cli",),
     ("pages", "vm"),
     ("bench", "pictures"),

@@ -1,0 +1,110 @@
+"""The lab in Python: read, compare, diagnose, propose what to measure next, add.
+
+    from plumb import api
+
+    inputs = api.read("groundcontrol.ini", "marks.toml")
+    print(api.compare(inputs).rms)
+
+docs/lab.ipynb goes through a calibration. Lengths are mm, forces N, angles rad.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from os import PathLike, fspath
+from pathlib import Path
+
+from plumb.cli.files import inputs_of
+from plumb.cure.add import Addition, priors_with
+from plumb.cure.add import add as add_effects
+from plumb.cure.auto import AutoAddition, add_auto
+from plumb.diagnose import Checked, Diagnosis
+from plumb.diagnose import diagnose as diagnosis_of
+from plumb.fit.compare import Comparison
+from plumb.fit.compare import compare as comparison_of
+from plumb.fit.inputs import Inputs
+from plumb.plan import Next, propose
+from plumb.settings.toml import machine_toml
+from plumb.text.files import write_whole
+
+__all__ = [
+    "Addition",
+    "AutoAddition",
+    "Comparison",
+    "Diagnosis",
+    "Inputs",
+    "Next",
+    "add",
+    "auto",
+    "compare",
+    "diagnose",
+    "next",
+    "read",
+    "write",
+]
+
+AnyPath = str | PathLike[str]
+
+
+def read(
+    settings: AnyPath,
+    *marks: AnyPath,
+    cut_with: AnyPath | None = None,
+    controller: str | None = None,
+    sigma: float | None = None,
+    priors: Mapping[str, float] | None = None,
+    checked: Mapping[str, tuple[float, float]] | None = None,
+) -> Inputs:
+    """The machine and its marks, from files; several files of marks make one board.
+
+    `sigma` is the reading error of a coordinate [mm]. `priors` says how far (one sigma) a number of
+    the frame may be wrong. `checked` holds numbers that were measured directly, with their sigmas.
+    Raises plumb.text.errors.InputError for what cannot be used.
+    """
+    asked = argparse.Namespace(
+        settings=fspath(settings),
+        marks=[fspath(path) for path in marks],
+        cut_with=None if cut_with is None else fspath(cut_with),
+        controller=controller,
+    )
+    checks = [Checked(name, *numbers) for name, numbers in (checked or {}).items()]
+    frame = priors_with(list((priors or {}).items()))
+    return replace(inputs_of(asked), sigma=sigma, priors=frame, checked=checks)
+
+
+def compare(inputs: Inputs) -> Comparison:
+    """How far the marks lie from where the settings predict them."""
+    return comparison_of(
+        inputs.settings,
+        inputs.measurements,
+        cut_with=inputs.cut_with,
+        controller=inputs.controller,
+    )
+
+
+def diagnose(inputs: Inputs) -> Diagnosis:
+    """Which effect the settings miss, as far as the marks can prove it."""
+    return diagnosis_of(inputs)
+
+
+def next(inputs: Inputs, diagnosis: Diagnosis | None = None) -> Next:
+    """What to measure next, best first."""
+    return propose(diagnosis or diagnose(inputs), inputs)
+
+
+def add(inputs: Inputs, effects: Sequence[str] = (), *, patch: bool = False) -> Addition:
+    """The machine with its frame and these effects fitted to the marks."""
+    return add_effects(inputs, effects=effects, patch=patch)
+
+
+def auto(inputs: Inputs) -> AutoAddition:
+    """The machine with what the marks prove."""
+    return add_auto(inputs)
+
+
+def write(addition: Addition, path: AnyPath) -> Path:
+    """Write the new machine as a machine.toml; an old file of that name is replaced."""
+    write_whole(path, machine_toml(addition.settings).encode())
+    return Path(path)
