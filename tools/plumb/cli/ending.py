@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import sys
 from collections.abc import Callable
@@ -13,13 +14,16 @@ INTERRUPTED = 130  # what a shell shows after Ctrl-C
 READER_GONE = 141  # what a shell shows after a closed pipe
 
 
-def ended(run: Callable[[], int], *, name: str) -> int:
-    """The exit code of `run`; what went wrong is a single line on standard error."""
+def ended(run: Callable[[], int], *, name: str, as_json: bool = False) -> int:
+    """The exit code of `run`; what went wrong is a single line on standard error, and with --json
+    an object {"error": ...} on the standard output too."""
     try:
         code = run()
         _flush()
         return code
     except InputError as error:
+        if as_json:
+            print(json.dumps({"error": str(error)}))
         return _refused(f"{name}: {error}")
     except KeyboardInterrupt:
         _leave_quietly()

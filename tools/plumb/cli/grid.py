@@ -33,6 +33,10 @@ def run(arguments: argparse.Namespace) -> int:
             measured = ["calibrate", arguments.settings or "groundcontrol.ini", arguments.marks]
             print(next_step(words, measured))
         return code
+    try:
+        marks_grid.program(*marks_grid.from_arguments(arguments))
+    except marks_grid.GridError as error:
+        raise InputError(str(error)) from None
     said = io.StringIO()
     with contextlib.redirect_stdout(said):
         code = _made(arguments)

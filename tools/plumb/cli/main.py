@@ -76,10 +76,11 @@ COMMANDS: Mapping[str, Command] = {
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command and return its exit code."""
-    return ended(lambda: _run(arguments), name="plumb")
+    words = sys.argv[1:] if arguments is None else arguments
+    return ended(lambda: _run(words), name="plumb", as_json="--json" in words)
 
 
-def _run(arguments: Sequence[str] | None) -> int:
+def _run(arguments: Sequence[str]) -> int:
     parsed = build_parser().parse_args(arguments)
     run: Callable[[argparse.Namespace], int] = loaded(f"plumb.cli.{parsed.command}").run
     for line in loaded("plumb.model.sketches").BROKEN:

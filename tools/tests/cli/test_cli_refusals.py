@@ -1,5 +1,7 @@
 """The command line refuses what cannot be used: one clear line, exit 2, nothing written."""
 
+import json
+
 import pytest
 from plumb.cure.demo import MARKS, SETTINGS
 from plumb.settings.files import write_machine_toml
@@ -46,7 +48,11 @@ def test_what_cannot_be_used_is_told_in_one_line(
     monkeypatch.chdir(tmp_path)
     extra = ["-o", "new.toml", "--client", "groundcontrol"] if arguments[:1] == ["add"] else []
     code, said, complaint = run(*arguments, *extra, *as_json)
-    assert code == 2 and said == ""
+    assert code == 2
+    if as_json:
+        assert json.loads(said) == {"error": complaint.removeprefix("plumb: ").rstrip()}
+    else:
+        assert said == ""
     assert complaint.startswith("plumb: ") and complaint.count("\n") == 1
     assert hint in complaint
     assert list(tmp_path.iterdir()) == []
