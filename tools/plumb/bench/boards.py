@@ -13,6 +13,7 @@ from plumb.bench import judge
 from plumb.bench.causes import MAKER, OUTSIDE, SLED, Cause, Hidden, Plan
 from plumb.marks.read import Distance, Mark, Measurements
 from plumb.model.predict import FOUND, judged, lengths
+from plumb.settings.machine import MachineSettings
 
 Array = np.ndarray
 SIDES = np.array([(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)])
@@ -96,9 +97,18 @@ class BoardCut:
 
 
 def cut(
-    hidden: Hidden, plan: Plan, *, seed: int, noise: float = 0.5, tape_sigma: float | None = 0.5
+    hidden: Hidden,
+    plan: Plan,
+    *,
+    seed: int,
+    noise: float = 0.5,
+    tape_sigma: float | None = 0.5,
+    settings: MachineSettings = MAKER,
 ) -> BoardCut:
-    """A board as measured; frame and sheet lie off by chance. noise, tape_sigma [mm]."""
+    """A board as measured; frame and sheet lie off by chance. noise, tape_sigma [mm].
+
+    The settings are those in force; the machine's chain is the maker's, whatever they say.
+    """
     source = np.random.default_rng(seed)
     machine = TrueMachine(
         hidden,
@@ -107,15 +117,17 @@ def cut(
         motor_center_x=POSE_SIGMA * source.standard_normal(),
         turn=TURN_SIGMA * source.standard_normal(),
     )
-    where = _read(machine, plan)
+    where = _read(machine, plan, settings)
     if hidden.outside:
         where = where + hidden.outside_mm * _unit(OUTSIDE[hidden.outside](plan.targets, source))
     return BoardCut(machine, _measured(where, plan, source, noise, tape_sigma))
 
 
-def _read(machine: TrueMachine, plan: Plan) -> Array:
+def _read(machine: TrueMachine, plan: Plan, settings: MachineSettings = MAKER) -> Array:
     """Where marks would be read (n, 2) [mm] without noise."""
-    where = machine.sleds(chains_for(plan), approaches=plan.approaches, weights=plan.sled_weights)
+    chains = chains_for(plan, settings)
+    where = machine.sleds(chains, approaches=plan.approaches, weights=plan.sled_weights)
+    where = where - machine.hidden.backlash * plan.approaches
     if not np.isfinite(where).all():
         raise ValueError("the judge's sled cannot hang at some mark")
     turn = machine.turn
@@ -169,9 +181,9 @@ def _unit(moved: Array) -> Array:
     return moved / max(float(np.sqrt(np.mean(np.sum(moved**2, axis=1)))), 1e-9)
 
 
-def chains_for(plan: Plan) -> Array:
-    """What the maker's machine pays out (n, 2) [mm]."""
-    chains, outcome = lengths(MAKER, plan.targets)
+def chains_for(plan: Plan, settings: MachineSettings = MAKER) -> Array:
+    """What a machine of these settings pays out (n, 2) [mm]."""
+    chains, outcome = lengths(settings, plan.targets)
     if not (outcome == FOUND).all():
         raise ValueError("a plan reaches beyond the machine")
     return chains

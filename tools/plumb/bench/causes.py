@@ -36,6 +36,10 @@ CHAIN = {
     for parameter, size in effect["examples"][0]["sizes"].items()
 }
 MAKER = with_parameters(_BARE, CHAIN)
+# As published settings are: they correct the chain's sag and know nothing of its stretch.
+PUBLISHED = with_parameters(
+    _BARE, {name: size for name, size in CHAIN.items() if name.startswith("chain_sag.")}
+)
 
 
 @dataclass(frozen=True)
@@ -94,6 +98,8 @@ class Hidden:
     causes: tuple[tuple[Cause, float], ...] = ()  # with sizes in typical ones
     outside: str = ""  # of OUTSIDE: what no effect of the library does
     outside_mm: float = 0.0  # RMS of it [mm]
+    usual: tuple[tuple[Cause, float], ...] = ()  # on every machine, too small to ask for
+    backlash: float = 0.0  # [mm] by which the sled stops short of each place, on every machine
 
     @property
     def effects(self) -> tuple[str, ...]:
@@ -105,7 +111,7 @@ class Hidden:
         """The judge's numbers that are not as on the maker's machine."""
         parameters = {
             f"{cause.effect}.{name}": value
-            for cause, size in self.causes
+            for cause, size in (*self.usual, *self.causes)
             for name, value in cause.sizes(size).items()
         }
         known = {name: value for name, value in parameters.items() if name in NAMES}
@@ -119,7 +125,7 @@ class Hidden:
     @property
     def drag(self) -> float:
         """Friction of the sled [N]."""
-        return sum(cause.drag * size for cause, size in self.causes)
+        return sum(cause.drag * size for cause, size in (*self.usual, *self.causes))
 
     def read(self, places: Array) -> Array:
         """Places (n, 2) [mm] as edges that are not square and a wrong tape give them."""

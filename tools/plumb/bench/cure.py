@@ -48,16 +48,23 @@ def shape_error(machine: TrueMachine, settings: MachineSettings) -> float:
     return rms(pose.errors) if pose else 0.0
 
 
-def refitted(measurements: Measurements, effects: Sequence[str], sigma: float) -> MachineSettings:
-    """The maker's settings with the frame and these effects fitted, as `plumb add` does it."""
-    return fit(MAKER, observe(MAKER, measurements), effects=effects, sigma=sigma).settings
+def refitted(
+    measurements: Measurements,
+    effects: Sequence[str],
+    sigma: float,
+    settings: MachineSettings = MAKER,
+) -> MachineSettings:
+    """The settings with the frame and these effects fitted, as `plumb add` does it."""
+    return fit(settings, observe(settings, measurements), effects=effects, sigma=sigma).settings
 
 
-def cure_of(board: BoardCut, effects: Sequence[str], *, sigma: float) -> Cure:
+def cure_of(
+    board: BoardCut, effects: Sequence[str], *, sigma: float, settings: MachineSettings = MAKER
+) -> Cure:
     """What naming these effects is worth on a board; sigma [mm] as the diagnosis took it."""
     truth = board.machine.hidden.effects
     fits = {
-        named: shape_error(board.machine, refitted(board.measurements, named, sigma))
+        named: shape_error(board.machine, refitted(board.measurements, named, sigma, settings))
         for named in {(), tuple(effects), truth}
     }
-    return Cure(shape_error(board.machine, MAKER), fits[()], fits[tuple(effects)], fits[truth])
+    return Cure(shape_error(board.machine, settings), fits[()], fits[tuple(effects)], fits[truth])

@@ -9,7 +9,7 @@ from itertools import combinations
 import numpy as np
 
 from plumb.bench.boards import BoardCut, size_for
-from plumb.bench.causes import CAUSES, OUTSIDE, Cause, Hidden, Plan
+from plumb.bench.causes import CAUSES, OUTSIDE, Cause, Hidden, Plan, causes_of
 
 LARGEST_DRAG = 1.5  # typical sizes of friction beyond which lower corners stick for centimetres
 SLIP_MM = 5.0
@@ -95,6 +95,23 @@ def several(count: int, low: float, high: float, causes: tuple[Cause, ...]) -> H
         return Hidden(tuple(hidden))
 
     return hide
+
+
+def usual_machine(index: int, plan: Plan) -> Hidden:
+    """What every machine has: a chain that stretches more or less than usual, which published
+    settings leave out, a chain a bit heavier or lighter, friction and backlash; and next to that
+    one or two effects of usual size."""
+    source = np.random.default_rng(5000 + index)
+    (stretch,), (sag,) = causes_of("chain_stretch"), causes_of("chain_sag")
+    friction = causes_of("sled_friction")[0]
+    others = tuple(cause for cause in SMALL if cause.effect not in ("chain_stretch", "chain_sag"))
+    anomalies = several(1 + index % 2, 1.0, 2.0, others)(index, plan)
+    rubs = 0.0 if friction.effect in anomalies.effects else 0.3
+    return Hidden(
+        ((stretch, float(source.uniform(-0.4, 0.6))), *anomalies.causes),
+        usual=((sag, float(source.uniform(-0.1, 0.1))), (friction, rubs)),
+        backlash=float(source.uniform(0.0, 0.2)),
+    )
 
 
 def outside(millimetres: float) -> Hide:

@@ -8,7 +8,6 @@ from zlib import crc32
 import numpy as np
 
 from plumb.bench.boards import cut
-from plumb.bench.causes import MAKER
 from plumb.bench.cure import Cure, cure_of
 from plumb.bench.hiding import slip
 from plumb.bench.outcome import Outcome, look_alikes, outcome_of
@@ -16,6 +15,7 @@ from plumb.bench.scenarios import Scenario
 from plumb.diagnose import diagnose
 from plumb.fit.inputs import Inputs
 
+MOST_ALIKE = 3  # causes of a board whose look-alikes are asked for
 LARGE_SLIP = 10.0  # [mm]
 SEEDS = 1_000_003  # boards of one seed before those of the next
 
@@ -34,18 +34,27 @@ def judge_board(scenario: Scenario, index: int, *, seed: int) -> JudgedBoard:
     hidden = scenario.hide(index, plan)
     # Each scenario draws by itself, or one odd board would show in all of them.
     number = SEEDS * seed + crc32(scenario.name.encode()) + index
-    board = cut(hidden, plan, seed=number, noise=scenario.noise, tape_sigma=scenario.stated)
+    board = cut(
+        hidden,
+        plan,
+        seed=number,
+        noise=scenario.noise,
+        tape_sigma=scenario.stated,
+        settings=scenario.settings,
+    )
     slipped: tuple[str, ...] = ()
     kind = scenario.slips[index % len(scenario.slips)] if scenario.slips else None
     if kind:
         board, slipped = slip(board, kind, np.random.default_rng(number + 17))
-    diagnosis = diagnose(Inputs(MAKER, board.measurements))
-    alike: frozenset[str] = frozenset()
-    if len(hidden.causes) == 1:
-        alike = look_alikes(*hidden.causes[0], plan, scenario.noise)
+    diagnosis = diagnose(Inputs(scenario.settings, board.measurements))
+    alike = frozenset[str]().union(
+        *(look_alikes(*cause, plan, scenario.noise) for cause in hidden.causes[:MOST_ALIKE])
+    )
     cure = None
     if scenario.cured:
-        cure = cure_of(board, diagnosis.to_add, sigma=diagnosis.noise.sigma)
+        cure = cure_of(
+            board, diagnosis.to_add, sigma=diagnosis.noise.sigma, settings=scenario.settings
+        )
     small = kind is not None and kind.millimetres < LARGE_SLIP
     outcome = outcome_of(diagnosis, board, alike=alike, slipped=slipped, small_slip=small)
     return JudgedBoard(outcome, cure)

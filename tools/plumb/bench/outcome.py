@@ -30,6 +30,8 @@ class Outcome:
     right_first: bool  # the first effects named, or first of the ranking, draw the truth's arrows
     exactly_first: bool  # they are the truth itself
     inside: bool  # the truth is among what was named, or could hide where nothing was proved
+    covered: bool  # an explanation has all of the truth but what could hide, and nothing else
+    invented: bool  # all explanations share an effect that is not there, nor draws its arrows
     both: bool  # all hidden effects are among the suspects
     slip_named: bool  # the slipped readings, and only they, were named
     false_slip: bool  # a reading was named that is right
@@ -62,6 +64,8 @@ def outcome_of(
         right_first=set(first) == truth or (len(truth) == 1 and set(first) <= truth | alike),
         exactly_first=set(first) == truth,
         inside=held or (diagnosis.verdict == "nothing_provable" and all(own_limits)),
+        covered=_is_covered(diagnosis, hidden, truth | alike),
+        invented=named and bool(_in_all(diagnosis) - truth - alike - _background(hidden)),
         both=bool(truth) and truth <= set(diagnosis.suspects),
         slip_named=diagnosis.verdict == "slip"
         and {slip.name for slip in diagnosis.slips} == set(slipped),
@@ -69,6 +73,28 @@ def outcome_of(
         small_slip=small_slip,
         intervals=_intervals(diagnosis, hidden),
         limits=(sum(good for _, good in limits), len(limits)),
+    )
+
+
+def _in_all(diagnosis: Diagnosis) -> set[str]:
+    """The effects of which the lab is sure: those in every explanation."""
+    return set.intersection(*(set(explanation.effects) for explanation in diagnosis.explanations))
+
+
+def _background(hidden: Hidden) -> set[str]:
+    """What is there on every machine."""
+    return {cause.effect for cause, _ in hidden.usual}
+
+
+def _is_covered(diagnosis: Diagnosis, hidden: Hidden, allowed: set[str]) -> bool:
+    """Whether an explanation of nothing else leaves only what could hide."""
+    allowed = allowed | _background(hidden)
+    small = {effect for effect, good in _limits(diagnosis, hidden) if good}
+    explanations = [set(explanation.effects) for explanation in diagnosis.explanations]
+    if diagnosis.verdict == "nothing_provable":
+        explanations.append(set())
+    return any(
+        effects <= allowed and set(hidden.effects) - effects <= small for effects in explanations
     )
 
 
@@ -89,7 +115,7 @@ def _truths(hidden: Hidden) -> dict[str, float]:
         name: MAKER.effects.get(name.partition(".")[0], {}).get(name.partition(".")[2], 0.0)
         for name in parameter_words()
     }
-    for cause, size in hidden.causes:
+    for cause, size in (*hidden.usual, *hidden.causes):
         for name, value in cause.sizes(size).items():
             diagnosis[f"{cause.effect}.{name}"] = value
     return diagnosis

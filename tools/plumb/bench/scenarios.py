@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from plumb.bench.boards import plan
-from plumb.bench.causes import CAUSES, Plan
+from plumb.bench.causes import CAUSES, MAKER, PUBLISHED, Plan
 from plumb.bench.hiding import (
     HUGE,
     LARGE,
@@ -19,8 +19,10 @@ from plumb.bench.hiding import (
     raw,
     several,
     typical,
+    usual_machine,
 )
 from plumb.bench.rates import Line
+from plumb.settings.machine import MachineSettings
 
 GRIDS = {9: (3, 3), 15: (5, 3), 25: (5, 5), 35: (7, 5)}
 QUIET = Line("false naming", most=0.05)
@@ -42,6 +44,7 @@ class Scenario:
     spans: bool = False  # distances between all marks instead of places
     slips: tuple[Slip, ...] = ()  # of a reading, in turns
     shown: tuple[str, ...] = ()  # rates without a line that are worth a look
+    settings: MachineSettings = MAKER  # in force when the board is cut
     cured: bool = False  # whether the sled is measured too, with what was named added
 
     @property
@@ -206,6 +209,23 @@ SCENARIOS: tuple[Scenario, ...] = (
         marks=9,
         slips=(Slip("turned"),),
         shown=("slip named", "effect named first"),
+    ),
+    Scenario(
+        "usual-25",
+        "stretch that the settings leave out, one or two effects of usual size, friction, backlash",
+        usual_machine,
+        (
+            Line("named", least=0.85),
+            Line("truth covered", least=0.93, most=0.97),
+            Line("not in library", most=0.05),
+            Line("invented", most=0.05),
+        ),
+        noise=0.4,
+        stated=0.4,
+        repeats=True,
+        shown=("right class first", "suspects", "false slip"),
+        settings=PUBLISHED,
+        cured=True,
     ),
     *(_slips(count, marks) for count in (1, 2) for marks in (9, 15, 25, 35)),
     *(_no_slips(count) for count in (1, 2)),

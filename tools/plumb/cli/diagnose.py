@@ -80,6 +80,7 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
             {
                 "effects": explanation.effects,
                 "rms_after_mm": explanation.rms_after,
+                "share": explanation.share,  # how likely among all; null: they were not weighed
                 "parameters": [
                     {"effect": name, **_size_json(size)}
                     for name in explanation.effects

@@ -36,6 +36,7 @@ class Together:
     effects: tuple[str, ...]
     sizes: Mapping[str, tuple[Size, ...]]
     rms_after: float  # [mm]
+    share: float | None = None  # how likely it is among all accounts, where they were weighed
 
     @property
     def possible(self) -> bool:

@@ -11,7 +11,7 @@ from plumb.diagnose.clean import clean_readings
 from plumb.diagnose.doubts import find_doubts
 from plumb.diagnose.explanation import Explanation
 from plumb.diagnose.gain import search
-from plumb.diagnose.judgement import judge
+from plumb.diagnose.judgement import Judgement, judge
 from plumb.diagnose.measured import measured_board
 from plumb.diagnose.noise import Noise
 from plumb.diagnose.ranking import rank
@@ -36,7 +36,7 @@ def diagnose(inputs: Inputs) -> Diagnosis:
         noise=readings.noise,
         limit=gate.limit,
         rms_before=readings.frame.rms,
-        explanations=tuple(_together(each, readings.noise) for each in judgement.explanations),
+        explanations=_explanations(judgement, readings.noise),
         differences=_differences(judgement.explanations),
         ranking=ranking,
         library_fits=judgement.suspects.library_fits,
@@ -49,11 +49,21 @@ def diagnose(inputs: Inputs) -> Diagnosis:
     )
 
 
-def _together(explanation: Explanation, noise: Noise) -> Together:
+def _explanations(judgement: Judgement, noise: Noise) -> tuple[Together, ...]:
+    explanations = judgement.explanations
+    shares = judgement.shares or (None,) * len(explanations)
+    return tuple(
+        _together(explanation, noise, share)
+        for explanation, share in zip(explanations, shares, strict=True)
+    )
+
+
+def _together(explanation: Explanation, noise: Noise, share: float | None) -> Together:
     return Together(
         effects=explanation.effects,
         sizes={name: sizes_of(explanation, name, noise) for name in explanation.effects},
         rms_after=explanation.rms,
+        share=share,
     )
 
 

@@ -97,7 +97,7 @@ def _unsettled_warnings(explanations: Sequence[Explanation]) -> list[str]:
 
 def _sign_warnings(readings: CleanReadings, judgement: Judgement) -> list[str]:
     """What the other sign of y would change, where the verdict leaves doubts."""
-    if judgement.verdict in ("slip", "nothing_provable"):
+    if judgement.verdict in ("slip", "nothing_provable") or judgement.shares:
         return []
     board = readings.frame.board
     warning = sign_warning(board, readings.felt, readings.noise, judgement.explanations)

@@ -7,9 +7,14 @@ from dataclasses import dataclass
 from plumb.diagnose.clean import CleanReadings
 from plumb.diagnose.explanation import Explanation
 from plumb.diagnose.gain import Search
+from plumb.diagnose.imitation import BELIEVABLE
+from plumb.diagnose.likeliest import likeliest
 from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
 from plumb.diagnose.misfit import misfit_chance
-from plumb.diagnose.suspects import Suspects, best_at_hand, find_suspects
+from plumb.diagnose.suspects import Survivor, Suspects, best_at_hand, find_suspects
+from plumb.diagnose.weighing import left_out
+
+EVEN = 0.5  # chance of a field of no effect beyond which it is likelier than all else
 
 
 @dataclass(frozen=True)
@@ -19,6 +24,7 @@ class Judgement:
     verdict: str  # one of answer.VERDICTS
     suspects: Suspects
     to_add: tuple[str, ...]  # effects to go on with
+    shares: tuple[float, ...] = ()  # how likely each explanation is among all, where it was weighed
 
     @property
     def explanations(self) -> tuple[Explanation, ...]:
@@ -38,13 +44,33 @@ def judge(readings: CleanReadings, gate: Search) -> Judgement:
         return Judgement("slip", Suspects((), True), ())
     if not gate.proved:
         return _without_proof(readings)
+    if left_out(readings.frame):
+        # What every machine has acts next to whatever else does: single effects say little.
+        likely = _likely(readings, EVEN)
+        if likely:
+            return likely
     felt = [readings.singles[name] for name in readings.felt]
     suspects = find_suspects(readings.frame, felt, readings.felt, readings.noise)
-    if not suspects.believable:
-        verdict = "not_in_library"
-    else:
+    if suspects.believable:
         verdict = "one_suspect" if len(suspects.survivors) == 1 else "cannot_tell"
-    return Judgement(verdict, suspects, _to_add(readings, suspects))
+        return Judgement(verdict, suspects, _to_add(readings, suspects))
+    nothing = Judgement("not_in_library", suspects, _to_add(readings, suspects))
+    return _likely(readings, BELIEVABLE) or nothing
+
+
+def _likely(readings: CleanReadings, most: float) -> Judgement | None:
+    """The likeliest accounts; None if none fits, or if a field of no effect is likelier than
+    `most`."""
+    answer = likeliest(readings.frame, readings.felt, readings.noise)
+    if not answer.accounts or answer.field_chance > most:
+        return None
+    survivors = tuple(Survivor(account.explanation, True) for account in answer.accounts)
+    return Judgement(
+        "one_suspect" if len(survivors) == 1 else "cannot_tell",
+        Suspects(survivors, True),
+        survivors[0].explanation.effects,
+        tuple(account.share for account in answer.accounts),
+    )
 
 
 def _without_proof(readings: CleanReadings) -> Judgement:

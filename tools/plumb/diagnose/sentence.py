@@ -58,12 +58,34 @@ def _one_suspect(diagnosis: Diagnosis) -> str:
 def _cannot_tell(diagnosis: Diagnosis) -> str:
     if not _any_possible(diagnosis):
         return _impossible(diagnosis)
+    if diagnosis.explanations[0].share is not None:
+        return _most_likely(diagnosis)
     more = len(diagnosis.explanations) - SHOWN
     others = f" or {more} more" if more > 0 else ""
     return (
         f"Something is missing ({_error_left(diagnosis)}), but the marks cannot tell which: "
         f"{_suspects(diagnosis)}{others}."
     )
+
+
+def _most_likely(diagnosis: Diagnosis) -> str:
+    """The likeliest account with its odds against all others, and the next with theirs."""
+    first, second = diagnosis.explanations[:2]
+    more = len(diagnosis.explanations) - 2
+    others = f", and {more} more" if more else ""
+    return (
+        f"Something is missing ({_error_left(diagnosis)}). Most likely it is "
+        f"{nouns_of(first.effects)} (odds {odds_words(first.share)}); next, "
+        f"{nouns_of(second.effects)} (odds {odds_words(second.share)}){others}."
+    )
+
+
+def odds_words(share: float | None) -> str:
+    """How likely something is, as odds against all else."""
+    if share is None:
+        return "not weighed"
+    odds = share / max(1 - share, 1e-3)
+    return f"{odds:.0f} to 1" if odds >= 1 else f"1 to {1 / max(odds, 1e-3):.0f}"
 
 
 def _impossible(diagnosis: Diagnosis) -> str:

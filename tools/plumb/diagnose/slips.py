@@ -128,6 +128,6 @@ def _shift_of(
     stated: Stated | None,
 ) -> Shift:
     """How far a reading is off by the likeliest account of all others."""
-    effects = weigh(explain(rest), candidates, noise_on(rest, stated)).best
+    effects = weigh(explain(rest), candidates, noise_on(rest, stated), with_slips=False).best
     by_rest = explain(board.with_rows(board.rows, sigma=rest.sigma), effects)
     return shifts(by_rest)[reading.place(board.rows)]

@@ -85,7 +85,12 @@ def case_of(
     # New marks belong to the first round: its settings, its zeros and its sheet.
     measurements = inputs.measurements
     in_force = measurements.rounds[0].cut_with or inputs.cut_with or inputs.settings
-    if diagnosis.explanations:
+    if diagnosis.explanations and diagnosis.explanations[0].share is not None:
+        hypotheses = tuple(
+            _as_fitted(explain(board, each.effects, start=frame), each.share or 0.0)
+            for each in diagnosis.explanations
+        )
+    elif diagnosis.explanations:
         several = [
             explanation for explanation in diagnosis.explanations if len(explanation.effects) > 1
         ]

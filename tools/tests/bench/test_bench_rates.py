@@ -194,6 +194,8 @@ def outcome(**changes):
         inside=True,
         both=False,
         slip_named=False,
+        covered=True,
+        invented=False,
         false_slip=False,
         small_slip=False,
         intervals=(0, 0),

@@ -14,6 +14,7 @@ from plumb.diagnose.noise import Noise
 from plumb.diagnose.repeats import mark_spread
 from plumb.diagnose.significance import KNOWN
 from plumb.diagnose.sizes import room_for
+from plumb.diagnose.spread import Spread
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import PRIORS
 from plumb.marks.read import Distance, Measurements, Round, join_measurements
@@ -140,9 +141,8 @@ def test_a_misfit_between_places_is_judged_by_an_f_test_against_repeats(missing)
     spent = np.sum(frame.basis[: rows.count] ** 2)
     spare = 2 * 12 - spent
     expected = stats.f.sf(np.sum(3 * left.mean(axis=0) ** 2) / spare / sigma**2, spare, degrees)
-    assert misfit_chance(frame, Noise(sigma, degrees, "repeats")) == pytest.approx(
-        expected, rel=1e-6
-    )
+    noise = Noise(sigma, degrees, "repeats", within=Spread(within, degrees))
+    assert misfit_chance(frame, noise) == pytest.approx(expected, rel=1e-6)
     assert (expected < 0.015) == bool(missing)
 
 
