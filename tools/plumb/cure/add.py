@@ -4,23 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from plumb.board.observations import Observations, different_numbers
 from plumb.board.rounds import notes_on, unit_of
 from plumb.board.sighting import SHEET_ROTATION
-from plumb.diagnose.explanation import Board
-from plumb.diagnose.noise import Noise
-from plumb.diagnose.noise_sources import known_noise, repeats_of
-from plumb.diagnose.slip_cause import described
-from plumb.diagnose.slips_in_repeats import clear_repeats
+from plumb.cure.noise import noise_of
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.fit import Estimate, Fit, fit, rms
 from plumb.fit.inputs import Inputs
 from plumb.fit.patch import PATCH, best_patch
 from plumb.fit.plausible import PlausibleRange, plausible_range
-from plumb.fit.problem import PRIORS, USUAL_SIGMA
+from plumb.fit.problem import PRIORS
 from plumb.fit.shape import best_pose
 from plumb.marks.read import Measurements
 from plumb.marks.score import Score, score_of
@@ -152,20 +149,15 @@ def add(
     model, rows = inputs.model_and_observations()
     _refuse_too_few(measurements, rows, names, priors)
     _refuse_unfelt(measurements, rows, names)
-    noise, odd_repeats = _noise_of(inputs, model, rows)
-    sigma = noise.sigma if noise else None
-    before_fit = fit(model, rows, priors=priors, sigma=sigma)
+    noise = noise_of(inputs, model, rows)
+    weighted = partial(fit, model, rows, sigma=noise.sigma, degrees=noise.degrees)
+    before_fit = weighted(priors=priors)
     before = quality_of(before_fit, rows)
-    fits = [
-        fit(model, rows, effects=names[: i + 1], priors=priors, sigma=sigma)
-        for i in range(len(names))
-    ]
+    fits = [weighted(effects=names[: i + 1], priors=priors) for i in range(len(names))]
     steps = _steps(names, before, [quality_of(fitted, rows) for fitted in fits])
     after_fit = fits[-1] if fits else before_fit
     if patch:
-        patched = best_patch(
-            model, rows, effects=names, priors=priors, sigma=sigma, without=after_fit
-        )
+        patched = best_patch(weighted, effects=names, priors=priors, without=after_fit)
         if patched:
             after_fit, names = patched.fit, (*names, PATCH)
             steps += _steps(
@@ -185,8 +177,7 @@ def add(
         ),
         warnings=(
             *raw.warnings,
-            *odd_repeats,
-            *(noise.notes if noise else ()),
+            *noise.said,
             *_unsettled(after_fit),
             *_unfelt(after_fit),
             *notes_on(parameter.name for parameter in parameters),
@@ -194,23 +185,9 @@ def add(
             *_bad_bargains(before, after, steps),
         ),
         steps=steps,
-        sigma_from=noise.source if noise else "residuals",
+        sigma_from=noise.source,
         benchmark_after=score_of(measurements, after_fit.distance_errors.tolist()),
     )
-
-
-def _noise_of(
-    inputs: Inputs, model: MachineSettings, rows: Observations
-) -> tuple[Noise | None, list[str]]:
-    """What is known of the noise, and a sentence for each reading against its repeats."""
-    stated = inputs.stated
-    board = Board.of(model, rows, sigma=stated.sigma if stated else USUAL_SIGMA)
-    cleared = clear_repeats(board, stated)
-    said = [
-        described(shift, inputs.measurements, inputs.settings.sheet).sentence
-        for shift in cleared.slips
-    ]
-    return known_noise(repeats_of(cleared.rows), stated), said
 
 
 def priors_with(changes: Iterable[tuple[str, float]]) -> dict[str, float]:

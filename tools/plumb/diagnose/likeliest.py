@@ -58,13 +58,15 @@ def shares(weighed: Weighed) -> list[tuple[tuple[str, ...], float]]:
     """
     weights = np.exp(weighed.clean - np.logaddexp.reduce(weighed.clean))
     listed: list[tuple[tuple[str, ...], float]] = []
-    so_far = 0.0
+    counted = 0.0
     for i in np.argsort(-weights, kind="stable"):
         effects = weighed.effects[i]
         base = next((j for j, (names, _) in enumerate(listed) if {*names} <= {*effects}), None)
         if base is not None:
             listed[base] = (listed[base][0], listed[base][1] + float(weights[i]))
-        elif len(effects) <= TOGETHER and so_far < LISTED and len(listed) < MOST:
+        elif len(effects) <= TOGETHER and counted < LISTED and len(listed) < MOST:
             listed.append((effects, float(weights[i])))
-        so_far += float(weights[i])
-    return sorted(listed, key=lambda account: -account[1])
+        counted += float(weights[i])
+    listed.sort(key=lambda account: -account[1])
+    before = np.cumsum([0.0, *(share for _, share in listed)])
+    return [account for account, so_far in zip(listed, before[:-1], strict=True) if so_far < LISTED]

@@ -14,6 +14,8 @@ import numpy as np
 
 from plumb.board.observations import Observations
 from plumb.diagnose.explanation import Board, Explanation, explain
+from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
+from plumb.diagnose.misfit import misfit_chance
 from plumb.diagnose.noise import Noise
 from plumb.diagnose.noise_sources import noise_on
 from plumb.diagnose.readings import Reading, Shift, readings_of, without
@@ -24,6 +26,7 @@ from plumb.fit.inputs import Stated
 Array = np.ndarray
 SURE = 0.7  # how likely a slip must be to be named; without one it is hardly ever above 0.1
 SAME = 0.01  # share of sigma by which a change of it is no matter
+MANY = 15  # readings of which no single effect explains one that is off
 FEWEST = 4  # readings below which none can be told from the others
 READINGS_PER_SLIP = 12  # with more slips than one in this many readings the slips are not the story
 
@@ -107,7 +110,22 @@ def _slip_of(board: Board, candidates: Sequence[str], stated: Stated | None) -> 
             board.with_rows(board.rows, sigma=rest.sigma), candidates, stated, allowed
         )
         worst = int(np.argmax(chances))
-    return readings[worst] if chances[worst] > SURE else None
+    if chances[worst] <= SURE or _is_explained(board, candidates, stated):
+        return None
+    return readings[worst]
+
+
+def _is_explained(board: Board, candidates: Sequence[str], stated: Stated | None) -> bool:
+    """Whether a single effect, refitted in full, explains all of many readings.
+
+    Accounts are weighed by slopes, which an effect beyond all sizes that were met outruns.
+    """
+    if len(readings_of(board.rows)) < MANY:
+        return False
+    noise = noise_on(board, stated)
+    frame = explain(board)
+    singles = (explain(board, (name,), start=frame) for name in candidates)
+    return any(misfit_chance(single, noise) > MISFIT_LEVEL for single in singles)
 
 
 def _chances(

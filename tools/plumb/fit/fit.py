@@ -87,16 +87,18 @@ def fit(
     effects: Iterable[str] = (),
     priors: Mapping[str, float] = PRIORS,
     sigma: float | None = None,
+    degrees: float = np.inf,
 ) -> Fit:
     """Fit the frame within its priors and the parameters of `effects` to the observations.
 
-    `settings` is the model to start from; sigma [mm] of one coordinate, estimated if None.
+    `settings` is the model to start from; sigma [mm] of one coordinate, estimated if None, and the
+    degrees of freedom that it is known with.
     """
     problem = Problem.of(settings, observations, effects, priors, sigma or USUAL_SIGMA)
-    return _fit_of(problem, solve(problem), sigma)
+    return _fit_of(problem, solve(problem), sigma, degrees)
 
 
-def _fit_of(problem: Problem, solution: Solution, stated: float | None) -> Fit:
+def _fit_of(problem: Problem, solution: Solution, stated: float | None, degrees: float) -> Fit:
     """The fit with its intervals and left-out errors; `stated` is the sigma, if it is known."""
     rows, here = problem.observations, solution.at
     slopes, errors = here.slopes[: rows.count], here.residual[: rows.count] * problem.sigma
@@ -105,7 +107,8 @@ def _fit_of(problem: Problem, solution: Solution, stated: float | None) -> Fit:
     spent = float(np.trace(leverage))
     spare = max(len(errors) - spent, 1e-9)
     sigma = stated or max(float(np.sqrt(errors @ errors / spare)), SMALLEST_SIGMA)
-    width = float(scipy.special.stdtrit(spare, 0.975)) if stated is None else 1.96
+    known = spare if stated is None else degrees
+    width = 1.96 if np.isinf(known) else float(scipy.special.stdtrit(known, 0.975))
     # Intervals for the noise as estimated; what a prior holds grows no wider than the prior.
     normal = slopes.T @ slopes * (problem.sigma / sigma) ** 2 + priors
     deviation = np.sqrt(np.diag(np.linalg.pinv(normal, hermitian=True)))

@@ -6,13 +6,11 @@ out: where the patch follows noise alone, none is as good as any.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from plumb.board.observations import Observations
-from plumb.fit.fit import Fit, fit
+from plumb.fit.fit import Fit
 from plumb.model.catalogue import empirical_effects, parameter_names
-from plumb.settings.machine import MachineSettings
 
 PATCH = empirical_effects()[0]["name"]
 SIZES = (0.2, 0.4, 0.8, 1.6, 3.2, 6.4)  # [mm] of one term, one standard deviation
@@ -28,22 +26,19 @@ class Patched:
 
 
 def best_patch(
-    settings: MachineSettings,
-    observations: Observations,
+    weighted: Callable[..., Fit],
     *,
     effects: Sequence[str],
     priors: Mapping[str, float],
-    sigma: float | None,
     without: Fit,
 ) -> Patched | None:
     """The patch with the frame and these effects; None if it buys nothing.
 
-    `without` is the same fit without a patch.
+    `weighted` is fit() with all but effects and priors; `without` is the fit without a patch.
     """
     tried = []
     for size in SIZES:
         held = {**priors, **dict.fromkeys(parameter_names(PATCH), size)}
-        fitted = fit(settings, observations, effects=effects, priors=held, sigma=sigma)
-        tried.append(Patched(fitted, size))
+        tried.append(Patched(weighted(effects=effects, priors=held), size))
     best = min(tried, key=lambda patched: patched.fit.left_out_rms)
     return best if best.fit.left_out_rms < WORTH * without.left_out_rms else None

@@ -68,7 +68,7 @@ def test_the_printed_commands_lead_to_the_files_and_to_a_second_round(run):
     first, _ = printed(run("calibrate", INI, "marks.toml")[1])
     code, said, _ = run(*(word.replace("VALUE", "0") for word in first))
     assert code == 0
-    assert "Done: with chains too long or too short (chain_pitch) added" in said
+    assert "Done: with chains too long or too short (chain_pitch) and chain stretch" in said
     written = ("machine.toml", "machine.nc", "machine-groundcontrol.ini")
     assert f"Written: {', '.join(written)}" in said
     assert all(Path(name).exists() for name in written)
