@@ -6,7 +6,7 @@ Python is a noun that says what it holds: `plan`, `effect`, `mark`.
 
 import ast
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 
 import tree
@@ -22,18 +22,12 @@ NOT_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
 
 
 CRUTCHES = {"one", "own", "found", "told", "beside", "anew", "so_many", "stands_in"}
-# How many crutches a folder may still hold. A number only falls; other folders hold none.
-MOST_CRUTCHES = {
-    "tools/tests/bench": 19,
-    "tools/tests/diagnose": 61,
-    "tools/tests/fit": 42,
-}
 
 
 def violations(root: Path) -> Iterator[str]:
     """Each such name, a line for each."""
     yield from macros(root)
-    yield from crutches(root, MOST_CRUTCHES)
+    yield from crutches(root)
 
 
 def macros(root: Path) -> Iterator[str]:
@@ -48,20 +42,12 @@ def macros(root: Path) -> Iterator[str]:
                 yield f"{name}:{number}: {match[0].rstrip('( ')} is a macro of Arduino"
 
 
-def crutches(root: Path, most_crutches: Mapping[str, int]) -> Iterator[str]:
-    """Each crutch in Python, but of a folder that may still hold some only their number."""
-    held: dict[str, list[str]] = {}
+def crutches(root: Path) -> Iterator[str]:
+    """Each crutch in Python."""
     for path in tree.own_files(root):
-        name = path.relative_to(root)
         if tree.is_python(path):
-            places = [f"{name}:{line}: {word}" for line, word in crutches_in(tree.text_of(path))]
-            held.setdefault(name.parent.as_posix(), []).extend(places)
-    for folder, places in held.items():
-        most = most_crutches.get(folder, 0)
-        if not most:
-            yield from (f"{place} does not say what it holds" for place in places)
-        elif len(places) > most:
-            yield f"{folder}: {len(places)} names do not say what they hold, the most is {most}"
+            for line, word in crutches_in(tree.text_of(path)):
+                yield f"{path.relative_to(root)}:{line}: {word} does not say what it holds"
 
 
 def crutches_in(text: str) -> Iterator[tuple[int, str]]:
@@ -85,4 +71,4 @@ def blank(match: re.Match) -> str:
 
 
 if __name__ == "__main__":
-    tree.run(violations, "names: no macro of Arduino in lib/, no new crutch in the lab")
+    tree.run(violations, "names: no macro of Arduino in lib/, no crutch in Python")

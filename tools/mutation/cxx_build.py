@@ -11,11 +11,12 @@ import re
 import shutil
 import subprocess
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 NINJA = HERE.parents[1] / ".venv/bin/ninja"
-COPIED = ("include", "lib", "src", "test", "tools/judge", "tools/core")
+COPIED = ("include", "lib", "src", "test", "tools/judge", "tools/core", "tools/vm")
 ERROR = re.compile(r"^(\S+?):(\d+):\d+: (?:fatal )?(error|note):", re.MULTILINE)
 # Compiles faster than -O2, and no test takes longer.
 OPTIMISED = ["-O1", "-w"]
@@ -50,8 +51,7 @@ def layout_of(root: Path, suites: list[str]) -> Layout:
         "src",
         *sorted(root.glob("lib/*/src")),
         "test",
-        "tools/judge",
-        "tools/core",
+        *words_after("-I", root),
     ]
     return Layout(
         {name: Path("test") / name for name in suites},
@@ -212,10 +212,21 @@ class Build:
 
 def flags_of(root: Path) -> list[str]:
     """The flags that platformio.ini gives to host tests, but for paths and the optimiser's."""
+    words = host_flags(root)
+    return [word for word in words if word.startswith(("-std", "-f", "-D"))] + ["-Wno-narrowing"]
+
+
+def words_after(flag: str, root: Path) -> list[str]:
+    """What stands behind a flag of the host tests."""
+    words = host_flags(root)
+    return [word for before, word in pairwise(words) if before == flag]
+
+
+def host_flags(root: Path) -> list[str]:
+    """The words of the host tests' flags in platformio.ini."""
     options = configparser.ConfigParser(comment_prefixes=(";",), interpolation=None)
     options.read(root / "platformio.ini")
-    words = options["env:native"]["build_flags"].split()
-    return [word for word in words if word.startswith(("-std", "-f", "-D"))] + ["-Wno-narrowing"]
+    return options["env:native"]["build_flags"].split()
 
 
 def jobs() -> str:

@@ -31,7 +31,7 @@ SEED = 77
 
 def outcomes(name, boards):
     """What came of the first boards of a scenario."""
-    scenario = next(one for one in SCENARIOS if one.name == name)
+    scenario = next(scenario for scenario in SCENARIOS if scenario.name == name)
     return [judge_board(scenario, index, seed=SEED).outcome for index in range(boards)]
 
 
@@ -41,34 +41,34 @@ def value(rate, of):
 
 def test_nothing_is_named_where_nothing_is_hidden():
     # 2 of 55 expected.
-    found = outcomes("none-9", 40) + outcomes("none-25", 15)
-    assert value("false naming", found) <= 0.1
-    assert value("silent", found) >= 0.85
+    results = outcomes("none-9", 40) + outcomes("none-25", 15)
+    assert value("false naming", results) <= 0.1
+    assert value("silent", results) >= 0.85
 
 
 def test_noise_from_few_repeats_invents_nothing():
     # Two readings more give 6 degrees of freedom: as if sigma were known, a third is named.
     few = Scenario("few", "nothing", nothing, stated=None, marks=9)
-    own = replace(few.plan, again=(0, 4, 8))
+    layout = replace(few.plan, again=(0, 4, 8))
     named = 0
     for seed in range(30):
-        measured = cut(Hidden(), own, seed=seed, tape_sigma=None).measurements
+        measured = cut(Hidden(), layout, seed=seed, tape_sigma=None).measurements
         named += diagnose(Inputs(MAKER, measured)).verdict in ("one_suspect", "cannot_tell")
     assert named <= 4
 
 
 def test_an_effect_of_three_millimetres_is_named_first_and_with_few_others():
-    found = outcomes("one-25", 24)
-    assert value("right class first", found) >= 0.87
-    assert value("suspects", found) <= 2.2
-    assert value("truth inside", found) >= 0.87
+    results = outcomes("one-25", 24)
+    assert value("right class first", results) >= 0.87
+    assert value("suspects", results) <= 2.2
+    assert value("truth inside", results) >= 0.87
 
 
 def test_nine_marks_still_name_most():
-    found = outcomes("one-9", 20)
-    assert value("right class first", found) >= 0.75
-    assert value("suspects", found) <= 2.7
-    assert value("truth inside", found) >= 0.83
+    results = outcomes("one-9", 20)
+    assert value("right class first", results) >= 0.75
+    assert value("suspects", results) <= 2.7
+    assert value("truth inside", results) >= 0.83
 
 
 def test_what_the_library_does_not_know_is_flagged():
@@ -78,9 +78,9 @@ def test_what_the_library_does_not_know_is_flagged():
 
 def test_a_slip_is_named_before_any_effect():
     for name in ("slip-9", "slip-one-25", "slip-digits"):
-        found = outcomes(name, 8)
-        assert value("slip named", found) >= 0.9
-        assert value("effect named first", found) <= 0.1
+        results = outcomes(name, 8)
+        assert value("slip named", results) >= 0.9
+        assert value("effect named first", results) <= 0.1
 
 
 def test_two_effects_are_both_named():
@@ -88,10 +88,10 @@ def test_two_effects_are_both_named():
 
 
 def test_what_is_added_brings_the_sled_near_to_the_known_truth():
-    scenario = next(one for one in SCENARIOS if one.name == "one-25")
+    scenario = next(scenario for scenario in SCENARIOS if scenario.name == "one-25")
     cures = [judge_board(scenario, index, seed=SEED).cure for index in range(10)]
     before, frame, after, known = (
-        np.mean([getattr(one, part) for one in cures])
+        np.mean([getattr(cure, part) for cure in cures])
         for part in ("before", "frame", "after", "known")
     )
     assert before > 1.2 and frame > 0.7
@@ -115,23 +115,23 @@ def test_the_judge_refuses_a_number_that_it_does_not_know():
         judge.places({}, chains, pushes=0 * chains[:4], weights=weights)
 
 
-@pytest.mark.parametrize("effect", sorted({one.effect for one in REAL}))
+@pytest.mark.parametrize("effect", sorted({cause.effect for cause in REAL}))
 def test_sizes_are_those_that_move_marks_by_so_much(effect):
-    own = plan(5, 5)
+    layout = plan(5, 5)
     for cause in causes_of(effect):
-        moved = raw_field(cause, size_for(cause, own, 3.0), own)
+        moved = raw_field(cause, size_for(cause, layout, 3.0), layout)
         assert np.sqrt(np.mean(np.sum(moved**2, axis=1))) == pytest.approx(3.0, rel=0.02)
 
 
 def test_every_effect_of_the_library_is_hidden_somewhere():
-    assert {one.effect for one in CAUSES} == set(effect_names())
+    assert {cause.effect for cause in CAUSES} == set(effect_names())
 
 
 @pytest.mark.parametrize("kind", sorted(OUTSIDE))
 def test_unknown_fields_have_the_size_that_they_should(kind):
-    own = plan(5, 5)
-    with_it = cut(Hidden(outside=kind, outside_mm=2.0), own, seed=3, noise=0.0).measurements
-    without = cut(Hidden(), own, seed=3, noise=0.0).measurements
+    layout = plan(5, 5)
+    with_it = cut(Hidden(outside=kind, outside_mm=2.0), layout, seed=3, noise=0.0).measurements
+    without = cut(Hidden(), layout, seed=3, noise=0.0).measurements
     moved = with_it.measured - without.measured
     assert np.sqrt(np.mean(np.sum(moved**2, axis=1))) == pytest.approx(2.0)
 
@@ -164,10 +164,10 @@ def test_several_effects_are_different_ones_of_usual_size():
 
 
 def test_tape_and_pitch_draw_the_same_arrows():
-    cause, own = causes_of("chain_pitch")[0], plan(5, 5)
-    assert "tape_scale" in look_alikes(cause, size_for(cause, own, 3.0), own, 0.5)
+    cause, layout = causes_of("chain_pitch")[0], plan(5, 5)
+    assert "tape_scale" in look_alikes(cause, size_for(cause, layout, 3.0), layout, 0.5)
     plane = causes_of("chain_plane")[0]
-    assert look_alikes(plane, size_for(plane, own, 3.0), own, 0.5) == frozenset()
+    assert look_alikes(plane, size_for(plane, layout, 3.0), layout, 0.5) == frozenset()
 
 
 def test_a_right_machine_has_no_error_on_the_sheet():
@@ -205,16 +205,16 @@ def outcome(**changes):
 
 
 def test_a_rate_and_its_error_are_those_of_the_binomial():
-    own = [outcome(inside=index < 90) for index in range(100)]
-    found = rate_of("truth inside", own)
-    assert found.value == pytest.approx(0.9)
-    assert found.error == pytest.approx(np.sqrt(0.9 * 0.1 / 100))
-    assert rate_of("interval holds", own).count == 0
+    results = [outcome(inside=index < 90) for index in range(100)]
+    rate = rate_of("truth inside", results)
+    assert rate.value == pytest.approx(0.9)
+    assert rate.error == pytest.approx(np.sqrt(0.9 * 0.1 / 100))
+    assert rate_of("interval holds", results).count == 0
 
 
 def test_suspects_count_only_where_there_are_any():
-    own = [outcome(suspects=("a", "b")), outcome(), outcome(suspects=("a",))]
-    assert rate_of("suspects", own).value == pytest.approx(1.5)
+    results = [outcome(suspects=("a", "b")), outcome(), outcome(suspects=("a",))]
+    assert rate_of("suspects", results).value == pytest.approx(1.5)
 
 
 @pytest.mark.parametrize(
@@ -226,9 +226,9 @@ def test_a_line_is_missed_only_by_more_than_chance(value, error, judged):
 
 
 def test_the_command_prints_rates_and_names_its_scenarios(run, ask, tmp_path):
-    code, found = ask("bench", "--scenario", "none-9", "--boards", 3)
-    assert code == 0 and found["boards"] == 3
-    assert {one["rate"] for one in found["rates"]} == {"false naming", "silent"}
+    code, answer = ask("bench", "--scenario", "none-9", "--boards", 3)
+    assert code == 0 and answer["boards"] == 3
+    assert {row["rate"] for row in answer["rates"]} == {"false naming", "silent"}
     code, said, complaint = run("bench", "--scenario", "none-9", "--boards", 2)
     assert code == 0 and "false naming" in said and complaint == ""
     code, _, complaint = run("bench", "--scenario", "everything")
@@ -236,7 +236,7 @@ def test_the_command_prints_rates_and_names_its_scenarios(run, ask, tmp_path):
 
 
 def test_the_same_seed_gives_the_same_rates_however_many_programs_run():
-    scenarios = [one for one in SCENARIOS if one.name in ("none-9", "slip-9")]
+    scenarios = [scenario for scenario in SCENARIOS if scenario.name in ("none-9", "slip-9")]
     alone, together = (
         run_bench(scenarios, boards=5, seed=2, progress=lambda *_: None, jobs=jobs)
         for jobs in (1, 2)

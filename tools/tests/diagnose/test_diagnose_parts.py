@@ -62,11 +62,13 @@ def test_surprise_is_the_logarithm_of_the_chance_and_never_runs_out(parameters, 
 def test_repeats_may_be_made_beside_the_first_mark():
     marks = marks_on(BELIEVED, BELIEVED, grid(3, 3) + np.array([[20.0, 0.0]]), noise=0.3, seed=9)
     first = marks_on(BELIEVED, BELIEVED, grid(3, 3), noise=0.3, seed=8)
-    beside = tuple(replace(one, name=own.name) for one, own in zip(marks, first, strict=True))
-    found = repeats_of(observe(BELIEVED, Measurements((*first, *beside))))
-    assert found.degrees == 18 and found.sigma == pytest.approx(0.3, rel=0.4)
+    near = tuple(
+        replace(again, name=original.name) for again, original in zip(marks, first, strict=True)
+    )
+    spread = repeats_of(observe(BELIEVED, Measurements((*first, *near))))
+    assert spread.degrees == 18 and spread.sigma == pytest.approx(0.3, rel=0.4)
     # Settings that were changed in between move the mark: that is no noise.
-    rounds = tuple(replace(one, round=1) for one in beside)
+    rounds = tuple(replace(again, round=1) for again in near)
     joined = Measurements((*first, *rounds), rounds=(Round(), Round()))
     assert repeats_of(observe(BELIEVED, joined)).degrees == 0
 
@@ -75,10 +77,10 @@ def test_repeats_count_only_what_was_done_alike():
     twice = marks_on(TRUE, BELIEVED, grid(3, 1), noise=0.3, seed=1)
     again = marks_on(TRUE, BELIEVED, grid(3, 1), noise=0.3, seed=2)
     heavy = marks_on(TRUE, BELIEVED, grid(3, 1), noise=0.3, seed=3, sled_weight=150.0)
-    found = repeats_of(observe(BELIEVED, Measurements((*twice, *again, *heavy))))
+    spread = repeats_of(observe(BELIEVED, Measurements((*twice, *again, *heavy))))
     apart = np.subtract([m.measured for m in twice], [m.measured for m in again])
-    assert found.degrees == 6
-    assert found.squares == pytest.approx(np.sum(apart**2) / 2)
+    assert spread.degrees == 6
+    assert spread.squares == pytest.approx(np.sum(apart**2) / 2)
 
 
 @pytest.mark.parametrize(
@@ -144,10 +146,10 @@ def test_an_explanation_is_the_fit_of_plumb_add(effects):
 
 def test_a_gain_is_what_the_refit_saves():
     frame = explain(board_of(noise=0.2))
-    found = search(frame, effect_names(), STATED)
+    gate = search(frame, effect_names(), STATED)
     for name in ("chain_pitch", "chain_plane", "sheet_skew"):
         saved = frame.cost - explain(frame.board, (name,), start=frame).cost
-        assert found.of(name).drop == pytest.approx(saved, rel=0.02, abs=0.2)
+        assert gate.of(name).drop == pytest.approx(saved, rel=0.02, abs=0.2)
 
 
 def test_more_parameters_are_no_advantage_in_the_gate():
@@ -191,13 +193,13 @@ def test_the_noise_in_the_gate_is_the_same_each_time():
 
 def test_a_shift_is_the_error_of_the_fit_without_that_mark():
     frame = explain(board_of())
-    for one in shifts(frame)[:4]:
-        left = explain(replace_rows(frame, without(frame.board.rows, one.reading)))
+    for shift in shifts(frame)[:4]:
+        left = explain(replace_rows(frame, without(frame.board.rows, shift.reading)))
         full = explain(replace_rows(left, frame.board.rows), start=left)
         del full
-        predicted = predict_at(frame.board, left.unknowns)[one.reading.index]
-        wanted = frame.board.rows.measured[one.reading.index] - predicted
-        assert one.offset == pytest.approx(wanted, abs=5e-3)
+        predicted = predict_at(frame.board, left.unknowns)[shift.reading.index]
+        wanted = frame.board.rows.measured[shift.reading.index] - predicted
+        assert shift.offset == pytest.approx(wanted, abs=5e-3)
 
 
 def replace_rows(explanation, rows):
@@ -216,7 +218,7 @@ def test_every_reading_can_be_taken_out():
     rows = observe(BELIEVED, Measurements(given, spans.distances[:4]))
     readings = readings_of(rows)
     assert len(readings) == 6 + 4
-    assert all(without(rows, one).count == rows.count - one.size for one in readings)
+    assert all(without(rows, reading).count == rows.count - reading.size for reading in readings)
 
 
 def test_misfit_is_uniform_on_noise():

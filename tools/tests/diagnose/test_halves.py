@@ -37,11 +37,11 @@ def rounds(second, seed=1, **how):
     ],
 )
 def test_rounds_that_do_not_go_together_are_named_with_the_way_out(second, flag):
-    found = diagnose(Inputs(BELIEVED, rounds(second), sigma=0.5))
-    assert len(found.disagreements) == 1
-    assert found.disagreements[0].startswith("b does not go with the other rounds")
-    assert "do not pool them" in found.disagreements[0]
-    assert f"{flag} = true in b" in found.disagreements[0]
+    diagnosis = diagnose(Inputs(BELIEVED, rounds(second), sigma=0.5))
+    assert len(diagnosis.disagreements) == 1
+    assert diagnosis.disagreements[0].startswith("b does not go with the other rounds")
+    assert "do not pool them" in diagnosis.disagreements[0]
+    assert f"{flag} = true in b" in diagnosis.disagreements[0]
 
 
 @pytest.mark.parametrize(
@@ -52,9 +52,11 @@ def test_rounds_that_do_not_go_together_are_named_with_the_way_out(second, flag)
     ],
 )
 def test_a_round_that_says_what_changed_goes_with_the_others(second, flag):
-    found = diagnose(Inputs(BELIEVED, rounds(second, **{flag: True}), sigma=0.5))
-    assert found.disagreements == ()
-    assert found.verdict in ("one_suspect", "cannot_tell") and "chain_pitch" in found.suspects
+    diagnosis = diagnose(Inputs(BELIEVED, rounds(second, **{flag: True}), sigma=0.5))
+    assert diagnosis.disagreements == ()
+    assert (
+        diagnosis.verdict in ("one_suspect", "cannot_tell") and "chain_pitch" in diagnosis.suspects
+    )
 
 
 def test_alike_rounds_are_left_in_peace():
@@ -72,8 +74,8 @@ def test_a_round_that_moved_as_a_whole_is_no_noise():
     assert moved.degrees == 12 and moved.sigma < 1.2
     # Without the look at rounds as a whole, it would pass for millimetres of noise.
     both = rounds(SKIPPED)
-    one = replace(both, marks=tuple(replace(mark, round=0) for mark in both.marks))
-    assert repeats_of(observe(BELIEVED, one)).sigma > 3
+    changed = replace(both, marks=tuple(replace(mark, round=0) for mark in both.marks))
+    assert repeats_of(observe(BELIEVED, changed)).sigma > 3
 
 
 def test_a_torn_sheet_is_told_by_its_halves():
@@ -81,8 +83,8 @@ def test_a_torn_sheet_is_told_by_its_halves():
         replace(mark, measured=(mark.measured[0] + 2.5 * (mark.target[0] > 0), mark.measured[1]))
         for mark in marks_on(PITCH, BELIEVED, grid(5, 3), noise=0.3, seed=2)
     ]
-    found = diagnose(Inputs(BELIEVED, Measurements(tuple(marks), source="a"), sigma=0.3))
-    assert any("left and right half" in one for one in found.disagreements)
+    diagnosis = diagnose(Inputs(BELIEVED, Measurements(tuple(marks), source="a"), sigma=0.3))
+    assert any("left and right half" in warning for warning in diagnosis.disagreements)
 
 
 def test_whole_sheets_have_no_halves():
@@ -108,8 +110,8 @@ def test_the_words_reach_the_user(run, file):
         marks = marks_on(machine, BELIEVED, grid(3, 3), noise=0.5, seed=i)
         text = [f"[[mark]]\nname = '{m.name}'\ntarget = {list(m.target)}" for m in marks]
         text = [
-            f"{own}\nmeasured = {np.round(mark.measured, 2).tolist()}"
-            for own, mark in zip(text, marks, strict=True)
+            f"{lines}\nmeasured = {np.round(mark.measured, 2).tolist()}"
+            for lines, mark in zip(text, marks, strict=True)
         ]
         paths.append(file(f"{'ab'[i]}.toml", "\n".join([*lines, *text])))
     code, said, _ = run("diagnose", *paths)

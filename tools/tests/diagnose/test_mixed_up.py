@@ -35,7 +35,9 @@ def exchanged(marks, i, j):
 def toml(marks, change=lambda target, measured: measured):
     lines = ['frame = "machine"', "tape_sigma_mm = 0.3"]
     for mark in marks:
-        measured = [round(float(one), 2) for one in change(mark.target, mark.measured)]
+        measured = [
+            round(float(coordinate), 2) for coordinate in change(mark.target, mark.measured)
+        ]
         lines += ["[[mark]]", f'name = "{mark.name}"', f"target = {list(mark.target)}"]
         lines += [f"measured = {measured}"]
     return "\n".join(lines)
@@ -45,12 +47,12 @@ def toml(marks, change=lambda target, measured: measured):
 @pytest.mark.parametrize("pair", CLOSE_PAIRS)
 def test_two_exchanged_marks_are_both_named_with_the_correction(pair, seed):
     marks = marks_on(PITCH, BELIEVED, TARGETS, noise=0.3, seed=seed)
-    found = diagnose(Inputs(BELIEVED, board(exchanged(marks, *pair)), sigma=0.3))
-    assert found.verdict == "slip" and found.explanations == ()
-    assert {one.name for one in found.slips} == {str(one) for one in pair}
-    for one, other in zip(found.slips, reversed(found.slips), strict=True):
-        assert f"that of {other.name} may be exchanged" in one.sentence
-        assert one.length == pytest.approx(20, abs=2)
+    diagnosis = diagnose(Inputs(BELIEVED, board(exchanged(marks, *pair)), sigma=0.3))
+    assert diagnosis.verdict == "slip" and diagnosis.explanations == ()
+    assert {slip.name for slip in diagnosis.slips} == {str(name) for name in pair}
+    for slip, other in zip(diagnosis.slips, reversed(diagnosis.slips), strict=True):
+        assert f"that of {other.name} may be exchanged" in slip.sentence
+        assert slip.length == pytest.approx(20, abs=2)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -61,10 +63,10 @@ def test_two_exchanged_distances_are_both_named(seed):
         replace(spans[3], length=spans[11].length),
         replace(spans[11], length=spans[3].length),
     )
-    found = diagnose(Inputs(BELIEVED, replace(known, distances=tuple(spans)), sigma=0.3))
+    diagnosis = diagnose(Inputs(BELIEVED, replace(known, distances=tuple(spans)), sigma=0.3))
     named = {" - ".join(spans[i].between) for i in (3, 11)}
-    assert found.verdict == "slip" and {one.name for one in found.slips} == named
-    assert all("may be exchanged" in one.guess for one in found.slips)
+    assert diagnosis.verdict == "slip" and {slip.name for slip in diagnosis.slips} == named
+    assert all("may be exchanged" in slip.guess for slip in diagnosis.slips)
 
 
 def test_nothing_is_called_exchanged_without_need():
@@ -77,8 +79,10 @@ def test_one_slip_is_one_slip():
     marks = list(marks_on(PITCH, BELIEVED, TARGETS, noise=0.3, seed=1))
     x, y = marks[6].measured
     marks[6] = replace(marks[6], measured=(x + 5, y))
-    found = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3))
-    assert [one.name for one in found.slips] == ["6"] and "exchanged" not in found.slips[0].guess
+    diagnosis = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3))
+    assert [slip.name for slip in diagnosis.slips] == ["6"] and "exchanged" not in diagnosis.slips[
+        0
+    ].guess
 
 
 def test_far_exchanges_are_refused_when_the_file_is_read(file):
@@ -94,8 +98,10 @@ def test_y_errors_with_the_other_sign_are_found_out():
     ]
     said = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).warnings
     assert any(
-        "y errors the other way round" in one and "chain_pitch" in one and "would explain" in one
-        for one in said
+        "y errors the other way round" in sentence
+        and "chain_pitch" in sentence
+        and "would explain" in sentence
+        for sentence in said
     )
 
 
@@ -103,7 +109,7 @@ def test_the_right_sign_is_not_doubted():
     for seed in range(4):
         marks = marks_on(PITCH, BELIEVED, grid(5, 3), noise=0.3, seed=seed)
         said = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).warnings
-        assert not any("would explain these" in one for one in said)
+        assert not any("would explain these" in sentence for sentence in said)
 
 
 def test_a_file_given_twice_is_refused(run, file, tmp_path):
@@ -122,9 +128,9 @@ def test_coarse_readings_that_agree_exactly_are_as_noisy_as_their_rounding(step,
         Mark(str(i), (x, y), (x + step * move, y - step))
         for i, (x, y, move) in enumerate([(-900.0, 0.0, 1), (0.0, 300.0, 2), (900.0, -300.0, 4)])
     ] * 3
-    found = repeats_of(observe(BELIEVED, board(marks)))
-    assert found.degrees == 12
-    assert found.sigma == pytest.approx(least, abs=0.001)
+    spread = repeats_of(observe(BELIEVED, board(marks)))
+    assert spread.degrees == 12
+    assert spread.sigma == pytest.approx(least, abs=0.001)
 
 
 @pytest.mark.parametrize(

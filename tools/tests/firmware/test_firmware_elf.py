@@ -91,7 +91,7 @@ def test_sum_product_and_quotient_are_those_of_avr_libc_and_faster():
     subprocess.run([*avr, *sources, "-o", elf], check=True)
     board = [f"-I{ROOT}/tools/vm", VM / "check_board.cpp", BOARD]
     subprocess.run(["g++", *STRICT, *board, "-lsimavr", "-lelf", "-o", check], check=True)
-    done = subprocess.run([check, elf, "16000"], capture_output=True, text=True, timeout=400)
+    done = subprocess.run([check, elf, "5500"], capture_output=True, text=True, timeout=400)
     counted = figures(done)
     assert [counted[name] for name in ("products", "sums", "differences", "quotients")] == [0] * 4
     assert counted["product_cycles"] < 0.85 * counted["product_cycles_of_libc"]

@@ -19,18 +19,18 @@ PUBLISHED_MARKS = read_marks(MARKS, sheet=STOCK.sheet)
 
 
 def test_the_published_marks_are_as_far_off_as_published():
-    found = compare(STOCK, PUBLISHED_MARKS)
-    assert found.rms == pytest.approx(7.29, abs=0.02)
-    assert found.worst == pytest.approx(14.94, abs=0.02)
-    assert found.shape_rms == pytest.approx(4.07, abs=0.02)
-    assert found.distances == () and found.distance_rms is None
+    comparison = compare(STOCK, PUBLISHED_MARKS)
+    assert comparison.rms == pytest.approx(7.29, abs=0.02)
+    assert comparison.worst == pytest.approx(14.94, abs=0.02)
+    assert comparison.shape_rms == pytest.approx(4.07, abs=0.02)
+    assert comparison.distances == () and comparison.distance_rms is None
 
 
 def test_a_machine_that_believes_the_truth_makes_no_error():
     marks = Measurements(marks_on(TRUE, TRUE, grid(5, 3)))
-    found = compare(TRUE, marks)
-    assert found.rms < 1e-4 and found.worst < 1e-4
-    assert all(abs(mark.left_chain_residual) < 1e-4 for mark in found.marks)
+    comparison = compare(TRUE, marks)
+    assert comparison.rms < 1e-4 and comparison.worst < 1e-4
+    assert all(abs(mark.left_chain_residual) < 1e-4 for mark in comparison.marks)
 
 
 def test_the_true_settings_explain_marks_that_others_cut():
@@ -40,26 +40,26 @@ def test_the_true_settings_explain_marks_that_others_cut():
 
 
 def test_the_error_is_measured_less_predicted():
-    found = compare(BELIEVED, Measurements((Mark("1", (100.0, 200.0), (101.0, 198.0)),)))
-    (mark,) = found.marks
+    comparison = compare(BELIEVED, Measurements((Mark("1", (100.0, 200.0), (101.0, 198.0)),)))
+    (mark,) = comparison.marks
     assert mark.predicted == pytest.approx((100, 200), abs=1e-4)
     assert mark.error == pytest.approx((1, -2), abs=1e-4)
     assert mark.length == pytest.approx(np.sqrt(5), abs=1e-4)
-    assert found.shape_rms is None and found.shift is None
+    assert comparison.shape_rms is None and comparison.shift is None
 
 
 def test_a_residual_is_the_chain_that_was_missing():
     # Measured right of its target: the left chain was longer, the right one shorter.
-    found = compare(BELIEVED, Measurements((Mark("1", (0.0, 0.0), (1.0, 0.0)),)))
-    (mark,) = found.marks
+    comparison = compare(BELIEVED, Measurements((Mark("1", (0.0, 0.0), (1.0, 0.0)),)))
+    (mark,) = comparison.marks
     assert mark.left_chain_residual == pytest.approx(0.81, abs=0.03)
     assert mark.right_chain_residual == pytest.approx(-0.81, abs=0.03)
 
 
 def test_a_measured_place_that_no_chain_reaches_has_no_residual():
-    found = compare(BELIEVED, Measurements((Mark("1", (0.0, 600.0), (0.0, 1200.0)),)))
-    assert found.marks[0].left_chain_residual is None
-    assert found.marks[0].right_chain_residual is None
+    comparison = compare(BELIEVED, Measurements((Mark("1", (0.0, 600.0), (0.0, 1200.0)),)))
+    assert comparison.marks[0].left_chain_residual is None
+    assert comparison.marks[0].right_chain_residual is None
 
 
 def test_the_shape_forgets_shift_and_turn_and_nothing_else():
@@ -80,11 +80,11 @@ def test_a_single_place_has_no_shape():
 
 
 def test_distances_are_compared_as_published():
-    found = compare(STOCK, read_marks(DISTANCES, sheet=STOCK.sheet))
-    assert found.rms == found.distance_rms == pytest.approx(2.82, abs=0.005)
-    assert found.worst == pytest.approx(6.6, abs=0.01)
-    assert found.marks == () and found.shape_rms is None
-    first = found.distances[0]
+    comparison = compare(STOCK, read_marks(DISTANCES, sheet=STOCK.sheet))
+    assert comparison.rms == comparison.distance_rms == pytest.approx(2.82, abs=0.005)
+    assert comparison.worst == pytest.approx(6.6, abs=0.01)
+    assert comparison.marks == () and comparison.shape_rms is None
+    first = comparison.distances[0]
     assert first.between == ("0", "1") and first.measured == 1031.5
     assert first.error == pytest.approx(first.measured - first.predicted)
 
@@ -92,9 +92,9 @@ def test_distances_are_compared_as_published():
 def test_beside_marks_distances_have_their_own_rms():
     marks = marks_on(TRUE, BELIEVED, grid(3, 2))
     both = Measurements(marks, distances_between(marks).distances)
-    found = compare(BELIEVED, both)
-    assert found.rms == compare(BELIEVED, Measurements(marks)).rms
-    assert found.distance_rms == compare(BELIEVED, distances_between(marks)).rms
+    comparison = compare(BELIEVED, both)
+    assert comparison.rms == compare(BELIEVED, Measurements(marks)).rms
+    assert comparison.distance_rms == compare(BELIEVED, distances_between(marks)).rms
 
 
 def test_each_mark_hangs_on_its_own_sled():
@@ -108,9 +108,9 @@ def test_new_published_settings_are_compared_with_old_marks(tmp_path):
     path = tmp_path / "groundcontrol.ini"
     values = groundcontrol_changes(replace(BELIEVED, motor_gap=2985.0)).values
     write_groundcontrol_ini(path, SETTINGS, values)
-    found = compare(read_settings(path), PUBLISHED_MARKS, cut_with=STOCK)
+    comparison = compare(read_settings(path), PUBLISHED_MARKS, cut_with=STOCK)
     alone = compare(STOCK, PUBLISHED_MARKS)
-    assert found.rms < alone.rms - 2
+    assert comparison.rms < alone.rms - 2
 
 
 def test_our_settings_with_marks_of_another_controller_are_warned_of():

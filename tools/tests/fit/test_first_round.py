@@ -15,8 +15,8 @@ def test_the_form_that_the_grid_writes_is_understood_when_filled_in(tmp_path, ca
     assert main(["grid", *extra, "--marks", str(form), "--output", str(program)]) == 0
     source, target, lines = np.random.default_rng(3), None, []
     for line in form.read_text().splitlines():
-        if found := re.match(r"target = \[(\S+), (\S+)\]", line):
-            target = np.array([float(found[1]), float(found[2])])
+        if line_match := re.match(r"target = \[(\S+), (\S+)\]", line):
+            target = np.array([float(line_match[1]), float(line_match[2])])
         if line.startswith("# measured"):
             line = "measured = [{:.1f}, {:.1f}]".format(*target + 0.4 * source.standard_normal(2))
         lines.append(line)
@@ -26,5 +26,5 @@ def test_the_form_that_the_grid_writes_is_understood_when_filled_in(tmp_path, ca
     compared = json.loads(capsys.readouterr().out)
     assert 0.2 < compared["rms_mm"] < 2.0
     assert main(["diagnose", str(SETTINGS), str(form), "--json"]) in (0, 1)
-    found = json.loads(capsys.readouterr().out)
-    assert found["sigma_from"] == "repeats" and 0.2 < found["sigma_mm"] < 0.6
+    report = json.loads(capsys.readouterr().out)
+    assert report["sigma_from"] == "repeats" and 0.2 < report["sigma_mm"] < 0.6

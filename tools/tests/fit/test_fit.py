@@ -24,14 +24,14 @@ def without(measurements: Measurements, name: str) -> Measurements:
 
 def test_hidden_parameters_are_found_again():
     board = Measurements(marks_on(TRUE, BELIEVED, grid(7, 5), rotation=0.002))
-    found = fit(BELIEVED, observe(BELIEVED, board), effects=EFFECTS, priors=WIDE)
-    assert found.settled and found.rms < 1e-5
+    fitted = fit(BELIEVED, observe(BELIEVED, board), effects=EFFECTS, priors=WIDE)
+    assert fitted.settled and fitted.rms < 1e-5
     for effect, parameters in EFFECTS.items():
         for name, value in parameters.items():
-            assert found.settings.effect(effect, name) == pytest.approx(value, rel=1e-3)
-    assert found.settings.motor_gap == pytest.approx(TRUE.motor_gap, abs=0.01)
-    assert found.settings.motor_center_x == pytest.approx(TRUE.motor_center_x, abs=0.01)
-    assert found.sheet_rotation == pytest.approx(0.002, abs=1e-6)
+            assert fitted.settings.effect(effect, name) == pytest.approx(value, rel=1e-3)
+    assert fitted.settings.motor_gap == pytest.approx(TRUE.motor_gap, abs=0.01)
+    assert fitted.settings.motor_center_x == pytest.approx(TRUE.motor_center_x, abs=0.01)
+    assert fitted.sheet_rotation == pytest.approx(0.002, abs=1e-6)
 
 
 def test_two_sleds_tell_stretch_from_everything_that_looks_like_it():
@@ -39,15 +39,17 @@ def test_two_sleds_tell_stretch_from_everything_that_looks_like_it():
     heavy = marks_on(TRUE, BELIEVED, grid(5, 3), sled_weight=150.0, prefix="heavy ")
     widths = []
     for marks in (light, light + heavy):
-        found = fit(
+        fitted = fit(
             BELIEVED,
             observe(BELIEVED, Measurements(marks)),
             effects=EFFECTS,
             priors=WIDE,
             sigma=0.5,
         )
-        assert found.rms < 1e-4
-        stretch = next(one for one in found.estimates if one.name == "chain_stretch.compliance")
+        assert fitted.rms < 1e-4
+        stretch = next(
+            estimate for estimate in fitted.estimates if estimate.name == "chain_stretch.compliance"
+        )
         assert stretch.low < 5.2e-6 < stretch.high
         widths.append(stretch.high - stretch.low)
     assert widths[1] < 0.6 * widths[0]
@@ -56,10 +58,10 @@ def test_two_sleds_tell_stretch_from_everything_that_looks_like_it():
 def test_distances_alone_are_enough_for_the_shape():
     truth = replace(BELIEVED, effects={"chain_pitch": EFFECTS["chain_pitch"]})
     board = distances_between(marks_on(truth, BELIEVED, grid(4, 3)))
-    found = fit(BELIEVED, observe(BELIEVED, board), effects=["chain_pitch"], sigma=0.01)
-    assert found.rms < 0.01 and len(found.errors) == 0
-    assert found.settings.effect("chain_pitch", "left") == pytest.approx(0.0021, abs=2e-5)
-    assert found.left_out_rms >= found.rms
+    fitted = fit(BELIEVED, observe(BELIEVED, board), effects=["chain_pitch"], sigma=0.01)
+    assert fitted.rms < 0.01 and len(fitted.errors) == 0
+    assert fitted.settings.effect("chain_pitch", "left") == pytest.approx(0.0021, abs=2e-5)
+    assert fitted.left_out_rms >= fitted.rms
 
 
 def test_marks_and_distances_are_fitted_together():
@@ -103,21 +105,21 @@ def test_repeats_of_a_mark_are_left_out_together():
         assert whole.left_out_errors[i] == pytest.approx(left, abs=0.01)
 
 
-def measured_minus_predicted(found, board: Measurements, i: int) -> np.ndarray:
+def measured_minus_predicted(fitted, board: Measurements, i: int) -> np.ndarray:
     """The error of one mark against a fit that did not see it: fitted again with no freedom."""
     held = dict.fromkeys(PRIORS, 0.0) | {SHEET_ROTATION: 0.0}
     rows = observe(BELIEVED, board)
-    fixed = fit(found.settings, rows, priors=held, sigma=0.5)
+    fixed = fit(fitted.settings, rows, priors=held, sigma=0.5)
     where = rows.measured - fixed.errors
-    cosine, sine = np.cos(found.sheet_rotation), np.sin(found.sheet_rotation)
+    cosine, sine = np.cos(fitted.sheet_rotation), np.sin(fitted.sheet_rotation)
     return rows.measured[i] - where[i] @ np.array([[cosine, sine], [-sine, cosine]])
 
 
 def test_a_prior_of_zero_holds_a_number():
     board = Measurements(marks_on(TRUE, BELIEVED, grid(4, 3)))
-    found = fit(BELIEVED, observe(BELIEVED, board), priors={**PRIORS, "motor_gap": 0.0})
-    assert found.settings.motor_gap == BELIEVED.motor_gap
-    assert "motor_gap" not in [one.name for one in found.estimates]
+    fitted = fit(BELIEVED, observe(BELIEVED, board), priors={**PRIORS, "motor_gap": 0.0})
+    assert fitted.settings.motor_gap == BELIEVED.motor_gap
+    assert "motor_gap" not in [estimate.name for estimate in fitted.estimates]
 
 
 def test_a_tight_prior_pulls_harder_than_a_wide_one():
@@ -131,10 +133,10 @@ def test_a_tight_prior_pulls_harder_than_a_wide_one():
 
 def test_noise_is_found_and_an_added_effect_costs_what_it_took():
     board = observe(BELIEVED, Measurements(marks_on(TRUE, BELIEVED, grid(9, 7), noise=0.4)))
-    found = fit(BELIEVED, board, effects=EFFECTS)
-    assert found.sigma == pytest.approx(0.4, rel=0.15) and found.sigma_from == "residuals"
-    assert 7 < found.spent <= len(found.estimates)
-    assert found.rms < found.priced_rms < found.left_out_rms * 1.05
+    fitted = fit(BELIEVED, board, effects=EFFECTS)
+    assert fitted.sigma == pytest.approx(0.4, rel=0.15) and fitted.sigma_from == "residuals"
+    assert 7 < fitted.spent <= len(fitted.estimates)
+    assert fitted.rms < fitted.priced_rms < fitted.left_out_rms * 1.05
     assert fit(BELIEVED, board, effects=EFFECTS, sigma=0.3).sigma_from == "stated"
 
 
@@ -142,9 +144,9 @@ def test_intervals_hold_the_truth_about_as_often_as_they_say():
     inside = []
     for seed in range(40):
         marks = marks_on(TRUE, BELIEVED, grid(5, 3), noise=0.5, seed=seed)
-        found = fit(BELIEVED, observe(BELIEVED, Measurements(marks)), effects=EFFECTS)
+        fitted = fit(BELIEVED, observe(BELIEVED, Measurements(marks)), effects=EFFECTS)
         truth = {f"chain_pitch.{side}": EFFECTS["chain_pitch"][side] for side in ("left", "right")}
-        inside += [e.low < truth[e.name] < e.high for e in found.estimates if e.name in truth]
+        inside += [e.low < truth[e.name] < e.high for e in fitted.estimates if e.name in truth]
     assert 0.86 < np.mean(inside) <= 1.0
 
 
@@ -158,8 +160,8 @@ def test_a_prior_that_is_wider_than_the_marks_say_does_not_make_its_number_surer
         for noise in (0.1, 2.0)
     )
     widths = [
-        next(e.high - e.low for e in found.estimates if e.name == "motor_height")
-        for found in (quiet, loud)
+        next(e.high - e.low for e in fitted.estimates if e.name == "motor_height")
+        for fitted in (quiet, loud)
     ]
     assert widths[1] > 5 * widths[0]
 

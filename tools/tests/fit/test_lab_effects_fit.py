@@ -34,12 +34,12 @@ def marks(hidden, *, noise=0.0, columns=7, approaches=SIDES):
         for i, mark in enumerate(marks_on(TRUE, BELIEVED, grid(columns, 5)))
     )
     rows = observe(BELIEVED, Measurements(sent))
-    outside = {f"{e}.{name}": value for e, own in hidden.items() for name, value in own.items()}
-    found = sighted(
+    outside = {f"{e}.{name}": value for e, sizes in hidden.items() for name, value in sizes.items()}
+    sighting = sighted(
         values_of(TRUE), outside, rows, over_top=True, usual_weight=TRUE.sled_weight, names=()
     )
-    assert (found.outcome == FOUND).all()
-    where = found.read.where
+    assert (sighting.outcome == FOUND).all()
+    where = sighting.read.where
     where = where + noise * np.random.default_rng(3).standard_normal(where.shape)
     return tuple(
         replace(mark, measured=tuple(place))
@@ -50,22 +50,22 @@ def marks(hidden, *, noise=0.0, columns=7, approaches=SIDES):
 @pytest.mark.parametrize("name", HIDDEN)
 def test_a_hidden_effect_is_found_again(name):
     board = Measurements(marks({name: HIDDEN[name]}))
-    found = fit(BELIEVED, observe(BELIEVED, board), effects=[*EFFECTS, name], priors=WIDE)
-    assert found.settled and found.rms < 1e-4
-    for own, value in HIDDEN[name].items():
-        assert found.lab_effects[name][own] == pytest.approx(value, rel=0.01)
+    fitted = fit(BELIEVED, observe(BELIEVED, board), effects=[*EFFECTS, name], priors=WIDE)
+    assert fitted.settled and fitted.rms < 1e-4
+    for parameter, value in HIDDEN[name].items():
+        assert fitted.lab_effects[name][parameter] == pytest.approx(value, rel=0.01)
 
 
 def test_all_are_found_at_once_beside_those_of_the_machine():
     board = Measurements(marks(HIDDEN, columns=9))
-    found = fit(
+    fitted = fit(
         BELIEVED, observe(BELIEVED, board), effects=[*EFFECTS, *HIDDEN], priors=WIDE, sigma=0.01
     )
-    assert found.settled and found.rms < 1e-4
+    assert fitted.settled and fitted.rms < 1e-4
     for name, parameters in HIDDEN.items():
-        for own, value in parameters.items():
-            assert found.lab_effects[name][own] == pytest.approx(value, rel=0.01)
-    assert found.settings.effect("chain_pitch", "left") == pytest.approx(0.0021, rel=0.02)
+        for parameter, value in parameters.items():
+            assert fitted.lab_effects[name][parameter] == pytest.approx(value, rel=0.01)
+    assert fitted.settings.effect("chain_pitch", "left") == pytest.approx(0.0021, rel=0.02)
 
 
 def test_distances_see_the_tape():
@@ -73,10 +73,12 @@ def test_distances_see_the_tape():
     spans = distances_between(marks_on(truth, BELIEVED, grid(4, 3)))
     stretched = replace(
         spans,
-        distances=tuple(replace(one, length=one.length * 1.0004) for one in spans.distances),
+        distances=tuple(
+            replace(distance, length=distance.length * 1.0004) for distance in spans.distances
+        ),
     )
-    found = fit(BELIEVED, observe(BELIEVED, stretched), effects=["tape_scale"], sigma=0.01)
-    assert found.lab_effects["tape_scale"]["strain"] == pytest.approx(0.0004, rel=0.02)
+    fitted = fit(BELIEVED, observe(BELIEVED, stretched), effects=["tape_scale"], sigma=0.01)
+    assert fitted.lab_effects["tape_scale"]["strain"] == pytest.approx(0.0004, rel=0.02)
 
 
 def test_a_lab_effect_is_told_with_its_cure_and_pays():
@@ -90,7 +92,9 @@ def test_a_lab_effect_is_told_with_its_cure_and_pays():
         assert "a length that you trust" in said
     answer = as_json(result)
     assert set(answer["lab_effects"]) == {"tape_scale"} and "tape_scale" not in answer["effects"]
-    strain = next(one for one in result.parameters if one.name == "tape_scale.strain")
+    strain = next(
+        parameter for parameter in result.parameters if parameter.name == "tape_scale.strain"
+    )
     assert strain.low < 0.001 < strain.high and strain.unit == "1" and strain.plausible
 
 
@@ -106,11 +110,11 @@ def test_no_settings_ever_hold_a_lab_effect(tmp_path):
     assert read_settings(path, known=known_effects()) == result.settings
 
 
-@pytest.mark.parametrize("effect", LAB_EFFECTS, ids=lambda one: one.name)
+@pytest.mark.parametrize("effect", LAB_EFFECTS, ids=lambda effect: effect.name)
 def test_settings_with_a_lab_effect_are_refused(effect, tmp_path):
     path = tmp_path / "machine.toml"
-    own = {effect.name: {effect.parameters[0].name: 0.001}}
-    write_machine_toml(path, replace(BELIEVED, effects=own))
+    sizes = {effect.name: {effect.parameters[0].name: 0.001}}
+    write_machine_toml(path, replace(BELIEVED, effects=sizes))
     with pytest.raises(InputError, match=effect.name):
         read_settings(path, known=known_effects())
 
@@ -132,7 +136,9 @@ def test_one_side_only_hides_friction_behind_sag_and_two_sides_show_it():
     widths = []
     for approaches in (((40.0, 0.0),), ((40.0, 0.0), (-40.0, 0.0))):
         rows = observe(BELIEVED, Measurements(marks({}, approaches=approaches)))
-        found = fit(BELIEVED, rows, effects=[*EFFECTS, "sled_friction"], sigma=0.5)
-        drag = next(one for one in found.estimates if one.name == "sled_friction.drag")
+        fitted = fit(BELIEVED, rows, effects=[*EFFECTS, "sled_friction"], sigma=0.5)
+        drag = next(
+            estimate for estimate in fitted.estimates if estimate.name == "sled_friction.drag"
+        )
         widths.append(drag.high - drag.low)
     assert widths[1] < widths[0]

@@ -28,12 +28,12 @@ def halves(measurements):
 def with_cubic(measurements, seed, size):
     """The board under a random field of the third degree, of so many millimetres RMS."""
     source = np.random.default_rng(seed)
-    x, y = np.array([one.target for one in measurements.marks]).T / [[1219.2], [609.6]]
+    x, y = np.array([mark.target for mark in measurements.marks]).T / [[1219.2], [609.6]]
     moved = np.stack([x**3, x**2 * y, x * y**2, y**3], axis=1) @ source.standard_normal((4, 2))
     moved *= size / np.sqrt(np.mean(np.sum(moved**2, axis=1)))
     marks = [
-        replace(one, measured=tuple(np.add(one.measured, by)))
-        for one, by in zip(measurements.marks, moved, strict=True)
+        replace(mark, measured=tuple(np.add(mark.measured, by)))
+        for mark, by in zip(measurements.marks, moved, strict=True)
     ]
     return replace(measurements, marks=tuple(marks))
 
@@ -49,8 +49,8 @@ def test_it_lowers_the_error_at_marks_that_it_never_saw(kind):
         seen, unseen = halves(strange)
         for patch, errors in ((False, before), (True, after)):
             fitted = add(Inputs(MAKER, seen, sigma=0.3), effects=(), patch=patch)
-            found = compare(fitted.settings, unseen, cut_with=MAKER)
-            errors.append(found.shape_rms)
+            comparison = compare(fitted.settings, unseen, cut_with=MAKER)
+            errors.append(comparison.shape_rms)
     assert np.mean(after) < 0.6 * np.mean(before)
 
 
@@ -88,7 +88,7 @@ def test_it_goes_into_the_machine_and_comes_back(tmp_path):
     again = read_settings(
         path,
         known={PATCH: [n.partition(".")[2] for n in parameter_names(PATCH)]}
-        | {name: list(own) for name, own in fitted.settings.effects.items()},
+        | {name: list(sizes) for name, sizes in fitted.settings.effects.items()},
     )
     for name, value in fitted.settings.effects[PATCH].items():
         assert again.effect(PATCH, name) == pytest.approx(value, rel=1e-6)

@@ -41,8 +41,8 @@ def board(effects, checked=()):
 
 
 def settled_at(curve):
-    found = solve(curve, start=np.array([STARTED_AT]))
-    return found.settled, float(found.at.unknowns[0])
+    solution = solve(curve, start=np.array([STARTED_AT]))
+    return solution.settled, float(solution.at.unknowns[0])
 
 
 @pytest.mark.parametrize("effects", [(), ("chain_pitch",), ("chain_sag", "frame_flex")])
@@ -51,18 +51,18 @@ def test_it_rests_where_another_solver_does(effects):
     judge = least_squares(
         lambda unknowns: problem.at(unknowns).residual, np.zeros(len(problem.names)), xtol=1e-14
     )
-    found = solve(problem)
-    assert found.settled
-    assert found.at.cost == pytest.approx(2 * judge.cost, rel=1e-9)
-    assert found.at.unknowns == pytest.approx(judge.x, abs=1e-4)
+    solution = solve(problem)
+    assert solution.settled
+    assert solution.at.cost == pytest.approx(2 * judge.cost, rel=1e-9)
+    assert solution.at.unknowns == pytest.approx(judge.x, abs=1e-4)
 
 
 def test_only_free_columns_move():
     problem = board(("chain_pitch",))
     start = np.full(len(problem.names), 0.2)
     free = np.array([0, 2])
-    found = solve(problem, free=free, start=start)
-    moved = np.flatnonzero(found.at.unknowns != start)
+    solution = solve(problem, free=free, start=start)
+    moved = np.flatnonzero(solution.at.unknowns != start)
     assert moved.tolist() == free.tolist()
     assert start.tolist() == [0.2] * len(start)
 
@@ -98,15 +98,15 @@ def test_it_says_when_it_ran_out_of_steps():
 
 def test_it_stops_once_a_step_promises_too_little():
     slow = Curve(lambda x: -x, lambda x: 10.0)
-    found = solve(slow, start=np.array([STARTED_AT]), close_enough=1.0)
+    solution = solve(slow, start=np.array([STARTED_AT]), close_enough=1.0)
     # A step promises all of chi-square there, so the rest is below the limit.
-    assert found.settled and 0.8 < found.at.cost < 1.0
+    assert solution.settled and 0.8 < solution.at.cost < 1.0
 
 
 def test_a_search_that_ends_beside_the_least_by_rounding_alone_has_settled():
     # A step promises 1e-8 of chi-square, and the last digits of what is left never give it.
-    found = solve(Curve(lambda x: -1e-4, lambda x: 1.0))
-    assert found.settled and found.at.cost == pytest.approx(1e-8)
+    solution = solve(Curve(lambda x: -1e-4, lambda x: 1.0))
+    assert solution.settled and solution.at.cost == pytest.approx(1e-8)
 
 
 def test_rounding_is_not_chased():

@@ -11,7 +11,7 @@ sys.path.insert(0, str(ROOT / "tools/mutation"))
 
 import cxx_sites  # noqa: E402
 from cxx import CxxRoom  # noqa: E402
-from cxx_build import Build, Layout, flags_of  # noqa: E402
+from cxx_build import COPIED, Build, Layout, flags_of, layout_of  # noqa: E402
 from cxx_schema import mutated, shown, with_switches  # noqa: E402
 from ledger import Ledger, reasons, score  # noqa: E402
 from mutants import EQUIVALENT, KILLED, STILLBORN, SURVIVED, Mutant, Verdict  # noqa: E402
@@ -164,6 +164,12 @@ def test_what_is_worked_out_once_is_reached_by_all_tests_that_follow():
     switched = with_switches(text, dict(enumerate(sites, 1)), words).decode().splitlines()
     assert "MUTANT_KEPT(1)" in switched[1] and "MUTANT(" not in switched[1]
     assert "MUTANT(3)" in switched[2] and "MUTANT(5)" in switched[3]
+
+
+def test_what_the_suites_include_is_copied():
+    for folder in layout_of(ROOT, []).includes:
+        assert any(folder.is_relative_to(copied) for copied in COPIED), folder
+        assert (ROOT / folder).is_dir(), folder
 
 
 def test_verdicts_outlive_a_run_and_excused_survivors_do_not_count(tmp_path):
