@@ -40,6 +40,13 @@ sheet turned by 2 mrad (standard deviations). Every reading has its noise.
 - *Unknown*: a bump as wide as 0.35 half sheets, a field of second and third degree, a sled that
   tips over an edge. *Flagged*: not in the library, or a reading to look at again.
 - *Pairs*: 6 mm each of two effects; *both*: both are among the suspects.
+- *Slips* (`slips-`): of 5, 10 and 30 mm, at marks that are read once and at marks that are read
+  again. *Large* is 10 mm and more. *False slip*: a reading was named that is right.
+- *Usual machines* (`usual-`): published settings, which know nothing of the chain's stretch; a
+  chain that stretches 0.6 to 1.6 times as usual, friction, backlash, and one or two effects of
+  usual size.
+  *Truth covered*: an explanation has all of the truth but what could hide, and nothing else.
+  *Invented*: all explanations share an effect that is not there.
 - *Judged*: `open` means that the line is not reached, but these boards are too few to tell.
 """
 CURES = """
