@@ -169,7 +169,7 @@ def first_proposal(best: Proposal) -> str:
     minutes = f"about {best.option.minutes:.0f} minutes"
     said = [*best.option.do]
     if best.parts:
-        pairs = [f"{noun_of(a)} from {noun_of(b)}" for a, b in best.parts]
+        pairs = [f"{_nouns(a)} from {_nouns(b)}" for a, b in best.parts]
         said.append(f"It tells {'; '.join(pairs)}.")
     if best.option.checks:
         said.append(f"VALUE: {best.option.value}.")
@@ -264,3 +264,8 @@ def _how(advice: Next) -> str:
         "or the upper and lower, half of the marks by themselves: where their numbers differ, "
         "something is local."
     )
+
+
+def _nouns(explanation: str) -> str:
+    """An explanation, `effect + effect`, in a maker's words."""
+    return " and ".join(noun_of(effect) for effect in explanation.split(" + "))

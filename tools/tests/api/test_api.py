@@ -29,10 +29,12 @@ def test_the_notebook_runs_and_its_answers_are_those_of_the_commands(monkeypatch
     assert readings == 23
     code, said = ask("compare", INI, MARKS)
     assert compared == (round(said["rms_mm"], 2), round(said["worst_mm"], 2))
-    assert verdict == ("cannot_tell", ("tape_scale", "chain_pitch"))
-    assert proposal == ("the tape against a certified length", 4.0)
-    assert proved == ("one_suspect", ("chain_pitch",))
-    _, said = ask("add", INI, MARKS, "--effect", "chain_pitch")
+    _, said = ask("diagnose", INI, MARKS)
+    assert verdict == (said["verdict"], tuple(said["suspects"]))
+    assert proposal == (said["next"][0]["title"], said["next"][0]["minutes"])
+    _, said = ask("diagnose", INI, MARKS, "--checked", "tape_scale.strain=0+-0.0001")
+    assert proved == (said["verdict"], tuple(said["suspects"])) and "chain_pitch" in proved[1]
+    _, said = ask("add", INI, MARKS, "--effect", *proved[1])
     after = said["after"]
     assert fall == (
         round(said["raw"]["rms_mm"], 2),
