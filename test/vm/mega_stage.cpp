@@ -39,7 +39,7 @@ void MegaStage::startBoard(const std::vector<uint8_t>& eeprom) {
   spindle_ = std::make_unique<PulseMeter>(*board_, kSpindlePin);
   laser_ = std::make_unique<PulseMeter>(*board_, kLaserPin);
   for (int axis = 0; axis < kAxisCount; ++axis) {
-    encoders_.of[axis].restart(stage_.count(Axis(axis)));
+    encoders_.of[axis].restart(*board_, stage_.count(Axis(axis)));
     since_driven_ms_[axis] = kUnpoweredMs;
   }
 }

@@ -18,7 +18,7 @@ void MegaBrain::start() {
   board_ = std::make_unique<vm::VirtualBoard>(elf_);
   board_->setEeprom(eeprom_);
   for (int axis = 0; axis < world::kAxisCount; ++axis)
-    encoders_.of[axis].restart(uint16_t(world_.count(world::Axis(axis))));
+    encoders_.of[axis].restart(*board_, uint16_t(world_.count(world::Axis(axis))));
 }
 
 void MegaBrain::stop() {

@@ -29,8 +29,12 @@ class EncoderPins {
  public:
   EncoderPins(int first, int second) : first_(first), second_(second) {}
 
-  /// Where the count stands when the board starts; both channels are low there.
-  void restart(uint16_t count) { count_ = start_ = count; }
+  /// Where the count stands when the board starts. Both channels are high there, as the Mega's
+  /// inputs are while nothing pulls them: a program that listens sees no edge.
+  void restart(VirtualBoard& board, uint16_t count) {
+    count_ = start_ = count;
+    show(board);
+  }
 
   /// Edges that are still missing to a count, which wraps round.
   int missing(uint16_t count) const { return int16_t(count - count_); }
@@ -40,13 +44,17 @@ class EncoderPins {
     const int left = missing(count);
     if (left == 0) return;
     count_ = uint16_t(count_ + (left > 0 ? 1 : -1));
-    // second, first: 00, 10, 11, 01
-    const int phase = uint16_t(count_ - start_) % 4;
-    board.setPin(second_, phase == 1 || phase == 2);
-    board.setPin(first_, phase == 2 || phase == 3);
+    show(board);
   }
 
  private:
+  void show(VirtualBoard& board) const {
+    // second, first: 11, 01, 00, 10
+    const int phase = uint16_t(count_ - start_) % 4;
+    board.setPin(second_, phase == 0 || phase == 3);
+    board.setPin(first_, phase == 0 || phase == 1);
+  }
+
   int first_, second_;
   uint16_t count_ = 0, start_ = 0;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -28,14 +29,10 @@ class Sled {
   /// Lets the sled come to rest on chains of `paid_out` [mm left, right]. False where no sled can
   /// hang; the place is then the last.
   bool hang(const Eigen::Vector2d& paid_out) {
-    reference::Machine machine = machine_;
-    machine.push += drag_;
-    reference::Hang next;
-    if (is_settled_) next = reference::settleFrom(machine, at_, paid_out);
-    if (!next.solved) next = reference::settle(machine, paid_out).hang;
+    const reference::Hang next = settled(paid_out, drag_);
     if (!next.solved) return false;
-    if (is_settled_) rub(next.bit - at_.bit);
     at_ = next;
+    if (friction_ > 0) rub(paid_out);
     is_settled_ = true;
     return true;
   }
@@ -52,12 +49,45 @@ class Sled {
   double rightTension() const { return at_.right.tension_at_sprocket; }  ///< [N]
 
  private:
+  reference::Hang settled(const Eigen::Vector2d& paid_out, const Eigen::Vector2d& drag) const {
+    reference::Machine machine = machine_;
+    machine.push += drag;
+    if (is_settled_) {
+      const reference::Hang near = reference::settleFrom(machine, at_, paid_out);
+      if (near.solved) return near;
+    }
+    return reference::settle(machine, paid_out).hang;
+  }
+
   /// Friction builds up against each movement and gives way at its limit, so that the sled
-  /// remembers from which side it came (Dahl's law without its exponent).
-  void rub(const Eigen::Vector2d& moved) {
+  /// remembers from which side it came (Dahl's law without its exponent). The friction moves the
+  /// sled in turn, by its give: both are solved for together, or a soft sled would swing.
+  void rub(const Eigen::Vector2d& paid_out) {
     const double kGivesWayAfter = 0.5;  // [mm]
-    drag_ -= moved * (friction_ / kGivesWayAfter);
-    if (drag_.norm() > friction_) drag_ *= friction_ / drag_.norm();
+    const int kGiveLasts = 50;          // calls, in which a sled moves a few millimetres
+    if (give_age_-- <= 0) {
+      give_ = giveAt(paid_out);
+      give_age_ = kGiveLasts;
+    }
+    if (!is_settled_) rubbed_at_ = at_.bit;
+    const double stiffness = friction_ / kGivesWayAfter;
+    const Eigen::Matrix2d both = Eigen::Matrix2d::Identity() + stiffness * give_;
+    Eigen::Vector2d next = drag_ - both.inverse() * (stiffness * (at_.bit - rubbed_at_));
+    if (next.norm() > friction_) next *= friction_ / next.norm();
+    rubbed_at_ = at_.bit + give_ * (next - drag_);
+    drag_ = next;
+  }
+
+  /// [mm/N] by which the sled moves under a push, by columns for right and up.
+  Eigen::Matrix2d giveAt(const Eigen::Vector2d& paid_out) const {
+    const double kPush = 0.5;  // [N]
+    Eigen::Matrix2d give = Eigen::Matrix2d::Zero();
+    for (int axis = 0; axis < 2; ++axis) {
+      const Eigen::Vector2d push = kPush * Eigen::Vector2d::Unit(axis);
+      const reference::Hang pushed = settled(paid_out, drag_ + push);
+      if (pushed.solved) give.col(axis) = (pushed.bit - at_.bit) / kPush;
+    }
+    return give;
   }
 
   double* at(const std::string& name) {
@@ -70,6 +100,9 @@ class Sled {
   reference::Machine machine_;
   double friction_;
   Eigen::Vector2d drag_ = Eigen::Vector2d::Zero();  ///< [N] on the sled
+  Eigen::Vector2d rubbed_at_ = drag_;               ///< [mm] where the friction has been reckoned
+  Eigen::Matrix2d give_ = Eigen::Matrix2d::Zero();  ///< [mm/N]
+  int give_age_ = 0;                                ///< calls until the give is worked out again
   reference::Hang at_;
   bool is_settled_;
 };
