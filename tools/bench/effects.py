@@ -79,7 +79,8 @@ def judge_errors() -> dict[str, list[float]]:
     program = board.BUILD / "judge_errors"
     folders = [board.KINEMATICS, board.ROOT / "test/test_effects", board.ROOT / "tools/judge"]
     includes = [f"-I{folder}" for folder in folders]
-    sources = [board.BENCH / "judge_errors.cpp", board.KINEMATICS / "Kinematics.cpp"]
+    judge = sorted((board.ROOT / "tools/judge/reference").glob("*.cpp"))
+    sources = [board.BENCH / "judge_errors.cpp", board.KINEMATICS / "Kinematics.cpp", *judge]
     command = ["g++", "-std=c++17", "-O2", *includes, "-isystem", EIGEN, *sources, "-o", program]
     board.output(*command)
     return json.loads(board.output(program))

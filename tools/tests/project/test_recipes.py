@@ -129,7 +129,8 @@ def judged(folder):
     """How far the laws of a copy are from its judge."""
     program = folder / "judge_errors"
     includes = ["lib/Kinematics/src", "tools/judge", "test/test_effects"]
-    sources = ["judge_errors.cpp", "lib/Kinematics/src/Kinematics.cpp"]
+    judge = sorted((folder / "tools/judge/reference").glob("*.cpp"))
+    sources = ["judge_errors.cpp", "lib/Kinematics/src/Kinematics.cpp", *judge]
     options = ["-std=c++17", "-O1", "-isystem", EIGEN, *(f"-I{part}" for part in includes)]
     subprocess.run(["g++", *options, *sources, "-o", program], cwd=folder, check=True)
     return subprocess.run([program, "mount_give"], capture_output=True, text=True)
