@@ -10,7 +10,7 @@ from plan_times import plan_times
 from plumb.bench.boards import cut, plan
 from plumb.bench.causes import MAKER, Hidden, causes_of
 from plumb.board.observations import observe
-from plumb.diagnose import diagnose
+from plumb.diagnosis import diagnose
 from plumb.fit.fit import fit
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import read_marks

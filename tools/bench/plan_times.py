@@ -5,7 +5,7 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from plumb.diagnose import diagnose
+from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Mark, Measurements
 from plumb.model.predict import lengths, places

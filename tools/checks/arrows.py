@@ -81,7 +81,7 @@ FLOORS = (
     ("pages", "vm"),
     ("bench", "pictures"),
     ("cure", "plan"),
-    ("diagnose",),
+    ("diagnosis",),
     ("fit", "line"),
     ("board", "firmware"),
     ("marks", "model"),

@@ -56,11 +56,11 @@ ROOMS = (
     cxx("lib/Settings", "test_settings"),
     cxx("src/machine", "test_machine", "test_control", "test_dialogues"),
     python(
-        "tools/plumb/diagnose",
-        "tools/tests/diagnose/test_limits.py",
-        "tools/tests/diagnose/test_slip_cause.py",
-        "tools/tests/diagnose/test_diagnose_parts.py",
-        "tools/tests/diagnose/test_mixed_up.py",
-        "tools/tests/diagnose/test_halves.py",
+        "tools/plumb/diagnosis",
+        "tools/tests/diagnosis/test_limits.py",
+        "tools/tests/diagnosis/test_slip_cause.py",
+        "tools/tests/diagnosis/test_diagnose_parts.py",
+        "tools/tests/diagnosis/test_mixed_up.py",
+        "tools/tests/diagnosis/test_halves.py",
     ),
 )

@@ -20,7 +20,7 @@ from hidden_boards import (
     ask_judge,
     places_with,
 )
-from plumb.diagnose import Checked
+from plumb.diagnosis import Checked
 from plumb.marks.read import Mark, Measurements
 from plumb.plan.ahead import Check
 from plumb.plan.planned_visits import Visits

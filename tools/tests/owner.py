@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from plumb.diagnose import Checked, Diagnosis, diagnose
+from plumb.diagnosis import Checked, Diagnosis, diagnose
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names

@@ -20,8 +20,8 @@ from plumb.cli.files import inputs_of
 from plumb.cure.add import Addition, priors_with
 from plumb.cure.add import add as add_effects
 from plumb.cure.auto import AutoAddition, add_auto
-from plumb.diagnose import Checked, Diagnosis
-from plumb.diagnose import diagnose as diagnosis_of
+from plumb.diagnosis import Checked, Diagnosis
+from plumb.diagnosis import diagnose as diagnosis_of
 from plumb.fit.compare import Comparison
 from plumb.fit.compare import compare as comparison_of
 from plumb.fit.inputs import Inputs

@@ -12,7 +12,7 @@ from plumb.bench.cure import Cure, cure_of
 from plumb.bench.hiding import slip
 from plumb.bench.outcome import Outcome, look_alikes, outcome_of
 from plumb.bench.scenarios import Scenario
-from plumb.diagnose import diagnose
+from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
 
 MOST_ALIKE = 3  # causes of a board whose look-alikes are asked for

@@ -10,8 +10,8 @@ import numpy as np
 from plumb.bench.boards import BoardCut, cut
 from plumb.bench.causes import MAKER, Cause, Hidden, Plan
 from plumb.board.observations import Observations, observe
-from plumb.diagnose import Diagnosis
-from plumb.diagnose.explanation import Board, Explanation, explain, span
+from plumb.diagnosis import Diagnosis
+from plumb.diagnosis.explanation import Board, Explanation, explain, span
 from plumb.model.catalogue import effect_names, parameter_words
 
 Array = np.ndarray

@@ -6,8 +6,8 @@ from plumb.cli.screen import sentences, table
 from plumb.cli.text import millimetres
 from plumb.cure.add import Addition
 from plumb.cure.auto import AutoAddition
-from plumb.diagnose.noise import origin_words
-from plumb.diagnose.sentence import verdict_sentence
+from plumb.diagnosis.noise import origin_words
+from plumb.diagnosis.sentence import verdict_sentence
 from plumb.fit.patch import PATCH
 from plumb.model.plain import noun_of, plain_before, plain_size
 

@@ -13,7 +13,7 @@ from plumb.cli.next import after, first_proposal
 from plumb.cli.screen import headline, sentences
 from plumb.cli.steps import add_auto, next_step, same_inputs, second_round
 from plumb.cure.auto import AutoAddition
-from plumb.diagnose.sentence import verdict_sentence
+from plumb.diagnosis.sentence import verdict_sentence
 from plumb.firmware.client_files import ClientFiles
 from plumb.fit.compare import Comparison
 from plumb.fit.inputs import Inputs

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from plumb.cli.arguments.checked import EXAMPLE, Measured
-from plumb.diagnose import Checked
+from plumb.diagnosis import Checked
 from plumb.fit.problem import PRIORS
 from plumb.model.catalogue import parameter_words
 from plumb.text.errors import InputError

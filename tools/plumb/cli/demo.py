@@ -21,7 +21,7 @@ from plumb.cli.screen import sentences, table
 from plumb.cli.text import millimetres
 from plumb.cure.demo import GOAL, MARKS, SETTINGS, Demonstration, demonstrate
 from plumb.cure.record import record_of
-from plumb.diagnose.sentence import verdict_sentence
+from plumb.diagnosis.sentence import verdict_sentence
 from plumb.firmware.client_files import client_files
 from plumb.fit.inputs import Inputs
 from plumb.pictures.sheet import draw

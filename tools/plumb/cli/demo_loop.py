@@ -9,7 +9,7 @@ from plumb.cli.add import toml_of
 from plumb.cli.compare import panel_of
 from plumb.cli.screen import bar, headline, sentences, table
 from plumb.cli.text import millimetres
-from plumb.diagnose.sentence import verdict_sentence
+from plumb.diagnosis.sentence import verdict_sentence
 from plumb.fit.compare import Comparison
 from plumb.grid.options import Grid
 from plumb.model.plain import nouns_of

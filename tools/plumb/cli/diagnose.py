@@ -13,10 +13,10 @@ from plumb.cli.screen import sentences, table
 from plumb.cli.steps import add_auto, add_named, next_step, same_inputs
 from plumb.cli.text import millimetres, print_json
 from plumb.cure.add import priors_with
-from plumb.diagnose import Diagnosis, diagnose
-from plumb.diagnose.answer import Ranked, Together
-from plumb.diagnose.sentence import SHOWN, verdict_sentence
-from plumb.diagnose.sizes import Size
+from plumb.diagnosis import Diagnosis, diagnose
+from plumb.diagnosis.answer import Ranked, Together
+from plumb.diagnosis.sentence import SHOWN, verdict_sentence
+from plumb.diagnosis.sizes import Size
 from plumb.model.catalogue import every_effect, label, place_of
 from plumb.model.plain import named, noun_of, nouns_of, plain_size
 from plumb.plan import Proposal, propose

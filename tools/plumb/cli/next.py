@@ -16,8 +16,8 @@ from plumb.cli.screen import bar, sentences, table
 from plumb.cli.steps import free_name, next_step, same_inputs
 from plumb.cli.text import millimetres, print_json
 from plumb.cure.add import priors_with
-from plumb.diagnose import Diagnosis, diagnose
-from plumb.diagnose.sentence import verdict_sentence
+from plumb.diagnosis import Diagnosis, diagnose
+from plumb.diagnosis.sentence import verdict_sentence
 from plumb.fit.inputs import Inputs
 from plumb.model.plain import noun_of
 from plumb.pictures.plan import draw_plan

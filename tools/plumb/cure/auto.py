@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from plumb.cure.add import Addition, add
-from plumb.diagnose import Diagnosis, diagnose
+from plumb.diagnosis import Diagnosis, diagnose
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import every_effect

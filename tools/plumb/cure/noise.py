@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from plumb.board.observations import Observations
-from plumb.diagnose.explanation import Board
-from plumb.diagnose.noise_sources import known_noise, repeats_of
-from plumb.diagnose.slip_cause import described
-from plumb.diagnose.slips_in_repeats import clear_repeats
+from plumb.diagnosis.explanation import Board
+from plumb.diagnosis.noise_sources import known_noise, repeats_of
+from plumb.diagnosis.slip_cause import described
+from plumb.diagnosis.slips_in_repeats import clear_repeats
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import USUAL_SIGMA
 from plumb.settings.machine import MachineSettings

@@ -31,7 +31,7 @@ class Inputs:
     # Standard deviations of the frame's numbers.
     priors: Mapping[str, float] = field(default_factory=lambda: PRIORS)
     sigma: float | None = (
-        None  # [mm] of one reading, used as it is; None: diagnose/noise_sources.py
+        None  # [mm] of one reading, used as it is; None: diagnosis/noise_sources.py
     )
     checked: Sequence[Checked] = ()  # numbers that were measured directly
 

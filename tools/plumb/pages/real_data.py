@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 
 from plumb.cure.demo import MARKS, SETTINGS, with_y_errors_flipped
-from plumb.diagnose import Diagnosis
-from plumb.diagnose.sentence import verdict_sentence
+from plumb.diagnosis import Diagnosis
+from plumb.diagnosis.sentence import verdict_sentence
 from plumb.fit.compare import Comparison
 from plumb.fit.fit import rms
 from plumb.fit.shape import best_pose

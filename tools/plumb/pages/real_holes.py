@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from plumb.cure.add import Parameter
-from plumb.diagnose.sentence import verdict_sentence
+from plumb.diagnosis.sentence import verdict_sentence
 from plumb.fit.fit import rms
 from plumb.pages.real_sets import (
     CUTS,

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from plumb.cure.add import Addition, add
-from plumb.diagnose import Diagnosis, diagnose
+from plumb.diagnosis import Diagnosis, diagnose
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.fit import rms
 from plumb.fit.inputs import Inputs

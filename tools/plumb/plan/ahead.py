@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from plumb.diagnose.explanation import Explanation
+from plumb.diagnosis.explanation import Explanation
 from plumb.model.predict import FOUND
 from plumb.plan.planned_visits import Visits
 

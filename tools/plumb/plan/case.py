@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.diagnose.answer import Diagnosis
-from plumb.diagnose.clean import felt_effects
-from plumb.diagnose.explanation import Board, Explanation, explain
-from plumb.diagnose.noise import Noise
-from plumb.diagnose.sizes import Size
+from plumb.diagnosis.answer import Diagnosis
+from plumb.diagnosis.clean import felt_effects
+from plumb.diagnosis.explanation import Board, Explanation, explain
+from plumb.diagnosis.noise import Noise
+from plumb.diagnosis.sizes import Size
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import effect_names
 from plumb.settings.machine import MachineSettings

@@ -13,13 +13,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.diagnose.explanation import span
-from plumb.diagnose.gain import limit_of_noise
-from plumb.diagnose.misfit import LEVEL as MISFIT_LEVEL
-from plumb.diagnose.noise import Noise
-from plumb.diagnose.noise_sources import FEW_REPEATS, STATEMENT, repeats_of
-from plumb.diagnose.significance import surprises, tail
-from plumb.diagnose.spread import Spread
+from plumb.diagnosis.explanation import span
+from plumb.diagnosis.gain import limit_of_noise
+from plumb.diagnosis.misfit import LEVEL as MISFIT_LEVEL
+from plumb.diagnosis.noise import Noise
+from plumb.diagnosis.noise_sources import FEW_REPEATS, STATEMENT, repeats_of
+from plumb.diagnosis.significance import surprises, tail
+from plumb.diagnosis.spread import Spread
 from plumb.plan.ahead import Ahead, Check, ahead
 from plumb.plan.case import Case, Hypothesis
 from plumb.plan.planned_visits import Visits

@@ -14,13 +14,13 @@ import numpy as np
 import scipy
 
 from plumb.board.observations import different_numbers, model_and_observations
-from plumb.diagnose.clean import felt_effects
-from plumb.diagnose.explanation import Board, Explanation, explain
-from plumb.diagnose.gain import search
-from plumb.diagnose.measured import FEWEST_NUMBERS
-from plumb.diagnose.noise import Noise
-from plumb.diagnose.significance import KNOWN
-from plumb.diagnose.sizes import hidden_share
+from plumb.diagnosis.clean import felt_effects
+from plumb.diagnosis.explanation import Board, Explanation, explain
+from plumb.diagnosis.gain import search
+from plumb.diagnosis.measured import FEWEST_NUMBERS
+from plumb.diagnosis.noise import Noise
+from plumb.diagnosis.significance import KNOWN
+from plumb.diagnosis.sizes import hidden_share
 from plumb.fit.problem import PRIORS
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names, parameter_words

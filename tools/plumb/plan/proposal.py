@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.diagnose.answer import Diagnosis
-from plumb.diagnose.explanation import span
-from plumb.diagnose.sizes import Room
+from plumb.diagnosis.answer import Diagnosis
+from plumb.diagnosis.explanation import span
+from plumb.diagnosis.sizes import Room
 from plumb.fit.inputs import Inputs
 from plumb.plan.ahead import ahead
 from plumb.plan.case import Case, case_of

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.diagnose.explanation import Board, Explanation
+from plumb.diagnosis.explanation import Board, Explanation
 from plumb.plan.ahead import visit_slopes
 from plumb.plan.case import Case, Hypothesis
 from plumb.plan.planned_visits import Visits

@@ -7,8 +7,8 @@ from math import erf, sqrt
 
 import numpy as np
 
-from plumb.diagnose.explanation import Explanation
-from plumb.diagnose.slip_cause import Slip
+from plumb.diagnosis.explanation import Explanation
+from plumb.diagnosis.slip_cause import Slip
 from plumb.plan.case import Case
 from plumb.plan.options import MARK, READING, ROUND, Option, spots
 from plumb.plan.planned_visits import Visits, joined, nowhere, sent

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from plumb.cure.add import Addition
 from plumb.cure.auto import AutoAddition, add_auto
-from plumb.diagnose import Checked, Diagnosis, diagnose
+from plumb.diagnosis import Checked, Diagnosis, diagnose
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
 from plumb.grid.options import Grid

@@ -12,7 +12,7 @@ import numpy as np
 
 from plumb._vm import VirtualMachine
 from plumb.bench.causes import CHAIN
-from plumb.diagnose import Checked
+from plumb.diagnosis import Checked
 from plumb.firmware.client_files import gcode
 from plumb.firmware.numbers import firmware_numbers
 from plumb.grid.form import marks_list

@@ -22,7 +22,7 @@ from plumb.bench.page import page
 from plumb.bench.rates import Line, Rate, rate_of
 from plumb.bench.report import run as run_bench
 from plumb.bench.scenarios import NAMES, SCENARIOS, Scenario
-from plumb.diagnose import diagnose
+from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import effect_names
 

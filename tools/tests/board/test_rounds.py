@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from plumb.board.observations import model_and_observations, observe
 from plumb.board.rounds import round_priors
-from plumb.diagnose import diagnose
+from plumb.diagnosis import diagnose
 from plumb.fit.fit import fit
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import Problem

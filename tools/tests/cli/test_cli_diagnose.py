@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from plumb.cure.demo import MARKS, SETTINGS
-from plumb.diagnose import VERDICTS
+from plumb.diagnosis import VERDICTS
 from plumb.model.catalogue import effect_names
 from plumb.settings.files import write_machine_toml
 from synthetic import BELIEVED, TRUE, grid, marks_on

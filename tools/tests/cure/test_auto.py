@@ -10,7 +10,7 @@ from hidden_boards import MAKER, board, plan, size_for
 from plumb.cli.main import main
 from plumb.cure.auto import add_auto, without_marks
 from plumb.cure.demo import MARKS, SETTINGS
-from plumb.diagnose import diagnose
+from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import read_marks
 from plumb.settings.files import read_settings

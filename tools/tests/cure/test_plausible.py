@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 from plumb.cure.add import add
-from plumb.diagnose import diagnose
+from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
 from plumb.fit.plausible import PlausibleRange, plausible_range
 from plumb.marks.read import Measurements

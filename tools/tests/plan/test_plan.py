@@ -8,7 +8,7 @@ from carried_out import TRUE_VALUES, Bench
 from hidden_boards import MAKER, board, plan, size_for
 from owner import blind, cost, proposed
 from plumb.bench.causes import SLED
-from plumb.diagnose import Checked, diagnose
+from plumb.diagnosis import Checked, diagnose
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import PRIORS
 from plumb.model.catalogue import effect_names, parameter_words

@@ -60,7 +60,7 @@ def test_each_room_has_its_row():
 
 
 def test_the_diagnosis_takes_the_steps_in_the_order_of_the_page():
-    text = (PACKAGE / "diagnose/diagnosis.py").read_text()
+    text = (PACKAGE / "diagnosis/diagnosis.py").read_text()
     body = text[text.index("def diagnose(") :]
     steps = ["measured_board", "clean_readings", "search", "judge", "find_doubts"]
     assert sorted(steps, key=lambda name: body.index(f"{name}(")) == steps

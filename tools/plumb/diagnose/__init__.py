@@ -1,8 +1,0 @@
-"""What the marks prove: slips, suspects, and what could still hide."""
-
-from plumb.diagnose.answer import VERDICTS, Diagnosis
-from plumb.diagnose.diagnosis import diagnose
-from plumb.fit.inputs import Inputs
-from plumb.fit.problem import Checked
-
-__all__ = ["VERDICTS", "Checked", "Diagnosis", "Inputs", "diagnose"]

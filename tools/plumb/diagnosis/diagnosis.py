@@ -1,0 +1,84 @@
+"""The diagnosis, step by step: observe, clean the readings, gate, suspects, doubts, answer."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from plumb.diagnosis.answer import Diagnosis, Together
+from plumb.diagnosis.clean import clean_readings
+from plumb.diagnosis.doubts import find_doubts
+from plumb.diagnosis.explanation import Explanation
+from plumb.diagnosis.gain import search
+from plumb.diagnosis.judgement import Judgement, judge
+from plumb.diagnosis.measured import measured_board
+from plumb.diagnosis.noise import Noise
+from plumb.diagnosis.ranking import rank
+from plumb.diagnosis.sizes import sizes_of
+from plumb.fit.inputs import Inputs
+
+
+def diagnose(inputs: Inputs) -> Diagnosis:
+    """Find what the model of these settings misses in the marks, and in numbers checked directly.
+
+    Raises InputError for too few marks, and marks that cannot be reached.
+    """
+    board = measured_board(inputs)
+    readings = clean_readings(board, inputs)
+    gate = search(readings.frame, readings.felt, readings.noise)
+    judgement = judge(readings, gate)
+    ranking = rank(readings)
+    rounds = [part.name for part in inputs.measurements.rounds]
+    doubts = find_doubts(readings, gate, judgement, ranking, rounds)
+    return Diagnosis(
+        verdict=judgement.verdict,
+        noise=readings.noise,
+        limit=gate.limit,
+        rms_before=readings.frame.rms,
+        explanations=_explanations(judgement, readings.noise),
+        differences=_differences(judgement.explanations),
+        ranking=ranking,
+        library_fits=judgement.suspects.library_fits,
+        chance=judgement.suspects.chance,
+        to_add=judgement.to_add,
+        slips=readings.slips,
+        could_hide=doubts.could_hide,
+        warnings=doubts.warnings,
+        disagreements=doubts.disagreements,
+    )
+
+
+def _explanations(judgement: Judgement, noise: Noise) -> tuple[Together, ...]:
+    explanations = judgement.explanations
+    shares = judgement.shares or (None,) * len(explanations)
+    return tuple(
+        _together(explanation, noise, share)
+        for explanation, share in zip(explanations, shares, strict=True)
+    )
+
+
+def _together(explanation: Explanation, noise: Noise, share: float | None) -> Together:
+    return Together(
+        effects=explanation.effects,
+        sizes={name: sizes_of(explanation, name, noise) for name in explanation.effects},
+        rms_after=explanation.rms,
+        share=share,
+    )
+
+
+def _differences(explanations: Sequence[Explanation]) -> dict[tuple[int, int], float]:
+    """RMS between what two explanations leave of the readings [mm]."""
+    return {
+        (j, i): _rms_between(explanations[i], explanations[j])
+        for i in range(len(explanations))
+        for j in range(i)
+    }
+
+
+def _rms_between(explanation: Explanation, other: Explanation) -> float:
+    """Over the marks as vectors, or over distances where no mark was measured [mm]."""
+    rows = explanation.board.rows
+    apart = explanation.numbers - other.numbers
+    counted = apart[: rows.measured.size] if len(rows.measured) else apart
+    return float(np.sqrt(counted @ counted / (len(rows.measured) or len(counted))))

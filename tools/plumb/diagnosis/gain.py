@@ -1,0 +1,120 @@
+"""The max-gain test: whether any effect adds more to an explanation than noise would.
+
+Each effect's gain (drop of chi-square when it is added and all is refitted) is turned into the
+chance of as much from noise, given its number of parameters; the smallest chance is compared with
+the smallest that pure noise reaches on this very layout, among these very effects. So neither
+searching many effects nor having many parameters is an advantage. A simulated point for each effect
+by itself would do the same; the chance scale needs no simulation for it, and it is exact here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from plumb.diagnosis.explanation import Explanation, span
+from plumb.diagnosis.noise import Noise
+from plumb.diagnosis.significance import surprise, surprises
+
+Array = np.ndarray
+DRAWS = 4000  # of noise: its LEVEL is then right to about 0.3 % in chance
+# With 1 % for slips and 1.5 % for misfit, five in a hundred together.
+LEVEL = 0.028
+ROUNDING = 0.2  # of a limit that rests on draws
+SEED = 20180902  # any number: the same marks shall always give the same answer
+
+
+@dataclass(frozen=True)
+class Gain:
+    """What an effect adds to an explanation."""
+
+    effect: str
+    drop: float  # of chi-square
+    visible: int  # parameters that the layout shows beyond what is fitted already
+    surprise: float  # -log of the chance of as much from noise
+
+
+@dataclass(frozen=True)
+class Search:
+    """All that could be added to an explanation, and what noise alone would reach."""
+
+    gains: tuple[Gain, ...]  # largest surprise first
+    limit: float  # surprise that the best of noise exceeds in LEVEL of all cases
+
+    @property
+    def proved(self) -> bool:
+        """Whether something adds more than noise would."""
+        return bool(self.gains) and self.gains[0].surprise > self.limit
+
+    def of(self, effect: str) -> Gain:
+        """The gain of an effect."""
+        return next(gain for gain in self.gains if gain.effect == effect)
+
+
+def search(explanation: Explanation, candidates: Sequence[str], noise: Noise) -> Search:
+    """What each candidate outside the explanation would add to it."""
+    bases = bases_beyond_fit(explanation, candidates)
+    return Search(gains_of(explanation, bases, noise), limit_of_noise(bases, noise))
+
+
+def complete(explanation: Explanation, candidates: Sequence[str], noise: Noise) -> bool:
+    """Whether nothing adds more than noise would: not `search(...).proved`, and faster.
+
+    The limit lies between that of a single candidate and Bonferroni's, so that noise need only be
+    drawn for what falls between the two.
+    """
+    bases = bases_beyond_fit(explanation, candidates)
+    gains = gains_of(explanation, bases, noise)
+    if not gains or gains[0].surprise < -np.log(LEVEL):
+        return True
+    if gains[0].surprise > np.log(len(bases) / LEVEL) + ROUNDING:
+        return False
+    return not Search(gains, limit_of_noise(bases, noise)).proved
+
+
+def gains_of(
+    explanation: Explanation, bases: Mapping[str, Array], noise: Noise
+) -> tuple[Gain, ...]:
+    """What each effect with a basis adds, largest surprise first."""
+    gains = []
+    for effect, basis in bases.items():
+        drop = float(np.sum((basis.T @ explanation.residual) ** 2))
+        visible = basis.shape[1]
+        gains.append(Gain(effect, drop, visible, surprise(drop, visible, noise.degrees)))
+    return tuple(sorted(gains, key=lambda gain: -gain.surprise))
+
+
+def bases_beyond_fit(explanation: Explanation, candidates: Sequence[str]) -> dict[str, Array]:
+    """Orthonormal columns of each candidate that the explanation cannot imitate."""
+    fitted = explanation.basis
+    others = [name for name in candidates if name not in explanation.effects]
+    return {
+        name: span(
+            explanation.beyond_fit([name], fitted),
+            against=explanation.slopes[:, explanation.board.columns([name])],
+        )
+        for name in others
+    }
+
+
+def limit_of_noise(bases: Mapping[str, Array], noise: Noise) -> float:
+    """The surprise that the best effect reaches on noise alone in LEVEL of all cases.
+
+    Noise is drawn in the space of all bases together: outside of it no effect feels it.
+    """
+    seen = [basis for basis in bases.values() if basis.shape[1]]
+    if not seen:
+        return float("inf")
+    together = span(np.hstack(seen))
+    source = np.random.default_rng(SEED)
+    drawn = source.standard_normal((DRAWS, together.shape[1]))
+    scale = np.ones(DRAWS)
+    if np.isfinite(noise.degrees):
+        scale = source.chisquare(noise.degrees, DRAWS) / noise.degrees
+    best = np.zeros(DRAWS)
+    for basis in seen:
+        gains = np.sum((drawn @ (together.T @ basis)) ** 2, axis=1) / scale
+        best = np.maximum(best, surprises(gains, basis.shape[1], noise.degrees))
+    return float(np.quantile(best, 1 - LEVEL))

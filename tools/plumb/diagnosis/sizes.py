@@ -1,0 +1,169 @@
+"""Sizes of effects: fitted with intervals, hidden in the frame, and how large they could be."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+
+from plumb.diagnosis.explanation import Explanation, span
+from plumb.diagnosis.noise import Noise
+from plumb.fit.plausible import plausible_range
+from plumb.model.catalogue import parameter_words
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class Size:
+    """A parameter of an effect, fitted, with its 95 % interval."""
+
+    name: str  # without the effect's
+    value: float
+    low: float | None  # None: these marks say nothing of it
+    high: float | None
+    unit: str
+    plausible: bool  # whether a real machine can have the value
+    possible: bool  # whether its interval reaches what a real machine may have
+
+
+@dataclass(frozen=True)
+class Room:
+    """How large an effect that is not proved may still be."""
+
+    effect: str
+    limits: tuple[tuple[str, float | None, str], ...]  # parameter, largest size, unit
+    mm: float | None  # RMS of what it would do to the marks before the frame is refitted
+
+
+def sizes_of(explanation: Explanation, effect: str, noise: Noise) -> tuple[Size, ...]:
+    """The fitted parameters of an effect of an explanation."""
+    problem, words = explanation.board.problem, parameter_words()
+    free = explanation.free
+    covariance = _covariance(explanation.slopes[:, free])
+    sizes = []
+    for column in explanation.board.columns([effect]):
+        name, scale = problem.names[column], problem.scale[column]
+        value = float(problem.start[column] + scale * explanation.unknowns[column])
+        variance = covariance[list(free).index(column), list(free).index(column)]
+        half = noise.quantile * float(np.sqrt(variance)) * scale
+        felt = bool(np.any(explanation.slopes[:, column]))
+        plausible = plausible_range(name)
+        sizes.append(
+            Size(
+                name=name.partition(".")[2],
+                value=value,
+                low=float(value - half) if felt else None,
+                high=float(value + half) if felt else None,
+                unit=words[name]["unit"],
+                plausible=plausible.holds(value),
+                possible=bool(plausible.is_near(value - half, value + half)),
+            )
+        )
+    return tuple(sizes)
+
+
+def possible(explanation: Explanation, noise: Noise) -> bool:
+    """Whether a real machine can have such sizes, as far as their intervals reach."""
+    return all(
+        size.possible for name in explanation.effects for size in sizes_of(explanation, name, noise)
+    )
+
+
+def hidden_share(frame: Explanation, effect: str) -> float | None:
+    """Share of an effect's variance that the refitted frame swallows; None if nothing feels it.
+
+    Parameters count in their typical sizes.
+    """
+    columns = frame.slopes[:, frame.board.columns([effect])]
+    whole = float(np.sum(columns**2))
+    return 1 - float(np.sum(frame.beyond_fit([effect]) ** 2)) / whole if whole else None
+
+
+def room_for(effect: str, explanations: Sequence[Explanation], noise: Noise) -> Room:
+    """The largest size that any of these explanations leaves to an effect (95 % upper limit), or
+    what a real machine can have if that is less.
+
+    Where the effect is part of the explanation its fitted size counts, else what could be added.
+    """
+    rooms = [_room(effect, explanation, noise) for explanation in explanations]
+    limits = tuple(
+        (name, _largest_of(room.limits[i][1] for room in rooms), unit)
+        for i, (name, _, unit) in enumerate(rooms[0].limits)
+    )
+    return Room(effect, limits, _largest_of(room.mm for room in rooms))
+
+
+def _largest_of(sizes: Iterable[float | None]) -> float | None:
+    """The largest; None if an explanation says nothing of it."""
+    known = list(sizes)
+    return None if None in known else max(size for size in known if size is not None)
+
+
+def _room(effect: str, explanation: Explanation, noise: Noise) -> Room:
+    board, words = explanation.board, parameter_words()
+    columns = board.columns([effect])
+    names = [board.problem.names[i] for i in columns]
+    free = np.array([i for i in explanation.free if i not in columns], dtype=int)
+    raw = explanation.slopes[:, columns]
+    if not np.any(raw):
+        nothing = tuple((name.partition(".")[2], None, words[name]["unit"]) for name in names)
+        return Room(effect, nothing, None)
+    fitted = span(explanation.slopes[:, free])
+    beyond = raw - fitted @ (fitted.T @ raw)
+    covariance = _covariance(beyond)
+    start = explanation.unknowns[columns]
+    middle = start + np.linalg.lstsq(beyond, explanation.residual, rcond=1e-10)[0]
+    total = board.problem.start[columns] / board.problem.scale[columns] + middle
+    reach = noise.upper_quantile * np.sqrt(np.diag(covariance))
+    limits = []
+    for i, name in enumerate(names):
+        # What cannot be negative can only be as large as its upper end.
+        plausible = plausible_range(name)
+        ends = [total[i] + reach[i]]
+        if plausible.low < 0:
+            ends.append(-(total[i] - reach[i]))
+        met = max(abs(plausible.low), abs(plausible.high))
+        largest = min(max(0.0, *ends) * board.problem.scale[columns[i]], met)
+        limits.append((name.partition(".")[2], float(largest), words[name]["unit"]))
+    if len(columns) == 1:
+        whole = np.abs(raw) * limits[0][1] / board.problem.scale[columns[0]]
+        return Room(effect, tuple(limits), _per_reading(explanation, whole[:, 0]))
+    # Where little is measured the ellipsoid is boundless, but what is possible is not.
+    sizes = np.array([limit[1] for limit in limits]) / board.problem.scale[columns]
+    at_limits = sum(_per_reading(explanation, column) for column in (raw * sizes).T)
+    return Room(
+        effect, tuple(limits), min(_largest(explanation, raw, total, covariance), at_limits)
+    )
+
+
+def _largest(explanation: Explanation, raw: Array, total: Array, covariance: Array) -> float:
+    """RMS over the readings of the largest effect of several parameters [mm]."""
+    # |E v| over the ellipsoid of v is at most |E middle| + its radius times the longest axis.
+    values, directions = np.linalg.eigh(covariance)
+    axes = raw @ (directions * np.sqrt(np.maximum(values, 0.0)))
+    radius = float(np.sqrt(scipy.special.chdtri(raw.shape[1], 0.10)))
+    middle = _per_reading(explanation, raw @ total)
+    return middle + radius * max(_per_reading(explanation, axis) for axis in _main_axes(axes))
+
+
+def _main_axes(columns: Array) -> Array:
+    """Columns turned so that the first is the longest (as rows)."""
+    left, sizes, _ = np.linalg.svd(columns, full_matrices=False)
+    main: Array = (left * sizes).T
+    return main
+
+
+def _per_reading(explanation: Explanation, whitened: Array) -> float:
+    """RMS over the marks (as vectors), or over distances without marks [mm]."""
+    rows = explanation.board.rows
+    counted = whitened[: rows.measured.size] if len(rows.measured) else whitened[: rows.count]
+    count = len(rows.measured) or rows.count
+    return float(np.linalg.norm(counted) * explanation.board.sigma / np.sqrt(count))
+
+
+def _covariance(columns: Array) -> Array:
+    """Of unknowns with these whitened columns."""
+    return np.linalg.pinv(columns.T @ columns, rcond=1e-12, hermitian=True)

@@ -1,0 +1,218 @@
+"""Diagnoses of boards that the judge cut: what is named, what is not, and how often it is right.
+
+Each kind of verdict on a few seeded boards; test_bench_rates.py counts how often it is right.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hidden_boards import HIDDEN, MAKER, board, joined, plan, size_for
+from plumb.diagnosis import VERDICTS, diagnose
+from plumb.fit.inputs import Inputs
+from plumb.marks.read import Measurements
+from plumb.model.catalogue import effect_names
+from plumb.text.errors import InputError
+from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
+
+WIDE, NINE = plan(5, 5), plan(3, 3)
+# A tilt of both motors is a turned sheet, and chain zeros are a frame elsewhere: marks alone hardly
+# feel them. Friction is felt in few places and has its own test.
+FELT = sorted(set(HIDDEN) - {"motor_level", "chain_zero", "sled_friction"})
+HUGE = ("frame_lean", "sprocket_runout")  # need sizes that no real machine has to move marks so far
+
+
+@pytest.fixture(scope="module")
+def sizes():
+    """Sizes that move the marks of 25 by 3 mm RMS, in typical ones."""
+    return {name: size_for(name, WIDE, 3.0) for name in FELT}
+
+
+def explains(diagnosis, *effects):
+    """Whether just these effects are one of the explanations."""
+    return any(set(explanation.effects) == set(effects) for explanation in diagnosis.explanations)
+
+
+def moved(measurements, index, by):
+    """The board with one reading off by some millimetres."""
+    marks = list(measurements.marks)
+    marks[index] = replace(marks[index], measured=tuple(np.add(marks[index].measured, by)))
+    return replace(measurements, marks=tuple(marks))
+
+
+def test_the_judge_and_the_laws_agree_where_nothing_is_hidden():
+    diagnosis = diagnose(Inputs(MAKER, board({}, WIDE, seed=1, noise=0.0), sigma=0.02))
+    assert diagnosis.verdict == "nothing_provable" and diagnosis.rms_before < 0.02
+
+
+def test_a_hidden_effect_of_three_millimetres_is_found(sizes):
+    diagnoses = {
+        (name, seed): diagnose(Inputs(MAKER, board({name: sizes[name]}, WIDE, seed=100 * i + seed)))
+        for i, name in enumerate(FELT)
+        for seed in range(2)
+    }
+    count = len(diagnoses)
+    inside = sum(explains(diagnosis, name) for (name, _), diagnosis in diagnoses.items())
+    usual = {
+        (name, seed): diagnosis for (name, seed), diagnosis in diagnoses.items() if name not in HUGE
+    }
+    first = sum(diagnosis.suspects[:1] == (name,) for (name, _), diagnosis in usual.items())
+    silent = sum(diagnosis.verdict == "nothing_provable" for diagnosis in diagnoses.values())
+    assert silent == 0
+    assert inside >= 0.88 * count
+    assert first >= 0.88 * len(usual)
+    assert np.mean([len(diagnosis.suspects) for diagnosis in usual.values()]) <= 2.0
+
+
+def test_intervals_hold_the_truth(sizes):
+    size, held = sizes["chain_pitch"], 0
+    for seed in range(12):
+        diagnosis = diagnose(Inputs(MAKER, board({"chain_pitch": size}, WIDE, seed=400 + seed)))
+        pitch = next(ranked for ranked in diagnosis.ranking if ranked.effect == "chain_pitch").sizes
+        held += pitch[0].low <= 0.001 * size <= pitch[0].high
+        held += pitch[1].low <= 0.0003 * size <= pitch[1].high
+    assert held >= 20  # of 24; 23 expected
+
+
+def test_look_alikes_are_named_together():
+    # A tape that reads long and chains that are long both draw marks farther apart.
+    size = size_for("tape_scale", NINE, 2.0)
+    both = 0
+    for seed in range(8):
+        diagnosis = diagnose(Inputs(MAKER, board({"tape_scale": size}, NINE, seed=seed)))
+        both += {"tape_scale", "chain_pitch"} <= set(diagnosis.suspects)
+        assert diagnosis.verdict != "one_suspect" or explains(diagnosis, "tape_scale")
+    assert both >= 3
+
+
+def test_motors_out_of_level_are_not_told_from_a_turned_sheet():
+    diagnosis = diagnose(Inputs(MAKER, board({"motor_level": 1.5}, WIDE, seed=2)))
+    assert diagnosis.verdict == "nothing_provable"
+    shares = {ranked.effect: ranked.hidden_share for ranked in diagnosis.ranking}
+    assert shares["motor_level"] > 0.95
+    room = next(hidden for hidden in diagnosis.could_hide if hidden.effect == "motor_level")
+    assert room.mm > 2 and room.limits[0][1] >= 6.0
+
+
+def test_a_slip_is_named_before_any_effect(sizes):
+    hits = 0
+    for seed in range(10):
+        hidden = {} if seed % 2 else {"chain_plane": sizes["chain_plane"]}
+        source = np.random.default_rng(seed)
+        clean, index = board(hidden, WIDE, seed=seed), int(source.integers(25))
+        turn = source.uniform(0, 2 * np.pi)
+        slipped = moved(clean, index, (5 * np.cos(turn), 5 * np.sin(turn)))
+        diagnosis = diagnose(Inputs(MAKER, slipped))
+        hits += diagnosis.verdict == "slip" and [s.name for s in diagnosis.slips] == [
+            clean.marks[index].name
+        ]
+        if diagnosis.verdict == "slip":
+            assert diagnosis.suspects == () and len(diagnosis.ranking) == len(effect_names())
+            off = diagnosis.slips[0].offset
+            assert np.hypot(*off) == pytest.approx(5, abs=2.5)
+    assert hits >= 9
+
+
+def test_a_slip_of_one_repeat_is_found_among_its_twins():
+    clean = board({}, plan(3, 3, times=3), seed=5, tape_sigma=None)
+    diagnosis = diagnose(Inputs(MAKER, moved(clean, 13, (0.0, 6.0))))
+    assert diagnosis.verdict == "slip" and diagnosis.slips[0].length == pytest.approx(6, abs=2)
+    assert diagnosis.noise.source == "repeats" and diagnosis.noise.degrees == 34
+    assert "too far up" in diagnosis.slips[0].sentence
+
+
+def test_digits_that_were_swapped_are_guessed():
+    clean = board({}, WIDE, seed=6, noise=0.2, tape_sigma=0.2)
+    index = next(
+        i
+        for i, mark in enumerate(clean.marks)
+        if mark.measured[1] > 0 and 10 <= abs(_swap(mark.measured[1]) - mark.measured[1]) <= 60
+    )
+    written = round(clean.marks[index].measured[1], 1)
+    diagnosis = diagnose(
+        Inputs(MAKER, moved(clean, index, (0.0, _swap(written) - clean.marks[index].measured[1])))
+    )
+    assert diagnosis.verdict == "slip"
+    assert "written for" in diagnosis.slips[0].guess
+
+
+def _swap(number):
+    """A number of three digits before the point with its last two of them exchanged."""
+    text = f"{abs(number):.1f}"
+    i = text.index(".")
+    return float(text[: i - 2] + text[i - 1] + text[i - 2] + text[i:])
+
+
+def test_a_heavier_sled_shortens_the_list():
+    names = ("frame_flex", "chain_stretch")
+    more = joined(NINE, plan(3, 3, sled_weight=150.0))
+    again = joined(NINE, NINE)
+    counts = {"again": 0, "heavier": 0}
+    for name in names:
+        size = size_for(name, NINE, 2.5)
+        for seed in range(4):
+            for key, layout in (("again", again), ("heavier", more)):
+                diagnosis = diagnose(
+                    Inputs(MAKER, board({name: size}, layout, seed=seed), sigma=0.5)
+                )
+                counts[key] += len(diagnosis.explanations) if diagnosis.explanations else 9
+    assert counts["heavier"] < counts["again"]
+
+
+def test_repeats_give_the_noise_and_a_wrong_statement_does_not_fool_it():
+    # Stated three times too small, it would see effects everywhere.
+    quiet = 0
+    for seed in range(12):
+        diagnosis = diagnose(
+            Inputs(MAKER, board({}, plan(3, 3, times=3), seed=seed, tape_sigma=0.17))
+        )
+        assert diagnosis.noise.source == "repeats" and 0.3 < diagnosis.noise.sigma < 0.8
+        quiet += diagnosis.verdict == "nothing_provable"
+    assert quiet >= 10
+
+
+def test_noise_that_nobody_stated_is_taken_from_the_scatter():
+    quiet = 0
+    for seed in range(12):
+        diagnosis = diagnose(Inputs(MAKER, board({}, WIDE, seed=seed, noise=0.8, tape_sigma=None)))
+        assert diagnosis.noise.source in ("default", "scatter") and diagnosis.warnings
+        quiet += diagnosis.verdict == "nothing_provable"
+    assert quiet >= 9
+
+
+def test_friction_needs_approaches():
+    layout = plan(5, 3)
+    diagnosis = diagnose(
+        Inputs(MAKER, board({"sled_friction": 1.0}, layout, seed=1, noise=0.2), sigma=0.3)
+    )
+    assert diagnosis.suspects[:1] == ("sled_friction",)
+    blind = diagnose(Inputs(MAKER, board({}, plan(5, 3, approached=False), seed=1)))
+    room = next(hidden for hidden in blind.could_hide if hidden.effect == "sled_friction")
+    assert room.mm is None
+
+
+def test_distances_alone_are_enough():
+    given = marks_on(TRUE, BELIEVED, grid(4, 3), noise=0.0)
+    spans = distances_between(given)
+    diagnosis = diagnose(Inputs(BELIEVED, spans, sigma=0.3))
+    assert (
+        diagnosis.verdict in ("one_suspect", "cannot_tell") and "chain_pitch" in diagnosis.suspects
+    )
+    shares = {ranked.effect: ranked.hidden_share for ranked in diagnosis.ranking}
+    assert shares["sheet_skew"] is None  # edges play no part in distances
+
+
+def test_too_few_marks_are_refused():
+    with pytest.raises(InputError, match="too few"):
+        diagnose(
+            Inputs(BELIEVED, Measurements(marks_on(TRUE, BELIEVED, grid(2, 1)), source="two.csv"))
+        )
+
+
+def test_every_answer_is_complete(sizes):
+    diagnosis = diagnose(Inputs(MAKER, board({"chain_plane": sizes["chain_plane"]}, WIDE, seed=3)))
+    assert diagnosis.verdict in VERDICTS
+    assert {ranked.effect for ranked in diagnosis.ranking} == set(effect_names())
+    assert {hidden.effect for hidden in diagnosis.could_hide} == set(effect_names())
+    again = diagnose(Inputs(MAKER, board({"chain_plane": sizes["chain_plane"]}, WIDE, seed=3)))
+    assert again.verdict == diagnosis.verdict and again.limit == diagnosis.limit

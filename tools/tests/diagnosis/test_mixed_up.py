@@ -1,0 +1,153 @@
+"""Numbers that were mixed up: exchanged readings, a sign of y, one file twice, coarse repeats."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plumb.board.observations import observe
+from plumb.diagnosis import diagnose
+from plumb.diagnosis.noise_sources import repeats_of
+from plumb.fit.inputs import Inputs
+from plumb.marks.read import Mark, Measurements, read_marks
+from plumb.settings.files import machine_toml
+from plumb.text.errors import InputError
+from synthetic import BELIEVED, SHEET, distances_between, grid, marks_on
+
+PITCH = replace(BELIEVED, effects={"chain_pitch": {"left": 0.002, "right": 0.0005}})
+# Repeats 20 mm inwards of two corners, as `plumb grid` makes them: near enough to be mixed up.
+TARGETS = np.vstack([grid(5, 3), [[-1080.0, 500.0], [1080.0, -500.0]]])
+CLOSE_PAIRS = [(0, 15), (14, 16)]
+
+
+def board(marks):
+    return Measurements(tuple(marks), source="a.toml")
+
+
+def exchanged(marks, i, j):
+    marks = list(marks)
+    marks[i], marks[j] = (
+        replace(marks[i], measured=marks[j].measured),
+        replace(marks[j], measured=marks[i].measured),
+    )
+    return marks
+
+
+def toml(marks, change=lambda target, measured: measured):
+    lines = ['frame = "machine"', "tape_sigma_mm = 0.3"]
+    for mark in marks:
+        measured = [
+            round(float(coordinate), 2) for coordinate in change(mark.target, mark.measured)
+        ]
+        lines += ["[[mark]]", f'name = "{mark.name}"', f"target = {list(mark.target)}"]
+        lines += [f"measured = {measured}"]
+    return "\n".join(lines)
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("pair", CLOSE_PAIRS)
+def test_two_exchanged_marks_are_both_named_with_the_correction(pair, seed):
+    marks = marks_on(PITCH, BELIEVED, TARGETS, noise=0.3, seed=seed)
+    diagnosis = diagnose(Inputs(BELIEVED, board(exchanged(marks, *pair)), sigma=0.3))
+    assert diagnosis.verdict == "slip" and diagnosis.explanations == ()
+    assert {slip.name for slip in diagnosis.slips} == {str(name) for name in pair}
+    for slip, other in zip(diagnosis.slips, reversed(diagnosis.slips), strict=True):
+        assert f"that of {other.name} may be exchanged" in slip.sentence
+        assert slip.length == pytest.approx(20, abs=2)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_two_exchanged_distances_are_both_named(seed):
+    known = distances_between(marks_on(PITCH, BELIEVED, grid(3, 3), noise=0.2, seed=seed))
+    spans = list(known.distances)
+    spans[3], spans[11] = (
+        replace(spans[3], length=spans[11].length),
+        replace(spans[11], length=spans[3].length),
+    )
+    diagnosis = diagnose(Inputs(BELIEVED, replace(known, distances=tuple(spans)), sigma=0.3))
+    named = {" - ".join(spans[i].between) for i in (3, 11)}
+    assert diagnosis.verdict == "slip" and {slip.name for slip in diagnosis.slips} == named
+    assert all("may be exchanged" in slip.guess for slip in diagnosis.slips)
+
+
+def test_nothing_is_called_exchanged_without_need():
+    for seed in range(6):
+        marks = marks_on(PITCH, BELIEVED, TARGETS, noise=0.3, seed=seed)
+        assert diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).slips == ()
+
+
+def test_one_slip_is_one_slip():
+    marks = list(marks_on(PITCH, BELIEVED, TARGETS, noise=0.3, seed=1))
+    x, y = marks[6].measured
+    marks[6] = replace(marks[6], measured=(x + 5, y))
+    diagnosis = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3))
+    assert [slip.name for slip in diagnosis.slips] == ["6"] and "exchanged" not in diagnosis.slips[
+        0
+    ].guess
+
+
+def test_far_exchanges_are_refused_when_the_file_is_read(file):
+    marks = exchanged(marks_on(PITCH, BELIEVED, grid(5, 3)), 3, 4)
+    with pytest.raises(InputError, match="the readings of 3 and 4 may be exchanged"):
+        read_marks(file("m.toml", toml(marks)), sheet=SHEET)
+
+
+def test_y_errors_with_the_other_sign_are_found_out():
+    marks = [
+        replace(mark, measured=(mark.measured[0], 2 * mark.target[1] - mark.measured[1]))
+        for mark in marks_on(PITCH, BELIEVED, grid(5, 3), noise=0.3, seed=5)
+    ]
+    said = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).warnings
+    assert any(
+        "y errors the other way round" in sentence
+        and "chain_pitch" in sentence
+        and "would explain" in sentence
+        for sentence in said
+    )
+
+
+def test_the_right_sign_is_not_doubted():
+    for seed in range(4):
+        marks = marks_on(PITCH, BELIEVED, grid(5, 3), noise=0.3, seed=seed)
+        said = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).warnings
+        assert not any("would explain these" in sentence for sentence in said)
+
+
+def test_a_file_given_twice_is_refused(run, file, tmp_path):
+    machine = file("machine.toml", machine_toml(BELIEVED))
+    marks = file("m.toml", toml(marks_on(PITCH, BELIEVED, grid(3, 3))))
+    again = tmp_path / "again.toml"
+    again.symlink_to(marks)
+    for command in ("compare", "diagnose"):
+        code, said, complained = run(command, machine, marks, again)
+        assert code == 2 and said == "" and "is given twice" in complained
+
+
+@pytest.mark.parametrize(("step", "least"), [(1.0, 0.288), (0.5, 0.144), (0.01, 0.0)])
+def test_coarse_readings_that_agree_exactly_are_as_noisy_as_their_rounding(step, least):
+    marks = [
+        Mark(str(i), (x, y), (x + step * move, y - step))
+        for i, (x, y, move) in enumerate([(-900.0, 0.0, 1), (0.0, 300.0, 2), (900.0, -300.0, 4)])
+    ] * 3
+    spread = repeats_of(observe(BELIEVED, board(marks)))
+    assert spread.degrees == 12
+    assert spread.sigma == pytest.approx(least, abs=0.001)
+
+
+@pytest.mark.parametrize(
+    ("change", "hint"),
+    [
+        (lambda target, measured: (measured[1], measured[0]), "x and y may be exchanged"),
+        (lambda target, measured: np.divide(measured, 25.4), "looks like inches"),
+        (lambda target, measured: (measured[0], -measured[1]), "y runs the other way"),
+    ],
+)
+def test_a_whole_file_mixed_up_is_refused_with_the_likely_reason(file, change, hint):
+    marks = marks_on(PITCH, BELIEVED, grid(5, 3))
+    with pytest.raises(InputError, match=hint):
+        read_marks(file("m.toml", toml(marks, change)), sheet=SHEET)
+
+
+def test_where_everything_fits_nothing_is_called_exchanged():
+    for seed in range(5):
+        few = board(marks_on(PITCH, BELIEVED, grid(2, 2), noise=0.5, seed=seed))
+        assert diagnose(Inputs(BELIEVED, few, sigma=0.5)).slips == ()

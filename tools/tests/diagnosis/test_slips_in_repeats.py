@@ -1,0 +1,103 @@
+"""Slips among the readings of a mark: proved without a model, and kept out of the noise."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plumb.bench.boards import cut, plan
+from plumb.bench.causes import MAKER, Hidden, causes_of
+from plumb.board.observations import observe
+from plumb.cure.add import add
+from plumb.cure.auto import add_auto
+from plumb.diagnosis import diagnose
+from plumb.diagnosis.explanation import Board
+from plumb.diagnosis.sentence import verdict_sentence
+from plumb.diagnosis.slips_in_repeats import clear_repeats
+from plumb.fit.inputs import Inputs, Stated
+from plumb.marks.read import Distance, Mark, Measurements
+from scipy import stats
+
+TWICE = Hidden(((causes_of("chain_pitch")[1], 1.5), (causes_of("chain_stretch")[0], 0.8)))
+
+
+def with_slip(measurements, index, by):
+    """The measurements with one reading off by some millimetres."""
+    marks = list(measurements.marks)
+    marks[index] = replace(marks[index], measured=tuple(np.add(marks[index].measured, by)))
+    return replace(measurements, marks=tuple(marks))
+
+
+def repeated(*readings):
+    """One mark, read several times."""
+    return Measurements(tuple(Mark("A", (0.0, 0.0), reading) for reading in readings))
+
+
+def slips_of(measurements, stated=None):
+    """What is set aside among repeats."""
+    board = Board.of(MAKER, observe(MAKER, measurements), sigma=0.5)
+    return clear_repeats(board, stated)
+
+
+@pytest.mark.parametrize("tape_sigma", [None, 0.4])
+def test_a_slip_of_a_repeat_is_no_noise_whatever_is_hidden(tape_sigma):
+    board = cut(TWICE, plan(5, 5, repeats=True), seed=3, noise=0.4, tape_sigma=tape_sigma)
+    slipped = with_slip(board.measurements, len(board.measurements.marks) - 2, (10.0, 0.0))
+    diagnosis = diagnose(Inputs(MAKER, slipped))
+    assert diagnosis.verdict == "slip" and diagnosis.noise.sigma < 0.6
+    assert [slip.name for slip in diagnosis.slips] == [slipped.marks[-2].name]
+    assert diagnosis.slips[0].length == pytest.approx(10, abs=1.5)
+    assert "disagrees with its repeats" in verdict_sentence(diagnosis)
+    assert add_auto(Inputs(MAKER, slipped)).addition is None
+
+
+def test_an_addition_that_was_asked_for_says_what_disagrees():
+    board = cut(Hidden(), plan(5, 5, repeats=True), seed=3, noise=0.4, tape_sigma=None)
+    slipped = with_slip(board.measurements, -1, (0.0, 10.0))
+    addition = add(Inputs(MAKER, slipped), effects=["chain_sag"])
+    assert addition.sigma_from == "repeats" and addition.after_fit.sigma < 0.6
+    assert any(said.startswith("remeasure mark") for said in addition.warnings)
+
+
+def test_a_reading_stands_out_once_an_f_test_says_so():
+    # Three readings 0.3 mm from their mean, and a fourth: F of 2 and 4 + 4 degrees of freedom,
+    # of which 4 are the usual sigma of a tape, and four readings to choose from.
+    base = [(0.3 * np.cos(t), 0.3 * np.sin(t)) for t in (0.5, 2.6, 4.7)]
+    middle = np.mean(base, axis=0)
+    variance = (np.sum((np.array(base) - middle) ** 2) + 4 * 0.25) / 8
+    limit = np.sqrt(2 * stats.f.isf(0.002 / 4, 2, 8) * variance * 4 / 3)
+    for length, count in ((limit - 0.01, 0), (limit + 0.01, 1)):
+        cleared = slips_of(repeated(*base, (middle[0] + length, middle[1])))
+        assert [shift.reading.index for shift in cleared.slips] == [3] * count
+        assert len(cleared.indices) == len(cleared.rows.names) == 4 - count
+
+
+def test_two_slips_do_not_hide_each_other():
+    readings = [(0.1 * np.cos(i), 0.1 * np.sin(3 * i)) for i in range(10)]
+    cleared = slips_of(repeated(*readings, (8.0, 0.0), (8.0, 1.0)), Stated(0.3))
+    assert sorted(shift.reading.index for shift in cleared.slips) == [10, 11]
+
+
+def test_of_two_readings_the_one_off_the_frame_is_named_and_both_are_doubted():
+    board = cut(Hidden(), plan(5, 5, times=2), seed=4, noise=0.4, tape_sigma=None)
+    diagnosis = diagnose(Inputs(MAKER, with_slip(board.measurements, 30, (6.0, 0.0))))
+    assert diagnosis.verdict == "slip" and len(diagnosis.slips) == 1
+    assert diagnosis.slips[0].offset[0] == pytest.approx(6, abs=1.5)
+    assert "its other reading may be the wrong one" in diagnosis.slips[0].sentence
+
+
+def test_repeated_distances_are_looked_at_too():
+    board = cut(Hidden(), plan(3, 3, spans=True, repeats=True), seed=4, noise=0.4, tape_sigma=0.4)
+    spans = list(board.measurements.distances)
+    spans[-1] = Distance(spans[-1].between, spans[-1].length + 9.0)
+    diagnosis = diagnose(Inputs(MAKER, replace(board.measurements, distances=tuple(spans))))
+    assert diagnosis.verdict == "slip" and diagnosis.noise.sigma < 0.6
+    assert diagnosis.slips[0].name == " - ".join(spans[-1].between)
+    assert diagnosis.slips[0].offset[0] == pytest.approx(9, abs=1.5)
+
+
+def test_noise_alone_makes_no_slip():
+    count = sum(
+        bool(slips_of(cut(Hidden(), plan(3, 3, times=3), seed=seed).measurements).slips)
+        for seed in range(40)
+    )
+    assert count == 0
