@@ -1,1 +1,61 @@
-"""The calibration lab of the Maslow hanging CNC: read, compare, diagnose, add, send."""
+"""The calibration lab of the Maslow hanging CNC, as commands and as functions.
+
+    import plumb
+
+    inputs = plumb.read("groundcontrol.ini", "marks.toml")
+    print(plumb.compare(inputs).rms)
+    print(plumb.diagnose(inputs).verdict)
+
+docs/lab.ipynb goes through a calibration. Lengths are mm, forces N, angles rad. The functions are
+in plumb/api and load when they are first used, so that `plumb --help` comes at once.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+__all__ = [
+    "Addition",
+    "AutoAddition",
+    "Comparison",
+    "Diagnosis",
+    "InputError",
+    "Inputs",
+    "Next",
+    "add",
+    "auto",
+    "compare",
+    "diagnose",
+    "next",
+    "read",
+    "write",
+]
+
+if TYPE_CHECKING:
+    from plumb.api import (
+        Addition,
+        AutoAddition,
+        Comparison,
+        Diagnosis,
+        InputError,
+        Inputs,
+        Next,
+        add,
+        auto,
+        compare,
+        diagnose,
+        next,
+        read,
+        write,
+    )
+else:
+
+    def __getattr__(name: str) -> object:
+        if name not in __all__:
+            raise AttributeError(f"module 'plumb' has no attribute {name!r}")
+        return getattr(import_module("plumb.api"), name)
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -1,11 +1,7 @@
 """The lab in Python: read, compare, diagnose, propose what to measure next, add.
 
-    from plumb import api
-
-    inputs = api.read("groundcontrol.ini", "marks.toml")
-    print(api.compare(inputs).rms)
-
-docs/lab.ipynb goes through a calibration. Lengths are mm, forces N, angles rad.
+`import plumb` has all of it: plumb.read, plumb.compare and so on. docs/lab.ipynb goes through a
+calibration. Lengths are mm, forces N, angles rad.
 """
 
 from __future__ import annotations
@@ -27,6 +23,7 @@ from plumb.fit.compare import compare as comparison_of
 from plumb.fit.inputs import Inputs
 from plumb.plan import Next, propose
 from plumb.settings.toml import machine_toml
+from plumb.text.errors import InputError
 from plumb.text.files import write_whole
 
 __all__ = [
@@ -34,6 +31,7 @@ __all__ = [
     "AutoAddition",
     "Comparison",
     "Diagnosis",
+    "InputError",
     "Inputs",
     "Next",
     "add",
@@ -61,7 +59,7 @@ def read(
 
     `sigma` is the reading error of a coordinate [mm]. `priors` says how far (one sigma) a number of
     the frame may be wrong. `checked` holds numbers that were measured directly, with their sigmas.
-    Raises plumb.text.errors.InputError for what cannot be used.
+    Raises InputError for what cannot be used.
     """
     asked = argparse.Namespace(
         settings=fspath(settings),

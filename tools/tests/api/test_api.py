@@ -1,14 +1,17 @@
 """The lab in Python: the notebook runs, and says what the commands say."""
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 
+import plumb
 import pytest
 from plumb import api
 from plumb.settings.files import read_settings
-from plumb.text.errors import InputError
 
-DOCS = Path(__file__).resolve().parents[3] / "docs"
+TOOLS = Path(__file__).resolve().parents[2]
+DOCS = TOOLS.parent / "docs"
 INI, MARKS = DOCS / "example/groundcontrol.ini", DOCS / "example/marks.toml"
 
 
@@ -44,15 +47,53 @@ def test_the_notebook_runs_and_its_answers_are_those_of_the_commands(monkeypatch
 
 
 def test_what_is_written_is_the_machine_that_was_fitted(tmp_path):
-    addition = api.add(api.read(INI, MARKS), ["chain_pitch"])
-    machine = read_settings(api.write(addition, tmp_path / "machine.toml"))
+    addition = plumb.add(plumb.read(INI, MARKS), ["chain_pitch"])
+    machine = read_settings(plumb.write(addition, tmp_path / "machine.toml"))
     assert machine.effects["chain_pitch"] == pytest.approx(addition.settings.effects["chain_pitch"])
 
 
 def test_options_are_those_of_the_commands():
-    inputs = api.read(INI, MARKS, cut_with=INI, sigma=0.4, priors={"motor_gap": 0.0})
+    inputs = plumb.read(INI, MARKS, cut_with=INI, sigma=0.4, priors={"motor_gap": 0.0})
     assert inputs.sigma == 0.4 and inputs.priors["motor_gap"] == 0.0
     assert inputs.cut_with is not None
-    assert api.auto(inputs).diagnosis.noise.sigma == pytest.approx(0.4)
-    with pytest.raises(InputError, match="there is no such file"):
-        api.read("none.ini", MARKS)
+    assert plumb.auto(inputs).diagnosis.noise.sigma == pytest.approx(0.4)
+    with pytest.raises(plumb.InputError, match="there is no such file"):
+        plumb.read("none.ini", MARKS)
+
+
+def test_the_package_offers_what_the_room_offers():
+    assert plumb.__all__ == api.__all__
+    assert all(getattr(plumb, name) is getattr(api, name) for name in api.__all__)
+    assert {*plumb.__all__} <= {*dir(plumb)}
+    with pytest.raises(AttributeError, match="no attribute 'raed'"):
+        plumb.raed  # noqa: B018
+
+
+def test_the_package_loads_its_functions_when_they_are_used():
+    program = (
+        "import sys, plumb\n"
+        "before = 'numpy' in sys.modules\n"
+        "plumb.read\n"
+        "print(before, 'numpy' in sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert done.stdout == "False True\n", done.stderr
+
+
+def test_a_type_checker_knows_the_functions(tmp_path):
+    program = tmp_path / "program.py"
+    program.write_text(
+        "import plumb\n"
+        'inputs = plumb.read("groundcontrol.ini", "marks.toml")\n'
+        "rms: float = plumb.compare(inputs).rms\n"
+        "verdict: str = plumb.diagnose(inputs).verdict\n"
+        "best = plumb.next(inputs).proposals[0].option.title.upper()\n"
+        'plumb.add(inputs, ["chain_pitch"]).settings\n'
+        "wrong: int = plumb.compare(inputs).rms\n"
+        "plumb.raed\n"
+    )
+    options = ["--config-file", TOOLS / "mypy.ini", "--cache-dir", TOOLS.parent / ".build/mypy"]
+    command = [sys.executable, "-m", "mypy", *options, "--no-pretty", program]
+    done = subprocess.run(command, cwd=TOOLS, capture_output=True, text=True)
+    errors = [line.split(":")[1] for line in done.stdout.splitlines() if ": error: " in line]
+    assert errors == ["7", "8"], done.stdout + done.stderr
