@@ -21,7 +21,8 @@ from plumb.firmware.client_files import ClientFiles
 from plumb.fit.inputs import Inputs
 from plumb.fit.patch import PATCH
 from plumb.model.catalogue import is_sketch
-from plumb.pictures.sheet import Panel, draw
+from plumb.pictures.panel import Panel
+from plumb.pictures.sheet import draw
 from plumb.settings.files import machine_toml, published_machine
 from plumb.settings.fit_record import FitRecord
 from plumb.text.errors import InputError

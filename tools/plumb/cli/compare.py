@@ -16,7 +16,8 @@ from plumb.cli.text import about, millimetres, print_json, signed
 from plumb.fit.compare import Comparison, compare
 from plumb.marks.model import Typed
 from plumb.marks.score import Score
-from plumb.pictures.sheet import Panel, draw
+from plumb.pictures.panel import Panel
+from plumb.pictures.sheet import draw
 from plumb.settings.fit_record import FitRecord
 from plumb.text.errors import InputError
 
@@ -37,9 +38,13 @@ def run(arguments: argparse.Namespace) -> int:
         cut_with=inputs.cut_with,
         controller=arguments.controller,
     )
+    if arguments.names and not arguments.picture:
+        raise InputError("--names is for the picture: add --picture")
     if arguments.picture:
         form = picture_form(arguments.picture)
-        drawn = draw([panel_of(comparison)], sheet=inputs.settings.sheet, form=form)
+        drawn = draw(
+            [panel_of(comparison)], sheet=inputs.settings.sheet, form=form, names=arguments.names
+        )
         write_outputs({arguments.picture: drawn}, inputs=[arguments.settings, *arguments.marks])
     if arguments.json:
         print_json(as_json(comparison))
@@ -61,6 +66,7 @@ def panel_of(
         predicted=np.array([mark.predicted for mark in comparison.marks]),
         errors=np.array([mark.error for mark in comparison.marks]),
         good=good,
+        names=tuple(mark.name for mark in comparison.marks),
     )
 
 

@@ -8,7 +8,8 @@ from html import escape
 
 import numpy as np
 
-from plumb.pictures.sheet import BAD, EDGE, INK, WOOD, round_down
+from plumb.pictures.scale import round_down
+from plumb.pictures.sheet import EDGE, INK, WOOD
 
 Array = np.ndarray
 SCALE = 0.14  # [px/mm] of the sheet
@@ -16,7 +17,7 @@ LONGEST = 40.0  # [px] of an arrow
 BESIDE, ABOVE, BELOW = 36.0, 72.0, 56.0  # [px] around each sheet
 HEAD = 6.5  # [px] of an arrow; shorter arrows have none
 DOT = 2.0  # [px] radius
-FAINT = "#d9a59c"
+ARROW, FAINT = "#c0392b", "#d9a59c"
 FONT = 'font-family="Helvetica, Arial, sans-serif"'
 
 
@@ -118,8 +119,8 @@ def _arrows(starts: Array, ends: Array) -> list[str]:
             across = 0.42 * HEAD * np.array([-unit[1], unit[0]])
             heads += f"M{_pair(end)}L{_pair(neck + across)}L{_pair(neck - across)}z"
     return [
-        f'<path d="{lines}" fill="none" stroke="{BAD}" stroke-width="1.6"/>',
-        f'<path d="{heads}" fill="{BAD}"/>',
+        f'<path d="{lines}" fill="none" stroke="{ARROW}" stroke-width="1.6"/>',
+        f'<path d="{heads}" fill="{ARROW}"/>',
     ]
 
 

@@ -9,7 +9,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from plumb.pictures.labels import label_boxes
+from plumb.pictures.panel import Panel, Spots, spots_of
 from plumb.pictures.saved import saved
+from plumb.pictures.scale import View, exaggeration, pitch_of, round_down, view_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -18,124 +21,166 @@ WIDTH = 8.6  # [inch] of a picture
 MARGIN = 0.05  # left and right of the sheet, of its width
 TITLE, FOOT = 0.45, 0.85  # [inch] above each sheet, and below the last
 FORMATS = ("png", "svg", "pdf")
-STEPS = (1, 2, 3, 5)  # a factor or scale bar is such a number times a power of ten
 WOOD, EDGE, INK = "#f3e7d3", "#8a6d3b", "#222222"
-BAD, GOOD = "#c0392b", "#1e6b3a"
+BAD, GOOD = "#c64f00", "#0b62a4"  # orange and blue: apart for every eye
+MANY = 60  # marks from which a picture has no numbers
+ROOMY = 200.0  # [mm] between marks that are drawn in full size
+POINT = 1 / 72  # [inch]
+NUMBER, NAME = 12.0, 5.0  # [point] of a number, and of a name among many
+BOLD, PLAIN = 0.68, 0.56  # width of a letter in a sentence, of the size of its type
 
 
-@dataclass(frozen=True)
-class Panel:
-    """A sheet with its errors [mm]."""
-
-    title: str
-    predicted: np.ndarray  # (n, 2)
-    errors: np.ndarray  # (n, 2) measured - predicted
-    good: bool = False  # drawn in the colour of success
-
-
-def draw(panels: Sequence[Panel], *, sheet: tuple[float, float], form: str = "png") -> bytes:
+def draw(
+    panels: Sequence[Panel],
+    *,
+    sheet: tuple[float, float],
+    form: str = "png",
+    names: bool = False,
+) -> bytes:
     """The picture of sheets, each below the last, all arrows to the same scale."""
     # Loading matplotlib takes longer than most commands: only a drawing waits for it.
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    width, height = sheet
-    largest = max(float(np.hypot(*panel.errors.T).max()) for panel in panels)
-    factor = exaggeration(largest, sheet)
-    inch = WIDTH / (width * (1 + 2 * MARGIN))  # per mm
-    ranges = [_range(panel, height, factor) for panel in panels]
-    tall = sum(TITLE + inch * (top - bottom) for bottom, top in ranges) + FOOT
+    marks = [spots_of(panel) for panel in panels]
+    factor = exaggeration(marks, sheet)
+    views = [view_of([spots], sheet, factor) for spots in marks]
+    left, right = min(view.left for view in views), max(view.right for view in views)
+    views = [View(left, right, view.bottom, view.top) for view in views]
+    inch = WIDTH / (right - left)  # per mm
+    tall = sum(TITLE + inch * view.height for view in views) + FOOT
     figure = Figure(figsize=(WIDTH, tall))
     FigureCanvasAgg(figure)
+    edge = (-sheet[0] / 2 - left) * inch
     upper = tall
-    for panel, (bottom, top) in zip(panels, ranges, strict=True):
-        upper -= TITLE + inch * (top - bottom)
-        axis = figure.add_axes((0, upper / tall, 1, inch * (top - bottom) / tall))
-        axis.set_xlim(-width * (0.5 + MARGIN), width * (0.5 + MARGIN))
-        axis.set_ylim(bottom, top)
-        axis.set_axis_off()
-        _draw_sheet(axis, panel, sheet, factor)
+    for panel, spots, view in zip(panels, marks, views, strict=True):
+        upper -= TITLE + inch * view.height
+        axis = figure.add_axes((0, upper / tall, 1, inch * view.height / tall))
+        draw_errors(axis, spots, view, sheet=sheet, factor=factor, good=panel.good)
+        _draw_words(axis, spots, view, factor=factor, inch=inch, names=names)
+        size = fitting(panel.title, WIDTH - 2 * edge, 16)
+        y = (upper + inch * view.height + 0.06) / tall
         colour = GOOD if panel.good else BAD
-        left = MARGIN / (1 + 2 * MARGIN)
-        y = (upper + inch * (top - bottom) + 0.06) / tall
-        figure.text(left, y, panel.title, fontsize=16, fontweight="bold", color=colour, va="bottom")
-    _draw_scale(figure.add_axes((0, 0, 1, FOOT / tall)), factor, largest, inch)
+        write = partial(figure.text, fontweight="bold", color=colour, va="bottom")
+        write(edge / WIDTH, y, panel.title, fontsize=size)
+    repeated = any(spots.spreads.any() for spots in marks)
+    scale = _Scale(factor, max(spots.longest for spots in marks), inch, edge)
+    numbered = min(map(len, marks)) <= MANY
+    _draw_scale(figure.add_axes((0, 0, 1, FOOT / tall)), scale, _meaning(numbered, repeated))
     return saved(figure, form)
 
 
-def _range(panel: Panel, height: float, factor: float) -> tuple[float, float]:
-    """Lowest and highest y [mm] that a sheet and its arrows need."""
-    ends = (panel.predicted + factor * panel.errors)[:, 1]
-    edge = 0.52 * height
-    return min(-edge, float(ends.min()) - 10), max(edge, float(ends.max()) + 10)
+def fitting(words: str, width: float, size: float, *, letter: float = BOLD) -> float:
+    """The size of type [point], this large or smaller, in which words fit a width [inch]."""
+    return min(size, width / (letter * POINT * max(len(words), 1)))
 
 
-def exaggeration(largest: float, sheet: tuple[float, float]) -> float:
-    """How much longer than life arrows are drawn: the longest fills over a third of the height."""
-    return round_down(0.37 * sheet[1] / max(largest, 1e-6))
-
-
-def round_down(value: float) -> float:
-    """The largest 1, 2 or 5 times a power of ten that is no larger than the value."""
-    power = 10.0 ** np.floor(np.log10(value))
-    return float(max(step * power for step in STEPS if step * power <= value * (1 + 1e-9)))
-
-
-def _draw_sheet(axis: Axes, panel: Panel, sheet: tuple[float, float], factor: float) -> None:
+def draw_errors(
+    axis: Axes,
+    spots: Spots,
+    view: View,
+    *,
+    sheet: tuple[float, float],
+    factor: float,
+    good: bool,
+    small: float = 1.0,
+) -> None:
+    """A sheet with its marks and arrows; small: of the size of a picture of its own."""
     from matplotlib.patches import Rectangle
 
+    axis.set_xlim(view.left, view.right)
+    axis.set_ylim(view.bottom, view.top)
+    axis.set_axis_off()
     width, height = sheet
-    axis.add_patch(Rectangle((-width / 2, -height / 2), width, height, fc=WOOD, ec=EDGE, lw=2))
-    axis.plot(*panel.predicted.T, "o", color="white", markeredgecolor=INK, markersize=6, zorder=3)
+    wood = Rectangle((-width / 2, -height / 2), width, height, fc=WOOD, ec=EDGE, lw=2 * small)
+    axis.add_patch(wood)
+    part = small * float(np.clip(pitch_of(len(spots), sheet) / ROOMY, 0.3, 1.0))
+    axis.plot(
+        *spots.places.T,
+        "o",
+        color="white",
+        markeredgecolor=INK,
+        markersize=6 * part,
+        markeredgewidth=part,
+        zorder=3,
+    )
+    colour = GOOD if good else BAD
     axis.quiver(
-        *panel.predicted.T,
-        *(factor * panel.errors).T,
+        *spots.places.T,
+        *(factor * spots.errors).T,
         angles="xy",
         scale_units="xy",
         scale=1,
         units="inches",
-        width=0.035,
+        width=0.035 * part,
         headwidth=4.5,
         headlength=5.5,
         headaxislength=5,
         minlength=0.5,
-        color=GOOD if panel.good else BAD,
+        color=colour,
         zorder=4,
     )
-    for place, error in zip(panel.predicted, panel.errors, strict=True):
-        _draw_number(axis, place, error, 0.03 * height, factor)
+    _draw_spreads(axis, spots, factor, colour)
 
 
-def _draw_number(
-    axis: Axes, place: np.ndarray, error: np.ndarray, gap: float, factor: float
+def _draw_spreads(axis: Axes, spots: Spots, factor: float, colour: str) -> None:
+    """A ring around the tip of each repeated mark: how far its readings lie from their mean."""
+    from matplotlib.patches import Circle
+
+    for tip, spread in zip(spots.tips(factor), spots.spreads, strict=True):
+        if spread:
+            axis.add_patch(Circle(tuple(tip), factor * spread, fc="none", ec=INK, lw=0.9, zorder=5))
+
+
+def _draw_words(
+    axis: Axes, spots: Spots, view: View, *, factor: float, inch: float, names: bool
 ) -> None:
-    """The length of an error next to its mark, clear of arrow and edge."""
-    left = place[0] > 100 or (place[0] > -100 and error[0] > 0)
-    in_the_way = abs(error[0]) > abs(error[1]) and (error[0] < 0) == left
-    sideways = not (in_the_way and abs(error[0]) * factor > gap)
-    across = (-gap if left else gap) if sideways else 0
-    up = 0 if sideways else (gap if place[1] < 0 else -gap)
-    axis.text(
-        place[0] + across,
-        place[1] + up,
-        f"{np.hypot(*error):.1f}",
-        ha="center" if not sideways else "right" if left else "left",
-        va="center" if sideways else "bottom" if up > 0 else "top",
-        fontsize=12,
-        color=INK,
-    )
+    """The length of each error next to its mark, and its name if that was asked for."""
+    many = len(spots) > MANY
+    if many and not names:
+        return
+    lengths = [f"{length:.1f}" for length in np.hypot(*spots.errors.T)]
+    if many:
+        words = list(spots.names)
+    else:
+        named = zip(spots.names, lengths, strict=True)
+        words = [f"{name}: {length}" if names and name else length for name, length in named]
+    points = NAME if many else NUMBER
+    gap = (0.6 if many else 1.0) * 8 * POINT / inch
+    boxes = label_boxes(spots, words, factor=factor, view=view, size=points * POINT / inch, gap=gap)
+    for (left, low, right, high), word in zip(boxes, words, strict=True):
+        at = ((left + right) / 2, (low + high) / 2)
+        axis.text(*at, word, ha="center", va="center_baseline", fontsize=points, color=INK)
 
 
-def _draw_scale(axis: Axes, factor: float, largest: float, inch: float) -> None:
+def _meaning(numbered: bool, repeated: bool) -> str:
+    """What the signs of the picture mean."""
+    said = ["circle: where the mark should be", "arrow: to where it was measured"]
+    said += ["number: mm"] if numbered else []
+    said += ["ring: how far repeats spread"] if repeated else []
+    return "; ".join(said)
+
+
+@dataclass(frozen=True)
+class _Scale:
+    """What the bar below the sheets shows."""
+
+    factor: float
+    largest: float  # [mm] error
+    inch: float  # per mm
+    left: float  # [inch] of the sheet's edge
+
+
+def _draw_scale(axis: Axes, scale: _Scale, meaning: str) -> None:
     """A bar of a round length below the last sheet, and what the arrows mean."""
     axis.set_xlim(0, WIDTH)
     axis.set_ylim(0, FOOT)
     axis.set_axis_off()
-    bar = round_down(max(largest, 1e-6))
-    left = WIDTH * MARGIN / (1 + 2 * MARGIN)
-    right = left + bar * factor * inch
+    bar = round_down(max(scale.largest, 1e-6))
+    left = scale.left
+    right = left + bar * scale.factor * scale.inch
     axis.plot([left, right], [0.6, 0.6], color=INK, lw=4, solid_capstyle="butt")
-    write = partial(axis.text, va="center", fontsize=12, color=INK)
-    write(right + 0.12, 0.6, f"{bar:g} mm of error: arrows {factor:g} times life size")
-    meaning = "circle: where the mark should be; arrow: to where it was measured; number: mm"
-    write(left, 0.27, meaning)
+    write = partial(axis.text, va="center", color=INK)
+    said = f"{bar:g} mm of error: arrows {scale.factor:g} times life size"
+    write(right + 0.12, 0.6, said, fontsize=12)
+    write(left, 0.27, meaning, fontsize=fitting(meaning, WIDTH - 2 * left, 12, letter=PLAIN))

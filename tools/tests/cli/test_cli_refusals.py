@@ -31,6 +31,7 @@ BAD = [
     ("infinite prior", ["add", *BOARD, *EFFECTS, "--prior", "motor_gap=inf"], "NAME=SIGMA"),
     ("unknown prior", ["add", *BOARD, *EFFECTS, "--prior", "gap=1"], "unknown name 'gap'"),
     ("no reading error", ["add", *BOARD, *EFFECTS, "--sigma", "0"], "--sigma"),
+    ("names without a picture", ["compare", *BOARD, "--names"], "add --picture"),
     ("picture of no form", ["compare", *BOARD, "--picture", "errors.gif"], ".png"),
     ("no points", ["inverse", SETTINGS], "--points"),
     ("points are missing", ["inverse", SETTINGS, "--points", "none.csv"], "none.csv: there is no"),

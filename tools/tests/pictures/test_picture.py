@@ -5,7 +5,8 @@ import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import pytest
-from plumb.pictures.sheet import FORMATS, Panel, draw, exaggeration, round_down
+from plumb.pictures.panel import Panel
+from plumb.pictures.sheet import FORMATS, draw
 
 SHEET = (2438.4, 1219.2)
 PLACES = np.array([[-1000.0, 500.0], [0.0, 500.0], [1000.0, -500.0]])
@@ -38,17 +39,16 @@ def test_a_drawing_is_whole():
     ElementTree.fromstring(draw([BEFORE], sheet=SHEET, form="svg"))
 
 
-@pytest.mark.parametrize(
-    ("value", "rounded"), [(1.0, 1), (9.99, 5), (0.034, 0.03), (2.4, 2), (1200, 1000)]
-)
-def test_factors_are_round(value, rounded):
-    assert round_down(value) == pytest.approx(rounded)
-
-
-@pytest.mark.parametrize("largest", [0.2, 1.0, 15.0, 80.0])
-def test_the_longest_arrow_is_long_but_stays_near_the_sheet(largest):
-    assert 0.15 < exaggeration(largest, SHEET) * largest / SHEET[1] < 0.4
-
-
 def test_marks_without_any_error_can_be_drawn():
     assert draw([Panel("none", PLACES, 0 * ERRORS)], sheet=SHEET).startswith(STARTS["png"])
+
+
+@pytest.mark.parametrize(("count", "without", "with_names"), [(60, 60, 60), (61, 0, 61)])
+def test_words_are_as_many_as_can_be_read_and_names_come_when_asked(count, without, with_names):
+    places = np.array([[40.0 * i - 1190, 0.0] for i in range(count)])
+    panel = Panel(
+        "", places, np.full((count, 2), 0.5), names=tuple(f"mark{i}" for i in range(count))
+    )
+    plain, named = (draw([panel], sheet=SHEET, form="svg", names=on).decode() for on in (0, 1))
+    assert plain.count("<!-- 0.7 -->") == without and "<!-- mark" not in plain
+    assert named.count("<!-- mark") == with_names

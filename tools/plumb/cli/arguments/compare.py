@@ -16,5 +16,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--limit", metavar="MM", type=length, help="exit 1 if the RMS is above it")
     add_units(parser)
     parser.add_argument("--picture", metavar="FILE", help="draw the errors: .png, .svg or .pdf")
+    parser.add_argument("--names", action="store_true", help="names of the marks in the picture")
     add_force(parser)
     add_json(parser)
