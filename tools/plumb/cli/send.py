@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+import signal
+import sys
 from datetime import datetime
 from pathlib import Path
+from threading import Event
 
 from plumb.cli.screen import Bar, sentences
 from plumb.firmware.client_files import gcode
 from plumb.firmware.numbers import firmware_numbers
 from plumb.line.memory import Written, as_lines, write_numbers
-from plumb.line.sender import Sender, cleaned
+from plumb.line.sender import Sender, StoppedError, cleaned
 from plumb.line.serial_port import SerialPort, port_for
 from plumb.settings.files import read_settings
-from plumb.text.errors import InputError, refusal
+from plumb.text.errors import refusal
 from plumb.text.files import read_text, write_whole
 
 SHOWN = 20  # changed numbers in the answer
@@ -80,21 +82,39 @@ def _print_written(done: tuple[Written, str]) -> None:
     print(f"The old ones are in {kept}. To bring them back: plumb send --undo, with this file.")
 
 
+def _hold(sender: Sender) -> None:
+    """Hold the machine, and ask what now; where nobody can answer, stop."""
+    sender.hold()
+    if not sys.stdin.isatty():
+        sender.stop()
+    answer = input("The machine holds. Enter goes on; s and Enter stops: ")
+    if answer.strip().lower().startswith("s"):
+        sender.stop()
+    sender.go_on()
+
+
 def _stream(sender: Sender, lines: list[str]) -> int:
     """Stream a program; Ctrl-C holds the machine where it is."""
     bar = Bar("sending", patience=0.5)
     total = len(lines)
-    show: Callable[[int], None] = lambda done: bar.show(done / total)  # noqa: E731
+    pressed = Event()
+
+    def attend(sender: Sender) -> None:
+        if pressed.is_set():
+            pressed.clear()
+            bar.clear()
+            _hold(sender)
+
+    sender.attend = attend
+    before = signal.signal(signal.SIGINT, lambda *_: pressed.set())
     try:
-        sender.stream(lines, answered=show)
-    except KeyboardInterrupt:
-        sender.hold()
-        bar.clear()
-        print('Held. To go on: plumb send "~". To give up: plumb send "!".')
+        sender.stream(lines, answered=lambda done: bar.show(done / total))
+    except StoppedError:
+        print("The machine has stopped. It knows where it is; the rest was not sent.")
         return 1
-    except InputError:
+    finally:
         bar.clear()
-        raise
+        signal.signal(signal.SIGINT, before)
     if total > 1:
         print(f"{total} lines were sent, and the machine took each.")
     return 0

@@ -17,7 +17,7 @@ from plumb.text.errors import InputError
 AHEAD = 126  # characters on their way at most
 SILENCE = 5.0  # [s] the machine reports five times a second, so this long a silence has a reason
 START = 12.0  # [s] a board that was reset by the line takes up to six
-HOLD = b"\x84"
+HOLD, GO_ON, STOP = b"\x84", b"~\n", b"!\n"
 WRONG = ("ALARM", "error:")  # how lines begin that nobody may miss
 STANDS = 0.02  # [mm] between two reports of a machine at rest
 REPORTS = 0.6  # [s] it reports five times a second
@@ -27,6 +27,10 @@ STATUS = re.compile(r"<(\w+),MPos:(-?[\d.]+),(-?[\d.]+),(-?[\d.]+)")
 
 class RefusedError(InputError):
     """The machine refused a line, or raised an alarm."""
+
+
+class StoppedError(Exception):
+    """Whoever sends gave up; the machine has stopped."""
 
 
 @dataclass(frozen=True)
@@ -44,8 +48,11 @@ class Sender:
     port: Port
     said: Callable[[str], None] = lambda line: None  # hears what the machine says besides answers
     status: Status | None = None
+    # Called again and again while lines are on their way; it may hold the machine, or stop it.
+    attend: Callable[[Sender], None] = lambda sender: None
     _partial: str = ""
     _heard_at: float = 0.0
+    _spare: int = 0  # answers to come that belong to no line
     _on_the_way: deque[tuple[str, int]] = field(default_factory=deque)
 
     def await_start(self) -> None:
@@ -109,24 +116,39 @@ class Sender:
     def listen(self) -> None:
         """Take what comes while nothing is asked."""
         for line in self._lines():
-            if not self._note_status(line):
+            if not self._note_status(line) and line != "ok":
                 self.said(line)
 
     def hold(self) -> None:
-        """Stop along the path, as soon as the motors can; `~` goes on."""
+        """Stop along the path, as soon as the motors can."""
         self.port.write(HOLD)
+
+    def go_on(self) -> None:
+        """Go on after a hold."""
+        self.port.write(GO_ON)
+        self._spare += 1  # its `ok` answers no line
+
+    def stop(self) -> None:
+        """Give up: the machine brakes and forgets what it has not done; raises StoppedError."""
+        self.port.write(STOP)
+        self._on_the_way.clear()
+        self.await_rest()
+        raise StoppedError
 
     def _characters(self) -> int:
         return sum(length for _, length in self._on_the_way)
 
     def _hear(self, done: int, answered: Callable[[int], None] | None) -> int:
         """Take what came; the count of answers."""
+        self.attend(self)
         came = False
         for line in self._lines():
             came = True
             if self._note_status(line):
                 continue
-            if line == "ok" and self._on_the_way:
+            if line == "ok" and self._spare:
+                self._spare -= 1
+            elif line == "ok" and self._on_the_way:
                 self._on_the_way.popleft()
                 done += 1
                 if answered:

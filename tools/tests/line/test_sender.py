@@ -1,7 +1,17 @@
 """The sender: ahead of the answers, never beyond the machine's buffer, and stopped by a refusal."""
 
 import pytest
-from plumb.line.sender import AHEAD, HOLD, RefusedError, Sender, Status, cleaned
+from plumb.line.sender import (
+    AHEAD,
+    GO_ON,
+    HOLD,
+    STOP,
+    RefusedError,
+    Sender,
+    Status,
+    StoppedError,
+    cleaned,
+)
 from plumb.text.errors import InputError
 
 REPORT = "<Idle,MPos:1.00,-2.50,0.00,WPos:0.000,0.000,0.000>\r\n[PE:0.00,0.00,127]\r\n"
@@ -135,10 +145,31 @@ def test_a_line_may_come_in_pieces():
     assert sender.status == Status("Idle", (3.0, 4.0, 5.0))
 
 
-def test_hold_is_a_single_character():
+def test_a_hold_is_a_single_character_and_going_on_answers_no_line():
     board = Board()
-    Sender(board).hold()
-    assert board.written == HOLD == b"\x84"
+    sender = Sender(board)
+    pressed = [True]
+
+    def attend(_):
+        if pressed and board.time > 0.5:
+            pressed.clear()
+            sender.hold()
+            sender.go_on()
+
+    sender.attend = attend
+    assert sender.stream([f"G0 X{i}" for i in range(20)]) == 20
+    assert HOLD + GO_ON in board.written
+    assert HOLD == b"\x84"
+    assert sender.stream(["G0 X1"]) == 1
+
+
+def test_whoever_stops_sends_nothing_more():
+    board = Board()
+    sender = Sender(board, attend=lambda sender: board.time > 1 and sender.stop())
+    with pytest.raises(StoppedError):
+        sender.stream([f"G1 X{i}.123456789 Y{i}.123456789" for i in range(40)])
+    assert board.written.endswith(STOP)
+    assert b"X39" not in board.written
 
 
 def test_comments_and_blanks_are_left_out():

@@ -92,6 +92,22 @@ def test_a_refused_line_stops_the_program(served, tmp_path):
     assert "'G0 X--5': the machine says: ALARM: Halted" in said
 
 
+def test_ctrl_c_stops_the_machine_and_it_knows_where_it_is(served, tmp_path):
+    served()
+    (tmp_path / "job.nc").write_text("G21\nG1 X900 F300\n")
+    command = [*PLUMB, "send", "--port", "maslow", "job.nc"]
+    sending = subprocess.Popen(
+        command, cwd=tmp_path, stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True
+    )
+    time.sleep(4)
+    sending.send_signal(2)
+    assert "The machine has stopped." in sending.communicate(timeout=START)[0]
+    assert sending.returncode == 1
+    said = plumb("read", "--port", "maslow", folder=tmp_path)
+    assert "ALARM" not in said
+    assert "The sled is at x 0.00" not in said and "The sled is at x 900" not in said
+
+
 def test_opening_the_port_resets_the_board_each_time(served, tmp_path):
     served()
     for _ in range(3):

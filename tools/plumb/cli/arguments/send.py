@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 HELP = "send a program, a line of G-code or a machine's numbers to the machine"
-EXIT = "Exit: 0 all was done; 1 stopped by Ctrl-C, the machine holds; 2 refused, or no machine."
+EXIT = "Exit: 0 all was done; 1 stopped after Ctrl-C; 2 refused, or no machine."
 
 
 def add_port(parser: argparse.ArgumentParser) -> None:
