@@ -200,7 +200,7 @@ def as_json(addition: Addition) -> dict[str, Any]:
         },
         "before": _quality_json(addition.before),
         "after": _quality_json(addition.after),
-        "steps": [
+        "by_effect": [
             {"effect": step.effect, "only_fit": step.only_fit, **_quality_json(step.quality)}
             for step in addition.steps
         ],

@@ -107,3 +107,8 @@ def test_the_wheel_says_which_python_it_needs(wheel):
     with zipfile.ZipFile(wheel) as archive:
         name = next(n for n in archive.namelist() if n.endswith("METADATA"))
         assert "Requires-Python: >=3.11" in archive.read(name).decode()
+
+
+def test_the_wheel_brings_the_schema_of_the_answers_and_its_types(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        assert {"plumb/cli/answers.schema.json", "plumb/py.typed"} <= {*archive.namelist()}

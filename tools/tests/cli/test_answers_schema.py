@@ -1,0 +1,141 @@
+"""What the commands print with --json is what the schema in the package says."""
+
+import json
+from importlib import resources
+from pathlib import Path
+
+import plumb.cli.read as read_command
+import pytest
+from jsonschema import Draft202012Validator as Validator
+from plumb.cli.main import COMMANDS, build_parser
+
+EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
+SCHEMA = json.loads(resources.files("plumb.cli").joinpath("answers.schema.json").read_text("utf-8"))
+INI, TOML = EXAMPLE / "groundcontrol.ini", EXAMPLE / "machine.toml"
+BOARD = (INI, EXAMPLE / "marks.toml")
+SLIPPED = (INI, "slipped.toml")  # a reading of BOARD is wrong by 40 mm
+SPANS = (INI, "spans.toml")
+TAPE = ("--checked", "tape_scale.strain=0.0001+-0.0001")
+GRID = ("--columns", "3", "--rows", "3")
+CLIENT = ("--client", "groundcontrol", "-o", "new.toml")
+# Each command, and each shape that its answer has.
+QUESTIONS = (
+    ("add", *BOARD, "--effect", "chain_pitch", "chain_stretch", "--patch", *CLIENT),
+    ("add", *BOARD, "--effect", "auto"),
+    ("add", *SLIPPED, "--effect", "auto"),
+    ("bench", "--scenario", "none-9", "one-9", "--boards", "1"),
+    ("calibrate", *BOARD),
+    ("calibrate", *BOARD, *TAPE, *CLIENT),
+    ("compare", *BOARD),
+    ("compare", *BOARD, "spans.toml"),
+    ("compare", *SPANS),
+    ("diagnose", *BOARD),
+    ("diagnose", *SLIPPED),
+    ("diagnose", *BOARD, "--sigma", "5"),
+    ("effects",),
+    ("forward", INI, "--lengths", "pairs.csv"),
+    ("grid", *GRID),
+    ("grid", *GRID, "--output", "grid.nc", "--marks", "form.toml"),
+    ("inverse", INI, "--points", "pairs.csv", "--controller", "plumb"),
+    ("next", *BOARD),
+    ("next", *BOARD, *TAPE),
+    ("next", *SLIPPED),
+    ("next", *BOARD, "--sigma", "5", "--marks", "form.toml"),
+    ("preview", INI, *GRID),
+    ("reach", INI),
+    ("read",),
+    ("settings", TOML),
+    ("telemetry", EXAMPLE / "client.log"),
+)
+
+
+class Board:
+    """A machine that reports, and lists two numbers."""
+
+    def __init__(self, _path):
+        self.waiting, self.time = b"", 0.0
+
+    def write(self, characters):
+        if b"$$" in characters:
+            self.waiting = b"$0=2438.4\r\n$1=1219.2\r\nok\r\n"
+
+    def read(self):
+        self.time += 0.2
+        said, self.waiting = self.waiting, b""
+        return said + b"<Idle,MPos:1.00,-2.50,0.00,WPos:0.000,0.000,0.000>\r\n"
+
+    def seconds(self):
+        return self.time
+
+    def close(self):
+        pass
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    """A folder with the files of the questions, and a machine on its line."""
+    good = BOARD[1].read_text()
+    reading = next(line for line in good.splitlines() if line.startswith("measured"))
+    first = reading.split("[")[1].split(",")[0]
+    wrong = reading.replace(first, str(float(first) + 40))
+    (tmp_path / "slipped.toml").write_text(good.replace(reading, wrong, 1))
+    (tmp_path / "spans.toml").write_text(
+        'frame = "machine"\n[[mark]]\nname = "a"\ntarget = [0, 0]\n[[mark]]\nname = "b"\n'
+        'target = [500, 0]\n[[distance]]\nbetween = ["a", "b"]\nmm = 501.5\n'
+    )
+    (tmp_path / "pairs.csv").write_text("1700,1700\n0,0\n9000,100\n")
+    monkeypatch.setattr(read_command, "port_for", str)
+    monkeypatch.setattr(read_command, "SerialPort", Board)
+    monkeypatch.chdir(tmp_path)
+
+
+def validator_of(name):
+    """What holds the answers of a command against the schema."""
+    return Validator({**SCHEMA, "anyOf": [{"$ref": f"#/$defs/{name}"}]})
+
+
+def spoiled(answer):
+    """The answer without a key, with another key, and with a value of another type."""
+    yield {**answer, "more": 1}
+    for key in answer:
+        yield {**answer, key: [[{}]]}
+        if key != "auto":
+            yield {other: answer[other] for other in answer if other != key}
+
+
+def test_the_schema_is_a_schema():
+    Validator.check_schema(SCHEMA)
+
+
+def test_every_command_with_json_is_asked():
+    subparsers = build_parser()._subparsers._group_actions[0].choices
+    answering = {name for name in COMMANDS if "--json" in subparsers[name].format_help()}
+    assert {question[0] for question in QUESTIONS} == answering
+    assert {each["$ref"] for each in SCHEMA["anyOf"]} == {
+        f"#/$defs/{name}" for name in answering | {"refusal"}
+    }
+
+
+@pytest.mark.parametrize("question", QUESTIONS, ids=lambda question: question[0])
+def test_the_answer_is_as_the_schema_says(question, ask):
+    code, answer = ask(*question)
+    assert code in (0, 1)
+    validator_of(question[0]).validate(answer)
+    Validator(SCHEMA).validate(answer)
+    for bad in spoiled(answer):
+        assert not validator_of(question[0]).is_valid(bad), bad.keys()
+
+
+def test_a_refusal_is_as_the_schema_says(run):
+    code, said, _ = run("compare", "none.ini", "none.toml", "--json")
+    assert code == 2
+    validator_of("refusal").validate(json.loads(said))
+    assert not validator_of("refusal").is_valid({"error": None})
+    assert not validator_of("compare").is_valid(json.loads(said))
+
+
+def test_effects_are_listed_in_the_order_they_were_added(ask):
+    """The steps of the fit do not share a key with the steps that the owner takes."""
+    _, answer = ask("add", *BOARD, "--effect", "chain_pitch", "chain_stretch", *CLIENT)
+    assert [step["effect"] for step in answer["by_effect"]] == ["chain_pitch", "chain_stretch"]
+    assert answer["steps"] and all(isinstance(step, str) for step in answer["steps"])
