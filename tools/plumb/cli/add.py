@@ -18,11 +18,13 @@ from plumb.cure.add import Addition, Parameter, Quality, add, priors_with
 from plumb.cure.auto import AutoAddition, add_auto, without_marks
 from plumb.cure.record import record_of
 from plumb.firmware.client_files import ClientFiles
+from plumb.fit.compare import Comparison
 from plumb.fit.inputs import Inputs
 from plumb.fit.patch import PATCH
 from plumb.model.catalogue import is_sketch
+from plumb.model.plain import noun_of
 from plumb.pictures.panel import Panel
-from plumb.pictures.sheet import draw
+from plumb.pictures.staircase import Stair, draw_staircase
 from plumb.settings.files import machine_toml, published_machine
 from plumb.settings.fit_record import FitRecord
 from plumb.text.errors import InputError
@@ -148,8 +150,7 @@ def _files(arguments: argparse.Namespace, inputs: Inputs, result: Addition) -> d
         )
     if arguments.picture:
         form = picture_form(arguments.picture)
-        drawn = draw(panels_of(result), sheet=result.settings.sheet, form=form)
-        files[arguments.picture] = drawn
+        files[arguments.picture] = fall_of(result, form=form)
     return files
 
 
@@ -175,18 +176,36 @@ def toml_of(
     return machine_toml(settings, comment="\n".join(lines)).encode()
 
 
-def panels_of(result: Addition) -> list[Panel]:
-    """Before and after as panels of a picture."""
-    after = result.after
-    return [
-        panel_of(result.raw, when="Before"),
-        Panel(
-            title=f"After: {about(after.fit_rms)} mm RMS, worst {about(after.worst)} mm",
-            predicted=result.after_fit.predicted,
-            errors=result.after_fit.errors,
-            good=True,
-        ),
+def fall_of(result: Addition, *, form: str = "png") -> bytes:
+    """The picture of how the error falls, effect by effect."""
+    heading = heading_of(result, result.raw.rms, result.after.fit_rms)
+    return draw_staircase(
+        stairs_of(result), heading=heading, sheet=result.settings.sheet, form=form
+    )
+
+
+def heading_of(result: Addition, before: float, after: float) -> str:
+    """Which effects were added, and from which RMS error [mm] to which."""
+    added = " and ".join(_noun(step.effect) for step in result.steps)
+    done = f"Added: {added}" if added else "Frame fitted, nothing added"
+    return f"{done}. From {about(before)} to {about(after)} mm RMS"
+
+
+def stairs_of(result: Addition, *, raw: Comparison | None = None) -> list[Stair]:
+    """As set, frame fitted, and a stair for each effect; raw: the marks as set, if not all."""
+    as_set = raw or result.raw
+    fits = [("Frame fitted", result.before_fit)]
+    fits += [(f"+ {_noun(step.effect)}", step.fit) for step in result.steps]
+    names = tuple(mark.name for mark in result.raw.marks)
+    fitted = [
+        Stair(Panel(title, fit.predicted, fit.errors, good=True, names=names), fit.rms)
+        for title, fit in fits
     ]
+    return [Stair(replace(panel_of(as_set), title="As set"), as_set.rms), *fitted]
+
+
+def _noun(effect: str) -> str:
+    return "patch" if effect == PATCH else noun_of(effect)
 
 
 def as_json(addition: Addition) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from plumb.cli import demo_loop
-from plumb.cli.add import panels_of, toml_of
+from plumb.cli.add import fall_of, toml_of
 from plumb.cli.add_text import COLUMNS, turn_sentences
 from plumb.cli.calibrate import round_of
 from plumb.cli.calibrate_text import sentence
@@ -24,7 +24,6 @@ from plumb.cure.record import record_of
 from plumb.diagnosis.sentence import verdict_sentence
 from plumb.firmware.client_files import client_files
 from plumb.fit.inputs import Inputs
-from plumb.pictures.sheet import draw
 from plumb.text.errors import refusal
 
 PICTURE = "error-falls"
@@ -92,14 +91,13 @@ def _parser() -> Parser:
 
 
 def _files(demonstration: Demonstration, folder: str, picture: str | None) -> dict[str, bytes]:
-    panels, sheet = panels_of(demonstration.chosen), demonstration.chosen.settings.sheet
-    drawn = draw(panels, sheet=sheet)
+    drawn = fall_of(demonstration.chosen)
     source = f"{MARKS.parent.name}/{MARKS.name}"
     record = record_of(demonstration.chosen, demonstration.inputs)
     machine = toml_of(demonstration.chosen, source=source, record=record)
     files = {
         os.path.join(folder, f"{PICTURE}.png"): drawn,
-        os.path.join(folder, f"{PICTURE}.svg"): draw(panels, sheet=sheet, form="svg"),
+        os.path.join(folder, f"{PICTURE}.svg"): fall_of(demonstration.chosen, form="svg"),
         os.path.join(folder, "machine.toml"): machine,
     }
     client = client_files(

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from plumb.cli.add import toml_of
+from plumb.cli.add import heading_of, stairs_of, toml_of
 from plumb.cli.compare import panel_of
 from plumb.cli.screen import bar, headline, sentences, table
 from plumb.cli.text import millimetres
@@ -14,6 +14,7 @@ from plumb.fit.compare import Comparison
 from plumb.grid.options import Grid
 from plumb.model.plain import nouns_of
 from plumb.pictures.sheet import draw
+from plumb.pictures.staircase import Stair, draw_staircase
 from plumb.vm.garage import random_garage
 from plumb.vm.hiding import RANDOM, described, hide
 from plumb.vm.loop import Loop, closed_loop
@@ -112,11 +113,14 @@ def reveal(loop: Loop) -> str:
 
 
 def _picture(loop: Loop) -> bytes:
-    panels = [panel_of(loop.before)]
-    if loop.after:
-        what = " + ".join(loop.auto.chosen) or "frame"
-        panels.append(panel_of(loop.after, when=f"With {what}, on a new sheet", good=True))
-    return draw(panels, sheet=loop.owner.settings.sheet)
+    sheet = loop.owner.settings.sheet
+    if not loop.after:
+        return draw([panel_of(loop.before)], sheet=sheet)
+    stairs = stairs_of(loop.addition, raw=loop.before)
+    last = replace(panel_of(loop.after, good=True), title="On a new sheet")
+    stairs.append(Stair(last, loop.after.rms))
+    heading = heading_of(loop.addition, loop.before.rms, loop.after.rms)
+    return draw_staircase(stairs, heading=heading, sheet=sheet)
 
 
 def _texts(loop: Loop) -> dict[str, bytes]:

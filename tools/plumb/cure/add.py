@@ -57,6 +57,7 @@ class Step:
 
     effect: str
     quality: Quality
+    fit: Fit
     only_fit: bool  # the fit got better, what it did not see got worse
 
 
@@ -154,15 +155,14 @@ def add(
     before_fit = weighted(priors=priors)
     before = quality_of(before_fit, rows)
     fits = [weighted(effects=names[: i + 1], priors=priors) for i in range(len(names))]
-    steps = _steps(names, before, [quality_of(fitted, rows) for fitted in fits])
+    steps = _steps(names, before, fits, rows)
     after_fit = fits[-1] if fits else before_fit
     if patch:
         patched = best_patch(weighted, effects=names, priors=priors, without=after_fit)
         if patched:
             after_fit, names = patched.fit, (*names, PATCH)
-            steps += _steps(
-                [PATCH], steps[-1].quality if steps else before, [quality_of(after_fit, rows)]
-            )
+            earlier = steps[-1].quality if steps else before
+            steps += _steps([PATCH], earlier, [after_fit], rows)
     after = steps[-1].quality if steps else before
     parameters = tuple(_parameter(each) for each in after_fit.estimates if each.felt)
     return Addition(
@@ -347,15 +347,19 @@ def _impossible(parameter: Parameter) -> str:
     )
 
 
-def _steps(names: Sequence[str], before: Quality, qualities: Sequence[Quality]) -> tuple[Step, ...]:
+def _steps(
+    names: Sequence[str], before: Quality, fits: Sequence[Fit], rows: Observations
+) -> tuple[Step, ...]:
+    qualities = [quality_of(fitted, rows) for fitted in fits]
     earlier = [before, *qualities]
     return tuple(
         Step(
             name,
             now,
+            fitted,
             only_fit=now.fit_rms < then.fit_rms and now.left_out_rms > then.left_out_rms,
         )
-        for name, then, now in zip(names, earlier, qualities, strict=False)
+        for name, then, now, fitted in zip(names, earlier, qualities, fits, strict=False)
     )
 
 

@@ -11,7 +11,7 @@ from plumb.pictures.panel import Spots
 
 Array = np.ndarray
 STEPS = (1, 2, 3, 5)  # a factor or scale bar is such a number times a power of ten
-BESIDE, ABOVE = 0.05, 0.2  # of the sheet's width and height: as far as arrows may leave the sheet
+BESIDE, ABOVE = 0.05, 0.3  # of the sheet's width and height: as far as arrows may leave the sheet
 BELOW = 0.02  # of its height, around a sheet whose arrows stay inside
 HEAD = 30.0  # [mm] around the tip of an arrow, for its head
 LONG = 0.37  # of the sheet's height: the longest arrow of a few marks

@@ -120,16 +120,18 @@ def draw_errors(
         color=colour,
         zorder=4,
     )
-    _draw_spreads(axis, spots, factor, colour)
+    _draw_spreads(axis, spots, factor, 0.9 * small)
 
 
-def _draw_spreads(axis: Axes, spots: Spots, factor: float, colour: str) -> None:
+def _draw_spreads(axis: Axes, spots: Spots, factor: float, line: float) -> None:
     """A ring around the tip of each repeated mark: how far its readings lie from their mean."""
     from matplotlib.patches import Circle
 
     for tip, spread in zip(spots.tips(factor), spots.spreads, strict=True):
         if spread:
-            axis.add_patch(Circle(tuple(tip), factor * spread, fc="none", ec=INK, lw=0.9, zorder=5))
+            axis.add_patch(
+                Circle(tuple(tip), factor * spread, fc="none", ec=INK, lw=line, zorder=5)
+            )
 
 
 def _draw_words(

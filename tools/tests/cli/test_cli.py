@@ -1,6 +1,7 @@
 """The command line: answers, exit codes, and one clear line for whatever cannot be used."""
 
 import json
+import re
 import subprocess
 import sys
 
@@ -141,6 +142,19 @@ def test_add_tells_people_the_fall_the_doubts_and_what_was_written(run, tmp_path
     assert code == 0 and said.startswith("From 7.29 to 0.65 mm RMS")
     assert "impossible" in said and "measure it again" in said and "right end" in said
     assert str(new) in said and picture.read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_picture_of_add_shows_each_step_and_names_what_was_added(run, tmp_path):
+    picture = tmp_path / "fall.svg"
+    assert run("add", *BOARD, *EFFECTS, "--picture", picture)[0] == 0
+    said = re.findall("<!-- (.*) -->", picture.read_text())
+    heading = next(each for each in said if each.endswith(". From 7.3 to 0.65 mm RMS"))
+    assert heading.startswith("Added: ") and "chain sag" in heading
+    heights = [
+        float(each.split()[0]) for each in said if each.endswith(" mm RMS") and each[0].isdigit()
+    ]
+    assert heights == [7.3, 2.7, 1.0, 0.65]
+    assert "As set" in said and "Frame fitted" in said and "+ chain sag" in said
 
 
 def test_add_of_an_effect_that_does_not_pay_is_bad_news(run, tmp_path):

@@ -45,6 +45,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_firmware(parser)
     add_prior(parser)
     add_sigma(parser, usual="tape_sigma_mm of MARKS and repeats, else from the residuals")
-    parser.add_argument("--picture", metavar="FILE", help="draw before and after: .png, .svg, .pdf")
+    parser.add_argument(
+        "--picture", metavar="FILE", help="draw how the error falls: .png, .svg, .pdf"
+    )
     add_force(parser)
     add_json(parser)
