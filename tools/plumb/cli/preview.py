@@ -16,7 +16,7 @@ from plumb.cure.add import priors_with
 from plumb.fit.problem import USUAL_SIGMA
 from plumb.marks.read import Mark, Measurements, read_plan
 from plumb.model.plain import plain_before
-from plumb.pictures.preview import draw_preview, shown
+from plumb.pictures.preview import draw_preview
 from plumb.plan.preview import APART, POWER, Outline, Preview, preview
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
@@ -203,3 +203,8 @@ def _addition_table(outlook: Preview) -> str:
         if addition.option.kind == "many"
     ]
     return table(["what to add, best per minute first", "minutes", "cells told apart"], rows)
+
+
+def shown(value: float) -> str:
+    """Sigmas for people: a decimal below ten, none above."""
+    return f"{value:.1f}" if value < 9.95 else f"{value:.0f}" if value < 99.5 else "99+"

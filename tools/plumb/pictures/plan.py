@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from plumb.pictures.saved import saved
-from plumb.pictures.sheet import EDGE, INK, MARGIN, WIDTH, WOOD
+from plumb.pictures.sheet import EDGE, INK, MARGIN, PLAIN, WIDTH, WOOD, fitting
 from plumb.plan.planned_visits import Visits
 from plumb.settings.machine import GRAVITY
 
@@ -16,7 +16,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 TITLE, LINE, FOOT = 0.5, 0.3, 0.2  # [inch] above the sheet, a line of the legend, below it
-NEW, HEAVY, SWAPPED = "#1f5f8b", "#8e2c22", "#6b3fa0"
+SENTENCE, MOST = 0.22, 40  # [inch] of a sentence, and how many there is room for
+LINES = 8  # sentences below each other, before there are two columns
+NEW, HEAVY, SWAPPED = "#0b62a4", "#c64f00", "#222222"  # apart for every eye
 SHAFT = 90.0  # [mm] of the arrow in the direction of the last move
 
 
@@ -37,7 +39,9 @@ def draw_plan(
     width, height = sheet
     inch = WIDTH / (width * (1 + 2 * MARGIN))
     legend = _legend(visits, old, usual_weight)
-    foot = FOOT + LINE * len(legend)
+    said = place_sentences(visits, usual_weight=usual_weight, sheet=sheet)
+    rows = rows_for(len(said))
+    foot = FOOT + LINE * len(legend) + SENTENCE * rows
     tall = TITLE + inch * height * 1.06 + foot
     figure = Figure(figsize=(WIDTH, tall))
     FigureCanvasAgg(figure)
@@ -47,8 +51,11 @@ def draw_plan(
     axis.set_axis_off()
     _draw_sheet(axis, visits, old, usual_weight, sheet)
     left = MARGIN / (1 + 2 * MARGIN)
-    figure.text(left, 1 - 0.36 / tall, title, fontsize=15, fontweight="bold", color=INK)
-    _draw_legend(figure.add_axes((0, 0, 1, foot / tall)), legend, foot)
+    size = fitting(title, WIDTH * (1 - 2 * left), 15)
+    figure.text(left, 1 - 0.36 / tall, title, fontsize=size, fontweight="bold", color=INK)
+    below = figure.add_axes((0, 0, 1, foot / tall))
+    _draw_legend(below, legend, foot)
+    _draw_sentences(below, said, SENTENCE * rows + FOOT / 2)
     return saved(figure, form)
 
 
@@ -90,11 +97,10 @@ def _draw_visit(
                 zorder=4,
             )
     down = -1 if at[1] > 0 else 1
-    said = ", ".join(map(str, numbers[:4])) + (", ..." if len(numbers) > 4 else "")
     axis.text(
         at[0] + 0.022 * height * (1 if at[0] < 0 else -1),
         at[1] + 0.045 * height * down,
-        said,
+        str(numbers[0]),
         ha="left" if at[0] < 0 else "right",
         va="center",
         fontsize=12,
@@ -102,6 +108,58 @@ def _draw_visit(
         color=colour,
         zorder=6,
     )
+
+
+def place_sentences(
+    visits: Visits, *, usual_weight: float, sheet: tuple[float, float]
+) -> list[str]:
+    """What to do at each numbered place; none for more places than a page has room for."""
+    groups = _by_place(visits)
+    if len(groups) > MOST:
+        return []
+    return [_sentence(visits, numbers, i, usual_weight, sheet) for numbers, i in groups]
+
+
+def _sentence(
+    visits: Visits, numbers: list[int], i: int, usual_weight: float, sheet: tuple[float, float]
+) -> str:
+    x, y = visits.targets[i] + np.array(sheet) / 2
+    said = [f"{x:.0f} mm from the left, {sheet[1] - y:.0f} mm from the top"]
+    extra = (visits.sled_weights[i] - usual_weight) / GRAVITY
+    if extra > 0.01 * usual_weight / GRAVITY:
+        said.append(f"{extra:.1f} kg more")
+    if visits.swapped[i]:
+        said.append("chains swapped")
+    sides = {_direction(visits.approaches[number - 1]) for number in numbers}
+    said += [f"arrive {side}" for side in sorted(filter(None, sides))]
+    said += [f"{len(numbers)} times"] if len(numbers) > 1 else []
+    return f"{numbers[0]}: {', '.join(said)}"
+
+
+def _direction(side: np.ndarray) -> str:
+    """The direction of the last move in a word; none if it is not prescribed."""
+    if not side.any():
+        return ""
+    across, up = side
+    if abs(across) > abs(up):
+        return "rightwards" if across > 0 else "leftwards"
+    return "upwards" if up > 0 else "downwards"
+
+
+def rows_for(count: int) -> int:
+    """Sentences below each other, in a column or in two."""
+    return count if count <= LINES else -(-count // 2)
+
+
+def _draw_sentences(axis: Axes, said: Sequence[str], top: float) -> None:
+    """The sentences in columns, read downwards; top [inch]."""
+    rows = rows_for(len(said))
+    left = WIDTH * MARGIN / (1 + 2 * MARGIN)
+    wide = (WIDTH - 2 * left) / (1 if len(said) <= LINES else 2)
+    size = min((fitting(each, wide - 0.15, 11, letter=PLAIN) for each in said), default=11)
+    for i, sentence in enumerate(said):
+        x, y = left + wide * (i // rows), top - SENTENCE * (i % rows + 0.5)
+        axis.text(x, y, sentence, fontsize=size, color=INK, va="center")
 
 
 def _look(visits: Visits, i: int, usual_weight: float) -> tuple[str, str]:

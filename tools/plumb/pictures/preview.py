@@ -1,91 +1,129 @@
-"""A heat map of a preview: which effect a plan could tell from which."""
+"""A picture of a preview: the planned marks, and the places of the best additions, numbered."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from plumb.model.plain import noun_of
+from plumb.pictures.labels import label_boxes
+from plumb.pictures.panel import Panel, spots_of
 from plumb.pictures.saved import saved
-from plumb.pictures.sheet import EDGE, INK, WIDTH, WOOD
-from plumb.plan.preview import APART, Preview
+from plumb.pictures.scale import view_of
+from plumb.pictures.sheet import EDGE, GOOD, INK, MARGIN, POINT, WIDTH, WOOD, fitting
+from plumb.plan.preview import PlanAddition, Preview
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-TITLE, LEFT, TOP, FOOT, GAP = 0.55, 1.55, 1.35, 0.3, 0.25  # [inch]
-SHEET = 2.0  # [inch] of the sheet with the planned marks, to the right of the cells
-MOST = 6.0  # [sigmas] from which a cell is as green as it gets
+TITLE, LINE, FOOT = 0.5, 0.22, 0.2  # [inch] above the sheet, of a line below it, below the lines
+PLACED, PLACELESS, CROWD = 3, 3, 12  # additions with places and without, and marks of each
+LETTERS = 108  # of a line
+NUMBER, WORDS = 12.0, 10.0  # [point]
 
 
 def draw_preview(preview: Preview, *, sheet: tuple[float, float], form: str = "png") -> bytes:
-    """The cells in sigmas with the planned marks below them."""
+    """The sheet with the plan and its best additions, and below it what they tell."""
     # Loading matplotlib takes longer than most commands: only a drawing waits for it.
     from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.colors import LinearSegmentedColormap
     from matplotlib.figure import Figure
 
-    side = WIDTH - LEFT - 2 * GAP
-    low = SHEET * sheet[1] / sheet[0]
-    tall = TITLE + TOP + side + FOOT + low + GAP
+    inch = WIDTH / (sheet[0] * (1 + 2 * MARGIN))
+    lines = [line for said in sentences_of(preview) for line in wrap(said, LETTERS)]
+    foot = FOOT + LINE * len(lines)
+    low = inch * sheet[1] * 1.06
+    tall = TITLE + low + foot
     figure = Figure(figsize=(WIDTH, tall))
     FigureCanvasAgg(figure)
-    axis = figure.add_axes((LEFT / WIDTH, (FOOT + low + GAP) / tall, side / WIDTH, side / tall))
-    shades = LinearSegmentedColormap.from_list("apart", ["#c0392b", "#f6e3b4", "#1e6b3a"])
-    axis.imshow(preview.matrix, cmap=shades, vmin=0, vmax=MOST, aspect="equal")
-    _write_cells(axis, preview)
+    axis = figure.add_axes((0, foot / tall, 1, low / tall))
+    axis.set_xlim(-sheet[0] * (0.5 + MARGIN), sheet[0] * (0.5 + MARGIN))
+    axis.set_ylim(-0.53 * sheet[1], 0.53 * sheet[1])
+    axis.set_axis_off()
+    _draw_places(axis, preview, sheet, inch)
+    left = MARGIN / (1 + 2 * MARGIN)
     title = f"What these {preview.marks} marks could tell, read to {preview.sigma:g} mm"
-    figure.text(GAP / WIDTH, 1 - 0.4 / tall, title, fontsize=15, fontweight="bold", color=INK)
-    small = figure.add_axes((LEFT / WIDTH, GAP / tall, SHEET / WIDTH, low / tall))
-    _draw_targets(small, preview.targets, sheet)
-    said = (
-        "number: reading errors of what the row's effect, in its usual",
-        "size, draws and neither frame nor column's effect can imitate",
-        "on the diagonal: with the frame alone",
-        f"told apart: {APART:g} or more",
-    )
-    for i, line in enumerate(said):
-        y = (GAP + low - 0.05 - 0.25 * i) / tall
-        figure.text((LEFT + SHEET + GAP) / WIDTH, y, line, fontsize=10.5, color=INK, va="top")
+    size = fitting(title, WIDTH * (1 - 2 * left), 15)
+    figure.text(left, 1 - 0.36 / tall, title, fontsize=size, fontweight="bold", color=INK)
+    for i, line in enumerate(lines):
+        y = (foot - 0.1 - LINE * (i + 0.5)) / tall
+        figure.text(left, y, line, fontsize=WORDS, color=INK, va="center")
     return saved(figure, form)
 
 
-def _write_cells(axis: Axes, preview: Preview) -> None:
-    count = len(preview.effects)
-    axis.set_xticks(range(count), preview.effects, rotation=60, ha="left", fontsize=10)
-    axis.set_yticks(range(count), preview.effects, fontsize=11)
-    axis.xaxis.tick_top()
-    axis.tick_params(length=0)
-    for spine in axis.spines.values():
-        spine.set_visible(False)
-    for i in range(count):
-        for j in range(count):
-            value = float(preview.matrix[i, j])
-            dark = value < 0.18 * MOST or value > 0.8 * MOST
-            axis.text(
-                j,
-                i,
-                shown(value),
-                ha="center",
-                va="center",
-                fontsize=10,
-                fontweight="bold" if i == j else "normal",
-                color="white" if dark else INK,
-            )
+def sentences_of(preview: Preview) -> list[str]:
+    """What the plan finds, what it misses, and a sentence for each numbered addition."""
+    seen = [outline for outline in preview.outlines if _is_seen(outline.smallest)]
+    missed = [outline for outline in preview.outlines if not _is_seen(outline.smallest)]
+    said = [
+        f"{what}: {', '.join(noun_of(outline.effect) for outline in outlines)}."
+        for what, outlines in (
+            ("Found in their usual size", seen),
+            ("Not found in their usual size", missed),
+        )
+        if outlines
+    ]
+    pairs = f"{preview.pairs} of {preview.matrix.size}"
+    pairs = f"{preview.pairs} of {preview.matrix.size}"
+    said.append(
+        f"Of all causes against each other, {pairs} are told apart. More would be with (numbers show where):"
+    )
+    said += [f"{i}: {_promise(each)}." for i, each in enumerate(with_places(preview), 1)]
+    without = [each for each in preview.additions if not len(each.option.visits)][:PLACELESS]
+    return said + [f"Without a mark: {_promise(each)}." for each in without]
 
 
-def shown(value: float) -> str:
-    """Sigmas for people: a decimal below ten, none above."""
-    return f"{value:.1f}" if value < 9.95 else f"{value:.0f}" if value < 99.5 else "99+"
+def with_places(preview: Preview) -> list[PlanAddition]:
+    """The best additions whose marks are few enough to be shown: they get numbers."""
+    placed = [each for each in preview.additions if 0 < len(each.option.visits) <= CROWD]
+    return placed[:PLACED]
 
 
-def _draw_targets(axis: Axes, targets: np.ndarray, sheet: tuple[float, float]) -> None:
+def numbered_places(preview: Preview) -> list[tuple[str, np.ndarray]]:
+    """The numbers of the additions that go to a place, and the place [mm]."""
+    numbers: dict[tuple[float, ...], list[int]] = {}
+    for number, addition in enumerate(with_places(preview), 1):
+        for target in np.unique(np.round(addition.option.visits.targets), axis=0):
+            numbers.setdefault(tuple(target.tolist()), []).append(number)
+    return [(", ".join(map(str, each)), np.array(place)) for place, each in numbers.items()]
+
+
+def _promise(addition: PlanAddition) -> str:
+    option = addition.option
+    return f"{option.title}, about {option.minutes:.0f} minutes: {addition.pairs} told apart"
+
+
+def _is_seen(smallest: float | None) -> bool:
+    return smallest is not None and smallest <= 1
+
+
+def _draw_places(axis: Axes, preview: Preview, sheet: tuple[float, float], inch: float) -> None:
     from matplotlib.patches import Rectangle
 
     width, height = sheet
-    axis.set_xlim(-0.51 * width, 0.51 * width)
-    axis.set_ylim(-0.52 * height, 0.52 * height)
-    axis.set_axis_off()
-    axis.add_patch(Rectangle((-width / 2, -height / 2), width, height, fc=WOOD, ec=EDGE, lw=1.5))
-    if len(targets):
-        axis.plot(*targets.T, "o", color="white", markeredgecolor=INK, markersize=4)
+    axis.add_patch(Rectangle((-width / 2, -height / 2), width, height, fc=WOOD, ec=EDGE, lw=2))
+    if len(preview.targets):
+        axis.plot(*preview.targets.T, "o", color="white", markeredgecolor=INK, markersize=7)
+    numbered = numbered_places(preview)
+    if numbered:
+        _draw_numbers(axis, numbered, sheet, inch)
+
+
+def _draw_numbers(
+    axis: Axes, numbered: Sequence[tuple[str, np.ndarray]], sheet: tuple[float, float], inch: float
+) -> None:
+    places = np.array([place for _, place in numbered])
+    axis.plot(*places.T, "D", color=GOOD, markersize=7, markeredgecolor="white", zorder=4)
+    # Two places of an addition next to each other share its number.
+    spots = spots_of(Panel("", places, 0 * places, names=tuple(said for said, _ in numbered)))
+    view = view_of([spots], sheet, 1.0)
+    boxes = label_boxes(
+        spots, spots.names, factor=1.0, view=view, size=NUMBER * POINT / inch, gap=9 * POINT / inch
+    )
+    for (left, bottom, right, top), said in zip(boxes, spots.names, strict=True):
+        at = ((left + right) / 2, (bottom + top) / 2)
+        axis.text(
+            *at, said, ha="center", va="center_baseline", fontsize=NUMBER, weight="bold", color=GOOD
+        )

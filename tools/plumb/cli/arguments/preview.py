@@ -42,6 +42,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_prior(parser)
     add_controller(parser)
-    parser.add_argument("--picture", metavar="FILE", help="draw the table: .png, .svg or .pdf")
+    parser.add_argument(
+        "--picture", metavar="FILE", help="draw the plan and what to add: .png, .svg or .pdf"
+    )
     add_force(parser)
     add_json(parser)
