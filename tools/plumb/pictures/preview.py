@@ -67,9 +67,10 @@ def sentences_of(preview: Preview) -> list[str]:
     ]
     pairs = f"{preview.pairs} of {preview.matrix.size}"
     pairs = f"{preview.pairs} of {preview.matrix.size}"
-    said.append(
-        f"Of all causes against each other, {pairs} are told apart. More would be with (numbers show where):"
-    )
+    said += [
+        f"Of all causes against each other, {pairs} are told apart.",
+        "More would be with what follows; numbers show where on the sheet:",
+    ]
     said += [f"{i}: {_promise(each)}." for i, each in enumerate(with_places(preview), 1)]
     without = [each for each in preview.additions if not len(each.option.visits)][:PLACELESS]
     return said + [f"Without a mark: {_promise(each)}." for each in without]

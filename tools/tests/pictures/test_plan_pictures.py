@@ -84,7 +84,8 @@ def test_a_preview_numbers_the_places_of_additions_and_says_what_each_brings():
     assert sentences_of(preview) == [
         "Found in their usual size: chain sag.",
         "Not found in their usual size: chains too long or too short, a leaning frame.",
-        "Of all causes against each other, 4 of 9 are told apart. More would be with (numbers show where):",
+        "Of all causes against each other, 4 of 9 are told apart.",
+        "More would be with what follows; numbers show where on the sheet:",
         "1: marks from opposite sides, about 9 minutes: 7 told apart.",
         "2: 4 marks with 5 kg more, about 9 minutes: 6 told apart.",
         "Without a mark: a level, about 9 minutes: 5 told apart.",
