@@ -66,7 +66,6 @@ def sentences_of(preview: Preview) -> list[str]:
         if outlines
     ]
     pairs = f"{preview.pairs} of {preview.matrix.size}"
-    pairs = f"{preview.pairs} of {preview.matrix.size}"
     said += [
         f"Of all causes against each other, {pairs} are told apart.",
         "More would be with what follows; numbers show where on the sheet:",
