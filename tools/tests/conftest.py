@@ -1,9 +1,13 @@
 """What tests of the command line share: running one command, and asking it for JSON."""
 
 import json
+from importlib import resources
 
 import pytest
+from jsonschema import Draft202012Validator
 from plumb.cli.main import main
+
+SCHEMA = json.loads(resources.files("plumb.cli").joinpath("answers.schema.json").read_text("utf-8"))
 
 
 @pytest.fixture
@@ -20,12 +24,15 @@ def run(capsys):
 
 @pytest.fixture
 def ask(run):
-    """Runs one command with --json; gives exit code and the object."""
+    """Runs one command with --json; gives exit code and the object, which is as the schema says."""
 
     def command(*arguments):
         code, said, complaint = run(*arguments, "--json")
         assert complaint == ""
-        return code, json.loads(said, parse_constant=pytest.fail)
+        answer = json.loads(said, parse_constant=pytest.fail)
+        command_schema = {**SCHEMA, "anyOf": [{"$ref": f"#/$defs/{arguments[0]}"}]}
+        Draft202012Validator(command_schema).validate(answer)
+        return code, answer
 
     return command
 

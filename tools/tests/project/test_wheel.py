@@ -81,18 +81,28 @@ COMMANDS = {
     "forward": ("groundcontrol.ini", "--lengths", "chains.csv"),
     "settings": ("machine.toml",),
     "reach": ("groundcontrol.ini",),
+    "vm": ("--seconds", "1"),
+}
+# What needs a file or a board that an empty folder lacks, and what its refusal names.
+LACKING = {
+    "telemetry": ("log.txt",),
+    "send": ("marks.nc", "--port", "none"),
+    "read": ("--port", "none"),
+    "flash": ("none.hex", "--port", "none"),
 }
 
 
 def test_every_command_is_tried(plumb):
     shown = plumb("--help").stdout
     names = re.findall(r"^    ([a-z]+)\b", shown.partition("COMMAND\n")[2], re.MULTILINE)
-    assert set(names) == {*COMMANDS, "telemetry"}, shown
+    assert set(names) == {*COMMANDS, *LACKING}, shown
 
 
-def test_a_command_without_its_file_says_so(plumb):
-    done = plumb("telemetry", "log.txt")
-    assert done.returncode == 2 and done.stderr.startswith("plumb: log.txt: ")
+@pytest.mark.parametrize("command", LACKING)
+def test_a_command_without_its_file_or_board_says_so(plumb, command):
+    done = plumb(command, *LACKING[command])
+    assert done.returncode == 2, done.stderr
+    assert re.match(r"plumb: (log\.txt|marks\.nc|none|none\.hex): ", done.stderr), done.stderr
 
 
 @pytest.mark.parametrize("command", COMMANDS)
