@@ -15,6 +15,7 @@ from plumb.grid.options import Grid
 from plumb.model.plain import nouns_of
 from plumb.pictures.sheet import draw
 from plumb.pictures.staircase import Stair, draw_staircase
+from plumb.text.ours import DEMO_MARKS
 from plumb.vm.garage import random_garage
 from plumb.vm.hiding import RANDOM, described, hide
 from plumb.vm.loop import Loop, closed_loop
@@ -123,9 +124,14 @@ def _picture(loop: Loop) -> bytes:
     return draw_staircase(stairs, heading=heading, sheet=sheet)
 
 
+def _signed(form: str) -> bytes:
+    """A form that nobody's hand filled in: the next demo may replace it."""
+    return DEMO_MARKS + form.encode()
+
+
 def _texts(loop: Loop) -> dict[str, bytes]:
-    files = {"marks.toml": loop.forms[0].encode()}
+    files = {"marks.toml": _signed(loop.forms[0])}
     if loop.auto.addition:
-        files["marks-2.toml"] = loop.forms[-1].encode()
+        files["marks-2.toml"] = _signed(loop.forms[-1])
         files["machine.toml"] = toml_of(loop.addition, source="marks.toml")
     return files

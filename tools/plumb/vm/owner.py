@@ -19,6 +19,7 @@ from plumb.grid.form import marks_list
 from plumb.grid.gcode import program
 from plumb.grid.options import Grid, PlainMachine
 from plumb.line.sender import Sender
+from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.plan.ahead import Check
 from plumb.plan.plan_marks import marks_file
 from plumb.plan.planned_visits import Visits
@@ -28,7 +29,12 @@ from plumb.vm.in_process import InProcessPort
 from plumb.vm.tape import Tape
 from plumb.vm.visits_program import visit_lines
 
-FRICTION_NAME = "sled_friction.drag"
+# The number by which the lab knows friction: of the effect that drags a sled.
+FRICTION_NAME = next(
+    f"{effect.name}.{effect.parameters[0].name}"
+    for effect in LAB_EFFECTS
+    if effect.hidden_as == "drag"
+)
 
 
 class VirtualOwner:

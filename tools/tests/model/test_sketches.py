@@ -73,7 +73,8 @@ def test_a_twin_is_ranked_like_the_effect_itself(stretched):
     twin, real = ranking["twin"], ranking["chain_stretch"]
     assert twin["where"] == "sketch" and real["where"] == "firmware"
     assert twin["gain"] == pytest.approx(real["gain"], rel=1e-3) and real["gain"] > 100
-    assert {"twin", "chain_stretch"} <= set(said["suspects"])
+    # Both explain the marks alike; that chains stretch is known of every machine.
+    assert said["suspects"] == ["chain_stretch"]
 
 
 def test_a_twin_is_fitted_like_the_effect_itself(stretched):
@@ -90,7 +91,6 @@ def test_a_twin_is_fitted_like_the_effect_itself(stretched):
 def test_a_sketch_is_marked_and_never_written_as_a_setting(stretched):
     text = run(stretched, "add", *BOARD, "--effect", "twin").stdout
     assert "a sketch, which no firmware has" in text
-    assert "twin (sketch, not in the firmware)" in run(stretched, "diagnose", *BOARD).stdout
     refused = run(stretched, "add", *BOARD, "--effect", "twin", "-o", "new.toml")
     assert refused.returncode == 2 and "twin is a sketch" in refused.stderr
     assert not (stretched / "new.toml").exists()

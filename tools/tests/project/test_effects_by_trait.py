@@ -14,6 +14,11 @@ STORIES = {
     "pages/real_holes.py",
     "pages/real_sets.py",
     "bench/page.py",
+    # What published settings leave out, and what a usual machine has.
+    "bench/causes.py",
+    "bench/hiding.py",
+    # The example of an option, whose help must not wait for the catalogue.
+    "cli/arguments/checked.py",
     "cure/demo.py",
     "cli/demo.py",
 }
