@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "machines.h"
+#include "reference/catenary.h"
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;

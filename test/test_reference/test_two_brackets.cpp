@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "machines.h"
+#include "reference/newton.h"
 #include "reference/two_brackets.h"
 
 using Eigen::Vector2d;
