@@ -1,5 +1,6 @@
 """How a command ends when it is interrupted, nobody reads it, or the disk is full."""
 
+import functools
 import os
 import signal
 import subprocess
@@ -12,6 +13,11 @@ from plumb.cure.demo import MARKS, SETTINGS
 
 PLUMB = [sys.executable, "-m", "plumb.cli.main"]
 COMPARE = [*PLUMB, "compare", str(SETTINGS), str(MARKS)]
+
+# A lane of tools/test ignores Ctrl-C, and what it starts would too.
+INTERRUPTIBLE = functools.partial(
+    subprocess.Popen, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)
+)
 
 
 def test_version_is_that_of_the_package(capsys, run):
@@ -52,7 +58,7 @@ def test_ctrl_c_ends_quietly(tmp_path):
     os.mkfifo(pipe)
     command = [*PLUMB, "telemetry", str(pipe)]
     with (
-        subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as started,
+        INTERRUPTIBLE(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as started,
         open(pipe, "wb"),  # opens when the command reads
     ):
         started.send_signal(signal.SIGINT)

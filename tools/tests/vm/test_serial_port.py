@@ -1,6 +1,8 @@
 """The virtual machine behind a serial port, driven by the commands that drive a board."""
 
+import functools
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -15,6 +17,11 @@ PLUMB = [sys.executable, "-m", "plumb.cli.main"]
 SPEED = 10  # times real time
 START = 30  # [s] in which a program on a busy computer must have begun
 
+# A lane of tools/test ignores Ctrl-C, and what it starts would too.
+INTERRUPTIBLE = functools.partial(
+    subprocess.Popen, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)
+)
+
 
 def plumb(*words: str, folder: Path, code: int = 0) -> str:
     """What a command prints; its exit code must be this."""
@@ -28,7 +35,7 @@ class Served:
 
     def __init__(self, folder: Path, *words: str):
         command = [*PLUMB, "vm", "--link", "maslow", "--speed", str(SPEED), *words]
-        self.program = subprocess.Popen(
+        self.program = INTERRUPTIBLE(
             command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
         )
         end = time.monotonic() + START
@@ -96,7 +103,7 @@ def test_ctrl_c_stops_the_machine_and_it_knows_where_it_is(served, tmp_path):
     served()
     (tmp_path / "job.nc").write_text("G21\nG1 X900 F300\n")
     command = [*PLUMB, "send", "--port", "maslow", "job.nc"]
-    sending = subprocess.Popen(
+    sending = INTERRUPTIBLE(
         command, cwd=tmp_path, stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True
     )
     time.sleep(4)
