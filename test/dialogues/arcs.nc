@@ -28,13 +28,17 @@
 <* ok
 ~~ wait 0.5
 ~~ sled X0 Y10 within 0.06
-; An arc's line needs no place, and none of I and J: a full circle.
+; An arc's line needs no place, and none of I and J: a full circle. The sled is seen on it: below
+; the circle's start, then to the right of it.
 -> G3 X0 Y0 J-5
 <- ok
--> J5
+-> J-5
 <- ok
-~~ wait 1
+~~ sled X3 Y-9 within 3
 ~~ errors [PE:0.00,0.00,127] within 0.6
+-> I5
+<- ok
+~~ sled X9 Y3 within 3
 -> G4 P0
 <* ok
 ~~ wait 0.5
