@@ -14,12 +14,12 @@ struct CarriersSearch {
   uint8_t wanted;  ///< how many corrections come before it
   Carriers found;
 
-  template <class Own>
+  template <class ThisEffect>
   void effect(int first_setting) {
-    for (uint8_t i = 0; i < Own::kParamCount; ++i) {
-      const uint8_t number = uint8_t(Own::published(i).number);
+    for (uint8_t i = 0; i < ThisEffect::kParamCount; ++i) {
+      const uint8_t number = uint8_t(ThisEffect::published(i).number);
       // A client's number for the effect's own place is the same carrier.
-      if (number == 0 || number == Own::kClientNumber) continue;
+      if (number == 0 || number == ThisEffect::kClientNumber) continue;
       if (wanted-- == 0) found = {number, uint8_t(first_setting + i)};
     }
   }

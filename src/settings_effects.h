@@ -9,31 +9,33 @@ struct EffectRow {
   uint8_t wanted;  ///< which parameter, counted over all effects
   settings::Entry found;
 
-  template <class Own>
+  template <class ThisEffect>
   void effect(int first_setting) {
-    parameter<Own, 0>(uint8_t(first_setting), Exists<(Own::kParamCount > 0)>());
-    wanted = uint8_t(wanted - Own::kParamCount);
+    parameter<ThisEffect, 0>(uint8_t(first_setting), Exists<(ThisEffect::kParamCount > 0)>());
+    wanted = uint8_t(wanted - ThisEffect::kParamCount);
   }
 
  private:
   template <bool>
   struct Exists {};
 
-  template <class Own, uint8_t kIndex>
+  template <class ThisEffect, uint8_t kIndex>
   void parameter(uint8_t first_setting, Exists<true>) {
-    if (wanted == kIndex) fill<Own, kIndex>(first_setting);
-    parameter<Own, kIndex + 1>(first_setting, Exists<(kIndex + 1 < Own::kParamCount)>());
+    if (wanted == kIndex) fill<ThisEffect, kIndex>(first_setting);
+    parameter<ThisEffect, kIndex + 1>(first_setting,
+                                      Exists<(kIndex + 1 < ThisEffect::kParamCount)>());
   }
 
-  template <class Own, uint8_t kIndex>
+  template <class ThisEffect, uint8_t kIndex>
   void parameter(uint8_t, Exists<false>) {}
 
   /// Flattened, so that of a parameter's words and numbers only the two limits reach the board.
   /// They are the plausible range and as much again on both sides: a fit may stray, a slip of the
   /// decimal point should not pass.
-  template <class Own, uint8_t kIndex>
+  template <class ThisEffect, uint8_t kIndex>
   __attribute__((flatten)) void fill(uint8_t first_setting) {
-    const float low = float(Own::param(kIndex).low), high = float(Own::param(kIndex).high);
+    const float low = float(ThisEffect::param(kIndex).low),
+                high = float(ThisEffect::param(kIndex).high);
     found = {uint8_t(first_setting + kIndex),
              settings::Kind::kReal,
              settings::Access::kListed,

@@ -37,9 +37,9 @@ void Greeting::sayStart() {
 void Greeting::saySource(const settings::Started& started) {
   using settings::Source;
   switch (started.source) {
-    case Source::kOwn:
+    case Source::kStored:
       return;
-    case Source::kOwnInPart:
+    case Source::kStoredInPart:
       return out_.line(FLASH("error: Some settings were out of today's limits and have defaults."));
     case Source::kImported:
       return out_.line(FLASH("Settings of the published firmware were taken over."));

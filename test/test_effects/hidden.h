@@ -58,16 +58,16 @@ struct Collect {
   std::vector<Hidden> all;
   int first = 0;  // of the effect's parameters among all
 
-  template <class Own>
+  template <class ThisEffect>
   void effect(int) {
-    const bool every_machine_has_it = Own::usual(frameUnder({}), 0) > 0;
-    for (uint8_t i = 0; i < Own::kExampleCount; ++i) {
-      const kinematics::Example example = Own::example(i);
-      Hidden hidden = {Own::info().name, usualChain(), usualChain(), 1e-3 * Own::kChainMicrometres,
-                       1e-3 * Own::kBitMicrometres};
+    const bool every_machine_has_it = ThisEffect::usual(frameUnder({}), 0) > 0;
+    for (uint8_t i = 0; i < ThisEffect::kExampleCount; ++i) {
+      const kinematics::Example example = ThisEffect::example(i);
+      Hidden hidden = {ThisEffect::info().name, usualChain(), usualChain(),
+                       1e-3 * ThisEffect::kChainMicrometres, 1e-3 * ThisEffect::kBitMicrometres};
       if (example.label) hidden.name += std::string("_") + example.label;
       std::replace(hidden.name.begin(), hidden.name.end(), ' ', '_');
-      for (int k = 0; k < Own::kParamCount; ++k) {
+      for (int k = 0; k < ThisEffect::kParamCount; ++k) {
         if (every_machine_has_it)
           hidden.unsuspected.value[first + k] = 0;
         else
@@ -75,7 +75,7 @@ struct Collect {
       }
       all.push_back(hidden);
     }
-    first += Own::kParamCount;
+    first += ThisEffect::kParamCount;
   }
 };
 

@@ -26,11 +26,12 @@ struct Collect {
   std::vector<AnyParam> all;
   std::vector<EffectInfo> effects;
 
-  template <class Own>
+  template <class ThisEffect>
   void effect(int first_setting) {
-    effects.push_back(Own::info());
-    for (uint8_t i = 0; i < Own::kParamCount; ++i)
-      all.push_back({Own::info().name, int(all.size()), first_setting + i, Own::param(i)});
+    effects.push_back(ThisEffect::info());
+    for (uint8_t i = 0; i < ThisEffect::kParamCount; ++i)
+      all.push_back(
+          {ThisEffect::info().name, int(all.size()), first_setting + i, ThisEffect::param(i)});
   }
 };
 
@@ -150,28 +151,30 @@ struct CountSaid {
 struct Missing {
   std::vector<std::string> lines;
 
-  template <class Own>
+  template <class ThisEffect>
   void effect(int) {
-    const std::string header = std::string("effects/") + Own::info().name + ".h: ";
-    if (!Own::check().title)
+    const std::string header = std::string("effects/") + ThisEffect::info().name + ".h: ";
+    if (!ThisEffect::check().title)
       lines.push_back(header +
                       "say how an owner measures it: static CheckInfo check(), with an "
                       "empty title if nobody can");
     bool checked = false;
-    for (uint8_t i = 0; i < Own::kParamCount; ++i) checked |= Own::param(i).sigma > 0;
-    if (Own::check().title && checked != (Own::check().title[0] != 0))
+    for (uint8_t i = 0; i < ThisEffect::kParamCount; ++i) checked |= ThisEffect::param(i).sigma > 0;
+    if (ThisEffect::check().title && checked != (ThisEffect::check().title[0] != 0))
       lines.push_back(header + "a check() needs the sigma of a param(), and a sigma a check()");
-    if (Own::kEmpirical == 1) return;
-    for (uint8_t i = 0; i < Own::kExampleCount; ++i)
-      if (!Own::example(i).label)
+    if (ThisEffect::kEmpirical == 1) return;
+    for (uint8_t i = 0; i < ThisEffect::kExampleCount; ++i)
+      if (!ThisEffect::example(i).label)
         lines.push_back(header +
                         "give the bench a machine that suffers from it: static Example "
                         "example(uint8_t i), kExampleCount of them");
-    if (Own::kExampleCount == 0) lines.push_back(header + "the bench needs at least one example()");
+    if (ThisEffect::kExampleCount == 0)
+      lines.push_back(header + "the bench needs at least one example()");
     std::vector<double> typical;
-    for (uint8_t i = 0; i < Own::kParamCount; ++i) typical.push_back(Own::param(i).typical);
+    for (uint8_t i = 0; i < ThisEffect::kParamCount; ++i)
+      typical.push_back(ThisEffect::param(i).typical);
     CountSaid said;
-    Own::setJudge(Frame<double>(), typical.data(), said);
+    ThisEffect::setJudge(Frame<double>(), typical.data(), said);
     if (!said.sets)
       lines.push_back(header +
                       "say it in the judge's numbers: setJudge(); what he lacks is added "

@@ -67,7 +67,7 @@ TEST(Memory, StoresEverythingOnceTheFirstSettingIsSentToANewBoard) {
     board.memory.set(2, 2978.4f);
     settle(board.memory);
   }
-  EXPECT_EQ(Source::kOwn, Board(eeprom).started.source);
+  EXPECT_EQ(Source::kStored, Board(eeprom).started.source);
 }
 
 TEST(Memory, RefusesWithoutWriting) {

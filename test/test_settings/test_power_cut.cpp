@@ -52,7 +52,7 @@ TEST(PowerCut, LeavesTheOldSettingsOrTheNewWhereverItStrikes) {
           seen_old |= values == old_values;
           seen_new |= values == new_values;
           ASSERT_TRUE(values == old_values || values == new_values) << change.name << " " << writes;
-          ASSERT_EQ(Source::kOwn, board.started.source);
+          ASSERT_EQ(Source::kStored, board.started.source);
           ASSERT_EQ(Known::kAtRest, board.started.known);
           ASSERT_TRUE(same(positionOf(1), board.started.position));
         },
@@ -71,7 +71,7 @@ TEST(PowerCut, InTheFirstSaveLeavesDefaultsOrTheSettings) {
       Eeprom(), act,
       [&](Board& board, int writes) {
         const bool stored = board.values.at(kMotorGap) == 3000;
-        ASSERT_EQ(stored ? Source::kOwn : Source::kDefaults, board.started.source) << writes;
+        ASSERT_EQ(stored ? Source::kStored : Source::kDefaults, board.started.source) << writes;
         if (stored && first_new < 0) first_new = writes;
         ASSERT_TRUE(stored || first_new < 0 || writes <= first_new) << writes;
         board.values.setRow(kMotorGap, 2978.4f);
@@ -196,7 +196,7 @@ TEST(Copies, AValueBeyondTodaysLimitsBecomesItsDefaultAndIsTold) {
     settle(board.memory);
   }
   Board after(eeprom);
-  EXPECT_EQ(Source::kOwnInPart, after.started.source);
+  EXPECT_EQ(Source::kStoredInPart, after.started.source);
   EXPECT_EQ(2978.4f, after.values.at(kMotorGap));
   EXPECT_EQ(400, after.values.at(kMotorOffset));
 }
@@ -225,7 +225,7 @@ TEST(Copies, ANewSettingMovesNoOther) {
     settle(board.memory);
   }
   Board after(eeprom);
-  EXPECT_EQ(Source::kOwn, after.started.source);
+  EXPECT_EQ(Source::kStored, after.started.source);
   EXPECT_EQ(200, after.values.at(kLoopRate));
   EXPECT_EQ(120, after.values.at(kSledWeight));
   EXPECT_EQ(1000, after.values.at(kChainSpeed));
@@ -255,7 +255,7 @@ TEST(Copies, OfTheTimeBeforePlacesAreRead) {
     settle(board.memory);
   }
   Board after(eeprom);
-  EXPECT_EQ(Source::kOwn, after.started.source);
+  EXPECT_EQ(Source::kStored, after.started.source);
   EXPECT_EQ(3100, after.values.at(kMotorGap));
   EXPECT_EQ(0.4f, after.values.at(indexOf(after.table, 227)));
   EXPECT_EQ(0, after.values.at(kFirstPlaceSetting));

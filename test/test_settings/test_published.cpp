@@ -41,7 +41,7 @@ TEST(Published, BothLayoutsOfVersionFiveAreTakenOverWithTheirCounts) {
       settle(board.memory);
     }
     Board after(eeprom);
-    EXPECT_EQ(Source::kOwn, after.started.source);
+    EXPECT_EQ(Source::kStored, after.started.source);
     expectImported(after, z_limits);
     expectCounts(after);
   }

@@ -23,10 +23,11 @@ struct TypicalSizes {
   const bench::Case& wanted;
   float* next;
 
-  template <class Own>
+  template <class ThisEffect>
   void effect(int first_setting) {
-    for (uint8_t i = 0; i < Own::kParamCount; ++i)
-      *next++ = bench::isPresent(wanted, first_setting) ? float(Own::param(i).typical) : 0.0f;
+    for (uint8_t i = 0; i < ThisEffect::kParamCount; ++i)
+      *next++ =
+          bench::isPresent(wanted, first_setting) ? float(ThisEffect::param(i).typical) : 0.0f;
   }
 };
 

@@ -36,9 +36,10 @@ template <class Real>
 struct TypicalSizes {
   Real* next;
 
-  template <class Own>
+  template <class ThisEffect>
   void effect(int) {
-    for (uint8_t i = 0; i < Own::kParamCount; ++i) *next++ = Real(Own::param(i).typical);
+    for (uint8_t i = 0; i < ThisEffect::kParamCount; ++i)
+      *next++ = Real(ThisEffect::param(i).typical);
   }
 };
 

@@ -41,11 +41,11 @@ Machine<float> machine;
 struct TypicalSizes {
   float* next;
 
-  template <class Own>
+  template <class ThisEffect>
   void effect(int first_setting) {
     const bool present = first_setting >= 160 && first_setting <= 180;
-    for (uint8_t i = 0; i < Own::kParamCount; ++i)
-      *next++ = present ? float(Own::param(i).typical) : 0.0f;
+    for (uint8_t i = 0; i < ThisEffect::kParamCount; ++i)
+      *next++ = present ? float(ThisEffect::param(i).typical) : 0.0f;
   }
 };
 

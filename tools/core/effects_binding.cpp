@@ -40,11 +40,12 @@ struct Usual {
   const Frame<double>& frame;
   nb::dict sizes;
 
-  template <class Own>
+  template <class ThisEffect>
   void effect(int) {
-    for (uint8_t i = 0; i < Own::kParamCount; ++i) {
-      const double size = Own::usual(frame, i);
-      const std::string name = std::string(Own::info().name) + "." + Own::param(i).name;
+    for (uint8_t i = 0; i < ThisEffect::kParamCount; ++i) {
+      const double size = ThisEffect::usual(frame, i);
+      const std::string name =
+          std::string(ThisEffect::info().name) + "." + ThisEffect::param(i).name;
       if (size != 0) sizes[name.c_str()] = size;
     }
   }
@@ -69,14 +70,15 @@ nb::object checkOf(const CheckInfo& info) {
   return check;
 }
 
-template <class Own>
+template <class ThisEffect>
 nb::list examplesOf() {
   nb::list examples;
-  for (uint8_t i = 0; i < Own::kExampleCount; ++i) {
-    const Example shown = Own::example(i);
+  for (uint8_t i = 0; i < ThisEffect::kExampleCount; ++i) {
+    const Example shown = ThisEffect::example(i);
     if (!shown.label) continue;
     nb::dict sizes, entry;
-    for (uint8_t k = 0; k < Own::kParamCount; ++k) sizes[Own::param(k).name] = shown.size[k];
+    for (uint8_t k = 0; k < ThisEffect::kParamCount; ++k)
+      sizes[ThisEffect::param(k).name] = shown.size[k];
     entry["label"] = shown.label;
     entry["sizes"] = sizes;
     entry["most"] = shown.most;
@@ -98,10 +100,10 @@ nb::object plainOf(const PlainInfo& info) {
   return words;
 }
 
-template <class Own>
+template <class ThisEffect>
 nb::dict parameterOf(int first_setting, uint8_t i) {
-  const ParamInfo param = Own::param(i);
-  const PublishedInfo published = Own::published(i);
+  const ParamInfo param = ThisEffect::param(i);
+  const PublishedInfo published = ThisEffect::published(i);
   nb::dict entry;
   entry["name"] = param.name;
   entry["setting"] = first_setting + i;
@@ -111,7 +113,7 @@ nb::dict parameterOf(int first_setting, uint8_t i) {
   entry["typical"] = param.typical;
   entry["summary"] = param.summary;
   entry["sigma"] = param.sigma;
-  entry["plain"] = plainOf(Own::plain(i));
+  entry["plain"] = plainOf(ThisEffect::plain(i));
   entry["published"] = nb::none();
   if (published.number) entry["published"] = nb::make_tuple(published.number, published.factor);
   return entry;
@@ -120,26 +122,26 @@ nb::dict parameterOf(int first_setting, uint8_t i) {
 struct Lister {
   nb::list effects;
 
-  template <class Own>
+  template <class ThisEffect>
   void effect(int first_setting) {
-    const EffectInfo info = Own::info();
+    const EffectInfo info = ThisEffect::info();
     nb::list parameters;
-    for (uint8_t i = 0; i < Own::kParamCount; ++i)
-      parameters.append(parameterOf<Own>(first_setting, i));
+    for (uint8_t i = 0; i < ThisEffect::kParamCount; ++i)
+      parameters.append(parameterOf<ThisEffect>(first_setting, i));
     nb::dict entry;
     entry["name"] = info.name;
-    entry["noun"] = *Own::noun() ? Own::noun() : info.name;
+    entry["noun"] = *ThisEffect::noun() ? ThisEffect::noun() : info.name;
     entry["where"] = "firmware";
     entry["summary"] = info.summary;
     entry["pattern"] = info.pattern;
     entry["look_alikes"] = info.look_alikes;
     entry["remedy"] = info.remedy;
-    entry["empirical"] = bool(Own::kEmpirical);
-    entry["belongs_to"] = kOwners[Own::kBelongsTo];
-    entry["in_frame"] = bool(Own::kInFrame);
-    entry["weight_power"] = int(Own::kWeightPower);
-    entry["check"] = checkOf(Own::check());
-    entry["examples"] = examplesOf<Own>();
+    entry["empirical"] = bool(ThisEffect::kEmpirical);
+    entry["belongs_to"] = kOwners[ThisEffect::kBelongsTo];
+    entry["in_frame"] = bool(ThisEffect::kInFrame);
+    entry["weight_power"] = int(ThisEffect::kWeightPower);
+    entry["check"] = checkOf(ThisEffect::check());
+    entry["examples"] = examplesOf<ThisEffect>();
     entry["parameters"] = parameters;
     effects.append(entry);
   }

@@ -31,12 +31,12 @@ const char* const kAccesses[] = {"listed", "hidden", "kept"};
 struct EffectTexts {
   std::map<int, nb::dict> rows;
 
-  template <class Own>
+  template <class ThisEffect>
   void effect(int first_setting) {
-    for (uint8_t i = 0; i < Own::kParamCount; ++i) {
-      const kinematics::ParamInfo param = Own::param(i);
+    for (uint8_t i = 0; i < ThisEffect::kParamCount; ++i) {
+      const kinematics::ParamInfo param = ThisEffect::param(i);
       nb::dict row;
-      row["name"] = std::string(Own::info().name) + "." + param.name;
+      row["name"] = std::string(ThisEffect::info().name) + "." + param.name;
       row["unit"] = param.unit;
       row["key"] = "";
       row["sentence"] = param.summary;

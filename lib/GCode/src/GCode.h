@@ -1,4 +1,4 @@
-// Front door: from characters on the wire to pieces of G-code with their numbers. Knows no motion.
+// Front door: from characters on the wire to pieces of G-code with their numbers. It moves nothing.
 #pragma once
 
 #include "arc_centre.h"

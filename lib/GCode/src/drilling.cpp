@@ -1,4 +1,4 @@
-// A hole is: up to R if z is below it, across, down to R, down at the feed, and up again.
+// A hole, step by step: up to R if z is below R, across, down to R, down at the feed, up again.
 #include "drilling.h"
 
 #include <math.h>
@@ -6,8 +6,8 @@
 namespace gcode {
 namespace {
 
-const float kPeckClearance =
-    0.25f;  // [mm] above the hole's bottom, where a peck ends its rapid way
+// [mm] The rapid move of a peck ends this far above the bottom of the hole so far.
+const float kPeckClearance = 0.25f;
 const float kMostHoles = 999;
 const float kMostDwell = 3600000;  // [ms]
 

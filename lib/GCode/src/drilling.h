@@ -1,4 +1,4 @@
-// Drilling cycles, G81 to G83: what a hole is made of, step by step.
+// Drilling cycles, G81 to G83: the steps of a hole.
 #pragma once
 
 #include <stdint.h>
@@ -8,32 +8,32 @@
 
 namespace gcode {
 
-/// Why a line makes no hole.
+/// Why a line drills no hole.
 enum class DrillFault : uint8_t {
   kNone,
-  kNoDepth,    ///< no Z, or no R, and none from before
+  kNoDepth,    ///< no Z or no R, in this line or before
   kUpward,     ///< the hole's bottom is above R
   kNoPeck,     ///< G83 without Q, or Q is not above zero
-  kBadRepeat,  ///< L or K is no whole number from 1 to 999
-  kBadDwell,   ///< P is below zero, or an hour and more
+  kBadRepeat,  ///< L or K is not a whole number from 1 to 999
+  kBadDwell,   ///< P is below zero, or an hour or more
 };
 
-/// One step of a hole.
+/// A step of a hole.
 struct DrillStep {
   enum Kind : uint8_t { kAcross, kRapid, kFeed, kDwell } kind;
   float x, y;  ///< [mm] kAcross: where the hole is
   float z;     ///< [mm] kRapid, kFeed: where z goes
 };
 
-/// A cycle in force. Z, R, Q and P stay until G80 or another motion; all are [mm] in machine
-/// coordinates or sizes, P in ms.
+/// A cycle in force. Z, R, Q and P stay until G80 or another motion. Z and R are machine
+/// coordinates [mm], Q is a size [mm], P a time [ms].
 class Drilling {
  public:
-  /// A first line of a cycle: words of an earlier one count no longer, and z stands at `z` [mm].
+  /// Begins a cycle with z at `z` [mm]: words of an earlier cycle no longer count.
   void begin(float z);
 
-  /// Reads the words of a line. `from` are the machine's x, y, z [mm] now, `offset` where their
-  /// coordinates begin.
+  /// Reads the words of a line. `from` are the machine's x, y, z [mm] now, `offset` [mm] where the
+  /// program's coordinates begin.
   DrillFault read(const Modal& modal, const Words& words, const float (&from)[3],
                   const float (&offset)[3]);
 
@@ -51,15 +51,15 @@ class Drilling {
   void goOn();
 
   float initial_z_ = 0;                 ///< [mm] where z was before the cycle
-  float r_word_ = 0, bottom_word_ = 0;  ///< [mm] as the program says
+  float r_word_ = 0, bottom_word_ = 0;  ///< [mm] as in the program
   float peck_ = 0;                      ///< [mm] Q
   uint32_t dwell_ms_ = 0;
   bool has_bottom_ = false, has_r_ = false;
-  // The line in hand; lengths in machine coordinates [mm].
+  // The line that is being drilled; lengths in machine coordinates [mm].
   uint8_t cycle_ = kDrill;
   uint16_t holes_left_ = 0;
-  float x_ = 0, y_ = 0, step_x_ = 0, step_y_ = 0;  ///< the next hole, and on to the one after
-  float r_ = 0, bottom_ = 0, clear_z_ = 0;         ///< and where z ends
+  float x_ = 0, y_ = 0, step_x_ = 0, step_y_ = 0;  ///< the next hole, and the way on
+  float r_ = 0, bottom_ = 0, clear_z_ = 0;         ///< and where z is after a hole
   float z_ = 0, depth_ = 0;                        ///< where z is; how deep the hole is
   At at_ = At::kDone;
 };

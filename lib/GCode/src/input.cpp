@@ -5,14 +5,14 @@ namespace gcode {
 namespace {
 
 const char kCtrlX = 24;
-// Stands for a line of which nothing is left; no client can send it, as control characters are
-// dropped.
+// Marks a line that was too long to keep. No client can send this character, as control characters
+// are dropped.
 const char kTooLong = 1;
-// Stands for a byte that is no ASCII, in a comment or, where it is a mistake, outside; the question
-// mark itself is never stored.
+// Replaces a byte that is no ASCII: in a comment it is harmless, elsewhere a mistake. A question
+// mark from the client is never stored.
 const char kUnreadable = '?';
 
-/// What is kept of a character.
+/// The character that is stored for a character.
 char kept(char character) {
   if (character == '\t') return ' ';
   return uint8_t(character) > 126 ? kUnreadable : character;
@@ -25,8 +25,8 @@ void Input::store(char character) {
   ++used_;
 }
 
-/// What a byte above 127 asks for, where it is not part of a text: of a comment, or of a letter in
-/// UTF-8, whose first byte is above 127 as well.
+/// What a byte above 127 asks for. It asks for nothing in a comment or in a letter in UTF-8, whose
+/// first byte is above 127 too.
 Quick Input::putQuick(char character) {
   const uint8_t byte = uint8_t(character);
   const bool is_text = comment_ != 0 || after_text_;
@@ -62,7 +62,7 @@ Quick Input::put(char character) {
   }
   const bool is_control = uint8_t(character) < 32 && character != '\t';
   if (swallowing_ || character == '?' || is_control) return Quick::kNone;
-  // The last place is kept for a line's end.
+  // The last place is reserved for a line's end.
   if (used_ < kRoom - 1) {
     store(kept(character));
     return Quick::kNone;

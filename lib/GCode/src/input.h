@@ -1,4 +1,4 @@
-// Characters from the computer: quick ones are told at once, the others wait as lines.
+// Characters from the computer: quick characters are reported at once, the others wait as lines.
 #pragma once
 
 #include <stdint.h>
@@ -11,19 +11,19 @@ enum class Quick : uint8_t {
   kStop,         ///< `!`
   kResume,       ///< `~`
   kReset,        ///< ctrl-X or a backquote
-  kOverflow,     ///< no quick character, but the room for waiting lines is full: one was lost
+  kOverflow,     ///< the room for waiting lines was full: an ordinary character was lost
   kHold,         ///< 0x84
-  kFeedUsual,    ///< 0x90: the feeds of the program
-  kFeedUp,       ///< 0x91: ten percent more
-  kFeedDown,     ///< 0x92: ten percent less
-  kFeedUpOne,    ///< 0x93: one percent more
-  kFeedDownOne,  ///< 0x94: one percent less
+  kFeedUsual,    ///< 0x90: the program's feeds, unchanged
+  kFeedUp,       ///< 0x91: 10 percent more
+  kFeedDown,     ///< 0x92: 10 percent less
+  kFeedUpOne,    ///< 0x93: 1 percent more
+  kFeedDownOne,  ///< 0x94: 1 percent less
 };
 
-/// Room for 127 characters that wait, as the clients count on 126.
+/// Room for 127 characters that wait; clients rely on 126.
 ///
-/// Used by the main program alone. A line longer than all of the room is swallowed to its end and
-/// later taken as one that is too long.
+/// Only the main program uses it. A line longer than the whole room is dropped to its end; a mark
+/// waits in its place, and wasTooLong() is true once that was taken.
 class Input {
  public:
   enum : uint8_t { kRoom = 127 };
@@ -34,20 +34,20 @@ class Input {
   /// Free characters, as the status reports it.
   uint8_t room() const { return uint8_t(kRoom - used_); }
 
-  /// Nothing waits, not even part of a line.
+  /// Whether nothing waits, not even part of a line.
   bool isEmpty() const { return used_ == 0; }
 
   /// Takes the oldest line, without its end; false if none is complete.
   bool takeLine(char (&line)[kRoom + 1]);
 
-  /// The same, and it stays until dropLine().
+  /// Reads the oldest line without taking it: it stays until dropLine().
   bool peekLine(char (&line)[kRoom + 1]) const;
   void dropLine();
 
-  /// Whether the line taken last had been too long, so that nothing of it is left.
+  /// Whether the line taken last had been too long to keep.
   bool wasTooLong() const { return was_too_long_; }
 
-  /// Whether a `~` came behind the line taken last, perhaps long before that line was taken. It
+  /// Whether a `~` came after the line taken last, perhaps long before that line was taken. A `~`
   /// counts once, and never for a line that ended after it.
   bool takeResume();
 
@@ -59,10 +59,10 @@ class Input {
 
   char ring_[kRoom];
   uint8_t first_ = 0, used_ = 0, lines_ = 0;
-  uint8_t resumable_ = 0;  ///< lines in front of the last `~`: the one taken last, and waiting ones
+  uint8_t resumable_ = 0;  ///< lines before the last `~`: the line taken last, and waiting lines
   bool after_quick_ = false, swallowing_ = false, was_too_long_ = false;
-  // Where a byte above 127 is text.
-  char comment_ = 0;  ///< what began it
+  // Where a byte above 127 is part of a text.
+  char comment_ = 0;  ///< the character that began the comment; 0: none
   bool after_text_ = false;
 };
 

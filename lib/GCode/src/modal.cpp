@@ -1,11 +1,11 @@
-// Which codes change a mode, and which only say how things are.
+// Which codes change a mode, and which only state what always holds.
 #include "modal.h"
 
 namespace gcode {
 namespace {
 
-/// Cutter compensation, scaling, rotation and polar words are off, spindle speed is turns a minute,
-/// corners are passed within a fixed distance.
+/// Codes that state what always holds: cutter compensation, scaling, rotation and polar words are
+/// off, spindle speed is in turns a minute, corners are passed within a fixed distance.
 bool isSoInAnyCase(uint16_t tenths) {
   switch (tenths) {
     case 150:

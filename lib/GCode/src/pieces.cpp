@@ -41,7 +41,7 @@ bool hasMeaning(char letter) {
   }
 }
 
-/// Codes to which the place in their line belongs, wherever in it they stand.
+/// Codes that take the place words of their line, wherever they stand in it.
 bool claimsPlace(const Piece& piece) {
   if (piece.letter != 'G') return false;
   switch (piece.tenths) {
@@ -57,7 +57,7 @@ bool claimsPlace(const Piece& piece) {
   }
 }
 
-/// Moves the words that say where, and of what, from one piece to another.
+/// Moves the words for a place, and the words that go with it, from a piece to another.
 void movePlace(Words& from, Words& to) {
   for (const char* letter = "XYZLPR"; *letter != '\0'; ++letter) {
     if (!from.has(*letter)) continue;

@@ -1,4 +1,4 @@
-// Reads words and numbers without the library's strtod, which is large and reads words like "nan".
+// Reads words and numbers. The library's strtod would be large, and it reads words like "nan".
 #include "words.h"
 
 namespace gcode {
@@ -24,7 +24,7 @@ float scaled(float number, int16_t exponent) {
   return number;
 }
 
-/// Digits as they come; those beyond what a float can hold only move the point.
+/// Digits as they come. Digits beyond what a float can hold only move the point.
 struct Digits {
   uint32_t number = 0;
   int16_t exponent = 0;
@@ -41,7 +41,7 @@ struct Digits {
   }
 };
 
-/// An exponent behind an E, if letters and digits make one; false if not.
+/// Reads an exponent behind an E; false if there is none.
 bool readExponent(const char*& text, int16_t& exponent) {
   const char* at = text + 1;
   const bool negative = *at == '-';
@@ -55,13 +55,13 @@ bool readExponent(const char*& text, int16_t& exponent) {
   return true;
 }
 
-/// Whether what follows a number would make it another one.
+/// Whether the text after a number belongs to it, so that the number is wrong.
 bool goesOn(const char* text) {
   if (*text == ' ') ++text;
   return endsNumber(*text) || *text == '-' || *text == '+';
 }
 
-/// Passes over what looks like a number, so that one mistake is told once.
+/// Passes over what looks like a number, so that a mistake is reported once.
 Number broken(const char*& text) {
   while (endsNumber(*text) || *text == '-' || *text == '+' || *text == ' ') ++text;
   return {0, Fault::kBadNumber};

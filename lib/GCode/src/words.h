@@ -17,24 +17,24 @@ enum class Fault : uint8_t {
 
 /// Removes comments, spaces, `%` and `/`, and makes letters capital.
 ///
-/// Where any of these stood between two digits, or between a digit and an E, one space stays, so
-/// that two numbers never become one.
+/// Where any of these was between two digits, or between a digit and an E, a space stays, so that
+/// two numbers never join.
 void clean(char* line);
 
-/// A number and whether it is one; its value is zero if not.
+/// A number, and what is wrong with it; its value is zero if anything is.
 struct Number {
   float value;
   Fault fault;
 };
 
-/// The number at `text`: sign, digits, point, exponent, as many digits as there are. Moves `text`
-/// behind it. Within one unit in the last place of the nearest float for usual numbers, two for
+/// The number at `text`: sign, digits, point, exponent, with any count of digits. Moves `text`
+/// behind it. The value is within 1 unit in the last place of the nearest float, within 2 for
 /// exponents beyond ten.
 Number readNumber(const char*& text);
 
 /// A letter and its number, or what is wrong with them.
 struct Word {
-  char letter;  ///< of a stray character, that character
+  char letter;  ///< for a stray character, that character
   float value;
   Fault fault;
 };
@@ -42,16 +42,16 @@ struct Word {
 /// Reads the word at `text` and moves on; false at the end of the line.
 bool readWord(const char*& text, Word& word);
 
-/// Words by letter; of a letter used twice the first one counts.
+/// Words by letter; where a letter is used twice, the first word counts.
 class Words {
  public:
   Words() : present_(0) {}
 
   bool has(char letter) const { return present_ >> (letter - 'A') & 1; }
-  /// Its number; zero if the letter is not there or had none.
+  /// The letter's number; zero if the letter is missing or has no number.
   float value(char letter) const { return has(letter) ? value_[letter - 'A'] : 0; }
   bool isEmpty() const { return present_ == 0; }
-  /// Whether it says where to go: X, Y or Z.
+  /// Whether the words say where to go: X, Y or Z.
   bool hasPlace() const { return has('X') || has('Y') || has('Z'); }
   void add(char letter, float value);
   void remove(char letter) { present_ &= ~(uint32_t(1) << (letter - 'A')); }

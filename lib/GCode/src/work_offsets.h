@@ -1,19 +1,19 @@
-// Where the coordinates of a program begin, seen from the machine's: G54 to G59, G92, G43.1.
+// Where a program's coordinates begin, in machine coordinates: G54 to G59, G92, G43.1.
 #pragma once
 
 #include <stdint.h>
 
 namespace gcode {
 
-/// What is added to a program's coordinate to get the machine's. Axes are 0, 1, 2 for x, y, z.
+/// Added to a program's coordinate they give the machine's. Axes are 0, 1, 2 for x, y, z.
 ///
-/// The six systems of G54 to G59 are kept by whoever makes this object; the shift of G92 and the
-/// tool's length are kept here, and last as long as power does.
+/// The maker of this object stores the six systems of G54 to G59. The shift of G92 and the tool's
+/// length are stored here, and are lost with power.
 class WorkOffsets {
  public:
   enum : uint8_t { kAxes = 3, kSystems = 6, kZ = 2 };
 
-  /// `stored` [mm]: x, y and z of the first system, then of the second, up to the sixth.
+  /// `stored` [mm]: x, y and z of the first system, then of the second, up to the sixth system.
   explicit WorkOffsets(const float* stored) : stored_(stored) {}
 
   /// Where the coordinate of an axis begins [mm].
@@ -21,13 +21,13 @@ class WorkOffsets {
     return stored_[system * kAxes + axis] + shiftAt(axis) + toolAt(axis);
   }
 
-  /// G10 L20: what has to be stored so that the machine's `machine` [mm] is called `word` [mm].
+  /// G10 L20: the number to store so that machine coordinate `machine` [mm] is called `word` [mm].
   float storedFor(uint8_t axis, float machine, float word) const {
     return machine - word - shiftAt(axis) - toolAt(axis);
   }
 
-  /// G92: the machine's `machine` [mm] is called `word` [mm] in that system, and all systems move
-  /// along.
+  /// G92: machine coordinate `machine` [mm] is called `word` [mm] in that system. All systems shift
+  /// by the same amount.
   void shiftTo(uint8_t system, uint8_t axis, float machine, float word) {
     resumeShift();
     shift_[axis] = machine - word - stored_[system * kAxes + axis] - toolAt(axis);
@@ -37,7 +37,7 @@ class WorkOffsets {
   void suspendShift() { is_suspended_ = true; }
   void resumeShift() { is_suspended_ = false; }
 
-  /// G43.1, G49: how far the tool's tip is beyond where z was set [mm].
+  /// G43.1, G49: how far the tool's tip is beyond the tip with which z was set [mm].
   void setToolLength(float length) { tool_length_ = length; }
 
  private:

@@ -11,20 +11,21 @@ namespace kinematics {
 namespace {
 
 // The wrap of a chain towards a direction with sine s and cosine c below the horizontal is
-// radius * angle, and angle = pi/4 + asin((s - c) / sqrt(2)). These odd coefficients give it within
-// 0.00005 rad (0.0005 mm of chain) for |s - c| up to 0.88, and 0.00024 at 0.92, beyond which no
-// sheet on a frame in use reaches.
+// radius * angle, and angle = pi/4 + asin((s - c) / sqrt(2)). These odd coefficients give the angle
+// within 0.00005 rad (0.0005 mm of chain) for |s - c| up to 0.88, and within 0.00024 rad at 0.92.
+// No sheet on a frame in use reaches beyond 0.92.
 const double kArc[3] = {0.70749505, 0.05527136, 0.02142412};
 
-// The line of the motors is kept clear by this share of their gap.
+// The sled stays below the line of the motors by at least this share of their gap.
 const float kFlattest = 1.0f / 128;
 
-// Steps up to this length need no care; longer ones are kept among the places that have slopes.
-// (The slopes leave out that sag and stretch change along a step. What a step misses for this is
-// 2 to 5 per cent of it, 12 at worst under a light sled.)
+// Steps up to this length need no care; a longer step is cut so that it ends where slopes exist.
+// (The slopes leave out that sag and stretch change along a step. A step misses 2 to 5 per cent of
+// its length for this, 12 per cent at worst under a light sled.)
 const float kSafeStep = 10.0f;  // [mm]
 
-/// Free chain and direction of one strand; returns sine less cosine of the line of centres.
+/// Free chain and direction of a strand; returns sine less cosine of the line from the sprocket's
+/// centre to the bit.
 template <class Real>
 PLUMB_INLINE Real direct(const Machine<Real>& machine, Real run, Real drop, Real distance,
                          Strand<Real>& strand) {
@@ -32,18 +33,18 @@ PLUMB_INLINE Real direct(const Machine<Real>& machine, Real run, Real drop, Real
   const Real per_distance = Real(1) / distance;
   const Real sine = drop * per_distance;
   const Real cosine = run * per_distance;
-  // Line of centres to tangent line: the chain leaves the sprocket r / d steeper.
+  // The tangent line is steeper than the line from the sprocket's centre by r / d.
   const Real turn = machine.feed_radius * per_distance;
   strand.sine = sine + cosine * turn;
   strand.cosine = cosine - sine * turn;
   return sine - cosine;
 }
 
-/// The straight line from one sprocket to the bit, and the chain it would take if it were rigid.
+/// The straight line from a sprocket to the bit, and how much chain a rigid chain would need.
 ///
 /// Tangent line sqrt(d^2 - r^2) and wrap r * (angle of centres + asin(r / d)) add up, by their
-/// series, to d + r^2 / (2 d) + r * angle, and the first two to sqrt(d^2 + r^2) within 0.00001 mm.
-/// drop_squared comes with the r^2 already in it.
+/// series, to d + r^2 / (2 d) + r * angle. The first two terms are sqrt(d^2 + r^2) within
+/// 0.00001 mm. `drop_squared` [mm^2] already includes r^2.
 template <class Real>
 PLUMB_INLINE void drawStraight(const Machine<Real>& machine, Real run, Real drop, Real drop_squared,
                                bool directed, Strand<Real>& strand) {
@@ -59,8 +60,8 @@ PLUMB_INLINE void drawStraight(const Machine<Real>& machine, Real run, Real drop
   strand.wrap = machine.wrap.at(u);
 }
 
-/// Both strands, straight; their directions only if they are asked for. `span` [mm], unless null,
-/// is what each one's run and drop are longer by.
+/// Both strands, straight; their directions only if `directed`. Each strand's run and drop grow by
+/// its `span` [mm], unless that is null.
 template <class Real>
 PLUMB_INLINE void drawBoth(const Machine<Real>& machine, Point<Real> bit, const Point<Real>* span,
                            bool directed, Hanging<Real>& hanging) {
@@ -91,7 +92,7 @@ Real loadOf(const Machine<Real>& machine, const Strand<Real>* strand) {
   return machine.load_at_nothing + machine.load_slope * (strand[kLeft].free + strand[kRight].free);
 }
 
-/// Nothing pushes the sled: what the board is compiled for unless one of its effects pushes.
+/// Nothing pushes the sled. The board is compiled for this unless an effect pushes.
 struct NoPush {};
 
 /// Tensions of two strands that hold the load.
@@ -99,13 +100,13 @@ template <class Real>
 PLUMB_INLINE void pull(Real scale, NoPush, Strand<Real>& left, Strand<Real>& right) {
   left.pull = scale * right.cosine;
   right.pull = scale * left.cosine;
-  // Both pull sideways alike: one division serves both.
+  // Both strands have the same level pull, so a single division serves both.
   const Real per_level = Real(1) / (left.pull * left.cosine);
   left.slack = left.cosine * per_level;
   right.slack = right.cosine * per_level;
 }
 
-/// The same under a push, which makes one strand pull more sideways than the other.
+/// Tensions under a push on the sled: the strands' level pulls differ.
 template <class Real>
 void pull(Real scale, Point<Real> push, Strand<Real>& left, Strand<Real>& right) {
   const Real per_sum = Real(1) / (left.sine * right.cosine + left.cosine * right.sine);
@@ -117,7 +118,7 @@ void pull(Real scale, Point<Real> push, Strand<Real>& left, Strand<Real>& right)
   right.slack = Real(1) / right.pull;
 }
 
-/// What both strands carry, and how easily it bends them.
+/// What both strands carry, and how easily their weight bends them.
 template <class Push, class Real>
 void shareLoad(const Machine<Real>& machine, Push push, Hanging<Real>& hanging) {
   Strand<Real>& left = hanging.strand[kLeft];
@@ -128,14 +129,14 @@ void shareLoad(const Machine<Real>& machine, Push push, Hanging<Real>& hanging) 
   right.bend = right.cosine * right.slack;
   left.deep = right.deep = machine.deep;
   if (!machine.deep) return;
-  // What the second order of sag needs besides: see deep.h.
+  // The second order of sag needs these too: see deep.h.
   left.lean = left.sine * left.slack;
   right.lean = right.sine * right.slack;
   left.ease = right.ease =
       machine.ease * (left.free * left.free * left.lean + right.free * right.free * right.lean);
 }
 
-/// The nearest place that has slopes: below the motors and between them.
+/// The nearest place where slopes exist: below the motors and between them.
 template <class Real>
 Point<Real> insideReach(const Machine<Real>& machine, Point<Real> place) {
   return {clamp(place.x, machine.leftmost, machine.rightmost),
@@ -172,7 +173,7 @@ Point<Real> meetStraight(const Machine<Real>& machine, Chains<Real> chains) {
   return {from.x + span.x, from.y - span.y};
 }
 
-/// What two strands do under a load, without a push.
+/// What two strands do to sprockets and sled under a load, without a push.
 template <class Real>
 PLUMB_INLINE Forces<Real> forcesOf(Real load, NoPush, const Strand<Real>& left,
                                    const Strand<Real>& right) {
@@ -182,7 +183,7 @@ PLUMB_INLINE Forces<Real> forcesOf(Real load, NoPush, const Strand<Real>& left,
   return {scale * (left.cosine * right.cosine), {scale * to_left, scale * to_right}};
 }
 
-/// The same under a push.
+/// What two strands do to sprockets and sled under a load and a push.
 template <class Real>
 PushedForces<Real> forcesOf(Real load, Point<Real> push, Strand<Real> left, Strand<Real> right) {
   pull(load / (left.sine * right.cosine + left.cosine * right.sine), push, left, right);
@@ -190,8 +191,8 @@ PushedForces<Real> forcesOf(Real load, Point<Real> push, Strand<Real> left, Stra
           {left.pull * left.sine, right.pull * right.sine}};
 }
 
-/// By how much effects move the ends of each strand [mm]: strands are drawn between the ends at
-/// rest, no farther than forces need.
+/// By how much effects move the ends of each strand [mm]. The forces are those of strands between
+/// ends that have not moved.
 template <class Push, class Real>
 PLUMB_RARE void spanBetweenEnds(const Machine<Real>& machine, Point<Real> bit, Push push,
                                 Point<Real>* span) {
@@ -235,7 +236,7 @@ Point<Real> pushAt(const Machine<Real>& machine, Point<Real> bit) {
   return push;
 }
 
-/// Whether some effect of the list pushes the sled: else the board has no code for it.
+/// Whether an effect of the list pushes the sled. If none does, the board has no code for pushes.
 template <bool kPushed>
 struct Pushed {};
 
@@ -262,15 +263,16 @@ Machine<Real> prepare(const Frame<Real>& frame, const EffectParams<Real>& effect
   machine.radius_squared = frame.sprocket_radius * frame.sprocket_radius;
   machine.wrap = wrapOf(frame, kArc);
   machine.rotation_radius = frame.rotation_radius;
-  // Half of each chain's weight, as far as its middle is towards the bit: free^2 / reach of it.
-  // That is free - radius + radius^2 / reach, the last one small: taken at a middling reach.
+  // The sled carries free / reach of half a chain's weight: half the weight of free^2 / reach mm.
+  // That length is free - radius + radius^2 / reach. The last term is small, so it is taken at a
+  // medium reach.
   const Real half_ratio = frame.chain_weight / frame.sled_weight * Real(0.5);
   const Real lever =
       frame.rotation_radius * (frame.rotation_radius / (frame.motor_gap * Real(0.64)) - Real(1));
   machine.load_slope = half_ratio;
   machine.load_at_nothing = Real(1) + half_ratio * (lever + lever);
-  // So near the line of the motors the chains would carry many times the sled's weight; and
-  // farther below it than the ring is wide there is free chain on both sides.
+  // Nearer to the line of the motors the chains would carry many times the sled's weight. Farther
+  // below it than the ring's radius there is free chain on both sides.
   const Real margin = frame.motor_gap * Real(kFlattest);
   machine.highest = frame.motor_height - frame.rotation_radius - frame.sprocket_radius - margin;
   machine.lowest = frame.motor_height - Real(4) * frame.motor_gap;
@@ -304,7 +306,7 @@ template <class Real>
 PaidOut<Real> inverse(const Machine<Real>& machine, Point<Real> bit) {
   const Hanging<Real> hanging = hang(machine, bit, false);
   const Chains<Real> chains = paidOut(hanging);
-  // Places that are no numbers, or too far for one, end here.
+  // A place that is NaN, or too far away for a float, ends here.
   if (hanging.found == Found::kYes && isfinite(chains.left) && isfinite(chains.right))
     return {chains, Found::kYes};
   return {{Real(0), Real(0)}, Found::kOutOfReach};
@@ -325,7 +327,7 @@ Place<Real> forward(const Machine<Real>& machine, Chains<Real> chains, Point<Rea
     if (isShort(step, kLastStep)) return {next, hanging.found, place.tries};
     place.sled = isShort(step, kSafeStep) ? next : stepFrom(machine, place.sled, step);
   }
-  // A search that ends pressed against the edge of what can hang was sent beyond it.
+  // The search ended at the edge of where a sled can hang: the place asked for lies beyond it.
   const bool held = !(place.sled.x > machine.leftmost && place.sled.x < machine.rightmost &&
                       place.sled.y > machine.lowest && place.sled.y < machine.highest);
   place.found = held ? Found::kOutOfReach : Found::kTooManyTries;

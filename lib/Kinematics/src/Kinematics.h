@@ -8,19 +8,19 @@ namespace kinematics {
 /// How a search or a request ended.
 enum class Found : uint8_t {
   kYes,
-  kOutOfReach,    ///< no sled can hang there: beside or above the motors, inside a sprocket, NaN,
+  kOutOfReach,    ///< no sled can hang there: outside or above the motors, inside a sprocket, NaN,
                   ///< or chains too short to meet
-  kTooManyTries,  ///< the search did not settle; the place it holds is not to be used
+  kTooManyTries,  ///< the search did not settle; do not use its place
 };
 
-/// What inverse() answers: lengths are zero unless found is kYes.
+/// What inverse() answers: lengths are zero unless `found` is kYes.
 template <class Real>
 struct PaidOut {
   Chains<Real> chains;  ///< [mm] from 12 o'clock
   Found found;
 };
 
-/// What forward() answers: the sled's place, to be used only if found is kYes.
+/// What forward() answers. Use the place only if `found` is kYes.
 template <class Real>
 struct Place {
   Point<Real> sled;  ///< [mm] where the bit is
@@ -31,26 +31,27 @@ struct Place {
 /// Both strands of a hanging sled.
 template <class Real>
 struct Hanging {
-  Found found;       ///< never kYes above or beside the motors; a NaN shows in the lengths
+  Found found;       ///< never kYes above the motors or outside them; a NaN shows in the lengths
   Real sine_of_sum;  ///< [1] of both strands' angles below the horizontal added together
   Strand<Real> strand[kSideCount];
 };
 
-/// Works out the constants of a machine; about 6,000 cycles on the board, once per change.
+/// Works out the constants of a machine: about 6,000 cycles on the board, each time settings
+/// change.
 template <class Real>
 Machine<Real> prepare(const Frame<Real>& frame, const EffectParams<Real>& effects);
 
-/// Both strands for a bit at `bit` [mm]; directions and forces if `directed` or if an effect needs
-/// them.
+/// Both strands for a bit at `bit` [mm]. Directions and forces are worked out if `directed` or if
+/// an effect needs them.
 template <class Real>
 Hanging<Real> hang(const Machine<Real>& machine, Point<Real> bit, bool directed);
 
-/// The same under a push [1] on the sled, in sled weights: x right, y up. For host tools: the board
-/// knows only the pushes of its effects.
+/// Both strands under a push [1] on the sled, in sled weights: x right, y up. For host tools only:
+/// the board knows no pushes but those of its effects.
 template <class Real>
 Hanging<Real> hangPushed(const Machine<Real>& machine, Point<Real> bit, Point<Real> push);
 
-/// Chain of both strands from 12 o'clock.
+/// Chain of both strands [mm] from 12 o'clock.
 template <class Real>
 Chains<Real> paidOut(const Hanging<Real>& hanging) {
   return {hanging.strand[kLeft].wrap + hanging.strand[kLeft].length,
@@ -65,7 +66,7 @@ PaidOut<Real> inverse(const Machine<Real>& machine, Point<Real> bit);
 template <class Real>
 Place<Real> forward(const Machine<Real>& machine, Chains<Real> chains);
 
-/// The same, searched from a place `guess` [mm] nearby, as when following the encoders.
+/// Where the bit is, searched from a place `guess` [mm] nearby: for following the encoders.
 template <class Real>
 Place<Real> forward(const Machine<Real>& machine, Chains<Real> chains, Point<Real> guess);
 

@@ -6,28 +6,26 @@
 namespace kinematics {
 
 // The closed form of sag is the first term of a series in the chain's weight over its tension. On
-// usual machines the next terms nearly cancel (0.004 mm of chain); under a light sled, with a much
-// wider or narrower ring, or with motors high above the sheet they do not (0.2 mm).
+// usual machines the next terms nearly cancel (0.004 mm of chain). Under a light sled, with a much
+// wider or narrower ring, or with motors high above the sheet they do not cancel (0.2 mm).
 //
-// Their forms follow from the exact hanging chain: with q = w cosine L / T and t = tan(angle),
-//  - a chain that bends pulls less: its weight acts nearer to the sprocket, by q t / 6 and more
-//  with
-//    an arm, and what it pulls less is shared by both strands (ease);
-//  - the arm's end and so the chord turn with the chain's end (lean);
-//  - chain leaves the sprocket earlier by radius * q / 2, shortening what hangs (curl);
-//  - the catenary's own fourth order, with the slope squared (lean_and_curl).
-// The five numbers below were fitted to exact catenaries over 240 machines (gap 2.9 to 3.7 m,
-// offset 463 and 700 mm, sled 60 to 150 N, ring 0 to 250 mm, both feeds): what remains is 0.0052
-// mm.
+// The terms follow from the exact hanging chain. With q = w cosine L / T and t = tan(angle):
+//  - ease: a chain that bends pulls less, because its weight acts nearer to the sprocket, by
+//    q t / 6 and more with an arm. Both strands share the loss of pull.
+//  - lean: the arm, and so the chord, turns with the chain's end.
+//  - curl: chain leaves the sprocket earlier by radius * q / 2, so less of it hangs.
+//  - lean_and_curl: the fourth order of the catenary, with the slope squared.
+// The five numbers below were fitted to exact catenaries over 240 machines: gap 2.9 to 3.7 m,
+// offset 463 and 700 mm, sled 60 to 150 N, ring 0 to 250 mm, both feeds. 0.0052 mm remain.
 const float kEase = 0.0661f, kEaseByArm = 1.7121f;
 const float kLeanByArm = -0.1213f, kLeanByArmSquared = -2.99f;
 const float kLeanAndCurl = 0.0566f;
 const float kCurl = -0.8485f;
 
-// Where a chain sags most it is about this long; the arm's share of it stands for all.
+// A chain is about this long where it sags most. The arm's share at this length serves everywhere.
 const float kLongChain = 0.84f;  // [1] of the gap
 
-// Beyond these the first order misses more than 0.005 mm somewhere on the sheet.
+// Beyond these limits the first order misses more than 0.005 mm somewhere on the sheet.
 const float kNarrowRing = 120, kWideRing = 160;  // [mm]
 const float kDeepWeight = 1.45e-5f;              // [1/mm] chain weight per mm / sled weight
 const float kHighMotors = 0.42f;                 // [1] motor_height / gap
@@ -42,10 +40,10 @@ Real armShare(const Frame<Real>& frame) {
   return frame.rotation_radius / (Real(kLongChain) * frame.motor_gap);
 }
 
-/// L (4 - 3 L / D), the lengths by which sag grows, as constant + slope * L [mm].
+/// L (4 - 3 L / D), the length by which sag grows, as constant + slope * L [mm].
 ///
-/// It is D + 2 R - 3 R^2 / D with R the arm: nearly a straight line over the lengths at which a
-/// chain sags at all. This is its tangent at a long chain's D.
+/// With R the arm it is D + 2 R - 3 R^2 / D: nearly a straight line over the lengths at which a
+/// chain sags at all. The answer is the tangent of that curve at a long chain's D.
 template <class Real>
 struct SagByLength {
   Real constant, slope;
@@ -66,14 +64,14 @@ bool isDeep(const Frame<Real>& frame) {
          frame.motor_height > Real(kHighMotors) * frame.motor_gap;
 }
 
-/// [1/mm^2] times both strands' free^2 * lean: the share by which sag grows as chains pull less.
+/// [1/mm^2] Times both strands' free^2 * lean, the share by which sag grows as chains pull less.
 template <class Real>
 Real easeOf(const Frame<Real>& frame) {
   const Real ratio = weightRatio(frame);
   return ratio * ratio * (Real(kEase) + Real(kEaseByArm) * armShare(frame));
 }
 
-/// What each strand's own shape adds to its sag, as shares of it.
+/// What the shape of a strand adds to its sag, as shares of the sag.
 template <class Real>
 struct DeepSag {
   Real lean;           ///< [1/mm] times lean * free

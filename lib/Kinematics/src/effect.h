@@ -7,16 +7,16 @@
 #include "deep.h"
 #include "strand.h"
 
-// For hooks of effects that most machines do not have: kept out of line, they leave the board's few
-// registers to the others (200 cycles an inverse); cold, they stand apart, so that the others stay
-// within the reach of short calls (80 cycles).
+// For hooks of effects that most machines do not have. Out of line, they leave the board's few
+// registers to the other hooks, which saves 200 cycles an inverse. `cold` puts them apart in flash,
+// so that short calls reach the other hooks, which saves 80 cycles.
 #define PLUMB_RARE __attribute__((noinline, cold))
-// For what every inverse does, though in two places.
+// For what every inverse does, where two places call it.
 #define PLUMB_INLINE __attribute__((always_inline)) inline
 
 namespace kinematics {
 
-/// The nearest whole number; a dual number brings its own.
+/// The nearest whole number; dual.h overloads it for dual numbers.
 inline int16_t nearest(float value) { return int16_t(lround(value)); }
 inline int16_t nearest(double value) { return int16_t(lround(value)); }
 
@@ -29,14 +29,14 @@ struct EffectInfo {
   const char* remedy;       ///< how to tell it apart or cure it
 };
 
-/// What people read about one parameter.
+/// What people read about a parameter.
 struct ParamInfo {
   const char* name;
   const char* unit;
   double low, high;  ///< physically plausible range
-  double typical;    ///< size met on real machines; zero always means absent
+  double typical;    ///< size on real machines; zero always means absent
   const char* summary;
-  double sigma;  ///< accuracy of the direct check (see CheckInfo); 0: no check reads this parameter
+  double sigma;  ///< standard deviation of the direct check (see CheckInfo); 0: no check reads it
 };
 
 /// How a parameter is shown to a maker.
@@ -67,11 +67,11 @@ struct CheckInfo {
   double minutes;     ///< of work
 };
 
-/// A machine that suffers from the effect: the bench hides it, the tests compare it with the judge.
+/// A machine that has the effect: the bench hides the effect, the tests compare it with the judge.
 struct Example {
   const char* label;
   double size[4];  ///< of the parameters, in their units
-  double most;     ///< [mm] RMS of marks by it on the worst of real machines, roughly
+  double most;  ///< [mm] RMS of marks that the effect causes on the worst of real machines, roughly
 };
 
 /// The setting of the published programs that says the same as a parameter.
@@ -88,42 +88,42 @@ struct PublishedChains {
   Real sheet_width, sheet_height;  ///< [mm]
 };
 
-/// What carries a parameter along.
+/// With what a parameter moves when chains change sides.
 enum BelongsTo {
   kToMachine,  ///< it stays where it is, whichever chains hang there
   kToChain,    ///< it goes with its chain to the other sprocket
   kToZeroing,  ///< it is new each time the chains are set to zero
 };
 
-/// Base of all effects: every hook does nothing until an effect hides it with its own.
+/// Base of all effects. Its hooks do nothing; an effect hides those that it needs.
 ///
 /// An effect must have
 ///   enum { ..., kParamCount };        its parameters, which are settings
-///   enum { ..., kCoefficientCount };  the numbers its hooks read, worked out by
+///   enum { ..., kCoefficientCount };  the numbers that its hooks read
 ///   static void prepare(const Frame<Real>&, const Real* parameter, Real* c);
-/// once, when settings change. A hook gets these c and changes only what it is given.
-/// Where parameters belong to chains or to zeroing, those of the left side come first.
+/// prepare() works out the coefficients c when settings change. A hook gets c and changes only its
+/// arguments. Where parameters belong to chains or to zeroing, those of the left side come first.
 ///
 /// Two laws hold for each effect and are tested for all: with every parameter zero no bit of any
 /// length changes, and every parameter has a slope at zero.
 template <class Real>
 struct Effect {
-  // What the firmware asks, answered while it is compiled.
+  // What the firmware asks, answered at compile time.
   enum { kNeedsForces = 0 };   ///< 1 where a hook reads pull or bend
   enum { kMovesEnds = 0 };     ///< 1 where moveEnds does anything
   enum { kPushesSled = 0 };    ///< 1 where pushSled does anything
   enum { kBends = 0 };         ///< 1 where it grows as sag does: the planner's bound measures it
-  enum { kWaves = 0 };         ///< 1 where parameters are amplitudes, one wave a turn of a sprocket
+  enum { kWaves = 0 };         ///< 1 where parameters are amplitudes of a wave per sprocket turn
   enum { kClientNumber = 0 };  ///< number by which a published client means the first parameter
 
   // What only the lab asks.
-  enum { kEmpirical = 0 };           ///< 1 where it is a mere fit and no cause: never a suspect
+  enum { kEmpirical = 0 };           ///< 1 where it is a fit without a cause: never a suspect
   enum { kBelongsTo = kToMachine };  ///< of BelongsTo
   enum { kInFrame = 0 };      ///< 1 where a refitted frame or a turned sheet draws nearly the same
-  enum { kWeightPower = 0 };  ///< power of the sled's weight with which the parameters go
+  enum { kWeightPower = 0 };  ///< parameters are proportional to this power of the sled's weight
   enum { kExampleCount = 1 };
-  enum { kChainMicrometres = 6 };  ///< of chain by which it may differ from the judge on the sheet
-  enum { kBitMicrometres = 8 };    ///< and of the bit, under motors low and high
+  enum { kChainMicrometres = 6 };  ///< of chain: most that it may differ from the judge
+  enum { kBitMicrometres = 8 };    ///< the same at the bit, under low and high motors
 
   /// Moves the sprockets' centres [mm], left and right, for good: runs once, like prepare.
   static void moveSprocket(const Real*, Point<Real>*) {}
@@ -132,31 +132,30 @@ struct Effect {
   static void pushSled(const Real*, Point<Real>, Point<Real>&) {}
 
   /// Adds to `span` [mm], for both strands, what moves the bit's end away from the sprocket's: x
-  /// inward, y down. The strands it may look at are drawn without such moves, and only so far as
-  /// forces need: free, sine and cosine. They are drawn again with all moves.
+  /// inward, y down. The strands that the hook reads are drawn without such moves. They have only
+  /// what forces need: free, sine and cosine. Later they are drawn again with all moves.
   template <class SomeForces>
   static void moveEnds(const Real*, const Strand<Real>*, const SomeForces&, Point<Real>*) {}
 
-  /// Changes strand.length, the free chain in nominal links; it comes in as strand.free.
+  /// Changes strand.length, the free chain in nominal links [mm], which starts as strand.free.
   static void adjustLength(const Real*, Strand<Real>&) {}
 
   /// Adds to the parameters what the published settings say of this effect.
   static void addPublished(const Frame<Real>&, const PublishedChains<Real>&, Real*) {}
 
-  /// The size to expect on a machine with this frame; 0: a machine may well be without it.
+  /// The size to expect on a machine with this frame; 0: many machines are without the effect.
   static double usual(const Frame<Real>&, uint8_t) { return 0; }
 
   /// The setting of the published programs that says the same as parameter i.
   static PublishedInfo published(uint8_t) { return {0, 0}; }
 
-  /// The effect in a maker's words, as a noun; empty: its name has to do.
+  /// The effect in a maker's words, as a noun; empty: screens show its name.
   static const char* noun() { return ""; }
 
   /// Parameter i in a maker's words.
   static PlainInfo plain(uint8_t) { return {"", "", ""}; }
 
-  // These two and setJudge, described in judged.h, are to be hidden by every effect; a test says
-  // so.
+  // Every effect must hide these two and setJudge (see judged.h); a test checks that.
   static CheckInfo check() { return {nullptr, nullptr, nullptr, 0}; }
   static Example example(uint8_t) { return {nullptr, {0, 0, 0, 0}, 0}; }
   template <class Judge>

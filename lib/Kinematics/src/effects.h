@@ -1,5 +1,5 @@
 // The registry: every physical effect the firmware knows, in the order it is applied.
-// To add one, write its header in effects/, include it here and give it a line.
+// To add an effect, write its header in effects/, include it here and give it a line in the list.
 #pragma once
 
 #include "effects/chain_pitch.h"
@@ -17,8 +17,9 @@
 
 namespace kinematics {
 
-// From the frame through the hanging chain to links counted by the sprocket: where the chain runs,
-// how much longer than the straight line it is, how many links that makes, what the motor counts.
+// The order runs from the frame through the hanging chain to the links that the sprocket counts:
+// where the chain runs, how much longer than the straight line it is, how many links it has, what
+// the motor counts.
 // clang-format off
 using Effects = Registry<
     At<100, MotorLevel>,
@@ -34,7 +35,7 @@ using Effects = Registry<
     At<210, ResidualPatch>>;
 // clang-format on
 
-/// How many numbers describe all effects together, and how many their hooks read.
+/// How many parameters all effects have together, and how many coefficients.
 enum {
   kEffectParamCount = Effects::For<float>::kParamCount,
   kEffectCoefficientCount = Effects::For<float>::kCoefficientCount

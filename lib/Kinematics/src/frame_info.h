@@ -5,14 +5,14 @@
 
 namespace kinematics {
 
-/// One number of the frame: where it lives and what to say of it.
+/// A number of the frame: its field, and what people read about it.
 template <class Real>
 struct FrameField {
   const char* name;
   const char* unit;
   Real Frame<Real>::*member;
   double usual;      ///< the published default
-  double low, high;  ///< outside these a value is taken for a mistake
+  double low, high;  ///< a value outside these is refused as a mistake
   const char* summary;
   const char* noun;  ///< in a maker's words
 };

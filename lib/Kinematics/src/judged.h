@@ -14,17 +14,17 @@ struct EachEffect {
   const Real* parameter;
   Judge& judge;
 
-  template <class Own>
+  template <class ThisEffect>
   void effect(int) {
-    Own::setJudge(frame, parameter, judge);
-    parameter += Own::kParamCount;
+    ThisEffect::setJudge(frame, parameter, judge);
+    parameter += ThisEffect::kParamCount;
   }
 };
 
 }  // namespace judged_detail
 
-/// Says a whole machine by judge.set(name, value) and judge.scale(name, factor). Factors hold for
-/// the values that are set last, whichever call comes first; the feed is not said.
+/// Describes a whole machine by judge.set(name, value) and judge.scale(name, factor). A factor
+/// applies to the last value set, whichever call comes first. The feed is left out.
 template <class Real, class Judge>
 void setJudge(const Frame<Real>& frame, const EffectParams<Real>& effects, Judge& judge) {
   judge.set("motor_gap", frame.motor_gap);

@@ -1,4 +1,4 @@
-// A machine made ready for computing: what depends on settings alone is worked out once.
+// A machine ready for computing: everything that depends only on settings, worked out once.
 #pragma once
 
 #include "effects.h"
@@ -19,8 +19,8 @@ struct EffectParams {
   }
 };
 
-/// Settings turned into the constants that inverse() and forward() read. Made by prepare().
-/// What each call reads comes first: the board reaches the first 63 bytes fastest.
+/// Settings turned into the constants that inverse() and forward() read. prepare() makes it.
+/// The fields that every call reads come first: the board reaches the first 63 bytes fastest.
 template <class Real>
 struct Machine {
   Point<Real> sprocket[kSideCount];  ///< [mm] centres
@@ -28,13 +28,13 @@ struct Machine {
   Real rotation_radius;              ///< [mm] as in the frame
   Real feed_radius;                  ///< [mm] sprocket's, negative off the bottom
   Wrap<Real> wrap;                   ///< by kArc in Kinematics.cpp
-  Real load_at_nothing;              ///< [1] load / sled weight for chains without length
-  Real load_slope;                   ///< [1/mm] and how it grows with the length of both
-  Real ease;                         ///< [1/mm^2] see easeOf in deep.h
-  bool deep;                         ///< the second order of sag counts
-  bool level;                        ///< both sprockets are equally high
-  bool forces;                       ///< some present effect asks for tensions
-  uint16_t present;                  ///< a bit for each effect that is not zero
+  Real load_at_nothing;              ///< [1] load / sled weight where both chains have no length
+  Real load_slope;   ///< [1/mm] growth of load / sled weight with both chains' length
+  Real ease;         ///< [1/mm^2] see easeOf in deep.h
+  bool deep;         ///< the second order of sag counts
+  bool level;        ///< both sprockets are equally high
+  bool forces;       ///< some present effect asks for tensions
+  uint16_t present;  ///< a bit for each effect whose parameters are not all zero
   Real coefficient[kEffectCoefficientCount];
   Real highest, lowest, leftmost, rightmost;  ///< [mm] between these a sled can hang
   Frame<Real> frame;

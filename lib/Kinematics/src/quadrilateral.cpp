@@ -1,19 +1,21 @@
-// Inverse and forward kinematics of the sled with two brackets: one search for its tilt.
+// Inverse and forward kinematics of the sled with two brackets, both by a search for its tilt.
 //
-// A strand is the line that touches the sprocket and passes through the bracket; sine and cosine
-// are of its angle below the horizontal; ' means the right side. For a pull of one along a strand,
-//   lever = its moment about the bit, the left one's counterclockwise, the right one's clockwise,
+// A strand is the line that touches the sprocket and passes through the bracket. Sine and cosine
+// are those of its angle below the horizontal. A prime (') marks the right side. For a unit pull
+// along a strand,
+//   lever = its moment about the bit: counterclockwise on the left, clockwise on the right,
 //   along = the part of the line from bit to bracket that lies along the strand.
-// Two pulls and a weight are in balance sideways and upright when
+// Two pulls and a weight balance, sideways and upright, when
 //   pull = weight cosine' / sine_of_sum,  pull' = weight cosine / sine_of_sum,
-// so a sled with balanced moments about the bit has, times sine_of_sum / weight,
+// so balanced moments about the bit mean, times sine_of_sum / weight,
 //   moment = cosine' lever - cosine lever' - center_depth sin(tilt) sine_of_sum = 0.
-// Newton needs its slope. As the sled turns by one about the bit, counterclockwise,
+// Newton's method needs the slope of that moment. Per radian that the sled turns counterclockwise
+// about the bit,
 //   lever changes by -along, length by -lever (right: lever', length' by +along', +lever'),
-//   the left strand gets steeper by along / free, the right one flatter by along' / free';
-// and a left strand that gets steeper by one loses from the moment
-//   cosine' along - sine lever' + center_depth sin(tilt) cosine_of_sum   (right: it gains, with
-//   the signs of lever and center_depth changed).
+//   the left strand gets steeper by along / free, the right strand flatter by along' / free'.
+// Per radian that the left strand gets steeper, the moment falls by
+//   cosine' along - sine lever' + center_depth sin(tilt) cosine_of_sum
+// (right: it grows, with the signs of lever and center_depth changed).
 // The chains' slopes along x and y are the strands' directions, so the same numbers give the
 // forward search its slopes: place and tilt change together until lengths and moment are right.
 #include "quadrilateral.h"
@@ -27,23 +29,23 @@ namespace kinematics {
 namespace {
 
 // Wrap is radius * angle, and angle = pi/4 + asin((sine - cosine) / sqrt(2)). From level to
-// upright these odd coefficients give it within 0.00016 rad: 0.0016 mm. Those of a sled on a ring
-// are closer, for a narrower range: no chain on a ring hangs as steep as one on a bracket.
+// upright these odd coefficients give it within 0.00016 rad: 0.0016 mm. The coefficients for a sled
+// on a ring are closer over a narrower range: a chain on a ring never hangs as steep.
 const double kArc[3] = {0.70818114, 0.05135919, 0.02569482};
 
-// A chain pulls with at most weight / sine_of_sum: no more than any chain could stand.
+// A chain pulls with at most weight / sine_of_sum, so this keeps tensions within what chains stand.
 const float kLeastSine = 1.0f / 32;
 
 // After a last step as long as this, what the first order misses is 0.0005 mm of chain.
 const float kLastTurn = 0.002f;   // [rad]
 const float kLongestTurn = 0.3f;  // [rad]
-// A guess that asks for more than this is dropped for the search's own start.
+// A guess from which the first step is longer than this is dropped; the search starts without it.
 const float kNearStep = 100.0f;  // [mm]
 const float kNearTurn = 0.2f;    // [rad]
 
 const float kRoughSine = 0.4f;  // sine = tangent - 0.4 tangent^3 for the tilts that occur
 
-/// One chain at its bracket. Lever and along as at the top of this file.
+/// A chain at its bracket. The top of this file defines lever and along.
 template <class Real>
 struct Held {
   Real free;          // [mm] between sprocket and bracket
@@ -64,15 +66,15 @@ struct Balance {
 };
 
 /// A strand to a bracket `run` [mm] inwards of its sprocket and `drop` [mm] below it. The bracket
-/// is `out` and `up` [mm] from the bit, out towards the strand's own side.
+/// is `out` [mm] from the bit towards the strand's side, and `up` [mm] above it.
 template <class Real>
 void hold(const Quadrilateral<Real>& machine, Real run, Real drop, Real out, Real up,
           Held<Real>& held) {
   const Real reach_squared = run * run + drop * drop;
   held.free = sqrt(reach_squared - machine.radius_squared);
   const Real per_square = Real(1) / reach_squared;
-  // Sprocket's centre, tangent point and bracket make a right-angled triangle; 1 / free is needed
-  // for slopes alone, which can bear that this is short of it by (radius / reach)^2.
+  // Sprocket's centre, tangent point and bracket make a right-angled triangle. Only slopes need
+  // 1 / free, and they can bear that this value is too small by (radius / reach)^2.
   held.per_free = held.free * per_square;
   const Real lift = machine.feed_radius * per_square;
   held.sine = drop * held.per_free + run * lift;
@@ -81,8 +83,8 @@ void hold(const Quadrilateral<Real>& machine, Real run, Real drop, Real out, Rea
   held.along = out * held.cosine + up * held.sine;
 }
 
-/// What the moment of two strands and a weight at `below` the bit, `aside` to the right, is, and
-/// how it changes.
+/// Moment, and its changes, of two strands and a weight that acts `below` [mm] the bit and `aside`
+/// [mm] to its right.
 template <class Real>
 void weigh(Real aside, Real below, Balance<Real>& balance) {
   const Held<Real>& left = balance.left;
@@ -120,7 +122,7 @@ Balance<Real> balanceAt(const Quadrilateral<Real>& machine, Point<Real> bit, Rea
   return balance;
 }
 
-/// Keeps a tilt to those a sled at rest can have.
+/// Limits a tilt to what a sled at rest can have.
 template <class Real>
 Real clampedTilt(const Quadrilateral<Real>& machine, Real tilt_sine) {
   return clamp(tilt_sine, -machine.steepest, machine.steepest);
@@ -133,8 +135,8 @@ Real turnedFar(const Quadrilateral<Real>& machine, Real tilt_sine, Real tilt_cos
   return clampedTilt(machine, tilt_sine + some * (tilt_cosine - some * tilt_sine * Real(0.5)));
 }
 
-/// A tilt for the search to start from: that of a level sled's strands, drawn to the sprockets'
-/// centres. With the runs and the drop of its brackets, tan(tilt) =
+/// A tilt for the search to start from: the tilt for a level sled's strands, drawn to the
+/// sprockets' centres. With the runs and the drop of its brackets, tan(tilt) =
 /// half_gap drop (run - run') / ((height + depth) drop (run + run') + 2 half_gap run run').
 template <class Real>
 Real roughTilt(const Quadrilateral<Real>& machine, Point<Real> bit) {
@@ -151,7 +153,7 @@ Real paidOut(const Quadrilateral<Real>& machine, Side side, const Held<Real>& he
   return machine.wrap.at(held.sine - held.cosine) + machine.links[side] * held.free;
 }
 
-/// Whether both chains lead down and inwards, so that they pull, and none by far too much.
+/// Whether both chains lead down and inwards, so that both pull, and neither far too much.
 template <class Real>
 bool bothPull(const Balance<Real>& balance) {
   return !signbit(balance.left.sine) && !signbit(balance.left.cosine) &&
@@ -185,8 +187,8 @@ struct Motion {
   Real turn;         // [rad]
 };
 
-/// The step that makes up for both errors [mm] and the moment at once. The chains held, a turn of
-/// one moves the bit as errors of lever and -lever' do.
+/// The step that makes up for both errors [mm] and the moment at once. With the chains held, each
+/// radian of turn moves the bit as errors of lever and -lever' would.
 template <class Real>
 Motion<Real> motionTowards(const Balance<Real>& balance, Real left_error, Real right_error) {
   const Held<Real>& left = balance.left;
@@ -205,8 +207,8 @@ Motion<Real> motionTowards(const Balance<Real>& balance, Real left_error, Real r
   return motion;
 }
 
-/// A place to start from when there is no other: that of a level sled on straight chains whose wrap
-/// is that of a 45 degree strand.
+/// A place to start from without a guess: a level sled on straight chains that have the wrap of a
+/// 45 degree strand.
 template <class Real>
 void startLevel(const Quadrilateral<Real>& machine, Chains<Real> chains, TiltedPlace<Real>& place) {
   const Real from = machine.center[kLeft] + machine.half_gap;
@@ -236,7 +238,8 @@ bool isShort(const Motion<Real>& motion, float step, float turn) {
          isWithin(motion.step.y, step);
 }
 
-/// Searches from a place, or from a better one if that turns out to be far off and `guessed`.
+/// Searches from a place. A place that was `guessed` and turns out to be far off is replaced by a
+/// better start.
 template <class Real>
 void search(const Quadrilateral<Real>& machine, Chains<Real> chains, bool guessed,
             TiltedPlace<Real>& place) {
@@ -257,7 +260,7 @@ void search(const Quadrilateral<Real>& machine, Chains<Real> chains, bool guesse
       moveFar(machine, motion, balance.tilt_cosine, place);
     guessed = false;
   }
-  // A search that ends pressed against the edge of what can hang was sent beyond it.
+  // The search ended at the edge of where a sled can hang: the place asked for lies beyond it.
   place.tries = kMostTries;
   if (isBelowMotors(machine, place.sled) && place.sled.y > machine.lowest)
     place.found = Found::kTooManyTries;
@@ -279,17 +282,17 @@ Quadrilateral<Real> prepare(const Frame<Real>& frame, const BracketSled<Real>& s
   machine.links[kRight] = Real(1) / (Real(1) + pitch.right);
   const Real half_gap = sled.mount_gap * Real(0.5);
   const Real above = sled.mount_height + sled.center_depth;
-  // Another sled would topple rather than tilt: nowhere is in its reach.
+  // Any other sled would topple instead of tilting: it can hang nowhere.
   machine.height = half_gap > Real(0) && above > Real(0) ? frame.motor_height : Real(NAN);
   machine.half_gap = half_gap;
   machine.mount_height = sled.mount_height;
   machine.center_depth = sled.center_depth;
   machine.rough_drop = above * (frame.motor_gap - sled.mount_gap) / half_gap;
-  // Of all balanced sleds the one on a single chain tilts most: its centre of gravity is right
-  // below its bracket.
+  // A sled on a single chain tilts more than any other balanced sled: its centre of gravity is
+  // right below its bracket.
   const Real arm = sqrt(half_gap * half_gap + above * above);
   machine.steepest = half_gap / arm;
-  // That single chain is upright, which leaves the bit so far inwards of its sprocket.
+  // That single chain is upright, so the bit is this far inwards of its sprocket.
   const Real inwards = half_gap * sled.center_depth / arm;
   machine.leftmost = machine.center[kLeft] + inwards;
   machine.rightmost = machine.center[kRight] - inwards;
@@ -303,7 +306,8 @@ TiltedPaidOut<Real> inverse(const Quadrilateral<Real>& machine, Point<Real> bit,
   TiltedPaidOut<Real> paid = {{Real(0), Real(0)}, tilt_sine, Found::kOutOfReach, 1};
   for (; paid.tries <= kMostTries; ++paid.tries) {
     const Balance<Real> balance = balanceAt(machine, bit, paid.tilt_sine);
-    // The slope falls; where it does not, close below a motor, the way is still the moment's.
+    // The moment falls as the tilt grows. Where it does not, close below a motor, its sign still
+    // says which way to turn.
     const Real turn = balance.moment / fabs(balance.slope);
     if (isWithin(turn, kLastTurn)) {
       if (!bothPull(balance)) return paid;

@@ -1,4 +1,4 @@
-// The older sled: two chains end at two brackets of one rigid body, which tilts until it balances.
+// The older sled: two chains end at two brackets of a rigid body, which tilts until it balances.
 // Left out: every effect but pitch. Sag and stretch would move the usual sled by up to 8.5 mm.
 #pragma once
 
@@ -8,7 +8,7 @@ namespace kinematics {
 
 /// Where chains and weight act on a sled with two brackets, while it hangs level.
 ///
-/// Its brackets must be above its centre of gravity, or nowhere is in its reach.
+/// Its brackets must be above its centre of gravity; else it can hang nowhere.
 template <class Real>
 struct BracketSled {
   Real mount_gap;     ///< [mm] between the brackets, as far left of the bit as right of it
@@ -22,8 +22,8 @@ struct PitchStrain {
   Real left, right;  ///< [1]
 };
 
-/// Their part of a machine's effects: the only one that counts here. parameter(i) is the i-th of
-/// all.
+/// The strains among a machine's effect parameters. No other effect counts here. parameter(i) is
+/// the i-th of all parameters.
 template <class Real, class Parameter>
 PitchStrain<Real> pitchAmong(Parameter parameter) {
   typedef ChainPitch<Real> Pitch;
@@ -32,7 +32,7 @@ PitchStrain<Real> pitchAmong(Parameter parameter) {
           parameter(uint8_t(first + Pitch::kRightStrain))};
 }
 
-/// A machine with such a sled, made ready for computing. Made by prepare().
+/// A machine with such a sled, ready for computing. prepare() makes it.
 template <class Real>
 struct Quadrilateral {
   Real half_gap;                      ///< [mm] bit to either bracket, while level
@@ -49,10 +49,10 @@ struct Quadrilateral {
   Real lowest;                        ///< [mm] forward() searches down to here
 };
 
-/// Chain lengths for a place of the bit; lengths are zero unless found is kYes.
+/// Chain lengths for a place of the bit; lengths are zero unless `found` is kYes.
 ///
-/// Tilts are told by their sine, counterclockwise; that of one place is a good guess for the next.
-/// It means nothing unless found is kYes.
+/// A tilt is given by its sine, counterclockwise. The tilt of a place is a good guess for the next
+/// place. It means nothing unless `found` is kYes.
 template <class Real>
 struct TiltedPaidOut {
   Chains<Real> chains;  ///< [mm] from 12 o'clock
@@ -61,7 +61,7 @@ struct TiltedPaidOut {
   uint8_t tries;  ///< rounds it took
 };
 
-/// The sled's place and tilt, to be used only if found is kYes.
+/// The sled's place and tilt. Use them only if `found` is kYes.
 template <class Real>
 struct TiltedPlace {
   Point<Real> sled;  ///< [mm] where the bit is
@@ -70,8 +70,8 @@ struct TiltedPlace {
   uint8_t tries;  ///< rounds it took
 };
 
-/// Works out the constants of a machine. The frame's ring and weights play no part: chains without
-/// weight hold a heavy sled where they hold a light one.
+/// Works out the constants of a machine. The frame's ring and weights play no part: on chains
+/// without weight a heavy sled hangs where a light sled hangs.
 template <class Real>
 Quadrilateral<Real> prepare(const Frame<Real>& frame, const BracketSled<Real>& sled,
                             const PitchStrain<Real>& pitch);
@@ -80,7 +80,8 @@ Quadrilateral<Real> prepare(const Frame<Real>& frame, const BracketSled<Real>& s
 template <class Real>
 TiltedPaidOut<Real> inverse(const Quadrilateral<Real>& machine, Point<Real> bit);
 
-/// The same from the tilt of a place nearby: half the work. A bad guess costs rounds, no more.
+/// Chain to pay out, with the tilt of a place nearby as guess: half the work. A bad guess costs
+/// only rounds.
 template <class Real>
 TiltedPaidOut<Real> inverse(const Quadrilateral<Real>& machine, Point<Real> bit, Real tilt_sine);
 
@@ -88,7 +89,8 @@ TiltedPaidOut<Real> inverse(const Quadrilateral<Real>& machine, Point<Real> bit,
 template <class Real>
 TiltedPlace<Real> forward(const Quadrilateral<Real>& machine, Chains<Real> chains);
 
-/// The same from a place `guess` [mm] and the sled's tilt there, as when following the encoders.
+/// Where the bit is, from a place `guess` [mm] and the sled's tilt there: for following the
+/// encoders.
 template <class Real>
 TiltedPlace<Real> forward(const Quadrilateral<Real>& machine, Chains<Real> chains,
                           Point<Real> guess, Real tilt_sine);

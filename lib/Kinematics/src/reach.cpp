@@ -1,4 +1,5 @@
-// How tight, how slack and how soft the sled hangs. Derivation: ../README.md, "How soft it hangs".
+// How tight, how slack and how soft the sled hangs. Derivation: docs/kinematics.md, "How soft the
+// sled hangs".
 #include "reach.h"
 
 #include <math.h>
@@ -7,12 +8,12 @@ namespace kinematics {
 
 namespace {
 
-// The load is tried this many times as large, and as small. The slope of a sag that falls with the
-// tension's square comes out 0.3 per cent too steep; a smaller step drowns in float's rounding.
+// The load is multiplied and divided by this factor. A sag falls with the square of the tension,
+// so its slope comes out 0.3 per cent too steep. A smaller factor would drown in float's rounding.
 const float kHeavier = 1.0625f;
 
-/// Both strands if the sled stayed where it is under `times` its load: both chains then pull more,
-/// and every effect answers to that as it does in inverse().
+/// Both strands if the sled stayed where it is under `times` its load. Both chains then pull more,
+/// and every effect responds to that as in inverse().
 template <class Real>
 Hanging<Real> hangUnder(Machine<Real>& machine, Point<Real> bit, Real times) {
   machine.load_at_nothing *= times;
@@ -20,7 +21,7 @@ Hanging<Real> hangUnder(Machine<Real>& machine, Point<Real> bit, Real times) {
   return hang(machine, bit, true);
 }
 
-/// How far each chain's end gives [mm/N]: less of a chain reaches as far when it pulls more.
+/// How far each chain's end gives [mm/N]: with more pull, less chain reaches equally far.
 template <class Real>
 Chains<Real> giveOfEach(Machine<Real> machine, Point<Real> bit) {
   const Real more = Real(kHeavier);
@@ -35,15 +36,16 @@ Chains<Real> giveOfEach(Machine<Real> machine, Point<Real> bit) {
   return {(longer.left - shorter.left) / left, (longer.right - shorter.right) / right};
 }
 
-/// The sled's give by its chains alone. A force f along the sheet changes both tensions by t with
-/// J^T t = f, rows of J being the strands' directions from sprocket to bit; each chain reaches
-/// farther by its give times t; and the bit goes where both lengths fit: J p = those lengths.
+/// The sled's give [mm/N] by its chains alone. A force f along the sheet changes both tensions by t
+/// with J^T t = f, where the rows of J are the strands' directions from sprocket to bit. Each chain
+/// reaches farther by its give times t. The bit moves by p so that both lengths fit: J p = those
+/// lengths.
 template <class Real>
 Give<Real> giveOfChains(const Hanging<Real>& hanging, const Chains<Real>& each) {
   const Strand<Real>& left = hanging.strand[kLeft];
   const Strand<Real>& right = hanging.strand[kRight];
   const Real scale = Real(1) / hanging.sine_of_sum;
-  // Where the bit goes per mm of either chain.
+  // How far the bit moves per mm of each chain.
   const Point<Real> by_left = {right.sine * scale, -right.cosine * scale};
   const Point<Real> by_right = {-left.sine * scale, -left.cosine * scale};
   return {each.left * by_left.x * by_left.x + each.right * by_right.x * by_right.x,
@@ -51,8 +53,8 @@ Give<Real> giveOfChains(const Hanging<Real>& hanging, const Chains<Real>& each) 
           each.left * by_left.y * by_left.y + each.right * by_right.y * by_right.y};
 }
 
-/// The same with what turning strands add: a strand of tension T and length D resists its end's
-/// moves across it with T / D. Chains that do not give hold the sled without this help.
+/// The give [mm/N] with what turning strands add: a strand of tension T and length D resists moves
+/// of its end across it with T / D. Chains that do not give hold the sled without this help.
 template <class Real>
 Give<Real> heldByTurning(const Hanging<Real>& hanging, const Give<Real>& give, const Real* tension,
                          Real arm) {
@@ -65,8 +67,7 @@ Give<Real> heldByTurning(const Hanging<Real>& hanging, const Give<Real>& give, c
     stiff.xy += side == kLeft ? mixed : -mixed;
     stiff.yy += across * strand.cosine * strand.cosine;
   }
-  // (1 + give * stiff)^-1 give, worked out for two symmetric matrices: the products of both mixed
-  // terms meet in one determinant, and the rest is give and its adjoint's share.
+  // (1 + give * stiff)^-1 give for two symmetric 2 x 2 matrices, by Cramer's rule.
   const Real area = give.xx * give.yy - give.xy * give.xy;
   const Real hold = Real(1) + give.xx * stiff.xx + Real(2) * give.xy * stiff.xy +
                     give.yy * stiff.yy + area * (stiff.xx * stiff.yy - stiff.xy * stiff.xy);
@@ -106,14 +107,14 @@ Reached<Real> reach(const Machine<Real>& machine, Point<Real> bit,
   for (uint8_t side = kLeft; side < kSideCount; ++side) {
     const Strand<Real>& strand = hanging.strand[side];
     tension[side] = strand.pull * machine.frame.sled_weight;
-    // Down to the middle of the chain its upper half hangs on the sprocket as well.
+    // The sprocket carries the upper half of the chain too: `pull` is the tension at its middle.
     reached.tension[side] =
         tension[side] + machine.frame.chain_weight * strand.free * strand.sine * Real(0.5);
   }
   const Give<Real> loose = giveOfChains(hanging, giveOfEach(machine, bit));
   reached.give = heldByTurning(hanging, loose, tension, machine.rotation_radius);
   const Real all = reached.tension[kLeft] + reached.tension[kRight] + mostGive(reached.give);
-  // Places that are no numbers, or too far for one, end here.
+  // A place that is NaN, or too far away for a float, ends here.
   if (!isfinite(all)) return {Reach::kCannotHang, {Real(0), Real(0)}, none};
   reached.verdict = verdictOn(reached, limits);
   return reached;

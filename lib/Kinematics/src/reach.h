@@ -5,34 +5,34 @@
 
 namespace kinematics {
 
-/// What a place is good for. Where several hold, the first of kCannotHang, kTooTight, kTooSlack,
-/// kTooVertical is told.
+/// What a place is good for. Where several hold, the answer is the first of kCannotHang, kTooTight,
+/// kTooSlack, kTooVertical.
 enum class Reach : uint8_t {
   kUsable,
   kTooTight,     ///< too near the line of the motors: a chain pulls more than its gearbox should
-  kTooSlack,     ///< a chain, the far one in a lower corner, pulls too little to hold its gears
-  kTooVertical,  ///< under a motor, where only a slack chain holds the sled: it gives sideways
+  kTooSlack,     ///< a chain pulls too little to hold its gears: the far chain in a lower corner
+  kTooVertical,  ///< under a motor, where only a slack chain keeps the sled from giving sideways
   kCannotHang,   ///< no sled hangs there (see Found), or its ring would touch a sprocket
 };
 
-/// What is asked of a usable place.
+/// Limits of a usable place.
 template <class Real>
 struct ReachLimits {
-  /// [N] of a chain at its sprocket. Motors stall near 290 N; a third of that is kept for starting,
-  /// for friction and for the hose. (The chain itself may carry 640 N for good.)
+  /// [N] of a chain at its sprocket. Motors stall near 290 N; a third of that is reserved for
+  /// starting, friction and the hose. (The chain itself carries 640 N for long.)
   Real most_tension = Real(200);
 
-  /// [N] of a chain at its sprocket. The bungee on the other end of the chain pulls about 18 N:
-  /// where the sled pulls less, the gears lie against their other flanks and their play becomes a
-  /// jump.
+  /// [N] of a chain at its sprocket. The bungee on the other end of the chain pulls about 18 N.
+  /// Where the sled pulls less, the gears lie against their other flanks: the sled jumps by their
+  /// play.
   Real least_tension = Real(18);
 
   /// [mm] of chain between ring and sprocket, so that the ring's carriage stays clear.
   Real least_free = Real(100);
 
   /// [mm/N] in the direction in which the sled gives most. At this limit a light cut, 10 N, pushes
-  /// the bit aside by its own width (a quarter inch), and friction of 7 N leaves it 4 mm to either
-  /// side of where it should be. Marks want a tenth of it.
+  /// the bit aside by its width (a quarter inch), and friction of 7 N leaves it 4 mm to either
+  /// side of where it should be. Calibration marks need a tenth of this limit.
   Real most_give = Real(0.6);
 };
 
@@ -53,7 +53,7 @@ struct Reached {
   Give<Real> give;
 };
 
-/// Whether a place `bit` [mm] is usable; of slow use on the board (see CHANGELOG.md).
+/// Whether a place `bit` [mm] is usable. Slow on the board (see CHANGELOG.md).
 template <class Real>
 Reached<Real> reach(const Machine<Real>& machine, Point<Real> bit, const ReachLimits<Real>& limits);
 

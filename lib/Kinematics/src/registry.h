@@ -8,8 +8,8 @@
 
 namespace kinematics {
 
-/// One line of the registry: an effect and the number of its first $-setting.
-/// A number that was once released keeps its meaning for ever.
+/// A line of the registry: an effect and the number of its first $-setting.
+/// A number keeps its meaning for ever once it was released.
 template <int FirstSetting, template <class> class EffectTemplate>
 struct At {
   enum { kFirstSetting = FirstSetting };
@@ -17,7 +17,7 @@ struct At {
   using Type = EffectTemplate<Real>;
 };
 
-/// Whether two types are the same one.
+/// Whether two types are the same.
 template <class A, class B>
 struct Same {
   enum { kYes = 0 };
@@ -27,7 +27,7 @@ struct Same<A, A> {
   enum { kYes = 1 };
 };
 
-/// True where a number is exactly zero; a dual number brings its own, which also looks at slopes.
+/// True where a number is exactly zero; dual.h overloads it to look at slopes too.
 inline bool isZero(float value) { return value == 0.0f; }
 inline bool isZero(double value) { return value == 0.0; }
 
@@ -68,102 +68,103 @@ struct Listed<Real, Index> {
 
 template <class Real, uint8_t Index, class First, class... Rest>
 struct Listed<Real, Index, First, Rest...> {
-  typedef typename First::template Type<Real> Own;
+  typedef typename First::template Type<Real> ThisEffect;
   typedef Listed<Real, Index + 1, Rest...> Next;
   enum {
-    kOwnCount = Own::kParamCount,
-    kParamCount = kOwnCount + Next::kParamCount,
-    kOwnCoefficients = Own::kCoefficientCount,
-    kCoefficientCount = kOwnCoefficients + Next::kCoefficientCount,
+    kThisCount = ThisEffect::kParamCount,
+    kParamCount = kThisCount + Next::kParamCount,
+    kTheseCoefficients = ThisEffect::kCoefficientCount,
+    kCoefficientCount = kTheseCoefficients + Next::kCoefficientCount,
     kLowestSetting = First::kFirstSetting,
-    kForceMask = (Own::kNeedsForces << Index) | Next::kForceMask,
-    kMoveMask = (Own::kMovesEnds << Index) | Next::kMoveMask,
-    kPushMask = (Own::kPushesSled << Index) | Next::kPushMask
+    kForceMask = (ThisEffect::kNeedsForces << Index) | Next::kForceMask,
+    kMoveMask = (ThisEffect::kMovesEnds << Index) | Next::kMoveMask,
+    kPushMask = (ThisEffect::kPushesSled << Index) | Next::kPushMask
   };
   static_assert(Index < 16, "the mask of present effects has 16 bits");
-  static_assert(kLowestSetting >= 100 && kLowestSetting + kOwnCount <= 256,
+  static_assert(kLowestSetting >= 100 && kLowestSetting + kThisCount <= 256,
                 "settings 0 to 99 belong to published firmware; 255 is the last number");
-  static_assert(int(kLowestSetting) + int(kOwnCount) <= int(Next::kLowestSetting),
+  static_assert(int(kLowestSetting) + int(kThisCount) <= int(Next::kLowestSetting),
                 "numbers rise down the list and never overlap");
 
   static uint16_t presentMask(const Real* parameter) {
     bool present = false;
-    for (uint8_t i = 0; i < kOwnCount; ++i) present |= !isZero(parameter[i]);
-    return uint16_t((present ? 1u << Index : 0u) | Next::presentMask(parameter + kOwnCount));
+    for (uint8_t i = 0; i < kThisCount; ++i) present |= !isZero(parameter[i]);
+    return uint16_t((present ? 1u << Index : 0u) | Next::presentMask(parameter + kThisCount));
   }
 
   static void prepare(const Frame<Real>& frame, const Real* parameter, Real* c) {
-    Own::prepare(frame, parameter, c);
-    Next::prepare(frame, parameter + kOwnCount, c + kOwnCoefficients);
+    ThisEffect::prepare(frame, parameter, c);
+    Next::prepare(frame, parameter + kThisCount, c + kTheseCoefficients);
   }
 
   static void moveSprocket(const Real* c, uint16_t present, Point<Real>* sprocket) {
-    if (present & (1u << Index)) Own::moveSprocket(c, sprocket);
-    Next::moveSprocket(c + kOwnCoefficients, present, sprocket);
+    if (present & (1u << Index)) ThisEffect::moveSprocket(c, sprocket);
+    Next::moveSprocket(c + kTheseCoefficients, present, sprocket);
   }
 
   static void pushSled(const Real* c, uint16_t present, Point<Real> bit, Point<Real>& push) {
-    if (present & (1u << Index)) Own::pushSled(c, bit, push);
-    Next::pushSled(c + kOwnCoefficients, present, bit, push);
+    if (present & (1u << Index)) ThisEffect::pushSled(c, bit, push);
+    Next::pushSled(c + kTheseCoefficients, present, bit, push);
   }
 
   template <class SomeForces>
   static void moveEnds(const Real* c, uint16_t present, const Strand<Real>* strand,
                        const SomeForces& forces, Point<Real>* span) {
-    if (present & (1u << Index)) Own::moveEnds(c, strand, forces, span);
-    Next::moveEnds(c + kOwnCoefficients, present, strand, forces, span);
+    if (present & (1u << Index)) ThisEffect::moveEnds(c, strand, forces, span);
+    Next::moveEnds(c + kTheseCoefficients, present, strand, forces, span);
   }
 
   static void adjustLength(const Real* c, uint16_t present, Strand<Real>& strand) {
-    if (present & (1u << Index)) Own::adjustLength(c, strand);
-    Next::adjustLength(c + kOwnCoefficients, present, strand);
+    if (present & (1u << Index)) ThisEffect::adjustLength(c, strand);
+    Next::adjustLength(c + kTheseCoefficients, present, strand);
   }
 
   /// Adds what the published settings say to the parameters.
   static void addPublished(const Frame<Real>& frame, const PublishedChains<Real>& published,
                            Real* parameter) {
-    Own::addPublished(frame, published, parameter);
-    Next::addPublished(frame, published, parameter + kOwnCount);
+    ThisEffect::addPublished(frame, published, parameter);
+    Next::addPublished(frame, published, parameter + kThisCount);
   }
 
-  /// Zeroes the parameters of all that grows as sag does.
+  /// Zeroes the parameters of all effects that grow as sag does.
   static void clearBends(Real* parameter) {
-    for (uint8_t i = 0; Own::kBends && i < kOwnCount; ++i) parameter[i] = Real(0);
-    Next::clearBends(parameter + kOwnCount);
+    for (uint8_t i = 0; ThisEffect::kBends && i < kThisCount; ++i) parameter[i] = Real(0);
+    Next::clearBends(parameter + kThisCount);
   }
 
   /// [mm] amplitudes of all waves that follow the sprockets' turn, added up.
   static Real wavesOf(const Real* parameter) {
-    Real sum = Next::wavesOf(parameter + kOwnCount);
-    for (uint8_t i = 0; Own::kWaves && i < kOwnCount; ++i) sum += Real(fabs(parameter[i]));
+    Real sum = Next::wavesOf(parameter + kThisCount);
+    for (uint8_t i = 0; ThisEffect::kWaves && i < kThisCount; ++i) sum += Real(fabs(parameter[i]));
     return sum;
   }
 
   /// The $-setting that a published client means by this number.
   static uint8_t meantBy(uint8_t number) {
-    if (Own::kClientNumber != 0 && number == Own::kClientNumber)
+    if (ThisEffect::kClientNumber != 0 && number == ThisEffect::kClientNumber)
       return uint8_t(First::kFirstSetting);
     return Next::meantBy(number);
   }
 
-  /// Where the first parameter of one effect stands among all parameters.
+  /// Index of an effect's first parameter among all parameters.
   template <class Wanted>
   static uint8_t firstOf() {
-    return Same<Wanted, Own>::kYes ? 0 : uint8_t(kOwnCount + Next::template firstOf<Wanted>());
+    return Same<Wanted, ThisEffect>::kYes ? 0
+                                          : uint8_t(kThisCount + Next::template firstOf<Wanted>());
   }
 
-  /// Where the parameter with that $-setting stands among all parameters, or -1.
+  /// Index of the parameter with that $-setting among all parameters, or -1.
   static int indexOf(int setting) {
     const int own = setting - First::kFirstSetting;
-    if (own >= 0 && own < kOwnCount) return own;
+    if (own >= 0 && own < kThisCount) return own;
     const int next = Next::indexOf(setting);
-    return next < 0 ? next : kOwnCount + next;
+    return next < 0 ? next : kThisCount + next;
   }
 
-  /// Calls visitor.template effect<Own>(first setting) for each effect, in order.
+  /// Calls visitor.template effect<ThisEffect>(first setting) for each effect, in order.
   template <class Visitor>
   static void visit(Visitor& visitor) {
-    visitor.template effect<Own>(int(First::kFirstSetting));
+    visitor.template effect<ThisEffect>(int(First::kFirstSetting));
     Next::visit(visitor);
   }
 };

@@ -8,8 +8,8 @@
 namespace kinematics {
 
 const uint8_t kMostTries = 20;
-// A step so short is the last: what it misses for a slope that changes on the way is an encoder
-// count at most. A longer one than the next leaves the neighbourhood in which slopes mean anything.
+// A step as short as kLastStep ends the search: as slopes change along it, it misses an encoder
+// count at most. Slopes say nothing farther away than kLongestStep.
 const float kLastStep = 0.15f;      // [mm]
 const float kLongestStep = 400.0f;  // [mm]
 
@@ -32,7 +32,8 @@ bool canMeet(Chains<Real> chains, Real across, Real gap) {
   return sum > gap && sum < Real(8) * gap;
 }
 
-/// Where two lines of these lengths meet, `gap` [mm] apart: run from the left one's end, and drop.
+/// Where two lines of these lengths meet that start `gap` [mm] apart: run from the left start, and
+/// drop.
 template <class Real>
 Point<Real> meet(Real left, Real right, Real gap) {
   const Real run = (gap + (left - right) * (left + right) / gap) * Real(0.5);
@@ -40,8 +41,8 @@ Point<Real> meet(Real left, Real right, Real gap) {
   return {run, drop_squared > Real(0) ? sqrt(drop_squared) : Real(0)};
 }
 
-/// Step of a bit whose chains are short by these errors [mm]: the slopes of both lengths are the
-/// directions of the strands. A strand needs sine and cosine.
+/// Step of a bit whose chains are short by these errors [mm]. The slopes of both lengths are the
+/// directions of the strands, so a strand must have sine and cosine.
 template <class Strand, class Real>
 Point<Real> stepOf(const Strand& left, const Strand& right, Real sine_of_sum, Real left_error,
                    Real right_error) {

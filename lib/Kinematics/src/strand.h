@@ -1,4 +1,4 @@
-// The words of the trade: a place, the frame, and one strand of chain from sprocket to sled.
+// The basic terms: a place, the frame, and a strand of chain from sprocket to sled.
 #pragma once
 
 #include <stdint.h>
@@ -11,7 +11,7 @@ struct Point {
   Real x, y;  ///< [mm]
 };
 
-/// Chain paid out past 12 o'clock of each sprocket, in nominal links (one pitch is one pitch).
+/// Chain paid out past 12 o'clock of each sprocket, measured in nominal links (6.35 mm each).
 template <class Real>
 struct Chains {
   Real left, right;  ///< [mm]
@@ -23,7 +23,7 @@ enum class Feed : uint8_t { kOverTop, kOffBottom };
 /// Left and right, used as an index.
 enum Side : uint8_t { kLeft, kRight, kSideCount };
 
-/// What every hanging machine has, whatever effects it suffers from.
+/// What every hanging machine has, with or without effects.
 template <class Real>
 struct Frame {
   Real motor_gap;        ///< [mm] between the sprocket centres
@@ -36,20 +36,20 @@ struct Frame {
   Feed feed;             ///< how the chains leave the sprockets
 };
 
-/// One chain between its sprocket and the bit, drawn straight, and what it carries.
+/// A chain between its sprocket and the bit, drawn straight, and what it carries.
 ///
 /// "Straight" is the line that touches the sprocket and passes through the bit. The last
-/// rotation_radius of it is the ring's arm, the rest is free chain.
+/// rotation_radius of the line is the ring's arm, the rest is free chain.
 template <class Real>
 struct Strand {
   Side side;
-  bool deep;          ///< the chains hang so deep that the second order of sag counts
-  Real free;          ///< [mm] straight chain between sprocket and arm
-  Real length;        ///< [mm] free chain in nominal links: what the effects adjust
-  Real wrap;          ///< [mm] sprocket_radius * angle: chain on the teeth, but for r^2 / d
-  Real pull;          ///< [1] tension / sled weight; only where an effect asks for forces
-  Real slack;         ///< [1] 1 / pull
-  Real bend;          ///< [1] cosine / pull: how easily its own weight bends the chain
+  bool deep;    ///< the chains hang so deep that the second order of sag counts
+  Real free;    ///< [mm] straight chain between sprocket and arm
+  Real length;  ///< [mm] free chain in nominal links: what the effects adjust
+  Real wrap;    ///< [mm] sprocket_radius * angle: chain on the teeth, without the term r^2 / d
+  Real pull;    ///< [1] tension / sled weight; only where an effect asks for forces
+  Real slack;   ///< [1] 1 / pull
+  Real bend;    ///< [1] cosine / pull: how easily its weight bends the chain
   Real sine, cosine;  ///< [1] of the straight line's angle below the horizontal
   Real lean;          ///< [1] sine / pull; only on deep machines
   Real ease;          ///< [1] share by which deep chains pull less; only on deep machines
@@ -59,18 +59,18 @@ struct Strand {
 template <class Real>
 struct Forces {
   Real level;                ///< [1] horizontal pull, the same in both strands
-  Real upright[kSideCount];  ///< [1] vertical pull of each; together they hold the load
+  Real upright[kSideCount];  ///< [1] vertical pull of each strand; together they hold the load
 
   Real levelOf(Side) const { return level; }
 
-  /// Two numbers, each divided by its side's level pull: right less left.
+  /// The difference right less left, each divided by the level pull of its side.
   Real differencePerLevel(Real left, Real right) const { return (right - left) / level; }
 };
 
-/// The same where something pushes the sled: then one strand pulls more sideways than the other.
+/// What both strands do where something pushes the sled: their level pulls then differ.
 template <class Real>
 struct PushedForces {
-  Real level[kSideCount];    ///< [1] horizontal pull of each
+  Real level[kSideCount];    ///< [1] horizontal pull of each strand
   Real upright[kSideCount];  ///< [1] vertical pull of each
 
   Real levelOf(Side side) const { return level[side]; }

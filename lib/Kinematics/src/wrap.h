@@ -1,4 +1,4 @@
-// Chain on a sprocket's teeth: how much of it lies there, without an arc function.
+// How much chain lies on a sprocket's teeth, worked out without an arc function.
 #pragma once
 
 #include "strand.h"
@@ -18,13 +18,14 @@ struct Wrap {
   }
 };
 
-/// [mm] the sprocket's radius; negative off the bottom, where everything about it is mirrored.
+/// [mm] The sprocket's radius; negative off the bottom, where the geometry is mirrored.
 template <class Real>
 Real feedRadius(const Frame<Real>& frame) {
   return frame.feed == Feed::kOverTop ? frame.sprocket_radius : -frame.sprocket_radius;
 }
 
-/// The wrap by three coefficients of the arc. Off the bottom the chain first goes half round.
+/// The wrap by three coefficients of the arc. Off the bottom the chain first goes half way round
+/// the sprocket.
 template <class Real>
 Wrap<Real> wrapOf(const Frame<Real>& frame, const double* arc) {
   const double kQuarterPi = 0.78539816339744831, kPi = 3.14159265358979324;

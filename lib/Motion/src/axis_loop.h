@@ -1,4 +1,5 @@
-// The two loops of one axis: a length asked for becomes a speed, a speed becomes a duty.
+// The two loops of an axis: the position loop turns a length into a speed, the speed loop turns
+// that into a duty.
 #pragma once
 
 #include <math.h>
@@ -6,45 +7,46 @@
 
 namespace motion {
 
-/// Gains of one loop, in the published meaning: of an interval of 10 ms.
+/// Gains of a loop, with their published meaning: for an interval of 10 ms.
 struct Gains {
   float proportional, integral, derivative;
-  float weight;  ///< share of the proportional part that acts on the error; the rest on the measure
+  float weight;  ///< share of the proportional part that acts on the error; the rest acts on the
+                 ///< measured value
 };
 
 /// Position loop around speed loop.
 ///
-/// Lengths are in turns, speeds in turns a minute. The position loop's output is the speed that is
-/// asked for plus what its gains make of the error; the speed loop's output is added to the duty
-/// before, so that its proportional gain acts like an integral (as in the published firmware, from
-/// whose gains users start).
+/// Lengths are in turns, speeds in turns a minute. The position loop's output is the speed of the
+/// set-points (feed forward) plus what its gains make of the error. The speed loop's output is
+/// added to the last duty, so its proportional gain acts like an integral. The published firmware
+/// does the same, and users start from its gains.
 ///
-/// The speed asked for is that of the set-points kAhead later, as a motor needs that long to change
-/// its speed. The speed loop's derivative brakes a change of speed only so far as the speed asked
-/// for does not change alike.
+/// The feed forward is the speed of the set-points kAhead later, because a motor needs that long to
+/// change its speed. The speed loop's derivative acts on the change of the measured speed less the
+/// change of the feed forward.
 ///
-/// At rest an error of a count is none: summed up, it would turn a motor whose encoder is no longer
-/// heard.
+/// At rest an error of a count is ignored: summed up, it would turn a motor whose encoder is
+/// disconnected.
 class AxisLoop {
  public:
   enum : int16_t {
     kMostDuty = 255,
-    kMostRpm = 20,  ///< of the gearbox
+    kMostRpm = 20,  ///< [rpm] of the gearbox
   };
 
-  /// [ticks] by which the speed asked for is that of later set-points.
+  /// [ticks] by which the feed forward looks ahead.
   static uint8_t ticksAhead(float seconds_per_tick) {
     return uint8_t(kAhead / seconds_per_tick + 0.5f);
   }
 
-  /// Whatever the gains decide once and for all is decided here, and divided here: a tick of a
-  /// float compare costs 110 cycles, of a product 190, of a division 500.
+  /// Works out everything that depends on the gains alone, divisions included, so that a tick is
+  /// short: a compare of floats costs 110 cycles, a product 190, a division 500.
   void tune(const Gains& position, const Gains& speed, float counts_per_turn,
             float seconds_per_tick) {
     near_ = kNear / counts_per_turn;
     position_ = position;
     speed_ = speed;
-    // Gains are told per 10 ms.
+    // Gains are given for 10 ms.
     per_interval_ = seconds_per_tick / 0.01f;
     ticks_per_minute_ = 60 / seconds_per_tick;
     half_ticks_per_minute_ = ticks_per_minute_ / 2;
@@ -65,14 +67,14 @@ class AxisLoop {
   /// Begins at rest.
   void rest() { error_ = sum_ = rpm_ = last_rpm_ = last_lead_ = duty_ = wanted_ = speed_sum_ = 0; }
 
-  /// Takes the turns moved since the last tick; smooths over two ticks, as counts are coarse.
+  /// Takes the turns since the last tick. The speed is a mean over two ticks, as counts are coarse.
   void measure(float turned) {
     last_rpm_ = rpm_;
     rpm_ = turned * half_ticks_per_minute_ + rpm_ * 0.5f;
   }
 
-  /// Duty that follows a set-point which is `error` turns ahead; `asked` is the way [turns] of the
-  /// set-points in the tick that comes kAhead later. Positive lengthens.
+  /// Duty that follows a set-point which is `error` turns ahead. `asked` is how far [turns] the
+  /// set-points go in the tick that comes kAhead later. Positive lengthens the chain.
   int16_t follow(float error, float asked, float turned) {
     if (asked == 0 && error < near_ && error > -near_) error = 0;
     const float change = error - error_;
@@ -89,7 +91,7 @@ class AxisLoop {
     return drive(rpm, ahead);
   }
 
-  /// Duty that keeps a speed.
+  /// Duty that keeps a speed [rpm].
   int16_t run(float rpm) { return drive(rpm, 0); }
 
   float rpm() const { return rpm_; }
@@ -118,7 +120,7 @@ class AxisLoop {
   }
 
   static float clipped(float value, float most) {
-    // One compare for nearly all values.
+    // A single compare settles nearly all values.
     if (!(float(fabs(value)) > most)) return value;
     return value > 0 ? most : -most;
   }

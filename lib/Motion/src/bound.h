@@ -1,4 +1,4 @@
-// How long a segment may be: a bound on what a quadratic through three knots misses.
+// How long a segment may be: an upper bound for the error of a quadratic through three knots.
 #pragma once
 
 #include <math.h>
@@ -7,8 +7,8 @@
 
 namespace motion {
 
-/// Slopes, at most and in any direction, of what physics adds to the straight distance from
-/// sprocket to bit: wrap, sag, stretch. All zero: the distance alone.
+/// Upper bounds, in any direction, for the slopes of what physics adds to the straight distance
+/// from sprocket to bit: wrap, sag, stretch. All zero: the distance alone.
 template <class Real>
 struct Slopes {
   Real first;   ///< [1]
@@ -16,26 +16,26 @@ struct Slopes {
   Real third;   ///< [1/mm^2]
 };
 
-/// Where a path runs, as far as the bound asks.
+/// What the bound needs to know of a path.
 template <class Real>
 struct Surroundings {
-  Real nearest;          ///< [mm] to either sprocket's centre from anywhere on the path, at least
-  Slopes<Real> effects;  ///< of either chain's length less that distance, at most
+  Real nearest;          ///< [mm] least distance of the path from either sprocket's centre
+  Slopes<Real> effects;  ///< bounds for either chain's length less its distance
 };
 
-// What the quadratic may miss. With the float inverse and float places a set-point then stays
-// within 0.003 mm, and a step of it within 0.0015 mm: what misses by e jitters by e.
+// Largest error of the quadratic. With the rounding of the float inverse and of float places a
+// set-point stays within 0.003 mm of the exact length, and each step within 0.0015 mm.
 const float kMostMissed = 0.001f;  // [mm]
-// Covers arcs whose radius changes by kMostOffArc, small ones too.
+// Covers arcs whose radius changes by kMostOffArc, even small arcs.
 const float kSpiralMargin = 1.15f;
 
-/// Third slope [1/mm^2] of a chain's length along a path, at most.
+/// Upper bound [1/mm^2] for the third slope of a chain's length along a path.
 ///
-/// Of the distance d to a sprocket on a path of curvature k, at angle a between path and ray:
+/// For the distance d to a sprocket on a path of curvature k, at angle a between path and ray:
 ///     d'   = cos a                   a' = k - sin(a) / d
 ///     d''' = -cos a * (k^2 - 3 k sin(a) / d + 3 sin(a)^2 / d^2)
-/// and |sin a cos a| <= 1/2, |sin(a)^2 cos a| <= 2 / (3 sqrt 3). What effects add changes by their
-/// own three slopes and by the path's turning, as any function of the place does.
+/// and |sin a cos a| <= 1/2, |sin(a)^2 cos a| <= 2 / (3 sqrt 3). What effects add changes with
+/// their three slopes and with the path's curvature, as any function of the place does.
 template <class Real>
 Real thirdSlope(Real curvature, const Surroundings<Real>& around) {
   const Real per_distance = Real(1) / around.nearest;
@@ -46,7 +46,7 @@ Real thirdSlope(Real curvature, const Surroundings<Real>& around) {
   return curvature == Real(0) ? bent : bent * Real(kSpiralMargin);
 }
 
-/// Second slope [1/mm] of a chain's length along a path, at most: of the distance
+/// Upper bound [1/mm] for the second slope of a chain's length along a path. For the distance,
 ///     d'' = -k sin a + sin(a)^2 / d
 template <class Real>
 Real secondSlope(Real curvature, const Surroundings<Real>& around) {
@@ -54,24 +54,25 @@ Real secondSlope(Real curvature, const Surroundings<Real>& around) {
   return curvature * (Real(1) + effects.first) + Real(1) / around.nearest + effects.second;
 }
 
-/// Longest time, in the unit of speed and acceleration, in which a quadratic of time through both
-/// ends and the middle misses no more than kMostMissed, where a path is walked evenly faster or
-/// slower: of a length L at a place s(t)
-///     L''' = L'''(s) speed^3 + 3 L''(s) speed acceleration
-/// A quadratic misses at most (third slope) / 6 * (t - 0)(t - h/2)(t - h), whose product is at most
-/// (h/2)^3 * 2 / (3 sqrt 3): together third slope * h^3 / (72 sqrt 3).
+/// Longest time h, in the unit of speed and acceleration, in which a quadratic of time through both
+/// ends and the middle misses no more than kMostMissed. The acceleration along the path is
+/// constant, so for a length L at a place s(t)
+///     L''' = L'''(s) speed^3 + 3 L''(s) speed acceleration.
+/// The quadratic misses at most (third slope) / 6 * (t - 0)(t - h/2)(t - h). That product is at
+/// most (h/2)^3 * 2 / (3 sqrt 3), so the error is at most third slope * h^3 / (72 sqrt 3).
 template <class Real>
 Real longestTime(Real third_slope, Real second_slope, Real speed, Real acceleration) {
   const Real along = third_slope * speed * speed + Real(3) * second_slope * acceleration;
   return cbrt(Real(124.7077) * Real(kMostMissed) / (along * speed));
 }
 
-/// Slopes, at most, of a length [mm] that grows as (far_run * drop / near_run)^2 / span: a chain's
-/// sag. All four [mm] are taken where it is largest, in the lower corner under the other motor.
+/// Upper bounds for the slopes of a length [mm] that grows as (far_run * drop / near_run)^2 / span:
+/// a chain's sag. All four sizes [mm] are those of the place where the sag is largest, the lower
+/// corner under the other motor.
 ///
-/// Along any line, u^p grows no faster than (1 - s / u)^-|p|. So with l1, l2, l3 the sums of
-/// |p| / u, |p| / u^2, |p| / u^3, the slopes are at most l1, l1^2 + l2 and l1^3 + 3 l1 l2 + 2 l3
-/// times the length.
+/// Along any line, u^p grows no faster than (1 - s / u)^-|p|. Let l1, l2, l3 be the sums of
+/// |p| / u, |p| / u^2, |p| / u^3. Then the slopes are at most l1, l1^2 + l2 and
+/// l1^3 + 3 l1 l2 + 2 l3 times the length.
 template <class Real>
 Slopes<Real> sagSlopes(Real sag, Real far_run, Real near_run, Real drop, Real span) {
   const Real u[] = {far_run, near_run, drop, span};

@@ -1,4 +1,4 @@
-// How fast a corner between two moves may be passed without a stop.
+// How fast the sled may pass a corner between two moves without a stop.
 #pragma once
 
 #include <math.h>
@@ -20,7 +20,7 @@ inline Point<float> directionOf(const Path<float>& path, bool at_end) {
   if (path.sweep == 0)
     return {(path.to.x - path.from.x) / path.length, (path.to.y - path.from.y) / path.length};
   const Point<float>& at = at_end ? path.to : path.from;
-  // Round the centre, and away from it by as much as the radius grows.
+  // Around the centre, and away from it as the radius grows.
   const float x = at.x - path.centre.x, y = at.y - path.centre.y;
   const float radius_squared = x * x + y * y, sweep = path.sweep;
   const float per = 1 / float(sqrt(sweep * sweep * radius_squared + path.grows * path.grows));
@@ -28,18 +28,20 @@ inline Point<float> directionOf(const Path<float>& path, bool at_end) {
   return {x * out - y * round, y * out + x * round};
 }
 
-/// Square of the speed at which a corner may be passed, in the units of `acceleration` and [mm].
+/// Square of the speed at which the sled may pass a corner, in [mm] and the time of `acceleration`.
 ///
-/// Two limits. (1) The sled is taken to cut the corner by an arc that touches both sides and stays
-/// within `deviation` of it: with t the turn, v^2 = acceleration * deviation * cos(t/2) /
-/// (1 - cos(t/2)) (junction deviation, as in Grbl). (2) Where moves are short, such an arc would be
-/// longer than they are; the turn is then taken to be spread over `room`, the half of both moves
-/// together: v^2 = acceleration * (room + deviation) / t. A smooth curve in short moves is thus as
-/// fast as the arc it stands for.
+/// The smaller of two limits, with t the turn:
+///  1. Junction deviation, as in Grbl: the sled cuts the corner by an arc that touches both sides
+///     and stays within `deviation` of the corner: v^2 = acceleration * deviation * cos(t/2) /
+///     (1 - cos(t/2)).
+///  2. Between short moves that arc would be longer than the moves. So the turn is spread over
+///     `room`, half of both moves together: v^2 = acceleration * (room + deviation) / t. A curve
+///     made of short moves is then as fast as an arc of its radius.
 inline float cornerSpeedSquared(const Direction& before, const Direction& after, float acceleration,
                                 float deviation, float room) {
   const float x = after.x - before.x, y = after.y - before.y, z = after.z - before.z;
-  // From the difference, not from the cosine: in float 1 - cos of a small turn is noise.
+  // The turn follows from the difference of the directions: in float, 1 - cos of a small turn is
+  // noise.
   const float turn_squared = x * x + y * y + z * z;
   const float kNoTurn = 1e-8f;  // [rad^2]
   if (turn_squared < kNoTurn) return kAnySpeedSquared;

@@ -1,4 +1,4 @@
-// The travel that a motor's duty makes due, and that its encoder does not show.
+// Due travel: the travel that a motor's duty should cause and that its encoder does not show.
 #pragma once
 
 #include <stdint.h>
@@ -7,17 +7,18 @@ namespace motion {
 
 /// Sums, tick by tick, the counts that are due from the duty less those that came.
 ///
-/// A motor turns when its duty overcomes friction, the pull of its chain and what the bridge keeps.
-/// How much that takes is learned for each direction while the motor runs evenly, and rises faster
-/// than it falls. Due is what a weak motor does with the duty beyond that and a margin: so an
-/// honest motor owes nothing, also where it holds a load, breaks away late or its supply sags. The
-/// counts are net, so that an encoder with a single channel left, which counts to and fro, shows
-/// none. All of it is whole numbers: it runs in the control tick.
+/// A motor turns when its duty overcomes friction, the pull of its chain and the loss in the
+/// bridge.
+/// The duty that this needs is learned for each direction while the motor runs evenly; it rises
+/// faster than it falls. The travel that is due is what a weak motor would do with the duty beyond
+/// that and a margin. So a sound motor never owes travel, even if it holds a load, breaks away late
+/// or its supply sags. Counts are net: an encoder with a broken channel counts to and fro and so
+/// shows none. All numbers are whole, because this runs in the control tick.
 class DueTravel {
  public:
   void tune(float counts_per_turn, float seconds_per_tick) {
-    const float kTurns = 0.0014f;  // [1/s] of a weak motor, for each step of duty
-    const float kUsual = 0.002f;   // of the usual one
+    const float kTurns = 0.0014f;  // [turns/s] of a weak motor, for each step of duty
+    const float kUsual = 0.002f;   // [turns/s] of the usual motor
     per_duty_ = int16_t(kTurns * counts_per_turn * seconds_per_tick * kFine + 0.5f);
     const float usual = kUsual * counts_per_turn * seconds_per_tick;
     const float duty = kScale / usual;
@@ -25,11 +26,11 @@ class DueTravel {
     most_ = int32_t(kMostTurns * counts_per_turn * kFine);
   }
 
-  /// Begins at rest; what was learned of the motor stays.
+  /// Begins at rest; keeps what was learned of the motor.
   void rest() { due_ = 0; }
 
-  /// One tick: the means of duty and counts over kMean ticks, times kMean, and the counts of this
-  /// tick. True if too much is due.
+  /// To be called each tick, with the means of duty and counts over kMean ticks, times kMean, and
+  /// the counts of this tick. True if too much travel is due.
   bool look(int16_t driven, int16_t moved_mean, int16_t moved) {
     const bool forward = driven >= 0;
     if (!forward)
@@ -39,7 +40,7 @@ class DueTravel {
     learn(driven / kMean, moved_mean, moved);
     const int16_t beyond = int16_t(driven / kMean - threshold());
     if (beyond > 0) due_ += int32_t(beyond) * per_duty_;
-    // A chain that brakes counts against its drive, and owes nothing for it.
+    // A motor that its chain turns against the drive owes nothing for that.
     if (moved >= -1) due_ -= int32_t(moved) * (kPaid * kFine);
     if (due_ < 0) due_ = 0;
     return due_ >= most_;
@@ -50,12 +51,12 @@ class DueTravel {
  private:
   static constexpr float kMostTurns = 0.007f;  // 0.45 mm of chain
   enum : int16_t {
-    kFine = 256,        // parts of a count
-    kPaid = 4,          // counts that one which came pays for: who moves at all is not lost
-    kScale = 16,        // parts of a step of duty
-    kUnknown = 120,     // duty that a stiff motor may need, until it has run
-    kMargin = 15,       // of duty; and an eighth
-    kMostNeeded = 210,  // of duty, so that something is always due from the whole
+    kFine = 256,     // parts of a count
+    kPaid = 4,       // due counts that a real count settles: a motor that moves at all is not lost
+    kScale = 16,     // parts of a step of duty
+    kUnknown = 120,  // duty that a stiff motor may need, before anything is learned
+    kMargin = 15,    // of duty, and an eighth of the duty
+    kMostNeeded = 210,  // of duty, so that full duty always makes travel due
     kSlow = 2,          // [counts a tick] below which nothing is learned
     kMostPerCount = 4000,
   };
@@ -68,7 +69,7 @@ class DueTravel {
     return with_margin < kMostNeeded ? with_margin : int16_t(kMostNeeded);
   }
 
-  /// Running evenly, all that exceeds the duty of the speed overcomes friction and load.
+  /// While the motor runs evenly, the duty beyond that of its speed overcomes friction and load.
   void learn(int16_t duty, int16_t moved_mean, int16_t moved) {
     const int16_t gain = int16_t(moved * kMean - moved_mean);
     if (moved_mean < kSlow * kMean || gain > kMean || gain < -kMean) return;

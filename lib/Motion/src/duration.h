@@ -6,17 +6,18 @@
 
 namespace motion {
 
-/// A way and the limits of its speed.
+/// A length to travel and the limits of its speed.
 struct Way {
   float length;        ///< [mm]
   float top;           ///< [mm/tick] speed, at most
   float acceleration;  ///< [mm/tick^2]
 };
 
-/// Ticks from one speed to another [mm/tick] over all of a way, as fast as its limits allow.
+/// Ticks from the entry speed to the exit speed [mm/tick] over the whole length, as fast as its
+/// limits allow.
 ///
 /// The speed rises to its peak and falls again: peak^2 = acceleration * length +
-/// (entry^2 + exit^2) / 2, or the top, at which the rest of the way is walked.
+/// (entry^2 + exit^2) / 2. If that exceeds the top, the sled cruises at the top in between.
 inline float ticksOf(const Way& way, float entry, float exit) {
   const float squares = 0.5f * (entry * entry + exit * exit);
   const float most = way.acceleration * way.length + squares;

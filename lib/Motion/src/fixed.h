@@ -1,4 +1,4 @@
-// Chain lengths as whole counts: the numbers that set-points are made of.
+// Chain lengths as whole counts: the numbers in set-points.
 #pragma once
 
 #include <math.h>
@@ -8,21 +8,21 @@
 
 namespace motion {
 
-// A count is 2^-16 mm = 0.000015 mm, so the upper two bytes of an int32 are whole mm. Lengths are
-// kept within 2^13 mm = 8192 mm, that is 2^29 counts; what is left of the 31 bits is room for the
-// sums in segment.h.
+// A count is 2^-16 mm = 0.000015 mm, so the upper two bytes of an int32 are whole mm. Lengths stay
+// within 2^13 mm = 8192 mm, that is 2^29 counts. The rest of the 31 bits is room for the sums in
+// segment.h.
 const int32_t kCountsPerMm = 65536;
 const float kLongestChain = 8191;  // [mm]
 
-/// Both chains' lengths at one moment.
+/// Both chains' lengths at the same moment.
 struct Knot {
   int32_t left, right;  ///< [counts] paid out
 };
 
-/// What the exact inverse said, in counts.
+/// The exact inverse's answer, in counts.
 struct Reached {
   Knot knot;
-  bool reachable;  ///< false: refused, NaN, or longer than counts can tell
+  bool reachable;  ///< false: refused, NaN, or too long for counts
 };
 
 /// Counts for a length [mm], to the nearest.
@@ -37,7 +37,7 @@ Real toMm(int32_t counts) {
   return Real(counts) / Real(kCountsPerMm);
 }
 
-/// The exact lengths at a place [mm], by `inverse`: Point<Real> -> Lengths<Real>.
+/// The exact lengths for a place [mm] from `inverse`: Point<Real> -> Lengths<Real>.
 template <class Real, class Inverse>
 Reached knotAt(const Inverse& inverse, Point<Real> place) {
   const Lengths<Real> exact = inverse(place);

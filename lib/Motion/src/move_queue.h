@@ -1,4 +1,4 @@
-// Moves that wait, and the speeds that look ahead over all of them.
+// The queue of moves, and the look-ahead that sets their speeds.
 #pragma once
 
 #include "corner.h"
@@ -8,51 +8,51 @@
 
 namespace motion {
 
-/// What every move keeps to.
+/// Limits of every move.
 struct Limits {
   float acceleration_xy, acceleration_z;  ///< [mm/s^2]
   float chain_speed, z_speed;             ///< [mm/s]
   float corner_deviation;                 ///< [mm]; zero: every corner is a stop
 };
 
-/// What a path leads through.
+/// The space in which a path runs.
 enum class Space : uint8_t {
   kSheet,   ///< places on the sheet; the exact inverse is smooth along it
-  kEdge,    ///< places beyond the sheet's edge, where nothing is known of the effects' slopes
-  kChains,  ///< chain lengths themselves: x is the left one's, y the right one's
+  kEdge,    ///< places beyond the sheet's edge, where the effects' slopes are not known
+  kChains,  ///< chain lengths: x is the left chain, y the right chain
 };
 
-/// How it went.
+/// The result of adding a move.
 enum class Added : uint8_t {
   kYes,
   kNothing,  ///< it ends where it begins
-  kFull,     ///< no room now
-  kNoPath,   ///< the path was not drawn
-  kNoFeed,   ///< a feed of zero, less than zero or NaN, or hardly any
+  kFull,     ///< the queue has no room now
+  kNoPath,   ///< the path could not be drawn
+  kNoFeed,   ///< the feed is zero, negative, NaN or far too small
 };
 
-/// One move in the queue. Speeds are in mm a tick, accelerations in mm a tick squared.
+/// A move in the queue. Speeds are in mm/tick, accelerations in mm/tick^2.
 struct Move {
-  Path<float> path;      ///< not drawn: z moves alone
+  Path<float> path;      ///< if it is not drawn, z moves alone
   float z_to;            ///< [mm]
   float length;          ///< [mm] over all axes
-  float acceleration;    ///< along it, at most
-  float feed;            ///< speed along it that was asked for
-  float top;             ///< speed along it, at most
-  float entry_squared;   ///< of the speed with which it begins, at most
-  float corner_squared;  ///< the same, as far as the corner before it is concerned
-  uint16_t most_ticks;   ///< that it lasts: from rest to rest
+  float acceleration;    ///< largest, along the path
+  float feed;            ///< speed along the path, as commanded
+  float top;             ///< largest speed along the path
+  float entry_squared;   ///< square of the largest speed at its start
+  float corner_squared;  ///< the same, as the corner before it allows
+  uint16_t most_ticks;   ///< how long it lasts at most: from rest to rest
   Space space;
-  uint8_t beam;  ///< how strong a laser is along it, at its feed
+  uint8_t beam;  ///< strength of a laser along it, at its feed
 };
 
-/// The moves that wait, the one in hand first.
+/// The moves that wait; the first is the move in progress.
 class MoveQueue {
  public:
   enum : uint8_t { kMost = 16 };
   enum : uint16_t { kMostTold = 4000 };  // [ticks]
 
-  /// Takes over limits, for ticks of so many seconds.
+  /// Takes over limits, for ticks of `seconds_per_tick` [s].
   void prepare(const Limits& limits, float seconds_per_tick);
   void setSprockets(const Sprockets<float>& sprockets) { sprockets_ = sprockets; }
 
@@ -63,19 +63,21 @@ class MoveQueue {
   const Move& second() const { return at(1); }
   const Sprockets<float>& sprockets() const { return sprockets_; }
 
-  /// Square of the speed with which the first move may end.
+  /// Square of the largest speed at the end of the first move.
   float exitSquared() const { return count_ > 1 ? at(1).entry_squared : 0; }
 
-  /// Whether all that waits lasts for more than so many ticks (at most kMostTold), the first move
-  /// walked so far. Costs little where even stops between all moves would not take as long.
+  /// Whether all moves together last longer than `ticks` (at most kMostTold). `walk` is how far the
+  /// first move has come. This is quick where the moves would be too short even with a stop after
+  /// each.
   bool lastsLonger(uint16_t ticks, const Walk& walk) const;
 
-  /// Queues a move from where the last one ends, at z `z_from`; `feed` [mm/s] over all axes.
+  /// Queues a move from the end of the last move, at z `z_from` [mm]; `feed` [mm/s] is over all
+  /// axes.
   Added add(const Path<float>& path, float z_from, float z_to, float feed, Space space,
             uint8_t beam = 0);
 
-  /// From now on feeds count so many times, but no more than `most_feed` [mm/s] is made of them;
-  /// chains, z, corners and arcs keep their limits.
+  /// From now on multiplies feeds by `times`, up to `most_feed` [mm/s]. The limits of chains, z,
+  /// corners and arcs stay.
   void boost(float times, float most_feed);
 
   void dropFirst();
@@ -90,10 +92,10 @@ class MoveQueue {
 
   Move ring_[kMost];
   uint8_t first_ = 0, count_ = 0;
-  Direction end_;                    ///< of the last one queued
-  Limits limits_;                    ///< in ticks
-  float seconds_;                    ///< of a tick
-  float boost_ = 1, most_feed_ = 0;  ///< the second in mm a tick
+  Direction end_;                    ///< direction at the end of the last move
+  Limits limits_;                    ///< per tick
+  float seconds_;                    ///< that a tick lasts
+  float boost_ = 1, most_feed_ = 0;  ///< the factor of feeds; their limit [mm/tick]
   Sprockets<float> sprockets_;
 };
 
@@ -111,7 +113,7 @@ inline void MoveQueue::prepare(const Limits& limits, float seconds_per_tick) {
              limits.corner_deviation};
 }
 
-/// Greatest speed of a move.
+/// Largest speed of a move.
 inline float MoveQueue::topOf(const Move& move) const {
   using queue_detail::smaller;
   float top = move.feed;
@@ -121,16 +123,16 @@ inline float MoveQueue::topOf(const Move& move) const {
   if (along == 0) return top;
   const float chains_top = limits_.chain_speed / along;
   if (move.space == Space::kChains) return smaller(top, chains_top);
-  // No chain runs faster than the sled by more than effects make it: mostly nothing is to be asked.
+  // Effects alone can make a chain faster than the sled, so most moves need no closer look.
   if (top * (1 + sprockets_.effects.first) > chains_top)
     top = smaller(top, chains_top / steepest(move.path, sprockets_));
   if (move.path.sweep == 0) return top;
-  // Round an arc the sled is pulled inwards all the way.
+  // Along an arc the sled accelerates towards the centre all the way.
   const float round = float(sqrt(limits_.acceleration_xy * move.path.radius)) / along;
   return smaller(top, round);
 }
 
-/// What follows from a move's feed.
+/// Works out what follows from a move's feed.
 inline void MoveQueue::plan(Move& move) const {
   move.top = topOf(move);
   const float ticks = ticksOf({move.length, move.top, move.acceleration}, 0, 0);
@@ -155,7 +157,7 @@ inline Added MoveQueue::add(const Path<float>& path, float z_from, float z_to, f
   if (!has_path && path.drawn != Drawn::kNoLength) return Added::kNoPath;
   if (!has_path && rise == 0) return Added::kNothing;
   if (!isfinite(rise)) return Added::kNoPath;
-  const float kLeastSpeed = 1e-5f;  // [mm/tick] a long way in float hardly grows by less
+  const float kLeastSpeed = 1e-5f;  // [mm/tick] a float sum of a long way hardly grows by less
   if (!(feed * seconds_ > kLeastSpeed)) return Added::kNoFeed;
   if (!hasRoom()) return Added::kFull;
   Move& move = at(count_);
@@ -192,7 +194,8 @@ inline Added MoveQueue::add(const Path<float>& path, float z_from, float z_to, f
 
 inline void MoveQueue::lookAhead() {
   using queue_detail::smaller;
-  // Backwards from a stop at the end; where nothing changes, nothing before it does.
+  // Backwards from a stop at the end. Where a move's entry speed stays, all moves before it stay
+  // too.
   float exit_squared = 0;
   for (uint8_t i = count_; i-- > 1;) {
     Move& move = at(i);

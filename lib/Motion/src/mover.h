@@ -1,13 +1,13 @@
-// Queued moves become set-points: where all axes shall be at each control tick.
+// Turns queued moves into set-points: where all axes shall be at each control tick.
 //
-// How it is used (everything here runs in the main program; only SetPoints::take is for the tick):
+// How to use it (everything here runs in the main program; only SetPoints::take is for the tick):
 //   mover.prepare(limits, seconds_per_tick);  mover.setSprockets(...), setArea(...);  at rest
 //   mover.standAt(set_point);                 at rest, where the axes are
 //   mover.add(path, z_to, feed, space);       if hasRoom(); `ok` may go out
 //   mover.fill(set_points, inverse);          often: at least every 100 ms
-//   mover.boost(1.5f, 20);                    feeds count more; then go on filling
-// All moves are done when isIdle() and set_points.isEmpty(). How the set-points are walked, and
-// that this may brake and hold at any moment: playback.h.
+//   mover.boost(1.5f, 20);                    multiplies feeds; then go on filling
+// All moves are done when isIdle() and set_points.isEmpty(). playback.h plays the set-points, and
+// may brake and hold at any moment.
 #pragma once
 
 #include "move_queue.h"
@@ -18,51 +18,52 @@
 
 namespace motion {
 
-/// How filling went.
+/// The result of filling.
 enum class Filled : uint8_t {
   kYes,
-  kOutOfReach,  ///< the exact inverse refused a place on the way; set-points stay before it
+  kOutOfReach,  ///< the exact inverse refused a place on the path; set-points end before it
 };
 
-/// The queue, and how far its first move is walked.
+/// The queue, and how far its first move has come.
 class Mover {
  public:
   void prepare(const Limits& limits, float seconds_per_tick) {
     queue_.prepare(limits, seconds_per_tick);
   }
   void setSprockets(const Sprockets<float>& sprockets) { queue_.setSprockets(sprockets); }
-  /// Where short moves in a row may share exact places. To be called whenever the inverse changes.
+  /// Sets the area where short moves in a row may share exact places. To be called whenever the
+  /// inverse changes.
   void setArea(const SmoothArea& area) { tiles_.setArea(area); }
 
-  /// Nothing moves, nothing waits.
+  /// Whether no move is in progress and none waits.
   bool isIdle() const { return queue_.isEmpty(); }
   bool hasRoom() const { return queue_.hasRoom(); }
-  /// Whether what waits lasts for more than so many ticks; MoveQueue::lastsLonger.
+  /// Whether all moves together last longer than `ticks`; see MoveQueue::lastsLonger.
   bool lastsLonger(uint16_t ticks) const { return queue_.lastsLonger(ticks, walk()); }
 
-  /// Everything begins here; what waits is forgotten.
+  /// Begins at a set-point, at rest; drops the moves that wait.
   void standAt(const SetPoint& point);
 
-  /// Queues a move from where the last one ends; `z_to` [mm], `feed` [mm/s] over all axes.
-  /// `beam`: how strong a laser is on it at its feed; less where it is slower.
+  /// Queues a move from the end of the last move; `z_to` [mm], `feed` [mm/s] over all axes.
+  /// `beam`: strength of a laser at the move's feed; it is weaker where the move is slower.
   Added add(const Path<float>& path, float z_to, float feed, Space space = Space::kSheet,
             uint8_t beam = 0);
 
-  /// Works out as many set-points as there is room for. `inverse`: Point<float> -> Lengths<float>.
+  /// Fills the ring with set-points. `inverse`: Point<float> -> Lengths<float>.
   template <class Inverse>
   Filled fill(SetPoints& set_points, const Inverse& inverse);
 
-  /// From now on feeds count so many times, see MoveQueue::boost.
+  /// From now on multiplies feeds; see MoveQueue::boost.
   void boost(float times, float most_feed);
-  /// Forgets what waits: the axes stand, motors are off, or something else moves them.
+  /// Drops the moves that wait: for when axes stand, motors are off, or something else moves them.
   void forget();
 
-  /// The last set-point that was worked out: where all comes to rest, once isIdle().
+  /// The last set-point that was worked out: where all axes come to rest, once isIdle().
   const SetPoint& last() const { return last_; }
-  /// How far the first move is walked, and how fast [mm/tick], at that set-point.
+  /// How far the first move has come at that set-point, and its speed [mm/tick].
   Walk walk() const;
   const MoveQueue& queue() const { return queue_; }
-  /// How often set-points ran dry in the middle of a move, since this was last asked.
+  /// How often the ring ran dry in the middle of a move, since the last call.
   uint16_t timesDry() {
     const uint16_t times = times_dry_;
     times_dry_ = 0;
@@ -85,7 +86,7 @@ class Mover {
   bool pass(const Inverse& inverse);
   template <class Inverse>
   bool step(float change, const Inverse& inverse);
-  // Not inline: every tick would save the registers that only a new segment needs.
+  // Not inline: else every tick would save the registers that only a new segment needs.
   template <class Inverse>
   __attribute__((noinline)) bool cut(const Inverse& inverse);
   void advance();
@@ -94,23 +95,23 @@ class Mover {
 
   MoveQueue queue_;
   Tiles tiles_;
-  Walk walk_ = {0, 0};   ///< where the segment in hand ends
-  Walk begun_ = {0, 0};  ///< where it began
-  float change_ = 0;     ///< of the speed, in each of its ticks
-  uint8_t ticks_ = 0;    ///< that it had
+  Walk walk_ = {0, 0};   ///< where the segment in progress ends
+  Walk begun_ = {0, 0};  ///< where that segment began
+  float change_ = 0;     ///< change of the speed in each tick of the segment
+  uint8_t ticks_ = 0;    ///< of the segment
   Segment segment_;      ///< both chains
   Steps z_steps_;
-  bool has_z_ = false;                 ///< the first move goes along z
-  bool is_taken_up_ = false;           ///< the two below are those of the first move
-  uint8_t even_ticks_, uneven_ticks_;  ///< of a segment, at most
+  bool has_z_ = false;                 ///< the first move also moves z
+  bool is_taken_up_ = false;           ///< the two numbers below belong to the first move
+  uint8_t even_ticks_, uneven_ticks_;  ///< most ticks of a segment
   float z_from_ = 0;                   ///< [mm] where the first move begins
-  float z_end_ = 0;                    ///< [mm] where the last one ends
+  float z_end_ = 0;                    ///< [mm] where the last move ends
   SetPoint last_ = {0, 0, 0};
   int32_t way_ = 0;         ///< [counts] of the last tick
-  int32_t way_change_ = 0;  ///< its change in each tick of the segment
-  int32_t feed_way_ = 1;    ///< [counts] of a tick at the move's feed
-  uint8_t beam_ = 0;        ///< of the moves that this tick is part of, the weakest
-  uint16_t gain_ = 1;       ///< [counts/tick] by which it may change
+  int32_t way_change_ = 0;  ///< change of `way_` in each tick of the segment
+  int32_t feed_way_ = 1;    ///< [counts] way of a tick at the move's feed
+  uint8_t beam_ = 0;        ///< the weakest beam of the moves in this tick
+  uint16_t gain_ = 1;       ///< [counts/tick] by which the way may change
   uint16_t times_dry_ = 0;
 };
 

@@ -1,11 +1,12 @@
-// The bodies of mover.h: segments between exact knots, even in time; single ticks where moves meet.
+// The function bodies of mover.h: segments between exact knots at even times, and single ticks
+// where moves meet.
 #pragma once
 
 #include "mover.h"
 
 namespace motion {
 
-// So many set-points must wait for the tick before nine inverses are asked at once.
+// At least this many set-points must wait before the mover asks for nine inverses at once.
 enum : uint8_t { kEnoughWait = 8 };
 
 inline void Mover::forget() {
@@ -27,7 +28,7 @@ inline Added Mover::add(const Path<float>& path, float z_to, float feed, Space s
   const Added added = queue_.add(path, z_end_, z_to, feed, space, beam);
   if (added != Added::kYes) return added;
   z_end_ = z_to;
-  // What brakes may have been going to stop for want of this move.
+  // The speed may be falling to a stop only because this move was missing.
   if (change_ < 0) cutShort();
   return added;
 }
@@ -37,7 +38,7 @@ inline Walk Mover::walk() const {
   return after(begun_, change_, uint8_t(ticks_ - segment_.ticks_left));
 }
 
-/// Ends the segment in hand where its last set-point was.
+/// Ends the segment in progress at its last set-point.
 inline void Mover::cutShort() {
   walk_ = walk();
   standStill();
@@ -67,14 +68,14 @@ inline void Mover::takeUp() {
   feed_way_ = toCounts(move.feed);
   beam_ = move.beam;
   gain_ = gain < 1 ? 1 : gain > 65535 ? 65535 : uint16_t(gain);
-  // A move whose feed was lowered is still faster for a while.
+  // A move whose feed was lowered is faster than its top for a while.
   const float top = move.top > walk_.speed ? move.top : walk_.speed;
-  // In a segment of two ticks both fall on knots.
+  // In a segment of two ticks both set-points are knots.
   const float kShort = 5;  // [ticks]
   even_ticks_ = uneven_ticks_ = move.space == Space::kEdge ? 1 : 2;
   if (move.length < kShort * top && move.space == Space::kSheet) return;
   if (move.space == Space::kEdge) return;
-  // Up to here two places of a segment are near (kMostRise).
+  // Within this many ticks the ends of a segment are near (kMostRise).
   const float longest = kLongestSegment / top;
   float even = longest, uneven = longest;
   if (move.path.length > 0 && move.space == Space::kSheet) {
@@ -86,19 +87,20 @@ inline void Mover::takeUp() {
     uneven =
         queue_detail::smaller(uneven, longestTime(third, second, speed, move.acceleration * share));
   }
-  // Three ticks would miss to one side and at once to the other: 1.5 times the bound in a step.
+  // With three ticks the error would change sign from a tick to the next: 1.5 times the bound in a
+  // step.
   even_ticks_ = !(even >= 4) ? 2 : stretch_detail::atMost(even, kMostTicks);
   uneven_ticks_ = !(uneven >= 4) ? 2 : stretch_detail::atMost(uneven, kMostTicks);
 }
 
-/// [counts] so far along the first move.
+/// z [counts] after `done` [mm] of the first move.
 inline int32_t Mover::zAt(const Move& move, float done) const {
   if (!has_z_) return last_.z;
   const float share = done / move.length;
   return toCounts(share >= 1 ? move.z_to : z_from_ + (move.z_to - z_from_) * share);
 }
 
-/// Exact chain lengths at a walk along the first move.
+/// Exact chain lengths at a point of the first move.
 template <class Inverse>
 Reached Mover::exactlyAt(const Walk& walk, const Inverse& inverse) const {
   const Move& move = queue_.first();
@@ -108,11 +110,11 @@ Reached Mover::exactlyAt(const Walk& walk, const Inverse& inverse) const {
   return {{toCounts(place.x), toCounts(place.y)}, true};
 }
 
-/// The same on the way, where short moves may share exact places.
+/// Chain lengths at a point between the ends, where short moves may share exact places.
 template <class Inverse>
 Reached Mover::lengthsAt(const Walk& walk, const Inverse& inverse) {
   const Move& move = queue_.first();
-  // A longer move has so many ticks that knots of its own are fewer.
+  // A longer move has segments of many ticks, which need fewer knots than a tile.
   const float kShort = 1.5f;  // [mm]
   const bool shares =
       move.space == Space::kSheet && move.path.length > 0 && move.path.length <= kShort;
@@ -121,7 +123,7 @@ Reached Mover::lengthsAt(const Walk& walk, const Inverse& inverse) {
   return tiles_.lengthsAt(place, move.path, queue_.sprockets(), inverse);
 }
 
-/// Begins a segment of more than one tick, all within the first move.
+/// Begins a segment of several ticks, all within the first move.
 template <class Inverse>
 bool Mover::begin(const Stretch& stretch, const Inverse& inverse) {
   const Move& move = queue_.first();
@@ -144,32 +146,32 @@ bool Mover::begin(const Stretch& stretch, const Inverse& inverse) {
   return true;
 }
 
-/// Leaves the first move behind, with what was walked beyond its end.
+/// Drops the first move; what the walk went beyond its end belongs to the next move.
 template <class Inverse>
 bool Mover::pass(const Inverse& inverse) {
   const float length = queue_.first().length;
   if (queue_.second().path.length == 0) {
-    // While z moves alone the chains stand, and exactly here.
+    // While z moves alone the chains stand still, so they must be exact here.
     const Reached end = exactlyAt({length, 0}, inverse);
     if (!end.reachable) return false;
     last_.left = end.knot.left;
     last_.right = end.knot.right;
   }
   walk_.done = walk_.done > length ? walk_.done - length : 0;
-  // At a corner that is a stop the speed was that of the last way before it.
+  // At a corner with a stop the next move begins at rest.
   if (queue_.exitSquared() == 0) walk_ = {0, 0};
   dropFirst();
   return true;
 }
 
-/// One tick by itself, which may lead into later moves or to the end of all.
+/// A single tick, which may lead into later moves or to the end of all moves.
 template <class Inverse>
 bool Mover::step(float change, const Inverse& inverse) {
   walk_.speed += change;
   walk_.done += walk_.speed;
   way_ = toCounts(walk_.speed);
   change_ = 0;
-  // What is left by rounding alone is not worth a tick.
+  // A remainder that comes from rounding is not worth a tick.
   const float kHair = 1 - 1e-6f;
   while (walk_.done >= queue_.first().length * kHair && queue_.count() > 1) {
     if (queue_.second().beam < beam_) beam_ = queue_.second().beam;
@@ -182,7 +184,7 @@ bool Mover::step(float change, const Inverse& inverse) {
   if (!here.reachable) return false;
   last_ = {here.knot.left, here.knot.right, zAt(move, walk_.done)};
   if (arrives) {
-    // As it was commanded, not as counts round it.
+    // z as it was commanded, not as counts round it.
     const float z_end = z_end_;
     forget();
     z_end_ = z_end;
@@ -190,8 +192,8 @@ bool Mover::step(float change, const Inverse& inverse) {
   return true;
 }
 
-/// The next set-point, where no segment is in hand. False: no sled can hang there, and the last one
-/// stands.
+/// The next set-point when no segment is in progress. False: no sled can hang there, and the last
+/// set-point stays.
 template <class Inverse>
 bool Mover::cut(const Inverse& inverse) {
   if (!is_taken_up_) takeUp();
@@ -205,7 +207,7 @@ bool Mover::cut(const Inverse& inverse) {
   return true;
 }
 
-/// The next set-point of the segment in hand.
+/// The next set-point of the segment in progress.
 inline void Mover::advance() {
   segment_.advance();
   way_ += way_change_;
@@ -217,7 +219,7 @@ inline void Mover::advance() {
   }
 }
 
-/// As strong as at the feed, by the share of it that is the speed now.
+/// The beam at the present speed: the move's beam times speed over feed.
 inline uint8_t Mover::beamNow() const {
   if (beam_ == 0 || way_ >= feed_way_) return beam_;
   const uint8_t weaker = uint8_t((int32_t(beam_) * way_ + feed_way_ / 2) / feed_way_);
@@ -232,7 +234,7 @@ inline void Mover::push(SetPoints& set_points) const {
 
 template <class Inverse>
 Filled Mover::fill(SetPoints& set_points, const Inverse& inverse) {
-  // The axes stood still while they waited; nobody can go on at full speed from there.
+  // The axes stood still while they waited, so they must speed up from rest.
   if (set_points.hasRunDry() && walk().speed != 0) {
     if (times_dry_ != UINT16_MAX) ++times_dry_;
     cutShort();
@@ -248,7 +250,7 @@ Filled Mover::fill(SetPoints& set_points, const Inverse& inverse) {
     tiles_.setTime(rests || set_points.count() >= kEnoughWait);
     if (!cut(inverse)) return Filled::kOutOfReach;
     push(set_points);
-    // While nothing moved the tick found nothing, of course.
+    // While nothing moved the ring was empty as it should be: clear that mark.
     if (rests) set_points.hasRunDry();
   }
   return Filled::kYes;

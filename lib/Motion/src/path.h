@@ -1,4 +1,4 @@
-// The path of one move over the sheet: a straight line or an arc of a circle, and where it passes.
+// The path of a move over the sheet: a straight line or an arc of a circle.
 #pragma once
 
 #include <math.h>
@@ -11,36 +11,36 @@ namespace motion {
 /// Whether a path could be drawn.
 enum class Drawn : uint8_t {
   kYes,
-  kNoNumber,   ///< NaN, or so far away that it is none
-  kNoLength,   ///< it ends where it begins; only a full circle may
+  kNoNumber,   ///< NaN, or too far away for a float
+  kNoLength,   ///< it ends where it begins, and is no full circle
   kEndOffArc,  ///< start and end lie on different circles around the centre
 };
 
 /// Which way round its centre an arc goes, seen from the front of the sheet.
 enum class Turn : uint8_t { kClockwise, kCounterclockwise };
 
-// An arc's start, end and centre come as decimal text, rounded one by one. So its radii may differ
-// by as much as in LinuxCNC (two roundings of inches with three decimals) or in Grbl (a share of
-// the radius), and the arc changes from one radius to the other evenly.
+// An arc's start, end and centre come as decimal text, each rounded by itself. So its two radii may
+// differ by as much as in LinuxCNC (two roundings of inches with three decimals) or in Grbl (a
+// share of the radius). The arc changes evenly from its first radius to its last.
 const float kMostOffArc = 0.0719f;      // [mm]
 const float kMostOffArcShare = 0.001f;  // [1] of the radius, where that is more
 
-// The last digit of text that can place an arc's ends no better.
+// The last digit of text with few decimals: it places an arc's ends no better than this.
 const float kMillimetreDigit = 0.01f;  // [mm] two decimals
 const float kInchDigit = 0.0254f;      // [mm] three decimals
 
-/// A path from a place to another; made by line() or arc().
+/// A path between two places; line() and arc() make it.
 template <class Real>
 struct Path {
   Drawn drawn;
   Point<Real> from, to;  ///< [mm]
   Point<Real> centre;    ///< [mm] of an arc
-  Real sweep;            ///< [rad] turned by an arc, counterclockwise positive; zero: a line
-  Real grows;            ///< [mm] by which an arc's end is farther from its centre than its start
-  Real radius;           ///< [mm] of an arc, middle of start's and end's
+  Real sweep;            ///< [rad] angle of an arc, counterclockwise positive; zero: a line
+  Real grows;            ///< [mm] radius at an arc's end less radius at its start
+  Real radius;           ///< [mm] mean radius of an arc
   Real length;           ///< [mm] along the path
 
-  /// [1/mm] of a line it is zero.
+  /// [1/mm] Zero for a line.
   Real curvature() const { return sweep == Real(0) ? Real(0) : Real(1) / radius; }
 };
 
@@ -52,7 +52,7 @@ Real distance(Point<Real> a, Point<Real> b) {
   return sqrt(dx * dx + dy * dy);
 }
 
-/// Angle [rad] from start to end of an arc; a full turn if they are one place.
+/// Angle [rad] from start to end of an arc; a full turn if both are the same place.
 template <class Real>
 Real sweepOf(Point<Real> from, Point<Real> to, Point<Real> centre, Turn turn) {
   const Real kFullTurn = Real(6.283185307179586);
@@ -60,18 +60,18 @@ Real sweepOf(Point<Real> from, Point<Real> to, Point<Real> centre, Turn turn) {
   if (from.x == to.x && from.y == to.y) return left_round ? kFullTurn : -kFullTurn;
   const Point<Real> start = {from.x - centre.x, from.y - centre.y};
   const Point<Real> end = {to.x - centre.x, to.y - centre.y};
-  // The chord, not the end, in the cross product: short arcs must keep their sign.
+  // The cross product takes the chord, not the end, so that short arcs keep their sign.
   const Real cross = start.x * (to.y - from.y) - start.y * (to.x - from.x);
   const Real angle = atan2(cross, start.x * end.x + start.y * end.y);
   if (left_round) return angle > Real(0) ? angle : angle + kFullTurn;
   return angle < Real(0) ? angle : angle - kFullTurn;
 }
 
-/// Whether text of that last digit [mm] leaves nothing of an arc but the way between its ends.
+/// Whether an arc is so short that text with this last digit [mm] hides all but its ends.
 ///
-/// A full circle may be a short arc whose ends were rounded into one place, and an arc of nearly a
-/// full turn a short one whose ends were rounded past each other. Round one whose radii differ
-/// so much nobody can say where its centre was.
+/// A full circle may be a short arc whose ends were rounded to the same place. An arc of nearly a
+/// full turn may be a short arc whose ends were rounded past each other. If the radii differ by
+/// that much, nobody can say where the centre was.
 template <class Real>
 bool isHidden(Real chord, Real radius, Real off, Real sweep, Real digit) {
   const Real kHalfTurn = Real(3.141592653589793), kDiagonal = Real(1.41421356);
@@ -80,7 +80,7 @@ bool isHidden(Real chord, Real radius, Real off, Real sweep, Real digit) {
   return chord <= kDiagonal * digit && Real(fabs(sweep)) > kHalfTurn;
 }
 
-/// Place of an arc: its start turned about the centre, farther out by a share of `grows`.
+/// Place on an arc: its start turned about the centre, and farther out by a share of `grows`.
 template <class Real>
 Point<Real> onArc(const Path<Real>& path, Real share) {
   const Real x = path.from.x - path.centre.x, y = path.from.y - path.centre.y;
@@ -105,8 +105,8 @@ Path<Real> line(Point<Real> from, Point<Real> to) {
   return {drawn, from, to, from, Real(0), Real(0), Real(0), length};
 }
 
-/// An arc around a centre [mm]; a full circle if it ends where it begins. What the last digit [mm]
-/// of its text hides is drawn as a line.
+/// An arc around a centre [mm]; a full circle if it ends where it begins. An arc that the last
+/// digit [mm] of its text hides is drawn as a line.
 template <class Real>
 Path<Real> arc(Point<Real> from, Point<Real> to, Point<Real> centre, Turn turn,
                float digit = kMillimetreDigit) {
@@ -127,7 +127,7 @@ Path<Real> arc(Point<Real> from, Point<Real> to, Point<Real> centre, Turn turn,
   return {drawn, from, to, centre, sweep, grows, radius, length};
 }
 
-/// Place [mm] at a share [1] of the path's length: 0 is its start, 1 its end, both to the last bit.
+/// Place [mm] at a share [1] of the path's length: 0 is exactly its start, 1 exactly its end.
 template <class Real>
 Point<Real> placeOn(const Path<Real>& path, Real share) {
   if (share >= Real(1)) return path.to;
@@ -136,10 +136,10 @@ Point<Real> placeOn(const Path<Real>& path, Real share) {
           path.from.y + (path.to.y - path.from.y) * share};
 }
 
-/// Distance [mm] from a place that the path keeps at least.
+/// Lower bound for the distance [mm] between a path and a place.
 ///
-/// Of a line, it is the distance. An arc keeps as far from the place as its circle does; and any
-/// path of a length keeps (start's distance + end's distance - length) / 2.
+/// For a line it is the distance. An arc is at least as far from the place as its circle, and any
+/// path at least (start's distance + end's distance - length) / 2.
 template <class Real>
 Real clearance(const Path<Real>& path, Point<Real> place) {
   const Real from = path_detail::distance(path.from, place);

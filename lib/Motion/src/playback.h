@@ -1,4 +1,4 @@
-// How the control tick walks the way that was planned: in step with it, slower, or not at all.
+// How the control tick follows the planned path: at the planned speed, slower, or not at all.
 #pragma once
 
 #include <stdint.h>
@@ -7,26 +7,27 @@
 
 namespace motion {
 
-/// Takes set-points from the ring, one each tick; and at once brakes, holds, or goes at a share of
-/// the planned speed, along the same way.
+/// Takes a set-point from the ring each tick. It can brake, hold, or go at a share of the planned
+/// speed, always along the planned path and without delay.
 ///
-/// While it is slower than planned it stands between two set-points of the ring, and each tick goes
-/// on by its own speed, which changes by the way's acceleration at most. So a hold needs v^2 / 2a,
-/// whatever the ring holds; and as it is never faster than planned, corners and chain speeds keep
-/// their limits. next() is for the control tick; the rest for a main program that holds it off.
+/// While it is slower than planned it is between two set-points of the ring. Each tick it goes on
+/// at its present speed, which changes by at most the path's acceleration. So a hold needs a way of
+/// v^2 / 2a, however much the ring holds. It is never faster than planned, so corners and chain
+/// speeds keep their limits. Only next() is for the control tick; the main program calls the rest
+/// while it keeps the tick off.
 class Playback {
  public:
-  enum : uint16_t { kAllOfIt = 256 };  ///< the share that is the planned speed
+  enum : uint16_t { kAllOfIt = 256 };  ///< the share for the full planned speed
 
   /// Brakes and stays until resume().
   void hold() { is_held_ = true; }
   void resume() { is_held_ = false; }
-  /// From now on at so many 256ths of the planned speed, 1 to 256.
+  /// From now on goes at `share` 256ths of the planned speed, 1 to 256.
   void goAt(uint16_t share) {
     asked_ = share;
     share_ = uint16_t(uint32_t(asked_) * yield_ >> 8);
   }
-  /// And at so many 256ths of that, as the axes cannot follow.
+  /// Slows down to `share` 256ths of that speed, because the axes cannot follow.
   void yieldTo(uint16_t share) {
     if (share == yield_) return;
     yield_ = share;
@@ -34,10 +35,10 @@ class Playback {
   }
 
   bool isAtRest() const { return speed_ == 0; }
-  /// Nothing is left of what was taken.
+  /// Whether the last set-point taken has been reached.
   bool isDone() const { return in_step_; }
 
-  /// What was taken is forgotten; the axes stand.
+  /// Drops what was taken: the axes stand.
   void reset() {
     in_step_ = true;
     speed_ = 0;
@@ -55,7 +56,7 @@ class Playback {
     return walk(ring, now);
   }
 
-  /// The step of the axes so many ticks ahead, as far as it is known.
+  /// The step of the axes `ticks` ahead, or the last step that is known.
   SetPoint stepAhead(const SetPoints& ring, uint8_t ticks) const {
     const SetPoint *from = &from_, *to = &leg_.to;
     if (in_step_) {
@@ -70,7 +71,7 @@ class Playback {
             (to->z - from->z) * share >> kShareBits};
   }
 
-  /// How strong the beam is now: that of the leg, by the share of its planned speed.
+  /// Strength of the beam now: the leg's beam times the share of its planned speed.
   uint8_t beam() const {
     if (in_step_) return speed_ == 0 ? 0 : leg_.beam;
     if (speed_ >= leg_.way) return leg_.beam;
@@ -81,7 +82,7 @@ class Playback {
  private:
   enum : uint8_t { kShareBits = 12 };
 
-  /// A share of a way, which is less than 2^17 counts, in 4096ths.
+  /// `part` over `way` in 4096ths; both are less than 2^17 counts.
   static uint32_t shareOf(uint32_t part, uint32_t way) { return (part << kShareBits) / way; }
 
   bool takeNext(SetPoints& ring, SetPoint& now) {
@@ -94,21 +95,21 @@ class Playback {
     return true;
   }
 
-  /// From rest: the first leg of a way.
+  /// Takes the first leg of a path from rest.
   void begin(SetPoints& ring, const SetPoint& now) {
     ring.take(leg_);
     from_ = now;
     gone_ = 0;
   }
 
-  /// The way of the next tick, if it goes on at its share of the planned speed.
+  /// The way of the next tick at its share of the planned speed.
   uint32_t planned(const SetPoints& ring) const {
     const uint32_t left = leg_.way - gone_;
     uint32_t asked = leg_.way * share_ >> 8;
     if (asked == 0) asked = 1;
     if (asked <= left) return asked;
     if (ring.isEmpty()) return left;
-    // The rest of the tick falls into the next leg, at that one's speed.
+    // The rest of the tick is in the next leg, at that leg's speed.
     return left + (ring.first().way * shareOf(asked - left, leg_.way) >> kShareBits);
   }
 
@@ -152,14 +153,14 @@ class Playback {
             from_.z + ((to.z - from_.z) * share >> kShareBits)};
   }
 
-  Leg leg_ = {{0, 0, 0}, 1, 1, 0};  ///< in which it is
-  SetPoint from_ = {0, 0, 0};       ///< where that began
-  uint32_t gone_ = 0;               ///< [counts] of it
+  Leg leg_ = {{0, 0, 0}, 1, 1, 0};  ///< the leg in progress
+  SetPoint from_ = {0, 0, 0};       ///< where that leg began
+  uint32_t gone_ = 0;               ///< [counts] of that leg
   uint32_t speed_ = 0;              ///< [counts/tick]
   uint16_t asked_ = kAllOfIt, yield_ = kAllOfIt;
-  uint16_t share_ = kAllOfIt;  ///< both together
+  uint16_t share_ = kAllOfIt;  ///< the product of both shares
   bool is_held_ = false;
-  bool in_step_ = true;  ///< it stands on the last set-point taken
+  bool in_step_ = true;  ///< it is at the last set-point taken
 };
 
 }  // namespace motion

@@ -13,7 +13,7 @@ struct Point {
 template <class Real>
 struct Lengths {
   Real left, right;  ///< [mm] paid out
-  bool reachable;    ///< false: no sled can hang there, and the lengths are not to be used
+  bool reachable;    ///< false: no sled can hang there; do not use the lengths
 };
 
 }  // namespace motion

@@ -1,4 +1,4 @@
-// A piece of a path between exact knots: set-points by two additions a tick, without any drift.
+// A piece of a path between exact knots: two additions a tick give its set-points, without drift.
 #pragma once
 
 #include <stdint.h>
@@ -7,13 +7,13 @@
 
 namespace motion {
 
-// Ticks of one segment, at most; with more, halves of the last bit would add up (see stepsThrough).
+// Most ticks of a segment. With more, rounding of the last bit would add up (see stepsThrough).
 enum : uint8_t { kMostTicks = 181 };
 static_assert(1L * kMostTicks * kMostTicks <= 32767L, "the square must be a divisor of divide()");
 
-// Knots of one segment are nearer than this, or the sums below could overflow.
+// Knots of a segment are nearer than this [counts], or the sums below could overflow.
 const int32_t kMostRise = 512 * kCountsPerMm;
-const float kLongestSegment = 256;  // [mm] of path, so that its knots are
+const float kLongestSegment = 256;  // [mm] of path; its knots are then near enough
 
 /// Counts with 16 more binary digits, 2^-32 mm: whole + fraction / 65536.
 struct Fine {
@@ -21,19 +21,20 @@ struct Fine {
   uint16_t fraction;  ///< [counts / 65536]
 };
 
-// always_inline, twice: every tick adds four times, and as calls they cost half as much again.
+// always_inline, for add() and advance(): every tick adds four times, and calls would add half to
+// the time.
 
-/// Adds a fine number to another.
+/// Adds `more` to `sum`.
 __attribute__((always_inline)) inline void add(Fine& sum, const Fine& more) {
   const uint16_t fraction = uint16_t(sum.fraction + more.fraction);
   int32_t whole = sum.whole + more.whole;
-  // A branch: on the board a bit is carried from 16 to 32 bits no faster.
+  // A branch: the board carries a bit from 16 to 32 bits no faster without it.
   if (fraction < more.fraction) ++whole;
   sum.whole = whole;
   sum.fraction = fraction;
 }
 
-/// One fine number less another.
+/// A fine number less another.
 inline Fine differenceOf(const Fine& one, const Fine& other) {
   const bool borrow = one.fraction < other.fraction;
   return {one.whole - other.whole - borrow, uint16_t(one.fraction - other.fraction)};
@@ -50,7 +51,7 @@ inline Fine divide(int32_t counts, uint16_t divisor) {
   return {whole, uint16_t((uint32_t(rest) << 16) / divisor)};
 }
 
-/// A fine number times half a factor, rounded down.
+/// A fine number times factor / 2, rounded down.
 inline Fine timesHalf(const Fine& number, uint8_t factor) {
   const uint32_t low = uint32_t(number.fraction) * factor;
   const int32_t whole = number.whole * factor + int32_t(low >> 16);
@@ -58,27 +59,27 @@ inline Fine timesHalf(const Fine& number, uint8_t factor) {
   return {whole >> 1, uint16_t(uint16_t(uint16_t(low) >> 1) | odd)};
 }
 
-/// One chain on its way through a segment of n ticks, as a quadratic through three exact lengths.
+/// A chain's length through a segment of n ticks: a quadratic through three exact lengths.
 ///
-/// With bend = 2 * (from - 2 middle + to), the quadratic's second difference is 2 * bend / n^2,
-/// and the first difference that leads to the end is (to - from) / n - second * (n - 1) / 2.
+/// With bend = 2 * (from - 2 middle + to), the quadratic's second difference is 2 * bend / n^2. The
+/// first difference that leads to the end is (to - from) / n - second * (n - 1) / 2.
 struct Steps {
-  Fine length;  ///< the set-point now, half a count ahead: its whole part is rounded
-  Fine first;   ///< what the next tick adds to it
+  Fine length;  ///< the set-point now plus half a count: its whole part is then rounded
+  Fine first;   ///< what the next tick adds to `length`
   Fine second;  ///< what each tick adds to `first`
 
-  /// The next tick's set-point.
+  /// Takes the next tick.
   __attribute__((always_inline)) void advance() {
     add(length, first);
     add(first, second);
   }
 };
 
-/// The quadratic from one length to another [counts] in n ticks, through `middle` at half time.
+/// The quadratic between two lengths [counts] in n ticks, through `middle` at half time.
 ///
-/// The end is met to the count: `first` is worked out from `second` as rounded, so only its own
-/// last digit is left, and n of those are less than 0.006 counts. In between, `second` is less than
-/// a last digit too small: n^2 / 8 of those are 0.06 counts.
+/// It meets the end to the count: `first` is worked out from the rounded `second`, so only the last
+/// digit of `first` is off, and n of those are less than 0.006 counts. In between, `second` is too
+/// small by less than a last digit: n^2 / 8 of those are 0.06 counts.
 inline Steps stepsThrough(int32_t from, int32_t middle, int32_t to, uint8_t ticks) {
   const int32_t rise = to - from;
   const int32_t bend = 2 * rise - 4 * (middle - from);
@@ -92,7 +93,7 @@ struct Segment {
   Steps left, right;
   uint8_t ticks_left;  ///< set-points still to come
 
-  /// The next tick's set-points; at the last tick they are the end's knot, to the count.
+  /// Takes the next tick; after the last tick the set-points are exactly the end's knot.
   void advance() {
     left.advance();
     right.advance();
@@ -109,13 +110,13 @@ inline Segment standing(Knot at) {
   return {{{at.left, 0}, none, none}, {{at.right, 0}, none, none}, 0};
 }
 
-/// The segment through three knots, `middle` at half time, in 1 ... kMostTicks ticks.
+/// The segment through three knots, `middle` at half time, in 1 to kMostTicks ticks.
 inline Segment segmentThrough(Knot from, Knot middle, Knot to, uint8_t ticks) {
   return {stepsThrough(from.left, middle.left, to.left, ticks),
           stepsThrough(from.right, middle.right, to.right, ticks), ticks};
 }
 
-/// Whether two knots are near enough for one segment.
+/// Whether two knots are near enough for a segment.
 inline bool areNear(Knot one, Knot other) {
   const int32_t left = one.left - other.left, right = one.right - other.right;
   return left < kMostRise && left > -kMostRise && right < kMostRise && right > -kMostRise;

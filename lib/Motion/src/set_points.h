@@ -5,44 +5,43 @@
 
 namespace motion {
 
-/// Where all axes shall be at one tick.
+/// Where all axes shall be at a tick.
 struct SetPoint {
   int32_t left, right, z;  ///< [counts of kCountsPerMm]
 };
 
-/// The way to a set-point from the one before it, in one tick.
+/// The way to a set-point from the set-point before it, in a tick.
 struct Leg {
   SetPoint to;
-  uint32_t way;   ///< [counts] over all axes, at least 1 and less than 2^17
+  uint32_t way;   ///< [counts] length over all axes, at least 1 and less than 2^17
   uint16_t gain;  ///< [counts/tick] by which the way may change from tick to tick, at least 1
-  uint8_t beam;   ///< how strong a laser is on it; 0: off
+  uint8_t beam;   ///< strength of a laser on this leg; 0: off
 };
 
 /// A ring with one writer, the main program, and one reader, the control tick.
 ///
-/// The main program may be busy for eleven ticks, 110 ms at 100 Hz; and a stop acts that soon. If
-/// it is busy for longer, the tick finds nothing: set-points stay where they are, and the mover
-/// sets out from rest again.
+/// The main program may be busy for eleven ticks, 110 ms at 100 Hz. If it is busy for longer, the
+/// ring runs dry: the axes stay at the last set-point, and the mover starts again from rest.
 class SetPoints {
  public:
   enum : uint8_t { kMost = 11 };
 
   bool hasRoom() const { return next(head_) != tail_; }
   bool isEmpty() const { return head_ == tail_; }
-  /// How many wait.
+  /// How many legs wait.
   uint8_t count() const {
     const uint8_t head = head_, tail = tail_;
     return head >= tail ? uint8_t(head - tail) : uint8_t(head + kMost + 1 - tail);
   }
 
-  /// To be called by the writer, if there is room.
+  /// For the writer: adds a leg. To be called only if there is room.
   void push(const Leg& leg) {
     ring_[head_] = leg;
     fence();
     head_ = next(head_);
   }
 
-  /// To be called by the reader: the next one, or false if there is none.
+  /// For the reader: takes the next leg, or false if there is none.
   bool take(Leg& leg) {
     if (isEmpty()) {
       ran_dry_ = true;
@@ -54,13 +53,13 @@ class SetPoints {
     return true;
   }
 
-  /// To be called by the reader after take(): the last of the next `ticks` steps that are known, as
-  /// its two ends; false if nothing waits.
+  /// For the reader after take(): the two ends of the step `ticks` ahead, or of the last step that
+  /// is known; false if nothing waits.
   bool stepAhead(uint8_t ticks, const SetPoint*& from, const SetPoint*& to) const {
     const uint8_t tail = tail_, waiting = count();
     if (waiting == 0) return false;
     const uint8_t steps = ticks < waiting ? ticks : waiting;
-    // The place before the tail still holds what was taken: the writer leaves it free.
+    // The entry before the tail still holds the leg that was taken: the writer never fills it.
     const uint8_t last = uint8_t(tail + steps - 1);
     const uint8_t at = last > kMost ? uint8_t(last - kMost - 1) : last;
     to = &ring_[at].to;
@@ -68,21 +67,21 @@ class SetPoints {
     return true;
   }
 
-  /// To be called by the reader, if there is one: that which comes next.
+  /// For the reader, if a leg waits: the next leg.
   const Leg& first() const { return ring_[tail_]; }
 
-  /// To be called by the writer: whether the reader found nothing since this was last asked.
+  /// For the writer: whether the reader has met an empty ring since the last call.
   bool hasRunDry() {
     const bool was = ran_dry_;
     ran_dry_ = false;
     return was;
   }
 
-  /// To be called while the other side is held.
+  /// To be called while the other side is kept off.
   void clear() { tail_ = head_; }
 
  private:
-  /// The compiler must not move the point behind the index that hands it over.
+  /// Keeps the compiler from writing a leg after the index that hands it over.
   static void fence() { __asm__ volatile("" ::: "memory"); }
 
   static uint8_t next(uint8_t at) { return at == kMost ? 0 : uint8_t(at + 1); }

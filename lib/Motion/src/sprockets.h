@@ -1,4 +1,4 @@
-// Where the sprockets are, and what that says of the chains along a path.
+// Where the sprockets are, and what follows for the chains along a path.
 #pragma once
 
 #include "bound.h"
@@ -9,21 +9,21 @@ namespace motion {
 template <class Real>
 struct Sprockets {
   Point<Real> left, right;
-  Slopes<Real> effects;  ///< of either chain's length less the distance, at most
+  Slopes<Real> effects;  ///< bounds for either chain's length less its distance
 };
 
-/// What the bound of segments must know of a path.
+/// What the bound for segments needs to know of a path.
 template <class Real>
 Surroundings<Real> surroundingsOf(const Path<Real>& path, const Sprockets<Real>& sprockets) {
   const Real left = clearance(path, sprockets.left), right = clearance(path, sprockets.right);
   const Real nearest = left < right ? left : right;
-  // A path through a sprocket has no bound; the exact inverse refuses it soon enough.
+  // Near a sprocket there is no bound; the exact inverse refuses such a path anyway.
   return {nearest > Real(1) ? nearest : Real(1), sprockets.effects};
 }
 
 namespace sprockets_detail {
 
-/// Cosine, without sign, between a direction and the ray from a sprocket to a place.
+/// Absolute cosine between a direction and the ray from a sprocket to a place.
 template <class Real>
 Real cosineAt(Point<Real> place, Point<Real> sprocket, Point<Real> direction) {
   const Real x = place.x - sprocket.x, y = place.y - sprocket.y;
@@ -34,10 +34,10 @@ Real cosineAt(Point<Real> place, Point<Real> sprocket, Point<Real> direction) {
 
 }  // namespace sprockets_detail
 
-/// By how much [1] of the way along a path either chain is paid out or taken in, at most.
+/// Upper bound [1] for the chain paid out or wound in, over the way along a path.
 ///
-/// Along a line the cosine between line and ray only grows (d'' = sin(a)^2 / d), so it is largest
-/// at an end. Of an arc it is taken to be 1.
+/// Along a line the cosine between line and ray only grows (d'' = sin(a)^2 / d), so its absolute
+/// value is largest at an end. For an arc it is taken as 1.
 template <class Real>
 Real steepest(const Path<Real>& path, const Sprockets<Real>& sprockets) {
   using sprockets_detail::cosineAt;

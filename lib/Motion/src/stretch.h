@@ -1,4 +1,4 @@
-// How speed goes on along a move: for how many ticks it may change by the same amount.
+// Speed along a move: for how many ticks it may change by the same amount.
 #pragma once
 
 #include <math.h>
@@ -6,25 +6,25 @@
 
 namespace motion {
 
-/// Where a move stands at a tick. The speed is that of the last tick [mm/tick].
+/// How far a move has come at a tick, and the speed of the last tick [mm/tick].
 struct Walk {
-  float done;  ///< [mm] of the move in hand
+  float done;  ///< [mm] of the move in progress
   float speed;
 };
 
 /// Ticks in which the speed changes evenly.
 struct Stretch {
   uint8_t ticks;
-  float change;  ///< of the speed, each tick [mm/tick^2]
+  float change;  ///< [mm/tick^2] of the speed, each tick
 };
 
-/// What bounds the next stretch; speeds in [mm/tick].
+/// Limits of the next stretch; speeds are in mm/tick.
 struct Bounds {
-  float left;          ///< [mm] of the move
-  float top;           ///< speed
+  float left;          ///< [mm] that remain of the move
+  float top;           ///< largest speed
   float acceleration;  ///< [mm/tick^2]
-  float exit_squared;  ///< of the speed at the move's end, at most
-  uint8_t even_ticks;  ///< of a stretch at constant speed, at most
+  float exit_squared;  ///< square of the largest speed at the move's end
+  uint8_t even_ticks;  ///< most ticks of a stretch at constant speed
   uint8_t uneven_ticks;
 };
 
@@ -40,10 +40,10 @@ inline uint8_t atMost(float ticks, uint8_t most) {
   return !(ticks < float(most)) ? most : ticks < 1 ? 1 : uint8_t(ticks);
 }
 
-/// Ticks in which the speed may still grow before it must fall again, reaches its top or the end.
+/// Ticks until the speed must fall, reaches its top, or the move ends.
 ///
-/// After n ticks speed is w = u + n a, and (w^2 - u^2) / 2a + (w - u) / 2 is behind. Braking then
-/// begins in time if exit^2 + 2 a left >= (w - a/2)^2; solved for w.
+/// After n ticks the speed is w = u + n a, and the way is (w^2 - u^2) / 2a + (w - u) / 2. Braking
+/// then begins in time if exit^2 + 2 a left >= (w - a/2)^2. The code solves this for w.
 inline float ticksOfGain(float speed, const Bounds& bounds) {
   const float a = bounds.acceleration;
   const float behind = 2 * a * bounds.left + speed * speed + a * speed;
@@ -61,7 +61,7 @@ inline float ticksOfCruise(float speed, const Bounds& bounds) {
   return (bounds.left - (brakes > 0 ? brakes : 0)) / speed;
 }
 
-/// Ticks of braking to a top that was lowered while the sled was faster.
+/// Ticks of braking to a top that was lowered below the sled's speed.
 inline Stretch slowing(float speed, const Bounds& bounds) {
   const uint8_t ticks = atMost((speed - bounds.top) / bounds.acceleration, bounds.uneven_ticks);
   const bool fits = after({0, speed}, -bounds.acceleration, ticks).done <= bounds.left;
@@ -72,11 +72,11 @@ inline Stretch slowing(float speed, const Bounds& bounds) {
 
 /// The next ticks of a move: as fast as allowed, and slow enough to keep the speed at its end.
 ///
-/// In the next tick speed may be so much that a tick later, with `left` that much less, it can fall
-/// by one acceleration a tick down to the exit's: sqrt(exit^2 + 2 a left) - a/2. From a speed
-/// that is just that much the next one is lower by exactly a. With the exit's speed itself
-/// nothing is to be lost; the last way of less than `a` is one tick. One tick may lead beyond the
-/// move's end; more never do.
+/// From the speed of the next tick it must still be possible to brake by `a` each tick down to the
+/// exit's speed at the end. So that speed is at most sqrt(exit^2 + 2 a left) - a/2. From exactly
+/// that speed, the next speed is lower by exactly `a`. At the exit's speed there is no need to
+/// brake. A rest of the way shorter than `a` is a single tick. A stretch of a single tick may lead
+/// beyond the move's end; a longer stretch never does.
 inline Stretch nextStretch(float speed, const Bounds& bounds) {
   using namespace stretch_detail;
   const float a = bounds.acceleration;
@@ -95,7 +95,7 @@ inline Stretch nextStretch(float speed, const Bounds& bounds) {
     return {atMost(ticksOfCruise(speed, bounds), bounds.even_ticks), 0};
   if (change < kNear - a && change > -kNear - a) {
     const uint8_t ticks = atMost((speed - exit) / a - 0.5f, bounds.uneven_ticks);
-    // What was near may leave the last of them a hair beyond the end.
+    // Rounding may put the last of these ticks slightly beyond the end.
     const bool fits = ticks == 1 || after({0, speed}, -a, ticks).done <= bounds.left;
     return {fits ? ticks : uint8_t(ticks - 1), -a};
   }

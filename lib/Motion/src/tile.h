@@ -1,4 +1,4 @@
-// A small square of the sheet in which nine exact places tell the chains' lengths at all others.
+// A small square of the sheet: nine exact places in it give the chains' lengths at all others.
 #pragma once
 
 #include "bound.h"
@@ -17,36 +17,37 @@ inline bool holds(const Square& square, Point<float> place) {
          fabs(place.y - square.middle.y) <= square.half;
 }
 
-// What a tile may miss. With what rounding adds, its lengths stay within 0.0015 mm.
+// Largest error of a tile. With rounding its lengths stay within 0.0015 mm.
 const float kMostMissedInTile = 0.0005f;  // [mm]
 const float kLargestHalfTile = 15;        // [mm]
 
 /// Half the side [mm] of a tile near places that are `nearest` [mm] from a sprocket.
 ///
-/// Nine places make a quadratic of x whose three values are quadratics of y. Along y it misses what
-/// a quadratic misses over one side; along x the same, times 1.25, as three numbers that may all be
-/// wrong are weighed by up to so much: together 2.25 times third slope * side^3 / 124.7.
+/// Nine places make a quadratic in x whose three values are quadratics in y. Along x its error is
+/// that of a quadratic over a side. Along y it is 1.25 times that error, because the three values
+/// may all be wrong and their weights add up to at most 1.25. Together that is 2.25 times third
+/// slope * side^3 / 124.7.
 inline float halfTile(float nearest, const Slopes<float>& effects) {
-  // Its far corner is up to 0.8 + sqrt 2 halves away from the place, which it begins behind.
+  // The tile begins behind the place, and its far corner is up to 0.8 + sqrt 2 half sides away.
   const float clear = nearest - 2.3f * kLargestHalfTile;
   const float third = thirdSlope(0.0f, Surroundings<float>{clear > 1 ? clear : 1, effects});
   const float half = 0.5f * float(cbrt(kMostMissedInTile * 124.7077f / 2.25f / third));
   return half < kLargestHalfTile ? half : kLargestHalfTile;
 }
 
-/// Lengths by two quadratics, one for each chain: what is more than in the middle, in counts.
+/// Lengths by a quadratic for each chain: the length less that in the middle, in counts.
 class Tile {
  public:
-  /// Whether a place is in it; a tile that was never laid, or not done, holds none.
+  /// Whether a place is in the tile. A tile that was never laid, or not completely, holds none.
   bool holds(Point<float> place) const { return motion::holds(square_, place); }
 
   void forget() { square_.half = -1; }
 
-  /// Asks the exact inverse at nine places of the square; false, and no tile, if one is refused.
+  /// Asks the exact inverse at nine places of the square; false, and no tile, if any is refused.
   template <class Inverse>
   __attribute__((noinline)) bool lay(const Square& square, const Inverse& inverse);
 
-  /// Both lengths at a place that it holds.
+  /// Both lengths at a place in the tile.
   Knot at(Point<float> place) const {
     const float across = (place.x - square_.middle.x) * per_half_;
     const float up = (place.y - square_.middle.y) * per_half_;
@@ -56,7 +57,7 @@ class Tile {
  private:
   enum : uint8_t { kColumns = 3 };
 
-  /// What one chain has more than in the middle: powers of `across`, each a quadratic of `up`.
+  /// A chain's length less that in the middle: powers of `across`, each a quadratic in `up`.
   struct Powers {
     float constant[kColumns], slope[kColumns], bend[kColumns];
 
@@ -66,9 +67,9 @@ class Tile {
       return int32_t(lround(sum[0] + across * (sum[1] + across * sum[2])));
     }
 
-    /// Takes over one row of three lengths, less the middle's.
+    /// Takes over a row of three lengths, less the length in the middle.
     void setRow(uint8_t row, const int32_t* length, int32_t middle);
-    /// Rows become powers.
+    /// Turns rows into powers.
     void finish();
   };
 
@@ -80,7 +81,7 @@ class Tile {
 
 inline void Tile::Powers::setRow(uint8_t row, const int32_t* length, int32_t middle) {
   const float low = float(length[0] - length[1]), high = float(length[2] - length[1]);
-  // Until finish() each row stands where one power of `up` will.
+  // Until finish() each row is stored where a power of `up` will be.
   float* const kept = row == 0 ? constant : row == 1 ? slope : bend;
   kept[0] = float(length[1] - middle);
   kept[1] = 0.5f * (high - low);

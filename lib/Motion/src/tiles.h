@@ -1,4 +1,4 @@
-// Short moves in a row: one tile of exact places serves many of them.
+// For short moves in a row: a tile of exact places serves many of them.
 #pragma once
 
 #include "sprockets.h"
@@ -6,19 +6,19 @@
 
 namespace motion {
 
-/// The part of the sheet's plane over which the exact inverse is smooth: half its width and height
-/// [mm] about the origin. All zero: none is known, and every place is asked for itself.
+/// The area around the origin where the exact inverse is smooth: half its width and height [mm].
+/// All zero: no such area is known, and the exact inverse is asked for every place.
 struct SmoothArea {
   float half_width, half_height;
 };
 
-/// The tile in hand, and where and when the next is laid.
+/// The present tile, and where and when the next is laid.
 ///
-/// A tile costs nine inverses at once and serves until the path leaves it; so it is laid for short
+/// A tile costs nine inverses at once and serves until the path leaves it. So it is laid for short
 /// moves only, a little ahead, and only while enough set-points wait for the tick.
 class Tiles {
  public:
-  /// Takes over the area; what was asked before does not count any more.
+  /// Takes over the area, and drops the tile.
   void setArea(const SmoothArea& area) {
     area_ = area;
     tile_.forget();
@@ -27,7 +27,8 @@ class Tiles {
   /// Whether there is time for nine inverses now.
   void setTime(bool has_time) { has_time_ = has_time; }
 
-  /// Lengths at a place on a path: by the tile if it is in it, else by a new tile or exactly.
+  /// Lengths at a place on a path: from the tile if it holds the place, else from a new tile or the
+  /// exact inverse.
   template <class Inverse>
   Reached lengthsAt(Point<float> place, const Path<float>& path, const Sprockets<float>& sprockets,
                     const Inverse& inverse) {
@@ -48,13 +49,13 @@ class Tiles {
     return value > most ? most : value < -most ? -most : value;
   }
 
-  /// The square that begins just behind a place and lies on the area.
+  /// The square that begins just behind a place and lies within the area.
   Square squareAt(Point<float> place, const Path<float>& path,
                   const Sprockets<float>& sprockets) const {
     const float to_left = path_detail::distance(place, sprockets.left);
     const float to_right = path_detail::distance(place, sprockets.right);
     const float half = halfTile(to_left < to_right ? to_left : to_right, sprockets.effects);
-    const float kAhead = 0.8f;  // [1] of half the side; the rest is for what comes back
+    const float kAhead = 0.8f;  // [1] of half the side; the rest is for paths that turn back
     const float ahead = kAhead * half / path.length;
     return {{within(place.x + (path.to.x - path.from.x) * ahead, area_.half_width - half),
              within(place.y + (path.to.y - path.from.y) * ahead, area_.half_height - half)},

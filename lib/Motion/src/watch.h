@@ -1,4 +1,4 @@
-// Watches one axis that follows its set-points: is it left behind, does it stand, does it turn
+// Watches an axis that follows its set-points: is it left behind, does it stand still, does it turn
 // against its drive?
 #pragma once
 
@@ -12,20 +12,22 @@ namespace motion {
 /// What is wrong with an axis.
 enum class Fault : uint8_t {
   kNone,
-  kLeftBehind,  ///< it turns the way it is driven, but is too far from its set-point
+  kLeftBehind,  ///< it turns as it is driven, but is too far from its set-point
   kStands,      ///< driven, it counts nothing: blocked, or motor or encoder unplugged
   kTurnsBack,   ///< driven, it counts the other way: motor or encoder is wired in reverse
 };
 
-/// The watch over one axis.
+/// The watch over an axis.
 ///
-/// Duty and counts are averaged over about four ticks. An axis that is too far from its set-point
-/// is a fault at once, and the averages say which; one that turns back is a fault after a while,
-/// one that owes the travel of its duty is a fault too, wherever it is. From a limit of kNoLimit on
-/// nothing is watched: the clients ask for that where motors shall pull against a stop.
+/// Duty and counts are averaged over about four ticks. Three things are a fault:
+///  - the axis is too far from its set-point: a fault at once; the averages say which;
+///  - it turns against its drive for kTurnsBack;
+///  - it owes too much of the travel that its duty makes due (see due_travel.h).
+/// With a limit of kNoLimit or more nothing is watched: clients ask for that where motors shall
+/// pull against a stop.
 class Watch {
  public:
-  /// `limit` [mm] of the distance from the set-point.
+  /// `limit` [mm] is the largest allowed distance from the set-point.
   void tune(float limit, float counts_per_turn, float seconds_per_tick) {
     limit_ = limit;
     is_on_ = limit < kNoLimit;
@@ -40,11 +42,12 @@ class Watch {
     due_.rest();
   }
 
-  /// One tick: `duty` that was asked for, counts `moved` since the last tick (positive where the
-  /// duty is, if all is well), and the distance `error` [mm] from the set-point.
+  /// To be called each tick, with the commanded `duty`, the counts `moved` since the last tick
+  /// (positive with a positive duty, if all is well), and the distance `error` [mm] from the
+  /// set-point.
   Fault look(int16_t duty, int16_t moved, float error) {
     if (!is_on_) return Fault::kNone;
-    const int16_t kMostMoved = 1000;  // so that sums of four fit; no motor is that fast
+    const int16_t kMostMoved = 1000;  // so that a sum of four fits; no motor is that fast
     if (moved > kMostMoved) moved = kMostMoved;
     if (moved < -kMostMoved) moved = -kMostMoved;
     driven_ = int16_t(driven_ + duty - driven_ / DueTravel::kMean);
@@ -65,8 +68,7 @@ class Watch {
   static constexpr float kTurnsBack = 0.15f;  // [s]
   enum : int16_t {
     kDriven = 128 * DueTravel::kMean,  // half the power
-    kStanding =
-        2 * DueTravel::kMean,  // [counts] a motor that is driven so hard turns ten times faster
+    kStanding = 2 * DueTravel::kMean,  // [counts] a motor at kDriven turns ten times faster
   };
 
   Fault whatIsSeen() const {
@@ -82,7 +84,7 @@ class Watch {
 
   float limit_ = 2;
   bool is_on_ = true;
-  int16_t driven_ = 0, moved_ = 0;  ///< their averages, times DueTravel::kMean
+  int16_t driven_ = 0, moved_ = 0;  ///< averages of duty and counts, times DueTravel::kMean
   uint8_t turns_back_ = 0, turns_back_most_ = 15;
   DueTravel due_;
 };

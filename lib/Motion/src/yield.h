@@ -1,20 +1,21 @@
-// How much of the planned speed a machine can follow that falls behind.
+// The share of the planned speed for a machine that falls behind.
 #pragma once
 
 #include "fixed.h"
 
 namespace motion {
 
-/// A share of the planned speed for the distance by which the worst axis is off its set-point: all
-/// of it up to half the limit at which the machine halts, the least at nine tenths of it.
+/// The share depends on how far the worst axis is off its set-point. Up to half the limit at which
+/// the machine halts it is all of the planned speed; from nine tenths of that limit on it is the
+/// least.
 ///
-/// A weak supply or a tight corner so costs time, not the work. An axis that does not move at all
-/// still comes to the limit.
+/// So a weak supply or a tight corner costs time, not the work. An axis that does not move at all
+/// still reaches the limit.
 class Yield {
  public:
   enum : uint16_t { kAll = 256, kLeast = 26 };
 
-  /// `limit` [mm] as Watch has it; from 100 mm on nothing is watched and nothing yields.
+  /// `limit` [mm] is that of Watch; from 100 mm on nothing is watched and nothing yields.
   void tune(float limit) {
     const float kNoLimit = 100;
     const float most = limit < kNoLimit ? limit : kNoLimit;
@@ -24,7 +25,7 @@ class Yield {
     if (per_share_ == 0) per_share_ = 1;
   }
 
-  /// The share of 256 for an axis that is off by so many counts, which are not negative.
+  /// The share in 256ths for an axis that is off by `off` counts, which are not negative.
   uint16_t shareAt(int32_t off) const {
     if (off <= from_ || !is_on_) return kAll;
     const int32_t less = (off - from_) / per_share_;

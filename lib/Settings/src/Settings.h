@@ -1,4 +1,4 @@
-// Front door of the settings: values in RAM, their table, and what survives a power cut.
+// Front door of the settings: values in RAM, their table, and everything that survives a power cut.
 #pragma once
 
 #include "format.h"

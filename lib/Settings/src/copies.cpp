@@ -19,7 +19,7 @@ uint32_t bitsOf(float value) {
   return bits;
 }
 
-/// Four bytes, low first, as a number.
+/// The number in four bytes, low byte first.
 uint32_t longAt(const Bytes& bytes, uint16_t address) {
   uint32_t number = 0;
   for (uint8_t i = 0; i < 4; ++i) number |= uint32_t(bytes.read(uint16_t(address + i))) << (8 * i);
@@ -71,7 +71,7 @@ Loaded Copies::read(uint8_t copy, Values& values) const {
   for (uint8_t i = 0; i < stored; ++i) {
     const uint16_t pair = uint16_t(start + kHead + kPair * i);
     const uint8_t number = bytes_.read(pair);
-    // Numbers rise here as in the table, so one walk through both is enough.
+    // Numbers rise here as in the table, so a single pass through both is enough.
     while (index < values.count() && values.table().at(index).number < number) ++index;
     if (index == values.count()) break;
     if (values.table().at(index).number != number) continue;
@@ -97,7 +97,7 @@ Loaded Copies::load(Values& values) {
 }
 
 void Copies::save() {
-  // A copy with this number may be whole already; the next one must be told from it.
+  // A copy with this sequence number may be whole already. The next copy needs another number.
   if (to_write_ < 2) ++sequence_;
   to_write_ = 2;
   stored_ = false;

@@ -7,35 +7,35 @@
 
 namespace settings {
 
-/// What loading found.
+/// The result of loading.
 enum class Loaded : uint8_t {
   kNothing,  ///< no valid copy
   kAll,      ///< the newest valid copy
-  kSome      ///< the same, but a value was out of today's limits and keeps its default
+  kSome      ///< the newest valid copy, but a value beyond today's limits became its default
 };
 
-/// Two copies of all values, each with identification, number of its writing and checksum.
+/// Two copies of all values, each with identification, sequence number and checksum.
 ///
-/// A save brings first one copy up to date, then the other, byte by byte; the one that is not being
-/// written stays valid. Bytes that are right are left alone, and a copy counts as written when a
-/// pass over it finds all of them right. Values are stored with their $-numbers, so a new setting
-/// moves no other.
+/// A save brings a copy up to date byte by byte, then the other copy. Meanwhile the copy that is
+/// not being written stays valid. Bytes that are already right are not written. A copy counts as
+/// written when a pass over it finds all bytes right. Values are stored with their $-numbers, so a
+/// new setting moves no other.
 class Copies {
  public:
-  /// Bytes that a copy of that many settings takes.
+  /// Bytes of a copy of `count` settings.
   static uint16_t bytesFor(uint8_t count) { return uint16_t(kHead + kPair * count + kSum); }
 
-  /// Two copies from `first_address` on, `apart` bytes from one to the other.
+  /// The first copy is at `first_address`, the second `apart` bytes behind it.
   Copies(Bytes& bytes, uint16_t first_address, uint16_t apart);
 
-  /// Reads the newest valid copy into `values`; leaves them alone if there is none. A copy that is
-  /// invalid or older is written anew.
+  /// Reads the newest valid copy into `values`; changes nothing if there is none. A copy that is
+  /// invalid or older is written again.
   Loaded load(Values& values);
 
-  /// The values have changed: both copies are to be written (again).
+  /// To be called when values have changed: both copies are written again.
   void save();
 
-  /// True while something is to be written.
+  /// True while there is something to write.
   bool isBusy() const { return to_write_ != 0; }
 
   /// True once a valid copy holds the values as they are.
@@ -44,7 +44,7 @@ class Copies {
   /// True if a copy does not keep what is written into it.
   bool isWorn() const { return worn_; }
 
-  /// Goes on writing the values, by one byte at most. To be called while the bytes are ready.
+  /// Writes at most one byte. To be called again and again while the memory is ready.
   void step(const Values& values);
 
  private:
@@ -60,12 +60,12 @@ class Copies {
 
   Bytes& bytes_;
   uint16_t first_, apart_;
-  uint16_t sequence_;  ///< of the newest valid copy, or of the one being written
+  uint16_t sequence_;  ///< of the newest valid copy, or of the copy being written
   uint16_t done_;      ///< bytes of the copy being written that are right
-  Checksum sum_;       ///< of those
+  Checksum sum_;       ///< of those bytes
   uint8_t target_;     ///< which copy is written next
   uint8_t to_write_;   ///< copies that are not up to date
-  uint8_t passes_;     ///< over the copy being written, so far
+  uint8_t passes_;     ///< so far, over the copy being written
   bool changed_;       ///< this pass has written something
   bool stored_, worn_;
 };

@@ -48,7 +48,7 @@ void EventLog::step() {
   for (; done_ < kBytes; ++done_, was_tried_ = false) {
     const uint16_t address = uint16_t(addressOf(target) + done_);
     if (bytes_.read(address) == record[done_]) continue;
-    // A worn cell: what the other record says stays valid.
+    // A worn cell: the other record stays valid.
     if (was_tried_) break;
     was_tried_ = true;
     return bytes_.write(address, record[done_]);

@@ -1,4 +1,4 @@
-// Decimal digits of a float by whole-number arithmetic.
+// The decimal digits of a float, by whole-number arithmetic.
 #include "format.h"
 
 #include <string.h>
@@ -7,8 +7,8 @@ namespace settings {
 
 namespace {
 
-const uint8_t kMostDigits = 9;           // enough to tell any two floats apart
-const uint8_t kFewestDigits = 7;         // what the clients need
+const uint8_t kMostDigits = 9;           // enough to distinguish any two floats
+const uint8_t kFewestDigits = 7;         // as many as the clients need
 const uint32_t kNineDigits = 100000000;  // the smallest number of nine digits
 
 /// A positive number: mantissa * 2^binary * 10^-decimal.
@@ -19,12 +19,12 @@ struct Scaled {
 
 /// A float's digits, and by how much they may change before another float is nearer.
 struct Digits {
-  uint32_t quarters;  ///< of the ninth digit: from 4 * kNineDigits on, less than ten times that
+  uint32_t quarters;  ///< of the ninth digit: 4 * kNineDigits up to less than ten times that
   uint32_t room;      ///< half of the step to the next float, in quarters
   int16_t exponent;   ///< the first digit stands for 10^exponent
 };
 
-// Multiplications leave 56 or more correct bits, so forty of them are far from the ninth digit.
+// Forty multiplications leave at least 56 correct bits, far more than nine digits need.
 Scaled timesTen(Scaled s) {
   s.mantissa *= 10;
   while (s.mantissa >> 60) {
@@ -52,7 +52,7 @@ Scaled overTen(Scaled s) {
   return s;
 }
 
-/// Quarters of the number, rounded; right for binary exponents of -33 to -30.
+/// The number in quarters, rounded; right for binary exponents of -33 to -30.
 uint32_t quartersOf(const Scaled& s) {
   return uint32_t(((s.mantissa >> (-s.binary - 3)) + 1) >> 1);
 }
@@ -86,20 +86,20 @@ uint32_t tensOf(uint8_t digits) {
   return ten;
 }
 
-/// The first of nine digits, as few of them not zero as read back as the same float.
+/// Nine digits that end in as many zeros as possible and still read back as the same float.
 uint32_t shortened(const Digits& digits) {
   for (uint8_t kept = kFewestDigits; kept < kMostDigits; ++kept) {
     const uint32_t unit = 4 * tensOf(uint8_t(kMostDigits - kept));
     const uint32_t rounded = (digits.quarters + unit / 2) / unit * unit;
     const uint32_t change =
         rounded > digits.quarters ? rounded - digits.quarters : digits.quarters - rounded;
-    // Two more, as quarters and room are themselves rounded.
+    // Two more, because quarters and room are rounded too.
     if (change + 2 <= digits.room || change == 0) return rounded / 4;
   }
   return (digits.quarters + 2) / 4;
 }
 
-/// Writes text from its front.
+/// Writes text from front to back.
 struct Writer {
   char* next;
   void put(char c) { *next++ = c; }

@@ -1,4 +1,4 @@
-// What is found at the start, and who writes next.
+// What the start reads, and who writes next.
 #include "memory.h"
 
 #include <string.h>
@@ -24,7 +24,7 @@ uint16_t scaleOf(const Values& values) {
 
 Source sourceOf(Loaded loaded) {
   if (loaded == Loaded::kNothing) return Source::kDefaults;
-  return loaded == Loaded::kAll ? Source::kOwn : Source::kOwnInPart;
+  return loaded == Loaded::kAll ? Source::kStored : Source::kStoredInPart;
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ Started Memory::start() {
 }
 
 void Memory::takeOver(const Recognised& found, Started& started) {
-  // Its data is retired before we ever move: what is valid there is newer than ours.
+  // Its data is retired before we ever move, so if it is valid it is newer than ours.
   switch (found.foreign) {
     case Foreign::kNone:
       return;
@@ -77,7 +77,7 @@ void Memory::takeOver(const Recognised& found, Started& started) {
     started.known = Known::kAtRest;
     slots_.keep(started.position);
   } else if (started.known == Known::kAtRest) {
-    // That firmware may have moved the sled since.
+    // The published firmware may have moved the sled since.
     started.known = Known::kMoving;
     slots_.beginMoving();
   }
@@ -90,7 +90,7 @@ void Memory::storeSettings() {
 
 void Memory::step() {
   if (!bytes_.ready()) return;
-  // A motion waits for the position's mark, nobody waits for the rest.
+  // A motion waits until the position is marked; nothing waits for the rest.
   if (slots_.isBusy()) return slots_.step();
   if (copies_.isBusy()) return copies_.step(values_);
   if (log_.isBusy()) return log_.step();
@@ -118,7 +118,7 @@ Refusal Memory::setRow(uint8_t index, float value) {
 }
 
 void Memory::storeIfChanged(uint8_t index, float before) {
-  // On a new board the first setting stores all of them, also if it is as it was.
+  // On a new board the first `set` stores all settings, even if it changes nothing.
   if (values_.at(index) != before || !copies_.isStored()) storeSettings();
 }
 

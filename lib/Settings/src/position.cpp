@@ -149,7 +149,7 @@ void PositionSlots::keep(const Position& position) {
   store(fresh + kScaleAt, position.scale, 2);
   moving_ = false;
   wanted_ = kMoved;
-  // Nothing new costs no writing.
+  // A position that is already stored is not written again.
   const bool there = (writing_ || holds_newest_) && record_[kMarkAt] == kRests &&
                      !memcmp(record_ + kKnownAt, fresh + kKnownAt, kMarkAt - kKnownAt);
   if (!there) begin(fresh, kRests);
@@ -164,9 +164,9 @@ void PositionSlots::forget() {
 
 void PositionSlots::beginMoving() {
   moving_ = true;
-  // A record without its checksum is none, and the one before it says enough. One that could be
-  // whole is finished first, so that there is no doubt which one is the newest.
-  // One that says that nothing is known is right in motion as well.
+  // A record without its checksum does not count; the record before it says enough. A record that
+  // could be whole is finished first, so that there is no doubt which record is the newest.
+  // A record that says that nothing is known is right in motion too.
   const bool says_nothing = !(record_[kKnownAt] & kIsKnown);
   if (!writing_ || maybe_whole_ || !exists_ || says_nothing) return;
   writing_ = false;
@@ -177,7 +177,7 @@ void PositionSlots::doubt() {
   wanted_ = kWrong;
   tried_ = false;
   beginMoving();
-  // Where no record is, there is nothing to doubt.
+  // Without a record there is nothing to mark.
   if (!exists_ && !writing_) mark_ = wanted_;
 }
 
@@ -226,7 +226,7 @@ void PositionSlots::writeMark() {
     bytes_.write(address, wanted_);
     tried_ = true;
   } else {
-    // A worn cell: a record elsewhere, moving from the first.
+    // A worn cell: write a new record in another slot, marked as moving from the start.
     readNewest();
     begin(record_, wanted_);
   }

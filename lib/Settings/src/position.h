@@ -1,45 +1,47 @@
-// Where the machine stood when it last came to rest, and whether it has moved since.
+// Where the machine last came to rest, and whether it has moved since.
 #pragma once
 
 #include "bytes.h"
 
 namespace settings {
 
-/// What is kept of a position.
+/// A position as it is stored.
 struct Position {
   int32_t left, right, z;  ///< [encoder counts]
-  float x, y;              ///< [mm] where that put the sled, by the settings of the time
+  float x, y;              ///< [mm] the sled's place for these counts, by the settings of that time
   uint16_t scale;          ///< fingerprint of the settings that turn counts into lengths
   bool has_place;          ///< false: x and y are not known (counts of the published firmware)
 };
 
-/// What is known of the position after power came back.
+/// What is known of the position when power comes back.
 enum class Known : uint8_t {
-  kNothing,  ///< never saved, or forgotten on request: chains must be set
+  kNothing,  ///< never stored, or forgotten on request: chains must be set
   kAtRest,   ///< the machine stood there when power went
-  kMoving,   ///< power went in motion (or other firmware ran): where the machine was before
-  kDoubted,  ///< the counts were proved wrong: where the machine believed to be before
+  kMoving,   ///< power went in motion (or other firmware ran): the place is where the machine last
+             ///< stood
+  kDoubted,  ///< the counts were proved wrong: the place is where the machine believed to be
 };
 
-/// Whether kept counts and kept place still say the same.
+/// Whether stored counts and stored place still agree.
 enum class Agreement : uint8_t {
   kAgrees,
-  kScaleChanged,  ///< $12, $13, $19 or $20 are others: the counts mean other lengths now
+  kScaleChanged,  ///< $12, $13, $19 or $20 changed: the counts now mean other lengths
   kPlaceDiffers,  ///< today's settings put the sled elsewhere
 };
 
-/// From here on [mm] two places are not the same; settings in force put it within 0.02 mm.
+/// [mm] Two places this far apart are not the same. With unchanged settings they differ by less
+/// than 0.02 mm.
 const float kSamePlace = 0.5f;
 
-/// Compares a kept position with today's scale and with the place (x, y) [mm] that forward
-/// kinematics finds for its counts today.
+/// Compares a stored position with today's scale, and with the place (x, y) [mm] that forward
+/// kinematics gives for its counts today.
 Agreement compare(const Position& kept, uint16_t scale, float x, float y);
 
 /// Records in a ring of slots, so that no cell is written often.
 ///
-/// A record is written beside the newest one and counts once its checksum is whole. One byte of the
-/// newest record, outside the checksum, says that the machine has begun to move. In one round of
-/// the ring that byte is written twice, any other at most once.
+/// A new record is written to another slot than the newest record, and counts once its checksum is
+/// whole. A byte of the newest record, outside the checksum, says that the machine has begun to
+/// move. In a round of the ring that byte is written twice, any other byte at most once.
 class PositionSlots {
  public:
   enum : uint8_t { kBytesPerSlot = 30 };
@@ -49,25 +51,26 @@ class PositionSlots {
   /// Finds the newest record; reads all slots.
   Known load(Position& position);
 
-  /// Keeps a position at rest, instead of one that is still being written.
+  /// Stores a position at rest. A record that is still being written is given up for it.
   void keep(const Position& position);
 
-  /// Keeps that nothing is known.
+  /// Stores that nothing is known.
   void forget();
 
-  /// Marks the newest record as left behind, instead of one that is still being written.
+  /// Marks that the machine moves away from the newest record. A record that is still being written
+  /// is given up.
   void beginMoving();
 
-  /// Marks the newest record as proved wrong; beginMoving() leaves that mark, keep() ends it.
+  /// Marks the newest record as proved wrong. beginMoving() keeps that mark, keep() ends it.
   void doubt();
 
   /// True while something is to be written.
   bool isBusy() const { return writing_ || (moving_ && mark_ != wanted_); }
 
-  /// True once beginMoving() has done its work.
+  /// True once the mark that beginMoving() asked for is written.
   bool mayMove() const { return moving_ && !isBusy(); }
 
-  /// Goes on writing, by one byte at most. To be called while the bytes are ready.
+  /// Writes at most one byte. To be called again and again while the memory is ready.
   void step();
 
  private:
@@ -87,16 +90,16 @@ class PositionSlots {
   uint8_t newest_;     ///< slot of the newest record
   uint8_t mark_;       ///< of the newest record
   uint16_t sequence_;  ///< of the newest record
-  bool exists_;        ///< there is one
+  bool exists_;        ///< there is a newest record
   uint8_t wanted_;     ///< what the mark should say while moving_: kMoved or kWrong
-  bool moving_;        ///< the mark should say so
+  bool moving_;        ///< the mark should say `wanted_`
   bool tried_;         ///< the mark has been written, and is not there yet
-  bool writing_;       ///< a record
+  bool writing_;       ///< a record is being written
   bool maybe_whole_;   ///< its checksum has been begun, so it could already count
-  bool holds_newest_;  ///< record_ is the newest record, not one that was given up
+  bool holds_newest_;  ///< `record_` is the newest record, not a record that was given up
   uint8_t target_;     ///< slot being written
-  uint8_t failed_;     ///< how many slots before it would not take the record
-  uint8_t done_;       ///< bytes of it that are right
+  uint8_t failed_;     ///< how many slots before `target_` did not keep the record
+  uint8_t done_;       ///< bytes of the record being written that are right
   uint8_t record_[kBytesPerSlot];
 };
 

@@ -1,5 +1,5 @@
-// The published firmware's EEPROM, from its structure: little-endian, no padding, in the order of
-// the settings' numbers.
+// The published firmware's EEPROM, read by its structure: little-endian, no padding, in the order
+// of the settings' numbers.
 #include "published.h"
 
 #include <string.h>
@@ -44,15 +44,15 @@ uint8_t sizeOf(uint8_t number) {
   }
 }
 
-/// What the published firmware did with a value that it did not expect.
+/// The value that the published firmware acted by when it did not expect the stored value.
 float asItMeant(const Entry& entry, float value) {
   switch (entry.number) {
-    case 7:   // triangular, unless it is 1
-    case 38:  // off the bottom, unless it is 1
+    case 7:   // triangular, unless the value is 1
+    case 38:  // off the bottom, unless the value is 1
       return value == 1 ? 1.0f : 2.0f;
     case 16:
       return value != 0 ? 1.0f : 0.0f;
-    case 17:  // no other number switched anything
+    case 17:  // other numbers switched nothing
       return value > 3 ? 0.0f : value;
     case 43:
     case 44:  // a NaN was no limit
@@ -98,7 +98,7 @@ float publishedValue(const Bytes& bytes, uint8_t number) {
 
 uint8_t importSettings(const Bytes& bytes, const Recognised& found, Values& values) {
   const uint8_t last = found.has_z_limits ? kLastNumber : uint8_t(kLastNumber - 2);
-  // First look at all of them, then take them.
+  // The first pass checks all values, the second takes them.
   for (uint8_t pass = 0; pass < 2; ++pass)
     for (uint8_t i = 0; i < values.count(); ++i) {
       const Entry entry = values.table().at(i);
@@ -119,7 +119,7 @@ Position importPosition(const Bytes& bytes) {
 }
 
 uint16_t nextToRetire(const Bytes& bytes) {
-  // The marker first: without it nothing else counts, here or there.
+  // The marker first: without it neither firmware takes anything else as valid.
   static const uint16_t kMarkers[] = {kMarkerAt,      5, 105, 205, kEarlierEndAt, kEndAt,
                                       kCountsMarkerAt};
   for (uint16_t address : kMarkers)

@@ -1,4 +1,4 @@
-// What the published firmware left in the EEPROM: recognised, read whole or not at all, retired.
+// The published firmware's data in the EEPROM: recognised, read whole or not at all, then retired.
 #pragma once
 
 #include "bytes.h"
@@ -7,16 +7,16 @@
 
 namespace settings {
 
-/// Whose data lies where the published firmware keeps its own.
+/// Whose data is at the addresses of the published firmware.
 enum class Foreign : uint8_t {
   kNone,
   kVersion5,      ///< firmware 1.24 to 1.29, with or without Z limits
-  kPositionOnly,  ///< the same, its settings erased
+  kPositionOnly,  ///< of that firmware, its settings erased
   kOther,         ///< another version: 1 to 4 (firmware 1.00 to 1.23), 6 (holey, beta, optical) ...
   kBeforeOne,     ///< positions of firmware before 1.00
 };
 
-/// What recognise() found.
+/// What recognise() answers.
 struct Recognised {
   Foreign foreign;
   uint8_t version;    ///< as the data says; 0 if it does not
@@ -30,15 +30,15 @@ Recognised recognise(const Bytes& bytes);
 /// The value of a published setting (0..13, 15..44) in a version 5 block, as it stands there.
 float publishedValue(const Bytes& bytes, uint8_t number);
 
-/// Takes all settings of a version 5 block over, or none: kNoIndex, or the number of the first
-/// setting that cannot be right.
+/// Takes over all settings of a version 5 block, or none. Returns kNoIndex, or the number of the
+/// first setting that cannot be right.
 uint8_t importSettings(const Bytes& bytes, const Recognised& found, Values& values);
 
-/// The counts of the published firmware; place and scale are not known.
+/// The position in the published firmware's data: counts, without place and scale.
 Position importPosition(const Bytes& bytes);
 
-/// The next byte to overwrite with kErased so that no published firmware takes its own data for
-/// valid, or kNothingLeft. In an order that a power cut cannot harm.
+/// The next byte to overwrite with kErased so that no published firmware takes its data for valid,
+/// or kNothingLeft. The order makes it safe to lose power at any byte.
 uint16_t nextToRetire(const Bytes& bytes);
 
 const uint16_t kNothingLeft = 0xFFFF;

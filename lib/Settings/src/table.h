@@ -1,38 +1,38 @@
-// What settings there are: the laws walk over a table and know no setting by heart, but for those
-// few of the published firmware that published.h names.
+// The list of settings. The code here works on any table; only published.h names settings, those of
+// the published firmware.
 #pragma once
 
 #include <stdint.h>
 
 namespace settings {
 
-/// How a value was stored by the published firmware, and how it is written down.
+/// How the published firmware stored a value, and how it is written as text.
 enum class Kind : uint8_t { kBool, kByte, kWord, kReal };
 
 /// Whether a client may see and set a number.
 enum class Access : uint8_t {
   kListed,  ///< in the dump, and set by $n=value
-  kHidden,  ///< kept like any other, but only the machine's own commands set it
-  kKept,    ///< the same, and no reset but that of everything changes it
+  kHidden,  ///< stored like any other setting, but only the machine's commands set it
+  kKept,    ///< hidden, and only a reset of everything changes it
 };
 
-/// Instead of a step: any value within the limits, or any but zero.
+/// In place of a step: any value within the limits, or any value but zero.
 enum : uint8_t { kAnyValue = 0, kAnyButZero = 255 };
 
-/// What a new value touches, as bits: what must be worked out again before it counts everywhere.
-/// The laws here know kScale alone; the machine knows the rest.
+/// What a new value touches, as bits: what the machine must work out again before the value counts
+/// everywhere. This library uses kScale alone; the machine uses the rest.
 enum Touch : uint8_t {
-  kNothing = 0,   ///< it is read where it is used: the next line goes by it
-  kScale = 1,     ///< how many counts are a length
+  kNothing = 0,   ///< it is read where it is used, from the next line on
+  kScale = 1,     ///< how many counts a length has
   kGeometry = 2,  ///< where the sled hangs on its chains, or where it may hang
   kLoops = 4,     ///< gains and watch of the control loops
   kLimits = 8,    ///< speeds, accelerations and corners of moves
   kDrives = 16,   ///< how motors and encoders are driven and read
   kCutter = 32,   ///< which pins switch spindle and laser, and how
-  kRestart = 64,  ///< it is read at the start alone
+  kRestart = 64,  ///< it is read only at the start
 };
 
-/// One row: what a setting may hold.
+/// A row: what a setting may hold.
 struct Entry {
   uint8_t number;  ///< the n of $n
   Kind kind;
@@ -43,12 +43,12 @@ struct Entry {
   float low, high;
 };
 
-/// Texts that a table keeps for its reader, by what they are for.
+/// Texts of a table, by their use.
 enum class Word : uint8_t {
-  // After "$n ", why a value is refused.
-  kUnknown,   ///< it is no setting
+  // Follow "$n ": why a value is refused.
+  kUnknown,   ///< it is not a setting
   kHidden,    ///< other commands set it
-  kNoNumber,  ///< the value is no number
+  kNoNumber,  ///< the value is not a number
   kZero,      ///< it cannot be zero
   kFrom,      ///< before the lowest value
   kTo,        ///< between the lowest and the highest
@@ -58,7 +58,7 @@ enum class Word : uint8_t {
 };
 
 /// The settings, their comments for the dump, and the words of refusals. Numbers rise from row to
-/// row. The board keeps all of it in flash, which only this interface knows.
+/// row. The board has all of it in flash; this interface hides how flash is read.
 class Table {
  public:
   virtual uint8_t count() const = 0;
@@ -72,7 +72,7 @@ class Table {
   ~Table() {}
 };
 
-/// No row: what a search that finds nothing answers.
+/// No row: the answer of a search without a result.
 const uint8_t kNoIndex = 255;
 
 /// The row with that $-number, or kNoIndex; half a millisecond on the board.

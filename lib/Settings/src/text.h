@@ -1,4 +1,4 @@
-// Lines about settings for the client: one of the dump, and why a value was refused.
+// Lines about settings for the client: a line of the dump, and why a value was refused.
 #pragma once
 
 #include "format.h"
@@ -22,7 +22,7 @@ void putWord(const Table& table, Word which, Put& put) {
   for (uint8_t i = 0; const char letter = table.word(which, i); ++i) put(letter);
 }
 
-/// `$n=value (comment)`, without the line's end; the caller leaves out rows that are not listed.
+/// `$n=value (comment)`, without the line's end. The caller leaves out rows that are not listed.
 template <class Put>
 void putSetting(const Values& values, uint8_t index, Put& put) {
   const Table& table = values.table();
@@ -36,7 +36,7 @@ void putSetting(const Values& values, uint8_t index, Put& put) {
   put(')');
 }
 
-/// Why `$number=value` was not taken, as what follows `error: `; without the line's end.
+/// Why `$number=value` was not taken: the text that follows `error: `, without the line's end.
 template <class Put>
 void putRefusal(const Table& table, uint8_t number, Refusal why, Put& put) {
   put('$');

@@ -1,4 +1,4 @@
-// Checks values and keeps them.
+// Checks values and stores them.
 #include "values.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@ Refusal judge(const Entry& entry, float value) {
   if (value < entry.low || value > entry.high) return Refusal::kOutOfRange;
   if (entry.step == kAnyValue) return Refusal::kNone;
   if (entry.step == kAnyButZero) return value == 0 ? Refusal::kZero : Refusal::kNone;
-  // Whole numbers here are below 2^16, so the quotient is exact where it should be.
+  // Whole numbers here are below 2^16, so the quotient of two of them is exact if it is whole.
   const float steps = (value - entry.low) / float(entry.step);
   return steps == floor(steps) ? Refusal::kNone : Refusal::kBetween;
 }

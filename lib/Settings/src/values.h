@@ -9,17 +9,17 @@ namespace settings {
 enum class Refusal : uint8_t {
   kNone,        ///< it was taken
   kUnknown,     ///< no setting has that number
-  kHidden,      ///< only the machine's own commands set it
+  kHidden,      ///< only the machine's commands set it
   kNoNumber,    ///< NaN or infinite
   kOutOfRange,  ///< beyond the limits
   kBetween,     ///< not one of the steps
-  kZero,        ///< the one value within the limits that makes no sense
+  kZero,        ///< zero, which this setting cannot be
 };
 
 /// Whether a row may hold the value.
 Refusal judge(const Entry& entry, float value);
 
-/// One float for each row of a table, in memory that the caller lends.
+/// A float for each row of a table, in memory of the caller.
 class Values {
  public:
   /// `room` has one float for each row; filled with the defaults.
@@ -28,19 +28,19 @@ class Values {
   const Table& table() const { return table_; }
   uint8_t count() const { return count_; }
 
-  /// The value in a row; rows are named by the table's own enum.
+  /// The value in a row; the table's enum names the rows.
   float at(uint8_t index) const { return value_[index]; }
 
-  /// Where the rows from `index` on stand, one after the other.
+  /// The values of the rows from `index` on, in an array.
   const float* from(uint8_t index) const { return value_ + index; }
 
-  /// Sets a listed setting by its $-number, or says why not and changes nothing.
+  /// Sets a listed setting by its $-number, or changes nothing and says why.
   Refusal set(uint8_t number, float value);
 
-  /// Sets a row, hidden or not, for the machine's own commands and for loading.
+  /// Sets a row, listed or hidden: for the machine's commands and for loading.
   Refusal setRow(uint8_t index, float value);
 
-  /// Every setting back to its default, those that are kept only on request.
+  /// Sets every setting to its default; kKept settings only if `also_kept`.
   void reset(bool also_kept);
 
  private:

@@ -5,10 +5,10 @@
 
 namespace kinematics {
 
-/// Free chain of length L is L / (1 + strain) nominal lengths of chain; left and right differ.
+/// Free chain of length L is L / (1 + strain) nominal lengths of chain. Left and right differ.
 ///
-/// Only free chain: the sprocket's teeth hold its links at their own pitch, and the ring's arm is
-/// no chain at all. (The published firmware divides the arm as well, 0.28 mm at 0.2 %.)
+/// This holds for free chain only: on the sprocket the links sit at the pitch of the teeth, and the
+/// ring's arm is no chain at all. (The published firmware divides the arm too: 0.28 mm at 0.2 %.)
 template <class Real>
 struct ChainPitch : Effect<Real> {
   enum { kLeftStrain, kRightStrain, kParamCount };
@@ -57,7 +57,7 @@ struct ChainPitch : Effect<Real> {
     for (uint8_t i = 0; i < kParamCount; ++i) parameter[i] += published.strain[i];
   }
 
-  /// A length L becomes L + L * c with c = -strain / (1 + strain): no division on the way.
+  /// A length L becomes L + L * c with c = -strain / (1 + strain), so a move needs no division.
   static void prepare(const Frame<Real>&, const Real* parameter, Real* c) {
     for (uint8_t i = 0; i < kParamCount; ++i) c[i] = -(parameter[i] / (Real(1) + parameter[i]));
   }

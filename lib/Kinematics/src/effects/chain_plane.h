@@ -1,5 +1,4 @@
-// Chain plane: sprockets and ring lie at different distances from the sheet, so chains run
-// slanting.
+// Chain plane: sprockets and ring are at different distances from the sheet, so the chains slant.
 #pragma once
 
 #include <math.h>
@@ -9,7 +8,7 @@
 namespace kinematics {
 
 /// A chain of length L along the sheet whose ends differ by g across it is sqrt(L^2 + g^2) long.
-/// Only the chain slants, the ring keeps its plane.
+/// Only the chain slants; the ring stays in its plane.
 template <class Real>
 struct ChainPlane : Effect<Real> {
   enum { kGapSquared, kParamCount };

@@ -1,5 +1,4 @@
-// Chain sag: a chain that carries its own weight hangs in a curve and is longer than the straight
-// line.
+// Chain sag: a chain that carries its weight hangs in a curve and is longer than the straight line.
 #pragma once
 
 #include "../effect.h"
@@ -8,17 +7,17 @@ namespace kinematics {
 
 /// Extra length of a shallow hanging chain that ends on a weightless arm.
 ///
-/// The chain's weight across the line, per mm, is w * cosine; with tension T it bends at the
-/// rate k = w * cosine / T. The curve starts at the sprocket with slope a, falls by k per mm over
-/// the free length L, and goes on straight along the arm (no weight there). Closing on the bit, at
-/// distance D = reach, asks for a = k L (1 - L / (2 D)). A curve is longer than its chord by half
-/// the integral of its squared slope; that gives
+/// The chain's weight across the line is w * cosine per mm. With tension T the chain bends at the
+/// rate k = w * cosine / T. The curve starts at the sprocket with slope a. The slope falls by k per
+/// mm over the free length L and stays as it is along the arm, which has no weight. The curve must
+/// end at the bit, at distance D = reach, so a = k L (1 - L / (2 D)). A curve is longer than its
+/// chord by half the integral of its squared slope:
 ///
 ///     extra = k^2 L^3 / 24 * (4 - 3 L / D).
 ///
-/// With no arm (L = D) this is the textbook parabola, w^2 cosine^2 L^3 / (24 T^2). Written with
-/// bend = W cosine / T, W the sled's weight, the machine's constants are one number,
-/// weight_ratio_squared = w^2 / (24 W^2), which is the published chainSagCorrection / 1e12.
+/// With no arm (L = D) this is the textbook parabola, w^2 cosine^2 L^3 / (24 T^2). With
+/// bend = W cosine / T, where W is the sled's weight, a single number holds the machine's
+/// constants: weight_ratio_squared = w^2 / (24 W^2), the published chainSagCorrection / 1e12.
 template <class Real>
 struct ChainSag : Effect<Real> {
   enum { kWeightRatioSquared, kParamCount };
@@ -67,9 +66,9 @@ struct ChainSag : Effect<Real> {
 
   static PublishedInfo published(uint8_t) { return {37, 1e12}; }
 
-  /// The published sag exceeds ours, because it takes the arm for chain: with u the arm's share of
-  /// the line, line^3 against chain^3 (1 + 3 u), taken at the longest line on the sheet, where
-  /// nearly all sag is.
+  /// The published sag exceeds ours, because it takes the arm for chain. With u the arm's share of
+  /// the line, the ratio is line^3 to chain^3 (1 + 3 u). It is taken at the longest line on the
+  /// sheet, where nearly all sag is.
   static void addPublished(const Frame<Real>& frame, const PublishedChains<Real>& published,
                            Real* parameter) {
     if (published.sag_correction == Real(0)) return;

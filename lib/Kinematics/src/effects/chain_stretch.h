@@ -7,9 +7,9 @@ namespace kinematics {
 
 /// Loaded free chain of length L measures links * (1 + compliance * tension).
 ///
-/// Solved for the links to second order, which is 0.0014 mm under low motors: there 1 mm of both
-/// chains is 4 mm at the bit. The chain on the sprocket does not count: its links sit
-/// one to a tooth whatever they carry.
+/// The code solves this for the links to second order. The second order is 0.0014 mm of chain
+/// under low motors, where 1 mm of both chains is 4 mm at the bit. Chain on the sprocket does not
+/// count: each link sits on its tooth, whatever it carries.
 template <class Real>
 struct ChainStretch : Effect<Real> {
   enum { kCompliance, kParamCount };

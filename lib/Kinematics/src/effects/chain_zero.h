@@ -1,19 +1,20 @@
-// Chain zero: more or less chain was out than counted when a sprocket's count was set.
+// Chain zero: when a sprocket's count was set, more or less chain was out than that count says.
 #pragma once
 
 #include "../effect.h"
 
 namespace kinematics {
 
-/// The motor has paid out what is needed less what was out already at 12 o'clock.
+/// The motor pays out the chain that is needed less the chain that was already out at 12 o'clock.
 ///
-/// Both sides alike are exactly a wrong rotation_radius; a skipped tooth is one pitch, 6.35 mm.
+/// The same error on both sides acts exactly like a wrong rotation_radius. A skipped tooth is an
+/// error of a pitch, 6.35 mm.
 template <class Real>
 struct ChainZero : Effect<Real> {
   enum { kLeftOut, kRightOut, kParamCount };
   enum { kCoefficientCount = kSideCount };
   enum { kBelongsTo = kToZeroing };
-  enum { kInFrame = 1 };  // a frame elsewhere looks the same
+  enum { kInFrame = 1 };  // a moved frame looks the same
   enum { kExampleCount = 2 };
 
   static EffectInfo info() {
@@ -49,7 +50,7 @@ struct ChainZero : Effect<Real> {
     judge.set("right.zero", parameter[kRightOut]);
   }
 
-  /// The published formula divides the arm as well as the chain, and is so much short of ours.
+  /// The published formula divides the arm as well as the chain, so its length falls short of ours.
   static void addPublished(const Frame<Real>& frame, const PublishedChains<Real>& published,
                            Real* parameter) {
     for (uint8_t i = 0; i < kParamCount; ++i)

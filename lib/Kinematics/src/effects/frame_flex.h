@@ -6,12 +6,14 @@
 namespace kinematics {
 
 /// A sprocket moves inward by `inward` times the horizontal pull of its chain, and down by
-/// `downward` times the vertical one, which at the sprocket carries half the chain's weight more
-/// than in the chain's middle. The pulls are those of strands between the sprockets at rest; the
-/// strands are then drawn between the moved ones. By how much the moves change the level pull is
-/// taken from the middle of the sheet, where a level move counts most: it is load * run / drop,
-/// so that shares of half the gap and of the drop, load * half gap / level pull, add up (see
-/// docs/decisions/0006-flex-once.md).
+/// `downward` times the vertical pull. The vertical pull at the sprocket is larger than in the
+/// chain's middle by half the chain's weight.
+///
+/// The pulls are those of strands between sprockets at rest; the strands are then drawn between
+/// the moved sprockets. The moves change the level pull, which is load * run / drop: a move inward
+/// takes its share of half the gap, a move down its share of the drop, load * half gap / level
+/// pull, and the two shares add up. The formula takes this change from the middle of the sheet,
+/// where a level move counts most (see docs/decisions/0006-flex-once.md).
 template <class Real>
 struct FrameFlex : Effect<Real> {
   enum { kInward, kDownward, kParamCount };
@@ -84,7 +86,8 @@ struct FrameFlex : Effect<Real> {
   }
 
  private:
-  /// [mm] by which a sprocket comes inward: nearer ones pull less sideways, lower ones more.
+  /// [mm] by which a sprocket moves inward. The chains pull less sideways between nearer sprockets
+  /// and more from lower sprockets.
   PLUMB_INLINE static Real given(const Real* c, Real level, Real all_sunk) {
     const Real inward = c[kInwardByPull] * level;
     const Real nearer = inward - level * all_sunk;

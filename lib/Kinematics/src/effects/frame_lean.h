@@ -1,4 +1,4 @@
-// Frame lean: a leaning frame lets the chains droop towards the sheet as well as down along it.
+// Frame lean: on a leaning frame the chains droop down along the sheet and also towards it.
 #pragma once
 
 #include "../effect.h"
@@ -6,10 +6,10 @@
 namespace kinematics {
 
 /// On a frame that leans by an angle a, gravity along the sheet is reduced for sled and chain
-/// alike, so their ratio and the sag along the sheet stay. Across it the chain carries w * sin(a):
-/// against the reduced w * cos(a) of the frame's chain_weight that is tan(a), whatever the chain's
-/// slope. Both droops stand square to each other, so the squares of their loads add up: cosine^2 of
-/// ChainSag becomes cosine^2 + tan(a)^2.
+/// alike, so their ratio and the sag along the sheet stay. Across the sheet the chain carries
+/// w * sin(a), whatever its slope: tan(a) times the w * cos(a) of the frame's chain_weight. The two
+/// droops are at right angles, so the squares of their loads add up: cosine^2 of ChainSag becomes
+/// cosine^2 + tan(a)^2.
 template <class Real>
 struct FrameLean : Effect<Real> {
   enum { kTangentSquared, kParamCount };
@@ -44,7 +44,7 @@ struct FrameLean : Effect<Real> {
   }
   static Example example(uint8_t) { return {"leaning", {0.072}, 1}; }
 
-  /// The frame's weights are those along the sheet; the judge wants the whole.
+  /// The frame's weights are the parts along the sheet; the judge needs the full weights.
   template <class Judge>
   static void setJudge(const Frame<Real>&, const Real* parameter, Judge& judge) {
     const Real whole = sqrt(Real(1) + parameter[kTangentSquared]);

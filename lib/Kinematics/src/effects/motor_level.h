@@ -1,14 +1,15 @@
-// Motor level: the beam is not horizontal, so one sprocket hangs higher than the other.
+// Motor level: the beam is not horizontal, so the two sprockets differ in height.
 #pragma once
 
 #include "../effect.h"
 
 namespace kinematics {
 
-/// Moves the right sprocket up and the left one down by half the difference each.
+/// Moves the right sprocket up and the left sprocket down, each by half the difference.
 ///
-/// It turns everything about the middle of the motors by difference / gap, which marks on one sheet
-/// cannot tell from a sheet that lies askew: only gravity knows, and says it very softly.
+/// This turns everything about the middle of the motors by difference / gap. Marks on a single
+/// sheet hardly tell that from a sheet that lies askew: only the direction of gravity differs, and
+/// its effect is small.
 template <class Real>
 struct MotorLevel : Effect<Real> {
   enum { kHeightDifference, kParamCount };

@@ -5,14 +5,14 @@
 
 namespace kinematics {
 
-/// What is left when no known cause explains it: each chain longer by a polynomial of the third
-/// degree of the sled's place, without its constant.
+/// For errors that no known cause explains: each chain is longer by a polynomial of the third
+/// degree of the sled's place, without a constant.
 ///
-/// The place is told by the strand itself: (free + arm) along its direction from the sprocket. It
-/// is counted from the middle between the motors, x right in 0.42 motor_gap and y up in 0.6
-/// motor_height, about half a sheet each way. The terms are products of Legendre polynomials, so
-/// that each is worth at most its own size; beyond one half sheet they stay as they are there, so
-/// nothing runs away where nobody measured.
+/// The place follows from the strand: (free + arm) along its direction from the sprocket. Its x is
+/// counted from the middle between the motors in units of 0.42 motor_gap, its y in units of 0.6
+/// motor_height: each unit is about half a sheet. The terms are products of Legendre polynomials,
+/// so no term exceeds its parameter. Beyond half a sheet they keep the value at its edge, so they
+/// do not grow where nobody measured.
 template <class Real>
 struct ResidualPatch : Effect<Real> {
   enum { kX, kY, kXX, kXY, kYY, kXXX, kXXY, kXYY, kYYY, kTerms };
@@ -37,7 +37,8 @@ struct ResidualPatch : Effect<Real> {
 
   static CheckInfo check() { return {"", "", "", 0}; }
 
-  /// Legendre's polynomials become powers, so that the hook has one product a term.
+  /// Turns Legendre's polynomials into powers, so that the hook needs a single product for each
+  /// term.
   static void prepare(const Frame<Real>& frame, const Real* parameter, Real* c) {
     for (uint8_t side = kLeft; side < kSideCount; ++side) {
       const Real* const p = parameter + side * kTerms;

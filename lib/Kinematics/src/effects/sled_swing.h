@@ -7,16 +7,17 @@
 
 namespace kinematics {
 
-/// A sled that turns as its chains do, by half the difference f of their angles, carries its bit
-/// around the point where the chains meet. With the bit `right` and `up` of that point on the
-/// upright sled, the point lies at bit - R(f) (right, up), and moves by
-///     m = (right, up) - R(f) (right, up)
-/// against where it is on an upright sled. (The part that stays, while the sled stays upright,
-/// moves all marks alike: it belongs to the sheet's position.)
+/// A sled that turns with its chains, by half the difference f of their angles, carries its bit
+/// around the point where the chains meet. On the upright sled the bit is `right` and `up` of that
+/// point. On the turned sled the point is at bit - R(f) (right, up). Compared with the upright sled
+/// the point has moved by
+///     m = (right, up) - R(f) (right, up).
+/// (The offset of an upright sled moves all marks alike: it belongs to the sheet's position.)
 ///
-/// cos(2f) and sin(2f) come from the straight strands' directions, the half angle by a square root;
-/// then f is turned by what the hanging chains' ends are flatter than the straight lines: their
-/// curvature (w / W) bend over half their length (the arm's share of it taken at a long chain).
+/// cos(2f) and sin(2f) come from the straight strands' directions, and a square root gives the half
+/// angle. Then f is corrected, because the hanging chains end flatter than the straight lines: by
+/// their curvature (w / W) bend over half their length. The arm's share of that length is taken at
+/// a long chain.
 template <class Real>
 struct SledSwing : Effect<Real> {
   enum { kBitRight, kBitUp, kParamCount };
@@ -64,7 +65,7 @@ struct SledSwing : Effect<Real> {
   static void prepare(const Frame<Real>& frame, const Real* parameter, Real* c) {
     c[kBitRight] = parameter[kBitRight];
     c[kBitUp] = parameter[kBitUp];
-    // Half the curvature's length, and half the difference of both ends.
+    // Half the length over which the chain curves, and half the difference of both ends: a quarter.
     c[kEndTurn] = weightRatio(frame) * (Real(1) - armShare(frame)) * Real(0.25);
   }
 
@@ -80,7 +81,8 @@ struct SledSwing : Effect<Real> {
         c[kEndTurn] * forces.differencePerLevel(left.cosine * left.cosine * left.free,
                                                 right.cosine * right.cosine * right.free);
     const Real sine = half_sine - half * flatter;
-    const Real less = Real(1) - half - half_sine * flatter;  // than an upright sled's cosine
+    // [1] by which the cosine is below that of an upright sled
+    const Real less = Real(1) - half - half_sine * flatter;
     const Real x = less * c[kBitRight] + sine * c[kBitUp];
     const Real y = less * c[kBitUp] - sine * c[kBitRight];
     span[kLeft].x += x;

@@ -1,4 +1,4 @@
-// Sprocket runout: a bore or set screw off centre swings the sprocket as it turns.
+// Sprocket runout: with its bore off centre a sprocket moves to and fro as it turns.
 #pragma once
 
 #include "../effect.h"
@@ -15,10 +15,11 @@ const double kQuarterTurn = 1.57079632679489662;  // [rad]
 
 }  // namespace runout
 
-/// A sprocket whose axis is e off its middle moves the chain's start by e along the chain, once a
-/// turn. Seen along the chain, the sprocket has turned by b = length / radius since the chain's far
-/// end was at its tangent point: the wrap follows the chain's direction and drops out. So the
-/// length errs by sine * sin(b) + cosine * cos(b), the same over the top and off the bottom.
+/// A sprocket whose axis is e off its middle moves the chain's start by e along the chain, to and
+/// fro with each turn. Seen along the chain, the sprocket has turned by b = length / radius since
+/// the chain's far end was at its tangent point: the wrap follows the chain's direction and drops
+/// out. So the length is wrong by sine * sin(b) + cosine * cos(b), where sine and cosine are the
+/// two parameters. The chain may leave over the top or off the bottom.
 template <class Real>
 struct SprocketRunout : Effect<Real> {
   enum { kLeftSine, kLeftCosine, kRightSine, kRightCosine, kParamCount };
@@ -48,7 +49,7 @@ struct SprocketRunout : Effect<Real> {
     return {"right sprocket # off its middle (cosine)", "", "mm"};
   }
 
-  /// None: few have ever read the phase of a runout right from a dial.
+  /// None: hardly anybody reads the phase of a runout right from a dial gauge.
   static CheckInfo check() { return {"", "", "", 0}; }
   static Example example(uint8_t i) {
     static const Example kExamples[] = {{"both", {0, -0.1, -0.1, 0}, 1},
@@ -56,7 +57,8 @@ struct SprocketRunout : Effect<Real> {
     return kExamples[i];
   }
 
-  /// The judge's sprocket turns about its axis: clockwise on the left with the chain over the top.
+  /// The judge's sprocket turns about its axis: the left sprocket turns clockwise with the chain
+  /// over the top.
   template <class Judge>
   static void setJudge(const Frame<Real>& frame, const Real* parameter, Judge& judge) {
     const Real turn = frame.feed == Feed::kOverTop ? Real(1) : Real(-1);
@@ -79,7 +81,8 @@ struct SprocketRunout : Effect<Real> {
     const Real v = rest * rest;
     const Real sine = rest * (Real(runout::kSine[0]) + v * Real(runout::kSine[1]));
     const Real cosine = Real(1) + v * (Real(runout::kCosine[0]) + v * Real(runout::kCosine[1]));
-    // A quarter on, the sine is what the cosine was, and the cosine the sine with its sign changed.
+    // A quarter turn farther the sine is the old cosine, and the cosine is the old sine with its
+    // sign changed.
     const bool odd = whole & 1;
     const Real waves = odd ? own[0] * cosine - own[1] * sine : own[0] * sine + own[1] * cosine;
     if (whole & 2)
