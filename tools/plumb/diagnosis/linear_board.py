@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import groupby
 
 import numpy as np
@@ -97,51 +98,54 @@ class Metric:
         each with the logarithm of its weight before the marks."""
         summed, done = np.full(len(self.board.readings), -np.inf), 0
         for part in self._parts(sets):
-            weights = before[done : done + part.count, np.newaxis]
+            weights = before[done : done + part.count]
             done += part.count
-            for reading, evidence in enumerate(self._slips(part, spreads)):
-                whole = np.logaddexp.reduce(np.ravel(evidence + weights))
-                summed[reading] = np.logaddexp(summed[reading], whole)
+            for readings, evidences in self._slips(part, spreads):
+                whole = np.logaddexp.reduce(evidences + weights, axis=(0, 2))
+                summed[readings] = np.logaddexp(summed[readings], whole)
         together: Array = summed - np.log(len(spreads) * len(self.board.readings))
         return together
 
     def _parts(self, sets: Sequence[tuple[str, ...]]) -> Iterator[_Part]:
         """Sets of as many effects, with each spread of sizes."""
+        widths = tuple((name, len(columns)) for name, columns in self.board.columns.items())
         for _, names in groupby(sets, key=len):
-            yield _Part.of(self, list(names))
+            yield _Part.of(self, _columns_of(widths, tuple(names)))
 
     def _evidence(self, part: _Part) -> Array:
         left = self.board.read @ self.by_read - part.explained
         both = self._density(left) - (part.spread + self.spread) / 2
         return np.asarray(np.logaddexp.reduce(both, axis=0) - np.log(len(SHARES)))
 
-    def _slips(self, part: _Part, spreads: Sequence[float]) -> Iterator[Array]:
-        """For each reading, the evidence (sets, spreads) with it off."""
-        whole = self.board.read @ self.by_read - part.explained
-        for numbers in self.board.numbers:
-            drawn = part.scaled(self.by_effects[numbers])  # (shares, sets, size, k)
-            kept = self.inverse[np.ix_(numbers, numbers)] - np.einsum(
-                "smik,smkl,smjl->smij", drawn, part.inverse, drawn, optimize=True
+    def _slips(self, part: _Part, spreads: Sequence[float]) -> Iterator[tuple[Array, Array]]:
+        """The readings with as many numbers, and the evidence (spreads, readings, sets) with each
+        of them off."""
+        drawn = part.scaled(self.by_effects)  # (shares, sets, n, k)
+        weighed = drawn @ part.inverse
+        pulls = self.by_read - _times(weighed, part.along)
+        for size in sorted({len(numbers) for numbers in self.board.numbers}):
+            readings = [i for i, numbers in enumerate(self.board.numbers) if len(numbers) == size]
+            numbers = np.stack([self.board.numbers[i] for i in readings])  # (readings, size)
+            kept = self.inverse[numbers[:, :, np.newaxis], numbers[:, np.newaxis]] - np.einsum(
+                "smrik,smrjk->smrij", weighed[:, :, numbers], drawn[:, :, numbers]
             )
-            pull = self.by_read[numbers] - np.einsum(
-                "smik,smkl,sml->smi", drawn, part.inverse, part.along, optimize=True
-            )
-            yield self._off(whole, part, kept, pull, spreads)
+            yield np.array(readings), self._off(part, kept, pulls[:, :, numbers], spreads)
 
-    def _off(
-        self, whole: Array, part: _Part, kept: Array, pull: Array, spreads: Sequence[float]
-    ) -> Array:
+    def _off(self, part: _Part, kept: Array, pull: Array, spreads: Sequence[float]) -> Array:
+        """kept: (shares, sets, readings, size, size); pull: the same without the last axis."""
+        whole = (self.board.read @ self.by_read - part.explained)[..., np.newaxis]
+        bound = (part.spread + self.spread)[..., np.newaxis]
+        # Turned to the axes of `kept`, every spread of a slip adds to its diagonal alone.
+        stiffness, axes = np.linalg.eigh(kept)
+        pull = _times(np.swapaxes(axes, -1, -2), pull)
         evidences = []
         for spread in spreads:
-            loose = kept + np.eye(kept.shape[-1]) * (self.board.sigma / spread) ** 2
-            moved = np.linalg.solve(loose, pull[..., np.newaxis])[..., 0]
-            left = whole - np.sum(pull * moved, axis=-1)
-            wider = np.linalg.slogdet(loose)[1] + 2 * kept.shape[-1] * np.log(
-                spread / self.board.sigma
-            )
-            both = self._density(left) - (part.spread + self.spread + wider) / 2
-            evidences.append(np.logaddexp.reduce(both, axis=0) - np.log(len(SHARES)))
-        return np.stack(evidences, axis=1)
+            loose = stiffness + (self.board.sigma / spread) ** 2
+            left = whole - np.sum(pull**2 / loose, axis=-1)
+            wider = np.sum(np.log(loose * (spread / self.board.sigma) ** 2), axis=-1)
+            both = self._density(left) - (bound + wider) / 2
+            evidences.append(np.logaddexp.reduce(both, axis=0).T - np.log(len(SHARES)))
+        return np.stack(evidences)
 
     def _density(self, left: Array) -> Array:
         """Logarithm of the density of readings with this chi-square; Student's where sigma was
@@ -169,15 +173,10 @@ class _Part:
         return len(self.index)
 
     @staticmethod
-    def of(metric: Metric, sets: Sequence[tuple[str, ...]]) -> _Part:
-        """Of sets by the names of their effects."""
+    def of(metric: Metric, index: Array) -> _Part:
+        """Of sets by the columns of their effects."""
         board = metric.board
-        width = board.effects.shape[1]
-        members = [np.r_[tuple(board.columns[name] for name in names)] for names in sets if names]
-        most = max((len(member) for member in members), default=1)
-        index = np.full((len(sets), most), width)
-        for row, member in zip(index, members, strict=False):
-            row[: len(member)] = member
+        width, most = board.effects.shape[1], index.shape[1]
         empty = np.zeros((width + 1, width + 1))
         empty[:width, :width] = board.effects.T @ metric.by_effects
         shares = np.array(SHARES)[:, np.newaxis, np.newaxis]
@@ -185,7 +184,7 @@ class _Part:
         inner = np.eye(most) + shares[..., np.newaxis] ** 2 * gram
         along = shares * np.append(board.effects.T @ metric.by_read, 0.0)[index]
         inverse = np.linalg.inv(inner)
-        explained = np.einsum("smk,smkl,sml->sm", along, inverse, along, optimize=True)
+        explained = np.sum(along * _times(inverse, along), axis=-1)
         return _Part(index, along, inverse, explained, np.linalg.slogdet(inner)[1])
 
     def scaled(self, columns: Array) -> Array:
@@ -194,3 +193,27 @@ class _Part:
         picked = np.moveaxis(padded[:, self.index], 0, 1)
         scaled: Array = np.array(SHARES)[:, np.newaxis, np.newaxis, np.newaxis] * picked
         return scaled
+
+
+def _times(matrices: Array, vectors: Array) -> Array:
+    """Each matrix times its vector."""
+    product: Array = (matrices @ vectors[..., np.newaxis])[..., 0]
+    return product
+
+
+@lru_cache(maxsize=16)  # every metric of a board asks for the same sets
+def _columns_of(widths: tuple[tuple[str, int], ...], sets: tuple[tuple[str, ...], ...]) -> Array:
+    """The columns (sets, k) of each set, from the number of columns of each effect in order.
+
+    A set with fewer columns is padded with the column behind the last.
+    """
+    ends = np.cumsum([width for _, width in widths])
+    columns = {
+        name: range(end - width, end) for (name, width), end in zip(widths, ends, strict=True)
+    }
+    members = [[column for name in names for column in columns[name]] for names in sets]
+    most = max(1, *map(len, members))
+    beyond = int(ends[-1]) if len(ends) else 0
+    index = np.array([member + [beyond] * (most - len(member)) for member in members])
+    index.flags.writeable = False
+    return index

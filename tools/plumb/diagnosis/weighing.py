@@ -76,7 +76,8 @@ def weigh(
     sets.append(tuple(felt))
     before = np.append(before, np.log(ALL))
     plain = Metric.of(board)
-    others = [size**2 * field_covariance(frame, width) for width in WIDTHS for size in FIELD_MM]
+    smooth = [field_covariance(frame, width) for width in WIDTHS]
+    others = [size**2 * field for field in smooth for size in FIELD_MM]
     fields = [
         before + Metric.of(board, other).evidences(sets) - np.log(len(others)) for other in others
     ]
