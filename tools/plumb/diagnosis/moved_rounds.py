@@ -11,9 +11,9 @@ Array = np.ndarray
 MOVED = 6.0  # [mm] spread of a sheet laid elsewhere, and of a chain's zero
 
 
-def rounds_covariance(frame: Explanation) -> Array | None:
-    """Of the measured numbers (n, n) [mm^2] by what may have changed between rounds; None if there
-    is a single round."""
+def rounds_columns(frame: Explanation) -> Array | None:
+    """What independent normals move of the measured numbers (n, c) [mm], together as what may have
+    changed between rounds does; None if there is a single round."""
     board, rows = frame.board, frame.board.rows
     number = np.concatenate(
         [np.repeat(rows.rounds[rows.mark_rows], 2), rows.rounds[rows.distance_rows[:, 0]]]
@@ -28,8 +28,4 @@ def rounds_covariance(frame: Explanation) -> Array | None:
     for axis in (0, 1):
         moved[axis : rows.measured.size : 2, axis] = MOVED
     changed = np.hstack([moved, slopes[:, zeros] * MOVED / scale[zeros], slopes[:, board.frame]])
-    covariance = np.zeros((rows.count, rows.count))
-    for each in later:
-        mine = changed * (number == each)[:, np.newaxis]
-        covariance += mine @ mine.T
-    return covariance
+    return np.hstack([changed * (number == each)[:, np.newaxis] for each in later])

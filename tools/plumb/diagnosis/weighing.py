@@ -17,9 +17,9 @@ import numpy as np
 
 from plumb.diagnosis.explanation import Explanation
 from plumb.diagnosis.linear_board import LinearBoard, Metric
-from plumb.diagnosis.moved_rounds import rounds_covariance
+from plumb.diagnosis.moved_rounds import rounds_columns
 from plumb.diagnosis.noise import Noise
-from plumb.diagnosis.smooth import field_covariance
+from plumb.diagnosis.smooth import field_columns
 from plumb.model.catalogue import EVERY_MACHINE
 
 Array = np.ndarray
@@ -32,6 +32,7 @@ SLIP = 0.05  # that some reading is off
 UNKNOWN = 0.05  # that the machine does what no effect of the library does
 SLIP_MM = (4.0, 20.0, 200.0)  # [mm] spreads of a slip, all as likely
 WIDTHS = (0.35, 0.7, 1.4)  # of the details of a field, in halves of what the marks span
+LEFT_OUT = 1e-3  # share of the noise's variance that a field is described to
 FIELD_MM = (1.0, 2.0, 4.0)  # [mm] spreads of a field, all as likely
 
 
@@ -68,30 +69,35 @@ def weigh(
 ) -> Weighed:
     """Weigh all accounts of what a frame's fit leaves."""
     board = LinearBoard.of(frame, felt, noise)
+    sets, before = accounts(frame, felt)
+    parts, plain = board.parts(sets), Metric.of(board)
+    clean = before + plain.evidences(parts)[:, 0]
+    slips = (
+        plain.slip_evidences(parts, before, SLIP_MM) + np.log(SLIP) if with_slips else np.zeros(0)
+    )
+    least = LEFT_OUT * board.sigma**2 / max(FIELD_MM) ** 2
+    fields = [
+        before + metric.evidences(parts)[:, 0]
+        for columns in field_columns(frame, WIDTHS, least)
+        for metric in Metric.with_other(board, columns, FIELD_MM)
+    ]
+    field = np.logaddexp.reduce(np.ravel(fields)) - np.log(len(fields))
+    between = rounds_columns(frame)
+    if between is not None:
+        (metric,) = Metric.with_other(board, between, (1.0,))
+        moved = before + metric.evidences(parts)[:, 0]
+        field = np.logaddexp(field, np.logaddexp.reduce(moved))
+    return Weighed(sets, clean, float(field + np.log(UNKNOWN)), slips)
+
+
+def accounts(frame: Explanation, felt: Sequence[str]) -> tuple[tuple[tuple[str, ...], ...], Array]:
+    """Sets of effects, and the logarithms of their weights before the marks; last all at once."""
     most = TOGETHER if frame.board.rows.count <= FEWER else 2
     sets = [names for size in range(most + 1) for names in combinations(felt, size)]
     chances = {name: EFFECT for name in felt} | dict.fromkeys(left_out(frame), EVERYWHERE)
     odds = {name: float(np.log(chance / (1 - chance))) for name, chance in chances.items()}
-    before = np.array([sum(odds[name] for name in names) for names in sets])
-    sets.append(tuple(felt))
-    before = np.append(before, np.log(ALL))
-    plain = Metric.of(board)
-    smooth = [field_covariance(frame, width) for width in WIDTHS]
-    others = [size**2 * field for field in smooth for size in FIELD_MM]
-    fields = [
-        before + Metric.of(board, other).evidences(sets) - np.log(len(others)) for other in others
-    ]
-    between = rounds_covariance(frame)
-    if between is not None:
-        fields.append(before + Metric.of(board, between).evidences(sets))
-    return Weighed(
-        effects=tuple(sets),
-        clean=before + plain.evidences(sets),
-        field=float(np.logaddexp.reduce(np.ravel(fields)) + np.log(UNKNOWN)),
-        slips=plain.slip_evidences(sets, before, SLIP_MM) + np.log(SLIP)
-        if with_slips
-        else np.zeros(0),
-    )
+    before = [sum(odds[name] for name in names) for names in sets]
+    return (*sets, tuple(felt)), np.array([*before, np.log(ALL)])
 
 
 def left_out(frame: Explanation) -> tuple[str, ...]:

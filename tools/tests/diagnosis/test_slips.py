@@ -95,9 +95,10 @@ def test_accounts_are_weighed_by_the_density_of_the_readings():
     linear = LinearBoard.of(frame, felt_effects(frame), Noise(0.4, KNOWN, "stated"))
     metric = Metric.of(linear)
     wanted = [evidence(names) for names in sets]
-    assert metric.evidences(sets) == pytest.approx(wanted, abs=1e-6)
+    parts = linear.parts(sets)
+    assert metric.evidences(parts)[:, 0] == pytest.approx(wanted, abs=1e-6)
     before = np.array([0.0, -1.0, -2.0])
-    ours = metric.slip_evidences(sets, before, (40.0,))
+    ours = metric.slip_evidences(parts, before, (40.0,))
     for slip in (0, 4):
         each = [evidence(names, slip) + weight for names, weight in zip(sets, before, strict=True)]
         assert ours[slip] == pytest.approx(np.logaddexp.reduce(each) - np.log(9), abs=1e-6)
