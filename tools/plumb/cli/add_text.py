@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from plumb.cli.screen import sentences, table
-from plumb.cli.text import millimetres
 from plumb.cure.add import Addition
 from plumb.cure.auto import AutoAddition
 from plumb.diagnosis.noise import origin_words
 from plumb.diagnosis.sentence import verdict_sentence
 from plumb.fit.patch import PATCH
 from plumb.model.plain import noun_of, plain_before, plain_size
+from plumb.text.shown import bare, unit, worded
 
 
 def auto_text(result: AutoAddition) -> str:
@@ -35,8 +35,8 @@ def auto_text(result: AutoAddition) -> str:
 def _offer_sentence(without: float, with_patch: float, *, added: bool) -> str:
     """What a residual patch would buy, or has bought."""
     if with_patch >= without:
-        return f"A residual patch would buy nothing ({without:.2f} mm on marks not used)."
-    bought = f"{without:.2f} to {with_patch:.2f} mm on marks not used"
+        return f"A residual patch would buy nothing ({worded(without)} on marks not used)."
+    bought = f"{bare(without)} to {worded(with_patch)} on marks not used"
     if added:
         return f"The residual patch bought {bought}."
     return f"A residual patch (--patch) would buy {bought}. {PATCH_WARNING}"
@@ -57,18 +57,18 @@ def as_text(result: Addition, *, asked_patch: bool = False) -> str:
     """The addition for people, its conclusion first."""
     raw, before, after = result.raw, result.before, result.after
     verdict = "better" if result.pays else "NOT better"
-    first = f"From {raw.rms:.2f} to {after.fit_rms:.2f} mm RMS"
+    first = f"From {bare(raw.rms)} to {worded(after.fit_rms)} RMS"
     if result.steps:
         first += (
             f"; checked on marks not used, it is {verdict} with the effects "
-            f"({before.left_out_rms:.2f} to {after.left_out_rms:.2f} mm)"
+            f"({bare(before.left_out_rms)} to {worded(after.left_out_rms)})"
         )
     first += "."
     parts = [sentences([first], mark=""), quality_table(result), parameter_table(result)]
     if result.benchmark_after:
         parts.insert(1, _benchmark_sentence(result))
     note = (
-        f"{COLUMNS} Intervals hold for a reading error of {result.after_fit.sigma:.2f} mm "
+        f"{COLUMNS} Intervals hold for a reading error of {worded(result.after_fit.sigma)} "
         f"({origin_words(result.sigma_from)})."
     )
     parts.append(sentences([note], mark=""))
@@ -97,15 +97,15 @@ def turn_sentences(result: Addition) -> list[str]:
     rise = result.sheet_rise
     which = "raise" if rise > 0 else "lower"
     return [
-        f"no setting holds the sheet's rotation: {which} its right end by {abs(rise):.2f} mm over "
-        f"its width of {result.settings.sheet_width:.0f} mm"
+        f"no setting holds the sheet's rotation: {which} its right end by {worded(abs(rise))} over "
+        f"its width of {worded(result.settings.sheet_width, 0)}"
     ]
 
 
 def quality_table(result: Addition) -> str:
     raw = result.raw
     start = (raw.rms, None, None, raw.worst, raw.shape_rms)
-    rows = [["raw: the settings as they are", *map(millimetres, start)]]
+    rows = [["raw: the settings as they are", *map(bare, start)]]
     named = [("fitted: the frame", result.before)]
     named += [(f"fitted: + {noun_of(step.effect)}", step.quality) for step in result.steps]
     for name, quality in named:
@@ -116,8 +116,8 @@ def quality_table(result: Addition) -> str:
             quality.worst,
             quality.shape_rms,
         )
-        rows.append([name, *map(millimetres, errors)])
-    return table(["error in mm", "RMS", "counted", "checked", "worst", "shape"], rows)
+        rows.append([name, *map(bare, errors)])
+    return table([f"error in {unit()}", "RMS", "counted", "checked", "worst", "shape"], rows)
 
 
 def parameter_table(result: Addition) -> str:

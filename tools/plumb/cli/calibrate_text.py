@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from plumb.cli.add_text import COLUMNS, parameter_table, quality_table, turn_sentences
 from plumb.cli.client import client_text
-from plumb.cli.compare import conclusion, typed_as
+from plumb.cli.compare import conclusion
 from plumb.cli.diagnose import explanation_table
 from plumb.cli.next import after, first_proposal
 from plumb.cli.screen import headline, sentences
@@ -19,6 +19,7 @@ from plumb.fit.compare import Comparison
 from plumb.fit.inputs import Inputs
 from plumb.model.plain import nouns_of
 from plumb.plan import Next, Proposal
+from plumb.text.shown import bare, worded
 
 
 @dataclass(frozen=True)
@@ -44,8 +45,7 @@ def as_text(
 ) -> str:
     """The whole round for people: what is, what is missing, what was done, what comes next."""
     diagnosis, addition = this.result.diagnosis, this.result.addition
-    typed = typed_as(inputs.measurements.typed, arguments.units)
-    parts = [conclusion(this.comparison, inputs.settings.sheet_width, typed)]
+    parts = [conclusion(this.comparison, inputs.settings.sheet_width, inputs.measurements.typed)]
     parts.append(sentences([verdict_sentence(diagnosis)], mark=""))
     if diagnosis.slips:
         parts.append(sentences([slip.sentence for slip in diagnosis.slips]))
@@ -72,9 +72,9 @@ def sentence(this: Round) -> str:
         chosen = this.result.chosen
         what = f"with {nouns_of(chosen)} added" if chosen else "with the frame fitted"
         return (
-            f"Done: {what}, the error falls from {addition.raw.rms:.2f} to "
-            f"{addition.after.fit_rms:.2f} mm RMS, {addition.after.left_out_rms:.2f} mm checked on "
-            "marks not used."
+            f"Done: {what}, the error falls from {bare(addition.raw.rms)} to "
+            f"{worded(addition.after.fit_rms)} RMS, {worded(addition.after.left_out_rms)} checked "
+            "on marks not used."
         )
     if diagnosis.slips:
         names = ", ".join(dict.fromkeys(slip.name for slip in diagnosis.slips))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,7 @@ from plumb.cli.files import inputs_of, picture_form
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import sentences, table
 from plumb.cli.steps import next_step, same_inputs
-from plumb.cli.text import about, millimetres, print_json, signed
+from plumb.cli.text import about, print_json
 from plumb.fit.compare import Comparison, compare
 from plumb.marks.model import Typed
 from plumb.marks.score import Score
@@ -20,9 +19,9 @@ from plumb.pictures.panel import Panel
 from plumb.pictures.sheet import draw
 from plumb.settings.fit_record import FitRecord
 from plumb.text.errors import InputError
+from plumb.text.shown import bare, signed, unit, worded
 
-MACHINE = Typed()  # places count from the middle of the sheet, in mm
-DIGITS = {"mm": 2, "inch": 3}  # decimals of an error; a place has one less
+MACHINE = Typed()  # places count from the middle of the sheet
 FRAMES = (
     "from the sheet's top left corner, x right, y down",
     "from the middle of the sheet, x right, y up",
@@ -49,8 +48,8 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json(as_json(comparison))
     else:
-        typed = typed_as(inputs.measurements.typed, arguments.units)
-        print(as_text(comparison, sheet_width=inputs.settings.sheet_width, typed=typed))
+        sheet_width, typed = inputs.settings.sheet_width, inputs.measurements.typed
+        print(as_text(comparison, sheet_width=sheet_width, typed=typed))
         print(f"\n{next_step('What is missing:', ['calibrate', *same_inputs(arguments)])}")
     return int(arguments.limit is not None and comparison.rms > arguments.limit)
 
@@ -129,11 +128,6 @@ def score_json(score: Score | None) -> dict[str, Any] | None:
     }
 
 
-def typed_as(typed: Typed, unit: str | None) -> Typed:
-    """How places are shown: as they were typed, or in another unit."""
-    return replace(typed, unit=unit) if unit else typed
-
-
 def as_text(comparison: Comparison, *, sheet_width: float, typed: Typed = MACHINE) -> str:
     """The comparison for people, its conclusion first."""
     parts = [conclusion(comparison, sheet_width, typed)]
@@ -150,15 +144,15 @@ def as_text(comparison: Comparison, *, sheet_width: float, typed: Typed = MACHIN
         parts.append(_marks_table(comparison, typed))
         note = (
             "Error: measured - predicted. Chains: how much more of each the measured place needs "
-            f"than was paid out. All in {typed.unit}; {FRAMES[typed.sheet is None]}."
+            f"than was paid out. All in {unit()}; {FRAMES[typed.sheet is None]}."
         )
         parts.append(sentences([note], mark=""))
     if comparison.distances:
         rows = [
             [
                 " - ".join(distance.between),
-                millimetres(distance.predicted),
-                millimetres(distance.measured),
+                bare(distance.predicted),
+                bare(distance.measured),
                 signed(distance.error),
             ]
             for distance in comparison.distances
@@ -174,11 +168,14 @@ def promised_sentence(record: FitRecord, sheet_width: float) -> str:
     rise = np.tan(record.sheet_rotation) * sheet_width
     without = f", without {', '.join(record.without)}" if record.without else ""
     said = (
-        f"These settings were fitted to these marks{cut}: {record.rms:.2f} mm RMS was left"
-        f"{without}, {record.start_rms:.2f} before."
+        f"These settings were fitted to these marks{cut}: {worded(record.rms)} RMS was left"
+        f"{without}, {bare(record.start_rms)} before."
     )
     if record.sheet_rotation:
-        said += f" The sheet counts as turned by {rise:+.2f} mm over its width, as the fit saw it."
+        said += (
+            f" The sheet counts as turned by {signed(rise)} {unit()} over its width, as the fit "
+            "saw it."
+        )
     return said
 
 
@@ -195,63 +192,47 @@ def conclusion(comparison: Comparison, sheet_width: float, typed: Typed = MACHIN
     if not comparison.marks:
         farthest = max(comparison.distances, key=lambda distance: abs(distance.error))
         return (
-            f"The distances are {comparison.rms:.2f} mm RMS from what the settings predict, "
-            f"worst {comparison.worst:.2f} mm ({' - '.join(farthest.between)})."
+            f"The distances are {worded(comparison.rms)} RMS from what the settings predict, "
+            f"worst {worded(comparison.worst)} ({' - '.join(farthest.between)})."
         )
     worst = max(comparison.marks, key=lambda mark: mark.length)
     said = [
-        f"The marks lie {_size(comparison.rms, typed)} RMS from where the settings predict them, "
-        f"worst {_size(comparison.worst, typed)} (mark {worst.name})."
+        f"The marks lie {worded(comparison.rms)} RMS from where the settings predict them, "
+        f"worst {worded(comparison.worst)} (mark {worst.name})."
     ]
     shape, shift, rotation = comparison.shape_rms, comparison.shift, comparison.rotation
     if shape is not None and shift is not None and rotation is not None:
         rise = np.tan(rotation) * sheet_width
         across, up = typed.shift(shift)
-        digits = DIGITS[typed.unit]
         said.append(
-            f"{_size(shape, typed)} RMS of that is shape: it stays when all marks together are "
-            f"shifted (x {across:+.{digits}f}, y {up:+.{digits}f} {typed.unit}) and turned "
-            f"({typed.size(rise):+.{digits}f} {typed.unit} over the sheet's width)."
+            f"{worded(shape)} RMS of that is shape: it stays when all marks together are "
+            f"shifted (x {signed(across)}, y {signed(up)} {unit()}) and turned "
+            f"({signed(rise)} {unit()} over the sheet's width)."
         )
     if comparison.distance_rms is not None:
-        said.append(
-            f"The distances between marks are {_size(comparison.distance_rms, typed)} RMS off."
-        )
+        said.append(f"The distances between marks are {worded(comparison.distance_rms)} RMS off.")
     return sentences(said, mark="")
 
 
 def _rounds_table(comparison: Comparison) -> str:
     rows = [
-        [cut.name, str(cut.count), millimetres(cut.rms), millimetres(cut.distance_rms), cut.date]
+        [cut.name, str(cut.count), bare(cut.rms), bare(cut.distance_rms), cut.date]
         for cut in comparison.rounds
     ]
     return table(["file", "readings", "marks, RMS", "distances, RMS", "date"], rows)
 
 
-def _size(length: float, typed: Typed) -> str:
-    """A length [mm] in the unit that was typed."""
-    return f"{typed.size(length):.{DIGITS[typed.unit]}f} {typed.unit}"
-
-
 def _marks_table(comparison: Comparison, typed: Typed) -> str:
-    digits = DIGITS[typed.unit]
     rows = [
         [
             mark.name,
-            *(
-                millimetres(value, digits - 1)
-                for value in (*typed.place(mark.target), *typed.place(mark.measured))
-            ),
-            *(signed(value, digits) for value in typed.shift(mark.error)),
-            millimetres(typed.size(mark.length), digits),
-            signed(_in_unit(mark.left_chain_residual, typed), digits),
-            signed(_in_unit(mark.right_chain_residual, typed), digits),
+            *(bare(value, 1) for value in (*typed.place(mark.target), *typed.place(mark.measured))),
+            *(signed(value) for value in typed.shift(mark.error)),
+            bare(mark.length),
+            signed(mark.left_chain_residual),
+            signed(mark.right_chain_residual),
         ]
         for mark in comparison.marks
     ]
     header = ["mark", "target x", "y", "measured x", "y", "error x", "y", "length"]
     return table([*header, "left chain", "right"], rows)
-
-
-def _in_unit(length: float | None, typed: Typed) -> float | None:
-    return None if length is None else typed.size(length)

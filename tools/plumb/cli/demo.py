@@ -18,13 +18,13 @@ from plumb.cli.ending import ended
 from plumb.cli.output import write_outputs
 from plumb.cli.parser import Parser
 from plumb.cli.screen import sentences, table
-from plumb.cli.text import millimetres
 from plumb.cure.demo import GOAL, MARKS, SETTINGS, Demonstration, demonstrate
 from plumb.cure.record import record_of
 from plumb.diagnosis.sentence import verdict_sentence
 from plumb.firmware.client_files import client_files
 from plumb.fit.inputs import Inputs
 from plumb.text.errors import refusal
+from plumb.text.shown import bare
 
 PICTURE = "error-falls"
 
@@ -142,15 +142,15 @@ def _steps_table(demonstration: Demonstration) -> str:
     rows = [
         [
             "raw: the settings as they are",
-            *map(millimetres, (raw.rms, None, None, raw.worst)),
+            *map(bare, (raw.rms, None, None, raw.worst)),
             "start",
         ],
-        ["  best shift and turn", *map(millimetres, (raw.shape_rms, None, None, None)), ""],
+        ["  best shift and turn", *map(bare, (raw.shape_rms, None, None, None)), ""],
     ]
     for step in demonstration.steps:
         quality = step.quality
         values = (quality.fit_rms, quality.priced_rms, quality.left_out_rms, quality.worst)
-        rows.append([step.name, *map(millimetres, values), "kept" if step.kept else "NOT kept"])
+        rows.append([step.name, *map(bare, values), "kept" if step.kept else "NOT kept"])
     return table(["error in mm", "RMS", "counted", "checked", "worst", ""], rows)
 
 

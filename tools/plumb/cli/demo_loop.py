@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from plumb.cli.add import heading_of, stairs_of, toml_of
 from plumb.cli.compare import panel_of
 from plumb.cli.screen import bar, headline, sentences, table
-from plumb.cli.text import millimetres
 from plumb.diagnosis.sentence import verdict_sentence
 from plumb.fit.compare import Comparison
 from plumb.grid.options import Grid
@@ -16,6 +15,7 @@ from plumb.model.plain import nouns_of
 from plumb.pictures.sheet import draw
 from plumb.pictures.staircase import Stair, draw_staircase
 from plumb.text.ours import DEMO_MARKS
+from plumb.text.shown import bare
 from plumb.vm.garage import random_garage
 from plumb.vm.hiding import RANDOM, described, hide
 from plumb.vm.loop import Loop, closed_loop
@@ -94,7 +94,7 @@ def _numbers(loop: Loop) -> str:
     rows = [_row("before", loop.before)]
     if loop.after:
         rows += [
-            ["promised", millimetres(None), millimetres(loop.promised), millimetres(None)],
+            ["promised", bare(None), bare(loop.promised), bare(None)],
             _row("measured on the new sheet", loop.after),
         ]
     return table(["error in mm", "RMS", "sheet laid at its best", "worst"], rows)
@@ -102,7 +102,7 @@ def _numbers(loop: Loop) -> str:
 
 def _row(name: str, comparison: Comparison) -> list[str]:
     errors = (comparison.rms, comparison.shape_rms, comparison.worst)
-    return [name, *map(millimetres, errors)]
+    return [name, *map(bare, errors)]
 
 
 def reveal(loop: Loop) -> str:

@@ -11,7 +11,7 @@ from plumb.cli.checked import usable_checks
 from plumb.cli.files import inputs_of
 from plumb.cli.screen import sentences, table
 from plumb.cli.steps import add_auto, add_named, next_step, same_inputs
-from plumb.cli.text import millimetres, print_json
+from plumb.cli.text import print_json
 from plumb.cure.add import priors_with
 from plumb.diagnosis import Diagnosis, diagnose
 from plumb.diagnosis.answer import Ranked, Together
@@ -20,6 +20,7 @@ from plumb.diagnosis.sizes import Size
 from plumb.model.catalogue import every_effect, label, place_of
 from plumb.model.plain import named, noun_of, nouns_of, plain_size
 from plumb.plan import Proposal, propose
+from plumb.text.shown import worded
 
 BAD_NEWS = ("slip", "not_in_library")
 UNKNOWN_ADVICE = (
@@ -198,7 +199,7 @@ def _unknown_advice(diagnosis: Diagnosis) -> list[str]:
     if diagnosis.noise.source != "default":
         return list(UNKNOWN_ADVICE)
     doubt = (
-        f"are the readings good to {diagnosis.noise.sigma:.1f} mm? Nothing says so; holes that "
+        f"are the readings good to {worded(diagnosis.noise.sigma, 1)}? Nothing says so; holes that "
         "wander and a coarse tape look just like this. Read some marks again, or state what you "
         "trust them to by --sigma"
     )
@@ -216,7 +217,7 @@ def explanation_table(diagnosis: Diagnosis) -> str:
 
 def _size_rows(explanation: Together, name: str) -> list[list[str]]:
     first = name == explanation.effects[0]
-    falls_to = f"{millimetres(explanation.rms_after)} mm" if first else ""
+    falls_to = worded(explanation.rms_after) if first else ""
     rows = [[f"{'' if first else '+ '}{named(name)}", falls_to, ""]]
     for size in explanation.sizes[name]:
         said = plain_size(f"{name}.{size.name}", size.value, size.low, size.high)
@@ -234,7 +235,7 @@ def _reasons(diagnosis: Diagnosis) -> str:
         nouns = [nouns_of(diagnosis.explanations[k].effects) for k in (i, j)]
         said.append(
             f"{nouns[0]} and {nouns[1]} draw nearly the same arrows on these marks: they differ by "
-            f"{apart:.2f} mm RMS, the noise is {diagnosis.noise.sigma:.2f} mm"
+            f"{worded(apart)} RMS, the noise is {worded(diagnosis.noise.sigma)}"
         )
     return sentences(said)
 
@@ -250,7 +251,7 @@ def _remedies(diagnosis: Diagnosis) -> str:
 
 def _noise_sentence(diagnosis: Diagnosis) -> str:
     noise = diagnosis.noise
-    said = f"Noise of a reading: {noise.sigma:.2f} mm ({noise.origin}). Intervals: 95 %."
+    said = f"Noise of a reading: {worded(noise.sigma)} ({noise.origin}). Intervals: 95 %."
     return sentences([said], mark="")
 
 
@@ -264,7 +265,7 @@ def _hiding(diagnosis: Diagnosis) -> str:
     rows = [
         [
             noun_of(hidden.effect),
-            f"{millimetres(hidden.mm, 1)} mm",
+            worded(hidden.mm, 1),
             percent_of(shares[hidden.effect]),
         ]
         for hidden in hiding[:SHOWN]

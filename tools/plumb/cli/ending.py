@@ -22,9 +22,7 @@ def ended(run: Callable[[], int], *, name: str, as_json: bool = False) -> int:
         _flush()
         return code
     except InputError as error:
-        if as_json:
-            print(json.dumps({"error": str(error)}))
-        return _refused(f"{name}: {error}")
+        return _refused(str(error), name=name, as_json=as_json)
     except KeyboardInterrupt:
         _leave_quietly()
         return INTERRUPTED
@@ -32,14 +30,20 @@ def ended(run: Callable[[], int], *, name: str, as_json: bool = False) -> int:
         _leave_quietly()
         return READER_GONE
     except OSError as error:
-        _leave_quietly()
         reason = error.strerror or str(error)
         where = f"{error.filename}: " if error.filename else "the output cannot be written: "
-        return _refused(f"{name}: {where}{reason}")
+        return _refused(f"{where}{reason}", name=name, as_json=as_json)
 
 
-def _refused(line: str) -> int:
-    print(line, file=sys.stderr)
+def _refused(said: str, *, name: str, as_json: bool) -> int:
+    """Say it; where the standard output takes no more, the standard error alone says it."""
+    print(f"{name}: {said}", file=sys.stderr)
+    try:
+        if as_json:
+            print(json.dumps({"error": said}))
+        _flush()
+    except (OSError, ValueError):
+        _leave_quietly()
     return REFUSED
 
 

@@ -15,6 +15,7 @@ from plumb.pictures.sheet import FORMATS
 from plumb.settings.files import read_settings
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError, refusal
+from plumb.text.shown import show_in
 
 
 def settings_in(path: str) -> MachineSettings:
@@ -33,6 +34,8 @@ def inputs_of(arguments: argparse.Namespace) -> Inputs:
     parts = [read_marks(path, sheet=sheet, known=known) for path in arguments.marks]
     parts = [with_settings_in_force(settings, part, cut_with=cut_with) for part in parts]
     measurements = join_measurements(parts)
+    if not arguments.json:
+        show_in(arguments.units or measurements.typed.unit)
     return Inputs(settings, measurements, cut_with=cut_with, controller=arguments.controller)
 
 

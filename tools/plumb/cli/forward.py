@@ -9,6 +9,7 @@ from plumb.cli.places_text import answered, answers_table, count_sentence
 from plumb.cli.text import print_json
 from plumb.model.predict import FOUND, places
 from plumb.text.points import read_pairs
+from plumb.text.shown import unit
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -20,6 +21,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json({"places": answers, "found": words})
     else:
-        print(f"{count_sentence(words, 'pair')} Places from the middle of the sheet, y up; mm.\n")
+        said = count_sentence(words, "pair")
+        print(f"{said} Places from the middle of the sheet, y up; {unit()}.\n")
         print(answers_table(("left", "right"), chains, ("x", "y"), answers, words))
     return int(bool((outcome != FOUND).any()))

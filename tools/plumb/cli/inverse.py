@@ -14,6 +14,7 @@ from plumb.model.predict import FOUND, OUT_OF_REACH, Array, Codes, lengths
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.text.points import read_pairs
+from plumb.text.shown import unit
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -37,7 +38,7 @@ def run(arguments: argparse.Namespace) -> int:
         )
     else:
         said = count_sentence(words, "place")
-        print(f"{said} Chain paid out from 12 o'clock, formula of {whose}; mm.\n")
+        print(f"{said} Chain paid out from 12 o'clock, formula of {whose}; {unit()}.\n")
         if moved.any():
             print(f"{moved.sum()} off the sheet: the {whose} controller moves them to its edge.\n")
         print(answers_table(("x", "y"), points, ("left", "right"), answers, words))

@@ -36,6 +36,7 @@ from plumb.cli.ending import ended
 from plumb.cli.output import results_of
 from plumb.cli.parser import Completion, Parser, Version
 from plumb.text.errors import InputError
+from plumb.text.shown import shown_in
 
 DESCRIPTION = "Find and cure the errors of a hanging CNC: grid, cut, measure, then calibrate."
 EPILOG = "Lengths are mm, forces N, angles rad. plumb COMMAND --help explains each command."
@@ -85,7 +86,8 @@ def _run(arguments: Sequence[str]) -> int:
     run: Callable[[argparse.Namespace], int] = loaded(f"plumb.cli.{parsed.command}").run
     for line in loaded("plumb.model.sketches").BROKEN:
         raise InputError(f"sketch {line}")
-    with results_of(parsed):
+    units = "mm" if "json" in parsed and parsed.json else getattr(parsed, "units", None)
+    with results_of(parsed), shown_in(units or "mm"):
         return run(parsed)
 
 

@@ -10,21 +10,23 @@ import numpy as np
 
 from plumb.cli.checked import usable_checks
 from plumb.cli.diagnose import proposal_json
-from plumb.cli.files import inputs_of, picture_form
+from plumb.cli.files import inputs_of, picture_form, settings_in
 from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import bar, sentences, table
 from plumb.cli.steps import free_name, next_step, same_inputs
-from plumb.cli.text import millimetres, print_json
+from plumb.cli.text import print_json
 from plumb.cure.add import priors_with
 from plumb.diagnosis import Diagnosis, diagnose
 from plumb.diagnosis.sentence import verdict_sentence
 from plumb.fit.inputs import Inputs
-from plumb.model.plain import noun_of
+from plumb.grid.cut_with import cut_with_lines
+from plumb.model.plain import noun_of, plainly
 from plumb.pictures.plan import draw_plan
 from plumb.plan import Next, Proposal, propose
 from plumb.plan.plan_marks import marks_file
 from plumb.plan.proposal import AGAIN, CONFIRM, EXPLORE, FIND, REREAD, SETTLE
 from plumb.text.errors import InputError
+from plumb.text.shown import bare, worded
 
 SHOWN, SPOKEN = 8, 3  # proposals in the table, and in whole sentences; --json has all
 HEADS = {
@@ -90,9 +92,22 @@ def _files(
             sheet=machine.sheet,
             controller=case.controller,
             said=(f"Proposal {place}: {option.title}.", *option.do),
+            cut_with=_cut_with(arguments, inputs),
         )
         files[arguments.template] = text.encode()
     return files
+
+
+def _cut_with(arguments: argparse.Namespace, inputs: Inputs) -> str:
+    """The lines that name the settings that move the machine for these marks, if a file has them.
+
+    They are those of the marks there are: the new ones are cut before anything is changed.
+    """
+    in_force = inputs.measurements.rounds[0].cut_with or inputs.cut_with or inputs.settings
+    for path in (arguments.cut_with, arguments.settings):
+        if path and settings_in(path) == in_force:
+            return cut_with_lines(path, arguments.template)
+    return ""
 
 
 def _chosen(advice: Next, wanted: int | None) -> tuple[int, Proposal]:
@@ -181,8 +196,8 @@ def _promise(best: Proposal) -> str:
     if best.question == FIND and best.rooms:
         first = best.rooms[0]
         noun = noun_of(first.effect)
-        now, then = (millimetres(size, 1) for size in (first.now, first.then))
-        return f". {noun[0].upper()}{noun[1:]} could hide {now} mm now, {then} mm then"
+        now, then = (worded(size, 1) for size in (first.now, first.then))
+        return f". {noun[0].upper()}{noun[1:]} could hide {now} now, {then} then"
     if best.chance is None:
         return ""
     verb = {SETTLE: "settle it", CONFIRM: "confirm it", REREAD: "show it"}.get(best.question, "")
@@ -215,7 +230,7 @@ def _table(advice: Next) -> str:
 def _row(place: str, proposal: Proposal, counted: bool) -> list[str]:
     if proposal.question == FIND and proposal.rooms:
         promise = ", ".join(
-            f"{noun_of(room.effect)} {millimetres(room.now, 1)} -> {millimetres(room.then, 1)} mm"
+            f"{noun_of(room.effect)} {bare(room.now, 1)} -> {worded(room.then, 1)}"
             for room in proposal.rooms[:2]
             if room.then < 0.9 * room.now
         )
@@ -268,4 +283,4 @@ def _how(advice: Next) -> str:
 
 def _nouns(explanation: str) -> str:
     """An explanation, `effect + effect`, in a maker's words."""
-    return " and ".join(noun_of(effect) for effect in explanation.split(" + "))
+    return plainly(explanation.split(" + "))

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from plumb.cli.screen import table
-from plumb.cli.text import millimetres
 from plumb.model.predict import FOUND, FOUND_WORDS, Array, Codes
+from plumb.text.shown import bare, unit
 
 Row = list[float] | None  # two numbers, or None where there is no answer
 
@@ -41,8 +41,8 @@ def answers_table(
         numbers: list[float | None] = [*answer] if answer else [None, None]
         rows.append(
             [
-                *(f"{number:g}" for number in pair),
-                *(millimetres(number, 4) for number in numbers),
+                *(f"{number:g}" if unit() == "mm" else bare(number, 3) for number in pair),
+                *(bare(number, 4) for number in numbers),
                 "" if word == "yes" else word,
             ]
         )

@@ -11,15 +11,16 @@ from plumb.cli.files import picture_form, settings_in
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import sentences, table
 from plumb.cli.steps import next_step
-from plumb.cli.text import millimetres, print_json
+from plumb.cli.text import print_json
 from plumb.cure.add import priors_with
 from plumb.fit.problem import USUAL_SIGMA
 from plumb.marks.read import Mark, Measurements, read_plan
-from plumb.model.plain import plain_before
+from plumb.model.plain import noun_of, plain_before
 from plumb.pictures.preview import draw_preview
 from plumb.plan.preview import APART, POWER, Outline, Preview, preview
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
+from plumb.text.shown import bare, unit, worded
 
 SHOWN = 6  # additions that people are shown; --json has all
 ALIKE = 2  # look-alikes in the table
@@ -130,7 +131,7 @@ def as_text(outlook: Preview) -> str:
     what = f"{outlook.marks} marks"
     what += f" and {outlook.distances} distances" if outlook.distances else ""
     first = (
-        f"{what} read to {outlook.sigma:g} mm: {len(good)} of {len(outlook.outlines)} effects "
+        f"{what} read to {worded(outlook.sigma)}: {len(good)} of {len(outlook.outlines)} effects "
         f"would be found in their usual size, and {outlook.pairs} of {outlook.matrix.size} cells "
         f"below are told apart ({APART:g} or more)."
     )
@@ -146,19 +147,19 @@ def _outline_table(outlook: Preview) -> str:
     rows = []
     for place, outline in enumerate(outlook.outlines, 1):
         hidden = "-" if outline.hidden_share is None else f"{100 * outline.hidden_share:.0f} %"
-        alike = ", ".join(outline.alike[:ALIKE])
+        alike = ", ".join(map(noun_of, outline.alike[:ALIKE]))
         more = len(outline.alike) - ALIKE
         rows.append(
             [
                 str(place),
-                outline.effect,
-                f"{millimetres(outline.raw)}",
+                noun_of(outline.effect),
+                bare(outline.raw),
                 hidden,
                 _smallest(outline),
                 f"{alike} +{more}" if more > 0 else alike or "-",
             ]
         )
-    header = ["", "effect", "usual, mm", "in frame", "found from", "taken for"]
+    header = ["", "effect", f"usual, {unit()}", "in frame", "found from", "taken for"]
     note = (
         f"found from: the smallest size that is found in {100 * POWER:.0f} % of all cases, times "
         "the usual size"
@@ -178,7 +179,7 @@ def _smallest(outline: Outline) -> str:
 def _cells(outlook: Preview) -> str:
     header = ["", "reading errors against", *(str(i) for i in range(1, len(outlook.effects) + 1))]
     rows = [
-        [str(i + 1), name, *(shown(float(value)) for value in outlook.matrix[i])]
+        [str(i + 1), noun_of(name), *(shown(float(value)) for value in outlook.matrix[i])]
         for i, name in enumerate(outlook.effects)
     ]
     return table(header, rows, left=2, gap=1)

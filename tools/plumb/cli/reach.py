@@ -15,6 +15,7 @@ from plumb.model.predict import REACH_WORDS
 from plumb.model.reach import Extreme, Survey, percent, survey_sheet
 from plumb.pictures.reach import draw_map
 from plumb.text.errors import InputError
+from plumb.text.shown import bare, unit, worded
 
 SIGNS = ".TSV#"  # by verdict
 MEANING = (
@@ -117,9 +118,9 @@ def _worst(survey: Survey, tightest: Extreme, slackest: Extreme, softest: Extrem
     rows = [
         ["tightest chain", f"{tightest.value:.1f} N", f"{limits['most_tension']:g} N"],
         ["slackest chain", f"{slackest.value:.1f} N", f"{limits['least_tension']:g} N"],
-        ["softest place", f"{softest.value:.2f} mm/N", f"{limits['most_give']:g} mm/N"],
+        ["softest place", f"{worded(softest.value)}/N", f"{worded(limits['most_give'])}/N"],
     ]
     for row, extreme in zip(rows, (tightest, slackest, softest), strict=True):
-        row += [f"{extreme.place[0]:.0f}, {extreme.place[1]:.0f}", extreme.side]
-    rows[2][-1] = f"{CUT:g} N move it {CUT * softest.value:.1f} mm"
-    return table(["", "", "limit", "at x, y", ""], rows, words=[-1])
+        row += [f"{bare(extreme.place[0], 0)}, {bare(extreme.place[1], 0)}", extreme.side]
+    rows[2][-1] = f"{CUT:g} N move it {worded(CUT * softest.value, 1)}"
+    return table(["", "", "limit", f"at x, y [{unit()}]", ""], rows, words=[-1])

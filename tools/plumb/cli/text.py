@@ -30,21 +30,9 @@ def plain(value: Any) -> Any:
     return value
 
 
-def millimetres(value: float | None, digits: int = 2) -> str:
-    """A length for people; a dash where there is none."""
-    if value is None or not math.isfinite(value):
-        return "-"
-    return f"{value + 0.0:.{digits}f}"
-
-
-def about(value: float) -> str:
-    """A length for a title: a decimal, two below a millimetre."""
-    return f"{value:.1f}" if value >= 0.95 else f"{value:.2f}"
-
-
-def signed(value: float | None, digits: int = 2) -> str:
-    """An error for people, with its sign."""
-    return "-" if value is None else f"{value:+.{digits}f}"
+def about(millimetres: float) -> str:
+    """A length for the title of a picture: a decimal, two below a millimetre."""
+    return f"{millimetres:.1f}" if millimetres >= 0.95 else f"{millimetres:.2f}"
 
 
 def number(value: float | None) -> str:

@@ -35,6 +35,7 @@ from plumb.model.predict import frame_words
 from plumb.model.sketches import SKETCHES
 from plumb.settings.machine import FRAME_FIELDS, MachineSettings
 from plumb.text.errors import InputError
+from plumb.text.shown import bare, worded
 from plumb.text.values import refuse_unknown
 
 FAR = 2.0  # [prior sigmas] a stated number that moved farther was probably measured wrongly
@@ -368,12 +369,12 @@ def _bad_bargains(before: Quality, after: Quality, steps: Sequence[Step]) -> lis
     if after.fit_rms < before.fit_rms and after.left_out_rms > before.left_out_rms:
         return [
             "the fit got better but, checked on marks not used, the error rose from "
-            f"{before.left_out_rms:.2f} to {after.left_out_rms:.2f} mm: the effects follow the "
+            f"{bare(before.left_out_rms)} to {worded(after.left_out_rms)}: the effects follow the "
             "noise, do not keep them"
         ]
     return [
         f"with {named(step.effect)} only the fit got better; marks not used are predicted worse "
-        f"({step.quality.left_out_rms:.2f} mm): it may follow the noise"
+        f"({worded(step.quality.left_out_rms)}): it may follow the noise"
         for step in steps
         if step.only_fit
     ]

@@ -10,6 +10,7 @@ from plumb.diagnosis import Diagnosis, diagnose
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import every_effect
+from plumb.model.plain import noun_of, plainly
 from plumb.text.errors import InputError
 from plumb.text.values import refuse_unknown
 
@@ -93,7 +94,7 @@ def _settled_by(chosen: tuple[str, ...], rivals: tuple[tuple[str, ...], ...]) ->
     undecided = (
         name for name in names if not all(name in explanation for explanation in explanations)
     )
-    return tuple(f"{name}: {remedies[name]}" for name in undecided)
+    return tuple(f"{noun_of(name)}: {remedies[name]}" for name in undecided)
 
 
 def without_marks(measurements: Measurements, names: Iterable[str]) -> Measurements:
@@ -130,21 +131,21 @@ def _reason(
     if diagnosis.verdict == "nothing_provable":
         return "the marks prove no effect: only the frame was fitted"
     if diagnosis.verdict == "not_in_library":
-        part = f"only {' + '.join(chosen)}, as far as it goes," if chosen else "no effect"
+        part = f"only {plainly(chosen)}, as far as it goes," if chosen else "no effect"
         return (
             f"not all that the marks show is in the library, so {part} was added; read the worst "
             "marks again, and see plumb next for what to measure"
         )
     if not chosen:
-        tried = "; ".join(" + ".join(explanation.effects) for explanation in diagnosis.explanations)
+        tried = "; ".join(plainly(explanation.effects) for explanation in diagnosis.explanations)
         return (
             "every explanation needs sizes that no real machine has, so none was added and only "
             f"the frame was fitted ({tried}): check which settings were in force and the marks' "
             "signs"
         )
-    name = " + ".join(chosen)
+    name = plainly(chosen)
     if rivals:
-        others = ", ".join(" + ".join(rival) for rival in rivals)
+        others = ", or ".join(plainly(rival) for rival in rivals)
         return (
             f"a choice: {name} explains the marks best, but they allow {others} as well; plumb "
             "next says what to measure to tell them apart"

@@ -18,6 +18,7 @@ from plumb.diagnosis.sizes import Room, room_for
 from plumb.diagnosis.slips import shifts
 from plumb.diagnosis.slips_in_repeats import twins_that_agree
 from plumb.model.catalogue import effect_names
+from plumb.text.shown import worded
 
 _IMPOSSIBLE = (
     "every explanation needs sizes that no real machine has, so each takes the place of another "
@@ -81,11 +82,11 @@ def _place_warnings(readings: CleanReadings, judgement: Judgement) -> list[str]:
     name, off = board.rows.names[worst.reading.index], float(np.hypot(*worst.offset))
     if worst.reading in twins_that_agree(board.rows, board.sigma):
         return [
-            f"mark {name} stays {off:.1f} mm off when it is read again: it is the machine there"
+            f"mark {name} stays {worded(off, 1)} off when it is read again: it is the machine there"
         ]
     return [
-        f"the marks are farthest off at {name}, by {off:.1f} mm: read it again; if it stays, it is "
-        "the machine there"
+        f"the marks are farthest off at {name}, by {worded(off, 1)}: read it again; if it stays, "
+        "it is the machine there"
     ]
 
 

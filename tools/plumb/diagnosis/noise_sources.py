@@ -22,6 +22,7 @@ from plumb.diagnosis.significance import KNOWN
 from plumb.diagnosis.spread import Spread
 from plumb.fit.inputs import Stated
 from plumb.fit.problem import USUAL_SIGMA
+from plumb.text.shown import worded
 
 STATEMENT = 10.0  # degrees of freedom that a stated sigma is worth when it meets repeats
 FEW_REPEATS = 6  # degrees of freedom below which repeats do not overrule a stated sigma
@@ -103,8 +104,8 @@ def _contradiction(repeats: Spread, stated: Stated) -> tuple[str, ...]:
         used = "both are used, for the repeats are few; read three marks three times"
     than = "more" if more else "less"
     return (
-        f"repeats differ by {repeats.sigma:.2f} mm, {than} than the stated {stated.sigma:g} mm, "
-        f"and chance alone hardly does that: {used}",
+        f"repeats differ by {worded(repeats.sigma)}, {than} than the stated "
+        f"{worded(stated.sigma)}, and chance alone hardly does that: {used}",
     )
 
 

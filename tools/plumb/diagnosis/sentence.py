@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from plumb.diagnosis.answer import Diagnosis
 from plumb.model.plain import nouns_of
+from plumb.text.shown import bare, worded
 
 SHOWN = 8  # explanations that a sentence names; a Diagnosis holds all
 
@@ -52,7 +53,7 @@ def _one_suspect(diagnosis: Diagnosis) -> str:
     single = len(first.effects) == 1
     who = f"{'One suspect' if single else 'Several effects at once'}: {_suspects(diagnosis)}"
     before, after = diagnosis.rms_before, first.rms_after
-    return f"{who}. The error falls from {before:.2f} to {after:.2f} mm RMS."
+    return f"{who}. The error falls from {bare(before)} to {worded(after)} RMS."
 
 
 def _cannot_tell(diagnosis: Diagnosis) -> str:
@@ -100,7 +101,7 @@ def _any_possible(diagnosis: Diagnosis) -> bool:
 
 
 def _error_left(diagnosis: Diagnosis) -> str:
-    return f"{diagnosis.rms_before:.2f} mm RMS are left with the frame fitted"
+    return f"{worded(diagnosis.rms_before)} RMS are left with the frame fitted"
 
 
 def _suspects(diagnosis: Diagnosis) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 
 from plumb.diagnosis.readings import EXPLANATIONS, Shift
 from plumb.marks.read import Measurements
+from plumb.text.shown import worded
 
 ROUND = (1.0, 2.0, 5.0, 10.0, 20.0, 25.4, 40.0, 50.0, 100.0)  # [mm] off by a tick, a hook, an inch
 _EITHER = "its other reading may be the wrong one"
@@ -38,7 +39,7 @@ class Slip:
         what = "distance" if len(self.offset) == 1 else "mark"
         cause = f"; {self.guess}" if self.guess else ""
         advice = "" if self.guess else self._advice
-        said = f"it reads {self.length:.1f} mm {self.way}{cause}{advice}"
+        said = f"it reads {worded(self.length, 1)} {self.way}{cause}{advice}"
         return f"remeasure {what} {self.name}: {said}"
 
     @property

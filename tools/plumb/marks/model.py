@@ -10,7 +10,6 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from plumb.settings.machine import MachineSettings
-from plumb.text.lengths import UNITS
 
 Point = tuple[float, float]
 
@@ -61,19 +60,15 @@ class Typed:
     unit: str = "mm"  # of UNITS in text/lengths.py
 
     def place(self, point: Point) -> Point:
-        """A place of the machine frame [mm], as it was typed."""
+        """A place of the machine frame [mm], counted from where it was typed [mm]."""
         x, y = point
         if self.sheet:
             x, y = x + self.sheet[0] / 2, self.sheet[1] / 2 - y
-        return self.size(x), self.size(y)
+        return x, y
 
     def shift(self, shift: Point) -> Point:
         """A shift in the machine frame [mm], in the axes that were typed."""
-        return self.size(shift[0]), self.size(-shift[1] if self.sheet else shift[1])
-
-    def size(self, length: float) -> float:
-        """A length [mm] in the unit that was typed."""
-        return length / UNITS[self.unit]
+        return shift[0], -shift[1] if self.sheet else shift[1]
 
 
 @dataclass(frozen=True)

@@ -6,10 +6,12 @@ The words of an effect are its own (`plain` in its file); here they become sente
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from plumb.model.catalogue import every_effect, parameter_words
 from plumb.model.predict import frame_words
+from plumb.text.shown import in_unit, unit
 
 if TYPE_CHECKING:
     from plumb._core import PlainWords
@@ -17,9 +19,9 @@ if TYPE_CHECKING:
 # What the marks are measured from is no number of the machine, so its words are here.
 SHEET: dict[str, PlainWords] = {
     "sheet_rotation": {
-        "more": "sheet turned by # for each metre",
+        "more": "sheet turned by #",
         "less": "",
-        "unit": "mm",
+        "unit": "mm for each metre",
         "times": 1000.0,
         "shown": "as is",
     }
@@ -48,6 +50,12 @@ def nouns_of(effects: list[str] | tuple[str, ...], *, last: str = "and") -> str:
     return f"{', '.join(others)} {last} {final}" if others else final
 
 
+def plainly(effects: Iterable[str]) -> str:
+    """Several effects that act together in a maker's words, without their names."""
+    *others, final = map(noun_of, effects)
+    return f"{', '.join(others)} and {final}" if others else final
+
+
 def plain_size(name: str, value: float, low: float | None = None, high: float | None = None) -> str:
     """A parameter of an effect with its size and, in brackets, its interval."""
     words = words_of(name)
@@ -59,7 +67,7 @@ def plain_size(name: str, value: float, low: float | None = None, high: float | 
     ]
     digits = digits_for(shown, ends)
     said = (words["less"] if below else words["more"]).replace(
-        "#", f"{_rounded(shown, digits)} {words['unit']}"
+        "#", f"{_rounded(shown, digits)} {_unit(words)}"
     )
     if not ends:
         return said
@@ -71,7 +79,7 @@ def plain_before(name: str, value: float) -> str:
     """A size as it was before, in the unit of its words."""
     words = words_of(name)
     shown = shown_size(words, value)
-    return f"{_rounded(shown, digits_for(shown, []))} {words['unit']}" if shown else "0"
+    return f"{_rounded(shown, digits_for(shown, []))} {_unit(words)}" if shown else "0"
 
 
 def plain_range(name: str, low: float, high: float) -> str:
@@ -79,7 +87,7 @@ def plain_range(name: str, low: float, high: float) -> str:
     words = words_of(name)
     ends = sorted(shown_size(words, end) for end in (low, high))
     digits = digits_for(max(map(abs, ends)), [])
-    return f"{_rounded(ends[0], digits)} to {_rounded(ends[1], digits)} {words['unit']}"
+    return f"{_rounded(ends[0], digits)} to {_rounded(ends[1], digits)} {_unit(words)}"
 
 
 def words_of(name: str) -> PlainWords:
@@ -99,11 +107,17 @@ def words_of(name: str) -> PlainWords:
 
 def shown_size(words: PlainWords, value: float) -> float:
     """The size as it is shown, in the unit of its words; the sign stays."""
-    scaled = value * words["times"]
-    if words["shown"] == "as is":
-        return scaled
-    root = math.copysign(math.sqrt(abs(scaled)), scaled)
-    return root if words["shown"] == "root" else math.degrees(math.atan(root))
+    size = value * words["times"]
+    if words["shown"] != "as is":
+        size = math.copysign(math.sqrt(abs(size)), size)
+    if words["shown"] not in ("as is", "root"):
+        return math.degrees(math.atan(size))
+    return in_unit(size) if words["unit"] == "mm" else size
+
+
+def _unit(words: PlainWords) -> str:
+    """The unit of the words; a length has the unit in which lengths are shown."""
+    return unit() if words["unit"] == "mm" else words["unit"]
 
 
 def digits_for(shown: float, ends: list[float]) -> int:

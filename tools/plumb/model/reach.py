@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from plumb.model.plain import noun_of
 from plumb.model.predict import (
     CANNOT_HANG,
     REACH_LIMITS,
@@ -75,9 +76,9 @@ def with_soft_chains(settings: MachineSettings) -> tuple[MachineSettings, tuple[
         for parameter in effect["parameters"]
     }
     assumed = tuple(
-        f"The settings have no {name.partition('.')[0]} that could be: {size:.3g} {units[name]} is "
-        f"usual with {settings.sled_weight:.1f} N of sled and {settings.chain_weight * 1e3:.2f} N "
-        "per m of chain."
+        f"The settings have no {noun_of(name.partition('.')[0])} that could be: {size:.3g} "
+        f"{units[name]} is usual with {settings.sled_weight:.1f} N of sled and "
+        f"{settings.chain_weight * 1e3:.2f} N per m of chain."
         for name, size in missing.items()
     )
     return with_parameters(settings, missing), assumed

@@ -15,6 +15,7 @@ from plumb.plan.planned_visits import Visits, joined, nowhere, sent
 from plumb.plan.separation import Chooser
 from plumb.plan.sites import grid, new_places, usable
 from plumb.settings.machine import GRAVITY
+from plumb.text.shown import bare
 
 Array = np.ndarray
 EXTRA_KILOGRAMS = (2.5, 5.0, 10.0)  # what a maker finds to hang on a sled
@@ -276,11 +277,11 @@ def _heavier(which: str, kilograms: float, visits: Visits) -> Option:
 
 
 def spots(visits: Visits) -> str:
-    """The places for people [mm], each once; a mark that is there already by its name."""
+    """The places for people, each once; a mark that is there already by its name."""
     named = zip(visits.names, visits.targets, strict=True)
     return ", ".join(dict.fromkeys(_spot(name, at) for name, at in named))
 
 
 def _spot(name: str, at: Array) -> str:
-    place = f"({at[0] + 0.0:.0f}, {at[1] + 0.0:.0f})"
+    place = f"({bare(at[0], 0)}, {bare(at[1], 0)})"
     return place if "/" in name else f"{name} {place}"

@@ -6,14 +6,20 @@ from plumb.plan.planned_visits import Visits
 
 
 def marks_file(
-    visits: Visits, *, sheet: tuple[float, float], controller: str, said: tuple[str, ...]
+    visits: Visits,
+    *,
+    sheet: tuple[float, float],
+    controller: str,
+    said: tuple[str, ...],
+    cut_with: str = "",
 ) -> str:
-    """The text of the file: places count from the sheet's top left corner, y down [mm]."""
+    """The text of the file: places count from the sheet's top left corner, y down [mm]; `cut_with`
+    are lines that name the settings in force."""
     lines = [
         "# Measured from the sheet's left and top edges, in mm: take away the # before `measured`",
         "# and write what the tape says. Give this file to plumb after the marks you have.",
         *(f"# {sentence}" for sentence in said),
-        'frame = "sheet-top-left"',
+        f'frame = "sheet-top-left"{cut_with}',
         f'controller = "{controller}"',
     ]
     for i, name in enumerate(visits.names):

@@ -1,9 +1,15 @@
 """`plumb next`, `plumb preview` and --checked: what they print, write and refuse."""
 
+import dataclasses
+import os
+import re
+
 import numpy as np
 import pytest
 from plumb.cure.demo import MARKS, SETTINGS
+from plumb.grid.cut_with import digest_of
 from plumb.marks.read import read_plan
+from plumb.model.catalogue import effect_names
 from plumb.plan.plan_marks import marks_file
 from plumb.plan.planned_visits import sent
 from plumb.settings.files import write_machine_toml
@@ -205,3 +211,35 @@ def test_what_grid_writes_is_a_plan(run, ask, maker, tmp_path):
 def test_preview_refuses_in_one_line(run, maker, options, complaint):
     code, said, refused = run("preview", maker, *options)
     assert code == 2 and said == "" and complaint in refused and refused.count("\n") == 1
+
+
+def test_a_form_names_the_settings_that_its_marks_are_cut_with(run, tmp_path):
+    form = tmp_path / "forms" / "more.toml"
+    form.parent.mkdir()
+    assert run("next", SETTINGS, MARKS, "--marks", form)[0] == 0
+    head = form.read_text().split("[[mark]]")[0]
+    named = os.path.relpath(SETTINGS, form.parent)
+    assert f'cut_with = "{named}"' in head
+    assert f'cut_with_digest = "{digest_of(SETTINGS)}"' in head
+
+
+def test_a_form_names_what_was_in_force_not_what_was_fitted_since(run, maker, csv, tmp_path):
+    marks = csv("marks.csv", marks_on(TRUE, BELIEVED, grid(3, 3)))
+    fitted, form = tmp_path / "fitted.toml", tmp_path / "more.toml"
+    settings = dataclasses.replace(BELIEVED, motor_gap=BELIEVED.motor_gap + 5)
+    write_machine_toml(fitted, settings)
+    asked = run("next", fitted, marks, "--cut-with", maker, "--marks", form)
+    assert asked[0] == 0, asked
+    assert 'cut_with = "machine.toml"' in form.read_text()
+
+
+def test_sentences_and_tables_name_effects_as_makers_do(run):
+    for words in (
+        ["preview", SETTINGS, "--columns", "3", "--rows", "3"],
+        ["next", SETTINGS, MARKS],
+        ["add", SETTINGS, MARKS, "--effect", "auto"],
+    ):
+        said = " ".join(run(*words)[1].split("\n  plumb ")[0].split())
+        # A name in brackets is what --effect takes.
+        bare_names = [name for name in effect_names() if re.search(rf"(?<!\(){name}\b", said)]
+        assert bare_names == [], words[0]

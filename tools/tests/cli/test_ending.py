@@ -1,6 +1,8 @@
 """How a command ends when it is interrupted, nobody reads it, or the disk is full."""
 
+import errno
 import functools
+import json
 import os
 import signal
 import subprocess
@@ -85,6 +87,27 @@ def test_a_closed_pipe_ends_quietly():
 def test_a_full_disk_is_a_line():
     with open("/dev/full", "w") as full:
         done = subprocess.run(COMPARE, stdout=full, stderr=subprocess.PIPE, text=True)
+    assert done.returncode == 2
+    assert done.stderr == "plumb: the output cannot be written: No space left on device\n"
+
+
+def test_a_full_disk_is_an_object_with_json(run, capsys):
+    full = ["add", SETTINGS, MARKS, "--effect", "chain_sag", "-o", "/dev/full", "--json"]
+    code, said, complaint = run(*full)
+    assert code == 2 and complaint.count("\n") == 1
+    assert json.loads(said) == {"error": complaint.removeprefix("plumb: ").rstrip()}
+
+    def full_disk() -> int:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "results.json")
+
+    assert ended(full_disk, name="plumb", as_json=True) == 2
+    said = capsys.readouterr().out
+    assert json.loads(said) == {"error": "results.json: No space left on device"}
+
+
+def test_a_full_standard_output_with_json_is_a_line():
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([*COMPARE, "--json"], stdout=full, stderr=subprocess.PIPE, text=True)
     assert done.returncode == 2
     assert done.stderr == "plumb: the output cannot be written: No space left on device\n"
 

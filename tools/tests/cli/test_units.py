@@ -1,5 +1,6 @@
 """Places and errors are shown as they were typed, or in the unit that is asked for."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -63,3 +64,68 @@ def test_files_that_were_typed_alike_stay_so_together_and_others_are_shown_from_
     middle = read_marks(path, sheet=SHEET)
     assert join_measurements([corner, middle]).typed == Typed()
     assert join_measurements([corner]).typed == corner.typed
+
+
+MILLIMETRES = re.compile(r"[\d.]+ mm\b")
+
+
+def lengths_shown(said, unit):
+    """The sizes that stand before a unit."""
+    return [float(size) for size in re.findall(rf"([\d.]+)\s+{unit}\b", said)]
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["diagnose", INI, MARKS],
+        ["next", INI, MARKS],
+        ["add", INI, MARKS, "--effect", "chain_sag", "sled_swing"],
+        ["preview", INI, "--columns", "4", "--rows", "3"],
+        ["reach", INI],
+    ],
+    ids=lambda words: words[0],
+)
+def test_every_command_speaks_inches_on_request(words, run):
+    metric, imperial = (run(*words, "--units", unit)[1] for unit in ("mm", "inch"))
+    sizes = lengths_shown(metric, "mm"), lengths_shown(imperial, "inch")
+    assert len(sizes[0]) >= len(sizes[1]) > 0
+    in_inches = [size / 25.4 for size in sizes[0]]
+    for size in sizes[1]:
+        assert min(abs(size - each) for each in in_inches) < 0.02 + 0.01 * size
+    # What stays in mm: how well a tool reads, and what is typed in mm or drawn by eye.
+    stays = re.compile(r"(to|last) [\d.]+ mm|[\d.]+ mm for each metre|VALUE: [^.]*\.")
+    said = stays.sub("", " ".join(imperial.split()))
+    assert MILLIMETRES.findall(said) == []
+
+
+def test_tables_of_errors_and_sizes_are_in_inches(run):
+    said = run("add", INI, MARKS, "--effect", "sled_swing", "--units", "inch")[1]
+    assert "error in inch" in said
+    raw = re.search(r"raw: the settings as they are +([\d.]+)", said)
+    assert raw and raw[1] == "0.351"
+    assert re.search(r"bit [\d.]+ inch (right|left) of the ring's centre", said)
+
+
+def test_the_model_answers_in_inches(run, tmp_path):
+    points = tmp_path / "points.csv"
+    points.write_text("0,0\n254,0\n")
+    metric, imperial = (
+        run("inverse", INI, "--points", points, "--units", unit)[1] for unit in ("mm", "inch")
+    )
+    left = [float(said.splitlines()[-1].split()[2]) for said in (metric, imperial)]
+    assert left[1] == pytest.approx(left[0] / 25.4, abs=1e-4) and "; inch." in imperial
+    assert imperial.splitlines()[-1].split()[0] == "10.0000"
+
+
+def test_json_and_files_stay_in_mm(ask, run, tmp_path):
+    machine = tmp_path / "machine.toml"
+    added = ["add", INI, MARKS, "--effect", "sled_swing"]
+    _, metric = ask(*added)
+    assert ask(*added, "--units", "inch")[1] == metric
+    assert run(*added, "--units", "inch", "-o", machine)[0] == 0
+    assert "8.91 mm before" in machine.read_text()
+
+
+def test_the_unit_of_a_command_does_not_stay_for_the_next(run):
+    run("compare", INI, MARKS, "--units", "inch")
+    assert "inch" not in run("compare", INI, MARKS)[1]

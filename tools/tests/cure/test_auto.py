@@ -13,6 +13,7 @@ from plumb.cure.demo import MARKS, SETTINGS
 from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import read_marks
+from plumb.model.plain import noun_of
 from plumb.settings.files import read_settings
 from plumb.text.errors import InputError
 
@@ -71,7 +72,7 @@ def test_a_choice_is_said_to_be_one_with_what_would_settle_it():
     result = add_auto(Inputs(MAKER, board({"frame_flex": size}, few, seed=2)))
     assert result.diagnosis.verdict == "cannot_tell" and result.rivals and result.done
     assert result.reason.startswith("a choice: ") and "plumb next" in result.reason
-    open_ones = {*result.chosen}.union(*result.rivals)
+    open_ones = {noun_of(name) for name in {*result.chosen}.union(*result.rivals)}
     checks = [line.partition(":")[0] for line in result.settled_by]
     assert checks and {*checks} <= open_ones and len(checks) == len({*checks})
 

@@ -11,6 +11,7 @@ from plumb.cli.arguments.shared import (
     add_marks,
     add_prior,
     add_sigma,
+    add_units,
     add_without,
 )
 
@@ -49,4 +50,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--picture", metavar="FILE", help="draw how the error falls: .png, .svg, .pdf"
     )
     add_force(parser)
+    add_units(parser)
     add_json(parser)

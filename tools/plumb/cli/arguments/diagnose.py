@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from plumb.cli.arguments.checked import add_checked
-from plumb.cli.arguments.shared import add_json, add_marks, add_prior, add_sigma
+from plumb.cli.arguments.shared import add_json, add_marks, add_prior, add_sigma, add_units
 
 HELP = "which effect the settings miss, as far as the marks can prove it"
 EXIT = (
@@ -20,4 +20,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_prior(parser)
     add_sigma(parser, usual="tape_sigma_mm of MARKS and repeats, else 0.5")
     add_checked(parser)
+    add_units(parser)
     add_json(parser)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from plumb.cli.arguments.shared import add_json, add_settings, file
+from plumb.cli.arguments.shared import add_json, add_settings, add_units, file
 
 HELP = "places for chain lengths, by our model"
 EXIT = "Exit: 0 done; 1 some lengths lead nowhere; 2 an input cannot be used."
@@ -20,4 +20,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         required=True,
         help="CSV: left,right per line, mm paid out from 12 o'clock; a header is allowed",
     )
+    add_units(parser)
     add_json(parser)

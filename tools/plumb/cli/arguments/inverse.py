@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from plumb.cli.arguments.shared import add_controller, add_json, add_settings, file
+from plumb.cli.arguments.shared import add_controller, add_json, add_settings, add_units, file
 
 HELP = "chain lengths for places, by the controller's formula or by our model"
 EXIT = "Exit: 0 done; 1 some place is out of reach; 2 an input cannot be used."
@@ -22,4 +22,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--float32", action="store_true", help="compute as the board does")
     add_controller(parser)
+    add_units(parser)
     add_json(parser)

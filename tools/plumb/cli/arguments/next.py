@@ -5,7 +5,14 @@ from __future__ import annotations
 import argparse
 
 from plumb.cli.arguments.checked import add_checked
-from plumb.cli.arguments.shared import add_force, add_json, add_marks, add_prior, add_sigma
+from plumb.cli.arguments.shared import (
+    add_force,
+    add_json,
+    add_marks,
+    add_prior,
+    add_sigma,
+    add_units,
+)
 
 HELP = "what to measure next: the chance that it settles the question, and the minutes it costs"
 EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
@@ -26,4 +33,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--picture", metavar="FILE", help="draw it on the sheet: .png, .svg, .pdf")
     parser.add_argument("--marks", dest="template", metavar="FILE", help="a marks.toml to fill in")
     add_force(parser)
+    add_units(parser)
     add_json(parser)

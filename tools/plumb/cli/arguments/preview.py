@@ -10,6 +10,7 @@ from plumb.cli.arguments.shared import (
     add_json,
     add_prior,
     add_settings,
+    add_units,
     file,
     length,
 )
@@ -46,4 +47,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--picture", metavar="FILE", help="draw the plan and what to add: .png, .svg or .pdf"
     )
     add_force(parser)
+    add_units(parser)
     add_json(parser)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from plumb import _core
-from plumb.cli.arguments.shared import add_force, add_json, add_settings, limit
+from plumb.cli.arguments.shared import add_force, add_json, add_settings, add_units, limit
 
 OPTIONS = {
     "most_tension": ("N", "of a chain at its sprocket; motors stall near 290 N"),
@@ -31,4 +31,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
             help=f"{meaning} [%(default)g]",
         )
     add_force(parser)
+    add_units(parser)
     add_json(parser)

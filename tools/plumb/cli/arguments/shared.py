@@ -87,7 +87,7 @@ def add_units(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--units",
         choices=("mm", "inch"),
-        help="in which places and errors are shown [as they were typed]",
+        help="in which lengths are shown [as places were typed]",
     )
 
 
