@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from plumb.bench import judge
-from plumb.bench.causes import MAKER, OUTSIDE, SLED, Cause, Hidden, Plan
+from plumb.bench.causes import MAKER, OUTSIDE, SLED, Cause, Hidden, Numbers, Plan
 from plumb.marks.read import Distance, Mark, Measurements
 from plumb.model.predict import FOUND, judged, lengths
 from plumb.settings.machine import MachineSettings
@@ -18,6 +18,8 @@ from plumb.settings.machine import MachineSettings
 Array = np.ndarray
 SIDES = np.array([(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)])
 GAP_SIGMA, POSE_SIGMA, TURN_SIGMA = 3.0, 5.0, 0.002  # [mm, mm, rad] how far the frame is off
+# The judge's numbers of each chain.
+OTHER_SIDE = {"left.pitch": "right.pitch", "right.pitch": "left.pitch"}
 WIDTH, HEIGHT = 2200.0, 1000.0  # [mm] that a plan covers of the sheet
 
 
@@ -66,6 +68,14 @@ class TrueMachine:
     motor_height: float = MAKER.motor_height
     motor_center_x: float = 0.0
     turn: float = 0.0  # [rad] of the sheet
+    swapped: bool = False  # whether the chains hang on each other's sprockets
+
+    def read(self, chains: Array, *, approaches: Array, weights: Array) -> Array:
+        """Where marks would be read (n, 2) [mm] without noise; NaN where the sled cannot hang."""
+        where = self.sleds(chains, approaches=approaches, weights=weights)
+        where = where - self.hidden.backlash * approaches
+        turned = where @ np.array([[cos(self.turn), self.turn], [-self.turn, cos(self.turn)]])
+        return self.hidden.read(turned)
 
     def sleds(
         self, chains: Array, *, approaches: Array | None = None, weights: Array | None = None
@@ -76,7 +86,7 @@ class TrueMachine:
             "motor_gap": self.motor_gap,
             "motor_height": self.motor_height,
             "motor_center_x": self.motor_center_x,
-            **self.hidden.numbers,
+            **self._hidden_numbers(),
         }
         heavier = numbers["sled_weight"] / SLED
         still = np.zeros_like(chains)
@@ -86,6 +96,13 @@ class TrueMachine:
             pushes=still if approaches is None else -self.hidden.drag * approaches,
             weights=heavier * (np.full(len(chains), SLED) if weights is None else weights),
         )
+
+    def _hidden_numbers(self) -> Numbers:
+        """The judge's; what goes with a chain is where the chain is."""
+        numbers = self.hidden.numbers
+        if not self.swapped:
+            return numbers
+        return {OTHER_SIDE.get(name, name): value for name, value in numbers.items()}
 
 
 @dataclass(frozen=True)
@@ -125,14 +142,12 @@ def cut(
 
 def _read(machine: TrueMachine, plan: Plan, settings: MachineSettings = MAKER) -> Array:
     """Where marks would be read (n, 2) [mm] without noise."""
-    chains = chains_for(plan, settings)
-    where = machine.sleds(chains, approaches=plan.approaches, weights=plan.sled_weights)
-    where = where - machine.hidden.backlash * plan.approaches
+    where = machine.read(
+        chains_for(plan, settings), approaches=plan.approaches, weights=plan.sled_weights
+    )
     if not np.isfinite(where).all():
         raise ValueError("the judge's sled cannot hang at some mark")
-    turn = machine.turn
-    turned = where @ np.array([[cos(turn), turn], [-turn, cos(turn)]])
-    return machine.hidden.read(turned)
+    return where
 
 
 def _measured(

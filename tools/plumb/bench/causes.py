@@ -107,14 +107,18 @@ class Hidden:
         return tuple(cause.effect for cause, _ in self.causes)
 
     @property
-    def numbers(self) -> Numbers:
-        """The judge's numbers that are not as on the maker's machine."""
-        parameters = {
+    def parameters(self) -> Numbers:
+        """The library's numbers that are not as on the maker's machine, by full name."""
+        return {
             f"{cause.effect}.{name}": value
             for cause, size in (*self.usual, *self.causes)
             for name, value in cause.sizes(size).items()
         }
-        known = {name: value for name, value in parameters.items() if name in NAMES}
+
+    @property
+    def numbers(self) -> Numbers:
+        """The judge's numbers that are not as on the maker's machine."""
+        known = {name: value for name, value in self.parameters.items() if name in NAMES}
         believed = judged(MAKER)
         hidden = judged(with_parameters(MAKER, known)).items()
         changed = {name: value for name, value in hidden if value != believed[name]}

@@ -16,7 +16,7 @@ import scipy
 from plumb.diagnosis.explanation import Explanation
 from plumb.diagnosis.misfit import LEVEL as MISFIT_LEVEL
 from plumb.diagnosis.noise import Noise
-from plumb.fit.plausible import plausible_range
+from plumb.diagnosis.sizes import possible_sizes
 
 Array = np.ndarray
 BELIEVABLE = 0.05  # share of fields beyond which a combination that fits proves nothing
@@ -64,12 +64,9 @@ def _explained(
     fits: Array = np.sum(left[:count] ** 2, axis=0) <= scipy.special.chdtri(spare, MISFIT_LEVEL)
     if not real:
         return fits
-    reach = noise.quantile * np.sqrt(np.sum(inverse**2, axis=1))
-    for i, column in enumerate(columns):
-        value = board.problem.start[column] + board.problem.scale[column] * sizes[i]
-        half = board.problem.scale[column] * reach[i]
-        fits &= plausible_range(board.problem.names[column]).is_near(value - half, value + half)
-    return fits
+    half = noise.quantile * np.sqrt(np.sum(inverse**2, axis=1))
+    explained: Array = fits & possible_sizes(board, columns, sizes, half)
+    return explained
 
 
 def _fields(frame: Explanation) -> Array:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -17,8 +18,9 @@ from plumb.diagnosis.misfit import LEVEL as MISFIT_LEVEL
 from plumb.diagnosis.misfit import misfit_chance
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.sizes import possible
-from plumb.diagnosis.weighing import TOGETHER, Weighed, weigh
+from plumb.diagnosis.weighing import TOGETHER, weigh
 
+Array = np.ndarray
 LISTED = 0.95  # of all weight that the listed accounts hold together
 MOST = 8  # accounts
 
@@ -43,30 +45,56 @@ def likeliest(frame: Explanation, felt: Sequence[str], noise: Noise) -> Likelies
     """The accounts that leave no misfit, refitted in full."""
     weighed = weigh(frame, felt, noise, with_slips=False)
     accounts = []
-    for effects, share in shares(weighed):
-        explanation = explain(frame.board, effects, start=frame)
+    for listed in listing(weighed.effects, weighed.clean):
+        explanation = explain(frame.board, listed.effects, start=frame)
         if misfit_chance(explanation, noise) > MISFIT_LEVEL and possible(explanation, noise):
-            accounts.append(Likely(explanation, share))
+            accounts.append(Likely(explanation, listed.share))
     return Likeliest(tuple(accounts), weighed.field_chance)
 
 
-def shares(weighed: Weighed) -> list[tuple[tuple[str, ...], float]]:
-    """Sets of a few effects with how likely each is, likeliest first, as far as LISTED.
+@dataclass(frozen=True)
+class Listed:
+    """A set of effects that is worth naming."""
+
+    effects: tuple[str, ...]
+    share: float  # how likely it is, with all sets that count with it
+    members: tuple[int, ...]  # these sets, and itself, by their places among all
+
+
+def listing(effects: tuple[tuple[str, ...], ...], evidences: Array) -> list[Listed]:
+    """Sets of a few effects, likeliest first, as far as LISTED; by the logarithms of the weights of
+    all sets.
 
     A set with more effects than a likelier one adds nothing that the marks ask for: it counts with
     that one.
     """
-    weights = np.exp(weighed.clean - np.logaddexp.reduce(weighed.clean))
-    listed: list[tuple[tuple[str, ...], float]] = []
-    counted = 0.0
-    for i in np.argsort(-weights, kind="stable"):
-        effects = weighed.effects[i]
-        base = next((j for j, (names, _) in enumerate(listed) if {*names} <= {*effects}), None)
-        if base is not None:
-            listed[base] = (listed[base][0], listed[base][1] + float(weights[i]))
-        elif len(effects) <= TOGETHER and counted < LISTED and len(listed) < MOST:
-            listed.append((effects, float(weights[i])))
-        counted += float(weights[i])
-    listed.sort(key=lambda account: -account[1])
-    before = np.cumsum([0.0, *(share for _, share in listed)])
-    return [account for account, so_far in zip(listed, before[:-1], strict=True) if so_far < LISTED]
+    weights = np.exp(evidences - np.logaddexp.reduce(evidences))
+    order = np.argsort(-weights, kind="stable")
+    before = np.cumsum(weights[order]) - weights[order]
+    within = _within(effects)
+    bases: list[int] = []
+    for i in order[before < LISTED]:
+        if len(bases) < MOST and len(effects[i]) <= TOGETHER and not within[bases, i].any():
+            bases.append(int(i))
+    if not bases:
+        return []
+    # Each set counts with the likeliest that it holds.
+    holds = within[bases]
+    belongs = np.where(holds.any(axis=0), holds.argmax(axis=0), -1)
+    members = [np.flatnonzero(belongs == place) for place in range(len(bases))]
+    counted = np.array([weights[each].sum() for each in members])
+    best = np.argsort(-counted, kind="stable")
+    so_far = np.cumsum(counted[best]) - counted[best]
+    return [
+        Listed(effects[bases[i]], float(counted[i]), tuple(members[i].tolist()))
+        for i in best[so_far < LISTED]
+    ]
+
+
+@cache
+def _within(effects: tuple[tuple[str, ...], ...]) -> Array:
+    """Whether each set (rows) is part of each (columns)."""
+    names = sorted({name for each in effects for name in each})
+    has = np.array([[name in each for name in names] for each in effects], dtype=int)
+    part: Array = has @ (1 - has).T == 0
+    return part

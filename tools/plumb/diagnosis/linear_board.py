@@ -254,10 +254,16 @@ class _Fitted:
 def _in_largest(board: Board, names: Sequence[str], slopes: Array) -> Array:
     """Slopes by effects in the largest sizes that were met."""
     columns = board.columns(names)
+    in_largest: Array = slopes[:, columns] * largest_met(board, columns)
+    return in_largest
+
+
+def largest_met(board: Board, columns: Array) -> Array:
+    """The largest sizes (k,) that were met of these columns' parameters, in typical ones."""
     met = [plausible_range(board.problem.names[i]) for i in columns]
     largest = np.array([max(abs(known.low), abs(known.high)) for known in met])
-    in_largest: Array = slopes[:, columns] * (largest / board.problem.scale[columns])
-    return in_largest
+    in_typical: Array = largest / board.problem.scale[columns]
+    return in_typical
 
 
 def _rows_of(readings: Sequence[Reading], board: Board, none: int) -> Array:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from plumb.diagnosis.explanation import Explanation, span
+from plumb.diagnosis.explanation import Board, Explanation, span
 from plumb.diagnosis.noise import Noise
 from plumb.fit.plausible import plausible_range
 from plumb.model.catalogue import parameter_words
@@ -70,6 +70,18 @@ def possible(explanation: Explanation, noise: Noise) -> bool:
     return all(
         size.possible for name in explanation.effects for size in sizes_of(explanation, name, noise)
     )
+
+
+def possible_sizes(board: Board, columns: Array, sizes: Array, half: Array) -> Array:
+    """Whether a real machine can have the sizes (k, boards) of these columns, in typical ones, as
+    far as their intervals of half-widths (k,) reach (boards,)."""
+    reachable = np.ones(sizes.shape[1], dtype=bool)
+    for column, size, width in zip(columns, sizes, half, strict=True):
+        scale = board.problem.scale[column]
+        value, reach = board.problem.start[column] + scale * size, scale * width
+        known = plausible_range(board.problem.names[column])
+        reachable &= known.is_near(value - reach, value + reach)
+    return reachable
 
 
 def hidden_share(frame: Explanation, effect: str) -> float | None:

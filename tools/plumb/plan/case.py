@@ -14,8 +14,11 @@ import numpy as np
 from plumb.diagnosis.answer import Diagnosis
 from plumb.diagnosis.clean import felt_effects
 from plumb.diagnosis.explanation import Board, Explanation, explain
+from plumb.diagnosis.likeliest import listing
+from plumb.diagnosis.linear_board import SHARES, largest_met
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.sizes import Size
+from plumb.diagnosis.weighing import weigh
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import effect_names
 from plumb.settings.machine import MachineSettings
@@ -23,6 +26,7 @@ from plumb.settings.machine import MachineSettings
 Array = np.ndarray
 MOST_HYPOTHESES = 8  # the best of them; more would only cost time
 LIGHT = 0.01  # explanations less probable than this are left out
+LIKELY, MOST_TRUTHS = 0.9, 16  # share of all that truths hold together, and their number
 IMPOSSIBLE = 0.1  # weight of an explanation whose sizes no real machine has
 
 
@@ -37,6 +41,7 @@ class Hypothesis:
     mean: Array  # (f,) of these, as offsets from `at` for the frame, whole for the effects
     root: Array  # (f, f) root @ root.T is their covariance
     weight: float  # how probable it is among all
+    counts_with: tuple[str, ...] = ()  # effects of the account that has it, where it is another
 
     def drawn(self, source: np.random.Generator, count: int) -> Array:
         """So many possible sets of the unknowns (f, count)."""
@@ -56,6 +61,8 @@ class Case:
     frame: Explanation
     singles: Mapping[str, Explanation]  # each felt effect by itself, refitted
     hypotheses: tuple[Hypothesis, ...]  # most probable first
+    truths: tuple[Hypothesis, ...]  # what may be there: the same, or with small effects besides
+    is_weighed: bool = False  # whether the diagnosis weighs accounts of several effects
     spans: tuple[str, ...] = ()  # the names of both ends of each distance
 
     @property
@@ -85,11 +92,15 @@ def case_of(
     # New marks belong to the first round: its settings, its zeros and its sheet.
     measurements = inputs.measurements
     in_force = measurements.rounds[0].cut_with or inputs.cut_with or inputs.settings
-    if diagnosis.explanations and diagnosis.explanations[0].share is not None:
+    truths: tuple[Hypothesis, ...] = ()
+    is_weighed = bool(diagnosis.explanations) and diagnosis.explanations[0].share is not None
+    if is_weighed:
+        whole = sum(each.share or 0.0 for each in diagnosis.explanations)
         hypotheses = tuple(
-            _as_fitted(explain(board, each.effects, start=frame), each.share or 0.0)
+            _as_fitted(explain(board, each.effects, start=frame), (each.share or 0.0) / whole)
             for each in diagnosis.explanations
         )
+        truths = _with_small_ones(hypotheses, frame, felt, diagnosis.noise)
     elif diagnosis.explanations:
         several = [
             explanation for explanation in diagnosis.explanations if len(explanation.effects) > 1
@@ -107,6 +118,8 @@ def case_of(
         frame=frame,
         singles=singles,
         hypotheses=hypotheses,
+        truths=truths or hypotheses,
+        is_weighed=is_weighed,
         spans=tuple(" - ".join(distance.between) for distance in measurements.distances),
     )
 
@@ -162,6 +175,45 @@ def _as_fitted(explanation: Explanation, weight: float) -> Hypothesis:
         root=_root(explanation.slopes[:, columns]),
         weight=float(weight),
     )
+
+
+def _with_small_ones(
+    hypotheses: Sequence[Hypothesis], frame: Explanation, felt: Sequence[str], noise: Noise
+) -> tuple[Hypothesis, ...]:
+    """Each account by itself and with the effects that may act besides, the likeliest of all.
+
+    Sizes are as far open as the marks and what is met in workshops leave them.
+    """
+    weighed = weigh(frame, felt, noise, with_slips=False)
+    by_effects = {hypothesis.effects: hypothesis for hypothesis in hypotheses}
+    sets = [
+        (float(weighed.clean[member]), weighed.effects[member], by_effects[each.effects])
+        for each in listing(weighed.effects, weighed.clean)
+        if each.effects in by_effects
+        for member in each.members
+    ]
+    sets.sort(key=lambda account: -account[0])
+    weights = np.exp(np.array([evidence for evidence, *_ in sets]) - sets[0][0])
+    likely = np.cumsum(weights) - weights < LIKELY * weights.sum()
+    kept = int(min(likely.sum(), MOST_TRUTHS))
+    return tuple(
+        _with_sizes(known, effects, weight / weights[:kept].sum())
+        for weight, (_, effects, known) in zip(weights[:kept], sets, strict=False)
+    )
+
+
+def _with_sizes(known: Hypothesis, effects: tuple[str, ...], weight: float) -> Hypothesis:
+    """Some effects by the slopes of an account that holds a part of them."""
+    board = known.at.board
+    of_effects = board.columns(effects)
+    columns = np.concatenate([board.frame, of_effects])
+    met = np.zeros((len(of_effects), len(columns)))
+    met[:, len(board.frame) :] = np.diag(1 / (SHARES[0] * largest_met(board, of_effects)))
+    slopes = np.vstack([known.at.slopes[:, columns], met])
+    data = np.concatenate([known.data, np.zeros(len(of_effects))])
+    mean = np.linalg.lstsq(slopes, data, rcond=1e-10)[0]
+    root = _root(slopes)
+    return Hypothesis(effects, known.at, known.data, columns, mean, root, weight, known.effects)
 
 
 def hidden_hypotheses(frame: Explanation) -> tuple[Hypothesis, ...]:

@@ -2,8 +2,9 @@
 
 Each hypothesis is taken for the truth as often as it is probable. Its frame and sizes are drawn
 from what the marks so far leave open, new readings are drawn with noise, and the diagnosis is
-repeated on all rows by the slopes at hand: gate, max-gain test of every single effect (and of the
-combinations that stand now), lack of fit. It is settled when one explanation is left, the true one.
+repeated on all rows by the slopes at hand. Where it would weigh accounts of the marks, it weighs
+them; else gate, max-gain test of every single effect (and of the combinations that stand now), lack
+of fit. It is settled when one explanation is left, the true one.
 """
 
 from __future__ import annotations
@@ -19,8 +20,11 @@ from plumb.diagnosis.misfit import LEVEL as MISFIT_LEVEL
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.noise_sources import FEW_REPEATS, STATEMENT, repeats_of
 from plumb.diagnosis.significance import surprises, tail
+from plumb.diagnosis.sizes import possible_sizes
 from plumb.diagnosis.spread import Spread
-from plumb.plan.ahead import Ahead, Check, ahead
+from plumb.diagnosis.weighing import left_out
+from plumb.plan.accounts_then import Effects, accounts_then
+from plumb.plan.ahead import Ahead, Planned
 from plumb.plan.case import Case, Hypothesis
 from plumb.plan.planned_visits import Visits
 
@@ -40,32 +44,43 @@ class Outlook:
     left: float | None  # explanations on average; None where they are not counted
 
 
-def outlook(
-    case: Case, visits: Visits, checks: Sequence[Check] = (), *, draws: int = DRAWS
-) -> Outlook:
-    """What to expect of these visits and checks.
+def outlook(case: Case, planned: Planned, *, draws: int = DRAWS) -> Outlook:
+    """What to expect of a planned measurement.
 
     Suspects: the chance that the true one is left alone. Nothing provable: that an effect of its
     usual size would be proved, if one is there.
     """
     alone = case.verdict != "nothing_provable"
-    noise = noise_after(case, visits)
-    tests: dict[int, Rediagnosis] = {}
+    noise = noise_after(case, planned.visits)
+    tests = _tests(case, planned, noise)
+    trials = []
+    for number, hypothesis in enumerate(case.truths):
+        source = np.random.default_rng([SEED, number])
+        count = max(FEWEST, round(draws * hypothesis.weight))
+        boards = tests[id(hypothesis.at)].boards(hypothesis, source, count)
+        trials.append((hypothesis, boards))
+    listed = accounts_then(case, planned, noise, trials) if case.is_weighed else None
     settled = left = 0.0
-    for number, hypothesis in enumerate(case.hypotheses):
+    for number, (hypothesis, boards) in enumerate(trials):
+        test = tests[id(hypothesis.at)]
+        if listed is None:
+            right, stand = test.judged(hypothesis, boards, alone=alone)
+        else:
+            right, stand = test.weighed(hypothesis, boards, listed[number])
+        settled += hypothesis.weight * right
+        left += hypothesis.weight * stand
+    return Outlook(float(settled), float(left) if alone else None)
+
+
+def _tests(case: Case, planned: Planned, noise: Noise) -> dict[int, Rediagnosis]:
+    """The diagnosis to come, by the slopes of each hypothesis."""
+    tests: dict[int, Rediagnosis] = {}
+    for hypothesis in case.truths:
         if id(hypothesis.at) not in tests:
             twin = next(iter(tests.values()), None)
-            tests[id(hypothesis.at)] = Rediagnosis(
-                case, ahead(hypothesis.at, visits, checks), noise, twin
-            )
-        source = np.random.default_rng([SEED, number])
-        boards = tests[id(hypothesis.at)].boards(
-            hypothesis, source, max(FEWEST, round(draws * hypothesis.weight))
-        )
-        right, count = tests[id(hypothesis.at)].judged(hypothesis, boards, alone=alone)
-        settled += hypothesis.weight * right
-        left += hypothesis.weight * count
-    return Outlook(float(settled), float(left) if alone else None)
+            rows = planned.ahead(hypothesis.at)
+            tests[id(hypothesis.at)] = Rediagnosis(case, rows, noise, twin)
+    return tests
 
 
 class Rediagnosis:
@@ -76,6 +91,7 @@ class Rediagnosis:
         board = case.board
         self.rows, self.board = rows, board
         self.noise = noise
+        self.is_left_out = bool(left_out(case.frame))
         self.frame = span(rows.slopes[:, board.frame])
         self.nothing = len(board.effect_columns)  # explanations left where nothing is proved
         self.columns = {name: board.columns([name]) for name in board.effect_columns}
@@ -121,7 +137,42 @@ class Rediagnosis:
         left = np.where(proved, np.maximum(counts, 1), self.nothing)
         return float((proved & stands & (counts == 1)).mean()), float(left.mean())
 
-    def _stands(self, effects: tuple[str, ...], readings: Array) -> Array:
+    def weighed(
+        self, truth: Hypothesis, boards: Array, listed: Sequence[tuple[Effects, ...]]
+    ) -> tuple[float, float]:
+        """The same where accounts are weighed: those listed on each board count if they fit. An
+        account that leaves out a small effect of the truth is right too."""
+        proved = self._gains(self.frame, (), boards)[0] > self.limit
+        counts, right = np.zeros(boards.shape[1], dtype=int), np.zeros(boards.shape[1], dtype=bool)
+        for effects in {effects for accounts in listed for effects in accounts}:
+            there = np.array([effects in accounts for accounts in listed])
+            there[there] = self._fits(effects, boards[:, there])
+            counts += there
+            right |= there & ({*truth.counts_with} <= {*effects} <= {*truth.effects})
+        if not self.is_left_out:
+            # A single effect that explains all by itself is asked for nothing else.
+            singles = [self._stands((name,), boards) for name in self.felt]
+            alone = np.sum(singles, axis=0)
+            counts = np.where(alone > 0, alone, counts)
+            right &= alone == 0
+        left = np.where(proved, np.maximum(counts, 1), self.nothing)
+        return float((proved & right & (counts == 1)).mean()), float(left.mean())
+
+    def _fits(self, effects: Effects, boards: Array) -> Array:
+        """Whether an account leaves no misfit and has sizes that a machine can have (count,)."""
+        slopes, columns = self.rows.slopes, self.board.columns(effects)
+        drawn = slopes[:, columns] - self.frame @ (self.frame.T @ slopes[:, columns])
+        inverse = np.linalg.pinv(drawn, rcond=1e-6)
+        sizes = inverse @ boards
+        left = boards - self.frame @ (self.frame.T @ boards) - drawn @ sizes
+        read = self.rows.marks
+        spare = read.sum() - np.sum(span(slopes[:, [*self.board.frame, *columns]])[read] ** 2)
+        half = self.noise.quantile * np.sqrt(np.sum(inverse**2, axis=1))
+        fits: Array = self._misfit(left[read], spare) > MISFIT_LEVEL
+        fits &= possible_sizes(self.board, columns, sizes, half)
+        return fits
+
+    def _stands(self, effects: Effects, readings: Array) -> Array:
         """Whether nothing is to be added to an explanation, and it fits (count,)."""
         columns = np.concatenate([self.board.frame, self.board.columns(effects)])
         fitted = span(self.rows.slopes[:, columns])
@@ -142,9 +193,7 @@ class Rediagnosis:
         chances: Array = np.asarray(tail(squares, spare, self.noise.degrees))
         return chances
 
-    def _gains(
-        self, fitted: Array, effects: tuple[str, ...], readings: Array
-    ) -> tuple[Array, Array]:
+    def _gains(self, fitted: Array, effects: Effects, readings: Array) -> tuple[Array, Array]:
         """The largest surprise of any other effect (count,), and what the fit leaves."""
         left = readings - fitted @ (fitted.T @ readings)
         slopes = self.rows.slopes

@@ -97,6 +97,7 @@ def preview(
     noise = Noise(sigma, KNOWN, "stated")
     limit = search(frame, felt, noise).limit
     matrix = _matrix(frame, frame.slopes)
+    hidden = hidden_hypotheses(frame)
     case = Case(
         settings=settings,
         controller=controller or plan.controller or settings.controller,
@@ -105,7 +106,8 @@ def preview(
         noise=noise,
         frame=frame,
         singles={},
-        hypotheses=hidden_hypotheses(frame),
+        hypotheses=hidden,
+        truths=hidden,
     )
     rows = frame.board.rows
     return Preview(

@@ -11,7 +11,7 @@ from plumb.diagnosis.answer import Diagnosis
 from plumb.diagnosis.explanation import span
 from plumb.diagnosis.sizes import Room
 from plumb.fit.inputs import Inputs
-from plumb.plan.ahead import ahead
+from plumb.plan.ahead import Planned
 from plumb.plan.case import Case, case_of
 from plumb.plan.options import Option, many_marks, options
 from plumb.plan.outlook import outlook
@@ -110,18 +110,19 @@ def _order(proposal: Proposal) -> tuple[bool, float]:
 
 def _weighed(case: Case, option: Option, rooms: Sequence[Room]) -> Proposal:
     """An option with what to expect of it."""
-    expected = outlook(case, option.visits, option.checks)
+    planned = Planned(option.visits, option.checks)
+    expected = outlook(case, planned)
     question = QUESTIONS[case.verdict]
-    parts = _parted(case, option) if question != FIND else ()
-    then = _rooms(case, option, rooms) if question == FIND else ()
+    parts = _parted(case, planned) if question != FIND else ()
+    then = _rooms(case, planned, rooms) if question == FIND else ()
     return Proposal(option, question, expected.chance, expected.left, parts, then)
 
 
-def _parted(case: Case, option: Option) -> tuple[tuple[str, str], ...]:
+def _parted(case: Case, planned: Planned) -> tuple[tuple[str, str], ...]:
     """Pairs of suspects that are distinguished afterwards and are not now, most probable first."""
     lambdas: dict[frozenset[str], list[float]] = {}
     for hypothesis in case.hypotheses:
-        rows, drawn = ahead(hypothesis.at, option.visits, option.checks), drawn_by(hypothesis)
+        rows, drawn = planned.ahead(hypothesis.at), drawn_by(hypothesis)
         for other in case.hypotheses:
             if other is hypothesis:
                 continue
@@ -146,14 +147,14 @@ def _name(effects: Sequence[str]) -> str:
     return " + ".join(effects)
 
 
-def _rooms(case: Case, option: Option, rooms: Sequence[Room]) -> tuple[RoomThen, ...]:
+def _rooms(case: Case, planned: Planned, rooms: Sequence[Room]) -> tuple[RoomThen, ...]:
     """What could hide afterwards, the largest change first.
 
     About: the interval of an effect's least visible direction shrinks by so much, and with it what
     the diagnosis says could hide.
     """
     frame, rooms_then = case.frame, []
-    rows = ahead(frame, option.visits, option.checks)
+    rows = planned.ahead(frame)
     for room in rooms:
         if room.mm is None:
             continue

@@ -1,7 +1,5 @@
 """The likeliest accounts: machines as they are, whose published settings leave out the stretch."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 from plumb.bench.boards import cut, plan
@@ -11,7 +9,7 @@ from plumb.board.observations import observe
 from plumb.cure.auto import add_auto
 from plumb.diagnosis import diagnose
 from plumb.diagnosis.explanation import Board, explain
-from plumb.diagnosis.likeliest import shares
+from plumb.diagnosis.likeliest import listing
 from plumb.diagnosis.sentence import verdict_sentence
 from plumb.diagnosis.weighing import left_out
 from plumb.fit.inputs import Inputs
@@ -67,10 +65,10 @@ def test_published_settings_leave_out_the_stretch():
 def test_a_set_with_more_effects_than_a_likelier_one_counts_with_it():
     sets = ((), ("a",), ("a", "b"), ("c", "b"), ("d",))
     weights = np.array([0.001, 0.6, 0.2, 0.149, 0.05])
-    weighed = SimpleNamespace(effects=sets, clean=np.log(weights) + 7.0)
-    listed = shares(weighed)
-    assert [names for names, _ in listed] == [("a",), ("c", "b"), ("d",)]
-    assert [share for _, share in listed] == pytest.approx([0.8, 0.149, 0.05])
+    listed = listing(sets, np.log(weights) + 7.0)
+    assert [each.effects for each in listed] == [("a",), ("c", "b"), ("d",)]
+    assert [each.share for each in listed] == pytest.approx([0.8, 0.149, 0.05])
+    assert [each.members for each in listed] == [(1, 2), (3,), (4,)]
     # Beyond 95 % of all weight nothing is listed.
-    few = SimpleNamespace(effects=sets, clean=np.log([1e-9, 0.96, 1e-9, 0.03, 0.01]))
-    assert [names for names, _ in shares(few)] == [("a",)]
+    few = np.log([1e-9, 0.96, 1e-9, 0.03, 0.01])
+    assert [each.effects for each in listing(sets, few)] == [("a",)]

@@ -14,7 +14,7 @@ from plumb.fit.problem import PRIORS
 from plumb.model.catalogue import effect_names, parameter_words
 from plumb.model.predict import FOUND, lengths
 from plumb.plan import propose
-from plumb.plan.ahead import Check, ahead
+from plumb.plan.ahead import Check, Planned, ahead
 from plumb.plan.case import case_of
 from plumb.plan.direct_checks import FRAME_CHECKS, effect_checks
 from plumb.plan.options import ROOM_FOR_A_SECOND, many_marks, options
@@ -136,8 +136,8 @@ def test_a_check_of_the_suspect_is_one_more_row(pitch):
 def test_a_sharp_check_settles_what_a_blunt_one_does_not(pitch):
     *_, case = pitch
     names = ("chain_pitch.left", "chain_pitch.right")
-    sharp = outlook(case, nowhere(), [Check(name, 1e-5) for name in names])
-    blunt = outlook(case, nowhere(), [Check(name, 1e-1) for name in names])
+    sharp = outlook(case, Planned(nowhere(), [Check(name, 1e-5) for name in names]))
+    blunt = outlook(case, Planned(nowhere(), [Check(name, 1e-1) for name in names]))
     assert sharp.chance > blunt.chance + 0.3 and sharp.left < blunt.left
 
 
@@ -286,8 +286,8 @@ def test_checks_are_of_numbers_that_exist():
 
 def test_the_same_board_gets_the_same_chances(pitch):
     *_, case = pitch
-    visits = many_marks(case).visits
-    assert outlook(case, visits) == outlook(case, visits)
+    planned = Planned(many_marks(case).visits)
+    assert outlook(case, planned) == outlook(case, planned)
 
 
 def test_chances_come_true(first):
