@@ -8,6 +8,9 @@
 namespace machine {
 namespace {
 
+// An illegal step is two edges at once.
+const float kCountsMissed = 2;
+const float kShareOfLimit = 8;  // that missed steps may take
 // A share of the planned speed so low that it is to be told.
 const uint16_t kMuch = 200;
 
@@ -39,6 +42,9 @@ bool Axes::prepare(const settings::Values& values) {
     one.fine_per_count = one.per_count * float(motion::kCountsPerMm);
     const float most = kMostTravel / float(fabs(one.per_count));
     one.most_counts = most < 2e9f ? int32_t(most) : 2000000000;
+    const float most_missed = values.at(kPositionErrorLimit) / kShareOfLimit /
+                              (kCountsMissed * float(fabs(one.per_count)));
+    one.most_missed = most_missed < UINT16_MAX ? uint16_t(most_missed) : uint16_t(UINT16_MAX);
     if (one.per_count != was_per_count) {
       one.counts = countsOf(one, length);
       is_rescaled = true;
@@ -229,6 +235,7 @@ void Axes::declareLifted(float z) {
   one.counts = int32_t(lround(withinTravel(z) / one.per_count));
   one.set_point = motion::toCounts(withinTravel(z));
   lift_.standAt(one.set_point - planned);
+  forgetMissed(kZAxis);
 }
 
 SetPoint Axes::setPoint() const {
@@ -335,6 +342,7 @@ void Axes::declare(Axis axis, float length) {
   if (simulated_) is_imagined_ = true;
   one.counts = countsOf(one, length);
   one.set_point = motion::toCounts(length);
+  forgetMissed(axis);
 }
 
 AxisState Axes::state(Axis axis) const {
@@ -345,7 +353,16 @@ AxisState Axes::state(Axis axis) const {
 
 void Axes::forgetRawCounts() {
   const WithoutTicks hold(clock_);
-  for (uint8_t i = 0; i < kAxisCount; ++i) axis_[i].raw = drives_.count(Axis(i));
+  for (uint8_t i = 0; i < kAxisCount; ++i) {
+    axis_[i].raw = drives_.count(Axis(i));
+    forgetMissed(Axis(i));
+  }
+}
+
+bool Axes::hasMissedSteps(Axis axis) const {
+  const One& one = axis_[axis];
+  const uint16_t missed = uint16_t(drives_.illegalSteps(axis) - one.missed_before);
+  return missed > one.most_missed && !simulated_;
 }
 
 motion::Fault Axes::fault() {

@@ -123,6 +123,9 @@ class Axes {
   /// Whether a fault was noticed that proves the counts of an axis wrong, since it was last
   /// powered.
   bool isDisproved(Axis axis) const { return (disproved_ & (1 << axis)) != 0; }
+  /// Whether its encoder missed so many steps, since a length was declared, that the length is
+  /// wrong by more than an eighth of the position error's limit.
+  bool hasMissedSteps(Axis axis) const;
 
  private:
   struct One {
@@ -132,13 +135,15 @@ class Axes {
     uint16_t raw = 0;     ///< encoder, as last read
     int16_t moved = 0;    ///< [encoder counts] at the last tick
     int16_t duty = 0;
-    int32_t most_counts = 0;  ///< [encoder counts] of kMostTravel
-    int32_t counts = 0;       ///< [encoder counts] since zero length
-    int32_t set_point = 0;    ///< [counts of motion::kCountsPerMm]
-    int32_t most_behind = 0;  ///< [counts of motion::kCountsPerMm]
-    int32_t asked = 0;        ///< by how much a tick soon to come will change it
-    int16_t astray = 0;       ///< [encoder counts] turned for real while motion is imagined
-    float per_count = 1;      ///< [mm] may be negative
+    uint16_t missed_before = 0;  ///< illegal steps when a length was declared
+    uint16_t most_missed = 0;    ///< illegal steps beyond which a length is wrong
+    int32_t most_counts = 0;     ///< [encoder counts] of kMostTravel
+    int32_t counts = 0;          ///< [encoder counts] since zero length
+    int32_t set_point = 0;       ///< [counts of motion::kCountsPerMm]
+    int32_t most_behind = 0;     ///< [counts of motion::kCountsPerMm]
+    int32_t asked = 0;           ///< by how much a tick soon to come will change it
+    int16_t astray = 0;          ///< [encoder counts] turned for real while motion is imagined
+    float per_count = 1;         ///< [mm] may be negative
     float turns_per_count = 1;
     float turns_per_mm = 1;
     float turns_per_fine = 1;  ///< per count of motion::kCountsPerMm
@@ -155,6 +160,7 @@ class Axes {
   int32_t measured(const One& one) const;
   void note(motion::Fault seen, Axis axis);
   void imagine(One& one, int32_t counts);
+  void forgetMissed(Axis axis) { axis_[axis].missed_before = drives_.illegalSteps(axis); }
   static int32_t countsOf(const One& one, float length);
 
   Drives& drives_;

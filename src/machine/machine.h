@@ -70,7 +70,9 @@ class Machine : private Waiting, private Dispatch {
   /// Says the texts as one line.
   void raiseAlarm(FlashText text, FlashText more, FlashText end);
   void watchAxes();
+  void watchEncoders();
   void raiseAlarmOf(motion::Fault fault);
+  static FlashText mendAndSet();
   void changeFeed(gcode::Quick quick);
   bool isHalted() const { return lock_ != Lock::kOpen; }
   bool isFarAhead() const;

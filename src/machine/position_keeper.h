@@ -25,6 +25,10 @@ class PositionKeeper {
   bool trustsChains() const { return (lost_ & (kLostChains | kUnset)) == 0; }
   /// Whether z can be trusted, too.
   bool trustsAll() const { return lost_ == 0; }
+  /// Whether the length of an axis can be trusted.
+  bool trusts(Axis axis) const {
+    return axis == kZAxis ? (lost_ & (kLostZ | kUnset)) == 0 : trustsChains();
+  }
   /// Whether something was known that is not any more.
   bool hasLost() const { return (lost_ & (kLostChains | kLostZ)) != 0; }
 

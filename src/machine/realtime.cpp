@@ -132,10 +132,24 @@ void Machine::watchAxes() {
     out_.line(
         FLASH("The feed yields: a chain or z falls behind. Look for a weak supply or what holds "
               "the sled, or ask for a slower feed."));
+  watchEncoders();
   const motion::Fault fault = axes_.fault();
   // Tests make errors on purpose.
   if (axis_tests_.isTesting()) return;
   if (fault != motion::Fault::kNone) raiseAlarmOf(fault);
+}
+
+void Machine::watchEncoders() {
+  for (uint8_t i = 0; i < kAxisCount; ++i) {
+    if (!keeper_.trusts(Axis(i)) || !axes_.hasMissedSteps(Axis(i))) continue;
+    keeper_.doubt(Axis(i));
+    raiseAlarm(FLASH("An encoder missed steps (B30 says which), so its counts are wrong. "),
+               mendAndSet(), FLASH(""));
+  }
+}
+
+FlashText Machine::mendAndSet() {
+  return FLASH("Check the cables, press Stop, set the chains (B06 or B08), or z (G10 Z0).");
 }
 
 void Machine::raiseAlarmOf(motion::Fault fault) {
@@ -145,13 +159,12 @@ void Machine::raiseAlarmOf(motion::Fault fault) {
                       FLASH(", then look for what holds it."));
   // Either proves counts wrong.
   place_.doubtCounts();
-  const FlashText kEnd =
-      FLASH("Check the cables, press Stop, set the chains (B06 or B08), or z (G10 Z0).");
   if (fault == motion::Fault::kStands)
-    return raiseAlarm(kFirst, FLASH(": a motor is driven and its encoder stands still. "), kEnd);
+    return raiseAlarm(kFirst, FLASH(": a motor is driven and its encoder stands still. "),
+                      mendAndSet());
   raiseAlarm(kFirst,
              FLASH(": a motor turns against its drive; it or its encoder is wired in reverse. "),
-             kEnd);
+             mendAndSet());
 }
 
 void Machine::noteHang() {

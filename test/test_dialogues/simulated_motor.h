@@ -31,8 +31,20 @@ class SimulatedMotor {
   /// The encoder, as the board's 16-bit counter shows it.
   uint16_t count() const { return uint16_t(int64_t(std::floor(counted_ / per_count_))); }
 
+  /// The same for a board that sees the next edges in pairs, so often, and cannot tell which way.
+  uint16_t countMissing() {
+    const uint16_t now = count();
+    for (; to_miss > 0 && std::abs(int16_t(now - missed_ - seen_)) > 1; --to_miss, ++illegal)
+      missed_ = uint16_t(missed_ + (int16_t(now - missed_ - seen_) > 0 ? 2 : -2));
+    return seen_ = uint16_t(now - missed_);
+  }
+
   /// After a power cut the board counts from zero again.
-  void restartCount() { counted_ = 0.5 * per_count_; }
+  void restartCount() {
+    counted_ = 0.5 * per_count_;
+    seen_ = missed_ = illegal = 0;
+    to_miss = 0;
+  }
 
   double travel = 0;       ///< [mm] where the axis really is
   double by_hand = 0;      ///< [mm/s] at which somebody pays out chain, if the motor is off
@@ -40,8 +52,11 @@ class SimulatedMotor {
   int16_t duty = 0;
   bool powered = false, stuck = false, unplugged = false, reversed = false;
   bool complains = false;  ///< its driver
+  int to_miss = 0;         ///< pairs of edges to come
+  uint16_t illegal = 0;    ///< such pairs that came
 
  private:
   double per_count_, top_speed_;
   double speed_ = 0, counted_ = 0.5 * per_count_;
+  uint16_t seen_ = 0, missed_ = 0;
 };

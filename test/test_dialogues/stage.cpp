@@ -91,7 +91,7 @@ void Stage::release(Axis axis) {
   motor_[axis].powered = false;
 }
 
-uint16_t Stage::count(Axis axis) { return motor_[axis].count(); }
+uint16_t Stage::count(Axis axis) { return motor_[axis].countMissing(); }
 
 void Stage::arrange(bool, uint8_t) {}
 

@@ -39,7 +39,7 @@ class Stage : public machine::Wire,
   void drive(machine::Axis axis, int16_t duty) override;
   void release(machine::Axis axis) override;
   uint16_t count(machine::Axis axis) override;
-  uint16_t illegalSteps(machine::Axis) override { return 0; }
+  uint16_t illegalSteps(machine::Axis axis) override { return motor_[axis].illegal; }
   void arrange(bool over_top, uint8_t pwm_choice) override;
   void set(machine::Output output, bool high) override;
   void pulse(machine::Output output, uint8_t level) override;

@@ -65,8 +65,13 @@ void MegaStage::passWire() {
 }
 
 void MegaStage::turnEncoders() {
-  for (int axis = 0; axis < kAxisCount; ++axis)
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    // The pairs come on the wires; the stage itself misses none.
+    int& to_miss = stage_.motor(Axis(axis)).to_miss;
+    encoders_.of[axis].miss(to_miss);
+    to_miss = 0;
     encoders_.of[axis].step(*board_, stage_.count(Axis(axis)));
+  }
 }
 
 void MegaStage::showPins() {
