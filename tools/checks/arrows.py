@@ -78,6 +78,7 @@ PACKAGE = "tools/plumb"
 FLOORS = (
     ("api",),
     ("cli",),
+    ("trials",),
     ("pages", "vm"),
     ("bench", "pictures"),
     ("cure", "plan"),

@@ -50,6 +50,7 @@ class VirtualMachine {
   void advance(int milliseconds) { brain_->advance(milliseconds); }
   void start() { brain_->start(); }
   void stop() { brain_->stop(); }
+  void cutPower(unsigned draw) { brain_->cutPower(draw); }
   bool isRunning() const { return brain_->isRunning(); }
   void send(const nb::bytes& characters) { brain_->send({characters.c_str(), characters.size()}); }
   nb::bytes takeSaid() {
@@ -94,6 +95,7 @@ class VirtualMachine {
   void setWire(const std::string& axis, const std::string& fault, bool is_so) {
     world::Wires& wires = world_.wires(axisNamed(axis));
     const std::map<std::string, bool*> faults = {{"motor_reversed", &wires.motor_reversed},
+                                                 {"motor_unplugged", &wires.motor_unplugged},
                                                  {"encoder_reversed", &wires.encoder_reversed},
                                                  {"encoder_unplugged", &wires.encoder_unplugged},
                                                  {"channel_lost", &wires.channel_lost},
@@ -102,8 +104,25 @@ class VirtualMachine {
     if (found == faults.end()) throw nb::value_error(("no wire has the fault " + fault).c_str());
     *found->second = is_so;
   }
+  void missEdges(const std::string& axis, int pairs) {
+    running().missEdges(axisNamed(axis), pairs);
+  }
+  void delayProgram(int milliseconds) { running().delayProgram(milliseconds); }
+  void setMotorSupply(double volts) { world_.weakenSupply(world::MotorConstants().supply - volts); }
+  void setBoardSupply(double volts) { brain_->setSupply(volts); }
+  int spindle() { return brain_->spindle(); }
+  int laser() { return brain_->laser(); }
+  std::vector<int> eepromWrites() const {
+    const auto* const host = dynamic_cast<const brain::HostBrain*>(brain_.get());
+    return host ? host->eepromWrites() : std::vector<int>();
+  }
 
  private:
+  brain::Brain& running() {
+    if (!brain_->isRunning()) throw nb::value_error("start the machine first");
+    return *brain_;
+  }
+
   world::World world_;
   std::unique_ptr<brain::Brain> brain_;
 };
@@ -126,6 +145,8 @@ NB_MODULE(_vm, module) {
            nb::call_guard<nb::gil_scoped_release>(), "Lets time pass.")
       .def("start", &VirtualMachine::start, "Power comes, or the reset button is let go.")
       .def("stop", &VirtualMachine::stop, "Power goes at once. The EEPROM keeps what it has.")
+      .def("cut_power", &VirtualMachine::cutPower, arg("draw") = 0,
+           "As stop(); a byte that is being written is left half written, by the bits of `draw`.")
       .def_prop_ro("is_running", &VirtualMachine::isRunning)
       .def("send", &VirtualMachine::send, arg("characters"),
            "Puts characters on the line; they arrive at 57,600 baud.")
@@ -153,5 +174,17 @@ NB_MODULE(_vm, module) {
            "Lets a number of the judge's machine change with time.")
       .def("set_probe_height", &VirtualMachine::setProbeHeight, arg("z"))
       .def("set_wire", &VirtualMachine::setWire, arg("axis"), arg("fault"), arg("is_so"),
-           "A fault: motor_reversed, encoder_reversed, encoder_unplugged, channel_lost, blocked.");
+           "A fault: motor_reversed, motor_unplugged, encoder_reversed, encoder_unplugged, "
+           "channel_lost, blocked.")
+      .def("miss_edges", &VirtualMachine::missEdges, arg("axis"), arg("pairs"),
+           "The next edges of an encoder come in pairs, so often: nobody can tell which way.")
+      .def("delay_program", &VirtualMachine::delayProgram, arg("milliseconds"),
+           nb::call_guard<nb::gil_scoped_release>(),
+           "The main program does nothing for so long; interrupts go on.")
+      .def("set_motor_supply", &VirtualMachine::setMotorSupply, arg("volts"), "12 if all is well.")
+      .def("set_board_supply", &VirtualMachine::setBoardSupply, arg("volts"), "5 if all is well.")
+      .def_prop_ro("spindle", &VirtualMachine::spindle, "255ths of the time that its pin is high.")
+      .def_prop_ro("laser", &VirtualMachine::laser, "255ths of the time that its pin is high.")
+      .def_prop_ro("eeprom_writes", &VirtualMachine::eepromWrites,
+                   "How often each byte was written since the world began; none for the ELF.");
 }

@@ -28,6 +28,22 @@ class Brain {
   virtual std::vector<uint8_t> eeprom() const = 0;
   /// Only while it does not run.
   virtual void setEeprom(const std::vector<uint8_t>& bytes) = 0;
+
+  // What may go wrong.
+  /// As stop(), but a byte of the EEPROM that is being written is left half written. `draw` picks
+  /// the bits that change.
+  virtual void cutPower(unsigned draw) = 0;
+  /// The next edges of an encoder come in pairs, so often, and nobody can tell which way.
+  virtual void missEdges(int axis, int pairs) = 0;
+  /// The main program does nothing for so long; interrupts go on.
+  virtual void delayProgram(int milliseconds) = 0;
+  /// [V] The processor's supply, 5 if all is well.
+  virtual void setSupply(double volts) = 0;
+
+  // What its pins show.
+  /// How much of the time, in 255ths, the spindle's pin and the laser's are high.
+  virtual int spindle() = 0;
+  virtual int laser() = 0;
 };
 
 }  // namespace brain

@@ -2,6 +2,7 @@
 #include "brain/host_brain.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 
 #include "machine/machine.h"
@@ -11,7 +12,8 @@ namespace brain {
 namespace {
 
 const double kBytesPerMs = 5.88;             // 58,824 baud, ten bits each
-const int kOutRoom = 255;                    // [characters] that wait to be sent
+const int kRoom = 255;                       // [characters] that wait on either way
+const int kMostSilent = 1000;                // [ms] of a main program, then the motors are let go
 const machine::BoardName kShield = {2, ""};  // an L298
 
 }  // namespace
@@ -19,11 +21,13 @@ const machine::BoardName kShield = {2, ""};  // an L298
 void HostBrain::start() {
   stop();
   now_ms_ = 0;
-  byte_credit_ = out_queue_ = 0;
-  is_cut_off_ = false;
+  byte_credit_ = out_queue_ = lost_ = late_ms_ = silent_ticks_ = 0;
+  is_cut_off_ = has_hung_ = false;
   failure_ = nullptr;
-  for (int axis = 0; axis < machine::kAxisCount; ++axis)
-    counts_at_start_[axis] = world_.count(world::Axis(axis));
+  for (int axis = 0; axis < machine::kAxisCount; ++axis) {
+    encoders_[axis] = Encoder();
+    encoders_[axis].at = world_.count(world::Axis(axis));
+  }
   program_ = std::thread([this] { live(); });
 }
 
@@ -40,6 +44,13 @@ void HostBrain::stop() {
   }
   for (const world::Axis axis : {world::kLeft, world::kRight, world::kZ}) world_.drive(axis, 0);
   input_.clear();
+  received_.clear();
+  levels_[0] = levels_[1] = 0;
+}
+
+void HostBrain::cutPower(unsigned draw) {
+  stop();
+  eeprom_.tear(uint8_t(draw));
 }
 
 void HostBrain::advance(int milliseconds) {
@@ -67,16 +78,15 @@ void HostBrain::live() {
     awaitTurn();
     const FlashTable table;
     machine::Machine machine({*this, *this, *this, *this, eeprom_, table}, kShield);
-    ticked_ = &machine;
     machine.begin();
     tick_every_ms_ = 1000 / machine.ticksPerSecond();
-    tick_ = [](void* ticked) { static_cast<machine::Machine*>(ticked)->tick(); };
+    ticked_ = &machine;
     for (;;) machine.loop();
   } catch (const PowerGone&) {
   } catch (...) {
     failure_ = std::current_exception();
   }
-  tick_ = nullptr;
+  ticked_ = nullptr;
   handBack();
 }
 
@@ -95,37 +105,87 @@ void HostBrain::handBack() {
 }
 
 void HostBrain::idle() {
-  passMillisecond();
-  if (--left_ms_ > 0) return;
-  handBack();
-  awaitTurn();
+  noteAlive();
+  do {
+    passMillisecond();
+    if (--left_ms_ <= 0) {
+      handBack();
+      awaitTurn();
+    }
+  } while (late_ms_-- > 0);
+  late_ms_ = 0;
+}
+
+void HostBrain::noteAlive() {
+  // Back from a hang the machine looks round once before ticks may drive again.
+  has_hung_ = silent_ticks_ * tick_every_ms_ >= kMostSilent && !has_hung_;
+  if (!has_hung_) silent_ticks_ = 0;
 }
 
 void HostBrain::passMillisecond() {
   ++now_ms_;
   out_queue_ = std::max(0, out_queue_ - int(now_ms_ % 8 == 0 ? 5 : 6));
-  byte_credit_ = std::min(byte_credit_ + kBytesPerMs, 12.0);
+  receive();
   world_.advance(0.001);
   eeprom_.advance(1000);
-  if (tick_ && now_ms_ % uint32_t(tick_every_ms_) == 0) tick_(ticked_);
+  if (ticked_ && now_ms_ % uint32_t(tick_every_ms_) == 0) callTick();
+}
+
+void HostBrain::receive() {
+  byte_credit_ = std::min(byte_credit_ + kBytesPerMs, kBytesPerMs + 1);
+  for (; !input_.empty() && byte_credit_ >= 1; byte_credit_ -= 1) {
+    if (received_.size() < kRoom)
+      received_ += input_.front();
+    else
+      ++lost_;
+    input_.erase(0, 1);
+  }
+}
+
+void HostBrain::callTick() {
+  if (silent_ticks_ * tick_every_ms_ >= kMostSilent) return letGo();
+  ++silent_ticks_;
+  ticked_->tick();
+}
+
+void HostBrain::letGo() {
+  for (const world::Axis axis : {world::kLeft, world::kRight, world::kZ}) world_.drive(axis, 0);
+  ticked_->noteHang();
 }
 
 int16_t HostBrain::read() {
-  if (input_.empty() || byte_credit_ < 1) return -1;
-  byte_credit_ -= 1;
-  const char character = input_.front();
-  input_.erase(0, 1);
+  if (received_.empty()) return -1;
+  const char character = received_.front();
+  received_.erase(0, 1);
   return uint8_t(character);
 }
 
+uint8_t HostBrain::lost() {
+  const int lost = std::min(lost_, 255);
+  lost_ = 0;
+  return uint8_t(lost);
+}
+
+uint16_t HostBrain::bandGap() {
+  const double kReference = 1.1;  // [V]
+  return uint16_t(kReference * 1024 / supply_ + 0.5);
+}
+
 void HostBrain::write(char character) {
-  while (out_queue_ >= kOutRoom) idle();
+  while (out_queue_ >= kRoom) idle();
   ++out_queue_;
   said_ += character;
 }
 
 uint16_t HostBrain::count(machine::Axis axis) {
-  return uint16_t(world_.count(world::Axis(axis)) - counts_at_start_[axis]);
+  Encoder& encoder = encoders_[axis];
+  int moved = world_.count(world::Axis(axis)) - encoder.at;
+  encoder.at += moved;
+  for (; encoder.to_miss > 0 && std::abs(moved) > 1; --encoder.to_miss) {
+    moved -= moved > 0 ? 2 : -2;
+    ++encoder.illegal;
+  }
+  return encoder.counted = uint16_t(encoder.counted + moved);
 }
 
 }  // namespace brain

@@ -12,6 +12,10 @@
 #include "machine/ports.h"
 #include "world/world.h"
 
+namespace machine {
+class Machine;
+}
+
 namespace brain {
 
 /// The firmware's main program in a thread of its own. Only one thread runs at a time: the
@@ -36,43 +40,66 @@ class HostBrain : public Brain,
   std::string takeSaid() override;
   std::vector<uint8_t> eeprom() const override { return eeprom_.bytes; }
   void setEeprom(const std::vector<uint8_t>& bytes) override { eeprom_.bytes = bytes; }
+  void cutPower(unsigned draw) override;
+  void missEdges(int axis, int pairs) override { encoders_[axis].to_miss += pairs; }
+  void delayProgram(int milliseconds) override { late_ms_ = milliseconds; }
+  void setSupply(double volts) override { supply_ = volts; }
+  int spindle() override { return levels_[int(machine::Output::kSpindle)]; }
+  int laser() override { return levels_[int(machine::Output::kLaser)]; }
+  /// How often each byte of the EEPROM was written.
+  const std::vector<int>& eepromWrites() const { return eeprom_.writes_of; }
 
  private:
   struct PowerGone {};
 
+  /// What the board counts of an encoder's edges.
+  struct Encoder {
+    int32_t at = 0;        ///< of the world, when last looked at
+    uint16_t counted = 0;  ///< since the start
+    uint16_t illegal = 0;  ///< steps of two edges at once
+    int to_miss = 0;       ///< such steps to come
+  };
+
   // What the firmware sees.
   int16_t read() override;
   void write(char character) override;
-  uint8_t lost() override { return 0; }
+  uint8_t lost() override;
   void drive(machine::Axis axis, int16_t duty) override { world_.drive(world::Axis(axis), duty); }
   void release(machine::Axis axis) override { world_.drive(world::Axis(axis), 0); }
   uint16_t count(machine::Axis axis) override;
-  uint16_t illegalSteps(machine::Axis) override { return 0; }
+  uint16_t illegalSteps(machine::Axis axis) override { return encoders_[axis].illegal; }
   void arrange(bool, uint8_t) override {}
-  void set(machine::Output, bool) override {}
-  void pulse(machine::Output, uint8_t) override {}
+  void set(machine::Output output, bool high) override { pulse(output, high ? 255 : 0); }
+  void pulse(machine::Output output, uint8_t level) override { levels_[int(output)] = level; }
   void turnServo(uint8_t) override {}
   bool probeTouches() override { return world_.probeTouches(); }
+  uint16_t bandGap() override;
   uint32_t milliseconds() override { return now_ms_; }
   void idle() override;
   void holdTicks() override {}
   void releaseTicks() override {}
 
   void live();
+  void noteAlive();
   void awaitTurn();
   void handBack();
   void passMillisecond();
+  void receive();
+  void callTick();
+  void letGo();
 
   world::World& world_;
   SimulatedEeprom eeprom_;
-  std::string input_, said_;
-  double byte_credit_ = 0;
-  int out_queue_ = 0;
+  std::string input_, received_, said_;
+  double byte_credit_ = 0, supply_ = 5;
+  int out_queue_ = 0, lost_ = 0, late_ms_ = 0;
   uint32_t now_ms_ = 0;
-  int32_t counts_at_start_[machine::kAxisCount] = {};
-  void (*tick_)(void* machine) = nullptr;
-  void* ticked_ = nullptr;
+  Encoder encoders_[machine::kAxisCount];
+  uint8_t levels_[2] = {0, 0};
+  machine::Machine* ticked_ = nullptr;
   int tick_every_ms_ = 10;
+  int silent_ticks_ = 0;   ///< since the main program was last heard of
+  bool has_hung_ = false;  ///< the main program is back; it has not looked round yet
 
   // The hand-over between both threads.
   std::thread program_;

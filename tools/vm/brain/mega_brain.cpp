@@ -17,12 +17,18 @@ void MegaBrain::start() {
   stop();
   board_ = std::make_unique<vm::VirtualBoard>(elf_);
   board_->setEeprom(eeprom_);
+  board_->setSupply(supply_);
+  spindle_ = std::make_unique<vm::PulseMeter>(*board_, vm::kSpindlePin);
+  laser_ = std::make_unique<vm::PulseMeter>(*board_, vm::kLaserPin);
+  late_ms_ = 0;
   for (int axis = 0; axis < world::kAxisCount; ++axis)
     encoders_.of[axis].restart(*board_, uint16_t(world_.count(world::Axis(axis))));
 }
 
 void MegaBrain::stop() {
   if (board_) eeprom_ = board_->eeprom();
+  spindle_.reset();
+  laser_.reset();
   board_.reset();
   for (const world::Axis axis : {world::kLeft, world::kRight, world::kZ}) world_.drive(axis, 0);
 }
@@ -34,7 +40,19 @@ void MegaBrain::advance(int milliseconds) {
   }
 }
 
+void MegaBrain::delayProgram(int milliseconds) {
+  board_->hang(false);
+  late_ms_ = milliseconds;
+}
+
+void MegaBrain::setSupply(double volts) {
+  supply_ = volts;
+  if (board_) board_->setSupply(volts);
+}
+
 void MegaBrain::passMillisecond() {
+  const double kAfterTick = 3;  // [ms]
+  if (late_ms_ > 0 && --late_ms_ == 0) board_->wake(kAfterTick);
   for (int slice = 0; slice < kSlicesPerMs; ++slice) {
     turnEncoders();
     board_->runMs(1.0 / kSlicesPerMs);

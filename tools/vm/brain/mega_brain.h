@@ -5,6 +5,7 @@
 
 #include "brain/brain.h"
 #include "mega/pins.h"
+#include "mega/pulse_meter.h"
 #include "world/world.h"
 
 namespace brain {
@@ -25,6 +26,13 @@ class MegaBrain : public Brain {
   std::string takeSaid() override;
   std::vector<uint8_t> eeprom() const override { return board_ ? board_->eeprom() : eeprom_; }
   void setEeprom(const std::vector<uint8_t>& bytes) override { eeprom_ = bytes; }
+  /// The simulated Mega writes a byte of its EEPROM at once, so that none is left half written.
+  void cutPower(unsigned) override { stop(); }
+  void missEdges(int axis, int pairs) override { encoders_.of[axis].miss(pairs); }
+  void delayProgram(int milliseconds) override;
+  void setSupply(double volts) override;
+  int spindle() override { return spindle_ ? spindle_->level() : 0; }
+  int laser() override { return laser_ ? laser_->level() : 0; }
 
  private:
   void passMillisecond();
@@ -34,7 +42,10 @@ class MegaBrain : public Brain {
   std::string elf_, said_;
   std::vector<uint8_t> eeprom_ = std::vector<uint8_t>(4096, 0xff);
   std::unique_ptr<vm::VirtualBoard> board_;
+  std::unique_ptr<vm::PulseMeter> spindle_, laser_;
   vm::Encoders encoders_;
+  int late_ms_ = 0;    ///< until the main program goes on
+  double supply_ = 5;  ///< [V]
 };
 
 }  // namespace brain

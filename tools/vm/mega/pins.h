@@ -39,11 +39,15 @@ class EncoderPins {
   /// Edges that are still missing to a count, which wraps round.
   int missing(uint16_t count) const { return int16_t(count - count_); }
 
+  /// The next edges come in pairs, so often: a program that listens cannot tell which way.
+  void miss(int pairs) { to_miss_ += pairs; }
+
   /// Makes one edge towards a count, if any is missing.
   void step(VirtualBoard& board, uint16_t count) {
-    const int left = missing(count);
-    if (left == 0) return;
-    count_ = uint16_t(count_ + (left > 0 ? 1 : -1));
+    const int left = missing(count), at_once = to_miss_ > 0 ? 2 : 1;
+    if (left < at_once && left > -at_once) return;
+    if (to_miss_ > 0) --to_miss_;
+    count_ = uint16_t(count_ + (left > 0 ? at_once : -at_once));
     show(board);
   }
 
@@ -57,6 +61,7 @@ class EncoderPins {
 
   int first_, second_;
   uint16_t count_ = 0, start_ = 0;
+  int to_miss_ = 0;
 };
 
 /// The encoders of all motors.

@@ -33,7 +33,8 @@ struct MotorConstants {
 
 /// What can be wrong with its wires.
 struct Wires {
-  bool motor_reversed = false, encoder_reversed = false, encoder_unplugged = false;
+  bool motor_reversed = false, encoder_reversed = false;
+  bool motor_unplugged = false, encoder_unplugged = false;
   bool channel_lost = false;  ///< of the encoder: the count goes to and fro by one
   bool blocked = false;
 };
@@ -44,7 +45,7 @@ class Motor {
   Motor(const MotorConstants& constants, unsigned seed) : c_(constants), source_(seed) {}
 
   Wires wires;
-  double weaker = 0;       ///< [V] that others take from the supply
+  double weaker = 0;       ///< [V] that the supply lacks
   double pull = 0;         ///< [Nm] of the cut, in addition to the load
   bool is_powered = true;  ///< without power no current flows: only friction brakes
 
@@ -56,8 +57,10 @@ class Motor {
     const double given = std::fabs(share) * (c_.supply - weaker) - c_.bridge_drop;
     const double volts = std::copysign(std::max(given, 0.0), share);
     const double whole = c_.resistance + c_.supply_resistance * std::fabs(share);
+    // Without a supply the bridge conducts nothing, so it brakes nothing.
+    const bool is_fed = is_powered && !wires.motor_unplugged && c_.supply - weaker > c_.bridge_drop;
     for (double t = 0; t < seconds - kStep / 2; t += kStep) {
-      current_ = is_powered ? (volts - c_.torque_constant * speed_) / whole : 0;
+      current_ = is_fed ? (volts - c_.torque_constant * speed_) / whole : 0;
       step(c_.torque_constant * current_, kStep);
     }
   }

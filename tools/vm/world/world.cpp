@@ -60,7 +60,7 @@ void World::advance(double seconds) {
   for (const Motor& motor : motors_) sag += motor.sag();
   for (int axis = 0; axis < kAxisCount; ++axis) {
     Motor& motor = motors_[axis];
-    motor.weaker = sag - motor.sag();
+    motor.weaker = lacking_ + sag - motor.sag();
     motor.run(-duties_[axis], seconds);
   }
   seconds_ += seconds;

@@ -63,6 +63,8 @@ class World {
   void set(const std::string& number, double value) { sled_.set(number, value); }
   void creep(const std::string& number, double per_second) { creeps_[number] = per_second; }
   Wires& wires(Axis axis) { return motors_[axis].wires; }
+  /// Lets the motors' supply be so much lower than 12 V.
+  void weakenSupply(double volts) { lacking_ = volts; }
   void setProbeHeight(double z) { probe_height_ = z; }
 
  private:
@@ -76,6 +78,7 @@ class World {
   std::array<double, kAxisCount> laid_;      // [mm] of travel when the motors began
   std::map<std::string, double> creeps_;     // by number, a second
   double seconds_ = 0, hung_ = 0, probe_height_ = -1e9;
+  double lacking_ = 0;  // [V] of the motors' supply
   bool hangs_ = false;
 };
 

@@ -1,0 +1,1 @@
+"""Faults and long jobs on the virtual machine: what a machine does when something goes wrong."""
