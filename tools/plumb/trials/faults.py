@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from plumb.trials.job import Job
 from plumb.trials.scene import AXES, START, Scene
 
-Story = Callable[[Scene], Iterator[float]]
+Story = Callable[[Scene], Iterator[float | None]]
 
 
 MOVES = 8
@@ -52,37 +52,37 @@ class Fault:
     caught_by: str = ""  # who notices what the machine cannot
 
 
-def power_cut(scene: Scene) -> Iterator[float]:
+def power_cut(scene: Scene) -> Iterator[float | None]:
     """The plug is pulled."""
     scene.cut_power()
     yield 500
 
 
-def cut_at_a_byte(scene: Scene) -> Iterator[float]:
+def cut_at_a_byte(scene: Scene) -> Iterator[float | None]:
     """Power goes while a byte of the EEPROM is written: of a setting, a mark, a position."""
     start, byte = sum(scene.machine.eeprom_writes), scene.seed % BYTES
     while sum(scene.machine.eeprom_writes) - start <= byte:
-        yield 1
+        yield None
     scene.machine.advance(int(scene.source.integers(4)))
     scene.cut_power()
     yield 500
 
 
-def motors_cut(scene: Scene) -> Iterator[float]:
+def motors_cut(scene: Scene) -> Iterator[float | None]:
     """The motors' supply goes; the processor lives on USB."""
     scene.machine.set_motor_supply(0)
     yield 3000
     scene.machine.set_motor_supply(12)
 
 
-def sag(scene: Scene) -> Iterator[float]:
+def sag(scene: Scene) -> Iterator[float | None]:
     """The motors' supply sags for a while."""
     scene.machine.set_motor_supply(scene.source.uniform(5, 10))
     yield scene.source.uniform(300, 5000)
     scene.machine.set_motor_supply(12)
 
 
-def board_sag(scene: Scene) -> Iterator[float]:
+def board_sag(scene: Scene) -> Iterator[float | None]:
     """The processor's supply sags for a while, not so far that it stops."""
     scene.machine.set_board_supply(scene.source.uniform(4.0, 4.25))
     yield scene.source.uniform(1000, 4000)
@@ -92,7 +92,7 @@ def board_sag(scene: Scene) -> Iterator[float]:
 def wire_fault(fault: str, *, axes: tuple[str, ...] = AXES[:2]) -> Story:
     """A wire of an axis comes off, and stays off."""
 
-    def story(scene: Scene) -> Iterator[float]:
+    def story(scene: Scene) -> Iterator[float | None]:
         axis = axes[scene.source.integers(len(axes))]
         scene.machine.set_wire(axis, fault, True)
         yield 0
@@ -100,7 +100,7 @@ def wire_fault(fault: str, *, axes: tuple[str, ...] = AXES[:2]) -> Story:
     return story
 
 
-def nothing(scene: Scene) -> Iterator[float]:
+def nothing(scene: Scene) -> Iterator[float | None]:
     """All is well."""
     yield 0
 
@@ -115,7 +115,7 @@ def mend(scene: Scene) -> None:
     scene.machine.set_board_supply(5)
 
 
-def edges_lost(scene: Scene) -> Iterator[float]:
+def edges_lost(scene: Scene) -> Iterator[float | None]:
     """Edges of an encoder come in pairs: nobody can tell which way."""
     scene.machine.miss_edges(scene.axis, int(scene.source.integers(1, 400)))
     yield 0
@@ -126,20 +126,20 @@ def wired_wrong(fault: str) -> Callable[[Scene], None]:
     return lambda scene: scene.machine.set_wire(scene.axis, fault, True)
 
 
-def blocked_for_a_while(scene: Scene) -> Iterator[float]:
+def blocked_for_a_while(scene: Scene) -> Iterator[float | None]:
     """Something holds a motor, and lets it go."""
     scene.machine.set_wire(scene.axis, "blocked", True)
     yield scene.source.uniform(20, 1500)
     scene.machine.set_wire(scene.axis, "blocked", False)
 
 
-def late(scene: Scene) -> Iterator[float]:
+def late(scene: Scene) -> Iterator[float | None]:
     """The main program is late."""
     scene.machine.delay_program(int(scene.source.integers(50, 3000)))
     yield 4000
 
 
-def line_reset(scene: Scene) -> Iterator[float]:
+def line_reset(scene: Scene) -> Iterator[float | None]:
     """Another program opens the line, and the board starts again."""
     scene.machine.stop()
     yield 1000
@@ -148,7 +148,7 @@ def line_reset(scene: Scene) -> Iterator[float]:
 def given_up(characters: bytes) -> Story:
     """The client ends the job in the middle."""
 
-    def story(scene: Scene) -> Iterator[float]:
+    def story(scene: Scene) -> Iterator[float | None]:
         scene.machine.send(characters)
         scene.give_up()
         yield 0
@@ -159,7 +159,7 @@ def given_up(characters: bytes) -> Story:
 def character_becomes(others: Callable[[Scene, bytes], bytes]) -> Story:
     """A character of the next line arrives as others."""
 
-    def story(scene: Scene) -> Iterator[float]:
+    def story(scene: Scene) -> Iterator[float | None]:
         def spoil(line: bytes) -> bytes:
             place = int(scene.source.integers(len(line)))
             return line[:place] + others(scene, line[place : place + 1]) + line[place + 1 :]
@@ -170,13 +170,13 @@ def character_becomes(others: Callable[[Scene, bytes], bytes]) -> Story:
     return story
 
 
-def noise(scene: Scene) -> Iterator[float]:
+def noise(scene: Scene) -> Iterator[float | None]:
     """A burst of noise between two characters."""
     scene.machine.send(scene.source.bytes(int(scene.source.integers(1, 40))))
     yield 0
 
 
-def tooth(scene: Scene) -> Iterator[float]:
+def tooth(scene: Scene) -> Iterator[float | None]:
     """A chain jumps over a tooth of its sprocket."""
     scene.machine.slip(scene.axis, 6.35)
     yield 0
@@ -190,13 +190,13 @@ def pulled_without_power(scene: Scene) -> None:
     scene.listen(START)
 
 
-def bracket(scene: Scene) -> Iterator[float]:
+def bracket(scene: Scene) -> Iterator[float | None]:
     """A motor's bracket slips on the beam."""
     scene.machine.set("motor_gap", 2978.4 - scene.source.uniform(2, 10))
     yield 0
 
 
-def beam(scene: Scene) -> Iterator[float]:
+def beam(scene: Scene) -> Iterator[float | None]:
     """The beam settles for the rest of the job."""
     scene.machine.creep("motor_height", -0.2)
     yield 0

@@ -142,8 +142,9 @@ switches the power off and on. Each time the machine is asked where it is.
 
 - *Noticed*: the machine said so, or said that it does not know its place.
 - *Stopped within*: the longest way of the bit from the fault until it stood, where the job stopped.
-- *Off its way*: how far the bit went at most from the way of the same job without the fault. A chain
-  that runs by a millimetre moves the bit by up to two.
+  A line that is refused stops the client; the moves before it are carried out.
+- *Off its way*: how far the bit went at most from the way of the same job without the fault. A
+  chain that runs by a millimetre moves the bit by up to two.
 - *Sure and astray*: the largest error of a place of which the machine said that it knows it, z
   included. Beyond {BELIEVED:g} mm it is a *false belief*.
 - Not noticed is what does no harm: a fault between two moves, or a sag that slows nothing.
@@ -167,7 +168,7 @@ def page(report: FaultReport) -> str:
     if report.unseen:
         parts.append(UNSEEN_INTRODUCTION)
         parts.append(markdown(UNSEEN_HEADER, [row.unseen_cells() for row in report.unseen]))
-    return "\n".join(parts)
+    return "\n".join(parts).replace("\n\n\n", "\n\n")
 
 
 def markdown(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

@@ -8,15 +8,18 @@ from math import ceil
 from plumb.vm.garage import VirtualMachine
 from plumb.vm.in_process import MOMENT, InProcessPort
 
+WAITING = 1  # [ms] between two looks of a story that waits for its moment
+
 
 class LineLostError(Exception):
     """Nobody answers at the other end of the line any more."""
 
 
 class Strike:
-    """A story that begins at a time; it yields how long [ms] it pauses."""
+    """A story that begins at a time; it yields how long [ms] it pauses, or None while it waits for
+    its moment."""
 
-    def __init__(self, story: Iterator[float], at: float) -> None:
+    def __init__(self, story: Iterator[float | None], at: float) -> None:
         """at [s] of the machine's time."""
         self._story, self._next = story, at
         self.struck_at: float | None = None  # [s]
@@ -29,12 +32,14 @@ class Strike:
     def look(self, now: float) -> None:
         """Go on with the story if its pause is over."""
         while not self.is_over and now >= self._next - 1e-9:
-            if self.struck_at is None:
-                self.struck_at = now
             try:
-                self._next = now + next(self._story) / 1000
+                pause = next(self._story)
             except StopIteration:
                 self.is_over = True
+                return
+            if pause is not None and self.struck_at is None:
+                self.struck_at = now
+            self._next = now + (WAITING if pause is None else pause) / 1000
 
 
 class Wire(InProcessPort):

@@ -22,7 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         action="extend",
         default=[],
-        help="only faults whose names begin so ("plumb faults --tries 1" lists them)",
+        help="only faults whose names begin so (docs/faults.md lists them)",
     )
     parser.add_argument(
         "--tries",
