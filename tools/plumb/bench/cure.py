@@ -7,12 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.bench.boards import BoardCut, TrueMachine
-from plumb.bench.causes import HALF, MAKER
-from plumb.board.observations import observe
+from plumb.bench.boards import TrueMachine
+from plumb.bench.causes import HALF
 from plumb.fit.fit import fit, rms
+from plumb.fit.inputs import Inputs
 from plumb.fit.shape import best_pose
-from plumb.marks.read import Measurements
 from plumb.model.predict import FOUND, lengths
 from plumb.settings.machine import MachineSettings
 
@@ -48,23 +47,18 @@ def shape_error(machine: TrueMachine, settings: MachineSettings) -> float:
     return rms(pose.errors) if pose else 0.0
 
 
-def refitted(
-    measurements: Measurements,
-    effects: Sequence[str],
-    sigma: float,
-    settings: MachineSettings = MAKER,
-) -> MachineSettings:
+def refitted(inputs: Inputs, effects: Sequence[str], sigma: float) -> MachineSettings:
     """The settings with the frame and these effects fitted, as `plumb add` does it."""
-    return fit(settings, observe(settings, measurements), effects=effects, sigma=sigma).settings
+    model, rows = inputs.model_and_observations()
+    return fit(model, rows, effects=effects, sigma=sigma, checked=inputs.checked).settings
 
 
-def cure_of(
-    board: BoardCut, effects: Sequence[str], *, sigma: float, settings: MachineSettings = MAKER
-) -> Cure:
+def cure_of(machine: TrueMachine, inputs: Inputs, effects: Sequence[str], *, sigma: float) -> Cure:
     """What naming these effects is worth on a board; sigma [mm] as the diagnosis took it."""
-    truth = board.machine.hidden.effects
+    truth = machine.hidden.effects
     fits = {
-        named: shape_error(board.machine, refitted(board.measurements, named, sigma, settings))
+        named: shape_error(machine, refitted(inputs, named, sigma))
         for named in {(), tuple(effects), truth}
     }
-    return Cure(shape_error(board.machine, settings), fits[()], fits[tuple(effects)], fits[truth])
+    before = shape_error(machine, inputs.settings)
+    return Cure(before, fits[()], fits[tuple(effects)], fits[truth])

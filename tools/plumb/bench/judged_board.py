@@ -10,10 +10,10 @@ import numpy as np
 from plumb.bench.boards import cut
 from plumb.bench.cure import Cure, cure_of
 from plumb.bench.hiding import slip
+from plumb.bench.loop import followed
 from plumb.bench.outcome import Outcome, look_alikes, outcome_of
+from plumb.bench.owner import BoardOwner
 from plumb.bench.scenarios import Scenario
-from plumb.diagnosis import diagnose
-from plumb.fit.inputs import Inputs
 
 MOST_ALIKE = 3  # causes of a board whose look-alikes are asked for
 LARGE_SLIP = 10.0  # [mm]
@@ -26,6 +26,8 @@ class JudgedBoard:
 
     outcome: Outcome
     cure: Cure | None  # where the sled was measured too
+    readings: int = 0  # of marks that were proposed, beyond those of the board
+    checks: int = 0  # numbers that were measured directly
 
 
 def judge_board(scenario: Scenario, index: int, *, seed: int) -> JudgedBoard:
@@ -46,15 +48,16 @@ def judge_board(scenario: Scenario, index: int, *, seed: int) -> JudgedBoard:
     kind = scenario.slips[index % len(scenario.slips)] if scenario.slips else None
     if kind:
         board, slipped = slip(board, kind, np.random.default_rng(number + 17))
-    diagnosis = diagnose(Inputs(scenario.settings, board.measurements))
+    owner = BoardOwner(np.random.default_rng(number + 29), scenario.noise)
+    loop = followed(board, scenario.settings, owner, rounds=scenario.rounds)
+    board, diagnosis = loop.board, loop.diagnosis
     alike = frozenset[str]().union(
         *(look_alikes(*cause, plan, scenario.noise) for cause in hidden.causes[:MOST_ALIKE])
     )
     cure = None
     if scenario.cured:
-        cure = cure_of(
-            board, diagnosis.to_add, sigma=diagnosis.noise.sigma, settings=scenario.settings
-        )
+        inputs, sigma = loop.inputs(scenario.settings), diagnosis.noise.sigma
+        cure = cure_of(board.machine, inputs, diagnosis.to_add, sigma=sigma)
     small = kind is not None and kind.millimetres < LARGE_SLIP
     outcome = outcome_of(diagnosis, board, alike=alike, slipped=slipped, small_slip=small)
-    return JudgedBoard(outcome, cure)
+    return JudgedBoard(outcome, cure, loop.readings, len(loop.checked))

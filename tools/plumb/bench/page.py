@@ -7,13 +7,15 @@ from collections.abc import Sequence
 from plumb.bench.report import (
     CURE_HEADER,
     HEADER,
+    LOOP_HEADER,
     Report,
     cells,
     cure_cells,
     line_words,
+    loop_cells,
     value_words,
 )
-from plumb.bench.scenarios import CURE
+from plumb.bench.scenarios import CURE, LOOP
 
 INTRODUCTION = """# How often the diagnosis is right
 
@@ -58,6 +60,14 @@ explanation added, and with the truth added. Where nothing is provable the lab a
 where nothing fits, it adds the effect that stands out most.
 """
 
+LOOPS = """
+## After two rounds of proposals
+
+The same where the owner twice measures what `plumb next` puts first (marks on the same sheet, or a
+direct check of a number), with the mean number of marks read and numbers checked for it. The truth
+is known to a fit of the same marks and checks.
+"""
+
 
 def page(report: Report) -> str:
     """The whole page."""
@@ -65,8 +75,12 @@ def page(report: Report) -> str:
     parts.append(markdown(HEADER, cells(report)))
     if report.cures:
         parts.append(CURES)
-        parts.append(markdown(CURE_HEADER, cure_cells(report)))
+        parts.append(markdown(CURE_HEADER, cure_cells(report.cures)))
         parts.append(f"\nLine for the ratio of all: {line_words(CURE)}, {report.cure_judged}.\n")
+    if report.loops:
+        parts.append(LOOPS)
+        parts.append(markdown(LOOP_HEADER, loop_cells(report.loops)))
+        parts.append(f"\nLine for the ratio of all: {line_words(LOOP)}, {report.loop_judged}.\n")
     if report.by_kind:
         rows = [[name, kind, rate.name, value_words(rate)] for name, kind, rate in report.by_kind]
         parts.append("\n## By what was hidden\n")

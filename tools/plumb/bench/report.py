@@ -8,11 +8,10 @@ from dataclasses import dataclass
 import joblib  # type: ignore[import-untyped]  # it brings no types
 import numpy as np
 
-from plumb.bench.cure import Cure
 from plumb.bench.judged_board import JudgedBoard, judge_board
 from plumb.bench.outcome import Outcome
 from plumb.bench.rates import Line, Rate, rate_of
-from plumb.bench.scenarios import CURE, SCENARIOS, Scenario
+from plumb.bench.scenarios import CURE, LOOP, SCENARIOS, Scenario
 
 Progress = Callable[[str, int], None]  # called with each scenario and how many more boards are done
 AT_ONCE = 4  # boards between two steps of the progress
@@ -38,13 +37,14 @@ class Cured:
     frame: float
     after: float
     known: float
+    error: float  # of the ratio
+    readings: float = 0.0  # mean number of marks that were proposed and read
+    checks: float = 0.0  # mean number of direct measurements
 
     @property
     def ratio(self) -> Rate:
         """Error with what was named over that with the truth known."""
         return Rate(CURE.name, self.after / self.known, self.error, self.boards)
-
-    error: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -54,6 +54,7 @@ class Report:
     rows: tuple[Row, ...]
     by_kind: tuple[tuple[str, str, Rate], ...]  # scenario, what was hidden, share that was right
     cures: tuple[Cured, ...]  # the last is that of all boards together
+    loops: tuple[Cured, ...]  # the same after rounds of proposals
     boards: int  # of each scenario
     seed: int
     counted: int  # boards of all scenarios; fewer than asked for if the bench was interrupted
@@ -68,6 +69,11 @@ class Report:
     def cure_judged(self) -> str:
         """How all cures together stand against their line; empty if none was measured."""
         return CURE.judge(self.cures[-1].ratio) if self.cures else ""
+
+    @property
+    def loop_judged(self) -> str:
+        """The same after rounds of proposals."""
+        return LOOP.judge(self.loops[-1].ratio) if self.loops else ""
 
 
 def run(
@@ -116,22 +122,15 @@ def _report(
 ) -> Report:
     rows: list[Row] = []
     kinds: list[tuple[str, str, Rate]] = []
-    cures: list[tuple[str, list[Cure]]] = []
     for scenario in scenarios:
         outcomes = [trial.outcome for trial in trials[scenario.name]]
         rows += rows_of(scenario, outcomes)
         kinds += _by_kind(scenario, outcomes)
-        if scenario.cured:
-            cures_of_scenario = [trial.cure for trial in trials[scenario.name] if trial.cure]
-            cures.append((scenario.name, cures_of_scenario))
-    if len(cures) > 1:
-        cures.append(
-            ("all of these", [cure for _, cures_of_scenario in cures for cure in cures_of_scenario])
-        )
     return Report(
         tuple(rows),
         tuple(kinds),
-        tuple(_cured(name, cures_of_scenario) for name, cures_of_scenario in cures),
+        _all_cured([each for each in scenarios if each.cured and not each.rounds], trials),
+        _all_cured([each for each in scenarios if each.cured and each.rounds], trials),
         boards,
         seed,
         sum(map(len, trials.values())),
@@ -166,12 +165,24 @@ def _by_kind(scenario: Scenario, outcomes: Sequence[Outcome]) -> list[tuple[str,
     ]
 
 
-def _cured(name: str, cures: Sequence[Cure]) -> Cured:
+def _all_cured(
+    scenarios: Sequence[Scenario], trials: Mapping[str, Sequence[JudgedBoard]]
+) -> tuple[Cured, ...]:
+    """The errors at the sled of each scenario, and of all together where there are several."""
+    each = [(scenario.name, trials[scenario.name]) for scenario in scenarios]
+    if len(each) > 1:
+        each.append(("all of these", [trial for _, of_scenario in each for trial in of_scenario]))
+    return tuple(_cured(name, of_scenario) for name, of_scenario in each)
+
+
+def _cured(name: str, trials: Sequence[JudgedBoard]) -> Cured:
+    cures = [trial.cure for trial in trials if trial.cure]
     errors = np.array([(cure.before, cure.frame, cure.after, cure.known) for cure in cures])
     before, frame, after, known = errors.mean(axis=0).tolist()
     apart = errors[:, 2] - after / known * errors[:, 3]
     error = float(np.sqrt(np.sum(apart**2))) / (len(errors) * known)
-    return Cured(name, len(errors), before, frame, after, known, error)
+    more = np.array([(trial.readings, trial.checks) for trial in trials]).mean(axis=0).tolist()
+    return Cured(name, len(errors), before, frame, after, known, error, *more)
 
 
 def value_words(rate: Rate) -> str:
@@ -196,6 +207,7 @@ def line_words(line: Line | None) -> str:
 
 HEADER = ("scenario", "hidden", "marks", "noise", "rate", "seen", "line", "")
 CURE_HEADER = ("scenario", "boards", "before", "frame only", "after", "truth known", "ratio")
+LOOP_HEADER = (*CURE_HEADER, "marks more", "checks")
 
 
 def cells(report: Report) -> list[list[str]]:
@@ -215,7 +227,7 @@ def cells(report: Report) -> list[list[str]]:
     ]
 
 
-def cure_cells(report: Report) -> list[list[str]]:
+def cure_cells(cures: Sequence[Cured]) -> list[list[str]]:
     """The rows of the table of errors at the sled."""
     return [
         [
@@ -224,5 +236,14 @@ def cure_cells(report: Report) -> list[list[str]]:
             *(f"{value:.2f} mm" for value in (cured.before, cured.frame, cured.after, cured.known)),
             value_words(cured.ratio),
         ]
-        for cured in report.cures
+        for cured in cures
+    ]
+
+
+def loop_cells(loops: Sequence[Cured]) -> list[list[str]]:
+    """The same after rounds of proposals, with what was measured for it."""
+    rows = cure_cells(loops)
+    return [
+        [*row, f"{cured.readings:.1f}", f"{cured.checks:.1f}"]
+        for row, cured in zip(rows, loops, strict=True)
     ]

@@ -46,6 +46,7 @@ class Scenario:
     shown: tuple[str, ...] = ()  # rates without a line that are worth a look
     settings: MachineSettings = MAKER  # in force when the board is cut
     cured: bool = False  # whether the sled is measured too, with what was named added
+    rounds: int = 0  # in which the best proposal of `plumb next` is carried out
 
     @property
     def plan(self) -> Plan:
@@ -227,8 +228,27 @@ SCENARIOS: tuple[Scenario, ...] = (
         settings=PUBLISHED,
         cured=True,
     ),
+    *(
+        Scenario(
+            f"loop-{name}",
+            f"{what}; two rounds of what plumb next proposes",
+            hide,
+            marks=marks,
+            shown=("right class first", "named"),
+            settings=settings,
+            cured=True,
+            rounds=2,
+        )
+        for name, what, hide, marks, settings in (
+            ("one-9", _ONE, raw(3.0, REAL), 9, MAKER),
+            ("typical-9", "1 to 3 usual sizes", typical(1, 3, CAUSES), 9, MAKER),
+            ("pairs-25", "two effects of 6 mm", pairs(6.0, LARGE), 25, MAKER),
+            ("usual-15", "as usual-25", usual_machine, 15, PUBLISHED),
+        )
+    ),
     *(_slips(count, marks) for count in (1, 2) for marks in (9, 15, 25, 35)),
     *(_no_slips(count) for count in (1, 2)),
 )
 NAMES = tuple(scenario.name for scenario in SCENARIOS)
 CURE = Line("error over that of the known truth", most=1.3)
+LOOP = Line(CURE.name, most=1.1)  # after two rounds

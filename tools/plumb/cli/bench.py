@@ -14,16 +14,18 @@ from plumb.bench.page import page
 from plumb.bench.report import (
     CURE_HEADER,
     HEADER,
+    LOOP_HEADER,
     Report,
     cells,
     cure_cells,
     line_words,
+    loop_cells,
     value_words,
 )
 from plumb.bench.report import (
     run as run_bench,
 )
-from plumb.bench.scenarios import CURE, NAMES, SCENARIOS, Scenario
+from plumb.bench.scenarios import CURE, LOOP, NAMES, SCENARIOS, Scenario
 from plumb.cli.arguments.bench import BOARDS, FAST
 from plumb.cli.ending import INTERRUPTED
 from plumb.cli.output import write_outputs
@@ -101,7 +103,7 @@ def as_text(report: Report) -> str:
     """The tables for people, what is missed last."""
     parts = [_rates_of(name, report) for name in dict.fromkeys(row[0] for row in cells(report))]
     if report.cures:
-        parts.append(table(CURE_HEADER, cure_cells(report)))
+        parts.append(table(CURE_HEADER, cure_cells(report.cures)))
         parts.append(
             sentences(
                 [
@@ -112,6 +114,12 @@ def as_text(report: Report) -> str:
                 ],
                 mark="",
             )
+        )
+    if report.loops:
+        parts.append(table(LOOP_HEADER, loop_cells(report.loops)))
+        said = f"Line for the ratio: {line_words(LOOP)}, {report.loop_judged}."
+        parts.append(
+            sentences([f"The same after two rounds of what plumb next proposes. {said}"], mark="")
         )
     missed = [
         f"missed: {row.scenario.name}, {row.rate.name} {value_words(row.rate)}, line "
@@ -177,9 +185,12 @@ def as_json(report: Report) -> dict[str, Any]:
                 "known": cure.known,
                 "ratio": cure.ratio.value,
                 "ratio_error": cure.error,
+                "readings_more": cure.readings,
+                "checks": cure.checks,
             }
-            for cure in report.cures
+            for cure in (*report.cures, *report.loops)
         ],
         "missed": [f"{row.scenario.name}: {row.rate.name}" for row in report.missed]
-        + ["error at the sled"] * (report.cure_judged == "missed"),
+        + ["error at the sled"] * (report.cure_judged == "missed")
+        + ["error at the sled after two rounds"] * (report.loop_judged == "missed"),
     }

@@ -152,7 +152,8 @@ def add(
     _refuse_too_few(measurements, rows, names, priors)
     _refuse_unfelt(measurements, rows, names)
     noise = noise_of(inputs, model, rows)
-    weighted = partial(fit, model, rows, sigma=noise.sigma, degrees=noise.degrees)
+    known = inputs.checked
+    weighted = partial(fit, model, rows, sigma=noise.sigma, degrees=noise.degrees, checked=known)
     before_fit = weighted(priors=priors)
     before = quality_of(before_fit, rows)
     fits = [weighted(effects=names[: i + 1], priors=priors) for i in range(len(names))]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,8 +10,9 @@ import scipy
 
 from plumb.board.observations import Observations
 from plumb.board.sighting import OUTSIDE_NAMES, SHEET_ROTATION
-from plumb.fit.problem import PRIORS, USUAL_SIGMA, Problem
+from plumb.fit.problem import PRIORS, USUAL_SIGMA, Checked, Problem
 from plumb.fit.solver import Solution, solve
+from plumb.model.catalogue import parameter_names
 from plumb.model.predict import Array, settings_of
 from plumb.settings.machine import MachineSettings
 
@@ -88,13 +89,18 @@ def fit(
     priors: Mapping[str, float] = PRIORS,
     sigma: float | None = None,
     degrees: float = np.inf,
+    checked: Sequence[Checked] = (),
 ) -> Fit:
     """Fit the frame within its priors and the parameters of `effects` to the observations.
 
     `settings` is the model to start from; sigma [mm] of one coordinate, estimated if None, and the
-    degrees of freedom that it is known with.
+    degrees of freedom that it is known with. `checked` are numbers that were measured directly;
+    those of what is not fitted do not count.
     """
-    problem = Problem.of(settings, observations, effects, priors, sigma or USUAL_SIGMA)
+    names = tuple(effects)
+    fitted = {*priors, *(parameter for name in names for parameter in parameter_names(name))}
+    known = [check for check in checked if check.name in fitted and priors.get(check.name, 1.0) > 0]
+    problem = Problem.of(settings, observations, names, priors, sigma or USUAL_SIGMA, known)
     return _fit_of(problem, solve(problem), sigma, degrees)
 
 
@@ -102,14 +108,15 @@ def _fit_of(problem: Problem, solution: Solution, stated: float | None, degrees:
     """The fit with its intervals and left-out errors; `stated` is the sigma, if it is known."""
     rows, here = problem.observations, solution.at
     slopes, errors = here.slopes[: rows.count], here.residual[: rows.count] * problem.sigma
-    priors = np.diag(problem.held.astype(float))
+    held = here.slopes[rows.count :]  # by priors and direct checks
+    priors = held.T @ held
     leverage = slopes @ np.linalg.pinv(slopes.T @ slopes + priors, hermitian=True) @ slopes.T
     spent = float(np.trace(leverage))
     spare = max(len(errors) - spent, 1e-9)
     sigma = stated or max(float(np.sqrt(errors @ errors / spare)), SMALLEST_SIGMA)
     known = spare if stated is None else degrees
     width = 1.96 if np.isinf(known) else float(scipy.special.stdtrit(known, 0.975))
-    # Intervals for the noise as estimated; what a prior holds grows no wider than the prior.
+    # Intervals for the noise as estimated; what a prior or a check holds grows no wider than that.
     normal = slopes.T @ slopes * (problem.sigma / sigma) ** 2 + priors
     deviation = np.sqrt(np.diag(np.linalg.pinv(normal, hermitian=True)))
     marks, distances = errors[: rows.measured.size].reshape(-1, 2), errors[rows.measured.size :]

@@ -6,7 +6,7 @@ import pytest
 from plumb.cure.add import add, priors_with
 from plumb.cure.demo import MARKS, SETTINGS
 from plumb.fit.inputs import Inputs
-from plumb.fit.problem import PRIORS
+from plumb.fit.problem import PRIORS, Checked
 from plumb.marks.read import Measurements, read_marks
 from plumb.model.predict import library
 from plumb.settings.files import read_settings
@@ -129,6 +129,26 @@ def test_every_number_may_be_held():
     result = add(Inputs(BELIEVED, BOARD, priors=held), effects=["chain_pitch"])
     assert result.before.fit_rms == pytest.approx(result.raw.rms)
     assert result.settings.motor_gap == BELIEVED.motor_gap
+
+
+def test_what_was_measured_directly_holds_the_fit():
+    # A tape and the frame draw nearly alike on few marks; a check says how long the tape is.
+    true = replace(TRUE, motor_gap=TRUE.motor_gap + 4.0)
+    marks = Measurements(marks_on(true, BELIEVED, grid(3, 3)))
+    effects = ["chain_stretch", "tape_scale"]
+
+    def tape_of(checked):
+        inputs = Inputs(BELIEVED, marks, sigma=0.5, checked=checked)
+        parameters = add(inputs, effects=effects).parameters
+        return next(each for each in parameters if each.name == "tape_scale.strain")
+
+    free = tape_of(())
+    held = tape_of((Checked("tape_scale.strain", 0.0004, 1e-5),))
+    assert held.value == pytest.approx(0.0004, abs=2e-5)
+    assert held.high - held.low < 5e-5 < free.high - free.low
+    # Numbers that are not fitted, or held, do not count.
+    others = (Checked("frame_flex.inward", 0.01, 1e-4), Checked("rotation_radius", 139.0, 0.5))
+    assert tape_of(others) == free
 
 
 def test_an_unknown_effect_is_refused_with_the_known_ones():

@@ -1,0 +1,85 @@
+"""The owner of a board of the bench, and the loop: proposals carried out on the same machine."""
+
+import numpy as np
+import pytest
+from plumb.bench.boards import cut, plan
+from plumb.bench.causes import MAKER, SLED, Hidden, causes_of
+from plumb.bench.loop import followed
+from plumb.bench.owner import BoardOwner
+from plumb.bench.report import loop_cells, run
+from plumb.bench.scenarios import SCENARIOS
+from plumb.plan.ahead import Check
+from plumb.plan.planned_visits import sent
+
+PITCH = causes_of("chain_pitch")[1]  # the left chain more than the right
+
+
+def board_and_owner(*, noise=0.0):
+    """A board with unlike chains, and its owner."""
+    board = cut(Hidden(((PITCH, 4.0),), backlash=0.2), plan(3, 3), seed=5, noise=noise)
+    return board, BoardOwner(np.random.default_rng(1), noise)
+
+
+def visits_of(layout, **more):
+    """The marks of a plan once more."""
+    return sent(
+        MAKER,
+        layout.targets,
+        controller="plumb",
+        sled_weight=SLED,
+        approaches=layout.approaches,
+        **more,
+    )
+
+
+def test_the_owner_reads_the_same_machine_on_the_same_sheet():
+    board, owner = board_and_owner()
+    again = owner.with_marks(board, visits_of(plan(3, 3))).measurements.marks
+    assert len(again) == 18
+    for first, second in zip(again[:9], again[9:], strict=True):
+        assert second.measured == pytest.approx(first.measured, abs=1e-6)
+        assert second.approach == first.approach
+
+
+def test_swapped_chains_take_their_pitch_along():
+    board, owner = board_and_owner()
+    marks = owner.with_marks(board, visits_of(plan(3, 3), swapped=True)).measurements.marks
+    assert all(mark.chains_swapped for mark in marks[9:])
+    first, swapped = (np.array([mark.measured for mark in part]) for part in (marks[:9], marks[9:]))
+    # The longer chain lets the sled down on its side.
+    assert np.ptp(swapped[:, 0] - first[:, 0]) + abs((swapped - first)[:, 0].mean()) > 2.0
+
+
+def test_a_direct_check_finds_what_is_there():
+    board, owner = board_and_owner()
+    names = {"chain_pitch.left": 0.004, "chain_pitch.right": 0.0012, "tape_scale.strain": 0.0}
+    names |= {"motor_gap": board.machine.motor_gap, "rotation_radius": MAKER.rotation_radius}
+    names["chain_stretch.compliance"] = MAKER.effect("chain_stretch", "compliance")
+    for check in owner.checked(board, [Check(name, 1e-9) for name in names]):
+        assert check.value == pytest.approx(names[check.name], abs=1e-8)
+
+
+def test_a_sled_that_cannot_hang_is_refused():
+    board, owner = board_and_owner()
+    visits = visits_of(plan(3, 3))
+    visits.chains[0] = 10.0
+    with pytest.raises(ValueError, match="cannot hang"):
+        owner.with_marks(board, visits)
+
+
+def test_what_is_proposed_is_measured_once_each_round():
+    board, owner = board_and_owner(noise=0.5)
+    loop = followed(board, MAKER, owner, rounds=2)
+    assert len(loop.done) == len(set(loop.done)) == 2
+    assert loop.readings == len(loop.board.measurements.marks) - 9
+    assert loop.readings or loop.checked
+    assert followed(board, MAKER, owner, rounds=0).done == ()
+
+
+def test_the_report_says_what_a_loop_cost():
+    scenario = next(scenario for scenario in SCENARIOS if scenario.name == "loop-one-9")
+    report = run([scenario], boards=1, seed=3, progress=lambda name, count: None)
+    assert not report.cures and report.loop_judged
+    (cured,) = report.loops
+    assert cured.readings + cured.checks > 0 and cured.known > 0
+    assert loop_cells([cured])[0][-2:] == [f"{cured.readings:.1f}", f"{cured.checks:.1f}"]
