@@ -23,10 +23,11 @@ from plumb.cure.record import record_of
 from plumb.diagnosis.sentence import verdict_sentence
 from plumb.firmware.client_files import client_files
 from plumb.fit.inputs import Inputs
-from plumb.text.errors import refusal
+from plumb.text.errors import InputError, refusal
 from plumb.text.shown import bare
 
 PICTURE = "error-falls"
+BUILT = str(Path(__file__).resolve().parents[3] / ".pio/build/megaatmega2560/firmware.elf")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -38,7 +39,10 @@ def _run(arguments: Sequence[str] | None) -> int:
     parsed = _parser().parse_args(arguments)
     _make(parsed.folder)
     if not parsed.real:
-        shown = demo_loop.shown(parsed.folder, seed=parsed.seed, elf=parsed.mega)
+        try:
+            shown = demo_loop.shown(parsed.folder, seed=parsed.seed, elf=parsed.mega)
+        except RuntimeError as error:
+            raise InputError(f"--mega: {error}") from None
         files = shown.files | ({parsed.picture: shown.picture} if parsed.picture else {})
         write_outputs(files, inputs=[])
         print(demo_loop.as_text(shown.loop))
@@ -85,7 +89,12 @@ def _parser() -> Parser:
         "--seed", metavar="N", type=int, default=1, help="another machine, another effect [1]"
     )
     parser.add_argument(
-        "--mega", metavar="ELF", help="run this flashed program on a simulated Mega: ten minutes"
+        "--mega",
+        metavar="ELF",
+        nargs="?",
+        const=BUILT,
+        help="run a flashed program on a simulated Mega, ten minutes; without a name the program "
+        "that pio run has built",
     )
     return parser
 

@@ -29,6 +29,7 @@ from plumb.cli.arguments import (
     read,
     send,
     settings,
+    soak,
     telemetry,
     vm,
 )
@@ -67,6 +68,7 @@ COMMANDS: Mapping[str, Command] = {
     "flash": flash,
     "vm": vm,
     "faults": faults,
+    "soak": soak,
     "effects": effects,
     "telemetry": telemetry,
     "bench": bench,

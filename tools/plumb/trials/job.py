@@ -29,9 +29,9 @@ class Job:
         self._at = middle
 
     def lines(self, moves: int) -> list[str]:
-        """As many moves, from a start in millimetres and absolute places."""
+        """As many moves, from where the last ended; the first begin in the middle."""
         kinds = (self._line, self._line, self._jog, self._arc, self._curve, self._drill, self._rest)
-        drawn = ["G21 G90"]
+        drawn = ["G21 G90", self._to("G0", *self._at)]
         for _ in range(moves):
             drawn += kinds[self._source.integers(len(kinds))]()
         return drawn

@@ -88,3 +88,10 @@ def test_an_effect_must_lower_both_honest_errors():
     assert is_better(Quality(0.9, 1.1, 1.4, 2.0, 1.0), known)
     assert not is_better(Quality(0.9, 1.1, 1.6, 2.0, 1.0), known)
     assert not is_better(Quality(0.9, 1.3, 1.4, 2.0, 1.0), known)
+
+
+def test_mega_alone_runs_the_program_that_was_built(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr("plumb.cli.demo.BUILT", "absent.elf")
+    assert main(["--folder", str(tmp_path), "--mega"]) == 2
+    said = capsys.readouterr().err
+    assert said == "demo: --mega: cannot read absent.elf; build it with pio run\n"
