@@ -51,6 +51,8 @@ class Wire(InProcessPort):
         self.strike: Strike | None = None
         self.way = list[tuple[float, float, float]]()  # [s, mm, mm] of the sled, every MOMENT
         self.patience = float("inf")  # [s] until the operator gives up
+        self.longest_silence = 0.0  # [s] of the machine
+        self._heard_at = machine.seconds
 
     def write(self, characters: bytes) -> None:
         """Put characters on the line, spoilt or whole."""
@@ -63,7 +65,11 @@ class Wire(InProcessPort):
         self.pass_time(MOMENT)
         if not self.machine.is_running or self.machine.seconds > self.patience:
             raise LineLostError
-        return self.machine.take_said()
+        said = self.machine.take_said()
+        if said:
+            self.longest_silence = max(self.longest_silence, self.machine.seconds - self._heard_at)
+            self._heard_at = self.machine.seconds
+        return said
 
     def pass_time(self, milliseconds: int) -> None:
         """Let time pass, and strike when it is time to."""
