@@ -143,6 +143,7 @@ def explain(
         board.problem,
         free=free_columns(board, effects),
         start=None if start is None else start.unknowns,
+        at_start=start.at if start and start.board.problem is board.problem else None,
         close_enough=AT_REST,
     )
     return Explanation(board, effects, solution.at, solution.settled)

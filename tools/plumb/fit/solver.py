@@ -32,13 +32,16 @@ def solve(
     *,
     free: Columns | None = None,
     start: Array | None = None,
+    at_start: Linearized | None = None,
     close_enough: float = CLOSE_ENOUGH,
 ) -> Solution:
     """The least chi-square over the unknowns in the columns `free` (None: all of them).
 
-    Raises InputError where the sled of the start cannot hang.
+    at_start: the problem at the start, if it is known. Raises InputError where the sled of the
+    start cannot hang.
     """
-    here = problem.at(np.zeros(len(problem.names)) if start is None else start)
+    zeros = np.zeros(len(problem.names))
+    here = at_start or problem.at(zeros if start is None else start)
     if here is None:
         raise InputError("with these settings the sled cannot hang where the marks were sent")
     columns: Columns = np.arange(len(problem.names)) if free is None else free

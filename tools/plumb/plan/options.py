@@ -23,6 +23,7 @@ FEW = 4  # marks of a proposal
 MANY_GRID, MANY_MARGIN = (7, 4), (0.07, 0.12)  # the 28 marks that it is compared with
 SHARPER = 1.5  # times better than what is known: else a check is not worth the way
 READ_AGAIN = 3  # times each mark is read again
+MOST_NEAR = 60  # marks next to each of which a new one is thought of
 MOST_AGAIN = 12  # marks that are all visited again with another weight
 # Minutes: a round at the machine, a mark cut and read, a mark read once more, a change of weight,
 # chains swapped and brought to 12 o'clock again.
@@ -204,7 +205,12 @@ class _Shop:
 
     def pool(self, weight: float, *, swapped: bool = False) -> Visits:
         """Places near the marks there are, and new ones, as far as they are usable so loaded."""
-        places = np.vstack([self.inwards(ROOM_FOR_A_SECOND), self.new_targets])
+        near = self.inwards(ROOM_FOR_A_SECOND)
+        if len(near) > MOST_NEAR:
+            # Of marks that lie close together a few do as well as all.
+            gaps = np.linalg.norm(grid(self.case.settings.sheet)[:, np.newaxis] - near, axis=2)
+            near = near[np.unique(gaps.argmin(axis=1))]
+        places = np.vstack([near, self.new_targets])
         places = places[usable(self.case.settings, places, weight)]
         return self.visits(places, weight, swapped=swapped)
 

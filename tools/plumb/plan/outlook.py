@@ -83,21 +83,44 @@ def _tests(case: Case, planned: Planned, noise: Noise) -> dict[int, Rediagnosis]
     return tests
 
 
+@dataclass(frozen=True)
+class _Boards:
+    """Simulated boards in the rows of a Rediagnosis."""
+
+    few: Array  # (rows, count)
+    beyond: Array  # (count,) squares of the readings beyond those rows
+
+
 class Rediagnosis:
-    """The diagnosis of many simulated boards with the same rows."""
+    """The diagnosis of many simulated boards with the same rows.
+
+    What is read of marks is turned so that few rows hold all that any unknown can change; what is
+    beyond those only adds to the misfit.
+    """
 
     def __init__(self, case: Case, rows: Ahead, noise: Noise, twin: Rediagnosis | None) -> None:
         """`twin`: the same rows by another explanation's slopes, whose limit serves here too."""
         board = case.board
         self.rows, self.board = rows, board
         self.noise = noise
+        self.turned, few = np.linalg.qr(rows.slopes[rows.marks])
+        self.slopes = np.vstack([few, rows.slopes[~rows.marks]])
+        self.marks = np.arange(len(self.slopes)) < len(few)
         self.is_left_out = bool(left_out(case.frame))
-        self.frame = span(rows.slopes[:, board.frame])
+        self.frame = span(self.slopes[:, board.frame])
         self.nothing = len(board.effect_columns)  # explanations left where nothing is proved
         self.columns = {name: board.columns([name]) for name in board.effect_columns}
         self.felt = [
             name for name, columns in self.columns.items() if rows.slopes[:, columns].any()
         ]
+        self.lengths = np.linalg.norm(self.slopes, axis=0)
+        felt_columns = {
+            name: columns[self.lengths[columns] > 0]
+            for name, columns in self.columns.items()
+            if name in self.felt
+        }
+        self.single = {name: each[0] for name, each in felt_columns.items() if len(each) == 1}
+        self.several = {name: each for name, each in felt_columns.items() if len(each) > 1}
         several = [
             hypothesis.effects for hypothesis in case.hypotheses if len(hypothesis.effects) > 1
         ]
@@ -114,7 +137,7 @@ class Rediagnosis:
         """The surprise that noise hardly exceeds beyond the frame."""
         bases = {}
         for name in self.felt:
-            raw = self.rows.slopes[:, self.board.columns([name])]
+            raw = self.slopes[:, self.board.columns([name])]
             bases[name] = span(raw - self.frame @ (self.frame.T @ raw), against=raw)
         return limit_of_noise(bases, self.noise)
 
@@ -125,10 +148,11 @@ class Rediagnosis:
         drawn += source.standard_normal(drawn.shape)
         return np.vstack([np.repeat(truth.data[:, np.newaxis], count, axis=1), drawn])
 
-    def judged(self, truth: Hypothesis, boards: Array, *, alone: bool) -> tuple[float, float]:
+    def judged(self, truth: Hypothesis, drawn: Array, *, alone: bool) -> tuple[float, float]:
         """On what share of boards the truth is proved (alone among all), and how many explanations
         stand on average."""
-        proved = self._gains(self.frame, (), boards)[0] > self.limit
+        boards = self._turned(drawn)
+        proved = self._gains(self.frame, (), boards.few)[0] > self.limit
         stands = self._stands(truth.effects, boards)
         if not alone:
             return float((proved & stands).mean()), float("nan")
@@ -138,15 +162,16 @@ class Rediagnosis:
         return float((proved & stands & (counts == 1)).mean()), float(left.mean())
 
     def weighed(
-        self, truth: Hypothesis, boards: Array, listed: Sequence[tuple[Effects, ...]]
+        self, truth: Hypothesis, drawn: Array, listed: Sequence[tuple[Effects, ...]]
     ) -> tuple[float, float]:
         """The same where accounts are weighed: those listed on each board count if they fit. An
         account that leaves out a small effect of the truth is right too."""
-        proved = self._gains(self.frame, (), boards)[0] > self.limit
-        counts, right = np.zeros(boards.shape[1], dtype=int), np.zeros(boards.shape[1], dtype=bool)
+        boards = self._turned(drawn)
+        proved = self._gains(self.frame, (), boards.few)[0] > self.limit
+        counts, right = np.zeros(len(listed), dtype=int), np.zeros(len(listed), dtype=bool)
         for effects in {effects for accounts in listed for effects in accounts}:
             there = np.array([effects in accounts for accounts in listed])
-            there[there] = self._fits(effects, boards[:, there])
+            there[there] = self._fits(effects, boards)[there]
             counts += there
             right |= there & ({*truth.counts_with} <= {*effects} <= {*truth.effects})
         if not self.is_left_out:
@@ -158,34 +183,43 @@ class Rediagnosis:
         left = np.where(proved, np.maximum(counts, 1), self.nothing)
         return float((proved & right & (counts == 1)).mean()), float(left.mean())
 
-    def _fits(self, effects: Effects, boards: Array) -> Array:
+    def _turned(self, drawn: Array) -> _Boards:
+        read = drawn[self.rows.marks]
+        few = self.turned.T @ read
+        beyond = np.sum(read**2, axis=0) - np.sum(few**2, axis=0)
+        return _Boards(np.vstack([few, drawn[~self.rows.marks]]), np.maximum(beyond, 0.0))
+
+    def _spare(self, fitted: Array) -> float:
+        """How many measured numbers orthonormal columns of what is fitted leave over."""
+        return float(self.rows.marks.sum() - np.sum(fitted[self.marks] ** 2))
+
+    def _fits(self, effects: Effects, boards: _Boards) -> Array:
         """Whether an account leaves no misfit and has sizes that a machine can have (count,)."""
-        slopes, columns = self.rows.slopes, self.board.columns(effects)
+        slopes, columns = self.slopes, self.board.columns(effects)
         drawn = slopes[:, columns] - self.frame @ (self.frame.T @ slopes[:, columns])
         inverse = np.linalg.pinv(drawn, rcond=1e-6)
-        sizes = inverse @ boards
-        left = boards - self.frame @ (self.frame.T @ boards) - drawn @ sizes
-        read = self.rows.marks
-        spare = read.sum() - np.sum(span(slopes[:, [*self.board.frame, *columns]])[read] ** 2)
+        sizes = inverse @ boards.few
+        left = boards.few - self.frame @ (self.frame.T @ boards.few) - drawn @ sizes
+        spare = self._spare(span(slopes[:, [*self.board.frame, *columns]]))
         half = self.noise.quantile * np.sqrt(np.sum(inverse**2, axis=1))
-        fits: Array = self._misfit(left[read], spare) > MISFIT_LEVEL
+        fits: Array = self._misfit(left, boards.beyond, spare) > MISFIT_LEVEL
         fits &= possible_sizes(self.board, columns, sizes, half)
         return fits
 
-    def _stands(self, effects: Effects, readings: Array) -> Array:
+    def _stands(self, effects: Effects, boards: _Boards) -> Array:
         """Whether nothing is to be added to an explanation, and it fits (count,)."""
         columns = np.concatenate([self.board.frame, self.board.columns(effects)])
-        fitted = span(self.rows.slopes[:, columns])
-        sample = readings[:, :: max(1, readings.shape[1] // FEWEST)]
+        fitted, count = span(self.slopes[:, columns]), boards.few.shape[1]
+        sample = boards.few[:, :: max(1, count // FEWEST)]
         if self._gains(fitted, effects, sample)[0].min() > self.limit + HOPELESS:
-            return np.zeros(readings.shape[1], dtype=bool)
-        best, left = self._gains(fitted, effects, readings)
-        read = self.rows.marks
-        spare = read.sum() - np.sum(fitted[read] ** 2)
-        return (best <= self.limit) & (self._misfit(left[read], spare) > MISFIT_LEVEL)
+            return np.zeros(count, dtype=bool)
+        best, left = self._gains(fitted, effects, boards.few)
+        misfit = self._misfit(left, boards.beyond, self._spare(fitted))
+        return (best <= self.limit) & (misfit > MISFIT_LEVEL)
 
-    def _misfit(self, left: Array, spare: float) -> Array:
-        squares = np.sum(left**2, axis=0)
+    def _misfit(self, left: Array, beyond: Array, spare: float) -> Array:
+        """The chance of as much misfit (count,) by what a fit leaves in the rows and beyond."""
+        squares = beyond + np.sum(left[self.marks] ** 2, axis=0)
         within = self.noise.within
         spare, squares = spare - within.degrees, squares - within.squares / self.noise.sigma**2
         if spare < 0.5 or not self.noise.testable:
@@ -196,20 +230,16 @@ class Rediagnosis:
     def _gains(self, fitted: Array, effects: Effects, readings: Array) -> tuple[Array, Array]:
         """The largest surprise of any other effect (count,), and what the fit leaves."""
         left = readings - fitted @ (fitted.T @ readings)
-        slopes = self.rows.slopes
+        slopes = self.slopes
         beyond = slopes - fitted @ (fitted.T @ slopes)
         gram, along = beyond.T @ beyond, beyond.T @ left
-        lengths = np.einsum("ru,ru->u", slopes, slopes)
         # Among effects with as many parameters the largest drop is the largest surprise.
-        drops: dict[int, Array] = {}
-        for name in self.felt:
+        drops: dict[int, Array] = {1: self._single_drop(gram, along, effects)}
+        for name, columns in self.several.items():
             if name in effects:
                 continue
-            columns = self.columns[name]
-            columns = columns[lengths[columns] > 0]
-            seen, drop = _drop(
-                gram[np.ix_(columns, columns)], along[columns], np.sqrt(lengths[columns])
-            )
+            block = gram[columns[:, np.newaxis], columns]
+            seen, drop = _drop(block, along[columns], self.lengths[columns])
             if seen:
                 drops[seen] = np.maximum(drops.get(seen, 0.0), drop)
         best = np.zeros(readings.shape[1])
@@ -217,14 +247,18 @@ class Rediagnosis:
             best = np.maximum(best, surprises(drop, seen, self.noise.degrees))
         return best, left
 
+    def _single_drop(self, gram: Array, along: Array, effects: Effects) -> Array:
+        """The largest drop of chi-square (count,) by an effect of a single parameter."""
+        columns = np.array([self.single[name] for name in self.single if name not in effects], int)
+        seen = columns[np.diag(gram)[columns] > _TINY * self.lengths[columns] ** 2]
+        drops = along[seen] ** 2 / np.diag(gram)[seen, np.newaxis]
+        largest: Array = drops.max(axis=0, initial=0.0)
+        return largest
+
 
 def _drop(gram: Array, along: Array, lengths: Array) -> tuple[int, Array | float]:
     """How many parameters of an effect are seen beyond what is fitted, and the drop of chi-square
     (count,) that they bring."""
-    if len(lengths) == 1:
-        if gram[0, 0] <= _TINY * lengths[0] ** 2:
-            return 0, 0.0
-        return 1, along[0] ** 2 / gram[0, 0]
     values, turned = np.linalg.eigh(gram / np.outer(lengths, lengths))
     seen = values > _TINY
     parts = turned[:, seen].T @ (along / lengths[:, np.newaxis])

@@ -1,6 +1,7 @@
 """Tests of the table of commands: two files for each, with the same names."""
 
 import inspect
+import os
 import subprocess
 import sys
 from importlib import import_module
@@ -100,3 +101,18 @@ def test_bash_completes_a_command_and_an_option():
     )
     done = subprocess.run(["bash", "-c", script], capture_output=True, text=True)
     assert done.stdout.split() == ["calibrate", "--limit"], done.stderr
+
+
+@pytest.mark.parametrize(("said", "used"), [(None, "1"), ("3", "3")])
+def test_the_linear_algebra_has_one_thread_unless_its_user_says_more(said, used):
+    # On 405 marks `plumb next` took 14 s of CPU on two cores instead of 5.6.
+    code = (
+        "import os; from plumb.cli.main import main; main(['effects']); "
+        "import sys; print(os.environ['OPENBLAS_NUM_THREADS'], file=sys.stderr)"
+    )
+    environment = {name: value for name, value in os.environ.items() if "_NUM_THREADS" not in name}
+    environment |= {"OPENBLAS_NUM_THREADS": said} if said else {}
+    run = subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True
+    )
+    assert run.stderr.split() == [used]

@@ -17,7 +17,7 @@ from plumb.plan import propose
 from plumb.plan.ahead import Check, Planned, ahead
 from plumb.plan.case import case_of
 from plumb.plan.direct_checks import FRAME_CHECKS, effect_checks
-from plumb.plan.options import ROOM_FOR_A_SECOND, many_marks, options
+from plumb.plan.options import ROOM_FOR_A_SECOND, _Shop, many_marks, options
 from plumb.plan.outlook import Rediagnosis, outlook
 from plumb.plan.planned_visits import nowhere, sent
 from plumb.plan.separation import ENOUGH, Chooser, apart, drawn_by
@@ -152,6 +152,33 @@ def test_simulated_readings_scatter_by_what_is_open_and_by_their_noise(pitch):
     wanted = np.sum((slopes @ hypothesis.root) ** 2, axis=1) + 1
     assert boards[so_far:].var(axis=1) == pytest.approx(wanted, rel=0.15)
     assert boards[so_far:].mean(axis=1) == pytest.approx(slopes @ hypothesis.mean, abs=0.2)
+
+
+def test_what_no_unknown_can_change_is_misfit_all_the_same(pitch):
+    *_, case = pitch
+    truth = case.hypotheses[0]
+    test = Rediagnosis(case, ahead(truth.at, many_marks(case).visits), case.noise, None)
+    boards = test.boards(truth, np.random.default_rng(1), 60)
+    assert test.judged(truth, boards, alone=False)[0] > 0.8
+    read = test.rows.marks
+    odd = np.random.default_rng(2).standard_normal(read.sum())
+    basis = np.linalg.qr(test.rows.slopes[read])[0]
+    odd -= basis @ (basis.T @ odd)
+    boards[read] += 12 * (odd / np.linalg.norm(odd))[:, np.newaxis]
+    assert test.judged(truth, boards, alone=False)[0] < 0.05
+
+
+def test_next_to_many_marks_few_places_are_thought_of(pitch):
+    _, _, _, case = pitch
+    dense = plan(15, 9)
+    marks = Bench("chain_pitch", 3.0, 101).measured(visits_of(dense))
+    dense_case = case_of(diagnose(Inputs(MAKER, marks)), Inputs(MAKER, marks))
+    pool = _Shop(dense_case).pool(SLED)
+    assert 9 < len(pool) <= 40
+    assert np.ptp(pool.targets, axis=0) == pytest.approx((2180, 980), abs=40)
+    near = _Shop(case).pool(SLED).targets[: len(NINE.targets)]  # next to few marks all are
+    gaps = np.linalg.norm(near[:, np.newaxis] - NINE.targets, axis=2).min(axis=1)
+    assert gaps == pytest.approx(np.full(9, np.hypot(20, 20)), abs=20)
 
 
 def test_look_alikes_are_told_by_what_parts_them_only(first):
