@@ -1,10 +1,10 @@
 """What an effect costs a machine that does not have it: the inverse with it listed and without."""
 
-import json
 import re
 import shutil
 
 import board
+from commands import ToolError, output
 from costs import Cycles
 
 ROW = "each absent effect"
@@ -27,7 +27,7 @@ def shortened(text: str) -> tuple[str, int]:
     entries = re.findall(r"At<\d+, \w+>", text)
     kept = [entry for entry in entries if any(f" {name}>" in entry for name in KEPT)]
     if len(kept) != len(KEPT) or len(entries) == len(kept):
-        raise board.ToolError("effects.h: its list of effects is not as absent.py expects it")
+        raise ToolError("effects.h: its list of effects is not as absent.py expects it")
     listed = re.compile(r"(?<=Registry<).*?(?=>;)", re.DOTALL)
     return listed.sub(lambda _: ", ".join(kept), text, count=1), len(entries) - len(kept)
 
@@ -46,6 +46,6 @@ def built(effects: str) -> Cycles:
         board.FLOAT,
     ]
     includes = [f"-I{copy}", f"-I{board.BENCH}", f"-I{board.BUILD}"]
-    board.output("avr-g++", *board.AVR_FLAGS, *includes, *sources, "-o", elf)
-    counted = json.loads(board.output(board.BUILD / "count_cycles", elf).splitlines()[-1])
-    return Cycles(*counted[CASE]["cycles"])
+    output("avr-g++", *board.AVR_FLAGS, *includes, *sources, "-o", elf)
+    cases = board.counted(elf, board.BUILD / "count_cycles")
+    return Cycles(*cases[CASE]["cycles"])

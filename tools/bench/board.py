@@ -1,15 +1,14 @@
 """What the kinematics costs on the Mega: cycles and stack by simulation, bytes by the linker."""
 
 import json
-import os
 import re
-import subprocess
 from pathlib import Path
 
 import registry
+from commands import ROOT, ToolError, compiled, output
 from costs import Bytes, Costs, Cycles
+from kept import kept
 
-ROOT = Path(__file__).resolve().parents[2]
 BENCH = ROOT / "tools/bench"
 BUILD = ROOT / ".build/bench"
 FIRMWARE = ROOT / ".pio/build/megaatmega2560/firmware.elf"
@@ -41,10 +40,6 @@ PARTS = {
     "all three": 7,
     "constants of one machine": 8,
 }
-
-
-class ToolError(Exception):
-    """A compiler or the simulator refused."""
 
 
 def measure() -> Costs:
@@ -95,9 +90,12 @@ def motion() -> dict[str, Cycles]:
 
 def counted(elf: Path, simulator: Path, *cases: str) -> dict:
     """What the simulator, built for these cases, says of a program."""
-    source, libraries = BENCH / "count_cycles.cpp", ["-lsimavr", "-lelf"]
-    output("g++", "-O2", *INCLUDES, *cases, source, "-o", simulator, *libraries)
-    return json.loads(output(simulator, elf).splitlines()[-1])
+    options, libraries = ["-O2", *INCLUDES, *cases], ["-lsimavr", "-lelf"]
+    compiled(simulator, ["tools/bench/count_cycles.cpp"], options=options, libraries=libraries)
+    done = kept([simulator, elf], [elf], elf.name)
+    if done.returncode:
+        raise ToolError(f"{elf.name}: {done.stderr.strip()}")
+    return json.loads(done.stdout.splitlines()[-1])
 
 
 def parts(stack: dict[str, int]) -> dict[str, Bytes]:
@@ -123,13 +121,19 @@ def linked(number: int) -> tuple[int, int]:
 
 def firmware(compiler: str) -> dict[str, Bytes]:
     """The whole firmware as it is flashed; left out if another compiler built it."""
+    built_firmware()
+    if compiler not in output("avr-readelf", "-p", ".comment", FIRMWARE):
+        return {}
+    return {"whole firmware": Bytes(*sizes(FIRMWARE), None)}
+
+
+def built_firmware() -> Path:
+    """The firmware, built by PlatformIO."""
     pio = ROOT / ".venv/bin/pio"
     # The tests, which may run at the same time, build it too.
     alone = ["flock", ROOT / ".pio"]
     output(*alone, pio, "run", "--silent", "--project-dir", ROOT, "--environment", "megaatmega2560")
-    if compiler not in output("avr-readelf", "-p", ".comment", FIRMWARE):
-        return {}
-    return {"whole firmware": Bytes(*sizes(FIRMWARE), None)}
+    return FIRMWARE
 
 
 def sizes(elf: Path) -> tuple[int, int]:
@@ -141,17 +145,3 @@ def sizes(elf: Path) -> tuple[int, int]:
 def sources(program: str) -> list[Path]:
     """One program of this folder and the kinematics, for any computer."""
     return [BENCH / program, KINEMATICS / "Kinematics.cpp", KINEMATICS / "reach.cpp"]
-
-
-def output(*command: str | Path) -> str:
-    """What a command prints; a ToolError with its first complaint if it fails."""
-    environment = {**os.environ, "PLATFORMIO_DISABLE_UPGRADE_CHECK": "true"}
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, env=environment)
-    except FileNotFoundError:
-        raise ToolError(f"{command[0]} is missing; run tools/setup") from None
-    if done.returncode:
-        said = (done.stderr + done.stdout).splitlines()
-        why = next((line for line in said if "error" in line.lower()), *said[-1:])
-        raise ToolError(f"{Path(command[0]).name}: {why}" if said else f"{command[0]} failed")
-    return done.stdout.strip()

@@ -6,6 +6,7 @@ import shutil
 
 import board
 import registry
+from commands import ToolError, compiled, output
 from costs import Costs
 
 BEGIN, END = "<!-- effects: begin; written by tools/bench/run --write -->", "<!-- effects: end -->"
@@ -71,7 +72,7 @@ def built(text: str) -> int:
         copy / "reach.cpp",
         board.FLOAT,
     ]
-    board.output("avr-g++", *board.AVR_FLAGS, *includes, "-DPARTS=7", *sources, "-o", elf)
+    output("avr-g++", *board.AVR_FLAGS, *includes, "-DPARTS=7", *sources, "-o", elf)
     return board.sizes(elf)[0]
 
 
@@ -81,9 +82,8 @@ def judge_errors() -> dict[str, list[float]]:
     includes = [f"-I{folder}" for folder in folders]
     judge = sorted((board.ROOT / "tools/judge/reference").glob("*.cpp"))
     sources = [board.BENCH / "judge_errors.cpp", board.KINEMATICS / "Kinematics.cpp", *judge]
-    command = ["g++", "-std=c++17", "-O2", *includes, "-isystem", EIGEN, *sources, "-o", program]
-    board.output(*command)
-    return json.loads(board.output(program))
+    compiled(program, sources, options=["-O2", *includes, "-isystem", EIGEN])
+    return json.loads(output(program))
 
 
 def replaced(text: str, shown: str) -> str:
@@ -91,5 +91,5 @@ def replaced(text: str, shown: str) -> str:
     before, _, rest = text.partition(BEGIN)
     _, end, after = rest.partition(END)
     if not end:
-        raise board.ToolError(f"CHANGELOG.md: the marks of the effects' table are missing: {BEGIN}")
+        raise ToolError(f"CHANGELOG.md: the marks of the effects' table are missing: {BEGIN}")
     return f"{before}{BEGIN}\n{shown}\n{END}{after}"

@@ -1,10 +1,11 @@
 """What the whole firmware costs: flash, RAM, stack, control tick, lines a second, by simulation."""
 
 import re
-import subprocess
 from pathlib import Path
 
 import board
+from commands import ToolError, output
+from played import played, player
 
 BEGIN = "<!-- firmware: begin; written by tools/bench/run --write -->"
 END = "<!-- firmware: end -->"
@@ -27,10 +28,11 @@ RAM = 8192
 
 def measure() -> dict[str, float]:
     """The figures of the firmware as built by PlatformIO, by playing dialogues on simavr."""
-    sizes = board.output("avr-size", "-A", board.FIRMWARE)
+    sizes = output("avr-size", "-A", board.FIRMWARE)
     size = {name: int(value) for name, value in re.findall(r"^(\.\w+)\s+(\d+)", sizes, re.M)}
-    player = built_player()
-    slow, fast, hard = (play(player, name) for name in ("stream.nc", "fast_loop.nc", "hard.nc"))
+    program = player()
+    dialogues = ("stream.nc", "fast_loop.nc", "hard.nc")
+    slow, fast, hard = (figures_of(program, name) for name in dialogues)
     ram = size[".data"] + size[".bss"]
     stack = max(slow["stack"], fast["stack"], hard["stack"])
     return {
@@ -54,22 +56,11 @@ def most(figures: dict[str, float], name: str) -> float:
     return max(figures[f"{name}_moving"], figures[f"{name}_streaming"])
 
 
-def built_player() -> Path:
-    """The program that plays a dialogue with the flashed firmware."""
-    board.BUILD.mkdir(parents=True, exist_ok=True)
-    program = board.BUILD / "play_firmware"
-    parts = board.ROOT / "tools/vm"
-    sources = [f"-I{parts}", VM / "play_firmware.cpp", parts / "mega/virtual_board.cpp"]
-    board.output("g++", "-std=c++17", "-O2", *sources, "-lsimavr", "-lelf", "-o", program)
-    return program
-
-
-def play(player: Path, dialogue: str) -> dict[str, float]:
+def figures_of(program: Path, dialogue: str) -> dict[str, float]:
     """What the player measures in a dialogue."""
-    command = [player, board.FIRMWARE, VM / "dialogues", dialogue]
-    done = subprocess.run(command, capture_output=True, text=True)
+    done = played(program, VM / "dialogues", dialogue)
     if done.returncode:
-        raise board.ToolError(f"{dialogue}: {done.stderr.strip()}")
+        raise ToolError(f"{dialogue}: {done.stderr.strip()}")
     pairs = [line.split() for line in done.stdout.splitlines() if len(line.split()) == 2]
     return {name: float(value) for name, value in pairs}
 
@@ -107,5 +98,5 @@ def replaced(text: str, written: str) -> str:
     before, _, rest = text.partition(BEGIN)
     _, end, after = rest.partition(END)
     if not end:
-        raise board.ToolError(f"CHANGELOG.md lacks the marks {BEGIN} and {END}")
+        raise ToolError(f"CHANGELOG.md lacks the marks {BEGIN} and {END}")
     return f"{before}{BEGIN}\n{written}\n{END}{after}"

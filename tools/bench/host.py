@@ -3,9 +3,11 @@
 import json
 import time
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
-from board import BENCH, BUILD, INCLUDES, output, sources
+from board import BENCH, BUILD, INCLUDES, sources
+from commands import compiled, output
 from plan_times import plan_times
 from plumb.bench.boards import cut, plan
 from plumb.bench.causes import MAKER, Hidden, causes_of
@@ -18,20 +20,21 @@ from plumb.model import predict
 from plumb.settings.files import read_settings
 
 EXAMPLE = BENCH.parent / "plumb/examples/mibproj"
-ROUNDS = 7  # the best of these counts
+ROUNDS = 7  # the best of these counts in a record
 
 
-def measure() -> tuple[dict[str, float], float]:
-    """Times [ns] by name, and the time of one multiply-add [ns] on the same computer."""
+def measure(rounds: int) -> tuple[dict[str, float], float]:
+    """Times [ns] by name, the best of some rounds, and the time of one multiply-add [ns] on the
+    same computer."""
     program = BUILD / "host_times"
-    flags = ["-O2", "-std=c++17", "-ffp-contract=off"]
-    output("g++", *flags, *INCLUDES, *sources("host_times.cpp"), "-o", program)
+    options = ["-O2", "-ffp-contract=off", *INCLUDES]
+    compiled(program, sources("host_times.cpp"), options=options)
     times = json.loads(output(program))
     unit = times.pop("multiply-add")
-    return {**times, **lab_times()}, unit
+    return {**times, **lab_times(rounds)}, unit
 
 
-def lab_times() -> dict[str, float]:
+def lab_times(rounds: int) -> dict[str, float]:
     """The lab's own work, on the example of nine marks and on a hundred places [ns]."""
     settings = read_settings(EXAMPLE / "groundcontrol.ini", known=predict.known_effects())
     sheet = (settings.sheet_width, settings.sheet_height)
@@ -42,6 +45,7 @@ def lab_times() -> dict[str, float]:
     values = predict.values_of(settings)
     chains, _ = predict.lengths(settings, places)
     board = cut(Hidden(((causes_of("chain_pitch")[0], 1.5),)), plan(6, 6), seed=1).measurements
+    best = partial(best_of, rounds)
     return {
         "lab: verdict on 36 marks, the whole library": best(lambda: diagnose(Inputs(MAKER, board))),
         "lab: lengths of 100 places": best(lambda: predict.lengths(settings, places)),
@@ -52,11 +56,11 @@ def lab_times() -> dict[str, float]:
         f"lab: fit of {len(rows.measured)} marks, with sag and stretch": best(
             lambda: fit(settings, rows, effects=["chain_sag", "chain_stretch"])
         ),
-        **plan_times(lambda work: best(work, rounds=2)),
+        **plan_times(partial(best_of, min(rounds, 2))),
     }
 
 
-def best(work: Callable[[], object], *, rounds: int = ROUNDS) -> float:
+def best_of(rounds: int, work: Callable[[], object]) -> float:
     """Nanoseconds of the fastest of some rounds."""
     taken = []
     for _ in range(rounds):

@@ -11,6 +11,7 @@ import effects
 import firmware
 import host
 import table
+from commands import ToolError
 from costs import Costs
 
 CHANGELOG = board.ROOT / "CHANGELOG.md"
@@ -22,7 +23,7 @@ def main() -> int:
     wanted = parser.parse_args()
     try:
         return measure(write=wanted.write)
-    except (board.ToolError, table.TableError, OSError) as error:
+    except (ToolError, table.TableError, OSError) as error:
         print(f"bench: {error}", file=sys.stderr)
         return 2
 
@@ -33,7 +34,7 @@ def measure(*, write: bool) -> int:
     costs = board.measure()
     costs.cycles[absent.ROW] = absent.cost(costs.cycles[absent.CASE])
     shown = table.exact_part(costs, load("published.toml"))
-    shown += "\n\n" + table.host_part(*host.measure())
+    shown += "\n\n" + table.host_part(*host.measure(host.ROUNDS if write else 1))
     print(shown, end="\n\n")
     whole = firmware.measure()
     print(firmware.table(whole), end="\n\n")

@@ -1,6 +1,7 @@
 """The firmware as it is flashed, on a simulated Mega: its answers, its pins, its cost."""
 
 import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -8,13 +9,13 @@ import pytest
 from plumb import _core
 
 ROOT = Path(__file__).resolve().parents[3]
-ELF = ROOT / ".pio/build/megaatmega2560/firmware.elf"
+sys.path.insert(0, str(ROOT / "tools/bench"))
+import played as plays  # noqa: E402
+from played import FIRMWARE, check_board, play, played, ran  # noqa: E402
+
 BUILD = ROOT / ".build/vm"
 VM = ROOT / "test/vm"
 DIALOGUES = VM / "dialogues"
-BOARD = ROOT / "tools/vm/mega/virtual_board.cpp"
-SOURCES = [f"-I{ROOT}/tools/vm", VM / "play_firmware.cpp", BOARD]
-STRICT = ["-std=c++17", "-O2", "-Wall", "-Wextra", "-Werror"]
 TOLERANCE = 0.011  # [mm] two decimals, and a chain count or two
 RAM = 8192
 TICK_CYCLES = 160_000  # 10 ms at 16 MHz
@@ -27,19 +28,7 @@ BOOT = ["<* ok", "<* Settings are the defaults. Chain lengths are not known yet*
 @pytest.fixture(scope="module")
 def player() -> Path:
     """The program that plays dialogues on the simulated board; the firmware is built too."""
-    # Other tests and the bench, which may run at the same time, build it too.
-    pio = ["flock", ROOT / ".pio", ROOT / ".venv/bin/pio"]
-    subprocess.run([*pio, "run", "-s", "-d", ROOT, "-e", "megaatmega2560"], check=True)
-    BUILD.mkdir(parents=True, exist_ok=True)
-    program = BUILD / "play_firmware"
-    command = ["g++", *STRICT, *SOURCES, "-lsimavr", "-lelf", "-o", program]
-    subprocess.run(command, check=True)
-    return program
-
-
-def play(program: Path, folder: Path, name: str) -> subprocess.CompletedProcess:
-    command = [program, ELF, folder, name]
-    return subprocess.run(command, capture_output=True, text=True, timeout=280)
+    return plays.player()
 
 
 def figures(done: subprocess.CompletedProcess) -> dict[str, float]:
@@ -49,7 +38,9 @@ def figures(done: subprocess.CompletedProcess) -> dict[str, float]:
 
 
 def static_ram() -> int:
-    counted = subprocess.run(["avr-size", "-A", ELF], capture_output=True, text=True, check=True)
+    counted = subprocess.run(
+        ["avr-size", "-A", FIRMWARE], capture_output=True, text=True, check=True
+    )
     rows = [
         line.split() for line in counted.stdout.splitlines() if line.startswith((".data", ".bss"))
     ]
@@ -57,7 +48,7 @@ def static_ram() -> int:
 
 
 def test_it_boots_keeps_a_setting_over_a_reset_and_moves_its_motors(player):
-    counted = figures(play(player, DIALOGUES, "smoke.nc"))
+    counted = figures(played(player, DIALOGUES, "smoke.nc"))
     # A client gives up after two seconds, of which the bootloader takes one.
     assert 0 < counted["first_line_ms"] < 500
     # Static RAM and the deepest stack leave a kilobyte that nobody has ever touched.
@@ -67,32 +58,26 @@ def test_it_boots_keeps_a_setting_over_a_reset_and_moves_its_motors(player):
 @pytest.fixture(scope="module")
 def hard(player) -> dict[str, float]:
     """Three axes in motion with sag, stretch and pitch."""
-    return figures(play(player, DIALOGUES, "hard.nc"))
+    return figures(played(player, DIALOGUES, "hard.nc"))
 
 
 def test_the_simulated_mega_keeps_masked_interrupts_and_pulled_pins():
     BUILD.mkdir(parents=True, exist_ok=True)
-    elf, check = BUILD / "board_program.elf", BUILD / "check_board"
+    elf = BUILD / "board_program.elf"
     avr = ["avr-gcc", "-mmcu=atmega2560", "-DF_CPU=16000000UL", "-Os", VM / "board_program.cpp"]
     subprocess.run([*avr, "-o", elf], check=True)
-    sources = [f"-I{ROOT}/tools/vm", VM / "check_board.cpp", BOARD]
-    subprocess.run(["g++", *STRICT, *sources, "-lsimavr", "-lelf", "-o", check], check=True)
-    done = subprocess.run([check, elf], capture_output=True, text=True, timeout=60)
-    counted = figures(done)
+    counted = figures(ran(check_board(), elf))
     assert counted["masked"] == 10  # an interrupt waits behind its mask
     assert counted["taken_back"] == 0  # unless its flag is cleared
     assert counted["edges_low"] == 0  # writing to a port moves no pin that is held from outside
 
 
 def test_sum_product_and_quotient_are_those_of_avr_libc_and_faster():
-    elf, check = BUILD / "float_program.elf", BUILD / "check_board"
+    elf = BUILD / "float_program.elf"
     sources = [VM / "float_program.cpp", VM / "float_of_libc.S", ROOT / "src/board/float.S"]
     avr = ["avr-g++", "-mmcu=atmega2560", "-DF_CPU=16000000UL", "-Os", "-std=gnu++11"]
     subprocess.run([*avr, *sources, "-o", elf], check=True)
-    board = [f"-I{ROOT}/tools/vm", VM / "check_board.cpp", BOARD]
-    subprocess.run(["g++", *STRICT, *board, "-lsimavr", "-lelf", "-o", check], check=True)
-    done = subprocess.run([check, elf, "5500"], capture_output=True, text=True, timeout=400)
-    counted = figures(done)
+    counted = figures(ran(check_board(), elf, "5500"))
     assert [counted[name] for name in ("products", "sums", "differences", "quotients")] == [0] * 4
     assert counted["product_cycles"] < 0.85 * counted["product_cycles_of_libc"]
     assert counted["sum_cycles"] < 0.85 * counted["sum_cycles_of_libc"]
@@ -129,34 +114,34 @@ def test_the_firmware_tells_how_it_is_doing(hard):
 
 
 def test_short_moves_are_taken_as_fast_as_a_streaming_sender_gives_them(player):
-    counted = figures(play(player, DIALOGUES, "stream.nc"))
+    counted = figures(played(player, DIALOGUES, "stream.nc"))
     assert counted["lines_per_second"] >= 180
     assert counted["tick_share_streaming"] <= 0.12
 
 
 def test_every_effect_at_200_hz_leaves_time_for_short_moves(player):
-    counted = figures(play(player, DIALOGUES, "every_effect.nc"))
+    counted = figures(played(player, DIALOGUES, "every_effect.nc"))
     assert counted["mm_per_minute"] >= 0.9 * 1000
 
 
 def test_the_loop_runs_at_200_hz_if_a_setting_asks_for_it(player):
-    counted = figures(play(player, DIALOGUES, "fast_loop.nc"))
+    counted = figures(played(player, DIALOGUES, "fast_loop.nc"))
     assert 0.12 < counted["tick_share_streaming"] < 0.3
 
 
 @pytest.mark.parametrize("dialogue", ["hangs.nc", "held.nc", "watchdog.nc", "board.nc"])
 def test_motors_are_let_go_when_the_firmware_hangs_or_the_board_fails(player, dialogue):
-    done = play(player, DIALOGUES, dialogue)
+    done = played(player, DIALOGUES, dialogue)
     assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_power_lost_in_motion_is_known_and_a_rest_is_kept(player):
-    done = play(player, DIALOGUES, "power_cut.nc")
+    done = played(player, DIALOGUES, "power_cut.nc")
     assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_every_shield_is_known_by_its_straps(player):
-    done = play(player, DIALOGUES, "shields.nc")
+    done = played(player, DIALOGUES, "shields.nc")
     assert done.returncode == 0, done.stdout + done.stderr
 
 

@@ -12,6 +12,9 @@ import pytest
 from plumb.cli import main
 
 ROOT = Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "tools/bench"))
+from commands import compiled  # noqa: E402
+
 PAGE = ROOT / "docs/new-effect.md"
 EIGEN = ROOT / ".pio/libdeps/native/ArduinoEigen/ArduinoEigen"
 HEADER = re.compile(r"`([\w/.]+\.h)`, with the sketch's words.*?```cpp\n(.*?)```", re.DOTALL)
@@ -129,8 +132,8 @@ def judged(folder):
     """How far the laws of a copy are from its judge."""
     program = folder / "judge_errors"
     includes = ["lib/Kinematics/src", "tools/judge", "test/test_effects"]
-    judge = sorted((folder / "tools/judge/reference").glob("*.cpp"))
-    sources = ["judge_errors.cpp", "lib/Kinematics/src/Kinematics.cpp", *judge]
-    options = ["-std=c++17", "-O1", "-isystem", EIGEN, *(f"-I{part}" for part in includes)]
-    subprocess.run(["g++", *options, *sources, "-o", program], cwd=folder, check=True)
+    judge = (path.relative_to(folder) for path in folder.glob("tools/judge/reference/*.cpp"))
+    sources = ["judge_errors.cpp", "lib/Kinematics/src/Kinematics.cpp", *sorted(judge)]
+    options = ["-O1", "-isystem", EIGEN, *(f"-I{part}" for part in includes)]
+    compiled(program, sources, options=options, folder=folder)
     return subprocess.run([program, "mount_give"], capture_output=True, text=True)

@@ -1,0 +1,70 @@
+"""Dialogues on the simulated Mega, and the programs that play them."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from board import FIRMWARE, built_firmware
+from commands import ROOT, compiled
+from kept import Done, kept, run
+
+BUILD = ROOT / ".build/vm"
+STRICT = ("-O2", "-Wall", "-Wextra", "-Werror", "-Itools/vm")
+# Linked into the program, the simulator is a part of what a kept answer is known by.
+LIBRARIES = ("-l:libsimavr.a", "-lelf")
+BOARD = "tools/vm/mega/virtual_board.cpp"
+
+
+def player() -> Path:
+    """The program that plays dialogues of test/vm and measures the firmware, which is built too."""
+    built_firmware()
+    return _built("play_firmware", ["test/vm/play_firmware.cpp", BOARD])
+
+
+def stage_player() -> Path:
+    """The program that plays dialogues of test/dialogues, on the stage that the host has too.
+
+    The firmware is built as well.
+    """
+    built_firmware()
+    sources = [
+        "test/vm/play_dialogues.cpp",
+        "test/vm/mega_stage.cpp",
+        BOARD,
+        "test/test_dialogues/stage.cpp",
+        "test/test_dialogues/stage_questions.cpp",
+        *(_from_root(path) for path in sorted(ROOT.glob("tools/judge/reference/*.cpp"))),
+    ]
+    folders = ["src", "test", "tools/vm/host_avr", "tools/judge"]
+    folders += [_from_root(path) for path in sorted(ROOT.glob("lib/*/src"))]
+    includes = [f"-I{folder}" for folder in folders]
+    return _built("play_dialogues", sources, [*includes, "-isystem", "/usr/include/eigen3"])
+
+
+def check_board() -> Path:
+    """The program that runs an ELF file for a while and prints what it says."""
+    return _built("check_board", ["test/vm/check_board.cpp", BOARD])
+
+
+def play(program: Path, folder: Path, name: str) -> Done:
+    """What the player of a dialogue says of the flashed program."""
+    return run([program, FIRMWARE, folder, name])
+
+
+def played(program: Path, folder: Path, name: str) -> Done:
+    """The same; a play that went well is not played again."""
+    # Any dialogue may include any of these.
+    files = [FIRMWARE, folder / name, *sorted(folder.glob("*.inc"))]
+    return kept([program, FIRMWARE, folder, name], files, name)
+
+
+def ran(program: Path, elf: Path, *arguments: str) -> Done:
+    """What a program of ours, flashed in place of the firmware, says; kept likewise."""
+    return kept([program, elf, *arguments], [elf], elf.name)
+
+
+def _built(name: str, sources: list[str], options: Sequence[str] = ()) -> Path:
+    return compiled(BUILD / name, sources, options=[*STRICT, *options], libraries=LIBRARIES)
+
+
+def _from_root(path: Path) -> str:
+    return str(path.relative_to(ROOT))
