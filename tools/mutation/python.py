@@ -123,6 +123,8 @@ class PythonRoom:
                 "MUTATED_TEXT": str(mutated),
                 "OMP_NUM_THREADS": "1",
                 "OPENBLAS_NUM_THREADS": "1",
+                # They would take as long to load as most tests take.
+                "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",
             }
             command = [*PYTEST, "-x", "--tb=no", "-p", "swapped_module", *self.tests]
             try:
