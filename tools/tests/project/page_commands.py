@@ -8,6 +8,8 @@ The commands of a page run one after the other, in a folder with a copy of docs/
 
 from __future__ import annotations
 
+import atexit
+import contextlib
 import os
 import re
 import shutil
@@ -16,7 +18,11 @@ import sys
 import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from preloaded import preloaded
 
 ROOT = Path(__file__).resolve().parents[3]
 EXAMPLE = ROOT / "docs/example"
@@ -71,7 +77,7 @@ def run_in(folder: Path, commands: list[str]) -> list[Printed]:
             shutil.copy(file, folder)
     for name in ("tools", ".venv"):
         (folder / name).symlink_to(ROOT / name)
-    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    path = os.pathsep.join(map(str, [programs(), Path(sys.executable).parent, os.environ["PATH"]]))
     done = subprocess.run(
         ["bash", "-c", script],
         cwd=folder,
@@ -82,6 +88,14 @@ def run_in(folder: Path, commands: list[str]) -> list[Printed]:
     )
     parts = re.split(rf"^{END}(\d+)\n", done.stdout, flags=re.MULTILINE)
     return [Printed(*pair) for pair in zip(parts[0::2], map(int, parts[1::2]), strict=False)]
+
+
+@cache
+def programs() -> Path:
+    """A folder with the program plumb, loaded once for all commands."""
+    until_the_end = contextlib.ExitStack()
+    atexit.register(until_the_end.close)
+    return until_the_end.enter_context(preloaded())
 
 
 def fill_in(command: str) -> str:
