@@ -49,6 +49,7 @@ sheet turned by 2 mrad (standard deviations). Every reading has its noise.
   usual size.
   *Truth covered*: an explanation has all of the truth but what could hide, and nothing else.
   *Invented*: all explanations share an effect that is not there.
+- *Loops* (`loop-`): the rates after two rounds in which what `plumb next` puts first was measured.
 - *Judged*: `open` means that the line is not reached, but these boards are too few to tell.
 """
 CURES = """
@@ -71,7 +72,7 @@ is known to a fit of the same marks and checks.
 
 def page(report: Report) -> str:
     """The whole page."""
-    parts = [INTRODUCTION, f"{report.boards} boards of each scenario, seed {report.seed}.\n"]
+    parts = [INTRODUCTION, _boards(report)]
     parts.append(markdown(HEADER, cells(report)))
     if report.cures:
         parts.append(CURES)
@@ -86,6 +87,13 @@ def page(report: Report) -> str:
         parts.append("\n## By what was hidden\n")
         parts.append(markdown(("scenario", "hidden", "rate", "seen"), rows))
     return "\n".join(parts)
+
+
+def _boards(report: Report) -> str:
+    """How many boards there are, and which."""
+    fewer = sorted({loop.boards for loop in report.loops[:-1] or report.loops} - {report.boards})
+    loops = f" ({' or '.join(map(str, fewer))} of each loop)" if fewer else ""
+    return f"{report.boards} boards of each scenario{loops}, seed {report.seed}.\n"
 
 
 def markdown(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
