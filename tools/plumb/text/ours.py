@@ -5,13 +5,16 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+PRACTICE_MARKS = b"# Marks of a virtual machine, cut for practice.\n"
 DEMO_MARKS = b"# Marks of a virtual machine, read by the demo.\n"
-# How our text files begin: a machine.toml, a grid's program, the page of the bench, a demo's marks.
+# How our text files begin: a machine.toml, a grid's program, the page of the bench, the marks of
+# a demo or of practice.
 BEGINNINGS = (
     b"# Settings of one hanging machine, for plumb.",
     b"(Plumb calibration grid)",
     b"# How often the diagnosis is right",
     DEMO_MARKS,
+    PRACTICE_MARKS,
 )
 MAKER = "Plumb"  # what a picture says of the program that drew it
 # Where the forms of a picture say it.

@@ -14,6 +14,7 @@ from plumb.firmware.numbers import firmware_numbers
 from plumb.line.sender import Sender
 from plumb.model.predict import judged
 from plumb.settings.machine import MachineSettings
+from plumb.vm.hiding import astray
 
 __all__ = ["Garage", "VirtualMachine", "random_garage", "set_up", "with_new_sheet"]
 
@@ -58,6 +59,11 @@ class Garage:
         back = np.array([[cos(turn), sin(turn)], [-sin(turn), cos(turn)]])
         turned: Array = (places - np.array(self.sheet_center)) @ back.T
         return turned
+
+    def read(self, places: Array) -> Array:
+        """What a perfect tape reads (n, 2) [mm] of marks that were cut with the sled at places."""
+        moved = places + astray(self.hidden, places, self.seed)
+        return self.hidden.read(self.on_sheet(moved))
 
 
 def random_garage(hidden: Hidden, seed: int) -> Garage:

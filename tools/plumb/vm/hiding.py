@@ -7,11 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from plumb.bench.boards import plan, size_for
-from plumb.bench.causes import Cause, Hidden, causes_of
+from plumb.bench.causes import OUTSIDE, Cause, Hidden, causes_of
 from plumb.bench.hiding import REAL
 from plumb.text.errors import InputError
 from plumb.text.values import refuse_unknown
 
+Array = np.ndarray
 RANDOM = "random"
 BOARD = plan(5, 5)  # on which an effect moves marks by so many millimetres RMS
 
@@ -31,11 +32,24 @@ def hide(names: Sequence[str], *, millimetres: float, seed: int) -> Hidden:
     return Hidden(tuple((cause, size_for(cause, BOARD, millimetres)) for cause in causes))
 
 
+def astray(hidden: Hidden, places: Array, seed: int) -> Array:
+    """How far (n, 2) [mm] the sled is off at places by what the library has no word for."""
+    if not hidden.outside:
+        return np.zeros_like(places)
+
+    def field(at: Array) -> Array:
+        return OUTSIDE[hidden.outside](at, np.random.default_rng([seed, 13]))
+
+    length = np.sqrt(np.mean(np.sum(field(BOARD.targets) ** 2, axis=1)))
+    moved: Array = field(places) * hidden.outside_mm / max(float(length), 1e-9)
+    return moved
+
+
 def described(hidden: Hidden) -> str:
     """What is hidden, in a few words."""
-    if not hidden.causes:
-        return "nothing"
-    return " and ".join(f"{cause.effect} ({cause.label})" for cause, _ in hidden.causes)
+    said = [f"{cause.effect} ({cause.label})" for cause, _ in hidden.causes]
+    said += [f"a {hidden.outside}, which no effect explains"] if hidden.outside else []
+    return " and ".join(said) or "nothing"
 
 
 def _drawn(source: np.random.Generator) -> Cause:

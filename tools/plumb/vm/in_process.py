@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from plumb._vm import VirtualMachine
 
-MOMENT = 20  # [ms] that pass while somebody listens
+MOMENT = 50  # [ms] that pass while somebody listens
 
 
 class InProcessPort:

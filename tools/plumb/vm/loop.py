@@ -18,12 +18,19 @@ from plumb.fit.inputs import Inputs
 from plumb.grid.options import Grid
 from plumb.line.sender import cleaned
 from plumb.marks.join import join_measurements
-from plumb.marks.read import Measurements, read_marks
+from plumb.marks.read import Mark, Measurements, read_marks
 from plumb.plan import Proposal, propose
+from plumb.settings.machine import MachineSettings
+from plumb.vm.budget import Budget, Spent, cutting, reading
 from plumb.vm.owner import VirtualOwner
 
 ROUNDS = 2  # times that the owner measures what is proposed
-DOABLE = ("marks", "weight", "approach", "check", "frame")  # what this owner can carry out
+# What this owner can carry out.
+DOABLE = ("marks", "weight", "approach", "check", "frame", "near", "reread")
+# [N] that this owner hangs on the sled. Under 10 kg more a motor that hardly turns against its load
+# passes for blocked, and the firmware halts.
+MOST_HUNG = 60.0
+OPEN = ("cannot_tell", "slip", "not_in_library")  # verdicts after which more is measured
 
 
 @dataclass(frozen=True)
@@ -34,7 +41,9 @@ class Loop:
     forms: tuple[str, ...]  # what was read, as files of marks: the first sheet, the last one
     before: Comparison  # the first sheet, with the owner's first settings
     first: Diagnosis
+    inputs: Inputs  # all that was measured
     done: tuple[Proposal, ...]  # what was measured besides
+    spent: Spent  # until the machine was changed
     auto: AutoAddition
     after: Comparison | None  # the second sheet; None where nothing could be added
 
@@ -59,6 +68,7 @@ def closed_loop(
     owner: VirtualOwner,
     *,
     grid: Grid,
+    budget: Budget | None = None,
     said: Callable[[str], None] = lambda sentence: None,
     progress: Callable[[float], None] = lambda share: None,
 ) -> Loop:
@@ -67,20 +77,25 @@ def closed_loop(
     said("The machine cuts a first grid.")
     owner.switch_on()
     forms = [cut.next()]
-    board = _read(owner, forms[0])
+    board = read(owner, forms[0])
     inputs = Inputs(owner.settings, board)
     before, first = compare(owner.settings, board), diagnose(inputs)
-    inputs, done = _measured_more(owner, inputs, first, said)
-    auto = add_auto(inputs)
+    more = _measured_more(owner, inputs, first, budget or Budget(), said)
+    auto = add_auto(more.inputs)
     after = None
     if auto.addition:
         said("The new numbers go to the machine, and it cuts the grid again on another sheet.")
-        owner.send(auto.addition.settings)
-        owner.lay_new_sheet(owner.garage.seed + 1, raised=auto.addition.sheet_rise)
+        lay_next_sheet(owner, auto.addition.settings, raised=auto.addition.sheet_rise)
         forms.append(cut.next())
-        after = compare(owner.settings, _read(owner, forms[-1]))
+        after = compare(owner.settings, read(owner, forms[-1]))
     progress(1.0)
-    return Loop(owner, tuple(forms), before, first, done, auto, after)
+    return Loop(owner, tuple(forms), before, first, more.inputs, more.done, more.spent, auto, after)
+
+
+def lay_next_sheet(owner: VirtualOwner, settings: MachineSettings, *, raised: float) -> None:
+    """Send new settings, and lay the second sheet on the stops, the right one `raised` [mm]."""
+    owner.send(settings)
+    owner.lay_new_sheet(owner.garage.seed + 1, raised=raised)
 
 
 class _Cutting:
@@ -102,45 +117,97 @@ class _Cutting:
         return self._owner.cut_grid(self._grid, answered=answered)
 
 
+@dataclass(frozen=True)
+class _Measured:
+    """What is known, what was done for it, and what that cost."""
+
+    inputs: Inputs
+    done: tuple[Proposal, ...]
+    spent: Spent
+
+
 def _measured_more(
-    owner: VirtualOwner, inputs: Inputs, first: Diagnosis, said: Callable[[str], None]
-) -> tuple[Inputs, tuple[Proposal, ...]]:
+    owner: VirtualOwner,
+    inputs: Inputs,
+    first: Diagnosis,
+    budget: Budget,
+    said: Callable[[str], None],
+) -> _Measured:
     """The inputs with what was proposed, as long as the marks leave a question open."""
-    diagnosis = first
+    diagnosis, usual = first, owner.settings.sled_weight
     done: tuple[Proposal, ...] = ()
-    while diagnosis.verdict == "cannot_tell" and len(done) < ROUNDS:
-        best = _best(propose(diagnosis, inputs).proposals, done)
-        if best is None:
+    spent = cutting([usual] * len(inputs.measurements.marks), usual)
+    while diagnosis.verdict in OPEN and len(done) < ROUNDS:
+        best = _best(propose(diagnosis, inputs).proposals, done, usual)
+        if best is None or not budget.allows(spent + cost_of(best, usual)):
             break
         said(f"The marks cannot tell. The owner measures: {best.option.title}.")
-        done = (*done, best)
+        done, spent = (*done, best), spent + cost_of(best, usual)
         inputs = _with(owner, inputs, best)
         diagnosis = diagnose(inputs)
-    return inputs, done
+    return _Measured(inputs, done, spent)
 
 
-def _best(proposals: tuple[Proposal, ...], done: tuple[Proposal, ...]) -> Proposal | None:
+def cost_of(proposal: Proposal, usual_weight: float) -> Spent:
+    """What following a proposal costs."""
+    option = proposal.option
+    if option.kind == "reread":
+        return reading(len(option.visits))
+    if option.checks:
+        return Spent(0, option.minutes)
+    return cutting(option.visits.sled_weights.tolist(), usual_weight)
+
+
+def _best(
+    proposals: tuple[Proposal, ...], done: tuple[Proposal, ...], usual_weight: float
+) -> Proposal | None:
     """The best proposal that this owner can carry out and has not yet."""
     titles = {proposal.option.title for proposal in done}
     for proposal in proposals:
-        option = proposal.option
-        if option.kind in DOABLE and option.title not in titles and not option.visits.swapped.any():
+        if proposal.option.title not in titles and _is_doable(proposal, usual_weight):
             return proposal
     return None
+
+
+def _is_doable(proposal: Proposal, usual_weight: float) -> bool:
+    """Whether this owner can carry it out."""
+    visits = proposal.option.visits
+    is_light = not len(visits) or visits.sled_weights.max() < usual_weight + MOST_HUNG
+    return proposal.option.kind in DOABLE and is_light and not visits.swapped.any()
 
 
 def _with(owner: VirtualOwner, inputs: Inputs, proposal: Proposal) -> Inputs:
     """The inputs with what a proposal brought."""
     option, checked = proposal.option, tuple[Checked, ...]()
+    if option.kind == "reread":
+        marks = inputs.measurements
+        for name in option.visits.names:
+            marks = _read_again(owner, marks, name)
+        return replace(inputs, measurements=marks)
     if option.checks:
         checked = tuple(owner.check(option.checks))
     if len(option.visits):
-        more = _read(owner, owner.carry_out(option.visits))
+        more = read(owner, owner.carry_out(option.visits))
         inputs = replace(inputs, measurements=join_measurements([inputs.measurements, more]))
     return replace(inputs, checked=(*inputs.checked, *checked))
 
 
-def _read(owner: VirtualOwner, form: str) -> Measurements:
+def _read_again(owner: VirtualOwner, measurements: Measurements, name: str) -> Measurements:
+    """The measurements with new readings of a mark in the place of the old."""
+    new = iter(owner.tape.read_again(name))
+    marks: list[Mark] = [
+        replace(mark, measured=next(new)) if mark.name == name else mark
+        for mark in measurements.marks
+    ]
+    return replace(measurements, marks=tuple(marks))
+
+
+def shape(comparison: Comparison) -> float:
+    """[mm] RMS of marks, the sheet laid at its best."""
+    return comparison.rms if comparison.shape_rms is None else comparison.shape_rms
+
+
+def read(owner: VirtualOwner, form: str) -> Measurements:
     """The filled form as the lab reads it."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "marks.toml")

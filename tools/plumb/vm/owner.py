@@ -40,14 +40,31 @@ FRICTION_NAME = next(
 class VirtualOwner:
     """Somebody with a garage, a machine and a tape."""
 
-    def __init__(self, garage: Garage, *, noise: float = 0.4, elf: str | None = None) -> None:
-        """noise [mm] of the tape; elf: the flashed program, else the firmware for the host."""
+    def __init__(
+        self,
+        garage: Garage,
+        *,
+        noise: float = 0.4,
+        slip: float = 0.0,
+        visit: int = 0,
+        elf: str | None = None,
+    ) -> None:
+        """noise [mm] of the tape; slip [mm] by which it reads one mark of the first sheet wrongly;
+        visit: which one this is, as each draws other noise; elf: the flashed program, else the
+        firmware for the host."""
         self.garage = garage
+        self._first_garage, self._noise, self._elf = garage, noise, elf
         self.settings = garage.settings
         self.machine: VirtualMachine = garage.machine(elf=elf)
         self.sender = Sender(InProcessPort(self.machine))
-        self._source = np.random.default_rng([garage.seed, 5])
-        self.tape = Tape(garage, self._source, noise=noise)
+        self._source = np.random.default_rng([garage.seed, 5, *([visit] if visit else [])])
+        self.tape = Tape(garage, self._source, noise=noise, slip=slip)
+
+    def again(self) -> VirtualOwner:
+        """The same machine on its first day, switched on."""
+        same = VirtualOwner(self._first_garage, noise=self._noise, elf=self._elf)
+        same.switch_on()
+        return same
 
     def switch_on(self) -> None:
         """Power on; the owner's numbers go to the machine and the chains are declared."""
@@ -97,7 +114,7 @@ class VirtualOwner:
         """Take the sheet off and lay another on the same stops, the right one `raised` [mm]."""
         self.garage = with_new_sheet(self.garage, seed, raised=raised)
         self.machine.replace_sheet()
-        self.tape.lay(self.garage)
+        self.tape.lay(self.garage, np.random.default_rng([seed, 5]))
 
 
 def plain_machine(settings: MachineSettings) -> PlainMachine:

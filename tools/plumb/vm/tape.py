@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
@@ -35,23 +35,56 @@ def marks_on(cuts: Sequence[Cut]) -> Array:
 class Tape:
     """Somebody who reads marks on a garage's sheet."""
 
-    def __init__(self, garage: Garage, source: np.random.Generator, *, noise: float) -> None:
-        """noise [mm] of a coordinate."""
+    def __init__(
+        self, garage: Garage, source: np.random.Generator, *, noise: float, slip: float = 0.0
+    ) -> None:
+        """noise [mm] of a coordinate; slip [mm] by which one reading of the first form is wrong."""
         self.garage, self._source, self._noise = garage, source, noise
+        self._slip = slip
         self._read = 0  # marks on this sheet that were read already
+        self._places: dict[str, list[Array]] = {}  # on the sheet [mm], by the mark's name
 
-    def lay(self, garage: Garage) -> None:
-        """Another sheet."""
-        self.garage, self._read = garage, 0
+    def lay(self, garage: Garage, source: np.random.Generator) -> None:
+        """Another sheet, whose readings draw their noise from another source."""
+        self._source = source
+        self.garage, self._read, self._places = garage, 0, {}
 
     def fill(self, form: str, machine: VirtualMachine) -> str:
         """A form with the marks that were cut since the last one; ValueError if it waits for more
         or fewer."""
         places = marks_on(machine.cuts())
         new, self._read = places[self._read :], len(places)
-        seen = self.garage.hidden.read(self.garage.on_sheet(new))
+        sheet = self.garage.settings.sheet
+        seen = self.garage.read(new)
         read = seen + self._noise * self._source.standard_normal(seen.shape)
-        return filled_form(form, read, sheet=self.garage.settings.sheet)
+        order = order_of(form, read, sheet=sheet)
+        for name, i in zip(_waiting_names(form), order, strict=True):
+            self._places.setdefault(name, []).append(seen[i])
+        if self._slip and len(read):
+            turn = self._source.uniform(0, 2 * np.pi)
+            slipped = self._source.integers(len(read))
+            read[slipped] += self._slip * np.array([np.cos(turn), np.sin(turn)])
+            self._slip = 0.0
+        return filled_form(form, read, sheet=sheet)
+
+    @property
+    def places(self) -> dict[str, list[tuple[float, float]]]:
+        """Where the marks on this sheet are [mm from its middle], by their names."""
+        return {
+            name: [(float(x), float(y)) for x, y in places] for name, places in self._places.items()
+        }
+
+    def find(self, places: Mapping[str, Sequence[tuple[float, float]]]) -> None:
+        """Marks that were cut on this sheet before [mm from its middle], by their names."""
+        self._places = {name: [np.array(place) for place in each] for name, each in places.items()}
+
+    def read_again(self, name: str) -> list[tuple[float, float]]:
+        """New readings of a name's marks on this sheet, in their order [mm from its middle]."""
+        noise = self._noise
+        return [
+            (x + noise * self._source.standard_normal(), y + noise * self._source.standard_normal())
+            for x, y in self._places[name]
+        ]
 
     def fill_when_cut(self, form: str, machine: VirtualMachine) -> str | None:
         """The same, once the sheet has all the marks of the form and the bit is out of it."""
@@ -65,20 +98,39 @@ def filled_form(form: str, readings: Array, *, sheet: tuple[float, float]) -> st
     """The form that `plumb grid` or `plumb next` wrote, with readings (n, 2) [mm from mid sheet].
 
     The form counts from the sheet's top left corner, y down. Each reading goes to the mark that it
-    belongs to, so that all together lie as near as can be. Raises ValueError unless there is a
-    reading for each mark.
+    belongs to. Raises ValueError unless there is a reading for each mark.
     """
+    for x, y in _from_corner(readings, sheet)[order_of(form, readings, sheet=sheet)]:
+        form = form.replace(BLANK, f"measured = [{x:.1f}, {y:.1f}]", 1)
+    return form
+
+
+def order_of(form: str, readings: Array, *, sheet: tuple[float, float]) -> Array:
+    """Which reading belongs to each mark of a form, so that all together lie as near as can be."""
     targets = _waiting_targets(form)
     if len(targets) != len(readings):
         raise ValueError(
             f"the form waits for {len(targets)} marks, and the sheet has {len(readings)}"
         )
-    corner = np.array([sheet[0] / 2, sheet[1] / 2])
-    read = (readings * (1, -1) + corner).reshape(-1, 2)
-    _, order = linear_sum_assignment(cdist(targets, read))
-    for x, y in read[order]:
-        form = form.replace(BLANK, f"measured = [{x:.1f}, {y:.1f}]", 1)
-    return form
+    _, order = linear_sum_assignment(cdist(targets, _from_corner(readings, sheet)))
+    chosen: Array = order
+    return chosen
+
+
+def _from_corner(readings: Array, sheet: tuple[float, float]) -> Array:
+    corner: Array = (readings * (1, -1) + (sheet[0] / 2, sheet[1] / 2)).reshape(-1, 2)
+    return corner
+
+
+def _waiting_names(form: str) -> list[str]:
+    """The names of the marks that wait for a reading."""
+    name, waiting = "", []
+    for line in form.splitlines():
+        if line.startswith("name = "):
+            name = line.partition("=")[2].strip().strip('"')
+        elif line == BLANK:
+            waiting.append(name)
+    return waiting
 
 
 def _waiting_targets(form: str) -> Array:

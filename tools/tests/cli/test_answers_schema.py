@@ -41,11 +41,21 @@ QUESTIONS = (
     ("next", *BOARD, *TAPE),
     ("next", *SLIPPED),
     ("next", *BOARD, "--sigma", "5", "--marks", "form.toml"),
+    ("practice", "start", "game", "--seed", "3"),
+    ("practice", "--auto", "--level", "1", "--games", "1", "--keep", "games.jsonl"),
     ("preview", INI, *GRID),
     ("reach", INI),
     ("read",),
     ("settings", TOML),
     ("telemetry", EXAMPLE / "client.log"),
+)
+
+# A game of level 1 with seed 1, as --keep has it.
+GAME = (
+    '{"row": "level 1", "seed": 1, "hidden": "sled_swing (right)", "verdict": "one_suspect", '
+    '"claimed": ["sled_swing"], "chosen": ["sled_swing"], "solved": true, "false": 0, '
+    '"marks": 25, "minutes": 40.5, "sled_before": 5.0, "sled_frame": 3.0, "sled_after": 0.1, '
+    '"sled_known": 0.1, "cut_before": 5.1, "cut_after": 0.5, "cut_known": 0.5}\n'
 )
 
 
@@ -83,6 +93,7 @@ def folder(tmp_path, monkeypatch):
         'frame = "machine"\n[[mark]]\nname = "a"\ntarget = [0, 0]\n[[mark]]\nname = "b"\n'
         'target = [500, 0]\n[[distance]]\nbetween = ["a", "b"]\nmm = 501.5\n'
     )
+    (tmp_path / "games.jsonl").write_text(GAME)
     (tmp_path / "pairs.csv").write_text("1700,1700\n0,0\n9000,100\n")
     monkeypatch.setattr(read_command, "port_for", str)
     monkeypatch.setattr(read_command, "SerialPort", Board)

@@ -29,7 +29,7 @@ SHARED = {
         "output",
         "parser",
     ),
-    *("places_text", "screen", "steps", "text"),
+    *("places_text", "practice_auto", "practice_text", "screen", "steps", "text"),
 }
 SHARED_ARGUMENTS = {"__init__", "checked", "client", "shared"}
 # What takes longer to load than a command needs to refuse a wrong word.

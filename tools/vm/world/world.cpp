@@ -5,6 +5,9 @@ namespace world {
 namespace {
 
 const double kHangEvery = 0.01;  // [s] in which no chain runs more than 0.3 mm
+const double kStillFor = 0.1;    // [s] after which the sled is hung, even if it hardly moved
+const double kMoved = 0.5;       // [mm] by which a chain ran, so that the sled is hung
+const double kNearSheet = 0.5;   // [mm] of the bit's height, below which each place counts
 
 /// A motor of a chain: what it carries is added as the sled hangs. Its encoder is exact.
 MotorConstants chainMotor(unsigned seed) {
@@ -66,14 +69,24 @@ void World::advance(double seconds) {
   seconds_ += seconds;
   for (const auto& creep : creeps_)
     sled_.set(creep.first, sled_.get(creep.first) + creep.second * seconds);
-  if (seconds_ - hung_ < kHangEvery - seconds / 2) return;
-  hung_ = seconds_;
+  if (!isDue(seconds)) return;
   hang();
   sheet_.touch(seconds_, sled_.place(), travel(kZ));
 }
 
+bool World::isDue(double step) {
+  const double looked = kHangEvery - step / 2;
+  if (seconds_ - looked_ < looked) return false;
+  looked_ = seconds_;
+  if (travel(kZ) < kNearSheet || seconds_ - hung_ >= kStillFor - step / 2) return true;
+  const Eigen::Vector2d ran = Eigen::Vector2d(travel(kLeft), travel(kRight)) - hung_on_;
+  return ran.cwiseAbs().maxCoeff() > kMoved;
+}
+
 void World::hang() {
-  hangs_ = sled_.hang({travel(kLeft), travel(kRight)});
+  hung_ = seconds_;
+  hung_on_ = {travel(kLeft), travel(kRight)};
+  hangs_ = sled_.hang(hung_on_);
   const double kMetre = 1000;  // [mm]
   const double radius = per_turn_[kLeft] / kTurn / kMetre;
   motors_[kLeft].pull = sled_.leftTension() * radius;

@@ -69,15 +69,18 @@ class World {
 
  private:
   void hang();
+  /// Whether the sled has moved enough, or waited long enough, to be hung again.
+  bool isDue(double step);
 
   Sled sled_;
   Sheet sheet_;
   std::array<Motor, kAxisCount> motors_;
   std::array<int, kAxisCount> duties_ = {{0, 0, 0}};
-  std::array<double, kAxisCount> per_turn_;  // [mm]
-  std::array<double, kAxisCount> laid_;      // [mm] of travel when the motors began
-  std::map<std::string, double> creeps_;     // by number, a second
-  double seconds_ = 0, hung_ = 0, probe_height_ = -1e9;
+  std::array<double, kAxisCount> per_turn_;            // [mm]
+  std::array<double, kAxisCount> laid_;                // [mm] of travel when the motors began
+  std::map<std::string, double> creeps_;               // by number, a second
+  Eigen::Vector2d hung_on_ = Eigen::Vector2d::Zero();  // [mm] of both chains when it was hung
+  double seconds_ = 0, hung_ = 0, looked_ = 0, probe_height_ = -1e9;
   double lacking_ = 0;  // [V] of the motors' supply
   bool hangs_ = false;
 };

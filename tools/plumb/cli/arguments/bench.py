@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from plumb.cli.arguments.shared import add_force, add_json
+from plumb.cli.arguments.shared import add_force, add_json, count
 
 HELP = "how often the diagnosis is right: rates over boards with hidden effects"
 BOARDS, FAST = 200, 10  # of each scenario
@@ -22,21 +22,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="only these, or all that begin so (docs/bench.md lists them)",
     )
     parser.add_argument(
-        "--boards", metavar="N", type=_count, help=f"boards of each scenario [{BOARDS}]"
+        "--boards", metavar="N", type=count, help=f"boards of each scenario [{BOARDS}]"
     )
     parser.add_argument("--fast", action="store_true", help=f"{FAST} boards of each scenario")
     parser.add_argument("--seed", metavar="S", type=int, default=1, help="other boards [1]")
-    parser.add_argument("--jobs", metavar="N", type=_count, default=1, help="programs at once [1]")
+    parser.add_argument("--jobs", metavar="N", type=count, default=1, help="programs at once [1]")
     parser.add_argument(
         "--cluster", metavar="ADDRESS", help="run on a Dask cluster, like tcp://10.0.0.1:8786"
     )
     parser.add_argument("--write", metavar="FILE", help="write the page with all rates (markdown)")
     add_force(parser)
     add_json(parser)
-
-
-def _count(text: str) -> int:
-    count = int(text) if text.isdecimal() else 0
-    if count < 1:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a whole number, like 100")
-    return count

@@ -118,6 +118,14 @@ def length(text: str) -> float:
     return value
 
 
+def count(text: str) -> int:
+    """A whole number above zero."""
+    number = int(text) if text.isdecimal() else 0
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a whole number, like 100")
+    return number
+
+
 def limit(text: str) -> float:
     """A limit of zero or more."""
     value = float(text)

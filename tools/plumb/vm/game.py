@@ -1,0 +1,102 @@
+"""A game that the lab's advice plays: something is hidden, and the closed loop looks for it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from plumb.fit.compare import Comparison, compare
+from plumb.grid.options import Grid
+from plumb.vm.budget import Budget
+from plumb.vm.floor import sled_errors, with_truth
+from plumb.vm.garage import random_garage
+from plumb.vm.hiding import described
+from plumb.vm.loop import Loop, closed_loop, lay_next_sheet, read, shape
+from plumb.vm.owner import FRICTION_NAME, VirtualOwner
+from plumb.vm.secret import Secret
+
+ALWAYS = (FRICTION_NAME.partition(".")[0],)  # effects that every virtual machine has
+
+
+@dataclass(frozen=True)
+class Played:
+    """What came of a game."""
+
+    row: str  # the level or the kind, with the marks of the first sheet
+    seed: int
+    hidden: str
+    verdict: str  # the last
+    claimed: tuple[str, ...]  # effects that the lab added without a rival
+    chosen: tuple[str, ...]  # effects that it added
+    solved: bool  # what was hidden, and nothing else, is what was added or reported
+    false: int  # claims of what is not there
+    marks: int  # cut on the first sheet
+    minutes: float  # until the machine was changed
+    sled_before: float  # [mm] RMS all over the sheet, without noise
+    sled_frame: float
+    sled_after: float
+    sled_known: float
+    cut_before: float  # [mm] RMS of the first sheet as it was read, laid at its best
+    cut_after: float  # of the second sheet
+    cut_known: float  # of the second sheet, had the truth been known
+
+
+def play(
+    row: str,
+    secret: Secret,
+    *,
+    seed: int,
+    grid: Grid,
+    budget: Budget,
+    elf: str | None = None,
+    progress: Callable[[float], None] = lambda share: None,
+) -> Played:
+    """Play by the lab's advice, then look at the truth."""
+    owner = VirtualOwner(random_garage(secret.hidden, seed), slip=secret.slip, elf=elf)
+    garage = owner.garage
+    loop = closed_loop(owner, grid=grid, budget=budget, progress=progress)
+    chosen = tuple(name for name in loop.auto.chosen if name not in ALWAYS)
+    unsure = loop.auto.rivals or loop.auto.diagnosis.verdict in ("not_in_library", "slip")
+    claimed = () if unsure else chosen
+    settings = loop.addition.settings if loop.auto.addition else loop.inputs.settings
+    errors = sled_errors(loop.inputs, garage, settings)
+    return Played(
+        row,
+        seed,
+        described(secret.hidden),
+        loop.auto.diagnosis.verdict,
+        claimed,
+        chosen,
+        _solved(secret, chosen, loop),
+        len({*claimed} - {*secret.hidden.effects}),
+        loop.spent.marks,
+        loop.spent.minutes,
+        errors.before,
+        errors.frame,
+        errors.after,
+        errors.known,
+        shape(loop.before),
+        shape(loop.after or loop.before),
+        shape(_cut_with_truth(loop, grid)),
+    )
+
+
+def _solved(secret: Secret, chosen: tuple[str, ...], loop: Loop) -> bool:
+    """Whether the right thing was said: for what no effect explains, that it is such a thing."""
+    if secret.hidden.outside:
+        return loop.auto.diagnosis.verdict == "not_in_library"
+    return {*chosen} == {*secret.hidden.effects} and loop.auto.addition is not None
+
+
+def _cut_with_truth(loop: Loop, grid: Grid) -> Comparison:
+    """The second sheet as it is cut by somebody who knows what is hidden.
+
+    Where the lab added just that, it is the sheet that was cut.
+    """
+    owner = loop.owner
+    known = with_truth(loop.inputs, owner.garage)
+    if loop.after and loop.addition.settings == known.settings:
+        return loop.after
+    fresh = owner.again()
+    lay_next_sheet(fresh, known.settings, raised=known.sheet_rise)
+    return compare(fresh.settings, read(fresh, fresh.cut_grid(grid)))
