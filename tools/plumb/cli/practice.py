@@ -215,9 +215,8 @@ def _done(
     """Say what was done and what is left."""
     if arguments.json:
         left = {"marks": game.left.marks, "minutes": game.left.minutes}
-        print_json(
-            {"level": game.level, "seed": game.seed, "left": left, "hints": game.hints, **more}
-        )
+        kept = {"level": game.level, "seed": game.seed, "hints": game.hints}
+        print_json({**kept, "left": left, "hint": None, "checked": {}, **more})
         return 0
     print(sentences(said, mark=""))
     if step:

@@ -5,11 +5,13 @@ from __future__ import annotations
 import argparse
 
 from plumb.cli.ending import INTERRUPTED
+from plumb.cli.output import write_outputs
 from plumb.cli.practice_text import as_json, as_text
 from plumb.cli.screen import Bar
 from plumb.cli.text import print_json
 from plumb.vm.budget import Budget
 from plumb.vm.game import Played
+from plumb.vm.page import page
 from plumb.vm.tournament import all_levels, level_tasks, matrix_tasks, played
 
 
@@ -38,6 +40,8 @@ def run_auto(arguments: argparse.Namespace) -> int:
         interrupted = True
     finally:
         bar.clear()
+    if arguments.write:
+        write_outputs({arguments.write: page(games).encode()}, inputs=[])
     if arguments.json:
         print_json(as_json(games, interrupted=interrupted))
     elif games:

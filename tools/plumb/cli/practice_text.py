@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
@@ -11,6 +10,7 @@ from plumb.cli.screen import headline, sentences, table
 from plumb.model.plain import plainly
 from plumb.text.shown import bare, unit, worded
 from plumb.vm.game import Played
+from plumb.vm.page import ratio_words
 from plumb.vm.practice import Practice, Score
 from plumb.vm.rates import Row, row_of, rows_of
 
@@ -108,12 +108,6 @@ def cells(row: Row) -> list[str]:
         bare(row.known),
         ratio_words(row.sled_ratio),
     ]
-
-
-def ratio_words(ratio: tuple[float, float]) -> str:
-    """A ratio with its standard deviation, if there are games enough to tell."""
-    value, error = ratio
-    return f"{value:.2f}" + (f" +- {error:.2f}" if math.isfinite(error) else "")
 
 
 def as_json(games: Sequence[Played], *, interrupted: bool) -> dict[str, Any]:

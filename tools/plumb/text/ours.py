@@ -13,6 +13,7 @@ BEGINNINGS = (
     b"# Settings of one hanging machine, for plumb.",
     b"(Plumb calibration grid)",
     b"# How often the diagnosis is right",
+    b"# How often the closed loop finds what is hidden",
     DEMO_MARKS,
     PRACTICE_MARKS,
 )

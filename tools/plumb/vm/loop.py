@@ -16,7 +16,7 @@ from plumb.diagnosis import Checked, Diagnosis, diagnose
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
 from plumb.grid.options import Grid
-from plumb.line.sender import cleaned
+from plumb.line.sender import RefusedError, cleaned
 from plumb.marks.join import join_measurements
 from plumb.marks.read import Mark, Measurements, read_marks
 from plumb.plan import Proposal, propose
@@ -27,9 +27,7 @@ from plumb.vm.owner import VirtualOwner
 ROUNDS = 2  # times that the owner measures what is proposed
 # What this owner can carry out.
 DOABLE = ("marks", "weight", "approach", "check", "frame", "near", "reread")
-# [N] that this owner hangs on the sled. Under 10 kg more a motor that hardly turns against its load
-# passes for blocked, and the firmware halts.
-MOST_HUNG = 60.0
+MOST_HUNG = 60.0  # [N] that this owner hangs on the sled
 OPEN = ("cannot_tell", "slip", "not_in_library")  # verdicts after which more is measured
 
 
@@ -187,7 +185,12 @@ def _with(owner: VirtualOwner, inputs: Inputs, proposal: Proposal) -> Inputs:
     if option.checks:
         checked = tuple(owner.check(option.checks))
     if len(option.visits):
-        more = read(owner, owner.carry_out(option.visits))
+        try:
+            more = read(owner, owner.carry_out(option.visits))
+        except RefusedError:
+            # The machine halted; the round at it was for nothing.
+            owner.restart()
+            return inputs
         inputs = replace(inputs, measurements=join_measurements([inputs.measurements, more]))
     return replace(inputs, checked=(*inputs.checked, *checked))
 

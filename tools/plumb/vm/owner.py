@@ -72,6 +72,14 @@ class VirtualOwner:
         self.sender.await_start()
         set_up(self.sender, self.settings)
 
+    def restart(self) -> None:
+        """Lay the chains over the sprockets anew, as on the first day; the sheet stays."""
+        self.machine.stop()
+        self.machine = self.garage.machine(elf=self._elf)
+        self.sender = Sender(InProcessPort(self.machine))
+        self.tape.begin()
+        self.switch_on()
+
     def grid_program(self, grid: Grid) -> tuple[list[str], str]:
         """The G-code of a grid for this sheet, and the form for its marks."""
         machine = plain_machine(self.settings)

@@ -49,6 +49,10 @@ class Tape:
         self._source = source
         self.garage, self._read, self._places = garage, 0, {}
 
+    def begin(self) -> None:
+        """The machine counts its cuts from here on; what was read stays read."""
+        self._read = 0
+
     def fill(self, form: str, machine: VirtualMachine) -> str:
         """A form with the marks that were cut since the last one; ValueError if it waits for more
         or fewer."""

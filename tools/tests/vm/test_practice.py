@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 from plumb.bench.causes import MAKER, Hidden
 from plumb.cli.main import main
+from plumb.grid.options import Grid
 from plumb.marks.read import read_marks
+from plumb.plan.planned_visits import sent
 from plumb.settings.files import read_settings
 from plumb.text.errors import InputError
 from plumb.vm import tournament
@@ -17,6 +19,8 @@ from plumb.vm.floor import sled_error
 from plumb.vm.game import Played, play
 from plumb.vm.garage import Garage, random_garage
 from plumb.vm.hiding import astray
+from plumb.vm.owner import VirtualOwner
+from plumb.vm.page import page
 from plumb.vm.practice import Practice, claims_of, hint
 from plumb.vm.rates import row_of, rows_of
 from plumb.vm.secret import KINDS, LARGEST, LEVELS, of_kind, of_level
@@ -291,3 +295,37 @@ def test_games_that_are_kept_are_not_played_again(tmp_path, monkeypatch):
 def test_the_matrix_asks_for_each_kind_with_25_and_9_marks():
     rows = {task.row for task in tournament.matrix_tasks(1, 1)}
     assert rows == {f"{kind} {marks}" for kind in KINDS for marks in (25, 9)}
+
+
+def test_the_page_has_a_row_for_each_cell_and_judges_the_second_sheet():
+    games = [
+        played("chain_sag 25", 1, after=0.5, known=0.5),
+        played("none 9", 1),
+        played("chain_sag 25", 2, after=0.9, known=0.5),
+        played("motor_level 25", 1, solved=False),
+    ]
+    said = page(games)
+    rows = [line.strip("| ").split(" | ") for line in said.splitlines() if line.startswith("| ")]
+    assert [row[:4] for row in rows[2:]] == [
+        ["motor_level", "25", "1", "0 % (0 to 98)"],
+        ["chain_sag", "25", "2", "100 % (16 to 100)"],
+        ["none", "9", "1", "100 % (3 to 100)"],
+        ["one that shows", "25", "2", "100 % (16 to 100)"],
+        ["all", "25", "3", "67 % (9 to 99)"],
+        ["all", "9", "1", "100 % (3 to 100)"],
+    ]
+    assert rows[3][-1] == "1.40 +- 0.40" and rows[4][-1] == "2.00"
+    assert "1.40 +- 0.40 times what the truth" in said and "missed.\n1 of 2 sheets" in said
+    assert "reached.\n1 of 1" in page(games[:1])
+
+
+def test_a_machine_that_halts_is_begun_anew_and_its_sheet_stays():
+    owner = VirtualOwner(random_garage(Hidden(), 3))
+    owner.switch_on()
+    owner.cut_grid(Grid(columns=2, rows=2, repeats=0))
+    places = owner.tape.places
+    owner.restart()
+    assert owner.tape.places == places
+    visits = sent(MAKER, np.array([(0.0, 0.0)]), controller="plumb", sled_weight=MAKER.sled_weight)
+    form = owner.carry_out(visits)
+    assert form.count("\nmeasured = ") == 1 and len(owner.tape.places) == 5

@@ -46,6 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--keep", metavar="FILE", help="add each game to it, and play only what it lacks"
     )
+    parser.add_argument("--write", metavar="FILE", help="--matrix: write the page (markdown)")
     parser.add_argument("--mega", metavar="ELF", help="--auto on a simulated Mega: slow")
     add_units(parser)
     add_force(parser)
