@@ -1,26 +1,26 @@
-// Pin numbers of each motor shield, nothing else. Sources: the shields' silkscreens as the
-// published firmware and its users list them; numbers are Arduino's for the Mega 2560.
+// Pin numbers of each motor shield, and nothing else. Sources: the shields' silkscreens, as the
+// published firmware and its users list them. The numbers are Arduino's for the Mega 2560.
 #pragma once
 
 #include <stdint.h>
 
 namespace board {
 
-/// Six inputs with pull-up; a shield straps some of them to ground to say which one it is.
+/// Six inputs with pull-up. A shield straps some of them to ground, and so says which shield it is.
 enum : uint8_t { kFirstStrapPin = 22, kStrapCount = 6 };
 
 enum class Driver : uint8_t { kL298, kTle5206, kTb6643, kTle9201 };
 
 const uint8_t kNoPin = 255;
 
-/// One motor: encoder channels, and the driver's two direction inputs and enable. On the TLE9201
-/// these are direction, disable and PWM; on the TLE5206 enable is an error flag, an input.
+/// A motor: its encoder channels, and its driver's two direction inputs and enable. On the TLE9201
+/// these three are direction, disable and PWM. On the TLE5206 enable is an error flag, an input.
 struct MotorPins {
   uint8_t encoder_a, encoder_b;
   uint8_t first, second, enable;
 };
 
-/// One shield as sold.
+/// A shield as sold.
 struct Shield {
   uint8_t straps;   ///< 1 for each open strap, the lowest bit for kFirstStrapPin
   uint8_t version;  ///< N of "v1.N", as the boards are called

@@ -1,5 +1,5 @@
-// Corrections that two settings carry at once: a published number and an effect's. The machine adds
-// them, as docs/decisions/0007-published-numbers-keep-their-meaning.md has it.
+// Corrections that two settings carry at once: a published number and the number of an effect. The
+// machine adds both (docs/decisions/0007-published-numbers-keep-their-meaning.md).
 #pragma once
 
 #include "settings_table.h"
@@ -9,16 +9,16 @@ struct Carriers {
   uint8_t published, ours;
 };
 
-/// Looks for one correction while the registry calls effect() for each of its entries.
+/// Looks for a correction while the registry calls effect() for each of its entries.
 struct CarriersSearch {
-  uint8_t wanted;  ///< how many corrections come before it
+  uint8_t wanted;  ///< how many corrections come before the wanted correction
   Carriers found;
 
   template <class ThisEffect>
   void effect(int first_setting) {
     for (uint8_t i = 0; i < ThisEffect::kParamCount; ++i) {
       const uint8_t number = uint8_t(ThisEffect::published(i).number);
-      // A client's number for the effect's own place is the same carrier.
+      // A client's number that stands for the effect's setting is the same carrier.
       if (number == 0 || number == ThisEffect::kClientNumber) continue;
       if (wanted-- == 0) found = {number, uint8_t(first_setting + i)};
     }
@@ -32,7 +32,7 @@ PLUMB_RARE inline Carriers carriersOf(uint8_t correction) {
   return search.found;
 }
 
-/// Whether both carry something; a sled on two brackets ignores the published numbers.
+/// Whether both numbers carry a correction. A sled on two brackets ignores the published numbers.
 PLUMB_RARE inline bool areBothSet(const settings::Values& values, const Carriers& carriers) {
   const settings::Table& table = values.table();
   return values.at(kKinematics) != 1 &&

@@ -1,12 +1,12 @@
-// Settings as the kinematics wants them: what the published numbers mean, and ours added to them.
-// Why just so: docs/decisions/0007-published-numbers-keep-their-meaning.md.
+// Settings as the kinematics needs them: the published numbers translated, and ours added. The
+// reasons: docs/decisions/0007-published-numbers-keep-their-meaning.md.
 #pragma once
 
 #include <quadrilateral.h>
 
 #include "settings_table.h"
 
-/// What prepare() of the ring's kinematics needs.
+/// Input of prepare() for a sled on a ring.
 struct Geometry {
   kinematics::Frame<float> frame;
   kinematics::EffectParams<float> effects;
@@ -16,7 +16,7 @@ namespace effective_detail {
 
 const float kTurn = 6.28318531f;  // [rad]
 
-/// What the numbers of the published firmware say of the chains.
+/// The chains as the numbers of the published firmware describe them.
 inline kinematics::PublishedChains<float> publishedChains(const settings::Values& values) {
   return {values.at(kSagCorrection) * 1e-12f,
           {values.at(kLeftTolerance) * 0.01f, values.at(kRightTolerance) * 0.01f},
@@ -57,7 +57,8 @@ inline kinematics::BracketSled<float> bracketSledOf(const settings::Values& valu
   return {values.at(kMountGap), values.at(kMountHeight), values.at(kCenterDepth)};
 }
 
-/// Its chains' strain: ours alone, as the published firmware ignores the tolerances there.
+/// Strain of that sled's chains: from our numbers alone, because the published firmware ignores the
+/// tolerances for such a sled.
 inline kinematics::PitchStrain<float> pitchOf(const settings::Values& values) {
   return kinematics::pitchAmong<float>(
       [&](uint8_t index) { return values.at(uint8_t(kFirstEffectSetting + index)); });

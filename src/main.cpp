@@ -1,4 +1,4 @@
-// Puts the machine on its board; no decisions are made here.
+// Connects the machine with its board. It makes no decisions.
 #include <Arduino.h>
 
 #include "board/aux_pins.h"
@@ -23,7 +23,7 @@ machine::Machine* maslow;
 
 void tick() { maslow->tick(); }
 
-/// The main program hangs: nothing may go on turning.
+/// The main program hangs: nothing may keep turning.
 void letGo() {
   motors.releaseAll();
   maslow->noteHang();

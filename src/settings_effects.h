@@ -1,12 +1,12 @@
-// The rows of the effects' parameters, from their registry: numbers, and limits without the words.
+// The rows of the effects' parameters, from their registry: numbers and limits, without texts.
 #pragma once
 
 #include <Kinematics.h>
 #include <Settings.h>
 
-/// Looks for one parameter while the registry calls effect() for each of its entries.
+/// Looks for a parameter while the registry calls effect() for each of its entries.
 struct EffectRow {
-  uint8_t wanted;  ///< which parameter, counted over all effects
+  uint8_t wanted;  ///< index of the parameter, counted over all effects
   settings::Entry found;
 
   template <class ThisEffect>
@@ -29,9 +29,9 @@ struct EffectRow {
   template <class ThisEffect, uint8_t kIndex>
   void parameter(uint8_t, Exists<false>) {}
 
-  /// Flattened, so that of a parameter's words and numbers only the two limits reach the board.
-  /// They are the plausible range and as much again on both sides: a fit may stray, a slip of the
-  /// decimal point should not pass.
+  /// Flattened, so that only the two limits of a parameter reach the board, not its texts. The
+  /// limits are the plausible range, widened by its width on each side: a fit may stray, but a slip
+  /// of the decimal point should be refused.
   template <class ThisEffect, uint8_t kIndex>
   __attribute__((flatten)) void fill(uint8_t first_setting) {
     const float low = float(ThisEffect::param(kIndex).low),

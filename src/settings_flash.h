@@ -10,16 +10,7 @@ namespace flash_rows {
 
 using namespace settings;
 
-#define PLUMB_ROW(access, name, number, label, kind, step, usual, low, high, touches, ...) \
-  {number, Kind::kind, Access::access, step, touches, usual, low, high},
-#define PLUMB_LISTED(...) PLUMB_ROW(kListed, __VA_ARGS__)
-#define PLUMB_HIDDEN(...) PLUMB_ROW(kHidden, __VA_ARGS__)
-#define PLUMB_KEPT(...) PLUMB_ROW(kKept, __VA_ARGS__)
-const Entry kRows[] PROGMEM = {PLUMB_SETTINGS(PLUMB_LISTED, PLUMB_HIDDEN, PLUMB_KEPT)};
-#undef PLUMB_ROW
-#undef PLUMB_LISTED
-#undef PLUMB_HIDDEN
-#undef PLUMB_KEPT
+const Entry kRows[] PROGMEM = {PLUMB_ENTRIES};
 
 #define PLUMB_COMMENT(name, number, label, ...) const char name##Comment[] PROGMEM = label;
 PLUMB_SETTINGS(PLUMB_COMMENT, PLUMB_COMMENT, PLUMB_COMMENT)
@@ -62,10 +53,10 @@ class FlashTable : public settings::Table {
   }
 
   char comment(uint8_t index, uint8_t letter) const override {
-    const bool own = index < kFirstEffectSetting;
-    return flash_rows::letterOf(
-        own ? flash_rows::pointerIn(flash_rows::kComments, index) : flash_rows::kEffectComment,
-        letter);
+    const bool has_comment = index < kFirstEffectSetting;
+    return flash_rows::letterOf(has_comment ? flash_rows::pointerIn(flash_rows::kComments, index)
+                                            : flash_rows::kEffectComment,
+                                letter);
   }
 
   char word(settings::Word which, uint8_t letter) const override {

@@ -1,14 +1,14 @@
 // Every $-number of the firmware but the effects': name, unit, default, limits, sentence.
-// The effects' numbers come from their registry, lib/Kinematics/src/effects.h; those of places that
-// G-code keeps stand in settings_places.h.
+// The effects' numbers come from their registry, lib/Kinematics/src/effects.h. Those of places that
+// G-code keeps are in settings_places.h.
 //
-// A list of macro calls, because flash on the board and plain memory on the host keep the same rows
-// in different ways (settings_flash.h; tools/core/plain_table.h). Each row:
+// It is a list of macro calls, because the board keeps the rows in flash and the host in plain
+// memory (settings_flash.h; tools/core/plain_table.h). Each row:
 //   name in C++, number, "name, unit", kind, step, default, lowest, highest, what it touches,
 //   section and key of the published programs, or "", sentence,
-//   what is not as in the published firmware, or ""
-// A number that was once released keeps its meaning for ever. Free: 14, 47 to 59, 73, 74, 77 to 84.
-// Never to be used: 85 to 98 and 144, which WebControl gives a meaning of its own.
+//   what differs from the published firmware, or ""
+// A number keeps its meaning for ever once it was released. Free: 14, 47 to 59, 73, 74, 77 to 84.
+// Never use 85 to 98 and 144: WebControl gives them another meaning.
 #pragma once
 
 #include <Kinematics.h>
@@ -120,7 +120,7 @@
   ROW(kZLowerLimit, 44, "z_lower_limit, mm", kReal, kAnyValue, -10000, -10000, 10000, kNothing, \
       "", "Lowest z, set by B18; -10000: none.", "writing to it is refused; none is -10000, not a NaN")
 
-#define PLUMB_OWN_SETTINGS(ROW) \
+#define PLUMB_ADDED_SETTINGS(ROW) \
   ROW(kSpindleLeast, 60, "spindle_least, turns/min", kReal, kAnyValue, 4000, 0, 100000, kNothing, \
       "", "Slowest speed of a pulsed spindle ($17 = 4); S below it counts as this.", "new") \
   ROW(kSpindleMost, 61, "spindle_most, turns/min", kReal, kAnyValue, 24000, 1, 100000, kNothing, \
@@ -129,7 +129,7 @@
       "", "Sled, router and bricks, as far as the chains carry them; $46=... of WebControl sets it too.", "new") \
   ROW(kChainWeight, 63, "chain_weight, N/mm", kReal, kAnyValue, 0, 0, 0.02f, kGeometry, \
       "", \
-      "One millimetre of chain, 0.00137293 for the usual one; 0: the sled alone loads the chains, as in the " \
+      "A millimetre of chain, 0.00137293 for the usual chain; 0: the sled alone loads the chains, as in the " \
       "published model.", "new") \
   ROW(kMotorCenterX, 64, "motor_center_x, mm", kReal, kAnyValue, 0, -5000, 5000, kGeometry, \
       "", "Middle between the sprockets, right of the middle of the sheet.", "new") \
@@ -169,11 +169,19 @@
 #define PLUMB_SETTINGS(LISTED, HIDDEN, KEPT) \
   PLUMB_PUBLISHED_SETTINGS(LISTED) \
   PLUMB_HIDDEN_SETTINGS(HIDDEN) \
-  PLUMB_OWN_SETTINGS(LISTED) \
+  PLUMB_ADDED_SETTINGS(LISTED) \
   PLUMB_KEPT_SETTINGS(KEPT)
 // clang-format on
 
-// What is said of settings: for $n=v that is refused. See Word in Settings.h.
+// The rows as values of settings::Entry, where the names of that namespace are in use.
+#define PLUMB_ENTRY(access, name, number, label, kind, step, usual, low, high, touches, ...) \
+  {number, Kind::kind, Access::access, step, touches, usual, low, high},
+#define PLUMB_LISTED(...) PLUMB_ENTRY(kListed, __VA_ARGS__)
+#define PLUMB_HIDDEN(...) PLUMB_ENTRY(kHidden, __VA_ARGS__)
+#define PLUMB_KEPT(...) PLUMB_ENTRY(kKept, __VA_ARGS__)
+#define PLUMB_ENTRIES PLUMB_SETTINGS(PLUMB_LISTED, PLUMB_HIDDEN, PLUMB_KEPT)
+
+// Words for refusing $n=v; see Word in lib/Settings/src/table.h.
 // clang-format off
 #define PLUMB_SETTINGS_WORDS(WORD) \
   WORD(kUnknown, "is no setting") \
@@ -195,11 +203,12 @@ enum Setting : uint8_t {
 };
 #undef PLUMB_NAME
 
-// Two copies and the ring of positions must fit, and 255 says "none".
+// Two copies and the ring of positions must fit, and 255 means "none".
 static_assert(10 + 5 * kSettingCount <= settings::Memory::kCopyRoom, "a copy has no room");
 static_assert(kSettingCount < settings::kNoIndex, "too many settings");
 
-/// The number that a client means: WebControl's sled weight is ours, and effects say theirs.
+/// The number that a client means: WebControl's sled weight is our $-number for it, and each effect
+/// names its client's number.
 inline uint8_t meantBy(uint8_t number) {
   return number == 46 ? 62 : kinematics::Effects::For<float>::meantBy(number);
 }

@@ -1,4 +1,4 @@
-// The firmware's own version, shown in the greeting; B05 answers what the clients expect.
+// The firmware's version, shown in the greeting. B05 answers the version that clients expect.
 #pragma once
 
 #define PLUMB_VERSION "0.1"

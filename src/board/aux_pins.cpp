@@ -1,6 +1,6 @@
-// Spindle, laser and probe by their pins. Timer 5 makes the servo's pulses, fifty a second, or
-// those of spindle and laser, 488 a second: no shield has these on a pin that a timer could pulse
-// by itself.
+// Spindle, laser and probe by their pins. Timer 5 makes the servo's pulses, 50 a second, or those
+// of spindle and laser, 488 a second. It switches the pins by interrupts, because no shield has
+// these outputs on a pin that a timer could pulse.
 #include "aux_pins.h"
 
 #include <Arduino.h>
@@ -11,7 +11,7 @@
 namespace board {
 namespace {
 
-// Timer 5 at 2 MHz: pulses of 544 to 2400 us for 0 to 180 degrees, as Arduino's servo library.
+// Timer 5 at 2 MHz: pulses of 544 to 2400 us for 0 to 180 degrees, like Arduino's servo library.
 const uint16_t kServoPeriod = 40000;
 const uint16_t kServoShortest = 1088;
 const uint16_t kServoSpan = 3712;
@@ -26,7 +26,7 @@ const uint16_t kPulsePeriod = 512;
 struct Pulsed {
   volatile uint8_t* port;
   uint8_t bit;
-  uint8_t level;  // 1 to 254; at 0 the pin only stands
+  uint8_t level;  // 1 to 254; at 0 the pin keeps its level
 };
 Pulsed pulsed[2];  // by machine::Output
 
@@ -78,7 +78,8 @@ ISR(TIMER5_COMPC_vect) { lower(pulsed[1]); }
 
 void AuxPins::begin(const Shield* shield) {
   shield_ = shield;
-  // The converter measures nothing but the reference against the supply, so it never has to settle.
+  // The converter only ever measures the reference against the supply, so it needs no time to
+  // settle.
   ADMUX = 1 << REFS0 | kBandGapChannel;
   ADCSRA = kConvert;
   if (!shield) return;
@@ -97,7 +98,7 @@ void AuxPins::pulse(machine::Output output, uint8_t level) {
   if (!shield_) return;
   const uint8_t pin = output == machine::Output::kLaser ? shield_->laser : shield_->spindle;
   const bool stands = level == 0 || level == 255;
-  // The control tick, commands and timer 5 all come to these.
+  // The control tick, commands and timer 5 all use these.
   ATOMIC_BLOCK(ATOMIC_RESTORESTATE) {
     pulsed[uint8_t(output)] = {portOutputRegister(digitalPinToPort(pin)), digitalPinToBitMask(pin),
                                stands ? uint8_t(0) : level};

@@ -1,4 +1,4 @@
-// What else hangs on the shield: spindle (relay or servo), laser, probe.
+// What else is connected to the shield: spindle (relay or servo), laser, probe.
 #pragma once
 
 #include "board_pins.h"

@@ -1,5 +1,5 @@
 // Timer 1 calls the control tick. The tick watches the main program, and the processor's watchdog
-// the tick.
+// watches the tick.
 #include "control_clock.h"
 
 #include <Arduino.h>
@@ -17,8 +17,8 @@ volatile bool ticking;
 uint8_t most_silent_ticks;
 uint16_t longest_steps;
 uint16_t timer_steps;           // of timer 1 from tick to tick
-bool has_hung;                  // the main program is back; it has not looked round yet
-volatile uint8_t silent_ticks;  // since the main program was last heard of
+bool has_hung;                  // the main program is back from a hang; its next idle() counts
+volatile uint8_t silent_ticks;  // ticks since the main program last called idle()
 
 const uint32_t kTimerPerSecond = 250000;  // timer 1 counts at 250 kHz
 
@@ -29,7 +29,7 @@ void allowTicks(bool yes) {
     TIMSK1 &= uint8_t(~(1 << OCIE1A));
 }
 
-/// What the tick shares with the main program stays on its side of a hold.
+/// Keeps the compiler from moving reads and writes of shared numbers past a hold.
 void fence() { __asm__ volatile("" ::: "memory"); }
 
 void startTimer() {
@@ -40,13 +40,14 @@ void startTimer() {
   TCNT1 = 0;
 }
 
-/// Timer 1 began anew when this tick was due; if the next one is due already, it went round.
+/// Notes how long this tick took. Timer 1 restarted when this tick was due; if the next tick is due
+/// already, the timer has restarted again.
 void noteTime() {
   const uint16_t steps = TIFR1 & 1 << OCF1A ? UINT16_MAX / 4 : TCNT1;
   if (steps > longest_steps) longest_steps = steps;
 }
 
-/// No tick came: as if the main program had hung.
+/// No tick came: acts as if the main program had hung.
 void letGo() {
   silent_ticks = most_silent_ticks;
   on_hang();
@@ -55,7 +56,7 @@ void letGo() {
 }  // namespace
 
 ISR(TIMER1_COMPA_vect) {
-  // Not again before this one is over, even with interrupts on.
+  // No second tick before this tick is over, even with interrupts on.
   allowTicks(false);
   ticking = true;
   sei();
@@ -85,7 +86,7 @@ void ControlClock::begin(void (*tick)(), void (*hang)(), uint8_t ticks_per_secon
 uint32_t ControlClock::milliseconds() { return millis(); }
 
 void ControlClock::idle() {
-  // Back from a hang the machine looks round once before ticks may drive again.
+  // Back from a hang, the main program makes a round before ticks may drive again.
   if (silent_ticks >= most_silent_ticks && !has_hung) {
     has_hung = true;
     return;
@@ -99,7 +100,7 @@ void ControlClock::idle() {
 }
 
 void ControlClock::sleep() {
-  // Encoders interrupt ten thousand times a second; what they count waits for a control tick.
+  // Encoders interrupt ten thousand times a second, but their counts can wait for a control tick.
   const uint8_t now = uint8_t(millis());
   do {
     sleepUntilInterrupt();

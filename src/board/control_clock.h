@@ -5,16 +5,16 @@
 
 namespace board {
 
-/// The board's clock. The control tick runs with interrupts on, so that encoders and serial line
-/// are heard meanwhile.
+/// The board's clock. The control tick runs with interrupts on, so encoders and serial line are
+/// served meanwhile.
 class ControlClock : public machine::Clock {
  public:
-  /// Calls `tick` 100 or 200 times a second; `hang` instead while idle() was not called for a
-  /// second.
+  /// Calls `tick` 100 or 200 times a second. While idle() has not been called for a second, it
+  /// calls `hang` in place of `tick`.
   void begin(void (*tick)(), void (*hang)(), uint8_t ticks_per_second);
   uint32_t milliseconds() override;
   void idle() override;
-  /// Until the next millisecond.
+  /// Sleeps until the next millisecond.
   void sleep() override;
   void holdTicks() override;
   void releaseTicks() override;

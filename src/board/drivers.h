@@ -1,5 +1,5 @@
-// How each motor driver is told what to do: from a duty with a sign to the levels of its pins.
-// Knows no Arduino, so that every shield's rows are tested on the host.
+// From a duty with a sign to the levels of each motor driver's pins. Without Arduino, so that tests
+// on the host cover the rows of every shield.
 #pragma once
 
 #include <stdint.h>
@@ -8,24 +8,24 @@
 
 namespace board {
 
-/// Which motor; the order is that of the machine's axes.
+/// The motors, in the order of the machine's axes.
 enum class Motor : uint8_t { kLeft, kRight, kZ };
 
 const uint8_t kLow = 0, kHigh = 255;
 
-/// What to put on a driver's three pins: kLow, kHigh, or between them the duty of a PWM.
+/// Levels of a driver's three pins: kLow, kHigh, or a PWM duty between them.
 struct Levels {
-  uint8_t one, two, enable;
+  uint8_t input1, input2, enable;
 };
 
-/// One motor's driver, with its pins in the order in which they mean forward and reverse.
+/// A motor's driver, with its pins in the order in which they mean forward and reverse.
 struct Channel {
   Driver driver;
-  uint8_t one, two, enable;  ///< pins; on the TLE9201 direction, disable and PWM
-  bool forward_is_high;      ///< level of the TLE9201's direction pin for forward
+  uint8_t input1, input2, enable;  ///< pins; on the TLE9201: direction, disable and PWM
+  bool forward_is_high;            ///< level of the TLE9201's direction pin for forward
 };
 
-/// Whether a pin can carry a PWM: those of timers 2, 3 and 4. Timers 0 and 1 keep the time.
+/// Whether a pin can carry a PWM: pins of timers 2, 3 and 4 can. Timers 0 and 1 keep the time.
 inline bool canPulse(uint8_t pin) { return pin == 2 || pin == 3 || (pin >= 5 && pin <= 10); }
 
 /// A shield's pins for one motor.
@@ -34,18 +34,18 @@ inline const MotorPins& pinsOf(const Shield& shield, Motor motor) {
   return motor == Motor::kRight ? shield.right : shield.z;
 }
 
-/// Left and right turn round when the chains leave below the sprockets; the left motor, which
-/// faces the other way, has its wires crossed over the top.
+/// Whether a motor's wires count as crossed. Left and right change when the chains leave below the
+/// sprockets. The left motor faces the other way: it is crossed when they leave over the top.
 inline bool isCrossed(Motor motor, bool over_top) {
   if (motor == Motor::kLeft) return over_top;
   return motor == Motor::kRight && !over_top;
 }
 
-/// The driver of one motor, for chains that leave over the top of their sprockets or below.
+/// A motor's driver, for chains that leave over the top of their sprockets or below.
 inline Channel channelOf(const Shield& shield, Motor motor, bool over_top) {
   const MotorPins& pins = pinsOf(shield, motor);
   const bool is_z = motor == Motor::kZ;
-  // This one says its direction by a level, so its pins never change places.
+  // The TLE9201 has a direction pin, so its pins never change places.
   const bool cross = shield.driver != Driver::kTle9201 && isCrossed(motor, over_top);
   return {shield.driver, cross ? pins.second : pins.first, cross ? pins.first : pins.second,
           pins.enable, !is_z && over_top};
@@ -53,14 +53,15 @@ inline Channel channelOf(const Shield& shield, Motor motor, bool over_top) {
 
 namespace drivers_detail {
 
-/// Two bridge inputs, of which at least one can carry a PWM: pulses against high where the pin
-/// that is low would be, so that the motor brakes between them.
+/// Levels for a bridge with two inputs, of which at least one can carry a PWM. If the pin that
+/// should pulse cannot, the other pin pulses inverted against a high level. The motor then brakes
+/// between pulses.
 inline Levels bridgeLevels(const Channel& channel, bool forward, uint8_t duty, uint8_t enable) {
   if (forward) {
-    if (canPulse(channel.two)) return {kHigh, uint8_t(255 - duty), enable};
+    if (canPulse(channel.input2)) return {kHigh, uint8_t(255 - duty), enable};
     return {duty, kLow, enable};
   }
-  if (canPulse(channel.one)) return {uint8_t(255 - duty), kHigh, enable};
+  if (canPulse(channel.input1)) return {uint8_t(255 - duty), kHigh, enable};
   return {kLow, duty, enable};
 }
 
@@ -100,19 +101,19 @@ inline Levels levelsOff(const Channel& channel) {
   }
 }
 
-/// Whether the driver listens on its third pin; the TLE5206 speaks on it.
+/// Whether the driver's third pin is an input; on the TLE5206 it is an output.
 inline bool hasEnable(const Channel& channel) {
   return channel.enable != kNoPin && channel.driver != Driver::kTle5206;
 }
 
-/// The pin on which a motor's driver reports an error, low: too hot, too much current, too little
-/// voltage; kNoPin if it cannot.
+/// The pin that a motor's driver pulls low on an error: too hot, too much current, too little
+/// voltage. kNoPin if the driver reports none.
 inline uint8_t errorPinOf(const Shield& shield, Motor motor) {
   return shield.driver == Driver::kTle5206 ? pinsOf(shield, motor).enable : kNoPin;
 }
 
-/// The PWM frequency that a driver can follow, as near to the one wanted as it can: 1 is 31.4 kHz,
-/// 2 is 3.9 kHz, 3 is 490 Hz. Anything else counts as 3.
+/// The PWM frequency nearest to the wanted frequency that a driver can follow: 1 is 31.4 kHz, 2 is
+/// 3.9 kHz, 3 is 490 Hz. Anything else counts as 3.
 inline uint8_t pwmFor(Driver driver, uint8_t wanted) {
   if (wanted < 1 || wanted > 3 || driver == Driver::kTle5206) return 3;  // its limit is 1 kHz
   if (driver == Driver::kTle9201 && wanted == 1) return 2;               // its limit is 20 kHz

@@ -1,4 +1,4 @@
-// EEPROM by its registers: avr-libc's functions would wait for a write that still goes on.
+// The EEPROM by its registers: avr-libc's functions would wait while a write goes on.
 #include "eeprom.h"
 
 #include <avr/io.h>

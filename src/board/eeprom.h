@@ -5,7 +5,7 @@
 
 namespace board {
 
-/// One byte at a time; a write goes on by itself for 3.4 ms.
+/// Reads and writes a byte at a time. A write goes on for 3.4 ms after write() returns.
 class Eeprom : public settings::Bytes {
  public:
   uint16_t size() const override;

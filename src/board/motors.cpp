@@ -1,4 +1,4 @@
-// Puts the levels that drivers.h works out on the pins, and counts the encoders' edges.
+// Puts the levels from drivers.h on the pins, and counts the encoders' edges.
 #include "motors.h"
 
 #include <Arduino.h>
@@ -16,8 +16,7 @@ static_assert(uint8_t(Motor::kLeft) == machine::kLeftAxis && uint8_t(Motor::kZ) 
 Quadrature encoders[kEncoderPairs];
 
 void putLevel(uint8_t pin, uint8_t level) {
-  // Straight to the pin where no PWM is meant: analogWrite looks up the timer in any case, but
-  // would start one on a pin that is only a level.
+  // A level without PWM goes straight to the pin: analogWrite could start a timer on it.
   if (level == kLow || level == kHigh)
     digitalWrite(pin, level);
   else
@@ -43,11 +42,12 @@ void Motors::begin(const Shield* shield) {
   arrange(true, 3);
   for (uint8_t i = 0; i < kAxisCount; ++i) {
     const Channel& channel = channel_[i];
-    // Levels before directions, so that no pin is driven the wrong way even for a moment.
-    putLevel(channel.one, levelsOff(channel).one);
-    putLevel(channel.two, levelsOff(channel).two);
-    pinMode(channel.one, OUTPUT);
-    pinMode(channel.two, OUTPUT);
+    // First the levels, then the directions, so that no pin is driven the wrong way even for a
+    // moment.
+    putLevel(channel.input1, levelsOff(channel).input1);
+    putLevel(channel.input2, levelsOff(channel).input2);
+    pinMode(channel.input1, OUTPUT);
+    pinMode(channel.input2, OUTPUT);
     if (hasEnable(channel)) {
       putLevel(channel.enable, levelsOff(channel).enable);
       pinMode(channel.enable, OUTPUT);
@@ -69,8 +69,8 @@ void Motors::put(Axis axis, const Levels& levels) {
   const Channel& channel = channel_[axis];
   Levels& shown = shown_[axis];
   if (hasEnable(channel) && levels.enable != shown.enable) putLevel(channel.enable, levels.enable);
-  if (levels.one != shown.one) putLevel(channel.one, levels.one);
-  if (levels.two != shown.two) putLevel(channel.two, levels.two);
+  if (levels.input1 != shown.input1) putLevel(channel.input1, levels.input1);
+  if (levels.input2 != shown.input2) putLevel(channel.input2, levels.input2);
   shown = levels;
 }
 
@@ -107,8 +107,8 @@ void Motors::arrange(bool over_top, uint8_t pwm_choice) {
     channel_[i] = channelOf(*shield_, Motor(i), over_top);
     encoder_[i] = encoderOf(*shield_, Motor(i), over_top);
     const Levels off = levelsOff(channel_[i]);
-    // So that the next levels are put on the pins whatever was there.
-    shown_[i] = {uint8_t(~off.one), uint8_t(~off.two), uint8_t(~off.enable)};
+    // No level equals its inverse, so the next levels are put on the pins in any case.
+    shown_[i] = {uint8_t(~off.input1), uint8_t(~off.input2), uint8_t(~off.enable)};
     put(Axis(i), off);
   }
   const uint8_t choice = pwmFor(shield_->driver, pwm_choice);

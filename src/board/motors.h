@@ -18,7 +18,7 @@ class Motors : public machine::Drives {
   uint16_t count(machine::Axis axis) override;
   uint16_t illegalSteps(machine::Axis axis) override;
   void arrange(bool over_top, uint8_t pwm_choice) override;
-  /// Takes the power off all motors, from wherever it is called.
+  /// Takes the power off all motors. Interrupts may call it too.
   void releaseAll();
 
  private:

@@ -1,5 +1,5 @@
-// Quadrature decoding: which way an encoder turned, from its two channels before and after.
-// Knows no Arduino.
+// Quadrature decoding: which way an encoder turned, from its two channels before and after. Without
+// Arduino.
 #pragma once
 
 #include <stdint.h>
@@ -8,20 +8,20 @@
 
 namespace board {
 
-/// Pairs of pins with an interrupt each: 21 and 20, 19 and 18, 2 and 3; low bit of the port first.
+/// Pairs of pins with interrupts: 21 and 20, 19 and 18, 2 and 3; the lower bit of the port first.
 enum : uint8_t { kEncoderPairs = 3 };
 
-/// Which pair an encoder is on, and whether it counts against it.
+/// The pair of pins that an encoder is on, and whether its count runs against the pair's.
 struct EncoderWiring {
   uint8_t pair;
   bool reversed;
 };
 
-/// What a step from one state (high channel, low channel) to another adds to the count: it rises
-/// when the high channel leads, 0, 2, 3, 1. Where both changed nobody knows the direction.
+/// What a change of state (high channel, low channel) adds to the count. The count rises when the
+/// high channel leads: 0, 2, 3, 1. If both channels changed, the direction is unknown.
 const int8_t kQuadratureSteps[16] = {0, -1, +1, 0, +1, 0, 0, -1, -1, 0, 0, +1, 0, +1, -1, 0};
 
-/// One pair of channels, its count, and how often an edge was missed.
+/// A pair of channels, its count, and how often an edge was missed.
 struct Quadrature {
   uint8_t state;
   uint16_t count;    ///< wraps round
@@ -35,8 +35,8 @@ struct Quadrature {
   }
 };
 
-/// Where a motor's encoder is counted. Its first and second channel change places with the feed as
-/// the driver's pins do; the count shall rise when the second one leads.
+/// Where a motor's encoder is counted. Its two channels change places with the feed, as the
+/// driver's pins do. The count rises when the second channel leads.
 inline EncoderWiring encoderOf(const Shield& shield, Motor motor, bool over_top) {
   const MotorPins& pins = pinsOf(shield, motor);
   const bool cross = motor == Motor::kZ || isCrossed(motor, over_top);

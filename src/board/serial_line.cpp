@@ -1,4 +1,4 @@
-// UART 0 by interrupts, with rings that are indexed by a byte and so need no wrapping by hand.
+// UART 0 by interrupts. A byte indexes each ring of 256 characters, so the index wraps by itself.
 #include "serial_line.h"
 
 #include <avr/interrupt.h>
@@ -9,8 +9,8 @@
 namespace board {
 namespace {
 
-// 16 without double speed is 58,824 baud. The USB chip of a genuine Mega makes the same choice; the
-// arithmetically nearer one, double speed, would be 2.9 % away from it.
+// 16 without double speed is 58,824 baud. The USB chip of a genuine Mega makes the same choice.
+// Double speed would be nearer to 57,600 baud, but 2.9 % away from the USB chip's rate.
 const uint16_t kDivider = 16;
 
 uint8_t in_ring[256], out_ring[256];

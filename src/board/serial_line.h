@@ -1,11 +1,11 @@
-// The serial line to the computer: 57600 baud as the Mega's USB chip makes it, buffered both ways.
+// The serial line to the computer: 57,600 baud as the Mega's USB chip makes it, buffered both ways.
 #pragma once
 
 #include "machine/ports.h"
 
 namespace board {
 
-/// UART 0. There is only one; its buffers belong to the interrupts.
+/// UART 0. Its buffers are shared with the interrupts.
 class SerialLine : public machine::Wire {
  public:
   void begin();

@@ -1,4 +1,4 @@
-// Which motor shield sits on the board.
+// Which motor shield is plugged in.
 #pragma once
 
 #include <Arduino.h>
@@ -7,8 +7,8 @@
 
 namespace board {
 
-/// The shield that its straps name, or null where no shield says this (a board without any reads
-/// like v1.2).
+/// The shield that the straps name, or null if no shield has these straps. (Without a shield the
+/// board reads like v1.2.)
 inline const Shield* detectShield() {
   uint8_t straps = 0;
   for (uint8_t i = 0; i < kStrapCount; ++i) {

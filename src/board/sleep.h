@@ -5,8 +5,8 @@
 
 namespace board {
 
-/// Sleeps until the next interrupt. Timers, serial line and encoders go on and wake the processor;
-/// timer 0, which counts Arduino's milliseconds, does so after 1.024 ms at the latest.
+/// Sleeps until the next interrupt. Timers, serial line and encoders keep working and wake the
+/// processor. Timer 0, which counts Arduino's milliseconds, wakes it after at most 1.024 ms.
 inline void sleepUntilInterrupt() {
   set_sleep_mode(SLEEP_MODE_IDLE);
   sleep_mode();

@@ -14,13 +14,14 @@ const uint16_t kStarved = 0x5afe;
 void (*on_starved)();
 volatile bool bitten;
 
-// Not cleared at the start, so that they tell of the life before.
+// Not cleared at the start, so the flags survive from before the reset.
 uint8_t reset_flags __attribute__((section(".noinit")));
 volatile uint16_t last_words __attribute__((section(".noinit")));
 
 }  // namespace
 
-/// Before main(), as the watchdog goes on after its own reset, and after 15 ms would strike again.
+/// Runs before main(): after a watchdog reset the watchdog stays on, and would reset again after
+/// 15 ms.
 void keepResetFlags() __attribute__((naked, used, section(".init3")));
 void keepResetFlags() {
   reset_flags = MCUSR;
@@ -59,7 +60,7 @@ void watchdog::arm() {
 
 machine::Start watchdog::start() {
   using machine::Start;
-  // Many bootloaders clear the flags; then only the interrupt's last words are left.
+  // Many bootloaders clear the flags. Then only what the interrupt wrote last is left.
   const bool first_power = reset_flags & 1 << PORF;
   if (reset_flags & 1 << WDRF || (!first_power && last_words == kStarved)) return Start::kWatchdog;
   return reset_flags & 1 << BORF && !first_power ? Start::kBrownOut : Start::kUsual;

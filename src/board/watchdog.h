@@ -1,6 +1,7 @@
-// The processor's watchdog, the last guard: it acts when the control tick itself has died. It
-// interrupts first and resets only if nobody lives, because after its reset the bootloaders of
-// older Megas loop until the power is taken away (with all pins open, so that no motor turns).
+// The processor's watchdog is the last guard: it acts when the control tick no longer runs. It
+// first interrupts, and resets only if the main program is dead too. For after a watchdog reset the
+// bootloaders of older Megas loop until power is switched off. (All pins are open then, so no motor
+// turns.)
 #pragma once
 
 #include "machine/ports.h"
@@ -8,17 +9,17 @@
 namespace board {
 namespace watchdog {
 
-/// Starts it: 60 ms without feed() and it calls `starved`, from an interrupt; another 60 ms without
-/// arm(), or with interrupts held, and it resets the processor.
+/// Starts the watchdog. After 60 ms without feed() it calls `starved` from an interrupt. After
+/// another 60 ms without arm(), or with interrupts off, it resets the processor.
 void begin(void (*starved)());
 
-/// The control tick is alive.
+/// To be called by the control tick, which is alive.
 void feed();
 
-/// Whether it has called `starved` since arm() was last called.
+/// Whether the watchdog has called `starved` since the last arm().
 bool hasBitten();
 
-/// The main program is alive and has seen to what starved: no reset.
+/// To be called by the main program, once it has dealt with `starved`: prevents the reset.
 void arm();
 
 /// Why the processor started this time.

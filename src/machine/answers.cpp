@@ -80,7 +80,7 @@ bool Answers::endRefusal() {
 
 void Answers::beginHalt() {
   out_ << FLASH("ALARM: Halted at ");
-  // As people write it: the spaces between words went when the line was read.
+  // As people write it: reading removed the spaces between words.
   for (const char* at = line_; *at != '\0'; ++at) {
     if (at != line_ && isLetter(*at) && !isLetter(at[-1]) && at[-1] != ' ') out_ << ' ';
     out_ << *at;

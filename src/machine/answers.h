@@ -1,4 +1,4 @@
-// What a line is answered with: `ok`, `error:`, or the alarm that halts the machine.
+// The answer to a line: `ok`, `error:`, or the alarm that halts the machine.
 #pragma once
 
 #include <GCode.h>
@@ -8,39 +8,40 @@
 
 namespace machine {
 
-/// The answer to the line in execution; each line gets one at most.
+/// The answer to the line in execution; each line gets at most one answer.
 ///
-/// A client sends its next line after `error:` as after `ok`. A move that is not done would let the
-/// next one start from a wrong place, so by default it halts the machine instead ($70): then
-/// mustHalt() is true once. All that refuses returns false, so that a command can return it.
+/// A client sends its next line after `error:` just as after `ok`. After a refused move the next
+/// move would start from a wrong place. So by default a refused move halts the machine ($70):
+/// mustHalt() is then true once. Functions that refuse return false, so a command can return their
+/// result.
 class Answers {
  public:
   Answers(Printer& out, const settings::Values& values) : out_(out), values_(values) {}
 
-  /// A new line is in execution; `line` is named when it halts the machine.
+  /// Begins a new line. If it halts the machine, the alarm quotes `line`.
   void begin(const char* line) {
     line_ = line;
     is_answered_ = false;
   }
   bool isAnswered() const { return is_answered_; }
-  /// Says whether the line counts as answered.
+  /// Sets whether the line counts as answered.
   void setAnswered(bool yes) { is_answered_ = yes; }
-  /// Whether a refusal has asked for a halt since this was last asked.
+  /// Whether a refusal has asked for a halt since the last call.
   bool mustHalt() {
     const bool must = must_halt_;
     must_halt_ = false;
     return must;
   }
 
-  /// Begins a line with `error: `, to be ended by the caller.
+  /// Begins a line with `error: `; the caller ends it.
   void beginError();
   bool refuse(FlashText why);
-  /// For whatever leaves the machine where the program does not think it is: halts it, or answers
-  /// `error:`, by setting $70.
+  /// Refuses a motion, so that the machine is not where the program thinks: asks for a halt or
+  /// answers `error:`, as setting $70 says.
   bool refuseMotion(FlashText why);
-  /// The same; `letter` ends the sentence.
+  /// Refuses a motion with a sentence that ends in `letter`.
   bool refuseMotion(FlashText why, char letter);
-  /// What the published firmware says to a line that it cannot make sense of.
+  /// Refuses a line without meaning, in the words of the published firmware.
   bool refuseStatement();
   bool refuseMistake(gcode::Mistake mistake);
   bool refuseCode(const gcode::Piece& piece);
@@ -57,7 +58,7 @@ class Answers {
   bool is_answered_ = false, must_halt_ = false;
 };
 
-// What more than one part refuses.
+// Refusals of more than one part.
 FlashText tooLongForChains();
 FlashText tooLongForZ();
 FlashText tooFar();

@@ -8,10 +8,9 @@
 namespace machine {
 namespace {
 
-// An illegal step is two edges at once.
-const float kCountsMissed = 2;
-const float kShareOfLimit = 8;  // that missed steps may take
-// A share of the planned speed so low that it is to be told.
+const float kCountsMissed = 2;  // [encoder counts] an illegal step is two edges at once
+const float kShareOfLimit = 8;  // missed steps may take an eighth of the position error's limit
+// [1/256] Below this share of the planned speed the operator hears of it.
 const uint16_t kMuch = 200;
 
 float withinTravel(float length) {
@@ -30,73 +29,74 @@ bool Axes::prepare(const settings::Values& values) {
   const WithoutTicks hold(clock_);
   bool is_rescaled = false;
   for (uint8_t i = 0; i < kAxisCount; ++i) {
-    One& one = axis_[i];
+    Controlled& controlled = axis_[i];
     const bool z = i == kZAxis;
     const float counts = values.at(z ? kZCounts : kEncoderCounts);
-    const float length = withinTravel(float(one.counts) * one.per_count);
-    const float was_per_count = one.per_count;
-    one.per_count = values.at(z ? kZPerTurn : kChainPerTurn) / counts;
-    one.turns_per_count = 1 / float(fabs(counts));
-    one.turns_per_mm = one.turns_per_count / one.per_count;
-    one.turns_per_fine = one.turns_per_mm / float(motion::kCountsPerMm);
-    one.fine_per_count = one.per_count * float(motion::kCountsPerMm);
-    const float most = kMostTravel / float(fabs(one.per_count));
-    one.most_counts = most < 2e9f ? int32_t(most) : 2000000000;
+    const float length = withinTravel(float(controlled.counts) * controlled.per_count);
+    const float was_per_count = controlled.per_count;
+    controlled.per_count = values.at(z ? kZPerTurn : kChainPerTurn) / counts;
+    controlled.turns_per_count = 1 / float(fabs(counts));
+    controlled.turns_per_mm = controlled.turns_per_count / controlled.per_count;
+    controlled.turns_per_fine = controlled.turns_per_mm / float(motion::kCountsPerMm);
+    controlled.fine_per_count = controlled.per_count * float(motion::kCountsPerMm);
+    const float most = kMostTravel / float(fabs(controlled.per_count));
+    controlled.most_counts = most < 2e9f ? int32_t(most) : 2000000000;
     const float most_missed = values.at(kPositionErrorLimit) / kShareOfLimit /
-                              (kCountsMissed * float(fabs(one.per_count)));
-    one.most_missed = most_missed < UINT16_MAX ? uint16_t(most_missed) : uint16_t(UINT16_MAX);
-    if (one.per_count != was_per_count) {
-      one.counts = countsOf(one, length);
+                              (kCountsMissed * float(fabs(controlled.per_count)));
+    controlled.most_missed = most_missed < UINT16_MAX ? uint16_t(most_missed) : uint16_t(UINT16_MAX);
+    if (controlled.per_count != was_per_count) {
+      controlled.counts = countsOf(controlled, length);
       is_rescaled = true;
     }
-    // A negative number of counts says that motor or encoder is wired the other way.
-    one.sign = counts < 0 ? -1 : 1;
-    one.loop.tune(gainsFrom(values, z ? kZPositionP : kMainPositionP),
-                  gainsFrom(values, z ? kZSpeedP : kMainSpeedP), float(fabs(counts)),
-                  seconds_per_tick_);
-    one.watch.tune(values.at(kPositionErrorLimit), float(fabs(counts)), seconds_per_tick_);
-    one.is_held = values.at(z ? kZPositionP : kMainPositionP) > 0;
+    // A negative number of counts means that motor or encoder is wired the other way.
+    controlled.sign = counts < 0 ? -1 : 1;
+    controlled.loop.tune(gainsFrom(values, z ? kZPositionP : kMainPositionP),
+                         gainsFrom(values, z ? kZSpeedP : kMainSpeedP), float(fabs(counts)),
+                         seconds_per_tick_);
+    controlled.watch.tune(values.at(kPositionErrorLimit), float(fabs(counts)), seconds_per_tick_);
+    controlled.is_held = values.at(z ? kZPositionP : kMainPositionP) > 0;
   }
   yield_.tune(values.at(kPositionErrorLimit));
   return is_rescaled;
 }
 
-int32_t Axes::countsOf(const One& one, float length) {
-  const float counts = length / one.per_count;
-  if (counts >= float(one.most_counts)) return one.most_counts;
-  return counts <= -float(one.most_counts) ? -one.most_counts : int32_t(lround(counts));
+int32_t Axes::countsOf(const Controlled& controlled, float length) {
+  const float counts = length / controlled.per_count;
+  if (counts >= float(controlled.most_counts)) return controlled.most_counts;
+  return counts <= -float(controlled.most_counts) ? -controlled.most_counts
+                                                  : int32_t(lround(counts));
 }
 
 void Axes::simulate(bool on) {
   const WithoutTicks hold(clock_);
   if (on && !simulated_) {
     is_imagined_ = false;
-    for (One& one : axis_) one.astray = 0;
+    for (Controlled& controlled : axis_) controlled.astray = 0;
   }
   simulated_ = on;
 }
 
-void Axes::imagine(One& one, int32_t counts) {
-  if (one.counts != counts) is_imagined_ = true;
-  one.counts = counts;
+void Axes::imagine(Controlled& controlled, int32_t counts) {
+  if (controlled.counts != counts) is_imagined_ = true;
+  controlled.counts = counts;
 }
 
-void Axes::readEncoder(One& one, Axis axis) {
+void Axes::readEncoder(Controlled& controlled, Axis axis) {
   const uint16_t raw = drives_.count(axis);
-  const int16_t moved = int16_t(raw - one.raw);
-  one.raw = raw;
-  one.moved = moved;
+  const int16_t moved = int16_t(raw - controlled.raw);
+  controlled.raw = raw;
+  controlled.moved = moved;
   if (!simulated_) {
-    one.counts += moved;
+    controlled.counts += moved;
     return;
   }
   const int16_t kAstray = 12;  // [encoder counts] 0.1 mm of chain
-  one.astray = int16_t(one.astray + moved);
-  if (one.astray > kAstray || one.astray < -kAstray) is_imagined_ = true;
+  controlled.astray = int16_t(controlled.astray + moved);
+  if (controlled.astray > kAstray || controlled.astray < -kAstray) is_imagined_ = true;
 }
 
 void Axes::takeSetPoint() {
-  One &left = axis_[kLeftAxis], &right = axis_[kRightAxis], &z = axis_[kZAxis];
+  Controlled &left = axis_[kLeftAxis], &right = axis_[kRightAxis], &z = axis_[kZAxis];
   SetPoint point = {left.set_point, right.set_point, z.set_point - lift_.at()};
   playback_.next(set_points_, point);
   lift_.advance();
@@ -109,30 +109,33 @@ void Axes::takeSetPoint() {
   z.asked = ahead.z + lift_.speed();
 }
 
-void Axes::control(One& one, Axis axis) {
-  const float turned = float(one.moved) * one.turns_per_count;
-  one.loop.measure(turned);
-  if (one.mode == AxisMode::kOff) return;
-  if (one.mode == AxisMode::kFollow) {
+void Axes::control(Controlled& controlled, Axis axis) {
+  const float turned = float(controlled.moved) * controlled.turns_per_count;
+  controlled.loop.measure(turned);
+  if (controlled.mode == AxisMode::kOff) return;
+  if (controlled.mode == AxisMode::kFollow) {
     if (simulated_) {
-      imagine(one, int32_t(lround(motion::toMm<float>(one.set_point) / one.per_count)));
+      imagine(controlled,
+              int32_t(lround(motion::toMm<float>(controlled.set_point) / controlled.per_count)));
       return;
     }
-    const int32_t ahead = one.set_point - measured(one);
+    const int32_t ahead = controlled.set_point - measured(controlled);
     const int32_t size = ahead < 0 ? -ahead : ahead;
-    if (size > one.most_behind) one.most_behind = size;
-    if (size > worst_off_ && one.is_held) worst_off_ = size;
+    if (size > controlled.most_behind) controlled.most_behind = size;
+    if (size > worst_off_ && controlled.is_held) worst_off_ = size;
     const float error = motion::toMm<float>(ahead);
-    const float asked = one.asked == 0 ? 0 : float(one.asked) * one.turns_per_fine;
-    one.duty = one.loop.follow(error * one.turns_per_mm, asked, turned);
-    const motion::Fault seen = one.watch.look(one.duty, one.moved, error);
-    if (seen != motion::Fault::kNone && one.is_held) note(seen, axis);
-  } else if (one.mode == AxisMode::kTurn) {
-    one.duty = one.loop.run(one.rpm);
+    const float asked =
+        controlled.asked == 0 ? 0 : float(controlled.asked) * controlled.turns_per_fine;
+    controlled.duty = controlled.loop.follow(error * controlled.turns_per_mm, asked, turned);
+    const motion::Fault seen = controlled.watch.look(controlled.duty, controlled.moved, error);
+    if (seen != motion::Fault::kNone && controlled.is_held) note(seen, axis);
+  } else if (controlled.mode == AxisMode::kTurn) {
+    controlled.duty = controlled.loop.run(controlled.rpm);
   }
-  // Positive drive winds in; a positive duty here lengthens.
-  const int16_t drive = one.mode == AxisMode::kOpen ? one.duty : int16_t(-one.duty);
-  if (!simulated_) drives_.drive(axis, one.sign < 0 ? int16_t(-drive) : drive);
+  // A positive drive winds chain in; a positive duty here pays it out.
+  const int16_t drive =
+      controlled.mode == AxisMode::kOpen ? controlled.duty : int16_t(-controlled.duty);
+  if (!simulated_) drives_.drive(axis, controlled.sign < 0 ? int16_t(-drive) : drive);
 }
 
 void Axes::note(motion::Fault seen, Axis axis) {
@@ -140,12 +143,12 @@ void Axes::note(motion::Fault seen, Axis axis) {
   if (seen > fault_) fault_ = seen;
 }
 
-int32_t Axes::measured(const One& one) const {
-  // Counts kept under other settings may tell any length.
-  int32_t counts = one.counts;
-  if (counts > one.most_counts) counts = one.most_counts;
-  if (counts < -one.most_counts) counts = -one.most_counts;
-  return int32_t(lround(float(counts) * one.fine_per_count));
+int32_t Axes::measured(const Controlled& controlled) const {
+  // Counts that were stored under other settings may mean any length.
+  int32_t counts = controlled.counts;
+  if (counts > controlled.most_counts) counts = controlled.most_counts;
+  if (counts < -controlled.most_counts) counts = -controlled.most_counts;
+  return int32_t(lround(float(counts) * controlled.fine_per_count));
 }
 
 void Axes::tick() {
@@ -230,11 +233,11 @@ bool Axes::isLifted() const {
 
 void Axes::declareLifted(float z) {
   const WithoutTicks hold(clock_);
-  One& one = axis_[kZAxis];
-  const int32_t planned = one.set_point - lift_.at();
-  one.counts = int32_t(lround(withinTravel(z) / one.per_count));
-  one.set_point = motion::toCounts(withinTravel(z));
-  lift_.standAt(one.set_point - planned);
+  Controlled& controlled = axis_[kZAxis];
+  const int32_t planned = controlled.set_point - lift_.at();
+  controlled.counts = int32_t(lround(withinTravel(z) / controlled.per_count));
+  controlled.set_point = motion::toCounts(withinTravel(z));
+  lift_.standAt(controlled.set_point - planned);
   forgetMissed(kZAxis);
 }
 
@@ -246,7 +249,7 @@ SetPoint Axes::setPoint() const {
 void Axes::standStill() {
   const WithoutTicks hold(clock_);
   forgetWay();
-  for (One& one : axis_) one.set_point = measured(one);
+  for (Controlled& controlled : axis_) controlled.set_point = measured(controlled);
 }
 
 void Axes::jumpTo(Axis axis, float length) {
@@ -257,11 +260,11 @@ void Axes::jumpTo(Axis axis, float length) {
 
 void Axes::follow() {
   const WithoutTicks hold(clock_);
-  for (One& one : axis_) {
-    if (one.mode == AxisMode::kFollow) continue;
-    one.loop.rest();
-    one.watch.rest();
-    one.mode = AxisMode::kFollow;
+  for (Controlled& controlled : axis_) {
+    if (controlled.mode == AxisMode::kFollow) continue;
+    controlled.loop.rest();
+    controlled.watch.rest();
+    controlled.mode = AxisMode::kFollow;
   }
   fault_ = motion::Fault::kNone;
   disproved_ = 0;
@@ -286,21 +289,21 @@ void Axes::driveOpen(Axis axis, int16_t duty) {
 
 void Axes::turn(Axis axis, float rpm) {
   const WithoutTicks hold(clock_);
-  One& one = axis_[axis];
-  if (one.mode != AxisMode::kTurn) one.loop.rest();
-  one.mode = AxisMode::kTurn;
-  one.rpm = rpm;
+  Controlled& controlled = axis_[axis];
+  if (controlled.mode != AxisMode::kTurn) controlled.loop.rest();
+  controlled.mode = AxisMode::kTurn;
+  controlled.rpm = rpm;
 }
 
 bool Axes::isPowered() const {
-  for (const One& one : axis_)
-    if (one.mode != AxisMode::kOff) return true;
+  for (const Controlled& controlled : axis_)
+    if (controlled.mode != AxisMode::kOff) return true;
   return false;
 }
 
 bool Axes::isDriven() const {
-  for (const One& one : axis_)
-    if (one.mode == AxisMode::kOpen || one.mode == AxisMode::kTurn) return true;
+  for (const Controlled& controlled : axis_)
+    if (controlled.mode == AxisMode::kOpen || controlled.mode == AxisMode::kTurn) return true;
   return false;
 }
 
@@ -337,18 +340,18 @@ float Axes::mostBehind(Axis axis) {
 void Axes::declare(Axis axis, float length) {
   const WithoutTicks hold(clock_);
   lift_.absorb();
-  One& one = axis_[axis];
+  Controlled& controlled = axis_[axis];
   length = withinTravel(length);
   if (simulated_) is_imagined_ = true;
-  one.counts = countsOf(one, length);
-  one.set_point = motion::toCounts(length);
+  controlled.counts = countsOf(controlled, length);
+  controlled.set_point = motion::toCounts(length);
   forgetMissed(axis);
 }
 
 AxisState Axes::state(Axis axis) const {
   const WithoutTicks hold(clock_);
-  const One& one = axis_[axis];
-  return {one.loop.rpm(), one.loop.wanted(), one.duty};
+  const Controlled& controlled = axis_[axis];
+  return {controlled.loop.rpm(), controlled.loop.wanted(), controlled.duty};
 }
 
 void Axes::forgetRawCounts() {
@@ -360,9 +363,9 @@ void Axes::forgetRawCounts() {
 }
 
 bool Axes::hasMissedSteps(Axis axis) const {
-  const One& one = axis_[axis];
-  const uint16_t missed = uint16_t(drives_.illegalSteps(axis) - one.missed_before);
-  return missed > one.most_missed && !simulated_;
+  const Controlled& controlled = axis_[axis];
+  const uint16_t missed = uint16_t(drives_.illegalSteps(axis) - controlled.missed_before);
+  return missed > controlled.most_missed && !simulated_;
 }
 
 motion::Fault Axes::fault() {

@@ -1,5 +1,5 @@
-// The three axes at the control tick: set-points and encoder counts in, duties out; and what the
-// main program may ask and tell meanwhile.
+// The three axes at the control tick: set-points and encoder counts in, duties out. And the main
+// program's view of them.
 #pragma once
 
 #include <Motion.h>
@@ -13,40 +13,40 @@ using motion::AxisLoop;
 using motion::Gains;
 using motion::SetPoint;
 
-/// [mm] No axis reaches farther; twice as much still fits the counts of a set-point.
+/// [mm] No axis goes farther. Twice this length still fits the counts of a set-point.
 const float kMostTravel = 16000;
 
 /// What an axis does.
 enum class AxisMode : uint8_t {
   kOff,     ///< no power
-  kFollow,  ///< its set-points
-  kTurn,    ///< at a speed
-  kOpen,    ///< at a duty
+  kFollow,  ///< follows its set-points
+  kTurn,    ///< turns at a speed
+  kOpen,    ///< driven at a duty
 };
 
 /// An axis as it was at the last tick, for the tests of the loops.
 struct AxisState {
   float rpm;         ///< measured
-  float wanted_rpm;  ///< what the position loop asks for
+  float wanted_rpm;  ///< output of the position loop
   int16_t duty;
 };
 
 /// All three axes.
 ///
-/// tick() runs in the control interrupt. Everything else is for the main program; what touches
-/// numbers that the tick uses holds it off.
+/// tick() runs in the control interrupt. All other functions are for the main program; they keep
+/// the tick off while they touch numbers that it uses.
 class Axes {
  public:
   Axes(Drives& drives, Clock& clock) : drives_(drives), clock_(clock) {}
 
-  /// How often tick() is called; once, before prepare().
+  /// Sets how often tick() is called. To be called once, before prepare().
   void setTicksPerSecond(float ticks) {
     seconds_per_tick_ = 1 / ticks;
     ticks_ahead_ = AxisLoop::ticksAhead(seconds_per_tick_);
   }
 
-  /// Takes over scales, gains and limits; whether counts mean other lengths now. A new scale holds
-  /// for travel from now on: all lengths stay what they are, and nothing moves.
+  /// Takes over scales, gains and limits. Returns whether the scale changed, so that counts mean
+  /// other lengths. A new scale holds for travel from now on: lengths stay, and nothing moves.
   bool prepare(const settings::Values& values);
 
   /// One control tick.
@@ -54,39 +54,40 @@ class Axes {
 
   // Set-points.
   motion::SetPoints& setPoints() { return set_points_; }
-  /// Nothing moves, nothing waits.
+  /// Whether no set-point waits and none is in progress.
   bool isEmpty() const;
   /// Set-points that wait to be taken.
   uint8_t waiting() const { return set_points_.count(); }
   void dropSetPoints();
-  /// Brakes along the way and stays, or goes on.
+  /// Brakes along the path and stays, or goes on.
   void hold(bool yes);
-  /// Nothing goes on along the way, for now.
+  /// Whether the axes rest on their path, for now.
   bool isAtRest() const;
-  /// From now on at so many 256ths of the planned speed, see motion::Playback.
+  /// From now on goes at `share` 256ths of the planned speed; see motion::Playback.
   void goAt(uint16_t share);
 
-  /// How strong a laser is at this tick; none where motors run in imagination.
+  /// Strength of a laser at this tick; 0 while motors are simulated.
   uint8_t beam() const { return simulated_ ? 0 : playback_.beam(); }
 
-  /// Whether the feed yielded much since this was last asked, as an axis fell behind.
+  /// Whether the feed yielded much since the last call, because an axis fell behind.
   bool hasYielded();
 
-  // Z while the way is held.
-  /// Moves z away from where the way has it, to a height [mm]; [mm/s], [mm/s^2].
+  // Z during a hold.
+  /// Moves z away from its planned height to the height `z` [mm], with `speed` [mm/s] and
+  /// `acceleration` [mm/s^2].
   void lift(float z, float speed, float acceleration);
-  /// Moves it back.
+  /// Moves z back to its planned height.
   void lower();
   bool isLifted() const;
-  float plannedZ() const;  ///< [mm] where the way has it
-  float liftedTo() const;  ///< [mm] where it is going
-  /// Z is at this height [mm]; the way keeps its heights.
+  float plannedZ() const;  ///< [mm] planned height
+  float liftedTo() const;  ///< [mm] height that z is going to
+  /// Declares that z is at this height [mm]; the planned heights stay.
   void declareLifted(float z);
-  /// The set-points last taken.
+  /// The set-point taken last.
   SetPoint setPoint() const;
-  /// Makes the set-points what the encoders say.
+  /// Sets the set-points to the lengths that the encoders show.
   void standStill();
-  /// Makes one set-point jump [mm].
+  /// Makes the set-point of an axis jump to a length [mm].
   void jumpTo(Axis axis, float length);
   float secondsPerTick() const { return seconds_per_tick_; }
 
@@ -99,10 +100,10 @@ class Axes {
   bool isPowered() const;
   /// Whether a motor runs without its position loop.
   bool isDriven() const;
-  /// Lets motors run in imagination only.
+  /// Simulates the motors from now on: they take no power and follow exactly.
   void simulate(bool on);
   bool isSimulated() const { return simulated_; }
-  /// Whether lengths are other than the chains' since motors began to run in imagination.
+  /// Whether simulated motion has changed lengths, so that they are not those of the chains.
   bool isImagined() const { return is_imagined_; }
 
   // Lengths.
@@ -110,58 +111,57 @@ class Axes {
   void setCounts(int32_t left, int32_t right, int32_t z);
   float length(Axis axis) const;  ///< [mm] measured
   float target(Axis axis) const;  ///< [mm] set-point
-  /// [mm] Largest error() in motion by set-points since this was last asked.
+  /// [mm] Largest error() in motion by set-points since the last call.
   float mostBehind(Axis axis);
   float error(Axis axis) const;           ///< [mm] measured less set-point
-  void declare(Axis axis, float length);  ///< the axis is at this length [mm]
+  void declare(Axis axis, float length);  ///< declares that the axis is at this length [mm]
   AxisState state(Axis axis) const;
-  /// After drives were arranged anew: their counters may have jumped.
+  /// To be called when the drives were arranged again: their counters may have jumped.
   void forgetRawCounts();
 
-  /// What was noticed since this was last asked; the worst of it.
+  /// The worst fault since the last call.
   motion::Fault fault();
-  /// Whether a fault was noticed that proves the counts of an axis wrong, since it was last
-  /// powered.
+  /// Whether, since the axis last got power, a fault has proved its counts wrong.
   bool isDisproved(Axis axis) const { return (disproved_ & (1 << axis)) != 0; }
-  /// Whether its encoder missed so many steps, since a length was declared, that the length is
-  /// wrong by more than an eighth of the position error's limit.
+  /// Whether the encoder of an axis missed many steps since a length was declared: the length is
+  /// then wrong by more than an eighth of the position error's limit.
   bool hasMissedSteps(Axis axis) const;
 
  private:
-  struct One {
+  struct Controlled {
     AxisMode mode = AxisMode::kOff;
-    int8_t sign = 1;      ///< of drive against count
-    bool is_held = true;  ///< its position loop has a gain; without one nothing is watched
+    int8_t sign = 1;      ///< sign between drive and count
+    bool is_held = true;  ///< its position loop has a gain; without a gain nothing is watched
     uint16_t raw = 0;     ///< encoder, as last read
     int16_t moved = 0;    ///< [encoder counts] at the last tick
     int16_t duty = 0;
     uint16_t missed_before = 0;  ///< illegal steps when a length was declared
     uint16_t most_missed = 0;    ///< illegal steps beyond which a length is wrong
-    int32_t most_counts = 0;     ///< [encoder counts] of kMostTravel
+    int32_t most_counts = 0;     ///< [encoder counts] for kMostTravel
     int32_t counts = 0;          ///< [encoder counts] since zero length
     int32_t set_point = 0;       ///< [counts of motion::kCountsPerMm]
     int32_t most_behind = 0;     ///< [counts of motion::kCountsPerMm]
-    int32_t asked = 0;           ///< by how much a tick soon to come will change it
-    int16_t astray = 0;          ///< [encoder counts] turned for real while motion is imagined
+    int32_t asked = 0;           ///< change of `set_point` in a tick soon to come
+    int16_t astray = 0;          ///< [encoder counts] that the motor turned while it was simulated
     float per_count = 1;         ///< [mm] may be negative
     float turns_per_count = 1;
     float turns_per_mm = 1;
     float turns_per_fine = 1;  ///< per count of motion::kCountsPerMm
     float fine_per_count = 1;  ///< counts of motion::kCountsPerMm per encoder count
-    float rpm = 0;             ///< asked for with kTurn
+    float rpm = 0;             ///< commanded with kTurn
     AxisLoop loop;
     motion::Watch watch;
   };
 
   void takeSetPoint();
   void forgetWay();
-  void readEncoder(One& one, Axis axis);
-  void control(One& one, Axis axis);
-  int32_t measured(const One& one) const;
+  void readEncoder(Controlled& controlled, Axis axis);
+  void control(Controlled& controlled, Axis axis);
+  int32_t measured(const Controlled& controlled) const;
   void note(motion::Fault seen, Axis axis);
-  void imagine(One& one, int32_t counts);
+  void imagine(Controlled& controlled, int32_t counts);
   void forgetMissed(Axis axis) { axis_[axis].missed_before = drives_.illegalSteps(axis); }
-  static int32_t countsOf(const One& one, float length);
+  static int32_t countsOf(const Controlled& controlled, float length);
 
   Drives& drives_;
   Clock& clock_;
@@ -171,7 +171,7 @@ class Axes {
   motion::Yield yield_;
   int32_t worst_off_ = 0;  ///< [counts of motion::kCountsPerMm] of any axis at this tick
   volatile bool has_yielded_ = false;
-  One axis_[kAxisCount];
+  Controlled axis_[kAxisCount];
   float seconds_per_tick_ = 0.01f;
   uint8_t ticks_ahead_ = AxisLoop::ticksAhead(0.01f);
   volatile motion::Fault fault_ = motion::Fault::kNone;

@@ -1,4 +1,4 @@
-// Single axes without set-points: tests of motors and loops, and the pull on a chain.
+// Single axes without set-points: tests of motors and loops, and pulling a chain tight.
 #pragma once
 
 #include "motor_power.h"
@@ -9,7 +9,7 @@
 
 namespace machine {
 
-/// A test of one axis' loops, as B13, B14 and B16 ask for it.
+/// A test of an axis' loops, as B13, B14 and B16 ask for it.
 struct LoopTest {
   Axis axis;
   float first, last;
@@ -18,8 +18,8 @@ struct LoopTest {
   uint8_t version;  ///< 2: more numbers in each line
 };
 
-/// B04, B11, B13, B14 and B16. Each waits for queued moves, powers the motors, and looks for the
-/// place of the sled again when it is over; each returns whether it was completed.
+/// B04, B11, B13, B14 and B16. Each test waits for queued moves and powers the motors. At its end
+/// it works out the sled's place again. It returns whether it was completed.
 class AxisTests {
  public:
   AxisTests(Axes& axes, const settings::Values& values, Printer& out, MotorPower& motors,
@@ -37,7 +37,7 @@ class AxisTests {
   bool pullChain(Axis axis, int16_t duty, float seconds);
   /// B13, B14 and B16.
   bool testLoop(uint8_t code, const LoopTest& test);
-  /// Whether a test of the loops makes errors on purpose.
+  /// Whether a test of the loops is running; it makes errors on purpose.
   bool isTesting() const { return is_testing_; }
 
  private:

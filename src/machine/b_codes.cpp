@@ -21,7 +21,7 @@ bool isBare(uint8_t code) { return code == 5 || code == 20 || code == 30 || code
 /// Letters that need no number behind them.
 const char* bareLetters(uint8_t code) { return code == 10 || code == 11 ? "LR" : ""; }
 
-/// Whether a test may go there: turns a minute of B13, mm of B14, duties of B16.
+/// Whether a value is safe for a test: turns a minute for B13, mm for B14, a duty for B16.
 bool isMild(uint8_t code, float value) {
   return float(fabs(value)) <= (code == 14 ? kMostTestLength : 255);
 }
@@ -33,7 +33,7 @@ Axis testedAxis(const Words& words) {
 
 }  // namespace
 
-/// A code and what does it.
+/// A code and the function that does it.
 struct Machine::BCode {
   uint8_t code;
   RunB run;
@@ -60,8 +60,8 @@ bool Machine::runB(const char* line) {
     gcode::Word word;
     for (const char* at = line + 3; gcode::readWord(at, word);) words.add(word.letter, word.value);
   }
-  // All but questions act on the machine, so what was queued before them comes first; an operator's
-  // line in a wait is for the moment.
+  // All codes but questions act on the machine, so moves that were queued before come first. A line
+  // of the operator during a wait acts at once.
   if (!isQuestion(code)) {
     if (!interlude_.isServing()) {
       if (!drain()) return false;

@@ -1,4 +1,4 @@
-// A line with a B code: its number, and which of them may come at any time.
+// Lines with a B code: the code's number, and which codes may come at any time.
 #pragma once
 
 #include <stdint.h>

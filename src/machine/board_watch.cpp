@@ -1,11 +1,11 @@
-// One look at the board.
+// A look at the board.
 #include "board_watch.h"
 
 namespace machine {
 
 BoardEvent BoardWatch::look(Aux& aux, const BoardLimits& limits, bool is_powered, bool is_worn) {
   takeSupply(aux.bandGap(), limits.band_gap);
-  // Without power a driver may complain of just that.
+  // A driver without power may complain that it has none.
   complaints_ = is_powered && hasComplained(aux) ? uint8_t(complaints_ + 1) : uint8_t(0);
   if (complaints_ >= kPatience) {
     complaints_ = 0;
@@ -27,7 +27,7 @@ void BoardWatch::takeSupply(uint16_t reading, float band_gap) {
   if (reading == 0) return;
   const float volts = band_gap * 1024 / float(reading);
   if (settling_ != 0) {
-    // The reference needs a while after the start.
+    // After the start the reference needs a while to settle.
     --settling_;
     supply_ = lowest_ = volts;
     return;

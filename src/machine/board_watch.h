@@ -1,38 +1,37 @@
-// Watches what carries the machine: the processor's supply, the motor drivers' complaints, the
-// EEPROM's wear.
+// Watches the board: the processor's supply, errors of the motor drivers, wear of the EEPROM.
 #pragma once
 
 #include "ports.h"
 
 namespace machine {
 
-/// What the board has come to.
+/// What can happen to the board.
 enum class BoardEvent : uint8_t {
   kNone,
-  kSupplyLow,    ///< below what the settings allow; once, until it was 0.1 V above
-  kDriverFails,  ///< a powered driver has complained for a fifth of a second
-  kWorn,         ///< the EEPROM does not keep what is written; once
+  kSupplyLow,    ///< the supply is below its limit; said once, until it was 0.1 V above
+  kDriverFails,  ///< a driver with power has reported an error for a fifth of a second
+  kWorn,         ///< the EEPROM does not keep what is written; said once
 };
 
-/// What is asked of it.
+/// Limits for the board.
 struct BoardLimits {
   float band_gap;      ///< [V] of this processor's reference
-  float least_supply;  ///< [V]; 0: whatever it is
+  float least_supply;  ///< [V] least supply; 0: no limit
 };
 
-/// Looks every 20 ms; reads nothing that makes it wait.
+/// Looks every 20 ms. No reading makes it wait.
 class BoardWatch {
  public:
   enum : uint8_t { kInterval = 20 };  // [ms]
 
-  /// One look, with the motors on or off.
+  /// A look at the board, with the motors on or off.
   BoardEvent look(Aux& aux, const BoardLimits& limits, bool is_powered, bool is_worn);
 
   /// [V] 0 until it is known.
   float supply() const { return supply_; }
-  /// [V] Lowest since this was last asked.
+  /// [V] Lowest supply since the last call.
   float lowestSupply();
-  /// Whose driver complained last.
+  /// The axis whose driver reported an error last.
   Axis failing() const { return failing_; }
 
  private:
@@ -43,8 +42,8 @@ class BoardWatch {
   bool hasComplained(Aux& aux);
 
   float supply_ = 0, lowest_ = 0;  ///< [V]
-  uint8_t settling_ = kSettling;   ///< readings after the start that are not believed
-  uint8_t complaints_ = 0;         ///< looks in a row
+  uint8_t settling_ = kSettling;   ///< readings after the start that are ignored
+  uint8_t complaints_ = 0;         ///< looks in a row with an error
   Axis failing_ = kLeftAxis;
   bool is_low_ = false, is_wear_told_ = false;
 };

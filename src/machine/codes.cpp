@@ -1,11 +1,11 @@
-// What each G and M code does. Codes that only change how words are read are known to lib/GCode.
+// What each G and M code does. lib/GCode takes the codes that only change how words are read.
 #include "machine.h"
 
 namespace machine {
 
 using gcode::Words;
 
-/// A code and what does it.
+/// A code and the function that does it.
 struct Machine::Code {
   char letter;
   uint16_t tenths;
@@ -59,7 +59,8 @@ bool Machine::find(const gcode::Piece& piece, Code& found) {
 bool Machine::run(const gcode::Piece& piece) {
   Code code;
   if (find(piece, code)) return (this->*code.run)(piece);
-  // Clients send M codes of other machines freely; a G code may have moved.
+  // Clients freely send M codes of other machines, so an unknown M code is ignored. An unknown G
+  // code may have been a motion, so it is refused.
   return piece.letter == 'M' ? ignoreM(piece) : answers_.refuseCode(piece);
 }
 
@@ -107,7 +108,7 @@ bool Machine::takeToolLength(const gcode::Piece& piece) {
 }
 
 bool Machine::forgetToolLength(const gcode::Piece& piece) {
-  // G43 H too: there is no table of tools, z is set for the tool in the spindle.
+  // G43 H does the same: there is no table of tools, and z is set for the tool in the spindle.
   coordinates_.forgetToolLength();
   return moveInMode(piece.words);
 }
@@ -139,7 +140,7 @@ bool Machine::changeTool(const gcode::Piece& piece) {
 }
 
 bool Machine::armLaser(const gcode::Piece& piece) {
-  // With the moves, not at once: what is queued keeps what it was queued with.
+  // This counts for moves that are queued from now on; queued moves keep their beam.
   const bool on = piece.tenths == 1060;
   if (on) cutter_.setFull();
   if (!spindle_.takeS(piece.words)) return false;

@@ -1,4 +1,4 @@
-// A line is executed: cut in front of each G and M, run from left to right, and answered.
+// Executes a line: cuts it in front of each G and M, runs the pieces from left to right, answers.
 #include "b_lines.h"
 #include "machine.h"
 
@@ -7,7 +7,7 @@ namespace {
 
 using gcode::Words;
 
-/// An axis that other machines have, if there is a word for it; 0 if not.
+/// The letter of a word for an axis that only other machines have; 0 if there is none.
 char foreignAxis(const Words& words) {
   for (const char* letter = "ABCUVW"; *letter != '\0'; ++letter)
     if (words.has(*letter)) return *letter;
@@ -29,21 +29,22 @@ void Machine::loop() {
   if (!input_.takeLine(line)) return clock_.sleep();
   answers_.begin(line);
   const bool done = execute(line);
-  // A sender that sends no more, as the clients' Hold and Pause do, soon stops the sled.
+  // The clients' Hold and Pause only stop sending. The queue is short enough that the sled then
+  // stops soon.
   waitWhile([&] { return !answers_.isAnswered() && isFarAhead(); });
   answer(done);
 }
 
 void Machine::answer(bool done) {
   if (answers_.mustHalt()) halt();
-  // What a stop or an alarm broke off is owed no answer.
+  // A line that a stop or an alarm broke off gets no answer.
   if (done && !stopping_ && !answers_.isAnswered()) out_.line(FLASH("ok"));
 }
 
 void Machine::halt() {
   lock_ = Lock::kHalted;
   input_.clear();
-  // What was queued before is good: the path ends where the program meant it to.
+  // Moves that were queued before are good: let them end first.
   if (drain()) spindle_.turn(false);
 }
 
@@ -89,7 +90,7 @@ bool Machine::runCode(const char* text) {
 
 bool Machine::runPiece(const gcode::Piece& piece) {
   const Words& words = piece.words;
-  // Of a line that a stop broke off only its modes still count: a stopped jog ends in G90.
+  // After a stop broke a line off only its modes still count: a stopped jog ends in G90.
   if (stopping_ || answers_.isAnswered()) return piece.letter == 'G' && modal_.take(piece.tenths);
   if (const char axis = foreignAxis(words))
     return answers_.refuseMotion(FLASH("there is no axis "), axis);
@@ -100,7 +101,7 @@ bool Machine::runPiece(const gcode::Piece& piece) {
   if (piece.letter == 'G' && modal_.take(piece.tenths)) return moveInMode(words);
   if (piece.letter == 'G') return run(piece);
   if (piece.letter != 'M') return moveInMode(words);
-  // What ends or pauses a program comes after the line's motion, all else before it.
+  // Codes that end or pause a program come after the line's motion, all others before it.
   if (endsLine(piece.tenths)) return moveInMode(words) && run(piece);
   return run(piece) && moveInMode(words);
 }

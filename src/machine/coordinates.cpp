@@ -1,4 +1,4 @@
-// Coordinates declared, shifted, kept and shown.
+// Coordinates: declared, shifted, stored and shown.
 #include "coordinates.h"
 
 namespace machine {
@@ -6,7 +6,7 @@ namespace {
 
 const uint8_t kGoals = kFirstPlaceSetting + kKeptSystems * kPlaceAxes;
 
-/// The first row of the place where G28 or G30 goes.
+/// The first row of the place to which G28 or G30 goes.
 uint8_t goalRow(const gcode::Piece& piece) {
   return piece.tenths / 10 == 28 ? kGoals : uint8_t(kGoals + kPlaceAxes);
 }
@@ -104,7 +104,7 @@ void Coordinates::show() {
     const int32_t code = place < kKeptSystems ? 54 + place : 28 + 2 * (place - kKeptSystems);
     say(FLASH("G"), code, at[0], at[1], at[2]);
   }
-  // Of the coordinates in force, with G92 and the tool's length.
+  // For the coordinates in force, with G92 and the tool's length.
   say(FLASH("Coordinates begin at"), 0, begin(0), begin(1), begin(2));
 }
 

@@ -36,7 +36,8 @@ class Coordinates {
   void forgetToolLength() { offsets_.setToolLength(0); }
   /// G28.1 and G30.1.
   bool keepGoal(const gcode::Piece& piece);
-  /// The place that G28 or G30 goes to, x, y and z [mm]; null and refused if nobody has set it.
+  /// The place to which G28 or G30 goes, x, y and z [mm]. Null, with a refusal, if it was never
+  /// set.
   const float* goal(const gcode::Piece& piece);
   /// `$#`.
   void show();
@@ -57,7 +58,7 @@ class Coordinates {
 /// Whether a line moves along the sheet.
 inline bool goesAcross(const gcode::Words& words) { return words.has('X') || words.has('Y'); }
 
-/// Letters of the axes, and a place's coordinates, by 0, 1, 2.
+/// Letters of the axes and of a place's coordinates, by 0, 1, 2.
 const char kAxisLetters[] = "XYZ";
 inline float& part(Place& place, uint8_t axis) {
   return axis == 0 ? place.x : axis == 1 ? place.y : place.z;

@@ -5,7 +5,7 @@ namespace machine {
 
 uint8_t Cutter::spindleLevel() const {
   const float most = values_.at(kSpindleMost), least = values_.at(kSpindleLeast);
-  // Without an S word ever, as fast as it can.
+  // If there was never an S word, full speed.
   float speed = s_ > 0 ? s_ : most;
   if (speed < least) speed = least;
   if (speed > most) speed = most;
@@ -14,7 +14,7 @@ uint8_t Cutter::spindleLevel() const {
 
 void Cutter::setSpindle(bool on) {
   is_turning_ = on;
-  // $17 was another meanwhile.
+  // $17 has changed since.
   if (is_pulsed_ && kind() != SpindleKind::kPulsed) aux_.pulse(Output::kSpindle, 0);
   is_pulsed_ = on && kind() == SpindleKind::kPulsed;
   switch (kind()) {

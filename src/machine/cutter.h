@@ -1,4 +1,4 @@
-// Spindle and laser: what their pins show. It never waits; who switches a spindle waits for it.
+// Levels of the pins of spindle and laser. Nothing here waits: the caller waits for the spindle.
 #pragma once
 
 #include <Settings.h>
@@ -11,39 +11,39 @@ namespace machine {
 /// How the spindle is switched, by setting $17.
 enum class SpindleKind : uint8_t { kNone, kServo, kRelayHigh, kRelayLow, kPulsed };
 
-/// The two that cut.
+/// Spindle and laser.
 ///
-/// The laser's strength travels with each move (beamOf), and the control tick shows it only while
-/// that move is on its way: so it is off at rest, in a hold, in G0 and when set-points run dry,
-/// whatever else happens. After off() nothing shows before the next arm().
+/// Each move carries the laser's strength (beamOf), and the control tick puts it on the pin only
+/// during that move. So the laser is off at rest, in a hold, in G0 and when set-points run dry.
+/// After off() it stays off until the next arm().
 class Cutter {
  public:
   Cutter(Aux& aux, const settings::Values& values) : aux_(aux), values_(values) {}
 
   SpindleKind kind() const { return SpindleKind(uint8_t(values_.at(kSpindle))); }
-  /// Puts the spindle's pin on or off; a servo is turned by the caller.
+  /// Switches the spindle's pin on or off. The caller turns a servo.
   void setSpindle(bool on);
-  /// Whether an S word changes how fast the spindle turns now.
+  /// Whether an S word changes the speed of the turning spindle.
   bool changesSpeed(float s) const {
     return is_turning_ && kind() == SpindleKind::kPulsed && s != s_;
   }
-  /// Takes an S word: turns a minute, or of a laser 0 to 255.
+  /// Takes an S word: turns a minute, or 0 to 255 for a laser.
   void takeS(float s);
 
-  /// M106 and M107, for the moves that are queued from now on.
+  /// M106 and M107, for moves that are queued from now on.
   void arm(bool yes);
-  /// M106 without an S word is all the laser has.
+  /// M106 without an S word: full strength.
   void setFull() { s_ = kFull; }
-  /// The next move that is queued is one of G0 to G3; moves of other codes are not cut.
+  /// Says that the next move to be queued is one of G0 to G3. Moves of other codes do not cut.
   void aim(uint8_t motion) { aimed_ = beamOf(motion); }
-  /// How strong the laser is on the move that is being queued.
+  /// Strength of the laser on the move that is being queued.
   uint8_t takeBeam();
-  /// How strong it is on a move of G0 to G3.
+  /// Strength of the laser on a move of G0 to G3.
   uint8_t beamOf(uint8_t motion) const;
-  /// Shows what the move on its way asks for; called by the control tick.
+  /// Puts the strength of the move in progress on the pin. The control tick calls it.
   void show(uint8_t beam);
 
-  /// All off, at once; may be called by an interrupt.
+  /// Switches everything off at once. An interrupt may call it.
   void off();
 
  private:

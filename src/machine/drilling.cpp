@@ -54,7 +54,7 @@ bool Drilling::runStep(const gcode::DrillStep& step) {
   const float z = z_.within(step.z);
   if (across) {
     if (!moves_.moveStraight({step.x, step.y, place_.aim().z}, true, feed)) return false;
-    // There the sled stays at the edge; the hole would be where nobody wants it.
+    // Beyond the sheet the sled stays at the edge, so the hole would be in a wrong place.
     return !place_.isCountedBeyond() ||
            answers_.refuseMotion(FLASH("the hole is beyond the sheet"));
   }

@@ -5,7 +5,7 @@
 
 namespace machine {
 
-/// The cycle in force; its steps come from lib/GCode.
+/// The cycle in force. lib/GCode works out its steps.
 class Drilling {
  public:
   Drilling(gcode::Modal& modal, NewValues& new_values, const Coordinates& coordinates,
@@ -19,9 +19,9 @@ class Drilling {
         answers_(answers),
         waiting_(waiting) {}
 
-  /// G81 to G83 by their number; the words of this line and the next drill.
+  /// Begins G81 to G83 by their number: the words of this line and of the next lines drill.
   void begin(uint8_t cycle);
-  /// One line's holes.
+  /// Drills the holes of a line.
   bool drill(const gcode::Words& words);
 
  private:

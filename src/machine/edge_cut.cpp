@@ -1,4 +1,4 @@
-// Where a path crosses the lines of the area's edges, and what lies between.
+// Where a path crosses the lines of the area's edges, and the pieces between.
 #include "edge_cut.h"
 
 namespace machine {
@@ -27,7 +27,7 @@ bool EdgeCut::next() {
     piece_ = path_;
     return true;
   }
-  // Of a shorter piece nobody can say which way round it goes.
+  // A shorter piece of an arc has no clear direction around its centre.
   const float kLeast = 0.01f;  // [mm]
   const Point<float> from = here_;
   const float share = shares_[at_] - (at_ == 0 ? 0 : shares_[at_ - 1]);
@@ -65,7 +65,7 @@ void EdgeCut::cutArc() {
   }
 }
 
-/// Cuts an arc in a direction from its centre [rad].
+/// Cuts an arc at an angle [rad] around its centre.
 void EdgeCut::cutAngle(float angle) {
   const float full_turn = 6.2831853f;
   const float first = float(atan2(path_.from.y - path_.centre.y, path_.from.x - path_.centre.x));
@@ -75,7 +75,7 @@ void EdgeCut::cutAngle(float angle) {
   cutAt(turned / float(fabs(path_.sweep)));
 }
 
-/// Keeps the shares in order.
+/// Adds a cut at a share of the path, in order.
 void EdgeCut::cutAt(float share) {
   if (!(share > 0 && share < 1)) return;
   uint8_t at = ++cuts_;

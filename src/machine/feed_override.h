@@ -1,4 +1,4 @@
-// The operator's hand on the feed: from a tenth to twice what the program asks for.
+// Feed override: the operator sets the feed from a tenth to twice that of the program.
 #pragma once
 
 #include <GCode.h>
@@ -12,7 +12,7 @@ class FeedOverride {
 
   uint8_t percent() const { return percent_; }
 
-  /// Takes kFeedUsual to kFeedDownOne; false if that changes nothing.
+  /// Takes kFeedUsual to kFeedDownOne; false if nothing changes.
   bool take(gcode::Quick quick) {
     using gcode::Quick;
     const uint8_t was = percent_;
@@ -25,9 +25,9 @@ class FeedOverride {
     return percent_ != was;
   }
 
-  /// How many times the feed of each move is to count; the rest is done by slower walking.
+  /// Factor for the feed of each move if it is above 1; slower feeds are done by shareOfPlan().
   float boost() const { return percent_ > kUsual ? float(percent_) * 0.01f : 1; }
-  /// Share of the planned speed [1] at which the way is walked.
+  /// Share [1] of the planned speed at which the axes follow the path.
   float shareOfPlan() const { return percent_ < kUsual ? float(percent_) * 0.01f : 1; }
 
  private:

@@ -1,11 +1,11 @@
-// Fixed text that lives in the Mega's flash, not in its scarce RAM.
+// Fixed text in the Mega's flash, which saves its scarce RAM.
 #pragma once
 
 #include <avr/pgmspace.h>
 
 namespace machine {
 
-/// A text in flash; made by FLASH() or from an array marked PROGMEM.
+/// A text in flash. FLASH() makes it, or an array marked PROGMEM.
 struct FlashText {
   const char* at;
 };

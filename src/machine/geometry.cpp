@@ -1,4 +1,4 @@
-// Settings in the published meaning become the frame and the effects of the kinematics.
+// Turns settings in their published meaning into the frame and the effects of the kinematics.
 #include "geometry.h"
 
 #include "effective.h"
@@ -9,14 +9,14 @@ namespace {
 using kinematics::Found;
 using settings::Values;
 
-// What the bound of segments allows for where the exact inverse cannot tell: the slopes of a sled
-// that tilts, and of sag on a machine whose lower corners are out of reach.
+// The bound for segments assumes these where the exact inverse gives none: slopes for a sled that
+// tilts, and sag on a machine whose lower corners are out of reach.
 const motion::Slopes<float> kBracketSlopes = {0.3f, 5e-4f, 5e-6f};
 const float kUnknownSag = 20;  // [mm]
 
 typedef kinematics::Effects::For<float> Effects;
 
-/// Slopes of what follows the sprockets' turn, whose rhythm is that turn.
+/// Bounds for the slopes of an error that repeats with each turn of the sprockets.
 motion::Slopes<float> waveSlopes(float amplitude, float radius) {
   const float per = 1 / radius;
   return {amplitude * per, amplitude * per * per, amplitude * per * per * per};
@@ -40,7 +40,7 @@ void Geometry::prepare(const Values& values) {
 }
 
 bool Geometry::isSheetReachable() const {
-  // Where a corner cannot be reached, or the middle of the top, each target is asked for.
+  // If a corner or the middle of the top edge is out of reach, every target is checked.
   for (int8_t x = -1; x <= 1; ++x)
     for (int8_t y = -1; y <= 1; y = int8_t(y + 2))
       if (!inverse({float(x) * half_width_, float(y) * half_height_}).reachable) return false;
@@ -56,8 +56,8 @@ void Geometry::prepareRing(const Values& values, const kinematics::Frame<float>&
   const kinematics::PaidOut<float> straight = kinematics::inverse(ring_, corner);
   ring_ = kinematics::prepare(frame, effects);
   const kinematics::PaidOut<float> bent = kinematics::inverse(ring_, corner);
-  const bool told = straight.found == Found::kYes && bent.found == Found::kYes;
-  const float sag = told ? float(fabs(bent.chains.left - straight.chains.left)) : kUnknownSag;
+  const bool both_hang = straight.found == Found::kYes && bent.found == Found::kYes;
+  const float sag = both_hang ? float(fabs(bent.chains.left - straight.chains.left)) : kUnknownSag;
   const float far_run = sprockets_.right.x + half_width_;
   const float near_run = sprockets_.right.x - half_width_;
   const float drop = frame.motor_height + half_height_;

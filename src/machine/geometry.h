@@ -10,23 +10,23 @@
 
 namespace machine {
 
-/// Where forward() found the sled.
+/// What forward() answers.
 struct FoundPlace {
-  motion::Point<float> at;  ///< [mm] to be used only if `found`
+  motion::Point<float> at;  ///< [mm] use it only if `found`
   bool found;
 };
 
 /// The machine's shape, worked out from the settings.
 class Geometry {
  public:
-  /// Works everything out anew; about 3 ms on the board.
+  /// Works everything out from the settings; about 3 ms on the board.
   void prepare(const settings::Values& values);
 
   /// Chain lengths for a place, on the sheet or off.
   motion::Lengths<float> inverse(motion::Point<float> place) const;
 
-  /// Where the sled hangs on these lengths [mm], searched from `guess` [mm]; any place counts, on
-  /// the sheet or off.
+  /// Where the sled hangs on chains of these lengths [mm], on the sheet or off. The search starts
+  /// at `guess` [mm].
   FoundPlace forward(float left, float right, motion::Point<float> guess) const;
 
   /// The work area.
@@ -37,10 +37,10 @@ class Geometry {
     return (is_sheet_reachable_ && sheet().holds(place)) || inverse(place).reachable;
   }
 
-  /// What the laws of motion must know of the chains.
+  /// What lib/Motion needs to know of the chains.
   const motion::Sprockets<float>& sprockets() const { return sprockets_; }
 
-  /// Where inverse() is smooth, as far as it matters: the sheet.
+  /// The area where inverse() counts as smooth: the sheet.
   motion::SmoothArea smoothArea() const { return {half_width_, half_height_}; }
 
  private:
@@ -54,7 +54,7 @@ class Geometry {
   float half_width_, half_height_;
   float chain_length_;
   bool has_brackets_;
-  bool is_sheet_reachable_;  ///< all of it
+  bool is_sheet_reachable_;  ///< the sled can hang on the whole sheet
 };
 
 }  // namespace machine

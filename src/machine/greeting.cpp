@@ -16,7 +16,7 @@ void Greeting::sayBoard() {
 }
 
 void Greeting::sayReady() {
-  // Clients look for none of these lines, but other programs wait for "Grbl".
+  // Our clients need none of these lines, but other programs wait for "Grbl".
   out_.line(FLASH("Grbl v1.00"));
   out_.line(FLASH("Plumb " PLUMB_VERSION ", firmware for the Maslow CNC"));
   out_.line(FLASH("ready"));
@@ -44,7 +44,7 @@ void Greeting::saySource(const settings::Started& started) {
     case Source::kImported:
       return out_.line(FLASH("Settings of the published firmware were taken over."));
     case Source::kDefaults:
-      // Of a fresh board, sayUnset() tells it.
+      // On a fresh board sayUnset() says it.
       if (started.known == settings::Known::kNothing) return;
       return out_.line(FLASH("error: EEPROM read fail. Using default settings."));
     case Source::kOtherVersion:

@@ -1,4 +1,4 @@
-// What the machine says first: its board, where its settings come from, its name, that it is ready.
+// What the machine says at its start: its board, the source of its settings, its name, `ready`.
 #pragma once
 
 #include <Settings.h>
@@ -8,13 +8,13 @@
 
 namespace machine {
 
-/// Which motor shield was found, and why the firmware started; without a shield no motor is ever
-/// driven.
+/// Which motor shield is plugged in, and why the firmware started. Without a shield no motor is
+/// ever driven.
 struct BoardName {
   BoardName(uint8_t version, const char* driver, Start start = Start::kUsual)
       : version(version), driver(driver), start(start) {}
   uint8_t version;     ///< N of "v1.N"
-  const char* driver;  ///< as the greeting names it; null: its straps are unknown
+  const char* driver;  ///< as the greeting names it; null: the straps are unknown
   Start start;
 };
 
@@ -24,11 +24,11 @@ class Greeting {
 
   void sayBoard();
   void sayMotors(bool are_simulated);
-  /// Why it started, if that is not as usual.
+  /// Says why the firmware started, unless the start was usual.
   void sayStart();
-  /// Where the settings come from, if they are not as they were left.
+  /// Says where the settings come from, unless they are as they were left.
   void saySource(const settings::Started& started);
-  /// After this line the clients send.
+  /// Says the line after which clients begin to send.
   void sayReady();
 
  private:

@@ -1,14 +1,14 @@
-// Why the machine does nothing that moves until Stop.
+// Why the machine refuses to move until Stop.
 #pragma once
 
 #include <stdint.h>
 
 namespace machine {
 
-/// Only Stop or a soft reset opens it; `~` does not.
+/// Only Stop or a soft reset ends a lock; `~` does not.
 enum class Lock : uint8_t {
   kOpen,
-  kHalted,  ///< a line was not done; the moves before it were good and come to their end
+  kHalted,  ///< a line could not be done; the moves before it are good and are finished
   kAlarm,   ///< motors are off
 };
 

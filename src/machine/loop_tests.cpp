@@ -1,14 +1,14 @@
-// Tests of the loops: B13 sets speeds, B14 sets lengths, B16 sets duties; numbers come back.
+// Tests of the loops: B13 sets speeds, B14 lengths, B16 duties, and each reports what the axis did.
 #include "axis_tests.h"
 
 namespace machine {
 namespace {
 
 const uint16_t kSampleMs = 10;  // the published interval of B13 and B14
-const uint16_t kStepMs = 2000;  // of a speed; of a length unless T says otherwise
+const uint16_t kStepMs = 2000;  // for a speed; for a length too, unless T says otherwise
 const uint16_t kDutyMs = 200, kDutySampleMs = 50;
 
-/// The value of step i of `steps`, from the first to the last.
+/// The value of step i, evenly spaced from the first value to the last.
 float stepOf(const LoopTest& test, uint8_t i) {
   if (test.steps < 2) return test.first;
   return test.first + (test.last - test.first) * float(i) / float(test.steps - 1);

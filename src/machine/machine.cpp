@@ -1,4 +1,4 @@
-// How the machine is put together, and what it does once after power-on.
+// The machine's parts, and its start after power-on.
 #include "machine.h"
 
 namespace machine {
@@ -38,7 +38,7 @@ Machine::Machine(const Ports& ports, const BoardName& board)
 void Machine::begin() {
   const settings::Started started = memory_.start();
   axes_.simulate(values_.at(kSimulatedMotors) != 0);
-  // The control tick's rate is taken over once: a new one counts after a reset.
+  // The control tick's rate is read once: a new rate counts after a reset.
   ticks_per_second_ = values_.at(kLoopRate) > 150 ? 200 : 100;
   axes_.setTicksPerSecond(ticks_per_second_);
   new_values_.takeAll();

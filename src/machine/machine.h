@@ -1,5 +1,5 @@
-// The machine: what a line from the computer makes the motors do, and all it says meanwhile.
-// Knows no Arduino; what it needs of a board stands in ports.h. Who owns what: README.md.
+// The machine: what a line from the computer makes the motors do, and everything that it says.
+// Without Arduino: ports.h holds what it needs of a board. README.md says which part does what.
 #pragma once
 
 #include "axis_tests.h"
@@ -16,7 +16,7 @@
 
 namespace machine {
 
-/// What the machine is built of.
+/// What the machine needs of a board.
 struct Ports {
   Wire& wire;
   Drives& drives;
@@ -26,30 +26,31 @@ struct Ports {
   const settings::Table& table;
 };
 
-/// One Maslow: its parts, the main program, and which part does which line.
+/// A Maslow: its parts, the main program, and which part does which line.
 ///
-/// Commands run to their end in the main program. Wherever one waits, service() keeps the rest
-/// going (waiting.h). Functions that may wait return whether they were completed.
+/// Commands run to their end in the main program. While a command waits, service() keeps everything
+/// else going (waiting.h). Functions that may wait return whether they were completed.
 class Machine : private Waiting, private Dispatch {
  public:
   Machine(const Ports& ports, const BoardName& board);
 
-  /// Once after power-on: settings and position are read, the greeting is said.
+  /// To be called once after power-on: reads settings and position, and says the greeting.
   void begin();
 
-  /// One round of the main program: at most one line is executed.
+  /// A round of the main program: executes at most one line.
   void loop();
 
-  /// The control tick; called by an interrupt, a hundred or two hundred times a second.
+  /// The control tick. An interrupt calls it 100 or 200 times a second.
   void tick() {
     axes_.tick();
     cutter_.show(axes_.beam());
   }
 
-  /// Called instead of tick() while the main program hangs; the board has taken the motors' power.
+  /// Called in place of tick() while the main program hangs. The board has taken the power off the
+  /// motors.
   void noteHang();
 
-  /// How often it wants its control tick, after begin().
+  /// How often the machine needs its control tick; known after begin().
   uint8_t ticksPerSecond() const { return ticks_per_second_; }
 
  private:
@@ -58,7 +59,7 @@ class Machine : private Waiting, private Dispatch {
   struct Code;
   struct BCode;
 
-  // realtime.cpp: while anything waits; stops and alarms.
+  // realtime.cpp: what goes on while anything waits; stops and alarms.
   void service() override;
   void keepReporting() override;
   void readWire();
@@ -77,7 +78,7 @@ class Machine : private Waiting, private Dispatch {
   bool isHalted() const { return lock_ != Lock::kOpen; }
   bool isFarAhead() const;
 
-  // commands.cpp: a line becomes pieces.
+  // commands.cpp: turns a line into pieces.
   bool execute(char* line);
   void answer(bool done) override;
   void halt();
@@ -133,7 +134,7 @@ class Machine : private Waiting, private Dispatch {
   bool tellTelemetry(uint8_t, const gcode::Words&);
   bool simulateMotors(bool on);
 
-  // Each part knows those above it, never those below.
+  // Each part knows the parts above it, never the parts below.
   Wire& wire_;
   Printer out_;
   float value_room_[kSettingCount];

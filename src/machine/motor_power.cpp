@@ -25,7 +25,7 @@ void MotorPower::restWhenIdle(bool is_busy) {
 }
 
 bool MotorPower::awaitRecord() {
-  const uint32_t kRecordMs = 1000;  // a record is written in 0.3 s
+  const uint32_t kRecordMs = 1000;  // writing a record takes 0.3 s
   const uint32_t start = waiting_.milliseconds();
   return waiting_.waitWhile(
       [&] { return !keeper_.isSettled() && waiting_.milliseconds() - start < kRecordMs; });

@@ -6,19 +6,19 @@
 
 namespace machine {
 
-/// Powers the motors, never before the EEPROM says that the machine moves; switches them off after
-/// a rest of $9.
+/// Gives the motors power, but never before the EEPROM says that the machine moves. Switches them
+/// off after a rest of $9.
 class MotorPower {
  public:
   MotorPower(Axes& axes, PositionKeeper& keeper, const settings::Values& values, Waiting& waiting)
       : axes_(axes), keeper_(keeper), values_(values), waiting_(waiting) {}
 
   bool areOn() const { return axes_.isPowered(); }
-  /// Returns when all motors hold their set-points; false after a stop.
+  /// Returns once all motors hold their set-points; false after a stop.
   bool wake();
-  /// To be called often; `is_busy`: something moves or holds on purpose.
+  /// To be called often. `is_busy`: something moves or holds on purpose.
   void restWhenIdle(bool is_busy);
-  /// Waits a second at most for the position's record.
+  /// Waits at most a second for the position's record.
   bool awaitRecord();
 
  private:

@@ -1,4 +1,4 @@
-// Motors driven without their loops: B04 tries each one, B11 pulls a chain tight.
+// Motors driven without their loops: B04 tests each motor, B11 pulls a chain tight.
 #include "axis_tests.h"
 
 namespace machine {
@@ -29,7 +29,7 @@ bool AxisTests::testDirection(Axis axis, int8_t direction) {
   const int32_t before = axes_.counts(axis);
   const int8_t sign = direction == 1 ? 1 : -1;
   if (!rampMotor(axis, sign)) return false;
-  // Positive drive winds in and must lower the count.
+  // A positive drive winds chain in and must lower the count.
   const int32_t wound = (before - axes_.counts(axis)) * sign;
   out_ << FLASH("Direction ") << int32_t(direction);
   out_.line(wound > kPassCounts ? FLASH(" - Pass") : FLASH(" - Fail"));

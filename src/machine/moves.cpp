@@ -1,4 +1,4 @@
-// Targets, arcs and edges of the sheet; at the end of each a path is queued.
+// Targets, arcs and edges of the sheet: from the words of a line to paths in the queue.
 #include "moves.h"
 
 namespace machine {
@@ -43,7 +43,7 @@ bool Moves::move(uint8_t kind, const Words& words) {
   cutter_.aim(kind);
   takeFeed(words);
   new_values_.refreshGeometry();
-  // After a rest at the edge a jog starts where the sled is.
+  // After a rest with motors off a jog starts where the sled is, even at the sheet's edge.
   if (modal_.relative && !motors_.areOn()) place_.countFromAim();
   Place target = targetOf(words);
   if (modal_.inverse_time && kind != 0 && !(modal_.inverse_feed > 0))
@@ -136,9 +136,9 @@ bool Moves::moveRound(bool clockwise, motion::Point<float> from, const Place& ta
     if (!seen.found)
       return answers_.refuseMotion(FLASH("an arc of that radius does not reach its end"));
     ahead = {seen.x, seen.y};
-    digit = 0;  // its sign says whether it is the long way round
+    digit = 0;  // the radius's sign says whether the arc is the long way round
   } else if (!words.has('I') && !words.has('J')) {
-    // As the published firmware: an arc without centre is a line.
+    // An arc without centre is a line, as in the published firmware.
     return queue(motion::line(from, to), target, feed);
   }
   const motion::Turn turn = clockwise ? motion::Turn::kClockwise : motion::Turn::kCounterclockwise;
@@ -149,7 +149,7 @@ bool Moves::moveRound(bool clockwise, motion::Point<float> from, const Place& ta
   return queue(path, target, feed);
 }
 
-/// `times` [1/min] that the move would fit, as G93 says, as a feed.
+/// The feed for a move that G93 times: `times` [1/min] is 1 / its time.
 float Moves::fittingFeed(const motion::Path<float>& path, const Place& target, float times) const {
   const float rise = target.z - place_.aim().z, most = values_.at(kGreatestFeed);
   const float feed = times * float(sqrt(path.length * path.length + rise * rise));
@@ -170,9 +170,10 @@ bool Moves::queue(const motion::Path<float>& path, const Place& target, float fe
 }
 
 bool Moves::mayGo(const motion::Path<float>& path, const Area& area) {
-  const float kOnEdge = 1;  // [mm] what stop and stretch may leave a sled beyond it
+  // [mm] A stop and stretched chains may leave the sled this far beyond the edge.
+  const float kOnEdge = 1;
   const Area sheet = geometry_.sheet();
-  // Nearly every line; the rest costs a thousand cycles.
+  // True for nearly every line; the rest costs a thousand cycles.
   if (sheet.holds(path) && geometry_.isReachable(path.to)) return true;
   const float beyond = sheet.distanceTo({place_.aim().x, place_.aim().y});
   const bool nearer = path.sweep == 0 && sheet.distanceTo(area.clamped(path.to)) < beyond;
@@ -204,7 +205,7 @@ bool Moves::queuePieces(EdgeCut cut, float z_to, float feed, uint8_t beam) {
   return true;
 }
 
-/// Waits for room in the queue: here a program is held up while its moves are made.
+/// Waits for room in the queue: a program waits here while its moves are made.
 bool Moves::queuePiece(const motion::Path<float>& piece, float z, float feed, uint8_t beam) {
   if (!waiting_.waitWhile([&] { return !planner_.hasRoom(); }) || !motors_.wake()) return false;
   if (!planner_.add(piece, z, feed / 60, geometry_, beam))

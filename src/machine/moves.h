@@ -11,7 +11,7 @@
 
 namespace machine {
 
-/// Lines and arcs over the sheet. What is refused or stopped returns false.
+/// Lines and arcs over the sheet. Functions return false if the move was refused or stopped.
 class Moves {
  public:
   Moves(const settings::Values& values, const Geometry& geometry, Planner& mover,
@@ -35,15 +35,15 @@ class Moves {
 
   /// Takes an F word.
   void takeFeed(const gcode::Words& words);
-  /// The feed of G0 to G3 [mm/min]; with G93 below zero, how often a minute the move would fit.
+  /// The feed of G0 to G3 [mm/min]. With G93 it is negative: -1 / the move's time [1/min].
   float feedOf(uint8_t kind) const;
-  /// Where the words of a line lead.
+  /// The target of a line's words.
   Place targetOf(const gcode::Words& words) const;
   /// G0 to G3.
   bool move(uint8_t kind, const gcode::Words& words);
-  /// `feed` [mm/min], or below zero how often a minute the move would fit.
+  /// A straight move; `feed` [mm/min], or -1 / the move's time [1/min].
   bool moveStraight(Place target, bool across, float feed);
-  /// G28 and G30: first up, then across, then down.
+  /// G28 and G30: moves up, then across, then down.
   bool goToKept(const gcode::Piece& piece);
 
  private:

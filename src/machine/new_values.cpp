@@ -1,4 +1,4 @@
-// Which part takes over what.
+// Which part takes over which values.
 #include "new_values.h"
 
 #include "carried_twice.h"
@@ -36,7 +36,7 @@ void NewValues::take(uint8_t touches) {
 
 void NewValues::arrangeDrives() {
   axes_.releaseAll();
-  // A tick in between would take another wiring of the encoders for motion.
+  // A tick in between would take the change of the encoders' wiring for motion.
   const WithoutTicks hold(clock_);
   drives_.arrange(values_.at(kFeedSide) == 1, uint8_t(values_.at(kPwmFrequency)));
   axes_.forgetRawCounts();
@@ -46,7 +46,7 @@ void NewValues::prepareGeometry() {
   is_geometry_stale_ = false;
   geometry_.prepare(values_);
   planner_.setGeometry(geometry_);
-  // What was cured is news when it comes back.
+  // A correction that was cured is news again when it comes back.
   said_twice_ &= twiceBits(values_);
 }
 
@@ -54,7 +54,7 @@ void NewValues::sayCarriedTwice() {
   const uint8_t twice = twiceBits(values_);
   if (twice == said_twice_) return;
   said_twice_ = twice;
-  // Clients show it among their other lines; they drop "[" and stop for "Message:".
+  // Clients show this line. They would drop a line with "[" and stop for "Message:".
   out_ << FLASH("Corrected twice: the machine adds");
   bool is_first = true;
   for (uint8_t i = 0; twice >> i != 0; ++i) {

@@ -1,4 +1,4 @@
-// What follows a new value of a setting: whatever it touches is worked out again.
+// After a new value of a setting: works out again whatever it touches.
 #pragma once
 
 #include "cutter.h"
@@ -7,7 +7,7 @@
 
 namespace machine {
 
-/// Settings as the parts of the machine have taken them over. All of it at rest.
+/// Hands new settings to the parts of the machine. All functions are for a machine at rest.
 class NewValues {
  public:
   enum : uint8_t { kAll = 255 };  ///< everything is touched
@@ -24,18 +24,20 @@ class NewValues {
         clock_(clock),
         out_(out) {}
 
-  /// At the start: takes over all of them; the place is not looked for.
+  /// At the start: takes over all settings, without working out the place.
   void takeAll();
-  /// Takes over what new values touch, bits of settings::Touch. The clients send many in a row: the
-  /// geometry waits for refreshGeometry().
+  /// Takes over what new values touch; `touches` are bits of settings::Touch. Clients send many
+  /// values in a row, so the geometry waits for refreshGeometry().
   void take(uint8_t touches);
-  /// Takes over the geometry if it is out of date, and looks for the place; before each move.
+  /// Takes over the geometry if it is out of date, and works out the place. To be called before
+  /// each move.
   void refreshGeometry();
-  /// The same once no new value has come for a while, and says the place; to be called often.
+  /// Refreshes the geometry once no new value has come for a while, and says the place. To be
+  /// called often.
   void refreshWhenQuiet(bool is_moving);
-  /// Takes over the geometry without a look for the place.
+  /// Takes over the geometry without working out the place.
   void prepareGeometry();
-  /// Says in one line which corrections two settings carry, if some are new among them.
+  /// Says in a line which corrections two settings carry, if any of them is new.
   void sayCarriedTwice();
 
  private:
@@ -51,7 +53,7 @@ class NewValues {
   Clock& clock_;
   Printer& out_;
   uint32_t geometry_changed_ms_ = 0;
-  uint8_t said_twice_ = 0;  ///< a bit for each correction that was said and is carried twice still
+  uint8_t said_twice_ = 0;  ///< a bit for each correction that was said and is still carried twice
   bool is_geometry_stale_ = false;
 };
 

@@ -14,7 +14,7 @@ void OperatorLines::hold() {
 
 void OperatorLines::resume() {
   if (!interlude_.isOn()) return;
-  // It was meant for this, not for an M0 that waits.
+  // That `~` was for this hold, not for an M0 that waits.
   input_.takeResume();
   interlude_.resume();
 }
@@ -47,7 +47,7 @@ void OperatorLines::serveLine() {
   if (!input_.peekLine(line)) return;
   gcode::clean(line);
   if (!isForOperator(line)) return;
-  // The program's line that waits has its answer, or not, whatever this one gets.
+  // A line of the program that waits keeps its answer, or lack of it, whatever this line gets.
   const bool is_other_answered = answers_.isAnswered();
   answers_.setAnswered(false);
   interlude_.serve(true);

@@ -1,4 +1,4 @@
-// What the operator may do while the program waits: z by hand, questions, and the way back.
+// What the operator may do while the program waits: move z, ask questions, resume.
 #pragma once
 
 #include "coordinates.h"
@@ -8,7 +8,7 @@
 
 namespace machine {
 
-/// Who does a line that is no motion, and answers lines.
+/// Does lines that are no motion, and answers lines.
 class Dispatch {
  public:
   /// A B code or `$$`.
@@ -20,7 +20,7 @@ class Dispatch {
   ~Dispatch() = default;
 };
 
-/// Serves a hold or a pause from its beginning until z is back where the program had it.
+/// Serves a hold or a pause from its beginning until z is back at the program's height.
 class OperatorLines {
  public:
   OperatorLines(Interlude& interlude, gcode::Input& input, gcode::Modal& modal, Axes& axes,
@@ -38,11 +38,11 @@ class OperatorLines {
         answers_(answers),
         dispatch_(dispatch) {}
 
-  /// 0x84: the sled brakes along its way and the program waits.
+  /// 0x84: the sled brakes along its path and the program waits.
   void hold();
   /// `~`.
   void resume();
-  /// To be called often: does one line, or a step of the way back.
+  /// To be called often: does a line of the operator, or a step of z's way back.
   void serve();
   /// Whether a line may be done while the program waits.
   bool isForOperator(const char* line) const;

@@ -1,4 +1,4 @@
-// The program waits; what the operator may do meanwhile: operator.cpp.
+// The program waits. operator_lines.cpp does what the operator may do meanwhile.
 #include "pauses.h"
 
 namespace machine {
@@ -7,14 +7,14 @@ bool Pauses::pause(bool resumed) {
   out_.line(FLASH("Maslow Paused"));
   interlude_.pause(modal_, waiting_.milliseconds(), input_.isEmpty());
   if (resumed) interlude_.resume();
-  // The operator's `~` brings z back and ends it.
+  // The operator's `~` brings z back and ends the pause.
   const bool completed = waiting_.waitWhile([&] { return interlude_.isPaused(); });
   input_.takeResume();
   return completed;
 }
 
 bool Pauses::pauseAfterMoves() {
-  // A `~` that comes behind this line while earlier moves still run is meant for it.
+  // A `~` that comes after this line while earlier moves still run is meant for this pause.
   return waiting_.drain() && pause(input_.takeResume());
 }
 

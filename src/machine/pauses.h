@@ -24,7 +24,7 @@ class Pauses {
   bool pauseAfterMoves();
   /// M6.
   bool changeTool(uint16_t tool);
-  /// Asks the operator to bring z to a height [mm]; then it is there.
+  /// Asks the operator to bring z to a height [mm]; afterwards z counts as there.
   bool setZByHand(float z);
 
  private:

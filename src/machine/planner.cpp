@@ -1,4 +1,4 @@
-// Settings become limits; paths say whether the sheet's edge is on their way.
+// Turns settings into limits, and checks whether a path leaves the sheet.
 #include "planner.h"
 
 #include "settings_table.h"
@@ -10,7 +10,7 @@ float Planner::mostChainSpeed(const settings::Values& values) {
 }
 
 void Planner::prepare(const settings::Values& values, float seconds_per_tick) {
-  // $13 may have become less since $68 was set.
+  // $13 may have been lowered since $68 was set.
   const float most = mostChainSpeed(values), asked = values.at(kChainSpeed);
   const float chain_speed = asked < most ? asked : most;
   moves_.prepare(

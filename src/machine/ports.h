@@ -1,5 +1,5 @@
-// What the machine's logic asks of a board: the small doors behind which hardware, or a simulated
-// board on the host, stands.
+// What the machine's logic needs of a board: small interfaces, behind which is the hardware, or a
+// simulated board on the host.
 #pragma once
 
 #include <stdint.h>
@@ -11,7 +11,7 @@ enum Axis : uint8_t { kLeftAxis, kRightAxis, kZAxis, kAxisCount };
 
 /// Why the firmware started.
 enum class Start : uint8_t {
-  kUsual,     ///< power, the reset button, a computer that opened the line
+  kUsual,     ///< power-on, the reset button, or a computer that opened the line
   kBrownOut,  ///< the processor's supply had broken down
   kWatchdog,  ///< the firmware hung
 };
@@ -19,11 +19,11 @@ enum class Start : uint8_t {
 /// The serial line to the computer, both ways.
 class Wire {
  public:
-  /// The next character that came in, 0 to 255, or -1 if there is none.
+  /// The next character that came in, 0 to 255, or -1.
   virtual int16_t read() = 0;
-  /// Sends one character; waits only where the line is full.
+  /// Sends a character; waits only if the line's buffer is full.
   virtual void write(char character) = 0;
-  /// How many characters were lost since this was last asked, because nobody read them in time.
+  /// How many characters were lost since the last call, because nobody read them in time.
   virtual uint8_t lost() = 0;
 
  protected:
@@ -37,36 +37,36 @@ class Drives {
   virtual void drive(Axis axis, int16_t duty) = 0;
   /// Takes the power off a motor.
   virtual void release(Axis axis) = 0;
-  /// Encoder counts, running on and wrapping round; rising as chain is paid out.
+  /// Encoder count: rises as chain is paid out, and wraps round.
   virtual uint16_t count(Axis axis) = 0;
-  /// How often both channels of an encoder changed at once, so that nobody knows which way it
-  /// turned: an edge was missed, or noise came in. Runs on and wraps round.
+  /// How often both channels of an encoder changed at once, so that its direction is unknown: an
+  /// edge was missed, or noise came in. Wraps round.
   virtual uint16_t illegalSteps(Axis axis) = 0;
-  /// Tells how the chains leave their sprockets, and which of the published PWM frequencies
-  /// ($39: 1, 2, 3) is wanted; motors stand still meanwhile.
+  /// Sets how the chains leave their sprockets, and which of the published PWM frequencies
+  /// ($39: 1, 2, 3) to use. Motors stand still meanwhile.
   virtual void arrange(bool over_top, uint8_t pwm_choice) = 0;
 
  protected:
   ~Drives() = default;
 };
 
-/// Outputs that are either on or off.
+/// Outputs for tools.
 enum class Output : uint8_t { kSpindle, kLaser };
 
-/// Everything else that hangs on the shield.
+/// Everything else that is connected to the shield.
 class Aux {
  public:
   /// Sets an output high or low.
   virtual void set(Output output, bool high) = 0;
-  /// Pulses an output: high for so many 255ths of the time.
+  /// Pulses an output: high for `level` / 255 of the time.
   virtual void pulse(Output output, uint8_t level) = 0;
-  /// Holds the spindle's servo at an angle [degrees]; kNoServo lets go of it.
+  /// Holds the spindle's servo at an angle [degrees]; kNoServo stops its pulses.
   virtual void turnServo(uint8_t degrees) = 0;
   /// Whether the probe touches.
   virtual bool probeTouches() = 0;
-  /// Whether the driver of a motor reports an error; one that cannot never does.
+  /// Whether the driver of a motor reports an error; some drivers never can.
   virtual bool driverFails(Axis) { return false; }
-  /// The processor's reference voltage in 1/1024 of its supply; 0 where that is not measured yet.
+  /// The processor's reference voltage in 1/1024 of its supply; 0 until it is measured.
   virtual uint16_t bandGap() { return 0; }
 
  protected:
@@ -75,28 +75,28 @@ class Aux {
 
 const uint8_t kNoServo = 255;
 
-/// Time, and what happens in it beside the main program.
+/// Time, and the control tick that interrupts the main program.
 class Clock {
  public:
   /// [ms] since the start, wrapping round.
   virtual uint32_t milliseconds() = 0;
-  /// Called wherever the main program waits: it is alive.
+  /// To be called wherever the main program waits, to show that it is alive.
   virtual void idle() = 0;
-  /// Called where the main program has nothing left to do: the processor may sleep, for a
-  /// millisecond at most.
+  /// To be called where the main program has nothing left to do: the processor may sleep for up to
+  /// a millisecond.
   virtual void sleep() {}
   /// Keeps the control tick off while shared numbers are read or written; nests.
   virtual void holdTicks() = 0;
   virtual void releaseTicks() = 0;
-  /// [us] Longest time from when a control tick was due until it was over, since this was last
-  /// asked; 0 where nobody measures it.
+  /// [us] Longest time from when a control tick was due until it was over, since the last call; 0
+  /// where nobody measures it.
   virtual uint16_t longestTick() { return 0; }
 
  protected:
   ~Clock() = default;
 };
 
-/// Keeps the control tick off for as long as it lives.
+/// Keeps the control tick off for the life of this object.
 class WithoutTicks {
  public:
   explicit WithoutTicks(Clock& clock) : clock_(clock) { clock_.holdTicks(); }

@@ -1,12 +1,12 @@
-// When a record is due, and when it is none any more.
+// When a record of the position is due, and when it no longer holds.
 #include "position_keeper.h"
 
 namespace machine {
 namespace {
 
 const uint16_t kLookMs = 10;     // between two looks at the encoders
-const uint16_t kStillMs = 200;   // without a count, before a motor is believed to stand
-const int32_t kStillCounts = 1;  // an edge under the sensor
+const uint16_t kStillMs = 200;   // without a count, before a motor counts as standing still
+const int32_t kStillCounts = 1;  // a motor at rest may toggle a single edge
 const int32_t kKeptCounts = 12;  // 0.1 mm of chain
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Digits by hand: the library's printf would cost two kilobytes and know no flash text.
+// Writes digits itself: the library's printf would cost 2 KB, and does not read text in flash.
 #include "printer.h"
 
 #include <math.h>
@@ -40,7 +40,7 @@ Printer& Printer::operator<<(int32_t number) {
 }
 
 Printer& Printer::fixed(float number, uint8_t decimals) {
-  const float kLargest = 100000;  // [mm] beyond any machine; times 10^4 it still fits
+  const float kLargest = 100000;  // [mm] beyond any machine; times 10^4 it still fits 32 bits
   if (!(fabs(number) < kLargest)) number = 0;
   uint32_t scale = 1;
   for (uint8_t i = 0; i < decimals; ++i) scale *= 10;

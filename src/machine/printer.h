@@ -6,7 +6,7 @@
 
 namespace machine {
 
-/// Writes to the wire. Nothing is buffered here: a line is begun only when all of it is known.
+/// Writes to the wire. Nothing is buffered here, so begin a line only when all of it is known.
 class Printer {
  public:
   explicit Printer(Wire& wire) : wire_(wire) {}
@@ -16,8 +16,8 @@ class Printer {
   Printer& operator<<(char character);
   Printer& operator<<(int32_t number);
 
-  /// A number with so many decimals (up to 4), rounded; never exponents. What is no number, or too
-  /// large for a length on any machine, shows as zero: clients stop at words such as "nan".
+  /// A number with up to 4 `decimals`, rounded, never with an exponent. A NaN, or a number too
+  /// large for any machine, shows as zero: clients stop at words such as "nan".
   Printer& fixed(float number, uint8_t decimals);
 
   /// Ends the line.
@@ -30,7 +30,8 @@ class Printer {
   Wire& wire_;
 };
 
-/// The digits of a number that cannot be negative, ended by a zero; returns their beginning.
+/// Writes the digits of a number that cannot be negative, with a zero at the end. Returns their
+/// beginning in `room`.
 const char* digitsOf(uint32_t number, char (&room)[12]);
 
 }  // namespace machine

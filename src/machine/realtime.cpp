@@ -1,5 +1,5 @@
-// What happens while anything waits: characters come in, quick ones act at once, set-points go out,
-// faults are noticed, reports are sent.
+// What happens while anything waits: characters come in, quick characters act at once, set-points
+// go out, faults are noticed, reports are sent.
 #include "machine.h"
 
 namespace machine {
@@ -14,7 +14,7 @@ void Machine::service() {
     raiseAlarm(telemetry_.failing(), FLASH(" complains: too hot, a short, or no 12 V"),
                FLASH(". Press Stop."));
   new_values_.refreshWhenQuiet(isMoving());
-  // A test of loops stands between its jumps, and its motors hold.
+  // In a test of loops the motors also hold between the jumps.
   motors_.restWhenIdle(isMoving() || axes_.isDriven() || axis_tests_.isTesting() ||
                        interlude_.isOn());
   place_.keepWhenAtRest(clock_.milliseconds());
@@ -76,14 +76,14 @@ void Machine::stopNow() {
   interlude_.end();
   lock_ = Lock::kOpen;
   input_.clear();
-  // At once, whatever else the stop has to wait for.
+  // Off at once, whatever else the stop has to wait for.
   cutter_.off();
   planner_.stop(axes_);
 }
 
 void Machine::finishStop() {
   while (isMoving()) pass();
-  // A new stop may come meanwhile; it is answered, and this one goes on.
+  // A new stop may come meanwhile: it is answered, and this stop goes on.
   stopping_ = false;
   if (isHalted()) {
     place_.search();
@@ -157,7 +157,7 @@ void Machine::raiseAlarmOf(motion::Fault fault) {
   if (fault == motion::Fault::kLeftBehind)
     return raiseAlarm(kFirst, FLASH(" and has halted. Press Stop"),
                       FLASH(", then look for what holds it."));
-  // Either proves counts wrong.
+  // Each of these faults proves counts wrong.
   place_.doubtCounts();
   if (fault == motion::Fault::kStands)
     return raiseAlarm(kFirst, FLASH(": a motor is driven and its encoder stands still. "),

@@ -1,4 +1,4 @@
-// The lines that come five times a second, whatever the machine does.
+// The lines that the machine sends five times a second, whatever it does.
 #pragma once
 
 #include "sled_place.h"

@@ -1,10 +1,10 @@
-// The dump, and a new value.
+// The dump of all settings, and setting a value.
 #include "settings_lines.h"
 
 namespace machine {
 namespace {
 
-/// Letters to the wire, for what the settings put letter by letter.
+/// Puts letters on the wire, for texts of settings that come letter by letter.
 struct PutLetter {
   Printer& out;
   void operator()(char letter) { out << letter; }
@@ -23,7 +23,7 @@ void SettingsLines::dump() {
 }
 
 bool SettingsLines::set(const char* text) {
-  // The published firmware passes over one other character in front of a number.
+  // The published firmware passes over a letter in front of a number.
   if (*text >= 'A' && *text <= 'Z') ++text;
   const gcode::Number number = gcode::readNumber(text);
   const bool has_number = number.fault == gcode::Fault::kNone && *text == '=';

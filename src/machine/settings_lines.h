@@ -19,9 +19,9 @@ class SettingsLines {
         answers_(answers),
         waiting_(waiting) {}
 
-  /// All that are listed, a line each.
+  /// Says all listed settings, a line each.
   void dump();
-  /// What stands behind the `$`: a number, `=`, a value.
+  /// Takes the text behind the `$`: a number, `=`, a value.
   bool set(const char* text);
 
  private:

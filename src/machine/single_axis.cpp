@@ -5,7 +5,7 @@ namespace machine {
 namespace {
 
 const float kAxisFeed = 800;  // [mm/min] unless a command says otherwise
-// The clients send F1 in the units of the moment; the published firmware ignores it as well.
+// The clients send F1 in the units in force; the published firmware ignores it too.
 const float kProbeFeed = 60;  // [mm/min]
 
 }  // namespace
@@ -15,7 +15,7 @@ bool SingleAxis::move(Axis axis, float goal, float feed, bool until_probe) {
   planner_.standAt(axes_.setPoint());
   planner_.addAxis(axis, goal, feed / 60);
   bool touched = false;
-  // A stop brakes along the way, so this goes on until the axis stands.
+  // A stop brakes along the path, so this goes on until the axis stands still.
   while (waiting_.isMoving() && !touched) {
     touched = until_probe && aux_.probeTouches();
     waiting_.pass();

@@ -1,4 +1,4 @@
-// Moves of one axis alone, in its own length: calibration, chains by hand, the probe.
+// Moves of a single axis by its length: calibration, chains by hand, the probe.
 #pragma once
 
 #include "answers.h"
@@ -31,19 +31,19 @@ class SingleAxis {
   /// [mm] Whether a chain or z can be that long.
   static bool isLength(float value) { return float(fabs(value)) <= kMostTravel; }
 
-  /// B02: pays out a chain to the length at which the sled is hooked on.
+  /// B02: pays out a chain to the length for hooking the sled on.
   bool measureOut(Axis axis);
-  /// B06: the chains are this long [mm].
+  /// B06: declares the lengths of the chains [mm].
   bool setChains(float left, float right);
-  /// B08: the chains are at their marks.
+  /// B08: declares that the chains are at their marks.
   bool setChainsToMarks();
-  /// B09: to lengths, or by lengths with G91.
+  /// B09: moves chains to lengths, or by lengths with G91.
   bool moveChains(const gcode::Words& words);
-  /// B15: to the middle of the sheet, chain by chain.
+  /// B15: moves to the middle of the sheet, chain by chain.
   bool goHome();
   /// B10.
   bool measureChain(bool left);
-  /// G38.2: z goes down until the probe touches, and is zero there.
+  /// G38.2: z goes down until the probe touches; there z becomes zero.
   bool probe(float target);
 
  private:

@@ -1,10 +1,10 @@
-// Between chains, place and what is kept of both.
+// Chain lengths, the sled's place, and the stored record of both.
 #include "sled_place.h"
 
 namespace machine {
 namespace {
 
-const float kMovedByHand = 0.5f;  // [mm] more than chains give way when motors are switched off
+const float kMovedByHand = 0.5f;  // [mm] more than chains give when motors are switched off
 
 }  // namespace
 
@@ -96,7 +96,7 @@ void SledPlace::lose(FlashText why) {
   keeper_.doubtChains();
   is_known_ = false;
   axes_.standStill();
-  // Or the next move of z would set out from chains of no length.
+  // Else the next move of z would start from chains of no length.
   standHere();
   // WebControl looks for the first two words.
   out_ << FLASH("ALARM: Position Lost. ") << why << FLASH(" Last known chain lengths: ");
@@ -116,14 +116,16 @@ FlashText SledPlace::whatIsLost() const {
 
 void SledPlace::keepWhenAtRest(uint32_t now_ms) {
   if (!keeper_.isDue(now_ms)) return;
-  // A motor that ran on, or a chain that was pulled: the next move begins where the sled is.
+  // A motor may have run on, or a chain may have been pulled: the next move begins where the sled
+  // is.
   for (uint8_t i = 0; i < kAxisCount; ++i)
     if (float(fabs(axes_.error(Axis(i)))) > kMovedByHand) search();
   settings::Position position;
   position.left = axes_.counts(kLeftAxis);
   position.right = axes_.counts(kRightAxis);
   position.z = axes_.counts(kZAxis);
-  // The place is what the chains say, not what was asked for: that is what a start compares.
+  // The record's place follows from the measured chains, not from the command: the next start
+  // compares it with the chains.
   const FoundPlace found = byChains(axes_.length(kLeftAxis), axes_.length(kRightAxis));
   position.x = found.at.x;
   position.y = found.at.y;

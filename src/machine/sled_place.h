@@ -1,4 +1,4 @@
-// Where the sled is: found from the chains, kept over a power cut, said when it is not known.
+// Where the sled is: worked out from the chains, stored for power cuts, reported when it is lost.
 #pragma once
 
 #include <GCode.h>
@@ -15,8 +15,8 @@ struct Place {
   float x, y, z;
 };
 
-/// The place of the sled, three times: where it is, where the last queued move ends (aim), and
-/// where the program believes that to be (counted: also beyond the sheet).
+/// Three places: where the sled is, where its last queued move ends (aim), and where the program
+/// believes that end to be (counted: may be beyond the sheet).
 class SledPlace {
  public:
   SledPlace(Printer& out, Axes& axes, const Geometry& geometry, Planner& mover,
@@ -29,48 +29,48 @@ class SledPlace {
         memory_(memory),
         modal_(modal) {}
 
-  /// Whether the chains say where the sled is, and can be trusted.
+  /// Whether the chains give a place for the sled, and can be trusted.
   bool isKnown() const { return is_known_; }
   /// Whether nothing has proved the chains or z wrong since they were declared.
   bool isTrusted() const { return keeper_.trustsAll(); }
   const Place& aim() const { return aim_; }
   Place counted() const { return {counted_.x, counted_.y, aim_.z}; }
-  /// Whether the program believes to be elsewhere than the sled: beyond the sheet's edge.
+  /// Whether the program's place is not the sled's: it is beyond the sheet's edge.
   bool isCountedBeyond() const { return counted_.x != aim_.x || counted_.y != aim_.y; }
 
   void aimAt(const Place& place) { aim_ = place; }
   void aimAtZ(float z) { aim_.z = z; }
   void countFrom(float x, float y) { counted_ = {x, y}; }
-  /// The program counts from where the sled is.
+  /// From now on the program counts from where the sled is.
   void countFromAim() { counted_ = {aim_.x, aim_.y}; }
 
-  /// Works the place out from the measured chains; everything begins there.
+  /// Works out the place from the measured chains; all moves begin there.
   bool search();
-  /// The same, and says it.
+  /// Works out the place as search() does, and says it.
   bool find();
-  /// Everything begins at the place last worked out.
+  /// All moves begin at the place that was worked out last.
   void standHere();
-  /// The tool is at this z from now on [mm].
+  /// Declares that the tool is at this z [mm].
   void declareZ(float z);
   /// Somebody said how long both chains are.
   void trustChains() { keeper_.declareChains(); }
-  /// Lengths stay as they are, but counts mean others, or the chains another place.
+  /// Lengths stay, but now counts mean other lengths, or the chains mean another place.
   void reconsider() { keeper_.reconsider(); }
   /// Whether the lengths of both chains can be trusted.
   bool trustsChains() const { return keeper_.trustsChains(); }
   /// Somebody said where z is; nothing else changes.
   void trustZ() { keeper_.declareZ(); }
 
-  /// At the start: takes over what was kept.
+  /// At the start: takes over the stored position.
   void restore(const settings::Started& started);
   void sayUnset(bool has_defaults);
-  /// The chains are not trusted from now on, and the owner hears why.
+  /// From now on the chains are not trusted; says why.
   void lose(FlashText why);
   /// Takes over which axes' counts were proved wrong.
   void doubtCounts();
   /// What must be set before the sled can cross the sheet.
   FlashText whatIsLost() const;
-  /// Keeps the position once everything rests; to be called often.
+  /// Stores the position once everything rests; to be called often.
   void keepWhenAtRest(uint32_t now_ms);
 
   /// Where the tool is commanded to be now.
@@ -90,7 +90,7 @@ class SledPlace {
   const gcode::Modal& modal_;
   Place aim_ = {0, 0, 0};
   motion::Point<float> counted_ = {0, 0};  ///< [mm]
-  Place place_ = {0, 0, 0};                ///< where the tool was when somebody last asked
+  Place place_ = {0, 0, 0};                ///< where the tool was at the last call of now()
   bool is_known_ = false;
 };
 

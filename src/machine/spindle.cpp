@@ -1,4 +1,4 @@
-// Angles and times of the published firmware.
+// Commands to the spindle, with the angles and times of the published firmware.
 #include "spindle.h"
 
 namespace machine {
@@ -33,7 +33,7 @@ bool Spindle::turn(bool on) {
 bool Spindle::takeS(const gcode::Words& words) {
   if (!words.has('S')) return true;
   const float s = words.value('S');
-  // The moves before it are made at the speed before it.
+  // Moves before the S word are made at the old speed.
   if (cutter_.changesSpeed(s) && !waiting_.drain()) return false;
   cutter_.takeS(s);
   return true;

@@ -1,4 +1,4 @@
-// Commands to spindle and laser, and how long a spindle takes.
+// Commands to spindle and laser, and the time that a spindle needs.
 #pragma once
 
 #include <GCode.h>
@@ -9,7 +9,7 @@
 
 namespace machine {
 
-/// Switches the cutter with all that belongs to it: words to the operator, the servo, the wait.
+/// Switches the cutter, with messages to the operator, the servo and the wait.
 class Spindle {
  public:
   Spindle(Cutter& cutter, Aux& aux, Printer& out, Waiting& waiting)

@@ -1,4 +1,4 @@
-// The board's watch in words, and the line of B30.
+// Messages of the board's watch, and the line of B30.
 #include "telemetry.h"
 
 #include "settings_table.h"

@@ -1,4 +1,4 @@
-// B30: how the machine is doing, in a line that clients pass over; and what the board's watch says.
+// B30: the machine's state in a line that clients ignore; and messages of the board's watch.
 #pragma once
 
 #include "board_watch.h"
@@ -7,7 +7,7 @@
 
 namespace machine {
 
-/// Looks after the board, and tells of it.
+/// Watches the board and reports on it.
 class Telemetry {
  public:
   Telemetry(Drives& drives, Aux& aux, Clock& clock, Axes& axes, Planner& mover,
@@ -22,11 +22,11 @@ class Telemetry {
         out_(out),
         start_(start) {}
 
-  /// At the start: keeps why it started, if that is not as usual.
+  /// At the start: stores why the firmware started, unless the start was usual.
   void noteStart();
-  /// Looks at the board, keeps and says what has come to it; true if a motor's driver fails.
+  /// Looks at the board, stores and reports events; true if a motor's driver fails.
   bool findsFailure();
-  /// Whose driver it was.
+  /// Name of the axis whose driver failed.
   FlashText failing() const;
   /// B30.
   void tell();

@@ -1,4 +1,4 @@
-// The waits that more than one command needs.
+// The waits that several commands need.
 #include "waiting.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ bool Waiting::drain() {
 
 void Waiting::settle() {
   const float kNear = 0.012f;      // [mm]
-  const uint32_t kPatience = 500;  // [ms] a motor without gains never comes nearer
+  const uint32_t kPatience = 500;  // [ms] for a motor without gains, which never comes nearer
   const uint32_t start = clock_.milliseconds();
   waitWhile([&] {
     if (clock_.milliseconds() - start >= kPatience) return false;

@@ -1,4 +1,4 @@
-// How a command waits while the machine goes on.
+// How a command waits while the machine keeps working.
 #pragma once
 
 #include "axes.h"
@@ -6,42 +6,42 @@
 
 namespace machine {
 
-/// The main program, as a command sees it that waits in it.
+/// The waits of the main program, for commands.
 ///
-/// Every wait of the firmware is one of these. While it lasts, service() keeps quick characters,
-/// set-points, reports and memory going, and does the operator's lines in a hold or a pause. Each
-/// wait returns false once a stop was asked for: then the command unwinds.
+/// Every wait of the firmware is here. During a wait, service() keeps quick characters, set-points,
+/// reports and memory going, and does the operator's lines in a hold or a pause. Each wait returns
+/// false once a stop was asked for: then the command returns too.
 class Waiting {
  public:
   Waiting(Clock& clock, Axes& axes, const Planner& mover)
       : clock_(clock), axes_(axes), planner_(mover) {}
 
-  /// One round of everything that goes on by itself.
+  /// A round of everything that goes on by itself.
   virtual void service() = 0;
-  /// Says the status if it is due and shows that the program lives; for those who write much and
-  /// do not wait.
+  /// Says the status if it is due, and shows that the program is alive. For code that writes many
+  /// lines without a wait.
   virtual void keepReporting() = 0;
 
   uint32_t milliseconds() { return clock_.milliseconds(); }
   bool isStopping() const { return stopping_; }
   bool isMoving() const { return !planner_.isIdle() || !axes_.isEmpty(); }
 
-  /// One round of a wait: the processor sleeps until something comes, for a millisecond at most.
+  /// A round of a wait: the processor sleeps until something comes, for a millisecond at most.
   void pass() {
     service();
     clock_.sleep();
   }
 
-  /// As long as condition() holds.
+  /// Waits as long as condition() holds.
   template <class Condition>
   bool waitWhile(Condition condition) {
     while (!stopping_ && condition()) pass();
     return !stopping_;
   }
   bool waitFor(uint32_t ms);
-  /// Until the moves queued so far are done and the motors have come to their end.
+  /// Waits until the moves queued so far are done and the motors have reached their end.
   bool drain();
-  /// Until all axes are near their set-points, but not for ever.
+  /// Waits until all axes are near their set-points, but not for ever.
   void settle();
 
  protected:

@@ -1,15 +1,15 @@
-// When the owner hears that the feed yields.
+// When the operator hears that the feed yields.
 #pragma once
 
 #include <stdint.h>
 
 namespace machine {
 
-/// Once in a motion, after the feed has yielded for a second: what is blocked or unplugged is named
-/// before.
+/// Once in a motion, after the feed has yielded for a second. A blocked or unplugged motor is
+/// reported earlier.
 class YieldNotice {
  public:
-  /// To be called often; true when it is to be said. `yields`: the feed yielded since the last
+  /// To be called often; true when the notice is due. `yields`: the feed yielded since the last
   /// call.
   bool isDue(bool yields, bool is_moving, uint32_t now_ms) {
     if (!is_moving) is_said_ = false;
@@ -25,7 +25,7 @@ class YieldNotice {
   enum : uint16_t { kGapMs = 100, kPatienceMs = 1000 };
 
   uint32_t since_ms_ = 0, last_ms_ = 0;
-  bool is_said_ = false;  ///< in this motion
+  bool is_said_ = false;  ///< said in this motion
 };
 
 }  // namespace machine

@@ -1,4 +1,4 @@
-// Limits of z, and what follows when z is declared.
+// Limits of z, and how they move when z is declared.
 #include "z_axis.h"
 
 #include <math.h>

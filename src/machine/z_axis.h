@@ -1,4 +1,4 @@
-// The z axis: its limits (B17 to B20), what it is declared to be, how fast it goes.
+// The z axis: its limits (B17 to B20), its declared height, its speed.
 #pragma once
 
 #include "answers.h"
@@ -6,7 +6,7 @@
 
 namespace machine {
 
-/// Limits are kept in machine coordinates of the moment; they move along when z is declared.
+/// Limits are in machine coordinates; they shift when z is declared.
 class ZAxis {
  public:
   ZAxis(settings::Memory& memory, const settings::Values& values, Axes& axes, SledPlace& place,
@@ -22,13 +22,13 @@ class ZAxis {
   bool hasMotor() const { return values_.at(kZMotor) != 0; }
   float mostFeed() const;                                            ///< [mm/min]
   float acceleration() const { return values_.at(kAccelerationZ); }  ///< [mm/s^2]
-  float within(float z) const;  ///< [mm] brought back to the limits
+  float within(float z) const;  ///< [mm] limited to the allowed range
   bool setLimit(bool upper);
   bool clearLimits();
   bool showLimits();
-  /// The tool is at this z from now on [mm].
+  /// Declares that the tool is at this z [mm].
   void declare(float z);
-  /// The same while the program's way is held: it keeps its heights.
+  /// Declares z during a hold: the planned heights stay.
   void declareInHold(float z);
 
  private:

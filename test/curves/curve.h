@@ -1,5 +1,5 @@
-// Curves of tangent arcs, as a program's text tells them with a last digit, and how far a place is
-// from the curve that was meant.
+// Curves of tangent arcs as a program's text gives them, rounded to its last digit, and the
+// distance of a place from the intended curve.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ struct Spot {
   double x, y;
 };
 
-/// An arc as somebody drew it.
+/// An arc before its numbers are rounded.
 struct Meant {
   Spot from, to, centre;
   double radius, first, sweep;  ///< [mm], [rad] direction of its start from the centre, [rad]
@@ -31,10 +31,10 @@ struct Meant {
   }
 };
 
-/// What the words of a program say of an arc [mm]; already multiples of the last digit.
-struct Told {
+/// An arc in the words of a program [mm], rounded to the last digit.
+struct Rounded {
   Spot from, to, centre;
-  double radius;  ///< as R would say it, negative the long way round
+  double radius;  ///< as for R: negative for the long way round
 };
 
 inline double rounded(double value, double digit) { return std::round(value / digit) * digit; }
@@ -44,7 +44,7 @@ inline Spot rounded(Spot place, double digit) {
 }
 
 /// The words of an arc; I and J count from its start.
-inline Told told(const Meant& meant, double digit) {
+inline Rounded rounded(const Meant& meant, double digit) {
   const Spot from = rounded(meant.from, digit);
   const Spot centre = {from.x + rounded(meant.centre.x - meant.from.x, digit),
                        from.y + rounded(meant.centre.y - meant.from.y, digit)};

@@ -1,24 +1,24 @@
-// Counts which answers are owed to the computer, and looks at each line that is sent to it.
+// Counts the answers that the machine owes the computer, and checks each line that it sends.
 #pragma once
 
 #include <string>
 
-/// What clients rely on: one answer for each line and quick character, none for what a stop broke
-/// off.
+/// What clients rely on: an answer for each line and each quick character, but none for a line that
+/// a stop broke off.
 class Answers {
  public:
   /// The machine took a character from the wire.
   void taken(char character);
   /// The machine sent a line.
   void said(const std::string& line);
-  /// One round of the main program is over.
+  /// A round of the main program is over.
   void wentRound();
   /// Power came back, and the greeting is over.
   void startAnew() { *this = Answers(); }
 
   bool isComplete() const { return answered_ == lines_ + quick_; }
   bool isLocked() const { return is_locked_; }
-  /// A halt lets the moves before it come to their end, an alarm lets nothing turn.
+  /// After a halt the moves before it are finished; after an alarm nothing turns.
   bool mayDrive() const { return !is_locked_ || is_halted_; }
   bool isSimulated() const { return is_simulated_; }
   bool isPaused() const { return is_paused_; }

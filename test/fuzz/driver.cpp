@@ -1,7 +1,7 @@
 // Runs a fuzz target where there is no libFuzzer: mutates a corpus, keeps what reaches new edges,
 // writes the input of a crash into a file.
 //
-// DRIVER FOLDER SECONDS [SEED [NEW_FOLDER]] fuzzes; DRIVER FILE runs one input.
+// DRIVER FOLDER SECONDS [SEED [NEW_FOLDER]] fuzzes; DRIVER FILE runs a single input.
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size);
 namespace {
 
 const std::size_t kMapSize = 1 << 16;
-const unsigned kPatience = 60;  // [s] for one input
+const unsigned kPatience = 60;  // [s] for an input
 uint8_t edges_now[kMapSize], edges_seen[kMapSize];
 uintptr_t last_place = 0;
 Input current;
@@ -43,7 +43,7 @@ uint8_t classOf(uint8_t count) {
   return uint8_t(1 << bit);
 }
 
-/// Whether the last run passed an edge that none before it did, or clearly more often.
+/// Whether the last run passed an edge that no run had passed, or passed an edge far more often.
 bool isNew() {
   bool found = false;
   for (std::size_t i = 0; i < kMapSize; ++i) {
@@ -90,17 +90,17 @@ int fuzz(const char* folder, double seconds, unsigned seed, const char* new_fold
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   long runs = 0;
-  for (double told = 60; since() < seconds; ++runs) {
+  for (double next_report = 60; since() < seconds; ++runs) {
     const Input input = mutator.next(corpus);
     if (run(input)) {
       corpus.push_back(input);
       if (new_folder != nullptr) keepNew(new_folder, corpus.size(), input);
     }
-    if (since() < told) continue;
+    if (since() < next_report) continue;
     std::printf("%.0f s: %ld runs, %zu inputs, %zu edges\n", since(), runs, corpus.size(),
                 edgeCount());
     std::fflush(stdout);
-    told += 60;
+    next_report += 60;
   }
   std::printf("%s: %ld runs in %.0f s, %zu inputs grew to %zu, %zu edges, nothing found\n", folder,
               runs, since(), first, corpus.size(), edgeCount());
@@ -116,7 +116,7 @@ extern "C" __attribute__((no_sanitize("address", "undefined"))) void __sanitizer
   last_place = place >> 1;
 }
 
-// What the sanitizers find ends in an abort, so that the input is kept.
+// A finding of the sanitizers aborts, so the input is kept.
 extern "C" const char* __asan_default_options() { return "abort_on_error=1:handle_abort=0"; }
 extern "C" const char* __ubsan_default_options() {
   return "abort_on_error=1:print_stacktrace=1:handle_abort=0";

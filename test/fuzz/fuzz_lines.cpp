@@ -36,7 +36,7 @@ void checkWords(const char* line) {
   }
 }
 
-/// Each letter that a piece holds stands in the line, and as many codes as there are G and M.
+/// Checks that each letter of a piece is in the line, and that there is a code for each G and M.
 void checkPieces(const char* line) {
   if (findMistake(line).fault != Fault::kNone) return;
   int codes = 0;
@@ -77,7 +77,7 @@ void takeLines(Input& input) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   Input input;
-  // The first byte tells how seldom lines are taken out, so that the ring gets full.
+  // The first byte sets how seldom lines are taken out, so that the ring fills.
   const std::size_t every = std::size_t(1) + data[0];
   for (std::size_t i = 1; i < size; ++i) {
     const Quick quick = input.put(char(data[i]));

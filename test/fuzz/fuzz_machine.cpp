@@ -1,4 +1,4 @@
-// Fuzz target: any characters to the whole machine. The first byte chooses the sender's manners.
+// Fuzz target: any characters to the whole machine. The first byte chooses how the sender behaves.
 #include <cstddef>
 
 #include "world.h"
@@ -9,7 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
   Story story;
   story.step_ms = steps[data[0] & 3];
   story.is_polite = (data[0] & 4) == 0;
-  // Most stories begin with a machine that knows where it is, for others reject every move.
+  // Most stories begin with a machine that knows where it is, because others reject every move.
   if ((data[0] & 0x18) != 0x18) story.eeprom = ownImage();
   story.sent.assign(data + 1, data + size);
   live(story);

@@ -118,7 +118,7 @@ Corpus readCorpus(const std::string& folder) {
 }
 
 Input Mutator::next(const Corpus& corpus) {
-  // Half of the time one of the newest, which is where new ground is.
+  // Half of the time the input is among the newest, which reach new edges most often.
   const std::size_t newest = std::min<std::size_t>(corpus.size(), 20);
   const std::size_t at = below(2) == 0 ? corpus.size() - 1 - below(newest) : below(corpus.size());
   Input input = corpus[at];

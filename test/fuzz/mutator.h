@@ -1,4 +1,4 @@
-// New inputs from old ones: bytes, lines and words of the protocol changed, moved and mixed.
+// New inputs from old inputs: bytes, lines and words of the protocol changed, moved and mixed.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@ using Corpus = std::vector<Input>;
 /// The files of a folder, by name.
 Corpus readCorpus(const std::string& folder);
 
-/// Draws inputs; the same seed draws the same ones.
+/// Draws inputs; the same seed draws the same inputs.
 class Mutator {
  public:
   explicit Mutator(unsigned seed) : random_(seed) {}
 
-  /// One of the corpus, changed in a few places.
+  /// An input of the corpus, changed in a few places.
   Input next(const Corpus& corpus);
 
  private:

@@ -1,4 +1,4 @@
-// The simulated board's time, wire, motors and mishaps.
+// The simulated board's time, serial line, motors and faults.
 #include "world.h"
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace {
 const double kBytesPerMs = 5.88;  // 58,824 baud, ten bits each
 const int kOutRoom = 255, kInRoom = 255, kClientRoom = 126;
 const long kLongestGapMs = 1500;     // clients give up after 2 s of silence
-const long kStoryMs = 30000;         // then Stop is pressed, whatever goes on
-const long kPatienceMs = 6000;       // that a polite sender has for an answer
+const long kStoryMs = 30000;         // then Stop is pressed in any case
+const long kPatienceMs = 6000;       // that a polite sender waits for an answer
 const long kLastPatienceMs = 60000;  // for the settings after a stop
 const long kQuietMs = 3000;
 

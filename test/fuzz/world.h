@@ -1,4 +1,4 @@
-// A simulated board around the firmware's machine, and what must hold whatever comes over the wire.
+// A simulated board around the firmware's machine, and what must hold whatever a sender sends.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ struct TheEnd {};
 /// What happens to the machine.
 struct Story {
   std::vector<uint8_t> eeprom;  ///< at power-on; empty: never written
-  /// What is sent; characters 1 to 7 do something to the board instead (see world.cpp).
+  /// The characters to send; characters 1 to 7 are not sent but act on the board (see world.cpp).
   std::string sent;
   int step_ms = 5;        ///< between two looks at the wire
   bool is_polite = true;  ///< waits for the answer to a line before it sends the next
 };
 
-/// Lives through a story, then presses Stop and asks for the settings; aborts if anything that must
-/// hold does not. Returns the EEPROM's bytes at the end.
+/// Plays a story, then presses Stop and asks for the settings. Aborts if anything that must hold
+/// does not. Returns the EEPROM's bytes at the end.
 std::vector<uint8_t> live(const Story& story);
 
 /// An EEPROM of this firmware that knows where the sled is.

@@ -1,4 +1,4 @@
-// A simulated EEPROM whose power fails in any byte, which leaves noise in that byte.
+// A simulated EEPROM whose power can fail in any byte; that byte then holds noise.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace settings_host {
 
-/// What is thrown when power fails; everything in RAM is lost with it.
+/// Thrown when power fails: everything in RAM is lost.
 struct PowerCut {};
 
 /// 4096 bytes as the Mega has them: a write goes on for some calls of ready(), and wears its cell.
@@ -45,8 +45,8 @@ class Eeprom : public settings::Bytes {
     busy_ = busy_calls;
   }
 
-  /// Power fails in the write after the next `writes`; `torn` is what that cell then holds, -1 what
-  /// it held.
+  /// Makes power fail in the write after the next `writes`. `torn` is what that cell then holds;
+  /// with -1 it holds its old byte.
   void cutAfter(int writes, int torn) {
     writes_left_ = writes;
     torn_ = torn;

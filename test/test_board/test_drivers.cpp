@@ -15,18 +15,18 @@ const Shield& shieldOf(uint8_t straps) {
   throw std::runtime_error("no such shield");
 }
 
-void expectLevels(const Levels& levels, int one, int two, int enable) {
-  EXPECT_EQ(levels.one, one);
-  EXPECT_EQ(levels.two, two);
+void expectLevels(const Levels& levels, int input1, int input2, int enable) {
+  EXPECT_EQ(levels.input1, input1);
+  EXPECT_EQ(levels.input2, input2);
   EXPECT_EQ(levels.enable, enable);
 }
 
 Channel over(uint8_t straps, Motor motor) { return channelOf(shieldOf(straps), motor, true); }
 Channel below(uint8_t straps, Motor motor) { return channelOf(shieldOf(straps), motor, false); }
 
-void expectPins(const Channel& channel, int one, int two, int enable) {
-  EXPECT_EQ(channel.one, one);
-  EXPECT_EQ(channel.two, two);
+void expectPins(const Channel& channel, int input1, int input2, int enable) {
+  EXPECT_EQ(channel.input1, input1);
+  EXPECT_EQ(channel.input2, input2);
   EXPECT_EQ(channel.enable, enable);
 }
 
@@ -65,7 +65,7 @@ TEST(Wiring, KeepsDirectionAndDisableOfATle9201Apart) {
   for (const bool over_top : {true, false})
     for (const Motor motor : {Motor::kLeft, Motor::kRight, Motor::kZ}) {
       const Channel channel = channelOf(shieldOf(7), motor, over_top);
-      EXPECT_EQ(channel.one, pinsOf(shieldOf(7), motor).first);
+      EXPECT_EQ(channel.input1, pinsOf(shieldOf(7), motor).first);
       EXPECT_EQ(channel.forward_is_high, over_top && motor != Motor::kZ);
     }
 }
@@ -157,8 +157,8 @@ TEST(Drivers, CanReachFullDutyBothWaysOnPinsThatExist) {
         for (int drive = -300; drive <= 300; ++drive) {
           const Levels shown = levelsFor(channel, int16_t(drive));
           const auto pulses = [](uint8_t level) { return level != kLow && level != kHigh; };
-          EXPECT_TRUE(!pulses(shown.one) || canPulse(channel.one));
-          EXPECT_TRUE(!pulses(shown.two) || canPulse(channel.two));
+          EXPECT_TRUE(!pulses(shown.input1) || canPulse(channel.input1));
+          EXPECT_TRUE(!pulses(shown.input2) || canPulse(channel.input2));
           EXPECT_TRUE(!pulses(shown.enable) || canPulse(channel.enable));
         }
       }

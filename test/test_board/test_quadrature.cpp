@@ -1,4 +1,4 @@
-// Encoder edges become counts, on every shield in the direction that winding needs.
+// Encoder edges become counts, on every shield in the right direction.
 #include <gtest/gtest.h>
 
 #include "board/quadrature.h"
@@ -9,10 +9,10 @@ namespace {
 
 const uint8_t kRising[] = {0, 2, 3, 1};
 
-/// The pin that is the low, and the high, bit of each pair.
+/// The pins of the low and of the high bit of each pair.
 const int kLowPin[] = {21, 19, 2}, kHighPin[] = {20, 18, 3};
 
-/// How a motor's count changes by one step in which its second channel leads.
+/// How a motor's count changes by a step in which its second channel leads.
 int countWhenSecondLeads(const Shield& shield, Motor motor, bool over_top) {
   const MotorPins& pins = pinsOf(shield, motor);
   const bool cross = motor == Motor::kZ || isCrossed(motor, over_top);

@@ -1,4 +1,4 @@
-// One axis on the host: its loops, its watch, its motor, and the counts between.
+// An axis on the host: its loops, its watch, its motor, and the counts between them.
 #pragma once
 
 #include <Motion.h>
@@ -20,7 +20,7 @@ struct Asked {
   double set_point, ahead;
 };
 
-/// A motor as they come, by its seed, under control of a law at a rate [Hz].
+/// A motor with random tolerances by its seed, controlled by a law at a rate [Hz].
 template <class Loop>
 class AxisWith {
  public:
@@ -33,7 +33,7 @@ class AxisWith {
     watch_.tune(2, float(constants_.counts_per_turn), float(seconds));
   }
 
-  /// One control tick; how far the chain is from its set-point [mm] when it ends.
+  /// A control tick; returns how far the chain is from its set-point [mm] at its end.
   double tick(const Asked& asked) {
     const double per_count = 1 / constants_.counts_per_turn;
     const int32_t counts = motor.counts();
@@ -48,7 +48,7 @@ class AxisWith {
     return asked.set_point - motor.turns() * kChainPerTurn;
   }
 
-  /// The same with a set-point that stays, or jumps.
+  /// A control tick with a set-point that stays, or jumps.
   double tick(double set_point) { return tick(Asked{set_point, 0}); }
 
  private:
@@ -67,8 +67,8 @@ class AxisWith {
 using Axis = AxisWith<motion::AxisLoop>;
 using PublishedAxis = AxisWith<PublishedLoop>;
 
-/// A set-point that goes to and fro with bounded acceleration, and a few ticks ahead of it what it
-/// will ask for, as the ring of set-points tells.
+/// A set-point that goes to and fro with bounded acceleration, and the way it will go a few ticks
+/// later, as the ring of set-points gives it.
 class ToAndFro {
  public:
   ToAndFro(double feed, double seconds, double from = 0)

@@ -1,4 +1,4 @@
-// The published firmware's law for one axis, as a yardstick: it follows its error alone.
+// The published firmware's control law for an axis, for comparison: it acts on the error alone.
 #pragma once
 
 #include <Motion.h>
@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-/// Both loops of the published firmware, with the same calls as motion::AxisLoop. Its derivatives
-/// act on the measure, its duty and its steps are whole numbers.
+/// Both loops of the published firmware, with the same calls as motion::AxisLoop. Their derivatives
+/// act on the measured value; duty and steps are whole numbers.
 class PublishedLoop {
  public:
   static uint8_t ticksAhead(float) { return 0; }

@@ -1,5 +1,5 @@
 // A sled on two chains, each with its motor; set-points from the mover and its ring, as on the
-// board. Chains run straight from sprocket to bit: what is measured here is control.
+// board. Chains run straight from sprocket to bit, because only control is measured here.
 #pragma once
 
 #include "axis.h"
@@ -10,7 +10,7 @@ class SledWith {
  public:
   using Point = motion::Point<double>;
 
-  /// `ring`: how many set-points the main program keeps ahead at most.
+  /// `ring`: most set-points that the main program keeps ahead.
   SledWith(unsigned seed, double rate, int ring = motion::SetPoints::kMost)
       : ring_(ring),
         ahead_(Loop::ticksAhead(float(1 / rate))),
@@ -21,7 +21,7 @@ class SledWith {
     for (int i = 0; i < int(rate / 2); ++i) tick();
   }
 
-  /// Moves on a line at a feed [mm/min]; a tick of the queue's head is driven while it is full.
+  /// Queues a line at a feed [mm/min]; while the queue is full, ticks go on.
   void lineTo(Point to, double feed) {
     while (!mover_.hasRoom()) tick();
     const motion::Point<float> from = {float(aim_.x), float(aim_.y)},
@@ -30,7 +30,7 @@ class SledWith {
     aim_ = to;
   }
 
-  /// To the end of all moves and for a second more.
+  /// Goes on to the end of all moves, and for a second more.
   void finish() {
     while (!mover_.isIdle() || !worked_out_.isEmpty() || !points_.isEmpty()) tick();
     for (int i = 0; i < int(1 / axis_[0].seconds); ++i) tick();
@@ -67,7 +67,7 @@ class SledWith {
     drive(ahead);
   }
 
-  /// A short ring: so few set-points wait at most.
+  /// Fills the ring, but with at most `ring_` set-points, as if it were short.
   void fill() {
     mover_.fill(worked_out_, exactly);
     motion::Leg leg;

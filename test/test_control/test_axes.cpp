@@ -1,4 +1,5 @@
-// The control tick with its ring of set-points, its loops and its watch, on motors as they come.
+// The control tick with its ring of set-points, its loops and its watch, on motors with random
+// tolerances.
 #include <gtest/gtest.h>
 
 #include "machine/planner.h"
@@ -39,7 +40,7 @@ class MotorDrives : public Drives {
   int duty_[kAxisCount] = {0, 0, 0};
 };
 
-/// The left axis on its way, with the machine's settings.
+/// The left axis in motion, with the machine's settings.
 class Bench {
  public:
   Bench(unsigned seed, float ticks) : drives(seed), values_(table_, room_), axes(drives, clock_) {

@@ -1,4 +1,4 @@
-// The loops of one axis on motors with inertia, friction, back-EMF, load and a sagging supply.
+// The loops of an axis on motors with inertia, friction, back-EMF, load and a sagging supply.
 #include <gtest/gtest.h>
 
 #include "axis.h"
@@ -32,8 +32,8 @@ TEST_P(AtRate, ChainsFollowWithinHalfAMillimetre) {
     const std::vector<double> all = worstOfMotors(GetParam(), feed);
     printf("%.0f Hz, %.0f mm/min: median %.3f mm, worst %.3f mm\n", GetParam(), feed,
            all[kMotors / 2], all.back());
-    // The published alarm is at 2 mm: at the clients' greatest feed no motor of these comes near
-    // it. At 1000 mm/min a quarter of them is at the end of its strength behind an L298.
+    // The published alarm is at 2 mm. At the clients' greatest feed none of these motors comes near
+    // it. At 1000 mm/min a quarter of them reaches full duty behind an L298.
     EXPECT_LT(all[kMotors / 2], 0.35);
     if (feed < 1000) {
       EXPECT_LT(all.back(), 0.9);
@@ -87,7 +87,8 @@ TEST_P(AtRate, WhatIsWiredWronglyLeavesItsSetPointAtOnce) {
     axis.motor.wires.encoder_unplugged = fault == 2;
     int ticks = 0;
     double travelled = 0;
-    // The measured error is what the alarm sees: driven hard, and nothing or the wrong way.
+    // The alarm sees the measured error: a motor is driven hard and stands still or turns the wrong
+    // way.
     for (double at = 0; ticks < int(GetParam()); ++ticks) {
       at += 13.3 / GetParam();
       axis.tick(at);

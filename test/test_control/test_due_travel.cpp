@@ -1,4 +1,4 @@
-// When a motor owes too much travel for its duty: in ticks, from what a weak motor does.
+// When a motor owes too much travel for its duty: in ticks, compared with a weak motor.
 #include <Motion.h>
 #include <gtest/gtest.h>
 
@@ -16,14 +16,14 @@ DueTravel atRest(float counts = kCounts, float tick = kTick) {
   return due;
 }
 
-/// Ticks until too much is due at a steady duty, with so many counts each tick; 0: not in 10 s.
+/// Ticks until too much is due at a steady duty, with `moved` counts each tick; 0: not in 10 s.
 int ticksUntilDue(DueTravel due, int duty, int moved) {
   for (int i = 1; i <= 1000; ++i)
     if (due.look(int16_t(duty * kMean), int16_t(moved * kMean), int16_t(moved))) return i;
   return 0;
 }
 
-/// Lets it learn what a motor needs that runs evenly.
+/// Lets it learn the duty of a motor that runs evenly.
 DueTravel learned(int duty, int moved, int ticks) {
   DueTravel due = atRest();
   for (int i = 0; i < ticks; ++i)
@@ -34,8 +34,9 @@ DueTravel learned(int duty, int moved, int ticks) {
 
 }  // namespace
 
-// A weak motor makes 0.0014 turns a second for each step of duty beyond what it needs, and 0.007
-// turns may be due. What it needs is 120 until it has run; an eighth and 15 more are its margin.
+// A weak motor makes 0.0014 turns a second for each step of duty beyond the duty that it needs, and
+// 0.007 turns may be due. Before it has run, the needed duty is 120; the margin is an eighth of
+// that and 15.
 TEST(DueTravel, IsThatOfAWeakMotorBeyondItsMargin) {
   for (const int sign : {-1, 1}) {
     EXPECT_EQ(0, ticksUntilDue(atRest(), sign * 150, 0));
@@ -64,8 +65,8 @@ TEST(DueTravel, BeginsAgainInTheOtherDirectionAndAtRest) {
 }
 
 TEST(DueTravel, LearnsForEachDirectionByItself) {
-  // The usual motor makes 0.002 turns a second for each step: 20 counts a tick ask for 123 steps,
-  // so 77 of 200 overcome friction and load, and with its margin 77 + 9 + 15 = 101.
+  // The usual motor makes 0.002 turns a second for each step of duty. 20 counts a tick need 123
+  // steps, so 77 of 200 overcome friction and load. With the margin that is 77 + 9 + 15 = 101.
   const DueTravel forward = learned(200, 20, 500);
   EXPECT_EQ(0, ticksUntilDue(forward, 100, 0));
   EXPECT_NEAR(ticksUntilDue(forward, 121, 0), 27, 2);

@@ -1,17 +1,17 @@
-// Where a chain comes to rest: how far it passes its goal, against the published firmware's law.
+// Where a chain comes to rest: how far it passes its goal, compared with the published law.
 #include <gtest/gtest.h>
 
 #include "axis.h"
 
 namespace {
 
-/// What forty motors did, each both ways, in order of size.
+/// Results of forty motors, each in both directions, sorted by size.
 struct Ends {
-  std::vector<double> beyond;  ///< [mm] past the goal, at most
-  std::vector<double> strays;  ///< [mm] from the set-point, root of the mean square on the way
+  std::vector<double> beyond;  ///< [mm] largest distance past the goal
+  std::vector<double> strays;  ///< [mm] RMS distance from the set-point during the move
 };
 
-/// One way of 20 mm and a second of rest.
+/// A move of 20 mm and a second of rest.
 template <class Loop>
 void travel(unsigned seed, double rate, double feed, double goal, Ends& ends) {
   AxisWith<Loop> axis(seed, rate);

@@ -103,7 +103,7 @@ TEST(SpeedGains, ProportionalAddsToTheDutyAtEachTick) {
 }
 
 TEST(SpeedGains, IntegralAddsWhatItSums) {
-  // Each tick the sum grows by 32 * 0.01 * 10 = 3.2; the duty is told in whole steps.
+  // Each tick the sum grows by 32 * 0.01 * 10 = 3.2; the duty is a whole number.
   AxisLoop loop = loopWith(kNone, {0, 32, 0, 1});
   for (const int duty : {3, 9, 19}) EXPECT_EQ(duty, loop.run(10));
   loop.tune(kNone, {2, 0, 0, 1}, kCounts, kTick);
@@ -117,7 +117,7 @@ TEST(SpeedGains, DerivativeBrakesAChangeOfSpeedThatNobodyAskedFor) {
   EXPECT_EQ(0, loop.run(10)) << "a wish changes no speed";
   loop.measure(2 * 3 / kPerMinute);
   EXPECT_EQ(-6, loop.run(10)) << "3 turns a minute more, at 2 for each";
-  // Set-points that grow faster by as much ask for it: the speed is 1.5 by the smoothing.
+  // Set-points whose speed grows equally ask for this change: the smoothed speed is 1.5.
   AxisLoop led = loopWith({1, 0, 0, 1}, {0, 0, 0.02f, 1});
   led.measure(2 * 3 / kPerMinute);
   EXPECT_EQ(0, led.follow(0, 3 / kPerMinute, 0)) << "speed and set-points changed alike";

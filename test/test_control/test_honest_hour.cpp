@@ -1,4 +1,4 @@
-// An hour of cutting with nothing wrong: no fault is seen, however motors stick and supplies sag.
+// An hour of cutting with sound motors: no fault is seen, however motors stick and supplies sag.
 #include <gtest/gtest.h>
 
 #include "axis.h"
@@ -7,14 +7,14 @@ using motion::Fault;
 
 namespace {
 
-/// Ways and rests of any length, at any feed, against a pull of the cut and on a supply that change
-/// all the time.
+/// Moves and rests of any length, at any feed. The pull of the cut and the supply change all the
+/// time.
 class Work {
  public:
   Work(unsigned seed, double rate, const world::MotorConstants& constants)
       : axis(constants, seed, rate), rate_(rate), random_(seed) {}
 
-  /// Works for so long; the fault that was seen.
+  /// Works for `seconds`; returns the fault that was seen.
   Fault go(double seconds) {
     while (done_ < seconds * rate_) {
       const double feeds[] = {20, 60, 200, 500, 700};
@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Both, Honest, testing::Values(100.0, 200.0));
 TEST_P(Honest, HourOfCuttingSeesNoFault) {
   for (unsigned seed = 0; seed < kMotors; ++seed) {
     world::MotorConstants constants = world::anyMotor(seed);
-    // Every second one sticks until it moves.
+    // Every second motor sticks until it moves.
     constants.stiction = seed % 2 ? 1.5 : 1;
     Work work(seed, GetParam(), constants);
     EXPECT_EQ(Fault::kNone, work.go(3600.0 / kMotors)) << "motor " << seed;

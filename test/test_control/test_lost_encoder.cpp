@@ -1,5 +1,4 @@
-// An encoder that is no longer heard, or heard in reverse: how far its motor runs before the watch
-// says so.
+// An encoder whose signal is lost or reversed: how far its motor runs before the watch says so.
 #include <gtest/gtest.h>
 
 #include "axis.h"
@@ -19,10 +18,11 @@ struct Case {
 
 struct Run {
   Fault fault;
-  double astray;  ///< [mm] of the chain from its set-point, at most until the fault
+  double astray;  ///< [mm] largest distance of the chain from its set-point until the fault
 };
 
-/// There and back at 800 mm/min, from which the watch learns what the motor needs, and a rest.
+/// Moves there and back at 800 mm/min, so that the watch learns the duty that the motor needs, and
+/// rests.
 void learn(Axis& axis, double rate) {
   ToAndFro way(800, axis.seconds);
   for (double goal : {20.0, 0.0})
@@ -46,7 +46,7 @@ Run runOf(const Case& lost, unsigned seed, double goal) {
   return run;
 }
 
-/// Forty motors, both ways, in order of how far they ran; how many were never noticed.
+/// Forty motors in both directions, sorted by how far they ran; how many were never noticed.
 std::vector<double> ranOf(const Case& lost, Fault expected, int& unseen) {
   std::vector<double> ran;
   unseen = 0;
@@ -102,7 +102,7 @@ TEST_P(LostEncoder, IsNoticedInTheFirstJogWithinThreeMillimetres) {
 }
 
 TEST_P(LostEncoder, DoesNotLetAMotorAtRestRunAway) {
-  // A motor that stands on its set-point goes on standing, and nothing is to be noticed.
+  // A motor that rests on its set-point stays there, so there is nothing to notice.
   int unseen;
   EXPECT_LT(ranOf({GetParam(), 0, Lost::kAtRest, unplugged()}, Fault::kStands, unseen).back(), 3);
   EXPECT_LT(ranOf({GetParam(), 0, Lost::kAtRest, withOneChannel()}, Fault::kStands, unseen).back(),

@@ -82,7 +82,8 @@ INSTANTIATE_TEST_SUITE_P(Both, SledAtRate, testing::Values(100.0, 200.0));
 TEST_P(SledAtRate, ComesToItsEndAndStaysThere) {
   for (const double feed : {300.0, 800.0}) {
     EXPECT_LT(ends<motion::AxisLoop>("end", GetParam(), feed).worst, 0.08);
-    // With two set-points ahead, as when the main program is busy, the bit still does not shoot.
+    // With two set-points ahead, as when the main program is busy, the bit still does not
+    // overshoot.
     EXPECT_LT(ends<motion::AxisLoop>("end, short ring", GetParam(), feed, 2).worst, 0.16);
   }
 }

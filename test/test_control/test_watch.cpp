@@ -1,4 +1,4 @@
-// The watch over an axis: every fault by its name and soon, and never a false one.
+// The watch over an axis: it names every fault soon, and never reports a false fault.
 #include <gtest/gtest.h>
 
 #include "axis.h"
@@ -10,11 +10,11 @@ namespace {
 class Watched : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Both, Watched, testing::Values(100.0, 200.0));
 
-/// What was said of a motor that gets a fault while it moves at 800 mm/min.
+/// What the watch says of a motor that gets a fault while it moves at 800 mm/min.
 struct Said {
   Fault fault;
-  double seconds;  ///< until it was
-  double astray;   ///< [mm] that the chain then was from where it should be
+  double seconds;  ///< until the watch said it
+  double astray;   ///< [mm] distance of the chain from its set-point then
 };
 
 Said saidOf(unsigned seed, double rate, const world::Wires& wires) {
@@ -35,7 +35,7 @@ TEST_P(Watched, CuttingIsNeverAFault) {
   for (unsigned seed = 0; seed < kMotors; ++seed) {
     Axis axis(seed, GetParam());
     ToAndFro way(800, axis.seconds);
-    // Long ways, short ways and reversals in mid-way.
+    // Long moves, short moves and reversals in the middle of a move.
     double goals[] = {60, 0, 3, -3, 0.5, 0, 40, 20, 20.02, -30};
     for (const double goal : goals) {
       int ticks = 0;
@@ -67,7 +67,7 @@ TEST_P(Watched, ReversedMotorAndReversedEncoderTurnBack) {
     motor.motor_reversed = true;
     encoder.encoder_reversed = true;
     for (const world::Wires& wires : {motor, encoder}) {
-      // From the first tick on, as after a repair.
+      // The fault is there from the first tick on, as after a repair.
       Axis axis(seed, GetParam());
       axis.motor.wires = wires;
       ToAndFro way(800, axis.seconds);
@@ -102,12 +102,12 @@ int ticksOfStanding(motion::Watch& watch, int16_t duty) {
 TEST(Watch, StandingIsAFaultTheSoonerTheHarderItIsDriven) {
   motion::Watch watch;
   watch.tune(2, 8113.73f, 0.01f);
-  // Of a motor that never ran nobody knows what it needs.
+  // The duty that a motor needs is unknown until it has run.
   EXPECT_EQ(1000, ticksOfStanding(watch, -140));
   EXPECT_NEAR(25, ticksOfStanding(watch, -180), 5);
   EXPECT_NEAR(9, ticksOfStanding(watch, -255), 2);
-  // Once it has run evenly with a duty of 100 at 10 counts a tick, it needs 40; the other way is
-  // another thing.
+  // Once a motor has run evenly with a duty of 100 at 10 counts a tick, its needed duty is 40 in
+  // that direction. The other direction is still unknown.
   for (int i = 0; i < 300; ++i) EXPECT_EQ(Fault::kNone, watch.look(-100, -10, 0.5f));
   EXPECT_EQ(1000, ticksOfStanding(watch, -55));
   EXPECT_NEAR(24, ticksOfStanding(watch, -100), 8);
@@ -121,7 +121,7 @@ TEST(Watch, LearnsSoonThatAMotorNeedsMoreAndLateThatItNeedsLess) {
     for (int i = 0; i < ticks; ++i) ASSERT_EQ(Fault::kNone, watch.look(duty, 10, 0.5f));
   };
   run(100, 300);
-  // A fifth of a second is enough to learn of more, and too short to forget it.
+  // A fifth of a second is long enough to learn a larger duty, and too short to forget it.
   run(180, 20);
   EXPECT_EQ(1000, ticksOfStanding(watch, 120));
   run(100, 20);
@@ -131,7 +131,7 @@ TEST(Watch, LearnsSoonThatAMotorNeedsMoreAndLateThatItNeedsLess) {
 TEST(Watch, OneStickyMotorOwesNothingHoweverStiffItIs) {
   motion::Watch watch;
   watch.tune(2, 8113.73f, 0.01f);
-  // Even one that needs all its duty to move is seen when it no longer does.
+  // Even a motor that needs full duty to move is noticed when it stops.
   for (int i = 0; i < 300; ++i) EXPECT_EQ(Fault::kNone, watch.look(250, 3, 0.5f));
   EXPECT_EQ(1000, ticksOfStanding(watch, 205));
   EXPECT_NEAR(18, ticksOfStanding(watch, 255), 4);
@@ -143,7 +143,7 @@ TEST(Watch, ACountToAndFroIsNoTravel) {
   int ticks = 0;
   while (watch.look(200, ticks % 2 ? 1 : -1, 0.5f) == Fault::kNone && ticks < 1000) ++ticks;
   EXPECT_NEAR(19, ticks, 4);
-  // One that moves at all is not lost, and pays for what it owed.
+  // A motor that moves at all is not lost, and its counts settle what it owed.
   watch.rest();
   for (ticks = 0; ticks < 1000; ++ticks)
     ASSERT_EQ(Fault::kNone, watch.look(200, ticks % 2 ? 2 : 1, 0.5f)) << ticks;

@@ -23,7 +23,7 @@ Watch watchOf(float limit) {
   return watch;
 }
 
-/// What an axis is said to suffer from that comes too far from its set-point after half a second.
+/// The fault of an axis that is too far from its set-point after half a second.
 std::string leftBehindAfter(int duty, int moved) {
   Watch watch = watchOf(2);
   std::ostringstream said;

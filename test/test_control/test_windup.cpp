@@ -1,4 +1,4 @@
-// What the loops sum up while a motor cannot follow must not drive it on once it can.
+// The loops' sums must not drive a motor too far after a time in which it could not follow.
 #include <Motion.h>
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
-// What a machine says and believes when power comes back, given its EEPROM.
+// What a machine says and knows when power comes back, for a given EEPROM.
 #pragma once
 
 #include <string>
 #include <vector>
 
-/// A machine's belief right after power-on.
+/// What a machine knows right after power-on.
 struct Belief {
-  bool is_known;          ///< it says a position, and no alarm
+  bool is_known;          ///< it reports a position and no alarm
   double left, right, z;  ///< [mm] to be used only if `is_known`
-  std::string said;       ///< all of its greeting
+  std::string said;       ///< the whole greeting
 };
 
 /// Lets a machine start with that EEPROM and asks it.

@@ -1,4 +1,4 @@
-// One life of the machine after the other.
+// The lives of the machine between power cuts, in order.
 #include "life.h"
 
 #include "settings_flash.h"

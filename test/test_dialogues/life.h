@@ -1,4 +1,4 @@
-// The machine on the stage, through as many power cuts as its dialogue has.
+// The machine on the stage, through all power cuts of its dialogue.
 #pragma once
 
 #include "machine/machine.h"

@@ -1,4 +1,4 @@
-// Plays every dialogue of test/dialogues against the machine, each in its own simulated world.
+// Plays every dialogue of test/dialogues against the machine, each in a new simulated world.
 #include <gtest/gtest.h>
 
 int main(int argc, char** argv) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-/// One axis. A positive duty winds in, so that the travel falls.
+/// An axis. A positive duty winds in, so the travel falls.
 class SimulatedMotor {
  public:
   /// `per_count` [mm] of travel, `top_speed` [mm/s] at full duty.
@@ -13,7 +13,7 @@ class SimulatedMotor {
 
   /// Lets `seconds` pass.
   void advance(double seconds) {
-    const double kTimeConstant = 0.03;  // [s] inertia against the motor's own back voltage
+    const double kTimeConstant = 0.03;  // [s] inertia against the motor's back-EMF
     const double time_constant = powered ? kTimeConstant : coasting;
     const int kStiction = 12;  // duty below which the gears hold
     const bool pulls = powered && !stuck && std::abs(duty) > kStiction;
@@ -31,7 +31,8 @@ class SimulatedMotor {
   /// The encoder, as the board's 16-bit counter shows it.
   uint16_t count() const { return uint16_t(int64_t(std::floor(counted_ / per_count_))); }
 
-  /// The same for a board that sees the next edges in pairs, so often, and cannot tell which way.
+  /// The counter of a board that misses edges: the next `to_miss` pairs come at once, so their
+  /// direction is unknown.
   uint16_t countMissing() {
     const uint16_t now = count();
     for (; to_miss > 0 && std::abs(int16_t(now - missed_ - seen_)) > 1; --to_miss, ++illegal)
@@ -47,11 +48,11 @@ class SimulatedMotor {
   }
 
   double travel = 0;       ///< [mm] where the axis really is
-  double by_hand = 0;      ///< [mm/s] at which somebody pays out chain, if the motor is off
+  double by_hand = 0;      ///< [mm/s] by which a hand pays out chain while the motor is off
   double coasting = 0.03;  ///< [s] time constant of a motor without power
   int16_t duty = 0;
   bool powered = false, stuck = false, unplugged = false, reversed = false;
-  bool complains = false;  ///< its driver
+  bool complains = false;  ///< its driver reports an error
   int to_miss = 0;         ///< pairs of edges to come
   uint16_t illegal = 0;    ///< such pairs that came
 

@@ -105,7 +105,7 @@ void Stage::pulse(Output output, uint8_t level) {
 void Stage::callTick() {
   if (chance_ == 0 || is_tick_due_) runTick();
   if (chance_ == 0) return;
-  const uint32_t kMostGaps = 256;  // as many as a tick's time has, more or less
+  const uint32_t kMostGaps = 256;  // roughly as many as fit into a tick's time
   is_tick_due_ = true;
   chance_ = chance_ * 1664525 + 1013904223;
   gaps_to_pass_ = int(chance_ >> 16) % int(kMostGaps);

@@ -32,7 +32,7 @@ class Stage : public machine::Wire,
  public:
   explicit Stage(std::vector<Step> steps);
 
-  // What the firmware sees.
+  // The firmware's interfaces.
   int16_t read() override;
   void write(char character) override;
   uint8_t lost() override { return 0; }
@@ -58,14 +58,13 @@ class Stage : public machine::Wire,
     passGap();
   }
 
-  /// From now on a tick that is due falls into any gap of the main program: where ticks are
-  /// released or the board is asked for something. Without this they fall where the main program
-  /// waits.
+  /// From now on a due tick falls into any gap of the main program: where it allows ticks again or
+  /// asks the board for something. Without this, ticks fall only where the main program waits.
   void letTicksFallAnywhere(uint32_t seed) { chance_ = seed | 1; }
 
   /// Called every control tick, as the interrupt would be.
   std::function<void()> tick = [] {};
-  /// Called every millisecond, for those who look on.
+  /// Called every millisecond, for tests that watch the machine.
   std::function<void()> look = [] {};
   SimulatedEeprom eeprom;
   uint8_t servo = machine::kNoServo;

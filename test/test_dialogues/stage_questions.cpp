@@ -35,7 +35,7 @@ bool Stage::ask(const Step& step) {
     return answers_ >= std::atoi(rest.c_str());
   }
   if (is("hold")) return askHold(numbersIn(rest).at(0));
-  // On real pins a motor without power looks like one at a duty of zero for a moment.
+  // On real pins a motor without power briefly looks like a motor at a duty of zero.
   const long kLooksAlikeMs = 200;
   if (is("off") && motorNamed(rest).powered && now_ms_ - step_since_ms_ < kLooksAlikeMs)
     return false;
@@ -59,7 +59,7 @@ bool Stage::ask(const Step& step) {
   else if (is("errors"))
     tellOr(matches(latest_errors_, readExpected(rest)), "they are");
   else if (is("answers")) {
-    // From here on, or so many since then; what was said meanwhile is passed over.
+    // From here on, or this many since then; lines in between are passed over.
     lines_.clear();
     const int since = answers_;
     if (rest == "from now") answers_ = 0;
@@ -152,9 +152,9 @@ void Stage::askSled(const std::string& place) {
   const reference::Settled settled = reference::settle(judge_, paid_out, at);
   if (!settled.solved) fail("the judge finds no place for these chains");
   const double off = (settled.bit - at).norm();
-  std::ostringstream told;
-  told << "the sled is at " << settled.bit.x() << " " << settled.bit.y() << ", off by " << off;
-  tellOr(off <= wanted.at(2), told.str());
+  std::ostringstream sentence;
+  sentence << "the sled is at " << settled.bit.x() << " " << settled.bit.y() << ", off by " << off;
+  tellOr(off <= wanted.at(2), sentence.str());
 }
 
 void Stage::askChains(const std::string& lengths) {

@@ -1,4 +1,4 @@
-// Whatever is sent, every line gets exactly one answer, and the machine goes on.
+// Whatever is sent, every line gets exactly one answer, and the machine keeps working.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// Curves of a hundred arcs, as programs tell them: each line is done, and the sled ends where it
-// was meant to.
+// Curves of a hundred arcs, as programs write them: each line is done, and the sled ends at the
+// intended place.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -9,7 +9,7 @@
 
 namespace {
 
-/// How a program tells lengths.
+/// How a program writes lengths.
 struct Text {
   const char* name;
   const char* unit_code;

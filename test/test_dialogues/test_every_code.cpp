@@ -1,4 +1,4 @@
-// Each G code there could be is done as the table in lib/GCode's page says, or refused.
+// Each possible G code is done as the table in lib/GCode's page says, or refused.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -32,7 +32,7 @@ std::set<int> doneCodes() {
   return codes;
 }
 
-/// The code's own words, if it needs other than a place on the sheet.
+/// The words of a code that needs other words than a place on the sheet.
 std::string wordsFor(int tenths) {
   switch (tenths) {
     case 40:
@@ -59,7 +59,7 @@ std::string wordsFor(int tenths) {
   }
 }
 
-/// Codes that leave nothing behind for the next line.
+/// Codes that do not affect the next line.
 const char* const kTidyUp = "G0 G17 G21 G40 G54 G90 G91.1 G94 G98";
 
 void play(const std::vector<Step>& steps) {
@@ -71,7 +71,7 @@ void play(const std::vector<Step>& steps) {
   }
 }
 
-/// A step; what is expected is named by what was sent last.
+/// A step; a failure names the line that was sent last.
 void push(std::vector<Step>& steps, Step::Kind kind, const std::string& text) {
   steps.push_back({kind, text, kind == Step::kSend ? text : steps.back().place});
 }
@@ -120,7 +120,7 @@ TEST(EveryModeCode, LeavesAPlaceOnItsLineToTheMotionInForce) {
   std::vector<Step> steps = readScript("test/dialogues", "setup.inc");
   int x = 0;
   for (const int tenths : doneCodes()) {
-    // Motion, cycles, and codes to which the place itself belongs.
+    // Motion, cycles, and codes that take the place words.
     const bool takes_place = tenths < 50 || tenths == 100 || (tenths >= 280 && tenths <= 301) ||
                              tenths == 382 || tenths == 431 || (tenths >= 800 && tenths <= 830) ||
                              tenths == 910 || tenths == 200 || tenths == 920;

@@ -1,5 +1,5 @@
-// Power may go at any millisecond of whatever the machine does: when it comes back, the machine
-// knows where it is or says that it does not.
+// Power may fail at any millisecond. When it comes back, the machine knows where it is or says that
+// it does not.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 const double kMostError = 0.3;  // [mm]
 
-/// Looks on while a script is played, and asks at each millisecond what a cut would leave.
+/// Watches while a dialogue plays, and checks at each millisecond what a power cut would leave.
 class Onlooker {
  public:
   explicit Onlooker(Stage& stage) : stage_(stage) {
@@ -36,7 +36,7 @@ class Onlooker {
     check(kLeftAxis, belief_.left, stage_.motor(kLeftAxis).travel);
     check(kRightAxis, belief_.right, stage_.motor(kRightAxis).travel);
     if (stage_.milliseconds_since_status() != 1 || stage_.status().empty()) return;
-    // The z axis has no length of its own; its encoder is sound, so what was just reported is true.
+    // The stage knows no true height of z. Its encoder is sound, so the last report is true.
     const std::string place = stage_.status().substr(stage_.status().find("MPos:") + 5);
     float x, y, z;
     if (std::sscanf(place.c_str(), "%f,%f,%f", &x, &y, &z) != 3) return;
@@ -57,7 +57,7 @@ class Onlooker {
   long writes_ = -1;
 };
 
-/// Plays what is on a stage and looks on.
+/// Plays the dialogue of a stage and watches.
 void expectNoFalsePlace(Stage& stage) {
   Onlooker onlooker(stage);
   try {
@@ -72,7 +72,7 @@ void expectNoFalsePlace(Stage& stage) {
   EXPECT_GT(onlooker.z_compared, 5);
 }
 
-/// Plays the dialogue of all that moves, with motors that coast that long.
+/// Plays the dialogue with every motion, with motors that coast for `coasting` [s].
 void expectNoFalsePlace(double coasting) {
   Stage stage(readScript("test/dialogues", "power_cut_anywhere.nc"));
   for (const Axis axis : {kLeftAxis, kRightAxis, kZAxis}) stage.motor(axis).coasting = coasting;
@@ -86,7 +86,8 @@ TEST(APowerCutAnywhere, LeavesNoFalsePosition) { expectNoFalsePlace(0.03); }
 TEST(APowerCutAnywhere, LeavesNoFalsePositionWhereMotorsRunOn) { expectNoFalsePlace(0.4); }
 
 TEST(APowerCutAnywhere, LeavesNoFalsePositionInTheFirstMoveAfterThePublishedFirmware) {
-  // Nothing moves before its data is retired, which would be taken over once more.
+  // Nothing may move before the published data is retired, or the next start would take it over
+  // again.
   Eeprom image = publishedImage(true);
   const uint32_t counts = 270000;
   storeLow(image, 310, counts, 4);

@@ -1,6 +1,6 @@
-// Machines with one more effect each, for the laws and for the judge, who hides it by his own
-// mechanics. Every effect of the registry is here by what its header says: its examples, and what
-// they are in the judge's numbers.
+// Machines with an additional effect, for lib/Kinematics and for the judge, whose mechanics hide
+// the effect. Every effect of the registry is here, by its header: its examples, and the same in
+// the judge's numbers.
 #pragma once
 
 #include <Kinematics.h>
@@ -41,11 +41,11 @@ inline kinematics::EffectParams<double> usualChain() {
   return withEffects({{160, ratio * ratio / 24}, {170, kCompliance}});
 }
 
-/// A machine with one more effect.
+/// A machine with an additional effect.
 struct Hidden {
   std::string name;                              // effect and example
-  kinematics::EffectParams<double> effects;      // all of the machine
-  kinematics::EffectParams<double> unsuspected;  // the same without the effect
+  kinematics::EffectParams<double> effects;      // of the machine
+  kinematics::EffectParams<double> unsuspected;  // without the additional effect
   double allowed;                                // [mm] of chain
   double allowed_at_bit;                         // [mm]
 };
@@ -81,11 +81,11 @@ struct Collect {
 
 }  // namespace hidden_detail
 
-/// A machine with these effects besides its chain's.
+/// A machine with these effects in addition to those of its chain.
 inline Hidden hiddenBy(const std::string& name, const std::vector<Sized>& sizes, double allowed,
                        double allowed_at_bit) {
   Hidden hidden = {name, usualChain(), usualChain(), allowed, allowed_at_bit};
-  for (const Sized& one : sizes) hidden.effects.set(one.setting, one.size);
+  for (const Sized& sized : sizes) hidden.effects.set(sized.setting, sized.size);
   return hidden;
 }
 
@@ -128,7 +128,7 @@ inline double worse(const kinematics::Chains<double>& ours, const Eigen::Vector2
   return fmax(fabs(ours.left - theirs[0]), fabs(ours.right - theirs[1]));
 }
 
-/// Worst difference [mm] of the laws' lengths from the judge's over the sheet.
+/// Worst difference [mm] of inverse()'s lengths from the judge's over the sheet.
 inline double worstOver(const kinematics::Machine<double>& laws, const reference::Machine& judge) {
   double found = 0;
   for (const Eigen::Vector2d& place : sheetPlaces()) {
@@ -140,7 +140,7 @@ inline double worstOver(const kinematics::Machine<double>& laws, const reference
   return found;
 }
 
-/// How far [mm] from a place the judge's sled hangs on the chains that the laws pay out for it.
+/// How far [mm] from a place the judge's sled hangs on the chains that inverse() pays out for it.
 inline double missedBy(const kinematics::Machine<double>& laws, const Eigen::Vector2d& place,
                        const Eigen::Vector2d& theirs) {
   const kinematics::Point<double> at = {place.x(), place.y()};

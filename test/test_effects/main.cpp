@@ -1,4 +1,4 @@
-// Runs the tests of the effects, one by one and all alike.
+// Runs the tests of the effects.
 #include <gtest/gtest.h>
 
 int main(int argc, char** argv) {

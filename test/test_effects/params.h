@@ -10,10 +10,10 @@ struct Sized {
   double size;
 };
 
-/// All effects absent but those named; throws for a number that no effect has.
+/// Only the named effects, all others absent; throws for a number that no effect has.
 inline kinematics::EffectParams<double> withEffects(std::initializer_list<Sized> named) {
   kinematics::EffectParams<double> effects = {};
-  for (const Sized& one : named)
-    if (!effects.set(one.setting, one.size)) throw one.setting;
+  for (const Sized& sized : named)
+    if (!effects.set(sized.setting, sized.size)) throw sized.setting;
   return effects;
 }

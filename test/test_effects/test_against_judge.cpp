@@ -1,4 +1,4 @@
-// Every effect against the judge's own mechanics.
+// Every effect against the mechanics of the judge.
 #include <gtest/gtest.h>
 
 #include "hidden.h"

@@ -1,4 +1,4 @@
-// Chain pitch: only chain is scaled, neither the arm nor what the teeth hold.
+// Chain pitch: only free chain is scaled, neither the arm nor the chain on the teeth.
 #include <Kinematics.h>
 #include <gtest/gtest.h>
 #include <math.h>
@@ -35,7 +35,8 @@ TEST(ChainPitch, LeftAndRightMirrorEachOther) {
 }
 
 TEST(ChainPitch, MovesTheSledByThePublishedAmount) {
-  // Both chains 0.1 % long and the machine not told: independent figures for the landing.
+  // Both chains are 0.1 % long and the machine does not know: independent figures for where the bit
+  // lands.
   const EffectParams<double> none = {}, both = withEffects({{180, 0.001}, {181, 0.001}});
   const Chains<double> sent = inverse(prepare(kFrame, none), Point<double>{1150, -550}).chains;
   const Place<double> landed = forward(prepare(kFrame, both), sent);

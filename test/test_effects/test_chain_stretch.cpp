@@ -27,6 +27,7 @@ TEST(ChainStretch, DropsTheTopCentreByThePublishedAmount) {
   const Chains<double> sent = inverse(prepare(frame, rigid), Point<double>{0, 550}).chains;
   const Place<double> landed = forward(prepare(frame, elastic), sent);
   ASSERT_EQ(Found::kYes, landed.found);
-  EXPECT_NEAR(-3.48, landed.sled.y - 550, 0.35);  // their chain stretched along the ring too
+  // In that calculation the chain stretches along the ring too.
+  EXPECT_NEAR(-3.48, landed.sled.y - 550, 0.35);
   EXPECT_NEAR(0, landed.sled.x, 0.001);
 }

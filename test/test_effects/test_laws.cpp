@@ -12,7 +12,7 @@ using namespace kinematics;
 
 namespace {
 
-/// A parameter of the registry: where it stands and what is said of it.
+/// A parameter of the registry: its index, its number and its description.
 struct AnyParam {
   std::string effect;
   int index;    // in EffectParams
@@ -108,7 +108,7 @@ TEST_P(EveryParam, SaysWhatItIs) {
 }
 
 TEST(Registry, ZeroMeansAbsentToTheLastBit) {
-  // Whatever the forces are: forcing them to be worked out must change nothing either.
+  // Working out the forces must change nothing either.
   const EffectParams<float> none = {};
   Machine<float> without = machineWith(none);
   Machine<float> asked = without;
@@ -121,12 +121,13 @@ TEST(Registry, ZeroMeansAbsentToTheLastBit) {
 }
 
 TEST(Registry, EffectsAddUpWithoutDisturbingEachOther) {
-  // Two effects together differ from the sum of both alone by far less than either is worth.
-  for (const AnyParam& one : everyParam())
+  // Two effects together differ from the sum of both by far less than the size of either.
+  for (const AnyParam& first : everyParam())
     for (const AnyParam& other : everyParam()) {
-      if (one.effect == other.effect) continue;
-      const double alone = effectOf(one, one.info.typical) + effectOf(other, other.info.typical);
-      EXPECT_LT(effectOf(one, one.info.typical, other.index, other.info.typical), 1.1 * alone);
+      if (first.effect == other.effect) continue;
+      const double alone =
+          effectOf(first, first.info.typical) + effectOf(other, other.info.typical);
+      EXPECT_LT(effectOf(first, first.info.typical, other.index, other.info.typical), 1.1 * alone);
     }
 }
 
@@ -232,7 +233,7 @@ TEST(Registry, EveryHeaderSaysAllThatTheLabAsks) {
 }
 
 TEST(Registry, PublishedNumbersKeepTheirMeaning) {
-  // Owners have these in their EEPROM: a change here changes their machines.
+  // These numbers are in the EEPROMs of owners: a change here would change their machines.
   std::vector<std::string> numbers;
   for (const AnyParam& any : everyParam())
     numbers.push_back(std::to_string(any.setting) + " " + any.effect + "." + any.info.name);

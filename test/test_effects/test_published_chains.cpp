@@ -18,10 +18,10 @@ Frame<double> frameWithArm(double arm) {
 }
 
 /// Our parameters that the published settings become, where each was 1 before.
-EffectParams<double> added(const Frame<double>& frame, const PublishedChains<double>& told) {
+EffectParams<double> added(const Frame<double>& frame, const PublishedChains<double>& published) {
   EffectParams<double> effects;
   for (double& value : effects.value) value = 1;
-  Effects::For<double>::addPublished(frame, told, effects.value);
+  Effects::For<double>::addPublished(frame, published, effects.value);
   return effects;
 }
 
@@ -44,11 +44,11 @@ TEST(PublishedChains, TakeTheArmForChain) {
   const double arm = 250;
   const Frame<double> frame = frameWithArm(arm);
   const EffectParams<double> ours = added(frame, kTold);
-  // Divided by one plus the strain like a chain, the arm would be so much shorter.
+  // If the arm were divided by 1 + strain like a chain, it would be this much shorter.
   EXPECT_NEAR(of(ours, 200) - 1, arm - arm / 1.002, 1e-9);
   EXPECT_NEAR(of(ours, 201) - 1, arm - arm / 0.999, 1e-9);
-  // The published sag grows with the third power of the whole line; ours with that of the chain,
-  // which pulls three times an arm's share harder. Both are the same at the longest line.
+  // The published sag grows with the third power of the whole line. Ours grows with that of the
+  // chain, times 1 + 3 times the arm's share. Both are the same at the longest line.
   const double line = std::hypot((frame.motor_gap + 2438.4) / 2, frame.motor_height + 1219.2 / 2);
   const double chain = line - arm;
   const double published = 9e-12 * line * line * line;

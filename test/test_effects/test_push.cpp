@@ -28,7 +28,7 @@ struct Hose : Effect<Real> {
 
 const Point<double> kPushes[] = {{12, 0}, {-12, 0}, {0, 15}, {0, -15}, {8, -6}};  // [N]
 
-// [N] a chain that pulls less is no use (see reach.h), and sags too deep for the laws.
+// [N] A chain that pulls less is useless (see reach.h), and sags too deep for lib/Kinematics.
 const double kLeastTension = 18;
 
 /// Worst difference [mm] of the chains of a pushed sled from the judge's, over the usable sheet.

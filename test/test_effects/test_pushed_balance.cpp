@@ -53,7 +53,7 @@ TEST(Found, SaysWhetherASearchWasSentBeyondWhatHangs) {
   const Machine<double> laws = lawsWith({});
   const PaidOut<double> paid = inverse(laws, Point<double>{300, -200});
   EXPECT_EQ(Found::kYes, forward(laws, paid.chains, Point<double>{0, 0}).found);
-  // So unequal that the sled would hang beside a motor.
+  // Pulls so unequal that the sled would hang outside a motor.
   EXPECT_EQ(Found::kOutOfReach,
             forward(laws, Chains<double>{200, 3400}, Point<double>{0, 0}).found);
   EXPECT_EQ(Found::kOutOfReach, forward(laws, Chains<double>{1000, 1000}).found) << "too short";

@@ -1,4 +1,4 @@
-// The residual patch: where its terms stand on the sheet, and that it stays bounded beyond.
+// The residual patch: its terms on the sheet, and that it stays bounded beyond.
 #include <gtest/gtest.h>
 
 #include "hidden.h"
@@ -21,16 +21,16 @@ Chains<double> addedBy(const std::vector<Sized>& sizes, Point<double> place) {
 TEST(ResidualPatch, ItsLinearTermsFollowTheSheet) {
   for (int setting : {kLeftX, kRightX}) {
     const bool left = setting == kLeftX;
-    auto own = [&](double x, double y) {
+    auto powers = [&](double x, double y) {
       const Chains<double> added = addedBy({{setting, 1.0}}, {x, y});
       EXPECT_EQ(0.0, left ? added.right : added.left);
       return left ? added.left : added.right;
     };
     // Half a sheet is 0.42 of the motors' distance, 1251 mm.
-    EXPECT_NEAR(0.0, own(0, 0), 0.02);
-    EXPECT_NEAR(0.48, own(600, 0), 0.02);
-    EXPECT_NEAR(-0.48, own(-600, 0), 0.02);
-    EXPECT_NEAR(own(600, 400), own(600, -400), 0.02);
+    EXPECT_NEAR(0.0, powers(0, 0), 0.02);
+    EXPECT_NEAR(0.48, powers(600, 0), 0.02);
+    EXPECT_NEAR(-0.48, powers(-600, 0), 0.02);
+    EXPECT_NEAR(powers(600, 400), powers(600, -400), 0.02);
   }
   EXPECT_NEAR(500 / (0.6 * 1072.6), addedBy({{kLeftY, 1.0}}, {0, 500}).left, 0.02);
 }

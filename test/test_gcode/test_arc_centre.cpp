@@ -1,4 +1,4 @@
-// Centres of arcs given by their radius: both signs, half circles, and what is no arc.
+// Centres of arcs given by their radius: both signs, half circles, and refusals.
 #include <gtest/gtest.h>
 
 #include <cmath>

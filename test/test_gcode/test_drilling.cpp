@@ -124,7 +124,7 @@ TEST(Drilling, RepeatsAlongTheWayInG91) {
       tool.drill("G91 G81 X10 R-3 Z-3 L3"));
   EXPECT_EQ("across 30 1, rapid 2, feed -1, rapid 5, across 30 2, rapid 2, feed -1, rapid 5",
             tool.drill("Y1 L2"));
-  // R counts from where z was before the cycle, also where it stands lower since.
+  // R counts from where z was before the cycle, even if z is lower now.
   EXPECT_EQ("across 40 2, rapid 2, feed -1, rapid 2", tool.drill("G99 X10"));
   EXPECT_EQ("across 50 2, feed -1, rapid 2", tool.drill("X10"));
 }

@@ -1,4 +1,4 @@
-// Characters as they come: quick ones act anywhere, lines wait, too long ones are told.
+// Characters as they come: quick characters act anywhere, lines wait, too long lines are reported.
 #include <gtest/gtest.h>
 
 #include "reading.h"
@@ -152,7 +152,7 @@ TEST(Resume, CountsForLinesThatEndedBeforeIt) {
   input.takeLine(line);
   input.takeLine(line);
   EXPECT_TRUE(input.takeResume());
-  // Once.
+  // A `~` counts once.
   EXPECT_FALSE(input.takeResume());
   input.takeLine(line);
   EXPECT_FALSE(input.takeResume());

@@ -48,7 +48,7 @@ TEST(Modal, EndsAProgramInTheCoordinatesThatClientsKnow) {
   EXPECT_EQ(0, modal.system);
   EXPECT_FALSE(modal.inverse_time);
   EXPECT_EQ(0, modal.motion);
-  // The clients go by units and G91 as they were.
+  // Clients rely on units and G91 to stay.
   EXPECT_TRUE(modal.inches);
   EXPECT_TRUE(modal.relative);
   modal.motion = kNoMotion;

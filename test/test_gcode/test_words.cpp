@@ -1,5 +1,5 @@
-// Words and numbers: what clients send is read as meant, and what is no number is never read as
-// one.
+// Words and numbers: what clients send is read as they mean it, and text that is no number is never
+// read as a number.
 #include <gtest/gtest.h>
 
 #include <cmath>

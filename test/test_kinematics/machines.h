@@ -1,4 +1,4 @@
-// Machines and places the kinematics is tried on, told alike to the laws and to the judge.
+// Machines and places for tests of the kinematics, in the form of lib/Kinematics and of the judge.
 #pragma once
 
 #include <vector>
@@ -6,7 +6,7 @@
 #include "reference/reference.h"
 #include "tried/tried.h"
 
-/// The machine as the judge knows it.
+/// The machine in the judge's numbers.
 inline reference::Machine judgeOf(const Tried& tried) {
   reference::Machine machine;
   machine.motor_gap = tried.motor_gap;

@@ -1,4 +1,4 @@
-// What cannot be answered is refused by name: never a wrong length, never a NaN.
+// Questions without an answer are refused with a reason: never a wrong length, never a NaN.
 #include <gtest/gtest.h>
 #include <math.h>
 
@@ -86,7 +86,7 @@ TEST(BadInput, AGuessThatIsNoNumberDoesNotSpoilTheSearch) {
 }
 
 TEST(BadInput, FoundPlacesAlwaysGiveTheirChainsBack) {
-  // Any pair of lengths: either refused, or a place whose own lengths are those asked for.
+  // Any pair of lengths is either refused, or gives a place that needs exactly these lengths.
   const Machine<float> here = machine();
   int found = 0, refused = 0;
   for (float left = 0; left < 5000; left += 83)

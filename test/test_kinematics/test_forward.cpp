@@ -1,4 +1,4 @@
-// The search for the sled's place: it comes back to where inverse hung it, from anywhere.
+// The search for the sled's place: from anywhere it comes back to the place given to inverse.
 #include <gtest/gtest.h>
 #include <math.h>
 

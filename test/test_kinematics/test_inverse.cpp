@@ -1,4 +1,4 @@
-// Chain lengths against the judge's exact catenaries, and against geometry done by hand.
+// Chain lengths against the judge's exact catenaries, and against geometry worked out by hand.
 #include <gtest/gtest.h>
 #include <math.h>
 
@@ -38,7 +38,7 @@ TEST_P(EveryMachine, LengthsAgreeWithExactStatics) {
 }
 
 TEST(Inverse, IsExactOnBothSidesOfEveryDeepLimit) {
-  // The second order of sag is left out where it is not needed: nowhere may that show.
+  // The second order of sag is left out where it is not needed: that must not show anywhere.
   for (double ring : {120.5, 159.5, 119.5, 160.5})
     for (double sled : {94.5, 95.0}) {
       Tried tried;

@@ -71,10 +71,10 @@ double miss(const TiltedPlace<Real>& place, Point<Real> target) {
 }
 
 /// Larger difference [mm] of both lengths.
-template <class One, class Two>
-double apart(Chains<One> one, Chains<Two> two) {
-  return fmax(fabs(double(one.left) - double(two.left)),
-              fabs(double(one.right) - double(two.right)));
+template <class First, class Second>
+double apart(Chains<First> first, Chains<Second> second) {
+  return fmax(fabs(double(first.left) - double(second.left)),
+              fabs(double(first.right) - double(second.right)));
 }
 
 const double kCloseEnough = 0.025;  // [mm] three encoder counts
@@ -86,10 +86,10 @@ Found foundAt(float x, float y) {
   const TiltedPaidOut<float> paid = inverse(published(), Point<float>{x, y});
   const TiltedPaidOut<float> level = inverse(published(), Point<float>{x, y}, 0.0f);
   EXPECT_EQ(paid.found, level.found);
-  for (const TiltedPaidOut<float>& one : {paid, level})
-    if (one.found != Found::kYes) {
-      EXPECT_EQ(0, one.chains.left);
-      EXPECT_EQ(0, one.chains.right);
+  for (const TiltedPaidOut<float>& answer : {paid, level})
+    if (answer.found != Found::kYes) {
+      EXPECT_EQ(0, answer.chains.left);
+      EXPECT_EQ(0, answer.chains.right);
     }
   return paid.found;
 }
@@ -288,7 +288,7 @@ TEST(Quadrilateral, EveryPlaceIsRefusedOrGivesChainsThatPull) {
     for (double y = -2000; y <= 1400; y += 25) {
       const TiltedPaidOut<double> paid = inverse(machine, Point<double>{x, y});
       if (paid.found != Found::kYes) {
-        // With its brackets beside a sprocket the search may also give up.
+        // With its brackets next to a sprocket the search may also give up.
         EXPECT_TRUE(paid.found == Found::kOutOfReach || y > 850) << x << " " << y;
         ++refused;
         continue;

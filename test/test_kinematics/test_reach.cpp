@@ -36,8 +36,8 @@ Reached<Real> reachedBy(const Machine<Real>& machine, Point<Real> place) {
   return reach(machine, place, ReachLimits<Real>());
 }
 
-/// Worst miss of the give over the sheet as a share: of each diagonal, and for the mixed term of
-/// their geometric mean.
+/// Worst error of the give over the sheet, as a share: of each diagonal term, and for the mixed
+/// term of their geometric mean.
 double worstGive(const Machine<double>& machine, const reference::Machine& judge) {
   double worst = 0;
   for (const Point<double>& place : sheetPlaces<double>(0, 13, 7)) {
@@ -52,11 +52,11 @@ double worstGive(const Machine<double>& machine, const reference::Machine& judge
   return worst;
 }
 
-/// The default machine with these effects and no other, as the laws know it.
+/// The default machine with these effects alone, in the form of lib/Kinematics.
 Machine<double> lawsWith(std::initializer_list<std::pair<int, double>> sizes) {
   const Frame<double> frame = lawsOf<double>(triedMachines()[0]).frame;
   EffectParams<double> effects = {};
-  for (const auto& own : sizes) EXPECT_TRUE(effects.set(own.first, own.second));
+  for (const auto& sized : sizes) EXPECT_TRUE(effects.set(sized.first, sized.second));
   return prepare(frame, effects);
 }
 
@@ -89,7 +89,8 @@ TEST(Reach, GiveOfTheDefaultMachineIsWithinOnePerCent) {
 }
 
 TEST(Reach, EveryEffectWithForceGives) {
-  // Alone in the laws and alone in the judge; a chain of no weight and no strain does not give.
+  // With this effect alone, in lib/Kinematics and in the judge. A rigid chain without weight does
+  // not give.
   const Tried tried = triedMachines()[0];
   Tried stiff = tried;
   stiff.compliance = stiff.left_pitch = stiff.right_pitch = 0;
@@ -106,7 +107,7 @@ TEST(Reach, EveryEffectWithForceGives) {
 }
 
 TEST(Reach, ALeaningFrameIsSofter) {
-  // The weights that chains carry along the sheet stay: the whole ones grow.
+  // The parts of the weights along the sheet stay, so the full weights grow.
   const Tried tried = triedMachines()[0];
   Tried whole = tried;
   const double lean = 0.26;
@@ -124,8 +125,8 @@ TEST(Reach, ALeaningFrameIsSofter) {
 }
 
 TEST(Reach, AgreesWithThePublishedTable) {
-  // A study of the default machine, two figures; it took the arm for chain as well, so that what
-  // stretches is 5 to 10 per cent too long.
+  // Two figures of a study of the default machine. The study takes the arm for chain too, so 5 to
+  // 10 per cent too much chain stretches.
   struct Row {
     double x, y, xx, yy;
   };

@@ -1,4 +1,4 @@
-// A board on which nothing happens by itself; it notes what it is asked for.
+// A board on which nothing happens by itself. It records what the machine asks of it.
 #pragma once
 
 #include <array>
@@ -34,11 +34,11 @@ struct BoardAtRest : machine::Wire, machine::Drives, machine::Aux, machine::Cloc
   void holdTicks() override {}
   void releaseTicks() override {}
 
-  std::string input;                  ///< what the computer has sent and nobody read
+  std::string input;                  ///< characters from the computer that nobody has read
   std::string said;                   ///< all that was written to the wire
-  std::array<int16_t, 3> duty{};      ///< that each motor is driven with
-  std::array<uint16_t, 3> counted{};  ///< by each encoder
-  std::vector<float> arranged;        ///< the last wish for the drives
+  std::array<int16_t, 3> duty{};      ///< of each motor
+  std::array<uint16_t, 3> counted{};  ///< count of each encoder
+  std::vector<float> arranged;        ///< arguments of the last arrange()
   std::vector<float> switched;        ///< outputs, in the order asked for
   std::vector<uint8_t> servo;         ///< angles [degrees]
   bool touches = false;

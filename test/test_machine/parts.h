@@ -1,4 +1,4 @@
-// The parts of a machine around a board at rest, each of them to be tested alone.
+// The parts of a machine around a board at rest, so that each can be tested alone.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 #include "machine/single_axis.h"
 #include "settings_flash.h"
 
-/// A main program of which each round takes a millisecond; motors run in imagination.
+/// A main program whose rounds take a millisecond each; motors are simulated by B99.
 struct Rounds : machine::Waiting {
   Rounds(BoardAtRest& board, machine::Axes& axes, machine::Planner& planner,
          machine::Geometry& geometry, settings::Memory& memory)

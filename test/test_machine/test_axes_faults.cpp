@@ -1,31 +1,15 @@
-// Which axis a fault speaks of, and which faults say that its counts are wrong.
+// Which axis a fault names, and which faults prove its counts wrong.
 #include <gtest/gtest.h>
 
 #include <array>
 
 #include "machine/axes.h"
+#include "set_counts.h"
 #include "settings_flash.h"
 
 using namespace machine;
 
 namespace {
-
-/// Motors that turn by as many counts a tick as they are told to, whatever their duty.
-struct Motors : Drives {
-  void drive(Axis, int16_t) override {}
-  void release(Axis) override {}
-  uint16_t count(Axis axis) override { return counted[axis]; }
-  uint16_t illegalSteps(Axis) override { return 0; }
-  void arrange(bool, uint8_t) override {}
-  std::array<uint16_t, kAxisCount> counted{};
-};
-
-struct NoClock : Clock {
-  uint32_t milliseconds() override { return 0; }
-  void idle() override {}
-  void holdTicks() override {}
-  void releaseTicks() override {}
-};
 
 /// Axes that follow, at zero.
 struct Faults : testing::Test {
@@ -50,7 +34,7 @@ struct Faults : testing::Test {
   FlashTable table;
   float room[kSettingCount];
   settings::Values values;
-  Motors motors;
+  SetCounts motors;
   NoClock clock;
   Axes axes;
 };

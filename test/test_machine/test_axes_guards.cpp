@@ -1,4 +1,4 @@
-// What the main program asks and tells the axes never meets a control tick half-way.
+// No control tick interrupts the main program while it reads or writes shared numbers of the axes.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -12,7 +12,7 @@ using namespace machine;
 
 namespace {
 
-/// Says how often ticks were held off, and whether they still are.
+/// Counts how often ticks were kept off, and knows whether they still are.
 struct Gate : Clock {
   uint32_t milliseconds() override { return 0; }
   void idle() override {}
@@ -24,7 +24,7 @@ struct Gate : Clock {
   int depth = 0, times = 0;
 };
 
-/// Motors that want ticks held off while they are asked or released.
+/// Motors that require ticks to be kept off while they are read or released.
 struct GuardedMotors : Drives {
   explicit GuardedMotors(const Gate& gate) : gate(gate) {}
   void drive(Axis, int16_t) override {}

@@ -1,4 +1,4 @@
-// What the axes say of lengths, heights and motion in imagination, and which axis makes them yield.
+// The axes' lengths, heights and simulated motion, and which axis makes them yield.
 #include <gtest/gtest.h>
 
 #include "board_at_rest.h"
@@ -35,7 +35,7 @@ TEST(AxesYield, BecauseOfAnyAxisThatIsFarOff) {
     driven.axes.follow();
     driven.ticks(2);
     EXPECT_FALSE(driven.axes.hasYielded()) << int(axis);
-    driven.axes.jumpTo(axis, 1.9f);  // of 2 mm that are the limit
+    driven.axes.jumpTo(axis, 1.9f);  // the limit is 2 mm
     driven.ticks(1);
     EXPECT_TRUE(driven.axes.hasYielded()) << int(axis);
     EXPECT_NEAR(1.9, double(driven.axes.mostBehind(axis)), 1e-4) << int(axis);

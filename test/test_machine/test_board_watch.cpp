@@ -7,7 +7,7 @@ using namespace machine;
 
 namespace {
 
-/// A board with a supply and one driver that may complain.
+/// A board with a supply and a driver that may report an error.
 struct Board : Aux {
   void set(Output, bool) override {}
   void pulse(Output, uint8_t) override {}
@@ -22,7 +22,7 @@ struct Board : Aux {
 
 const BoardLimits kLimits = {1.1f, 4.3f};
 
-/// What so many looks saw: each event's count.
+/// How often each event came in `looks` looks.
 struct Seen {
   int low = 0, fails = 0, worn = 0;
 };
@@ -61,7 +61,7 @@ TEST(BoardWatch, SaysALowSupplyOnce) {
   EXPECT_EQ(0, seen(watch, board, 100).low);
   board.supply = 4.2;
   EXPECT_EQ(1, seen(watch, board, 100).low);
-  // Back, but not far enough to be said anew.
+  // The supply is back, but not far enough for a new message.
   board.supply = 4.36;
   seen(watch, board, 100);
   board.supply = 4.2;

@@ -1,4 +1,4 @@
-// Levels of spindle and laser, and what puts them out.
+// Levels of spindle and laser, and what switches them off.
 #include <gtest/gtest.h>
 
 #include "machine/cutter.h"

@@ -1,4 +1,4 @@
-// Paths that lead out of the sled's area are cut where they cross its edges, and nowhere jump.
+// Paths that lead out of the sled's area are cut where they cross its edges, and never jump.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,7 +48,7 @@ void expectClamped(const Path<float>& path, const Area& area) {
       const Point<float> whole = motion::placeOn(path, of_all);
       const Point<float> found = motion::placeOn(piece.path, share);
       ASSERT_TRUE(area.holds(found, 0.01f));
-      // Along the edge an arc's way there and back is left out.
+      // Along the edge an arc leaves out the way there and back.
       if (path.sweep == 0 || area.holds(whole, -0.01f)) {
         ASSERT_LT(apart(area.clamped(whole), found), 0.02) << of_all;
       }

@@ -1,4 +1,4 @@
-// A main program that hangs: what cuts is switched off at once, by the control tick.
+// When the main program hangs, the control tick switches spindle and laser off at once.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,4 +1,4 @@
-// While the program waits: whose lines count, when it ends; and the operator's hand on the feed.
+// While the program waits: whose lines count, and when the wait ends. Also the feed override.
 #include <gtest/gtest.h>
 
 #include "machine/feed_override.h"

@@ -5,26 +5,12 @@
 #include <vector>
 
 #include "machine/planner.h"
+#include "set_counts.h"
 #include "settings_flash.h"
 
 using namespace machine;
 
 namespace {
-
-struct NoDrives : Drives {
-  void drive(Axis, int16_t) override {}
-  void release(Axis) override {}
-  uint16_t count(Axis) override { return 0; }
-  uint16_t illegalSteps(Axis) override { return 0; }
-  void arrange(bool, uint8_t) override {}
-};
-
-struct NoClock : Clock {
-  uint32_t milliseconds() override { return 0; }
-  void idle() override {}
-  void holdTicks() override {}
-  void releaseTicks() override {}
-};
 
 struct Place3 {
   double x, y, z;
@@ -58,7 +44,7 @@ class World {
     at_ = {x, y};
   }
 
-  /// As after a start: on counts, at the place that the chains tell.
+  /// As after a start: on counts, at the place that follows from the chains.
   void hangOnCounts(float x, float y) {
     standAt(x, y);
     axes_.standStill();
@@ -106,7 +92,7 @@ class World {
   FlashTable table_;
   float room_[kSettingCount];
   settings::Values values_;
-  NoDrives drives_;
+  SetCounts drives_;
   NoClock clock_;
   Axes axes_;
   Planner planner_;
@@ -118,10 +104,10 @@ const double kTick = 0.01, kGain = 100;
 
 /// Steps from tick to tick [mm], from rest to rest.
 std::vector<double> steps(const std::vector<Place3>& places) {
-  std::vector<double> told;
+  std::vector<double> lengths;
   for (std::size_t i = 1; i < places.size(); ++i)
-    told.push_back(distance(places[i], places[i - 1]));
-  return told;
+    lengths.push_back(distance(places[i], places[i - 1]));
+  return lengths;
 }
 
 }  // namespace
@@ -155,9 +141,9 @@ TEST(Planner, KeepsFeedAndRadiusOnAnArc) {
             0, 12);
   world.run();
   int cruising = 0;
-  const std::vector<double> told = steps(world.places);
-  for (std::size_t i = 50; i + 50 < told.size(); ++i, ++cruising)
-    EXPECT_NEAR(told[i] / kTick, 12, 0.4);
+  const std::vector<double> lengths = steps(world.places);
+  for (std::size_t i = 50; i + 50 < lengths.size(); ++i, ++cruising)
+    EXPECT_NEAR(lengths[i] / kTick, 12, 0.4);
   EXPECT_GT(cruising, 1000);
   for (const Place3& place : world.places) EXPECT_NEAR(std::hypot(place.x, place.y), 100, 0.01);
 }
@@ -168,11 +154,11 @@ TEST(Planner, GainsAndLosesSpeedWithinTheLimit) {
   for (int i = 0; i < 60; ++i)
     world.lineTo(float(random() % 200), float(random() % 200), 0, float(5 + random() % 12));
   world.run();
-  const std::vector<double> told = steps(world.places);
-  for (std::size_t i = 1; i < told.size(); ++i) {
-    EXPECT_LE(told[i] / kTick, 17.5);
-    // Twice the limit: where a corner falls between two ticks, both changes are in one.
-    EXPECT_LE(std::fabs(told[i] - told[i - 1]) / kTick / kTick, 2.2 * kGain + 30);
+  const std::vector<double> lengths = steps(world.places);
+  for (std::size_t i = 1; i < lengths.size(); ++i) {
+    EXPECT_LE(lengths[i] / kTick, 17.5);
+    // Twice the limit: where a corner falls between two ticks, a single step has both changes.
+    EXPECT_LE(std::fabs(lengths[i] - lengths[i - 1]) / kTick / kTick, 2.2 * kGain + 30);
   }
 }
 
@@ -208,8 +194,8 @@ TEST(Planner, BrakesOnAStopAndForgetsTheRest) {
   const std::size_t before = world.places.size();
   world.run();
   EXPECT_LT((double(world.places.size()) - double(before)) * kTick, 0.35);
-  const std::vector<double> told = steps(world.places);
-  EXPECT_LT(told.back() / kTick, 2.5);
+  const std::vector<double> lengths = steps(world.places);
+  EXPECT_LT(lengths.back() / kTick, 2.5);
 }
 
 TEST(Planner, BringsZAlongWithinItsOwnSpeed) {
@@ -235,7 +221,7 @@ TEST(Planner, DoesNotDriftOverManyShortMoves) {
   EXPECT_EQ(world.setPoint().right, motion::toCounts(exact.right));
 }
 
-// What the search for the place leaves of a chain where the other hangs steeply, far off the sheet.
+// [mm] Error that the search leaves in a chain where the other hangs steeply, far off the sheet.
 const double kFound = 0.06;  // [mm]
 // Below a motor the far chain sags so much that it runs faster than the sled.
 const double kSagging = 1.2;

@@ -5,28 +5,13 @@
 
 #include "../settings_host/eeprom.h"
 #include "machine/position_keeper.h"
+#include "set_counts.h"
 #include "settings_flash.h"
 
 using namespace machine;
 using settings::Known;
 
 namespace {
-
-struct Encoders : Drives {
-  void drive(Axis, int16_t) override {}
-  void release(Axis) override {}
-  uint16_t count(Axis axis) override { return counted[axis]; }
-  uint16_t illegalSteps(Axis) override { return 0; }
-  void arrange(bool, uint8_t) override {}
-  std::array<uint16_t, kAxisCount> counted{};
-};
-
-struct NoClock : Clock {
-  uint32_t milliseconds() override { return 0; }
-  void idle() override {}
-  void holdTicks() override {}
-  void releaseTicks() override {}
-};
 
 /// A keeper with its axes and its EEPROM, through time.
 class KeptMachine {
@@ -43,7 +28,7 @@ class KeptMachine {
     keeper.begin(started.known);
   }
 
-  /// Lets time pass; keeps what is due.
+  /// Lets time pass; stores a record when it is due.
   void pass(int ms) {
     for (int i = 0; i < ms; ++i) {
       if (++now_ms_ % 10 == 0) axes.tick();
@@ -67,7 +52,7 @@ class KeptMachine {
     keeper.endWait();
   }
 
-  /// What a start would make of the EEPROM as it is.
+  /// What a start would read from the present EEPROM.
   settings::Started afterCut() {
     settings_host::Eeprom copy = eeprom_;
     copy.restore();
@@ -86,13 +71,13 @@ class KeptMachine {
 
  public:
   settings::Memory memory;
-  Encoders encoders;
+  SetCounts encoders;
   Axes axes;
   PositionKeeper keeper;
   int kept = 0;
 };
 
-/// One whose chains were set, at rest, kept.
+/// A keeper whose chains were set, at rest, with its record stored.
 struct Keeper : testing::Test {
   Keeper() : machine(eeprom) {
     machine.axes.declare(kLeftAxis, 1700);

@@ -1,4 +1,4 @@
-// What a stop forgets at once, and what the control tick shows.
+// What a stop drops at once, and what the control tick shows.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -19,7 +19,7 @@ struct TickingBoard : BoardAtRest {
     BoardAtRest::idle();
     if (!machine || now_ms % 10 != 0) return;
     machine->tick();
-    // 20 turns a minute at the whole duty; a positive one winds in.
+    // 20 turns a minute at full duty; a positive duty winds in.
     for (size_t i = 0; i < duty.size(); ++i) counted[i] = uint16_t(counted[i] - duty[i] / 9);
   }
   Machine* machine = nullptr;

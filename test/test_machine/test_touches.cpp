@@ -1,5 +1,5 @@
-// Each row of the settings says what it touches: whatever it names changes with its value, and
-// nothing else does.
+// Each row of the settings says what it touches: these things change with its value, and nothing
+// else does.
 #include <gtest/gtest.h>
 
 #include <functional>

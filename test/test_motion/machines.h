@@ -8,7 +8,7 @@
 
 #include "tried/tried.h"
 
-/// The exact inverse of a machine, in the form in which the laws of motion ask it.
+/// The exact inverse of a machine, in the form that lib/Motion calls.
 template <class Real>
 struct Exactly {
   kinematics::Machine<Real> machine;
@@ -30,7 +30,7 @@ inline motion::Point<double> sprocketOf(const Tried& tried, int side) {
   return {(side ? 0.5 : -0.5) * tried.motor_gap, kHalfHeight + tried.motor_offset};
 }
 
-/// What sag adds at most to the slopes anywhere on the sheet, from the lower corner.
+/// The most that sag adds to the slopes anywhere on the sheet: in the lower corner.
 inline motion::Slopes<double> effectsOf(const Tried& tried) {
   const motion::Point<double> corner = {kHalfWidth, -kHalfHeight};
   const double sag =
@@ -41,7 +41,16 @@ inline motion::Slopes<double> effectsOf(const Tried& tried) {
   return motion::sagSlopes(sag, far_run, near_run, drop, sqrt(far_run * far_run + drop * drop));
 }
 
-/// What the bound must know of a path on a machine.
+/// Both sprockets of a machine, and what its effects add to the chains.
+inline motion::Sprockets<float> sprocketsOf(const Tried& tried) {
+  const motion::Point<double> left = sprocketOf(tried, 0), right = sprocketOf(tried, 1);
+  const motion::Slopes<double> effects = effectsOf(tried);
+  return {{float(left.x), float(left.y)},
+          {float(right.x), float(right.y)},
+          {float(effects.first), float(effects.second), float(effects.third)}};
+}
+
+/// What the bound needs to know of a path on a machine.
 template <class Real>
 motion::Surroundings<Real> around(const Tried& tried, const motion::Path<Real>& path) {
   const motion::Point<double> left = sprocketOf(tried, 0), right = sprocketOf(tried, 1);
@@ -52,7 +61,7 @@ motion::Surroundings<Real> around(const Tried& tried, const motion::Path<Real>& 
           {Real(effects.first), Real(effects.second), Real(effects.third)}};
 }
 
-/// Random paths that stay on the sheet, every second one near an edge of it.
+/// Random paths that stay on the sheet; every second path is near an edge.
 class Paths {
  public:
   explicit Paths(unsigned seed) : random_(seed) {}

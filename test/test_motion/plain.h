@@ -1,4 +1,4 @@
-// A mover whose chains are the place itself, so that set-points tell where the sled is.
+// A mover on a machine whose chain lengths are x and y, so that set-points show where the sled is.
 #pragma once
 
 #include <Motion.h>
@@ -12,7 +12,7 @@ const double kTick = 0.01;  // [s]
 /// As the firmware's defaults: 100 mm/s^2, 10 for z, chains 20 mm/s, z 0.66, corners within 0.05.
 const motion::Limits kGentle = {100, 10, 20, 0.66f, 0.05f};
 
-/// Where the axes were asked to be at one tick [mm].
+/// Set-points of the axes at a tick [mm].
 struct Asked {
   double x, y, z;
 };
@@ -22,7 +22,7 @@ inline double distance(const Asked& a, const Asked& b) {
                    (a.z - b.z) * (a.z - b.z));
 }
 
-/// The left chain is x, the right one y.
+/// The left chain is x, the right chain y.
 inline motion::Lengths<float> plainInverse(motion::Point<float> place) {
   return {place.x, place.y, std::fabs(place.x) < 3000};
 }
@@ -33,7 +33,7 @@ class Plain {
   explicit Plain(const motion::Limits& limits = kGentle, double seconds = kTick)
       : seconds(seconds) {
     mover.prepare(limits, float(seconds));
-    // So far away that only the path itself bends the chains.
+    // Sprockets so far away that only the path's curvature counts.
     mover.setSprockets({{-1e6f, 1e6f}, {1e6f, 1e6f}, {0, 0, 0}});
     mover.standAt({0, 0, 0});
   }
@@ -56,13 +56,13 @@ class Plain {
     added = mover.add(path, z, feed);
   }
 
-  /// One control tick; the main program has filled before. False if nothing was there to take.
+  /// A control tick after the main program has filled the ring. False if the ring was empty.
   bool tick() {
     filled = mover.fill(set_points, inverse);
     return tickAlone();
   }
 
-  /// One control tick while the main program is busy with something else.
+  /// A control tick while the main program is busy with something else.
   bool tickAlone() {
     const bool took = playback.next(set_points, now);
     asked.push_back({motion::toMm<double>(now.left), motion::toMm<double>(now.right),
@@ -77,13 +77,13 @@ class Plain {
 
   /// Speeds from tick to tick [mm/s].
   std::vector<double> speeds() const {
-    std::vector<double> told;
+    std::vector<double> speeds;
     Asked before = {0, 0, 0};
     for (const Asked& each : asked) {
-      told.push_back(distance(each, before) / seconds);
+      speeds.push_back(distance(each, before) / seconds);
       before = each;
     }
-    return told;
+    return speeds;
   }
 
   double seconds;

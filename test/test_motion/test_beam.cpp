@@ -1,4 +1,4 @@
-// A laser's strength travels with its move: never on another, and by the speed.
+// A laser's strength belongs to its move and to no other, and follows the speed.
 #include <gtest/gtest.h>
 
 #include "plain.h"

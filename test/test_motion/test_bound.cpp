@@ -95,7 +95,7 @@ TEST_P(BoundOf, ExactInverseIsNeverPassed) {
 }
 
 TEST(Bound, LongestTimeAtConstantSpeedIsUsedUpByACubic) {
-  // f = third / 6 * s^3; its quadratic misses most at (1 - 1/sqrt 3) / 2.
+  // f = third / 6 * s^3; the error of its quadratic is largest at (1 - 1/sqrt 3) / 2.
   for (double third : {1e-6, 1e-4, 0.1, 100.0})
     for (double speed : {0.01, 0.15, 3.0}) {
       const double time = longestTime(third, 0.5, speed, 0.0);
@@ -107,7 +107,7 @@ TEST(Bound, LongestTimeAtConstantSpeedIsUsedUpByACubic) {
 
 TEST(Bound, OfALengthThatBendsWhileSpeedGrowsIsReached) {
   // L = s^2 / 2 has the second slope 1; with s = a t^2 / 2 it is a^2 t^4 / 8, whose third slope
-  // 3 a^2 t is 3 * 1 * speed * a. A short while at a high speed is as good as a cubic.
+  // 3 a^2 t is 3 * 1 * speed * a. For a short time at a high speed this is nearly a cubic.
   const double a = 0.01, t = 100, half = 0.5 * longestTime(0.0, 1.0, a * t, a);
   const auto length = [&](double time) { return a * a * pow(t + time, 4) / 8; };
   const double at = -half / sqrt(3.0), u = at / half;

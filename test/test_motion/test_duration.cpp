@@ -1,4 +1,4 @@
-// How long what waits will last, against how many ticks it then takes.
+// How long the queue says that its moves last, against the ticks that they then take.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -9,8 +9,8 @@ using namespace motion;
 
 namespace {
 
-/// The least number of ticks that the queue is not said to outlast.
-int told(const Plain& plain) {
+/// The least number of ticks for which lastsLonger() is false.
+int predicted(const Plain& plain) {
   int low = 0, high = MoveQueue::kMostTold;
   while (low < high) {
     const int middle = (low + high) / 2;
@@ -22,7 +22,7 @@ int told(const Plain& plain) {
   return low;
 }
 
-/// Ticks until all is done, those in the ring aside.
+/// Ticks until all moves are done, without those in the ring.
 int taken(Plain plain) {
   const int waiting = plain.set_points.count();
   plain.asked.clear();
@@ -37,7 +37,7 @@ TEST(Duration, IsThatOfALongMoveAtAnyMomentOfIt) {
     Plain plain(kGentle, seconds);
     plain.lineTo(60, 0);
     for (int i = 0; i < 800; i += 40) {
-      EXPECT_NEAR(taken(plain), told(plain), 2) << i;
+      EXPECT_NEAR(taken(plain), predicted(plain), 2) << i;
       for (int tick = 0; tick < 40; ++tick) plain.tick();
     }
   }
@@ -53,7 +53,7 @@ TEST(Duration, IsThatOfAnyMovesTogether) {
       plain.lineTo(size * any(random), size * any(random), 0, 1 + 19 * any(random));
     for (int tick = int(100 * any(random)); tick > 0; --tick) plain.tick();
     const int is = std::min(taken(plain), int(MoveQueue::kMostTold));
-    EXPECT_NEAR(is, told(plain), 0.03 * is + 6) << size;
+    EXPECT_NEAR(is, predicted(plain), 0.03 * is + 6) << size;
   }
 }
 

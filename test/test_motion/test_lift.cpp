@@ -1,4 +1,4 @@
-// One axis by itself: to its goal and back, within speed and acceleration, to the count.
+// Lifting z: to its goal and back, within speed and acceleration, to the count.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -12,7 +12,7 @@ namespace {
 
 const int32_t kTop = 432, kGain = 66;  // [counts/tick] z at 40 mm/min, 10 mm/s^2, 100 Hz
 
-/// Ticks until it rests; speeds and their changes stay within the limits.
+/// Ticks until z rests; speeds and their changes stay within the limits.
 int run(Lift& lift, int32_t top = kTop, int32_t gain = kGain) {
   int ticks = 0;
   for (; !lift.isAtRest() && ticks < 1000000; ++ticks) {
@@ -81,7 +81,7 @@ TEST(Lift, KeepsItsSumsFromOverflowing) {
     lift.advance();
     EXPECT_GT(lift.speed(), 0);
     EXPECT_LE(lift.speed(), 1 << 17);
-    // It is braked within a thousand ticks, whatever gain was asked for.
+    // Braking takes at most a thousand ticks, whatever the commanded gain.
     EXPECT_EQ(std::min((i + 1) * ((1 << 17) / 1000 + 1), 1 << 17), lift.speed()) << i;
   }
   EXPECT_EQ(1 << 17, lift.speed());

@@ -1,4 +1,4 @@
-// Limits of speed that follow from the path: the pull inwards on an arc, corners, speeds of chains.
+// Limits of speed that follow from the path: centripetal acceleration, corners, speeds of chains.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ double fastest(const Plain& plain) {
   return most;
 }
 
-/// A full circle, at more speed than any arc here allows, that rises by so much [mm].
+/// A full circle that rises by `rise` [mm], with a feed beyond what any arc here allows.
 double fastestRound(float radius, float rise) {
   Plain plain(kFree);
   plain.arcTo(0, 0, {radius, 0}, 500, rise);
@@ -130,7 +130,7 @@ TEST(Surroundings, AreThoseOfTheNearerSprocket) {
 
 TEST(Steepest, OfEachEndAlone) {
   const Sprockets<double> sprockets = {{-1000, 0}, {1000, 0}, {0, 0, 0}};
-  // Each line runs to or from the foot under one sprocket; there that chain stands still.
+  // Each line runs to or from the foot under a sprocket, where that chain does not move.
   struct {
     const char* which;
     Point<double> from, to;
@@ -145,7 +145,7 @@ TEST(Steepest, OfEachEndAlone) {
 }
 
 TEST(ChainLimit, HoldsForBothChainsOnEveryLine) {
-  // Lines that end under a sprocket: one chain changes by nearly the whole way.
+  // Lines that end under a sprocket: the other chain changes by nearly the whole way.
   for (const float side : {-1.0f, 1.0f})
     for (const bool up : {false, true}) {
       Plain plain(kFree);

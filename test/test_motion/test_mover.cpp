@@ -200,7 +200,7 @@ TEST(Mover, AMillionShortMovesEndWhereTheyWereCommanded) {
 }
 
 TEST(Mover, StreamThatComesLateIsTakenUpWhileItBrakes) {
-  // One move at a time, the next just when the last is being braked.
+  // A move at a time; the next comes just while the last brakes.
   Plain plain;
   for (int i = 1; i <= 40; ++i) {
     plain.lineTo(float(3 * i), 0);

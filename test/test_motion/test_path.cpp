@@ -1,4 +1,4 @@
-// Lines and arcs pass where they should, and what is no path is refused by name.
+// Lines and arcs pass where they should; what cannot be drawn is refused with a reason.
 #include <gtest/gtest.h>
 
 #include "machines.h"

@@ -1,4 +1,4 @@
-// The tick's walk by itself: two shares at once, what it says of the ticks to come, and at rest.
+// Playback by itself: two shares at once, its step ahead, and rest.
 #include <gtest/gtest.h>
 
 #include "plain.h"
@@ -9,7 +9,7 @@ namespace {
 
 const uint8_t kAhead = 4;  // [ticks]
 
-/// On its way along x at 15 mm/s, 0.15 mm a tick, of which it may lose 0.01 in each.
+/// A motion along x at 15 mm/s, 0.15 mm a tick, which may change by 0.01 mm each tick.
 Plain cruising() {
   Plain plain;
   plain.lineTo(500, 0);

@@ -29,7 +29,7 @@ struct Queued {
     at = path.to;
     z += dz;
   }
-  /// The move so many places behind the first.
+  /// The move that is `index` places behind the first.
   const Move& move(int index) {
     for (; dropped < index; ++dropped) queue.dropFirst();
     return queue.first();
@@ -76,7 +76,7 @@ TEST(Queue, MoveKeepsTheLimitsOfTheSheetAndOfZ) {
     if (rise > 0) top = std::min(top, kZSpeed * length / rise);
     EXPECT_NEAR(double(move.acceleration), acceleration, 0.002 * acceleration)
         << way.dx << " " << way.dz;
-    // In float the share of z comes from that of the sheet.
+    // In float the share of z follows from the share along the sheet.
     EXPECT_NEAR(double(move.top), top, 0.01 * top) << way.dx << " " << way.dz;
     EXPECT_EQ(0, move.entry_squared);
     EXPECT_EQ(0, move.beam) << "nobody asked for one";
@@ -84,21 +84,21 @@ TEST(Queue, MoveKeepsTheLimitsOfTheSheetAndOfZ) {
 }
 
 TEST(Queue, CornerIsThatOfBothDirectionsOverThreeAxes) {
-  // Long ones, and others so short that each corner is spread over them.
+  // Long moves, and moves so short that each corner is spread over them.
   const Shift ways[] = {{10, 0, 0}, {10, 3, 0},         {0, 8, 6},     {0, 0, -5}, {6, 0, -8},
                         {3, 0, 1},  {0.02f, 0.006f, 0}, {0.02f, 0, 0}, {-3, 4, 0}};
-  for (const Shift& one : ways)
-    for (const Shift& other : ways) {
+  for (const Shift& before : ways)
+    for (const Shift& after : ways) {
       Queued queued;
-      queued.lineBy(one.dx, one.dy, one.dz);
-      queued.lineBy(other.dx, other.dy, other.dz);
+      queued.lineBy(before.dx, before.dy, before.dz);
+      queued.lineBy(after.dx, after.dy, after.dz);
       const Move first = queued.move(0), second = queued.move(1);
-      const float expected = cornerSpeedSquared(directionOf(one), directionOf(other),
+      const float expected = cornerSpeedSquared(directionOf(before), directionOf(after),
                                                 std::min(first.acceleration, second.acceleration),
                                                 0.05f, (first.length + second.length) / 2);
       EXPECT_NEAR(double(second.corner_squared), double(expected), 0.002 * double(expected) + 1e-4)
-          << one.dx << " " << one.dy << " " << one.dz << ", " << other.dx << " " << other.dy << " "
-          << other.dz;
+          << before.dx << " " << before.dy << " " << before.dz << ", " << after.dx << " "
+          << after.dy << " " << after.dz;
     }
 }
 
@@ -139,7 +139,7 @@ TEST(Queue, HelixPassesItsCornersAsSteeplyAsItRises) {
 TEST(Queue, LooksBackFromAStopAtTheEnd) {
   const double top = 15;
   Queued queued;
-  // Along x: 2 a L is 200 for each mm; the second move's feed is its own limit.
+  // Along x: 2 a L is 200 for each mm; the second move's feed limits it.
   queued.lineBy(1, 0, 0, 30);
   queued.lineBy(0.25f, 0, 0, float(top));
   queued.lineBy(0.5f, 0, 0, 30);

@@ -1,4 +1,4 @@
-// Curves of arcs stay as near to what was meant as their text can tell, in inches and in mm.
+// Curves of arcs stay as near to the intended curve as their text allows, in inches and in mm.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,8 @@ using namespace motion;
 
 namespace {
 
-/// Text of a program: its unit's last digit, and what the firmware takes that to be at worst.
+/// Text of a program: its last digit, and the coarsest digit that the firmware assumes for its
+/// unit.
 struct Text {
   const char* name;
   double digit;  ///< [mm]
@@ -26,12 +27,12 @@ const Text kTexts[] = {{"InchesOfThreeDecimals", 0.0254, kInchDigit},
 Point<float> single(Spot place) { return {float(place.x), float(place.y)}; }
 
 Path<float> drawn(const Meant& meant, const Text& text) {
-  const Told words = told(meant, text.digit);
+  const Rounded words = rounded(meant, text.digit);
   return arc(single(words.from), single(words.to), single(words.centre),
              meant.sweep > 0 ? Turn::kCounterclockwise : Turn::kClockwise, text.coarsest);
 }
 
-/// How far [mm] a drawn path is from the arc that was meant, and the arc from the path, at most.
+/// Largest distance [mm] between a drawn path and the intended arc, in both directions.
 double farthest(const Path<float>& path, const Meant& meant) {
   const int steps = 60;
   std::vector<Spot> drawn;
@@ -63,8 +64,8 @@ struct NameOfText {
   std::string operator()(const testing::TestParamInfo<Text>& info) const { return info.param.name; }
 };
 
-/// Start, end and centre are each off by up to half a digit along both axes; so places of the arc
-/// may be off by this [digits]. A float's places are off by that [mm].
+/// Start, end and centre are each off by up to half a digit along both axes, so places of the arc
+/// may be off by the first number [digits]. Rounding to float moves places by the second [mm].
 const double kMostDigits = 1.35, kFloat = 2e-4;
 
 }  // namespace
@@ -87,7 +88,7 @@ TEST_P(RoundedArcs, OfMoreThanAHalfTurnToo) {
     Curve curve(seed, 5.5);
     for (int i = 0; i < 100; ++i) {
       const Meant meant = curve.next();
-      // Nearer ends may belong to a short arc as well, and so may those of a smaller circle.
+      // Nearer ends may belong to a short arc too, and so may the ends of a smaller circle.
       const double gap = std::hypot(meant.to.x - meant.from.x, meant.to.y - meant.from.y);
       const bool may_be_short =
           gap < 3 * double(GetParam().coarsest) || meant.radius < 4 * GetParam().digit;

@@ -1,4 +1,4 @@
-// Set-points inside a segment are the exact quadratic, rounded: nothing adds up.
+// Set-points inside a segment are the exact quadratic, rounded: no rounding adds up.
 #include <gtest/gtest.h>
 
 #include "machines.h"
@@ -85,17 +85,18 @@ TEST(Fine, DivisionRoundsDownOnBothSidesOfZero) {
 }
 
 TEST(Fine, SumsDifferencesAndHalvesCarryBetweenTheirParts) {
-  for (Fine one : {Fine{0, 0}, Fine{5, 0xFFFF}, Fine{-7, 1}, Fine{-1, 0x8000}, Fine{100000, 3}})
+  for (Fine first : {Fine{0, 0}, Fine{5, 0xFFFF}, Fine{-7, 1}, Fine{-1, 0x8000}, Fine{100000, 3}})
     for (Fine other : {Fine{0, 1}, Fine{-3, 0xFFFF}, Fine{12, 0x8001}}) {
-      EXPECT_EQ(inLastDigits(one) - inLastDigits(other), inLastDigits(differenceOf(one, other)));
+      EXPECT_EQ(inLastDigits(first) - inLastDigits(other),
+                inLastDigits(differenceOf(first, other)));
       for (uint8_t factor : {0, 1, 2, 179, 180}) {
         const int64_t twice = 2 * inLastDigits(timesHalf(other, factor));
         const int64_t exact = inLastDigits(other) * factor;
         EXPECT_TRUE(twice == exact || twice == exact - 1) << twice << " for " << exact;
       }
-      Fine sum = one;
+      Fine sum = first;
       add(sum, other);
-      EXPECT_EQ(inLastDigits(one) + inLastDigits(other), inLastDigits(sum));
+      EXPECT_EQ(inLastDigits(first) + inLastDigits(other), inLastDigits(sum));
     }
 }
 

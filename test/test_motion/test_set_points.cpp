@@ -1,4 +1,4 @@
-// Every set-point, while moves gain and lose speed, against the exact inverse in double.
+// Every set-point, while moves speed up and slow down, against the exact inverse in double.
 #include <gtest/gtest.h>
 
 #include "machines.h"
@@ -12,27 +12,19 @@ INSTANTIATE_TEST_SUITE_P(Machines, SetPointsOf, testing::ValuesIn(triedMachines(
 
 struct Worst {
   double error = 0;   // [mm] of a chain, at any tick
-  double jerked = 0;  // [mm] by which a step differs from that of the exact chains
+  double jerked = 0;  // [mm] difference of a step from that of the exact chains
   long set_points = 0, asked = 0;
 };
 
-Sprockets<float> sprocketsOf(const Tried& tried) {
-  const Point<double> left = sprocketOf(tried, 0), right = sprocketOf(tried, 1);
-  const Slopes<double> effects = effectsOf(tried);
-  return {{float(left.x), float(left.y)},
-          {float(right.x), float(right.y)},
-          {float(effects.first), float(effects.second), float(effects.third)}};
-}
-
-/// Walks one path from rest to rest, with a random z.
-void walk(const Tried& tried, const Exactly<double>& judge, const Exactly<float>& own,
+/// Walks a path from rest to rest, with a random z.
+void walk(const Tried& tried, const Exactly<double>& judge, const Exactly<float>& inverse,
           const Path<double>& path, const Limits& limits, double feed, Worst& worst) {
   const auto counted = [&](Point<float> place) {
     ++worst.asked;
-    return own(place);
+    return inverse(place);
   };
   const Path<float> walked = as<float>(path);
-  const Knot start = knotAt(own, walked.from).knot;
+  const Knot start = knotAt(inverse, walked.from).knot;
   Mover mover;
   SetPoints set_points;
   mover.prepare(limits, 0.01f);
@@ -42,7 +34,7 @@ void walk(const Tried& tried, const Exactly<double>& judge, const Exactly<float>
   Lengths<double> before = judge(path.from);
   SetPoint last = mover.last();
   while (!mover.isIdle()) {
-    // A ring full at once would hide which tick is which; so one after the other is taken.
+    // Set-points are taken one by one, because a full ring would hide which tick is which.
     SetPoints single;
     for (int i = 1; i < SetPoints::kMost; ++i) single.push({last, 1, 1, 0});
     ASSERT_EQ(Filled::kYes, mover.fill(single, counted));
@@ -59,17 +51,17 @@ void walk(const Tried& tried, const Exactly<double>& judge, const Exactly<float>
     before = exact;
     last = now;
   }
-  EXPECT_EQ(knotAt(own, walked.to).knot.left, last.left);
-  EXPECT_EQ(knotAt(own, walked.to).knot.right, last.right);
+  EXPECT_EQ(knotAt(inverse, walked.to).knot.left, last.left);
+  EXPECT_EQ(knotAt(inverse, walked.to).knot.right, last.right);
 }
 
 Worst worstOver(const Tried& tried, int count, unsigned seed, const Limits& limits, double feed) {
   const Exactly<double> judge = exactly<double>(tried);
-  const Exactly<float> own = exactly<float>(tried);
+  const Exactly<float> inverse = exactly<float>(tried);
   Paths paths(seed);
   Worst worst;
   for (int i = 0; i < count; ++i)
-    walk(tried, judge, own, i % 2 ? paths.line() : paths.arc(), limits, feed, worst);
+    walk(tried, judge, inverse, i % 2 ? paths.line() : paths.arc(), limits, feed, worst);
   testing::Test::RecordProperty("error_mm", std::to_string(worst.error));
   testing::Test::RecordProperty("jerked_mm", std::to_string(worst.jerked));
   const double per_ask = double(worst.set_points) / double(worst.asked);

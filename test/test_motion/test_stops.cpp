@@ -9,7 +9,7 @@ using namespace motion;
 
 namespace {
 
-/// Largest change of speed along x from one tick to the next [mm/s^2].
+/// Largest change of speed along x between two ticks [mm/s^2].
 double hardest(const Plain& plain) {
   double most = 0, last = 0, before = 0;
   for (const Asked& now : plain.asked) {
@@ -20,7 +20,7 @@ double hardest(const Plain& plain) {
   return most;
 }
 
-/// On its way along x at full feed.
+/// A motion along x at full feed.
 Plain cruising() {
   Plain plain;
   plain.lineTo(500, 0);
@@ -31,7 +31,7 @@ Plain cruising() {
 
 }  // namespace
 
-/// Ticks until it stands, for a minute at most.
+/// Ticks until the axes stand still, for a minute at most.
 void standStill(Plain& plain) {
   for (int i = 0; i < 6000 && (i == 0 || !plain.playback.isAtRest()); ++i) plain.tick();
 }

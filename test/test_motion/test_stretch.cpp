@@ -1,4 +1,4 @@
-// Stretches of many ticks: they are what single ticks would do, and they are few.
+// Stretches of many ticks: they do what single ticks would do, and they are few.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -75,9 +75,9 @@ TEST(Stretch, EndsNoFasterThanItMay) {
   for (const Case& each : cases())
     for (const uint8_t most : {1, 7, 181}) {
       const Profile profile = walked(each.length, each.begin, each.top, each.exit, each.a, most);
-      // The last tick may be one acceleration, or the short way that is left.
+      // The last tick may change the speed by the acceleration, or be the short rest of the way.
       const double short_way = std::min(double(each.a), double(each.length));
-      // And the tick that passes the end is half an acceleration faster than the end itself.
+      // The tick that passes the end is half an acceleration faster than the speed at the end.
       const double exit = double(each.exit) + 0.5 * double(each.a);
       EXPECT_LE(double(profile.end_speed), std::max(exit, short_way) + 1e-4)
           << each.length << " " << each.begin << " " << each.exit << " " << each.a;
@@ -130,7 +130,7 @@ TEST(Stretch, SlowsToATopThatWasLowered) {
   }
   EXPECT_EQ(12, ticks) << "by a hundredth each";
   EXPECT_NEAR(double(speed), double(top), 1e-5);
-  // Where the end is nearer than that it takes it tick by tick.
+  // Where the end is nearer than that, each stretch is a single tick.
   EXPECT_EQ(1, nextStretch(0.15f, {0.5f, top, a, 0, 181, 181}).ticks);
 }
 

@@ -1,4 +1,5 @@
-// Moves over three axes, alone and mixed: every set-point lies on them, and its leg says how fast.
+// Moves over three axes, alone and mixed: every set-point is on its move, and its leg has the right
+// way.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +21,7 @@ double distanceToLine(const Asked& place, const Asked& a, const Asked& b) {
   return distance(place, {a.x + share * x, a.y + share * y, a.z + share * z});
 }
 
-/// Moves of all kinds: along the sheet, of z alone, of both, and short ones.
+/// Moves of all kinds: along the sheet, of z alone, of both, and short moves.
 std::vector<Asked> randomCorners(unsigned seed, int count) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> way(-20, 20);
@@ -50,7 +51,7 @@ TEST(ThreeAxes, EverySetPointLiesOnTheMoves) {
     plain.run();
     size_t passed = 1;
     for (const Asked& place : plain.asked) {
-      // Forward only: the move in hand or a later one.
+      // Forward only: the move in progress or a later move.
       while (passed + 1 < corners.size() &&
              distanceToLine(place, corners[passed - 1], corners[passed]) > 0.003)
         ++passed;
@@ -94,7 +95,7 @@ TEST(ThreeAxes, LegsSayHowFarTheyLeadAndHowFastThatMayChange) {
       const double way = std::sqrt(std::pow(leg.to.left - before.left, 2.0) +
                                    std::pow(leg.to.right - before.right, 2.0) +
                                    std::pow(leg.to.z - before.z, 2.0));
-      // The last leg ends where the move does, wherever its speed would lead.
+      // The last leg ends where the move ends, even if its speed would lead farther.
       if (!plain.mover.isIdle()) {
         EXPECT_NEAR(leg.way, way, 12) << legs << ", " << to.x << " " << to.z;
       }

@@ -1,4 +1,4 @@
-// Short moves share exact places: what a tile misses, when it is laid, and that ends stay exact.
+// Short moves share exact places: a tile's error, when it is laid, and that ends stay exact.
 #include <gtest/gtest.h>
 
 #include "machines.h"
@@ -11,14 +11,6 @@ namespace {
 class TileOf : public testing::TestWithParam<Tried> {};
 INSTANTIATE_TEST_SUITE_P(Machines, TileOf, testing::ValuesIn(triedMachines()), NameOfTried());
 
-Sprockets<float> sprocketsOf(const Tried& tried) {
-  const Point<double> left = sprocketOf(tried, 0), right = sprocketOf(tried, 1);
-  const Slopes<double> effects = effectsOf(tried);
-  return {{float(left.x), float(left.y)},
-          {float(right.x), float(right.y)},
-          {float(effects.first), float(effects.second), float(effects.third)}};
-}
-
 float nearest(const Sprockets<float>& sprockets, Point<float> place) {
   return std::fmin(path_detail::distance(place, sprockets.left),
                    path_detail::distance(place, sprockets.right));
@@ -29,34 +21,35 @@ double worse(const Knot& knot, const Lengths<double>& exact) {
               fabs(toMm<double>(knot.right) - exact.right));
 }
 
-/// What a stream of short moves did on a machine.
+/// Results of a stream of short moves on a machine.
 struct Streamed {
   double error = 0;          // [mm] of a chain
-  double across = 0;         // [mm] of the places asked, at most
+  double across = 0;         // [mm] largest extent of the places asked for
   int asked = 0, ticks = 0;  // inverses, set-points
-  int asked_at_once = 0;     // in one filling, at most
+  int asked_at_once = 0;     // most inverses in a single filling
   bool ends_exactly = false;
 };
 
-/// Round and round a circle of 5 mm in steps; before each filling so many set-points wait.
+/// Around a circle of 5 mm in steps, again and again; `waiting` set-points wait before each
+/// filling.
 Streamed stream(const Tried& tried, Point<float> centre, float step, const SmoothArea& area,
                 int waiting) {
   const Exactly<double> judge = exactly<double>(tried);
-  const Exactly<float> own = exactly<float>(tried);
-  Streamed told;
+  const Exactly<float> inverse = exactly<float>(tried);
+  Streamed streamed;
   int at_once = 0;
   const auto counted = [&](Point<float> place) {
-    ++told.asked;
+    ++streamed.asked;
     ++at_once;
-    told.across = fmax(told.across, fabs(double(place.x)));
-    return own(place);
+    streamed.across = fmax(streamed.across, fabs(double(place.x)));
+    return inverse(place);
   };
   Mover mover;
   mover.prepare({100, 10, 20, 0.66f, 0.05f}, 0.01f);
   mover.setSprockets(sprocketsOf(tried));
   mover.setArea(area);
   Point<float> at = {centre.x + 5, centre.y};
-  const Knot start = knotAt(own, at).knot;
+  const Knot start = knotAt(inverse, at).knot;
   mover.standAt({start.left, start.right, 0});
   for (int sent = 1; sent <= 600 || !mover.isIdle();) {
     for (; sent <= 600 && mover.hasRoom(); ++sent) {
@@ -69,17 +62,17 @@ Streamed stream(const Tried& tried, Point<float> centre, float step, const Smoot
     for (int i = 0; i < waiting; ++i) ring.push({mover.last(), 1, 1, 0});
     at_once = 0;
     EXPECT_EQ(Filled::kYes, mover.fill(ring, counted));
-    if (told.ticks != 0) told.asked_at_once = std::max(told.asked_at_once, at_once);
-    told.ticks += SetPoints::kMost - waiting;
+    if (streamed.ticks != 0) streamed.asked_at_once = std::max(streamed.asked_at_once, at_once);
+    streamed.ticks += SetPoints::kMost - waiting;
     if (mover.isIdle()) break;
     const Path<float>& path = mover.queue().first().path;
     const Point<float> place = placeOn(path, mover.walk().done / path.length);
     const Knot now = {mover.last().left, mover.last().right};
-    told.error = fmax(told.error, worse(now, judge(Point<double>{place.x, place.y})));
+    streamed.error = fmax(streamed.error, worse(now, judge(Point<double>{place.x, place.y})));
   }
-  const Knot end = knotAt(own, at).knot;
-  told.ends_exactly = end.left == mover.last().left && end.right == mover.last().right;
-  return told;
+  const Knot end = knotAt(inverse, at).knot;
+  streamed.ends_exactly = end.left == mover.last().left && end.right == mover.last().right;
+  return streamed;
 }
 
 const SmoothArea kSheetArea = {float(kHalfWidth), float(kHalfHeight)};
@@ -88,7 +81,7 @@ const SmoothArea kSheetArea = {float(kHalfWidth), float(kHalfHeight)};
 
 TEST_P(TileOf, LengthsAreWithinTwoMicrometresOfTheExactChains) {
   const Exactly<double> judge = exactly<double>(GetParam());
-  const Exactly<float> own = exactly<float>(GetParam());
+  const Exactly<float> inverse = exactly<float>(GetParam());
   const Sprockets<float> sprockets = sprocketsOf(GetParam());
   Paths random(8);
   double worst = 0;
@@ -97,7 +90,7 @@ TEST_P(TileOf, LengthsAreWithinTwoMicrometresOfTheExactChains) {
     const Point<float> at = {float(middle.x), float(middle.y)};
     const float half = halfTile(nearest(sprockets, at), sprockets.effects);
     Tile tile;
-    ASSERT_TRUE(tile.lay({at, half}, own));
+    ASSERT_TRUE(tile.lay({at, half}, inverse));
     for (int k = 0; k < 40; ++k) {
       const Point<float> place = {at.x + half * float(random.between(-1, 1)),
                                   at.y + half * float(random.between(-1, 1))};
@@ -155,37 +148,37 @@ TEST(Tile, IsSmallEnoughForItsCornerNextToTheSprocket) {
 
 TEST_P(TileOf, ShortMovesAskForOneInverseInManyTicks) {
   for (const Point<float> centre : {Point<float>{0, 0}, {-1150, 560}, {1150, -560}}) {
-    const Streamed told = stream(GetParam(), centre, 0.3f, kSheetArea, 10);
-    EXPECT_LT(told.error, 0.003);
-    EXPECT_LT(told.asked, told.ticks / 5);
-    EXPECT_TRUE(told.ends_exactly);
+    const Streamed streamed = stream(GetParam(), centre, 0.3f, kSheetArea, 10);
+    EXPECT_LT(streamed.error, 0.003);
+    EXPECT_LT(streamed.asked, streamed.ticks / 5);
+    EXPECT_TRUE(streamed.ends_exactly);
   }
 }
 
 TEST(Tiles, WithoutAnAreaEachTickIsExact) {
-  const Streamed told = stream(triedMachines()[0], {0, 0}, 0.1f, {0, 0}, 10);
-  EXPECT_GE(told.asked, told.ticks - 1);
+  const Streamed streamed = stream(triedMachines()[0], {0, 0}, 0.1f, {0, 0}, 10);
+  EXPECT_GE(streamed.asked, streamed.ticks - 1);
 }
 
 TEST(Tiles, AreLaidOnTheSheetOnly) {
-  // The circle touches the edge; nobody is asked for a place beyond it.
-  const Streamed told = stream(triedMachines()[0], {1214.2f, 0}, 0.1f, kSheetArea, 10);
-  EXPECT_LE(told.across, kHalfWidth + 0.001);
-  EXPECT_GT(told.across, kHalfWidth - 0.1);
-  EXPECT_LT(told.asked, told.ticks / 5);
+  // The circle touches the edge; the inverse is not asked for a place beyond it.
+  const Streamed streamed = stream(triedMachines()[0], {1214.2f, 0}, 0.1f, kSheetArea, 10);
+  EXPECT_LE(streamed.across, kHalfWidth + 0.001);
+  EXPECT_GT(streamed.across, kHalfWidth - 0.1);
+  EXPECT_LT(streamed.asked, streamed.ticks / 5);
 }
 
 TEST(Tiles, AreNotLaidInAHurry) {
   // Nine inverses at once would let seven set-points run dry.
   const Streamed enough = stream(triedMachines()[0], {300, 0}, 0.3f, kSheetArea, 10);
   EXPECT_GE(enough.asked_at_once, 9);
-  const Exactly<float> own = exactly<float>(triedMachines()[0]);
+  const Exactly<float> inverse = exactly<float>(triedMachines()[0]);
   Tiles tiles;
   tiles.setArea(kSheetArea);
   int asked = 0;
   const auto counted = [&](Point<float> place) {
     ++asked;
-    return own(place);
+    return inverse(place);
   };
   const Path<float> path = line(Point<float>{0, 0}, Point<float>{0.3f, 0});
   tiles.setTime(false);
@@ -194,7 +187,7 @@ TEST(Tiles, AreNotLaidInAHurry) {
   tiles.setTime(true);
   tiles.lengthsAt({0.1f, 0}, path, sprocketsOf(triedMachines()[0]), counted);
   EXPECT_EQ(10, asked);
-  // Another frame: what was asked before does not count.
+  // Another frame: old places no longer count.
   tiles.setArea(kSheetArea);
   tiles.setTime(false);
   tiles.lengthsAt({0.1f, 0}, path, sprocketsOf(triedMachines()[0]), counted);
@@ -202,22 +195,22 @@ TEST(Tiles, AreNotLaidInAHurry) {
 }
 
 TEST(Tiles, AreNotLaidWhileFewSetPointsWait) {
-  const Exactly<float> own = exactly<float>(triedMachines()[0]);
+  const Exactly<float> inverse = exactly<float>(triedMachines()[0]);
   SetPoints ring;
-  int asked[SetPoints::kMost + 1] = {};  // while so many waited
+  int asked[SetPoints::kMost + 1] = {};  // by the number that waited
   const auto counted = [&](Point<float> place) {
     ++asked[ring.count()];
-    return own(place);
+    return inverse(place);
   };
   Mover mover;
   mover.prepare({100, 10, 20, 0.66f, 0.05f}, 0.01f);
   mover.setSprockets(sprocketsOf(triedMachines()[0]));
-  const Knot start = knotAt(own, Point<float>{0, 0}).knot;
+  const Knot start = knotAt(inverse, Point<float>{0, 0}).knot;
   mover.standAt({start.left, start.right, 0});
   for (int i = 0; i < 16; ++i)
     mover.add(line(Point<float>{0.3f * float(i), 0}, Point<float>{0.3f * float(i + 1), 0}), 0, 15);
   mover.fill(ring, counted);
-  // The first of them are taken; now tiles are known of.
+  // Some set-points are taken first, so that tiles are in use.
   Leg taken;
   for (int i = 0; i < 8; ++i) ring.take(taken);
   mover.setArea(kSheetArea);

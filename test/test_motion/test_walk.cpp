@@ -1,4 +1,4 @@
-// The tick's walk along legs of all three axes: where it is, how fast it may change, how it ends.
+// Playback along legs of all three axes: where it is, how fast it may change, how it ends.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ std::vector<Leg> evenLegs(int count, uint16_t gain, uint8_t beam = 200) {
   return legs;
 }
 
-/// Where a walk of so many counts along even legs is, to the count.
+/// The exact place after a number of counts along even legs.
 void expectAt(double way, const SetPoint& now, const char* when) {
   EXPECT_NEAR(now.left, 0.6 * way, 1.2) << when << ", " << way;
   EXPECT_NEAR(now.right, -0.3 * way, 1.2) << when << ", " << way;
@@ -156,7 +156,7 @@ TEST(Walk, AtAShareIsWhereThePlanIsAtThatShareOfTheTime) {
       EXPECT_NEAR(walker.now.right, -walker.now.left / 2.0, 4) << i;
       EXPECT_NEAR(walker.now.z, walker.now.left / 4.0, 4) << i;
     }
-    // Each leg is told to a 4096th, and a share of a speed to a count.
+    // Shares of a leg are 4096ths, and a share of a speed is a whole count.
     EXPECT_LT(farthest, 80) << share;
     EXPECT_EQ(walker.legs.back().to.left, walker.now.left) << "to the count";
     EXPECT_EQ(walker.legs.back().to.right, walker.now.right);

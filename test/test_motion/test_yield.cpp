@@ -1,4 +1,4 @@
-// How much of its speed a machine keeps that falls behind.
+// The share of its speed that a machine keeps when it falls behind.
 #include <Motion.h>
 #include <gtest/gtest.h>
 

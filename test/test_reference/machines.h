@@ -1,6 +1,8 @@
 // Machines and places that the judge's tests share.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <random>
 #include <vector>
 
@@ -18,6 +20,13 @@ inline reference::Machine withChains(reference::Machine machine, double weight, 
 /// The machine of the published figures: 0.14 kg/m of chain, 5.17e-6 strain per newton.
 inline reference::Machine defaultMachine() {
   return withChains(reference::Machine(), 0.00137293, 5.17e-6);
+}
+
+/// [mm left, right] The chains that hold the bit of a machine at a place.
+inline Eigen::Vector2d lengthsOf(const reference::Machine& machine, const Eigen::Vector2d& bit) {
+  const reference::Hang hang = reference::hangAt(machine, bit);
+  EXPECT_TRUE(hang.solved);
+  return hang.paid_out;
 }
 
 /// Places [mm] in `columns` x `rows` over the whole sheet and `beyond` its edges.
@@ -50,7 +59,7 @@ class Lottery {
     return side;
   }
 
-  /// Everything that a plane machine can have.
+  /// A machine with everything that stays in the sheet's plane.
   reference::Machine drawMachine() {
     reference::Machine machine;
     machine.motor_gap = between(2900, 3700);
@@ -63,7 +72,7 @@ class Lottery {
     return machine;
   }
 
-  /// The same with all that moves the mounts, pushes the sled or leaves the plane.
+  /// That machine with everything that moves the mounts, pushes the sled or leaves the plane.
   reference::Machine drawFullMachine() {
     reference::Machine machine = drawMachine();
     machine.motor_center_x = between(-20, 20);

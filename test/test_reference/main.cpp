@@ -1,4 +1,4 @@
-// Runs the judge's own tests.
+// Runs the tests of the judge.
 #include <gtest/gtest.h>
 
 int main(int argc, char** argv) {

@@ -10,13 +10,8 @@ using reference::Machine;
 
 namespace {
 
-Vector2d lengthsOf(const Machine& machine, const Vector2d& bit) {
-  const reference::Hang hang = reference::hangAt(machine, bit);
-  EXPECT_TRUE(hang.solved);
-  return hang.paid_out;
-}
-
-/// Where a machine sends a bit that a straight and rigid one would send to `bit` [mm off].
+/// [mm] By how much a machine misses `bit` when its chains are those of a straight and rigid
+/// machine.
 Vector2d fieldAt(const Machine& truth, const Vector2d& bit) {
   return reference::settle(truth, lengthsOf(Machine(), bit), bit).bit - bit;
 }
@@ -89,7 +84,7 @@ TEST(Anchors, SledGivesToAPushAsPublished) {
 TEST(Anchors, SprocketsOffTheSheetMoveTheSledAsPublished) {
   Machine machine;
   machine.plane_gap = 50;
-  // The published chains run off the sheet up to the bit: theirs are an arm longer.
+  // The published chains run up to the bit, so they are longer by the arm.
   machine.rotation_radius = 0;
   Machine flat = machine;
   flat.plane_gap = 0;

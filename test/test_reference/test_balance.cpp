@@ -43,7 +43,7 @@ TEST(Balance, PullsPassThroughTheBit) {
     for (const reference::ChainForm* form : {&hang.left, &hang.right}) {
       const Vector2d arm = form->ends.head<2>() - bit;
       const double moment = arm.x() * form->pull.y() - arm.y() * form->pull.x();
-      EXPECT_NEAR(0, moment, 1e-7);  // [N mm] of some 10,000
+      EXPECT_NEAR(0, moment, 1e-7);  // [N mm] of about 10,000
       EXPECT_NEAR(machine.rotation_radius, arm.norm(), 1e-9);
       EXPECT_GT(arm.dot(form->pull.head<2>()), 0);
     }

@@ -10,7 +10,7 @@ using reference::Machine;
 
 namespace {
 
-/// Follows a chain from `start` [mm], where its tension is `tension` [N], by Runge and Kutta.
+/// Follows a chain from `start` [mm], where its tension is `tension` [N], by Runge-Kutta.
 Vector3d followChain(const Vector3d& start, const Vector3d& tension, const Vector3d& weight,
                      double length, double compliance) {
   const auto slope = [&](double s) -> Vector3d {
@@ -27,7 +27,7 @@ Vector3d followChain(const Vector3d& start, const Vector3d& tension, const Vecto
   return place;
 }
 
-/// Miss [mm] of the ring when the left chain is followed from where it leaves its sprocket.
+/// Distance [mm] from the ring at the end of the left chain, followed from its sprocket.
 double missOfLeft(const Machine& machine, const reference::Hang& hang) {
   const double a = hang.left.departure_angle, t = hang.left.tension_at_sprocket;
   const Vector3d weight =

@@ -1,4 +1,4 @@
-// A chain of springs and beads that looks for its lowest energy, with no idea of forces or angles.
+// A chain of springs and beads in its lowest energy, worked out without forces or angles.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -47,7 +47,7 @@ class Beads {
     return at.tail<2>() + machine_.rotation_radius * Vector2d(std::cos(angle), std::sin(angle));
   }
 
-  /// Bead 0 is on the sprocket, the last one on the ring.
+  /// Bead 0 is on the sprocket, the last bead on the ring.
   Vector2d beadOf(const VectorXd& at, int side, int bead) const {
     if (bead == 0) return formOf(side).leaves.head<2>();
     if (bead == links_) return ringOf(at, side);
@@ -81,16 +81,16 @@ class Beads {
       const double natural = formOf(side).free_length / links_;
       const double compliance = side == 0 ? machine_.left.compliance : machine_.right.compliance;
       for (int link = 0; link < links_; ++link) {
-        const Vector2d one = beadOf(at, side, link), two = beadOf(at, side, link + 1);
-        const double stretch = (two - one).norm() - natural;
+        const Vector2d start = beadOf(at, side, link), end = beadOf(at, side, link + 1);
+        const double stretch = (end - start).norm() - natural;
         energy += stretch * stretch / (2 * compliance * natural);
-        energy += weightOf(side) * (one.y() + two.y()) / 2;  // half on each bead
+        energy += weightOf(side) * (start.y() + end.y()) / 2;  // half on each bead
       }
     }
     return energy;
   }
 
-  /// Adds what a change of one bead does to the energy.
+  /// Adds what a change of a single bead does to the energy.
   void addSlope(const VectorXd& at, int side, int bead, const Vector2d& force,
                 VectorXd& slope) const {
     if (bead == 0) return;

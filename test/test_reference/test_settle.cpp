@@ -49,7 +49,8 @@ TEST(Settle, LongerLeftChainMovesTheSledRightAndDown) {
 }
 
 TEST(Settle, RefusesChainsThatDoNotMeet) {
-  // An elastic chain would meet at any price; it breaks at a few thousand newtons.
+  // Elastic chains could be stretched until they meet; a real chain tears at a few thousand
+  // newtons.
   for (const Machine& machine : {Machine(), defaultMachine()}) {
     EXPECT_FALSE(reference::settle(machine, {1000, 1000}).solved);
     EXPECT_FALSE(reference::settle(machine, {100, 2500}).solved);

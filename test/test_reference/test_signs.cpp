@@ -8,12 +8,6 @@ using reference::Machine;
 
 namespace {
 
-Vector2d lengthsOf(const Machine& machine, const Vector2d& bit) {
-  const reference::Hang hang = reference::hangAt(machine, bit);
-  EXPECT_TRUE(hang.solved);
-  return hang.paid_out;
-}
-
 TEST(Signs, SagNeedsMoreChain) {
   for (const Vector2d& bit : gridOver(7, 5)) {
     const Vector2d more =

@@ -1,4 +1,4 @@
-// Chains without weight are straight lines: the judge against ruler and compass.
+// Chains without weight are straight lines: the judge against plane geometry.
 #include <gtest/gtest.h>
 
 #include "machines.h"
@@ -20,10 +20,10 @@ Line drawTangent(const Vector2d& center, double radius, const Vector2d& bit, dou
   const double foot = radius * radius / d;  // along the line to the bit
   const double aside = std::sqrt(radius * radius - foot * foot);
   const Vector2d along = to_bit / d, across(-along.y(), along.x());
-  const Vector2d one = foot * along + aside * across, two = foot * along - aside * across;
-  const bool one_is_higher = one.y() > two.y();
-  const Vector2d touch = one_is_higher == over_top ? one : two;
-  // Clockwise from 12 o'clock for the left sprocket over the top, the other way below it.
+  const Vector2d first = foot * along + aside * across, second = foot * along - aside * across;
+  const bool first_is_higher = first.y() > second.y();
+  const Vector2d touch = first_is_higher == over_top ? first : second;
+  // Clockwise from 12 o'clock for the left sprocket over the top, counterclockwise off the bottom.
   double angle = std::atan2(sign * touch.x(), touch.y());
   if (!over_top) angle = -angle;
   return {radius * angle, (to_bit - touch).norm()};

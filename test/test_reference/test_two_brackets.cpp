@@ -13,8 +13,8 @@ using reference::TwoBrackets;
 
 namespace {
 
-double cross(const Vector2d& one, const Vector2d& two) {
-  return one.x() * two.y() - one.y() * two.x();
+double cross(const Vector2d& first, const Vector2d& second) {
+  return first.x() * second.y() - first.y() * second.x();
 }
 
 TwoBrackets drawSled(Lottery& lottery) {
@@ -30,7 +30,7 @@ Machine drawStraight(Lottery& lottery) {
   return machine;
 }
 
-/// [mm] from 12 o'clock along a line that touches the sprocket to a bracket, by ruler and compass.
+/// [mm] From 12 o'clock along a line that touches the sprocket to a bracket, by plane geometry.
 double tightLength(const Machine& machine, Hand hand, const Vector2d& bracket) {
   const Vector2d away = bracket - reference::axisAtRest(machine, hand).head<2>();
   const double run = reference::inwardSign(hand) * away.x(), radius = machine.sprocket_radius;
@@ -57,7 +57,7 @@ Vector2d bitAtTilt(const Machine& machine, const TwoBrackets& sled, double tilt,
   return root.at * machine.motor_gap;
 }
 
-/// [mm] how high the centre of gravity is then: the energy per weight.
+/// [mm] Height of the centre of gravity then: the energy per weight.
 double heightAtTilt(const Machine& machine, const TwoBrackets& sled, double tilt,
                     const TiltedHang& near) {
   return (bitAtTilt(machine, sled, tilt, near) + reference::centerFromBit(sled, tilt)).y();
@@ -135,18 +135,19 @@ TEST(TwoBrackets, MirroredPlacesMirrorTheSled) {
   const Machine machine = defaultMachine();
   const TwoBrackets sled;
   for (const Vector2d& bit : gridOver(7, 5)) {
-    const TiltedHang one = reference::hangTilted(machine, sled, bit);
-    const TiltedHang two = reference::hangTilted(machine, sled, {-bit.x(), bit.y()});
-    ASSERT_TRUE(one.solved && two.solved);
-    EXPECT_NEAR(one.tilt, -two.tilt, 1e-11);
-    EXPECT_NEAR(one.paid_out[0], two.paid_out[1], 1e-8);
+    const TiltedHang hang = reference::hangTilted(machine, sled, bit);
+    const TiltedHang mirrored = reference::hangTilted(machine, sled, {-bit.x(), bit.y()});
+    ASSERT_TRUE(hang.solved && mirrored.solved);
+    EXPECT_NEAR(hang.tilt, -mirrored.tilt, 1e-11);
+    EXPECT_NEAR(hang.paid_out[0], mirrored.paid_out[1], 1e-8);
     // The bracket that is nearer to its motor hangs higher.
-    EXPECT_EQ(bit.x() > 0, one.tilt > 1e-6);
+    EXPECT_EQ(bit.x() > 0, hang.tilt > 1e-6);
   }
 }
 
 TEST(TwoBrackets, WithBothBracketsInOnePlaceItHangsLikeAPendulum) {
-  // Then tilt is none, and the chains are those of a sled on no ring, as high as the bracket.
+  // There is no tilt then, and the chains are those of a sled without a ring at the bracket's
+  // height.
   Machine machine = defaultMachine();
   machine.rotation_radius = 0;
   const TwoBrackets sled = {0, 139, 79};

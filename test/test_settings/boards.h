@@ -1,4 +1,4 @@
-// A board with the real table on a simulated EEPROM, and how tests look at it.
+// A board with the real table on a simulated EEPROM, and helpers to inspect it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -36,15 +36,29 @@ inline bool same(const Position& a, const Position& b) {
   return a.left == b.left && a.right == b.right && a.z == b.z && a.x == b.x && a.y == b.y;
 }
 
-/// What a torn byte may hold: what was there, all, nothing, or noise.
+/// An EEPROM as a machine leaves it that has been used for a while.
+inline Eeprom usedEeprom() {
+  Eeprom eeprom;
+  Board board(eeprom);
+  board.memory.set(2, 3602.6f);
+  settle(board.memory);
+  board.memory.set(8, 139.1f);
+  board.memory.set(160, 8.2e-12f);
+  board.memory.keepPosition(positionOf(1));
+  settle(board.memory);
+  return eeprom;
+}
+
+/// What a torn byte may hold: the old byte, all bits, no bits, or noise.
 inline std::vector<int> tornBytes(std::mt19937& random, int noise) {
   std::vector<int> torn = {-1, 0x00, 0xFF};
   for (int i = 0; i < noise; ++i) torn.push_back(int(random() & 0xFF));
   return torn;
 }
 
-/// Does something to a board and lets it write until it is done, with power cut in each write, each
-/// time with several torn bytes; `look` sees the board after each cut. The number of cuts.
+/// Does something to a board and lets it write until it is done, again and again: each time power
+/// fails in another write, with several torn bytes. `look` inspects the board after each cut.
+/// Returns the number of cuts.
 inline int cutEverywhere(const Eeprom& before, const std::function<void(Board&)>& act,
                          const std::function<void(Board&, int)>& look, int noise = 4) {
   std::mt19937 random(21);

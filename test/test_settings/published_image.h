@@ -1,5 +1,5 @@
-// An EEPROM as the published firmware leaves it, written from its map and sharing nothing with the
-// code that reads it.
+// An EEPROM as the published firmware leaves it, written by its documented map. It shares nothing
+// with the code that reads it.
 #pragma once
 
 #include <cstring>
@@ -7,7 +7,7 @@
 
 #include "boards.h"
 
-/// One setting in the block: number, offset from address 340, bytes, and a value unlike the
+/// A setting in the block: number, offset from address 340, bytes, and a value that is not the
 /// default.
 struct InBlock {
   uint8_t number, offset, bytes;
@@ -45,7 +45,7 @@ struct Counts {
   int32_t left = 217533, right = 217534, z = -1234;
 };
 
-/// An image of version 5, of the layout with Z limits or of the one before.
+/// An image of version 5, with the layout with Z limits or the layout before it.
 inline Eeprom publishedImage(bool z_limits, bool position = true) {
   Eeprom eeprom;
   eeprom[300] = 5;
@@ -62,7 +62,7 @@ inline Eeprom publishedImage(bool z_limits, bool position = true) {
   return eeprom;
 }
 
-/// Whether the published firmware would take the settings, or the counts, for its own.
+/// Whether the published firmware would take the settings, or the counts, as valid.
 inline bool publishedFindsSettings(Eeprom& eeprom) {
   return eeprom[300] == 5 && eeprom[301] == 56 && (eeprom[494] == 56 || eeprom[486] == 56);
 }

@@ -5,19 +5,6 @@
 
 namespace {
 
-/// An EEPROM as a machine leaves it that has been used for a while.
-Eeprom used() {
-  Eeprom eeprom;
-  Board board(eeprom);
-  board.memory.set(2, 3602.6f);
-  settle(board.memory);
-  board.memory.set(8, 139.1f);
-  board.memory.set(160, 8.2e-12f);
-  board.memory.keepPosition(positionOf(1));
-  settle(board.memory);
-  return eeprom;
-}
-
 const Event kEvents[] = {Event::kBrownOut, Event::kWatchdog, Event::kSupplyLow,
                          Event::kDriverFails};
 
@@ -29,7 +16,7 @@ int sumOfCounts(const EventLog& log) {
 
 /// A used EEPROM in which each kind has happened as often as its number, the supply's last.
 Eeprom logged() {
-  Eeprom eeprom = used();
+  Eeprom eeprom = usedEeprom();
   Board board(eeprom);
   for (const Event event : {Event::kWatchdog, Event::kDriverFails, Event::kDriverFails,
                             Event::kDriverFails, Event::kSupplyLow, Event::kSupplyLow}) {
@@ -95,7 +82,7 @@ TEST(EventLog, TakesAnEventThatComesWhileAnotherIsWritten) {
 }
 
 TEST(EventLog, EndsBeforeItWearsACell) {
-  Eeprom eeprom = used();
+  Eeprom eeprom = usedEeprom();
   Board board(eeprom);
   eeprom.worn = {};
   for (int i = 0; i < EventLog::kMost + 50; ++i)

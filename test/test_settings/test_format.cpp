@@ -109,6 +109,6 @@ TEST(Format, NoShorterTextWouldDo) {
     }
     if (significantDigits(textOf(value)) > needed) ++longer;
   }
-  // Where it is decided by a hair, one digit more is written.
+  // If rounding decides, an additional digit is written.
   EXPECT_LT(longer, 3000);
 }

@@ -1,9 +1,9 @@
-// The position outlives a power cut, wears no cell out, and a cut in motion is never overlooked.
+// The position survives a power cut, wears out no cell, and a cut in motion is never overlooked.
 #include "boards.h"
 
 namespace {
 
-/// A ring of its own in an EEPROM.
+/// A ring of records alone in an EEPROM.
 struct Ring {
   explicit Ring(Eeprom& eeprom, uint8_t slots = 65) : eeprom(eeprom), slots(eeprom, 2144, slots) {
     eeprom.restore();
@@ -27,7 +27,7 @@ struct Ring {
   Known known;
 };
 
-/// An EEPROM whose ring has been gone round: rests at positionOf(0..count-1), moving in between.
+/// An EEPROM after several rests: at positionOf(0..count-1), moving in between.
 Eeprom travelled(int count) {
   Eeprom eeprom;
   Ring ring(eeprom);
@@ -212,12 +212,12 @@ TEST(Position, ACutInTheMarkIsBeforeAnyMotion) {
 }
 
 TEST(Position, AtRestIsNeverClaimedOfAPlaceThatWasLeft) {
-  // Anything may happen in any order, at any step of the writing; the machine moves whenever it is
-  // allowed to. What is claimed to be at rest must be where the machine is.
+  // Anything may happen in any order, at any step of the writing; the machine moves whenever it
+  // may. A record that says "at rest" must hold the machine's position.
   std::mt19937 random(32);
   int cuts = 0, at_rest = 0;
   Eeprom eeprom = travelled(67);
-  int place = 66, told = 66;
+  int place = 66, last_place = 66;
   for (int life = 0; life < 20000; ++life) {
     Ring ring(eeprom);
     ASSERT_NE(Known::kNothing, ring.known);
@@ -231,7 +231,7 @@ TEST(Position, AtRestIsNeverClaimedOfAPlaceThatWasLeft) {
         const bool moves = random() % 2;
         if (moves) ring.slots.beginMoving();
         for (unsigned steps = random() % 70; steps > 0; --steps) ring.step();
-        if (moves && ring.slots.mayMove()) place = ++told;
+        if (moves && ring.slots.mayMove()) place = ++last_place;
         if (random() % 3) ring.slots.keep(positionOf(place));
       }
       ring.settle();

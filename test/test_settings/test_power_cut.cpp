@@ -1,20 +1,7 @@
-// Power may fail in any byte: afterwards all settings are the old ones or all are the new ones.
+// Power may fail in any byte: afterwards either all settings are old or all are new.
 #include "boards.h"
 
 namespace {
-
-/// An EEPROM as a machine leaves it that has been used for a while.
-Eeprom used() {
-  Eeprom eeprom;
-  Board board(eeprom);
-  board.memory.set(2, 3602.6f);
-  settle(board.memory);
-  board.memory.set(8, 139.1f);
-  board.memory.set(160, 8.2e-12f);
-  board.memory.keepPosition(positionOf(1));
-  settle(board.memory);
-  return eeprom;
-}
 
 struct Change {
   const char* name;
@@ -36,7 +23,7 @@ const Change kChanges[] = {
 }  // namespace
 
 TEST(PowerCut, LeavesTheOldSettingsOrTheNewWhereverItStrikes) {
-  const Eeprom before = used();
+  const Eeprom before = usedEeprom();
   int cuts = 0;
   for (const Change& change : kChanges) {
     Eeprom first = before, last = before;
@@ -84,8 +71,8 @@ TEST(PowerCut, InTheFirstSaveLeavesDefaultsOrTheSettings) {
 }
 
 TEST(PowerCut, DuringTheRepairAfterACutLosesNothingEither) {
-  // The second cut falls into what the start itself writes.
-  const Eeprom before = used();
+  // The second cut comes while the start writes.
+  const Eeprom before = usedEeprom();
   std::mt19937 random(22);
   int cuts = 0;
   for (int first = 0; first < 40; ++first) {
@@ -111,7 +98,7 @@ TEST(PowerCut, DuringTheRepairAfterACutLosesNothingEither) {
 
 TEST(PowerCut, BetweenChangesThatComeFasterThanTheyAreWrittenKeepsOneState) {
   // Settings arrive while others are being written, as in a client's sync.
-  const Eeprom before = used();
+  const Eeprom before = usedEeprom();
   std::mt19937 random(23);
   for (int run = 0; run < 3000; ++run) {
     Eeprom eeprom = before;
@@ -137,7 +124,7 @@ TEST(PowerCut, BetweenChangesThatComeFasterThanTheyAreWrittenKeepsOneState) {
 }
 
 TEST(Copies, EitherOneHoldsEverything) {
-  Eeprom eeprom = used();
+  Eeprom eeprom = usedEeprom();
   Board board(eeprom);
   board.memory.set(3, 468.4f);
   settle(board.memory);
@@ -156,7 +143,7 @@ TEST(Copies, EitherOneHoldsEverything) {
 }
 
 TEST(Copies, ACellThatKeepsNothingIsNoticedAndTheOtherCopyServes) {
-  Eeprom eeprom = used();
+  Eeprom eeprom = usedEeprom();
   eeprom.dead[Memory::kFirstCopy + 18] = true;
   {
     Board board(eeprom);
@@ -171,13 +158,14 @@ TEST(Copies, ACellThatKeepsNothingIsNoticedAndTheOtherCopyServes) {
 }
 
 TEST(Copies, WriteOnlyWhatChanges) {
-  Eeprom eeprom = used();
+  Eeprom eeprom = usedEeprom();
   Board board(eeprom);
   settle(board.memory);
   const uint32_t before = eeprom.writes;
   board.memory.set(3, 468.4f);
   settle(board.memory);
-  // In each copy: at most four bytes of the value, one or two of the number, four of the checksum.
+  // In each copy: at most four bytes of the value, two of the sequence number, four of the
+  // checksum.
   EXPECT_LE(eeprom.writes - before, 20u);
   EXPECT_EQ(0u, eeprom.needless_writes);
   const uint32_t once = eeprom.writes;
@@ -187,10 +175,10 @@ TEST(Copies, WriteOnlyWhatChanges) {
 }
 
 TEST(Copies, AValueBeyondTodaysLimitsBecomesItsDefaultAndIsTold) {
-  Eeprom eeprom = used();
+  Eeprom eeprom = usedEeprom();
   {
     Board board(eeprom);
-    // As if another version of this firmware had allowed it.
+    // As if another version of this firmware had allowed the value.
     board.room[kMotorGap] = 99999;
     board.memory.set(3, 400);
     settle(board.memory);
@@ -203,7 +191,7 @@ TEST(Copies, AValueBeyondTodaysLimitsBecomesItsDefaultAndIsTold) {
 
 namespace {
 
-/// The table without one row: this firmware before it had that setting.
+/// The table without a row: this firmware before it had that setting.
 class ShorterTable : public settings_host::PlainTable {
  public:
   static const uint8_t kMissing = kChainSpeed;

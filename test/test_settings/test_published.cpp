@@ -1,5 +1,5 @@
-// Moving from the published firmware: its settings and counts are taken over whole or not at all,
-// and it never takes ours, nor its own old ones, for valid afterwards.
+// Moving from the published firmware: its settings and counts are taken over whole or not at all.
+// Afterwards it never takes our data, nor its old data, as valid.
 #include <cmath>
 
 #include "published_image.h"
@@ -74,7 +74,7 @@ TEST(Published, EveryCutWhileTakingOverLeavesItOrUsWithEverything) {
 }
 
 TEST(Published, ItsCountsAreNeverValidOnceWeHaveMoved) {
-  // A cut at any write of start, motion and rest: never its old counts as if at rest there.
+  // A cut at any write of start, motion and rest: its old counts never count as "at rest" there.
   const Position there = positionOf(5);
   const int cuts = cutEverywhere(
       publishedImage(true),
@@ -117,7 +117,7 @@ TEST(Published, FlashedAgainAndUsedIsTakenOverAgain) {
   EXPECT_EQ(Source::kImported, board.started.source);
   expectImported(board, true);
   expectCounts(board);
-  EXPECT_EQ(120, board.values.at(kSledWeight)) << "our own settings stay";
+  EXPECT_EQ(120, board.values.at(kSledWeight)) << "our settings stay";
 }
 
 TEST(Published, SettingsWithoutCountsMakeOurPositionDoubtful) {
@@ -155,7 +155,7 @@ TEST(Published, OtherVersionsAreRefusedAndNamed) {
     EXPECT_EQ(Known::kNothing, board.started.known);
     expectDefaults(board);
     EXPECT_EQ(version, board.started.version);
-    // Until the first setting or motion it stays for that firmware.
+    // The data stays for that firmware until the first setting or motion.
     settle(board.memory);
     EXPECT_EQ(version, eeprom[300]);
     board.memory.set(2, 3000);

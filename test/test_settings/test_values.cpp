@@ -58,7 +58,7 @@ TEST(Table, ListsEveryPublishedNumberAndNoneThatWebControlWouldAnswer) {
   for (uint8_t i = 0; i < table.count(); ++i)
     if (table.at(i).access == Access::kListed) listed.insert(table.at(i).number);
   for (int number = 0; number <= 42; ++number) EXPECT_EQ(number != 14, listed.count(number) == 1);
-  // 60 and 61 mean in the published beta what they mean here.
+  // 60 and 61 have the same meaning in the published beta.
   for (int number = 43; number <= 59; ++number) EXPECT_FALSE(listed.count(number)) << number;
   for (int number = 85; number <= 99; ++number) EXPECT_FALSE(listed.count(number)) << number;
 }
@@ -98,7 +98,7 @@ TEST(Table, EffectLimitsAreTheirPlausibleRangeWidened) {
   const Entry pitch = table.at(indexOf(table, 180));
   EXPECT_FLOAT_EQ(-0.008f, pitch.low);
   EXPECT_FLOAT_EQ(0.013f, pitch.high);
-  // Of both signs: 30 mm either way, and as much again as the whole range.
+  // For both signs: 30 mm each way, widened by the width of the range.
   for (const uint8_t number : {200, 201}) {
     const Entry zero = table.at(indexOf(table, number));
     EXPECT_FLOAT_EQ(-90, zero.low) << int(number);

@@ -1,4 +1,4 @@
-// The machines that the laws are tried on, from one end of what is built to the other.
+// Machines for tests, over the whole range of machines that people build.
 #pragma once
 
 #include <Kinematics.h>
@@ -44,8 +44,8 @@ inline std::vector<Tried> triedMachines() {
   return all;
 }
 
-/// The machine as the laws know it; sag with stretch, and pitch, times a share, 0 for the bare
-/// frame.
+/// The machine in the form of lib/Kinematics. Sag with stretch, and pitch, are each multiplied by a
+/// share; 0 gives the bare frame.
 template <class Real>
 kinematics::Machine<Real> lawsOf(const Tried& tried, double sag = 1, double pitch = 1) {
   kinematics::Frame<Real> frame;

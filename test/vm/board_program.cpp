@@ -1,5 +1,5 @@
-// A program for the simulated Mega, to see that the Mega itself is simulated rightly: each line
-// that it sends counts interrupts. Not part of the firmware.
+// A program that checks whether the Mega is simulated rightly: each line that it sends counts
+// interrupts. Not part of the firmware.
 #include <avr/interrupt.h>
 #include <avr/io.h>
 #include <util/delay.h>
@@ -22,7 +22,7 @@ void tell(const char* name, uint8_t count) {
   send('\n');
 }
 
-/// Ten times a compare match falls due while its interrupt is masked.
+/// Ten compare matches while their interrupt is masked.
 uint8_t matchesWhileMasked() {
   TCCR1A = 0;
   OCR1A = 16000;
@@ -38,7 +38,7 @@ uint8_t matchesWhileMasked() {
   return timer_calls;
 }
 
-/// Ten times a match that was taken back while its interrupt is masked.
+/// Ten compare matches that are cleared again while their interrupt is masked.
 uint8_t matchesTakenBack() {
   timer_calls = 0;
   for (uint8_t i = 0; i < 10; ++i) {

@@ -1,5 +1,5 @@
-// Runs board_program.cpp, or another program for so many ms, on the simulated Mega and prints the
-// lines it sends: `check_board ELF [MS]`.
+// Runs board_program.cpp, or another program for MS milliseconds, on the simulated Mega and prints
+// the lines that it sends: `check_board ELF [MS]`.
 #include <cstdio>
 #include <cstdlib>
 

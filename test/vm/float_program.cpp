@@ -1,17 +1,17 @@
 // A program for the simulated Mega: sum, difference, product and quotient of src/board/float.S
-// against avr-libc's, bit by bit, and what they take. Sends lines "name number". Not part of the
+// against avr-libc's, bit by bit, and their cycles. Sends lines "name number". Not part of the
 // firmware.
 #include <avr/io.h>
 #include <stdint.h>
 #include <string.h>
 
 extern "C" {
-// The firmware's.
+// Functions of the firmware.
 float __mulsf3(float, float);
 float __addsf3(float, float);
 float __subsf3(float, float);
 float __divsf3(float, float);
-// avr-libc's, by its inner steps; see float_of_libc.S.
+// Functions of avr-libc, by its inner steps; see float_of_libc.S.
 float productOfLibc(float, float);
 float sumOfLibc(float, float);
 float quotientOfLibc(float, float);
@@ -22,7 +22,7 @@ namespace {
 typedef uint32_t Bits;
 const Bits kSign = 0x80000000UL;
 
-// Zero, the smallest and the largest, one and its neighbours, infinity, no number.
+// Zero, the smallest and the largest number, 1 and its neighbours, infinity, NaN.
 const Bits kEdges[] = {
     0,          kSign,      1,          2,          0x7fffff,   0x800000,   0x800001,   0x80ffffff,
     0x3f800000, 0x3f800001, 0x3f7fffff, 0xbf800000, 0xbf7fffff, 0x7f7fffff, 0x7f000000, 0xff7fffff,
@@ -42,7 +42,7 @@ Bits bitsOf(float value) {
   return bits;
 }
 
-uint16_t products, sums, differences, quotients;  // that are not avr-libc's
+uint16_t products, sums, differences, quotients;  // results that differ from avr-libc's
 
 void checkQuotient(Bits a, Bits b) {
   const float x = floatOf(a), y = floatOf(b);
@@ -76,12 +76,12 @@ void checkRandomPairs() {
   const Bits near = (b & 0x807fffff) | Bits(uint8_t(exponent + apart - 26)) << 23;
   check(a, near);
   check(a & 0xffff0000, near & 0xffff0000);
-  // 13 digits by 12: of 25 digits the last is half of what is kept.
+  // 13 binary digits by 12: the product has 25, and the last is half a unit of what is kept.
   checkProduct(a & 0xfffff800, near & 0xfffff000);
   check(a, (a ^ kSign) + (b & 7));
 }
 
-/// Random pairs, most with a plain quotient; every other time one of the two has few digits.
+/// Random pairs, most with a plain quotient; in every second pair a number has few digits.
 void checkRandomQuotients() {
   const Bits a = random(), b = random();
   checkQuotient(a, b);

@@ -1,4 +1,4 @@
-// Whether a line is the one expected: numbers within a tolerance, everything else the same.
+// Whether a line is as expected: numbers within a tolerance, everything else the same.
 #pragma once
 
 #include <cmath>

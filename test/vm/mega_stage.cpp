@@ -90,7 +90,7 @@ void MegaStage::showPins() {
   const int pulse = data[kOcr5b] | data[kOcr5b + 1] << 8;  // [half a microsecond]
   stage_.turnServo(data[kTimsk5] == 0 ? machine::kNoServo : uint8_t((pulse - 1088) * 180 / 3712));
   board_->setPin(kProbePin, !stage_.probeTouches());
-  // The stage tells its supply as the processor sees it: the reference in 1/1024 of the supply.
+  // The stage gives its supply as the processor measures it: the reference in 1/1024 of the supply.
   board_->setSupply(1.1 * 1024 / (stage_.bandGap() + 0.5));
 }
 

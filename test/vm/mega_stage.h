@@ -1,5 +1,5 @@
-// The flashed program on the stage of the dialogues: pins, wire and encoders of a simulated Mega
-// stand between them. The stage itself is the same for the host's build of the firmware.
+// The flashed program on the stage of the dialogues. Pins, serial line and encoders of a simulated
+// Mega connect them. The stage is the same as for the host's build of the firmware.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,6 @@
 // Plays dialogues of test/dialogues with the flashed program on a simulated Mega:
-// `play_dialogues ELF FOLDER DIALOGUE`. 0: all went as written, 1: something came otherwise, 2: it
-// could not be tried.
+// `play_dialogues ELF FOLDER DIALOGUE`. Exit code 0: all lines came as written, 1: a line differed,
+// 2: the dialogue could not be played.
 #include <cstdio>
 
 #include "mega_stage.h"

@@ -1,6 +1,6 @@
 // Plays a dialogue with the firmware as it is flashed, on a simulated Mega with motors on its pins:
-// `play_firmware ELF FOLDER DIALOGUE [EEPROM]`. Prints measured figures at the end, one a line.
-// 0: all went as written, 1: something came otherwise, 2: it could not be tried.
+// `play_firmware ELF FOLDER DIALOGUE [EEPROM]`. At the end it prints measured figures, a line each.
+// Exit code 0: all lines came as written, 1: a line differed, 2: the dialogue could not be played.
 #include <cmath>
 #include <cstdio>
 #include <deque>
@@ -26,7 +26,7 @@ struct Failure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A board with its three motors; a new one for each life between power cuts.
+/// A board with its three motors; a new board for each life between power cuts.
 struct Machine {
   Machine(const std::string& elf, const std::vector<uint8_t>& eeprom)
       : board(elf),
@@ -91,7 +91,7 @@ class Player {
     lines_.clear();
   }
 
-  /// Reports aside.
+  /// The next line that is no report.
   void takeLines() {
     std::deque<std::string>& came = machine_->board.lines;
     if (!came.empty() && first_line_ms_ == 0) first_line_ms_ = machine_->board.seconds() * 1000;
@@ -180,7 +180,7 @@ class Player {
     }
   }
 
-  /// Asks the firmware how it is doing and prints each of its numbers as a figure.
+  /// Asks the firmware for its state (B30) and prints each number as a figure.
   void readTelemetry() {
     machine_->board.send("B30\n");
     expect({Step::kExpect, "B30", ""});
@@ -198,12 +198,12 @@ class Player {
       std::string value;
       for (int i = 0; std::getline(values, value, ','); ++i)
         if (numberLength(value.c_str()) == value.size())
-          std::printf("told_%s_%d %s\n", field.substr(0, colon).c_str(), i, value.c_str());
+          std::printf("said_%s_%d %s\n", field.substr(0, colon).c_str(), i, value.c_str());
     }
     expect({Step::kExpect, "ok", ""});
   }
 
-  /// Tells what the control tick takes of the next seconds.
+  /// Prints the share of the next seconds that the control tick takes.
   void measure(double seconds) {
     machine_->board.watchTicksFromNow();
     machine_->run(seconds);
@@ -219,7 +219,8 @@ class Player {
     std::printf("sleep_share_%s %.4f\n", when, board.sleepShare());
   }
 
-  /// Moves of so many mm as fast as they are acknowledged, 126 characters ahead; tells how fast.
+  /// Sends moves of `length` [mm] as fast as they are acknowledged, 126 characters ahead; prints
+  /// the speed.
   void stream(int count, bool with_z, double step) {
     std::deque<std::size_t> unanswered;
     std::size_t waiting = 0;
@@ -228,7 +229,7 @@ class Player {
     machine_->board.watchTicksFromNow();
     while (answered < count) {
       char text[40];
-      // Round and round, in the words of a program for smooth curves.
+      // Around a circle, in the words of a program for smooth curves.
       const double angle = sent * step / 5;
       const int length_xy = std::snprintf(text, sizeof text, "G1 X%.3f Y%.3f", 5 * std::cos(angle),
                                           5 * std::sin(angle));

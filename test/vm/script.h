@@ -1,4 +1,4 @@
-// A dialogue as text: what is sent, what must come back, what the judge is asked.
+// A dialogue as text: lines to send, lines that must come back, questions to the simulated machine.
 #pragma once
 
 #include <fstream>
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// One line of a dialogue.
+/// A line of a dialogue.
 struct Step {
   enum Kind {
     kSend,     ///< `-> text`: a line with its end
@@ -17,11 +17,11 @@ struct Step {
     kAsk,      ///< `~~ question`: of the simulated machine
   } kind;
   std::string text;
-  std::string place;  ///< file and line where it stands
+  std::string place;  ///< file and line of this step
 };
 
-/// The steps of a dialogue; lines that begin with `;` and empty ones are left out, and
-/// `~~ include FILE` stands for the steps of a file in the same folder.
+/// The steps of a dialogue. Empty lines and lines that begin with `;` are left out.
+/// `~~ include FILE` is replaced by the steps of a file in the same folder.
 inline std::vector<Step> readScript(const std::string& folder, const std::string& name) {
   std::ifstream text(folder + "/" + name);
   if (!text) throw std::runtime_error("cannot read " + folder + "/" + name);

@@ -1,5 +1,5 @@
-// A gear motor on the pins of a simulated Mega, behind an L298 as on shield v1.2: it turns as the
-// pins tell it and its encoder answers on the encoder's pins.
+// A gear motor on the pins of a simulated Mega, behind an L298 as on shield v1.2: the pins drive
+// it, and its encoder drives the encoder's pins.
 #pragma once
 
 #include <cmath>
@@ -8,22 +8,22 @@
 
 namespace vm {
 
-/// Which pins a motor is on.
+/// The pins of a motor.
 struct MotorPins {
-  int one, two, enable;  ///< bridge inputs in the order that means forward, and the PWM
-  int first, second;     ///< encoder channels; the count rises when the second leads
+  int input1, input2, enable;  ///< bridge inputs in the order for forward, and the PWM
+  int first, second;           ///< encoder channels; the count rises when the second leads
 };
 
-/// One motor; positive drive lowers the count.
+/// A motor; a positive drive lowers the count.
 class VirtualMotor {
  public:
   VirtualMotor(VirtualBoard& board, const MotorPins& pins, double counts_per_second)
       : board_(board), pins_(pins), top_(counts_per_second) {
-    // Both channels high: low before the program listens would be an interrupt without end.
+    // Both channels high: if they were low at the start, the level interrupt would never end.
     step(0);
   }
 
-  /// Lets `seconds` pass, in which at most one edge may fall.
+  /// Lets `seconds` pass, in which at most a single edge may come.
   void advance(double seconds) {
     const double kTimeConstant = 0.03;  // [s]
     const double drive = driveNow();
@@ -36,12 +36,13 @@ class VirtualMotor {
 
   long count() const { return count_; }
 
-  /// -1 to 1, as the pins say.
+  /// The drive by the pins, -1 to 1.
   double driveNow() const {
     const double duty = board_.pin(pins_.enable).level / 255.0;
-    const bool one = board_.pin(pins_.one).level != 0, two = board_.pin(pins_.two).level != 0;
-    if (one == two) return 0;
-    return one ? duty : -duty;
+    const bool input1 = board_.pin(pins_.input1).level != 0,
+               input2 = board_.pin(pins_.input2).level != 0;
+    if (input1 == input2) return 0;
+    return input1 ? duty : -duty;
   }
 
  private:

@@ -1,5 +1,5 @@
-// Runs the kinematics over the sheet on the (simulated) Mega, with a mark around each call.
-// The marks are writes to GPIOR0, a register nothing else uses: case + 1 before, zero after.
+// Runs the kinematics over the sheet on the (simulated) Mega, with marks around each call. A mark
+// is a write to GPIOR0, a register that nothing else uses: case + 1 before the call, zero after it.
 #include <avr/io.h>
 
 #include "Kinematics.h"
@@ -14,11 +14,11 @@ namespace {
 #define BARRIER() __asm__ __volatile__("" ::: "memory")
 
 volatile float sink, other_sink;
-// Called in one place only, it would dissolve there.
+// noinline: called from a single place, the compiler would inline it there.
 Reached<float> (*volatile const askReach)(const Machine<float>&, Point<float>,
                                           const ReachLimits<float>&) = reach<float>;
 
-/// Fills in the typical size of each effect that a case wants.
+/// Fills in the typical size of each effect in a case.
 struct TypicalSizes {
   const bench::Case& wanted;
   float* next;

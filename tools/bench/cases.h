@@ -1,4 +1,4 @@
-// What is timed: one line a case, read by the board's program and by the simulator's.
+// The cases to time, a line each; the board's program and the simulator's program read them.
 #pragma once
 
 #include <stdint.h>
@@ -18,7 +18,7 @@ struct Case {
   What what;
   Present present;
   Rig rig;
-  uint8_t extra;  // the first setting of one more effect, or 0
+  uint8_t extra;  // the first setting of an additional effect, or 0
 };
 
 const Case kCases[] = {
@@ -29,7 +29,7 @@ const Case kCases[] = {
     {"inverse, sag, stretch and pitch", kInverse, kSagStretchPitch, kUsual, 0},
     {"inverse, sag, stretch and pitch, off the bottom", kInverse, kSagStretchPitch, kOffBottom, 0},
     {"inverse, sag, stretch and pitch, light sled", kInverse, kSagStretchPitch, kLightSled, 0},
-// "inverse, the same and EFFECT" for every other effect of the registry; see registry.py.
+// registry.py adds "inverse, the same and EFFECT" for every other effect of the registry.
 #include "effect_cases.h"
     {"inverse, all effects", kInverse, kAll, kUsual, 0},
     {"forward, no guess", kForward, kSagStretchPitch, kUsual, 0},
@@ -38,8 +38,8 @@ const Case kCases[] = {
     {"reach, sag, stretch and pitch", kReach, kSagStretchPitch, kUsual, 0},
 };
 
-// Every second place of the published measurements' grid, borders included: all of them take four
-// times as long, change no median by 0.1 % and no extreme by 2 %.
+// Every second place of the published measurements' grid, borders included. All places would take
+// four times as long; they change no median by 0.1 % and no extreme by 2 %.
 enum : uint8_t {
   kCaseCount = sizeof kCases / sizeof kCases[0],
   kColumns = 25,
@@ -47,7 +47,7 @@ enum : uint8_t {
   kFinished = 255,
 };
 
-/// Into how many equal parts the cycles between two marks are divided.
+/// Number of equal parts between two marks, for cycles of a single part.
 inline unsigned partsOf(const Case&) { return 1; }
 
 inline bool isPresent(const Case& wanted, int first_setting) {

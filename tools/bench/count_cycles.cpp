@@ -1,7 +1,6 @@
 // Runs board_program or motion_program on a simulated Mega: per case, the exact cycles between
 // marks and the deepest stack. The last line is JSON: {"name": {"cycles": [minimum, median,
-// maximum], "stack": bytes},
-// ...}
+// maximum], "stack": bytes}, ...}
 #include <simavr/sim_avr.h>
 #include <simavr/sim_elf.h>
 #include <simavr/sim_io.h>
@@ -11,7 +10,7 @@
 #include <cstring>
 #include <vector>
 
-// Another program's cases are named by the compiler's command line.
+// The compiler's command line names the cases of another program.
 #ifndef CASES
 #define CASES "cases.h"
 #endif
@@ -21,12 +20,13 @@ namespace {
 
 // Places in the data space of the ATmega2560.
 const avr_io_addr_t kMarkRegister = 0x3E;  // GPIOR0
-const uint16_t kMemory = 0x200;            // first byte that is no register
+const uint16_t kMemory = 0x200;            // first byte above the registers
 
-// Marks are noted at their instruction; nothing else is looked at.
+// Only marks are noted, at their instruction.
 const avr_cycle_count_t kMostAtOnce = 1000000;
 
-const uint8_t kPaint = 0xA5;  // fills the free memory before each call; what differs was used
+const uint8_t kPaint =
+    0xA5;  // fills the free memory before each call; a byte that differs was used
 
 struct Clock {
   int running = 0;
@@ -42,7 +42,7 @@ uint16_t stackPointer(const avr_t* avr) {
   return uint16_t(avr->data[R_SPL] | avr->data[R_SPH] << 8);  // the next byte to be pushed
 }
 
-/// Paints what lies below the stack; done by the simulator, so it costs the board nothing.
+/// Paints the memory below the stack. The simulator does it, so it costs the board no cycles.
 void paint(avr_t* avr, Clock& clock) {
   clock.stack_before = stackPointer(avr);
   std::memset(avr->data + clock.end_of_variables, kPaint,
@@ -73,7 +73,7 @@ void onMark(avr_t* avr, avr_io_addr_t address, uint8_t mark, void* parameter) {
 }
 
 void print(Clock& clock) {
-  // What two marks with nothing between them cost is not the kinematics'.
+  // The cost of two marks with nothing between them is subtracted.
   const avr_cycle_count_t marks = clock.cycles[0][0];
   std::printf("{");
   for (int i = 1; i < bench::kCaseCount; ++i) {

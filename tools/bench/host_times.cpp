@@ -1,4 +1,4 @@
-// Times the kinematics on this computer, beside a fixed loop that tells how fast the computer is.
+// Times the kinematics on this computer, and a fixed loop that shows how fast the computer is.
 // One line of JSON: {"multiply-add": nanoseconds, "inverse, double": ..., ...}
 #include <algorithm>
 #include <chrono>
@@ -10,13 +10,13 @@ using namespace kinematics;
 
 namespace {
 
-const int kRounds = 7;  // the best of these counts: everything else is another program's doing
+const int kRounds = 7;  // the fastest round counts: other programs slow the others
 const int kPlaces = 20000;
 const int kMultiplyAdds = 10000000;
 
 volatile double sink;
 
-/// Nanoseconds of one of `count` calls of `work(i)`, which returns a number.
+/// Mean nanoseconds of `count` calls of `work(i)`, which returns a number.
 template <class Work>
 double best(int count, Work work) {
   double least = 1e300;
@@ -53,13 +53,13 @@ Machine<Real> machine() {
   return prepare(frame, effects);
 }
 
-/// Place number i of a walk over the sheet that comes back to no place soon.
+/// Place number i of a walk over the sheet that does not repeat a place for long.
 template <class Real>
 Point<Real> place(int i) {
   return {Real(-1200 + i * 37 % 2400), Real(-600 + i * 53 % 1200)};
 }
 
-/// One number after the other, each waiting for the last; no clever compiler can skip any.
+/// A chain of products in which each needs the last, so the compiler can skip none.
 double multiplyAdd() {
   volatile double factor = 0.999999, term = 1e-6;
   const double by = factor, more = term;
@@ -69,15 +69,16 @@ double multiplyAdd() {
 
 template <class Real>
 void print(const char* number) {
-  const Machine<Real> own = machine<Real>();
+  const Machine<Real> machine_now = machine<Real>();
   std::printf(", \"inverse, %s\": %.3f", number, best(kPlaces, [&](int i) {
-                return double(inverse(own, place<Real>(i)).chains.left);
+                return double(inverse(machine_now, place<Real>(i)).chains.left);
               }));
-  // Chains of a coarser walk, so that finding them takes no part in the time.
+  // Chains of a coarser walk, worked out in advance so that their time does not count.
   Chains<Real> chains[64];
-  for (int i = 0; i < 64; ++i) chains[i] = inverse(own, place<Real>(i * 311)).chains;
-  std::printf(", \"forward, %s\": %.3f", number,
-              best(kPlaces, [&](int i) { return double(forward(own, chains[i % 64]).sled.x); }));
+  for (int i = 0; i < 64; ++i) chains[i] = inverse(machine_now, place<Real>(i * 311)).chains;
+  std::printf(", \"forward, %s\": %.3f", number, best(kPlaces, [&](int i) {
+                return double(forward(machine_now, chains[i % 64]).sled.x);
+              }));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
-// Prints, for each effect, how far the laws' chain lengths are from the judge's over the sheet with
-// it, how far they would be without it, and how far the bit is off under all motors of the
-// box: {"name": [with, without, at the bit], ...} in mm. A word picks the effects that begin so.
+// For each effect, prints errors against the judge in mm: {"name": [with, without, at the bit],
+// ...}. `with` is the largest error of lib/Kinematics' chain lengths over the sheet, `without` the
+// same if the effect were left out, `at the bit` the error of the bit under all positions of the
+// motors. A word on the command line picks the effects whose names begin with it.
 #include <cstdio>
 #include <stdexcept>
 

@@ -1,4 +1,5 @@
-// What motion_program.cpp times: one line a case, read by the board's program and the simulator's.
+// The cases of motion_program.cpp, a line each; the board's program and the simulator's program
+// read them.
 #pragma once
 
 #include <stdint.h>
@@ -16,7 +17,7 @@ struct Case {
   What what;
   Shape shape;
   uint16_t radius;  // [mm] of an arc
-  uint16_t ticks;   // between two marks; the figures are for one of them
+  uint16_t ticks;   // between two marks; the figures are for a single tick
 };
 
 const Case kCases[] = {
@@ -36,7 +37,7 @@ enum : uint8_t {
   kFinished = 255,
 };
 
-/// Into how many equal parts the cycles between two marks are divided.
+/// Number of equal parts between two marks, for cycles of a single part.
 inline unsigned partsOf(const Case& timed) { return timed.ticks; }
 
 }  // namespace bench

@@ -67,7 +67,7 @@ struct Exactly {
 
 const Exactly exactly;
 
-/// The move that is timed from a place of the grid: inwards and down, or round a circle there.
+/// The timed move from a place of the grid: inwards and down, or around a circle there.
 Path<float> pathFrom(const bench::Case& timed, Point<float> at) {
   const float inwards = at.x > 0 ? -1 : 1;
   if (timed.shape == bench::kLine)
@@ -101,7 +101,7 @@ void take(SetPoints& set_points) {
   right = point.right;
 }
 
-/// The main program's part of one tick, and the control tick's.
+/// The main program's part of a tick, and the control tick's part.
 void tick(Mover& mover, SetPoints& set_points) {
   if (mover.fill(set_points, exactly) != motion::Filled::kYes) failed = true;
   take(set_points);
@@ -119,7 +119,7 @@ void mark(uint8_t number) {
   BARRIER();
 }
 
-/// Short moves in a row, one tick for every move's share of time.
+/// Short moves in a row, with a tick for every move's share of time.
 void timeShortMoves(uint8_t number, Mover& mover, SetPoints& set_points, Point<float> at) {
   const bench::Case& timed = bench::kCases[number];
   const float inwards = at.x > 0 ? -1 : 1;

@@ -1,5 +1,5 @@
-// A program with some parts of the kinematics and nothing else: the linker tells what each adds.
-// PARTS, given to the compiler, is the sum of the parts wanted; 0 is what any program has.
+// A program with some parts of the kinematics and nothing else: its size shows what a part adds.
+// PARTS, a macro from the command line, is the sum of the wanted parts; 0 is an empty program.
 #include <math.h>
 
 #include "Kinematics.h"
@@ -23,7 +23,7 @@ struct Given {
   Reached<float>* reached;
 };
 
-// Volatile: the compiler must take every number for unknown and every result for wanted.
+// Volatile: the compiler must treat every number as unknown and every result as needed.
 volatile float number;
 volatile Given given;
 Machine<float> storage;

@@ -1,5 +1,5 @@
-// What quadrilateral_program.cpp times: one line a case, read by the board's program and the
-// simulator's.
+// The cases of quadrilateral_program.cpp, a line each; the board's program and the simulator's
+// program read them.
 #pragma once
 
 #include <stdint.h>
@@ -29,7 +29,7 @@ enum : uint8_t {
   kFinished = 255,
 };
 
-/// Into how many equal parts the cycles between two marks are divided.
+/// Number of equal parts between two marks, for cycles of a single part.
 inline unsigned partsOf(const Case&) { return 1; }
 
 }  // namespace bench

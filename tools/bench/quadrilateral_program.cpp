@@ -30,7 +30,7 @@ void mark(uint8_t number) {
   BARRIER();
 }
 
-/// Notes what was found; sleeps with interrupts off, which the simulator reports, if nothing was.
+/// Stores an answer; if there is none, sleeps with interrupts off, which the simulator reports.
 void note(Found found, float first, float second, float tilt_sine) {
   sink = first;
   other_sink = second;

@@ -1,4 +1,4 @@
-// What the bindings share: arrays of Python, and the machine that an array of values describes.
+// Shared by the bindings: Python's arrays, and the machine that an array of values describes.
 #pragma once
 
 #include <nanobind/nanobind.h>

@@ -1,8 +1,8 @@
-// lib/Kinematics seen from Python: arrays in, arrays out, no physics of its own.
+// lib/Kinematics for Python: arrays in, arrays out, without any physics here.
 #include "arrays.h"
 #include "dual.h"
 #include "effects_binding.h"
-// The definitions, not only the declarations: they are instantiated here for dual numbers too.
+// The definitions too: this file instantiates them for dual numbers.
 #include "Kinematics.cpp"
 #include "reach.cpp"
 #include "settings_binding.h"
@@ -53,7 +53,7 @@ nb::tuple places(const Values& values, bool over_top, const Pairs& chains) {
   auto founds = newArray<uint8_t>({count}, &found);
   for (size_t i = 0; i < count; ++i) {
     Place<double> at = forward(machine, Chains<double>{chains(i, 0), chains(i, 1)});
-    // The board stops within a few micrometres; another start from there leaves nothing.
+    // The board's search stops within a few micrometres. A second search from there is exact.
     if (at.found == Found::kYes)
       at = forward(machine, Chains<double>{chains(i, 0), chains(i, 1)}, at.sled);
     place[2 * i] = at.sled.x;
@@ -63,7 +63,7 @@ nb::tuple places(const Values& values, bool over_top, const Pairs& chains) {
   return nb::make_tuple(result, founds);
 }
 
-/// (slopes by setting (n, 2, settings), slopes by place (n, 2, 2), found (n,))
+/// Returns slopes by setting (n, 2, settings), slopes by place (n, 2, 2), and `found` (n,).
 nb::tuple slopes(const Values& values, bool over_top, const Pairs& points) {
   std::vector<Slopes> inputs;
   const std::vector<double> plain = numbers<double>(values);
@@ -90,7 +90,7 @@ nb::tuple slopes(const Values& values, bool over_top, const Pairs& points) {
   return nb::make_tuple(setting_slopes, place_slopes, founds);
 }
 
-/// What sketches of new effects may look at: each (n, 2), left and right.
+/// Numbers of the strands that sketches of new effects may read: each (n, 2), left and right.
 nb::dict strands(const Values& values, bool over_top, const Pairs& points) {
   const Machine<double> machine = machineOf(numbers<double>(values), over_top);
   static const struct {
@@ -134,13 +134,13 @@ nb::dict reachOf(const Values& values, bool over_top, const Pairs& points, doubl
     const Reached<double> here = reach(machine, Point<double>{points(i, 0), points(i, 1)}, limits);
     verdict[i] = static_cast<uint8_t>(here.verdict);
     std::copy_n(here.tension, 2, tension + 2 * i);
-    const double own[4] = {here.give.xx, here.give.xy, here.give.xy, here.give.yy};
-    std::copy_n(own, 4, give + 4 * i);
+    const double matrix[4] = {here.give.xx, here.give.xy, here.give.xy, here.give.yy};
+    std::copy_n(matrix, 4, give + 4 * i);
   }
   return result;
 }
 
-/// The limits of reach() that stand if none are given.
+/// The default limits of reach().
 nb::dict reachLimits() {
   const ReachLimits<double> usual;
   nb::dict result;
@@ -151,7 +151,7 @@ nb::dict reachLimits() {
   return result;
 }
 
-/// Chain paid out (n, 2) [mm] for places (n, 2) [mm] of a sled that something pushes (n, 2) [N].
+/// Chain paid out (n, 2) [mm] for places (n, 2) [mm] of a sled under a push (n, 2) [N].
 nb::tuple pushedLengths(const Values& values, bool over_top, const Pairs& points,
                         const Pairs& pushes) {
   const Machine<double> machine = machineOf(numbers<double>(values), over_top);

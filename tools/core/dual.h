@@ -1,4 +1,4 @@
-// A number that carries its slopes: run any formula on it and the exact derivatives come along.
+// Dual numbers: a formula that runs on them also gives its exact derivatives.
 #pragma once
 
 #include <math.h>
@@ -105,7 +105,7 @@ int16_t nearest(const Dual<Count>& a) {
   return static_cast<int16_t>(std::lround(a.value));
 }
 
-/// Zero for good: no value and no way to get one. A zero with a slope must still be computed.
+/// True if value and slopes are all zero. A zero with a slope must still be computed.
 template <int Count>
 bool isZero(const Dual<Count>& a) {
   if (a.value != 0) return false;

@@ -1,4 +1,4 @@
-// The library of effects seen from Python: words, traits, and what each is in the judge's numbers.
+// The library of effects for Python: texts, traits, and each effect in the judge's numbers.
 #include "effects_binding.h"
 
 #include <nanobind/stl/map.h>
@@ -16,7 +16,7 @@ using namespace kinematics;
 
 namespace {
 
-/// Takes a machine in the judge's numbers, as setJudge() says them.
+/// Collects a machine in the judge's numbers, as setJudge() sets them.
 struct Judged {
   std::map<std::string, double> numbers, factors;
 
@@ -35,7 +35,7 @@ std::map<std::string, double> judged(const core::Values& values, bool over_top) 
   return judge.numbers;
 }
 
-/// Sizes to expect on a machine of which only the frame is known.
+/// Sizes of effects to expect on a machine when only its frame is known.
 struct Usual {
   const Frame<double>& frame;
   nb::dict sizes;
@@ -58,7 +58,7 @@ nb::dict usual(const core::Values& values, bool over_top) {
   return each.sizes;
 }
 
-const char* const kOwners[] = {"machine", "chain", "zeroing"};  // as BelongsTo
+const char* const kOwners[] = {"machine", "chain", "zeroing"};  // by BelongsTo
 
 nb::object checkOf(const CheckInfo& info) {
   if (!info.title || !*info.title) return nb::none();
@@ -87,7 +87,7 @@ nb::list examplesOf() {
   return examples;
 }
 
-const char* const kShown[] = {"as is", "root", "angle"};  // as Shown
+const char* const kShown[] = {"as is", "root", "angle"};  // by Shown
 
 nb::object plainOf(const PlainInfo& info) {
   if (!*info.more) return nb::none();
@@ -153,7 +153,7 @@ nb::list effects() {
   return lister.effects;
 }
 
-/// The frame's numbers, in the order in which they lead the values array.
+/// The frame's numbers, in the order in which they begin the array of values.
 nb::list frame() {
   nb::list result;
   for (int i = 0; i < kFrameFieldCount; ++i) {

@@ -1,4 +1,4 @@
-// The table of settings in plain memory, with all its words, for programs on the host.
+// The table of settings in plain memory, with all its texts, for programs on the host.
 #pragma once
 
 #include "../../src/settings_effects.h"
@@ -6,27 +6,18 @@
 
 namespace settings_host {
 
-/// What people are told of a row.
+/// Texts about a row for people.
 struct RowText {
   const char* name;   ///< in C++
   const char* label;  ///< "name, unit"
   const char* key;    ///< section and key of the published programs, or ""
   const char* sentence;
-  const char* change;  ///< against the published firmware, or ""
+  const char* change;  ///< difference from the published firmware, or ""
 };
 
 using namespace settings;
 
-#define PLUMB_ROW(access, name, number, label, kind, step, usual, low, high, touches, ...) \
-  {number, Kind::kind, Access::access, step, touches, usual, low, high},
-#define PLUMB_LISTED(...) PLUMB_ROW(kListed, __VA_ARGS__)
-#define PLUMB_HIDDEN(...) PLUMB_ROW(kHidden, __VA_ARGS__)
-#define PLUMB_KEPT(...) PLUMB_ROW(kKept, __VA_ARGS__)
-const Entry kRows[] = {PLUMB_SETTINGS(PLUMB_LISTED, PLUMB_HIDDEN, PLUMB_KEPT)};
-#undef PLUMB_ROW
-#undef PLUMB_LISTED
-#undef PLUMB_HIDDEN
-#undef PLUMB_KEPT
+const Entry kRows[] = {PLUMB_ENTRIES};
 
 #define PLUMB_TEXT(name, number, label, kind, step, usual, low, high, touches, key, sentence, \
                    change)                                                                    \

@@ -1,4 +1,4 @@
-// The firmware's table of settings seen from Python: rows, texts, and what numbers mean together.
+// The firmware's table of settings for Python: rows, texts, and what the numbers mean together.
 #include "settings_binding.h"
 
 #include <nanobind/stl/map.h>
@@ -27,7 +27,7 @@ using Room = std::array<float, kSettingCount>;
 const char* const kKinds[] = {"bool", "u8", "u16", "float"};
 const char* const kAccesses[] = {"listed", "hidden", "kept"};
 
-/// Words of effects' parameters by their $-number.
+/// Texts of effects' parameters by their $-number.
 struct EffectTexts {
   std::map<int, nb::dict> rows;
 
@@ -109,7 +109,7 @@ nb::list table() {
   return result;
 }
 
-/// Takes {number: value} into values; throws with the firmware's own words for what it refuses.
+/// Sets values from {number: value}. A refusal throws with the firmware's words.
 void setAll(Values& values, const std::map<int, double>& given) {
   for (const auto& [number, value] : given) {
     if (number < 0 || number > 255)
@@ -123,7 +123,8 @@ void setAll(Values& values, const std::map<int, double>& given) {
   }
 }
 
-/// Frame and effects that the firmware computes with when these settings are not at their defaults.
+/// Frame and effects that the firmware computes with for these settings; the others are at their
+/// defaults.
 nb::dict effective(const std::map<int, double>& given) {
   const PlainTable rows;
   Room room;
@@ -148,7 +149,7 @@ nb::dict effective(const std::map<int, double>& given) {
   return result;
 }
 
-/// The $-numbers of corrections that a published number and an effect's both carry.
+/// The $-numbers of corrections that are set twice: by a published number and by an effect.
 std::vector<std::pair<int, int>> carriedTwice(const std::map<int, double>& given) {
   const PlainTable rows;
   Room room;

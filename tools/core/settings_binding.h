@@ -1,4 +1,4 @@
-// The firmware's settings seen from Python, as part of the same module.
+// The firmware's settings, as part of the same Python module.
 #pragma once
 
 #include <nanobind/nanobind.h>

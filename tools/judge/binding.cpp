@@ -1,5 +1,5 @@
-// The judge seen from Python: where a sled with hidden faults comes to rest.
-// It knows nothing of the laws in lib/; data with a hidden effect come from here.
+// The judge for Python: where a sled with hidden faults comes to rest. It knows nothing of lib/, so
+// it makes the data that hide an effect.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/map.h>
@@ -31,7 +31,7 @@ reference::Machine machineWith(const std::map<std::string, double>& given) {
   return machine;
 }
 
-/// Where the sled of one machine comes to rest for each row: (n, 2) [mm]; NaN where it cannot hang.
+/// Where a machine's sled comes to rest for each row: (n, 2) [mm]; NaN where it cannot hang.
 nb::ndarray<nb::numpy, double> places(const std::map<std::string, double>& numbers,
                                       const Pairs& chains, const Pairs& pushes,
                                       const Column& weights) {

@@ -1,4 +1,4 @@
-// Reads which mutant lives, and writes down which mutants each test reaches (to PLUMB_REACH).
+// Reads which mutant is active, and writes which mutants each test reaches to the file PLUMB_REACH.
 #include <gtest/gtest.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,13 +14,13 @@ unsigned char kept[kMostMutants];
 
 namespace {
 
-// Before all constructors of global objects: those may already ask.
+// Runs before all constructors of global objects, which may already ask.
 __attribute__((constructor(101))) void choose() {
   const char* chosen = getenv("PLUMB_MUTANT");
   if (chosen) alive = unsigned(atoi(chosen));
 }
 
-/// One line for each test: its name, its file, its time in ms, the mutants that it reached.
+/// A line for each test: its name, its file, its time [ms], the mutants that it reached.
 class Recorder : public testing::EmptyTestEventListener {
  public:
   explicit Recorder(const char* path) : file_(fopen(path, "w")) {}

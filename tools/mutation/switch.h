@@ -1,4 +1,4 @@
-// The switch of mutants: included before every file of a mutated build.
+// The switch for mutants, included before every file of a mutated build.
 #pragma once
 
 #include <stddef.h>
@@ -7,20 +7,20 @@ namespace mutation {
 
 enum : unsigned { kMostMutants = 20000 };
 
-/// The mutant that lives in this run; 0: none. From the environment, PLUMB_MUTANT.
+/// The mutant that is active in this run; 0: none. From the environment variable PLUMB_MUTANT.
 extern unsigned alive;
-/// What was asked since the last test ended.
+/// The mutants that were asked for since the last test ended.
 extern unsigned char reached[kMostMutants];
-/// What was asked for a static variable of a function: all tests from then on live with the answer.
+/// The mutants asked for by a static variable of a function: the answer holds for all later tests.
 extern unsigned char kept[kMostMutants];
 
-/// Whether mutant `number` lives; a question also says that it was reached.
+/// Whether mutant `number` is active; asking also notes that it was reached.
 inline bool isAlive(unsigned number) {
   reached[number] = 1;
   return number == alive;
 }
 
-/// The same where the answer is kept until the program ends.
+/// Whether mutant `number` is active, where the program keeps the answer until it ends.
 inline bool isAliveForGood(unsigned number) {
   kept[number] = 1;
   return number == alive;

@@ -1,4 +1,4 @@
-// The virtual machine seen from Python: a world, and a firmware that drives it.
+// The virtual machine for Python: a world, and a firmware that drives it.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>

@@ -41,7 +41,7 @@ bool hasMeaning(char letter) {
   }
 }
 
-/// Codes that take the place words of their line, wherever they stand in it.
+/// Codes that take the place words of their line, wherever in the line they come.
 bool claimsPlace(const Piece& piece) {
   if (piece.letter != 'G') return false;
   switch (piece.tenths) {

@@ -155,8 +155,8 @@ struct Listed<Real, Index, First, Rest...> {
 
   /// Index of the parameter with that $-setting among all parameters, or -1.
   static int indexOf(int setting) {
-    const int own = setting - First::kFirstSetting;
-    if (own >= 0 && own < kThisCount) return own;
+    const int place = setting - First::kFirstSetting;
+    if (place >= 0 && place < kThisCount) return place;
     const int next = Next::indexOf(setting);
     return next < 0 ? next : kThisCount + next;
   }

@@ -35,9 +35,9 @@ __attribute__((always_inline)) inline void add(Fine& sum, const Fine& more) {
 }
 
 /// A fine number less another.
-inline Fine differenceOf(const Fine& one, const Fine& other) {
-  const bool borrow = one.fraction < other.fraction;
-  return {one.whole - other.whole - borrow, uint16_t(one.fraction - other.fraction)};
+inline Fine differenceOf(const Fine& from, const Fine& less) {
+  const bool borrow = from.fraction < less.fraction;
+  return {from.whole - less.whole - borrow, uint16_t(from.fraction - less.fraction)};
 }
 
 /// Counts / divisor, rounded down to 2^-16 counts, whatever the sign; divisors up to 32767.
@@ -117,8 +117,8 @@ inline Segment segmentThrough(Knot from, Knot middle, Knot to, uint8_t ticks) {
 }
 
 /// Whether two knots are near enough for a segment.
-inline bool areNear(Knot one, Knot other) {
-  const int32_t left = one.left - other.left, right = one.right - other.right;
+inline bool areNear(Knot from, Knot to) {
+  const int32_t left = from.left - to.left, right = from.right - to.right;
   return left < kMostRise && left > -kMostRise && right < kMostRise && right > -kMostRise;
 }
 

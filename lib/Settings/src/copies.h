@@ -1,4 +1,4 @@
-// All settings in two copies, so that a power cut leaves the old values or the new ones.
+// All settings in two copies, so that a power cut leaves either the old or the new values.
 #pragma once
 
 #include "bytes.h"

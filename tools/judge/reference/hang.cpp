@@ -7,17 +7,17 @@ namespace reference {
 
 ChainGuess roughChain(const Machine& machine, Hand hand, const Eigen::Vector2d& bit) {
   const Hand other_hand = hand == Hand::kLeft ? Hand::kRight : Hand::kLeft;
-  const Eigen::Vector2d own = axisAtRest(machine, hand).head<2>() - bit;
-  const Eigen::Vector2d other = axisAtRest(machine, other_hand).head<2>() - bit;
-  const double load = machine.sled_weight + (sideOf(machine, hand).weight * own.norm() +
-                                             sideOf(machine, other_hand).weight * other.norm()) /
+  const Eigen::Vector2d to_axis = axisAtRest(machine, hand).head<2>() - bit;
+  const Eigen::Vector2d to_other = axisAtRest(machine, other_hand).head<2>() - bit;
+  const double load = machine.sled_weight + (sideOf(machine, hand).weight * to_axis.norm() +
+                                             sideOf(machine, other_hand).weight * to_other.norm()) /
                                                 2;
   // Lever rule about the other motor.
-  const double crossed = own.x() * other.y() - own.y() * other.x();
-  const double per_length = -load * other.x() / crossed;
-  Eigen::Vector3d pull(per_length * own.x(), per_length * own.y(), 0);
-  pull.z() = pull.head<2>().norm() * machine.plane_gap / own.norm();
-  return {pull, own.norm() - machine.rotation_radius};
+  const double crossed = to_axis.x() * to_other.y() - to_axis.y() * to_other.x();
+  const double per_length = -load * to_other.x() / crossed;
+  Eigen::Vector3d pull(per_length * to_axis.x(), per_length * to_axis.y(), 0);
+  pull.z() = pull.head<2>().norm() * machine.plane_gap / to_axis.norm();
+  return {pull, to_axis.norm() - machine.rotation_radius};
 }
 
 namespace detail {

@@ -7,7 +7,7 @@
 
 namespace reference {
 
-/// A sled at rest. Unless `solved`, no other field means anything.
+/// A sled at rest. The other fields are valid only if `solved`.
 struct Hang {
   bool solved = false;
   Eigen::Vector2d bit = Eigen::Vector2d::Zero();       ///< [mm] where the bit is

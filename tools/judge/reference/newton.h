@@ -1,4 +1,4 @@
-// Newton's method with halved steps, for a handful of unknowns that have been scaled to about one.
+// Newton's method with halved steps, for a few unknowns that are scaled to a size of about 1.
 #pragma once
 
 #include <Eigen/Dense>
@@ -6,11 +6,11 @@
 
 namespace reference {
 
-/// What the search came back with.
+/// The result of the search.
 template <int n>
 struct Root {
   bool found = false;
-  Eigen::Matrix<double, n, 1> at;  ///< meaningful only if found
+  Eigen::Matrix<double, n, 1> at;  ///< valid only if `found`
   int steps = 0;                   ///< Newton steps taken
 };
 
@@ -18,7 +18,7 @@ const int kMostSteps = 60;
 const int kMostHalvings = 40;
 const double kSlopeStep = 1e-6;     // central: errs by 1e-12 from curvature, 1e-10 from rounding
 const double kSmallStep = 1e-11;    // the error after such a step is its square, or rounding
-const double kSmallDefect = 1e-12;  // of about a machine's size: some 1e-9 mm
+const double kSmallDefect = 1e-12;  // in units of about a machine's size: some 1e-9 mm
 
 /// Slopes of `defect` by central differences.
 template <int n, class Defect>
@@ -57,7 +57,7 @@ Root<n> findRoot(const Defect& defect, Eigen::Matrix<double, n, 1> at) {
     const bool better = next_value.norm() < value.norm();
     if (better) at = next;
     if (better) value = next_value;
-    // No progress can also mean that rounding is all that is left.
+    // No progress may also mean that only rounding is left.
     if (last || !better) break;
   }
   root.found = value.allFinite() && value.template lpNorm<Eigen::Infinity>() < kSmallDefect;

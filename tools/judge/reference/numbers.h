@@ -1,4 +1,4 @@
-// The numbers of a machine by name: how tests and programs say what is wrong with it.
+// The numbers of a machine by name, so that tests and programs can say what is wrong with it.
 #pragma once
 
 #include <map>
@@ -9,7 +9,8 @@
 
 namespace reference {
 
-/// Where each number of a machine is kept. Those of a chain begin with `left.` or `right.`.
+/// The field of each number of a machine. Names of a chain's numbers begin with `left.` or
+/// `right.`.
 inline std::map<std::string, double*> numbersOf(Machine& machine) {
   std::map<std::string, double*> numbers = {
       {"motor_gap", &machine.motor_gap},
@@ -39,14 +40,14 @@ inline std::map<std::string, double*> numbersOf(Machine& machine) {
   return numbers;
 }
 
-/// What to do about a name that the judge does not know.
+/// Refuses a name that the judge does not know.
 inline std::string lacks(const std::string& name) {
   return "the judge has no number " + name +
          ": add its mechanics and its name to tools/judge/reference (links.h for what changes the "
          "count of links)";
 }
 
-/// Takes a machine number by number. Factors hold for what is set last, before or after them.
+/// Builds a machine number by number. A factor applies to the last value set, before or after it.
 class Described {
  public:
   void set(const std::string& name, double value) { *at(name) = value; }

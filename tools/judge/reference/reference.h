@@ -1,5 +1,5 @@
 // The judge's front door: where the sled really hangs, by exact statics of elastic catenaries.
-// It shares no formula with the laws in lib/ and never includes them.
+// It shares no formula with lib/ and never includes it.
 #pragma once
 
 #include "reference/hang.h"

@@ -1,4 +1,5 @@
-// The same eight equations for lengths: both pulls and the place.
+// The eight equations of hang.cpp, solved for given lengths: the unknowns are both pulls and the
+// place.
 #include "reference/settle.h"
 
 #include <cmath>
@@ -10,8 +11,8 @@ namespace reference {
 ChainForm drawCounted(const Machine& machine, Hand hand, const Eigen::Vector3d& pull,
                       double paid_out) {
   const ChainSide& side = sideOf(machine, hand);
-  // The wrap depends on the slope at the sprocket, and this on the chain's weight, hence its
-  // length: a contraction by radius * weight / tension, about 1e-3 a round.
+  // The wrap depends on the slope at the sprocket, the slope on the chain's weight, and so on its
+  // length. Each round shrinks the error by radius * weight / tension, about 1e-3.
   double free_length = paid_out;
   for (int i = 0; i < 40; ++i) {
     const Eigen::Vector3d tension = -pull + side.weight * free_length * downOf(machine);

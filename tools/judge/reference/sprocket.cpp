@@ -19,8 +19,8 @@ Eigen::Vector3d mountGive(const ChainSide& side, const Eigen::Vector3d& tension)
 
 Eigen::Vector3d eccentricityAfter(const Machine& machine, Hand hand, double count) {
   const Eigen::Vector2d& at_zero = sideOf(machine, hand).eccentricity;
-  // Chain over the top of the left sprocket turns it clockwise; the right hand and the lower feed
-  // each reverse that.
+  // Paying out over the top turns the left sprocket clockwise. The right side and the feed off the
+  // bottom each reverse that.
   const double clockwise = inwardSign(hand) * (machine.over_top ? 1 : -1);
   const double turn = -clockwise * count / machine.sprocket_radius;
   return {std::cos(turn) * at_zero.x() - std::sin(turn) * at_zero.y(),

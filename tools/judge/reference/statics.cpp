@@ -1,4 +1,4 @@
-// A chain drawn from its sprocket, and what is left over at the ring.
+// A chain drawn from its sprocket, and its error at the ring.
 #include "reference/statics.h"
 
 #include <Eigen/Geometry>

@@ -8,16 +8,16 @@
 
 namespace reference {
 
-/// What describes one chain while the solution is being looked for.
+/// The unknowns of a chain during the search.
 struct ChainGuess {
   Eigen::Vector3d pull;  ///< [N] of the chain on the ring
-  double free_length;    ///< [mm] from sprocket to ring, as it would be without load on it
+  double free_length;    ///< [mm] from sprocket to ring, without load
 };
 
-/// One chain drawn from its sprocket, whether or not it arrives where it should.
+/// A chain drawn from its sprocket, whether or not it ends at the ring.
 struct ChainForm {
-  double paid_out = 0;             ///< [mm] what the motor has counted, in nominal links
-  double wrap = 0;                 ///< [mm] of it on the teeth, from 12 o'clock
+  double paid_out = 0;             ///< [mm] counted by the motor, in nominal links
+  double wrap = 0;                 ///< [mm] of chain on the teeth, from 12 o'clock
   double free_length = 0;          ///< [mm] from sprocket to ring, as it would be without load
   double departure_angle = 0;      ///< [rad] of the chain below the horizontal at the sprocket
   double tension_at_sprocket = 0;  ///< [N]
@@ -30,7 +30,7 @@ struct ChainForm {
 /// Draws a chain from its sprocket downwards.
 ChainForm drawChain(const Machine& machine, Hand hand, const ChainGuess& guess);
 
-/// [mm] where the ring's centre is while the bit is at `bit`. The sled turns as its chains do, by
+/// [mm] Where the ring's centre is while the bit is at `bit`. The sled turns with its chains, by
 /// half the difference of both pulls' angles, and carries its bit around the ring.
 Eigen::Vector2d ringOf(const Machine& machine, const ChainForm& left, const ChainForm& right,
                        const Eigen::Vector2d& bit);
@@ -38,15 +38,16 @@ Eigen::Vector2d ringOf(const Machine& machine, const ChainForm& left, const Chai
 /// Vector [mm] from the ring to a chain's end: zero when the chain fits.
 ///
 /// The arm has no weight and turns freely about the bit, so it lines up with the pull on it. It
-/// stays in its plane: what pulls off the sheet is taken by the sheet.
+/// stays in its plane: the sheet takes the part of the pull across it.
 Eigen::Vector3d missOf(const Machine& machine, const ChainForm& form, const Eigen::Vector2d& ring);
 
-/// [N] force within the sheet that is left over on the sled: zero when it is at rest.
+/// [N] Sum of the forces on the sled along the sheet: zero when it is at rest.
 Eigen::Vector2d unbalance(const Machine& machine, const ChainForm& left, const ChainForm& right);
 
-const double kBreakingPull = 3500;  // [N] the least that makers of No. 25 roller chain state
+const double kBreakingPull = 3500;  // [N] least value that makers of No. 25 roller chain state
 
-/// A chain can only pull: it reaches inwards from its motor, has a length, and has not snapped.
+/// Whether a chain can pull like this: it reaches inwards from its motor, has a length, is not
+/// torn.
 bool isSound(const ChainForm& form, Hand hand);
 
 }  // namespace reference

@@ -1,4 +1,4 @@
-// A ninth equation: no moment about the centre of gravity.
+// Eight equations as in hang.cpp, and a ninth: no moment about the centre of gravity.
 #include "reference/two_brackets.h"
 
 #include <Eigen/Dense>
@@ -59,7 +59,7 @@ TiltedUnknowns pack(const Machine& machine, const Eigen::Vector3d& left,
 
 TiltedHang tiltedHangOf(bool found, double tilt, const Eigen::Vector2d& bit, const ChainForm& left,
                         const ChainForm& right) {
-  // Upside down it could rest, too, but no machine gets it there.
+  // A sled could rest upside down too, but no machine brings it there.
   const double least = std::remainder(tilt, 2 * M_PI);
   const bool solved = found && isSound(left, Hand::kLeft) && isSound(right, Hand::kRight) &&
                       std::abs(least) < M_PI / 2;
@@ -67,8 +67,7 @@ TiltedHang tiltedHangOf(bool found, double tilt, const Eigen::Vector2d& bit, con
   return {true, least, bit, {left.paid_out, right.paid_out}, left, right};
 }
 
-/// Rough start: at some tilt, on straight chains from the axes that carry the weight without its
-/// moment.
+/// Rough start at some tilt: straight chains from the axes carry the weight; moments are ignored.
 TiltedUnknowns roughTilted(const Machine& machine, const TwoBrackets& sled,
                            const Eigen::Vector2d& bit, double tilt) {
   Eigen::Matrix2d span;  // from each bracket to its axis
@@ -100,7 +99,7 @@ TiltedHang hangTilted(const Machine& machine, const TwoBrackets& sled, const Eig
     return defects(machine, sled, packed[6], draw(packed, Hand::kLeft), draw(packed, Hand::kRight),
                    bit);
   };
-  // Close below a motor, the brackets of a level sled are on both sides of it.
+  // Close below a motor the two brackets of a level sled are on different sides of it.
   for (double tilt : {0.0, 0.3, -0.3, 0.6, -0.6}) {
     const Root<9> root = findRoot<9>(defect, roughTilted(machine, sled, bit, tilt));
     const TiltedHang hang = tiltedHangOf(root.found, root.at[6], bit, draw(root.at, Hand::kLeft),

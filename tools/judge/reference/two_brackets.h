@@ -14,7 +14,7 @@ struct TwoBrackets {
   double center_depth = 79;   ///< [mm] centre of gravity below the bit
 };
 
-/// A tilted sled at rest. Unless `solved`, no other field means anything.
+/// A tilted sled at rest. The other fields are valid only if `solved`.
 struct TiltedHang {
   bool solved = false;
   double tilt = 0;                                     ///< [rad] counterclockwise
@@ -29,16 +29,16 @@ Eigen::Vector2d bracketFromBit(const TwoBrackets& sled, Hand hand, double tilt);
 /// [mm] from the bit to the centre of gravity.
 Eigen::Vector2d centerFromBit(const TwoBrackets& sled, double tilt);
 
-/// [N mm] moment about the centre of gravity of both pulls on the brackets and of a push on the
-/// bit; weight has none there.
+/// [N mm] Moment about the centre of gravity of both pulls on the brackets and of a push on the
+/// bit; the weight has no moment there.
 double momentOf(const Machine& machine, const TwoBrackets& sled, double tilt, const ChainForm& left,
                 const ChainForm& right);
 
 /// The chains and the tilt that hold the sled still with its bit at `bit` [mm].
 TiltedHang hangTilted(const Machine& machine, const TwoBrackets& sled, const Eigen::Vector2d& bit);
 
-/// The place and the tilt at which the sled rests on chains of `paid_out` [mm left, right], looked
-/// for from `start` [mm], which must be a place where it could hang.
+/// The place and the tilt at which the sled rests on chains of `paid_out` [mm left, right]. The
+/// search starts at `start` [mm], where a sled must be able to hang.
 TiltedHang settleTilted(const Machine& machine, const TwoBrackets& sled,
                         const Eigen::Vector2d& paid_out,
                         const Eigen::Vector2d& start = Eigen::Vector2d::Zero());

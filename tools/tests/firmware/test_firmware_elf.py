@@ -49,7 +49,7 @@ def static_ram() -> int:
 
 def test_it_boots_keeps_a_setting_over_a_reset_and_moves_its_motors(player):
     counted = figures(played(player, DIALOGUES, "smoke.nc"))
-    # A client gives up after two seconds, of which the bootloader takes one.
+    # A client gives up after two seconds, of which the bootloader takes half.
     assert 0 < counted["first_line_ms"] < 500
     # Static RAM and the deepest stack leave a kilobyte that nobody has ever touched.
     assert static_ram() + counted["stack"] < RAM - 1024
@@ -85,7 +85,7 @@ def test_sum_product_and_quotient_are_those_of_avr_libc_and_faster():
 
 
 def test_no_control_tick_is_missed_in_motion(hard):
-    # From tick to tick: a single one that did not come leaves two periods between its neighbours.
+    # From tick to tick: a single tick that did not come leaves two periods between its neighbours.
     assert hard["longest_gap_moving"] <= 1.5 * TICK_CYCLES
     assert hard["longest_gap_streaming"] <= 1.5 * TICK_CYCLES
     # And none comes twice. What is watched begins and ends between two ticks: one more or less.
@@ -104,13 +104,13 @@ def test_the_processor_sleeps_where_the_main_program_waits(hard):
 
 
 def test_the_firmware_tells_how_it_is_doing(hard):
-    # The last of two questions: since the one before.
+    # The last of two questions: since the first.
     longest_us = hard["longest_tick_streaming"] / 16
-    assert longest_us - 20 <= hard["told_tick_0"] <= longest_us + 200  # it counts its delay, too
-    assert 0.01 < hard["told_error_0"] < 0.6
-    assert hard["told_dry_0"] == 0
-    assert [hard[f"told_illegal_{axis}"] for axis in range(3)] == [0, 0, 0]
-    assert hard["told_supply_0"] == pytest.approx(5, abs=0.03)
+    assert longest_us - 20 <= hard["said_tick_0"] <= longest_us + 200  # it counts its delay, too
+    assert 0.01 < hard["said_error_0"] < 0.6
+    assert hard["said_dry_0"] == 0
+    assert [hard[f"said_illegal_{axis}"] for axis in range(3)] == [0, 0, 0]
+    assert hard["said_supply_0"] == pytest.approx(5, abs=0.03)
 
 
 def test_short_moves_are_taken_as_fast_as_a_streaming_sender_gives_them(player):

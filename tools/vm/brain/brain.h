@@ -1,4 +1,4 @@
-// The firmware in its machine: what drives a world, whichever way it was built.
+// The interface of a firmware that drives a world, for both builds of the firmware.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +12,21 @@ class Brain {
  public:
   virtual ~Brain() = default;
 
-  /// Lets so many milliseconds pass, for the firmware and for the world that it drives.
+  /// Lets time pass, for the firmware and for the world that it drives.
   virtual void advance(int milliseconds) = 0;
-  /// Power comes, or the reset button is let go.
+  /// Switches power on, or releases the reset button.
   virtual void start() = 0;
-  /// Power goes at once; motors lose theirs. What the EEPROM holds outlives it.
+  /// Switches power off at once, also that of the motors. The EEPROM keeps its bytes.
   virtual void stop() = 0;
   virtual bool isRunning() const = 0;
 
-  /// Puts characters on the line to the firmware; they arrive at 57,600 baud.
+  /// Sends characters to the firmware; they arrive at 57,600 baud.
   virtual void send(const std::string& characters) = 0;
-  /// All that the firmware has said since this was last asked.
+  /// Everything that the firmware has sent since the last call.
   virtual std::string takeSaid() = 0;
 
   virtual std::vector<uint8_t> eeprom() const = 0;
-  /// Only while it does not run.
+  /// Only while the firmware does not run.
   virtual void setEeprom(const std::vector<uint8_t>& bytes) = 0;
 
   // What may go wrong.

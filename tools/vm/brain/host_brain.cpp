@@ -1,4 +1,4 @@
-// Time passes where the firmware's main program waits, as in an emulator that skips idle time.
+// Time passes only where the firmware's main program waits.
 #include "brain/host_brain.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The firmware built for the host: the same machine and the same laws, without a Mega.
+// The firmware built for the host: the same src/machine and lib/, without a Mega.
 #pragma once
 
 #include <atomic>
@@ -18,15 +18,15 @@ class Machine;
 
 namespace brain {
 
-/// The firmware's main program in a thread of its own. Only one thread runs at a time: the
-/// program's runs while somebody waits in advance().
+/// The firmware's main program in a separate thread. Only a single thread runs at a time: the
+/// program's thread runs while a caller waits in advance().
 class HostBrain : public Brain,
                   private machine::Wire,
                   private machine::Drives,
                   private machine::Aux,
                   private machine::Clock {
  public:
-  /// `world` must live as long as this.
+  /// `world` must live as long as this object.
   explicit HostBrain(world::World& world) : world_(world) {}
   ~HostBrain() override { stop(); }
   HostBrain(const HostBrain&) = delete;
@@ -54,13 +54,13 @@ class HostBrain : public Brain,
 
   /// What the board counts of an encoder's edges.
   struct Encoder {
-    int32_t at = 0;        ///< of the world, when last looked at
+    int32_t at = 0;        ///< the world's count at the last look
     uint16_t counted = 0;  ///< since the start
     uint16_t illegal = 0;  ///< steps of two edges at once
     int to_miss = 0;       ///< such steps to come
   };
 
-  // What the firmware sees.
+  // The firmware's interfaces.
   int16_t read() override;
   void write(char character) override;
   uint8_t lost() override;
@@ -98,15 +98,15 @@ class HostBrain : public Brain,
   uint8_t levels_[2] = {0, 0};
   machine::Machine* ticked_ = nullptr;
   int tick_every_ms_ = 10;
-  int silent_ticks_ = 0;   ///< since the main program was last heard of
-  bool has_hung_ = false;  ///< the main program is back; it has not looked round yet
+  int silent_ticks_ = 0;   ///< since the main program last called idle()
+  bool has_hung_ = false;  ///< the main program is back from a hang; its next idle() counts
 
-  // The hand-over between both threads.
+  // For handing over between both threads.
   std::thread program_;
   std::mutex mutex_;
   std::condition_variable turn_;
-  std::atomic<int> left_ms_{0};  // until the program hands back
-  bool is_cut_off_ = false;      // the program shall end where it waits
+  std::atomic<int> left_ms_{0};  // milliseconds until the program hands back
+  bool is_cut_off_ = false;      // the program shall end at its next wait
   std::exception_ptr failure_;
 };
 

@@ -1,4 +1,4 @@
-// A millisecond of the Mega, then a millisecond of the world.
+// Runs the Mega for a millisecond, then the world for a millisecond.
 #include "brain/mega_brain.h"
 
 namespace brain {
@@ -9,7 +9,7 @@ const int kSlicesPerMs = 4;  // no motor makes more edges in a millisecond
 }  // namespace
 
 MegaBrain::MegaBrain(world::World& world, std::string elf) : world_(world), elf_(std::move(elf)) {
-  // So that a file that cannot be read is refused here.
+  // Loads the file once, so that an unreadable file is refused here.
   vm::VirtualBoard try_it(elf_);
 }
 

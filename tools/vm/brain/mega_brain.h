@@ -1,4 +1,5 @@
-// The firmware as it is flashed: the ELF file in a simulated Mega, its pins on the world's motors.
+// The firmware as it is flashed: the ELF file in a simulated Mega whose pins drive the world's
+// motors.
 #pragma once
 
 #include <memory>
@@ -13,7 +14,7 @@ namespace brain {
 /// A Mega with shield v1.2.
 class MegaBrain : public Brain {
  public:
-  /// `elf`: the file that is flashed. `world` must live as long as this. Throws
+  /// `elf` is the file to flash. `world` must live as long as this object. Throws
   /// std::runtime_error if the file cannot be read.
   MegaBrain(world::World& world, std::string elf);
   ~MegaBrain() override = default;

@@ -1,4 +1,4 @@
-// The EEPROM on the host: a byte takes its time to write, and power may go at any of them.
+// The EEPROM on the host: writing a byte takes time, and power may fail at any byte.
 #pragma once
 
 #include <Settings.h>
@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-/// 4 KB that outlive a power cut.
+/// 4 KB that survive a power cut.
 class SimulatedEeprom : public settings::Bytes {
  public:
   uint16_t size() const override { return uint16_t(bytes.size()); }

@@ -9,16 +9,16 @@ namespace vm {
 
 const int kMotors = 3;  // left, right, z
 
-/// Bridge inputs in the order that means "wind in", and the pin of the PWM.
+/// Bridge inputs in the order for "wind in", and the pin of the PWM.
 struct DriverPins {
-  int one, two, enable;
+  int input1, input2, enable;
 
-  /// -255 to 255 as the pins stand; positive winds in.
+  /// The duty that the pins show, -255 to 255; positive winds in.
   int duty(const VirtualBoard& board) const {
-    const bool is_one = board.pin(one).level != 0, is_two = board.pin(two).level != 0;
-    if (is_one == is_two) return 0;
+    const bool is_input1 = board.pin(input1).level != 0, is_input2 = board.pin(input2).level != 0;
+    if (is_input1 == is_input2) return 0;
     const int level = board.pin(enable).level;
-    return is_one ? level : -level;
+    return is_input1 ? level : -level;
   }
 };
 
@@ -29,20 +29,20 @@ class EncoderPins {
  public:
   EncoderPins(int first, int second) : first_(first), second_(second) {}
 
-  /// Where the count stands when the board starts. Both channels are high there, as the Mega's
-  /// inputs are while nothing pulls them: a program that listens sees no edge.
+  /// Sets the count with which the board starts. Both channels are high there, as the Mega's inputs
+  /// are while nothing pulls them, so a program that reads them sees no edge.
   void restart(VirtualBoard& board, uint16_t count) {
     count_ = start_ = count;
     show(board);
   }
 
-  /// Edges that are still missing to a count, which wraps round.
+  /// Edges that are still missing to reach a count, which wraps round.
   int missing(uint16_t count) const { return int16_t(count - count_); }
 
-  /// The next edges come in pairs, so often: a program that listens cannot tell which way.
+  /// Makes the next `pairs` of edges come at once, so that their direction is unknown.
   void miss(int pairs) { to_miss_ += pairs; }
 
-  /// Makes one edge towards a count, if any is missing.
+  /// Makes an edge, or a pair, towards a count, if any is missing.
   void step(VirtualBoard& board, uint16_t count) {
     const int left = missing(count), at_once = to_miss_ > 0 ? 2 : 1;
     if (left < at_once && left > -at_once) return;

@@ -1,4 +1,4 @@
-// How much of the time an output of the simulated Mega is high.
+// Measures the share of time in which an output of the simulated Mega is high.
 #pragma once
 
 #include <cmath>
@@ -9,15 +9,15 @@
 
 namespace vm {
 
-/// Watches one pin from edge to edge, and tells the share of its last whole pulses.
+/// Watches a pin from edge to edge, and gives the share of its last whole pulse.
 class PulseMeter {
  public:
-  /// Watches a pin (Arduino's number) of a board, which must live as long as this.
+  /// Watches a pin (Arduino's number) of a board, which must live as long as this object.
   PulseMeter(VirtualBoard& board, int pin) : avr_(board.avr()) {
     board.watchPin(pin, [this](bool high) { note(high); });
   }
 
-  /// In 255ths: 0 and 255 for a pin that has stood for two periods of the slowest pulses.
+  /// The share in 255ths. 0 or 255 for a pin without an edge for two periods of the slowest pulses.
   uint8_t level() {
     const avr_cycle_count_t kStands = 5 * kClock / 1000;
     while (rises_.size() > kPulses + 1) rises_.pop_front();
@@ -31,7 +31,7 @@ class PulseMeter {
  private:
   enum { kPulses = 4 };
 
-  /// When the pin rose, and for how many cycles it had been high until then.
+  /// When the pin rose, and for how many cycles it was high before.
   struct Rise {
     avr_cycle_count_t at, high_before;
   };

@@ -1,4 +1,4 @@
-// The simulated Mega by simavr.
+// The simulated Mega, by simavr.
 #include "virtual_board.h"
 
 #include <algorithm>
@@ -9,12 +9,12 @@ namespace vm {
 namespace {
 
 const avr_cycle_count_t kPerCharacter = 10 * 16 * 17;  // 58,824 baud, ten bits
-// Nothing that is looked at between two runs of the simulator is later than this.
+// Everything that is read between two runs of the simulator is at most this old.
 const avr_cycle_count_t kMostAtOnce = 500;
 const uint8_t kPaint = 0xa5;
-const uint16_t kOutlivesReset = 16;  // [bytes] above .bss at most, for variables that nobody clears
+const uint16_t kOutlivesReset = 16;  // [bytes] most above .bss, for variables that no start clears
 
-/// Where a pin of the Mega is: port letter, bit, and the registers of the PWM it can carry.
+/// A pin of the Mega: port letter, bit, and the registers of its PWM.
 struct PinPlace {
   int pin;
   char port;
@@ -48,8 +48,8 @@ const uint16_t kTickMask = 0x6f;                               // TIMSK1
 const uint8_t kTickBit = 2;                                    // OCIE1A
 const avr_flashaddr_t kTickVector = 17 * 4;
 
-/// A flag that is set while its interrupt is masked interrupts as soon as the mask allows it;
-/// simavr forgets it.
+/// A flag that is set while its interrupt is masked must interrupt once the mask allows it; simavr
+/// drops such a flag.
 void raiseWaiting(avr_t* avr, avr_io_addr_t mask_address) {
   for (int i = 0; i < avr->interrupts.vector_count; ++i) {
     avr_int_vector_t* const vector = avr->interrupts.vector[i];
@@ -59,8 +59,8 @@ void raiseWaiting(avr_t* avr, avr_io_addr_t mask_address) {
   }
 }
 
-/// simavr does not know phase-correct PWM and lets such a timer overflow with every count, a
-/// hundred thousand times a second. Nobody here asks such a timer for more than its duty.
+/// simavr does not know phase-correct PWM and lets such a timer overflow with every count, 100,000
+/// times a second. Only the duty of such a timer is needed here.
 void slowDownPhaseCorrectTimers(avr_t* avr) {
   const int kPhaseCorrect8Bit = 1;
   for (avr_io_t* part = avr->io_port; part != nullptr; part = part->next) {
@@ -72,7 +72,7 @@ void slowDownPhaseCorrectTimers(avr_t* avr) {
   }
 }
 
-/// simavr tells what it loads and what it lacks on standard output.
+/// simavr prints what it loads and what it lacks on standard output.
 void logNothing(avr_t*, const int, const char*, va_list) {}
 
 }  // namespace
@@ -145,14 +145,14 @@ avr_cycle_count_t VirtualBoard::onEndOfRun(avr_t*, avr_cycle_count_t, void*) { r
 
 void VirtualBoard::run(avr_cycle_count_t cycles) {
   const avr_cycle_count_t end = avr_->cycle + cycles;
-  // Neither a burst of instructions nor a sleep goes past a timer.
+  // No burst of instructions and no sleep goes past a timer.
   avr_cycle_timer_register(avr_, cycles, onEndOfRun, this);
   while (avr_->cycle < end) step(kMostAtOnce);
 }
 
 void VirtualBoard::step(avr_cycle_count_t most_cycles) {
   if (avr_->run_cycle_limit != most_cycles) avr_->run_cycle_limit = avr_->run_cycle_count = 1;
-  // Below zero simavr waits; the program's flag is left alone, as it saves and restores that.
+  // Below zero simavr waits. The program's interrupt flag stays: the program saves and restores it.
   if (are_interrupts_held_) avr_->interrupt_state = -10;
   const int state = avr_run(avr_);
   avr_->run_cycle_limit = most_cycles;
@@ -167,7 +167,7 @@ void VirtualBoard::watchWatchdog() {
     bitten_since_ = 0;
     return;
   }
-  // The flag waits for interrupts, which are held; the second time-out resets.
+  // Interrupts are off, so the flag waits; the second time-out resets.
   if (bitten_since_ == 0) bitten_since_ = avr_->cycle;
   const int prescaler = avr_->data[kWdtcsr] & 7;
   if (avr_->cycle - bitten_since_ < (2048ull << prescaler) * kClock / 128000) return;
@@ -177,7 +177,7 @@ void VirtualBoard::watchWatchdog() {
 
 void VirtualBoard::runUntil(bool in_tick) {
   const avr_cycle_count_t patience = avr_->cycle + kClock;
-  // With interrupts on: not in the middle of another one.
+  // Only with interrupts on: not in the middle of an interrupt.
   while (was_ticking_ != in_tick || !avr_->sreg[S_I]) {
     if (avr_->cycle > patience) throw std::runtime_error("no tick came, or it did not end");
     step(1);
@@ -201,7 +201,7 @@ void VirtualBoard::wake(double ms_after_tick) {
   runUntil(false);
   const avr_flashaddr_t circle = avr_->pc;
   runMs(ms_after_tick);
-  // Not out of an interrupt.
+  // Not from within an interrupt.
   while (avr_->pc != circle) step(1);
   avr_->pc = hung_at_;
 }

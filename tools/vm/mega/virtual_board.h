@@ -1,4 +1,4 @@
-// The firmware as it is flashed, on a simulated Mega: its wire, its pins, its memory, its time.
+// The firmware as it is flashed, on a simulated Mega: its serial line, pins, memory and time.
 #pragma once
 
 #include <simavr/avr_eeprom.h>
@@ -24,13 +24,13 @@ namespace vm {
 const uint32_t kClock = 16000000;  // [Hz]
 const uint16_t kRamBegin = 0x200, kRamEnd = 0x2200;
 
-/// What a pin shows: its level, or the duty of the PWM that is switched to it.
+/// State of a pin: its level, or the duty of its PWM.
 struct PinState {
   bool pulsed;
   uint8_t level;  ///< 0, 255, or the duty
 };
 
-/// One Mega 2560 with a program in its flash.
+/// A Mega 2560 with a program in its flash.
 class VirtualBoard {
  public:
   /// Loads an ELF file; throws std::runtime_error if it cannot be read.
@@ -39,17 +39,17 @@ class VirtualBoard {
   VirtualBoard(const VirtualBoard&) = delete;
   VirtualBoard& operator=(const VirtualBoard&) = delete;
 
-  /// Runs for so many cycles, or throws if the processor crashes.
+  /// Runs for `cycles`, or throws if the processor crashes.
   void run(avr_cycle_count_t cycles);
   void runMs(double ms) { run(avr_cycle_count_t(ms * kClock / 1000)); }
 
-  /// Puts characters on the wire to the board; they go as fast as it takes them.
+  /// Sends characters to the board, as fast as it takes them.
   void send(const std::string& characters);
   /// Whether a status report has just begun, so that the main program is busy with it.
   bool reports() const { return partial_ == "<"; }
   bool hasSent() const { return to_send_.empty(); }
 
-  /// Lines that the board sent since they were last taken, without their ends.
+  /// Lines that the board sent since the last call, without their ends.
   std::deque<std::string> lines;
 
   /// Pulls an input of the Mega (Arduino's number) high or low.
@@ -58,35 +58,35 @@ class VirtualBoard {
   /// Calls `note` with the level of an output at each of its edges.
   void watchPin(int pin, std::function<void(bool)> note);
 
-  /// [V] The Mega's supply, as its converter sees it.
+  /// Sets the Mega's supply [V], as its converter measures it.
   void setSupply(double volts);
 
-  /// Straps the six pins from 22 on; a bit for each that is left open.
+  /// Straps the six pins from 22 on; a bit for each open pin.
   void strap(uint8_t open);
 
   /// How often the processor was reset since its power came; a reset opens all pins.
   int resets() const { return resets_; }
 
-  // What may go wrong.
-  /// The program runs in circles from here on: in the control tick, or in the main program.
+  // Faults.
+  /// Makes the program loop for ever from here on: in the control tick, or in the main program.
   void hang(bool in_tick);
-  /// The main program goes on where it hung, so long after a tick.
+  /// Lets the main program go on where it hung, `cycles` after a tick.
   void wake(double ms_after_tick);
-  /// Nobody allows interrupts until allowInterrupts().
+  /// Keeps interrupts off until allowInterrupts().
   void holdInterrupts();
   void allowInterrupts();
-  /// Timer 1 stands still.
+  /// Stops timer 1.
   void stopTickTimer();
 
   std::vector<uint8_t> eeprom() const;
   void setEeprom(const std::vector<uint8_t>& bytes);
 
-  /// Fills unused RAM with a pattern, and tells later how many bytes of stack were ever used.
+  /// Fills unused RAM with a pattern, to count later how many bytes of stack were ever used.
   void paintStack();
   int stackUsed() const;
 
-  /// Share of the time, and cycles at most, that the control tick takes: it switches its own
-  /// interrupt off while it runs. Other interrupts in between count.
+  /// Share of the time, and most cycles, that the control tick takes. While it runs, its interrupt
+  /// is switched off. Other interrupts in between are included.
   double tickShare() const { return double(in_tick_) / double(avr_->cycle - watched_from_); }
   void watchTicksFromNow() {
     in_tick_ = longest_tick_ = longest_gap_ = asleep_ = 0;
@@ -94,7 +94,8 @@ class VirtualBoard {
     watched_from_ = avr_->cycle;
   }
   long longestTick() const { return long(longest_tick_); }
-  /// Cycles at most from the beginning of a tick to that of the next, and from the last one on.
+  /// Most cycles from the beginning of a tick to the beginning of the next, and since the last
+  /// tick.
   long longestGap() const {
     const avr_cycle_count_t since = std::max(tick_since_, watched_from_);
     return long(std::max(longest_gap_, avr_->cycle - since));
@@ -103,26 +104,26 @@ class VirtualBoard {
     return ticks_ * double(kClock) / double(avr_->cycle - watched_from_);
   }
 
-  /// Share of that time in which the processor slept.
+  /// Share of that time in which the processor was asleep.
   double sleepShare() const { return double(asleep_) / double(avr_->cycle - watched_from_); }
 
   double seconds() const { return double(avr_->cycle) / kClock; }
   avr_t* avr() { return avr_; }
 
  private:
-  /// Levels from outside that hold pins of a port, whatever is written to it.
+  /// Levels from outside that hold pins of a port, whatever the program writes.
   void pull(char port, uint8_t mask, uint8_t levels);
-  /// After a reset, which simavr lets clear the inputs and its timers, too.
+  /// To be called after a reset, in which simavr also clears the inputs and its timers.
   void restoreOutside();
   static void onEdge(avr_irq_t*, uint32_t value, void* note);
-  /// Time passes without being waited for.
+  /// Time passes without waiting for real time.
   static void onSleep(avr_t*, avr_cycle_count_t cycles);
   static void onCharacter(avr_irq_t*, uint32_t value, void* board);
   void awaitNextCharacter();
   static avr_cycle_count_t onNextCharacter(avr_t*, avr_cycle_count_t, void* board);
   static avr_cycle_count_t onEndOfRun(avr_t*, avr_cycle_count_t, void*);
   static void onTimerMask(avr_t*, avr_io_addr_t address, uint8_t mask, void* board);
-  /// Runs at most so many cycles and an instruction, up to the next interrupt or timer.
+  /// Runs for at most `cycles` and an instruction, up to the next interrupt or timer.
   void step(avr_cycle_count_t most_cycles);
   void runUntil(bool in_tick);
   /// simavr never resets while the watchdog's interrupt waits.
@@ -132,7 +133,7 @@ class VirtualBoard {
 
   avr_t* avr_;
   avr_irq_t* wire_in_;
-  std::deque<std::function<void(bool)>> watches_;  ///< of pins; they must not move
+  std::deque<std::function<void(bool)>> watches_;  ///< of pins; their addresses must not change
   std::map<char, avr_ioport_external_t> outside_;
   std::string to_send_, partial_;
   avr_cycle_count_t next_character_ = 0;

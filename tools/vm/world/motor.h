@@ -1,6 +1,6 @@
-// A gear motor under load as physics has it: torque against back-EMF, inertia, friction of two
-// kinds, the pull of a chain, play in the gear, a bridge that keeps its share of a supply that
-// sags, and a coarse encoder on the motor's side of the gear. SI units inside.
+// The physics of a gear motor under load: torque against back-EMF, inertia, two kinds of friction,
+// the pull of a chain, play in the gear, the bridge's voltage drop, a supply that sags, and a
+// coarse encoder on the motor's side of the gear. SI units inside.
 #pragma once
 
 #include <algorithm>
@@ -12,41 +12,41 @@ namespace world {
 
 const double kTurn = 6.283185307179586;  // [rad]
 
-/// A Maslow motor as seen at its sprocket; behind an L298 on 12 V it does 20 turns a minute without
-/// a load, 18 against the chain's pull.
+/// A Maslow motor as seen at its sprocket. Behind an L298 on 12 V it makes 20 turns a minute
+/// without load and 18 against the chain's pull.
 struct MotorConstants {
   double supply = 12.0;            ///< [V] without load
-  double supply_resistance = 0.3;  ///< [ohm] by which it sags
-  double bridge_drop = 1.8;        ///< [V] that the bridge keeps
+  double supply_resistance = 0.3;  ///< [ohm] makes the supply sag
+  double bridge_drop = 1.8;        ///< [V] lost in the bridge
   double resistance = 4.0;         ///< [ohm] of the winding
   double torque_constant = 3.7;    ///< [Nm/A] and [V s/rad] at the sprocket, gear included
   double inertia = 0.25;           ///< [kg m^2] of the rotor through the gear
-  double coulomb = 1.5;            ///< [Nm] friction that only stands against motion
-  double stiction = 1;             ///< times `coulomb`, until it moves
+  double coulomb = 1.5;            ///< [Nm] friction against motion
+  double stiction = 1;             ///< [1] times `coulomb`, until the motor moves
   double viscous = 0.4;            ///< [Nm s/rad]
-  double load = 0.7;               ///< [Nm] pull of the chain, lengthening
+  double load = 0.7;               ///< [Nm] pull of the chain, in the direction that lengthens
   double play = 0.011;             ///< [rad] of the sprocket between the flanks of the gear
   double sprocket_friction = 0.2;  ///< [Nm] share of `coulomb` behind the play
   double counts_per_turn = 8113.73;
-  double count_noise = 0.4;  ///< [counts] by which edges come early or late
+  double count_noise = 0.4;  ///< [counts] standard deviation of edges that come early or late
 };
 
-/// What can be wrong with its wires.
+/// What can be wrong with the motor's wires.
 struct Wires {
   bool motor_reversed = false, encoder_reversed = false;
   bool motor_unplugged = false, encoder_unplugged = false;
-  bool channel_lost = false;  ///< of the encoder: the count goes to and fro by one
+  bool channel_lost = false;  ///< of the encoder: the count goes to and fro by 1
   bool blocked = false;
 };
 
-/// One motor. A positive duty lengthens the chain.
+/// A motor. A positive duty lengthens the chain.
 class Motor {
  public:
   Motor(const MotorConstants& constants, unsigned seed) : c_(constants), source_(seed) {}
 
   Wires wires;
-  double weaker = 0;       ///< [V] that the supply lacks
-  double pull = 0;         ///< [Nm] of the cut, in addition to the load
+  double weaker = 0;       ///< [V] by which the supply is low
+  double pull = 0;         ///< [Nm] pull of the cut, in addition to the load
   bool is_powered = true;  ///< without power no current flows: only friction brakes
 
   /// Lets `seconds` pass with a duty of -255 to 255.
@@ -65,7 +65,7 @@ class Motor {
     }
   }
 
-  /// [V] by which its current makes the supply of all motors sag.
+  /// [V] by which the motor's current makes the supply of all motors sag.
   double sag() const { return std::fabs(current_) * c_.supply_resistance; }
 
   /// Turns of the sprocket since the start.
@@ -73,14 +73,14 @@ class Motor {
 
   /// Counts as the board sees them.
   int32_t counts() {
-    if (wires.encoder_unplugged) return told_;
+    if (wires.encoder_unplugged) return reported_;
     const double sign = wires.encoder_reversed ? -1 : 1;
     const double seen = sign * rotor_ / kTurn * c_.counts_per_turn + earliness();
     if (wires.channel_lost)
-      told_ = kept_ + (int64_t(std::floor(seen)) / 2) % 2;
+      reported_ = kept_ + (int64_t(std::floor(seen)) / 2) % 2;
     else
-      kept_ = told_ = int32_t(std::floor(seen));
-    return told_;
+      kept_ = reported_ = int32_t(std::floor(seen));
+    return reported_;
   }
 
  private:
@@ -91,7 +91,7 @@ class Motor {
       return;
     }
     const double load = c_.load + pull;
-    // A chain that pulls harder than the sprocket rubs keeps the gear on the same flank.
+    // If the chain's pull exceeds the sprocket's friction, the gear stays on the same flank.
     const bool hangs = load > c_.sprocket_friction;
     const bool meshes =
         hangs || (speed_ >= 0 ? rotor_ - sprocket_ : sprocket_ - rotor_) >= 0.5 * c_.play;
@@ -106,12 +106,12 @@ class Motor {
     const double against = std::copysign(friction, still ? torque : speed_);
     const double before = speed_;
     speed_ += (torque - against - c_.viscous * speed_) / c_.inertia * seconds;
-    // Friction stops a motion; it never turns it round.
+    // Friction stops a motion; it never reverses it.
     if (before * speed_ < 0 && std::fabs(torque) <= friction) speed_ = 0;
     rotor_ += speed_ * seconds;
   }
 
-  /// [counts] by which an edge comes early.
+  /// [counts] By how much an edge comes early.
   double earliness() {
     if (c_.count_noise <= 0) return 0;
     return std::normal_distribution<double>(0, c_.count_noise)(source_);
@@ -121,11 +121,11 @@ class Motor {
   std::mt19937 source_;
   double rotor_ = 0, sprocket_ = 0, speed_ = 0;  // [rad], [rad/s], at the sprocket's side
   double current_ = 0;                           // [A]
-  int32_t told_ = 0, kept_ = 0;                  ///< [counts] last; and while all channels came
+  int32_t reported_ = 0, kept_ = 0;  ///< [counts] last reported; last with both channels
 };
 
-/// Motors as they come: every constant off by up to 30 %; the chain of every fourth hangs nearly
-/// slack, as the far one does in a lower corner, so that its gear plays.
+/// Motors with random tolerances: every constant is off by up to 30 %. The chain of every fourth
+/// motor is nearly slack, as the far chain is in a lower corner, so the gear moves in its play.
 inline MotorConstants anyMotor(unsigned seed) {
   std::mt19937 source(seed);
   std::uniform_real_distribution<double> share(0.7, 1.3);

@@ -1,4 +1,4 @@
-// The sheet under the bit: what was cut into it.
+// The sheet under the bit, and the cuts in it.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,15 +10,15 @@ namespace world {
 /// A place where the bit was below the sheet's face.
 struct Cut {
   int plunge;                   ///< counts from 1 each time the bit goes in
-  double seconds, x, y, depth;  ///< since the world began; [mm]; [mm] below the face
+  double seconds, x, y, depth;  ///< [s] since the world began; [mm]; [mm] below the face
 };
 
-/// Keeps what the bit cuts.
+/// Stores what the bit cuts.
 class Sheet {
  public:
-  /// The bit is at a place with its tip `height` [mm] above the sheet's face.
+  /// Moves the bit to a place, with its tip `height` [mm] above the sheet's face.
   void touch(double seconds, const Eigen::Vector2d& place, double height) {
-    const double kScratch = 0.05;  // [mm] what nobody would find with a tape
+    const double kScratch = 0.05;  // [mm] too shallow to find with a tape
     if (height > -kScratch) {
       is_in_ = false;
       return;
@@ -31,7 +31,7 @@ class Sheet {
 
   const std::vector<Cut>& cuts() const { return cuts_; }
 
-  /// A new sheet lies on the frame.
+  /// Puts a new sheet on the frame.
   void replace() {
     cuts_.clear();
     plunges_ = 0;

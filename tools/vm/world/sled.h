@@ -1,4 +1,4 @@
-// The sled on its two chains: where the judge says it rests, and how hard each chain pulls.
+// The sled on its two chains: where it rests by the judge, and how hard each chain pulls.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@
 
 namespace world {
 
-/// A sled that the sheet rubs against. The judge finds each place from the last.
+/// A sled with friction on the sheet. The judge searches each place from the last place.
 class Sled {
  public:
   /// `numbers`: what differs from the judge's default machine, by name. `friction` [N] of the sled
@@ -27,7 +27,7 @@ class Sled {
   double get(const std::string& name) { return *at(name); }
 
   /// Lets the sled come to rest on chains of `paid_out` [mm left, right]. False where no sled can
-  /// hang; the place is then the last.
+  /// hang; the sled then keeps its last place.
   bool hang(const Eigen::Vector2d& paid_out) {
     const reference::Hang next = settled(paid_out, drag_);
     if (!next.solved) return false;
@@ -59,12 +59,12 @@ class Sled {
     return reference::settle(machine, paid_out).hang;
   }
 
-  /// Friction builds up against each movement and gives way at its limit, so that the sled
-  /// remembers from which side it came (Dahl's law without its exponent). The friction moves the
-  /// sled in turn, by its give: both are solved for together, or a soft sled would swing.
+  /// Friction builds up against each movement and gives way at its limit, so the sled's place
+  /// depends on the side it came from (Dahl's law without its exponent). The friction moves the
+  /// sled by its give. Both are solved together, or a soft sled would swing.
   void rub(const Eigen::Vector2d& paid_out) {
     const double kGivesWayAfter = 0.5;  // [mm]
-    const int kGiveLasts = 50;          // calls, in which a sled moves a few millimetres
+    const int kGiveLasts = 50;          // [calls] in which a sled moves a few millimetres
     if (give_age_-- <= 0) {
       give_ = giveAt(paid_out);
       give_age_ = kGiveLasts;
@@ -78,7 +78,7 @@ class Sled {
     drag_ = next;
   }
 
-  /// [mm/N] by which the sled moves under a push, by columns for right and up.
+  /// [mm/N] The sled's move under a push, in columns for right and up.
   Eigen::Matrix2d giveAt(const Eigen::Vector2d& paid_out) const {
     const double kPush = 0.5;  // [N]
     Eigen::Matrix2d give = Eigen::Matrix2d::Zero();
@@ -100,9 +100,9 @@ class Sled {
   reference::Machine machine_;
   double friction_;
   Eigen::Vector2d drag_ = Eigen::Vector2d::Zero();  ///< [N] on the sled
-  Eigen::Vector2d rubbed_at_ = drag_;               ///< [mm] where the friction has been reckoned
+  Eigen::Vector2d rubbed_at_ = drag_;               ///< [mm] place at which `drag_` was worked out
   Eigen::Matrix2d give_ = Eigen::Matrix2d::Zero();  ///< [mm/N]
-  int give_age_ = 0;                                ///< calls until the give is worked out again
+  int give_age_ = 0;                                ///< [calls] until the give is worked out again
   reference::Hang at_;
   bool is_settled_;
 };

@@ -4,12 +4,12 @@
 namespace world {
 namespace {
 
-const double kHangEvery = 0.01;  // [s] in which no chain runs more than 0.3 mm
-const double kStillFor = 0.1;    // [s] after which the sled is hung, even if it hardly moved
-const double kMoved = 0.5;       // [mm] by which a chain ran, so that the sled is hung
-const double kNearSheet = 0.5;   // [mm] of the bit's height, below which each place counts
+const double kHangEvery = 0.01;  // [s] a chain moves at most 0.3 mm in this time
+const double kStillFor = 0.1;    // [s] after this time the sled is hung even if it hardly moved
+const double kMoved = 0.5;       // [mm] after a chain moved this far the sled is hung
+const double kNearSheet = 0.5;   // [mm] height of the bit below which each place counts
 
-/// A motor of a chain: what it carries is added as the sled hangs. Its encoder is exact.
+/// A motor of a chain. The sled's pull is added at each hang. The encoder is exact.
 MotorConstants chainMotor(unsigned seed) {
   MotorConstants constants = seed ? anyMotor(seed) : MotorConstants();
   constants.load = 0;
@@ -17,7 +17,7 @@ MotorConstants chainMotor(unsigned seed) {
   return constants;
 }
 
-/// The motor of the z axis: the same, on a screw that carries the router.
+/// The motor of the z axis: the same motor on a screw that carries the router.
 MotorConstants zMotor(unsigned seed) {
   MotorConstants constants = chainMotor(seed);
   constants.counts_per_turn = 7560;
@@ -43,7 +43,7 @@ World::World(const Parts& parts, double paid_out)
 
 void World::drive(Axis axis, int duty) {
   duties_[axis] = duty;
-  // The bridge is pulsed by its enable pin: at a duty of zero the motor runs free.
+  // The enable pin pulses the bridge, so at a duty of zero the motor runs free.
   motors_[axis].is_powered = duty != 0;
 }
 

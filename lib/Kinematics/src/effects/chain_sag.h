@@ -27,8 +27,7 @@ struct ChainSag : Effect<Real> {
   enum { kWeightPower = -2 };
 
   static EffectInfo info() {
-    return {"chain_sag",
-            "the chain's own weight makes it hang in a curve, longer than a straight line",
+    return {"chain_sag", "the chain's weight makes it hang in a curve, longer than a straight line",
             "lower corners move inward by millimetres and a little up; the middle column stays",
             "frame_lean, sled_friction, frame_flex",
             "weigh the sled and one metre of chain: the size follows from the two weights"};

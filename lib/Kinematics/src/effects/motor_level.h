@@ -17,13 +17,13 @@ struct MotorLevel : Effect<Real> {
   enum { kInFrame = 1 };  // a turned sheet looks the same
 
   static EffectInfo info() {
-    return {"motor_level", "the motors are not level: the right one is higher, or lower",
+    return {"motor_level", "the motors are not level: the right motor is higher, or lower",
             "everything turns about the middle of the motors; sizes stay right",
             "sheet_rotation, chain_zero",
             "lay a spirit level or a water hose across the sprockets' axes"};
   }
   static ParamInfo param(uint8_t) {
-    return {"height_difference", "mm", -30, 30, 4, "right sprocket above the left one", 1};
+    return {"height_difference", "mm", -30, 30, 4, "right sprocket above the left sprocket", 1};
   }
   static const char* noun() { return "motors that are not level"; }
   static PlainInfo plain(uint8_t) { return {"right motor # higher", "right motor # lower", "mm"}; }
@@ -31,8 +31,8 @@ struct MotorLevel : Effect<Real> {
   static CheckInfo check() {
     return {"a level over the motors",
             "Lay a spirit level on a straight edge, or a water hose, across both sprockets and "
-            "measure how much higher the right one is, to 1 mm.",
-            "mm, negative if the left one is higher", 8};
+            "measure how much higher the right axis is, to 1 mm.",
+            "mm, negative if the left axis is higher", 8};
   }
   static Example example(uint8_t) { return {"right motor higher", {4}, 20}; }
   template <class Judge>

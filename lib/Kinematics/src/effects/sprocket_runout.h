@@ -74,7 +74,7 @@ struct SprocketRunout : Effect<Real> {
   }
 
   PLUMB_RARE static void adjustLength(const Real* c, Strand<Real>& strand) {
-    const Real* own = strand.side == kLeft ? c + kLeftSine : c + kRightSine;
+    const Real* amplitude = strand.side == kLeft ? c + kLeftSine : c + kRightSine;
     const Real quarters = strand.length * c[kQuartersByLength];
     const int16_t whole = nearest(quarters);
     const Real rest = quarters - Real(float(whole));
@@ -84,7 +84,8 @@ struct SprocketRunout : Effect<Real> {
     // A quarter turn farther the sine is the old cosine, and the cosine is the old sine with its
     // sign changed.
     const bool odd = whole & 1;
-    const Real waves = odd ? own[0] * cosine - own[1] * sine : own[0] * sine + own[1] * cosine;
+    const Real waves = odd ? amplitude[0] * cosine - amplitude[1] * sine
+                           : amplitude[0] * sine + amplitude[1] * cosine;
     if (whole & 2)
       strand.length -= waves;
     else

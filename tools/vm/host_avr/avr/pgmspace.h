@@ -1,4 +1,4 @@
-// Stands in for avr-libc's header on the host, where flash is memory like any other.
+// Replaces avr-libc's header on the host, where flash is ordinary memory.
 #pragma once
 
 #include <stdint.h>
