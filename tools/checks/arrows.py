@@ -27,7 +27,7 @@ ARROWS = {
     "test/curves": ([], HOST),
     "test/tried": (["lib/Kinematics"], HOST + r"|Kinematics\.h"),
     "test/vm": (["tools/judge", "tools/vm/*", "test/test_dialogues"], ANYTHING),
-    # Stands in on the host for a header of avr-libc that src includes.
+    # Replaces on the host a header of avr-libc that src includes.
     "tools/vm/host_avr": ([], C_HEADERS),
     "tools/vm/world": (["tools/judge"], HOST + r"|Eigen/\w+"),
     "tools/vm/mega": ([], HOST + r"|simavr/.*"),
@@ -193,7 +193,7 @@ def refusal(root: Path, path: Path, part: str, rule: str, header: str) -> str | 
 
 
 def candidates(root: Path, path: Path, header: str) -> list[Path]:
-    """What an include may mean: the file beside, else any in the searched folders."""
+    """What an include may mean: the file in its folder, else any in the searched folders."""
     neighbour = (path.parent / header).resolve()
     if neighbour.is_file() and neighbour.is_relative_to(root):
         return [neighbour]

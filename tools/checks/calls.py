@@ -87,7 +87,7 @@ def in_command(node: tree_sitter.Node) -> Iterator[tuple[int, str]]:
         yield line, name
         if name not in RUNNERS and not ARRAY.fullmatch(name):
             return
-        # Options of the runner, times and variables stand in front of the program.
+        # Options of the runner, times and variables come before the program.
         while words and IN_FRONT.match(words[0]):
             words.pop(0)
 
@@ -113,7 +113,7 @@ def in_makefile(text: str) -> Iterator[tuple[int, str]]:
 
 
 def in_python(text: str) -> Iterator[tuple[int, str]]:
-    """Programs that a module hands to subprocess, by itself or through a function of its own."""
+    """Programs that a module hands to subprocess, by itself or through a function in its file."""
     module = ast.parse(text)
     commands = commands_in(module)
     for node in ast.walk(module):
@@ -144,7 +144,7 @@ def in_call(
 def programs_of(
     argument: ast.expr | None, commands: dict[str, list[tuple[int, str]]]
 ) -> Iterator[tuple[int, str]]:
-    """Programs of what subprocess gets: a list, or a name that stands for one."""
+    """Programs of what subprocess gets: a list, or a name that stands for a list."""
     if isinstance(argument, ast.Name):
         yield from commands.get(argument.id, [])
     elif isinstance(argument, ast.List) and argument.elts:

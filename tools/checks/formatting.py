@@ -39,7 +39,7 @@ def both_kinds(root: Path) -> tuple[list[Path], list[Path]]:
 
 
 def clang_format() -> list:
-    """The formatter of the .venv with the project's own style."""
+    """The formatter of the .venv with the project's style."""
     return [TOOLS / "clang-format", f"--style=file:{tree.ROOT / '.clang-format'}"]
 
 

@@ -1,4 +1,4 @@
-"""What the checks share: the project's own files, and how a violation is told."""
+"""What the checks share: the project's files, and how a violation is reported."""
 
 import os
 import sys

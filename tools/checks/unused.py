@@ -11,7 +11,7 @@ import tree_sitter_cpp
 DECLARED_IN = ("lib", "src")
 USED_IN = (*DECLARED_IN, "include", "tools")
 WORD = re.compile(r"[A-Za-z_]\w*")
-# Called by the compiler, Arduino or avr-libc; the last stands in a section that runs before main().
+# Called by the compiler, Arduino or avr-libc; the last is in a section that runs before main().
 BY_OTHERS = {"main", "setup", "loop", "init", "serialEvent", "keepResetFlags"}
 # What a test may look at although nothing else does, each with its reason.
 FOR_TESTS = {"settingsStored": "from when on a new setting must survive a power cut"}
@@ -45,7 +45,7 @@ def violations(root: Path) -> Iterator[str]:
 
 
 def words_of(top: tree_sitter.Node) -> Iterator[tuple[str, str, int]]:
-    """Each name in a file: "declared" where it is a function's own, "used" elsewhere."""
+    """Each name in a file: "declared" where it is local to a function, "used" elsewhere."""
     waiting = [top]
     while waiting:
         node = waiting.pop()
@@ -80,7 +80,7 @@ def is_function(node: tree_sitter.Node) -> bool:
 
 
 def is_declared(node: tree_sitter.Node) -> bool:
-    """Whether a name is the one that its function's declarator declares."""
+    """Whether a name is the name that its function's declarator declares."""
     above = node.parent
     while above is not None and above.type in ("qualified_identifier", "template_function"):
         above = above.parent

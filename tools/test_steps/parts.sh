@@ -30,7 +30,7 @@ many() {
 # Each check counts as a test; all run at once.
 checks() {
   local began=$SECONDS check good=0 bad=0 running=()
-  local names=(arrows effects unused size names annotations formatting words generated programs)
+  local names=(arrows effects unused size names annotations formatting words prose generated programs)
   for check in "${names[@]}"; do
     "$python" "tools/checks/$check.py" >"$results/check_$check.log" 2>&1 &
     running+=("$!")

@@ -1,4 +1,4 @@
-"""Tests of tools/checks: each lets a good tree pass and catches each violation planted in one."""
+"""Tests of tools/checks: each lets a good tree pass and catches each violation planted in it."""
 
 import subprocess
 import sys
@@ -43,7 +43,7 @@ def said(check: str, root: Path) -> tuple[int, str]:
     return done.returncode, done.stdout
 
 
-@pytest.mark.parametrize("check", ["arrows", "size", "names", "words"])
+@pytest.mark.parametrize("check", ["arrows", "size", "names", "words", "prose"])
 def test_good_tree_passes(tmp_path, check):
     code, text = said(check, plant(tmp_path, GOOD))
     assert (code, text.count("\n")) == (0, 1), text
@@ -187,6 +187,22 @@ def test_names_refuse_a_crutch(tmp_path, text):
 def test_names_allow_a_crutch_that_belongs_to_others(tmp_path):
     text = "import re\n\nprint(re.found, {'one': 1})\nprint(re.sub(own=1))\n"
     assert said("names", plant(tmp_path, {"tools/plumb/text/new.py": text}))[0] == 0
+
+
+@pytest.mark.parametrize(
+    "line", ["int own = 1;", "f(one.x);", "int told_ = 0;", "for (auto& one : all)"]
+)
+def test_names_refuse_a_crutch_in_cxx(tmp_path, line):
+    code, out = said("names", plant(tmp_path, {"src/board.cpp": f"// own\n{line}\n"}))
+    assert code == 1
+    assert out.startswith("src/board.cpp:2:") and out.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "line", ["int ones = 1;", "Found found;", '"the one"', "int owner;", "kOne", "x = 1;  // one"]
+)
+def test_names_allow_in_cxx(tmp_path, line):
+    assert said("names", plant(tmp_path, {"src/board.cpp": f"{line}\n"}))[0] == 0
 
 
 def test_names_leave_the_rest_alone(tmp_path):
