@@ -142,7 +142,7 @@ at their typical sizes. A single effect has its typical size, and the settings d
 - **Look-alikes** are computed: the cosine of the angle between two shapes, for the nearest of an
   effect's parameters. 1 is the same shape, -1 the same with the other sign, 0 nothing in
   common. Beyond 0.9 either way, marks on a single sheet hardly tell two causes apart.
-  Besides effects, these numbers of the frame are compared: {_FRAME_NUMBERS}."""
+  An effect is compared with these numbers of the frame too: {_FRAME_NUMBERS}."""
 
 
 def table_of_all(effects: Sequence[Mapping[str, Any]], fields: Fields) -> str:

@@ -42,12 +42,18 @@ HEAD = f"""\
 
 <!-- Written by `python -m {COMMAND}` from tools/plumb/examples. Do not edit this page. -->
 
-What the lab says of every published set of measured positions that we know: what was fitted,
-the verdict of `plumb diagnose`, and what the numbers cannot tell. The files are in
-[tools/plumb/examples](../tools/plumb/examples), each with its source and its doubts; the numbers
-are those of their authors. Nobody stated a reading error, and nearly nobody read anything twice:
-where no noise is named below, the lab took a tape's usual 0.5 mm. Errors are in mm: of marks as
-vectors, of holes as distances. *Left out*: each reading predicted by a fit that did not see it."""
+This page shows what the lab says of every published set of measured positions that we know: what
+was fitted, the verdict of `plumb diagnose`, and what the numbers cannot tell.
+
+- The files are in [tools/plumb/examples](../tools/plumb/examples), each with its source and its
+  doubts. The numbers are those of their authors.
+- Nobody stated a reading error, and hardly anybody read a mark twice. Where no noise is named
+  below, the lab took a tape's usual 0.5 mm.
+- Errors are in mm: of marks as vectors, of holes as distances.
+- *As set* is the error with the machine's settings. *Shape* is what is left of it after the best
+  shift and rotation. *Left out* is the cross-validated error: each reading is predicted by a fit
+  that did not see it.
+- A word in capitals, LIKELY, marks what no source states."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -106,16 +112,15 @@ def _nine_section(nine: RealSet) -> str:
     return "\n\n".join(
         [
             "## Nine marks of mibproj (2020)",
-            "The set that every newcomer tries first. The settings in force are not published "
-            "(defaults stand for them), and "
-            "the sign of y is in doubt: the page's words say that the middle sags, its numbers "
-            "that it is higher. Both signs:",
+            "The set that every newcomer tries first. Two things are not known:",
+            "- The settings in force are not published. Defaults replace them.\n"
+            "- The sign of y is in doubt. The page's words say that the middle sags, its numbers "
+            "say that it is higher. So here are both signs.",
             markdown_table(header, rows),
             "\n".join(said),
-            "It cannot tell which settings were in force, and so not what the fitted sizes mean: a "
-            "fitted sag is the sag that "
-            "*remains* under an unknown correction. `tools/demo` shows the same marks step by "
-            "step.",
+            "Without the settings in force the fitted sizes have no firm meaning: a fitted sag is "
+            "the sag that *remains* under an unknown correction. `tools/demo` shows the same marks "
+            "step by step.",
             "![nine marks: errors as set, and their "
             f"shape](pictures/{Path(PICTURES).name}/mibproj.svg)",
         ]
@@ -129,17 +134,17 @@ def _fifteen_section(fifteen: RealSet) -> str:
     return "\n\n".join(
         [
             "## Fifteen marks of c0depr1sm (2019)",
-            "The best tuned machine of all, with settings that are LIKELY and physical (sled and "
-            "chain weighed). "
-            f"{mm(raw.rms)} RMS as set, of which a plain shift of {mm(shift)} in y is the "
-            "most; "
-            f"{mm(raw.shape_rms)} are shape, {mm(diagnosis.rms_before)} with the frame fitted.",
+            "The best tuned machine of all. Its settings are LIKELY, and physical: the owner "
+            "weighed sled and chain.",
+            f"- {mm(raw.rms)} mm RMS as set, most of it a shift of {mm(shift)} mm in y\n"
+            f"- {mm(raw.shape_rms)} mm are shape\n"
+            f"- {mm(diagnosis.rms_before)} mm are left with the frame fitted",
             verdict_line(diagnosis),
-            "What fifteen single readings leave open: every effect's largest size that would still "
-            "go unnoticed here, such as a "
-            f"beam whose tips give {largest_tip_give(diagnosis):.3f} mm/N, or {mm(stretch)} of "
-            "chain stretch more or less (nearly "
-            "all of it hidden in the frame).",
+            "Fifteen single readings leave much open. Of every effect, a size up to a limit could "
+            "be there unnoticed. Two examples:",
+            f"- a beam whose tips give {largest_tip_give(diagnosis):.3f} mm/N\n"
+            f"- chain stretch that moves marks by {mm(stretch)} mm; the frame hides nearly all of "
+            "it",
             "![fifteen marks: errors as set, and their "
             f"shape](pictures/{Path(PICTURES).name}/c0depr1sm.svg)",
         ]
@@ -159,18 +164,18 @@ def _brackets_section() -> str:
         [
             "## Not this machine: sleds on two brackets",
             "Three sets come from the older sled with two brackets (quadrilateral kinematics). The "
-            "lab's effects are those of a "
-            "sled on a ring or linkage, and it says so. A groundcontrol.ini of such a machine is "
-            "refused:",
+            "lab's effects are those of a sled on a ring or linkage. So the lab refuses a "
+            "groundcontrol.ini of such a machine:",
             f"> {refusal_of(BRACKETS[0])}",
-            "If the file calls the machine triangular nevertheless, squares measured by caliper "
-            "(0.2 mm) give it away:",
+            "If the file calls the machine triangular nevertheless, squares that were measured by "
+            "caliper (0.2 mm) give it away:",
             markdown_table(header, rows),
-            "The eleven spacings that gero read with a ruler are too few and too coarse for that: "
-            "the lab asks to measure the "
-            "spacing of 495 mm again, which its owner had boxed too. Bar's two straight cuts "
-            "(domed by 1.0 and 2.4 mm over 2 m) "
-            "are heights above a chord: no marks, no settings, nothing to fit.",
+            "Two more sets hold too little:",
+            "- gero also read eleven spacings with a ruler. They are too few and too coarse for a "
+            "verdict. The lab asks to measure the spacing of 495 mm again. Its owner had put a box "
+            "around the same spacing.\n"
+            "- Bar's two straight cuts (domed by 1.0 and 2.4 mm over 2 m) are heights above a "
+            "chord. There are no marks and no settings, so there is nothing to fit.",
         ]
     )
 
@@ -206,12 +211,11 @@ def _independent_section(fifteen: RealSet) -> str:
     return "\n\n".join(
         [
             "## Numbers measured in another way",
-            "The only real proof of a fitted size is a gauge, a scale or a level on the same "
-            "machine. There are few:",
+            "Only a gauge, a scale or a level on the same machine proves a fitted size. There are "
+            "few such numbers:",
             markdown_table(header, rows),
-            "The other single numbers that were published (calibration results, test cuts) are of "
-            "machines whose settings or "
-            "marks are not, so they check nothing.",
+            "Other single numbers were published too: calibration results and test cuts. The "
+            "settings or marks of those machines were not, so these numbers check nothing.",
         ]
     )
 

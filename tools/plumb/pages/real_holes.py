@@ -28,23 +28,27 @@ def holes_section() -> str:
     return "\n\n".join(
         [
             "## Holes of madgrizzle (2018): before and after",
-            "One machine, four boards within a week, each with known settings and two of them cut "
-            "with what their owner had "
-            "fitted to the board before. Only distances between holes, so shift, turn and tilt "
-            "cannot be seen.",
-            "**Each set by itself**, and the verdicts:",
+            "A single machine cut four boards within a week. The settings of each board are known. "
+            "For two boards the owner set what he had fitted to the board before.",
+            "Only distances between holes were measured. They show neither shift nor turn nor "
+            "tilt.",
+            "### Each set by itself",
             _alone(sets),
+            "The verdicts:",
             _verdicts(sets),
-            "**Predicted before it was cut.** The frame and an effect, `chain_pitch`, fitted to "
-            "the first set only; then the "
-            "distances of the next set from the settings that were in force there. No number of "
-            "the second set was used:",
+            "### Predicted before it was cut",
+            "1. Fit the frame and an effect, `chain_pitch`, to the first set.\n"
+            "2. Predict the distances of the next set from the settings in force there. No "
+            "number of that set is used.",
             _before_and_after(sets),
-            "**All four at once** (`plumb diagnose .../groundcontrol.ini .../*/marks.toml`: each "
-            "file names the settings it was "
-            "cut with): the same machine, frame and two effect parameters for all.",
+            "### All four at once",
+            "`plumb diagnose .../groundcontrol.ini .../*/marks.toml` reads all sets; each file "
+            "names the settings with which it was cut. The machine, its frame and the two "
+            "parameters of `chain_pitch` are the same for all.",
             _all_at_once(sets, together),
+            "### A check on another cut",
             _check_on_cuts(sets, together),
+            "### What is left",
             _what_is_left(sets, together),
         ]
     )
@@ -78,8 +82,8 @@ def _verdicts(sets: dict[str, RealSet]) -> str:
     return "\n".join(
         [
             *lines,
-            "- with a noise of 0.8 mm, which the sets show among each other (below): "
-            f"{', '.join(quiet)}",
+            "- The sets differ from each other by 0.8 mm (see below). With this noise the verdicts "
+            f"are {', '.join(quiet)}.",
         ]
     )
 
@@ -131,15 +135,13 @@ def _all_at_once(sets: dict[str, RealSet], together: Pooled) -> str:
     return "\n\n".join(
         [
             markdown_table(header, rows),
-            f"Chains {shown} too long, left and right: a new chain may be up to 0.26 % long by its "
-            "standard, and the four "
-            "sets by themselves say the same. A bit off its ring's centre (`sled_swing`) would fit "
-            "better still, but "
-            f"needs {bit.value:.0f} mm, and then chains about twice as much too long: nobody "
-            "gauged it, so it is a suspect and "
-            "not a finding. `tape_scale` draws nearly what `chain_pitch` draws: only a certified "
-            "length tells a long chain from a "
-            "short tape.",
+            f"- The chains are {shown} too long, left and right. By its standard a new chain may "
+            "be up to 0.26 % long. The four sets by themselves say the same.\n"
+            "- A bit off its ring's centre (`sled_swing`) would fit better. But it needs "
+            f"{bit.value:.0f} mm, and chains about twice as much too long. Nobody gauged it, so it "
+            "stays a suspect.\n"
+            "- `tape_scale` draws nearly the same arrows as `chain_pitch`. Only a certified length "
+            "distinguishes a long chain from a short tape.",
         ]
     )
 
@@ -149,12 +151,11 @@ def _check_on_cuts(sets: dict[str, RealSet], together: Pooled) -> str:
     in_force = [distance.error for distance in cuts.raw.distances]
     left_open = [distance.error for distance in predicted(together.settings, cuts).distances]
     return (
-        "**A check on another cut.** Days before, the same machine had cut the marks of the "
-        "published calibration with quite other "
-        "settings (rotation radius 133, sag 27, tolerances 0.35 and 0.36 %; LIKELY, not stated). "
-        "Their two widths were "
-        f"{mm(in_force[0])} and {mm(in_force[1])} mm off. The machine fitted to the four hole sets "
-        "predicts them within "
+        "Days before, the same machine had cut the marks of the published calibration. Its "
+        "settings were quite different: rotation radius 133, sag 27, tolerances 0.35 and 0.36 %. "
+        "(They are LIKELY, not stated.)\n\n"
+        f"Two widths on that board were {mm(in_force[0])} and {mm(in_force[1])} mm off. The "
+        "machine that was fitted to the four hole sets predicts them within "
         f"**{mm(left_open[0])}** and **{mm(left_open[1])}** mm."
     )
 
@@ -178,17 +179,17 @@ def _what_is_left(sets: dict[str, RealSet], together: Pooled) -> str:
         else f"below the owner's figure in {len(beaten)} of {len(records)} sets"
     )
     return (
-        f"**What is left.** With the same machine for all sets the error is {reached}. It hardly "
-        "gets lower by physics: the same distance, cut again, differs from set to set by "
-        f"{mm(together.scatter)} mm "
-        f"({together.scatter_degrees} degrees of freedom), and only {mm(together.steady)} mm RMS "
-        "is the same in all sets. "
-        "That scatter is of holes, not of the tape (most tape readings agree around a triangle "
-        "within 0.2 mm): where the sled "
-        "stops depends on how it came, and nobody wrote that down. The first set differs most "
-        f"({mm(rms(together.errors[HOLES[0]]))}). Which hole is which follows the later scripts; "
-        "with other names the fit of all sets gives: "
-        f"{named}, so the numbers do not decide that either."
+        f"With the same machine for all sets the error is {reached}. Physics hardly explains "
+        "more:\n\n"
+        f"- The same distance, cut again, differs from set to set by {mm(together.scatter)} mm "
+        f"({together.scatter_degrees} degrees of freedom). Only {mm(together.steady)} mm RMS is "
+        "the same in all sets.\n"
+        "- The scatter is that of the holes, not of the tape: around a triangle most tape "
+        "readings agree within 0.2 mm. Where the sled stops depends on the direction it came "
+        "from, and nobody noted that.\n"
+        f"- The first set differs most ({mm(rms(together.errors[HOLES[0]]))}).\n"
+        "- The names of the holes follow the owner's later scripts. With other names the fit of "
+        f"all sets leaves: {named}. So the numbers do not prove the names."
     )
 
 
