@@ -1,6 +1,6 @@
-"""PlatformIO build hook: flags for our own files, and GoogleTest compiled ahead for all tests.
+"""PlatformIO build hook: flags for our files, and GoogleTest compiled ahead for all tests.
 
-`custom_own_flags` are for our own files, not for borrowed ones. With PLUMB_WARNINGS=error a warning
+`custom_own_flags` are for our files, not for borrowed files. With PLUMB_WARNINGS=error a warning
 stops the build; the test run sets it.
 
 Most of the time of a test's file goes to GoogleTest's header, so a build for the host compiles that

@@ -43,7 +43,8 @@ bool Axes::prepare(const settings::Values& values) {
     controlled.most_counts = most < 2e9f ? int32_t(most) : 2000000000;
     const float most_missed = values.at(kPositionErrorLimit) / kShareOfLimit /
                               (kCountsMissed * float(fabs(controlled.per_count)));
-    controlled.most_missed = most_missed < UINT16_MAX ? uint16_t(most_missed) : uint16_t(UINT16_MAX);
+    controlled.most_missed =
+        most_missed < UINT16_MAX ? uint16_t(most_missed) : uint16_t(UINT16_MAX);
     if (controlled.per_count != was_per_count) {
       controlled.counts = countsOf(controlled, length);
       is_rescaled = true;

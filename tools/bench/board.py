@@ -14,7 +14,7 @@ BUILD = ROOT / ".build/bench"
 FIRMWARE = ROOT / ".pio/build/megaatmega2560/firmware.elf"
 KINEMATICS = ROOT / "lib/Kinematics/src"
 MOTION = ROOT / "lib/Motion/src"
-FLOAT = ROOT / "src/board/float.S"  # the firmware's own sum, product and quotient
+FLOAT = ROOT / "src/board/float.S"  # the firmware's sum, product and quotient
 INCLUDES = [f"-I{KINEMATICS}", f"-I{BENCH}", f"-I{BUILD}"]
 # As PlatformIO builds the firmware.
 AVR_FLAGS = [
@@ -60,7 +60,7 @@ def simulated() -> tuple[dict[str, Cycles], dict[str, int]]:
     symbols = output("avr-nm", "-C", elf)
     stack = {}
     for part in ("inverse", "forward", "reach"):
-        # A function dissolved into its caller would have no stack of its own to measure.
+        # A function dissolved into its caller would have no stack to measure.
         if not re.search(rf"kinematics::{part}<float>", symbols):
             raise ToolError(f"board_program.cpp: the compiler dissolved {part}() into its caller")
     cases = counted(elf, simulator)
@@ -105,7 +105,7 @@ def parts(stack: dict[str, int]) -> dict[str, Bytes]:
     for name, number in PARTS.items():
         flash, ram = (more - less for more, less in zip(linked(number), base, strict=True))
         sections[name] = Bytes(flash, ram, stack.get(name))
-    # The harness's own way of naming its storage; a machine's constants lie in RAM alone.
+    # The harness's way of naming its storage; a machine's constants lie in RAM alone.
     constants = sections["constants of one machine"].ram
     sections["constants of one machine"] = Bytes(None, constants, None)
     return sections

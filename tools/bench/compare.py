@@ -1,4 +1,4 @@
-"""Whether the figures may stand: against the recorded ones, and against the budgets."""
+"""Whether the figures may stand: against the recorded figures, and against the budgets."""
 
 from collections.abc import Mapping
 

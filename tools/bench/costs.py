@@ -22,7 +22,7 @@ class Bytes(NamedTuple):
 
 @dataclass(frozen=True)
 class Costs:
-    """All exact figures: the same source and compiler give the same ones anywhere."""
+    """All exact figures: the same source and compiler give the same figures anywhere."""
 
     compiler: str
     cycles: dict[str, Cycles]

@@ -66,7 +66,7 @@ def figures_of(program: Path, dialogue: str) -> dict[str, float]:
 
 
 def table(figures: dict[str, float]) -> str:
-    """The figures beside their budgets."""
+    """The figures next to their budgets."""
     rows = [
         f"| {name} | {shown(value)} | {shown(BUDGETS[name]) if name in BUDGETS else '–'} |"
         for name, value in figures.items()

@@ -35,7 +35,7 @@ def measure(rounds: int) -> tuple[dict[str, float], float]:
 
 
 def lab_times(rounds: int) -> dict[str, float]:
-    """The lab's own work, on the example of nine marks and on a hundred places [ns]."""
+    """The lab's work, on the example of nine marks and on a hundred places [ns]."""
     settings = read_settings(EXAMPLE / "groundcontrol.ini", known=predict.known_effects())
     sheet = (settings.sheet_width, settings.sheet_height)
     marks = read_marks(EXAMPLE / "Calibration Measurements.ini", sheet=sheet)

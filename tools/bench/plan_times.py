@@ -5,22 +5,14 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
+from plumb.bench.causes import BARE
 from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Mark, Measurements
 from plumb.model.predict import lengths, places
 from plumb.plan import propose
 from plumb.plan.preview import preview
-from plumb.settings.machine import MachineSettings
 
-BELIEVED = MachineSettings(
-    motor_gap=2978.4,
-    motor_height=1072.6,
-    rotation_radius=139.1,
-    sheet_width=2438.4,
-    sheet_height=1219.2,
-    feed="top",
-)
 # [mm/N] arms that give enough to be proved, but leave many suspects: the slowest cases there are.
 GIVES = {3: 0.006, 6: 0.008}  # by the marks in a row
 SIGMA, SEED = 0.5, 1
@@ -31,12 +23,12 @@ def plan_times(best: Callable[[Callable[[], object]], float]) -> dict[str, float
     times = {}
     for side, gives in GIVES.items():
         marks = board(side, gives)
-        diagnosis = diagnose(Inputs(BELIEVED, marks, sigma=SIGMA))
+        diagnosis = diagnose(Inputs(BARE, marks, sigma=SIGMA))
         left = len(diagnosis.explanations)
         name = f"lab: next after {side * side} marks, {left} suspects left"
-        times[name] = best(partial(propose, diagnosis, Inputs(BELIEVED, marks)))
+        times[name] = best(partial(propose, diagnosis, Inputs(BARE, marks)))
     plan = board(6, 0.0)
-    times["lab: preview of 36 marks"] = best(partial(preview, BELIEVED, plan, sigma=SIGMA))
+    times["lab: preview of 36 marks"] = best(partial(preview, BARE, plan, sigma=SIGMA))
     return times
 
 
@@ -44,8 +36,8 @@ def board(side: int, gives: float) -> Measurements:
     """Marks of a square grid, read with noise, on a frame whose arms give [mm/N]."""
     x, y = np.meshgrid(np.linspace(-1100, 1100, side), np.linspace(500, -500, side))
     targets = np.stack([x.ravel(), y.ravel()], axis=1)
-    true = replace(BELIEVED, effects={"frame_flex": {"inward": gives, "downward": gives}})
-    where, _ = places(true, lengths(BELIEVED, targets)[0])
+    true = replace(BARE, effects={"frame_flex": {"inward": gives, "downward": gives}})
+    where, _ = places(true, lengths(BARE, targets)[0])
     read = where + SIGMA * np.random.default_rng(SEED).standard_normal(where.shape)
     marks = [
         Mark(str(i), tuple(at), tuple(measured))

@@ -27,7 +27,7 @@ def numbers() -> dict[str, int]:
 
 
 def case_of(name: str) -> str:
-    """The case that times an effect beside sag, stretch and pitch."""
+    """The case that times an effect together with sag, stretch and pitch."""
     return f"inverse, the same and {name}"
 
 

@@ -113,7 +113,7 @@ class CxxRoom:
         return Verdict(SURVIVED, "" if reached else UNREACHED)
 
     def _by_build(self, mutant: Mutant) -> Verdict:
-        """The verdict on a mutant that needs its own build: constants of the compiler."""
+        """The verdict on a mutant that needs a separate build: constants of the compiler."""
         path, site = self.sites[mutant]
         changed = mutated(self.texts[path], site)
         for suite in self.suites:

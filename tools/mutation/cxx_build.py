@@ -43,7 +43,7 @@ class Layout:
 
 
 def layout_of(root: Path, suites: list[str]) -> Layout:
-    """Plumb's own layout, as platformio.ini has it."""
+    """Plumb's layout, as platformio.ini has it."""
     folders = ("lib/*/src/**", "src/machine/**", "tools/judge/reference")
     shared = [path for folder in folders for path in root.glob(f"{folder}/*.cpp")]
     includes = [
@@ -148,7 +148,7 @@ class Build:
         )
 
     def _copy(self) -> None:
-        """The tree twice: a copy that is mutated, and a plain one whose objects are compared."""
+        """The tree twice: a copy that is mutated, and a plain copy whose objects are compared."""
         shutil.rmtree(self.plain, ignore_errors=True)
         wanted = set()
         for part in COPIED:
@@ -235,5 +235,5 @@ def jobs() -> str:
 
 
 def environment() -> dict[str, str]:
-    """The environment with the compiler's cache, where there is one."""
+    """The environment with the compiler's cache, where it is installed."""
     return {**os.environ, "PATH": f"/usr/lib/ccache{os.pathsep}{os.environ.get('PATH', '')}"}

@@ -151,7 +151,7 @@ def walk(node: Node, is_constant: bool) -> Iterator[tuple[Node, bool]]:
 
 
 def is_row_of_words(node: Node) -> bool:
-    """Whether numbers stand in a row with words: data, which a test could only repeat."""
+    """Whether numbers are in a row with words: data, which a test could only repeat."""
     return node.type == "initializer_list" and any(
         child.type in ("string_literal", "concatenated_string") for child in node.named_children
     )
@@ -169,7 +169,7 @@ def site(node: Node, is_constant: bool, anchor: Node, edit: tuple, is_condition=
 
 
 def is_kept(node: Node) -> bool:
-    """Whether a node stands in the initial value of a static variable of a function."""
+    """Whether a node is in the initial value of a static variable of a function."""
     while node.parent is not None and node.type != "declaration":
         node = node.parent
     words = [child.text for child in node.children if child.type == "storage_class_specifier"]
@@ -295,7 +295,7 @@ def removable(node: Node) -> bool:
 
 
 def constexpr(node: Node) -> Constexpr:
-    """What `constexpr` may become, by the kind of declaration it stands in."""
+    """What `constexpr` may become, by the kind of its declaration."""
     declaration = node.parent
     words = [child.text for child in declaration.children]
     in_class = declaration.parent.type == "field_declaration_list"

@@ -39,7 +39,7 @@ def install(root: Path) -> None:
 
 
 def note(kind: str, owner: str, name: str) -> dict:
-    """The contents of `.piopm` for one package; the version stands in its own manifest."""
+    """The contents of `.piopm` for one package; the version is in its manifest."""
     manifest = {"tool": "package.json", "platform": "platform.json", "library": "library.json"}
     version = json.loads((HERE / name / manifest[kind]).read_text())["version"]
     spec = {"owner": owner, "id": None, "name": name, "requirements": None, "uri": None}

@@ -25,7 +25,7 @@ from plumb.marks.read import Mark, Measurements
 from plumb.plan.ahead import Check
 from plumb.plan.planned_visits import Visits
 
-# What an owner would find who measured the parameter itself, for so many typical sizes.
+# What an owner would find who measured the parameter itself, for this many typical sizes.
 TRUE_VALUES = {
     "motor_level.height_difference": lambda s: 4 * s,
     "frame_flex.inward": lambda s: 0.007 * s,
@@ -53,7 +53,7 @@ class Bench:
     """One machine with a hidden effect on one sheet, and its owner's tape."""
 
     effect: str | None
-    size: float  # in typical ones
+    size: float  # in typical sizes
     seed: int
     noise: float = 0.5  # [mm]
 

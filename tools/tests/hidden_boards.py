@@ -46,7 +46,7 @@ _CAUSES["sprocket_runout"] = Cause(
     "left more",
     lambda s: {"left.eccentric_x": 0.2 * s, "right.eccentric_y": 0.1 * s},
 )
-# The judge's numbers for an effect of so many typical sizes; empty where the judge has no part.
+# The judge's numbers for an effect of this many typical sizes; empty where the judge has no part.
 HIDDEN = {
     name: lambda size, cause=cause: Hidden(((cause, size),)).numbers
     for name, cause in _CAUSES.items()
@@ -67,7 +67,7 @@ def board(
     tape_sigma: float | None = 0.5,
     bump: float = 0.0,
 ) -> Measurements:
-    """A board as measured, by sizes of effects in typical ones; bump [mm] RMS of no effect."""
+    """A board as measured, by sizes of effects in typical sizes; bump [mm] RMS of no effect."""
     hidden = Hidden(
         tuple((_CAUSES[name], size) for name, size in effects.items()),
         outside="bump" if bump else "",
@@ -86,7 +86,7 @@ def ask_judge(numbers: Mapping[str, float], layout: Plan) -> np.ndarray:
 def places_with(
     effect: str | None, size: float, layout: Plan, frame: Mapping[str, float]
 ) -> np.ndarray:
-    """Where marks are read (n, 2) [mm] with an effect of so many typical sizes."""
+    """Where marks are read (n, 2) [mm] with an effect of this many typical sizes."""
     hidden = Hidden(((_CAUSES[effect], size),)) if effect else Hidden()
     machine = TrueMachine(hidden, **frame)
     chains = chains_for(layout)

@@ -1,4 +1,4 @@
-"""Starts the SCons that is installed beside PlatformIO."""
+"""Starts the SCons that is installed with PlatformIO."""
 
 from SCons.Script import main
 

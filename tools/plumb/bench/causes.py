@@ -18,7 +18,8 @@ from plumb.settings.machine import MachineSettings
 Array = np.ndarray
 Numbers = dict[str, float]
 
-_BARE = MachineSettings(
+# The default machine without effects.
+BARE = MachineSettings(
     motor_gap=2978.4,
     motor_height=1072.6,
     rotation_radius=139.1,
@@ -26,7 +27,7 @@ _BARE = MachineSettings(
     sheet_height=1219.2,
     feed="top",
 )
-SLED = _BARE.sled_weight  # [N]
+SLED = BARE.sled_weight  # [N]
 HALF = np.array([1219.2, 609.6])  # [mm] of the sheet
 # What the maker believes: the judge's chain, so that only what is hidden is missing.
 CHAIN = {
@@ -35,10 +36,10 @@ CHAIN = {
     if effect["name"] in EVERY_MACHINE
     for parameter, size in effect["examples"][0]["sizes"].items()
 }
-MAKER = with_parameters(_BARE, CHAIN)
+MAKER = with_parameters(BARE, CHAIN)
 # As published settings are: they correct the chain's sag and know nothing of its stretch.
 PUBLISHED = with_parameters(
-    _BARE, {name: size for name, size in CHAIN.items() if name.startswith("chain_sag.")}
+    BARE, {name: size for name, size in CHAIN.items() if name.startswith("chain_sag.")}
 )
 
 
@@ -87,15 +88,15 @@ CAUSES: tuple[Cause, ...] = tuple(_causes())
 
 
 def causes_of(effect: str) -> tuple[Cause, ...]:
-    """All causes of an effect, the usual one first."""
+    """All causes of an effect, the usual cause first."""
     return tuple(cause for cause in CAUSES if cause.effect == effect)
 
 
 @dataclass(frozen=True)
 class Hidden:
-    """What is wrong with a machine and its board, besides the frame that lies off by chance."""
+    """What is wrong with a machine and its board, next to a frame that lies off by chance."""
 
-    causes: tuple[tuple[Cause, float], ...] = ()  # with sizes in typical ones
+    causes: tuple[tuple[Cause, float], ...] = ()  # with sizes in typical sizes
     outside: str = ""  # of OUTSIDE: what no effect of the library does
     outside_mm: float = 0.0  # RMS of it [mm]
     usual: tuple[tuple[Cause, float], ...] = ()  # on every machine, too small to ask for

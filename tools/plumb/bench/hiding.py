@@ -82,7 +82,7 @@ def pairs(millimetres: float, causes: tuple[Cause, ...]) -> Hide:
 
 
 def several(count: int, low: float, high: float, causes: tuple[Cause, ...]) -> Hide:
-    """So many effects at once, drawn by chance, each of some typical sizes."""
+    """Several effects at once, drawn by chance, each of some typical sizes."""
     effects = by_effect(causes)
 
     def hide(index: int, plan: Plan) -> Hidden:

@@ -35,7 +35,7 @@ class Outcome:
     both: bool  # all hidden effects are among the suspects
     slip_named: bool  # the slipped readings, and only they, were named
     false_slip: bool  # a reading was named that is right
-    small_slip: bool  # the slip, if there is one, is a small one
+    small_slip: bool  # the slip, if there is any, is small
     intervals: tuple[int, int]  # parameters of the truth inside their intervals, and in all
     limits: tuple[int, int]  # effects whose truth lies below what could hide, and in all
 

@@ -79,7 +79,7 @@ class Report:
 def run(
     scenarios: Sequence[Scenario], *, boards: int, seed: int, progress: Progress, jobs: int = 1
 ) -> Report:
-    """Diagnose so many boards of each scenario, in so many programs at once.
+    """Diagnose boards of each scenario, in `jobs` programs at once.
 
     joblib carries the boards, so a backend that the caller sets (a Dask cluster) carries them too.
     An interruption keeps what is done; with nothing done it goes on up.

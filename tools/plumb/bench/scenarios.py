@@ -86,7 +86,7 @@ _COUNTS = {1: "one effect", 2: "two effects"}
 
 
 def _slips(count: int, marks: int) -> Scenario:
-    """Slips of any size on a machine with so many effects of usual sizes."""
+    """Slips of any size on a machine with several effects of usual sizes."""
     small = (Line("small slip named", least=0.95),) if marks == 25 else ()
     return Scenario(
         f"slips-{count}-{marks}",

@@ -17,7 +17,7 @@ from plumb.board.observations import Observations
 Array = np.ndarray
 ZERO_AXES = ("left", "right")
 POSE_AXES = ("x", "y", "rotation")
-# Standard deviations: a link or a tooth more or less is 6.35 mm; a sheet lies as the first one may.
+# Standard deviations: a link or a tooth more or less is 6.35 mm; a sheet lies like the first.
 ZERO_SIGMA = 10.0  # [mm]
 POSE_SIGMAS = (20.0, 20.0, 0.02)  # [mm, mm, rad]
 _ZERO = re.compile(r"zero(\d+)\.(left|right)")

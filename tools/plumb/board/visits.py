@@ -16,7 +16,7 @@ SWAPPED = np.array([NAMES.index(OTHER_CHAIN.get(name, name)) for name in NAMES])
 
 
 def loaded(values: Array, weight: float, usual: float) -> tuple[Array, Array]:
-    """The values for a sled of another weight [N], and each value's slope by the usual one's.
+    """The values for a sled of another weight [N], and each value's slope by the usual weight's.
 
     Some parameters are ratios to the sled's weight, so they follow a power of it.
     """

@@ -9,13 +9,12 @@ from plumb.cli import add as add_command
 from plumb.cli import compare as compare_command
 from plumb.cli import diagnose as diagnose_command
 from plumb.cli.calibrate_text import Round, as_text, sentence
-from plumb.cli.checked import usable_checks
+from plumb.cli.checked import with_stated
 from plumb.cli.client import typed_json
 from plumb.cli.files import inputs_of
 from plumb.cli.screen import bar
 from plumb.cli.steps import free_name, usual_client
 from plumb.cli.text import print_json
-from plumb.cure.add import priors_with
 from plumb.cure.auto import add_auto, without_marks
 from plumb.firmware.client_files import ClientFiles
 from plumb.fit.compare import compare
@@ -53,13 +52,11 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _inputs(arguments: argparse.Namespace) -> Inputs:
-    priors = priors_with(arguments.prior)
     inputs = inputs_of(arguments)
     if arguments.without:
         marks = without_marks(inputs.measurements, arguments.without)
         inputs = replace(inputs, measurements=marks)
-    checks = usable_checks(arguments.checked, priors)
-    return replace(inputs, priors=priors, sigma=arguments.sigma, checked=checks)
+    return with_stated(inputs, arguments)
 
 
 def round_of(inputs: Inputs) -> Round:

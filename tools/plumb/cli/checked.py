@@ -1,14 +1,25 @@
-"""What --checked says, as the fit takes it."""
+"""What --prior, --sigma and --checked say, as the fit takes it."""
 
 from __future__ import annotations
 
+import argparse
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from plumb.cli.arguments.checked import EXAMPLE, Measured
+from plumb.cure.add import priors_with
 from plumb.diagnosis import Checked
+from plumb.fit.inputs import Inputs
 from plumb.fit.problem import PRIORS
 from plumb.model.catalogue import parameter_words
 from plumb.text.errors import InputError
+
+
+def with_stated(inputs: Inputs, arguments: argparse.Namespace) -> Inputs:
+    """The inputs with all numbers that the command line states."""
+    priors = priors_with(arguments.prior)
+    checks = usable_checks(arguments.checked, priors)
+    return replace(inputs, priors=priors, sigma=arguments.sigma, checked=checks)
 
 
 def usable_checks(said: Sequence[Measured], priors: Mapping[str, float]) -> list[Checked]:

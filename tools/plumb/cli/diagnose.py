@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
 from operator import itemgetter
 from typing import Any
 
-from plumb.cli.checked import usable_checks
+from plumb.cli.checked import with_stated
 from plumb.cli.files import inputs_of
 from plumb.cli.screen import sentences, table
 from plumb.cli.steps import add_auto, add_named, next_step, same_inputs
 from plumb.cli.text import print_json
-from plumb.cure.add import priors_with
 from plumb.diagnosis import Diagnosis, diagnose
 from plumb.diagnosis.answer import Ranked, Together
 from plumb.diagnosis.sentence import SHOWN, verdict_sentence
@@ -35,13 +33,7 @@ UNKNOWN_ADVICE = (
 
 def run(arguments: argparse.Namespace) -> int:
     """Diagnose, print, and return the exit code."""
-    priors = priors_with(arguments.prior)
-    inputs = replace(
-        inputs_of(arguments),
-        priors=priors,
-        sigma=arguments.sigma,
-        checked=usable_checks(arguments.checked, priors),
-    )
+    inputs = with_stated(inputs_of(arguments), arguments)
     diagnosis = diagnose(inputs)
     if arguments.json:
         advice = propose(diagnosis, inputs)
@@ -227,7 +219,7 @@ def _size_rows(explanation: Together, name: str) -> list[list[str]]:
 
 
 def _reasons(diagnosis: Diagnosis) -> str:
-    """Why suspects cannot be told apart: how little their arrows differ."""
+    """Why suspects cannot be distinguished: how little their arrows differ."""
     said: list[str] = []
     for (i, j), apart in sorted(diagnosis.differences.items(), key=itemgetter(1)):
         if j >= SHOWN or len(said) == 3:

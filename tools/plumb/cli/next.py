@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from plumb.cli.checked import usable_checks
+from plumb.cli.checked import with_stated
 from plumb.cli.diagnose import proposal_json
 from plumb.cli.files import inputs_of, picture_form, settings_in
 from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import bar, sentences, table
 from plumb.cli.steps import free_name, next_step, same_inputs
 from plumb.cli.text import print_json
-from plumb.cure.add import priors_with
 from plumb.diagnosis import Diagnosis, diagnose
 from plumb.diagnosis.sentence import verdict_sentence
 from plumb.fit.inputs import Inputs
@@ -42,13 +40,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Diagnose, propose, write, print, and return the exit code."""
     refuse_twins(arguments.picture, arguments.template)
     form = picture_form(arguments.picture) if arguments.picture else ""
-    priors = priors_with(arguments.prior)
-    inputs = replace(
-        inputs_of(arguments),
-        priors=priors,
-        sigma=arguments.sigma,
-        checked=usable_checks(arguments.checked, priors),
-    )
+    inputs = with_stated(inputs_of(arguments), arguments)
     diagnosis = diagnose(inputs)
     advice = propose(diagnosis, inputs, progress=bar("simulating"))
     files = _files(arguments, advice, inputs, form)
@@ -101,7 +93,7 @@ def _files(
 def _cut_with(arguments: argparse.Namespace, inputs: Inputs) -> str:
     """The lines that name the settings that move the machine for these marks, if a file has them.
 
-    They are those of the marks there are: the new ones are cut before anything is changed.
+    They are those of the marks there are: the new marks are cut before anything is changed.
     """
     in_force = inputs.measurements.rounds[0].cut_with or inputs.cut_with or inputs.settings
     for path in (arguments.cut_with, arguments.settings):

@@ -15,7 +15,7 @@ FILES = ("SETTINGS", "MARKS", "PLAN", "FILE", "INI", "LOG")
 
 
 class Parser(argparse.ArgumentParser):
-    """Complains like every other refusal, and knows the nearest word for a wrong one."""
+    """Complains like every other refusal, and knows the nearest word for a wrong word."""
 
     def error(self, message: str) -> NoReturn:
         """Refuse the command line."""

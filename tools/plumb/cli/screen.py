@@ -60,7 +60,7 @@ def table(
 
 
 def sentences(lines: Sequence[str], *, mark: str = "- ") -> str:
-    """Sentences below each other, long ones wrapped."""
+    """Sentences below each other, long sentences wrapped."""
     return "\n".join(
         textwrap.fill(
             UNIT.sub("\0", line),

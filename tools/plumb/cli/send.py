@@ -56,7 +56,7 @@ def _numbers(path: str) -> list[str]:
 
 
 def _write(sender: Sender, path: str, lines: list[str]) -> tuple[Written, str]:
-    """Write numbers; the file that keeps the old ones."""
+    """Write numbers; the file that keeps the old numbers."""
     written = write_numbers(sender, lines)
     kept = f"{Path(path).with_suffix('')}-before-{datetime.now():%Y-%m-%d-%H%M%S}.nc"
     write_whole(kept, as_lines(written.before).encode())
@@ -79,7 +79,7 @@ def _print_written(done: tuple[Written, str]) -> None:
     rows = rows[:SHOWN] + ([f"and {more} more"] if more > 0 else [])
     print("The machine holds the numbers; each was read back.")
     print(sentences(rows) if rows else "- none had to change")
-    print(f"The old ones are in {kept}. To bring them back: plumb send --undo, with this file.")
+    print(f"The old numbers are in {kept}. To bring them back: plumb send --undo, with this file.")
 
 
 def _hold(sender: Sender) -> None:

@@ -103,7 +103,7 @@ class Addition:
     parameters: tuple[Parameter, ...]
     effects_added: tuple[str, ...]  # those of the lab too
     warnings: tuple[str, ...]
-    steps: tuple[Step, ...]  # effect by effect, in the order given; the last one is `after`
+    steps: tuple[Step, ...]  # effect by effect, in the order given; the last is `after`
     sigma_from: str  # where the sigma of the fits comes from: noise_sources.py, or "residuals"
     benchmark_after: Score | None = None  # of the community's test: what the fit leaves of it
 

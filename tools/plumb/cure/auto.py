@@ -44,8 +44,8 @@ def add_auto(
     """Diagnose the marks and add the best explanation that a real machine can have.
 
     Where the library has none, the effects that come nearest are added as long as marks left out
-    are predicted better with them: to leave out a large effect because a small one is unknown would
-    help nobody. A residual patch is offered, and added only if `patch` asks for it.
+    are predicted better with them: to leave out a large effect because a small effect is unknown
+    would help nobody. A residual patch is offered, and added only if `patch` asks for it.
 
     An explanation has stood the test that nothing else in the library adds more to it than noise
     would; so with its effects nothing more is provable. Several of them: the first of the

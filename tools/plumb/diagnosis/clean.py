@@ -1,4 +1,4 @@
-"""The readings that can be trusted: mixed-up ones put right, slips set aside, the noise known."""
+"""The readings that can be trusted: mix-ups put right, slips set aside, the noise known."""
 
 from __future__ import annotations
 

@@ -67,7 +67,7 @@ def round_warnings(explanation: Explanation, noise: Noise, rounds: Sequence[str]
                 f"{name} does not go with the other rounds ({_words(move)}): do not pool them; "
                 f"{_way_out(explanation, basis, mask, noise, name)}"
             )
-    # Of two rounds either may be the odd one.
+    # Of two rounds either may differ.
     return said[-1:] if len(rounds) == 2 else said
 
 

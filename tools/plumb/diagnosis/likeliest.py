@@ -65,7 +65,7 @@ def listing(effects: tuple[tuple[str, ...], ...], evidences: Array) -> list[List
     """Sets of a few effects, likeliest first, as far as LISTED; by the logarithms of the weights of
     all sets.
 
-    A set with more effects than a likelier one adds nothing that the marks ask for: it counts with
+    A set with more effects than a likelier set adds nothing that the marks ask for: it counts with
     that one.
     """
     weights = np.exp(evidences - np.logaddexp.reduce(evidences))

@@ -259,7 +259,7 @@ def _in_largest(board: Board, names: Sequence[str], slopes: Array) -> Array:
 
 
 def largest_met(board: Board, columns: Array) -> Array:
-    """The largest sizes (k,) that were met of these columns' parameters, in typical ones."""
+    """The largest sizes (k,) that were met of these columns' parameters, in typical sizes."""
     met = [plausible_range(board.problem.names[i]) for i in columns]
     largest = np.array([max(abs(known.low), abs(known.high)) for known in met])
     in_typical: Array = largest / board.problem.scale[columns]

@@ -1,4 +1,4 @@
-"""Rounds that do not go together, as they would be measured: a sheet moved, chains hung anew."""
+"""Rounds that do not go together, as they would be measured: a sheet moved, chains hung again."""
 
 from __future__ import annotations
 

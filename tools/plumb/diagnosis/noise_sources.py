@@ -120,8 +120,8 @@ def _falls_below(spread: Spread, sigma: float) -> bool:
 
 
 _ASK = (
-    "no reading error is stated and no mark was read twice: a tape's usual one is taken, and what "
-    "hangs on it may be wrong; read three marks three times, or give --sigma"
+    "no reading error is stated and no mark was read twice: a tape's usual error is taken, and "
+    "what hangs on it may be wrong; read three marks three times, or give --sigma"
 )
 _SCATTER = (
     "the marks scatter more than a tape usually does about everything the library can draw: that "

@@ -73,8 +73,8 @@ def possible(explanation: Explanation, noise: Noise) -> bool:
 
 
 def possible_sizes(board: Board, columns: Array, sizes: Array, half: Array) -> Array:
-    """Whether a real machine can have the sizes (k, boards) of these columns, in typical ones, as
-    far as their intervals of half-widths (k,) reach (boards,)."""
+    """Whether a real machine can have the sizes (k, boards) of these columns, in typical sizes,
+    as far as their intervals of half-widths (k,) reach (boards,)."""
     reachable = np.ones(sizes.shape[1], dtype=bool)
     for column, size, width in zip(columns, sizes, half, strict=True):
         scale = board.problem.scale[column]

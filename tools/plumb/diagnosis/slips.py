@@ -27,7 +27,7 @@ Array = np.ndarray
 SURE = 0.7  # how likely a slip must be to be named; without one it is hardly ever above 0.1
 SAME = 0.01  # share of sigma by which a change of it is no matter
 MANY = 15  # readings of which no single effect explains one that is off
-FEWEST = 4  # readings below which none can be told from the others
+FEWEST = 4  # readings below which none can be distinguished from the others
 READINGS_PER_SLIP = 12  # with more slips than one in this many readings the slips are not the story
 
 

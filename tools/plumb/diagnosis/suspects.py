@@ -1,7 +1,7 @@
 """Suspects: explanations to which nothing else in the library adds more than noise would.
 
 Single effects are tried first, then two at once, then three, until one stands whose sizes a real
-machine can have. Impossible ones stay in the list, marked: they are the sign of a stand-in.
+machine can have. Impossible suspects stay in the list, marked: they are the sign of a stand-in.
 
 This is the max-gain test turned round. Whatever the truth is, it stays in the set in about 95 % of
 all cases; look-alikes protect each other, so they stay together; better data make the set
@@ -62,7 +62,7 @@ class Suspects:
 def find_suspects(
     frame: Explanation, singles: Sequence[Explanation], felt: Sequence[str], noise: Noise
 ) -> Suspects:
-    """Single effects, then pairs, then three at once, until a possible one stands."""
+    """Single effects, then pairs, then three at once, until a possible set stands."""
     survivors = _standing(singles, felt, noise)
     library_fits = library_misfit_chance(frame, noise) > MISFIT_LEVEL
     chance = 0.0
@@ -102,7 +102,7 @@ def _standing(
 def best_at_hand(frame: Explanation, felt: Sequence[str]) -> tuple[str, ...]:
     """Effects to go on with where no explanation stands: added one by one while they are worth it.
 
-    Leaving a large effect out because a small one is unknown would help nobody.
+    Leaving a large effect out because a small effect is unknown would help nobody.
     """
     best, chosen = worth(frame), frame
     while len(chosen.effects) < MOST_TOGETHER:
@@ -135,7 +135,7 @@ def worth(explanation: Explanation) -> float:
 
 
 def _log_cauchy(sizes: np.ndarray) -> float:
-    """Logarithm of the density of sizes in typical ones."""
+    """Logarithm of the density of sizes in typical sizes."""
     half = (1 + len(sizes)) / 2
     gammas = scipy.special.gammaln(half) - scipy.special.gammaln(0.5)
     constant = gammas - len(sizes) / 2 * np.log(np.pi)

@@ -45,7 +45,7 @@ class ClientFiles:
 def client_files(
     settings: MachineSettings, *, client: str, firmware: str, original: str | None, lines: str
 ) -> ClientFiles:
-    """The files that make this machine out of the owner's: its lines, and the client's beside it.
+    """The files that make this machine out of the owner's: its lines, and the client's next to it.
 
     `lines` is the name of the first; `original` is the groundcontrol.ini whose other keys are kept.
     Raises InputError if it is missing, or if what the client sends would change the machine.

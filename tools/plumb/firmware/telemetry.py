@@ -37,7 +37,7 @@ class Telemetry:
     start: str
     events: tuple[int, ...]  # how often each of EVENTS has happened, ever
     last_event: str  # one of EVENTS, or "none"
-    total_events: int  # place of the last one in their order
+    total_events: int  # place of the last event in their order
 
 
 def latest(text: str, path: str) -> Telemetry:

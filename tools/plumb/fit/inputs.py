@@ -21,7 +21,7 @@ class Stated:
 
 @dataclass(frozen=True)
 class Inputs:
-    """A machine as its settings say, what was measured, and what is known besides."""
+    """A machine as its settings say, what was measured, and what else is known."""
 
     settings: MachineSettings
     measurements: Measurements

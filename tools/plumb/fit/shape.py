@@ -11,7 +11,7 @@ Array = np.ndarray
 
 @dataclass(frozen=True)
 class Pose:
-    """How the measured marks lie as a whole against the predicted ones."""
+    """How the measured marks lie as a whole against the predicted marks."""
 
     shift: tuple[float, float]  # [mm] of the middle of all marks
     rotation: float  # [rad] counter-clockwise

@@ -1,4 +1,4 @@
-"""The solver: Gauss-Newton, with steps halved where a whole one overshoots."""
+"""The solver: Gauss-Newton, with steps halved where a whole step overshoots."""
 
 from __future__ import annotations
 

@@ -179,7 +179,7 @@ def _write(files: Mapping[str, bytes], force: bool) -> None:
 
 
 def _is_free(path: str) -> bool:
-    """Whether there is no file of that name, or an empty one, or a program of this tool."""
+    """Whether there is no file of that name, or an empty file, or a program of this tool."""
     if not os.path.isfile(path):
         return True
     with open(path, "rb") as file:

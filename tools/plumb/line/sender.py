@@ -46,7 +46,7 @@ class Sender:
     """A machine at the end of a line."""
 
     port: Port
-    said: Callable[[str], None] = lambda line: None  # hears what the machine says besides answers
+    said: Callable[[str], None] = lambda line: None  # hears everything that is no answer
     status: Status | None = None
     # Called again and again while lines are on their way; it may hold the machine, or stop it.
     attend: Callable[[Sender], None] = lambda sender: None
@@ -187,7 +187,7 @@ class Sender:
 
 
 def cleaned(lines: Iterable[str]) -> Iterator[str]:
-    """Lines without comments and blanks around them; empty ones are left out.
+    """Lines without comments and blanks around them; empty lines are left out.
 
     Raises InputError for a line that the machine's buffer cannot hold, or that is no ASCII text.
     """

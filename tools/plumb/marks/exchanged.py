@@ -9,7 +9,7 @@ from plumb.marks.model import Measurements, Point
 from plumb.text.errors import refusal
 
 FEWEST = 6  # different places, below which chance may line up readings
-MUCH = 2  # so many times as many numbers in the targets as in the readings
+MUCH = 2  # this many times as many numbers in the targets as in the readings
 ALIKE = 0.005  # [mm] numbers nearer than this are the same
 
 

@@ -1,6 +1,6 @@
 """Sizes and effects in a maker's words: `left chain 0.24 % too long (0.21 to 0.27)`.
 
-The words of an effect are its own (`plain` in its file); here they become sentences.
+The words of an effect are in its file (`plain`); here they become sentences.
 """
 
 from __future__ import annotations

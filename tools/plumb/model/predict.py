@@ -23,7 +23,7 @@ FOUND, OUT_OF_REACH, TOO_MANY_TRIES = 0, 1, 2  # what the kinematics says of a p
 FOUND_WORDS = ("yes", "out of reach", "too many tries")
 USABLE, TOO_TIGHT, TOO_SLACK, TOO_VERTICAL, CANNOT_HANG = range(5)  # what it says of a place's use
 REACH_WORDS = ("usable", "too tight", "too slack", "too vertical", "cannot hang")
-REACH_LIMITS: Mapping[str, float] = _core.reach_limits()  # the usual ones, by name [N, mm, mm/N]
+REACH_LIMITS: Mapping[str, float] = _core.reach_limits()  # the usual limits, by name [N, mm, mm/N]
 
 
 @dataclass(frozen=True)

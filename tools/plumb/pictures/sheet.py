@@ -85,7 +85,7 @@ def draw_errors(
     good: bool,
     small: float = 1.0,
 ) -> None:
-    """A sheet with its marks and arrows; small: of the size of a picture of its own."""
+    """A sheet with its marks and arrows; small: of the size of a single picture."""
     from matplotlib.patches import Rectangle
 
     axis.set_xlim(view.left, view.right)

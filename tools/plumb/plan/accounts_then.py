@@ -45,8 +45,8 @@ def accounts_then(
 
 
 def _apart(case: Case, planned: Planned, hypothesis: Hypothesis) -> Array:
-    """What planned readings (rows,) have beyond those of a hypothesis's boards when they are told
-    from the start of the frame's fit, as slopes have it."""
+    """What planned readings (rows,) have beyond those of a hypothesis's boards when they are
+    counted from the start of the frame's fit, as slopes have it."""
     board, truth, frame = case.board, planned.ahead(hypothesis.at), planned.ahead(case.frame)
     unknowns, of_effects = hypothesis.at.unknowns, board.columns(hypothesis.at.effects)
     apart: Array = truth.slopes[truth.so_far :, board.frame] @ unknowns[board.frame]

@@ -44,7 +44,7 @@ class Hypothesis:
     counts_with: tuple[str, ...] = ()  # effects of the account that has it, where it is another
 
     def drawn(self, source: np.random.Generator, count: int) -> Array:
-        """So many possible sets of the unknowns (f, count)."""
+        """A number of possible sets of the unknowns (f, count)."""
         noise = source.standard_normal((self.root.shape[1], count))
         return self.mean[:, np.newaxis] + self.root @ noise
 
@@ -61,7 +61,7 @@ class Case:
     frame: Explanation
     singles: Mapping[str, Explanation]  # each felt effect by itself, refitted
     hypotheses: tuple[Hypothesis, ...]  # most probable first
-    truths: tuple[Hypothesis, ...]  # what may be there: the same, or with small effects besides
+    truths: tuple[Hypothesis, ...]  # what may be there: the same, or with small effects too
     is_weighed: bool = False  # whether the diagnosis weighs accounts of several effects
     spans: tuple[str, ...] = ()  # the names of both ends of each distance
 
@@ -180,7 +180,7 @@ def _as_fitted(explanation: Explanation, weight: float) -> Hypothesis:
 def _with_small_ones(
     hypotheses: Sequence[Hypothesis], frame: Explanation, felt: Sequence[str], noise: Noise
 ) -> tuple[Hypothesis, ...]:
-    """Each account by itself and with the effects that may act besides, the likeliest of all.
+    """Each account by itself and with the effects that may act too, the likeliest of all.
 
     Sizes are as far open as the marks and what is met in workshops leave them.
     """

@@ -29,7 +29,7 @@ MOST_AGAIN = 12  # marks that are all visited again with another weight
 # chains swapped and brought to 12 o'clock again.
 ROUND, MARK, READING, HANGING, SWAPPING = 3.0, 1.5, 0.75, 4.0, 15.0
 ROOM_FOR_A_SECOND = (
-    20.0  # [mm] inwards of a mark is room for a second one; in the same hole nothing is read
+    20.0  # [mm] inwards of a mark is room for a second mark; in the same hole nothing is read
 )
 SIDES = np.array([(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)])
 
@@ -204,7 +204,7 @@ class _Shop:
         return [_marks("swap", f"chains swapped, {FEW} marks", do, visits, more=SWAPPING)]
 
     def pool(self, weight: float, *, swapped: bool = False) -> Visits:
-        """Places near the marks there are, and new ones, as far as they are usable so loaded."""
+        """Places near the marks there are, and new places, as far as they are usable so loaded."""
         near = self.inwards(ROOM_FOR_A_SECOND)
         if len(near) > MOST_NEAR:
             # Of marks that lie close together a few do as well as all.

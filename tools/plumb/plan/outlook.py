@@ -4,7 +4,7 @@ Each hypothesis is taken for the truth as often as it is probable. Its frame and
 from what the marks so far leave open, new readings are drawn with noise, and the diagnosis is
 repeated on all rows by the slopes at hand. Where it would weigh accounts of the marks, it weighs
 them; else gate, max-gain test of every single effect (and of the combinations that stand now), lack
-of fit. It is settled when one explanation is left, the true one.
+of fit. It is settled when only the true explanation is left.
 """
 
 from __future__ import annotations

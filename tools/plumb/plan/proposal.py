@@ -21,7 +21,7 @@ from plumb.plan.strangers import for_slips, near_the_worst
 Array = np.ndarray
 # A question: what the chance is the chance of.
 SETTLE, CONFIRM, FIND, REREAD, EXPLORE = "settle", "confirm", "find", "reread", "explore"
-AGAIN = 10.0  # minutes that one more round costs when this one did not settle it
+AGAIN = 10.0  # minutes that another round costs when this round did not settle it
 DISTINGUISHED = 0.75 * ENOUGH  # lambda from which a pair counts as distinguished
 MOST_PARTED = 6
 QUESTIONS = {"cannot_tell": SETTLE, "one_suspect": CONFIRM, "nothing_provable": FIND}

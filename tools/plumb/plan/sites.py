@@ -17,7 +17,7 @@ MARGIN = (
     0.05,
     0.09,
 )  # of the sheet's width and height: closer to the edge the sled would tip over the edge
-NEAR = 60.0  # [mm] nearer than this a new mark is an old one
+NEAR = 60.0  # [mm] nearer than this a new mark counts as the old mark
 
 
 def grid(

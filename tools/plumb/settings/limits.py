@@ -94,7 +94,7 @@ def check_effects(
     *,
     known: Mapping[str, Sequence[str]] | None,
 ) -> None:
-    """Refuse effects and parameters that are not in the list of known ones (None: no list)."""
+    """Refuse effects and parameters that are not in the list of those known (None: no list)."""
     for name, parameters in effects.items():
         place = f"[effects.{name}]"
         try:

@@ -24,7 +24,7 @@ _SAID: dict[tuple[str, str], tuple[int, float]] = {
 
 
 def effects_said_by(numbers: Mapping[int, float]) -> Effects:
-    """The parameters that published numbers set, zero ones as well."""
+    """The parameters that published numbers set, even if they are zero."""
     effects: Effects = {}
     for (effect, parameter), (number, factor) in _SAID.items():
         if number in numbers:

@@ -104,7 +104,7 @@ def _is_poured_into(path: str | PathLike[str]) -> bool:
 
 
 def _staged(target: Path, content: bytes) -> tuple[str, Path]:
-    """The content in a new file beside the target, whose place it takes later."""
+    """The content in a new file next to the target, whose place it takes later."""
     handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
     try:
         with os.fdopen(handle, "wb") as file:

@@ -13,7 +13,7 @@ _FRACTION = re.compile(r"(?P<sign>[+-]?)(?:(?P<whole>\d+)[ -]+)?(?P<top>\d+)\s*/
 
 
 def length_in(text: str, *, unit: float = 1.0) -> float:
-    """The length [mm] that a piece of text writes out, in units of so many mm."""
+    """The length [mm] that a piece of text writes out, in units of this many mm."""
     stripped = text.strip()
     if unit != 1.0:
         stripped = stripped.removesuffix("in").removesuffix('"').strip()

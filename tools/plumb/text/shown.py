@@ -42,7 +42,7 @@ def in_unit(length: float) -> float:
 
 
 def bare(length: float | None, digits: int = 2) -> str:
-    """A length [mm] without its unit, with so many decimals if it is in mm; a dash for none."""
+    """A length [mm] without its unit, with this many decimals if it is in mm; a dash for none."""
     if length is None or not math.isfinite(length):
         return "-"
     return f"{in_unit(length) + 0.0:.{digits + _FINER[unit()]}f}"

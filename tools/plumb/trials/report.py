@@ -112,7 +112,7 @@ def tried_all(
     elf: str | None = None,
     progress: Callable[[float, str], None] = lambda share, what: None,
 ) -> FaultReport:
-    """Try each fault on so many machines; `progress` hears the share that is done."""
+    """Try each fault on a number of machines; `progress` hears the share that is done."""
     outcomes: dict[str, list[Outcome]] = {fault.name: [] for fault in faults}
     # Seed by seed, as all faults of a seed share the way without a fault.
     for number in range(tries):

@@ -76,7 +76,7 @@ class Scene:
                 return
 
     def listen(self, milliseconds: int) -> list[str]:
-        """What the machine says meanwhile besides reports and answers."""
+        """What the machine says meanwhile that is no report and no answer."""
         since = len(self.heard)
         for _ in range(milliseconds // 20):
             try:

@@ -105,7 +105,7 @@ def soak(
     elf: str | None = None,
     progress: Callable[[float], None] = lambda share: None,
 ) -> Soak:
-    """Let a machine work for so many minutes of its time."""
+    """Let a machine work for some minutes of its time."""
     scene = Scene(seed, elf=elf)
     operator = Operator(scene)
     job = Job(scene.source, middle=(0.0, 0.0), reach=REACH, slowest=100)
@@ -140,7 +140,7 @@ def soak(
 
 
 def due_writes(rests: int) -> int:
-    """How often a byte of the EEPROM may have been written after so many rests.
+    """How often a byte of the EEPROM may have been written after `rests` rests.
 
     A position takes the next of 65 slots; its byte of motion is written with it and when it is
     left.

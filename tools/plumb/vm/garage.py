@@ -23,7 +23,7 @@ GAP_SIGMA, POSE_SIGMA, TURN_SIGMA = 3.0, 5.0, 0.002  # [mm, mm, rad] how far a f
 STOP_SIGMA = 0.3  # [mm] by which a sheet lies otherwise on the same stops
 FRICTION = 3.0  # [N] of any sled on its sheet
 EXTENDED = 1651.0  # [mm] of both chains when they were laid over the sprockets
-# What a client sends besides the numbers of the frame: without it z stands still.
+# What a client sends in addition to the numbers of the frame: without it z stands still.
 CLIENT_LINES = ("$29=1300", "$15=1000", "$18=18")
 
 

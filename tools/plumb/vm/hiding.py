@@ -14,7 +14,7 @@ from plumb.text.values import refuse_unknown
 
 Array = np.ndarray
 RANDOM = "random"
-BOARD = plan(5, 5)  # on which an effect moves marks by so many millimetres RMS
+BOARD = plan(5, 5)  # on which an effect moves marks by this many millimetres RMS
 
 
 def hide(names: Sequence[str], *, millimetres: float, seed: int) -> Hidden:

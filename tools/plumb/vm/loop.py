@@ -36,12 +36,16 @@ class Loop:
     """What came of a closed loop."""
 
     owner: VirtualOwner
-    forms: tuple[str, ...]  # what was read, as files of marks: the first sheet, the last one
+    forms: tuple[str, ...]  # what was read, as files of marks: the first sheet, the last sheet
     before: Comparison  # the first sheet, with the owner's first settings
     first: Diagnosis
+<<<<<<< HEAD
     inputs: Inputs  # all that was measured
     done: tuple[Proposal, ...]  # what was measured besides
     spent: Spent  # until the machine was changed
+=======
+    done: tuple[Proposal, ...]  # what else was measured
+>>>>>>> 38816d3 (Pages and help in shorter sentences; what a command line states is read in a single place, shared facts of the hole sets are on a page)
     auto: AutoAddition
     after: Comparison | None  # the second sheet; None where nothing could be added
 

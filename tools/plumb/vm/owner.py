@@ -102,7 +102,7 @@ class VirtualOwner:
         return self.tape.fill(form, self.machine)
 
     def check(self, checks: Sequence[Check]) -> list[Checked]:
-        """Numbers measured directly, each with its own error."""
+        """Numbers measured directly, each with its error."""
         return [
             Checked(
                 check.name,
@@ -119,7 +119,7 @@ class VirtualOwner:
         self.settings = settings
 
     def lay_new_sheet(self, seed: int, *, raised: float) -> None:
-        """Take the sheet off and lay another on the same stops, the right one `raised` [mm]."""
+        """Take the sheet off and lay another on the same stops, the right sheet `raised` [mm]."""
         self.garage = with_new_sheet(self.garage, seed, raised=raised)
         self.machine.replace_sheet()
         self.tape.lay(self.garage, np.random.default_rng([seed, 5]))

@@ -11,7 +11,7 @@ COLUMNS, ROWS = 72, 18  # characters are twice as high as wide
 
 
 class VmPicture:
-    """What rich draws, anew each time."""
+    """What rich draws, drawn again each time."""
 
     def __init__(self, machine: VirtualMachine) -> None:
         self._machine = machine

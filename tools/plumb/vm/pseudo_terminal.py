@@ -99,7 +99,7 @@ class PseudoTerminal:
 
 
 class Pace:
-    """Holds a machine to so many times real time."""
+    """Holds a machine to a multiple of real time."""
 
     def __init__(self, speed: float) -> None:
         self.speed = speed

@@ -54,7 +54,7 @@ class Tape:
         self._read = 0
 
     def fill(self, form: str, machine: VirtualMachine) -> str:
-        """A form with the marks that were cut since the last one; ValueError if it waits for more
+        """A form with the marks that were cut since the last form; ValueError if it waits for more
         or fewer."""
         places = marks_on(machine.cuts())
         new, self._read = places[self._read :], len(places)

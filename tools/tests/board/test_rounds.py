@@ -1,4 +1,4 @@
-"""Rounds: several files of marks with the frame in common and everything else their own."""
+"""Rounds: several files of marks with the frame in common and everything else different."""
 
 from dataclasses import replace
 
@@ -25,7 +25,7 @@ def board(marks, **how):
 
 
 def zeroed(machine, left, right):
-    """The machine after its chains were zeroed anew."""
+    """The machine after its chains were zeroed again."""
     effects = {**machine.effects, "chain_zero": {"left": left, "right": right}}
     return replace(machine, effects=effects)
 
@@ -73,7 +73,7 @@ def test_each_round_has_the_chains_of_its_own_settings():
     assert both.marks[9].name == "b:0" and both.repeats == {}
     _, rows = model_and_observations(BELIEVED, both)
     fitted = fit(BELIEVED, rows, effects=("chain_sag", "chain_stretch", "chain_pitch"), sigma=0.1)
-    # Without its own settings the second round would be millimetres off.
+    # Without its settings the second round would be millimetres off.
     assert fitted.rms < 0.05
     wrong = replace(both, rounds=(both.rounds[0], replace(both.rounds[1], cut_with=None)))
     _, rows = model_and_observations(BELIEVED, wrong)

@@ -1,6 +1,6 @@
 """plumb calibrate: from marks to files in one go, a second round, and what comes first if anything.
 
-Each command ends with the next one; here the printed commands are run as they are printed.
+Each command ends with the next command; here the printed commands are run as they are printed.
 """
 
 import re

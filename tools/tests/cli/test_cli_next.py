@@ -162,7 +162,7 @@ def test_a_grid_is_previewed_before_it_is_cut(ask, run, maker, tmp_path):
     assert code == 0 and picture.read_bytes().startswith(b"\x89PNG")
     cells = np.array(answer["snr"])
     assert cells.shape == (len(answer["effects"]),) * 2
-    # Nothing is seen better beside one more effect than without it.
+    # Nothing is seen better with another effect than without it.
     assert (cells <= np.diag(cells)[:, np.newaxis] * (1 + 1e-3) + 1e-6).all()
     sag = answer["effects"].index("chain_sag")
     assert cells[sag, sag] > 5 > cells[sag, answer["effects"].index("frame_lean")]

@@ -30,7 +30,7 @@ def filled_in(form):
 
 @pytest.fixture
 def fitted(run, tmp_path, monkeypatch):
-    """A machine fitted to the example's marks; the folder is the current one."""
+    """A machine fitted to the example's marks; the folder is the current folder."""
     for name in ("groundcontrol.ini", "marks.toml"):
         shutil.copy(EXAMPLE / name, tmp_path)
     monkeypatch.chdir(tmp_path)

@@ -1,4 +1,4 @@
-"""add: effects that help are told from effects that do not."""
+"""add: effects that help are distinguished from effects that do not."""
 
 from dataclasses import replace
 

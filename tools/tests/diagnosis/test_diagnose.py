@@ -17,14 +17,14 @@ from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
 
 WIDE, NINE = plan(5, 5), plan(3, 3)
 # A tilt of both motors is a turned sheet, and chain zeros are a frame elsewhere: marks alone hardly
-# feel them. Friction is felt in few places and has its own test.
+# feel them. Friction is felt in few places and has a separate test.
 FELT = sorted(set(HIDDEN) - {"motor_level", "chain_zero", "sled_friction"})
 HUGE = ("frame_lean", "sprocket_runout")  # need sizes that no real machine has to move marks so far
 
 
 @pytest.fixture(scope="module")
 def sizes():
-    """Sizes that move the marks of 25 by 3 mm RMS, in typical ones."""
+    """Sizes that move the marks of 25 by 3 mm RMS, in typical sizes."""
     return {name: size_for(name, WIDE, 3.0) for name in FELT}
 
 

@@ -42,7 +42,7 @@ def torn(sigmas, axis, parameter):
 @pytest.mark.parametrize("axis", [0, 1])
 @pytest.mark.parametrize("parameter", range(4))
 def test_a_half_is_off_only_beyond_what_the_worst_of_all_parameters_reaches(axis, parameter):
-    # 0.27 % in 4 parameters: each may be off by 3.4 sigma, a single one by 3.
+    # 0.27 % in 4 parameters: each may be off by 3.4 sigma, a single parameter by 3.
     limit = stats.norm.isf(0.0027 / 4 / 2)
     assert limit == pytest.approx(3.40, abs=0.01)
     names = ("left and right", "lower and upper")
@@ -55,7 +55,7 @@ def test_a_half_is_off_only_beyond_what_the_worst_of_all_parameters_reaches(axis
 
 
 def pulled(effect, sigmas):
-    """The frame's explanation of marks that an effect of one parameter pulls by so many sigma."""
+    """The frame's explanation of marks that an effect of one parameter pulls by this many sigma."""
     rows = observe(BELIEVED, Measurements(marks_on(BELIEVED, BELIEVED, grid(5, 4))))
     frame = explain(Board.of(BELIEVED, rows, sigma=0.5))
     (beyond,) = frame.beyond_fit([effect]).T

@@ -1,5 +1,7 @@
 """What the published numbers mean in this firmware: the chains that the published one pays out."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from plumb import _core
@@ -7,6 +9,7 @@ from plumb.firmware.settings import machine_of
 from plumb.model.controllers import chain_lengths
 from plumb.model.predict import FOUND, lengths
 from plumb.settings.machine import MachineSettings, PublishedSettings
+from synthetic import BELIEVED
 
 SHEET = (2438.4, 1219.2)
 POINTS = np.array([(x, y) for x in np.linspace(-1219, 1219, 13) for y in np.linspace(-609, 609, 9)])
@@ -78,16 +81,7 @@ def test_our_own_numbers_are_added():
 
 def test_positive_tolerance_means_a_longer_chain():
     """As in the lab: fewer links reach the same distance."""
-    published = MachineSettings(
-        motor_gap=2978.4,
-        motor_height=1072.6,
-        rotation_radius=139.1,
-        sheet_width=SHEET[0],
-        sheet_height=SHEET[1],
-        feed="top",
-        controller="stock",
-        published=PublishedSettings(10, 0.2, 0.1),
-    )
+    published = replace(BELIEVED, controller="stock", published=PublishedSettings(10, 0.2, 0.1))
     lab = published.as_plumb_model()
     board = machine_of({8: 139.1, 37: 10, 40: 0.2, 41: 0.1}, sheet=SHEET)
     for side in ("left", "right"):

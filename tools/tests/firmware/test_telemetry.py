@@ -1,4 +1,4 @@
-"""The telemetry line: what is read from a log, and what an owner is told to look at."""
+"""The telemetry line: what is read from a log, and what an owner should look at."""
 
 import json
 

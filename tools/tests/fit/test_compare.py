@@ -49,7 +49,7 @@ def test_the_error_is_measured_less_predicted():
 
 
 def test_a_residual_is_the_chain_that_was_missing():
-    # Measured right of its target: the left chain was longer, the right one shorter.
+    # Measured right of its target: the left chain was longer, the right chain shorter.
     comparison = compare(BELIEVED, Measurements((Mark("1", (0.0, 0.0), (1.0, 0.0)),)))
     (mark,) = comparison.marks
     assert mark.left_chain_residual == pytest.approx(0.81, abs=0.03)

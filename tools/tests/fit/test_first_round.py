@@ -1,4 +1,4 @@
-"""The first round of a new owner: the grid's own form, filled in, is read and diagnosed."""
+"""The first round of a new owner: the grid's form, filled in, is read and diagnosed."""
 
 import json
 import re

@@ -1,4 +1,4 @@
-"""Lab effects in fits: found again, told with their cure, and never written into settings."""
+"""Lab effects in fits: found again, named with their cure, and never written into settings."""
 
 import tomllib
 from dataclasses import replace

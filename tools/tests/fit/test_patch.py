@@ -26,7 +26,7 @@ def halves(measurements):
 
 
 def with_cubic(measurements, seed, size):
-    """The board under a random field of the third degree, of so many millimetres RMS."""
+    """The board under a random field of the third degree, of this many millimetres RMS."""
     source = np.random.default_rng(seed)
     x, y = np.array([mark.target for mark in measurements.marks]).T / [[1219.2], [609.6]]
     moved = np.stack([x**3, x**2 * y, x * y**2, y**3], axis=1) @ source.standard_normal((4, 2))

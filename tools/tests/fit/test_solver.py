@@ -1,4 +1,4 @@
-"""The solver against another one, and on curves made to lead it astray."""
+"""The solver against another solver, and on curves made to lead it astray."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -110,7 +110,7 @@ def test_a_search_that_ends_beside_the_least_by_rounding_alone_has_settled():
 
 
 def test_rounding_is_not_chased():
-    # 1e8 beside a hundredth: what is left to gain is lost in the sum.
+    # 1e8 next to a hundredth: what is left to gain is lost in the sum.
     class Tall(Curve):
         def at(self, unknowns):
             there = super().at(unknowns)

@@ -19,7 +19,7 @@ GRID = grids.Grid(pattern="benchmark", repeats=0)
 PITCH = replace(
     BELIEVED, motor_gap=2981.0, effects={"chain_pitch": {"left": 0.002, "right": 0.001}}
 )
-# The example in the text of GroundControl's pull request 576: it says 0.50 for the long ones.
+# The example in the text of GroundControl's pull request 576: it says 0.50 for the long distances.
 PUBLISHED = """frame = "machine"
 [benchmark]
 across = [1905, 1905, 1906]

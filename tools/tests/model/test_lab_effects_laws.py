@@ -104,7 +104,7 @@ def test_the_slopes_of_all_that_is_measured_are_those_of_finite_differences(name
     outside = TYPICAL | {SHEET_ROTATION: 0.1}
     values = values_of(TRUE)
     sighting = seen(outside)
-    # Places come back within 1e-5 mm or so; a longer step hides that, a shorter one bends less.
+    # Places come back within 1e-5 mm or so; a longer step hides that, a shorter step bends less.
     step = (1e-2 if "." in name else 1e-3) * SIZES[name]
     ends = []
     for signed in (step, -step):

@@ -63,7 +63,7 @@ def test_the_slope_of_places_is_that_of_finite_differences(name, feed):
     column = NAMES.index(name)
     _, slopes, outcome = places_with_slopes(values, over_top=over_top, chains=chains)
     assert (outcome == FOUND).all()
-    # Places come back within 1e-5 mm or so; a longer step hides that, a shorter one bends less.
+    # Places come back within 1e-5 mm or so; a longer step hides that, a shorter step bends less.
     step = (1e-2 if "." in name else 1e-3) * SIZES[name]
     ends = []
     for sign in (1, -1):

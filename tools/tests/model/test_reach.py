@@ -1,4 +1,4 @@
-"""reach: which part of a sheet is usable, on the command line, in a grid and beside the tool."""
+"""reach: which part of a sheet is usable, on the command line, in a grid and next to the tool."""
 
 import xml.etree.ElementTree as ElementTree
 from dataclasses import replace

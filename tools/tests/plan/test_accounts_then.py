@@ -19,7 +19,7 @@ NOISE = 0.5
 
 
 def hidden_in(seed, effect, size):
-    """A machine that stretches as usual, with an effect of some typical sizes besides."""
+    """A machine that stretches as usual, and also has an effect of some typical sizes."""
     hidden = Hidden(((causes_of("chain_stretch")[0], 0.2), (causes_of(effect)[0], size)))
     return cut(hidden, plan(5, 3), seed=seed, noise=NOISE, settings=PUBLISHED)
 

@@ -43,7 +43,7 @@ def first():
 
 @pytest.fixture(scope="module")
 def pitch(first):
-    """A board on which pitch cannot be told from its look-alikes."""
+    """A board on which pitch cannot be distinguished from its look-alikes."""
     owner = Bench("chain_pitch", size_for("chain_pitch", NINE, 3.0), 101)
     marks = owner.measured(first)
     diagnosis = diagnose(Inputs(MAKER, marks))

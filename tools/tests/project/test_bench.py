@@ -178,7 +178,7 @@ def test_budgets_and_published_figures_are_of_cases_that_exist():
     cases += "".join((BENCH / name).read_text(encoding="utf-8") for name in files)
     tables = {path.stem: tomllib.loads(path.read_text()) for path in BENCH.glob("*.toml")}
     names = [*tables["budgets"], *tables["published"]["cycles"]]
-    names.remove(absent.ROW)  # worked out from two builds, not a case of its own
+    names.remove(absent.ROW)  # worked out from two builds, not a separate case
     assert names and all(f'{{"{name}", ' in cases for name in names)
 
 

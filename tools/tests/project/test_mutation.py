@@ -78,7 +78,7 @@ EXPECTED = {
 
 @pytest.fixture
 def toy(tmp_path) -> CxxRoom:
-    """The toy room in a tree of its own."""
+    """The toy room in a separate tree."""
     for path, text in {HEADER: TOY, Path("test/test_toy/main.cpp"): SUITE}.items():
         (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / path).write_text(text)

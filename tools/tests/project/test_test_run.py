@@ -80,7 +80,7 @@ def test_the_short_run_runs_the_suites_and_rooms_of_an_edited_file(tmp_path):
     assert touched(tmp_path, "lib/GCode/src/Words.cpp") == "test_gcode test_dialogues  yes"
     assert touched(tmp_path, "test/test_motion/test_mover.cpp") == "test_motion  no"
     assert touched(tmp_path, "tools/plumb/fit/fit.py") == "tools/tests/fit no"
-    # An edited test alone asks for itself, and a tool or a page for its own tests.
+    # An edited test alone asks for itself, and a tool or a page for the tests of its room.
     assert touched(tmp_path, "tools/tests/fit/test_fit.py") == "tools/tests/fit/test_fit.py no"
     project = "tools/tests/project"
     assert touched(tmp_path, "docs/words.md") == (

@@ -51,7 +51,7 @@ def plumb(wheel, tmp_path_factory):
     (empty / "machine.toml").write_text(machine_toml(machine))
     (empty / "points.csv").write_text("0,0\n")
     (empty / "chains.csv").write_text("1700,1700\n")
-    # Without -S the project's own installation would answer to the name plumb.
+    # Without -S the project's installation would answer to the name plumb.
     packages = os.pathsep.join([str(installed), sysconfig.get_path("purelib")])
 
     def run(*arguments):

@@ -30,7 +30,7 @@ def test_long_chains_are_told_from_a_wrong_tape_and_the_error_falls():
     loop = closed_loop(owner, grid=GRID, said=heard.append)
     assert loop.auto.chosen == ("chain_pitch",)
     assert loop.before.rms > 4
-    # The sheet is laid anew, so its place is not part of the promise.
+    # The sheet is laid again, so its place is not part of the promise.
     assert loop.after.shape_rms < 1.5 * NOISE * np.sqrt(2)
     assert loop.left < 0.2 * loop.before.rms
     assert loop.done

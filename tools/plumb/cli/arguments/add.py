@@ -32,16 +32,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         action="extend",
         default=[],
-        help="effects to fit, after the marks (plumb effects lists them), or auto: what plumb "
-        "diagnose proves. Those that SETTINGS have and that are not named stay as they are",
+        help="effects to fit (plumb effects lists them), or auto: what plumb diagnose proves. "
+        "Other effects of SETTINGS stay as they are",
     )
     parser.add_argument(
         "--patch",
         action="store_true",
-        help="also fit a smooth map of what is left: no physics, for when no effect explains it",
+        help="also fit a smooth map of the errors that no effect explains; it is no physics",
     )
     add_without(parser)
-    parser.add_argument("-o", "--output", metavar="FILE", help="write the machine.toml")
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", help="write the fitted machine to this file"
+    )
     add_client(parser)
     add_firmware(parser)
     add_prior(parser)

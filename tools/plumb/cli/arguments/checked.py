@@ -27,7 +27,7 @@ def add_checked(parser: argparse.ArgumentParser) -> None:
         type=checked,
         default=[],
         help="a number of the machine that you measured directly, like "
-        f"{EXAMPLE} (one sigma); see plumb next and plumb effects",
+        f"{EXAMPLE} (1 sigma); see plumb next and plumb effects",
     )
 
 

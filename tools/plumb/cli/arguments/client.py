@@ -13,14 +13,14 @@ def add_client(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--client",
         choices=CLIENTS,
-        help="what sends G-code to the machine: it keeps numbers too, and sends them each time it "
-        "connects. none: a sender that keeps none",
+        help="the program that sends G-code to the machine. It stores numbers too, and sends them "
+        "each time it connects. none: a sender that stores no numbers",
     )
     parser.add_argument(
         "--original",
         metavar="INI",
         type=file,
-        help="the groundcontrol.ini or webcontrol.json of the client, whose other keys are kept",
+        help="the client's groundcontrol.ini or webcontrol.json; its other keys stay as they are",
     )
 
 
@@ -30,6 +30,6 @@ def add_firmware(parser: argparse.ArgumentParser) -> None:
         "--firmware",
         choices=FIRMWARES,
         default="plumb",
-        help="which firmware the machine runs; for the published one the client carries all "
+        help="which firmware the machine runs; with the published firmware the client carries all "
         "corrections [%(default)s]",
     )

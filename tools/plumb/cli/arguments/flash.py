@@ -17,6 +17,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="HEX",
         nargs="?",
         default=".pio/build/megaatmega2560/firmware.hex",
-        help="the firmware [%(default)s]",
+        help="the file to write [%(default)s]",
     )
     add_port(parser)

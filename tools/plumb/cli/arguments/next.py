@@ -28,10 +28,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--choose",
         metavar="N",
         type=int,
-        help="the proposal that --picture and --marks are of [the best that has marks]",
+        help="the number of the proposal for --picture and --marks [the best with marks]",
     )
-    parser.add_argument("--picture", metavar="FILE", help="draw it on the sheet: .png, .svg, .pdf")
-    parser.add_argument("--marks", dest="template", metavar="FILE", help="a marks.toml to fill in")
+    parser.add_argument(
+        "--picture", metavar="FILE", help="draw the proposal on the sheet: .png, .svg, .pdf"
+    )
+    parser.add_argument(
+        "--marks", dest="template", metavar="FILE", help="write a marks.toml to fill in"
+    )
     add_force(parser)
     add_units(parser)
     add_json(parser)

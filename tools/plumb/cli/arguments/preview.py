@@ -28,12 +28,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="PLAN",
         type=file,
         nargs="?",
-        help="marks whose targets are the plan, like the file of plumb grid --marks [a grid]",
+        help="a file of marks whose targets are the plan, like that of plumb grid --marks [a grid]",
     )
     for name, usual in (("columns", COLUMNS), ("rows", ROWS)):
-        parser.add_argument(f"--{name}", metavar="N", type=int, help=f"of a grid [{usual}]")
+        parser.add_argument(f"--{name}", metavar="N", type=int, help=f"{name} of a grid [{usual}]")
     parser.add_argument(
-        "--margin", metavar="MM", type=length, help="from outer marks to the sheet's edge [100]"
+        "--margin",
+        metavar="MM",
+        type=length,
+        help="distance of the outer marks from the sheet's edge [100]",
     )
     parser.add_argument(
         "--sigma",
@@ -44,7 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_prior(parser)
     add_controller(parser)
     parser.add_argument(
-        "--picture", metavar="FILE", help="draw the plan and what to add: .png, .svg or .pdf"
+        "--picture", metavar="FILE", help="draw the plan and what to add to it: .png, .svg or .pdf"
     )
     add_force(parser)
     add_units(parser)

@@ -8,10 +8,10 @@ from plumb import _core
 from plumb.cli.arguments.shared import add_force, add_json, add_settings, add_units, limit
 
 OPTIONS = {
-    "most_tension": ("N", "of a chain at its sprocket; motors stall near 290 N"),
-    "least_tension": ("N", "of a chain at its sprocket; a slack-side bungee pulls about 18 N"),
-    "least_free": ("MM", "of chain between ring and sprocket"),
-    "most_give": ("MM_PER_N", "how far the sled may move for each newton that pushes it"),
+    "most_tension": ("N", "largest tension of a chain at its sprocket; motors stall near 290 N"),
+    "least_tension": ("N", "least tension of a chain at its sprocket; the bungee pulls about 18 N"),
+    "least_free": ("MM", "least length of chain between ring and sprocket"),
+    "most_give": ("MM_PER_N", "largest move of the sled for each newton that pushes it"),
 }
 HELP = "which part of the sheet a machine can use: chains too tight, too slack, sled too soft"
 EXIT = "Exit: 0 done; 2 an input cannot be used."

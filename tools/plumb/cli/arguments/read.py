@@ -14,6 +14,8 @@ EXIT = "Exit: 0 done; 2 no machine answers, or the file cannot be written."
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of `plumb read`."""
     add_port(parser)
-    parser.add_argument("-o", "--output", metavar="FILE", help="write a machine.toml")
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", help="write the numbers to this file, as a machine.toml"
+    )
     add_force(parser)
     add_json(parser)

@@ -11,7 +11,7 @@ EXIT = "Exit: 0 all was done; 1 stopped after Ctrl-C; 2 refused, or no machine."
 def add_port(parser: argparse.ArgumentParser) -> None:
     """The option --port."""
     parser.add_argument(
-        "--port", metavar="PATH", help="the machine's line [that of the only board on USB]"
+        "--port", metavar="PATH", help="the machine's serial port [that of the only board on USB]"
     )
 
 
@@ -20,11 +20,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "what",
         metavar="FILE|LINE",
-        help="a program; a machine.toml, whose numbers are written and read back; or a line",
+        help="a program to run; a machine.toml, whose numbers are written and read back; or a "
+        "single line",
     )
     add_port(parser)
     parser.add_argument(
         "--undo",
         action="store_true",
-        help="write back the numbers that the machine had before FILE was sent",
+        help="write back the numbers that the machine had before you sent FILE",
     )

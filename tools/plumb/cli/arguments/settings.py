@@ -15,8 +15,10 @@ EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of `plumb settings`."""
     add_settings(parser)
-    parser.add_argument("--to", choices=FORMS, default="table", help="the form [%(default)s]")
+    parser.add_argument("--to", choices=FORMS, default="table", help="what to write [%(default)s]")
     add_client(parser)
-    parser.add_argument("-o", "--output", metavar="FILE", help="write it there instead of printing")
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", help="write to this file, not to the screen"
+    )
     add_force(parser)
     add_json(parser)

@@ -28,7 +28,7 @@ def add_marks(parser: argparse.ArgumentParser) -> None:
         metavar="MARKS",
         type=file,
         nargs="+",
-        help="Calibration Measurements.ini, marks.toml or marks.csv; several make one board",
+        help="Calibration Measurements.ini, marks.toml or marks.csv; several make a single board",
     )
     parser.add_argument(
         "--cut-with",
@@ -44,7 +44,7 @@ def add_controller(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--controller",
         choices=CONTROLLERS,
-        help="whose formula turned targets into chain lengths "
+        help="the controller whose formula turned targets into chain lengths "
         "[what MARKS say, else stock for a groundcontrol.ini]",
     )
 
@@ -57,7 +57,7 @@ def add_prior(parser: argparse.ArgumentParser) -> None:
         action="append",
         type=prior,
         default=[],
-        help="how far (one sigma; mm, N, rad) a stated number may be wrong; 0 holds it",
+        help="how far (1 sigma; mm, N, rad) a stated number may be wrong; 0 holds the number",
     )
 
 
@@ -78,7 +78,7 @@ def add_without(parser: argparse.ArgumentParser) -> None:
         metavar="MARK",
         action="append",
         default=[],
-        help="leave this mark out, say because its reading was a slip",
+        help="leave this mark out, for example because its reading is a slip",
     )
 
 
@@ -87,7 +87,7 @@ def add_units(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--units",
         choices=("mm", "inch"),
-        help="in which lengths are shown [as places were typed]",
+        help="unit of the lengths on the screen [as places were typed]",
     )
 
 

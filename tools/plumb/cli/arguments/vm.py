@@ -18,28 +18,30 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="EFFECT",
         nargs="+",
         default=[],
-        help="effects that this machine has and its settings do not know; random draws one",
+        help="effects that this machine has and its settings do not know; random draws an effect",
     )
     parser.add_argument(
         "--size",
         metavar="MM",
         type=length,
         default=3.0,
-        help="how far each moves the marks, RMS [%(default)g]",
+        help="how far each effect moves the marks, RMS [%(default)g]",
     )
     parser.add_argument(
         "--seed",
         metavar="N",
         type=int,
         default=0,
-        help="another garage: frame, sheet, motors, what random draws [%(default)s]",
+        help="draws frame, sheet, motors and the random effect [%(default)s]",
     )
     parser.add_argument("--reveal", action="store_true", help="say at the end what was hidden")
     parser.add_argument(
-        "--eeprom", metavar="FILE", help="the board's memory; kept there from run to run"
+        "--eeprom", metavar="FILE", help="keep the board's memory in this file from run to run"
     )
     parser.add_argument(
-        "--fresh", action="store_true", help="an empty memory: no settings, no chain lengths"
+        "--fresh",
+        action="store_true",
+        help="begin with an empty memory: no settings, no chain lengths",
     )
     parser.add_argument(
         "--mega",
@@ -47,15 +49,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="run this flashed program on a simulated Mega, not the firmware built for the host",
     )
     parser.add_argument(
-        "--speed", metavar="N", type=length, default=1.0, help="times real time [%(default)g]"
+        "--speed",
+        metavar="N",
+        type=length,
+        default=1.0,
+        help="how many times as fast as real time [%(default)g]",
     )
-    parser.add_argument("--seconds", metavar="S", type=length, help="end after so long")
+    parser.add_argument("--seconds", metavar="S", type=length, help="end after S seconds")
     parser.add_argument(
         "--form",
         metavar="FORM",
         help="a form that plumb grid wrote: a tape fills it in once all its marks are cut",
     )
-    parser.add_argument("--readings", metavar="FILE", help="where the filled form goes")
+    parser.add_argument("--readings", metavar="FILE", help="write the filled form to this file")
     parser.add_argument(
-        "--noise", metavar="MM", type=length, default=0.4, help="of the tape [%(default)g]"
+        "--noise",
+        metavar="MM",
+        type=length,
+        default=0.4,
+        help="noise of the tape's readings [%(default)g]",
     )

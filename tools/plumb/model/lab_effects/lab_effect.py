@@ -19,7 +19,7 @@ TAPE = "tape"  # everything that is read from a tape, distances too
 
 @dataclass(frozen=True)
 class Seen:
-    """Places before an effect acts, and what it may look at besides."""
+    """Places before an effect acts, and what else it may read."""
 
     places: Array  # (n, 2) [mm]
     approaches: Array  # (n, 2) unit vectors of the last move; zero where it is not known
