@@ -39,13 +39,9 @@ class Loop:
     forms: tuple[str, ...]  # what was read, as files of marks: the first sheet, the last sheet
     before: Comparison  # the first sheet, with the owner's first settings
     first: Diagnosis
-<<<<<<< HEAD
     inputs: Inputs  # all that was measured
-    done: tuple[Proposal, ...]  # what was measured besides
-    spent: Spent  # until the machine was changed
-=======
     done: tuple[Proposal, ...]  # what else was measured
->>>>>>> 38816d3 (Pages and help in shorter sentences; what a command line states is read in a single place, shared facts of the hole sets are on a page)
+    spent: Spent  # until the machine was changed
     auto: AutoAddition
     after: Comparison | None  # the second sheet; None where nothing could be added
 

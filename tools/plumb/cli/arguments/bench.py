@@ -25,10 +25,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--boards", metavar="N", type=count, help=f"boards of each scenario [{BOARDS}]"
     )
     parser.add_argument("--fast", action="store_true", help=f"{FAST} boards of each scenario")
-<<<<<<< HEAD
-    parser.add_argument("--seed", metavar="S", type=int, default=1, help="other boards [1]")
-    parser.add_argument("--jobs", metavar="N", type=count, default=1, help="programs at once [1]")
-=======
     parser.add_argument(
         "--seed",
         metavar="S",
@@ -36,8 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=1,
         help="draws the boards; the same seed, the same boards [1]",
     )
-    parser.add_argument("--jobs", metavar="N", type=_count, default=1, help="processes at once [1]")
->>>>>>> 38816d3 (Pages and help in shorter sentences; what a command line states is read in a single place, shared facts of the hole sets are on a page)
+    parser.add_argument("--jobs", metavar="N", type=count, default=1, help="processes at once [1]")
     parser.add_argument(
         "--cluster", metavar="ADDRESS", help="run on a Dask cluster, like tcp://10.0.0.1:8786"
     )
