@@ -23,7 +23,7 @@ FEW = 4  # marks of a proposal
 MANY_GRID, MANY_MARGIN = (7, 4), (0.07, 0.12)  # the 28 marks that it is compared with
 SHARPER = 1.5  # times better than what is known: else a check is not worth the way
 READ_AGAIN = 3  # times each mark is read again
-MOST_NEAR = 60  # marks next to each of which a new one is thought of
+MOST_NEAR = 60  # marks next to which a new mark is considered
 MOST_AGAIN = 12  # marks that are all visited again with another weight
 # Minutes: a round at the machine, a mark cut and read, a mark read once more, a change of weight,
 # chains swapped and brought to 12 o'clock again.
