@@ -10,7 +10,7 @@ import tree
 # A word that replaces a noun or fills a sentence. `one` counts only where a noun is missing.
 CRUTCHES = re.compile(
     r"\b(?:own|ones|told|anew|besides?|so\s+many|stands?\s+in)\b"
-    r"|\b(?:the|this|each|every|another|which|left|right|next|last|first|other|old|new|same|usual"
+    r"|\b(?:the|this|each|every|another|left|right|next|last|first|other|old|new|same|usual"
     r"|an?\s+\w+)\s+one\b"
     r"|(?<!by )(?<!by\n)\bone(?=[.,;:)])",
     re.IGNORECASE,

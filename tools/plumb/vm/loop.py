@@ -91,7 +91,7 @@ def closed_loop(
 
 
 def lay_next_sheet(owner: VirtualOwner, settings: MachineSettings, *, raised: float) -> None:
-    """Send new settings, and lay the second sheet on the stops, the right one `raised` [mm]."""
+    """Send new settings, and lay the second sheet on the stops, the right stop `raised` [mm]."""
     owner.send(settings)
     owner.lay_new_sheet(owner.garage.seed + 1, raised=raised)
 

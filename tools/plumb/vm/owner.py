@@ -73,7 +73,7 @@ class VirtualOwner:
         set_up(self.sender, self.settings)
 
     def restart(self) -> None:
-        """Lay the chains over the sprockets anew, as on the first day; the sheet stays."""
+        """Lay the chains over the sprockets again, as on the first day; the sheet stays."""
         self.machine.stop()
         self.machine = self.garage.machine(elf=self._elf)
         self.sender = Sender(InProcessPort(self.machine))

@@ -56,7 +56,7 @@ _CURABLE = tuple(name for name in FIRMWARE if any(cause.effect == name for cause
 
 
 def _of(games: Sequence[Played], kinds: Sequence[str], marks: str) -> list[Played]:
-    """The games of some kinds with so many marks on the first sheet."""
+    """The games of some kinds with this many marks on the first sheet."""
     rows = {f"{kind} {marks}" for kind in kinds}
     return [game for game in games if game.row in rows]
 

@@ -40,7 +40,7 @@ class Level:
 def _drawn(
     source: np.random.Generator, causes: tuple[Cause, ...], count: int, millimetres: float
 ) -> Hidden:
-    """So many different effects, each of so much RMS."""
+    """Some different effects, each with the same RMS."""
     effects = by_effect(causes)
     chosen = [effects[i] for i in source.choice(len(effects), count, replace=False)]
     each = [of_effect[source.integers(len(of_effect))] for of_effect in chosen]

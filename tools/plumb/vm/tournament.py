@@ -38,13 +38,13 @@ class Task:
 
 
 def level_tasks(levels: Sequence[int], games: int, seed: int) -> list[Task]:
-    """So many games of each level, in turns."""
+    """A number of games of each level, in turns."""
     rows = [f"level {level}" for level in levels]
     return [Task(row, seed + game) for game in range(games) for row in rows]
 
 
 def matrix_tasks(games: int, seed: int) -> list[Task]:
-    """So many games of each cell of the matrix, in turns, so that none is far behind."""
+    """A number of games of each cell of the matrix, in turns, so that none is far behind."""
     rows = [f"{kind} {marks}" for marks in GRIDS for kind in KINDS]
     return [Task(row, seed + game) for game in range(games) for row in rows]
 
