@@ -1,5 +1,8 @@
 # The parts of a test run: each leaves its output and its counts in $results; sourced by tools/test.
 
+quick_checks=(arrows effects unused size names formatting words prose programs)
+slow_checks=(annotations generated)
+
 # Nothing of an earlier run counts.
 set_out() {
   rm -rf "$results"
@@ -27,10 +30,10 @@ many() {
   record "$1" $("$python" tools/count_tests.py "$2" "$status") "$began"
 }
 
-# Each check counts as a test; all run at once.
+# checks [NAME...]: each check counts as a test; those named, or all, run at once.
 checks() {
-  local began=$SECONDS check good=0 bad=0 running=()
-  local names=(arrows effects unused size names annotations formatting words prose generated programs)
+  local began=$SECONDS check good=0 bad=0 running=() names=("$@")
+  [ $# -gt 0 ] || names=("${quick_checks[@]}" "${slow_checks[@]}")
   for check in "${names[@]}"; do
     "$python" "tools/checks/$check.py" >"$results/check_$check.log" 2>&1 &
     running+=("$!")

@@ -8,15 +8,18 @@ quick() {
   fi
   suites=()
   rooms=()
+  to_check=("${quick_checks[@]}")
   builds_firmware=no
   for file in $(edited); do touched_by "$file"; done
   parts=(checks)
-  checks
+  # The other core builds and runs the suites meanwhile.
+  checks $(each_once "" "${to_check[@]}") &
   [ "$builds_firmware" = no ] || build_quickly
   if [ "${#suites[@]}" -gt 0 ]; then
     parts+=("host tests")
     host_tests $(each_once --filter "${suites[@]}")
   fi
+  wait
   if [ "${#rooms[@]}" -gt 0 ]; then
     parts+=(setup "Python tests")
     one "setup" tools/setup
@@ -36,11 +39,16 @@ edited() {
   git ls-files --others --exclude-standard
 }
 
-# touched_by FILE: adds the suites (folders of test) and rooms (folders of tools/tests) to run.
+# touched_by FILE: adds the suites (folders of test), rooms (folders of tools/tests) and slow checks
+# to run.
 touched_by() {
   local room project=tools/tests/project
   case "$1" in
     lib/* | src/* | include/* | platformio.ini) builds_firmware=yes ;;
+  esac
+  case "$1" in
+    tools/plumb/* | tools/mypy.ini) to_check+=(annotations generated) ;;
+    docs/* | lib/Kinematics/* | src/settings_table.h) to_check+=(generated) ;;
   esac
   case "$1" in
     lib/Kinematics/*) suites+=(test_kinematics test_effects) rooms+=(tools/tests/model) ;;
@@ -78,6 +86,11 @@ each_once() {
 }
 
 say_left_out() {
-  printf '\nLeft out: fuzz, bench, slow Python tests, and every suite but: %s%s\n' \
+  local check
+  printf '\nLeft out: fuzz, bench, slow Python tests'
+  for check in "${slow_checks[@]}"; do
+    [[ " ${to_check[*]} " == *" $check "* ]] || printf ', check %s' "$check"
+  done
+  printf ', and every suite but: %s%s\n' \
     "$(each_once "" "${suites[@]}")" "$(each_once "" "${rooms[@]}")"
 }

@@ -68,9 +68,27 @@ def test_each_check_counts(tmp_path):
 
 
 def touched(tmp_path: Path, file: str) -> str:
-    script = f"suites=() rooms=() builds_firmware=no; touched_by {file}\n"
+    script = f"suites=() rooms=() to_check=() builds_firmware=no; touched_by {file}\n"
     show = 'echo "${suites[*]} ${rooms[*]} $builds_firmware"'
     return run(tmp_path, script + show).stdout.strip()
+
+
+@pytest.mark.parametrize(
+    ("file", "slow"),
+    [
+        ("tools/plumb/fit/fit.py", "annotations generated"),
+        ("lib/Kinematics/src/frame.h", "generated"),
+        ("src/settings_table.h", "generated"),
+        ("docs/effects.md", "generated"),
+        ("lib/Motion/src/corner.h", ""),
+    ],
+)
+def test_the_short_run_asks_a_slow_check_where_an_edit_could_fail_it(tmp_path, file, slow):
+    script = f"suites=() rooms=() to_check=(); touched_by {file}; "
+    assert run(tmp_path, script + 'echo "${to_check[*]}"').stdout.strip() == slow
+    said = run(tmp_path, script + "say_left_out").stdout
+    for check in ("annotations", "generated"):
+        assert (f", check {check}," in said) == (check not in slow.split())
 
 
 def test_the_short_run_runs_the_suites_and_rooms_of_an_edited_file(tmp_path):
