@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from plumb.cure.auto import AutoAddition
 from plumb.fit.compare import Comparison, compare
 from plumb.grid.options import Grid
 from plumb.vm.budget import Budget
@@ -55,9 +56,7 @@ def play(
     owner = VirtualOwner(random_garage(secret.hidden, seed), slip=secret.slip, elf=elf)
     garage = owner.garage
     loop = closed_loop(owner, grid=grid, budget=budget, progress=progress)
-    chosen = tuple(name for name in loop.auto.chosen if name not in ALWAYS)
-    unsure = loop.auto.rivals or loop.auto.diagnosis.verdict in ("not_in_library", "slip")
-    claimed = () if unsure else chosen
+    chosen, claimed = chosen_in(loop.auto), claimed_in(loop.auto)
     settings = loop.addition.settings if loop.auto.addition else loop.inputs.settings
     errors = sled_errors(loop.inputs, garage, settings)
     return Played(
@@ -67,7 +66,7 @@ def play(
         loop.auto.diagnosis.verdict,
         claimed,
         chosen,
-        _solved(secret, chosen, loop),
+        is_solved(secret, loop.auto),
         len({*claimed} - {*secret.hidden.effects}),
         loop.spent.marks,
         loop.spent.minutes,
@@ -81,11 +80,22 @@ def play(
     )
 
 
-def _solved(secret: Secret, chosen: tuple[str, ...], loop: Loop) -> bool:
+def chosen_in(auto: AutoAddition) -> tuple[str, ...]:
+    """The effects that were added, but for those that every machine has."""
+    return tuple(name for name in auto.chosen if name not in ALWAYS)
+
+
+def claimed_in(auto: AutoAddition) -> tuple[str, ...]:
+    """Those of them that nothing speaks against: no rival, and nothing left that is unknown."""
+    unsure = auto.rivals or auto.diagnosis.verdict in ("not_in_library", "slip")
+    return () if unsure else chosen_in(auto)
+
+
+def is_solved(secret: Secret, auto: AutoAddition) -> bool:
     """Whether the right thing was said: for what no effect explains, that it is such a thing."""
     if secret.hidden.outside:
-        return loop.auto.diagnosis.verdict == "not_in_library"
-    return {*chosen} == {*secret.hidden.effects} and loop.auto.addition is not None
+        return auto.diagnosis.verdict == "not_in_library"
+    return {*chosen_in(auto)} == {*secret.hidden.effects} and auto.addition is not None
 
 
 def _cut_with_truth(loop: Loop, grid: Grid) -> Comparison:

@@ -3,10 +3,11 @@
 import json
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from plumb.bench.causes import MAKER, Hidden
+from plumb.bench.causes import MAKER, Hidden, causes_of
 from plumb.cli.main import main
 from plumb.grid.options import Grid
 from plumb.marks.read import read_marks
@@ -16,14 +17,17 @@ from plumb.text.errors import InputError
 from plumb.vm import tournament
 from plumb.vm.budget import Budget, Spent, cutting, reading
 from plumb.vm.floor import sled_error
-from plumb.vm.game import Played, play
+from plumb.vm.game import Played, chosen_in, claimed_in, is_solved, play
 from plumb.vm.garage import Garage, random_garage
 from plumb.vm.hiding import astray
 from plumb.vm.owner import VirtualOwner
 from plumb.vm.page import page
 from plumb.vm.practice import Practice, claims_of, hint
 from plumb.vm.rates import row_of, rows_of
-from plumb.vm.secret import KINDS, LARGEST, LEVELS, of_kind, of_level
+from plumb.vm.secret import KINDS, LARGEST, LEVELS, Secret, of_kind, of_level
+
+# One hidden effect, and two.
+CAUSES_OF = (causes_of("chain_sag"), (*causes_of("chain_sag"), causes_of("chain_pitch")[0]))
 
 
 @pytest.fixture
@@ -103,6 +107,10 @@ def test_a_slip_is_in_the_first_reading_only(step, tmp_path):
     marks = read_marks(tmp_path / "game/marks.toml", sheet=MAKER.sheet).measured
     apart = np.linalg.norm(marks[:4] - marks[4:], axis=1)
     assert (apart > 6).sum() == 1 and (apart < 3).sum() == 3
+    # The next marks are read right: cut at the same targets, they lie beside the first.
+    step("measure", "2x2")
+    marks = read_marks(tmp_path / "game/marks.toml", sheet=MAKER.sheet).measured
+    assert (np.linalg.norm(marks[4:8] - marks[8:], axis=1) < 3).all()
 
 
 def test_a_direct_measurement_costs_minutes_and_is_told_to_the_lab(step, tmp_path):
@@ -232,6 +240,36 @@ def test_the_lab_plays_a_game_and_its_cost_is_counted():
     # The truth was added, so nobody could do better.
     assert (game.sled_after, game.cut_after) == (game.sled_known, game.cut_known)
     assert game.sled_known < game.sled_frame < game.sled_before
+
+
+def auto_of(verdict, *chosen, rivals=(), added=True):
+    """What add --effect auto answers, as far as a game looks at it."""
+    diagnosis = SimpleNamespace(verdict=verdict)
+    addition = object() if added else None
+    return SimpleNamespace(diagnosis=diagnosis, chosen=chosen, rivals=rivals, addition=addition)
+
+
+def test_a_claim_has_no_rival_and_friction_is_on_every_machine():
+    alone = auto_of("one_suspect", "chain_sag", "sled_friction")
+    assert claimed_in(alone) == chosen_in(alone) == ("chain_sag",)
+    for unsure in (
+        auto_of("cannot_tell", "chain_sag", rivals=(("frame_lean",),)),
+        auto_of("not_in_library", "chain_sag"),
+    ):
+        assert chosen_in(unsure) == ("chain_sag",) and claimed_in(unsure) == ()
+
+
+def test_a_game_is_solved_by_all_that_is_hidden_and_nothing_else():
+    sag, two = (Secret(Hidden(tuple((cause, 1.0) for cause in each))) for each in CAUSES_OF)
+    assert is_solved(sag, auto_of("one_suspect", "chain_sag"))
+    assert is_solved(sag, auto_of("one_suspect", "sled_friction", "chain_sag"))
+    assert not is_solved(sag, auto_of("one_suspect", "chain_sag", "frame_lean"))
+    assert not is_solved(two, auto_of("one_suspect", "chain_sag"))
+    assert not is_solved(sag, auto_of("slip", "chain_sag", added=False))
+    assert is_solved(Secret(Hidden()), auto_of("nothing_provable"))
+    unknown = Secret(Hidden(outside="bump", outside_mm=3.0))
+    assert is_solved(unknown, auto_of("not_in_library", "chain_sag"))
+    assert not is_solved(unknown, auto_of("nothing_provable"))
 
 
 @pytest.mark.slow

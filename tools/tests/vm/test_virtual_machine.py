@@ -131,3 +131,21 @@ def test_what_cannot_be_is_refused():
         machine.set_wire("z", "rust", True)
     with pytest.raises(ValueError, match="4096"):
         machine.eeprom = b""
+
+
+def test_a_line_in_the_sheet_is_seen_every_ten_milliseconds(machine):
+    said_by(machine, "G0 Z2\nG0 X0 Y0\nG1 Z-1 F500\nG1 X60 F800\nG0 Z2", 60_000)
+    places = np.array([cut[2:4] for cut in machine.cuts()])
+    # At 13 mm/s it goes 0.13 mm in that time; above the sheet it is looked at every half mm.
+    assert len(places) > 300
+    assert np.linalg.norm(np.diff(places, axis=0), axis=1).max() < 0.3
+
+
+def test_above_the_sheet_the_sled_is_where_its_chains_put_it(machine):
+    said_by(machine, "G0 Z2\nG0 X-200 Y100", 60_000)
+    machine.send(b"G0 X200\n")
+    for _ in range(40):
+        machine.advance(250)
+        chains = np.array([machine.chains])
+        rest = _judge.places(NUMBERS, chains, pushes=0 * chains, weights=np.array([97.9]))
+        assert machine.sled == pytest.approx(tuple(rest[0]), abs=0.7)
