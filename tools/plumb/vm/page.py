@@ -36,7 +36,8 @@ cut the grid again on a new sheet.
 - *Before, after, best* [mm]: RMS error of the sled all over the sheet, the sheet laid at its best,
   without noise; *best* is a fit of the same marks by somebody who knows what is hidden. *After /
   best* is the ratio of the means, with its standard deviation.
-- *Second sheet*: the same ratio for the second sheet as a tape reads it.
+- *Second sheet*: the same ratio for the second sheet as a tape reads it. Where the lab adds just
+  what is hidden, both fits are the same, and so are both sheets: the ratios are 1.
 """
 
 
