@@ -302,6 +302,13 @@ bool Axes::isPowered() const {
   return false;
 }
 
+bool Axes::isTurning() const {
+  const WithoutTicks hold(clock_);
+  for (const One& one : axis_)
+    if (one.moved > 1 || one.moved < -1) return true;
+  return false;
+}
+
 bool Axes::isDriven() const {
   for (const Controlled& controlled : axis_)
     if (controlled.mode == AxisMode::kOpen || controlled.mode == AxisMode::kTurn) return true;

@@ -98,6 +98,8 @@ class Axes {
   void driveOpen(Axis axis, int16_t duty);
   void turn(Axis axis, float rpm);
   bool isPowered() const;
+  /// Whether an encoder counted more than an edge at the last tick.
+  bool isTurning() const;
   /// Whether a motor runs without its position loop.
   bool isDriven() const;
   /// Simulates the motors from now on: they take no power and follow exactly.

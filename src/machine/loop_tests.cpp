@@ -65,6 +65,7 @@ bool AxisTests::testSpeeds(const LoopTest& test) {
   axes_.release(test.axis);
   out_.line(FLASH("--PID Velocity Test Stop--"));
   out_.end();
+  waiting_.awaitStandstill();
   place_.search();
   return completed;
 }
@@ -102,6 +103,7 @@ bool AxisTests::testLengths(const LoopTest& test) {
   axes_.release(test.axis);
   out_.line(FLASH("--PID Position Test Stop--"));
   out_.end();
+  waiting_.awaitStandstill();
   place_.search();
   return completed;
 }
@@ -124,6 +126,7 @@ bool AxisTests::testDuties(const LoopTest& test) {
   axes_.release(test.axis);
   out_.line(FLASH("--Voltage Test Stop--"));
   out_.end();
+  waiting_.awaitStandstill();
   place_.search();
   return completed;
 }

@@ -46,6 +46,7 @@ bool AxisTests::testMotors() {
     axes_.release(Axis(i));
   }
   if (completed) out_.line(FLASH("Tests complete."));
+  waiting_.awaitStandstill();
   place_.search();
   return completed;
 }
@@ -54,6 +55,7 @@ bool AxisTests::pullChain(Axis axis, int16_t duty, float seconds) {
   if (!waiting_.drain() || !motors_.wake()) return false;
   const bool completed = driveFor(axis, duty, uint32_t(seconds * 1000));
   axes_.release(axis);
+  waiting_.awaitStandstill();
   place_.search();
   return completed;
 }

@@ -83,6 +83,8 @@ void Machine::stopNow() {
 
 void Machine::finishStop() {
   while (isMoving()) pass();
+  // A motor that was let go runs on for a while.
+  awaitStandstill();
   // A new stop may come meanwhile: it is answered, and this stop goes on.
   stopping_ = false;
   if (isHalted()) {

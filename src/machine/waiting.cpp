@@ -29,4 +29,10 @@ void Waiting::settle() {
   });
 }
 
+void Waiting::awaitStandstill() {
+  const uint32_t kPatience = 1000;  // [ms] somebody may turn a sprocket by hand
+  const uint32_t start = clock_.milliseconds();
+  while (axes_.isTurning() && clock_.milliseconds() - start < kPatience) pass();
+}
+
 }  // namespace machine

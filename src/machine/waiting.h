@@ -43,6 +43,8 @@ class Waiting {
   bool drain();
   /// Waits until all axes are near their set-points, but not for ever.
   void settle();
+  /// Until no motor turns, also without power; but not for ever.
+  void awaitStandstill();
 
  protected:
   ~Waiting() = default;

@@ -85,6 +85,8 @@ bool Stage::change(const std::string& verb, const std::string& rest) {
     motorNamed(rest).stuck = is("block");
   else if (is("unplug") || is("plug"))
     motorNamed(rest).unplugged = is("unplug");
+  else if (is("coast"))
+    motorNamed(rest.substr(0, rest.find(' '))).coasting = numbersIn(rest).at(0);
   else if (is("miss"))
     motorNamed(rest.substr(0, rest.find(' '))).to_miss = int(numbersIn(rest).at(0));
   else if (is("complain"))

@@ -9,7 +9,6 @@ using machine::kAxisCount;
 namespace vm {
 namespace {
 
-const uint16_t kTimsk5 = 0x73, kOcr5b = 0x12a;
 const int kSlicesPerMs = 4;  // no motor makes more edges in a millisecond
 // The driver looks the same at a duty of zero and without power. A motor that follows its
 // set-points is not at zero for so long.
@@ -86,9 +85,7 @@ void MegaStage::showPins() {
   }
   stage_.pulse(machine::Output::kSpindle, spindle_->level());
   stage_.pulse(machine::Output::kLaser, laser_->level());
-  const uint8_t* const data = board_->avr()->data;
-  const int pulse = data[kOcr5b] | data[kOcr5b + 1] << 8;  // [half a microsecond]
-  stage_.turnServo(data[kTimsk5] == 0 ? machine::kNoServo : uint8_t((pulse - 1088) * 180 / 3712));
+  stage_.turnServo(uint8_t(servoOf(*board_)));
   board_->setPin(kProbePin, !stage_.probeTouches());
   // The stage gives its supply as the processor measures it: the reference in 1/1024 of the supply.
   board_->setSupply(1.1 * 1024 / (stage_.bandGap() + 0.5));

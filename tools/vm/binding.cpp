@@ -112,6 +112,10 @@ class VirtualMachine {
   void setBoardSupply(double volts) { brain_->setSupply(volts); }
   int spindle() { return brain_->spindle(); }
   int laser() { return brain_->laser(); }
+  int servo() { return brain_->servo(); }
+  void pull(const std::string& axis, double mm_per_second) {
+    world_.pull(axisNamed(axis), mm_per_second);
+  }
   std::vector<int> eepromWrites() const {
     const auto* const host = dynamic_cast<const brain::HostBrain*>(brain_.get());
     return host ? host->eepromWrites() : std::vector<int>();
@@ -185,6 +189,9 @@ NB_MODULE(_vm, module) {
       .def("set_board_supply", &VirtualMachine::setBoardSupply, arg("volts"), "5 if all is well.")
       .def_prop_ro("spindle", &VirtualMachine::spindle, "255ths of the time that its pin is high.")
       .def_prop_ro("laser", &VirtualMachine::laser, "255ths of the time that its pin is high.")
+      .def_prop_ro("servo", &VirtualMachine::servo, "Degrees of the spindle's servo; 255: loose.")
+      .def("pull", &VirtualMachine::pull, arg("axis"), arg("mm_per_second"),
+           "Somebody pays out chain while its motor has no power.")
       .def_prop_ro("eeprom_writes", &VirtualMachine::eepromWrites,
                    "How often each byte was written since the world began; none for the ELF.");
 }

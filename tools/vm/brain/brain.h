@@ -44,6 +44,8 @@ class Brain {
   /// How much of the time, in 255ths, the spindle's pin and the laser's are high.
   virtual int spindle() = 0;
   virtual int laser() = 0;
+  /// [degrees] of the spindle's servo; 255 where nothing holds it.
+  virtual int servo() = 0;
 };
 
 }  // namespace brain

@@ -46,6 +46,7 @@ void HostBrain::stop() {
   input_.clear();
   received_.clear();
   levels_[0] = levels_[1] = 0;
+  servo_ = machine::kNoServo;
 }
 
 void HostBrain::cutPower(unsigned draw) {

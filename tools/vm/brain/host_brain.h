@@ -45,6 +45,7 @@ class HostBrain : public Brain,
   void delayProgram(int milliseconds) override { late_ms_ = milliseconds; }
   void setSupply(double volts) override { supply_ = volts; }
   int spindle() override { return levels_[int(machine::Output::kSpindle)]; }
+  int servo() override { return servo_; }
   int laser() override { return levels_[int(machine::Output::kLaser)]; }
   /// How often each byte of the EEPROM was written.
   const std::vector<int>& eepromWrites() const { return eeprom_.writes_of; }
@@ -71,7 +72,7 @@ class HostBrain : public Brain,
   void arrange(bool, uint8_t) override {}
   void set(machine::Output output, bool high) override { pulse(output, high ? 255 : 0); }
   void pulse(machine::Output output, uint8_t level) override { levels_[int(output)] = level; }
-  void turnServo(uint8_t) override {}
+  void turnServo(uint8_t degrees) override { servo_ = degrees; }
   bool probeTouches() override { return world_.probeTouches(); }
   uint16_t bandGap() override;
   uint32_t milliseconds() override { return now_ms_; }
@@ -95,7 +96,7 @@ class HostBrain : public Brain,
   int out_queue_ = 0, lost_ = 0, late_ms_ = 0;
   uint32_t now_ms_ = 0;
   Encoder encoders_[machine::kAxisCount];
-  uint8_t levels_[2] = {0, 0};
+  uint8_t levels_[2] = {0, 0}, servo_ = 255;
   machine::Machine* ticked_ = nullptr;
   int tick_every_ms_ = 10;
   int silent_ticks_ = 0;   ///< since the main program last called idle()

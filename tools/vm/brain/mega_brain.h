@@ -33,6 +33,7 @@ class MegaBrain : public Brain {
   void delayProgram(int milliseconds) override;
   void setSupply(double volts) override;
   int spindle() override { return spindle_ ? spindle_->level() : 0; }
+  int servo() override { return board_ ? vm::servoOf(*board_) : vm::kLoose; }
   int laser() override { return laser_ ? laser_->level() : 0; }
 
  private:

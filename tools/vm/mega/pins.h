@@ -69,6 +69,16 @@ struct Encoders {
   EncoderPins of[kMotors] = {{3, 2}, {20, 21}, {18, 19}};
 };
 
+const int kLoose = 255;
+
+/// [degrees] of the servo by timer 5's pulses; kLoose where it makes none.
+inline int servoOf(VirtualBoard& board) {
+  const uint16_t kTimsk5 = 0x73, kOcr5b = 0x12a;
+  const uint8_t* const data = board.avr()->data;
+  const int pulse = data[kOcr5b] | data[kOcr5b + 1] << 8;  // [half a microsecond]
+  return data[kTimsk5] == 0 ? kLoose : (pulse - 1088) * 180 / 3712;
+}
+
 const int kSpindlePin = 17, kLaserPin = 16, kProbePin = 14;
 
 }  // namespace vm

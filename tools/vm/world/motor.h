@@ -45,8 +45,9 @@ class Motor {
   Motor(const MotorConstants& constants, unsigned seed) : c_(constants), source_(seed) {}
 
   Wires wires;
-  double weaker = 0;       ///< [V] by which the supply is low
-  double pull = 0;         ///< [Nm] pull of the cut, in addition to the load
+  double weaker = 0;   ///< [V] by which the supply is low
+  double pull = 0;     ///< [Nm] pull of the cut, in addition to the load
+  double by_hand = 0;  ///< [rad/s] at which somebody turns the sprocket of a motor without power
   bool is_powered = true;  ///< without power no current flows: only friction brakes
 
   /// Lets `seconds` pass with a duty of -255 to 255.
@@ -60,6 +61,7 @@ class Motor {
     // Without a supply the bridge conducts nothing, so it brakes nothing.
     const bool is_fed = is_powered && !wires.motor_unplugged && c_.supply - weaker > c_.bridge_drop;
     for (double t = 0; t < seconds - kStep / 2; t += kStep) {
+      if (!is_fed) rotor_ += by_hand * kStep;
       current_ = is_fed ? (volts - c_.torque_constant * speed_) / whole : 0;
       step(c_.torque_constant * current_, kStep);
     }

@@ -62,6 +62,10 @@ class World {
   void set(const std::string& number, double value) { sled_.set(number, value); }
   void creep(const std::string& number, double per_second) { creeps_[number] = per_second; }
   Wires& wires(Axis axis) { return motors_[axis].wires; }
+  /// Somebody pays out so much of a chain while its motor has no power.
+  void pull(Axis axis, double mm_per_second) {
+    motors_[axis].by_hand = mm_per_second / per_turn_[axis] * kTurn;
+  }
   /// Lets the motors' supply be so much lower than 12 V.
   void weakenSupply(double volts) { lacking_ = volts; }
   void setProbeHeight(double z) { probe_height_ = z; }
