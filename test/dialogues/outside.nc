@@ -52,4 +52,4 @@
 -> G0 X0 Y-600
 <- ok
 ~~ wait 9
-~~ sled X0 Y-600 within 0.06
+~~ sled X0 Y-600 within 0.08
