@@ -304,8 +304,8 @@ bool Axes::isPowered() const {
 
 bool Axes::isTurning() const {
   const WithoutTicks hold(clock_);
-  for (const One& one : axis_)
-    if (one.moved > 1 || one.moved < -1) return true;
+  for (const Controlled& controlled : axis_)
+    if (controlled.moved > 1 || controlled.moved < -1) return true;
   return false;
 }
 

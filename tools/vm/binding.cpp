@@ -131,42 +131,10 @@ class VirtualMachine {
   std::unique_ptr<brain::Brain> brain_;
 };
 
-}  // namespace
-
-NB_MODULE(_vm, module) {
-  module.doc() = "The virtual machine: motors, chains, sled and sheet, driven by the firmware.";
+/// What hands and faults do to a machine.
+void bindFaults(nb::class_<VirtualMachine>& machine) {
   using nb::arg;
-  nb::class_<VirtualMachine>(module, "VirtualMachine",
-                             "A machine in its garage. numbers: what differs from the judge's "
-                             "default machine; friction [N] of the sled; seed draws the motors, 0: "
-                             "as they are meant to be; paid_out [mm] of both chains at first; elf: "
-                             "the flashed program, else the firmware built for the host.")
-      .def(nb::init<const std::map<std::string, double>&, double, unsigned, double,
-                    const std::optional<std::string>&>(),
-           arg("numbers"), nb::kw_only(), arg("friction") = 0.0, arg("seed") = 0,
-           arg("paid_out") = 1651.0, arg("elf") = nb::none())
-      .def("advance", &VirtualMachine::advance, arg("milliseconds"),
-           nb::call_guard<nb::gil_scoped_release>(), "Lets time pass.")
-      .def("start", &VirtualMachine::start, "Power comes, or the reset button is let go.")
-      .def("stop", &VirtualMachine::stop, "Power goes at once. The EEPROM keeps what it has.")
-      .def("cut_power", &VirtualMachine::cutPower, arg("draw") = 0,
-           "As stop(); a byte that is being written is left half written, by the bits of `draw`.")
-      .def_prop_ro("is_running", &VirtualMachine::isRunning)
-      .def("send", &VirtualMachine::send, arg("characters"),
-           "Puts characters on the line; they arrive at 57,600 baud.")
-      .def("take_said", &VirtualMachine::takeSaid, "All that was said since this was last asked.")
-      .def_prop_rw("eeprom", &VirtualMachine::eeprom, &VirtualMachine::setEeprom)
-      .def_prop_ro("seconds", &VirtualMachine::seconds, "Since the world began.")
-      .def_prop_ro("sled", &VirtualMachine::sled, "(x, y) [mm] of the bit from mid sheet.")
-      .def_prop_ro("chains", &VirtualMachine::chains, "[mm] of nominal links, left and right.")
-      .def_prop_ro("tensions", &VirtualMachine::tensions, "[N] at the sprockets.")
-      .def_prop_ro("height", &VirtualMachine::height, "[mm] of the bit above the sheet's face.")
-      .def_prop_ro("hangs", &VirtualMachine::hangs, "Whether a sled can hang from these chains.")
-      .def("count", &VirtualMachine::count, arg("axis"), "Encoder counts since the world began.")
-      .def("duty", &VirtualMachine::duty, arg("axis"), "-255 to 255; positive winds in.")
-      .def("cuts", &VirtualMachine::cuts,
-           "Where the bit was in the sheet: rows of plunge, seconds, x, y, depth [mm].")
-      .def("replace_sheet", &VirtualMachine::replaceSheet, "A new sheet lies on the frame.")
+  machine
       .def("hang_at", &VirtualMachine::hangAt, arg("x"), arg("y"),
            "Lays the chains so that the bit is there [mm].")
       .def("set_height", &VirtualMachine::setHeight, arg("z"), "Turns the screw of z by hand.")
@@ -194,4 +162,45 @@ NB_MODULE(_vm, module) {
            "Somebody pays out chain while its motor has no power.")
       .def_prop_ro("eeprom_writes", &VirtualMachine::eepromWrites,
                    "How often each byte was written since the world began; none for the ELF.");
+}
+
+}  // namespace
+
+NB_MODULE(_vm, module) {
+  module.doc() = "The virtual machine: motors, chains, sled and sheet, driven by the firmware.";
+  using nb::arg;
+  nb::class_<VirtualMachine> machine(
+      module, "VirtualMachine",
+      "A machine in its garage. numbers: what differs from the judge's "
+      "default machine; friction [N] of the sled; seed draws the motors, 0: "
+      "as they are meant to be; paid_out [mm] of both chains at first; elf: "
+      "the flashed program, else the firmware built for the host.");
+  machine
+      .def(nb::init<const std::map<std::string, double>&, double, unsigned, double,
+                    const std::optional<std::string>&>(),
+           arg("numbers"), nb::kw_only(), arg("friction") = 0.0, arg("seed") = 0,
+           arg("paid_out") = 1651.0, arg("elf") = nb::none())
+      .def("advance", &VirtualMachine::advance, arg("milliseconds"),
+           nb::call_guard<nb::gil_scoped_release>(), "Lets time pass.")
+      .def("start", &VirtualMachine::start, "Power comes, or the reset button is let go.")
+      .def("stop", &VirtualMachine::stop, "Power goes at once. The EEPROM keeps what it has.")
+      .def("cut_power", &VirtualMachine::cutPower, arg("draw") = 0,
+           "As stop(); a byte that is being written is left half written, by the bits of `draw`.")
+      .def_prop_ro("is_running", &VirtualMachine::isRunning)
+      .def("send", &VirtualMachine::send, arg("characters"),
+           "Puts characters on the line; they arrive at 57,600 baud.")
+      .def("take_said", &VirtualMachine::takeSaid, "All that was said since this was last asked.")
+      .def_prop_rw("eeprom", &VirtualMachine::eeprom, &VirtualMachine::setEeprom)
+      .def_prop_ro("seconds", &VirtualMachine::seconds, "Since the world began.")
+      .def_prop_ro("sled", &VirtualMachine::sled, "(x, y) [mm] of the bit from mid sheet.")
+      .def_prop_ro("chains", &VirtualMachine::chains, "[mm] of nominal links, left and right.")
+      .def_prop_ro("tensions", &VirtualMachine::tensions, "[N] at the sprockets.")
+      .def_prop_ro("height", &VirtualMachine::height, "[mm] of the bit above the sheet's face.")
+      .def_prop_ro("hangs", &VirtualMachine::hangs, "Whether a sled can hang from these chains.")
+      .def("count", &VirtualMachine::count, arg("axis"), "Encoder counts since the world began.")
+      .def("duty", &VirtualMachine::duty, arg("axis"), "-255 to 255; positive winds in.")
+      .def("cuts", &VirtualMachine::cuts,
+           "Where the bit was in the sheet: rows of plunge, seconds, x, y, depth [mm].")
+      .def("replace_sheet", &VirtualMachine::replaceSheet, "A new sheet lies on the frame.");
+  bindFaults(machine);
 }

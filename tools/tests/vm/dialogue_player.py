@@ -27,7 +27,7 @@ WIRES = {"block": "blocked", "unplug": "encoder_unplugged", "reverse": "motor_re
 ENDS = {"free": "block", "plug": "unplug"}
 
 
-class Failure(AssertionError):
+class DialogueError(AssertionError):
     """What came otherwise than written."""
 
 
@@ -88,9 +88,10 @@ class Player:
         self.step = self.steps[0]
 
     def play(self) -> float:
-        """From power-on to the end; how long that took the machine [s]. Raises Failure."""
+        """From power-on to the end; how long that took the machine [s]. Raises DialogueError."""
         self.machine.start()
-        for self.step in self.steps:
+        for step in self.steps:
+            self.step = step
             self.since = self.machine.seconds
             while not self.take(self.step):
                 self.pass_time(1)
@@ -131,7 +132,9 @@ class Player:
 
     def hold_that(self, holds: bool, otherwise: str) -> None:
         if not holds:
-            raise Failure(f"{self.step.place}: {self.step.text}\n  {otherwise}\n  {self.status}")
+            raise DialogueError(
+                f"{self.step.place}: {self.step.text}\n  {otherwise}\n  {self.status}"
+            )
 
     def take(self, step: Step) -> bool:
         """Whether a step is over."""

@@ -6,7 +6,7 @@ Here motors, chains and sled are the world's: they have inertia and friction, an
 import subprocess
 
 import pytest
-from dialogue_player import DIALOGUES, ROOT, Failure, Player, matches
+from dialogue_player import DIALOGUES, ROOT, DialogueError, Player, matches
 
 ELF = ROOT / ".pio/build/megaatmega2560/firmware.elf"
 ELSEWHERE = {
@@ -39,7 +39,7 @@ def test_the_flashed_program_answers_as_written(name):
 def test_the_player_notices_what_is_wrong(text, tmp_path, monkeypatch):
     (tmp_path / "wrong.nc").write_text(text)
     monkeypatch.setattr("dialogue_player.DIALOGUES", tmp_path)
-    with pytest.raises(Failure):
+    with pytest.raises(DialogueError):
         Player("wrong.nc").play()
 
 
