@@ -52,7 +52,7 @@ def steps_of(name: str) -> list[Step]:
 
 
 def matches(line: str, wanted: str) -> bool:
-    """Whether a line is the expected one: `*` any rest, `#` any number, numbers within t."""
+    """Whether a line is as expected: `*` any rest, `#` any number, numbers within t."""
     text, _, within = wanted.rpartition(" within ")
     text, tolerance = (text, float(within)) if text else (wanted, 0.0)
     rest = text.endswith("*")
