@@ -90,7 +90,7 @@ def as_text(games: Sequence[Played]) -> str:
         f"sled all over the sheet without noise, {unit()} RMS; best is a fit of the same marks by "
         "somebody who knows what is hidden. Ratio: after to best."
     )
-    return f"{table(HEADER, [cells(row) for row in rows])}\n\n{sentences([note], mark='')}"
+    return f"{table(HEADER, [cells(row) for row in rows], gap=1)}\n\n{sentences([note], mark='')}"
 
 
 def cells(row: Row) -> list[str]:
