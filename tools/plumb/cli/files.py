@@ -34,7 +34,7 @@ def inputs_of(arguments: argparse.Namespace) -> Inputs:
     parts = [read_marks(path, sheet=sheet, known=known) for path in arguments.marks]
     parts = [with_settings_in_force(settings, part, cut_with=cut_with) for part in parts]
     measurements = join_measurements(parts)
-    if not arguments.json:
+    if "json" in arguments and not arguments.json:  # the functions of the package show nothing
         show_in(arguments.units or measurements.typed.unit)
     return Inputs(settings, measurements, cut_with=cut_with, controller=arguments.controller)
 

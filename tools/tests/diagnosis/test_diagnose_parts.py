@@ -125,7 +125,7 @@ def test_repeats_by_chance_alone_do_not_make_a_statement_wrong():
     # The 1 % and 99 % points of chi-square with 12 degrees of freedom, from any printed table.
     for squares, said in ((3.60, False), (3.54, True), (26.1, False), (26.3, True)):
         notes = known_noise(Spread(squares, 12), Stated(1.0)).notes
-        assert any("stated 1 mm" in note for note in notes) == said
+        assert any("stated 1.00 mm" in note for note in notes) == said
 
 
 @pytest.mark.parametrize(
