@@ -35,8 +35,8 @@ struct ChainPitch : Effect<Real> {
 
   static CheckInfo check() {
     return {"100 links of each chain",
-            "Lay 100 links of each chain, pulled tight, along a steel rule: they should be 635 mm; "
-            "read to 0.2 mm.",
+            "Lay 100 links of each chain, pulled tight, along a steel rule: they should be 635 mm "
+            "(25 inches); read to 0.2 mm.",
             "(read - 635) / 635, of each chain", 15};
   }
   static Example example(uint8_t i) {
