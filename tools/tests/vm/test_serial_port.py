@@ -1,67 +1,14 @@
 """The virtual machine behind a serial port, driven by the commands that drive a board."""
 
-import functools
 import os
-import signal
 import subprocess
-import sys
 import time
-from pathlib import Path
 
 import pytest
 import serial
 from plumb.line.serial_port import port_for
 from plumb.text.errors import InputError
-
-PLUMB = [sys.executable, "-m", "plumb.cli.main"]
-SPEED = 10  # times real time
-START = 30  # [s] in which a program on a busy computer must have begun
-
-# A lane of tools/test ignores Ctrl-C, and what it starts would too.
-INTERRUPTIBLE = functools.partial(
-    subprocess.Popen, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)
-)
-
-
-def plumb(*words: str, folder: Path, code: int = 0) -> str:
-    """What a command prints; its exit code must be this."""
-    done = subprocess.run([*PLUMB, *words], cwd=folder, capture_output=True, text=True, timeout=120)
-    assert done.returncode == code, done.stdout + done.stderr
-    return done.stdout + done.stderr
-
-
-class Served:
-    """A `plumb vm` that runs in a folder."""
-
-    def __init__(self, folder: Path, *words: str):
-        command = [*PLUMB, "vm", "--link", "maslow", "--speed", str(SPEED), *words]
-        self.program = INTERRUPTIBLE(
-            command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-        )
-        end = time.monotonic() + START
-        while not (folder / "maslow").exists() and time.monotonic() < end:
-            time.sleep(0.05)
-
-    def stop(self) -> str:
-        """Ctrl-C; what was printed."""
-        self.program.send_signal(2)
-        printed = self.program.communicate(timeout=START)[0]
-        assert self.program.returncode == 0, printed
-        return printed
-
-
-@pytest.fixture
-def served(tmp_path):
-    running = []
-
-    def serve(*words: str) -> Served:
-        running.append(Served(tmp_path, *words))
-        return running[-1]
-
-    yield serve
-    for server in running:
-        server.program.kill()
-        server.program.wait()
+from served_machine import INTERRUPTIBLE, PLUMB, START, plumb
 
 
 def test_a_program_is_cut_read_with_a_tape_and_the_machine_tells_its_place(served, tmp_path):
