@@ -17,6 +17,7 @@ from plumb.fit.compare import compare
 from plumb.fit.inputs import Inputs
 from plumb.grid.options import Grid
 from plumb.marks.read import Measurements
+from plumb.model.catalogue import empirical_effects
 from plumb.plan.ahead import Check
 from plumb.plan.direct_checks import FRAME_CHECKS, NumberCheck, effect_checks
 from plumb.plan.planned_visits import Visits, joined, sent
@@ -181,10 +182,11 @@ def solve(game: Practice, inputs: Inputs, machine: MachineSettings) -> Score:
 
 def claims_of(believed: MachineSettings, machine: MachineSettings) -> tuple[str, ...]:
     """The effects whose numbers are not what they were, patches aside."""
+    patches = {effect["name"] for effect in empirical_effects()}
     named = [
         name
         for name in (*believed.effects, *machine.effects)
-        if machine.effects.get(name) != believed.effects.get(name) and name != "residual_patch"
+        if machine.effects.get(name) != believed.effects.get(name) and name not in patches
     ]
     return tuple(dict.fromkeys(named))
 

@@ -82,6 +82,9 @@ COMMANDS = {
     "settings": ("machine.toml",),
     "reach": ("groundcontrol.ini",),
     "vm": ("--seconds", "1"),
+    "practice": ("start", "game", "--seed", "1"),
+    "faults": ("--only", "ctrl-X", "--tries", "1"),
+    "soak": ("--minutes", "1"),
 }
 # What needs a file or a board that an empty folder lacks, and what its refusal names.
 LACKING = {
