@@ -85,7 +85,8 @@ def drawn(seen: Curves) -> bytes:
 def _title(axis: Axes, text: str) -> None:
     axis.set_title(text, loc="left", fontsize=10, color=INK)
     axis.grid(alpha=0.3)
-    axis.legend(fontsize=8, loc="upper right")
+    # Above the panel, where no curve runs.
+    axis.legend(fontsize=8, ncol=4, loc="lower right", bbox_to_anchor=(1, 0.98), frameon=False)
 
 
 if __name__ == "__main__":
