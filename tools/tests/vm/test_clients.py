@@ -80,6 +80,15 @@ class Client:
         while time.monotonic() < end:
             self.hear()
 
+    def rest(self) -> tuple[float, float]:
+        """[mm] The place, when the reports of a second no longer change it."""
+        self.hear_for(1)
+        before, now = None, self.place()
+        while now != before:
+            self.hear_for(1)
+            before, now = now, self.place()
+        return now
+
     def place(self) -> tuple[float, float]:
         """[mm] What the newest report says."""
         places = [PLACE.search(text) for text in self.heard if text.startswith("<")]
@@ -126,21 +135,19 @@ def test_a_client_connects_streams_a_job_and_stops_it(client):
     for text in JOB:
         client.say(text)
     client.settle()
-    client.hear_for(1)
+    place = client.rest()
     assert client.answers - answered == len(JOB)
-    assert client.place() == pytest.approx((20, 10), abs=0.05)
+    assert place == pytest.approx((20, 10), abs=0.05)
     # Stop in a move: a single answer, what was sent is forgotten, and the place is known.
     client.say("G1 X400 Y10 F600 ")
     client.hear_for(1.5)
     answered = client.answers
     client.line.write(b"!")
     client.waiting.clear()
-    client.hear_for(1.5)
+    x, y = client.rest()
     assert client.answers - answered == 1
-    x, y = client.place()
     assert 22 < x < 80
     assert y == pytest.approx(10, abs=0.1)
     client.ask("G0 X20 Y10 ")
-    client.hear_for(3)
-    assert client.place() == pytest.approx((20, 10), abs=0.05)
+    assert client.rest() == pytest.approx((20, 10), abs=0.05)
     assert not any(text.startswith(("ALARM", "error")) for text in client.heard)
