@@ -21,7 +21,7 @@ from hidden_boards import (
     places_with,
 )
 from plumb.diagnosis import Checked
-from plumb.marks.read import Mark, Measurements
+from plumb.marks.read import Measurements
 from plumb.plan.ahead import Check
 from plumb.plan.planned_visits import Visits
 
@@ -73,7 +73,7 @@ class Bench:
         marks = []
         for number, visits in enumerate(several):
             where = self._read(visits, number)
-            marks += [_mark(visits, i, where[i]) for i in range(len(visits))]
+            marks += visits.marks(where)
         return Measurements(tuple(marks), tape_sigma=self.noise, source="carried out")
 
     def checked(self, checks: Sequence[Check]) -> list[Checked]:
@@ -106,15 +106,3 @@ class Bench:
         where = where @ np.array([[cos(turn), turn], [-turn, cos(turn)]])
         source = np.random.default_rng([self.seed, 4, number])
         return where + self.noise * source.standard_normal(where.shape)
-
-
-def _mark(visits: Visits, i: int, where: np.ndarray) -> Mark:
-    side = visits.approaches[i]
-    return Mark(
-        name=visits.names[i],
-        target=tuple(visits.targets[i].tolist()),
-        measured=tuple(where.tolist()),
-        approach=tuple(side.tolist()) if side.any() else None,
-        sled_weight=float(visits.sled_weights[i]),
-        chains_swapped=bool(visits.swapped[i]),
-    )

@@ -10,7 +10,6 @@ import numpy as np
 from plumb.bench.boards import BoardCut
 from plumb.bench.causes import CHAIN, MAKER
 from plumb.diagnosis import Checked
-from plumb.marks.read import Mark
 from plumb.plan.ahead import Check
 from plumb.plan.planned_visits import Visits
 
@@ -40,7 +39,7 @@ class BoardOwner:
         if not np.isfinite(where).all():
             raise ValueError("the sled cannot hang where it is sent")
         where = where + self.noise * self.source.standard_normal(where.shape)
-        marks = tuple(_mark(visits, i, where[i]) for i in range(len(visits)))
+        marks = tuple(visits.marks(where))
         measurements = board.measurements
         return replace(
             board, measurements=replace(measurements, marks=(*measurements.marks, *marks))
@@ -63,15 +62,3 @@ def true_value(board: BoardCut, name: str) -> float:
     if "." in name:
         return float(board.machine.hidden.parameters.get(name, CHAIN.get(name, 0.0)))
     return float(getattr(board.machine, name, getattr(MAKER, name, 0.0)))
-
-
-def _mark(visits: Visits, i: int, where: Array) -> Mark:
-    side = visits.approaches[i]
-    return Mark(
-        name=visits.names[i],
-        target=tuple(visits.targets[i].tolist()),
-        measured=tuple(where.tolist()),
-        approach=tuple(side.tolist()) if side.any() else None,
-        sled_weight=float(visits.sled_weights[i]),
-        chains_swapped=bool(visits.swapped[i]),
-    )

@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from plumb.board.observations import Observations
+from plumb.marks.read import Mark
 from plumb.model.predict import believed_lengths
 from plumb.settings.machine import MachineSettings
 
@@ -34,6 +35,20 @@ class Visits:
         chosen = np.array(indices, dtype=int)
         names = tuple(self.names[i] for i in chosen)
         return Visits(names, *(getattr(self, field.name)[chosen] for field in fields(self)[1:]))
+
+    def marks(self, places: Array) -> list[Mark]:
+        """The visits as marks that were read at places (n, 2) [mm]."""
+        return [
+            Mark(
+                name=name,
+                target=tuple(self.targets[i].tolist()),
+                measured=tuple(places[i].tolist()),
+                approach=tuple(self.approaches[i].tolist()) if self.approaches[i].any() else None,
+                sled_weight=float(self.sled_weights[i]),
+                chains_swapped=bool(self.swapped[i]),
+            )
+            for i, name in enumerate(self.names)
+        ]
 
     def rows(self) -> Observations:
         """The visits as observations whose readings are still zero."""
