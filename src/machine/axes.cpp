@@ -139,6 +139,18 @@ void Axes::control(Controlled& controlled, Axis axis) {
   if (!simulated_) drives_.drive(axis, controlled.sign < 0 ? int16_t(-drive) : drive);
 }
 
+void Axes::watchForSlips() {
+  bool is_even = !simulated_;
+  for (uint8_t i = 0; i < kAxisCount; ++i)
+    is_even = paces_[i].isKept(axis_[i].asked) && is_even && axis_[i].mode == AxisMode::kFollow;
+  for (uint8_t i = 0; i < kZAxis; ++i) slip_watches_[i].measure(axis_[i].duty);
+  for (uint8_t i = 0; i < kZAxis; ++i) {
+    const bool is_alone = is_even && !slip_watches_[1 - i].isRestless();
+    if (slip_watches_[i].look(is_alone && motion::Pace::moves(axis_[i].asked)))
+      slips_[i] = uint8_t(slips_[i] + 1);
+  }
+}
+
 void Axes::note(motion::Fault seen, Axis axis) {
   if (seen != motion::Fault::kLeftBehind) disproved_ = uint8_t(disproved_ | (1 << axis));
   if (seen > fault_) fault_ = seen;
@@ -159,6 +171,7 @@ void Axes::tick() {
     readEncoder(axis_[i], Axis(i));
     control(axis_[i], Axis(i));
   }
+  watchForSlips();
   const uint16_t share = yield_.shareAt(worst_off_);
   playback_.yieldTo(share);
   if (share < kMuch) has_yielded_ = true;

@@ -121,6 +121,9 @@ class Axes {
   /// To be called when the drives were arranged again: their counters may have jumped.
   void forgetRawCounts();
 
+  /// How often a chain may have slipped, since the start; see motion::SlipWatch. Wraps round.
+  uint8_t slips(Axis chain) const { return slips_[chain]; }
+
   /// The worst fault since the last call.
   motion::Fault fault();
   /// Whether, since the axis last got power, a fault has proved its counts wrong.
@@ -160,6 +163,7 @@ class Axes {
   void readEncoder(Controlled& controlled, Axis axis);
   void control(Controlled& controlled, Axis axis);
   int32_t measured(const Controlled& controlled) const;
+  void watchForSlips();
   void note(motion::Fault seen, Axis axis);
   void imagine(Controlled& controlled, int32_t counts);
   void forgetMissed(Axis axis) { axis_[axis].missed_before = drives_.illegalSteps(axis); }
@@ -174,6 +178,9 @@ class Axes {
   int32_t worst_off_ = 0;  ///< [counts of motion::kCountsPerMm] of any axis at this tick
   volatile bool has_yielded_ = false;
   Controlled axis_[kAxisCount];
+  motion::Pace paces_[kAxisCount];
+  motion::SlipWatch slip_watches_[kZAxis];  ///< of the chains
+  volatile uint8_t slips_[kZAxis] = {0, 0};
   float seconds_per_tick_ = 0.01f;
   uint8_t ticks_ahead_ = AxisLoop::ticksAhead(0.01f);
   volatile motion::Fault fault_ = motion::Fault::kNone;

@@ -1,6 +1,7 @@
 // Single axes without set-points: tests of motors and loops, and pulling a chain tight.
 #pragma once
 
+#include "chain_pull.h"
 #include "motor_power.h"
 #include "printer.h"
 #include "settings_table.h"
@@ -33,7 +34,8 @@ class AxisTests {
 
   /// B04: each motor to and fro, and whether its encoder counts the right way.
   bool testMotors();
-  /// B11: drives a chain motor at a duty for a while.
+  /// B11: pays out a chain at a duty for a while, or winds it in until it is tight, with at most
+  /// that duty and a limited force. With time enough it pulls three times and says the motor gap.
   bool pullChain(Axis axis, int16_t duty, float seconds);
   /// B13, B14 and B16.
   bool testLoop(uint8_t code, const LoopTest& test);
@@ -45,6 +47,8 @@ class AxisTests {
   bool driveFor(Axis axis, int16_t duty, uint32_t ms);
   bool rampMotor(Axis axis, int8_t sign);
   bool testDirection(Axis axis, int8_t direction);
+  bool measureTaut(Axis axis, int16_t most_duty, uint32_t ms);
+  void sayGap(const ChainPull& pull);
   // loop_tests.cpp
   void sayGains(Axis axis, bool position);
   bool sampleSpeed(Axis axis, float rpm, uint8_t version);

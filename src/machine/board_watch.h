@@ -9,7 +9,7 @@ namespace machine {
 enum class BoardEvent : uint8_t {
   kNone,
   kSupplyLow,    ///< the supply is below its limit; said once, until it was 0.1 V above
-  kDriverFails,  ///< a driver with power has reported an error for a fifth of a second
+  kDriverFails,  ///< a driver with power has reported an error for a tenth of a second
   kWorn,         ///< the EEPROM does not keep what is written; said once
 };
 
@@ -35,7 +35,7 @@ class BoardWatch {
   Axis failing() const { return failing_; }
 
  private:
-  enum : uint8_t { kSettling = 8, kPatience = 10 };  // [looks]
+  enum : uint8_t { kSettling = 8, kPatience = 5 };  // [looks]
 
   void takeSupply(uint16_t reading, float band_gap);
   bool hasFallen(float least);

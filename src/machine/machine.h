@@ -53,6 +53,13 @@ class Machine : private Waiting, private Dispatch {
   /// How often the machine needs its control tick; known after begin().
   uint8_t ticksPerSecond() const { return ticks_per_second_; }
 
+  // What a dry run looks at.
+  const Axes& axes() const { return axes_; }
+  const Planner& planner() const { return planner_; }
+  const gcode::Modal& modal() const { return modal_; }
+  const SledPlace& place() const { return place_; }
+  const Coordinates& coordinates() const { return coordinates_; }
+
  private:
   typedef bool (Machine::*RunPiece)(const gcode::Piece& piece);
   typedef bool (Machine::*RunB)(uint8_t code, const gcode::Words& words);

@@ -52,12 +52,54 @@ bool AxisTests::testMotors() {
 }
 
 bool AxisTests::pullChain(Axis axis, int16_t duty, float seconds) {
+  const float kMeasured = 2;       // [s] a shorter pull has no time to measure
+  const int16_t kGentleDuty = 95;  // a motor at rest pulls with about 100 N
   if (!waiting_.drain() || !motors_.wake()) return false;
-  const bool completed = driveFor(axis, duty, uint32_t(seconds * 1000));
+  const uint32_t ms = uint32_t(seconds * 1000);
+  bool completed = true;
+  if (duty > 0 && seconds >= kMeasured)
+    completed = measureTaut(axis, duty, ms);
+  else
+    completed = driveFor(axis, duty < kGentleDuty ? duty : kGentleDuty, ms);
   axes_.release(axis);
   waiting_.awaitStandstill();
   place_.search();
   return completed;
+}
+
+bool AxisTests::measureTaut(Axis axis, int16_t most_duty, uint32_t ms) {
+  ChainPull pull(axes_, waiting_, axis, most_duty);
+  const ChainPull::Result result = pull.run(ms);
+  axes_.release(axis);
+  switch (result) {
+    case ChainPull::Result::kStopped:
+      return false;
+    case ChainPull::Result::kTaut:
+      sayGap(pull);
+      break;
+    case ChainPull::Result::kSlack:
+      out_.line(
+          FLASH("The chain is not tight yet: hook it on the other sprocket, send B11 again."));
+      break;
+    case ChainPull::Result::kDead:
+      out_ << (axis == kLeftAxis ? FLASH("The left") : FLASH("The right"));
+      out_.line(FLASH(" motor hardly turns: check its supply, its cables and its encoder."));
+      break;
+  }
+  return true;
+}
+
+void AxisTests::sayGap(const ChainPull& pull) {
+  const float kMostSpread = 0.5f;     // [mm]
+  const float kPastSprocket = 12.7f;  // [mm] of links, as the clients count them
+  out_ << FLASH("Motor gap ");
+  out_.fixed(pull.length() - kPastSprocket, 2) << FLASH(" mm before sag and flex, spread ");
+  out_.fixed(pull.spread(), 2) << FLASH(" mm, ") << int32_t(pull.pulls());
+  out_ << (pull.pulls() == 1 ? FLASH(" pull") : FLASH(" pulls"));
+  out_ << FLASH(" with about ") << int32_t(pull.force() + 0.5f);
+  out_.line(FLASH(" N."));
+  if (pull.spread() > kMostSpread)
+    out_.line(FLASH("The pulls differ: look after chain, hook and supply, send B11 again."));
 }
 
 }  // namespace machine

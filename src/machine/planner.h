@@ -22,6 +22,7 @@ class Planner {
   /// Whether no move is in progress and none is queued.
   bool isIdle() const { return moves_.isIdle(); }
   bool hasRoom() const { return moves_.hasRoom(); }
+  const motion::MoveQueue& queue() const { return moves_.queue(); }
   /// Whether all moves together last longer than `ticks`, which is at most 4000.
   bool lastsLonger(uint16_t ticks) const { return moves_.lastsLonger(ticks); }
 

@@ -46,6 +46,9 @@ class PositionKeeper {
   /// Lengths stay, but now counts mean other lengths, or the chains mean another place.
   void reconsider();
 
+  /// Whether no motor has power, nor is about to get it.
+  bool isReleased() const { return !axes_.isPowered() && state_ != State::kAboutToMove; }
+
   /// To be called before motors get power; then wait for mayMove().
   void beginMoving();
   bool mayMove() const { return axes_.isSimulated() || memory_.mayMove(); }

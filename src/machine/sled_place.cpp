@@ -114,12 +114,16 @@ FlashText SledPlace::whatIsLost() const {
                                 : FLASH("Position Lost: set the chain lengths first (B06 or B08)");
 }
 
-void SledPlace::keepWhenAtRest(uint32_t now_ms) {
-  if (!keeper_.isDue(now_ms)) return;
-  // A motor may have run on, or a chain may have been pulled: the next move begins where the sled
-  // is.
+void SledPlace::followPulledChains() {
   for (uint8_t i = 0; i < kAxisCount; ++i)
     if (float(fabs(axes_.error(Axis(i)))) > kMovedByHand) search();
+}
+
+void SledPlace::keepWhenAtRest(uint32_t now_ms) {
+  // A motor may have run on, somebody may pull a chain, a heavy sled may sink: what is reported,
+  // and where the next move begins, is where the sled is.
+  if (keeper_.isReleased()) followPulledChains();
+  if (!keeper_.isDue(now_ms)) return;
   settings::Position position;
   position.left = axes_.counts(kLeftAxis);
   position.right = axes_.counts(kRightAxis);

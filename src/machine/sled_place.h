@@ -79,6 +79,7 @@ class SledPlace {
  private:
   void say() const;
   void sayLengths() const;
+  void followPulledChains();
   FoundPlace byChains(float left, float right) const;
 
   Printer& out_;

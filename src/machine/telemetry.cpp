@@ -14,6 +14,7 @@ bool Telemetry::findsFailure() {
   const uint32_t now = clock_.milliseconds();
   if (now - looked_ms_ < BoardWatch::kInterval) return false;
   looked_ms_ = now;
+  noteSlips();
   const BoardLimits limits = {values_.at(kBandGap), values_.at(kLeastSupply)};
   switch (watch_.look(aux_, limits, axes_.isPowered(), memory_.isWorn())) {
     case BoardEvent::kNone:
@@ -60,6 +61,7 @@ void Telemetry::tell() {
            : start_ == Start::kBrownOut ? FLASH("brown-out")
                                         : FLASH("watchdog"));
   tellLog();
+  tellSlips();
   out_.line(FLASH("]"));
 }
 
@@ -72,6 +74,30 @@ void Telemetry::tellLog() {
     out_ << int32_t(log.count(Event(i)));
   }
   out_ << FLASH("|last:") << lastEvent() << ',' << int32_t(log.total());
+}
+
+void Telemetry::noteSlips() {
+  for (uint8_t i = 0; i < kZAxis; ++i) {
+    const uint8_t slips = axes_.slips(Axis(i));
+    if (slips == slips_[i]) continue;
+    slips_[i] = slips;
+    slipped_ = Axis(i);
+    slip_ms_ = clock_.milliseconds();
+    const Place at = place_.now(true);
+    slip_x_ = int16_t(at.x);
+    slip_y_ = int16_t(at.y);
+  }
+}
+
+void Telemetry::tellSlips() {
+  out_ << FLASH("|slips:") << int32_t(slips_[kLeftAxis]) << ',' << int32_t(slips_[kRightAxis]);
+  out_ << FLASH("|slipped:");
+  out_ << (slipped_ == kLeftAxis    ? FLASH("left,")
+           : slipped_ == kRightAxis ? FLASH("right,")
+                                    : FLASH("none,"));
+  out_ << int32_t(slip_x_) << ',' << int32_t(slip_y_) << ',';
+  const uint32_t since = slipped_ == kAxisCount ? 0 : clock_.milliseconds() - slip_ms_;
+  out_ << int32_t(since / 1000);
 }
 
 FlashText Telemetry::lastEvent() const {

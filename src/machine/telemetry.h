@@ -4,19 +4,21 @@
 #include "board_watch.h"
 #include "planner.h"
 #include "printer.h"
+#include "sled_place.h"
 
 namespace machine {
 
 /// Watches the board and reports on it.
 class Telemetry {
  public:
-  Telemetry(Drives& drives, Aux& aux, Clock& clock, Axes& axes, Planner& mover,
+  Telemetry(Drives& drives, Aux& aux, Clock& clock, Axes& axes, Planner& mover, SledPlace& place,
             settings::Memory& memory, const settings::Values& values, Printer& out, Start start)
       : drives_(drives),
         aux_(aux),
         clock_(clock),
         axes_(axes),
         planner_(mover),
+        place_(place),
         memory_(memory),
         values_(values),
         out_(out),
@@ -32,7 +34,9 @@ class Telemetry {
   void tell();
 
  private:
+  void noteSlips();
   void tellLog();
+  void tellSlips();
   FlashText lastEvent() const;
 
   Drives& drives_;
@@ -40,12 +44,17 @@ class Telemetry {
   Clock& clock_;
   Axes& axes_;
   Planner& planner_;
+  SledPlace& place_;
   settings::Memory& memory_;
   const settings::Values& values_;
   Printer& out_;
   BoardWatch watch_;
   uint32_t looked_ms_ = 0;
   Start start_;
+  uint8_t slips_[kZAxis] = {0, 0};   ///< of each chain that were noted, since the start
+  Axis slipped_ = kAxisCount;        ///< the chain that may have slipped last; kAxisCount: none
+  int16_t slip_x_ = 0, slip_y_ = 0;  ///< [mm] where the sled was sent then
+  uint32_t slip_ms_ = 0;             ///< when that was
 };
 
 }  // namespace machine

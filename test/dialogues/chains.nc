@@ -64,8 +64,8 @@
 ~~ off left
 -> B10 L
 <- B10 L
-; 19 mm of chain against a sled, 26 without.
-<* [Measure: 1629.00] within 6
+; A short pull is a gentle pull: hardly any chain against a sled, 10 mm without.
+<* [Measure: 1645.00] within 6.5
 <- ok
 -> B15
 <- B15

@@ -12,5 +12,5 @@
 ; B30 is answered meanwhile.
 -> B30
 <- B30
-<- [Telemetry|error:#,#,#|dry:#|tick:#|illegal:0,0,0|supply:#,#|eeprom:ok|start:usual|events:0,0,0,1|last:driver,1]
+<- [Telemetry|error:#,#,#|dry:#|tick:#|illegal:0,0,0|supply:#,#|eeprom:ok|start:usual|events:0,0,0,1|last:driver,1|slips:0,0|slipped:none,0,0,0]
 <* ok

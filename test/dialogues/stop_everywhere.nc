@@ -11,7 +11,7 @@
 <* *
 -> B11 S100 T30 L
 <- B11 S100 T30 L
-~~ wait 1
+~~ wait 0.2
 ~~ on left
 >> !^N
 <- ok

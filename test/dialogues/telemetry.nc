@@ -2,7 +2,7 @@
 ~~ include setup.inc
 -> B30
 <- B30
-<- [Telemetry|error:0.000,0.000,0.000|dry:0|tick:#|illegal:0,0,0|supply:5.00,5.00|eeprom:ok|start:usual|events:0,0,0,0|last:none,0] within 0.03
+<- [Telemetry|error:0.000,0.000,0.000|dry:0|tick:#|illegal:0,0,0|supply:5.00,5.00|eeprom:ok|start:usual|events:0,0,0,0|last:none,0|slips:0,0|slipped:none,0,0,0] within 0.03
 <- ok
 ; What it tells is what happened since it was last asked.
 -> G1 X50 Y0 F600
@@ -11,12 +11,12 @@
 <* ok
 -> B30
 <- B30
-<- [Telemetry|error:0.300,0.300,0.000|dry:0|tick:#|illegal:0,0,0|supply:5.00,5.00|eeprom:ok|start:usual|events:0,0,0,0|last:none,0] within 0.299
+<- [Telemetry|error:0.300,0.300,0.000|dry:0|tick:#|illegal:0,0,0|supply:5.00,5.00|eeprom:ok|start:usual|events:0,0,0,0|last:none,0|slips:0,0|slipped:none,0,0,0] within 0.299
 <- ok
 ~~ wait 1
 -> B30
 <- B30
-<- [Telemetry|error:0.000,0.000,0.000|dry:0|tick:#|illegal:0,0,0|supply:5.00,5.00|eeprom:ok|start:usual|events:0,0,0,0|last:none,0] within 0.03
+<- [Telemetry|error:0.000,0.000,0.000|dry:0|tick:#|illegal:0,0,0|supply:5.00,5.00|eeprom:ok|start:usual|events:0,0,0,0|last:none,0|slips:0,0|slipped:none,0,0,0] within 0.03
 <- ok
 ; The supply sags: said once, told as the lowest.
 ~~ supply 4.2
@@ -30,11 +30,11 @@
 ~~ wait 2
 -> B30
 <- B30
-<- [Telemetry|error:0.000,0.000,0.000|dry:0|tick:#|illegal:0,0,0|supply:5.00,4.20|eeprom:ok|start:usual|events:0,0,1,0|last:supply,1] within 0.03
+<- [Telemetry|error:0.000,0.000,0.000|dry:0|tick:#|illegal:0,0,0|supply:5.00,4.20|eeprom:ok|start:usual|events:0,0,1,0|last:supply,1|slips:0,0|slipped:none,0,0,0] within 0.03
 <- ok
 -> B30
 <- B30
-<- [Telemetry|error:0.000,0.000,0.000|dry:0|tick:#|illegal:0,0,0|supply:5.00,5.00|eeprom:ok|start:usual|events:0,0,1,0|last:supply,1] within 0.03
+<- [Telemetry|error:0.000,0.000,0.000|dry:0|tick:#|illegal:0,0,0|supply:5.00,5.00|eeprom:ok|start:usual|events:0,0,1,0|last:supply,1|slips:0,0|slipped:none,0,0,0] within 0.03
 <- ok
 ; Once more after it was back, and never with $76=0.
 ~~ supply 4.2
@@ -53,5 +53,5 @@
 ~~ wait 1
 -> B30
 <* B30
-<- [Telemetry|error:0.000,0.000,0.000|dry:0|tick:#|illegal:0,0,0|supply:5.00,5.00|eeprom:ok|start:usual|events:0,0,2,0|last:supply,2] within 0.03
+<- [Telemetry|error:0.000,0.000,0.000|dry:0|tick:#|illegal:0,0,0|supply:5.00,5.00|eeprom:ok|start:usual|events:0,0,2,0|last:supply,2|slips:0,0|slipped:none,0,0,0] within 0.03
 <- ok

@@ -42,6 +42,7 @@ TEST(DueTravel, IsThatOfAWeakMotorBeyondItsMargin) {
     EXPECT_EQ(0, ticksUntilDue(atRest(), sign * 150, 0));
     EXPECT_EQ(51, ticksUntilDue(atRest(), sign * 160, 0))
         << "0.007 / (10 * 0.0014 * 0.01) and a rest";
+    EXPECT_NEAR(505, ticksUntilDue(atRest(), sign * 151, 0), 10) << "a step beyond the margin";
     EXPECT_EQ(5, ticksUntilDue(atRest(), sign * 255, 0)) << "0.007 / (105 * 0.0014 * 0.01)";
   }
   // At twice the rate it takes as many seconds.
@@ -51,8 +52,64 @@ TEST(DueTravel, IsThatOfAWeakMotorBeyondItsMargin) {
 TEST(DueTravel, IsPaidFourfoldByCountsThatCome) {
   EXPECT_EQ(0, ticksUntilDue(atRest(), 255, 3)) << "11.9 counts are due, 12 paid";
   EXPECT_EQ(8, ticksUntilDue(atRest(), 255, 1)) << "56.8 counts at 11.9 - 4 a tick";
-  EXPECT_EQ(4, ticksUntilDue(atRest(), 255, -1)) << "56.8 counts at 11.9 + 4 a tick";
-  EXPECT_EQ(5, ticksUntilDue(atRest(), 255, -2)) << "a chain that brakes owes nothing for it";
+}
+
+// The chain of a heavy sled turns its motor against a drive that brakes.
+TEST(DueTravel, IsNotMadeByCountsAgainstTheDrive) {
+  EXPECT_EQ(0, ticksUntilDue(atRest(), 130, -1));
+  EXPECT_EQ(0, ticksUntilDue(atRest(), 130, -2));
+  EXPECT_EQ(5, ticksUntilDue(atRest(), 255, -1)) << "as if none came";
+}
+
+// A broken channel counts to and fro. 11.9 counts are due a tick, 4 are paid for each that comes.
+TEST(DueTravel, IsNotPaidByCountsThatGoAgain) {
+  const auto ticks = [](std::initializer_list<int> moved) {
+    DueTravel due = atRest();
+    for (int i = 1; i < 100; ++i)
+      if (due.look(255 * kMean, 0, int16_t(moved.begin()[i % int(moved.size())]))) return i;
+    return 0;
+  };
+  EXPECT_EQ(5, ticks({1, -1})) << "a count goes, and the next comes back";
+  EXPECT_EQ(6, ticks({1, 1, -2})) << "only the first pays";
+  EXPECT_EQ(0, ticks({0, -9, 9, 9, 9})) << "more than two that go are travel, and what comes pays";
+  EXPECT_EQ(0, ticks({3, 3}));
+}
+
+// 11.9 counts are due a tick, up to 56.8. Up to two that went must come back before any pays.
+TEST(DueTravel, CountsThatWentComeBackFirst) {
+  const auto ticks = [](std::initializer_list<int> first) {
+    DueTravel due = atRest();
+    for (const int moved : first) EXPECT_FALSE(due.look(255 * kMean, 0, int16_t(moved)));
+    return int(first.size()) + ticksUntilDue(due, 255, 1);
+  };
+  EXPECT_EQ(8, ticks({}));
+  EXPECT_EQ(7, ticks({-1}));
+  EXPECT_EQ(6, ticks({-1, -1}));
+  EXPECT_EQ(6, ticks({-2}));
+  EXPECT_EQ(6, ticks({-9})) << "as if two";
+}
+
+TEST(DueTravel, WhatCameBeforeIsNoCredit) {
+  DueTravel due = atRest();
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(due.look(255 * kMean, 0, 9));
+  EXPECT_EQ(5, ticksUntilDue(due, 255, 0)) << "as of a motor that never moved";
+}
+
+TEST(DueTravel, StaysDueInATickWithoutDuty) {
+  DueTravel due = atRest();
+  for (int i = 0; i < 40; ++i) EXPECT_FALSE(due.look(160 * kMean, 0, 0)) << i;
+  EXPECT_FALSE(due.look(0, 0, 0));
+  EXPECT_EQ(51 - 40, ticksUntilDue(due, 160, 0));
+}
+
+TEST(DueTravel, ForgetsWhatWentAtRestAndInTheOtherDirection) {
+  DueTravel due = atRest();
+  due.look(255 * kMean, 0, -2);
+  due.rest();
+  EXPECT_EQ(8, ticksUntilDue(due, 255, 1));
+  due.look(255 * kMean, 0, -2);
+  due.look(-255 * kMean, 0, 0);
+  EXPECT_EQ(8, ticksUntilDue(due, 255, 1));
 }
 
 TEST(DueTravel, BeginsAgainInTheOtherDirectionAndAtRest) {
@@ -93,4 +150,19 @@ TEST(DueTravel, LearnsNothingFromOneThatHardlyTurnsOrNotEvenly) {
   for (int i = 0; i < 500; ++i) even.look(200 * kMean, 20 * kMean, int16_t(i % 2 ? 21 : 19));
   even.rest();
   EXPECT_NEAR(ticksUntilDue(even, 121, 0), 27, 2) << "one count from the mean is even";
+  for (const int16_t moved : {19, 21}) {
+    DueTravel apart = atRest();
+    for (int i = 0; i < 500; ++i) apart.look(200 * kMean, 20 * kMean, moved);
+    apart.rest();
+    EXPECT_NEAR(ticksUntilDue(apart, 121, 0), 27, 2) << moved;
+  }
+}
+
+// 150 steps for two counts a tick: 138 of them overcome friction and load, 18 more than it knew.
+TEST(DueTravel, LearnsAnEighthOfWhatIsMoreATick) {
+  EXPECT_EQ(0, ticksUntilDue(learned(150, 2, 1000), 169, 0)) << "138 + 17 + 15";
+  EXPECT_NEAR(505, ticksUntilDue(learned(150, 2, 1000), 170, 0), 10);
+  // 12 of 18 in 8 ticks.
+  EXPECT_EQ(0, ticksUntilDue(learned(150, 2, 8), 162, 0)) << "131 + 16 + 15";
+  EXPECT_NEAR(505, ticksUntilDue(learned(150, 2, 8), 163, 0), 10);
 }

@@ -95,6 +95,7 @@ class Stage : public machine::Wire,
   void askSled(const std::string& place);
   void askChains(const std::string& lengths);
   void hang(const std::string& place);
+  void hook(SimulatedMotor& motor, double slack);
   void declare();
   void tellOr(bool holds, const std::string& what);
   SimulatedMotor& motorNamed(const std::string& name);

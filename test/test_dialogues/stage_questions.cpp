@@ -95,6 +95,10 @@ bool Stage::change(const std::string& verb, const std::string& rest) {
     supply_ = numbersIn(rest).at(0);
   else if (is("reverse"))
     motorNamed(rest).reversed = true;
+  else if (is("hook"))
+    hook(motorNamed(rest.substr(0, rest.find(' '))), numbersIn(rest).at(0));
+  else if (is("unhook"))
+    motorNamed(rest).tight_at = -1e9;
   else if (is("pull"))
     motorNamed(rest.substr(0, rest.find(' '))).by_hand = numbersIn(rest).at(0);
   else if (is("off") || is("on"))
@@ -173,6 +177,12 @@ void Stage::hang(const std::string& place) {
   if (!hung.solved) fail("no sled can hang there");
   motor_[kLeftAxis].travel = hung.paid_out.x();
   motor_[kRightAxis].travel = hung.paid_out.y();
+}
+
+void Stage::hook(SimulatedMotor& motor, double slack) {
+  const double kBeyond = 12.7;  // [mm] of links past the other sprocket's 12 o'clock
+  motor.tight_at = judge_.motor_gap + kBeyond;
+  motor.travel = motor.tight_at + slack;
 }
 
 void Stage::declare() {

@@ -141,6 +141,16 @@ TEST(Clean, RemovesSpacesPercentAndSlashAndMakesLettersCapital) {
   EXPECT_EQ("", cleaned("   "));
 }
 
+TEST(Clean, TakesAwayARightChecksum) {
+  EXPECT_EQ("N1G21", cleaned("N1 G21*27"));
+  EXPECT_EQ("N1G21", cleaned("N1 G21*27 "));
+  EXPECT_EQ("N1G21*28", cleaned("N1 G21*28"));
+  EXPECT_EQ("N1G21*2 7", cleaned("N1 G21*2 7"));
+  EXPECT_EQ("N1G21*", cleaned("N1 G21*"));
+  EXPECT_EQ("*", cleaned("*"));
+  EXPECT_EQ("X5", cleaned("(2*3; no end) X5 ; *"));
+}
+
 TEST(Clean, NeverMakesOneNumberOfTwo) {
   EXPECT_EQ("X1 2", cleaned("X1 (c) 2"));
   EXPECT_EQ("X10 E5", cleaned("X10 E5"));

@@ -84,15 +84,15 @@ TEST(BoardWatch, BelievesNothingBeforeTheReferenceHasSettled) {
   EXPECT_NEAR(5, watch.lowestSupply(), 0.03);
 }
 
-TEST(BoardWatch, BelievesADriverThatComplainsForAFifthOfASecond) {
+TEST(BoardWatch, BelievesADriverThatComplainsForATenthOfASecond) {
   BoardWatch watch;
   Board board;
   board.complains = true;
-  EXPECT_EQ(0, seen(watch, board, 9).fails);
+  EXPECT_EQ(0, seen(watch, board, 4).fails);
   board.complains = false;
   EXPECT_EQ(0, seen(watch, board, 1).fails);
   board.complains = true;
-  EXPECT_EQ(0, seen(watch, board, 9).fails);
+  EXPECT_EQ(0, seen(watch, board, 4).fails);
   EXPECT_EQ(1, seen(watch, board, 1).fails);
   EXPECT_EQ(kRightAxis, watch.failing());
   EXPECT_EQ(0, seen(watch, board, 100, false).fails);

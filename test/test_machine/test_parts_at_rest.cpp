@@ -338,15 +338,27 @@ TEST_F(ReportsAlone, AreDueEveryFifthOfASecond) {
   expectSaid("<Idle,MPos:1.0000,-2.0000,0.0000,WPos:0.000,0.000,0.000>\r\n");
 }
 
+struct KeeperAlone : Parts {};
+
+// Else a chain that is pulled while the EEPROM is written would move the start of a planned move.
+TEST_F(KeeperAlone, IsNotReleasedWhileMotorsAreAboutToGetPower) {
+  EXPECT_TRUE(keeper.isReleased());
+  keeper.beginMoving();
+  EXPECT_FALSE(keeper.isReleased());
+  keeper.endWait();
+  EXPECT_TRUE(keeper.isReleased());
+}
+
 struct TelemetryAlone : Parts {};
 
 TEST_F(TelemetryAlone, KeepsWhyTheFirmwareStarted) {
   for (const Start start : {Start::kUsual, Start::kWatchdog, Start::kBrownOut, Start::kWatchdog}) {
-    Telemetry telemetry(board, board, board, axes, planner, memory, values, out, start);
+    Telemetry telemetry(board, board, board, axes, planner, place, memory, values, out, start);
     telemetry.noteStart();
     settings_host::settle(memory);
   }
-  Telemetry telemetry(board, board, board, axes, planner, memory, values, out, Start::kUsual);
+  Telemetry telemetry(board, board, board, axes, planner, place, memory, values, out,
+                      Start::kUsual);
   telemetry.tell();
-  expectSaid("|start:usual|events:1,2,0,0|last:watchdog,3]\r\n");
+  expectSaid("|start:usual|events:1,2,0,0|last:watchdog,3|slips:0,0|slipped:none,0,0,0]\r\n");
 }

@@ -35,8 +35,8 @@ void MegaStage::live() {
 void MegaStage::startBoard(const std::vector<uint8_t>& eeprom) {
   board_ = std::make_unique<VirtualBoard>(elf_);
   board_->setEeprom(eeprom);
-  spindle_ = std::make_unique<PulseMeter>(*board_, kSpindlePin);
-  laser_ = std::make_unique<PulseMeter>(*board_, kLaserPin);
+  spindle_ = std::make_unique<PulseMeter>(*board_, kShield2.spindle);
+  laser_ = std::make_unique<PulseMeter>(*board_, kShield2.laser);
   for (int axis = 0; axis < kAxisCount; ++axis) {
     encoders_.of[axis].restart(*board_, stage_.count(Axis(axis)));
     since_driven_ms_[axis] = kUnpoweredMs;
@@ -76,7 +76,7 @@ void MegaStage::turnEncoders() {
 void MegaStage::showPins() {
   for (int i = 0; i < kAxisCount; ++i) {
     const Axis axis = Axis(i);
-    const int16_t duty = int16_t(kDrivers[axis].duty(*board_));
+    const int16_t duty = int16_t(kShield2.drivers[axis].duty(*board_));
     since_driven_ms_[axis] = duty != 0 ? 0 : since_driven_ms_[axis] + 1;
     if (since_driven_ms_[axis] < kUnpoweredMs)
       stage_.drive(axis, duty);
@@ -86,7 +86,7 @@ void MegaStage::showPins() {
   stage_.pulse(machine::Output::kSpindle, spindle_->level());
   stage_.pulse(machine::Output::kLaser, laser_->level());
   stage_.turnServo(uint8_t(servoOf(*board_)));
-  board_->setPin(kProbePin, !stage_.probeTouches());
+  board_->setPin(kShield2.probe, !stage_.probeTouches());
   // The stage gives its supply as the processor measures it: the reference in 1/1024 of the supply.
   board_->setSupply(1.1 * 1024 / (stage_.bandGap() + 0.5));
 }

@@ -67,12 +67,28 @@ Number broken(const char*& text) {
   return {0, Fault::kBadNumber};
 }
 
+/// Whether `star` begins the checksum of its line: the exclusive or of all characters before it.
+bool beginsChecksum(const char* line, const char* star) {
+  uint8_t sum = 0, stated = 0;
+  for (; line != star; ++line) sum ^= uint8_t(*line);
+  const char* at = star + 1;
+  for (; isDigit(*at); ++at) stated = uint8_t(10 * stated + (*at - '0'));
+  while (*at == ' ') ++at;
+  return at != star + 1 && *at == '\0' && stated == sum;
+}
+
 }  // namespace
 
 void clean(char* line) {
   char* to = line;
   bool gap = false;
-  for (const char* at = line; *at != '\0' && *at != ';'; ++at) {
+  // Before anything is written: the checksum is that of the line as it came.
+  const char* end = line;
+  for (bool is_comment = false; *end != '\0'; ++end) {
+    is_comment = *end == '(' || (is_comment && *end != ')');
+    if (!is_comment && (*end == ';' || (*end == '*' && beginsChecksum(line, end)))) break;
+  }
+  for (const char* at = line; at < end; ++at) {
     const char c = *at >= 'a' && *at <= 'z' ? char(*at - 'a' + 'A') : *at;
     if (c == '(') {
       while (*at != ')' && *at != '\0') ++at;

@@ -15,7 +15,8 @@ enum class Fault : uint8_t {
   kNoCode,     ///< a G or M below zero, beyond 999, or with hundredths
 };
 
-/// Removes comments, spaces, `%` and `/`, and makes letters capital.
+/// Removes comments, spaces, `%` and `/`, and makes letters capital. A checksum (`*` and the
+/// exclusive or of what stands before it) goes too if it is right, and stays as a mistake if not.
 ///
 /// Where any of these was between two digits, or between a digit and an E, a space stays, so that
 /// two numbers never join.

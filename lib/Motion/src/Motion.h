@@ -6,5 +6,6 @@
 #include "lift.h"
 #include "mover.h"
 #include "playback.h"
+#include "slip_watch.h"
 #include "watch.h"
 #include "yield.h"

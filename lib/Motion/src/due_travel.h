@@ -27,7 +27,7 @@ class DueTravel {
   }
 
   /// Begins at rest; keeps what was learned of the motor.
-  void rest() { due_ = 0; }
+  void rest() { due_ = 0, back_ = 0; }
 
   /// To be called each tick, with the means of duty and counts over kMean ticks, times kMean, and
   /// the counts of this tick. True if too much travel is due.
@@ -35,13 +35,12 @@ class DueTravel {
     const bool forward = driven >= 0;
     if (!forward)
       driven = int16_t(-driven), moved_mean = int16_t(-moved_mean), moved = int16_t(-moved);
-    if (forward != forward_) due_ = 0;
+    if (forward != forward_) rest();
     forward_ = forward;
     learn(driven / kMean, moved_mean, moved);
     const int16_t beyond = int16_t(driven / kMean - threshold());
     if (beyond > 0) due_ += int32_t(beyond) * per_duty_;
-    // A motor that its chain turns against the drive owes nothing for that.
-    if (moved >= -1) due_ -= int32_t(moved) * (kPaid * kFine);
+    due_ -= int32_t(paid(moved)) * (kPaid * kFine);
     if (due_ < 0) due_ = 0;
     return due_ >= most_;
   }
@@ -53,6 +52,7 @@ class DueTravel {
   enum : int16_t {
     kFine = 256,     // parts of a count
     kPaid = 4,       // due counts that a real count settles: a motor that moves at all is not lost
+    kFro = 2,        // counts that a broken channel comes and goes
     kScale = 16,     // parts of a step of duty
     kUnknown = 120,  // duty that a stiff motor may need, before anything is learned
     kMargin = 15,    // of duty, and an eighth of the duty
@@ -60,6 +60,19 @@ class DueTravel {
     kSlow = 2,          // [counts a tick] below which nothing is learned
     kMostPerCount = 4000,
   };
+
+  /// The counts that settle something. Those against the drive are no debt, as the chain of a heavy
+  /// sled turns its motor so. They only take as many away from those that follow, up to kFro: else
+  /// a broken channel would pay.
+  int16_t paid(int16_t moved) {
+    if (moved <= 0) {
+      back_ = uint8_t(back_ - moved < kFro ? back_ - moved : int16_t(kFro));
+      return 0;
+    }
+    const int16_t net = int16_t(moved - back_);
+    back_ = uint8_t(net < 0 ? -net : 0);
+    return net > 0 ? net : int16_t(0);
+  }
 
   int16_t& needed() { return needed_[forward_]; }
 
@@ -81,6 +94,7 @@ class DueTravel {
   int16_t per_duty_ = 0;        ///< [1/kFine counts a tick] due for each step of duty
   int16_t duty_per_count_ = 0;  ///< [1/kScale of duty] for each count a tick
   int32_t due_ = 0, most_ = 0;  ///< [1/kFine counts]
+  uint8_t back_ = 0;            ///< counts against the drive that are not made good
   int16_t needed_[2] = {kUnknown * kScale, kUnknown* kScale};
   bool forward_ = true;
 };

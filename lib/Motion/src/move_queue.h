@@ -61,6 +61,7 @@ class MoveQueue {
   uint8_t count() const { return count_; }
   const Move& first() const { return ring_[first_]; }
   const Move& second() const { return at(1); }
+  const Move& at(uint8_t index) const { return ring_[uint8_t(first_ + index) % kMost]; }
   const Sprockets<float>& sprockets() const { return sprockets_; }
 
   /// Square of the largest speed at the end of the first move.
@@ -85,7 +86,6 @@ class MoveQueue {
 
  private:
   Move& at(uint8_t index) { return ring_[uint8_t(first_ + index) % kMost]; }
-  const Move& at(uint8_t index) const { return ring_[uint8_t(first_ + index) % kMost]; }
   float topOf(const Move& move) const;
   void plan(Move& move) const;
   void lookAhead();

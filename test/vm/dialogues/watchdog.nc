@@ -42,7 +42,8 @@
 ~~ wait 0.06
 ~~ resets 1
 ~~ off
-<- PCB v1.2 Detected
+; The reset cuts a report short, and the first line of the greeting may hang on to it.
+<* FAKE_SERVO off
 <* The firmware hung and the watchdog started it again*
 <* ALARM: Position Lost*
 -> B06 L1710 R1710
