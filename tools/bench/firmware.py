@@ -12,9 +12,10 @@ END = "<!-- firmware: end -->"
 VM = board.ROOT / "test/vm"
 # Row: what it must not exceed (or, for lines, fall below), and how it is shown.
 BUDGETS = {
-    # The Mega has 256 KB. Named alarms, dialects and settings need more than half of them. The line
-    # about a correction that two settings carry took the last kilobyte.
-    "flash": 145 * 1024,
+    # The Mega has 256 KB. Named alarms, dialects and settings need more than half of them. The last
+    # kilobytes went to a watch that knows heavy sleds, to pulls of a stated force, and to duties
+    # that change suddenly, as where a chain slips.
+    "flash": 149 * 1024,
     "static RAM": 5 * 1024,
     "RAM never touched": 1024,
     "control tick, share of the time at 100 Hz": 0.12,

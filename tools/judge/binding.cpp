@@ -34,11 +34,12 @@ reference::Machine machineWith(const std::map<std::string, double>& given) {
 /// Where a machine's sled comes to rest for each row: (n, 2) [mm]; NaN where it cannot hang.
 nb::ndarray<nb::numpy, double> places(const std::map<std::string, double>& numbers,
                                       const Pairs& chains, const Pairs& pushes,
-                                      const Column& weights) {
+                                      const Column& weights, bool over_top) {
   const size_t count = chains.shape(0);
   if (pushes.shape(0) != count || weights.shape(0) != count)
     throw nb::value_error("chains, pushes and weights must have the same number of rows");
   reference::Machine machine = machineWith(numbers);
+  machine.over_top = over_top;
   const Eigen::Vector2d always = machine.push;
   double* data = new double[2 * count];
   nb::capsule owner(data, [](void* p) noexcept { delete[] static_cast<double*>(p); });
@@ -59,9 +60,10 @@ NB_MODULE(_judge, module) {
   module.doc() = "The judge: exact statics of elastic catenaries, apart from the model.";
   module.def(
       "places", &places, nb::arg("numbers"), nb::arg("chains"), nb::kw_only(), nb::arg("pushes"),
-      nb::arg("weights"),
+      nb::arg("weights"), nb::arg("over_top") = true,
       "Where the sled rests, (n, 2) [mm], NaN where it cannot hang. numbers: what differs "
       "from the judge's default machine, by name; left.NAME and right.NAME are of one side. "
       "chains (n, 2) [mm] paid out, more pushes (n, 2) [N] on the sled, weights (n,) [N] of it. "
+      "over_top: the chains leave over the top of the sprockets, else below. "
       "KeyError for an unknown name.");
 }

@@ -23,10 +23,12 @@ namespace {
 using Pair = std::pair<double, double>;
 using CutRow = std::tuple<int, double, double, double, double>;
 
-std::unique_ptr<brain::Brain> brainFor(world::World& world, const std::optional<std::string>& elf) {
+std::unique_ptr<brain::Brain> brainFor(world::World& world, const std::optional<std::string>& elf,
+                                       int shield) {
+  if (shield != 2 && shield != 3) throw nb::value_error("a shield is 2 or 3");
   if (!elf) return std::make_unique<brain::HostBrain>(world);
 #ifdef PLUMB_HAS_SIMAVR
-  return std::make_unique<brain::MegaBrain>(world, *elf);
+  return std::make_unique<brain::MegaBrain>(world, *elf, shield == 2 ? vm::kShield2 : vm::kShield3);
 #else
   throw std::runtime_error(
       "this build of plumb has no simulated Mega: install libsimavr-dev and build it again");
@@ -40,12 +42,23 @@ world::Axis axisNamed(const std::string& name) {
   throw nb::value_error("an axis is left, right or z");
 }
 
+world::Parts partsOf(const std::map<std::string, double>& numbers, double friction, unsigned seed,
+                     bool over_top) {
+  world::Parts parts;
+  parts.numbers = numbers;
+  parts.friction = friction;
+  parts.seed = seed;
+  parts.over_top = over_top;
+  return parts;
+}
+
 /// A machine in its garage, with the firmware that drives it.
 class VirtualMachine {
  public:
   VirtualMachine(const std::map<std::string, double>& numbers, double friction, unsigned seed,
-                 double paid_out, const std::optional<std::string>& elf)
-      : world_({numbers, friction, seed}, paid_out), brain_(brainFor(world_, elf)) {}
+                 double paid_out, const std::optional<std::string>& elf, bool over_top, int shield)
+      : world_(partsOf(numbers, friction, seed, over_top), paid_out),
+        brain_(brainFor(world_, elf, shield)) {}
 
   void advance(int milliseconds) { brain_->advance(milliseconds); }
   void start() { brain_->start(); }
@@ -73,6 +86,7 @@ class VirtualMachine {
   Pair sled() const { return {world_.sled().place().x(), world_.sled().place().y()}; }
   Pair chains() const { return {world_.travel(world::kLeft), world_.travel(world::kRight)}; }
   Pair tensions() const { return {world_.sled().leftTension(), world_.sled().rightTension()}; }
+  Pair across() const { return {world_.across().pull(), world_.across().drop()}; }
   double height() const { return world_.travel(world::kZ); }
   bool hangs() const { return world_.hangs(); }
   int count(const std::string& axis) { return world_.count(axisNamed(axis)); }
@@ -88,7 +102,12 @@ class VirtualMachine {
 
   void hangAt(double x, double y) { world_.hangAt({x, y}); }
   void setHeight(double z) { world_.setHeight(z); }
+  void hookAcross(const std::string& axis, double slack, double beyond) {
+    world_.hookAcross(axisNamed(axis), slack, beyond);
+  }
+  void unhook() { world_.unhook(); }
   void slip(const std::string& axis, double mm) { world_.slip(axisNamed(axis), mm); }
+  void climb(const std::string& axis) { world_.climb(axisNamed(axis)); }
   void set(const std::string& number, double value) { world_.set(number, value); }
   void creep(const std::string& number, double per_second) { world_.creep(number, per_second); }
   void setProbeHeight(double z) { world_.setProbeHeight(z); }
@@ -99,7 +118,8 @@ class VirtualMachine {
                                                  {"encoder_reversed", &wires.encoder_reversed},
                                                  {"encoder_unplugged", &wires.encoder_unplugged},
                                                  {"channel_lost", &wires.channel_lost},
-                                                 {"blocked", &wires.blocked}};
+                                                 {"blocked", &wires.blocked},
+                                                 {"driver_complains", &wires.driver_complains}};
     const auto found = faults.find(fault);
     if (found == faults.end()) throw nb::value_error(("no wire has the fault " + fault).c_str());
     *found->second = is_so;
@@ -138,8 +158,15 @@ void bindFaults(nb::class_<VirtualMachine>& machine) {
       .def("hang_at", &VirtualMachine::hangAt, arg("x"), arg("y"),
            "Lays the chains so that the bit is there [mm].")
       .def("set_height", &VirtualMachine::setHeight, arg("z"), "Turns the screw of z by hand.")
+      .def("hook_across", &VirtualMachine::hookAcross, arg("axis"), arg("slack"),
+           arg("beyond") = 12.7,
+           "Takes the sled off and hooks a chain on the other sprocket, so many mm of links past "
+           "12 o'clock, with so much slack [mm] beyond the motor gap.")
+      .def("unhook", &VirtualMachine::unhook, "Hangs the sled on its chains again.")
       .def("slip", &VirtualMachine::slip, arg("axis"), arg("mm"),
            "A chain jumps on its sprocket: so much more is paid out than was counted.")
+      .def("climb", &VirtualMachine::climb, arg("axis"),
+           "A chain climbs over a tooth of its sprocket as that turns: it slips by a link.")
       .def("set", &VirtualMachine::set, arg("number"), arg("value"),
            "Gives a number of the judge's machine a new value.")
       .def("creep", &VirtualMachine::creep, arg("number"), arg("per_second"),
@@ -147,7 +174,7 @@ void bindFaults(nb::class_<VirtualMachine>& machine) {
       .def("set_probe_height", &VirtualMachine::setProbeHeight, arg("z"))
       .def("set_wire", &VirtualMachine::setWire, arg("axis"), arg("fault"), arg("is_so"),
            "A fault: motor_reversed, motor_unplugged, encoder_reversed, encoder_unplugged, "
-           "channel_lost, blocked.")
+           "channel_lost, blocked, driver_complains.")
       .def("miss_edges", &VirtualMachine::missEdges, arg("axis"), arg("pairs"),
            "The next edges of an encoder come in pairs, so often: nobody can tell which way.")
       .def("delay_program", &VirtualMachine::delayProgram, arg("milliseconds"),
@@ -174,12 +201,15 @@ NB_MODULE(_vm, module) {
       "A machine in its garage. numbers: what differs from the judge's "
       "default machine; friction [N] of the sled; seed draws the motors, 0: "
       "as they are meant to be; paid_out [mm] of both chains at first; elf: "
-      "the flashed program, else the firmware built for the host.");
+      "the flashed program, else the firmware built for the host; over_top: the chains leave over "
+      "the top of the sprockets, else below; shield: N of v1.N, 2 or 3, whose drivers the firmware "
+      "hears complain. The host's build hears them on every shield.");
   machine
       .def(nb::init<const std::map<std::string, double>&, double, unsigned, double,
-                    const std::optional<std::string>&>(),
+                    const std::optional<std::string>&, bool, int>(),
            arg("numbers"), nb::kw_only(), arg("friction") = 0.0, arg("seed") = 0,
-           arg("paid_out") = 1651.0, arg("elf") = nb::none())
+           arg("paid_out") = 1651.0, arg("elf") = nb::none(), arg("over_top") = true,
+           arg("shield") = 2)
       .def("advance", &VirtualMachine::advance, arg("milliseconds"),
            nb::call_guard<nb::gil_scoped_release>(), "Lets time pass.")
       .def("start", &VirtualMachine::start, "Power comes, or the reset button is let go.")
@@ -195,6 +225,8 @@ NB_MODULE(_vm, module) {
       .def_prop_ro("sled", &VirtualMachine::sled, "(x, y) [mm] of the bit from mid sheet.")
       .def_prop_ro("chains", &VirtualMachine::chains, "[mm] of nominal links, left and right.")
       .def_prop_ro("tensions", &VirtualMachine::tensions, "[N] at the sprockets.")
+      .def_prop_ro("across", &VirtualMachine::across,
+                   "Of a chain hooked across: pull on its motor [N], drop of its middle [mm].")
       .def_prop_ro("height", &VirtualMachine::height, "[mm] of the bit above the sheet's face.")
       .def_prop_ro("hangs", &VirtualMachine::hangs, "Whether a sled can hang from these chains.")
       .def("count", &VirtualMachine::count, arg("axis"), "Encoder counts since the world began.")

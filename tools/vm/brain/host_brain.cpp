@@ -23,6 +23,7 @@ void HostBrain::start() {
   now_ms_ = 0;
   byte_credit_ = out_queue_ = lost_ = late_ms_ = silent_ticks_ = 0;
   is_cut_off_ = has_hung_ = false;
+  over_top_ = true;
   failure_ = nullptr;
   for (int axis = 0; axis < machine::kAxisCount; ++axis) {
     encoders_[axis] = Encoder();
@@ -180,8 +181,9 @@ void HostBrain::write(char character) {
 
 uint16_t HostBrain::count(machine::Axis axis) {
   Encoder& encoder = encoders_[axis];
-  int moved = world_.count(world::Axis(axis)) - encoder.at;
-  encoder.at += moved;
+  const int32_t at = world_.count(world::Axis(axis));
+  int moved = senseOf(axis) * (at - encoder.at);
+  encoder.at = at;
   for (; encoder.to_miss > 0 && std::abs(moved) > 1; --encoder.to_miss) {
     moved -= moved > 0 ? 2 : -2;
     ++encoder.illegal;

@@ -65,21 +65,28 @@ class HostBrain : public Brain,
   int16_t read() override;
   void write(char character) override;
   uint8_t lost() override;
-  void drive(machine::Axis axis, int16_t duty) override { world_.drive(world::Axis(axis), duty); }
+  void drive(machine::Axis axis, int16_t duty) override {
+    world_.drive(world::Axis(axis), senseOf(axis) * duty);
+  }
   void release(machine::Axis axis) override { world_.drive(world::Axis(axis), 0); }
   uint16_t count(machine::Axis axis) override;
   uint16_t illegalSteps(machine::Axis axis) override { return encoders_[axis].illegal; }
-  void arrange(bool, uint8_t) override {}
+  void arrange(bool over_top, uint8_t) override { over_top_ = over_top; }
   void set(machine::Output output, bool high) override { pulse(output, high ? 255 : 0); }
   void pulse(machine::Output output, uint8_t level) override { levels_[int(output)] = level; }
   void turnServo(uint8_t degrees) override { servo_ = degrees; }
   bool probeTouches() override { return world_.probeTouches(); }
+  bool driverFails(machine::Axis axis) override {
+    return world_.wires(world::Axis(axis)).driver_complains;
+  }
   uint16_t bandGap() override;
   uint32_t milliseconds() override { return now_ms_; }
   void idle() override;
   void holdTicks() override {}
   void releaseTicks() override {}
 
+  /// The wires of a chain off the bottom are taken the other way.
+  int senseOf(machine::Axis axis) const { return over_top_ || axis == machine::kZAxis ? 1 : -1; }
   void live();
   void noteAlive();
   void awaitTurn();
@@ -98,6 +105,7 @@ class HostBrain : public Brain,
   Encoder encoders_[machine::kAxisCount];
   uint8_t levels_[2] = {0, 0}, servo_ = 255;
   machine::Machine* ticked_ = nullptr;
+  bool over_top_ = true;  ///< as the firmware has arranged the wires
   int tick_every_ms_ = 10;
   int silent_ticks_ = 0;   ///< since the main program last called idle()
   bool has_hung_ = false;  ///< the main program is back from a hang; its next idle() counts

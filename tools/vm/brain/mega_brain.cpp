@@ -8,7 +8,8 @@ const int kSlicesPerMs = 4;  // no motor makes more edges in a millisecond
 
 }  // namespace
 
-MegaBrain::MegaBrain(world::World& world, std::string elf) : world_(world), elf_(std::move(elf)) {
+MegaBrain::MegaBrain(world::World& world, std::string elf, const vm::ShieldPins& shield)
+    : world_(world), shield_(shield), elf_(std::move(elf)) {
   // Loads the file once, so that an unreadable file is refused here.
   vm::VirtualBoard try_it(elf_);
 }
@@ -18,8 +19,9 @@ void MegaBrain::start() {
   board_ = std::make_unique<vm::VirtualBoard>(elf_);
   board_->setEeprom(eeprom_);
   board_->setSupply(supply_);
-  spindle_ = std::make_unique<vm::PulseMeter>(*board_, vm::kSpindlePin);
-  laser_ = std::make_unique<vm::PulseMeter>(*board_, vm::kLaserPin);
+  board_->strap(uint8_t(shield_.straps));
+  spindle_ = std::make_unique<vm::PulseMeter>(*board_, shield_.spindle);
+  laser_ = std::make_unique<vm::PulseMeter>(*board_, shield_.laser);
   late_ms_ = 0;
   for (int axis = 0; axis < world::kAxisCount; ++axis)
     encoders_.of[axis].restart(*board_, uint16_t(world_.count(world::Axis(axis))));
@@ -57,9 +59,12 @@ void MegaBrain::passMillisecond() {
     turnEncoders();
     board_->runMs(1.0 / kSlicesPerMs);
   }
-  for (int axis = 0; axis < world::kAxisCount; ++axis)
-    world_.drive(world::Axis(axis), vm::kDrivers[axis].duty(*board_));
-  board_->setPin(vm::kProbePin, !world_.probeTouches());
+  for (int axis = 0; axis < world::kAxisCount; ++axis) {
+    const vm::DriverPins& driver = shield_.drivers[axis];
+    world_.drive(world::Axis(axis), driver.duty(*board_));
+    driver.complain(*board_, world_.wires(world::Axis(axis)).driver_complains);
+  }
+  board_->setPin(shield_.probe, !world_.probeTouches());
 }
 
 void MegaBrain::turnEncoders() {

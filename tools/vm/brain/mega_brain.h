@@ -11,12 +11,12 @@
 
 namespace brain {
 
-/// A Mega with shield v1.2.
+/// A Mega with a motor shield.
 class MegaBrain : public Brain {
  public:
   /// `elf` is the file to flash. `world` must live as long as this object. Throws
   /// std::runtime_error if the file cannot be read.
-  MegaBrain(world::World& world, std::string elf);
+  MegaBrain(world::World& world, std::string elf, const vm::ShieldPins& shield);
   ~MegaBrain() override = default;
 
   void advance(int milliseconds) override;
@@ -41,6 +41,7 @@ class MegaBrain : public Brain {
   void turnEncoders();
 
   world::World& world_;
+  const vm::ShieldPins& shield_;
   std::string elf_, said_;
   std::vector<uint8_t> eeprom_ = std::vector<uint8_t>(4096, 0xff);
   std::unique_ptr<vm::VirtualBoard> board_;

@@ -1,4 +1,4 @@
-// The Mega's pins on shield v1.2, with chains over the top of their sprockets.
+// The Mega's pins on two motor shields, with chains over the top of their sprockets.
 #pragma once
 
 #include <cstdint>
@@ -9,20 +9,39 @@ namespace vm {
 
 const int kMotors = 3;  // left, right, z
 
-/// Bridge inputs in the order for "wind in", and the pin of the PWM.
+/// Bridge inputs in the order for "wind in", and a third pin.
 struct DriverPins {
-  int input1, input2, enable;
+  int input1, input2;
+  int third;      ///< the PWM, or where the driver complains
+  bool has_flag;  ///< the third pin is the driver's: low where it complains, and the inputs pulse
 
   /// The duty that the pins show, -255 to 255; positive winds in.
   int duty(const VirtualBoard& board) const {
-    const bool is_input1 = board.pin(input1).level != 0, is_input2 = board.pin(input2).level != 0;
-    if (is_input1 == is_input2) return 0;
-    const int level = board.pin(enable).level;
-    return is_input1 ? level : -level;
+    const int level1 = board.pin(input1).level, level2 = board.pin(input2).level;
+    if (has_flag) return level1 - level2;
+    if ((level1 != 0) == (level2 != 0)) return 0;
+    const int level = board.pin(third).level;
+    return level1 != 0 ? level : -level;
+  }
+  /// Shows whether the driver complains, where it can.
+  void complain(VirtualBoard& board, bool complains) const {
+    if (has_flag) board.setPin(third, !complains);
   }
 };
 
-const DriverPins kDrivers[kMotors] = {{12, 11, 10}, {4, 6, 5}, {7, 9, 8}};
+/// What a shield connects.
+struct ShieldPins {
+  int straps;  ///< as VirtualBoard::strap() takes them
+  DriverPins drivers[kMotors];
+  int spindle, laser, probe;
+};
+
+/// v1.2 with L298 bridges, as most machines have it.
+const ShieldPins kShield2 = {
+    63, {{12, 11, 10, false}, {4, 6, 5, false}, {7, 9, 8, false}}, 17, 16, 14};
+/// v1.3 with TLE5206 bridges, which complain of heat and of too much current.
+const ShieldPins kShield3 = {
+    52, {{11, 10, 12, true}, {6, 4, 5, true}, {7, 9, 8, true}}, 40, 41, 43};
 
 /// An encoder on two inputs of the Mega.
 class EncoderPins {
@@ -64,7 +83,7 @@ class EncoderPins {
   int to_miss_ = 0;
 };
 
-/// The encoders of all motors.
+/// The encoders of all motors, on both shields.
 struct Encoders {
   EncoderPins of[kMotors] = {{3, 2}, {20, 21}, {18, 19}};
 };
@@ -78,7 +97,5 @@ inline int servoOf(VirtualBoard& board) {
   const int pulse = data[kOcr5b] | data[kOcr5b + 1] << 8;  // [half a microsecond]
   return data[kTimsk5] == 0 ? kLoose : (pulse - 1088) * 180 / 3712;
 }
-
-const int kSpindlePin = 17, kLaserPin = 16, kProbePin = 14;
 
 }  // namespace vm

@@ -37,6 +37,7 @@ struct Wires {
   bool motor_unplugged = false, encoder_unplugged = false;
   bool channel_lost = false;  ///< of the encoder: the count goes to and fro by 1
   bool blocked = false;
+  bool driver_complains = false;  ///< and gives no current
 };
 
 /// A motor. A positive duty lengthens the chain.
@@ -59,7 +60,8 @@ class Motor {
     const double volts = std::copysign(std::max(given, 0.0), share);
     const double whole = c_.resistance + c_.supply_resistance * std::fabs(share);
     // Without a supply the bridge conducts nothing, so it brakes nothing.
-    const bool is_fed = is_powered && !wires.motor_unplugged && c_.supply - weaker > c_.bridge_drop;
+    const bool is_cut_off = wires.motor_unplugged || wires.driver_complains;
+    const bool is_fed = is_powered && !is_cut_off && c_.supply - weaker > c_.bridge_drop;
     for (double t = 0; t < seconds - kStep / 2; t += kStep) {
       if (!is_fed) rotor_ += by_hand * kStep;
       current_ = is_fed ? (volts - c_.torque_constant * speed_) / whole : 0;
@@ -95,8 +97,9 @@ class Motor {
     const double load = c_.load + pull;
     // If the chain's pull exceeds the sprocket's friction, the gear stays on the same flank.
     const bool hangs = load > c_.sprocket_friction;
+    const double kOnFlank = 0.499;  // share of the play; rounding never reaches half of it
     const bool meshes =
-        hangs || (speed_ >= 0 ? rotor_ - sprocket_ : sprocket_ - rotor_) >= 0.5 * c_.play;
+        hangs || (speed_ >= 0 ? rotor_ - sprocket_ : sprocket_ - rotor_) >= kOnFlank * c_.play;
     turn(torque + (meshes ? load : 0), c_.coulomb - (meshes ? 0 : c_.sprocket_friction), seconds);
     sprocket_ =
         hangs ? rotor_ : std::min(std::max(sprocket_, rotor_ - c_.play / 2), rotor_ + c_.play / 2);

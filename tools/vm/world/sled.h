@@ -16,15 +16,18 @@ namespace world {
 class Sled {
  public:
   /// `numbers`: what differs from the judge's default machine, by name. `friction` [N] of the sled
-  /// on the sheet. Throws std::invalid_argument for a name that the judge does not know.
-  Sled(const std::map<std::string, double>& numbers, double friction)
+  /// on the sheet. `over_top`: the chains leave over the top of the sprockets, else below. Throws
+  /// std::invalid_argument for a name that the judge does not know.
+  Sled(const std::map<std::string, double>& numbers, double friction, bool over_top = true)
       : friction_(friction), is_settled_(false) {
+    machine_.over_top = over_top;
     for (const auto& each : numbers) set(each.first, each.second);
   }
 
   /// Gives a number of the judge's machine a new value; the sled moves with the next hang().
   void set(const std::string& name, double value) { *at(name) = value; }
   double get(const std::string& name) { return *at(name); }
+  const reference::Machine& machine() const { return machine_; }
 
   /// Lets the sled come to rest on chains of `paid_out` [mm left, right]. False where no sled can
   /// hang; the sled then keeps its last place.

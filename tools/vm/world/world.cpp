@@ -25,20 +25,33 @@ MotorConstants zMotor(unsigned seed) {
   return constants;
 }
 
+reference::Hand handOf(Axis axis) {
+  return axis == kLeft ? reference::Hand::kLeft : reference::Hand::kRight;
+}
+
+Axis otherOf(Axis axis) { return axis == kLeft ? kRight : kLeft; }
+
 unsigned seedOf(const Parts& parts, Axis axis) { return parts.seed ? 3 * parts.seed + axis : 0; }
 
 }  // namespace
 
 World::World(const Parts& parts, double paid_out)
-    : sled_(parts.numbers, parts.friction),
+    : sled_(parts.numbers, parts.friction, parts.over_top),
       motors_{{{chainMotor(seedOf(parts, kLeft)), parts.seed},
                {chainMotor(seedOf(parts, kRight)), parts.seed + 1},
                {zMotor(seedOf(parts, kZ)), parts.seed + 2}}},
       per_turn_{{parts.chain_per_turn, parts.chain_per_turn, parts.z_per_turn}},
-      laid_{{paid_out, paid_out, 0}} {
+      senses_{{parts.over_top ? 1 : -1, parts.over_top ? 1 : -1, 1}},
+      laid_{{paid_out, paid_out, 0}},
+      is_over_top_(parts.over_top) {
   for (Motor& motor : motors_) motor.is_powered = false;
   hang();
   if (!hangs_) throw std::invalid_argument("no sled can hang from chains of this length");
+}
+
+double World::radius() const {
+  const double kMetre = 1000;  // [mm]
+  return per_turn_[kLeft] / kTurn / kMetre;
 }
 
 void World::drive(Axis axis, int duty) {
@@ -47,14 +60,29 @@ void World::drive(Axis axis, int duty) {
   motors_[axis].is_powered = duty != 0;
 }
 
-double World::travel(Axis axis) const {
-  return laid_[axis] + motors_[axis].turns() * per_turn_[axis];
-}
+double World::travel(Axis axis) const { return laid_[axis] + turned(axis); }
 
 void World::hangAt(const Eigen::Vector2d& place) {
   const Eigen::Vector2d paid_out = sled_.chainsTo(place);
   laid_[kLeft] += paid_out.x() - travel(kLeft);
   laid_[kRight] += paid_out.y() - travel(kRight);
+  hang();
+}
+
+void World::hookAcross(Axis axis, double slack, double beyond) {
+  if (axis == kZ || !is_over_top_)
+    throw std::invalid_argument("a chain over the top of its sprocket can be hooked across");
+  laid_[axis] += sled_.machine().motor_gap + beyond + slack - travel(axis);
+  held_at_ = travel(otherOf(axis));
+  across_.hook(handOf(axis), beyond);
+  tighten();
+  if (across_.isSolved()) return;
+  unhook();
+  throw std::invalid_argument("no chain of this length hangs between the sprockets");
+}
+
+void World::unhook() {
+  across_.unhook();
   hang();
 }
 
@@ -64,11 +92,13 @@ void World::advance(double seconds) {
   for (int axis = 0; axis < kAxisCount; ++axis) {
     Motor& motor = motors_[axis];
     motor.weaker = lacking_ + sag - motor.sag();
-    motor.run(-duties_[axis], seconds);
+    motor.run(-senses_[axis] * duties_[axis], seconds);
   }
   seconds_ += seconds;
+  goOnClimbing(seconds);
   for (const auto& creep : creeps_)
     sled_.set(creep.first, sled_.get(creep.first) + creep.second * seconds);
+  if (across_.isHooked()) return tighten();
   if (!isDue(seconds)) return;
   hang();
   sheet_.touch(seconds_, sled_.place(), travel(kZ));
@@ -83,14 +113,34 @@ bool World::isDue(double step) {
   return ran.cwiseAbs().maxCoeff() > kMoved;
 }
 
+void World::tighten() {
+  const Axis axis = across_.hand() == reference::Hand::kLeft ? kLeft : kRight;
+  const Axis other = otherOf(axis);
+  // The other motor turns too if its friction does not hold it.
+  across_.hang(sled_.machine(), travel(axis) + travel(other) - held_at_);
+  motors_[axis].pull = across_.pull() * radius();
+  motors_[other].pull = across_.otherPull() * radius();
+}
+
 void World::hang() {
   hung_ = seconds_;
   hung_on_ = {travel(kLeft), travel(kRight)};
   hangs_ = sled_.hang(hung_on_);
-  const double kMetre = 1000;  // [mm]
-  const double radius = per_turn_[kLeft] / kTurn / kMetre;
-  motors_[kLeft].pull = sled_.leftTension() * radius;
-  motors_[kRight].pull = sled_.rightTension() * radius;
+  pullOnMotors();
+}
+
+void World::goOnClimbing(double seconds) {
+  for (const Axis axis : {kLeft, kRight}) {
+    if (!climbs_[axis].isOn()) continue;
+    const double tension = axis == kLeft ? sled_.leftTension() : sled_.rightTension();
+    laid_[axis] += climbs_[axis].advance(seconds, turned(axis), tension);
+    pullOnMotors();
+  }
+}
+
+void World::pullOnMotors() {
+  motors_[kLeft].pull = sled_.leftTension() * radius() * climbs_[kLeft].share();
+  motors_[kRight].pull = sled_.rightTension() * radius() * climbs_[kRight].share();
 }
 
 }  // namespace world

@@ -8,6 +8,8 @@
 #include <map>
 #include <string>
 
+#include "world/chain_across.h"
+#include "world/climb.h"
 #include "world/motor.h"
 #include "world/sheet.h"
 #include "world/sled.h"
@@ -24,6 +26,7 @@ struct Parts {
   unsigned seed = 0;                      ///< for random motors; 0: nominal motors
   double chain_per_turn = 63.5;           ///< [mm] of nominal links that a sprocket pays out
   double z_per_turn = 3.17;               ///< [mm] of the z axis' screw
+  bool over_top = true;  ///< the chains leave over the top of the sprockets, else below
 };
 
 /// The machine in its garage.
@@ -33,10 +36,12 @@ class World {
   /// std::invalid_argument where no sled can hang, or for a number that the judge does not know.
   World(const Parts& parts, double paid_out);
 
-  /// Drives a motor with a duty of -255 to 255; a positive duty winds chain in, or the bit down.
+  /// Drives a motor with a duty of -255 to 255. A positive duty turns a sprocket so that it winds
+  /// in a chain over its top and pays out a chain below; it lowers the bit.
   void drive(Axis axis, int duty);
-  /// Encoder counts since the world began. They rise as chain is paid out, and as the bit rises.
-  int32_t count(Axis axis) { return motors_[axis].counts(); }
+  /// Encoder counts since the world began. They rise as a chain over the top is paid out, as a
+  /// chain below is wound in, and as the bit rises.
+  int32_t count(Axis axis) { return senses_[axis] * motors_[axis].counts(); }
 
   /// Lets time pass: a millisecond at most.
   void advance(double seconds);
@@ -54,8 +59,17 @@ class World {
   // Changes by hand, and faults.
   /// Lays the chains on other teeth: the sprockets do not turn, but the links on them change.
   void slip(Axis axis, double links_mm) { laid_[axis] += links_mm; }
+  /// From now on a chain climbs over a tooth; it needs half a link of the sprocket's travel.
+  void climb(Axis axis) { climbs_[axis].begin(turned(axis)); }
   /// Sets the chains so that this sled's bit is at a place [mm].
   void hangAt(const Eigen::Vector2d& place);
+  /// Takes the sled off and hooks the chain of a motor on the other motor's sprocket, `beyond` [mm]
+  /// of links past its 12 o'clock, so that `slack` [mm] are out beyond the motor gap. Throws
+  /// std::invalid_argument where the judge finds no such chain, or for chains off the bottom.
+  void hookAcross(Axis axis, double slack, double beyond);
+  /// Hangs the sled on its chains again.
+  void unhook();
+  const ChainAcross& across() const { return across_; }
   /// Turns the screw by hand until the bit is at a height [mm].
   void setHeight(double z) { laid_[kZ] += z - travel(kZ); }
   /// Gives a number of the judge's machine a new value, or lets it creep by an amount each second.
@@ -72,19 +86,30 @@ class World {
 
  private:
   void hang();
+  void tighten();
+  double radius() const;  // [m] of a sprocket
+  /// [mm] What the sprocket's turns since the world began pay out.
+  double turned(Axis axis) const { return motors_[axis].turns() * per_turn_[axis]; }
+  void goOnClimbing(double seconds);
+  void pullOnMotors();
   /// Whether the sled has moved enough, or waited long enough, to be hung again.
   bool isDue(double step);
 
   Sled sled_;
+  ChainAcross across_;
   Sheet sheet_;
   std::array<Motor, kAxisCount> motors_;
+  std::array<Climb, kAxisCount> climbs_;
   std::array<int, kAxisCount> duties_ = {{0, 0, 0}};
-  std::array<double, kAxisCount> per_turn_;            // [mm]
-  std::array<double, kAxisCount> laid_;                // [mm] of travel when the motors began
-  std::map<std::string, double> creeps_;               // change of each number in a second
+  std::array<double, kAxisCount> per_turn_;  // [mm]
+  std::array<int, kAxisCount> senses_;       // +1, or -1 for a motor that turns the other way
+  std::array<double, kAxisCount> laid_;      // [mm] of travel when the motors began
+  std::map<std::string, double> creeps_;     // change of each number in a second
   Eigen::Vector2d hung_on_ = Eigen::Vector2d::Zero();  // [mm] both chains when the sled was hung
   double seconds_ = 0, hung_ = 0, looked_ = 0, probe_height_ = -1e9;
   double lacking_ = 0;  // [V] of the motors' supply
+  double held_at_ = 0;  // [mm] travel of the motor that held the chain's end, when hooked
+  bool is_over_top_ = true;
   bool hangs_ = false;
 };
 
