@@ -5,5 +5,10 @@ from numpy.typing import NDArray
 Numbers = NDArray[np.float64]
 
 def places(
-    numbers: dict[str, float], chains: Numbers, *, pushes: Numbers, weights: Numbers
+    numbers: dict[str, float],
+    chains: Numbers,
+    *,
+    pushes: Numbers,
+    weights: Numbers,
+    over_top: bool = ...,
 ) -> Numbers: ...
