@@ -22,6 +22,7 @@ from plumb.settings.ini import SOURCES
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError, naming, refusal
 from plumb.text.ini import IniEntry, IniText
+from plumb.text.readers import to_do
 from plumb.text.values import number_in
 
 # What clients work out before they send it.
@@ -81,8 +82,11 @@ def _for_published(
     unsaid = tuple(loss.sentence for loss in changes.unsaid)
     if client == "none":
         raise InputError(
-            "--client none: the published firmware gets its numbers from a client; give --client "
-            "groundcontrol or webcontrol"
+            to_do(
+                "--client none: the published firmware gets its numbers from a client; give "
+                "--client groundcontrol or webcontrol",
+                page="the published firmware gets its numbers from a client: open its file",
+            )
         )
     if client == "webcontrol" and original is None:
         typed = {key: number_for_firmware(value) for key, value in changes.values.items()}
@@ -150,11 +154,15 @@ def _client_file(
     file = CLIENT_FILES[client]
     if original is None:
         raise InputError(
-            f"--client {client} needs your {file}, whose other keys it keeps: give it with "
-            "--original"
+            to_do(
+                f"--client {client} needs your {file}, whose other keys it keeps: give it with "
+                "--original",
+                page=f"your {file} is needed, whose other keys are kept: open it",
+            )
         )
     if Path(original).suffix.lower() != Path(file).suffix:
-        raise refusal(original, f"is no {file}", remedy=f"--client {client} needs that file")
+        needs = to_do(f"--client {client} needs that file", page=f"open your {file}")
+        raise refusal(original, f"is no {file}", remedy=needs)
     name = Path(lines).with_name(f"{Path(lines).stem}-{file}")
     return str(name), changed_client_file(original, values)
 

@@ -14,6 +14,8 @@ from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 
 RING, OVER_TOP, OFF_BOTTOM = 2, 1, 2  # what $7 and $38 say
+# What a client sends in addition to the numbers of the frame: without it z stands still.
+CLIENT_NUMBERS: Mapping[int, float] = {29: 1300, 15: 1000, 18: 18}
 WORST = 0.01  # [mm] of chain by which rounding to the firmware's floats may move a place
 
 

@@ -10,9 +10,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from plumb.text.errors import InputError
+from plumb.text.readers import to_do
 
 LINE = re.compile(r"\[Telemetry\|([^\]\n]*)\]")
 LEAST_SUPPLY_V = 4.5
+CHAINS = ("left", "right")
 STARTS = ("usual", "brown-out", "watchdog")
 # Kinds of events in the order of their counts, and how an owner hears of them.
 EVENTS = {
@@ -21,6 +23,15 @@ EVENTS = {
     "supply": "low supply",
     "driver": "driver error",
 }
+
+
+@dataclass(frozen=True)
+class Slip:
+    """A moment in which a chain may have slipped."""
+
+    chain: str  # one of CHAINS
+    place: tuple[int, int]  # [mm] where the sled was sent then
+    seconds_ago: int
 
 
 @dataclass(frozen=True)
@@ -38,6 +49,8 @@ class Telemetry:
     events: tuple[int, ...]  # how often each of EVENTS has happened, ever
     last_event: str  # one of EVENTS, or "none"
     total_events: int  # place of the last event in their order
+    slips: tuple[int, int] = (0, 0)  # how often each chain may have slipped since power-on
+    last_slip: Slip | None = None  # None as well from a firmware that does not watch for slips
 
 
 def latest(text: str, path: str) -> Telemetry:
@@ -45,12 +58,21 @@ def latest(text: str, path: str) -> Telemetry:
     lines = LINE.findall(text)
     if not lines:
         raise InputError(f"{path}: no [Telemetry|...] line; send B30 and save the client's log")
-    try:
-        return _read(dict(field.split(":", 1) for field in lines[-1].split("|")))
-    except (KeyError, ValueError):
+    telemetry = telemetry_in(text)
+    if telemetry is None:
         raise InputError(
             f"{path}: the last telemetry line is damaged: [Telemetry|{lines[-1]}]; send B30 again"
-        ) from None
+        )
+    return telemetry
+
+
+def telemetry_in(text: str) -> Telemetry | None:
+    """The last telemetry line of a text; None if it has none or the last is damaged."""
+    lines = LINE.findall(text)
+    try:
+        return _read(dict(field.split(":", 1) for field in lines[-1].split("|")))
+    except (IndexError, KeyError, ValueError):
+        return None
 
 
 def _read(fields: dict[str, str]) -> Telemetry:
@@ -64,6 +86,7 @@ def _read(fields: dict[str, str]) -> Telemetry:
         raise ValueError
     if len(events) != len(EVENTS) or last_event not in (*EVENTS, "none"):
         raise ValueError
+    slips, last_slip = _slips(fields)
     return Telemetry(
         error_mm=(left, right, z),
         dry=int(fields["dry"]),
@@ -76,7 +99,48 @@ def _read(fields: dict[str, str]) -> Telemetry:
         events=events,
         last_event=last_event,
         total_events=int(total_events),
+        slips=slips,
+        last_slip=last_slip,
     )
+
+
+def _slips(fields: dict[str, str]) -> tuple[tuple[int, int], Slip | None]:
+    """How often each chain may have slipped, and the last time."""
+    if "slips" not in fields:
+        return (0, 0), None
+    left, right = (int(number) for number in fields["slips"].split(","))
+    chain, x, y, ago = fields["slipped"].split(",")
+    if chain not in (*CHAINS, "none"):
+        raise ValueError
+    last = None if chain == "none" else Slip(chain, (int(x), int(y)), int(ago))
+    return (left, right), last
+
+
+def slip_suspicion(telemetry: Telemetry) -> str | None:
+    """Which chain an owner should look at because it may have slipped, and where; or None."""
+    last = telemetry.last_slip
+    if last is None:
+        return None
+    left, right = telemetry.slips
+    chains = "both chains" if left and right else f"the {last.chain} chain"
+    times = left + right
+    often = "once" if times == 1 else f"{times} times"
+    x, y = last.place
+    return (
+        f"Look at {chains}: a motor's load fell away for a moment, {often} since power-on, the "
+        f"last time on the {last.chain} near x {x}, y {y} mm, {ago(last.seconds_ago)} ago. A chain "
+        "that slips does that. Touch two holes, and ask "
+        + to_do("plumb slip.", page="whether they are where they were.")
+    )
+
+
+def ago(seconds: int) -> str:
+    """A time in its largest unit."""
+    for name, length in (("hour", 3600), ("minute", 60)):
+        if seconds >= length:
+            count = seconds // length
+            return f"{count} {name}{'s' if count > 1 else ''}"
+    return f"{seconds} s"
 
 
 def warnings(telemetry: Telemetry, *, limit_mm: float, rate_hz: int) -> Iterator[str]:
@@ -114,6 +178,9 @@ def warnings(telemetry: Telemetry, *, limit_mm: float, rate_hz: int) -> Iterator
             "The EEPROM no longer keeps what is written. Note your settings ($$), "
             "then change the board."
         )
+    suspicion = slip_suspicion(telemetry)
+    if suspicion:
+        yield suspicion
     if telemetry.start == "brown-out":
         yield "The Mega started because its 5 V broke down. Check its plug and USB cable."
     if telemetry.start == "watchdog":

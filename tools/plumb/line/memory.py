@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from plumb.firmware.settings import every_setting
-from plumb.line.sender import REPORTS, STANDS, Sender
+from plumb.line.sender import REPORTS, STANDS, Sender, Watch
 from plumb.text.errors import InputError
 
 ROW = re.compile(r"\$(\d+)=([-+\d.eE]+)")
@@ -32,9 +32,20 @@ def read_numbers(sender: Sender) -> dict[int, float]:
     return numbers
 
 
-def write_numbers(sender: Sender, lines: list[str]) -> Written:
+def version_of(sender: Sender) -> str:
+    """What the machine says of its firmware, like `Firmware Version 1.28`; empty if nothing."""
+    return next((line for line in sender.ask("B05") if line.startswith("Firmware")), "")
+
+
+def write_numbers(
+    sender: Sender,
+    lines: list[str],
+    *,
+    keep: Callable[[dict[int, float]], None] = lambda before: None,
+) -> Written:
     """Send lines `$N=VALUE`, read all numbers back, and compare.
 
+    `keep` gets all numbers that the machine has, before any is sent.
     Raises InputError while the machine moves, for a line of something else, and if the machine
     holds another number than was sent.
     """
@@ -46,6 +57,7 @@ def write_numbers(sender: Sender, lines: list[str]) -> Written:
         wanted[int(row[1])] = float(row[2])
     refuse_while_moving(sender)
     before = read_numbers(sender)
+    keep(before)
     sender.stream(lines)
     after = read_numbers(sender)
     for number, value in wanted.items():
@@ -70,9 +82,8 @@ def _same(printed: float, value: float) -> bool:
 def refuse_while_moving(sender: Sender) -> None:
     """InputError if the sled is not where it was a moment ago."""
     sender.await_start()
-    first = sender.status
-    end = sender.port.seconds() + REPORTS
-    while sender.port.seconds() < end:
+    first, watch = sender.status, Watch(sender)
+    while not watch.has_lasted(REPORTS):
         sender.listen()
     second = sender.status
     if first and second and max(map(abs, map(float.__sub__, first.place, second.place))) > STANDS:

@@ -4,6 +4,12 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from plumb.text.errors import InputError
+
+
+class LostError(InputError):
+    """Nothing more comes over the line: a cable, its power, or a program that has it."""
+
 
 class Port(Protocol):
     """Both ways of a serial line, and the time that passes on it."""

@@ -6,22 +6,26 @@ that many may be on their way at once.
 
 from __future__ import annotations
 
+import math
 import re
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 
-from plumb.line.port import Port
+from plumb.line.port import LostError, Port
 from plumb.text.errors import InputError
 
 AHEAD = 126  # characters on their way at most
 SILENCE = 5.0  # [s] the machine reports five times a second, so this long a silence has a reason
 START = 12.0  # [s] a board that was reset by the line takes up to six
 HOLD, GO_ON, STOP = b"\x84", b"~\n", b"!\n"
+ANSWERS = ("ok", "error:")
 WRONG = ("ALARM", "error:")  # how lines begin that nobody may miss
 STANDS = 0.02  # [mm] between two reports of a machine at rest
-REPORTS = 0.6  # [s] it reports five times a second
+REPORTS = 0.6  # [s] in which it reports thrice
+PER_SECOND = 5  # reports
 KEPT = 4.0  # [s] after which motors are off and the position is in the memory
+COMMENT = re.compile(r"\([^)]*\)")
 STATUS = re.compile(r"<(\w+),MPos:(-?[\d.]+),(-?[\d.]+),(-?[\d.]+)")
 
 
@@ -50,9 +54,11 @@ class Sender:
     status: Status | None = None
     # Called again and again while lines are on their way; it may hold the machine, or stop it.
     attend: Callable[[Sender], None] = lambda sender: None
+    reports: int = 0  # that came so far
     _partial: str = ""
-    _heard_at: float = 0.0
+    _heard_at: float = math.inf  # nobody expects a machine to speak before it was asked
     _spare: int = 0  # answers to come that belong to no line
+    _left: int = 0  # answers to come for lines that were on their way behind a refused line
     _on_the_way: deque[tuple[str, int]] = field(default_factory=deque)
 
     def await_start(self) -> None:
@@ -63,7 +69,7 @@ class Sender:
         while self.status is None:
             self.listen()
             if self.port.seconds() - begin > START:
-                raise InputError(
+                raise LostError(
                     "the machine does not answer: check the cable, its power, and that no other "
                     "program has the line"
                 )
@@ -99,24 +105,32 @@ class Sender:
             self.said = said
         return heard
 
-    def await_rest(self) -> None:
+    def await_rest(self, *, attended: bool = False) -> None:
         """Wait until the sled stands and the machine has kept its position.
 
         The next program that opens the line resets the board; a board that still moves then loses
-        its position.
+        its position. attended: somebody may hold or stop the machine meanwhile.
         """
-        first = place = self.status.place if self.status else None
-        since = self.port.seconds()
-        while self.port.seconds() - since < (KEPT if place != first else REPORTS):
+        place = self.status.place if self.status else None
+        needed, stands = REPORTS, Watch(self)
+        while not stands.has_lasted(needed):
             self.listen()
+            if attended:
+                self.attend(self)
             now = self.status.place if self.status else None
+            if attended and self.status and self.status.state == "Pause":
+                stands = Watch(self)
             if now and place and max(map(abs, map(float.__sub__, now, place))) > STANDS:
-                place, since = now, self.port.seconds()
+                place, needed, stands = now, KEPT, Watch(self)
 
     def listen(self) -> None:
-        """Take what comes while nothing is asked."""
+        """Take what comes while nothing is asked. Raises LostError if nothing has come for long."""
         for line in self._lines():
-            if not self._note_status(line) and line != "ok":
+            if self._is_left_over(line):
+                continue
+            if line == "ok":
+                self._spare = max(0, self._spare - 1)
+            elif not self._note_status(line):
                 self.said(line)
 
     def hold(self) -> None:
@@ -130,10 +144,16 @@ class Sender:
 
     def stop(self) -> None:
         """Give up: the machine brakes and forgets what it has not done; raises StoppedError."""
-        self.port.write(STOP)
+        self.brake()
         self._on_the_way.clear()
         self.await_rest()
         raise StoppedError
+
+    def brake(self) -> None:
+        """Stop a machine that nothing is being sent to."""
+        self.port.write(STOP)
+        self._spare += 1
+        self._left = 0  # what the machine has not begun it forgets
 
     def _characters(self) -> int:
         return sum(length for _, length in self._on_the_way)
@@ -141,10 +161,10 @@ class Sender:
     def _hear(self, done: int, answered: Callable[[int], None] | None) -> int:
         """Take what came; the count of answers."""
         self.attend(self)
-        came = False
         for line in self._lines():
-            came = True
             if self._note_status(line):
+                continue
+            if self._is_left_over(line):
                 continue
             if line == "ok" and self._spare:
                 self._spare -= 1
@@ -157,23 +177,38 @@ class Sender:
                 self._refuse(line)
             else:
                 self.said(line)
-        if came:
-            self._heard_at = self.port.seconds()
-        elif self.port.seconds() - self._heard_at > SILENCE:
-            raise InputError(
-                f"the machine has been silent for {SILENCE:.0f} s: check its cable and power"
-            )
         return done
 
     def _refuse(self, answer: str) -> None:
         line = self._on_the_way[0][0] if self._on_the_way else ""
+        # After an alarm the machine forgets what it has not begun; else it goes on with it.
+        is_alarm = answer.startswith("ALARM")
+        self._left = 0 if is_alarm else max(0, len(self._on_the_way) - 1)
         self._on_the_way.clear()
         where = f"{line!r}: " if line else ""
         raise RefusedError(f"{where}the machine says: {answer}")
 
+    def _is_left_over(self, line: str) -> bool:
+        """Whether it answers a line that was on its way behind a refused line."""
+        if not self._left or not line.startswith(ANSWERS):
+            return False
+        self._left -= 1
+        if line.startswith(WRONG):
+            self.said(line)
+        return True
+
     def _lines(self) -> Iterator[str]:
         """Whole lines that came."""
-        text = self._partial + self.port.read().decode("ascii", errors="replace")
+        # This program may have stood still: what came meanwhile waits to be read.
+        asked_at = self.port.seconds()
+        came = self.port.read()
+        if came:
+            self._heard_at = self.port.seconds()
+        elif asked_at - self._heard_at > SILENCE:
+            raise LostError(
+                f"the machine has been silent for {SILENCE:.0f} s: check its cable and power"
+            )
+        text = self._partial + came.decode("ascii", errors="replace")
         *lines, self._partial = text.split("\n")
         yield from (line.strip("\r") for line in lines)
 
@@ -183,7 +218,42 @@ class Sender:
         if match:
             x, y, z = map(float, match.groups()[1:])
             self.status = Status(match[1], (x, y, z))
+            self.reports += 1
         return match is not None or line.startswith("[PE:")
+
+
+class Watch:
+    """How long a machine has been watched: by the clock, and by the reports that came.
+
+    A computer that is busy stands still for seconds, and the machine's last report looks as if
+    nothing had moved since. So time counts only as far as reports came in it.
+    """
+
+    def __init__(self, sender: Sender) -> None:
+        self._sender = sender
+        self._since, self._reports = sender.port.seconds(), sender.reports
+
+    def has_lasted(self, seconds: float) -> bool:
+        """Whether so long has passed, and nearly all its reports came."""
+        came = self._sender.reports - self._reports
+        passed = self._sender.port.seconds() - self._since
+        return passed >= seconds and came >= int(seconds * PER_SECOND) - 1
+
+
+class PlainError(ValueError):
+    """A line that the machine's buffer cannot hold, or that is no ASCII text; says why."""
+
+
+def plain(line: str) -> str:
+    """A line without comments and blanks around it; raises PlainError."""
+    if "(" in line:
+        line = COMMENT.sub("", line)
+    text = line.partition(";")[0].strip()
+    if not text.isascii() or not text.isprintable():
+        raise PlainError(f"is no plain text: {text!r}")
+    if len(text) + 1 > AHEAD:
+        raise PlainError(f"is longer than the {AHEAD} characters of the buffer")
+    return text
 
 
 def cleaned(lines: Iterable[str]) -> Iterator[str]:
@@ -192,11 +262,9 @@ def cleaned(lines: Iterable[str]) -> Iterator[str]:
     Raises InputError for a line that the machine's buffer cannot hold, or that is no ASCII text.
     """
     for number, line in enumerate(lines, start=1):
-        text = re.sub(r"\([^)]*\)", "", line).partition(";")[0].strip()
-        if not text:
-            continue
-        if not text.isascii() or not text.isprintable():
-            raise InputError(f"line {number} is no plain text: {text!r}")
-        if len(text) + 1 > AHEAD:
-            raise InputError(f"line {number} is longer than the {AHEAD} characters of the buffer")
-        yield text
+        try:
+            text = plain(line)
+        except PlainError as error:
+            raise InputError(f"line {number} {error}") from None
+        if text:
+            yield text

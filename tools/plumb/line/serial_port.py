@@ -7,7 +7,9 @@ import time
 import serial
 from serial.tools import list_ports
 
+from plumb.line.port import LostError
 from plumb.text.errors import InputError, refusal
+from plumb.text.readers import to_do
 
 BAUD = 57600
 PATIENCE = 0.1  # [s] that a read waits
@@ -49,8 +51,8 @@ class SerialPort:
         """Let go of the line."""
         self._line.close()
 
-    def _lost(self) -> InputError:
-        return refusal(self.path, "the line was lost", remedy="check the cable")
+    def _lost(self) -> LostError:
+        return LostError(str(refusal(self.path, "the line was lost", remedy="check the cable")))
 
 
 def port_for(path: str | None) -> str:
@@ -61,6 +63,8 @@ def port_for(path: str | None) -> str:
     if len(boards) == 1:
         return str(boards[0].device)
     if not boards:
-        raise InputError("no board on USB: connect the Mega, or name its line with --port")
+        name = to_do("name its line with --port", page="type its port")
+        raise InputError(f"no board on USB: connect the Mega, or {name}")
     names = ", ".join(str(port.device) for port in boards)
-    raise InputError(f"several boards on USB ({names}): name one with --port")
+    choose = to_do("name one with --port", page="choose its port")
+    raise InputError(f"several boards on USB ({names}): {choose}")

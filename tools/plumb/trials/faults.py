@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from plumb.trials.job import Job
 from plumb.trials.scene import AXES, START, Scene
+from plumb.vm.garage import SHIELD
 
 Story = Callable[[Scene], Iterator[float | None]]
 
@@ -50,6 +51,7 @@ class Fault:
     when: tuple[float, float] = (0.02, 0.98)  # share of the job's time in which it strikes
     times: int = 1  # machines for each that is asked for
     caught_by: str = ""  # who notices what the machine cannot
+    shield: int = SHIELD  # N of v1.N
 
 
 def power_cut(scene: Scene) -> Iterator[float | None]:
@@ -177,8 +179,8 @@ def noise(scene: Scene) -> Iterator[float | None]:
 
 
 def tooth(scene: Scene) -> Iterator[float | None]:
-    """A chain jumps over a tooth of its sprocket."""
-    scene.machine.slip(scene.axis, 6.35)
+    """A chain climbs over a tooth of its sprocket as that turns."""
+    scene.machine.climb(scene.axis)
     yield 0
 
 
@@ -209,6 +211,7 @@ WIRE_FAULTS = (
     "encoder_unplugged",
     "channel_lost",
     "blocked",
+    "driver_complains",
 )
 BYTES = 150  # that writing_job() has written; the EEPROM takes 3.4 ms for each
 
@@ -229,6 +232,7 @@ FAULTS = (
     Fault("motor blocked", wire_fault("blocked")),
     Fault("motor of z blocked", wire_fault("blocked", axes=("z",)), drilling_job),
     Fault("motor blocked for 0.02 to 1.5 s", blocked_for_a_while),
+    Fault("driver too hot: it complains and lets go", wire_fault("driver_complains"), shield=3),
     Fault("motor wired in reverse", nothing, before=wired_wrong("motor_reversed"), when=AT_ONCE),
     Fault(
         "encoder wired in reverse", nothing, before=wired_wrong("encoder_reversed"), when=AT_ONCE
@@ -242,12 +246,16 @@ FAULTS = (
     Fault("burst of noise on the line", noise),
 )
 UNSEEN = (
-    Fault("chain skips a tooth", tooth, caught_by="its mark at 12 o'clock (B08); plumb diagnose"),
+    Fault(
+        "chain climbs a tooth",
+        tooth,
+        caught_by="a suspicion in B30, often; its mark at 12 o'clock (B08); plumb slip",
+    ),
     Fault(
         "chain pulled while the power is off",
         nothing,
         before=pulled_without_power,
-        caught_by="the same",
+        caught_by="its mark at 12 o'clock (B08); plumb slip",
     ),
     Fault("bracket of a motor slips", bracket, caught_by="plumb diagnose: the frame"),
     Fault("beam creeps by 0.2 mm/s", beam, caught_by="plumb diagnose: the frame"),

@@ -154,8 +154,9 @@ switches the power off and on. Each time the machine is asked where it is.
 UNSEEN_INTRODUCTION = """
 ## What no encoder sees
 
-These move the bit while all encoders count as they should. No firmware can notice them; the marks
-can.
+These move the bit while all encoders count as they should. No firmware can be sure of them; the
+marks can. A chain that climbs a tooth while it moves often shows in its motor's duty: the machine
+says nothing, but [B30](telemetry.md#a-chain-that-may-have-slipped) counts a suspicion.
 """
 
 

@@ -12,7 +12,7 @@ from plumb.bench.causes import Hidden
 from plumb.line.sender import RefusedError, Sender
 from plumb.text.errors import InputError
 from plumb.trials.strike import LineLostError, Strike, Wire
-from plumb.vm.garage import Garage, VirtualMachine, set_up
+from plumb.vm.garage import SHIELD, Garage, VirtualMachine, set_up
 
 Array = np.ndarray
 AXES = ("left", "right", "z")
@@ -29,10 +29,14 @@ SETTING = re.compile(r"^\$(\d+)=(\S+)", re.MULTILINE)
 class Scene:
     """A machine whose sled is at rest, and the client that sends it a job."""
 
-    def __init__(self, seed: int, *, elf: str | None = None) -> None:
+    def __init__(
+        self, seed: int, *, elf: str | None = None, friction: float = 0.0, shield: int = SHIELD
+    ) -> None:
+        """friction [N] of the sled on the sheet."""
         self.seed = seed
         self.source = np.random.default_rng([seed, 17])
-        self.machine: VirtualMachine = garage_of(1 + seed).machine(elf=elf)
+        garage = garage_of(1 + seed, friction=friction)
+        self.machine: VirtualMachine = garage.machine(elf=elf, shield=shield)
         self.machine.eeprom = memory_of_the_evening()
         self.machine.start()
         self.axis = AXES[self.source.integers(2)]
@@ -112,9 +116,9 @@ class Scene:
         return dict(SETTING.findall("\n".join(self.sender.ask("$$"))))
 
 
-def garage_of(seed: int) -> Garage:
+def garage_of(seed: int, *, friction: float = 0.0) -> Garage:
     """A frame as the settings say, and a sled that does not rub: only the fault is wrong."""
-    return Garage(Hidden(), friction=0.0, seed=seed)
+    return Garage(Hidden(), friction=friction, seed=seed)
 
 
 @cache

@@ -42,6 +42,7 @@ class Soak:
     longest_tick: int  # [us] 0 where nobody measures it
     most_writes: int  # of a byte of the EEPROM
     due_writes: int  # as the ring of positions has it
+    suspected: int  # slips of a chain, of which there was none
     complaints: tuple[str, ...]
 
     @property
@@ -103,10 +104,11 @@ def soak(
     *,
     seed: int,
     elf: str | None = None,
+    friction: float = 0.0,
     progress: Callable[[float], None] = lambda share: None,
 ) -> Soak:
-    """Let a machine work for some minutes of its time."""
-    scene = Scene(seed, elf=elf)
+    """Let a machine work for some minutes of its time; friction [N] of the sled on the sheet."""
+    scene = Scene(seed, elf=elf, friction=friction)
     operator = Operator(scene)
     job = Job(scene.source, middle=(0.0, 0.0), reach=REACH, slowest=100)
     start, lines, astray = scene.machine.seconds, 0, list[float]()
@@ -135,6 +137,7 @@ def soak(
         longest_tick=telemetry.tick_us,
         most_writes=max(scene.machine.eeprom_writes, default=0),
         due_writes=due_writes(len(astray)),
+        suspected=sum(telemetry.slips),
         complaints=tuple(line for line in scene.heard if "ALARM" in line or "error" in line),
     )
 

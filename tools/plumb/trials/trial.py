@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from plumb.trials.faults import Fault, mend
 from plumb.trials.scene import Scene
@@ -47,7 +47,7 @@ class Outcome:
 
 def tried(fault: Fault, seed: int, *, elf: str | None = None) -> Outcome:
     """Let a fault strike in the middle of a job, and ask the machine what it knows."""
-    scene = Scene(seed, elf=elf)
+    scene = Scene(seed, elf=elf, shield=fault.shield)
     before, lines = scene.settings(), fault.job(scene)
     way = way_without_fault(seed, tuple(lines))
     if fault.before:
@@ -104,7 +104,7 @@ def farthest_from(way: Array, went: Array) -> float:
     along = np.concatenate([[0], np.hypot(*np.diff(way, axis=0).T).cumsum()])
     dense = np.arange(0, along[-1] + SPACING, SPACING)
     places = np.column_stack([np.interp(dense, along, column) for column in way.T])
-    return float(np.max(cKDTree(places).query(went)[0]))
+    return float(np.max(scipy.spatial.cKDTree(places).query(went)[0]))
 
 
 def are_kept(before: dict[str, str], after: dict[str, str], lines: Sequence[str]) -> bool:

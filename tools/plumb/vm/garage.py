@@ -10,7 +10,7 @@ import numpy as np
 from plumb._vm import VirtualMachine
 from plumb.bench.causes import MAKER, Hidden
 from plumb.firmware.client_files import gcode
-from plumb.firmware.numbers import firmware_numbers
+from plumb.firmware.numbers import CLIENT_NUMBERS, firmware_numbers
 from plumb.line.sender import Sender
 from plumb.model.predict import judged
 from plumb.settings.machine import MachineSettings
@@ -22,9 +22,8 @@ Array = np.ndarray
 GAP_SIGMA, POSE_SIGMA, TURN_SIGMA = 3.0, 5.0, 0.002  # [mm, mm, rad] how far a frame is off
 STOP_SIGMA = 0.3  # [mm] by which a sheet lies otherwise on the same stops
 FRICTION = 3.0  # [N] of any sled on its sheet
+SHIELD = 2  # v1.2, as most machines have it
 EXTENDED = 1651.0  # [mm] of both chains when they were laid over the sprockets
-# What a client sends in addition to the numbers of the frame: without it z stands still.
-CLIENT_LINES = ("$29=1300", "$15=1000", "$18=18")
 
 
 @dataclass(frozen=True)
@@ -44,13 +43,26 @@ class Garage:
     def numbers(self) -> dict[str, float]:
         """The judge's numbers of the machine."""
         true = {"motor_gap": self.motor_gap, "motor_height": self.motor_height}
-        return {**judged(MAKER), **true, **self.hidden.numbers}
+        maker = replace(MAKER, feed=self.settings.feed)
+        return {**judged(maker), **true, **self.hidden.numbers}
 
-    def machine(self, *, elf: str | None = None) -> VirtualMachine:
-        """The machine with an empty memory, its chains laid, without power."""
+    @property
+    def motors_above_sheet(self) -> float:
+        """[mm] Height of the motors over the middle of the sheet as it lies."""
+        middle = np.array([[0.0, self.numbers["motor_height"]]])
+        return float(self.on_sheet(middle)[0, 1])
+
+    def machine(self, *, elf: str | None = None, shield: int = SHIELD) -> VirtualMachine:
+        """The machine with an empty memory, its chains laid, without power; `shield`: N of v1.N."""
         friction = self.friction + self.hidden.drag
         return VirtualMachine(
-            self.numbers, friction=friction, seed=self.seed, paid_out=EXTENDED, elf=elf
+            self.numbers,
+            friction=friction,
+            seed=self.seed,
+            paid_out=EXTENDED,
+            elf=elf,
+            over_top=self.settings.feed == "top",
+            shield=shield,
         )
 
     def on_sheet(self, places: Array) -> Array:
@@ -66,8 +78,8 @@ class Garage:
         return self.hidden.read(self.on_sheet(moved))
 
 
-def random_garage(hidden: Hidden, seed: int) -> Garage:
-    """A garage whose frame and sheet lie off by chance."""
+def random_garage(hidden: Hidden, seed: int, *, feed: str = "top") -> Garage:
+    """A garage whose frame and sheet lie off by chance; `feed` as in MachineSettings."""
     source = np.random.default_rng(seed)
     gap, height, x, y, turn = source.standard_normal(5)
     return Garage(
@@ -77,6 +89,7 @@ def random_garage(hidden: Hidden, seed: int) -> Garage:
         sheet_center=(POSE_SIGMA * x, POSE_SIGMA * y),
         sheet_turn=TURN_SIGMA * turn,
         seed=1 + seed,
+        settings=replace(MAKER, feed=feed),
     )
 
 
@@ -94,4 +107,5 @@ def with_new_sheet(garage: Garage, seed: int, *, raised: float = 0.0) -> Garage:
 def set_up(sender: Sender, settings: MachineSettings) -> None:
     """Send the owner's numbers and the lengths of the chains, as on the first day."""
     lines = gcode(firmware_numbers(settings)).decode().splitlines()
-    sender.stream([*CLIENT_LINES, *lines, f"B06 L{EXTENDED:g} R{EXTENDED:g}", "G10 Z0"])
+    client = [f"${number}={value:g}" for number, value in CLIENT_NUMBERS.items()]
+    sender.stream([*client, *lines, f"B06 L{EXTENDED:g} R{EXTENDED:g}", "G10 Z0"])

@@ -10,6 +10,7 @@ from plumb.bench.boards import plan, size_for
 from plumb.bench.causes import OUTSIDE, Cause, Hidden, causes_of
 from plumb.bench.hiding import REAL
 from plumb.text.errors import InputError
+from plumb.text.readers import to_do
 from plumb.text.values import refuse_unknown
 
 Array = np.ndarray
@@ -26,7 +27,7 @@ def hide(names: Sequence[str], *, millimetres: float, seed: int) -> Hidden:
     try:
         refuse_unknown([name for name in names if name != RANDOM], known)
     except ValueError as error:
-        raise InputError(f"--hide {error}") from None
+        raise InputError(f"{to_do('--hide', page='hidden:')} {error}") from None
     source = np.random.default_rng([seed, 11])
     causes = [_drawn(source) if name == RANDOM else _one_of(name, source) for name in names]
     return Hidden(tuple((cause, size_for(cause, BOARD, millimetres)) for cause in causes))

@@ -23,11 +23,11 @@ from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.plan.ahead import Check
 from plumb.plan.plan_marks import marks_file
 from plumb.plan.planned_visits import Visits
+from plumb.plan.visits_program import visit_lines
 from plumb.settings.machine import MachineSettings
 from plumb.vm.garage import Garage, set_up, with_new_sheet
 from plumb.vm.in_process import InProcessPort
 from plumb.vm.tape import Tape
-from plumb.vm.visits_program import visit_lines
 
 # The number by which the lab knows friction: of the effect that drags a sled.
 FRICTION_NAME = next(
@@ -55,6 +55,7 @@ class VirtualOwner:
         self.garage = garage
         self._first_garage, self._noise, self._elf = garage, noise, elf
         self.settings = garage.settings
+        self._sheets = 1  # that lay on this machine so far
         self.machine: VirtualMachine = garage.machine(elf=elf)
         self.sender = Sender(InProcessPort(self.machine))
         self._source = np.random.default_rng([garage.seed, 5, *([visit] if visit else [])])
@@ -91,15 +92,23 @@ class VirtualOwner:
         self.sender.stream(lines, answered=answered)
         return self.tape.fill(form, self.machine)
 
-    def carry_out(self, visits: Visits) -> str:
-        """Cut what `plumb next` proposes on the same sheet and read it: the filled form."""
-        usual = self.garage.numbers["sled_weight"]
-        for lines, weight in zip(visit_lines(visits), visits.sled_weights, strict=True):
-            self.machine.set("sled_weight", usual * weight / self.settings.sled_weight)
+    def carry_out(self, visits: Visits, done: Callable[[int], None] | None = None) -> str:
+        """Cut what `plumb next` proposes on the same sheet and read it: the filled form. `done`
+        counts the marks."""
+        each = zip(visit_lines(visits), visits.sled_weights, strict=True)
+        for count, (lines, weight) in enumerate(each, start=1):
+            self.weigh_down(weight)
             self.sender.stream([*lines, "G4 P1"])
-        self.machine.set("sled_weight", usual)
+            if done:
+                done(count)
+        self.weigh_down(self.settings.sled_weight)
         form = marks_file(visits, sheet=self.settings.sheet, controller="plumb", said=())
         return self.tape.fill(form, self.machine)
+
+    def weigh_down(self, weight: float) -> None:
+        """Let as much hang on the sled as gives it that weight [N] by what the owner knows."""
+        usual = self.garage.numbers["sled_weight"]
+        self.machine.set("sled_weight", usual * weight / self.settings.sled_weight)
 
     def check(self, checks: Sequence[Check]) -> list[Checked]:
         """Numbers measured directly, each with its error."""
@@ -123,6 +132,11 @@ class VirtualOwner:
         self.garage = with_new_sheet(self.garage, seed, raised=raised)
         self.machine.replace_sheet()
         self.tape.lay(self.garage, np.random.default_rng([seed, 5]))
+        self._sheets += 1
+
+    def lay_next_sheet(self, *, raised: float) -> None:
+        """The same; each sheet lies a little otherwise than those before."""
+        self.lay_new_sheet(self.garage.seed + self._sheets, raised=raised)
 
 
 def plain_machine(settings: MachineSettings) -> PlainMachine:
@@ -139,6 +153,8 @@ def plain_machine(settings: MachineSettings) -> PlainMachine:
 
 def true_value(garage: Garage, name: str) -> float:
     """What a perfect measurement of a number of the frame or of an effect would find."""
+    if name == "motor_height":
+        return garage.motors_above_sheet
     if "." not in name:
         return float(garage.numbers[name])
     hidden = {

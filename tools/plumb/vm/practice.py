@@ -7,8 +7,9 @@ sprockets. The sheet stays on it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from plumb.fit.inputs import Inputs
 from plumb.grid.options import Grid
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import empirical_effects
+from plumb.model.plain import plainly
 from plumb.plan.ahead import Check
 from plumb.plan.direct_checks import FRAME_CHECKS, NumberCheck, effect_checks
 from plumb.plan.planned_visits import Visits, joined, sent
@@ -58,6 +60,11 @@ class Practice:
         """What is hidden."""
         return of_level(self.level, self.seed)
 
+    @property
+    def believed(self) -> MachineSettings:
+        """What the owner of the machine believes of it."""
+        return _believed(self.level, self.seed)
+
     def owner(self) -> VirtualOwner:
         """Somebody who goes to the machine once more; a slip happens on the first sheet."""
         garage = random_garage(self.secret.hidden, self.seed)
@@ -82,12 +89,22 @@ class Practice:
         return Spent(budget.marks - self.spent.marks, budget.minutes - self.spent.minutes)
 
 
-def cut(game: Practice, settings: MachineSettings, visits: Visits) -> tuple[Practice, str]:
-    """Cut marks and read them: the game, and the form, filled."""
+@cache
+def _believed(level: int, seed: int) -> MachineSettings:
+    return random_garage(of_level(level, seed).hidden, seed).settings
+
+
+def cut(
+    game: Practice,
+    settings: MachineSettings,
+    visits: Visits,
+    done: Callable[[int], None] | None = None,
+) -> tuple[Practice, str]:
+    """Cut marks and read them: the game, and the form, filled; `done` counts the marks."""
     after = game.after(cutting(visits.sled_weights.tolist(), settings.sled_weight))
     owner = game.owner()
     owner.switch_on()
-    form = owner.carry_out(visits)
+    form = owner.carry_out(visits, done)
     sheet = {name: list(places) for name, places in game.sheet.items()}
     for name, places in owner.tape.places.items():
         sheet[name] = [*sheet.get(name, []), *places]
@@ -158,16 +175,36 @@ class Score:
     spent: Spent
     hints: int
 
+    @property
+    def sentence(self) -> str:
+        """What was found, missed, and claimed though it is not there."""
+        parts = []
+        if self.named:
+            parts.append(f"You found {plainly(self.named)}.")
+        if self.missed:
+            parts.append(f"You missed {plainly(self.missed)}.")
+        if self.false:
+            parts.append(f"You added {plainly(self.false)}, which is not there.")
+        return " ".join(parts) or "You added no effect."
 
-def solve(game: Practice, inputs: Inputs, machine: MachineSettings) -> Score:
-    """Send a machine's numbers, cut a second sheet, and look at the truth."""
+
+def solve(
+    game: Practice,
+    inputs: Inputs,
+    machine: MachineSettings,
+    done: Callable[[int], None] | None = None,
+) -> Score:
+    """Send a machine's numbers, cut a second sheet, and look at the truth; `done` counts marks."""
     owner = game.owner()
     garage, hidden = owner.garage, game.secret.hidden
     claims = claims_of(inputs.settings, machine)
     owner.switch_on()
-    rotation = machine.fitted.sheet_rotation if machine.fitted else 0.0
-    lay_next_sheet(owner, machine, raised=float(np.tan(rotation)) * machine.sheet_width)
-    second = shape(compare(machine, read(owner, owner.cut_grid(SECOND_GRID))))
+    raised = machine.fitted.sheet_rise(machine.sheet_width) if machine.fitted else 0.0
+    lay_next_sheet(owner, machine, raised=raised)
+    lines = len(owner.grid_program(SECOND_GRID)[0])
+    marks = SECOND_GRID.columns * SECOND_GRID.rows
+    answered = (lambda line: done(line * marks // lines)) if done else None
+    second = shape(compare(machine, read(owner, owner.cut_grid(SECOND_GRID, answered=answered))))
     return Score(
         described(hidden),
         tuple(name for name in claims if name in hidden.effects),
@@ -193,16 +230,21 @@ def claims_of(believed: MachineSettings, machine: MachineSettings) -> tuple[str,
 
 def hint(game: Practice) -> tuple[Practice, str]:
     """The next hint, each clearer than the last; it costs minutes."""
-    hidden, level = game.secret.hidden, LEVELS[game.level]
-    hints = (
-        f"It is {level.words}.",
-        _where(game),
-        f"It is {described(hidden)}." if hidden.causes or hidden.outside else "Nothing is hidden.",
-    )
+    hints = hints_of(game)
     if game.hints >= len(hints):
         raise InputError(f"{SHORT}: all {len(hints)} hints are given; solve it")
     after = replace(game.after(Spent(0, HINT_MINUTES)), hints=game.hints + 1)
     return after, hints[game.hints]
+
+
+def hints_of(game: Practice) -> tuple[str, ...]:
+    """All hints, whether given or not."""
+    hidden, level = game.secret.hidden, LEVELS[game.level]
+    return (
+        f"It is {level.words}.",
+        _where(game),
+        f"It is {described(hidden)}." if hidden.causes or hidden.outside else "Nothing is hidden.",
+    )
 
 
 def _where(game: Practice) -> str:

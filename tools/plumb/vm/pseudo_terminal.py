@@ -10,13 +10,26 @@ import time
 import tty
 from pathlib import Path
 
+import plumb._vm
 from plumb._vm import VirtualMachine
 from plumb.text.errors import refusal
 from plumb.vm.opening import OpeningWatch
+from plumb.vm.whole_lines import WholeLines
 
 BOOTLOADER = 1000  # [ms] in which a board that was reset swallows what comes
 MOST_AT_ONCE = 20  # [ms] of the machine's time between two looks at the line
 CHUNK = 4096
+
+
+def preload() -> str:
+    """The library that lets a client treat a pseudo terminal as a serial port.
+
+    InputError where it was not built.
+    """
+    library = Path(plumb._vm.__file__).with_name("serial_port.so")
+    if not library.exists():
+        raise refusal(str(library), "was not built", remedy="it is for Linux only")
+    return str(library)
 
 
 class PseudoTerminal:
@@ -25,8 +38,7 @@ class PseudoTerminal:
     Opening it resets the board, as the line DTR does on a Mega.
     """
 
-    def __init__(self, machine: VirtualMachine, *, link: str | None = None) -> None:
-        """`link`: a name for the port; InputError if something else has it."""
+    def __init__(self, machine: VirtualMachine) -> None:
         self.machine = machine
         self._master, slave = pty.openpty()
         tty.setraw(slave)
@@ -39,7 +51,9 @@ class PseudoTerminal:
         self._openings = OpeningWatch(self.path)
         self._is_open = False
         self._booting = 0
-        self.link = self._linked(link) if link else None
+        self._lines = WholeLines()
+        self._waiting = b""  # what the machine said and the client has no room for yet
+        self.link: Path | None = None
 
     def close(self) -> None:
         """Take the port away."""
@@ -49,16 +63,25 @@ class PseudoTerminal:
         os.close(self._master)
 
     def pass_time(self, milliseconds: int) -> None:
-        """Let the machine's time pass, and carry what is on the line both ways."""
+        """Let the machine's time pass, and carry what is on the line both ways.
+
+        It stands still while a program has the port open and has not taken what was said: a
+        program on a busy computer would lose lines that no wire loses.
+        """
         while milliseconds > 0:
             step = min(milliseconds, MOST_AT_ONCE)
             self._carry_in()
+            self._hand_over()
+            if self._waiting:
+                return
             self._boot(step)
             self.machine.advance(step)
-            self._carry_out()
+            self._waiting = self._lines.take(self.machine.take_said(), step)
+            self._hand_over()
             milliseconds -= step
 
-    def _linked(self, link: str) -> Path:
+    def link_as(self, link: str) -> None:
+        """Give the port a name; InputError if something else has it."""
         path = Path(link)
         if path.is_symlink():
             path.unlink()
@@ -67,7 +90,7 @@ class PseudoTerminal:
         except OSError as error:
             why = f"cannot be the name of the port ({error.strerror})"
             raise refusal(link, why, remedy="give another --link") from None
-        return path
+        self.link = path
 
     def _boot(self, step: int) -> None:
         """Count the bootloader's time down, then start the program."""
@@ -80,9 +103,7 @@ class PseudoTerminal:
     def _carry_in(self) -> None:
         events = dict(self._poll.poll(0)).get(self._master, 0)
         self._is_open = not events & select.POLLHUP
-        if self._openings.count():
-            self.machine.stop()
-            self._booting = BOOTLOADER
+        self._reset_if_opened()
         if not events & select.POLLIN:
             return
         with contextlib.suppress(OSError):
@@ -90,12 +111,24 @@ class PseudoTerminal:
             if self._booting <= 0:
                 self.machine.send(came)
 
-    def _carry_out(self) -> None:
-        said = self.machine.take_said()
-        if said and self._is_open:
-            # What nobody reads is lost, as on a wire.
-            with contextlib.suppress(OSError):
-                os.write(self._master, said)
+    def _reset_if_opened(self) -> None:
+        if not self._openings.count():
+            return
+        self.machine.stop()
+        # Who opened the port hears nothing that was said before.
+        self._lines, self._waiting = WholeLines(), b""
+        self._booting = BOOTLOADER
+
+    def _hand_over(self) -> None:
+        """Give the client what it has room for."""
+        if not self._waiting:
+            return
+        # The machine's time took a while, in which somebody may have opened or left the port.
+        self._reset_if_opened()
+        if not self._is_open:
+            self._waiting = b""  # what nobody reads is lost, as on a wire
+        with contextlib.suppress(OSError):
+            self._waiting = self._waiting[os.write(self._master, self._waiting) :]
 
 
 class Pace:

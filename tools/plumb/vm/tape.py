@@ -6,8 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
-from scipy.spatial.distance import cdist
+import scipy
 
 from plumb._vm import VirtualMachine
 from plumb.vm.garage import Garage
@@ -49,9 +48,19 @@ class Tape:
         self._source = source
         self.garage, self._read, self._places = garage, 0, {}
 
+    def get_ready(self, form: str) -> None:
+        """Load what reading this form takes: a client takes a machine that is silent for two
+        seconds for lost, and so long may it take on a busy computer."""
+        places = np.zeros_like(_waiting_targets(form))
+        order_of(form, self.garage.read(places), sheet=self.garage.settings.sheet)
+
     def begin(self) -> None:
         """The machine counts its cuts from here on; what was read stays read."""
         self._read = 0
+
+    def pass_over(self, machine: VirtualMachine) -> None:
+        """Leave the marks that were cut so far: somebody gave up and cuts again."""
+        self._read = len(marks_on(machine.cuts()))
 
     def fill(self, form: str, machine: VirtualMachine) -> str:
         """A form with the marks that were cut since the last form; ValueError if it waits for more
@@ -116,7 +125,8 @@ def order_of(form: str, readings: Array, *, sheet: tuple[float, float]) -> Array
         raise ValueError(
             f"the form waits for {len(targets)} marks, and the sheet has {len(readings)}"
         )
-    _, order = linear_sum_assignment(cdist(targets, _from_corner(readings, sheet)))
+    distances = scipy.spatial.distance.cdist(targets, _from_corner(readings, sheet))
+    _, order = scipy.optimize.linear_sum_assignment(distances)
     chosen: Array = order
     return chosen
 

@@ -1,0 +1,99 @@
+"""What a diary shows over time: errors of the fits, and each number with its interval."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from datetime import datetime
+
+from plumb.diary.entries import FIT
+from plumb.diary.file import Diary, Entry
+
+
+@dataclass(frozen=True)
+class DiaryFit:
+    """A fit as the diary tells it. mm."""
+
+    at: datetime
+    machine: str  # name of its file
+    count: int  # of marks and distances
+    before: float  # RMS with the settings before
+    rms: float
+    left_out: float  # RMS of marks that took no part
+    effects: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Point:
+    """A fitted number at a time, with its 95 % interval."""
+
+    at: datetime
+    value: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Course:
+    """How a number went, fit by fit."""
+
+    name: str
+    unit: str
+    points: tuple[Point, ...]
+
+    @property
+    def change(self) -> float | None:
+        """The newest value less the value before; None with a single fit."""
+        return self.points[-1].value - self.points[-2].value if len(self.points) > 1 else None
+
+    @property
+    def has_moved(self) -> bool:
+        """Whether the newest interval and the interval before have no value in common."""
+        if len(self.points) < 2:
+            return False
+        before, now = self.points[-2:]
+        return now.low > before.high or now.high < before.low
+
+
+@dataclass(frozen=True)
+class History:
+    """All fits of a diary, the oldest first, and how their numbers went."""
+
+    fits: tuple[DiaryFit, ...]
+    courses: tuple[Course, ...]  # in the order in which the numbers came up
+
+
+def history_of(diary: Diary) -> History:
+    """What the fits of a diary show over time."""
+    fits = diary.of_kind(FIT)
+    return History(tuple(map(_fit, fits)), tuple(_courses(fits)))
+
+
+def _fit(entry: Entry) -> DiaryFit:
+    content = entry.content
+    return DiaryFit(
+        at=entry.at,
+        machine=content["machine"],
+        count=len(content["marks"]) + len(content["distances"]),
+        before=_number(content["before_mm"]),
+        rms=_number(content["rms_mm"]),
+        left_out=_number(content["left_out_mm"]),
+        effects=tuple(content["effects"]),
+    )
+
+
+def _courses(fits: Iterable[Entry]) -> Iterable[Course]:
+    points: dict[str, list[Point]] = {}
+    units: dict[str, str] = {}
+    for entry in fits:
+        for each in entry.content["numbers"]:
+            point = Point(entry.at, *(_number(each[end]) for end in ("value", "low", "high")))
+            points.setdefault(each["name"], []).append(point)
+            units[each["name"]] = each["unit"]
+    for name, course in points.items():
+        yield Course(name, units[name], tuple(course))
+
+
+def _number(value: float | None) -> float:
+    """A number of an entry; where there was none it is NaN."""
+    return float("nan") if value is None else float(value)

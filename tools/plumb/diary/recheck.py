@@ -1,0 +1,173 @@
+"""Do two marks still lie where the fit promised? If not, which single change explains them.
+
+The diary knows how well the numbers were known together when they were fitted. So it knows how far
+marks may lie from where the settings put them, and which errors are too large for that.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy
+
+from plumb.board.sighting import SHEET_ROTATION
+from plumb.diagnosis.check_marks import LEVEL
+from plumb.diary.entries import FIT
+from plumb.diary.file import Diary, Entry
+from plumb.model.predict import FOUND, NAMES, Array, places_with_slopes, values_of
+from plumb.recovery.touched import TOUCH_SIGMA, Touch, believed_chains, turned_back
+from plumb.settings.machine import MachineSettings
+from plumb.settings.machine_tables import MACHINE_KEYS, machine_in
+from plumb.text.errors import refusal
+from plumb.text.readers import to_do
+
+STEP = 0.1  # [mm] of chain
+# Changes that need no new fit: how much longer a chain is than the machine believes, where the
+# sheet lies, and the frame.
+LEFT, RIGHT, SHEET_X, SHEET_Y = "left chain", "right chain", "sheet x", "sheet y"
+FRAME = ("motor_gap", "motor_height", "motor_center_x")
+
+
+@dataclass(frozen=True)
+class Change:
+    """A single change that may explain the errors."""
+
+    name: str  # a chain, the sheet along an axis, or a number of the frame or of an effect
+    size: float  # [mm] or the number's unit
+    sigma: float
+    chi_square: float  # that it leaves
+    explains: bool  # whether what it leaves is within the interval
+
+
+@dataclass(frozen=True)
+class Recheck:
+    """Marks against what the fit promised."""
+
+    fit: Entry
+    touches: tuple[Touch, ...]
+    errors: Array  # (n, 2) [mm] hole - place by the settings
+    expected: Array  # (n,) [mm] length that an error of an unchanged machine rarely exceeds
+    chi_square: float
+    limit: float  # of chi-square
+    turn: (
+        float  # [rad] of the sheet, counter-clockwise: as it was fitted, or 0 if it hangs straight
+    )
+    changes: tuple[Change, ...]  # the best first
+
+    @property
+    def holds(self) -> bool:
+        """Whether the marks lie within the interval of the fit."""
+        return self.chi_square <= self.limit
+
+
+def recheck(
+    diary: Diary, settings: MachineSettings, touches: Sequence[Touch], *, sigma: float | None = None
+) -> Recheck:
+    """Hold marks against the newest fit that gave these settings. sigma [mm] of a coordinate.
+
+    The sheet hangs as it was fitted, or somebody has hung it straight since, as the lab advises:
+    whichever fits the marks better counts. Raises InputError where the diary does not know the
+    settings.
+    """
+    fit = _fit_of(diary, settings)
+    fitted = settings.fitted.last_sheet_rotation if settings.fitted else 0.0
+    turned = [_recheck(fit, settings, touches, turn, sigma) for turn in (fitted, 0.0)]
+    return min(turned, key=lambda checked: checked.chi_square)
+
+
+def _recheck(
+    fit: Entry,
+    settings: MachineSettings,
+    touches: Sequence[Touch],
+    turn: float,
+    sigma: float | None,
+) -> Recheck:
+    """Hold marks on a sheet that is turned [rad] against a fit."""
+    chains = believed_chains(settings, touches)
+    holes = turned_back(np.array([touch.hole for touch in touches], dtype=float), turn)
+    where, slopes = _places(settings, chains)
+    errors = holes - where
+    noise = sigma or TOUCH_SIGMA
+    covariance = noise**2 * np.eye(errors.size) + _known(fit, where, slopes)
+    left = errors.ravel()
+    limit = float(scipy.special.chdtri(errors.size, 1 - LEVEL))
+    spread = covariance.reshape(len(touches), 2, len(touches), 2)
+    widest = [np.linalg.eigvalsh(spread[i, :, i])[-1] for i in range(len(touches))]
+    return Recheck(
+        fit=fit,
+        touches=tuple(touches),
+        errors=errors,
+        expected=np.sqrt(scipy.special.chdtri(2, 1 - LEVEL) * np.array(widest)),
+        chi_square=float(left @ np.linalg.solve(covariance, left)),
+        limit=limit,
+        turn=turn,
+        changes=_changes(settings, fit, chains, left, covariance),
+    )
+
+
+def _fit_of(diary: Diary, settings: MachineSettings) -> Entry:
+    """The newest fit of the diary that gave these settings."""
+    for entry in reversed(diary.of_kind(FIT)):
+        tables = tomllib.loads(entry.content["settings"])
+        head = {key: value for key, value in tables.items() if key in MACHINE_KEYS}
+        if machine_in(diary.path, head, place="", known=None) == replace(settings, fitted=None):
+            return entry
+    remedy = to_do(
+        "give the machine.toml that plumb add wrote next to this diary",
+        page="open a machine.toml that Correct wrote into this folder",
+    )
+    raise refusal(diary.path, "knows no fit that gave these settings", remedy=remedy)
+
+
+def _places(settings: MachineSettings, chains: Array) -> tuple[Array, Array]:
+    """Places (n, 2) [mm] and their slopes by every value (n, 2, len(NAMES))."""
+    model = settings.as_plumb_model()
+    over_top = model.feed == "top"
+    where, slopes, outcome = places_with_slopes(values_of(model), over_top=over_top, chains=chains)
+    assert (outcome == FOUND).all()
+    return where, slopes
+
+
+def _known(fit: Entry, where: Array, slopes: Array) -> Array:
+    """Covariance (2n, 2n) [mm^2] of predicted places by that of the fitted numbers."""
+    names = fit.content["unknowns"]
+    columns = np.stack([_slope_of(name, where, slopes) for name in names], axis=1)
+    whole: Array = columns @ np.array(fit.content["covariance"], dtype=float) @ columns.T
+    return whole
+
+
+def _slope_of(name: str, where: Array, slopes: Array) -> Array:
+    """How predicted coordinates (2n,) follow a number; zero for what belongs to another board."""
+    if name in NAMES:
+        column: Array = slopes[:, :, NAMES.index(name)].ravel()
+        return column
+    if name == SHEET_ROTATION:
+        return np.stack([-where[:, 1], where[:, 0]], axis=1).ravel()
+    return np.zeros(where.size)
+
+
+def _changes(
+    settings: MachineSettings, fit: Entry, chains: Array, errors: Array, covariance: Array
+) -> tuple[Change, ...]:
+    """Each single change, sized to explain the errors best, the best first."""
+    where, slopes = _places(settings, chains)
+    columns = {}
+    for side, name in enumerate((LEFT, RIGHT)):
+        longer = chains + STEP * np.eye(2)[side]
+        columns[name] = (_places(settings, longer)[0] - where).ravel() / STEP
+    for axis, name in enumerate((SHEET_X, SHEET_Y)):
+        columns[name] = np.tile(np.eye(2)[axis], len(chains))
+    for name in {*FRAME, *fit.content["unknowns"]} & {*NAMES}:
+        columns[name] = _slope_of(name, where, slopes)
+    limit = scipy.special.chdtri(errors.size - 1, 1 - LEVEL)
+    changes = []
+    for name, column in columns.items():
+        weighted = np.linalg.solve(covariance, column)
+        size, sigma = weighted @ errors / (weighted @ column), (weighted @ column) ** -0.5
+        left = errors - size * column
+        rest = float(left @ np.linalg.solve(covariance, left))
+        changes.append(Change(name, float(size), float(sigma), rest, explains=bool(rest <= limit)))
+    return tuple(sorted(changes, key=lambda change: (change.chi_square, change.name)))

@@ -1,0 +1,276 @@
+"""The steps of the guide. Each takes a Visit, and says whether it is done."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from plumb.diary.numbers_written import write_and_keep
+from plumb.firmware.client_files import gcode
+from plumb.firmware.numbers import firmware_numbers
+from plumb.firmware.read_back import machine_of_numbers
+from plumb.fit.expected import (
+    expected_anywhere,
+    expected_error,
+    expected_priors,
+    expected_sentence,
+)
+from plumb.fit.read_inputs import settings_in
+from plumb.guide.numbers import HEAVIEST, LENGTHS, LIGHTEST
+from plumb.guide.progress import Progress
+from plumb.guide.talk import Talk
+from plumb.guide.wires import Jog, chain_jog, height_jog, remedy
+from plumb.line.memory import read_numbers
+from plumb.line.sender import RefusedError, Sender
+from plumb.model.reach import percent, survey_sheet
+from plumb.settings.machine import GRAVITY, MachineSettings, frame_of
+from plumb.settings.toml import machine_toml
+from plumb.text.files import write_whole
+from plumb.text.readers import to_do
+from plumb.text.shown import bare, brief, unit, worded
+
+SETTINGS = "machine.toml"
+SLEDS = {"r": "on a ring or a linkage: both chains point at the bit", "b": "on two brackets"}
+EXTENDED, Z_ATTACHED = 11, 16  # $-numbers
+TURN = 40.0  # [mm] of chain: two thirds of a turn of the sprocket
+NEAR = 0.5  # [mm] from the middle, at most
+DIMPLE = 2.0  # [mm] depth of the first mark
+HEIGHT_AFTER = 5.0  # [mm] the bit goes up after it
+WEIGHT_SIGMA = 0.3  # [kg]
+FARTHEST = 200.0  # [mm] of a first mark from the middle: more is a misreading
+
+
+@dataclass
+class Visit:
+    """A machine at the end of a line, its owner, and how far they came."""
+
+    sender: Sender
+    talk: Talk
+    progress: Progress
+    hang: Callable[[], None] = lambda: None  # hears that the sled hangs now: for virtual machines
+
+    @property
+    def path(self) -> Path:
+        return self.progress.folder / SETTINGS
+
+    def settings(self) -> MachineSettings:
+        """The machine as the folder knows it."""
+        return settings_in(self.path)
+
+    def move(self, *lines: str) -> str:
+        """Send lines and wait until the machine stands; what it said if it refused them."""
+        try:
+            self.sender.stream(lines)
+            self.sender.await_rest(attended=True)
+        except RefusedError as error:
+            self.sender.brake()
+            self.sender.await_rest()
+            return str(error).partition("the machine says: ")[2] or str(error)
+        return ""
+
+
+def read_machine(visit: Visit) -> bool:
+    """Read the machine's numbers into machine.toml. Nothing moves."""
+    numbers = read_numbers(visit.sender)
+    if visit.path.exists():
+        question = f"{visit.path.name} exists. Replace it with the machine's numbers?"
+        if not visit.talk.says_yes(question):
+            return True
+    write_whole(visit.path, machine_toml(machine_of_numbers(numbers)).encode())
+    visit.talk.say(f"The machine answers, and its numbers are in {visit.path.name}.")
+    return True
+
+
+def check_wires(visit: Visit) -> bool:
+    """Jog each axis a little and ask what the owner saw."""
+    jogs = [chain_jog("left"), chain_jog("right")]
+    if read_numbers(visit.sender).get(Z_ATTACHED):
+        jogs.append(height_jog())
+    return all(_is_wired_right(visit, jog) for jog in jogs)
+
+
+def _is_wired_right(visit: Visit, jog: Jog) -> bool:
+    if not visit.talk.agrees(jog.moves, jog.act):
+        return False
+    alarm = visit.move(*jog.there)
+    seen = visit.talk.choice(jog.question, jog.answers)
+    mend = remedy(jog.axis, seen, alarm)
+    if not alarm:
+        visit.move(*jog.back)
+    if not mend:
+        return True
+    visit.talk.say(
+        f"{mend}\nSwitch the power off before you touch a wire. Then run this step again."
+    )
+    return False
+
+
+def tell_numbers(visit: Visit) -> bool:
+    """Ask what the owner knows, write it into machine.toml and into the machine."""
+    settings, talk = visit.settings(), visit.talk
+    if talk.choice("How does the sled hang?", SLEDS) == "b":
+        talk.say(
+            "Two fixed brackets tilt the sled, and the lab's model has no such tilt. Set this sled "
+            "up with GroundControl, or hang it on a ring."
+        )
+        return False
+    talk.say("Measure with a steel tape. Enter keeps the number in brackets.")
+    frame = dict(settings.frame)
+    for known in LENGTHS:
+        # People measure the height from the sheet's edge, the frame counts it from its middle.
+        below = settings.sheet_height / 2 if known.name == "motor_height" else 0.0
+        now = frame[known.name] - below
+        frame[known.name] = below + talk.length(known.question, now, known.low, known.high)
+        visit.progress.sigmas[known.name] = talk.length(
+            "How far may that be wrong", known.sigma, 0.1, 100.0
+        )
+    now = settings.sled_weight / GRAVITY
+    question = "Weight of the sled with router and bricks"
+    frame["sled_weight"] = GRAVITY * talk.mass(question, now, LIGHTEST, HEAVIEST)
+    visit.progress.sigmas["sled_weight"] = GRAVITY * WEIGHT_SIGMA
+    changed = replace(settings, **frame_of(frame))
+    lines = gcode(firmware_numbers(changed)).decode().splitlines()
+    written, _, failure = write_and_keep(visit.sender, str(visit.path), lines)
+    write_whole(visit.path, machine_toml(changed).encode())
+    rows = [f"  ${number}: {old:g} -> {new:g}" for number, (old, new) in written.changed.items()]
+    undo = to_do(f"plumb send --undo {visit.path.name} brings them back", page="nothing is lost")
+    talk.say("\n".join(["The machine holds these numbers; each was read back.", *rows]))
+    talk.say(f"The numbers that it had before are kept in this folder: {undo}.")
+    if failure:
+        talk.say(failure)
+    return True
+
+
+def show_reach(visit: Visit) -> bool:
+    """Say how much of the sheet the machine can use, and how far off is normal now."""
+    settings = visit.settings()
+    survey = survey_sheet(settings)
+    expected = expected_anywhere(settings, expected_priors(visit.progress.sigmas))
+    where = to_do(f"plumb reach {visit.path.name} draws where", page="Reach shows where")
+    visit.talk.say(
+        f"The machine can use {percent(survey.shares['usable'])} of the sheet; {where}.\n"
+        f"{expected_sentence(expected)}"
+    )
+    return True
+
+
+def set_chains(visit: Visit) -> bool:
+    """Both sprockets to 12 o'clock, chains on their top teeth, chains paid out."""
+    talk = visit.talk
+    talk.say("Take both chains off their sprockets.")
+    for side in ("left", "right"):
+        _turn_to_twelve(visit, side)
+    hooked = (
+        "Lay each chain's end link over the tooth that points straight up. The machine then takes "
+        f"both chains as {brief(0)} long. Nothing moves."
+    )
+    if not talk.agrees(hooked, f"Take both chains as {brief(0)} long; nothing moves"):
+        return False
+    visit.move("B06 L0 R0")
+    out = read_numbers(visit.sender)[EXTENDED]
+    for side, line in (("left", "B02 L1 R0"), ("right", "B02 L0 R1")):
+        moves = (
+            f"The {side.upper()} motor pays out {brief(out)} of chain. Keep the chain on the teeth."
+        )
+        if not talk.agrees(moves, f"Pay out {brief(out)} of the {side} chain"):
+            return False
+        alarm = visit.move(line)
+        if alarm:
+            talk.say(f"The machine stopped: {alarm}")
+            return False
+    return True
+
+
+def _turn_to_twelve(visit: Visit, side: str) -> None:
+    """Turn a sprocket by what the owner types, until a tooth points straight up."""
+    letter = side[0].upper()
+    while True:
+        size = visit.talk.turn(side, TURN)
+        if size == 0:
+            return
+        alarm = visit.move("G91", f"B09 {letter}{size:.2f} F300", "G90")
+        if alarm:
+            visit.talk.say(f"The machine stopped: {alarm}")
+
+
+def first_mark(visit: Visit) -> bool:
+    """Hang the sled, drive it to the middle, make a dimple, and compare with the tape."""
+    talk, settings = visit.talk, visit.settings()
+    moves = "Hang the sled on both chains. Both motors then bring it to the MIDDLE of the sheet."
+    if not talk.agrees(moves, "Move the sled to the middle of the sheet"):
+        return False
+    visit.hang()
+    alarm = visit.move("B15")
+    place = visit.sender.status.place if visit.sender.status else (np.inf, np.inf, 0.0)
+    if alarm or max(abs(place[0]), abs(place[1])) > NEAR:
+        talk.say(f"The sled is not in the middle: {alarm or _reported(place)}")
+        return False
+    moves = (
+        "Switch the router on, its bit just above the sheet. The Z motor lowers the bit by "
+        f"{brief(DIMPLE)} and raises it by {brief(HEIGHT_AFTER)}."
+    )
+    act = f"Lower the bit by {brief(DIMPLE)} and raise it by {brief(HEIGHT_AFTER)}"
+    if not talk.agrees(moves, act):
+        return False
+    alarm = visit.move("G91", f"G1 Z-{DIMPLE:g} F100", f"G0 Z{HEIGHT_AFTER:g}", "G90")
+    if alarm:
+        talk.say(f"The machine stopped: {alarm}")
+        return False
+    return _judge_mark(visit, settings)
+
+
+def _reported(place: tuple[float, float, float]) -> str:
+    return f"it reports {bare(place[0])}, {bare(place[1])} {unit()}"
+
+
+def _judge_mark(visit: Visit, settings: MachineSettings) -> bool:
+    """Say how far the first mark is off, and whether that is normal."""
+    half_width, half_height = settings.sheet_width / 2, settings.sheet_height / 2
+    left = visit.talk.length(
+        "From the sheet's left edge to the mark",
+        half_width,
+        half_width - FARTHEST,
+        half_width + FARTHEST,
+    )
+    top = visit.talk.length(
+        "From the sheet's top edge to the mark",
+        half_height,
+        half_height - FARTHEST,
+        half_height + FARTHEST,
+    )
+    off = float(np.hypot(left - half_width, top - half_height))
+    priors = expected_priors(visit.progress.sigmas)
+    normal = 2 * expected_error(settings, priors, at=np.zeros((1, 2))).frame
+    if off <= normal:
+        visit.talk.say(
+            f"The mark is {worded(off, 1)} from the middle. Up to {worded(normal, 0)} is normal."
+        )
+    else:
+        visit.talk.say(
+            f"The mark is {worded(off, 1)} from the middle; more than the {worded(normal, 0)} that "
+            "your numbers allow. Measure the motors again, and look whether a chain sits a tooth "
+            "off."
+        )
+    return off <= normal
+
+
+@dataclass(frozen=True)
+class Step:
+    """A step of the guide."""
+
+    name: str
+    title: str
+    run: Callable[[Visit], bool]
+
+
+STEPS = (
+    Step("read", "Read the machine's numbers", read_machine),
+    Step("wires", "Does each motor turn the right way?", check_wires),
+    Step("numbers", "What do you know of the machine?", tell_numbers),
+    Step("reach", "What can it reach?", show_reach),
+    Step("chains", "Chains at 12 o'clock", set_chains),
+    Step("mark", "The first mark", first_mark),
+)

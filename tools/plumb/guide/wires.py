@@ -1,0 +1,102 @@
+"""What a short jog says of an axis' wires: what moved, which way, and what the machine noticed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from plumb.text.shown import brief
+
+CHAIN, HEIGHT = 20.0, 5.0  # [mm] of a jog
+SPEED = 300  # [mm/min]
+SLED = "The sled, if it hangs, rises a little on that side and comes back."
+PLUGS = {"left": "MP3", "right": "MP1", "z": "MP2"}
+
+
+@dataclass(frozen=True)
+class Jog:
+    """A move of a single axis, there and back."""
+
+    axis: str
+    there: tuple[str, ...]
+    back: tuple[str, ...]
+    moves: str  # names what will move and how far
+    act: str  # the same in a few words
+    question: str
+    answers: dict[str, str]
+
+
+def chain_jog(side: str) -> Jog:
+    """Winds 20 mm of a chain in, and pays it out again."""
+    other = "right" if side == "left" else "left"
+    word = side[0].upper()
+    return Jog(
+        side,
+        ("G91", f"B09 {word}-{CHAIN:g} F{SPEED}", "G90"),
+        ("G91", f"B09 {word}{CHAIN:g} F{SPEED}", "G90"),
+        f"The {side.upper()} motor winds {brief(CHAIN)} of its chain in, slowly. {SLED}",
+        f"Wind {brief(CHAIN)} of the {side} chain in",
+        "What did you see?",
+        {
+            "s": f"the {side} chain got shorter",
+            "l": f"the {side} chain got longer",
+            "o": f"the {other} chain moved",
+            "z": "the z axis moved",
+            "n": "nothing moved",
+        },
+    )
+
+
+def height_jog() -> Jog:
+    """Raises the bit by 5 mm, and lowers it again."""
+    return Jog(
+        "z",
+        ("G91", f"G0 Z{HEIGHT:g}", "G90"),
+        ("G91", f"G0 Z-{HEIGHT:g}", "G90"),
+        f"The Z motor raises the router by {brief(HEIGHT)}. The bit leaves the sheet.",
+        f"Raise the router by {brief(HEIGHT)}",
+        "Did the router go up?",
+        {
+            "s": "it went up",
+            "l": "it went down",
+            "o": "a chain moved",
+            "n": "nothing moved",
+        },
+    )
+
+
+def remedy(axis: str, seen: str, alarm: str) -> str:
+    """What to mend after a jog; empty if all is right.
+
+    `seen` is a letter of the jog's answers; `alarm` is what the machine said, empty for nothing.
+    """
+    motor = f"the {axis} motor" if axis != "z" else "the z motor"
+    if seen in ("o", "z"):
+        return (
+            f"The plug of {motor} is on the wrong socket. It belongs on {PLUGS[axis]}: its power "
+            "wires and its encoder together."
+        )
+    if "wired in reverse" in alarm:
+        if seen == "l":
+            return f"The power wires of {motor} are swapped: exchange the two."
+        return f"The encoder of {motor} counts backwards: exchange its wires A and B."
+    if "stands still" in alarm:
+        if seen == "n":
+            return (
+                f"{motor.capitalize()} gets no power, or something blocks it. Check the 12 V "
+                f"supply, then its power wires on {PLUGS[axis]}."
+            )
+        return f"{motor.capitalize()} turns, but its encoder is silent: push its plug in."
+    if alarm:
+        return f"The machine stopped: {alarm}"
+    if seen == "n":
+        return (
+            "The machine counts a move that you do not see. Are its motors simulated? Send B99 OFF."
+        )
+    if seen == "s":
+        return ""
+    if axis == "z":
+        return "Z runs upside down: give $20 (its encoder's steps) the other sign."
+    return (
+        f"{motor.capitalize()} runs the wrong way. If the chains leave the bottom of the "
+        "sprockets, set $38 to 2. If not, exchange its two power wires, and its encoder's A and B."
+    )

@@ -1,0 +1,1 @@
+"""Jobs: programs of G-code, as the firmware would do them, before and after a halt."""

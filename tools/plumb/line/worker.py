@@ -1,0 +1,361 @@
+"""A thread that owns the line to a machine: others give it work, and see how the machine is.
+
+Hold, go on and stop do not wait for the work that is being done.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from functools import partial
+from queue import Empty, SimpleQueue
+from threading import Event, Lock, Thread
+from typing import Any, Literal, TypeVar
+
+from plumb.line.port import LostError, Port
+from plumb.line.sender import (
+    REPORTS,
+    STANDS,
+    Sender,
+    Status,
+    StoppedError,
+    Watch,
+    cleaned,
+)
+from plumb.line.waits import PAUSED, Wait, waits_in
+from plumb.text.errors import InputError
+
+Result = TypeVar("Result")
+Phase = Literal["none", "connecting", "ready", "busy", "stopping", "lost"]
+LEAVES = 5.0  # [s] in which a line is usually let go of
+SAID = 30  # lines of the machine that are kept
+LOST_PLACE = ("Position Lost", "Chain lengths are not known")
+FOUND_PLACE = "position loaded at:"
+
+
+@dataclass(frozen=True)
+class Progress:
+    """A program on its way."""
+
+    title: str
+    done: int  # lines that the machine took
+    total: int
+    outcome: Literal["running", "done", "stopped", "refused", "lost"] = "running"
+    waits: tuple[Wait, ...] = ()  # its pauses
+    paused_at: int = -1  # lines that it had taken when it last came to a pause
+
+    @property
+    def wait(self) -> Wait | None:
+        """The pause in which it is; None if it goes on, or is held elsewhere."""
+        if self.outcome != "running" or self.paused_at != self.done:
+            return None
+        return next((wait for wait in self.waits if wait.lines == self.done), None)
+
+
+@dataclass(frozen=True)
+class _Done:
+    """What came of work."""
+
+    changes: dict[str, Any] = field(default_factory=dict)  # of the state; then the line is ready
+    then: Callable[[], None] = lambda: None  # called once the line is ready again
+
+
+@dataclass(frozen=True)
+class _Task:
+    """Work for the line's thread."""
+
+    run: Callable[[Sender], _Done]
+    give_up: Callable[[LostError], None] = lambda error: None  # it will never be done
+
+
+@dataclass(frozen=True)
+class LineState:
+    """How the line and the machine are."""
+
+    phase: Phase = "none"
+    place: tuple[float, float, float] | None = None  # [mm] x, y, z
+    knows_place: bool = True
+    holds: bool = False
+    moves: bool = False
+    trouble: str = ""  # what went wrong last
+    program: Progress | None = None
+    said: tuple[str, ...] = ()  # the machine's last lines
+
+    @property
+    def waits_for(self) -> str:
+        """What somebody is to do before the program goes on; empty if it does not wait."""
+        wait = self.program.wait if self.program and self.holds else None
+        return wait.do if wait else ""
+
+
+class LineWorker:
+    """The machine at the end of a line that is opened in another thread."""
+
+    def __init__(
+        self,
+        opened: Callable[[], Port],
+        *,
+        knows_place: bool = True,
+        working: Callable[[bool], None] = lambda works: None,
+    ) -> None:
+        """`opened` opens the line; `working` hears when work begins and ends."""
+        self._opened, self._working = opened, working
+        self._state = LineState("connecting", knows_place=knows_place)
+        self._lock = Lock()
+        self._work = SimpleQueue[_Task]()
+        self._hold, self._go_on, self._stop, self._end = Event(), Event(), Event(), Event()
+        self._said = deque[str](maxlen=SAID)
+        self._places = deque[tuple[float, Status]]()
+        self._paused: Callable[[int], None] = lambda lines: None
+        self._waits = False  # in mid-work, for a person
+        self._thread = Thread(target=self._run, name="line to the machine", daemon=True)
+        self._thread.start()
+
+    @property
+    def state(self) -> LineState:
+        """How things are now."""
+        with self._lock:
+            return self._state
+
+    def do(self, work: Callable[[Sender], Result]) -> Future[Result]:
+        """Have work done with the machine. Raises InputError while there is other work.
+
+        The future is done when the line takes other work again, or is lost.
+        """
+        future: Future[Result] = Future()
+
+        def doing(sender: Sender) -> _Done:
+            try:
+                result = work(sender)
+            except LostError as error:
+                future.set_exception(error)
+                raise
+            except BaseException as error:
+                return _Done(then=partial(future.set_exception, error))
+            return _Done(then=partial(future.set_result, result))
+
+        self._begin(_Task(doing, future.set_exception))
+        return future
+
+    def send(
+        self,
+        title: str,
+        lines: Sequence[str],
+        then: Callable[[Sender], None] = lambda sender: None,
+        *,
+        paused: Callable[[int], None] = lambda lines: None,
+    ) -> None:
+        """Send a program; `then` is called when the machine rests after it, and `paused` at each of
+        its pauses with how many lines the machine took before.
+
+        Raises InputError for lines that cannot be sent, and while there is other work.
+        """
+        clean = list(cleaned(lines))
+        progress = Progress(title, 0, len(clean), waits=tuple(waits_in(lines)))
+
+        def sending(sender: Sender) -> _Done:
+            self._paused = paused
+            try:
+                sender.stream(clean, answered=self._note_done)
+                self._await_rest(sender)
+                then(sender)
+            except StoppedError:
+                return self._finished("stopped", "The machine has stopped. The rest was not sent.")
+            except LostError:
+                raise
+            except (InputError, ValueError) as error:
+                return self._finished("refused", str(error))
+            return self._finished("done", "")
+
+        self._begin(_Task(sending), program=progress)
+
+    def hold(self) -> None:
+        """Stop along the path as soon as the motors can."""
+        self._go_on.clear()
+        self._hold.set()
+
+    def go_on(self) -> None:
+        """Go on after a hold."""
+        self._hold.clear()
+        self._go_on.set()
+
+    def stop(self) -> None:
+        """Give up what is being done."""
+        self._stop.set()
+
+    def close(self) -> None:
+        """Let go of the line; a machine that moves is stopped first, which may take longer."""
+        self._end.set()
+        self._thread.join(LEAVES)
+
+    def await_end(self) -> None:
+        """Wait until the line is let go of."""
+        self._thread.join()
+
+    def _begin(self, task: _Task, program: Progress | None = None) -> None:
+        with self._lock:
+            if self._state.phase != "ready":
+                raise InputError(_busy(self._state.phase))
+            self._state = replace(
+                self._state,
+                phase="busy",
+                trouble="",
+                program=program or self._state.program,
+            )
+            self._work.put(task)
+
+    def _note(self, **changes: Any) -> None:
+        with self._lock:
+            self._state = replace(self._state, **changes)
+
+    def _note_done(self, done: int) -> None:
+        """Note how many lines of the program the machine took."""
+        program = self._state.program
+        assert program is not None
+        self._note(program=replace(program, done=done))
+
+    def _finished(self, outcome: Literal["done", "stopped", "refused"], trouble: str) -> _Done:
+        program = self.state.program
+        assert program is not None
+        changes: dict[str, Any] = {"program": replace(program, outcome=outcome), "trouble": trouble}
+        if any(words in trouble for words in LOST_PLACE):
+            changes["knows_place"] = False
+        return _Done(changes)
+
+    def _run(self) -> None:
+        port: Port | None = None
+        try:
+            port = self._opened()
+            sender = Sender(port, said=self._hear, attend=self._attend)
+            sender.await_start()
+            self._note(phase="ready")
+            while not self._end.is_set():
+                self._serve(sender)
+        except Exception as error:
+            self._lose(str(error) or type(error).__name__)
+        else:
+            self._note(phase="none")
+        finally:
+            self._give_up()
+            if port:
+                port.close()
+
+    def _give_up(self) -> None:
+        """Give up what came in while the line was lost: the line takes no work any more."""
+        with suppress(Empty):
+            while True:
+                self._work.get_nowait().give_up(LostError(self.state.trouble or "the line is shut"))
+
+    def _serve(self, sender: Sender) -> None:
+        """Do the next work, or listen for a moment."""
+        try:
+            task = self._work.get_nowait()
+        except Empty:
+            sender.listen()
+            self._see(sender)
+            self._press(sender)
+            return
+        self._waits = False
+        self._working(True)
+        try:
+            done = task.run(sender)
+        finally:
+            self._working(False)
+        self._note(phase="ready", **done.changes)
+        done.then()
+
+    def _attend(self, sender: Sender) -> None:
+        """While lines are on their way."""
+        self._see(sender)
+        if self._waits != self._state.holds:
+            self._waits = self._state.holds
+            self._working(not self._waits)  # while a person is to do something, time is real
+        if self._stop.is_set() or self._end.is_set():
+            for pressed in (self._stop, self._hold, self._go_on):
+                pressed.clear()
+            self._note(phase="stopping")
+            sender.stop()
+        self._press(sender)
+
+    def _press(self, sender: Sender) -> None:
+        """Pass on what somebody pressed."""
+        if self._stop.is_set():
+            self._stop.clear()
+            sender.brake()
+        if self._hold.is_set():
+            self._hold.clear()
+            sender.hold()
+        if self._go_on.is_set():
+            self._go_on.clear()
+            sender.go_on()
+
+    def _await_rest(self, sender: Sender) -> None:
+        """Wait until the sled stands; somebody may hold or stop it meanwhile."""
+        watch = Watch(sender)
+        while self.state.moves or self.state.holds or not watch.has_lasted(REPORTS):
+            sender.listen()
+            self._attend(sender)
+
+    def _see(self, sender: Sender) -> None:
+        """Note what the machine reported."""
+        status = sender.status
+        if status is None:
+            return
+        now = sender.port.seconds()
+        if not self._places or status is not self._places[-1][1]:
+            self._places.append((now, status))
+        # Two at least: this program may have stood still since the report before.
+        while len(self._places) > 2 and now - self._places[0][0] > REPORTS:
+            self._places.popleft()
+        moves = any(
+            max(map(abs, map(float.__sub__, status.place, old.place))) > STANDS
+            for _, old in self._places
+        )
+        self._note(place=status.place, holds=status.state == "Pause", moves=moves)
+
+    def _hear(self, line: str) -> None:
+        """Note what the machine said."""
+        if not line:
+            return
+        self._said.append(line)
+        changes: dict[str, Any] = {"said": tuple(self._said)}
+        program = self._state.program
+        if line == PAUSED and program and program.outcome == "running":
+            changes["program"] = replace(program, paused_at=program.done)
+            self._paused(program.done)
+        if any(words in line for words in LOST_PLACE):
+            changes["knows_place"] = False
+        elif line.startswith(FOUND_PLACE):
+            changes["knows_place"] = True
+        if line.startswith("ALARM"):
+            changes["trouble"] = line
+        self._note(**changes)
+
+    def _lose(self, why: str) -> None:
+        """Note that the line is gone; the machine may have been cut off in mid-move."""
+        state = self.state
+        in_work = state.phase in ("busy", "stopping") or state.moves
+        program = state.program
+        if program and program.outcome == "running":
+            why += f". {program.done} of {program.total} lines of {program.title} were done"
+            program = replace(program, outcome="lost")
+        self._note(
+            phase="lost",
+            trouble=why,
+            program=program,
+            moves=False,
+            holds=False,
+            knows_place=state.knows_place and not in_work,
+        )
+
+
+def _busy(phase: Phase) -> str:
+    """Why there can be no work now."""
+    return {
+        "none": "no machine is connected: connect it first",
+        "connecting": "the machine is not ready yet: wait a moment",
+        "lost": "the line to the machine was lost: connect it again",
+    }.get(phase, "the machine is busy: wait, or press Stop")

@@ -1,0 +1,141 @@
+"""Home marks: holes whose chains are kept. With the bit in such a hole a lost position is restored.
+
+A hole that the machine made at a place was made with the chains that its settings pay out there.
+Whatever these settings do not know was in the hole too, so the same chains are right when the bit
+is back in it, also after the settings have become better.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+
+from plumb.grid.options import Grid
+from plumb.model.predict import Array, believed_lengths
+from plumb.recovery.touched import TOUCH_SIGMA, Point, Touch, believed_chains, places_with
+from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError, refusal
+from plumb.text.files import read_text, write_whole
+
+NAME = "home.toml"
+HEAD = "# Home marks of a machine, for plumb: holes, and the chains with the bit in them. mm."
+HOLE_DEPTH = 2.0  # [mm] so that a bit finds its place in the hole
+USUAL = Grid()  # heights, feeds and the way into a mark, as a grid has them
+SURE = 3.03  # sigmas of a coordinate: beyond this length 1 % of the errors in a plane lie
+
+
+@dataclass(frozen=True)
+class HomeMark:
+    """A hole. mm, from the middle of the sheet, y up."""
+
+    name: str
+    place: Point  # where the machine was when it made the hole
+    chains: Point  # left and right paid out there
+    date: str = ""
+    settings: str = ""  # name of the settings' file then
+
+
+@dataclass(frozen=True)
+class HomeFit:
+    """How well a second home mark agrees with the first, by which the position was restored."""
+
+    name: str
+    error: Point  # [mm] of the hole, against what the machine shows with the bit in it
+    chains: Point  # [mm] by which each chain is longer than the machine believes
+    limit: float  # [mm] within which two touches by hand agree, 99 of 100 times
+
+    @property
+    def fits(self) -> bool:
+        """Whether touching two holes by hand explains the error."""
+        return float(np.hypot(*self.error)) <= self.limit
+
+
+def home_file(settings: str | PathLike[str]) -> Path:
+    """Where the home marks of a machine are: next to its settings."""
+    return Path(settings).parent / NAME
+
+
+def new_home_mark(
+    settings: MachineSettings, name: str, place: Point, *, date: str = ""
+) -> HomeMark:
+    """A hole that the machine makes at a place by these settings. Raises InputError."""
+    try:
+        left, right = believed_lengths(settings, np.array([place], dtype=float))[0].tolist()
+    except ValueError as error:
+        raise InputError(f"home mark {name}: {error}") from None
+    return HomeMark(name, place, (left, right), date, settings.file.name if settings.file else "")
+
+
+def hole_program(place: Point) -> list[str]:
+    """The lines of a program that makes the hole of a home mark, come to as a grid comes to its
+    marks."""
+    x, y = place
+    return [
+        "G21",
+        "G90",
+        f"G0 Z{USUAL.safe_height:g}",
+        f"G0 X{x - USUAL.approach[0]:.3f} Y{y - USUAL.approach[1]:.3f}",
+        f"G1 X{x:.3f} Y{y:.3f} F{USUAL.feed:g}",
+        f"G1 Z{-HOLE_DEPTH:g} F{USUAL.plunge_feed:g}",
+        f"G0 Z{USUAL.safe_height:g}",
+    ]
+
+
+def place_of(settings: MachineSettings, mark: HomeMark) -> Array:
+    """Where the machine shows the bit in a home mark (2,) [mm], by the settings of today."""
+    where: Array = places_with(settings, np.array([mark.chains], dtype=float))[0]
+    if not np.isfinite(where).all():
+        raise InputError(f"home mark {mark.name}: with these settings its chains lead nowhere")
+    return where
+
+
+def home_fit(settings: MachineSettings, mark: HomeMark, shown: Point) -> HomeFit:
+    """How well a home mark agrees with what the machine shows of the bit in it."""
+    x, y = (place_of(settings, mark) - np.array(shown)).tolist()
+    believed = believed_chains(settings, [Touch(mark.name, mark.place, shown)])[0]
+    left, right = (np.array(mark.chains) - believed).tolist()
+    # Both holes are touched, and each was made with the bit once.
+    return HomeFit(mark.name, (x, y), (left, right), limit=SURE * 2**0.5 * TOUCH_SIGMA)
+
+
+def read_home_marks(path: str | PathLike[str]) -> dict[str, HomeMark]:
+    """The home marks of a file by name; none if there is no file. Raises InputError."""
+    if not Path(path).exists():
+        return {}
+    try:
+        tables = tomllib.loads(read_text(path)).get("mark", {})
+        return {name: _mark(name, each) for name, each in tables.items()}
+    except (tomllib.TOMLDecodeError, AttributeError, KeyError, TypeError, ValueError) as error:
+        raise refusal(path, f"holds no home marks ({error})", remedy="mend it") from None
+
+
+def write_home_marks(path: str | PathLike[str], marks: Mapping[str, HomeMark]) -> None:
+    """Replace the file in one step; every number comes back bit for bit."""
+    lines = [HEAD]
+    for mark in marks.values():
+        lines += [
+            "",
+            f"[mark.{mark.name}]",
+            f"place = [{mark.place[0]!r}, {mark.place[1]!r}]",
+            f"chains = [{mark.chains[0]!r}, {mark.chains[1]!r}]  # left and right paid out",
+            f'date = "{mark.date}"',
+            f'settings = "{mark.settings}"',
+        ]
+    write_whole(path, ("\n".join(lines) + "\n").encode())
+
+
+def _mark(name: str, table: Mapping[str, object]) -> HomeMark:
+    place, chains = _pair(table["place"]), _pair(table["chains"])
+    return HomeMark(name, place, chains, str(table.get("date", "")), str(table.get("settings", "")))
+
+
+def _pair(value: object) -> Point:
+    if not isinstance(value, list):
+        raise TypeError("a pair of numbers is missing")
+    first, second = map(float, value)
+    return first, second

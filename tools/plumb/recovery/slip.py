@@ -1,0 +1,211 @@
+"""Did a chain slip on its sprocket? Whole links against a moved sheet and plain noise.
+
+A chain slips by whole links of 6.35 mm, so a slip is one of few patterns. A moved sheet is any
+shift and turn. Each account is weighed by how likely it makes what was touched, times how often
+it happens: a sheet that could lie anywhere explains any two marks a little, a slip explains only
+its pattern, but that well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+
+from plumb.model.predict import Array
+from plumb.recovery.touched import (
+    Touch,
+    believed_chains,
+    places_with,
+    sigma_of,
+    turned_back,
+)
+from plumb.settings.machine import MachineSettings
+
+LINK = 6.35  # [mm] of #25 chain
+MOST_LINKS = 3
+COUNTS = range(-MOST_LINKS, MOST_LINKS + 1)
+GATE = 0.99  # of the odds: below it nothing is named
+
+NOTHING, SLIP, SHEET, OTHER = "nothing", "slip", "sheet_moved", "other"
+CANNOT_TELL = "cannot_tell"
+
+Links = tuple[int, int]
+NO_LINKS: Links = (0, 0)
+
+# How often each happens to somebody who asks; only their proportions count.
+OFTEN = {NOTHING: 0.45, SLIP: 0.25, SHEET: 0.25, OTHER: 0.02}
+AND_SHEET = 0.02  # of the slips the sheet has moved as well
+BOTH_CHAINS = 0.2  # of the slips are of both chains
+BY_COUNT = {1: 0.6, 2: 0.25, 3: 0.15}  # of the slips of a chain
+# How far a sheet moves: pushed a little, or taken off and laid again. Of each x and y [mm],
+# rotation [rad], and how often.
+POSES = ((3.0, 0.001, 0.5), (20.0, 0.008, 0.5))
+FAR_OFF = 30.0  # [mm] of a coordinate that nothing else explains
+
+
+@dataclass(frozen=True)
+class Account:
+    """What may have happened, and its odds among all accounts."""
+
+    kind: str  # NOTHING, SLIP, SHEET or OTHER
+    links: Links  # by how much longer left and right are than the machine believes
+    odds: float
+
+
+@dataclass(frozen=True)
+class SlipFinding:
+    """What was weighed, and what follows."""
+
+    verdict: str  # of the kinds, or CANNOT_TELL
+    accounts: tuple[Account, ...]  # the likeliest first
+    touches: tuple[Touch, ...]
+    errors: Array  # (n, 2) [mm] hole - place by the machine's chains
+    left: Array  # (n, 2) [mm] after the likeliest account
+    sigma: float  # [mm] of a coordinate
+    believed: Array  # (n, 2) [mm] the chains that the machine believes at each touch
+    fixed: bool  # whether the marks are on what cannot move
+    log_density: float  # of the touches, over all accounts
+
+    @property
+    def best(self) -> Account:
+        """The likeliest account."""
+        return self.accounts[0]
+
+    @property
+    def true_chains(self) -> Array:
+        """The chains [mm] left and right at the last touch, by the likeliest account."""
+        chains: Array = self.believed[-1] + LINK * np.array(self.best.links)
+        return chains
+
+
+def find_slip(
+    settings: MachineSettings,
+    touches: Sequence[Touch],
+    *,
+    sigma: float | None = None,
+    fixed: bool = False,
+    taped: bool = False,
+) -> SlipFinding:
+    """Weigh what may have happened to the chains since the marks were made.
+
+    fixed: the marks are on the frame, so no sheet could move. taped: the places of the holes were
+    read with a tape; else they are where the machine was sent when it made them. A tape reads from
+    the sheet's edges: the sheet hangs as it was fitted, or was hung straight since.
+    sigma [mm] of a coordinate of a touch, if it is known better. Raises InputError.
+    """
+    used = sigma or sigma_of(settings, taped=taped)
+    fitted = settings.fitted.last_sheet_rotation if taped and settings.fitted else 0.0
+    turned = [_finding(settings, touches, turn, used, fixed) for turn in {fitted, 0.0}]
+    return max(turned, key=lambda finding: finding.log_density)
+
+
+def _finding(
+    settings: MachineSettings, touches: Sequence[Touch], turn: float, used: float, fixed: bool
+) -> SlipFinding:
+    """What may have happened, if the sheet is turned [rad] counter-clockwise."""
+    believed = believed_chains(settings, touches)
+    holes = turned_back(np.array([touch.hole for touch in touches], dtype=float), turn)
+    counts = [(left, right) for left in COUNTS for right in COUNTS]
+    slipped = believed + LINK * np.array(counts, dtype=float)[:, None]
+    errors = {
+        links: holes - where
+        for links, where in zip(counts, places_with(settings, slipped), strict=True)
+    }
+    accounts, log_density = _weighed(errors, holes, used, fixed)
+    best = accounts[0]
+    return SlipFinding(
+        verdict=_verdict(accounts, count=len(touches), fixed=fixed),
+        accounts=accounts,
+        touches=tuple(touches),
+        errors=errors[NO_LINKS],
+        left=_left(errors[best.links], holes, best.kind, used),
+        sigma=used,
+        believed=believed,
+        fixed=fixed,
+        log_density=log_density,
+    )
+
+
+def _weighed(
+    errors: dict[Links, Array], holes: Array, sigma: float, fixed: bool
+) -> tuple[tuple[Account, ...], float]:
+    """All accounts with their odds, the likeliest first, and how likely the touches are."""
+    poses = () if fixed else POSES
+    logs: dict[tuple[str, Links], list[float]] = {}
+
+    def weigh(kind: str, links: Links, often: float, covariance: Array) -> None:
+        error = errors[links].ravel()
+        if np.isfinite(error).all():
+            log = _log_density(error, covariance) + np.log(often)
+            logs.setdefault((kind, links), []).append(log)
+
+    noise = sigma**2 * np.eye(holes.size)
+    weigh(NOTHING, NO_LINKS, OFTEN[NOTHING], noise)
+    weigh(OTHER, NO_LINKS, OFTEN[OTHER], FAR_OFF**2 * np.eye(holes.size))
+    for links, share in _slip_shares():
+        weigh(SLIP, links, OFTEN[SLIP] * share * (1 - AND_SHEET), noise)
+    for shift, turn, often in poses:
+        moved = noise + pose_covariance(holes, shift, turn)
+        weigh(SHEET, NO_LINKS, OFTEN[SHEET] * often, moved)
+        for links, share in _slip_shares():
+            weigh(SLIP, links, OFTEN[SLIP] * share * AND_SHEET * often, moved)
+    totals = {key: float(scipy.special.logsumexp(each)) for key, each in logs.items()}
+    whole = float(scipy.special.logsumexp([*totals.values()]))
+    accounts = [Account(*key, odds=float(np.exp(log - whole))) for key, log in totals.items()]
+    return tuple(sorted(accounts, key=lambda account: -account.odds)), whole
+
+
+def _slip_shares() -> Iterator[tuple[Links, float]]:
+    """Each slip, and its share of all slips."""
+    for links in ((left, right) for left in COUNTS for right in COUNTS):
+        shares = [BY_COUNT[abs(count)] / 2 for count in links if count]
+        if len(shares) == 1:
+            yield links, (1 - BOTH_CHAINS) * shares[0] / 2
+        elif shares:
+            yield links, BOTH_CHAINS * shares[0] * shares[1]
+
+
+def pose_slopes(holes: Array) -> Array:
+    """How coordinates (2n,) of holes (n, 2) follow a sheet's x, y [mm] and rotation [rad]."""
+    slopes = np.zeros((*holes.shape, 3))
+    slopes[:, 0, 0] = slopes[:, 1, 1] = 1
+    slopes[:, 0, 2], slopes[:, 1, 2] = -holes[:, 1], holes[:, 0]
+    return slopes.reshape(-1, 3)
+
+
+def pose_covariance(holes: Array, shift: float, turn: float) -> Array:
+    """Of coordinates (2n, 2n) [mm^2] on a sheet that lies off by so much by chance."""
+    slopes = pose_slopes(holes) * (shift, shift, turn)
+    covariance: Array = slopes @ slopes.T
+    return covariance
+
+
+def _log_density(error: Array, covariance: Array) -> float:
+    """Of a vector of this covariance."""
+    _, size = np.linalg.slogdet(2 * np.pi * covariance)
+    return float(-0.5 * (size + error @ np.linalg.solve(covariance, error)))
+
+
+def _verdict(accounts: Sequence[Account], *, count: int, fixed: bool) -> str:
+    """What may be said of it."""
+    best = accounts[0]
+    if best.odds < GATE:
+        return CANNOT_TELL
+    # With a single mark any slip looks like some sheet that was shifted.
+    if best.kind in (SLIP, SHEET) and count < 2 and not fixed:
+        return CANNOT_TELL
+    return best.kind
+
+
+def _left(errors: Array, holes: Array, kind: str, sigma: float) -> Array:
+    """Errors (n, 2) [mm] that an account leaves; a sheet is laid where it fits best."""
+    if kind != SHEET:
+        return errors
+    slopes, widest = pose_slopes(holes), POSES[-1]
+    held = np.diag([1 / widest[0] ** 2, 1 / widest[0] ** 2, 1 / widest[1] ** 2]) * sigma**2
+    pose = np.linalg.solve(slopes.T @ slopes + held, slopes.T @ errors.ravel())
+    left: Array = (errors.ravel() - slopes @ pose).reshape(-1, 2)
+    return left
