@@ -89,6 +89,16 @@ def _groups(numbers: Array) -> int:
     return int(numbers.max(initial=0)) + 1
 
 
+def last_turn_of(names: Iterable[str]) -> str:
+    """The number that says how the last sheet is turned against the first; empty if none does."""
+    turns = {
+        unknown.group: name
+        for name in names
+        if (unknown := pose_of(name)) and POSE_AXES[unknown.axis] == "rotation"
+    }
+    return turns[max(turns)] if turns else ""
+
+
 def _parsed(pattern: re.Pattern[str], axes: tuple[str, ...], name: str) -> RoundUnknown | None:
     match = pattern.fullmatch(name)
     return RoundUnknown(int(match[1]) - 1, axes.index(match[2])) if match else None

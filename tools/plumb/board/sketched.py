@@ -59,7 +59,7 @@ def with_sketches(
         return Sketched(where, by_value, {}, outcome)
 
     def strands(places: Array) -> Strands:
-        return _strands(values, rows, places, over_top=over_top, usual_weight=usual_weight)
+        return strands_at(values, rows, places, over_top=over_top, usual_weight=usual_weight)
 
     def added(sketch: Sketch, parameters: Array, seen: Strands) -> Array:
         """Chain more (r, 2) [mm] by a sketch, by what it adds and by the push."""
@@ -155,9 +155,10 @@ def _pushed(
     return chain
 
 
-def _strands(
+def strands_at(
     values: Array, rows: Observations, where: Array, *, over_top: bool, usual_weight: float
 ) -> Strands:
+    """Both strands of a sled at `where` (r, 2) [mm], as heavy as on each visit."""
     count = len(where)
     shown = {name: np.zeros((count, 2)) for name in ("free", "cosine", "sine", "pull", "length")}
     for weight in np.unique(rows.sled_weights):

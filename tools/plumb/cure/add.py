@@ -4,37 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
-from plumb.board.observations import Observations, different_numbers
+from plumb.board.observations import Observations
 from plumb.board.rounds import notes_on, unit_of
 from plumb.board.sighting import SHEET_ROTATION
-from plumb.cure.noise import noise_of
+from plumb.cure.live_board import Chosen, LiveBoard, refuse_unknown_effects
 from plumb.fit.compare import Comparison, compare
-from plumb.fit.fit import Estimate, Fit, fit, rms
+from plumb.fit.fit import Estimate, Fit, rms
 from plumb.fit.inputs import Inputs
 from plumb.fit.patch import PATCH, best_patch
 from plumb.fit.plausible import PlausibleRange, plausible_range
 from plumb.fit.problem import PRIORS
 from plumb.fit.shape import best_pose
-from plumb.marks.read import Measurements
 from plumb.marks.score import Score, score_of
 from plumb.model.catalogue import (
     NO_FIRMWARE,
-    effect_names,
     is_sketch,
-    parameter_names,
     parameter_words,
 )
 from plumb.model.lab_effects import LAB_EFFECTS
-from plumb.model.lab_effects.lab_effect import EDGES, SLED, TAPE
 from plumb.model.plain import named, plain_name, plain_range, plain_size
 from plumb.model.predict import frame_words
 from plumb.model.sketches import SKETCHES
 from plumb.settings.machine import FRAME_FIELDS, MachineSettings
 from plumb.text.errors import InputError
+from plumb.text.readers import to_do
 from plumb.text.shown import bare, worded
 from plumb.text.values import refuse_unknown
 
@@ -121,8 +117,9 @@ class Addition:
 
     @property
     def sheet_rise(self) -> float:
-        """How far to raise the sheet's right end [mm] to undo its rotation; no setting holds it."""
-        return float(np.tan(self.after_fit.sheet_rotation)) * self.settings.sheet_width
+        """How far to raise the last sheet's right end [mm] to undo its rotation; no setting holds
+        it."""
+        return float(np.tan(self.after_fit.last_sheet_rotation)) * self.settings.sheet_width
 
     @property
     def pays(self) -> bool:
@@ -134,33 +131,46 @@ def add(
     inputs: Inputs,
     *,
     effects: Sequence[str],
+    held: Mapping[str, float] | None = None,
     patch: bool = False,
 ) -> Addition:
     """Fit frame and effects to the marks; effects that the settings have already stay as they are.
 
-    patch: with them a residual patch, if marks left out are then predicted better.
+    held: parameters of the effects, by full name, that keep these sizes. patch: with them a
+    residual patch, if marks left out are then predicted better.
 
     Raises InputError for unknown effects, too few marks, and marks that cannot be reached.
     """
-    names = tuple(dict.fromkeys(effects))
-    _refuse_unknown_effects(names)
-    measurements, priors = inputs.measurements, inputs.priors
-    raw = compare(
-        inputs.settings, measurements, cut_with=inputs.cut_with, controller=inputs.controller
+    chosen = Chosen(tuple(dict.fromkeys(effects)), held or {})
+    refuse_unknown_effects(chosen.effects)
+    raw = raw_comparison(inputs)
+    board = LiveBoard(inputs, warm=False)
+    board.refuse(chosen)
+    return add_to(board, raw, chosen, patch=patch)
+
+
+def raw_comparison(inputs: Inputs) -> Comparison:
+    """The marks against the settings as they stand."""
+    return compare(
+        inputs.settings,
+        inputs.measurements,
+        cut_with=inputs.cut_with,
+        controller=inputs.controller,
     )
-    model, rows = inputs.model_and_observations()
-    _refuse_too_few(measurements, rows, names, priors)
-    _refuse_unfelt(measurements, rows, names)
-    noise = noise_of(inputs, model, rows)
-    known = inputs.checked
-    weighted = partial(fit, model, rows, sigma=noise.sigma, degrees=noise.degrees, checked=known)
-    before_fit = weighted(priors=priors)
+
+
+def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = False) -> Addition:
+    """The same on a board that is at hand, for a choice that it does not refuse."""
+    rows, noise = board.rows, board.noise
+    names = chosen.effects
+    before_fit = board.fit(Chosen())
     before = quality_of(before_fit, rows)
-    fits = [weighted(effects=names[: i + 1], priors=priors) for i in range(len(names))]
+    fits = [board.fit(chosen.first(i + 1)) for i in range(len(names))]
     steps = _steps(names, before, fits, rows)
     after_fit = fits[-1] if fits else before_fit
     if patch:
-        patched = best_patch(weighted, effects=names, priors=priors, without=after_fit)
+        weighted = board.weighted(chosen.held)
+        patched = best_patch(weighted, effects=names, priors=board.inputs.priors, without=after_fit)
         if patched:
             after_fit, names = patched.fit, (*names, PATCH)
             earlier = steps[-1].quality if steps else before
@@ -175,7 +185,7 @@ def add(
         after_fit=after_fit,
         parameters=parameters,
         effects_added=tuple(
-            name for name in names if not any(model.effects.get(name, {}).values())
+            name for name in names if not any(board.model.effects.get(name, {}).values())
         ),
         warnings=(
             *raw.warnings,
@@ -188,7 +198,7 @@ def add(
         ),
         steps=steps,
         sigma_from=noise.source,
-        benchmark_after=score_of(measurements, after_fit.distance_errors.tolist()),
+        benchmark_after=score_of(board.inputs.measurements, after_fit.distance_errors.tolist()),
     )
 
 
@@ -199,7 +209,7 @@ def priors_with(changes: Iterable[tuple[str, float]]) -> dict[str, float]:
         try:
             refuse_unknown([name], (*FRAME_FIELDS, SHEET_ROTATION))
         except ValueError as error:
-            raise InputError(f"--prior {name}: {error}") from None
+            raise InputError(f"{to_do('--prior', page='how far off is')} {name}: {error}") from None
         priors[name] = sigma
     return priors
 
@@ -220,48 +230,6 @@ def quality_of(fitted: Fit, rows: Observations) -> Quality:
         worst=float(lengths.max()),
         shape_rms=rms(pose.errors) if pose else None,
     )
-
-
-def _refuse_unknown_effects(names: Sequence[str]) -> None:
-    known = effect_names()
-    for name in names:
-        if name == PATCH:
-            raise InputError(
-                f"--effect {name}: it is no effect; give --patch to choose it knowingly"
-            )
-        if name not in known:
-            raise InputError(
-                f"--effect {name}: there is no effect of that name; known are {', '.join(known)}"
-            )
-
-
-def _refuse_too_few(
-    measurements: Measurements,
-    rows: Observations,
-    effects: Sequence[str],
-    priors: Mapping[str, float],
-) -> None:
-    count = different_numbers(measurements, rows)
-    frame = sum(sigma > 0 for sigma in priors.values())
-    free = sum(len(parameter_names(name)) for name in effects)
-    if count < frame + free:
-        raise InputError(
-            f"{measurements.source}: {count} measured numbers cannot settle {frame + free} unknowns"
-            f" ({frame} of frame and sheet, {free} of the effects); measure more marks, add fewer "
-            "effects, or hold numbers that you know with --prior NAME=0"
-        )
-
-
-def _refuse_unfelt(measurements: Measurements, rows: Observations, effects: Sequence[str]) -> None:
-    """Refuse a lab effect that changes none of the measured numbers."""
-    approached = bool(rows.approaches[[*rows.mark_rows, *rows.distance_rows.ravel()]].any())
-    felt = {SLED: approached, EDGES: len(rows.mark_rows) > 0, TAPE: True}
-    for effect in LAB_EFFECTS:
-        if effect.name in effects and not felt[effect.acts_on]:
-            raise InputError(
-                f"{measurements.source}: {effect.name} needs {effect.needs}: nothing here depends "
-                "on it"
-            )
 
 
 def _cure(name: str, parameters: Mapping[str, float]) -> str:

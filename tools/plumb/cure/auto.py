@@ -12,6 +12,7 @@ from plumb.marks.read import Measurements
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly
 from plumb.text.errors import InputError
+from plumb.text.readers import to_do
 from plumb.text.values import refuse_unknown
 
 
@@ -40,8 +41,10 @@ def add_auto(
     inputs: Inputs,
     *,
     patch: bool = False,
+    diagnosis: Diagnosis | None = None,
 ) -> AutoAddition:
-    """Diagnose the marks and add the best explanation that a real machine can have.
+    """Diagnose the marks and add the best explanation that a real machine can have. `diagnosis` is
+    that of these inputs, if it is known.
 
     Where the library has none, the effects that come nearest are added as long as marks left out
     are predicted better with them: to leave out a large effect because a small effect is unknown
@@ -51,7 +54,7 @@ def add_auto(
     would; so with its effects nothing more is provable. Several of them: the first of the
     diagnosis. Raises InputError as diagnose() and add() do.
     """
-    diagnosis = diagnose(inputs)
+    diagnosis = diagnosis or diagnose(inputs)
     if diagnosis.verdict == "slip":
         return AutoAddition(diagnosis, (), (), None, _slip_reason(diagnosis))
     known = diagnosis.verdict != "not_in_library"
@@ -107,7 +110,7 @@ def without_marks(measurements: Measurements, names: Iterable[str]) -> Measureme
     try:
         refuse_unknown(gone, known)
     except ValueError as error:
-        raise InputError(f"--without {error}") from None
+        raise InputError(f"{to_do('--without', page='left out:')} {error}") from None
     return replace(
         measurements,
         marks=tuple(mark for mark in measurements.marks if mark.name not in gone),
@@ -120,8 +123,11 @@ def without_marks(measurements: Measurements, names: Iterable[str]) -> Measureme
 def _slip_reason(diagnosis: Diagnosis) -> str:
     names = ", ".join(dict.fromkeys(slip.name for slip in diagnosis.slips))
     return (
-        f"nothing was added: look at the reading of {names} again first and correct it in the "
-        "file, or leave the mark out with --without NAME"
+        f"nothing was added: look at the reading of {names} again first, and correct it "
+        + to_do(
+            "in the file, or leave the mark out with --without NAME",
+            page="under Readings, or clear it there",
+        )
     )
 
 
@@ -134,7 +140,7 @@ def _reason(
         part = f"only {plainly(chosen)}, as far as it goes," if chosen else "no effect"
         return (
             f"not all that the marks show is in the library, so {part} was added; read the worst "
-            "marks again, and see plumb next for what to measure"
+            "marks again, and see " + to_do("plumb next", page="Verdict") + " for what to measure"
         )
     if not chosen:
         tried = "; ".join(plainly(explanation.effects) for explanation in diagnosis.explanations)
@@ -146,8 +152,9 @@ def _reason(
     name = plainly(chosen)
     if rivals:
         others = ", or ".join(plainly(rival) for rival in rivals)
+        asked = to_do("plumb next", page="Verdict")
         return (
-            f"a choice: {name} explains the marks best, but they allow {others} as well; plumb "
-            "next says what to measure to tell them apart"
+            f"a choice: {name} explains the marks best, but they allow {others} as well; {asked} "
+            "says what to measure to tell them apart"
         )
     return f"{name} explains the marks; with it nothing more is provable"

@@ -43,6 +43,10 @@ class Together:
         """Whether the intervals of all sizes reach what a real machine may have."""
         return all(size.possible for sizes in self.sizes.values() for size in sizes)
 
+    def explained_share(self, rms_before: float) -> float:
+        """Share of the squared error that the frame leaves [mm RMS] and this takes away."""
+        return max(0.0, 1 - (self.rms_after / rms_before) ** 2) if rms_before else 0.0
+
 
 @dataclass(frozen=True)
 class Diagnosis:

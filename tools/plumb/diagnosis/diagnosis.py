@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from plumb.diagnosis.answer import Diagnosis, Together
-from plumb.diagnosis.clean import clean_readings
+from plumb.diagnosis.clean import CleanReadings, clean_readings
 from plumb.diagnosis.doubts import find_doubts
 from plumb.diagnosis.explanation import Explanation
 from plumb.diagnosis.gain import search
@@ -19,11 +20,25 @@ from plumb.diagnosis.sizes import sizes_of
 from plumb.fit.inputs import Inputs
 
 
+@dataclass(frozen=True)
+class Examined:
+    """A diagnosis with the fits that it rests on."""
+
+    diagnosis: Diagnosis
+    readings: CleanReadings
+    explanations: tuple[Explanation, ...]  # those of the diagnosis, in its order
+
+
 def diagnose(inputs: Inputs) -> Diagnosis:
     """Find what the model of these settings misses in the marks, and in numbers checked directly.
 
     Raises InputError for too few marks, and marks that cannot be reached.
     """
+    return examine(inputs).diagnosis
+
+
+def examine(inputs: Inputs) -> Examined:
+    """The same with its fits, for pictures of them."""
     board = measured_board(inputs)
     readings = clean_readings(board, inputs)
     gate = search(readings.frame, readings.felt, readings.noise)
@@ -31,7 +46,7 @@ def diagnose(inputs: Inputs) -> Diagnosis:
     ranking = rank(readings)
     rounds = [part.name for part in inputs.measurements.rounds]
     doubts = find_doubts(readings, gate, judgement, ranking, rounds)
-    return Diagnosis(
+    diagnosis = Diagnosis(
         verdict=judgement.verdict,
         noise=readings.noise,
         limit=gate.limit,
@@ -47,6 +62,7 @@ def diagnose(inputs: Inputs) -> Diagnosis:
         warnings=doubts.warnings,
         disagreements=doubts.disagreements,
     )
+    return Examined(diagnosis, readings, judgement.explanations)
 
 
 def _explanations(judgement: Judgement, noise: Noise) -> tuple[Together, ...]:

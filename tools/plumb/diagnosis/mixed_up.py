@@ -71,13 +71,15 @@ def _slip(
         names = [" - ".join(measurements.distances[i].between) for i in (index, other)]
         read, expected = (measurements.distance_lengths[[i]] for i in (index, other))
     sigma = mixed_up.board.sigma
+    both = f"its reading and that of {names[1]}" if names[0] != names[1] else "its two readings"
     return Slip(
         name=names[0],
         offset=tuple((read - expected).tolist()),
         sigma=(sigma,) * len(read),
         read=tuple(read.tolist()),
         expected=tuple(expected.tolist()),
-        guess=f"its reading and that of {names[1]} may be exchanged",
+        guess=f"{both} may be exchanged",
+        corrected=tuple(expected.tolist()),
     )
 
 
@@ -97,8 +99,7 @@ def _best(board: Board) -> MixedPair | None:
         tried += int(np.sum(drops > -np.inf))
         if drops.size and drops.max() > most:
             i, j = (int(at) for at in np.unravel_index(np.argmax(drops), drops.shape))
-            free = _free(basis, left, np.concatenate([numbers[i], numbers[j]]))
-            if drops[i, j] > SHARE * free:
+            if drops[i, j] > _needed(basis, left, numbers[[i, j]]):
                 best, most = MixedPair(i, j, is_mark), float(drops[i, j])
     # exp(-drop / 2) is the ratio of likelihoods of a guess that has no free number.
     return best if best and tried * np.exp(-most / 2) < LUCK else None
@@ -120,6 +121,16 @@ def _drops(basis: Array, left: Array, numbers: Array, readings: Array) -> Array:
     drops = -2 * np.sum(apart * pull, axis=-1) - np.einsum("ija,ijab,ijb->ij", apart, bent, apart)
     question = np.triu(np.abs(apart).max(axis=-1, initial=0.0) > APART, 1)
     return np.where(question, drops, -np.inf)
+
+
+def _needed(basis: Array, left: Array, pair: Array) -> float:
+    """The drop from which on two readings were mixed up, and neither both nor one of them misread.
+
+    The library can bend much of the board to two neighbours that are off alike. So a misread repeat
+    of a mark gains by an exchange too, but less than by setting it alone free.
+    """
+    alone = max(_free(basis, left, numbers) for numbers in pair)
+    return max(SHARE * _free(basis, left, pair.ravel()), alone)
 
 
 def _free(basis: Array, left: Array, numbers: Array) -> float:

@@ -22,6 +22,7 @@ from plumb.diagnosis.significance import KNOWN
 from plumb.diagnosis.spread import Spread
 from plumb.fit.inputs import Stated
 from plumb.fit.problem import USUAL_SIGMA
+from plumb.text.readers import to_do
 from plumb.text.shown import worded
 
 STATEMENT = 10.0  # degrees of freedom that a stated sigma is worth when it meets repeats
@@ -66,8 +67,8 @@ def guessed_noise(scatter: Spread) -> Noise:
     """
     large = scatter.degrees >= FEW_SCATTER and _exceeds(scatter, USUAL_SIGMA)
     if large and scatter.sigma <= LARGEST_SIGMA:
-        return Noise(scatter.sigma, scatter.degrees, "scatter", (_SCATTER, _ASK))
-    return Noise(LARGEST_SIGMA if large else USUAL_SIGMA, KNOWN, "default", (_ASK,))
+        return Noise(scatter.sigma, scatter.degrees, "scatter", (_SCATTER, _ask()))
+    return Noise(LARGEST_SIGMA if large else USUAL_SIGMA, KNOWN, "default", (_ask(),))
 
 
 def _together(repeats: Spread, stated: Stated) -> Noise:
@@ -97,7 +98,10 @@ def _contradiction(repeats: Spread, stated: Stated) -> tuple[str, ...]:
     if not (more or less):
         return ()
     if stated.is_final:
-        used = f"the {stated.sigma:g} mm of --sigma are used; leave it out to use the repeats"
+        used = to_do(
+            f"the {stated.sigma:g} mm of --sigma are used; leave it out to use the repeats",
+            page=f"the stated {stated.sigma:g} mm are used",
+        )
     elif repeats.degrees >= FEW_REPEATS:
         used = "the repeats are believed"
     else:
@@ -119,10 +123,14 @@ def _falls_below(spread: Spread, sigma: float) -> bool:
     return bool(scipy.special.chdtr(spread.degrees, spread.squares / sigma**2) < SURE)
 
 
-_ASK = (
-    "no reading error is stated and no mark was read twice: a tape's usual error is taken, and "
-    "what hangs on it may be wrong; read three marks three times, or give --sigma"
-)
+def _ask() -> str:
+    return (
+        "no reading error is stated and no mark was read twice: a tape's usual error is taken, and "
+        "what hangs on it may be wrong; read three marks three times, or "
+        + to_do("give --sigma", page="choose the finest lines of your tape under Readings")
+    )
+
+
 _SCATTER = (
     "the marks scatter more than a tape usually does about everything the library can draw: that "
     "scatter is taken for noise, and an unknown effect would hide in it"

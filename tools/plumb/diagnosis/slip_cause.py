@@ -27,6 +27,7 @@ class Slip:
     expected: tuple[float, ...]  # [mm] what the rest says
     guess: str  # the likely cause, or nothing
     against: str = EXPLANATIONS  # what it disagrees with
+    corrected: tuple[float, ...] | None = None  # [mm] what was meant, if the guess is right
 
     @property
     def length(self) -> float:
@@ -76,8 +77,16 @@ def described(shift: Shift, measurements: Measurements, sheet: tuple[float, floa
         name = " - ".join(measurements.distances[index].between)
         read = (measurements.distances[index].length,)
     expected = tuple(a - b for a, b in zip(read, offset, strict=True))
-    guess = _EITHER if shift.is_one_of_two else _guess(read, offset, sigma, sheet)
-    return Slip(name, offset, sigma, read, expected, guess, shift.against)
+    guess = Guess(_EITHER) if shift.is_one_of_two else _guess(read, offset, sigma, sheet)
+    return Slip(name, offset, sigma, read, expected, guess.said, shift.against, guess.corrected)
+
+
+@dataclass(frozen=True)
+class Guess:
+    """What a slip most likely was."""
+
+    said: str = ""  # for people; nothing if nobody knows
+    corrected: tuple[float, ...] | None = None  # [mm] the reading that was meant
 
 
 def _guess(
@@ -85,12 +94,13 @@ def _guess(
     offset: tuple[float, ...],
     sigma: tuple[float, ...],
     sheet: tuple[float, float],
-) -> str:
+) -> Guess:
     """The first usual mistake that agrees with the shift in every coordinate."""
     expected = np.subtract(read, offset)
     for frame in _as_read(np.array(read), sheet):
-        if len(read) == 2 and _agree(frame.back(frame.numbers[::-1]), expected, sigma):
-            return "x and y may be exchanged"
+        meant = frame.back(frame.numbers[::-1])
+        if len(read) == 2 and _agree(meant, expected, sigma):
+            return Guess("x and y may be exchanged", _places(meant))
         wrong = [i for i in range(len(read)) if abs(offset[i]) > SURELY * sigma[i]]
         if len(wrong) != 1:
             continue
@@ -98,9 +108,14 @@ def _guess(
         for other in _transposed(number):
             changed = frame.numbers.copy()
             changed[wrong[0]] = other
-            if _agree(frame.back(changed), expected, sigma):
-                return f"{_shown(number)} written for {_shown(other)}?"
-    return _round_number(offset, sigma)
+            meant = frame.back(changed)
+            if _agree(meant, expected, sigma):
+                return Guess(f"{_shown(number)} written for {_shown(other)}?", _places(meant))
+    return _round_number(read, offset, sigma)
+
+
+def _places(numbers: np.ndarray) -> tuple[float, ...]:
+    return tuple(float(number) for number in numbers)
 
 
 @dataclass(frozen=True)
@@ -153,15 +168,19 @@ def _agree(guess: np.ndarray, expected: np.ndarray, sigma: tuple[float, ...]) ->
     return bool(np.all(np.abs(guess - expected) <= CLOSE * np.array(sigma)))
 
 
-def _round_number(offset: tuple[float, ...], sigma: tuple[float, ...]) -> str:
+def _round_number(
+    read: tuple[float, ...], offset: tuple[float, ...], sigma: tuple[float, ...]
+) -> Guess:
     """A single coordinate off by what a tape or a ruler is misread by."""
     wrong = [i for i in range(len(offset)) if abs(offset[i]) > SURELY * sigma[i]]
     if len(wrong) != 1:
-        return ""
+        return Guess()
     i = wrong[0]
     for size in ROUND:
         if size >= 5 and abs(abs(offset[i]) - size) <= min(CLOSE * sigma[i], size / 8):
             said = "an inch" if size == 25.4 else f"{size:g} mm"
             axis = "" if len(offset) == 1 else f" in {'xy'[i]}"
-            return f"misread by {said}{axis}?"
-    return ""
+            meant = np.array(read)
+            meant[i] -= np.copysign(size, offset[i])
+            return Guess(f"misread by {said}{axis}?", _places(meant))
+    return Guess()

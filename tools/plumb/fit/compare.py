@@ -9,7 +9,7 @@ import numpy as np
 
 from plumb.board.observations import Observations, model_and_observations
 from plumb.board.sighting import Sighting, sighted
-from plumb.board.visits import chains_to
+from plumb.fit.chain_view import chain_errors
 from plumb.fit.fit import rms
 from plumb.fit.known_boards import known_outside
 from plumb.fit.shape import best_pose
@@ -19,6 +19,7 @@ from plumb.model.predict import FOUND, FOUND_WORDS, values_of
 from plumb.settings.fit_record import FitRecord
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
+from plumb.text.readers import to_do
 
 Point = tuple[float, float]
 
@@ -32,7 +33,7 @@ class ComparedMark:
     predicted: Point
     measured: Point
     error: Point  # measured - predicted
-    left_chain_residual: float | None  # our chain to the measured place - chain paid out
+    left_chain_residual: float | None  # chain to the measured place - chain to the predicted place
     right_chain_residual: float | None  # None: no chain reaches the measured place
 
     @property
@@ -176,7 +177,10 @@ def predicted_sighting(
         raise InputError(
             f"{measurements.source}, mark {measurements.marks[i].name}: with these settings its "
             f"chains lead nowhere ({FOUND_WORDS[sighting.outcome[i]]}); check the settings, or "
-            "give those it was cut with by --cut-with"
+            + to_do(
+                "give those it was cut with by --cut-with",
+                page="name those it was cut with in its form, as cut_with",
+            )
         )
     return sighting
 
@@ -186,20 +190,20 @@ def _marks(
 ) -> tuple[ComparedMark, ...]:
     """Each mark as it is seen; `hung` is where the sled was, whatever the sheet did."""
     where, measured = seen.read.where[rows.mark_rows], rows.measured
-    on_machine = measured - (where - hung.read.where[rows.mark_rows])
-    needed, outcome = chains_to(model, on_machine, rows.sled_weights[rows.mark_rows])
+    places, weights = hung.read.where[rows.mark_rows], rows.sled_weights[rows.mark_rows]
+    chains = chain_errors(model, places, measured - where, weights)
     marks = []
-    for i, row in enumerate(rows.mark_rows):
-        left, right = needed[i] - rows.chains[row]
+    for i, name in enumerate(rows.names):
+        left, right = (None if np.isnan(more) else float(more) for more in chains[i])
         marks.append(
             ComparedMark(
-                name=rows.names[i],
+                name=name,
                 target=_point(rows.targets[i]),
                 predicted=_point(where[i]),
                 measured=_point(measured[i]),
                 error=_point(measured[i] - where[i]),
-                left_chain_residual=float(left) if outcome[i] == FOUND else None,
-                right_chain_residual=float(right) if outcome[i] == FOUND else None,
+                left_chain_residual=left,
+                right_chain_residual=right,
             )
         )
     return tuple(marks)
@@ -229,6 +233,9 @@ def _warnings(
     if known or settings.controller != "plumb" or whose in (None, "plumb"):
         return ()
     return (
-        f"the marks were cut by the {whose} controller, but these settings are of plumb: give the "
-        "groundcontrol.ini that was in force with --cut-with",
+        f"the marks were cut by the {whose} controller, but these settings are of plumb: "
+        + to_do(
+            "give the groundcontrol.ini that was in force with --cut-with",
+            page="name the groundcontrol.ini that was in force in their form, as cut_with",
+        ),
     )

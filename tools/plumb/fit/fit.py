@@ -9,6 +9,7 @@ import numpy as np
 import scipy
 
 from plumb.board.observations import Observations
+from plumb.board.rounds import last_turn_of
 from plumb.board.sighting import OUTSIDE_NAMES, SHEET_ROTATION
 from plumb.fit.problem import PRIORS, USUAL_SIGMA, Checked, Problem
 from plumb.fit.solver import Solution, solve
@@ -17,6 +18,7 @@ from plumb.model.predict import Array, settings_of
 from plumb.settings.machine import MachineSettings
 
 UNFELT = 1e-6  # [sigmas of a reading] that an unknown moves by its typical size, at most
+LIVE = 1e-9  # of chi-square: nobody sees what a step below it changes, under 1e-4 sigmas
 SMALLEST_SIGMA = 1e-9  # [mm] for marks that a model explains completely
 
 
@@ -51,11 +53,33 @@ class Fit:
     sigma: float  # [mm] of one number, stated or estimated
     sigma_from: str  # "stated" or "residuals"
     settled: bool  # False: the search stopped at its limit of tries
+    covariance: Array  # (u, u) of the unknowns, in the order of `estimates` and in their units
 
     @property
     def shows_sheet_rotation(self) -> bool:
         """Whether the measured numbers depend on it: distances alone do not."""
         return any(each.name == SHEET_ROTATION and each.felt for each in self.estimates)
+
+    @property
+    def last_sheet_rotation(self) -> float:
+        """How the sheet is turned that was cut last [rad]: the first and what the last adds."""
+        last = last_turn_of(each.name for each in self.estimates)
+        return self.sheet_rotation + sum(each.value for each in self.estimates if each.name == last)
+
+    @property
+    def proves_sheet_rotation(self) -> bool:
+        """Whether the last sheet is turned for certain: its interval leaves out zero."""
+        names = [each.name for each in self.estimates]
+        turns = [
+            names.index(each) for each in (SHEET_ROTATION, last_turn_of(names)) if each in names
+        ]
+        felt = [self.estimates[i] for i in turns if self.estimates[i].felt]
+        if not felt:
+            return False
+        sigma = float(self.covariance[np.ix_(turns, turns)].sum()) ** 0.5
+        alone = float(self.covariance[turns[0], turns[0]]) ** 0.5
+        half = (self.estimates[turns[0]].high - self.estimates[turns[0]].low) / 2
+        return bool(abs(self.last_sheet_rotation) * alone > half * sigma)
 
     @property
     def rms(self) -> float:
@@ -90,18 +114,35 @@ def fit(
     sigma: float | None = None,
     degrees: float = np.inf,
     checked: Sequence[Checked] = (),
+    held: Mapping[str, float] | None = None,
+    near: Fit | None = None,
 ) -> Fit:
     """Fit the frame within its priors and the parameters of `effects` to the observations.
 
     `settings` is the model to start from; sigma [mm] of one coordinate, estimated if None, and the
     degrees of freedom that it is known with. `checked` are numbers that were measured directly;
-    those of what is not fitted do not count.
+    those of what is not fitted do not count. `held` are parameters, by full name, that keep these
+    sizes. The search begins at the numbers of `near` and ends a little earlier: for live
+    pictures.
     """
     names = tuple(effects)
     fitted = {*priors, *(parameter for name in names for parameter in parameter_names(name))}
+    fitted -= {*(held or ())}
     known = [check for check in checked if check.name in fitted and priors.get(check.name, 1.0) > 0]
-    problem = Problem.of(settings, observations, names, priors, sigma or USUAL_SIGMA, known)
-    return _fit_of(problem, solve(problem), sigma, degrees)
+    sigma_used = sigma or USUAL_SIGMA
+    problem = Problem.of(settings, observations, names, priors, sigma_used, known, held)
+    return _fit_of(problem, _solved(problem, near), sigma, degrees)
+
+
+def _solved(problem: Problem, near: Fit | None) -> Solution:
+    """The least chi-square, searched from the numbers of another fit if the sled hangs there."""
+    if near is None:
+        return solve(problem)
+    known = {estimate.name: estimate.value for estimate in near.estimates}
+    starts = zip(problem.names, problem.start, strict=True)
+    values = np.array([known.get(name, at) for name, at in starts])
+    at_start = problem.at((values - problem.start) / problem.scale)
+    return solve(problem, at_start=at_start, close_enough=LIVE)
 
 
 def _fit_of(problem: Problem, solution: Solution, stated: float | None, degrees: float) -> Fit:
@@ -118,7 +159,8 @@ def _fit_of(problem: Problem, solution: Solution, stated: float | None, degrees:
     width = 1.96 if np.isinf(known) else float(scipy.special.stdtrit(known, 0.975))
     # Intervals for the noise as estimated; what a prior or a check holds grows no wider than that.
     normal = slopes.T @ slopes * (problem.sigma / sigma) ** 2 + priors
-    deviation = np.sqrt(np.diag(np.linalg.pinv(normal, hermitian=True)))
+    covariance = np.linalg.pinv(normal, hermitian=True)
+    deviation = np.sqrt(np.diag(covariance))
     marks, distances = errors[: rows.measured.size].reshape(-1, 2), errors[rows.measured.size :]
     left_marks, left_distances = _left_out(rows.names, marks, distances, leverage)
     # What no measured number depends on stays where it was, to the last bit.
@@ -139,6 +181,7 @@ def _fit_of(problem: Problem, solution: Solution, stated: float | None, degrees:
         sigma=sigma,
         sigma_from="residuals" if stated is None else "stated",
         settled=solution.settled,
+        covariance=covariance * np.outer(problem.scale, problem.scale),
     )
 
 
@@ -180,8 +223,10 @@ def _left_out(
     Repeats of a mark are left out together, or each would be predicted by its twin.
     """
     left_marks = np.zeros_like(marks)
-    for name in set(names):
-        repeats = np.flatnonzero(np.array(names) == name)
+    places: dict[str, list[int]] = {}
+    for place, name in enumerate(names):
+        places.setdefault(name, []).append(place)
+    for repeats in map(np.array, places.values()):
         block = np.stack([2 * repeats, 2 * repeats + 1], axis=1).ravel()
         kept = np.eye(len(block)) * (1 + 1e-12) - leverage[np.ix_(block, block)]
         left_marks[repeats] = np.linalg.solve(kept, marks[repeats].ravel()).reshape(-1, 2)

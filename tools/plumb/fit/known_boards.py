@@ -14,6 +14,7 @@ from plumb.marks.read import Measurements
 from plumb.settings.fit_record import FitRecord
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import refusal
+from plumb.text.readers import to_do
 
 
 def with_settings_in_force(
@@ -35,7 +36,10 @@ def with_settings_in_force(
             part.source,
             f"was cut with {file_round.changed}, which has changed since",
             place="cut_with",
-            remedy="give the settings that were in force with --cut-with, or correct cut_with",
+            remedy=to_do(
+                "give the settings that were in force with --cut-with, or correct cut_with",
+                page="put the settings that were in force into the folder, and name them there",
+            ),
         )
     if record and record.knows_other_settings(settings) and not _reports_chains(part):
         name = settings.file.name if settings.file else "these settings"
@@ -43,8 +47,12 @@ def with_settings_in_force(
             part.source,
             f"does not say which settings it was cut with, and {name} was fitted to marks that "
             f"were cut with {_others(record)}",
-            remedy=f"give --cut-with SETTINGS ({name} itself if it was in force), or write "
-            "cut_with in the marks.toml",
+            remedy=to_do(
+                f"give --cut-with SETTINGS ({name} itself if it was in force), or write cut_with "
+                "in the marks.toml",
+                page=f'write cut_with = "{name}" at the top of the form if it was in force, else '
+                "the name of what was",
+            ),
         )
     return part
 

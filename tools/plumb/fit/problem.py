@@ -13,7 +13,7 @@ solid part and is not fitted at all.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from plumb.board.observations import Observations
 from plumb.board.rounds import round_priors
 from plumb.board.sighting import SHEET_ROTATION, Sighting, sighted
 from plumb.model.catalogue import parameter_names, parameter_words
-from plumb.model.predict import FOUND, NAMES, Array, values_of
+from plumb.model.predict import FOUND, NAMES, Array, values_of, with_parameters
 from plumb.settings.machine import MachineSettings
 
 USUAL_SIGMA = 0.5  # [mm] of one coordinate read with a tape by hand
@@ -71,6 +71,7 @@ class Problem:
     held: Array  # True where a prior holds the unknown
     sigma: float  # [mm] of one measured number
     checked: tuple[Checked, ...] = ()
+    outside: Mapping[str, float] = field(default_factory=dict)  # held, though no setting holds it
 
     @staticmethod
     def of(
@@ -80,10 +81,18 @@ class Problem:
         priors: Mapping[str, float],
         sigma: float,
         checked: Sequence[Checked] = (),
+        held: Mapping[str, float] | None = None,
     ) -> Problem:
-        """The problem of a board for a model that starts from these settings."""
+        """The problem of a board for a model that starts from these settings.
+
+        `held` are parameters of effects, by full name, that keep these sizes.
+        """
+        held = held or {}
+        in_model = {name: size for name, size in held.items() if name in NAMES}
+        settings = with_parameters(settings, in_model) if in_model else settings
         typical = {name: words["typical"] for name, words in parameter_words().items()}
-        free = [name for effect in effects for name in parameter_names(effect)]
+        each = (name for effect in effects for name in parameter_names(effect))
+        free = [name for name in each if name not in held]
         priors = {**priors, **round_priors(observations)}
         kept = [name for name in priors if priors[name] > 0]
         names = (*kept, *free)
@@ -97,6 +106,7 @@ class Problem:
             held=np.array([True] * len(kept) + [False] * len(free), dtype=bool),
             sigma=sigma,
             checked=tuple(checked),
+            outside={name: size for name, size in held.items() if name not in in_model},
         )
 
     def at(self, unknowns: Array) -> Linearized | None:
@@ -126,7 +136,7 @@ class Problem:
     def values(self, unknowns: Array) -> tuple[Array, dict[str, float]]:
         """The model's values array, and what lies outside of the machine by name."""
         values = values_of(self.settings)
-        outside = {}
+        outside = dict(self.outside)
         for name, value in zip(self.names, self.start + self.scale * unknowns, strict=True):
             if name in NAMES:
                 values[NAMES.index(name)] = value

@@ -5,8 +5,9 @@ from plumb.grid.form import marks_list
 from plumb.grid.gcode import program
 from plumb.grid.options import MIN_FREE_CHAIN, Grid, GridError, PlainMachine
 from plumb.grid.picture import preview
+from plumb.grid.spans import spans_of
 from plumb.grid.touches import listed, touches_of
-from plumb.grid.way import check, tensions
+from plumb.grid.way import check, inwards, tensions
 
 __all__ = [
     "MIN_FREE_CHAIN",
@@ -16,12 +17,14 @@ __all__ = [
     "add_arguments",
     "check",
     "from_arguments",
+    "inwards",
     "listed",
     "main",
     "marks_list",
     "preview",
     "program",
     "run",
+    "spans_of",
     "tensions",
     "touches_of",
 ]

@@ -17,8 +17,17 @@ from plumb.grid.cut_with import cut_with_lines
 from plumb.grid.form import marks_list
 from plumb.grid.gcode import FIRST_LINE, program
 from plumb.grid.limits import demand
-from plumb.grid.options import GRID_OPTIONS, MACHINE_OPTIONS, Grid, GridError, PlainMachine, pair
+from plumb.grid.options import (
+    GRID_OPTIONS,
+    MACHINE_OPTIONS,
+    Grid,
+    GridError,
+    PlainMachine,
+    pair,
+    pairs,
+)
 from plumb.grid.picture import preview
+from plumb.grid.spans import spans_of
 from plumb.grid.webcontrol import as_ini, is_webcontrol
 
 COMPLAINT = "calibration grid: {}; --help lists the options\n"
@@ -36,10 +45,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("grid")
     for name, kind, meaning in GRID_OPTIONS:
         usual = Grid._field_defaults[name]
-        how: dict[str, Any] = {"type": kind, "metavar": "N"}
+        how: dict[str, Any] = {"type": kind, "metavar": "PLACES" if kind is pairs else "N"}
         if isinstance(kind, tuple):
             how = {"choices": kind}
-        if usual is not None:
+        if kind is pair:
+            meaning += f" (--{name}=-9,9)"
+        if usual not in (None, ()):
             meaning += " [{:g},{:g}]".format(*usual) if kind is pair else f" [{usual}]"
         group.add_argument("--" + name.replace("_", "-"), help=meaning, **how)
     group = parser.add_argument_group("machine")
@@ -50,6 +61,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("output")
     group.add_argument("--output", metavar="FILE", help="where the program goes [the screen]")
     group.add_argument("--marks", metavar="FILE", help="also write a marks.toml to fill in")
+    spans = "the form also waits for distances between the marks: sides, diagonals, halves"
+    group.add_argument("--distances", action="store_true", help=spans)
+    another = "the form says that its marks are on another sheet than those before"
+    group.add_argument("--new-sheet", action="store_true", help=another)
     force = "replace files that this program did not write"
     group.add_argument("--force", action="store_true", help=force)
     group.add_argument("--preview", action="store_true", help="show a picture, not the program")
@@ -114,10 +129,20 @@ def from_arguments(arguments: argparse.Namespace) -> tuple[Grid, PlainMachine]:
     kept = read_settings(arguments.settings) if arguments.settings else {}
     given = {name: value for name, value in vars(arguments).items() if value is not None}
     grid = Grid(**{name: given[name] for name in Grid._fields if name in given})
-    grid = grid._replace(repeats=0) if grid.pattern == "benchmark" else grid
+    if grid.places:
+        _refuse_of_a_grid(given)
+    if grid.places or grid.pattern == "benchmark":
+        grid = grid._replace(repeats=0)
     numbers = {**kept, **given}
     of_machine = {name: numbers[name] for name in PlainMachine._fields if name in numbers}
     return grid, PlainMachine(**of_machine)
+
+
+def _refuse_of_a_grid(given: Mapping[str, object]) -> None:
+    """Refuses options that say where marks are when the places say so."""
+    for name in ("pattern", "columns", "rows", "margin", "order", "repeats", "repeat_spacing"):
+        option = f"--{name.replace('_', '-')}"
+        demand(name not in given, f"{option} is of a grid, and --places says where marks are")
 
 
 def run(
@@ -137,7 +162,13 @@ def run(
             free = arguments.force or not os.path.isfile(arguments.marks)
             demand(free, kept)
             named = cut_with_lines(arguments.settings, arguments.marks)
-            files[arguments.marks] = marks_list(grid, machine, named)
+            files[arguments.marks] = marks_list(
+                grid,
+                machine,
+                named,
+                new_sheet=arguments.new_sheet,
+                spans=spans_of(grid) if arguments.distances else (),
+            )
         writing = write or (lambda contents: _write(contents, force=arguments.force))
         writing({path: said.encode("ascii") for path, said in files.items()})
     except GridError as refusal:

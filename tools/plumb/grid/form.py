@@ -2,14 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from plumb.grid import benchmark_pattern
 from plumb.grid.options import Grid, PlainMachine
 from plumb.grid.touches import listed, touches_of
 
 
-def marks_list(grid: Grid, machine: PlainMachine, cut_with: str = "") -> str:
-    """The text of a marks.toml that waits for the tape's readings; `cut_with` are lines that name
-    the settings in force."""
+def marks_list(
+    grid: Grid,
+    machine: PlainMachine,
+    cut_with: str = "",
+    *,
+    new_sheet: bool = False,
+    spans: Sequence[tuple[str, str]] = (),
+) -> str:
+    """The text of a marks.toml that waits for the tape's readings.
+
+    `cut_with` are lines that name the settings in force, `new_sheet` says that the marks are on
+    another sheet than those before, and `spans` are marks between which a tape is laid.
+    """
+    cut_with = "\nnew_sheet = true" * new_sheet + cut_with
     if grid.pattern == "benchmark":
         return benchmark_pattern.form(grid.approach, cut_with)
     lines = [
@@ -24,4 +37,6 @@ def marks_list(grid: Grid, machine: PlainMachine, cut_with: str = "") -> str:
             f"approach = [{grid.approach[0]:.1f}, {0.0 - grid.approach[1]:.1f}]",
             "# measured = [ , ]",
         ]
+    for first, second in spans:
+        lines.append(f'\n# [[distance]]\n# between = ["{first}", "{second}"]\n# length =')
     return "\n".join([*lines, ""])

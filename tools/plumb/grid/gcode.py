@@ -21,9 +21,10 @@ def program(grid: Grid, machine: PlainMachine) -> str:
     touches = touches_of(grid, machine)
     router = "leave the router off" if grid.mode == "touch" else "switch the router on first"
     up = f"G0 {word('Z', grid.safe_height)}"
+    pattern = "places" if grid.places else grid.pattern
     lines = [
         FIRST_LINE,
-        f"(pattern: {grid.pattern}, {len(touches)} marks with repeats)",
+        f"(pattern: {pattern}, {len(touches)} marks with repeats)",
         "(X0 Y0 middle of sheet, Z0 surface, comments in mm)",
         f"({grid.mode} {grid.bit_depth:g} mm deep: {router})",
         "G21" if grid.units == "mm" else "G20",

@@ -53,6 +53,8 @@ class Grid(NamedTuple):
     max_tension: float = 200.0
     # Below a slack-side bungee's pull the gears change sides, and the far chain is too soft.
     min_tension: float = 18.0
+    # [mm] marks here and nowhere else, in this order; empty: in columns and rows.
+    places: tuple[tuple[float, float], ...] = ()
 
     @property
     def bit_depth(self) -> float:
@@ -80,6 +82,14 @@ def pair(text: str) -> tuple[float, float]:
     return across, up
 
 
+def pairs(text: str) -> tuple[tuple[float, float], ...]:
+    """Several of them, with spaces between."""
+    each = tuple(map(pair, text.split()))
+    if not each:
+        raise ValueError("no place is given")
+    return each
+
+
 # Name, kind or choices, meaning.
 GRID_OPTIONS: tuple[tuple[str, Kind, str], ...] = (
     ("pattern", ("grid", "benchmark"), "benchmark: the community's test, places fixed"),
@@ -87,7 +97,7 @@ GRID_OPTIONS: tuple[tuple[str, Kind, str], ...] = (
     ("rows", int, "marks one above the other, 2 to 31"),
     ("margin", float, "mm from the outer marks to the sheet's edge"),
     ("order", ("snake", "rows", "columns"), "there and back, by rows, or by columns"),
-    ("approach", pair, "DX,DY in mm, the way into every mark (--approach=-9,9)"),
+    ("approach", pair, "DX,DY in mm, the way into every mark"),
     ("repeats", int, "times that corners and middles of edges are made again, 0 to 9"),
     ("repeat_spacing", float, "mm from a mark inwards to its repeat; 0 hits it again"),
     ("mode", tuple(DEPTH), "touch with the router off, or drill"),
@@ -98,6 +108,7 @@ GRID_OPTIONS: tuple[tuple[str, Kind, str], ...] = (
     ("units", ("mm", "inch"), "of the program; options and comments stay in mm"),
     ("max_tension", float, "N, the tightest chain allowed; motors stall near 290 N"),
     ("min_tension", float, "N, the slackest chain allowed; a bungee pulls about 18 N"),
+    ("places", pairs, "'X,Y X,Y ...' in mm from the sheet's middle: marks there, in this order"),
 )
 # Name, section and key of groundcontrol.ini, meaning.
 MACHINE_OPTIONS = (

@@ -26,6 +26,8 @@ def touches_of(grid: Grid, machine: PlainMachine) -> list[Touch]:
     check_numbers(grid, machine)
     if grid.pattern == "benchmark":
         return [Touch(*place, 0) for place in benchmark_pattern.places()]
+    if grid.places:
+        return [Touch(str(i), x, y, 0) for i, (x, y) in enumerate(grid.places, start=1)]
     width = machine.sheet_width - 2 * grid.margin
     height = machine.sheet_height - 2 * grid.margin
     places = _places(grid)

@@ -42,6 +42,7 @@ class Mark:
     chains: Point | None = None  # [mm] left and right paid out, if the machine reported them
     chains_swapped: bool = False  # each chain hung on the other's sprocket
     round: int = 0  # index into the rounds
+    is_unread: bool = False  # its reading is yet to come
 
 
 @dataclass(frozen=True)
@@ -112,6 +113,13 @@ class Measurements:
     def measured(self) -> np.ndarray:
         """The measured positions of these marks, (n, 2) [mm]."""
         return _rows([measured for _, measured in self.readings])
+
+    @property
+    def off_target(self) -> float | None:
+        """How far off their targets the measured marks are, RMS [mm]; None without such marks."""
+        if not self.measured_marks:
+            return None
+        return float(np.sqrt(np.mean(np.sum((self.measured - self.targets) ** 2, axis=1))))
 
     @property
     def distance_targets(self) -> np.ndarray:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from plumb.marks.exchanged import refuse_exchanged_columns
 from plumb.marks.model import Mark, Measurements, Point
@@ -115,24 +116,45 @@ def _refuse_outside(measurements: Measurements, mark: Mark, sheet: Sheet) -> Non
 
 
 def _refuse_far(measurements: Measurements, mark: Mark, sheet: Sheet) -> None:
-    if mark.measured is None:
-        return
-    error = math.dist(mark.target, mark.measured)
-    mistake = _exchanged(measurements, mark, mark.measured) if error > SUSPICIOUS else ""
-    if error > SUSPICIOUS and not mistake:
-        mistake = _likely_mistake(mark.target, mark.measured, sheet)
-    if mistake or error > MOST_ERROR:
+    far = far_reading(measurements, mark, sheet)
+    if far:
         raise refusal(
             measurements.source,
-            f"measured {error:.0f} mm away from its target",
+            f"measured {far.error:.0f} mm away from its target",
             place=f"mark {mark.name}",
-            remedy=mistake
+            remedy=far.mistake
             or "check the frame (top-left corner with y down, or middle with y up) and the numbers",
         )
 
 
-def _exchanged(measurements: Measurements, mark: Mark, measured: Point) -> str:
-    """A hint if another mark was read where this mark should be, and the other way round."""
+@dataclass(frozen=True)
+class FarReading:
+    """A reading farther from its target than any machine brings a mark."""
+
+    error: float  # [mm]
+    mistake: str  # the likely mistake, or nothing
+    corrected: Point | None  # [mm] what was meant, if that was the mistake
+
+
+def far_reading(measurements: Measurements, mark: Mark, sheet: Sheet) -> FarReading | None:
+    """Whether a mark's reading is too far from its target to be true."""
+    if mark.measured is None:
+        return None
+    error = math.dist(mark.target, mark.measured)
+    if error <= SUSPICIOUS:
+        return None
+    other = _exchanged(measurements, mark, mark.measured)
+    if other:
+        said = f"the readings of {mark.name} and {other.name} may be exchanged"
+        return FarReading(error, said, other.measured)
+    mistake, meant = _likely_mistake(mark.target, mark.measured, sheet)
+    if mistake or error > MOST_ERROR:
+        return FarReading(error, mistake, meant)
+    return None
+
+
+def _exchanged(measurements: Measurements, mark: Mark, measured: Point) -> Mark | None:
+    """The mark that was read where this mark should be, and the other way round."""
     near = math.dist(mark.target, measured) / 5
     readings = measurements.readings
     far = [place for sent, place in readings if math.dist(sent.target, place) > SUSPICIOUS]
@@ -141,19 +163,19 @@ def _exchanged(measurements: Measurements, mark: Mark, measured: Point) -> str:
         there = math.dist(other.target, measured)
         back = math.dist(mark.target, other_measured)
         if other.target != mark.target and max(there, back) < min(TOO_CLOSE, near):
-            return f"the readings of {mark.name} and {other.name} may be exchanged"
-    return ""
+            return other
+    return None
 
 
-def _likely_mistake(target: Point, measured: Point, sheet: Sheet) -> str:
-    """The usual slip that would explain a mark far from its target, or nothing."""
-    left = {
-        sentence: math.dist(target, undo(*measured))
-        for sentence, undo in _slips(sheet[0] / 2, sheet[1] / 2).items()
+def _likely_mistake(target: Point, measured: Point, sheet: Sheet) -> tuple[str, Point | None]:
+    """The usual slip that would explain a mark far from its target, and what was meant."""
+    meant = {
+        sentence: undo(*measured) for sentence, undo in _slips(sheet[0] / 2, sheet[1] / 2).items()
     }
-    best = min(left, key=left.__getitem__)
-    explained = left[best] < min(TOO_CLOSE, math.dist(target, measured) / 5)
-    return best if explained else ""
+    best = min(meant, key=lambda sentence: math.dist(target, meant[sentence]))
+    left = math.dist(target, meant[best])
+    explained = left < min(TOO_CLOSE, math.dist(target, measured) / 5)
+    return (best, meant[best]) if explained else ("", None)
 
 
 def _slips(right: float, top: float) -> dict[str, Callable[[float, float], Point]]:
@@ -166,6 +188,10 @@ def _slips(right: float, top: float) -> dict[str, Callable[[float, float], Point
         "the measured y runs the other way; check the frame": lambda x, y: (x, -y),
         "the measured x runs the other way; check the frame": lambda x, y: (-x, y),
         "x and y may be exchanged": lambda x, y: (y, x),
+        "x and y, from the corner, may be exchanged": lambda x, y: (
+            top - y - right,
+            top - x - right,
+        ),
         from_corner: lambda x, y: (x - right, top - y),
         from_middle: lambda x, y: (x + right, top - y),
         from_below: lambda x, y: (x - right, y - top),

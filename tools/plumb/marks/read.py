@@ -38,10 +38,10 @@ def read_marks(
 ) -> Measurements:
     """The marks of a file, in the machine frame [mm]; sheet is its width and height [mm].
 
-    A file that names the settings it was cut with lies on the sheet of these; `known` lists each
-    effect's parameters for them.
+    Marks that wait for their reading (`unread = true`) take no part. A file that names the settings
+    it was cut with lies on the sheet of these; `known` lists each effect's parameters for them.
     """
-    measurements = _read(path, sheet, known)
+    measurements = _without_unread(_read(path, sheet, known))
     named = replace(measurements.rounds[0], digest=digest_of(measurements))
     measurements = replace(measurements, rounds=(named, *measurements.rounds[1:]))
     return checked(measurements, sheet=_sheet_of(measurements, sheet))
@@ -70,6 +70,18 @@ def read_plan(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
     )
     meant = replace(plan, marks=tuple(marks), distances=spans)
     return checked(meant, sheet=_sheet_of(plan, sheet))
+
+
+def _without_unread(measurements: Measurements) -> Measurements:
+    """Without the marks whose readings are yet to come; an end of distances stays, once."""
+    ends = {name for distance in measurements.distances for name in distance.between}
+    ends -= {mark.name for mark in measurements.marks if not mark.is_unread}
+    kept = []
+    for mark in measurements.marks:
+        if not mark.is_unread or mark.name in ends:
+            kept.append(mark)
+            ends.discard(mark.name)
+    return replace(measurements, marks=tuple(kept))
 
 
 Source = str | PathLike[str]

@@ -37,7 +37,16 @@ HEAD_KEYS = (
     "distance",
     "benchmark",
 )
-MARK_KEYS = ("name", "target", "measured", "approach", "sled_weight_n", "chains", "chains_swapped")
+MARK_KEYS = (
+    "name",
+    "target",
+    "measured",
+    "unread",
+    "approach",
+    "sled_weight_n",
+    "chains",
+    "chains_swapped",
+)
 DISTANCE_KEYS = ("between", "mm", "inch")
 SLED_WEIGHT_RANGE = (30.0, 1000.0)  # [N] below it somebody wrote kilograms or pounds
 
@@ -60,7 +69,7 @@ def read_marks_toml(
     sheet: Sheet,
     known: Mapping[str, Sequence[str]] | None = None,
 ) -> Measurements:
-    """The marks and distances of a marks.toml, moved to the machine frame."""
+    """The marks and distances of a marks.toml, moved to the machine frame; unread marks too."""
     try:
         head = tomllib.loads(read_text(path))
     except tomllib.TOMLDecodeError as error:
@@ -195,6 +204,7 @@ def _marks(
                 sled_weight=weight if mark_weight is None else mark_weight,
                 chains=_chains(path, place, table),
                 chains_swapped=_yes_or_no(path, place, table, "chains_swapped"),
+                is_unread=_yes_or_no(path, place, table, "unread") and "measured" not in table,
             )
         )
     return tuple(marks)

@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from plumb.model.catalogue import every_effect, parameter_words
 from plumb.model.predict import frame_words
+from plumb.text.readers import to_do
 from plumb.text.shown import in_unit, unit
 
 if TYPE_CHECKING:
@@ -39,9 +40,9 @@ def noun_of(effect: str) -> str:
 
 
 def named(effect: str) -> str:
-    """The effect in a maker's words, with the name that commands take."""
+    """The effect in a maker's words; on a command line with the name that commands take."""
     noun = noun_of(effect)
-    return noun if noun == effect else f"{noun} ({effect})"
+    return noun if noun == effect else to_do(f"{noun} ({effect})", page=noun)
 
 
 def nouns_of(effects: list[str] | tuple[str, ...], *, last: str = "and") -> str:
@@ -130,3 +131,23 @@ def digits_for(shown: float, ends: list[float]) -> int:
 
 def _rounded(value: float, digits: int) -> str:
     return f"{round(value, digits) + 0.0:.{digits}f}"
+
+
+class PlainChange(NamedTuple):
+    """A number before and after, with its 95 % margin, as text in a single unit."""
+
+    noun: str
+    before: str
+    after: str
+    margin: str
+    unit: str
+
+
+def plain_change(name: str, before: float, value: float, low: float, high: float) -> PlainChange:
+    """How a number changes, in a maker's words."""
+    words = words_of(name)
+    was, now, *ends = (shown_size(words, number) for number in (before, value, low, high))
+    digits = digits_for(now, ends)
+    noun = " ".join(words["more"].replace("#", "").split())
+    margin = _rounded(abs(ends[1] - ends[0]) / 2, digits)
+    return PlainChange(noun, _rounded(was, digits), _rounded(now, digits), margin, _unit(words))

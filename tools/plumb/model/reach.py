@@ -119,6 +119,17 @@ def percent(share: float) -> str:
     return f"{100 * share:.{2 if 0 < near < 0.001 else 1}f} %"
 
 
+def conclusion_of(survey: Survey) -> str:
+    """How much of the sheet is usable, in a sentence."""
+    if survey.all_usable:
+        return "The whole sheet is usable."
+    if not survey.shares[REACH_WORDS[0]]:
+        return "No place of the sheet is usable."
+    usable, *bad = [(word, share) for word, share in survey.shares.items() if share]
+    rest = ", ".join(f"{percent(share)} {word}" for word, share in bad)
+    return f"{percent(usable[1])} of the sheet is usable; {rest}."
+
+
 def _extreme(places: Array, tension: Array) -> Extreme:
     """The largest of all chains' tensions (n, 2)."""
     i, side = np.unravel_index(int(np.argmax(tension)), tension.shape)

@@ -30,6 +30,7 @@ class Spots:
     places: Array  # (k, 2) [mm]
     errors: Array  # (k, 2) [mm] mean of the repeats
     spreads: Array  # (k,) [mm] RMS distance of the repeats from their mean, 0 without repeats
+    counts: Array  # (k,) how many readings
 
     def __len__(self) -> int:
         """How many marks."""
@@ -60,6 +61,7 @@ def spots_of(panel: Panel) -> Spots:
         places=np.array([panel.predicted[rows].mean(axis=0) for rows in groups]),
         errors=errors,
         spreads=np.array(spreads),
+        counts=np.array([len(rows) for rows in groups]),
     )
 
 

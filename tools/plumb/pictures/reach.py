@@ -58,13 +58,13 @@ def draw_map(survey: Survey, *, form: str = "png") -> bytes:
         f"How hard the chains pull, N (limits {limits['least_tension']:g} "
         f"and {limits['most_tension']:g})",
     )
-    for i, (title, fill) in enumerate(zip(titles, (_draw_give, _draw_pulls), strict=True)):
+    for i, (title, fill) in enumerate(zip(titles, (draw_give, draw_pulls), strict=True)):
         low = tall - (i + 1) * strip
         axis = figure.add_axes((0, low / tall, 1, (strip - TITLE) / tall))
         axis.set_xlim(-width * (0.5 + MARGIN), width * (0.5 + MARGIN))
         axis.set_ylim(-height * 0.5 * (1 + MARGIN), height * 0.5 * (1 + MARGIN))
         axis.set_axis_off()
-        _draw_sheet(axis, survey)
+        draw_zones(axis, survey)
         fill(axis, survey)
         left = MARGIN / (1 + 2 * MARGIN)
         y = (low + strip - TITLE + 0.04) / tall
@@ -78,7 +78,7 @@ def _grid(survey: Survey, values: NDArray[Number]) -> NDArray[Number]:
     return values.reshape(len(survey.y), len(survey.x))
 
 
-def _draw_sheet(axis: Axes, survey: Survey) -> None:
+def draw_zones(axis: Axes, survey: Survey) -> None:
     """The sheet, with what is not usable shaded by its reason."""
     from matplotlib.colors import to_rgba
     from matplotlib.patches import Rectangle
@@ -127,13 +127,15 @@ def _field(survey: Survey, values: Array) -> np.ma.MaskedArray:
     return np.ma.masked_where(_grid(survey, nothing), _grid(survey, values))
 
 
-def _draw_give(axis: Axes, survey: Survey) -> None:
+def draw_give(axis: Axes, survey: Survey) -> None:
+    """How far the bit gives sideways: lines of equal give [mm/N]."""
     most = survey.limits["most_give"]
     _lines(axis, survey, survey.reached.compliance[:, 0, 0], list(GIVES), most, SOFT)
     _limit(axis, survey, survey.reached.give, most, SOFT)
 
 
-def _draw_pulls(axis: Axes, survey: Survey) -> None:
+def draw_pulls(axis: Axes, survey: Survey) -> None:
+    """How hard the chains pull: lines of equal tension [N]."""
     tighter, slacker = survey.reached.tension.max(axis=1), survey.reached.tension.min(axis=1)
     most, least = survey.limits["most_tension"], survey.limits["least_tension"]
     _lines(

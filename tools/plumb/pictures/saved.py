@@ -15,6 +15,7 @@ def saved(figure: Figure, form: str) -> bytes:
     """The figure as png, svg or pdf; the same data give the same bytes."""
     import matplotlib as mpl
 
+    read_as_written(figure)
     file = io.BytesIO()
     # Names inside an SVG are drawn by chance unless they get a salt.
     with mpl.rc_context({"svg.hashsalt": "plumb"}):
@@ -31,5 +32,14 @@ def pages_saved(pages: list[Figure]) -> bytes:
     file = io.BytesIO()
     with PdfPages(file, metadata=picture_metadata("pdf")) as pdf:
         for page in pages:
+            read_as_written(page)
             pdf.savefig(page, facecolor="white")
     return file.getvalue()
+
+
+def read_as_written(figure: Figure) -> None:
+    """Let no word be a formula: a name from a file may hold a `$`."""
+    from matplotlib.text import Text
+
+    for text in figure.findobj(Text):
+        text.set_parse_math(False)

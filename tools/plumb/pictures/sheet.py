@@ -17,6 +17,7 @@ from plumb.pictures.scale import View, exaggeration, pitch_of, round_down, view_
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+Array = np.ndarray
 WIDTH = 8.6  # [inch] of a picture
 MARGIN = 0.05  # left and right of the sheet, of its width
 TITLE, FOOT = 0.45, 0.85  # [inch] above each sheet, and below the last
@@ -84,8 +85,10 @@ def draw_errors(
     factor: float,
     good: bool,
     small: float = 1.0,
+    rings: Array | None = None,
 ) -> None:
-    """A sheet with its marks and arrows; small: of the size of a single picture."""
+    """A sheet with its marks and arrows; small: of the size of a single picture; rings (k,) [mm]
+    around their tips: if not given, how far repeats spread."""
     from matplotlib.patches import Rectangle
 
     axis.set_xlim(view.left, view.right)
@@ -120,18 +123,17 @@ def draw_errors(
         color=colour,
         zorder=4,
     )
-    _draw_spreads(axis, spots, factor, 0.9 * small)
+    radii = factor * (spots.spreads if rings is None else rings)
+    _draw_rings(axis, spots.tips(factor), radii, 0.9 * small * (1.0 if rings is None else part))
 
 
-def _draw_spreads(axis: Axes, spots: Spots, factor: float, line: float) -> None:
-    """A ring around the tip of each repeated mark: how far its readings lie from their mean."""
+def _draw_rings(axis: Axes, tips: Array, radii: Array, line: float) -> None:
+    """A ring around each tip that has a radius."""
     from matplotlib.patches import Circle
 
-    for tip, spread in zip(spots.tips(factor), spots.spreads, strict=True):
-        if spread:
-            axis.add_patch(
-                Circle(tuple(tip), factor * spread, fc="none", ec=INK, lw=line, zorder=5)
-            )
+    for tip, radius in zip(tips, radii, strict=True):
+        if radius:
+            axis.add_patch(Circle(tuple(tip), radius, fc="none", ec=INK, lw=line, zorder=5))
 
 
 def _draw_words(

@@ -31,6 +31,7 @@ ROUND, MARK, READING, HANGING, SWAPPING = 3.0, 1.5, 0.75, 4.0, 15.0
 ROOM_FOR_A_SECOND = (
     20.0  # [mm] inwards of a mark is room for a second mark; in the same hole nothing is read
 )
+READ_ONLY = ("repeats", "reread")  # kinds of options whose marks are on the sheet already
 SIDES = np.array([(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)])
 
 
@@ -45,6 +46,11 @@ class Option:
     visits: Visits
     checks: tuple[Check, ...] = ()
     value: str = ""  # how the checks' values follow from what was measured
+
+    @property
+    def is_cut(self) -> bool:
+        """Whether it needs new marks; what is only read again needs a tape."""
+        return len(self.visits) > 0 and self.kind not in READ_ONLY
 
 
 def options(case: Case) -> list[Option]:

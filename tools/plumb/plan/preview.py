@@ -90,8 +90,12 @@ def preview(
     sigma: float,
     controller: str | None = None,
     priors: Mapping[str, float] = PRIORS,
+    is_quick: bool = False,
 ) -> Preview:
-    """What marks at the targets of a plan could tell; sigma [mm] of one coordinate or distance."""
+    """What marks at the targets of a plan could tell; sigma [mm] of one coordinate or distance.
+
+    is_quick: without the additions, which take most of the time.
+    """
     frame = _as_planned(settings, plan, sigma, controller, priors)
     names, felt = effect_names(), felt_effects(frame)
     noise = Noise(sigma, KNOWN, "stated")
@@ -117,7 +121,7 @@ def preview(
         effects=names,
         matrix=matrix,
         outlines=tuple(_outline(frame, i, matrix, limit) for i in range(len(names))),
-        additions=_additions(case, matrix),
+        additions=() if is_quick else _additions(case, matrix),
         targets=rows.targets,
     )
 

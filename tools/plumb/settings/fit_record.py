@@ -5,6 +5,7 @@ A machine.toml keeps it, so that the error which a fit promised can be seen agai
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -36,6 +37,15 @@ class FitRecord:
     # Fitted, but no setting holds them.
     lab_effects: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     boards: tuple[FittedBoard, ...] = ()
+
+    def sheet_rise(self, sheet_width: float) -> float:
+        """How far [mm] to raise the right end of the last sheet [mm wide] to undo its rotation."""
+        return math.tan(self.last_sheet_rotation) * sheet_width
+
+    @property
+    def last_sheet_rotation(self) -> float:
+        """[rad] counter-clockwise, of the sheet that was fitted last."""
+        return self.sheet_rotation + (self.boards[-1].sheet[2] if self.boards else 0.0)
 
     def board(self, digest: str) -> FittedBoard | None:
         """The board with these readings."""

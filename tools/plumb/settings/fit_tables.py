@@ -18,6 +18,7 @@ from plumb.settings.machine_tables import (
     table_lines,
 )
 from plumb.text.errors import naming, refusal
+from plumb.text.readers import to_do
 from plumb.text.values import numbers, refuse_unknown, text_of, texts
 
 FIT_KEYS = ("fit", "board")
@@ -49,7 +50,8 @@ def read_fit_record(
         words = {key: texts(fit.get(key, [])) for key in WORD_KEYS}
         for key in NUMBER_KEYS:
             if key not in fit:
-                raise ValueError(f"{key} is missing; let plumb add write the file")
+                remedy = to_do("let plumb add write the file", page="let Correct write the file")
+                raise ValueError(f"{key} is missing; {remedy}")
     lab = Tables(path, {"effects": fit.get("lab_effects", {})}, "fit.lab_")
     left = tables.numbers_in({key: fit[key] for key in NUMBER_KEYS}, "[fit]")
     return FitRecord(

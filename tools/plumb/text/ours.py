@@ -7,15 +7,18 @@ from pathlib import Path
 
 PRACTICE_MARKS = b"# Marks of a virtual machine, cut for practice.\n"
 DEMO_MARKS = b"# Marks of a virtual machine, read by the demo.\n"
-# How our text files begin: a machine.toml, a grid's program, the page of the bench, the marks of
-# a demo or of practice.
+# How our text files begin: a machine.toml, a grid's program, that of proposed marks, a job's
+# outline, the page of the bench, the marks of a demo or of practice, a report.
 BEGINNINGS = (
     b"# Settings of one hanging machine, for plumb.",
     b"(Plumb calibration grid)",
+    b"(Plumb: ",
+    b"(plumb: ",
     b"# How often the diagnosis is right",
     b"# How often the closed loop finds what is hidden",
     DEMO_MARKS,
     PRACTICE_MARKS,
+    b"<!doctype html>\n<!-- A report of Plumb. -->",
 )
 MAKER = "Plumb"  # what a picture says of the program that drew it
 # Where the forms of a picture say it.

@@ -58,3 +58,8 @@ def signed(length: float | None, digits: int = 2) -> str:
 def worded(length: float | None, digits: int = 2) -> str:
     """A length [mm] with its unit."""
     return f"{bare(length, digits)} {unit()}"
+
+
+def brief(length: float) -> str:
+    """A length [mm] that somebody chose, with its unit and no more decimals than it needs."""
+    return f"{round(in_unit(length), 2):g} {unit()}"

@@ -1,0 +1,165 @@
+"""What an explanation draws into the errors of the chains, mark by mark and over the whole sheet.
+
+An explanation refits the frame, so it changes what the frame alone leaves. That change is what the
+marks can show of it: its dots at the marks, and its curve against each covariate.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from plumb.board.observations import Observations
+from plumb.board.sighting import Sighting, sighted
+from plumb.board.visits import chains_to
+from plumb.diagnosis.explanation import Explanation
+from plumb.fit.chain_view import ChainView, chain_errors, chain_view, hung_places
+from plumb.fit.covariates import Covariate, covariates
+from plumb.model.predict import FOUND, Array, settings_of
+from plumb.settings.machine import MachineSettings
+
+COLUMNS, ROWS = 41, 21  # places of the sheet behind a curve
+BINS = 12  # of a curve, each with about as many places
+WITHOUT_CURVE = ("order", "approach")  # they belong to visits, not to places
+SAME_PLACE = 1.0  # [mm] between marks that were visited in several ways
+
+
+@dataclass(frozen=True)
+class Curve:
+    """What an explanation draws on a chain against a covariate, over the whole sheet [mm]."""
+
+    at: Array  # (b,) of the covariate, rising
+    middle: Array  # (b,) mean
+    low: Array  # (b,) four fifths of the places lie between low and high
+    high: Array  # (b,)
+
+
+@dataclass(frozen=True)
+class SuspectCurves:
+    """What an explanation adds to the frame's fit, in chain."""
+
+    effects: tuple[str, ...]
+    chains: Array  # (k, 2) [mm] at the marks, left and right
+    curves: Mapping[str, tuple[Curve, Curve]]  # by covariate, left and right
+
+
+def view_by(explanation: Explanation, rows: Observations | None = None) -> ChainView:
+    """What an explanation leaves of the marks in chain; rows: of other marks than its board's."""
+    problem = explanation.board.problem
+    values, outside = problem.values(explanation.unknowns)
+    return chain_view(values, outside, rows or problem.observations, problem.settings)
+
+
+def suspect_curves(
+    frame: Explanation, explanation: Explanation, rows: Observations
+) -> SuspectCurves:
+    """What an explanation adds to the frame's fit at the marks of `rows`, and over the sheet."""
+    model = model_by(frame)
+    sheet = visits_all_over(model, rows)
+    by_place = covariates(model, sheet)
+    drawn = added_chains(frame, explanation, sheet)
+    return SuspectCurves(
+        effects=explanation.effects,
+        chains=added_chains(frame, explanation, rows)[rows.mark_rows],
+        curves={
+            covariate.name: _curves(covariate, drawn)
+            for covariate in by_place
+            if covariate.name not in WITHOUT_CURVE
+        },
+    )
+
+
+def added_chains(frame: Explanation, explanation: Explanation, rows: Observations) -> Array:
+    """What an explanation says more than the frame's fit (r, 2) [mm] on each visit, in chain."""
+    model = model_by(frame)
+    moved = seen_by(explanation, rows).read.where - seen_by(frame, rows).read.where
+    return chain_errors(model, hung_places(model, rows), moved, rows.sled_weights)
+
+
+def model_by(explanation: Explanation) -> MachineSettings:
+    """The machine as an explanation has it."""
+    problem = explanation.board.problem
+    values, _ = problem.values(explanation.unknowns)
+    return settings_of(values, like=problem.settings)
+
+
+def seen_by(
+    explanation: Explanation, rows: Observations, *, unknowns: Array | None = None
+) -> Sighting:
+    """What an explanation says is measured on each visit; with other unknowns, if given."""
+    problem = explanation.board.problem
+    values, outside = problem.values(explanation.unknowns if unknowns is None else unknowns)
+    return sighted(
+        values,
+        outside,
+        rows,
+        over_top=problem.settings.feed == "top",
+        usual_weight=problem.settings.sled_weight,
+        names=(),
+    )
+
+
+def visits_all_over(
+    model: MachineSettings,
+    rows: Observations,
+    *,
+    counts: tuple[int, int] = (COLUMNS, ROWS),
+    share: float = 1.0,
+) -> Observations:
+    """Visits all over this share of the sheet, `counts` of them across and up. Each is made in the
+    way of the nearest mark: its sled, its approach, its round. Places that no chain reaches are
+    left out."""
+    width, height = share * model.sheet_width, share * model.sheet_height
+    across = np.linspace(-width / 2, width / 2, counts[0])
+    up = np.linspace(-height / 2, height / 2, counts[1])
+    places = np.stack(np.meshgrid(across, up), axis=-1).reshape(-1, 2)
+    like = _nearest(hung_places(model, rows), places)
+    chains, outcome = chains_to(model, places, rows.sled_weights[like])
+    good = outcome == FOUND
+    like, places, chains = like[good], places[good], chains[good]
+    count = len(places)
+    return replace(
+        rows,
+        chains=chains,
+        sled_weights=rows.sled_weights[like],
+        mark_rows=np.arange(count),
+        measured=places,
+        targets=places,
+        names=("",) * count,
+        distance_rows=np.zeros((0, 2), dtype=int),
+        distances=np.zeros(0),
+        approaches=rows.approaches[like],
+        rounds=rows.rounds[like],
+        zero_groups=rows.zero_groups[like],
+        sheet_groups=rows.sheet_groups[like],
+        swapped=rows.swapped[like],
+    )
+
+
+def _nearest(visited: Array, places: Array) -> Array:
+    """The visit (n,) nearest to each place; visits of the same place take turns."""
+    gaps = np.linalg.norm(places[:, np.newaxis] - visited, axis=2)
+    near = gaps <= gaps.min(axis=1, keepdims=True) + SAME_PLACE
+    chosen = [np.flatnonzero(row)[i % int(row.sum())] for i, row in enumerate(near)]
+    return np.array(chosen, dtype=int)
+
+
+def _curves(covariate: Covariate, drawn: Array) -> tuple[Curve, Curve]:
+    left, right = (_curve(covariate.values[:, side], drawn[:, side]) for side in (0, 1))
+    return left, right
+
+
+def _curve(at: Array, drawn: Array) -> Curve:
+    """Mean and spread in bins of about as many places."""
+    known = np.isfinite(at) & np.isfinite(drawn)
+    order = np.argsort(at[known], kind="stable")
+    bins = [part for part in np.array_split(order, BINS) if len(part)]
+    inside = [drawn[known][part] for part in bins]
+    return Curve(
+        at=np.array([at[known][part].mean() for part in bins]),
+        middle=np.array([part.mean() for part in inside]),
+        low=np.array([np.quantile(part, 0.1) for part in inside]),
+        high=np.array([np.quantile(part, 0.9) for part in inside]),
+    )

@@ -1,0 +1,65 @@
+"""What an error of a chain may depend on: its tension, length, angle, sprocket phase, and the way.
+
+Each covariate has a number for each visit and chain, by a model of the machine.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from plumb.board.observations import Observations
+from plumb.board.sketched import strands_at
+from plumb.fit.chain_view import hung_places
+from plumb.model.predict import Array, values_of
+from plumb.settings.machine import MachineSettings
+
+
+@dataclass(frozen=True)
+class Covariate:
+    """A quantity against which errors of the chains are drawn."""
+
+    name: str
+    unit: str
+    values: Array  # (n, 2) of left and right chain; nan where it is not known
+    of_chain: bool  # whether it is another for each chain
+
+
+def covariates(model: MachineSettings, rows: Observations) -> tuple[Covariate, ...]:
+    """All covariates of every visit of `rows` (r,), by our model of the machine.
+
+    The phase counts as the effect sprocket_runout does: free length over the sprocket's radius.
+    The order is that of the file. An approach is the direction of the last move.
+    """
+    places = hung_places(model, rows)
+    strands = strands_at(
+        values_of(model),
+        rows,
+        places,
+        over_top=model.feed == "top",
+        usual_weight=model.sled_weight,
+    )
+    turned = np.mod(strands.length / model.sprocket_radius, 2 * np.pi)
+    order = np.arange(1.0, len(places) + 1)
+    return (
+        Covariate("tension", "N", strands.tension, of_chain=True),
+        Covariate("length", "mm", strands.span, of_chain=True),
+        Covariate("angle", "rad", np.arctan2(strands.down, strands.across), of_chain=True),
+        Covariate("phase", "rad", turned, of_chain=True),
+        Covariate("height", "mm", _both(places[:, 1]), of_chain=False),
+        Covariate("order", "", _both(order), of_chain=False),
+        Covariate("approach", "rad", _both(_headings(rows.approaches)), of_chain=False),
+    )
+
+
+def _headings(approaches: Array) -> Array:
+    """Directions (r,) [rad] of the last moves, 0 to the right, quarter turn up; nan: not known."""
+    known = approaches.any(axis=1)
+    headings: Array = np.where(known, np.arctan2(approaches[:, 1], approaches[:, 0]), np.nan)
+    return headings
+
+
+def _both(values: Array) -> Array:
+    """The same number for both chains (r, 2)."""
+    return np.stack([values, values], axis=1)
