@@ -1,0 +1,346 @@
+"""The page of the report: all its words and pictures in one file, escaped by the template."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
+
+import jinja2
+import numpy as np
+
+from plumb.diagnosis.sentence import odds_words, verdict_sentence
+from plumb.diagnosis.slip_cause import Slip
+from plumb.model.plain import plainly
+from plumb.model.predict import REACH_WORDS, USABLE
+from plumb.model.reach import percent
+from plumb.report.cards import Card, cards_of
+from plumb.report.covariate_plots import CovariateSheet, covariate_sheet
+from plumb.report.fall import Pair, Stair, pair_of, stairs_of
+from plumb.report.findings import Findings
+from plumb.report.maps import chain_map, expected_map, reach_maps
+from plumb.report.next_step import Command, NextStep, next_step_of
+from plumb.report.palette import SUSPECTS, style
+from plumb.report.tables import (
+    Hiding,
+    Readings,
+    Round,
+    Setting,
+    Source,
+    hiding_in,
+    history_sentence,
+    readings_of,
+    rounds_of,
+    settings_of,
+    sources_of,
+    versions,
+)
+from plumb.text.shown import unit, worded
+
+SIDES = ("Left chain", "Right chain")
+# By verdict: a sign, and what it means in few words.
+VERDICTS = {
+    "nothing_provable": ("○", "Nothing provable"),
+    "one_suspect": ("●", "One explanation"),
+    "cannot_tell": ("◐", "Cannot tell yet"),
+    "not_in_library": ("▲", "Not in the library"),
+    "slip": ("!", "A reading to look at"),
+}
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The verdict line."""
+
+    kind: str
+    sign: str
+    label: str
+    sentence: str
+    notes: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A number that everybody looks for first."""
+
+    what: str
+    size: str
+
+
+@dataclass(frozen=True)
+class Legend:
+    """The colour of an explanation."""
+
+    colour: str
+    words: str
+
+
+@dataclass(frozen=True)
+class Account:
+    """An explanation in the table of them."""
+
+    words: str
+    rms: str
+    odds: str  # empty: they were not weighed
+
+
+@dataclass(frozen=True)
+class Expected:
+    """The error to expect over the sheet."""
+
+    sentence: str
+    picture: str
+
+
+@dataclass(frozen=True)
+class Reach:
+    """What of the sheet can be used."""
+
+    sentence: str
+    maps: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True)
+class Page:
+    """All that the template fills in."""
+
+    title: str
+    subtitle: str
+    unit: str
+    verdict: Verdict
+    figures: tuple[Figure, ...]
+    stairs: tuple[Stair, ...]
+    fall_note: str
+    pair: Pair | None
+    chains: tuple[tuple[str, str], ...]
+    covariates: CovariateSheet | None
+    legend: tuple[Legend, ...]
+    slips: tuple[Slip, ...]
+    cards_title: str
+    accounts: tuple[Account, ...]
+    cards: tuple[Card, ...]
+    next: NextStep
+    settings: tuple[Setting, ...]
+    settings_note: str
+    remarks: tuple[str, ...]
+    history_sentence: str
+    history: tuple[Round, ...]
+    new_stages: int  # of the history, at its end: what the new settings leave
+    expected: Expected | None
+    reach: Reach
+    hiding: tuple[Hiding, ...]
+    readings: Readings
+    readings_note: str
+    sources: tuple[Source, ...]
+    noise: str
+    versions: str
+    again: str
+
+
+def report(findings: Findings, *, commands: Sequence[Command], again: str) -> bytes:
+    """The page as a file; `commands` go on from here, `again` makes the same report."""
+    here = resources.files("plumb.report")
+    environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
+    environment.filters["sentence"] = _sentence
+    template = environment.from_string(here.joinpath("page.html").read_text("utf-8"))
+    css = here.joinpath("page.css").read_text("utf-8")
+    page = page_of(findings, commands=commands, again=again)
+    return template.render(page=page, style=f"{style()}\n{css}").encode()
+
+
+def _sentence(words: str) -> str:
+    """With a capital letter and a full stop."""
+    return f"{words[:1].upper()}{words[1:]}{'' if words.endswith('.') else '.'}"
+
+
+def page_of(findings: Findings, *, commands: Sequence[Command], again: str) -> Page:
+    """The words and pictures of a board."""
+    diagnosis, auto = findings.diagnosis, findings.auto
+    explained = bool(diagnosis.explanations)
+    return Page(
+        title=f"{_name_of_settings(findings)} with {_names_of_marks(findings)}",
+        subtitle=_subtitle(findings),
+        unit=unit(),
+        verdict=_verdict(findings),
+        figures=_figures(findings),
+        stairs=stairs_of(findings),
+        fall_note=_fall_note(findings),
+        pair=pair_of(findings),
+        chains=_chain_maps(findings),
+        covariates=_covariates(findings),
+        legend=tuple(
+            Legend(colour, plainly(each.effects))
+            for each, colour in zip(findings.curves, SUSPECTS, strict=False)
+        ),
+        slips=diagnosis.slips,
+        cards_title="Suspects" if explained else "The effects that come nearest",
+        accounts=_accounts(findings),
+        cards=() if diagnosis.slips else cards_of(findings),
+        next=next_step_of(findings, commands),
+        settings=settings_of(findings),
+        settings_note=_settings_note(findings),
+        remarks=_remarks(findings),
+        history_sentence=history_sentence(findings),
+        history=rounds_of(findings),
+        new_stages=2 if auto.addition else 0,
+        expected=_expected(findings),
+        reach=_reach(findings),
+        hiding=hiding_in(findings),
+        readings=readings_of(findings),
+        readings_note=_readings_note(findings),
+        sources=sources_of(findings),
+        noise=f"Noise of a reading: {worded(diagnosis.noise.sigma)} ({diagnosis.noise.origin}).",
+        versions=versions(),
+        again=again,
+    )
+
+
+def _name_of_settings(findings: Findings) -> str:
+    file = findings.inputs.settings.file
+    return file.name if file else "settings"
+
+
+def _names_of_marks(findings: Findings) -> str:
+    measurements = findings.inputs.measurements
+    names = [part.name or Path(measurements.source).name for part in measurements.rounds]
+    return " and ".join(names)
+
+
+def _subtitle(findings: Findings) -> str:
+    measurements = findings.inputs.measurements
+    counts = [(len(measurements.measured_marks), "mark"), (len(measurements.distances), "distance")]
+    said = [f"{count} {noun}{'s' if count != 1 else ''}" for count, noun in counts if count]
+    width, height = (worded(length, 0) for length in findings.inputs.settings.sheet)
+    dates = [part.date for part in measurements.rounds if part.date]
+    measured = f", measured {', '.join(dict.fromkeys(dates))}" if dates else ""
+    return f"{' and '.join(said)} on a sheet of {width} by {height}{measured}"
+
+
+def _verdict(findings: Findings) -> Verdict:
+    diagnosis = findings.diagnosis
+    sign, label = VERDICTS[diagnosis.verdict]
+    notes = [] if diagnosis.slips else [*diagnosis.disagreements, *diagnosis.warnings]
+    return Verdict(
+        kind=diagnosis.verdict,
+        sign=sign,
+        label=label,
+        sentence=verdict_sentence(diagnosis),
+        notes=tuple(notes),
+    )
+
+
+def _figures(findings: Findings) -> tuple[Figure, ...]:
+    figures = [Figure("as set, RMS", worded(findings.comparison.rms))]
+    addition = findings.auto.addition
+    if addition:
+        figures.append(Figure("frame fitted", worded(addition.before.fit_rms)))
+        if addition.steps:
+            figures.append(Figure("effects fitted", worded(addition.after.fit_rms)))
+        figures.append(Figure("on marks not used", worded(addition.after.left_out_rms)))
+    return (*figures, Figure("noise of a reading", worded(findings.diagnosis.noise.sigma)))
+
+
+def _fall_note(findings: Findings) -> str:
+    chosen = findings.auto.chosen
+    if findings.auto.rivals and chosen:
+        return f"Shown is the most likely explanation, {plainly(chosen)}: it is not settled yet."
+    return ""
+
+
+def _chain_maps(findings: Findings) -> tuple[tuple[str, str], ...]:
+    view = findings.framed
+    known = np.abs(view.chains[np.isfinite(view.chains)])
+    if not len(known):
+        return ()
+    sheet, largest = findings.inputs.settings.sheet, float(known.max())
+    return tuple(
+        (
+            side,
+            chain_map(
+                view, i, sheet=sheet, largest=largest, name=f"chain {i}", says=f"{side}, by mark"
+            ),
+        )
+        for i, side in enumerate(SIDES)
+    )
+
+
+def _covariates(findings: Findings) -> CovariateSheet | None:
+    if not len(findings.rows.measured):
+        return None
+    return covariate_sheet(
+        findings.framed,
+        findings.by_visit,
+        findings.rows.mark_rows,
+        findings.curves,
+        sigma=findings.diagnosis.noise.sigma,
+    )
+
+
+def _accounts(findings: Findings) -> tuple[Account, ...]:
+    """The explanations, if there are several."""
+    explanations = findings.diagnosis.explanations
+    if len(explanations) < 2:
+        return ()
+    return tuple(
+        Account(
+            plainly(each.effects),
+            worded(each.rms_after),
+            odds_words(each.share) if each.share is not None else "",
+        )
+        for each in explanations
+    )
+
+
+def _settings_note(findings: Findings) -> str:
+    if findings.auto.rivals:
+        return "These are the numbers of the most likely explanation; the marks allow others."
+    return ""
+
+
+def _remarks(findings: Findings) -> tuple[str, ...]:
+    addition = findings.auto.addition
+    if addition is None:
+        return ()
+    remarks = (findings.auto.reason, *addition.cures, *addition.warnings)
+    return tuple(dict.fromkeys(remarks))
+
+
+def _expected(findings: Findings) -> Expected | None:
+    expected = findings.expected
+    if expected is None:
+        return None
+    sheet = findings.inputs.settings.sheet
+    rivals = " The rivals of the explanation count by their share." if findings.auto.rivals else ""
+    return Expected(
+        f"With the new settings expect {worded(expected.rms)} RMS over the sheet, and "
+        f"{worded(expected.worst)} at the worst place: so well do these readings settle the "
+        f"numbers.{rivals} What could still hide is not counted.",
+        expected_map(expected, sheet=sheet, name="expected"),
+    )
+
+
+def _reach(findings: Findings) -> Reach:
+    shares = findings.survey.shares
+    usable = f"{percent(shares[REACH_WORDS[USABLE]])} of the sheet is usable"
+    rest = [f"{percent(shares[word])} {word}" for word in REACH_WORDS[1:] if shares[word]]
+    give, pulls = reach_maps(findings.survey, name="reach")
+    return Reach(
+        f"{usable}{'; ' if rest else ''}{', '.join(rest)}. Heavy lines are limits; shaded is what "
+        f"lies beyond. {' '.join(findings.survey.assumed)}".strip(),
+        (
+            ("How far the bit gives sideways, mm per N", give),
+            ("How hard the chains pull, N (red the tighter, blue the slacker)", pulls),
+        ),
+    )
+
+
+def _readings_note(findings: Findings) -> str:
+    if not findings.comparison.marks:
+        return f"All in {unit()}; predicted by the settings as they are."
+    typed = findings.inputs.measurements.typed
+    counted = "from the sheet's top left corner, y down" if typed.sheet else "from the middle, y up"
+    return (
+        f"All in {unit()}, {counted}. Error: measured - predicted by the settings as they are. The "
+        "last three: what the fitted frame leaves, on the sheet and of each chain."
+    )

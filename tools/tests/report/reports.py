@@ -1,0 +1,137 @@
+"""What tests of the report share: boards of each kind, and a page as a reader sees it."""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+from contextlib import redirect_stderr, redirect_stdout
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+from plumb.cli.main import main
+from plumb.settings.files import write_machine_toml
+from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
+
+EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
+VOID = {"meta", "br", "img", "rect", "path", "use"}
+NAMES = {"ini": EXAMPLE / "groundcontrol.ini", "marks": EXAMPLE / "marks.toml"}
+
+
+class Page(HTMLParser):
+    """A page as a tree of tags: what it loads, what runs, and its text."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.source = text
+        self.open: list[str] = []
+        self.tags: list[tuple[str, dict[str, str | None]]] = []
+        self.words: list[str] = []
+        self.crossed: list[str] = []
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append((tag, dict(attributes)))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        self.tags.append((tag, dict(attributes)))
+
+    def handle_endtag(self, tag):
+        if tag in VOID:
+            return
+        if not self.open or self.open.pop() != tag:
+            self.crossed.append(tag)
+
+    def handle_data(self, data):
+        if self.open and self.open[-1] != "style":
+            self.words.append(data)
+
+    @property
+    def text(self) -> str:
+        """All that is to be read, blanks run together."""
+        return re.sub(r"\s+", " ", " ".join(self.words))
+
+    def named(self, tag: str) -> list[dict[str, str | None]]:
+        """The attributes of all tags of a kind."""
+        return [attributes for name, attributes in self.tags if name == tag]
+
+    def part(self, name: str) -> str:
+        """The source of the section whose heading has this id."""
+        section = self.source.split(f'aria-labelledby="{name}"')[1]
+        return section.split("<section")[0]
+
+
+def asked(*words) -> dict:
+    """The object that a command prints with --json."""
+    said = io.StringIO()
+    with redirect_stdout(said), redirect_stderr(io.StringIO()):
+        main([*map(str, words), "--json"])
+    return json.loads(said.getvalue())
+
+
+def reported(*words, folder: Path) -> tuple[dict, Page]:
+    """The object of a report, and its page."""
+    path = folder / "report.html"
+    answer = asked("report", *words, "-o", path, "--force")
+    assert answer.get("written") == [str(path)], answer
+    return answer, Page(path.read_text("utf-8"))
+
+
+def board(folder: Path, marks, *, name="marks.toml", settings=BELIEVED, **head) -> tuple[Path, ...]:
+    """Settings and marks as files."""
+    machine = folder / "machine.toml"
+    write_machine_toml(machine, settings)
+    lines = ['frame = "machine"', *(f"{key} = {value}" for key, value in head.items())]
+    for mark in marks:
+        lines += [
+            "\n[[mark]]",
+            f"name = {json.dumps(mark.name)}",
+            f"target = {list(map(float, mark.target))}",
+        ]
+        if mark.measured is not None:
+            lines.append(f"measured = {[round(float(x), 3) for x in mark.measured]}")
+        if mark.sled_weight:
+            lines.append(f"sled_weight_n = {mark.sled_weight}")
+        if mark.approach:
+            lines.append(f"approach = {list(mark.approach)}")
+    path = folder / name
+    path.write_text("\n".join(lines) + "\n")
+    return machine, path
+
+
+def nine(**how):
+    """Nine marks of a machine that sags and stretches more than its settings know."""
+    return marks_on(TRUE, BELIEVED, grid(3, 3), **{"noise": 0.3, **how})
+
+
+def strange():
+    """Marks that no effect of the library makes: a bump in a quarter of the sheet."""
+    marks = []
+    for mark in marks_on(BELIEVED, BELIEVED, grid(7, 5), noise=0.2):
+        x, y = mark.measured
+        lift = 9.0 * np.exp(-((x - 500) ** 2 + (y - 200) ** 2) / 2 / 300.0**2)
+        marks.append(mark.__class__(mark.name, mark.target, (x + lift, y - lift)))
+    return marks
+
+
+def spans(folder: Path) -> tuple[Path, Path]:
+    """A board of distances alone."""
+    machine = folder / "machine.toml"
+    write_machine_toml(machine, BELIEVED)
+    marks = marks_on(TRUE, BELIEVED, grid(4, 3), noise=0.3)
+    lines = ['frame = "machine"']
+    for mark in marks:
+        lines += ["[[mark]]", f'name = "{mark.name}"', f"target = {list(map(float, mark.target))}"]
+    for each in distances_between(marks).distances:
+        lines += [
+            "[[distance]]",
+            f"between = {json.dumps(each.between)}",
+            f"mm = {each.length:.2f}",
+        ]
+    path = folder / "spans.toml"
+    path.write_text("\n".join(lines) + "\n")
+    return machine, path
