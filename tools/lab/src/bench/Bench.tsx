@@ -1,0 +1,114 @@
+// The bench for effects: add and take away, and see at once what is left of the errors.
+import { useState } from "preact/hooks";
+import { type Project, send } from "../api/client";
+import { useNewest } from "../shell/newest";
+import { useProject } from "../shell/project";
+import { Screen } from "../shell/Screen";
+import { BenchViews } from "./BenchViews";
+import { EffectCard } from "./EffectCard";
+import { type Bench as Board, type Choice, useLive, useStairs } from "./live";
+import { Staircase } from "./Staircase";
+import "./bench.css";
+
+export function Bench() {
+  const { project } = useProject();
+  const bench = useNewest<Board>("bench", JSON.stringify(project.files));
+  if (!bench) return <Screen title="Effects bench" say="The marks are being read." />;
+  return <OpenBench bench={bench} />;
+}
+
+function OpenBench({ bench }: { bench: Board }) {
+  const { project, choose } = useProject();
+  const units = project.choices.units ?? "mm";
+  const kept = keptChoice(project.choices.bench);
+  const [moving, setMoving] = useState<Choice>(); // while a slider is being moved
+  const choice = moving ?? kept;
+  const live = useLive(choice, kept, bench.board);
+  const stairs = useStairs(kept, bench.board);
+  const change = (next: Choice, keep: boolean) => {
+    setMoving(keep ? undefined : next);
+    if (keep) void choose({ bench: next });
+  };
+  const { now } = live;
+  return (
+    <Screen
+      title="Effects bench"
+      say="Add an effect: all else is refitted at once. Ghost arrows show the state before. Move a slider to hold a size by hand. Nothing goes to the machine."
+      why={<Why />}
+      {...(now ? { command: now.fit.command } : {})}
+    >
+      {live.refusal && (
+        <p class="trouble" role="alert">
+          {live.refusal}
+        </p>
+      )}
+      <div class="bench">
+        <div class="effects">
+          <h2>Effects</h2>
+          {bench.effects.map((effect) => (
+            <EffectCard
+              key={effect.name}
+              effect={effect}
+              choice={choice}
+              fit={now?.fit}
+              change={change}
+            />
+          ))}
+        </div>
+        <BenchViews bench={bench} live={live} units={units}>
+          {stairs && <Staircase stairs={stairs} units={units} />}
+          {stairs && stairs.warnings.length > 0 && (
+            <ul class="warnings">
+              {stairs.warnings.map((line) => (
+                <li key={line}>{line}</li>
+              ))}
+            </ul>
+          )}
+          <Write bench={bench} choice={kept} />
+        </BenchViews>
+      </div>
+    </Screen>
+  );
+}
+
+/** The button that writes the file of the new machine. */
+function Write({ bench, choice }: { bench: Board; choice: Choice }) {
+  const { project, take, setTrouble } = useProject();
+  const [written, setWritten] = useState("");
+  const key = JSON.stringify(choice);
+  const write = async () => {
+    const read = project.files[bench.new_machine] ?? "";
+    try {
+      take(await send<Project>("POST", "bench/machine", { ...choice, read }));
+      setWritten(key);
+      setTrouble("");
+    } catch (error) {
+      setTrouble(error instanceof Error ? error.message : String(error));
+    }
+  };
+  return (
+    <p class="write">
+      <button type="button" class="primary" onClick={() => void write()}>
+        Write these numbers to {bench.new_machine}
+      </button>{" "}
+      <span role="status">{written === key && `${bench.new_machine} is written.`}</span>
+    </p>
+  );
+}
+
+function Why() {
+  return (
+    <p>
+      Fit is the error of the marks that were fitted. Counted prices in how many numbers the fit
+      took from the marks. Checked predicts each mark by a fit that did not see it. An effect that
+      lowers the fit alone follows the noise. Errors of the chains say how much more of a chain each
+      mark would have needed: most effects are a simple curve there.
+    </p>
+  );
+}
+
+function keptChoice(
+  bench: { effects?: string[]; held?: Record<string, number> } | undefined,
+): Choice {
+  return { effects: bench?.effects ?? [], held: bench?.held ?? {} };
+}

@@ -1,0 +1,57 @@
+// An effect that can be added: its checkbox, and a slider for each of its sizes.
+import type { Choice, Effect, Fit } from "./live";
+import { SizeSlider } from "./SizeSlider";
+
+interface EffectCardParts {
+  effect: Effect;
+  choice: Choice;
+  fit: Fit | undefined;
+  /** Shows a choice; `keep` says that the hand is off the slider. */
+  change: (choice: Choice, keep: boolean) => void;
+}
+
+export function EffectCard({ effect, choice, fit, change }: EffectCardParts) {
+  const added = choice.effects.includes(effect.name);
+  const toggle = () => {
+    const effects = added
+      ? choice.effects.filter((name) => name !== effect.name)
+      : [...choice.effects, effect.name];
+    change({ effects, held: ofEffects(choice.held, effects) }, true);
+  };
+  const hold = (name: string, size: number | undefined, keep: boolean) => {
+    const { [name]: _, ...others } = choice.held;
+    change({ ...choice, held: size === undefined ? others : { ...others, [name]: size } }, keep);
+  };
+  return (
+    <div class={`effect ${added ? "added" : ""}`}>
+      <label class="tick">
+        <input type="checkbox" class="tick-box" checked={added} onChange={toggle} />
+        <span>
+          {effect.noun}
+          {effect.in_settings && <small>in your settings</small>}
+          {effect.where !== "firmware" && <small>no setting holds it</small>}
+        </span>
+      </label>
+      {added && (
+        <div class="sizes">
+          {effect.parameters.map((parameter) => (
+            <SizeSlider
+              key={parameter.name}
+              parameter={parameter}
+              held={choice.held[parameter.name]}
+              size={fit?.sizes[parameter.name]}
+              hold={(size, keep) => hold(parameter.name, size, keep)}
+            />
+          ))}
+        </div>
+      )}
+    </div>
+  );
+}
+
+/** The sizes that belong to these effects. */
+function ofEffects(held: Choice["held"], effects: string[]): Choice["held"] {
+  const mine = ([name]: [string, number]) =>
+    effects.some((effect) => name.startsWith(`${effect}.`));
+  return Object.fromEntries(Object.entries(held).filter(mine));
+}

@@ -1,0 +1,46 @@
+// The size of an effect: fitted, until somebody takes the slider; then it is held.
+import type { Schemas } from "../api/client";
+
+const STEPS = 200;
+
+interface SizeSliderParts {
+  parameter: Schemas["BenchParameter"];
+  held: number | undefined;
+  size: Schemas["BenchSize"] | undefined;
+  hold: (size: number | undefined, keep: boolean) => void;
+}
+
+export function SizeSlider({ parameter, held, size, hold }: SizeSliderParts) {
+  const { low, high, label, name } = parameter;
+  const value = held ?? size?.value ?? 0;
+  const said = size?.said ?? "";
+  const slid = (event: Event, keep: boolean) =>
+    hold(Number((event.currentTarget as HTMLInputElement).value), keep);
+  return (
+    <div class="held">
+      <label for={name}>{label}</label>
+      <input
+        id={name}
+        type="range"
+        min={low}
+        max={high}
+        step={(high - low) / STEPS}
+        value={value}
+        aria-valuetext={said}
+        onInput={(event) => slid(event, false)}
+        onChange={(event) => slid(event, true)}
+      />
+      <p>
+        {said}
+        {size && !size.plausible && <strong class="impossible"> No real machine has this.</strong>}
+      </p>
+      {held === undefined ? (
+        <span class="state">fitted</span>
+      ) : (
+        <button type="button" onClick={() => hold(undefined, true)} aria-label={`Fit: ${label}`}>
+          Held: fit it
+        </button>
+      )}
+    </div>
+  );
+}

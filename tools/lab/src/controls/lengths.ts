@@ -1,0 +1,43 @@
+// Lengths as people type and read them: mm or inch, comma or point, fractions of an inch.
+export type Unit = "mm" | "inch";
+const INCH = 25.4;
+
+/** What was typed, in mm; undefined if it is no length. "12,5", "48 3/16" and "3/8" are lengths. */
+export function typedLength(text: string, unit: Unit): number | undefined {
+  const clean = text
+    .trim()
+    .replace(",", ".")
+    .replace(/\s*(mm|inch|in|")$/i, "");
+  const parts = /^(-?)(?:(\d+(?:\.\d*)?|\.\d+)|(?:(\d+)[ -]+)?(\d+)\/(\d+))$/.exec(clean);
+  if (!parts) return undefined;
+  const [, minus, decimal, whole, above, below] = parts;
+  const size =
+    decimal !== undefined ? Number(decimal) : Number(whole ?? 0) + Number(above) / Number(below);
+  if (!Number.isFinite(size)) return undefined;
+  return (minus ? -size : size) * (unit === "inch" ? INCH : 1);
+}
+
+/** A length [mm] in the unit that was chosen, without its name. An inch gets a decimal more. */
+export function shownLength(mm: number, unit: Unit, digits = 1): string {
+  return unit === "inch" ? (mm / INCH).toFixed(digits + 1) : mm.toFixed(digits);
+}
+
+/** The same with its unit. */
+export function namedLength(mm: number, unit: Unit, digits = 1): string {
+  return `${shownLength(mm, unit, digits)} ${unit}`;
+}
+
+/** A length [mm] as somebody would type it: a fraction where the inch has it, no needless zeros. */
+export function lengthText(mm: number, unit: Unit): string {
+  if (unit === "mm") return String(Number(mm.toFixed(2)));
+  const sixtyFourths = Math.round((Math.abs(mm) / INCH) * 64);
+  if (Math.abs((Math.abs(mm) / INCH) * 64 - sixtyFourths) > 0.01) {
+    return String(Number((mm / INCH).toFixed(3)));
+  }
+  let [above, below] = [sixtyFourths % 64, 64];
+  const whole = (sixtyFourths - above) / 64;
+  while (above && above % 2 === 0) [above, below] = [above / 2, below / 2];
+  const sign = mm < 0 && sixtyFourths ? "-" : "";
+  if (!above) return `${sign}${whole}`;
+  return `${sign}${whole ? `${whole} ` : ""}${above}/${below}`;
+}

@@ -1,0 +1,111 @@
+// A machine's first day, step by step, by the steps of plumb guide; each can be left and taken up again.
+import { useEffect } from "preact/hooks";
+import type { Schemas } from "../api/client";
+import { isReady, useMachine } from "../shell/machine";
+import { useProject } from "../shell/project";
+import { useWatched } from "../shell/watched";
+import { GuideQuestion } from "./GuideQuestion";
+import "./guide.css";
+
+type Answer = Schemas["GuideAnswer"];
+
+const LOOK_MS = 300; // while a step is under way
+
+/** The guide as the server has it, and how to do something with it. */
+export interface Guide {
+  guide: Answer | undefined;
+  press: (path: string, body?: unknown) => void;
+  busy: boolean;
+}
+
+export function useGuide(): Guide {
+  const { setTrouble, reload } = useProject();
+  const { state, press, busy } = useWatched<Answer>({
+    path: "guide",
+    works: isUnderWay,
+    oftenMs: LOOK_MS,
+    trouble: setTrouble,
+  });
+  const here = state?.here;
+  useEffect(() => {
+    if (here) return () => void reload(); // what the step wrote
+  }, [here, reload]);
+  return { guide: state, press, busy };
+}
+
+function isUnderWay(guide: Answer): boolean {
+  return guide.here !== "";
+}
+
+export function FirstDay({ guide, press, busy }: Guide) {
+  const ready = isReady(useMachine());
+  if (!guide) return null;
+  const place = guide.steps.findIndex((step) => step.name === guide.open);
+  const reached = place < 0 ? guide.steps.length : place;
+  const last = guide.said.at(-1) ?? "";
+  return (
+    <section class="guide" aria-labelledby="guide-title">
+      <h2 id="guide-title">Its first day, step by step</h2>
+      <p>Nothing moves before you press a button that says what moves and how far.</p>
+      <ol>
+        {guide.steps.map((step, index) => (
+          <li key={step.name} class={step.done ? "done" : ""} data-here={step.name === guide.here}>
+            <span>{step.title}</span>
+            {step.name !== guide.here && index <= reached && (
+              <button
+                type="button"
+                class={index === reached ? "primary" : ""}
+                disabled={busy || !ready || guide.here !== ""}
+                aria-label={`${step.done ? "Again" : "Begin"}: ${step.title}`}
+                onClick={() => press("begin", { step: step.name })}
+              >
+                {step.done ? "Again" : "Begin"}
+              </button>
+            )}
+            {step.name === guide.here && (
+              <div class="here">
+                {last && <Said text={last} />}
+                {guide.question ? (
+                  <>
+                    <GuideQuestion
+                      key={guide.question.number}
+                      question={guide.question}
+                      busy={busy}
+                      answer={(reply) => press("answer", { number: guide.question?.number, reply })}
+                    />
+                    <button type="button" disabled={busy} onClick={() => press("leave")}>
+                      Leave this step
+                    </button>
+                  </>
+                ) : (
+                  <p role="status">The machine works …</p>
+                )}
+              </div>
+            )}
+          </li>
+        ))}
+      </ol>
+      {!guide.here && guide.said.length > 0 && <Said text={guide.said.join("\n")} />}
+      {!guide.here && guide.trouble && (
+        <p class="trouble" role="alert">
+          {guide.trouble}
+        </p>
+      )}
+      {place < 0 && (
+        <p>
+          <strong>All steps are done.</strong> <a href="#/measure">Choose marks</a>
+        </p>
+      )}
+    </section>
+  );
+}
+
+function Said({ text }: { text: string }) {
+  return (
+    <div class="said" role="status">
+      {text.split("\n").map((line) => (
+        <p key={line}>{line}</p>
+      ))}
+    </div>
+  );
+}

@@ -1,0 +1,115 @@
+// The machine from the front, to scale: motors, chains, sheet and sled; a distance may be marked on it.
+import type { ComponentChildren } from "preact";
+import type { Schemas } from "../api/client";
+import "./picture.css";
+
+type Machine = Schemas["Machine"];
+export type Distance =
+  | "motor_gap"
+  | "motor_height"
+  | "rotation_radius"
+  | "sheet"
+  | "sled_weight"
+  | "chain";
+
+interface PictureParts {
+  machine: Machine;
+  /** The distance that is marked. */
+  marked?: Distance | undefined;
+  /** What stands at it. */
+  words?: string;
+  children?: ComponentChildren;
+}
+
+export function MachinePicture({ machine, marked, words = "", children }: PictureParts) {
+  const [width, height] = machine.sheet;
+  const gap = machine.frame.motor_gap ?? width;
+  const up = machine.frame.motor_height ?? height;
+  const ring = machine.frame.rotation_radius ?? 140;
+  const left = Math.max(gap, width) / 2 + 220;
+  const box = [-left, -up - 330, 2 * left, up + height / 2 + 560];
+  const sled: [number, number] = [-width / 8, -height / 16];
+  return (
+    <svg
+      class="machine-picture"
+      viewBox={box.join(" ")}
+      role="img"
+      aria-label={`The machine from the front${marked ? `; marked: ${words}` : ""}`}
+    >
+      <rect class="wood" x={-width / 2} y={-height / 2} width={width} height={height} />
+      <line class="beam" x1={-gap / 2 - 90} x2={gap / 2 + 90} y1={-up} y2={-up} />
+      {[-1, 1].map((side) => (
+        <g key={side}>
+          <Chain from={[(side * gap) / 2, -up]} to={sled} ring={ring} marked={marked === "chain"} />
+          <circle class="motor" cx={(side * gap) / 2} cy={-up} r={55} />
+        </g>
+      ))}
+      <circle class="sled" cx={sled[0]} cy={sled[1]} r={230} />
+      <circle class="ring" cx={sled[0]} cy={sled[1]} r={ring} />
+      <circle class="bit" cx={sled[0]} cy={sled[1]} r={16} />
+      {marked && <Marked {...{ marked, words, width, height, gap, up, ring, sled }} />}
+      {children}
+    </svg>
+  );
+}
+
+interface ChainParts {
+  from: [number, number];
+  to: [number, number];
+  ring: number;
+  marked: boolean;
+}
+
+function Chain({ from, to, ring, marked }: ChainParts) {
+  const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
+  const share = (length - ring) / length;
+  return (
+    <line
+      class={marked ? "chain marked" : "chain"}
+      x1={from[0]}
+      y1={from[1]}
+      x2={from[0] + (to[0] - from[0]) * share}
+      y2={from[1] + (to[1] - from[1]) * share}
+    />
+  );
+}
+
+interface MarkedParts {
+  marked: Distance;
+  words: string;
+  width: number;
+  height: number;
+  gap: number;
+  up: number;
+  ring: number;
+  sled: [number, number];
+}
+
+function Marked({ marked, words, width, height, gap, up, ring, sled }: MarkedParts) {
+  const ends: Record<Distance, [number, number, number, number]> = {
+    motor_gap: [-gap / 2, -up - 150, gap / 2, -up - 150],
+    motor_height: [width / 2 - 60, -height / 2, width / 2 - 60, -up],
+    rotation_radius: [sled[0], sled[1], sled[0] + ring, sled[1]],
+    sheet: [-width / 2, height / 2 + 90, width / 2, height / 2 + 90],
+    sled_weight: [sled[0], sled[1], sled[0], sled[1] + 330],
+    chain: [gap / 4, -up / 2, gap / 4, -up / 2],
+  };
+  const [x1, y1, x2, y2] = ends[marked];
+  const [x, y] = [(x1 + x2) / 2, (y1 + y2) / 2];
+  const level = y1 === y2 && marked !== "rotation_radius";
+  const below = marked === "rotation_radius" || marked === "sled_weight";
+  return (
+    <g class="mark">
+      <line x1={x1} y1={y1} x2={x2} y2={y2} />
+      <circle cx={x1} cy={y1} r={18} />
+      <circle cx={x2} cy={y2} r={18} />
+      <text
+        x={below ? sled[0] : level ? x : x - 40}
+        y={below ? sled[1] + 420 : level ? (marked === "sheet" ? y + 120 : y - 40) : y + 30}
+        text-anchor={below || level ? "middle" : "end"}
+      >
+        {words}
+      </text>
+    </g>
+  );
+}

@@ -1,0 +1,9 @@
+// Mounts the lab into the page.
+import { render } from "preact";
+import "./shell/look.css";
+import { takeToken } from "./api/token";
+import { Lab } from "./shell/Lab";
+
+takeToken();
+const place = document.getElementById("lab");
+if (place) render(<Lab />, place);

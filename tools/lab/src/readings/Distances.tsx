@@ -1,0 +1,101 @@
+// Distances between marks: they need no edge of the sheet.
+import { useState } from "preact/hooks";
+import { lengthText, namedLength, typedLength } from "../controls/lengths";
+import { useProject } from "../shell/project";
+import { type Distance, useDistances } from "./useDistances";
+import type { Doubt } from "./useDoubts";
+import type { Form } from "./useReadings";
+
+interface DistancesParts {
+  form: Form;
+  take: (form: Form) => void;
+  doubts: Doubt[];
+}
+
+export function Distances({ form, take, doubts }: DistancesParts) {
+  const { project } = useProject();
+  const units = project.choices.units ?? "mm";
+  const names = namesOfOnePlace(form.marks);
+  const [ends, setEnds] = useState(["", ""]);
+  const [text, setText] = useState("");
+  const length = typedLength(text, units);
+  const [from = "", to = ""] = ends;
+  const ready = from !== "" && to !== "" && from !== to && !!length && length > 0;
+  const saved = useDistances(form, take);
+  const save = async (distances: Distance[]) => {
+    // What was typed stays in its field until it is saved, and what is typed meanwhile stays too.
+    if (await saved(distances)) setText((now) => (now === text ? "" : now));
+  };
+  const doubted = new Set(doubts.filter((doubt) => !doubt.is_mark).map((doubt) => doubt.index));
+  const add = (event: Event) => {
+    event.preventDefault();
+    if (ready && length) void save([...form.distances, { between: [from, to], length }]);
+  };
+  return (
+    <details class="distances" open={form.distances.length > 0}>
+      <summary>Distances between marks ({form.distances.length})</summary>
+      <ul>
+        {form.distances.map((distance, index) => (
+          <li
+            key={`${distance.between.join("-")}-${distance.length}`}
+            id={`distance-${index}`}
+            class={doubted.has(index) ? "doubted" : ""}
+          >
+            <span>
+              {distance.between.join(" to ")}: {namedLength(distance.length, units)}
+            </span>
+            <button
+              type="button"
+              onClick={() => {
+                setEnds(distance.between);
+                setText(lengthText(distance.length, units));
+                void save(form.distances.filter((_, other) => other !== index)).then(() =>
+                  setText(lengthText(distance.length, units)),
+                );
+              }}
+            >
+              Change
+            </button>
+          </li>
+        ))}
+      </ul>
+      <form onSubmit={add}>
+        {([0, 1] as const).map((side) => (
+          <label key={side}>
+            {side === 0 ? "from mark" : "to mark"}
+            <select
+              value={ends[side]}
+              onChange={(event) =>
+                setEnds(ends.map((end, i) => (i === side ? event.currentTarget.value : end)))
+              }
+            >
+              <option value="">?</option>
+              {names.map((name) => (
+                <option key={name}>{name}</option>
+              ))}
+            </select>
+          </label>
+        ))}
+        <label>
+          {units}
+          <input
+            inputMode={units === "mm" ? "decimal" : "text"}
+            value={text}
+            onInput={(event) => setText(event.currentTarget.value)}
+          />
+        </label>
+        <button type="submit" disabled={!ready}>
+          Add the distance
+        </button>
+      </form>
+    </details>
+  );
+}
+
+/** Names of marks from which a tape can be laid: a name with two places says nothing. */
+function namesOfOnePlace(marks: Form["marks"]): string[] {
+  const places = new Map<string, Set<string>>();
+  for (const { name, target } of marks)
+    places.set(name, (places.get(name) ?? new Set()).add(target.join()));
+  return [...places].filter(([, each]) => each.size === 1).map(([name]) => name);
+}

@@ -1,0 +1,30 @@
+// Asks which readings disagree, a moment after each change.
+import { useEffect, useState } from "preact/hooks";
+import { get, type Schemas } from "../api/client";
+import type { Form } from "./useReadings";
+
+export type Doubt = Schemas["DoubtAnswer"];
+const PAUSE_MS = 500;
+
+export function useDoubts(form: Form | undefined): { doubts: Doubt[]; looking: boolean } {
+  const [answer, setAnswer] = useState<Schemas["DoubtsAnswer"]>();
+  const { file = "", digest = "" } = form ?? {};
+  const empty = !form?.distances.length && !form?.marks.some((mark) => mark.read);
+  useEffect(() => {
+    if (!file || empty) return;
+    let over = false;
+    const timer = setTimeout(async () => {
+      const asked = get<Schemas["DoubtsAnswer"]>(`doubts?file=${encodeURIComponent(file)}`);
+      const doubts = await asked.catch(() => ({ file, digest, doubts: [] }));
+      if (!over) setAnswer(doubts);
+    }, PAUSE_MS);
+    return () => {
+      over = true;
+      clearTimeout(timer);
+    };
+  }, [file, digest, empty]);
+  const current = answer?.file === file && answer.digest === digest;
+  // An answer about the readings before stays in view, so that rings do not flicker.
+  const doubts = !empty && answer?.file === file ? answer.doubts : [];
+  return { doubts, looking: !current && !empty };
+}

@@ -1,0 +1,101 @@
+// The form of readings: loaded, kept while it is typed, and saved reading by reading.
+import { useCallback, useEffect, useRef, useState } from "preact/hooks";
+import { get, type Schemas, send } from "../api/client";
+import { namedLength } from "../controls/lengths";
+import { type Kept, useKept } from "../shell/kept";
+import { same } from "../shell/merge";
+import { useProject } from "../shell/project";
+import { Turns } from "../shell/turns";
+
+export type Form = Schemas["ReadingsAnswer"];
+export type Place = readonly [number, number];
+/** A reading [mm from the chosen edges] for each mark by its number in the form. */
+export type Typed = Record<string, Place>;
+
+export interface TypedForm {
+  form: Form | undefined;
+  kept: Kept<Typed>;
+  /** Shows an answer of the server. */
+  take: (form: Form) => void;
+  chooseFile: (name: string) => void;
+  /** A reading in words. */
+  shown: (place: unknown) => string;
+}
+
+const NOTHING: Typed = {};
+
+/** The form of this name; without a name the newest. */
+export function useReadings(first = ""): TypedForm {
+  const { project, setTrouble, reload: reloadProject } = useProject();
+  const [file, setFile] = useState(first);
+  const [form, setForm] = useState<Form>();
+  const newest = useRef<Form | undefined>(undefined);
+  const turns = useRef(new Turns()).current;
+  const show = useCallback((answer: Form) => {
+    newest.current = answer;
+    setForm((before) => (same(before, answer) ? before : answer));
+  }, []);
+  const take = useCallback(
+    (answer: Form) => {
+      // An answer that a save has overtaken is old.
+      turns.overtake();
+      show(answer);
+    },
+    [turns, show],
+  );
+  const load = useCallback(async () => {
+    const question = turns.begin();
+    try {
+      const answer = await get<Form>(`readings?file=${encodeURIComponent(file)}`);
+      if (turns.counts(question)) show(answer);
+      setTrouble("");
+    } catch (error) {
+      setTrouble(error instanceof Error ? error.message : String(error));
+    }
+  }, [file, turns, show, setTrouble]);
+  const onDisk = form ? project.files[form.file] : "";
+  const known = Object.keys(project.files).join();
+  // What is on disk or chosen has changed.
+  useEffect(() => {
+    if (onDisk !== newest.current?.digest || !onDisk) void load();
+  }, [load, onDisk, known]);
+  // Other edges or settings change every number, once the server has them.
+  useEffect(() => void load(), [project.choices_digest]);
+  const kept = useKept<Typed>({
+    place: `readings:${form?.file ?? ""}:${form?.edges ?? ""}`,
+    saved: form ? typedIn(form) : NOTHING,
+    save: async (value) => {
+      const now = newest.current;
+      if (!now) return value;
+      const readings = changes(typedIn(now), value);
+      const body = { file: now.file, digest: now.digest, edges: now.edges, readings };
+      const answer = await send<Form>("PUT", "readings", body);
+      take(answer);
+      void reloadProject();
+      return typedIn(answer);
+    },
+    reload: load,
+  });
+  const units = project.choices.units ?? "mm";
+  const shown = (place: unknown) =>
+    Array.isArray(place) ? place.map((mm) => namedLength(mm, units)).join(", ") : "nothing";
+  return { form, kept, take, chooseFile: setFile, shown };
+}
+
+/** The readings that a form has. */
+function typedIn(form: Form): Typed {
+  const typed: Record<string, Place> = {};
+  for (const mark of form.marks) if (mark.read) typed[mark.index] = mark.read as Place;
+  return typed;
+}
+
+/** The readings that became others. */
+function changes(was: Typed, is: Typed): Schemas["TypedReading"][] {
+  const indices = [...new Set([...Object.keys(was), ...Object.keys(is)])];
+  return indices
+    .filter((index) => !same(was[index], is[index]))
+    .map((index) => ({
+      index: Number(index),
+      read: is[index] ? ([...is[index]] as [number, number]) : null,
+    }));
+}

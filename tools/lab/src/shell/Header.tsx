@@ -1,0 +1,47 @@
+// The line on top: the folder, what waits to be saved, and the unit in which lengths are shown and typed.
+import { useOutbox } from "./kept";
+import { waitingPlaces } from "./outbox";
+import { SILENT, useProject } from "./project";
+import "./header.css";
+
+export function Header() {
+  const { project, trouble, choose } = useProject();
+  useOutbox();
+  const waits = waitingPlaces().length > 0 && trouble.startsWith(SILENT);
+  const units = project.choices.units ?? "mm";
+  return (
+    <header>
+      <button type="button" class="skip" onClick={toScreen}>
+        To the screen
+      </button>
+      <a class="mark" href="#/open">
+        Plumb
+      </a>
+      <span class="folder" title={project.folder}>
+        {project.folder}
+      </span>
+      <span class="waits" role="status">
+        {waits && "What you typed is kept in this browser until the lab answers."}
+      </span>
+      <fieldset class="units">
+        <legend>Lengths in</legend>
+        {(["mm", "inch"] as const).map((unit) => (
+          <label key={unit}>
+            <input
+              type="radio"
+              name="units"
+              checked={units === unit}
+              onChange={() => void choose({ units: unit })}
+            />
+            <span>{unit}</span>
+          </label>
+        ))}
+      </fieldset>
+    </header>
+  );
+}
+
+/** Past the list of steps. */
+function toScreen() {
+  document.getElementById("screen")?.focus();
+}

@@ -1,0 +1,76 @@
+// The lab: the way at the side, the screen in the middle, trouble on top.
+import { useEffect, useRef, useState } from "preact/hooks";
+import { Clashes } from "./Clashes";
+import { Header } from "./Header";
+import { MachineBar } from "./MachineBar";
+import { MachineContext, useLiveMachine } from "./machine";
+import { type Loaded, ProjectContext, type Shared, useSharedProject } from "./project";
+import { ROOMS, STEPS, type Step } from "./steps";
+import { Way, WayOn } from "./Way";
+
+/** The id behind # in the address. */
+function useAddress(): string {
+  const [id, setId] = useState(location.hash.replace(/^#\/?/, ""));
+  useEffect(() => {
+    const changed = () => setId(location.hash.replace(/^#\/?/, ""));
+    addEventListener("hashchange", changed);
+    return () => removeEventListener("hashchange", changed);
+  }, []);
+  return id;
+}
+
+export function Lab() {
+  const loaded = useSharedProject();
+  const { shared, trouble } = loaded;
+  const id = useAddress();
+  const machine = useLiveMachine();
+  if (!shared) {
+    return <main class="alone">{trouble ? <p role="alert">{trouble}</p> : <p>Loading …</p>}</main>;
+  }
+  const step: Step = [...STEPS, ...ROOMS].find((step) => step.id === id) ?? (STEPS[0] as Step);
+  return (
+    <ProjectContext.Provider value={shared}>
+      <MachineContext.Provider value={machine}>
+        <Header />
+        <MachineBar />
+        <Way project={shared.project} here={step.id} />
+        <Main step={step} shared={shared} loaded={loaded} />
+      </MachineContext.Provider>
+    </ProjectContext.Provider>
+  );
+}
+
+function Main({ step, shared, loaded }: { step: Step; shared: Shared; loaded: Loaded }) {
+  const { project } = shared;
+  const trouble = loaded.trouble || project.trouble;
+  const missing = step.needs(project);
+  const place = useRef<HTMLElement>(null);
+  const first = useRef(true);
+  useEffect(() => {
+    document.title = `${step.title} · ${project.folder} · Plumb`;
+    // Who follows a link with the keyboard or hears the page goes on at the new screen.
+    if (!first.current) place.current?.focus({ preventScroll: true });
+    if (!first.current) scrollTo(0, 0);
+    first.current = false;
+  }, [step.title, project.folder]);
+  const { Screen } = step;
+  return (
+    <main ref={place} id="screen" tabIndex={-1}>
+      {trouble && (
+        <p class="trouble" role="alert">
+          {trouble}
+        </p>
+      )}
+      <Clashes kept={loaded.choices} />
+      {missing ? (
+        <section class="screen">
+          <h1>{step.title}</h1>
+          <p class="missing">This screen opens later: {missing}.</p>
+        </section>
+      ) : (
+        <Screen key={step.id} />
+      )}
+      <WayOn project={project} here={step.id} />
+    </main>
+  );
+}

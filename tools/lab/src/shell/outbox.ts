@@ -1,0 +1,99 @@
+// Edits that the server has not confirmed yet. They lie in this browser, by folder, so that no crash, reload or dead
+// server loses what somebody typed.
+
+/** What somebody wants a place to hold, and what it held when the editing began. */
+export interface Edit {
+  value: unknown;
+  was: unknown;
+}
+
+const PREFIX = "plumb-edit";
+let folder = "";
+const edits = new Map<string, Edit>(); // of this tab, by place; the storage holds a copy for the next tab
+const listeners = new Set<() => void>();
+const underWay = new Set<string>(); // places whose value is on its way to the server
+
+/** Names the folder whose edits these are, and takes up what an earlier tab left behind. */
+export function openOutbox(key: string): void {
+  if (key === folder) return;
+  folder = key;
+  edits.clear();
+  for (const name of storedNames()) {
+    const edit = stored(name);
+    if (edit) edits.set(name.slice(storedAs("").length), edit);
+  }
+  tell();
+}
+
+/** The edit of a place that still waits, if any. */
+export function editOf(place: string): Edit | undefined {
+  return edits.get(place);
+}
+
+/** Keeps an edit until it is confirmed. */
+export function keep(place: string, edit: Edit): void {
+  edits.set(place, edit);
+  try {
+    localStorage.setItem(storedAs(place), JSON.stringify(edit));
+  } catch {
+    // A browser without room keeps the edit as long as the tab is open.
+  }
+  tell();
+}
+
+/** Forgets the edit of a place: it is saved, or given up. */
+export function forget(place: string): void {
+  edits.delete(place);
+  try {
+    localStorage.removeItem(storedAs(place));
+  } catch {
+    // Nothing was kept there.
+  }
+  tell();
+}
+
+/** Whether a value of this place is on its way to the server, so that nobody knows what is saved. */
+export function isUnderWay(place: string): boolean {
+  return underWay.has(place);
+}
+
+/** Says that a value of this place is on its way, or that the answer is here. */
+export function setUnderWay(place: string, is: boolean): void {
+  if (is) underWay.add(place);
+  else underWay.delete(place);
+}
+
+/** The places whose edits wait. */
+export function waitingPlaces(): string[] {
+  return [...edits.keys()];
+}
+
+/** Calls back after each change; returns what ends that. */
+export function listen(callback: () => void): () => void {
+  listeners.add(callback);
+  return () => listeners.delete(callback);
+}
+
+function storedAs(place: string): string {
+  return `${PREFIX}:${folder}:${place}`;
+}
+
+function storedNames(): string[] {
+  try {
+    return Object.keys(localStorage).filter((name) => name.startsWith(storedAs("")));
+  } catch {
+    return []; // a browser that forbids the storage
+  }
+}
+
+function stored(name: string): Edit | undefined {
+  try {
+    return JSON.parse(localStorage.getItem(name) ?? "") as Edit;
+  } catch {
+    return undefined;
+  }
+}
+
+function tell(): void {
+  for (const callback of [...listeners]) callback();
+}

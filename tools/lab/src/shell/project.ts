@@ -1,0 +1,124 @@
+// The project that all screens share: what is on disk, and how a screen changes it.
+import { createContext } from "preact";
+import { useCallback, useContext, useEffect, useRef, useState } from "preact/hooks";
+import { type Choices, get, type Project, send } from "../api/client";
+import { type Kept, useKept } from "./kept";
+import { same } from "./merge";
+import { editOf, openOutbox } from "./outbox";
+import { Turns } from "./turns";
+
+/** What a screen sees of the project, and what it may do with it. */
+export interface Shared {
+  project: Project;
+  /** Shows an answer that holds the whole project. */
+  take: (project: Project) => void;
+  /** Changes choices: shown at once, kept in the browser until they are saved. Ends when they are. */
+  choose: (change: Partial<Choices>) => Promise<void>;
+  /** Asks what is on disk now. */
+  reload: () => Promise<void>;
+  /** What went wrong last; empty if nothing. */
+  trouble: string;
+  setTrouble: (line: string) => void;
+}
+
+export const ProjectContext = createContext<Shared | null>(null);
+
+/** The project; only for screens inside of the lab. */
+export function useProject(): Shared {
+  const shared = useContext(ProjectContext);
+  if (!shared) throw new Error("outside of the lab");
+  return shared;
+}
+
+const LOOK_AGAIN_MS = 3000; // so work of another tab or of the command line shows up
+export const SILENT = "The lab does not answer";
+
+/** What the frame knows: the project once it is loaded, and choices that may still wait. */
+export interface Loaded {
+  shared: Shared | undefined;
+  choices: Kept<Choices>;
+  trouble: string;
+}
+
+/** Loads the project and keeps it fresh. */
+export function useSharedProject(): Loaded {
+  const [trouble, setTrouble] = useState("");
+  const { project, take, reload } = useLoadedProject(setTrouble);
+  const newest = useRef(project);
+  newest.current = project;
+  const choices = useKept<Choices>({
+    place: "choices",
+    saved: project?.choices ?? ({} as Choices), // nothing is chosen before the project is loaded
+    save: async (value) => {
+      const body = { choices: value, read: newest.current?.choices_digest };
+      const answer = await send<Project>("PUT", "choices", body);
+      newest.current = answer;
+      take(answer);
+      return answer.choices;
+    },
+    reload,
+    pause: 0,
+  });
+  const choose = useChoose(choices);
+  const shared = project && {
+    project: { ...project, choices: choices.value },
+    take,
+    choose,
+    reload,
+    trouble,
+    setTrouble,
+  };
+  return { shared, choices, trouble: trouble || choices.refused };
+}
+
+function useLoadedProject(setTrouble: (change: (line: string) => string) => void) {
+  const [project, setProject] = useState<Project>();
+  const turns = useRef(new Turns()).current;
+  const show = useCallback((answer: Project) => {
+    openOutbox(answer.key);
+    // What is as before stays the same object, so that no screen asks again for what it shows.
+    setProject((before) => (same(before, answer) ? before : answer));
+  }, []);
+  const take = useCallback(
+    (answer: Project) => {
+      // An answer that a save has overtaken is old.
+      turns.overtake();
+      show(answer);
+    },
+    [turns, show],
+  );
+  const reload = useCallback(async () => {
+    const question = turns.begin();
+    try {
+      const answer = await get<Project>("project");
+      if (turns.counts(question)) show(answer);
+      setTrouble((line) => (line.startsWith(SILENT) ? "" : line));
+    } catch (error) {
+      setTrouble(() => (error instanceof Error ? error.message : String(error)));
+    }
+  }, [turns, show, setTrouble]);
+  useEffect(() => {
+    void reload();
+    const timer = setInterval(() => document.hidden || void reload(), LOOK_AGAIN_MS);
+    return () => clearInterval(timer);
+  }, [reload]);
+  return { project, take, reload };
+}
+
+/** Changes choices, and ends when they are saved or wait for the person. */
+function useChoose(choices: Kept<Choices>): Shared["choose"] {
+  const newest = useRef(choices);
+  newest.current = choices;
+  const callers = useRef<(() => void)[]>([]);
+  useEffect(() => {
+    const { refused, clashes } = newest.current;
+    if (editOf("choices") && !refused && clashes.length === 0) return;
+    for (const done of callers.current.splice(0)) done();
+  });
+  return useCallback((change) => {
+    newest.current.put((value) => ({ ...value, ...change }));
+    return new Promise((done) => {
+      callers.current.push(done);
+    });
+  }, []);
+}

@@ -1,0 +1,47 @@
+// The way through a calibration: its steps in order, and what each needs before it opens.
+import type { ComponentType } from "preact";
+import type { Project } from "../api/client";
+import { Bench } from "../bench/Bench";
+import { Practice } from "../practice/Practice";
+import { Check } from "../steps/Check";
+import { Correct } from "../steps/Correct";
+import { Cut } from "../steps/Cut";
+import { Diary } from "../steps/Diary";
+import { Known } from "../steps/Known";
+import { Measure } from "../steps/Measure";
+import { Open } from "../steps/Open";
+import { Reach } from "../steps/Reach";
+import { Readings } from "../steps/Readings";
+import { Verdict } from "../steps/Verdict";
+
+/** A screen of the lab. */
+export interface Step {
+  id: string; // in the address, behind #
+  title: string;
+  Screen: ComponentType;
+  /** What is missing before this screen opens, in a few words; empty if nothing. */
+  needs: (project: Project) => string;
+}
+
+const nothing = () => "";
+const settings = (project: Project) => (project.machine ? "" : "open a machine first");
+const marks = (project: Project) =>
+  settings(project) || (project.choices.marks?.length ? "" : "type readings first");
+
+export const STEPS: Step[] = [
+  { id: "open", title: "Machine", Screen: Open, needs: nothing },
+  { id: "known", title: "What you know", Screen: Known, needs: settings },
+  { id: "reach", title: "Reach", Screen: Reach, needs: settings },
+  { id: "measure", title: "Choose marks", Screen: Measure, needs: settings },
+  { id: "cut", title: "Cut", Screen: Cut, needs: settings },
+  { id: "readings", title: "Readings", Screen: Readings, needs: settings },
+  { id: "verdict", title: "Verdict", Screen: Verdict, needs: marks },
+  { id: "correct", title: "Correct", Screen: Correct, needs: marks },
+  { id: "check", title: "Check", Screen: Check, needs: marks },
+  { id: "diary", title: "Diary", Screen: Diary, needs: nothing },
+];
+
+export const ROOMS: Step[] = [
+  { id: "bench", title: "Effects bench", Screen: Bench, needs: marks },
+  { id: "practice", title: "Practice", Screen: Practice, needs: nothing },
+];

@@ -1,0 +1,160 @@
+// Step 9: two marks that took no part: is the machine where its settings promise?
+
+import { useState } from "preact/hooks";
+import { type Project, type Schemas, send } from "../api/client";
+import { namedLength, shownLength } from "../controls/lengths";
+import { isReady, useMachine } from "../shell/machine";
+import { useNewest } from "../shell/newest";
+import { useProject } from "../shell/project";
+import { Screen } from "../shell/Screen";
+import { CheckMap } from "./check/CheckMap";
+import { CheckReadings } from "./check/CheckReadings";
+import { OffTarget } from "./check/OffTarget";
+import "./check/check.css";
+
+export type CheckAnswer = Schemas["CheckAnswer"];
+
+export function Check() {
+  const { project, take, reload, setTrouble } = useProject();
+  const machine = useMachine();
+  // The check marks as they are now; asked again when a file changes.
+  const answer = useNewest<CheckAnswer>("check", JSON.stringify(project.files));
+  const [busy, setBusy] = useState(false);
+  const units = project.choices.units ?? "mm";
+  if (!answer) return <Screen title="Is it true?" say="One moment …" busy />;
+  const doing = async (path: string) => {
+    setBusy(true);
+    try {
+      const answered = await send<Project | Schemas["MachineAnswer"]>("POST", path);
+      if ("choices" in answered) take(answered);
+      else await reload();
+      setTrouble("");
+    } catch (error) {
+      setTrouble(error instanceof Error ? error.message : String(error));
+    }
+    setBusy(false);
+  };
+  if (answer.trouble) return <NoPromise />;
+  const ready = isReady(machine);
+  const isCut = machine.program?.title === answer.program && machine.program.outcome === "done";
+  const places = answer.meant.map((place) =>
+    place.map((mm) => shownLength(mm, units, 0)).join(", "),
+  );
+  return (
+    <Screen
+      title="Is it true?"
+      say="Cut two marks that took no part, on the same sheet, with the new settings. Then read them. They show what the machine does where nobody fitted it."
+      why={<Why />}
+      command={answer.command}
+    >
+      <CheckMap answer={answer} />
+      {answer.sentence && (
+        <p class={answer.holds ? "judged holds" : "judged misses"} role="status">
+          {answer.sentence}
+        </p>
+      )}
+      {answer.sentence && <OffTarget rounds={answer.rounds} units={units} />}
+      {!answer.sentence && (
+        <p>
+          Where ({units} from your edges): {places.join(" and ")}.
+        </p>
+      )}
+      <p class="buttons">
+        {machine.kind !== "none" && !answer.sentence && !isCut && (
+          <button
+            type="button"
+            class="primary"
+            disabled={busy || !ready}
+            onClick={() => void doing("check/cut")}
+          >
+            Cut both marks: the sled moves
+          </button>
+        )}
+        {machine.kind === "none" && !answer.is_saved && (
+          <button type="button" class="primary" disabled={busy} onClick={() => void doing("check")}>
+            Write {answer.program} and its form
+          </button>
+        )}
+        {machine.kind === "virtual" && answer.is_saved && !answer.sentence && (
+          <button
+            type="button"
+            disabled={busy || !ready || !isCut}
+            onClick={() => void read(answer.form, setTrouble, take)}
+          >
+            Let the tape read them
+          </button>
+        )}
+        {answer.sentence && (
+          <button
+            type="button"
+            disabled={busy}
+            onClick={() => void doing(machine.kind === "none" ? "check" : "check/cut")}
+          >
+            {machine.kind === "none"
+              ? "Write two other marks"
+              : "Cut two other marks: the sled moves"}
+          </button>
+        )}
+        {answer.sentence && !answer.is_used && (
+          <button type="button" disabled={busy} onClick={() => void doing("check/use")}>
+            Let the verdict go by these marks too
+          </button>
+        )}
+      </p>
+      {answer.is_saved && <CheckReadings file={answer.form} />}
+      {answer.marks.length > 0 && (
+        <table class="checked">
+          <thead>
+            <tr>
+              <th scope="col">mark</th>
+              <th scope="col">promised within</th>
+              <th scope="col">off</th>
+            </tr>
+          </thead>
+          <tbody>
+            {answer.marks.map((mark) => (
+              <tr key={mark.name}>
+                <th scope="row">{mark.name}</th>
+                <td>{namedLength(mark.promised, units, 2)}</td>
+                <td>{namedLength(mark.off, units, 2)}</td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      )}
+    </Screen>
+  );
+}
+
+async function read(form: string, setTrouble: (line: string) => void, take: (p: Project) => void) {
+  try {
+    take(await send<Project>("POST", "machine/readings", { form }));
+    setTrouble("");
+  } catch (error) {
+    setTrouble(error instanceof Error ? error.message : String(error));
+  }
+}
+
+function Why() {
+  return (
+    <p>
+      A fit can look good and be wrong: it has seen the marks that it is judged by. What is promised
+      counts how well your marks settle the numbers, and how well a tape is read. 99 of 100 such
+      marks lie within it if nothing is missing.
+    </p>
+  );
+}
+
+/** Nothing can be checked before a correction promises something. */
+function NoPromise() {
+  return (
+    <Screen
+      title="Is it true?"
+      say="Two marks that took no part show whether the settings hold. First write a correction: it makes the promise."
+    >
+      <a class="go" href="#/correct">
+        To the correction
+      </a>
+    </Screen>
+  );
+}

@@ -1,0 +1,171 @@
+// Step 5: cut the marks: save the program, or send it; hold and stop are in the bar.
+import { useEffect, useState } from "preact/hooks";
+import { get, type Project, type Schemas, send } from "../api/client";
+import { isReady, type Machine, useMachine } from "../shell/machine";
+import { useProject } from "../shell/project";
+import { Screen } from "../shell/Screen";
+import { CutMap } from "./cut/CutMap";
+import { NewSheet } from "./cut/NewSheet";
+import { Outcome } from "./cut/Outcome";
+import { Pauses, sentence } from "./cut/Pauses";
+import { SetChains } from "./cut/SetChains";
+import "./cut/cut.css";
+
+export type Grid = Schemas["GridAnswer"];
+
+const CUTS = "Stay at the machine. Hold waits where the sled is; Stop gives up. Both are below.";
+const CHOSEN =
+  "Router off, hands and hoses away from the chains, the bit just above the wood. The sled moves over the whole sheet; the bit touches each mark 0.5 mm deep.";
+const PROPOSED =
+  "The verdict proposed these marks, on the same sheet. Router off, hands and hoses away from the chains, the bit just above the wood; it touches each mark 0.5 mm deep.";
+
+export function Cut() {
+  const { project } = useProject();
+  const grid = useGrid();
+  const machine = useMachine();
+  if (!grid) return <Screen title="Cut the marks" say="One moment …" busy />;
+  const runs = machine.program?.title === grid.program && machine.program.outcome === "running";
+  return (
+    <Screen
+      title={
+        runs ? running(machine) : `Cut ${grid.marks.length} ${grid.is_proposed ? "more " : ""}marks`
+      }
+      say={runs ? whileRunning(machine) : grid.is_proposed ? PROPOSED : CHOSEN}
+      why={<Why />}
+      command={grid.command}
+    >
+      {grid.trouble && (
+        <p class="trouble" role="alert">
+          {grid.trouble}
+        </p>
+      )}
+      <CutMap sheet={project.machine?.sheet ?? [2440, 1220]} grid={grid} />
+      {!runs && <Pauses grid={grid} />}
+      <Outcome grid={grid} />
+      {!runs && <Choice grid={grid} />}
+    </Screen>
+  );
+}
+
+function running({ waits_for }: Machine): string {
+  return waits_for ? "The machine waits for you" : "The machine cuts";
+}
+
+function whileRunning({ waits_for }: Machine): string {
+  return waits_for ? `${sentence(waits_for)} Then press Go on, below.` : CUTS;
+}
+
+/** The program as it would be written now. */
+function useGrid(): Grid | undefined {
+  const { project, setTrouble } = useProject();
+  const [grid, setGrid] = useState<Grid>();
+  const { files, choices } = project;
+  useEffect(() => {
+    let over = false;
+    get<Grid>("grid").then(
+      (answer) => over || setGrid(answer),
+      (error: Error) => over || setTrouble(error.message),
+    );
+    return () => {
+      over = true;
+    };
+  }, [
+    files,
+    choices.layout,
+    choices.new_sheet,
+    choices.planned,
+    choices.proposed,
+    choices.settings,
+    setTrouble,
+  ]);
+  return grid;
+}
+
+/** What can be done now: one button that says what will happen, and saving. */
+function Choice({ grid }: { grid: Grid }) {
+  const { take, reload, setTrouble } = useProject();
+  const machine = useMachine();
+  const [busy, setBusy] = useState(false);
+  const run = (work: () => Promise<unknown>) => {
+    setBusy(true);
+    work()
+      .then(
+        () => setTrouble(""),
+        (error: Error) => setTrouble(error.message),
+      )
+      .finally(() => setBusy(false));
+  };
+  const save = async () => take(await send<Project>("POST", "grid"));
+  const putBack = async () => take(await send<Project>("DELETE", "next"));
+  const cut = async () => {
+    await send("POST", "grid/cut");
+    await reload();
+  };
+  if (machine.kind !== "none" && machine.phase !== "lost" && !machine.knows_place)
+    return <SetChains />;
+  const connected = machine.kind !== "none" && machine.phase !== "lost";
+  // The primary button is then that of the readings.
+  const isCut = machine.program?.title === grid.program && machine.program.outcome === "done";
+  return (
+    <div class="choice">
+      {grid.last_form && !grid.is_proposed && <NewSheet grid={grid} />}
+      {connected && (
+        <button
+          type="button"
+          class={isCut ? "" : "primary"}
+          disabled={busy || !isReady(machine) || grid.trouble !== ""}
+          onClick={() => run(cut)}
+        >
+          Move the sled and cut {grid.marks.length} marks
+        </button>
+      )}
+      {grid.is_proposed ? (
+        !isCut && (
+          <button type="button" disabled={busy} onClick={() => run(putBack)}>
+            Cut other marks instead
+          </button>
+        )
+      ) : (
+        <button
+          type="button"
+          class={connected ? "" : "primary"}
+          disabled={busy || grid.trouble !== ""}
+          onClick={() => run(save)}
+        >
+          {grid.is_saved ? `Saved: ${grid.program}` : `Save ${grid.program}; nothing moves`}
+        </button>
+      )}
+      {grid.is_proposed && !connected && (
+        <a class="button" href="#/readings">
+          Type what your tape says
+        </a>
+      )}
+      <p class="note">
+        {grid.is_saved
+          ? `${grid.program} and ${grid.form} are in your folder.`
+          : `${grid.program} is the G-code, ${grid.form} the form for your readings.`}{" "}
+        {!connected && (
+          <>
+            Or <a href="#/open">connect a machine</a> and cut from here.
+          </>
+        )}
+      </p>
+    </div>
+  );
+}
+
+function Why() {
+  return (
+    <>
+      <p>
+        The bit comes to each mark from below and only touches the wood: a scratch that a tape can
+        find. Chains give and rub, so a mark that is always reached from the same side can be
+        trusted.
+      </p>
+      <p>
+        Before anything is sent, each place on the way is checked: chains neither too tight nor too
+        slack, and the bit never off the sheet.
+      </p>
+    </>
+  );
+}

@@ -1,0 +1,71 @@
+// Step 10: what was fitted and written over time, with the error and each number.
+import type { Schemas } from "../api/client";
+import { namedLength } from "../controls/lengths";
+import { useNewest } from "../shell/newest";
+import { useProject } from "../shell/project";
+import { Screen } from "../shell/Screen";
+import { Course } from "./diary/Course";
+import { Errors } from "./diary/Errors";
+import "./diary/diary.css";
+
+type DiaryAnswer = Schemas["DiaryAnswer"];
+
+export function Diary() {
+  const { project } = useProject();
+  const units = project.choices.units ?? "mm";
+  // A new entry, or another unit, is asked for; the server goes by the unit that it has.
+  const state = `${project.files["diary.jsonl"]} ${project.choices_digest}`;
+  const diary = useNewest<DiaryAnswer>("diary", state);
+  if (!diary) return <Screen title="The diary" say="One moment …" busy />;
+  const { rounds } = diary;
+  if (rounds.length === 0 && diary.others.length === 0) {
+    return (
+      <Screen
+        title="The diary"
+        say="Each correction that you write, and what you send to the machine, is noted here by itself. Nothing is noted yet."
+        command={diary.command}
+      />
+    );
+  }
+  return (
+    <Screen
+      title="The diary"
+      say="Each correction with its error, and how the numbers went. A number that moved by more than its interval says that the machine has changed."
+      command={diary.command}
+    >
+      {rounds.length > 0 && <Errors rounds={rounds} units={units} />}
+      {diary.courses.length > 0 && (
+        <section>
+          <h2>Numbers</h2>
+          <div class="courses">
+            {diary.courses.map((course) => (
+              <Course key={course.noun} course={course} />
+            ))}
+          </div>
+        </section>
+      )}
+      {diary.others.length > 0 && (
+        <section>
+          <h2>What was done</h2>
+          <ul class="noted">
+            {diary.others.map((noted) => (
+              <li key={noted.at + noted.said}>
+                <time dateTime={noted.at}>{when(noted.at)}</time> {noted.said}
+              </li>
+            ))}
+          </ul>
+        </section>
+      )}
+      {diary.spoilt > 0 && <p>{diary.spoilt} lines of diary.jsonl cannot be read.</p>}
+      {rounds.length > 0 && (
+        <p class="legend">
+          The error of the newest fit is {namedLength(rounds.at(-1)?.rms ?? 0, units, 2)}.
+        </p>
+      )}
+    </Screen>
+  );
+}
+
+function when(at: string): string {
+  return new Date(at).toLocaleString(undefined, { dateStyle: "medium", timeStyle: "short" });
+}

@@ -1,0 +1,103 @@
+// Step 4: choose how to measure, and see before a hole is cut what the marks could tell.
+import { useState } from "preact/hooks";
+import { useNewest } from "../shell/newest";
+import { useProject } from "../shell/project";
+import { Screen } from "../shell/Screen";
+import { Additions } from "./measure/Additions";
+import { EffectList } from "./measure/EffectList";
+import { HeatMap } from "./measure/HeatMap";
+import { Layouts } from "./measure/Layouts";
+import { MarksMap } from "./measure/MarksMap";
+import type { Layout, Place } from "./measure/plan";
+import { usePreview } from "./measure/usePreview";
+import "./measure/measure.css";
+
+export function Measure() {
+  const { project, choose } = useProject();
+  const { settings = "" } = project.choices;
+  const layouts = useNewest<Layout.Layout[]>(settings && "layouts", settings) ?? [];
+  const saved: Place[] = project.choices.planned ?? [];
+  const [moved, setMoved] = useState<Place[]>();
+  const id = moved ? "own" : (project.choices.layout ?? "nine");
+  const chosen = layouts.find((layout) => layout.id === id);
+  const places = moved ?? (id === "own" ? saved : (chosen?.places ?? []));
+  const { plan, trouble, looking } = usePreview(id, places, project.choices.settings ?? "");
+  if (layouts.length === 0 || !project.machine)
+    return <Screen title="Which marks?" say="One moment …" busy />;
+  const keep = (next: Place[]) => {
+    setMoved(next);
+    void choose({ layout: "own", planned: next, proposed: "" }).then(() => setMoved(undefined));
+  };
+  return (
+    <Screen
+      title="Which marks?"
+      say="More marks tell more and take longer. Drag a mark, tap the sheet to add a mark: what the marks could tell shows at once. Nothing is cut yet."
+      why={<Why />}
+      command={plan?.command ?? `plumb preview ${project.choices.settings} marks.toml`}
+    >
+      <Layouts
+        layouts={layouts}
+        chosen={id}
+        count={id === "own" || saved.length === 0 ? places.length : saved.length}
+        choose={(layout) => {
+          setMoved(undefined);
+          const planned = layout === "own" && saved.length === 0 ? places : saved;
+          void choose({ layout, planned, proposed: "" });
+        }}
+      />
+      <MarksMap
+        sheet={project.machine.sheet}
+        places={places}
+        spans={id === "own" ? [] : (chosen?.spans ?? [])}
+        show={setMoved}
+        keep={keep}
+      />
+      {(trouble || plan?.trouble) && (
+        <p class="trouble" role="alert">
+          {trouble || plan?.trouble}
+        </p>
+      )}
+      {!plan && !trouble && (
+        <p class="sum" role="status" aria-busy>
+          Working out what these marks could tell …
+        </p>
+      )}
+      {plan && (
+        <>
+          <Sum plan={plan} looking={looking} />
+          <EffectList plan={plan} />
+          <HeatMap plan={plan} />
+          <Additions plan={plan} layout={id} places={places} />
+        </>
+      )}
+    </Screen>
+  );
+}
+
+function Sum({ plan, looking }: { plan: Layout.Plan; looking: boolean }) {
+  const seen = plan.effects.filter((effect) => effect.is_seen).length;
+  const apart = plan.effects.filter((effect) => effect.is_seen && effect.is_distinct).length;
+  return (
+    <p class="sum" role="status" aria-busy={looking}>
+      <strong>About {Math.round(plan.minutes)} minutes.</strong> Of {plan.effects.length} effects in
+      their usual size, {seen} would show and {apart} of these could be named.
+      {looking && " Working …"}
+    </p>
+  );
+}
+
+function Why() {
+  return (
+    <>
+      <p>
+        Each effect pushes marks in a pattern of its own. Where two patterns look alike at your
+        marks, no arithmetic can tell which it was. Marks at other places, or a weight on the sled,
+        can.
+      </p>
+      <p>
+        The numbers are sigmas: how clearly the effect of the row stands out from reading errors,
+        from wrong settings, and from the effect of the column. From 3 on it is told in most cases.
+      </p>
+    </>
+  );
+}

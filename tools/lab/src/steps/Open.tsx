@@ -1,0 +1,104 @@
+// Step 1: which machine is it? A file of settings, a port, or a virtual machine.
+import { useState } from "preact/hooks";
+import { type Project, sendFile } from "../api/client";
+import { namedLength } from "../controls/lengths";
+import { Connection } from "../machine/Connection";
+import { FirstDay, useGuide } from "../machine/Guide";
+import { MachinePicture } from "../machine/MachinePicture";
+import { useMachine } from "../shell/machine";
+import { useProject } from "../shell/project";
+import { Screen } from "../shell/Screen";
+import "./open.css";
+
+export function Open() {
+  const { project } = useProject();
+  const { machine } = project;
+  const guide = useGuide();
+  const connected = useMachine().kind !== "none";
+  // Who is in the middle of the first day sees it first.
+  const begun = guide.guide?.steps.some((step) => step.done) && guide.guide.open !== "";
+  const first = connected && (begun || guide.guide?.here !== "" || !machine);
+  const read = machine ? `plumb settings ${machine.file}` : "plumb read -o machine.toml";
+  return (
+    <Screen
+      title={machine ? "This machine is open" : "Which machine is it?"}
+      say={
+        machine
+          ? "Is it yours? Another file replaces it. Nothing moves before you press a button that says what moves."
+          : "Open the settings that your machine has now, connect the machine, or try a virtual machine. Nothing moves here."
+      }
+      why={
+        <p>
+          Everything below is worked out from these numbers. They are those with which the machine
+          cuts, right or wrong: your marks show how wrong.
+        </p>
+      }
+      command={connected && guide.guide ? `${read}\n${guide.guide.command}` : read}
+    >
+      {first && <FirstDay {...guide} />}
+      {machine && <Opened machine={machine} />}
+      <SettingsFile />
+      <Connection />
+      {connected && !first && <FirstDay {...guide} />}
+    </Screen>
+  );
+}
+
+function Opened({ machine }: { machine: NonNullable<Project["machine"]> }) {
+  const unit = useProject().project.choices.units ?? "mm";
+  const [width, height] = machine.sheet;
+  const effects = Object.keys(machine.effects).length;
+  return (
+    <figure class="opened">
+      <MachinePicture machine={machine} />
+      <figcaption>
+        <strong>{machine.file}</strong>: motors {namedLength(machine.frame.motor_gap ?? 0, unit)}{" "}
+        apart, a sheet of {namedLength(width, unit)} by {namedLength(height, unit)}
+        {effects > 0 && `, ${effects} ${effects === 1 ? "effect" : "effects"} known`}.
+      </figcaption>
+    </figure>
+  );
+}
+
+/** Takes a file that is picked or dropped. */
+function SettingsFile() {
+  const { take, setTrouble } = useProject();
+  const [over, setOver] = useState(false);
+  const open = async (file: File | undefined) => {
+    if (!file) return;
+    try {
+      take(await sendFile<Project>("settings", file));
+      setTrouble("");
+    } catch (error) {
+      setTrouble(error instanceof Error ? error.message : String(error));
+    }
+  };
+  return (
+    <label
+      class={over ? "pick over" : "pick"}
+      onDragOver={(event) => {
+        event.preventDefault();
+        setOver(true);
+      }}
+      onDragLeave={() => setOver(false)}
+      onDrop={(event) => {
+        event.preventDefault();
+        setOver(false);
+        void open(event.dataTransfer?.files[0]);
+      }}
+    >
+      <span>Settings' file</span>
+      <small>groundcontrol.ini, webcontrol.json or machine.toml: pick it, or drop it here</small>
+      <input
+        type="file"
+        accept=".ini,.json,.toml"
+        onChange={(event) => {
+          const input = event.currentTarget;
+          void open(input.files?.[0]).then(() => {
+            input.value = "";
+          });
+        }}
+      />
+    </label>
+  );
+}

@@ -1,0 +1,141 @@
+// Step 3: where on the sheet the machine can cut, and how far off is normal before it is corrected.
+import type { Schemas } from "../api/client";
+import { SheetMap, usePixel } from "../sheet/SheetMap";
+import { useNewest } from "../shell/newest";
+import { useProject } from "../shell/project";
+import { Screen } from "../shell/Screen";
+import "./reach.css";
+
+type Answer = Schemas["ReachAnswer"];
+/** Class of the map, and what it means to a maker, by verdict. */
+const MEANING: [string, string][] = [
+  ["usable", "usable"],
+  ["tight", "too tight: a chain pulls harder than its gearbox likes"],
+  ["slack", "too slack: a chain hangs loose, and the sled follows late"],
+  ["vertical", "too vertical: the chains hold the sled hardly at all sideways"],
+  ["nowhere", "no sled hangs here, or its ring meets a motor"],
+];
+
+export function Reach() {
+  const { project } = useProject();
+  const { settings = "" } = project.choices;
+  // Choices count once the server has them.
+  const state = `${project.files[settings]} ${project.choices_digest}`;
+  const reach = useNewest<Answer>("reach", state);
+  if (!reach || !project.machine) return <Screen title="Reach" say="The sheet is looked over …" />;
+  return (
+    <Screen
+      title={`${reach.conclusion.replace(/;.*|\.$/s, "")}.`}
+      say={reach.expected?.said ?? ""}
+      why={<Why reach={reach} />}
+      command={reach.command}
+    >
+      <figure class="reach">
+        <SheetMap
+          sheet={project.machine.sheet}
+          label={`Where the machine is usable: ${reach.conclusion}`}
+        >
+          <Places reach={reach} sheet={project.machine.sheet} />
+          {spotsOf(reach).map((spot) => (
+            <Spot key={spot.name} place={spot.place} name={spot.name} />
+          ))}
+        </SheetMap>
+        <figcaption>
+          <ul>
+            {MEANING.map(([tone, words], verdict) => {
+              const share = reach.shares[reach.words[verdict] ?? ""];
+              return reach.verdicts.includes(verdict) ? (
+                <li key={tone}>
+                  <span class={`swatch ${tone}`} />
+                  <span>
+                    {share}: {words}
+                  </span>
+                </li>
+              ) : null;
+            })}
+          </ul>
+        </figcaption>
+      </figure>
+    </Screen>
+  );
+}
+
+function Places({ reach, sheet }: { reach: Answer; sheet: readonly [number, number] }) {
+  const [wide, high] = [sheet[0] / reach.columns, sheet[1] / reach.rows];
+  return (
+    <g class="places">
+      {reach.verdicts.map((verdict, index) => {
+        const [tone] = MEANING[verdict] ?? MEANING[0] ?? ["usable"];
+        const column = index % reach.columns;
+        const row = Math.floor(index / reach.columns);
+        return (
+          <rect
+            key={index}
+            class={tone}
+            x={-sheet[0] / 2 + column * wide}
+            y={-sheet[1] / 2 + row * high}
+            width={wide}
+            height={high}
+          />
+        );
+      })}
+    </g>
+  );
+}
+
+interface SpotParts {
+  place: readonly [number, number];
+  name: string;
+}
+
+/** The extreme places; what is the same place is a single spot. */
+function spotsOf(reach: Answer): SpotParts[] {
+  const spots = new Map<string, SpotParts>();
+  for (const { place, title } of reach.extremes) {
+    const before = spots.get(place.join());
+    spots.set(place.join(), { place, name: before ? `${before.name}, ${title}` : title });
+  }
+  return [...spots.values()];
+}
+
+function Spot({ place, name }: SpotParts) {
+  const pixel = usePixel();
+  const left = place[0] > 0;
+  const top = place[1] > 0;
+  return (
+    <g class="spot">
+      <circle cx={place[0]} cy={-place[1]} r={5 * pixel} stroke-width={2 * pixel} />
+      <text
+        x={place[0] + (left ? -12 : 12) * pixel}
+        y={-place[1] + (top ? 22 : -12) * pixel}
+        font-size={14 * pixel}
+        text-anchor={left ? "end" : "start"}
+      >
+        {name}
+      </text>
+    </g>
+  );
+}
+
+function Why({ reach }: { reach: Answer }) {
+  return (
+    <>
+      <ul>
+        {reach.extremes.map((extreme) => (
+          <li key={extreme.title}>
+            {extreme.title}
+            {extreme.side && `, ${extreme.side}`}:{" "}
+            {extreme.value.toFixed(extreme.value < 1 ? 2 : 0)} {extreme.unit}
+          </li>
+        ))}
+      </ul>
+      {reach.assumed.map((sentence) => (
+        <p key={sentence}>{sentence}</p>
+      ))}
+      <p>
+        How far off is normal follows from how well each number is known, and from what effects in
+        their usual size would do.
+      </p>
+    </>
+  );
+}

@@ -1,0 +1,77 @@
+// Step 6: what the tape says, typed into a grid laid out like the sheet.
+
+import { namedLength } from "../controls/lengths";
+import { Distances } from "../readings/Distances";
+import { Doubts } from "../readings/Doubts";
+import { FormPicker } from "../readings/FormPicker";
+import { Grid } from "../readings/Grid";
+import { ReadingsMap } from "../readings/ReadingsMap";
+import { Tape } from "../readings/Tape";
+import { useDoubts } from "../readings/useDoubts";
+import { useReadings } from "../readings/useReadings";
+import { Clashes } from "../shell/Clashes";
+import { useProject } from "../shell/project";
+import { Screen } from "../shell/Screen";
+import "../readings/readings.css";
+
+export function Readings() {
+  const { project } = useProject();
+  const readings = useReadings();
+  const { doubts, looking } = useDoubts(readings.form);
+  const { form, kept } = readings;
+  if (!form) return <Screen title="What does the tape say?" say="One moment …" busy />;
+  const read = form.marks.filter((mark) => mark.read).length;
+  const units = project.choices.units ?? "mm";
+  const off = form.files.find((file) => file.name === form.file)?.off_target ?? null;
+  const doubted = new Set(doubts.filter((doubt) => doubt.is_mark).map((doubt) => doubt.index));
+  return (
+    <Screen
+      title="What does the tape say?"
+      say="Type where each mark is, from the two edges. Each number is saved at once and stays open to change. A reading that disagrees gets a ring: look at it again."
+      why={<Why />}
+      command={form.command}
+    >
+      <FormPicker form={form} choose={readings.chooseFile} take={readings.take} />
+      {form.marks.length > 0 && (
+        <>
+          <Tape form={form} take={readings.take} />
+          <ReadingsMap form={form} doubted={doubted} />
+          <p class="count" role="status" aria-busy={looking}>
+            {read} of {form.marks.length} marks are read.
+            {off !== null && ` They are off by ${namedLength(off, units, 2)} (RMS).`}
+            {looking && " Looking for readings that disagree …"}
+          </p>
+          <Clashes
+            kept={kept}
+            name={(path) => `Mark ${form.marks[Number(path[0])]?.name ?? path.join(" ")}`}
+            show={readings.shown}
+          />
+          {kept.refused && (
+            <p class="trouble" role="alert">
+              {kept.refused}
+            </p>
+          )}
+          <Doubts form={form} doubts={doubts} readings={readings} units={units} />
+          <Grid form={form} readings={readings} doubted={doubted} />
+          <Distances form={form} take={readings.take} doubts={doubts} />
+        </>
+      )}
+    </Screen>
+  );
+}
+
+function Why() {
+  return (
+    <>
+      <p>
+        An arrow shows each reading as soon as it is there: from where the mark was sent to where it
+        is. Arrows that change smoothly over the sheet are the machine. An arrow that differs from
+        its neighbours is most often a slip of the eye or the pen.
+      </p>
+      <p>
+        Nothing is deleted or changed unless you press the button. You can also paste two columns
+        from a spreadsheet into the first cell.
+      </p>
+    </>
+  );
+}

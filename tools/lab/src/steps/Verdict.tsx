@@ -1,0 +1,96 @@
+// Step 7: why the marks are off, in a sentence; the suspects; and the best next measurement.
+
+import { useState } from "preact/hooks";
+import { Progress } from "../controls/Progress";
+import { useAnswer } from "../shell/answer";
+import { useProject } from "../shell/project";
+import { Screen } from "../shell/Screen";
+import { CouldHide } from "./verdict/CouldHide";
+import { ErrorMaps } from "./verdict/ErrorMaps";
+import { NextStep } from "./verdict/NextStep";
+import { SuspectCard } from "./verdict/SuspectCard";
+import type { VerdictAnswer } from "./verdict/words";
+import "./verdict/verdict.css";
+
+const TITLES: Record<string, string> = {
+  nothing_provable: "Nothing is provable",
+  one_suspect: "One suspect",
+  cannot_tell: "Several things could be it",
+  not_in_library: "None of the known effects fits",
+  slip: "A reading disagrees: look at it first",
+};
+
+export function Verdict() {
+  const { project } = useProject();
+  const units = project.choices.units ?? "mm";
+  const { answer, refused } = useAnswer<VerdictAnswer>("verdict");
+  const [isNextWanted, wantNext] = useState(false);
+  const verdict = answer?.verdict;
+  if (refused) return <Screen title="No verdict yet" say={refused} />;
+  if (!verdict) {
+    return (
+      <Screen title="Why are the marks off?" say="Every known effect is tried on your readings.">
+        <Progress share={answer?.share ?? 0} label="The verdict" />
+      </Screen>
+    );
+  }
+  const sheet = project.machine?.sheet ?? [2440, 1220];
+  return (
+    <Screen
+      title={TITLES[verdict.verdict] ?? "The verdict"}
+      say={verdict.sentence}
+      why={<Why noise={verdict.noise} sigma={verdict.sigma} notes={verdict.notes} />}
+      command={answer.command}
+    >
+      {verdict.slips.length > 0 && (
+        <ul class="slips">
+          {verdict.slips.map((slip) => (
+            <li key={slip}>{slip}</li>
+          ))}
+          <li>
+            <a href="#/readings">Look at the readings</a>
+          </li>
+        </ul>
+      )}
+      <ErrorMaps verdict={verdict} sheet={sheet} units={units} />
+      <NextStep
+        sheet={sheet}
+        before={verdict.before}
+        wanted={isNextWanted}
+        want={() => wantNext(true)}
+      />
+      {verdict.cards.length > 0 && (
+        <section aria-label="Suspects">
+          <h2>Suspects</h2>
+          <div class="cards">
+            {verdict.cards.map((card) => (
+              <SuspectCard key={card.title} card={card} sheet={sheet} units={units} />
+            ))}
+          </div>
+          {verdict.more_cards > 0 && <p>{verdict.more_cards} more would fit as well.</p>}
+        </section>
+      )}
+      <CouldHide verdict={verdict} units={units} />
+    </Screen>
+  );
+}
+
+function Why({ noise, sigma, notes }: { noise: string; sigma: number; notes: string[] }) {
+  return (
+    <>
+      <p>
+        The frame of the machine is always fitted first, and it swallows much of what the physics
+        does. A suspect is an effect for which nothing else in the list adds anything. Where several
+        draw nearly the same arrows on your marks, all of them are named. A reading is taken to be
+        good to {sigma.toFixed(2)} mm ({noise}).
+      </p>
+      {notes.length > 0 && (
+        <ul>
+          {notes.map((note) => (
+            <li key={note}>{note}</li>
+          ))}
+        </ul>
+      )}
+    </>
+  );
+}

@@ -1,0 +1,22 @@
+// The readings of the check marks, typed as all others are.
+import { Grid } from "../../readings/Grid";
+import { useReadings } from "../../readings/useReadings";
+import "../../readings/readings.css";
+
+const NOBODY: ReadonlySet<number> = new Set();
+
+export function CheckReadings({ file }: { file: string }) {
+  const readings = useReadings(file);
+  if (!readings.form) return null;
+  return (
+    <section aria-label="Readings of the check marks">
+      <h2>What does the tape say?</h2>
+      <Grid form={readings.form} readings={readings} doubted={NOBODY} />
+      {readings.kept.refused && (
+        <p class="trouble" role="alert">
+          {readings.kept.refused}
+        </p>
+      )}
+    </section>
+  );
+}

@@ -1,0 +1,29 @@
+// How far off marks were, round by round: the check marks last.
+import type { Schemas } from "../../api/client";
+import { Bar } from "../../controls/Bar";
+import { namedLength, type Unit } from "../../controls/lengths";
+
+interface OffTargetParts {
+  rounds: Schemas["RoundError"][];
+  units: Unit;
+}
+
+export function OffTarget({ rounds, units }: OffTargetParts) {
+  const most = Math.max(...rounds.map(({ off_target }) => off_target), 0.1);
+  return (
+    <table class="off-target">
+      <caption>How far the marks are from where they were sent</caption>
+      <tbody>
+        {rounds.map(({ form, off_target, is_check }) => (
+          <tr key={form}>
+            <th scope="row">{form}</th>
+            <td class="bars">
+              <Bar share={off_target / most} colour={is_check ? "var(--after)" : "var(--before)"} />
+              {namedLength(off_target, units, 2)}
+            </td>
+          </tr>
+        ))}
+      </tbody>
+    </table>
+  );
+}

@@ -1,0 +1,60 @@
+// The numbers of the machine, each with a box to accept it.
+import type { Schemas } from "../../api/client";
+
+type Parts = Schemas["CorrectionParts"];
+type Changed = Schemas["ChangedNumber"];
+
+interface NumbersParts {
+  made: Parts;
+  /** Names of the accepted numbers, those too that the server does not know yet. */
+  accepted: readonly string[];
+  accept: (names: string[]) => void;
+  busy: boolean;
+}
+
+export function Numbers({ made, accepted, accept, busy }: NumbersParts) {
+  const again = new Map(made.with_accepted.map((number) => [number.name, number]));
+  const all = made.numbers.map(({ name }) => name);
+  return (
+    <fieldset class="numbers" aria-busy={busy}>
+      <legend>Numbers of the machine</legend>
+      {made.numbers.map((number) => (
+        <label
+          key={number.name}
+          class={accepted.includes(number.name) ? "number accepted" : "number"}
+        >
+          <input
+            type="checkbox"
+            checked={accepted.includes(number.name)}
+            onChange={(event) =>
+              accept(
+                event.currentTarget.checked
+                  ? [...accepted, number.name]
+                  : accepted.filter((name) => name !== number.name),
+              )
+            }
+          />
+          <span class="noun">{number.noun}</span>
+          <Change number={again.get(number.name) ?? number} />
+          <span class={number.plausible ? "plausible" : "implausible"}>
+            {number.plausible ? "plausible" : `impossible: real machines have ${number.range_said}`}
+          </span>
+        </label>
+      ))}
+      {accepted.length < all.length && (
+        <button type="button" onClick={() => accept(all)}>
+          Accept all {all.length}
+        </button>
+      )}
+    </fieldset>
+  );
+}
+
+function Change({ number }: { number: Changed }) {
+  return (
+    <span class="change">
+      {number.before} <span aria-hidden="true">→</span>
+      <span class="spoken"> becomes </span> <b>{number.after}</b> ± {number.margin} {number.unit}
+    </span>
+  );
+}

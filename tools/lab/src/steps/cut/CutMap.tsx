@@ -1,0 +1,43 @@
+// The sheet while it is cut: marks that are done, marks to come, and where the sled is.
+import { MarkDot } from "../../sheet/MarkDot";
+import { SheetMap, usePixel } from "../../sheet/SheetMap";
+import { useMachine } from "../../shell/machine";
+import type { Grid } from "../Cut";
+
+const DEEP = -0.2; // [mm] the bit is in the wood
+
+interface MapParts {
+  sheet: readonly [number, number];
+  grid: Grid;
+}
+
+export function CutMap({ sheet, grid }: MapParts) {
+  const { program, place, knows_place, kind } = useMachine();
+  const taken = program?.title === grid.program ? program.done : 0;
+  const done = grid.marks.filter((mark) => taken >= mark.lines).length;
+  return (
+    <figure class="cut-map">
+      <SheetMap sheet={sheet} label={`${done} of ${grid.marks.length} marks are cut`}>
+        {grid.marks.map((mark) => (
+          <MarkDot
+            key={mark.name}
+            place={mark.place}
+            name={mark.name}
+            hollow={taken < mark.lines}
+          />
+        ))}
+        {place && knows_place && kind !== "none" && <Sled place={place} />}
+      </SheetMap>
+    </figure>
+  );
+}
+
+function Sled({ place: [x, y, z] }: { place: readonly [number, number, number] }) {
+  const pixel = usePixel();
+  return (
+    <g fill="none" stroke="var(--before)" stroke-width={2 * pixel}>
+      <circle cx={x} cy={-y} r={16 * pixel} />
+      <circle cx={x} cy={-y} r={3 * pixel} fill={z < DEEP ? "var(--before)" : "none"} />
+    </g>
+  );
+}

@@ -1,0 +1,39 @@
+// Whether the next marks go onto another sheet, and how that should lie.
+import { namedLength } from "../../controls/lengths";
+import { useMachine } from "../../shell/machine";
+import { useProject } from "../../shell/project";
+import type { Grid } from "../Cut";
+
+const LEAST_MM = 0.5; // a smaller turn is not worth a shim
+
+export function NewSheet({ grid }: { grid: Grid }) {
+  const { project, choose } = useProject();
+  const { kind } = useMachine();
+  const chosen = project.choices.new_sheet ?? false;
+  return (
+    <label class="new-sheet">
+      <input
+        type="checkbox"
+        checked={chosen}
+        onChange={(event) => void choose({ new_sheet: event.currentTarget.checked })}
+      />
+      <span>
+        On another sheet than {grid.last_form}
+        {chosen && (
+          <small>
+            {kind === "virtual"
+              ? "The virtual machine gets another sheet on the same stops"
+              : "Lay it on the same stops"}
+            {turned(grid.sheet_rise, project.choices.units ?? "mm")}.
+          </small>
+        )}
+      </span>
+    </label>
+  );
+}
+
+/** What the correction says of the sheet's right end. */
+function turned(rise: number, units: "mm" | "inch"): string {
+  if (Math.abs(rise) < LEAST_MM) return "";
+  return `, its right end ${namedLength(Math.abs(rise), units)} ${rise > 0 ? "higher" : "lower"}`;
+}

@@ -1,0 +1,55 @@
+// Where the sled is, is not known: the machine is given the lengths of its chains.
+import { useState } from "preact/hooks";
+import { send } from "../../api/client";
+import { shownLength, typedLength } from "../../controls/lengths";
+import { useProject } from "../../shell/project";
+
+const USUAL = 1651; // [mm] of both chains at their marks
+
+export function SetChains() {
+  const { project, setTrouble } = useProject();
+  const unit = project.choices.units ?? "mm";
+  const [left, setLeft] = useState(shownLength(USUAL, unit));
+  const [right, setRight] = useState(shownLength(USUAL, unit));
+  const lengths = [typedLength(left, unit), typedLength(right, unit)];
+  const known = lengths.every((length) => length !== undefined && length > 0);
+  const tell = () =>
+    send("POST", "machine/line", { text: `B06 L${lengths[0]} R${lengths[1]}` }).then(
+      () => setTrouble(""),
+      (error: Error) => setTrouble(error.message),
+    );
+  return (
+    <form
+      class="set-chains"
+      onSubmit={(event) => {
+        event.preventDefault();
+        if (known) void tell();
+      }}
+    >
+      <h2>Where is the sled?</h2>
+      <p>
+        The machine lost count of its chains. Hang them at the marks that you made, and type how
+        long each is then.
+      </p>
+      <label>
+        Left chain, {unit}{" "}
+        <input
+          inputMode="decimal"
+          value={left}
+          onInput={(event) => setLeft(event.currentTarget.value)}
+        />
+      </label>
+      <label>
+        Right chain, {unit}{" "}
+        <input
+          inputMode="decimal"
+          value={right}
+          onInput={(event) => setRight(event.currentTarget.value)}
+        />
+      </label>
+      <button type="submit" class="primary" disabled={!known}>
+        Set both lengths; nothing moves
+      </button>
+    </form>
+  );
+}

@@ -1,0 +1,43 @@
+// How a number went, fit by fit, with its 95 % interval.
+import type { Schemas } from "../../api/client";
+
+export function Course({ course }: { course: Schemas["NumberCourse"] }) {
+  const { points } = course;
+  const ends = points.flatMap(({ low, high }) => [low, high]);
+  const [least, most] = [Math.min(...ends), Math.max(...ends)];
+  const up = (value: number) => 90 - (80 * (value - least)) / (most - least || 1);
+  const across = (index: number) => (100 * (index + 0.5)) / points.length;
+  const last = points.at(-1);
+  return (
+    <figure class={course.has_moved ? "course moved" : "course"}>
+      <figcaption>
+        {course.noun}: <b>{last?.said}</b> {course.unit}
+        {course.has_moved && " – has moved"}
+      </figcaption>
+      <svg viewBox="0 0 100 100" preserveAspectRatio="none" role="img" aria-label={said(course)}>
+        {points.map((point, index) => (
+          <g key={point.at} stroke="var(--act)">
+            <line
+              x1={across(index)}
+              x2={across(index)}
+              y1={up(point.low)}
+              y2={up(point.high)}
+              class="interval"
+            />
+            <line
+              x1={across(index) - 2}
+              x2={across(index) + 2}
+              y1={up(point.value)}
+              y2={up(point.value)}
+              class="middle"
+            />
+          </g>
+        ))}
+      </svg>
+    </figure>
+  );
+}
+
+function said(course: Schemas["NumberCourse"]): string {
+  return `${course.noun}: ${course.points.map((point) => point.said).join(", then ")} ${course.unit}`;
+}

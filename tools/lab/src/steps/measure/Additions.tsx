@@ -1,0 +1,44 @@
+// What would help most in addition to these marks; it is worked out when somebody asks.
+import { useEffect, useState } from "preact/hooks";
+import { send } from "../../api/client";
+import { useProject } from "../../shell/project";
+import type { Layout, Place } from "./plan";
+
+interface AdditionsParts {
+  plan: Layout.Plan;
+  layout: Layout.Id;
+  places: Place[];
+}
+
+export function Additions({ plan, layout, places }: AdditionsParts) {
+  const { setTrouble } = useProject();
+  const [additions, setAdditions] = useState<Layout.Addition[]>();
+  const [busy, setBusy] = useState(false);
+  const asked = JSON.stringify({ layout, places: layout === "own" ? places : [] });
+  useEffect(() => setAdditions(undefined), [asked]);
+  const ask = () => {
+    setBusy(true);
+    send<Layout.Addition[]>("POST", "preview/additions", JSON.parse(asked))
+      .then(setAdditions, (error: Error) => setTrouble(error.message))
+      .finally(() => setBusy(false));
+  };
+  if (!additions)
+    return (
+      <button type="button" disabled={busy} onClick={ask}>
+        {busy ? "Working; this takes some seconds …" : "What would help most?"}
+      </button>
+    );
+  return (
+    <section class="additions">
+      <h2>What would help most, per minute</h2>
+      <ol>
+        {additions.map((addition) => (
+          <li key={addition.title}>
+            <b>{addition.title}</b>: {Math.round(addition.minutes)} min, {plan.pairs} →{" "}
+            {addition.pairs} cells told apart. {addition.do.join(" ")}
+          </li>
+        ))}
+      </ol>
+    </section>
+  );
+}

@@ -1,0 +1,38 @@
+// Each effect under the plan: it could be named, it would show but look like another, or it stays hidden.
+import type { Layout } from "./plan";
+
+type Effect = Layout.Plan["effects"][number];
+
+export function EffectList({ plan }: { plan: Layout.Plan }) {
+  return (
+    <ul class="effects" aria-label="What these marks could tell">
+      {plan.effects.map((effect) => (
+        <li key={effect.name} class={tone(effect)}>
+          <b>
+            <span aria-hidden="true">{SIGN[tone(effect)]}</span> {effect.noun}
+          </b>
+          <small>{words(effect)}</small>
+        </li>
+      ))}
+    </ul>
+  );
+}
+
+type Tone = "named" | "alike" | "hidden";
+const SIGN: Record<Tone, string> = { named: "●", alike: "◐", hidden: "○" };
+
+function tone(effect: Effect): Tone {
+  if (!effect.is_seen) return "hidden";
+  return effect.is_distinct ? "named" : "alike";
+}
+
+function words(effect: Effect): string {
+  if (!effect.is_seen) return "would stay hidden in its usual size";
+  if (effect.is_distinct) return "would be found and named";
+  const [first, second] = effect.alike;
+  const more = effect.alike.length - 2;
+  const others = [first, second].filter(Boolean).join(", ");
+  return others
+    ? `would show, but may be taken for ${others}${more > 0 ? ` and ${more} more` : ""}`
+    : "would show, but is not always told apart";
+}

@@ -1,0 +1,11 @@
+// What the server says of layouts and plans.
+import type { Schemas } from "../../api/client";
+
+export type Place = [number, number]; // [mm] machine frame
+
+export namespace Layout {
+  export type Layout = Schemas["LayoutAnswer"];
+  export type Plan = Schemas["PlanAnswer"];
+  export type Addition = Schemas["AdditionAnswer"];
+  export type Id = Layout["id"];
+}

@@ -1,0 +1,45 @@
+// A fitted size with its interval, drawn on the range that real machines have.
+import type { Schemas } from "../../api/client";
+
+const ROOM = 8; // percent left and right of what is drawn
+
+export function SizeBar({ size }: { size: Schemas["SizeAnswer"] }) {
+  const known = [size.plausible_low, size.plausible_high, size.low, size.high, size.value, 0];
+  const ends = known.filter((end): end is number => end !== null);
+  const [least, most] = [Math.min(...ends), Math.max(...ends)];
+  const at = (value: number) => ROOM + ((100 - 2 * ROOM) * (value - least)) / (most - least || 1);
+  const [from, to] = [at(size.plausible_low ?? least), at(size.plausible_high ?? most)];
+  return (
+    <figure class={size.plausible ? "size" : "size implausible"}>
+      <figcaption>{size.said}</figcaption>
+      <svg viewBox="0 0 100 10" preserveAspectRatio="none" aria-hidden="true">
+        <rect x={from} y={2} width={to - from} height={6} fill="var(--line)" />
+        <line x1={at(0)} x2={at(0)} y1={0} y2={10} stroke="var(--soft)" />
+        {size.low !== null && size.high !== null && (
+          <line
+            x1={at(size.low)}
+            x2={at(size.high)}
+            y1={5}
+            y2={5}
+            stroke="var(--act)"
+            class="interval"
+          />
+        )}
+        <line
+          x1={at(size.value)}
+          x2={at(size.value)}
+          y1={1}
+          y2={9}
+          stroke="var(--act)"
+          class="interval"
+        />
+      </svg>
+      {size.range_said && (
+        <span class="range">
+          {size.plausible ? "Real machines have" : "Impossible: real machines have"}{" "}
+          {size.range_said}
+        </span>
+      )}
+    </figure>
+  );
+}

@@ -1,0 +1,49 @@
+// Takes a proposal into the folder: a form for its readings, and the program that cuts its marks. Nothing moves.
+import { useState } from "preact/hooks";
+import { type Project, type Schemas, send } from "../../api/client";
+import { useProject } from "../../shell/project";
+
+export type Taking = Schemas["Taking"];
+
+interface TakeParts {
+  taking: Taking;
+  /** What is measured, if the button is not that of the best. */
+  title?: string;
+}
+
+export function TakeMarks({ taking, title }: TakeParts) {
+  const { take, setTrouble } = useProject();
+  const [busy, setBusy] = useState(false);
+  const press = () => {
+    setBusy(true);
+    send<Project>("POST", "next", { choose: taking.choose, digest: taking.digest })
+      .then(
+        (project) => {
+          take(project);
+          setTrouble("");
+          location.hash = taking.program ? "#/cut" : "#/readings";
+        },
+        (error: Error) => setTrouble(error.message),
+      )
+      .finally(() => setBusy(false));
+  };
+  if (title !== undefined)
+    return (
+      <button type="button" aria-label={`Take: ${title}`} disabled={busy} onClick={press}>
+        Take
+      </button>
+    );
+  const { form, program, marks } = taking;
+  return (
+    <p class="take">
+      <button type="button" class="primary" disabled={busy} onClick={press}>
+        {program ? `Take these ${marks} marks; nothing moves yet` : `Take these ${marks} readings`}
+      </button>{" "}
+      <small>
+        {program
+          ? `${program} cuts them, ${form} waits for their readings.`
+          : `${form} waits for them; nothing is cut.`}
+      </small>
+    </p>
+  );
+}

@@ -1,0 +1,8 @@
+// The names of the verdict's parts, from the server's schema.
+import type { Schemas } from "../../api/client";
+
+export type VerdictAnswer = Schemas["VerdictAnswer"];
+export type VerdictParts = Schemas["Verdict"];
+export type Card = Schemas["Card"];
+export type NextAnswer = Schemas["NextAnswer"];
+export type Size = readonly [number, number];

@@ -1,0 +1,142 @@
+"""The lab's web application: its routes, what a refusal looks like, and the guard before them."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from pathlib import Path
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse
+from fastapi.staticfiles import StaticFiles
+from starlette.exceptions import HTTPException
+from starlette.types import ASGIApp, Receive, Scope, Send
+
+from plumb.lab.guard import Address, Guard
+from plumb.lab.guide_desk import GuideDesk
+from plumb.lab.live_boards import LiveBoards
+from plumb.lab.machine_line import MachineLine
+from plumb.lab.practice_desk import PracticeDesk
+from plumb.lab.project import ChangedError, Project
+from plumb.lab.routes import (
+    bench,
+    check,
+    comparison,
+    correction,
+    diary,
+    doubts,
+    grid,
+    guide,
+    known,
+    machine,
+    next,
+    plan,
+    practice,
+    project,
+    readings,
+    verdict,
+)
+from plumb.text.errors import InputError
+from plumb.text.readers import read_on_page
+
+PAGE = Path(__file__).parent / "page"
+
+# To add a route, write its file and give it a place here.
+ROUTERS = (
+    project.router,
+    machine.router,
+    guide.router,
+    known.router,
+    plan.router,
+    grid.router,
+    comparison.router,
+    readings.router,
+    doubts.router,
+    verdict.router,
+    next.router,
+    correction.router,
+    check.router,
+    diary.router,
+    bench.router,
+    practice.router,
+)
+
+
+def lab_app(folder: Path, *, address: Address, token: str) -> ASGIApp:
+    """The lab of a folder, for a server on this address whose page knows the token."""
+    line = MachineLine()
+
+    @asynccontextmanager
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        yield
+        line.disconnect()
+
+    app = FastAPI(
+        title="plumb lab", docs_url=None, redoc_url=None, openapi_url=None, lifespan=lifespan
+    )
+    app.state.line = line
+    app.state.project = Project(folder)
+    app.state.live_boards = LiveBoards()
+    app.state.practice_desk = PracticeDesk()
+    app.state.guide_desk = GuideDesk()
+    for router in ROUTERS:
+        app.include_router(router, prefix="/api")
+    app.add_exception_handler(InputError, _refusal)
+    app.add_exception_handler(ValueError, _refusal)
+    app.add_exception_handler(ChangedError, _changed)
+    app.add_exception_handler(RequestValidationError, _misunderstood)
+    app.add_exception_handler(OSError, _unable)
+    app.add_exception_handler(HTTPException, _unknown)
+    app.add_exception_handler(Exception, _failed)
+    app.add_middleware(_ForPage)
+    app.mount("/", StaticFiles(directory=PAGE, html=True))
+    return Guard(app, address=address, token=token)
+
+
+class _ForPage:
+    """Messages of the application are read on the page."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self._app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        with read_on_page():
+            await self._app(scope, receive, send)
+
+
+async def _refusal(request: Request, error: Exception) -> JSONResponse:
+    """What cannot be used, in a line."""
+    return JSONResponse({"error": str(error)}, 422)
+
+
+async def _changed(request: Request, error: Exception) -> JSONResponse:
+    """A file that another tab or program changed."""
+    return JSONResponse({"error": str(error)}, 409)
+
+
+async def _misunderstood(request: Request, error: Exception) -> JSONResponse:
+    """A request that does not have the form of the schema."""
+    assert isinstance(error, RequestValidationError)
+    first = error.errors()[0]
+    place = ".".join(str(part) for part in first["loc"][1:])
+    return JSONResponse({"error": f"{place}: {first['msg']}"}, 422)
+
+
+async def _unable(request: Request, error: Exception) -> JSONResponse:
+    """A disk that is full, a folder that is gone: the page tries again later."""
+    assert isinstance(error, OSError)
+    place = f"{Path(error.filename).name}: " if isinstance(error.filename, str) else ""
+    return JSONResponse({"error": f"{place}{error.strerror or error}"}, 507)
+
+
+async def _unknown(request: Request, error: Exception) -> JSONResponse:
+    """A route or a file that is not there, or a body that is none."""
+    assert isinstance(error, HTTPException)
+    return JSONResponse({"error": str(error.detail)}, error.status_code, error.headers)
+
+
+async def _failed(request: Request, error: Exception) -> JSONResponse:
+    """A fault of the lab itself; the terminal shows where."""
+    line = f"the lab has a fault ({type(error).__name__}); its terminal shows where"
+    return JSONResponse({"error": line}, 500)

@@ -1,0 +1,68 @@
+"""Answers that take seconds: worked out in a thread, once for each state of the folder.
+
+The page asks again and again; each time it hears how far the work is, and in the end the answer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextvars import copy_context
+from dataclasses import dataclass, field
+from threading import Lock
+from typing import Generic, TypeVar, cast
+
+Result = TypeVar("Result")
+Progress = Callable[[float], None]
+
+
+class OvertakenError(Exception):
+    """The folder has changed, so nobody waits for this answer any more."""
+
+
+@dataclass
+class Task:
+    """A piece of work for a state of the folder."""
+
+    key: str
+    future: Future[object] = field(default_factory=Future)
+    share: float = 0.0  # that is done
+    is_overtaken: bool = False
+
+    def progress(self, share: float) -> None:
+        """Called by the work now and then."""
+        if self.is_overtaken:
+            raise OvertakenError
+        self.share = share
+
+
+@dataclass(frozen=True)
+class Answer(Generic[Result]):
+    """How far the work is, and what came of it."""
+
+    share: float
+    result: Result | None
+
+
+class Background:
+    """One thread, and the newest task of each kind."""
+
+    def __init__(self) -> None:
+        self._thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix="lab")
+        self._tasks: dict[str, Task] = {}
+        self._lock = Lock()
+
+    def ask(self, kind: str, key: str, work: Callable[[Progress], Result]) -> Answer[Result]:
+        """The answer of this kind for this state, or how far it is. Raises what the work raised."""
+        with self._lock:
+            task = self._tasks.get(kind)
+            if task is None or task.key != key:
+                if task:
+                    task.is_overtaken = True
+                    task.future.cancel()
+                task = self._tasks[kind] = Task(key)
+                # The thread speaks to whom the asker speaks to.
+                task.future = self._thread.submit(copy_context().run, work, task.progress)
+        if not task.future.done():
+            return Answer(task.share, None)
+        return Answer(1.0, cast(Result, task.future.result()))

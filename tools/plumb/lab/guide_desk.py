@@ -1,0 +1,195 @@
+"""The guide on the page: a step at a time, on the machine's line; its questions wait for answers.
+
+The steps are those of `plumb guide`. A question stays until it is answered or left, whichever tab
+answers. While it waits the machine stands, and Stop ends the step.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from concurrent.futures import Future
+from dataclasses import dataclass, replace
+from pathlib import Path
+from threading import Lock
+from typing import Literal
+
+from plumb.guide.progress import progress_in
+from plumb.guide.steps import Step, Visit
+from plumb.guide.talk import LeftError, Talk
+from plumb.guide.walk import take
+from plumb.lab.machine_line import MachineLine
+from plumb.line.sender import Sender, StoppedError
+from plumb.text.errors import InputError
+from plumb.text.shown import shown_in
+
+Kind = Literal["go", "yes", "choice", "length", "turn", "mass"]
+MOMENT = 0.05  # [s] between two looks for an answer
+YES, NO = "y", "n"
+PAYS_OUT = "chains"  # the step that does
+
+
+@dataclass(frozen=True)
+class Question:
+    """What the guide asks; lengths in mm, a mass in kg."""
+
+    kind: Kind
+    text: str
+    act: str = ""  # what a yes moves, in a few words
+    answers: tuple[tuple[str, str], ...] = ()  # letter and words
+    usual: float | None = None
+    low: float = 0.0
+    high: float = 0.0
+    number: int = 0
+
+
+class GuideDesk:
+    """Takes a step at a time."""
+
+    def __init__(self) -> None:
+        self._lock = Lock()
+        self._count = 0
+        self._reply: str | None = None
+        self._left = False
+        self.step = ""  # the step that is under way; empty if none is
+        self.said: list[str] = []  # in the last step
+        self.question: Question | None = None
+        self.trouble = ""  # why the last step ended before its end
+        self._hung: tuple[object, tuple[float, float]] | None = None  # a virtual machine's chains
+
+    def begin(
+        self,
+        step: Step,
+        folder: Path,
+        line: MachineLine,
+        *,
+        unit: str,
+        finished: Callable[[Visit], None],
+    ) -> None:
+        """Begin a step; `finished` is called when it is done. Raises InputError for a busy line."""
+        with self._lock:
+            if self.step:
+                raise InputError("a step of the guide is under way: finish or leave it first")
+            self.step, self.said, self.trouble, self._left = step.name, [], "", False
+
+        def work(sender: Sender) -> None:
+            try:
+                talk = ScreenTalk(self, sender, line, unit)
+                self._note_hanging(step, line)
+                visit = Visit(sender, talk, progress_in(folder), lambda: self._hang(line))
+                with shown_in(unit):
+                    if take(visit, step):
+                        finished(visit)
+            finally:
+                self.question = None
+
+        try:
+            line.begin(work).add_done_callback(self._end)
+        except InputError:
+            self.step = ""
+            raise
+
+    def answer(self, number: int, reply: str) -> None:
+        """Answer the question of this number. Raises InputError if it is no longer asked."""
+        with self._lock:
+            if self.question is None or self.question.number != number:
+                raise InputError("this question is no longer asked: look at what the guide says")
+            if not _fits(self.question, reply):
+                raise InputError(f"{reply!r} is no answer to this question")
+            self.question, self._reply = None, reply
+
+    def leave(self) -> None:
+        """Leave the step; what is done stays done."""
+        with self._lock:
+            self._left, self.question = True, None
+
+    def _end(self, work: Future[None]) -> None:
+        """The line is free again, or lost: the next step may begin."""
+        if error := work.exception():
+            self.trouble = _why(error)
+        self.step = ""
+
+    def _note_hanging(self, step: Step, line: MachineLine) -> None:
+        """Chains of a virtual machine as its sled hangs, before the step that pays them out."""
+        machine = line.virtual and line.virtual.machine
+        if machine and step.name == PAYS_OUT and (not self._hung or self._hung[0] is not machine):
+            self._hung = machine, machine.chains
+
+    def _hang(self, line: MachineLine) -> None:
+        """Hang the sled of a virtual machine: its chains were paid out while it hung already."""
+        machine = line.virtual and line.virtual.machine
+        if machine and self._hung and self._hung[0] is machine:
+            for axis, before, now in zip(
+                ("left", "right"), self._hung[1], machine.chains, strict=True
+            ):
+                machine.slip(axis, before - now)
+            self._hung = None
+
+    def ask(self, question: Question, wait: Callable[[], None]) -> str:
+        """Put a question, and wait for its answer. Raises LeftError if the step is left."""
+        with self._lock:
+            self._count += 1
+            self._reply = None
+            self.question = replace(question, number=self._count)
+        while self._reply is None:
+            if self._left:
+                raise LeftError
+            wait()
+            time.sleep(MOMENT)
+        return self._reply
+
+
+class ScreenTalk(Talk):
+    """The guide speaks through a page."""
+
+    def __init__(self, desk: GuideDesk, sender: Sender, line: MachineLine, unit: str) -> None:
+        super().__init__(desk.said.append, lambda question: "", unit)
+        self._desk, self._sender, self._line = desk, sender, line
+
+    def agrees(self, what: str, act: str) -> bool:
+        return self._put(Question("go", what, act=act)) == YES
+
+    def says_yes(self, question: str) -> bool:
+        return self._put(Question("yes", question)) == YES
+
+    def choice(self, question: str, answers: dict[str, str]) -> str:
+        return self._put(Question("choice", question, answers=tuple(answers.items())))
+
+    def length(self, question: str, usual: float | None, low: float, high: float) -> float:
+        return float(self._put(Question("length", question, usual=usual, low=low, high=high)))
+
+    def turn(self, side: str, most: float) -> float:
+        return float(self._put(Question("turn", side, low=-most, high=most)))
+
+    def mass(self, question: str, usual: float, low: float, high: float) -> float:
+        return float(self._put(Question("mass", question, usual=usual, low=low, high=high)))
+
+    def _put(self, question: Question) -> str:
+        with self._line.resting():
+            return self._desk.ask(question, self._wait)
+
+    def _wait(self) -> None:
+        """Hear the machine while nobody answers; Stop, or a line that is let go, ends the step."""
+        self._sender.listen()
+        self._sender.attend(self._sender)
+
+
+def _why(error: BaseException) -> str:
+    """Why a step ended before its end."""
+    if isinstance(error, LeftError):
+        return "You left this step. Begin it again when you like."
+    if isinstance(error, StoppedError):
+        return "Stop was pressed: the machine has stopped, and this step is open."
+    return str(error)
+
+
+def _fits(question: Question, reply: str) -> bool:
+    """Whether a reply answers a question."""
+    if question.kind in ("go", "yes"):
+        return reply in (YES, NO)
+    if question.kind == "choice":
+        return reply in dict(question.answers)
+    try:
+        return question.low <= float(reply) <= question.high
+    except ValueError:
+        return False

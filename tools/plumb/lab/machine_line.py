@@ -1,0 +1,199 @@
+"""The machine that the lab is connected to: a board, or a virtual machine in this program."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future
+from contextlib import contextmanager
+from contextvars import copy_context
+from dataclasses import dataclass
+from threading import Lock
+from typing import Annotated, TypeVar
+
+from fastapi import Depends
+from serial.tools import list_ports
+from starlette.requests import HTTPConnection
+
+from plumb.line.sender import Sender, StoppedError
+from plumb.line.serial_port import SerialPort
+from plumb.line.worker import LineState, LineWorker
+from plumb.text.errors import InputError
+from plumb.vm.garage import set_up
+from plumb.vm.owner import VirtualOwner
+from plumb.vm.paced_port import PacedPort
+
+Result = TypeVar("Result")
+SETTLING = 10_000  # [ms] until all is in the EEPROM and the motors are off
+PATIENCE = 60.0  # [s] for an answer of the machine
+# What may be opened as a serial line: never a file.
+PORT = re.compile(r"/dev/(tty[\w.-]+|cu\.[\w.-]+|rfcomm\d+|pts/\d+|serial/by-id/[\w.:-]+)|COM\d+")
+
+
+@dataclass(frozen=True)
+class Port:
+    """A serial port of this computer."""
+
+    path: str
+    title: str
+    is_board: bool  # on USB, so it may be a machine
+
+
+def ports() -> list[Port]:
+    """The serial ports, those on USB first."""
+    each = [
+        Port(port.device, port.description or port.device, port.vid is not None)
+        for port in list_ports.comports()
+    ]
+    return sorted(each, key=lambda port: (not port.is_board, port.path))
+
+
+class MachineLine:
+    """A line at most, which all tabs share."""
+
+    def __init__(self) -> None:
+        self._lock = Lock()
+        self._worker: LineWorker | None = None
+        self._before: LineWorker | None = None  # that may still have its line
+        self.name = ""  # of what is connected
+        self.virtual: VirtualOwner | None = None  # what hangs on the line, if it is virtual
+        self._port: PacedPort | None = None
+
+    @property
+    def state(self) -> LineState:
+        """How the line and the machine are."""
+        worker = self._worker
+        return worker.state if worker else LineState()
+
+    def connect_board(self, path: str) -> None:
+        """Connect the board at a serial port. Raises InputError for what is no port."""
+        if not PORT.fullmatch(path) or ".." in path:
+            raise InputError(f"{path!r} is no serial port: choose one, or type a name like COM3")
+        with self._lock:
+            same, was = path == self.name, self._let_go()
+            self.name, self.virtual, self._port = path, None, None
+            knows_place = was.knows_place or not same
+            before = self._before
+
+            def opened() -> SerialPort:
+                if before:
+                    before.await_end()
+                return SerialPort(path)
+
+            self._worker = LineWorker(opened, knows_place=knows_place)
+
+    def connect_virtual(self, owner: VirtualOwner, *, speed: float, name: str = "") -> None:
+        """Switch on a virtual machine and connect it. Its time runs `speed` times as fast at work.
+
+        `owner.sender` is the line's from now on: use it inside of `do`.
+        """
+
+        def opened() -> PacedPort:
+            owner.machine.start()
+            owner.sender = Sender(port)
+            owner.sender.await_start()
+            set_up(owner.sender, owner.settings)
+            owner.machine.advance(SETTLING)
+            return port
+
+        with self._lock:
+            self._let_go()
+            port = PacedPort(owner.machine, speed=speed)
+            self.name, self.virtual, self._port = name or "virtual machine", owner, port
+            self._worker = LineWorker(opened, working=lambda works: setattr(port, "works", works))
+
+    def set_speed(self, speed: float) -> None:
+        """How many times as fast as real time the virtual machine works."""
+        if self._port:
+            self._port.speed = speed
+
+    def disconnect(self) -> None:
+        """Let go of the line; a machine that moves is stopped."""
+        with self._lock:
+            self._let_go()
+            self._worker, self.virtual, self._port, self.name = None, None, None, ""
+
+    def do(self, work: Callable[[Sender], Result]) -> Result:
+        """What a piece of work with the machine brings. Raises InputError if it cannot be done."""
+        try:
+            return self._working().do(_as_here(work)).result(PATIENCE)
+        except StoppedError:
+            raise InputError("somebody pressed Stop; the machine has stopped") from None
+        except TimeoutError:
+            raise InputError(f"the machine did not do it in {PATIENCE:.0f} s: look at it") from None
+
+    def begin(self, work: Callable[[Sender], None]) -> Future[None]:
+        """Begin work that may take long. Raises InputError while that cannot be.
+
+        The future is done when the line takes other work again, or is lost.
+        """
+        return self._working().do(_as_here(work))
+
+    @contextmanager
+    def resting(self) -> Iterator[None]:
+        """In the middle of work: a virtual machine need not hurry while a person thinks."""
+        port = self._port
+        if port:
+            port.works = False
+        try:
+            yield
+        finally:
+            if port:
+                port.works = True
+
+    def send(
+        self,
+        title: str,
+        lines: Sequence[str],
+        then: Callable[[Sender], None] = lambda sender: None,
+        *,
+        paused: Callable[[int], None] = lambda lines: None,
+    ) -> None:
+        """Begin to send a program; `paused` hears of each pause how many lines come before it.
+
+        Raises InputError while that cannot be.
+        """
+        self._working().send(title, lines, then, paused=paused)
+
+    def hold(self) -> None:
+        """Stop along the path, without leaving it."""
+        self._working().hold()
+
+    def go_on(self) -> None:
+        """Go on after a hold."""
+        self._working().go_on()
+
+    def stop(self) -> None:
+        """Stop, and give up what was being done."""
+        self._working().stop()
+
+    def _working(self) -> LineWorker:
+        worker = self._worker
+        if worker is None:
+            raise InputError("no machine is connected: connect it first")
+        return worker
+
+    def _let_go(self) -> LineState:
+        """Close the line; how it was."""
+        if self._worker is None:
+            return LineState()
+        was = self._worker.state
+        self._worker.close()
+        self._before = self._worker
+        return was
+
+
+def _as_here(work: Callable[[Sender], Result]) -> Callable[[Sender], Result]:
+    """Work for the line's thread that speaks to whom this thread speaks to."""
+    context = copy_context()
+    return lambda sender: context.run(work, sender)
+
+
+def line_of(connection: HTTPConnection) -> MachineLine:
+    """The line of this server."""
+    line = connection.app.state.line
+    assert isinstance(line, MachineLine)
+    return line
+
+
+TheLine = Annotated[MachineLine, Depends(line_of)]

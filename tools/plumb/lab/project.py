@@ -1,0 +1,108 @@
+"""A project: a plain folder with the files of the command line, and the choices made on the page.
+
+Each file has a digest. A save names the digest that its author had read, so that nobody overwrites
+what another tab, another program or the command line wrote in the meantime.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from hashlib import sha256
+from pathlib import Path
+
+from plumb.text.errors import InputError
+from plumb.text.files import write_all
+
+# A name is a single word without a folder, so no name from outside leads out of the project.
+NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
+MISSING = ""  # digest of a file that does not exist
+LOCK = ".lab.lock"
+
+
+class ChangedError(Exception):
+    """A file changed since its author read it: `name` says which."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(f"{name} has changed in the meantime; look at what it says now")
+        self.name = name
+
+
+class Project:
+    """The files of a folder."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def path(self, name: str) -> Path:
+        """Where a file of this name lies. Raises ValueError for what is no plain name, and for a
+        link: it may lead out of the folder."""
+        if not NAME.fullmatch(name):
+            raise ValueError(f"{name!r} is no plain file name")
+        path = self.folder / name
+        if path.is_symlink():
+            raise ValueError(f"{name} is a link; put the file itself into the folder")
+        return path
+
+    def names(self) -> list[str]:
+        """The names of its files, sorted."""
+        return sorted(
+            path.name
+            for path in self.folder.iterdir()
+            if path.is_file() and not path.is_symlink() and NAME.fullmatch(path.name)
+        )
+
+    def read(self, name: str) -> bytes | None:
+        """What is in a file; None if there is none."""
+        path = self.path(name)
+        return path.read_bytes() if path.is_file() else None
+
+    def digest(self, name: str) -> str:
+        """A number for what is in a file; MISSING if there is none."""
+        return digest_of(self.read(name))
+
+    def save(self, files: Mapping[str, bytes], *, read: Mapping[str, str]) -> None:
+        """Write all of them or none.
+
+        `read` holds the digests of the files that the author knew. Raises ChangedError if one of
+        these is another by now, and OSError if the disk takes nothing.
+        """
+        with self._locked():
+            self._refuse_changed(read)
+            staged = {str(self.path(name)): content for name, content in files.items()}
+            try:
+                write_all(staged)
+            except InputError as error:  # the disk's fault, so it may go later
+                raise OSError(str(error).removeprefix(f"{self.folder}/")) from None
+
+    def remove(self, names: Iterable[str], *, read: Mapping[str, str]) -> None:
+        """Take files out of the folder; those that are not there are no matter.
+
+        Raises ChangedError as `save` does.
+        """
+        with self._locked():
+            self._refuse_changed(read)
+            for name in names:
+                self.path(name).unlink(missing_ok=True)
+
+    def _refuse_changed(self, read: Mapping[str, str]) -> None:
+        for name, digest in read.items():
+            if self.digest(name) != digest:
+                raise ChangedError(name)
+
+    @contextmanager
+    def _locked(self) -> Iterator[None]:
+        """Nobody else saves meanwhile, not even another server on this folder."""
+        # Never through a link: a folder from elsewhere may bring this name.
+        flags = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW
+        with os.fdopen(os.open(self.folder / LOCK, flags, 0o600), "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            yield
+
+
+def digest_of(content: bytes | None) -> str:
+    """A number for what a file holds; MISSING for None."""
+    return MISSING if content is None else sha256(content).hexdigest()

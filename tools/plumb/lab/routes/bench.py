@@ -1,0 +1,375 @@
+"""The bench for effects: add and take away, fit or hold, and see what is left of the errors."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated
+
+import numpy as np
+from fastapi import APIRouter, Depends, Request
+from pydantic import BaseModel, Field, FiniteFloat
+
+from plumb.cure.add import add, add_to
+from plumb.cure.live_board import Chosen
+from plumb.cure.machine_file import toml_of
+from plumb.cure.record import record_of
+from plumb.diagnosis.suspect_curves import Curve
+from plumb.fit.covariates import Covariate
+from plumb.fit.fit import Fit
+from plumb.fit.plausible import plausible_range
+from plumb.lab.choices import read_choices
+from plumb.lab.commands import command, known_words, unit_words
+from plumb.lab.live_boards import LiveBoards, WarmBoard
+from plumb.lab.project import Project
+from plumb.lab.routes.comparison import board_words, inputs_of
+from plumb.lab.routes.project import ProjectAnswer, TheProject, show
+from plumb.model.catalogue import every_effect, is_sketch, parameter_words
+from plumb.model.plain import noun_of, plain_size
+from plumb.model.predict import Array
+from plumb.text.errors import InputError
+from plumb.text.shown import shown_in
+
+router = APIRouter(tags=["bench"])
+NEW_MACHINE = "new.toml"
+MOST_EFFECTS = 32
+ANGLES = ("angle", "phase", "approach")  # covariates
+
+Pair = tuple[float, float]
+
+
+class BenchParameter(BaseModel):
+    """A number of an effect, and the sizes that real machines have."""
+
+    name: str  # in full, `effect.parameter`
+    label: str
+    low: float
+    high: float
+    now: float  # in the settings; 0: absent
+
+
+class BenchEffect(BaseModel):
+    """An effect that can be added."""
+
+    name: str
+    noun: str
+    summary: str
+    where: str  # "firmware", "lab" or "sketch"
+    in_settings: bool
+    parameters: list[BenchParameter]
+
+
+class BenchMark(BaseModel):
+    """A mark [mm, machine frame]."""
+
+    name: str
+    target: Pair
+    measured: Pair
+
+
+class BenchCovariate(BaseModel):
+    """What errors of the chains may depend on, left and right for each mark."""
+
+    name: str
+    unit: str
+    of_chain: bool
+    values: list[tuple[float | None, float | None]]
+
+
+class BenchAnswer(BaseModel):
+    """What the bench needs when it opens."""
+
+    board: str  # another for other marks or settings
+    sheet: Pair
+    sigma: float | None  # [mm] of a reading, if it is known before the fit
+    marks: list[BenchMark]
+    effects: list[BenchEffect]
+    covariates: list[BenchCovariate]
+    as_set: list[Pair]  # errors [mm] of the marks by the settings as they stand
+    as_set_chains: list[tuple[float | None, float | None]]  # the same in chain
+    new_machine: str  # name of the file that the bench writes
+    new_digest: str
+
+
+class BenchChoice(BaseModel):
+    """Effects to add, in their order, and sizes that are held by hand."""
+
+    effects: list[str] = Field(max_length=MOST_EFFECTS)
+    held: dict[str, FiniteFloat] = {}
+
+    @property
+    def chosen(self) -> Chosen:
+        """The choice as the fit knows it."""
+        return Chosen(tuple(dict.fromkeys(self.effects)), self.held)
+
+
+class BenchSize(BaseModel):
+    """A parameter of an effect that was added."""
+
+    value: float
+    said: str  # in words, with its interval if it was fitted
+    held: bool
+    plausible: bool
+
+
+class BenchFit(BaseModel):
+    """The marks with the chosen effects, all else refitted [mm]."""
+
+    fit_rms: float
+    priced_rms: float
+    left_out_rms: float
+    errors: list[Pair]
+    chains: list[tuple[float | None, float | None]]
+    sizes: dict[str, BenchSize]
+    settled: bool
+    command: str
+
+
+class BenchStair(BaseModel):
+    """An effect more, and what is left of the errors [mm]."""
+
+    noun: str
+    fit_rms: float
+    priced_rms: float | None
+    left_out_rms: float | None
+    only_fit: bool  # the fit got better, what it did not see got worse
+
+
+class BenchStairs(BaseModel):
+    """How the error falls, effect by effect, and what to think of it."""
+
+    stairs: list[BenchStair]
+    pays: bool
+    warnings: list[str]
+
+
+class BenchCurve(BaseModel):
+    """What an effect draws on a chain against a covariate [mm]."""
+
+    at: list[float]
+    middle: list[float]
+    low: list[float]
+    high: list[float]
+
+
+class BenchDrawn(BaseModel):
+    """What an effect by itself adds to the frame's fit [mm]."""
+
+    effect: str
+    moved: list[Pair]
+    chains: list[tuple[float | None, float | None]]
+    curves: dict[str, tuple[BenchCurve, BenchCurve]]
+
+
+class BenchSave(BenchChoice):
+    """A choice to be written, and the digest of the file that it replaces."""
+
+    read: str
+
+
+def _warm(request: Request, project: TheProject) -> WarmBoard:
+    boards = request.app.state.live_boards
+    assert isinstance(boards, LiveBoards)
+    return boards.of(project, inputs_of)
+
+
+Warm = Annotated[WarmBoard, Depends(_warm)]
+
+
+@router.get("/bench")
+def open_bench(project: TheProject, warm: Warm) -> BenchAnswer:
+    """The marks, the effects, and what errors may depend on."""
+    rows = warm.live.rows
+    marks = zip(rows.names, rows.targets, rows.measured, strict=True)
+    return BenchAnswer(
+        board=warm.key,
+        sheet=warm.live.model.sheet,
+        sigma=warm.live.noise.sigma,
+        marks=[
+            BenchMark(name=name, target=_pair(target), measured=_pair(measured))
+            for name, target, measured in marks
+        ],
+        effects=_effects(warm),
+        covariates=[_covariate(each) for each in warm.view.covariates],
+        as_set=[mark.error for mark in warm.raw.marks],
+        as_set_chains=[
+            (mark.left_chain_residual, mark.right_chain_residual) for mark in warm.raw.marks
+        ],
+        new_machine=NEW_MACHINE,
+        new_digest=project.digest(NEW_MACHINE),
+    )
+
+
+@router.post("/bench/fit")
+def refit(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchFit:
+    """Refit everything with these effects. Nothing is written."""
+    chosen = choice.chosen
+    warm.live.refuse(chosen)
+    fitted = warm.live.fit(chosen)
+    choices, _ = read_choices(project)
+    with shown_in(choices.units):
+        sizes = _sizes(fitted, chosen)
+    return BenchFit(
+        fit_rms=fitted.rms,
+        priced_rms=fitted.priced_rms,
+        left_out_rms=fitted.left_out_rms,
+        errors=[_pair(error) for error in fitted.errors],
+        chains=_ends(warm.view.chains(fitted.errors)),
+        sizes=sizes,
+        settled=fitted.settled,
+        command=_command(project, chosen, warm.live.inputs.measurements.typed.unit),
+    )
+
+
+@router.post("/bench/stairs")
+def climb(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchStairs:
+    """How the error falls with each effect more. Nothing is written."""
+    chosen = choice.chosen
+    warm.live.refuse(chosen)
+    choices, _ = read_choices(project)
+    with shown_in(choices.units):
+        result = add_to(warm.live, warm.raw, chosen)
+    qualities = [("frame fitted", result.before, False)]
+    qualities += [
+        (f"+ {noun_of(step.effect)}", step.quality, step.only_fit) for step in result.steps
+    ]
+    as_set = BenchStair(
+        noun="as set", fit_rms=warm.raw.rms, priced_rms=None, left_out_rms=None, only_fit=False
+    )
+    stairs = [
+        BenchStair(
+            noun=noun,
+            fit_rms=quality.fit_rms,
+            priced_rms=quality.priced_rms,
+            left_out_rms=quality.left_out_rms,
+            only_fit=only_fit,
+        )
+        for noun, quality, only_fit in qualities
+    ]
+    return BenchStairs(
+        stairs=[as_set, *stairs],
+        pays=result.pays or not chosen.effects,
+        warnings=list(result.warnings),
+    )
+
+
+@router.get("/bench/drawn")
+def draw(effect: str, warm: Warm) -> BenchDrawn:
+    """What an effect by itself would draw."""
+    warm.live.refuse(Chosen((effect,)))
+    drawn = warm.view.drawn(effect)
+    return BenchDrawn(
+        effect=effect,
+        moved=[_pair(move) for move in drawn.moved],
+        chains=_ends(drawn.curves.chains),
+        curves={
+            name: (_curve(name, left), _curve(name, right))
+            for name, (left, right) in drawn.curves.curves.items()
+        },
+    )
+
+
+@router.post("/bench/machine")
+def save(change: BenchSave, project: TheProject) -> ProjectAnswer:
+    """Write the machine with these effects, as `plumb add -o` does."""
+    inputs, chosen = inputs_of(project), change.chosen
+    for name in filter(is_sketch, chosen.effects):
+        raise InputError(f"{name} is a sketch, which no firmware has; take it away to write")
+    result = add(inputs, effects=chosen.effects, held=chosen.held)
+    source = inputs.measurements.source
+    content = toml_of(result, source=source, record=record_of(result, inputs))
+    project.save({NEW_MACHINE: content}, read={NEW_MACHINE: change.read})
+    return show(project)
+
+
+def _effects(warm: WarmBoard) -> list[BenchEffect]:
+    settings = warm.live.model
+    return [
+        BenchEffect(
+            name=effect["name"],
+            noun=effect["noun"],
+            summary=effect["summary"],
+            where=effect["where"],
+            in_settings=any(settings.effects.get(effect["name"], {}).values()),
+            parameters=[
+                _parameter(f"{effect['name']}.{each['name']}", warm)
+                for each in effect["parameters"]
+            ],
+        )
+        for effect in every_effect()
+    ]
+
+
+def _parameter(name: str, warm: WarmBoard) -> BenchParameter:
+    words, known = parameter_words()[name], plausible_range(name)
+    plain = words["plain"]
+    label = " ".join(plain["more"].replace("#", "").split()) if plain else words["summary"]
+    effect, _, parameter = name.rpartition(".")
+    return BenchParameter(
+        name=name,
+        label=label,
+        low=min(known.low, 0.0),
+        high=max(known.high, 0.0),
+        now=warm.live.model.effect(effect, parameter),
+    )
+
+
+def _covariate(covariate: Covariate) -> BenchCovariate:
+    return BenchCovariate(
+        name=covariate.name,
+        unit="°" if covariate.unit == "rad" else covariate.unit,
+        of_chain=covariate.of_chain,
+        values=_ends(_in_degrees(covariate.name, covariate.values)),
+    )
+
+
+def _curve(name: str, curve: Curve) -> BenchCurve:
+    return BenchCurve(
+        at=_in_degrees(name, curve.at).tolist(),
+        middle=curve.middle.tolist(),
+        low=curve.low.tolist(),
+        high=curve.high.tolist(),
+    )
+
+
+def _in_degrees(covariate: str, values: Array) -> Array:
+    """Angles are shown in degrees."""
+    return np.degrees(values) if covariate in ANGLES else values
+
+
+def _sizes(fitted: Fit, chosen: Chosen) -> dict[str, BenchSize]:
+    sizes = {}
+    for name in chosen.parameters:
+        estimate = next((each for each in fitted.estimates if each.name == name), None)
+        value = estimate.value if estimate else chosen.held[name]
+        interval = (estimate.low, estimate.high) if estimate and estimate.felt else ()
+        sizes[name] = BenchSize(
+            value=value,
+            said=plain_size(name, value, *interval),
+            held=name in chosen.held,
+            plausible=plausible_range(name).holds(value),
+        )
+    return sizes
+
+
+def _command(project: Project, chosen: Chosen, typed: str) -> str:
+    choices, _ = read_choices(project)
+    held = [word for item in chosen.held.items() for word in ("--hold", "{}={:.12g}".format(*item))]
+    known = known_words(choices, effects=chosen.effects, held=chosen.held)
+    return command(
+        *("add", *board_words(project), *known, *unit_words(choices, typed)),
+        *("--effect", *(chosen.effects or ["none"]), *held, "-o", NEW_MACHINE),
+    )
+
+
+def _pair(values: Array | Pair) -> Pair:
+    x, y = values
+    return float(x), float(y)
+
+
+def _ends(values: Array) -> list[tuple[float | None, float | None]]:
+    """Left and right; None for what is not known."""
+    return [(_known(left), _known(right)) for left, right in values]
+
+
+def _known(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None

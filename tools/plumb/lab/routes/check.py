@@ -1,0 +1,256 @@
+"""Two check marks: where to cut them, and whether they are where the settings promise."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from fastapi import APIRouter
+from pydantic import BaseModel
+
+from plumb.diagnosis.check_marks import Check, check
+from plumb.diagnosis.check_sentence import check_sentence
+from plumb.fit.inputs import Inputs
+from plumb.fit.read_inputs import settings_in
+from plumb.grid import program
+from plumb.lab.choices import FILE, Choices, choices_text, read_choices
+from plumb.lab.commands import command, known_words, unit_words
+from plumb.lab.machine_line import TheLine
+from plumb.lab.planned import Planned, planned, refuse_unreachable
+from plumb.lab.project import Project
+from plumb.lab.rounds import form_text, grid_command
+from plumb.lab.routes.comparison import inputs_of, read_names
+from plumb.lab.routes.machine import MachineAnswer, machine
+from plumb.lab.routes.project import ProjectAnswer, TheProject, show
+from plumb.lab.routes.readings import CHECK, ENDING, form_of
+from plumb.line.sender import cleaned
+from plumb.marks.edges import from_edges
+from plumb.marks.read import read_marks
+from plumb.model.predict import known_effects
+from plumb.plan.check_places import check_places
+from plumb.text.errors import InputError
+from plumb.text.shown import shown_in
+
+router = APIRouter(tags=["check"])
+
+
+class CheckedMarkAnswer(BaseModel):
+    """A check mark [mm, machine frame]."""
+
+    name: str
+    target: tuple[float, float]
+    measured: tuple[float, float]
+    promised: float  # 99 of 100 such readings are off by less
+    off: float  # from where the settings promise it
+    error: float  # from where it was sent
+    is_within: bool
+
+
+class RoundError(BaseModel):
+    """How far off the marks of a form are."""
+
+    form: str
+    off_target: float  # [mm] RMS
+    is_check: bool
+
+
+class CheckAnswer(BaseModel):
+    """The check marks: to be cut, to be read, or judged."""
+
+    trouble: str  # why nothing can be checked yet; empty if it can
+    places: list[tuple[float, float]]  # machine frame
+    meant: list[tuple[float, float]]  # the same from the chosen edges
+    form: str
+    program: str
+    is_saved: bool
+    marks: list[CheckedMarkAnswer]
+    sentence: str  # empty: not all is read yet
+    rounds: list[RoundError]  # in the order they were cut, the check marks last
+    holds: bool
+    is_used: bool  # the verdict goes by these marks too
+    command: str
+
+
+@router.get("/check")
+def show_check(project: TheProject) -> CheckAnswer:
+    """The newest check round, or a plan for the first."""
+    choices, _ = read_choices(project)
+    inputs = _of_promise(project)
+    trouble = "" if inputs.settings.fitted else "write a correction first: it makes the promise"
+    number = _newest(project)
+    form = f"{CHECK}{number}{ENDING}"
+    is_saved = project.read(form) is not None
+    plan = None if trouble or is_saved else _plan(inputs, [])
+    places = _places(project, choices, form) if is_saved else _of_plan(plan)
+    corner, sheet = choices.edges, inputs.settings.sheet
+    checked = None if trouble or not is_saved else _checked(project, inputs, form)
+    with shown_in(choices.units):
+        sentence = check_sentence(checked) if checked else ""
+    return CheckAnswer(
+        trouble=trouble,
+        places=places,
+        meant=[from_edges(place, sheet=sheet, corner=corner) for place in places],
+        form=form,
+        program=f"{CHECK}{number}.nc",
+        is_saved=is_saved,
+        marks=[CheckedMarkAnswer(**vars(mark)) for mark in checked.marks] if checked else [],
+        sentence=sentence,
+        rounds=_rounds(project, choices, form) if checked else [],
+        holds=checked is not None and checked.holds,
+        is_used=form in choices.marks,
+        command=_command(project, inputs, form) if is_saved else _made(project, number, plan),
+    )
+
+
+@router.post("/check")
+def save_check(project: TheProject) -> ProjectAnswer:
+    """Write the program and the form for two check marks into the folder."""
+    _save(project)
+    return show(project)
+
+
+@router.post("/check/cut")
+def cut_check(project: TheProject, line: TheLine) -> MachineAnswer:
+    """Write both, and send the program. The machine moves."""
+    if not line.state.knows_place:
+        raise InputError("where the sled is, is not known: set its chains first")
+    name, text = _save(project)
+    if owner := line.virtual:
+        line.do(lambda sender: owner.weigh_down(owner.settings.sled_weight))
+    line.send(name, list(cleaned(text.splitlines())))
+    return machine(line)
+
+
+@router.post("/check/use")
+def use_check(project: TheProject) -> ProjectAnswer:
+    """Let the verdict go by the check marks too, so that the next check needs new marks."""
+    choices, digest = read_choices(project)
+    form = f"{CHECK}{_newest(project)}{ENDING}"
+    if project.read(form) is None:
+        raise InputError("there are no check marks yet: cut them first")
+    used = [*(name for name in choices.marks if name != form), form]
+    chosen = choices.model_copy(update={"marks": used})
+    project.save({FILE: choices_text(chosen)}, read={FILE: digest})
+    return show(project)
+
+
+def _command(project: Project, inputs: Inputs, form: str) -> str:
+    """The same in a terminal: what the fit promises of the check marks that were read."""
+    choices, _ = read_choices(project)
+    unit = unit_words(choices, inputs.measurements.typed.unit)
+    board = [choices.settings, *read_names(project, _promising(project), choices)]
+    return command("recheck", *board, "--check", form, *known_words(choices), *unit)
+
+
+def _made(project: Project, number: str, plan: Planned | None) -> str:
+    """The command that writes the form and the program; empty if there is no plan."""
+    if plan is None:
+        return ""
+    choices, _ = read_choices(project)
+    form, file = f"{CHECK}{number}{ENDING}", f"{CHECK}{number}.nc"
+    made = grid_command(project, _same_sheet(choices), plan, form=form, program=file)
+    return f"{made}\n{command('send', file)}"
+
+
+def _same_sheet(choices: Choices) -> Choices:
+    """Check marks are on the sheet of the marks before them."""
+    return choices.model_copy(update={"new_sheet": False})
+
+
+def _of_promise(project: Project) -> Inputs:
+    """The readings that the promise goes by."""
+    return inputs_of(project, among=_promising(project))
+
+
+def _promising(project: Project) -> list[str]:
+    """The files of these readings: check marks take no part, nor does a sheet that was laid after
+    the correction, for check marks are on the sheet before it."""
+    choices, _ = read_choices(project)
+    names = [name for name in choices.marks if not name.startswith(CHECK)]
+    fitted = settings_in(project.path(choices.settings)).fitted if choices.settings else None
+    seen = [board.marks for board in fitted.boards] if fitted else names
+    later = (
+        place
+        for place, name in enumerate(names)
+        if name not in seen and form_of(project, choices, name).measurements.rounds[0].new_sheet
+    )
+    return names[: next(later, len(names))]
+
+
+def _rounds(project: Project, choices: Choices, check_form: str) -> list[RoundError]:
+    """How far off the marks of each round are."""
+    names = [*(name for name in choices.marks if not name.startswith(CHECK)), check_form]
+    forms = {name: form_of(project, choices, name).measurements for name in names}
+    return [
+        RoundError(form=name, off_target=off, is_check=name == check_form)
+        for name, form in forms.items()
+        if (off := form.off_target) is not None
+    ]
+
+
+def _newest(project: Project) -> str:
+    """The number of the newest check round, as in the names of its files."""
+    number, count = "", 1
+    while project.read(f"{CHECK}-{count + 1}{ENDING}") is not None:
+        count += 1
+        number = f"-{count}"
+    return number
+
+
+def _plan(inputs: Inputs, cut: Sequence[tuple[float, float]]) -> Planned:
+    """Two marks far from those that were fitted, and from check marks that were cut before."""
+    known = [*map(tuple, inputs.measurements.targets), *cut]
+    places = check_places(inputs.settings, np.array(known))
+    if not len(places):
+        raise InputError("no place is left that the sled reaches and that was not fitted")
+    plan = planned(inputs.settings, "own", [(float(x), float(y)) for x, y in places])
+    refuse_unreachable(plan, inputs.settings)
+    return plan
+
+
+def _of_plan(plan: Planned | None) -> list[tuple[float, float]]:
+    return [(touch.x, touch.y) for touch in plan.touches] if plan else []
+
+
+def _save(project: Project) -> tuple[str, str]:
+    """Write program and form of a round; the program's name and text."""
+    choices, _ = read_choices(project)
+    inputs = _of_promise(project)
+    number = _newest(project)
+    form = f"{CHECK}{number}{ENDING}"
+    if project.read(form) is not None and _is_read(project, choices, form):
+        number = f"-{int(number[1:] or 1) + 1}"
+        form = f"{CHECK}{number}{ENDING}"
+    name, plan = f"{CHECK}{number}.nc", _plan(inputs, _cut_before(project, choices, form))
+    text = program(plan.grid, plan.machine)
+    files = {form: form_text(project, _same_sheet(choices), plan, form), name: text.encode()}
+    project.save(files, read={each: project.digest(each) for each in files})
+    return name, text
+
+
+def _cut_before(project: Project, choices: Choices, form: str) -> list[tuple[float, float]]:
+    """Where check marks were cut in the rounds before that of a form."""
+    names = [f"{CHECK}{ENDING}"]
+    while names[-1] != form:
+        names.append(f"{CHECK}-{len(names) + 1}{ENDING}")
+    return [place for name in names[:-1] for place in _places(project, choices, name)]
+
+
+def _is_read(project: Project, choices: Choices, form: str) -> bool:
+    return bool(form_of(project, choices, form).measurements.measured_marks)
+
+
+def _places(project: Project, choices: Choices, form: str) -> list[tuple[float, float]]:
+    return [mark.target for mark in form_of(project, choices, form).measurements.marks]
+
+
+def _checked(project: Project, inputs: Inputs, form: str) -> Check | None:
+    """The check marks against the fit; None before all are read."""
+    choices, _ = read_choices(project)
+    waiting = [
+        mark for mark in form_of(project, choices, form).measurements.marks if not mark.measured
+    ]
+    if waiting:
+        return None
+    marks = read_marks(project.path(form), sheet=inputs.settings.sheet, known=known_effects())
+    return check(inputs, marks)

@@ -1,0 +1,270 @@
+"""The correction: each number before and after, accepted one by one, written, and taken back."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from fastapi import APIRouter
+from pydantic import BaseModel
+
+from plumb.cure.add import Addition, Parameter
+from plumb.cure.auto import add_auto
+from plumb.cure.correction import Correction, correct, has_setting
+from plumb.cure.machine_file import toml_of, turn_sentences
+from plumb.cure.record import record_of
+from plumb.diary.entries import FIT, fit_entry
+from plumb.diary.keeping import keep
+from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files
+from plumb.fit.inputs import Inputs
+from plumb.lab.background import Progress
+from plumb.lab.choices import FILE, Choices, choices_text, read_choices
+from plumb.lab.commands import command, known_words, unit_words
+from plumb.lab.live_boards import key_of
+from plumb.lab.project import Project
+from plumb.lab.routes.comparison import board_words, inputs_of
+from plumb.lab.routes.project import TheProject
+from plumb.lab.routes.readings import free_name
+from plumb.lab.routes.verdict import TheBackground
+from plumb.model.plain import plain_change, plain_range
+from plumb.text.errors import InputError
+from plumb.text.shown import shown_in
+
+router = APIRouter(tags=["correction"])
+CLIENT_OF = {Path(file).suffix: client for client, file in CLIENT_FILES.items()}
+NO_CLIENT = "none"
+
+
+class ChangedNumber(BaseModel):
+    """A number of the machine before and after, in words."""
+
+    name: str
+    noun: str
+    before: str
+    after: str
+    margin: str  # of 95 %
+    unit: str
+    plausible: bool
+    range_said: str  # empty: no limit is known
+    is_accepted: bool
+
+
+class CorrectionParts(BaseModel):
+    """What could be changed, and what is accepted of it."""
+
+    reason: str  # why these effects
+    is_slip: bool  # nothing is fitted to a wrong reading
+    numbers: list[ChangedNumber]
+    with_accepted: list[ChangedNumber]  # fitted with all others held as they are
+    cures: list[str]  # for what no setting holds
+    warnings: list[str]
+    settings: str  # name of the file that these numbers would change
+    rms_set: float | None  # [mm] as that file stands
+    rms_accepted: float | None
+    rms_all: float | None
+    left_out: float | None  # [mm] of marks that took no part, with what is accepted
+    add: list[str]  # what plumb add is given for what is accepted
+
+
+class CorrectionAnswer(BaseModel):
+    """The correction, or how far it is."""
+
+    share: float
+    correction: CorrectionParts | None
+    file: str  # that would be written
+    command: str
+
+
+class Write(BaseModel):
+    """The digests of the settings and the choices that the page knows."""
+
+    settings: str
+    choices: str
+
+
+class Written(BaseModel):
+    """What was written, and what to do with it."""
+
+    file: str
+    files: list[str]
+    steps: list[str]
+    failure: str  # why the diary says nothing of it; empty if it does
+
+
+class Undone(BaseModel):
+    """The settings that are open again."""
+
+    file: str
+
+
+@router.get("/correction")
+def show_correction(project: TheProject, background: TheBackground) -> CorrectionAnswer:
+    """What the marks would change."""
+    choices, _ = read_choices(project)
+    key = "\n".join([key_of(project), choices.units, *sorted(choices.accepted)])
+    inputs = inputs_of(project)
+
+    def work(progress: Progress) -> CorrectionParts:
+        progress(0.1)
+        auto = add_auto(inputs)
+        progress(0.6)
+        with shown_in(choices.units):
+            if auto.addition is None:
+                return _nothing(auto.reason, choices)
+            made = correct(inputs, auto.chosen, choices.accepted)
+            return _parts(made, auto.reason, choices)
+
+    answer = background.ask("correction", key, work)
+    file = free_name(project, "machine")
+    unit = unit_words(choices, inputs.measurements.typed.unit)
+    add = answer.result.add if answer.result else [*known_words(choices), "--effect", "auto"]
+    client = ["--client", *_client_words(choices)]
+    return CorrectionAnswer(
+        share=answer.share,
+        correction=answer.result,
+        file=file,
+        command=command("add", *board_words(project), *unit, *add, *client, "-o", file),
+    )
+
+
+@router.post("/correction")
+def write(known: Write, project: TheProject) -> Written:
+    """Write the machine with the accepted numbers, and what belongs to its client; open it."""
+    choices, _ = read_choices(project)
+    inputs = inputs_of(project)
+    auto = add_auto(inputs)
+    if auto.addition is None:
+        raise InputError(auto.reason)
+    made = correct(inputs, auto.chosen, choices.accepted).accepted
+    if made is None:
+        raise InputError("no number is accepted, so there is nothing to write")
+    name = free_name(project, "machine")
+    text = toml_of(made, source=" ".join(choices.marks), record=record_of(made, inputs))
+    client = _client_files(project, choices, made, name)
+    chosen = choices.model_copy(
+        update={
+            "settings": name,
+            "settings_before": [*choices.settings_before, choices.settings],
+            "accepted": [],
+        }
+    )
+    more = {Path(path).name: content for path, content in client.files.items()}
+    project.save(
+        {**more, name: text, FILE: choices_text(chosen)},
+        read={FILE: known.choices, choices.settings: known.settings, name: ""},
+    )
+    failure = _in_diary(project, made, inputs, name, text.decode())
+    return Written(
+        file=name,
+        files=[name, *more],
+        steps=[*client.steps, *(f"{key}: {value}" for (_, key), value in client.typed.items())],
+        failure=failure,
+    )
+
+
+@router.post("/correction/undo")
+def undo(known: Write, project: TheProject) -> Undone:
+    """Open the settings again that were open before the latest correction; no file is lost."""
+    choices, _ = read_choices(project)
+    if not choices.settings_before:
+        raise InputError("no correction was written, so there is nothing to take back")
+    *earlier, name = choices.settings_before
+    chosen = choices.model_copy(update={"settings": name, "settings_before": earlier})
+    project.save({FILE: choices_text(chosen)}, read={FILE: known.choices})
+    return Undone(file=name)
+
+
+def _nothing(reason: str, choices: Choices) -> CorrectionParts:
+    return CorrectionParts(
+        reason=reason,
+        is_slip=True,
+        numbers=[],
+        with_accepted=[],
+        cures=[],
+        warnings=[],
+        settings="",
+        rms_set=None,
+        rms_accepted=None,
+        rms_all=None,
+        left_out=None,
+        add=[*known_words(choices), "--effect", "auto"],
+    )
+
+
+def _parts(made: Correction, reason: str, choices: Choices) -> CorrectionParts:
+    whole, some = made.whole, made.accepted
+    accepted = [number for number in some.parameters if has_setting(number.name)] if some else []
+    return CorrectionParts(
+        reason=reason,
+        is_slip=False,
+        numbers=[_number(number, choices) for number in made.numbers],
+        with_accepted=[_number(number, choices) for number in accepted],
+        cures=[*turn_sentences(whole), *whole.cures],
+        warnings=list((some or whole).warnings),
+        settings=choices.settings,
+        rms_set=whole.raw.rms,
+        rms_accepted=some.after.fit_rms if some else None,
+        rms_all=whole.after.fit_rms,
+        left_out=some.after.left_out_rms if some else None,
+        add=_add_words(made, choices),
+    )
+
+
+def _add_words(made: Correction, choices: Choices) -> list[str]:
+    """What plumb add is given to change the accepted numbers alone; all of them if none is."""
+    if not (made.effects or made.fixed):
+        return [*known_words(choices), "--effect", "auto"]
+    gone = {*made.held, *made.fixed}
+    words = known_words(choices, effects=made.effects, held=gone)
+    for name in made.fixed:
+        words += ["--prior", f"{name}=0"]
+    words += ["--effect", *(made.effects or ["none"])]
+    for name, size in made.held.items():
+        words += ["--hold", f"{name}={size:.12g}"]
+    return words
+
+
+def _number(number: Parameter, choices: Choices) -> ChangedNumber:
+    change = plain_change(number.name, number.before, number.value, number.low, number.high)
+    low, high = number.plausible_range.limits
+    return ChangedNumber(
+        name=number.name,
+        **change._asdict(),
+        plausible=number.plausible,
+        range_said=plain_range(number.name, low, high)
+        if low is not None and high is not None
+        else "",
+        is_accepted=number.name in choices.accepted,
+    )
+
+
+def _client_files(project: Project, choices: Choices, made: Addition, name: str) -> ClientFiles:
+    """The lines for the machine, and the client's file if its settings came from a client."""
+    original = _original(choices)
+    return client_files(
+        made.settings,
+        client=CLIENT_OF[Path(original).suffix] if original else NO_CLIENT,
+        firmware="plumb",
+        original=str(project.path(original)) if original else None,
+        lines=str(project.path(f"{Path(name).stem}.nc")),
+    )
+
+
+def _original(choices: Choices) -> str | None:
+    """The client's file that was opened last."""
+    opened = [choices.settings, *reversed(choices.settings_before)]
+    return next((each for each in opened if Path(each).suffix in CLIENT_OF), None)
+
+
+def _client_words(choices: Choices) -> list[str]:
+    """The client, and its file if that is not the settings' file."""
+    original = _original(choices)
+    if original is None:
+        return [NO_CLIENT]
+    more = [] if original == choices.settings else ["--original", original]
+    return [CLIENT_OF[Path(original).suffix], *more]
+
+
+def _in_diary(project: Project, made: Addition, inputs: Inputs, name: str, settings: str) -> str:
+    """Write the fit into the folder's diary; a sentence if that failed."""
+    entry = fit_entry(made, inputs, machine=name, settings=settings)
+    return keep(str(project.path(name)), FIT, entry)

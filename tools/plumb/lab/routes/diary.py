@@ -1,0 +1,129 @@
+"""The diary: each fit with its error, and how the numbers went."""
+
+from __future__ import annotations
+
+from datetime import datetime
+
+from fastapi import APIRouter
+from pydantic import BaseModel
+
+from plumb.diary.entries import FIT
+from plumb.diary.file import Diary, read_diary
+from plumb.diary.history import Course, history_of
+from plumb.diary.noted import noted
+from plumb.lab.choices import read_choices
+from plumb.lab.commands import command, unit_words
+from plumb.lab.routes.project import TheProject
+from plumb.model.plain import plain_change, plainly
+from plumb.text.shown import shown_in
+
+router = APIRouter(tags=["diary"])
+MOST = 50  # other entries that are shown
+
+
+class Round(BaseModel):
+    """A fit."""
+
+    at: datetime
+    machine: str
+    count: int  # of marks and distances
+    before: float | None  # [mm]
+    rms: float | None
+    left_out: float | None
+    effects: str
+
+
+class CoursePoint(BaseModel):
+    """A number after a fit, as text and as number."""
+
+    at: datetime
+    value: float
+    low: float
+    high: float
+    said: str
+
+
+class NumberCourse(BaseModel):
+    """How a number went."""
+
+    noun: str
+    unit: str
+    points: list[CoursePoint]
+    has_moved: bool  # the last two intervals have no value in common
+
+
+class Noted(BaseModel):
+    """Something else that was done."""
+
+    at: datetime
+    said: str
+
+
+class DiaryAnswer(BaseModel):
+    """What the folder remembers."""
+
+    rounds: list[Round]
+    courses: list[NumberCourse]
+    others: list[Noted]
+    spoilt: int  # lines that cannot be read
+    command: str
+
+
+@router.get("/diary")
+def show_diary(project: TheProject) -> DiaryAnswer:
+    """The diary of the folder."""
+    choices, _ = read_choices(project)
+    diary = read_diary(project.folder)
+    history = history_of(diary)
+    with shown_in(choices.units):
+        courses = [_course(course) for course in history.courses]
+    return DiaryAnswer(
+        rounds=[
+            Round(
+                at=fit.at,
+                machine=fit.machine,
+                count=fit.count,
+                before=_known(fit.before),
+                rms=_known(fit.rms),
+                left_out=_known(fit.left_out),
+                effects=plainly(fit.effects) if fit.effects else "the frame",
+            )
+            for fit in history.fits
+        ],
+        courses=courses,
+        others=_others(diary),
+        spoilt=len(diary.spoilt),
+        command=command("diary", *unit_words(choices)),
+    )
+
+
+def _known(number: float) -> float | None:
+    return number if number == number else None  # NaN: nobody knows
+
+
+def _course(course: Course) -> NumberCourse:
+    last = course.points[-1]
+    words = plain_change(course.name, last.value, last.value, last.low, last.high)
+    return NumberCourse(
+        noun=words.noun,
+        unit=words.unit,
+        points=[
+            CoursePoint(
+                at=point.at,
+                value=point.value,
+                low=point.low,
+                high=point.high,
+                said=plain_change(
+                    course.name, point.value, point.value, point.low, point.high
+                ).after,
+            )
+            for point in course.points
+        ],
+        has_moved=course.has_moved,
+    )
+
+
+def _others(diary: Diary) -> list[Noted]:
+    """The newest first."""
+    others = [entry for entry in diary.entries if entry.kind != FIT][-MOST:]
+    return [Noted(at=entry.at, said=noted(entry)) for entry in reversed(others)]

@@ -1,0 +1,274 @@
+"""Cutting the chosen marks: the program and its form into the folder, or to the machine."""
+
+from __future__ import annotations
+
+import re
+
+from fastapi import APIRouter
+from pydantic import BaseModel
+
+from plumb.fit.read_inputs import settings_in
+from plumb.grid import program, touches_of
+from plumb.lab.choices import FILE, Choices, choices_text, read_choices
+from plumb.lab.commands import command
+from plumb.lab.machine_line import MachineLine, TheLine
+from plumb.lab.planned import Planned, planned, refuse_unreachable
+from plumb.lab.project import Project
+from plumb.lab.rounds import FORM, PROGRAM, form_text, grid_command, next_number, on_new_sheet
+from plumb.lab.routes.machine import MachineAnswer, machine
+from plumb.lab.routes.plan import opened
+from plumb.lab.routes.project import ProjectAnswer, TheProject, show
+from plumb.lab.routes.readings import CHECK
+from plumb.lab.taken import Taken, taken_marks
+from plumb.line.sender import cleaned
+from plumb.marks.form import BLANK
+from plumb.plan.options import HANGING, MARK, ROUND
+from plumb.plan.visits_way import refuse_way
+from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError
+from plumb.vm.owner import VirtualOwner
+
+router = APIRouter(tags=["grid"])
+PLUNGE = re.compile(r"G1 Z-")
+
+
+class GridMark(BaseModel):
+    """A mark of the program [mm, machine frame]; cut when the machine took that many lines."""
+
+    name: str
+    place: tuple[float, float]
+    lines: int
+
+
+class GridPause(BaseModel):
+    """Where the program waits for somebody, and what is to be done then."""
+
+    lines: int  # that the machine takes before it
+    do: str
+
+
+class GridAnswer(BaseModel):
+    """The program that cuts the chosen marks, or those that the verdict proposed."""
+
+    form: str  # the file that waits for readings
+    program: str  # the file of the G-code
+    is_saved: bool  # both are in the folder as they would be written now
+    marks: list[GridMark]  # in the order of the program
+    minutes: float
+    text: str  # the G-code
+    trouble: str  # why the sled cannot take this way; empty if it can
+    waits: int  # marks of the form that wait for a reading
+    last_form: str  # the newest with readings; empty if there is none
+    sheet_rise: float  # [mm] by which the next sheet's right end is raised, as the fit says
+    is_proposed: bool  # somebody took them from the verdict; they go onto the sheet before
+    pauses: list[GridPause]
+    command: str
+
+
+class FormRequest(BaseModel):
+    """A form of the folder."""
+
+    form: str
+
+
+@router.get("/grid")
+def show_grid(project: TheProject) -> GridAnswer:
+    """The program for the chosen marks, as it would be written now."""
+    choices, _ = read_choices(project)
+    settings, trouble = opened(project), ""
+    taken = taken_marks(project, choices)
+    if taken:
+        return _shown_taken(taken, settings, choices)
+    plan = planned(settings, choices.layout, choices.planned)
+    try:
+        refuse_unreachable(plan, settings)
+        text = program(plan.grid, plan.machine)
+    except (ValueError, InputError) as error:
+        text, trouble = "", str(error)
+    number, files = _files(project, choices, plan, text)
+    form = project.read(FORM.format(number))
+    return GridAnswer(
+        form=FORM.format(number),
+        program=PROGRAM.format(number),
+        is_saved=all(project.read(name) == content for name, content in files.items()),
+        marks=_marks(plan, text),
+        minutes=plan.minutes,
+        text=text,
+        trouble=trouble,
+        waits=form.decode().count(BLANK) if form else 0,
+        last_form=choices.marks[-1] if choices.marks else "",
+        sheet_rise=_sheet_rise(settings, choices),
+        is_proposed=False,
+        pauses=[],
+        command=_command(project, choices, plan, number),
+    )
+
+
+def _shown_taken(taken: Taken, settings: MachineSettings, choices: Choices) -> GridAnswer:
+    """The marks that the verdict proposed and somebody took."""
+    trouble = ""
+    try:
+        refuse_way(settings, taken.marks)
+    except InputError as error:
+        trouble = str(error)
+    lines = _lines_of_marks(taken.text)
+    minutes = ROUND + MARK * len(taken.marks) + HANGING * bool(taken.waits)
+    return GridAnswer(
+        form=taken.form,
+        program=taken.program,
+        is_saved=True,
+        marks=[
+            GridMark(name=mark.name, place=mark.target, lines=count)
+            for mark, count in zip(taken.marks, lines, strict=True)
+        ],
+        minutes=minutes,
+        text=taken.text,
+        trouble=trouble,
+        waits=len(taken.marks),
+        last_form=choices.marks[-1] if choices.marks else "",
+        sheet_rise=0.0,
+        is_proposed=True,
+        pauses=[GridPause(**wait._asdict()) for wait in taken.waits],
+        command=command("send", taken.program),
+    )
+
+
+@router.post("/grid")
+def save_grid(project: TheProject) -> ProjectAnswer:
+    """Write the program and a form for its marks into the folder."""
+    _save(project)
+    return show(project)
+
+
+@router.post("/grid/cut")
+def cut_grid(project: TheProject, line: TheLine) -> MachineAnswer:
+    """Write both, and send the program. The machine moves."""
+    if not line.state.knows_place:
+        raise InputError("where the sled is, is not known: set its chains first")
+    choices, _ = read_choices(project)
+    taken = taken_marks(project, choices)
+    if taken:
+        return _cut_taken(taken, opened(project), line)
+    name, text = _save(project)
+    owner = line.virtual
+    if owner:
+        raised = _sheet_rise(settings_in(project.path(choices.settings)), choices)
+        line.do(lambda sender: _lay(owner, raised, new_sheet=on_new_sheet(choices)))
+    line.send(name, list(cleaned(text.splitlines())))
+    return machine(line)
+
+
+def _cut_taken(taken: Taken, settings: MachineSettings, line: MachineLine) -> MachineAnswer:
+    """Send the program of a proposal. Who owns a virtual machine hangs weights in its pauses."""
+    refuse_way(settings, taken.marks)
+    owner = line.virtual
+    if owner is None:
+        line.send(taken.program, taken.text.splitlines())
+        return machine(line)
+    if taken.swaps_chains:
+        raise InputError("the chains of a virtual machine stay: take another measurement")
+    weights = _weights_after_pauses(taken, owner.settings.sled_weight)
+
+    line.do(lambda sender: _lay(owner, 0.0, new_sheet=False))
+    line.send(
+        taken.program,
+        taken.text.splitlines(),
+        paused=lambda lines: owner.weigh_down(weights[lines]),
+    )
+    return machine(line)
+
+
+def _weights_after_pauses(taken: Taken, usual: float) -> dict[int, float]:
+    """What the sled weighs [N] after each pause, by the lines before it: as its next mark asks."""
+    cut = list(zip(_lines_of_marks(taken.text), taken.marks, strict=True))
+    return {
+        wait.lines: next(
+            (mark.sled_weight or usual for lines, mark in cut if lines > wait.lines), usual
+        )
+        for wait in taken.waits
+    }
+
+
+@router.post("/machine/readings")
+def read_with_tape(request: FormRequest, project: TheProject, line: TheLine) -> ProjectAnswer:
+    """Let the virtual machine's tape fill a form in."""
+    owner = line.virtual
+    if owner is None:
+        raise InputError("a tape reads only the marks of a virtual machine: type what yours says")
+    known = {request.form: project.digest(request.form)}
+    blank = project.read(request.form)
+    if blank is None or BLANK not in blank.decode():
+        raise InputError(f"{request.form}: no mark of it waits for a reading")
+    filled = line.do(lambda sender: owner.tape.fill_when_cut(blank.decode(), owner.machine))
+    if filled is None:
+        raise InputError("the marks are not all cut yet: cut them first")
+    choices, known[FILE] = read_choices(project)
+    if request.form not in choices.marks and not request.form.startswith(CHECK):
+        choices = choices.model_copy(update={"marks": [*choices.marks, request.form]})
+    project.save({request.form: filled.encode(), FILE: choices_text(choices)}, read=known)
+    return show(project)
+
+
+def _lay(owner: VirtualOwner, raised: float, *, new_sheet: bool) -> None:
+    """Another sheet on the virtual machine, or the same: marks that it has are not read again.
+
+    Nothing hangs on the sled, whatever was given up before.
+    """
+    owner.weigh_down(owner.settings.sled_weight)
+    if new_sheet:
+        owner.lay_next_sheet(raised=raised)
+    owner.tape.pass_over(owner.machine)
+
+
+def _sheet_rise(settings: MachineSettings, choices: Choices) -> float:
+    """How far to raise the next sheet [mm]: the last that was cut still lies as the fit saw it."""
+    fitted = settings.fitted
+    if fitted is None or not fitted.boards or fitted.boards[-1].marks not in choices.marks[-1:]:
+        return 0.0
+    return fitted.sheet_rise(settings.sheet_width)
+
+
+def _marks(plan: Planned, text: str) -> list[GridMark]:
+    """The marks in the order in which the program cuts them."""
+    touches = touches_of(plan.grid, plan.machine)
+    lifts = _lines_of_marks(text) or [0] * len(touches)
+    return [
+        GridMark(name=touch.name, place=(touch.x, touch.y), lines=lines_taken)
+        for touch, lines_taken in zip(touches, lifts, strict=True)
+    ]
+
+
+def _lines_of_marks(text: str) -> list[int]:
+    """How many lines of a program the machine has taken when each mark is cut."""
+    lines = cleaned(text.splitlines())
+    # The line after the plunge lifts the bit: when it is taken, the mark is cut.
+    return [number + 1 for number, line in enumerate(lines, start=1) if PLUNGE.match(line)]
+
+
+def _save(project: Project) -> tuple[str, str]:
+    """Write program and form; the program's name and text. Raises InputError."""
+    choices, digest = read_choices(project)
+    settings = settings_in(project.path(choices.settings)) if choices.settings else opened(project)
+    plan = planned(settings, choices.layout, choices.planned)
+    refuse_unreachable(plan, settings)
+    text = program(plan.grid, plan.machine)
+    number, files = _files(project, choices, plan, text)
+    known = {name: project.digest(name) for name in files}
+    project.save(files, read={FILE: digest, **known})
+    return PROGRAM.format(number), text
+
+
+def _files(
+    project: Project, choices: Choices, plan: Planned, text: str
+) -> tuple[str, dict[str, bytes]]:
+    """The number of the next round, and its files: a form with readings is never replaced."""
+    number = next_number(project)
+    form = FORM.format(number)
+    filled = form_text(project, choices, plan, form)
+    return number, {form: filled, PROGRAM.format(number): text.encode()}
+
+
+def _command(project: Project, choices: Choices, plan: Planned, number: str) -> str:
+    file = PROGRAM.format(number)
+    made = grid_command(project, choices, plan, form=FORM.format(number), program=file)
+    return f"{made}\n{command('send', file)}"

@@ -1,0 +1,151 @@
+"""A machine's first day on the page, by the steps of `plumb guide`; the folder keeps how far."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from fastapi import APIRouter, Depends, Request
+from pydantic import BaseModel, Field
+
+from plumb.firmware.read_back import machine_of_numbers
+from plumb.fit.read_inputs import settings_in
+from plumb.guide.progress import progress_in
+from plumb.guide.steps import SETTINGS, STEPS, Visit
+from plumb.guide.walk import open_step
+from plumb.lab.choices import Choices, Number, read_choices, save_choices
+from plumb.lab.commands import command
+from plumb.lab.guide_desk import GuideDesk, Kind
+from plumb.lab.machine_line import MachineLine, TheLine
+from plumb.lab.project import Project
+from plumb.lab.routes.project import TheProject
+from plumb.line.memory import read_numbers
+from plumb.text.errors import InputError
+
+router = APIRouter(tags=["guide"])
+
+
+class GuideStep(BaseModel):
+    """A step, and whether it is done."""
+
+    name: str
+    title: str
+    done: bool
+
+
+class GuideQuestion(BaseModel):
+    """What the guide asks; lengths in mm, a mass in kg."""
+
+    number: int
+    kind: Kind
+    text: str  # for a turn: the side
+    act: str  # what a yes moves, in a few words
+    answers: list[tuple[str, str]]  # letter and words
+    usual: float | None
+    low: float
+    high: float
+
+
+class GuideAnswer(BaseModel):
+    """How far the guide is."""
+
+    steps: list[GuideStep]
+    open: str  # the first step that is not done; empty if all are
+    here: str  # the step that is under way; empty if none is
+    said: list[str]
+    question: GuideQuestion | None
+    trouble: str
+    command: str
+
+
+class Beginning(BaseModel):
+    """The step to begin."""
+
+    step: Literal["read", "wires", "numbers", "reach", "chains", "mark"]
+
+
+class Reply(BaseModel):
+    """The answer to a question."""
+
+    number: int
+    reply: str = Field(max_length=40)
+
+
+def _desk(request: Request) -> GuideDesk:
+    desk = request.app.state.guide_desk
+    assert isinstance(desk, GuideDesk)
+    return desk
+
+
+Desk = Annotated[GuideDesk, Depends(_desk)]
+
+
+@router.get("/guide")
+def show_guide(project: TheProject, desk: Desk) -> GuideAnswer:
+    """How far the guide is, and what it asks now."""
+    done, question = progress_in(project.folder).done, desk.question
+    choices, _ = read_choices(project)
+    units = ["--units", choices.units] if choices.units != "mm" else []
+    return GuideAnswer(
+        steps=[
+            GuideStep(name=step.name, title=step.title, done=step.name in done) for step in STEPS
+        ],
+        open=open_step(done),
+        here=desk.step,
+        said=list(desk.said),
+        question=GuideQuestion.model_validate({**vars(question), "answers": list(question.answers)})
+        if question
+        else None,
+        trouble=desk.trouble,
+        command=command("guide", ".", *units),
+    )
+
+
+@router.post("/guide/begin")
+def begin(wanted: Beginning, project: TheProject, line: TheLine, desk: Desk) -> GuideAnswer:
+    """Begin a step. Nothing moves before a question that names it is answered with yes."""
+    names = [step.name for step in STEPS]
+    now = open_step(progress_in(project.folder).done)
+    if now and names.index(wanted.step) > names.index(now):
+        raise InputError(f"this step comes later: first {STEPS[names.index(now)].title}")
+    choices, _ = read_choices(project)
+    desk.begin(
+        STEPS[names.index(wanted.step)],
+        project.folder,
+        line,
+        unit=choices.units,
+        finished=lambda visit: _keep(project, line, visit, wanted.step),
+    )
+    return show_guide(project, desk)
+
+
+@router.post("/guide/answer")
+def answer(reply: Reply, project: TheProject, desk: Desk) -> GuideAnswer:
+    """Answer a question; the machine may move as the question says."""
+    desk.answer(reply.number, reply.reply)
+    return show_guide(project, desk)
+
+
+@router.post("/guide/leave")
+def leave(project: TheProject, desk: Desk) -> GuideAnswer:
+    """Leave the step; what is done stays done."""
+    desk.leave()
+    return show_guide(project, desk)
+
+
+def _keep(project: Project, line: MachineLine, visit: Visit, step: str) -> None:
+    """Open the machine that a step wrote, with what its owner knows of it."""
+    if step not in ("read", "numbers"):
+        return
+    if line.virtual:
+        line.virtual.settings = machine_of_numbers(read_numbers(visit.sender))
+    frame = settings_in(visit.path).frame
+    known = {
+        name: Number(value=frame[name], sigma=sigma)
+        for name, sigma in visit.progress.sigmas.items()
+    }
+
+    def opened(now: Choices) -> Choices:
+        numbers = {**now.known, **known} if step == "numbers" else now.known
+        return now.model_copy(update={"settings": SETTINGS, "known": numbers})
+
+    save_choices(project, opened)

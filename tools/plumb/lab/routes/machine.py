@@ -1,0 +1,297 @@
+"""The line to the machine: connect it, send to it, hold it, stop it, read and write its numbers."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+from typing import Annotated, Literal
+
+from fastapi import APIRouter, WebSocket, WebSocketDisconnect
+from pydantic import BaseModel, Field
+
+from plumb.diary.numbers_written import write_and_keep
+from plumb.firmware.read_back import machine_of_numbers
+from plumb.firmware.settings import every_setting
+from plumb.lab.choices import FILE, choices_text, read_choices
+from plumb.lab.guard import PROTOCOL
+from plumb.lab.machine_line import MachineLine, TheLine, line_of, ports
+from plumb.lab.project import Project
+from plumb.lab.routes.project import ProjectAnswer, TheProject, show
+from plumb.lab.routes.readings import free_name
+from plumb.line.machine_numbers import kept_before, lines_for
+from plumb.line.memory import Written, read_numbers
+from plumb.line.sender import Sender
+from plumb.settings.files import machine_toml, read_settings
+from plumb.vm.garage import random_garage
+from plumb.vm.hiding import RANDOM, hide
+from plumb.vm.owner import VirtualOwner
+
+router = APIRouter(tags=["machine"])
+MACHINE = "machine.toml"
+LOOK_EVERY = 0.1  # [s] between two looks at the machine
+Speed = Annotated[float, Field(ge=1, le=1000)]
+
+
+class PortAnswer(BaseModel):
+    """A serial port; `is_board`: it is on USB, so it may be the machine's."""
+
+    path: str
+    title: str
+    is_board: bool
+
+
+class ProgramAnswer(BaseModel):
+    """A program on its way, or the last. Lines that the machine took, of all."""
+
+    title: str
+    done: int
+    total: int
+    outcome: Literal["running", "done", "stopped", "refused", "lost"]
+
+
+class MachineAnswer(BaseModel):
+    """How the line and the machine are."""
+
+    kind: Literal["none", "board", "virtual"]
+    name: str
+    phase: Literal["none", "connecting", "ready", "busy", "stopping", "lost"]
+    place: tuple[float, float, float] | None  # [mm] x, y, z
+    knows_place: bool
+    holds: bool
+    moves: bool
+    trouble: str
+    program: ProgramAnswer | None
+    waits_for: str  # what is to be done before the program goes on; empty if it does not wait
+    said: list[str]  # the machine's last lines
+
+
+class BoardRequest(BaseModel):
+    """The port of a board."""
+
+    port: str = Field(max_length=200)
+
+
+class VirtualRequest(BaseModel):
+    """A virtual machine to try: what it hides, drawn by the seed; how fast it works."""
+
+    hides: Literal["random", "nothing"] = "random"
+    millimetres: float = Field(default=3.0, gt=0, le=20)  # RMS by which marks are moved
+    noise: float = Field(default=0.4, ge=0, le=10)  # [mm] of the tape
+    seed: int = Field(default=0, ge=0, le=2**31)
+    speed: Speed = 100.0
+
+
+class SpeedRequest(BaseModel):
+    """How many times as fast as real time the virtual machine works."""
+
+    speed: Speed
+
+
+class ProgramRequest(BaseModel):
+    """G-code to send."""
+
+    title: str = Field(max_length=80)
+    text: str
+
+
+class LineRequest(BaseModel):
+    """A single line for the machine."""
+
+    text: str = Field(max_length=120)
+
+
+class NumbersRequest(BaseModel):
+    """The file of the project whose numbers go to the machine."""
+
+    file: str = MACHINE
+
+
+class NumberChange(BaseModel):
+    """A number of the machine that changed."""
+
+    number: int
+    name: str
+    unit: str
+    before: float
+    after: float
+
+
+class NumbersAnswer(BaseModel):
+    """What was written and read back; `kept` is the file with the numbers that it replaced."""
+
+    changed: list[NumberChange]
+    back: bool  # they are those from before a file was sent
+    kept: str
+    failure: str  # why the diary says nothing of it; empty if it does
+
+
+@router.get("/machine")
+def machine(line: TheLine) -> MachineAnswer:
+    """How the machine is now; the live line says it all the time."""
+    state = line.state
+    kind: Literal["none", "board", "virtual"] = "virtual" if line.virtual else "board"
+    return MachineAnswer.model_validate(
+        {
+            **vars(state),
+            "kind": kind if line.name else "none",
+            "name": line.name,
+            "program": vars(state.program) if state.program else None,
+            "waits_for": state.waits_for,
+        }
+    )
+
+
+@router.get("/machine/ports")
+def list_ports() -> list[PortAnswer]:
+    """The serial ports of this computer."""
+    return [PortAnswer(**vars(port)) for port in ports()]
+
+
+@router.post("/machine/board")
+def connect_board(request: BoardRequest, line: TheLine) -> MachineAnswer:
+    """Connect a board."""
+    line.connect_board(request.port)
+    return machine(line)
+
+
+@router.post("/machine/virtual")
+def connect_virtual(request: VirtualRequest, line: TheLine) -> MachineAnswer:
+    """Switch on a virtual machine."""
+    names = [RANDOM] if request.hides == "random" else []
+    hidden = hide(names, millimetres=request.millimetres, seed=request.seed)
+    owner = VirtualOwner(random_garage(hidden, request.seed), noise=request.noise)
+    line.connect_virtual(owner, speed=request.speed)
+    return machine(line)
+
+
+@router.post("/machine/speed")
+def set_speed(request: SpeedRequest, line: TheLine) -> MachineAnswer:
+    """Let the virtual machine hurry."""
+    line.set_speed(request.speed)
+    return machine(line)
+
+
+@router.post("/machine/disconnect")
+def disconnect(line: TheLine) -> MachineAnswer:
+    """Let go of the line."""
+    line.disconnect()
+    return machine(line)
+
+
+@router.post("/machine/program")
+def send_program(request: ProgramRequest, line: TheLine) -> MachineAnswer:
+    """Begin to send G-code. The machine moves."""
+    line.send(request.title, request.text.splitlines())
+    return machine(line)
+
+
+@router.post("/machine/line")
+def send_line(request: LineRequest, line: TheLine) -> list[str]:
+    """Send a single line, and what the machine says to it."""
+    return line.do(lambda sender: sender.ask(request.text))
+
+
+@router.post("/machine/hold")
+def hold(line: TheLine) -> MachineAnswer:
+    """Stop along the path, without leaving it."""
+    line.hold()
+    return machine(line)
+
+
+@router.post("/machine/go-on")
+def go_on(line: TheLine) -> MachineAnswer:
+    """Go on after a hold."""
+    line.go_on()
+    return machine(line)
+
+
+@router.post("/machine/stop")
+def stop(line: TheLine) -> MachineAnswer:
+    """Stop, and give up what was being done."""
+    line.stop()
+    return machine(line)
+
+
+@router.post("/machine/settings")
+def read_into_project(project: TheProject, line: TheLine) -> ProjectAnswer:
+    """Read the machine's numbers into a machine.toml, and open it; another machine.toml stays."""
+    text = machine_toml(machine_of_numbers(line.do(read_numbers))).encode()
+    # Marks that were cut with the old settings need them as they were.
+    name = MACHINE if project.read(MACHINE) in (None, text) else free_name(project, "machine")
+    choices, digest = read_choices(project)
+    chosen = choices.model_copy(update={"settings": name})
+    known = {FILE: digest, name: project.digest(name)}
+    project.save({name: text, FILE: choices_text(chosen)}, read=known)
+    return show(project)
+
+
+@router.post("/machine/numbers")
+def write_numbers(request: NumbersRequest, project: TheProject, line: TheLine) -> NumbersAnswer:
+    """Write the numbers of a file, read them back, and keep the old numbers in a file."""
+    path = project.path(request.file)
+    lines = lines_for(read_settings(path), request.file)
+    return _written(line, project, request.file, lines)
+
+
+@router.post("/machine/undo")
+def undo(request: NumbersRequest, project: TheProject, line: TheLine) -> NumbersAnswer:
+    """Write back the numbers that the machine had before a file was written to it."""
+    lines = kept_before(project.path(request.file))
+    return _written(line, project, request.file, lines, back=True)
+
+
+def _written(
+    line: MachineLine, project: Project, file: str, lines: list[str], *, back: bool = False
+) -> NumbersAnswer:
+    path = str(project.path(file))
+
+    def write(sender: Sender) -> tuple[Written, str, str]:
+        # With other numbers the reported place is another, which looks like a move.
+        sender.await_rest()
+        return write_and_keep(sender, path, lines, back=back)
+
+    written, kept, failure = line.do(write)
+    if line.virtual:
+        line.virtual.settings = machine_of_numbers(line.do(read_numbers))
+    return NumbersAnswer(
+        changed=_changes(written), back=back, kept=Path(kept).name, failure=failure
+    )
+
+
+def _changes(written: Written) -> list[NumberChange]:
+    """What was changed, by the names of the machine's table."""
+    rows = {row.number: row for row in every_setting()}
+    return [
+        NumberChange(
+            number=number,
+            name=rows[number].name if number in rows else "",
+            unit=rows[number].unit if number in rows else "",
+            before=before,
+            after=after,
+        )
+        for number, (before, after) in written.changed.items()
+    ]
+
+
+@router.websocket("/live")
+async def live(websocket: WebSocket) -> None:
+    """Says how the machine is, each time that something changes."""
+    line = line_of(websocket)
+    await websocket.accept(subprotocol=PROTOCOL)
+    gone = asyncio.create_task(_gone(websocket))
+    said: MachineAnswer | None = None
+    while not gone.done():
+        now = machine(line)
+        if now != said:
+            await websocket.send_text(now.model_dump_json())
+            said = now
+        await asyncio.wait([gone], timeout=LOOK_EVERY)
+
+
+async def _gone(websocket: WebSocket) -> None:
+    """Ends when the page has left; whatever it sends is ignored."""
+    try:
+        while True:
+            await websocket.receive_text()
+    except (WebSocketDisconnect, KeyError, RuntimeError):
+        return

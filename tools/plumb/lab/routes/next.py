@@ -1,0 +1,250 @@
+"""What to measure next: the proposals, and taking one into the folder: a form and a program."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from fastapi import APIRouter
+from pydantic import BaseModel
+
+from plumb import api
+from plumb.fit.read_inputs import settings_in
+from plumb.lab.background import Answer, Background, Progress
+from plumb.lab.choices import FILE, choices_text, read_choices
+from plumb.lab.commands import command
+from plumb.lab.live_boards import key_of
+from plumb.lab.project import ChangedError, Project, digest_of
+from plumb.lab.rounds import has_readings
+from plumb.lab.routes.comparison import inputs_of
+from plumb.lab.routes.project import ProjectAnswer, TheProject, show
+from plumb.lab.routes.verdict import Arrow, TheBackground, board_and_known
+from plumb.lab.taken import FORM, STEM, program_name
+from plumb.plan.proposal import Next, Proposal, propose
+from plumb.plan.proposal_files import form_of, program_of
+from plumb.plan.proposal_text import headline_of, promise_of, steps_of
+from plumb.text.errors import InputError
+from plumb.text.shown import shown_in
+
+router = APIRouter(tags=["next"])
+MOST_OTHERS = 7
+
+
+class Taking(BaseModel):
+    """What taking a proposal writes into the folder; nothing that is there is replaced."""
+
+    choose: int  # its number, as plumb next --choose takes it
+    digest: str  # of what would be written
+    marks: int
+    form: str
+    program: str  # empty: nothing is cut, a tape reads marks that are there
+    is_saved: bool  # it is in the folder
+    command: str
+
+
+class Other(BaseModel):
+    """Another thing to measure."""
+
+    title: str
+    minutes: float
+    promise: str
+    taking: Taking | None  # None: it has no marks
+
+
+class NextMeasurement(BaseModel):
+    """What to measure next."""
+
+    headline: str
+    steps: list[str]
+    marks: list[Arrow]  # without errors
+    taking: Taking | None  # None: it is measured without marks
+    others: list[Other]
+    ordinary: Other | None  # what as many ordinary marks as patience allows would bring
+
+
+class NextAnswer(BaseModel):
+    """The proposal, or how far it is."""
+
+    share: float
+    next: NextMeasurement | None
+    nothing: bool  # nothing that can be proposed would tell more
+    command: str
+
+
+class Wanted(BaseModel):
+    """A proposal by its number, and the digest of what the page showed."""
+
+    choose: int
+    digest: str
+
+
+@router.get("/next")
+def show_next(project: TheProject, background: TheBackground) -> NextAnswer:
+    """What to measure next."""
+    choices, _ = read_choices(project)
+    inputs = inputs_of(project)
+    answer = _proposed(project, background, inputs)
+    said = command("next", *board_and_known(project, inputs))
+    measurement = None
+    if answer.result and answer.result.proposals:
+        with shown_in(choices.units):
+            measurement = _measurement(project, inputs, answer.result)
+        if measurement.taking:
+            said = measurement.taking.command
+    return NextAnswer(
+        share=answer.share,
+        next=measurement,
+        nothing=answer.result is not None and measurement is None,
+        command=said,
+    )
+
+
+@router.post("/next")
+def take_next(wanted: Wanted, project: TheProject, background: TheBackground) -> ProjectAnswer:
+    """Take a proposal: write its form, and the program that cuts its marks. Nothing moves."""
+    inputs = inputs_of(project)
+    advice = _proposed(project, background, inputs).result
+    if advice is None:
+        raise InputError("what to measure next is still worked out: wait a moment")
+    if not 1 <= wanted.choose <= len(advice.proposals):
+        raise InputError(f"there is no proposal number {wanted.choose}")
+    written = _written(project, advice, wanted.choose)
+    if written is None:
+        raise InputError(f"proposal {wanted.choose} has no marks: do what it says, by hand")
+    if written.digest != wanted.digest:
+        raise ChangedError("the proposal")
+    choices, digest = read_choices(project)
+    chosen = choices.model_copy(update={"proposed": written.form})
+    known = {name: project.digest(name) if written.is_saved else "" for name in written.names}
+    files = {} if written.is_saved else written.files
+    project.save({**files, FILE: choices_text(chosen)}, read={FILE: digest, **known})
+    return show(project)
+
+
+@router.delete("/next")
+def put_back(project: TheProject) -> ProjectAnswer:
+    """Take the files of a proposal out of the folder again; readings stay."""
+    choices, digest = read_choices(project)
+    form = choices.proposed
+    if not FORM.fullmatch(form):
+        raise InputError("no proposal was taken")
+    names = [form, program_name(form)]
+    known = {name: project.digest(name) for name in names}
+    if has_readings(project, form):
+        raise InputError(f"{form} has readings, so it stays")
+    chosen = choices.model_copy(update={"proposed": ""})
+    project.save({FILE: choices_text(chosen)}, read={FILE: digest, **known})
+    project.remove(names, read=known)
+    return show(project)
+
+
+def _proposed(project: Project, background: Background, inputs: api.Inputs) -> Answer[Next]:
+    """What to measure next, or how far that is."""
+    choices, _ = read_choices(project)
+
+    def work(progress: Progress) -> Next:
+        with shown_in(choices.units):  # the steps say where
+            return propose(api.diagnose(inputs), inputs, progress=progress)
+
+    return background.ask("next", f"{key_of(project)}\n{choices.units}", work)
+
+
+def _measurement(project: Project, inputs: api.Inputs, advice: Next) -> NextMeasurement:
+    best, *others = advice.proposals
+    visits = best.option.visits
+    return NextMeasurement(
+        headline=headline_of(best),
+        steps=list(steps_of(best)),
+        marks=[
+            Arrow(name=name, place=tuple(place), error=(0.0, 0.0))
+            for name, place in zip(visits.names, visits.targets.tolist(), strict=True)
+        ],
+        taking=_taking(project, inputs, advice, 1),
+        others=[
+            _other(each, _taking(project, inputs, advice, place))
+            for place, each in enumerate(others[:MOST_OTHERS], start=2)
+        ],
+        ordinary=_other(advice.blind, None) if advice.blind else None,
+    )
+
+
+def _other(proposal: Proposal, taking: Taking | None) -> Other:
+    return Other(
+        title=proposal.option.title,
+        minutes=proposal.option.minutes,
+        promise=promise_of(proposal),
+        taking=taking,
+    )
+
+
+@dataclass(frozen=True)
+class _Written:
+    """The files of a proposal, under names that are free or hold just these."""
+
+    form: str
+    program: str
+    files: Mapping[str, bytes]
+    is_saved: bool
+
+    @property
+    def names(self) -> list[str]:
+        return list(self.files)
+
+    @property
+    def digest(self) -> str:
+        return digest_of(b"\0".join(self.files.values()))
+
+
+def _taking(project: Project, inputs: api.Inputs, advice: Next, place: int) -> Taking | None:
+    written = _written(project, advice, place)
+    if written is None:
+        return None
+    return Taking(
+        choose=place,
+        digest=written.digest,
+        marks=len(advice.proposals[place - 1].option.visits),
+        form=written.form,
+        program=written.program,
+        is_saved=written.is_saved,
+        command=_command(project, inputs, advice, written, place),
+    )
+
+
+def _written(project: Project, advice: Next, place: int) -> _Written | None:
+    """What taking a proposal writes; None for a proposal without marks."""
+    option = advice.proposals[place - 1].option
+    if not len(option.visits):
+        return None
+    choices, _ = read_choices(project)
+    settings = str(project.path(choices.settings))
+    form = form_of(
+        advice,
+        place,
+        str(project.path(f"{STEM}.toml")),  # the text is the same under any name
+        settings=settings,
+        sheet=settings_in(settings).sheet,
+    )
+    program = program_of(advice, place) if option.is_cut else None
+    count = 1
+    while True:
+        name = f"{STEM}.toml" if count == 1 else f"{STEM}-{count}.toml"
+        there = project.read(name), project.read(program_name(name))
+        if there in ((None, None), (form, program)):
+            break
+        count += 1
+    files = {name: form} if program is None else {name: form, program_name(name): program}
+    cut = program_name(name) if program else ""
+    return _Written(name, cut, files, is_saved=there[0] is not None)
+
+
+def _command(
+    project: Project, inputs: api.Inputs, advice: Next, written: _Written, place: int
+) -> str:
+    """The command that writes the same files."""
+    choices, _ = read_choices(project)
+    output = ["--output", written.program] if written.program else []
+    # New marks are cut with what is open now, which may be other than what those there were.
+    in_force = advice.case and advice.case.settings == settings_in(project.path(choices.settings))
+    moved_by = [] if in_force else ["--cut-next-with", choices.settings]
+    words = [*board_and_known(project, inputs), "--choose", f"{place}", *moved_by]
+    return command("next", *words, "--marks", written.form, *output)

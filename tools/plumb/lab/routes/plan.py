@@ -1,0 +1,322 @@
+"""What can be measured: layouts, what each could tell before a hole is cut, and the reach."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import lru_cache
+from threading import Lock
+
+import numpy as np
+from fastapi import APIRouter
+from pydantic import BaseModel, Field
+
+from plumb.fit.expected import expected_anywhere, expected_priors, expected_sentence
+from plumb.fit.read_inputs import settings_in
+from plumb.lab.choices import Choices, Layout, read_choices
+from plumb.lab.commands import command, prior_words, unit_words
+from plumb.lab.known import measured_to, planned_priors
+from plumb.lab.planned import KINDS, Place, Planned, planned, refuse_unreachable
+from plumb.lab.project import Project
+from plumb.lab.rounds import FORM, PROGRAM, grid_command, next_number
+from plumb.lab.routes.project import TheProject
+from plumb.marks.tape_sigma import tape_sigma
+from plumb.model.plain import noun_of
+from plumb.model.predict import REACH_WORDS
+from plumb.model.reach import Extreme, Survey, conclusion_of, percent, survey_sheet
+from plumb.plan.preview import APART, Preview, preview
+from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError
+from plumb.text.shown import shown_in
+
+router = APIRouter(tags=["plan"])
+MOST_MARKS = 400
+COLUMNS, ROWS = 61, 31  # of the map of reach
+
+
+class LayoutAnswer(BaseModel):
+    """A way to measure, on the sheet of this machine."""
+
+    id: Layout
+    title: str
+    marks: int
+    distances: int
+    minutes: float
+    places: list[tuple[float, float]]  # [mm] machine frame
+    spans: list[tuple[int, int]]  # distances between marks, by their place in the list
+
+
+class PlanRequest(BaseModel):
+    """Marks that somebody thinks of [mm, machine frame]."""
+
+    layout: Layout
+    places: list[tuple[float, float]] = Field(default=[], max_length=MOST_MARKS)
+
+
+class PlannedEffect(BaseModel):
+    """An effect under a plan."""
+
+    name: str
+    noun: str
+    is_seen: bool  # proved in most cases, if it has its usual size
+    is_distinct: bool  # in most cases it is taken for no other effect
+    alike: list[str]  # nouns of effects it would be taken for
+    sigmas: list[float]  # beyond the frame and each effect of the list; its place in it: itself
+
+
+class PlanAnswer(BaseModel):
+    """What a plan could tell."""
+
+    marks: int
+    distances: int
+    minutes: float
+    sigma: float  # [mm] of a reading
+    effects: list[PlannedEffect]
+    pairs: int  # cells that count, of all
+    apart: float  # sigmas from which a cell counts
+    trouble: str  # why the sled cannot take this way; empty if it can
+    command: str
+
+
+class AdditionAnswer(BaseModel):
+    """What could be measured in addition, best first."""
+
+    title: str
+    do: list[str]
+    minutes: float
+    pairs: int
+
+
+class ReachAnswer(BaseModel):
+    """Where on the sheet the machine is usable."""
+
+    columns: int
+    rows: int
+    verdicts: list[int]  # row by row from the top left: index into words
+    words: list[str]
+    shares: dict[str, str]
+    conclusion: str
+    extremes: list[ExtremeAnswer]
+    assumed: list[str]
+    expected: ExpectedAnswer | None  # None: no sled hangs on this sheet
+    command: str
+
+
+class ExpectedAnswer(BaseModel):
+    """How far marks are off before anything is corrected, RMS [mm]."""
+
+    whole: float  # as a tape from the sheet's edges reads them
+    shape: float  # the sheet laid at its best
+    said: str
+
+
+class ExtremeAnswer(BaseModel):
+    """The tightest, slackest or softest place."""
+
+    title: str
+    place: tuple[float, float]
+    value: float
+    unit: str
+    side: str
+
+
+@router.get("/layouts")
+def layouts(project: TheProject) -> list[LayoutAnswer]:
+    """The ways to measure on this machine's sheet."""
+    settings = opened(project)
+    return [_layout(settings, layout) for layout in KINDS]
+
+
+def _layout(settings: MachineSettings, layout: Layout) -> LayoutAnswer:
+    plan = planned(settings, layout, ())
+    order = [touch.name for touch in plan.touches]
+    return LayoutAnswer(
+        id=layout,
+        title=KINDS[layout].title,
+        marks=len(plan.touches),
+        distances=len(plan.spans),
+        minutes=plan.minutes,
+        places=[(touch.x, touch.y) for touch in plan.touches],
+        spans=[(order.index(first), order.index(second)) for first, second in plan.spans],
+    )
+
+
+class Desk:
+    """Looks at one plan at a time; who waits while a newer plan comes is sent away."""
+
+    def __init__(self) -> None:
+        self._lock, self._newest = Lock(), 0
+
+    def look(
+        self, settings: MachineSettings, choices: Choices, request: PlanRequest, *, is_quick: bool
+    ) -> Preview:
+        """What a plan could tell. Raises InputError for a plan that a newer plan has overtaken."""
+        self._newest += 1
+        mine = self._newest
+        with self._lock:
+            if mine != self._newest:
+                raise InputError("another plan came meanwhile")
+            priors = tuple(sorted(planned_priors(choices).items()))
+            places = tuple(request.places)
+            sigma = tape_sigma(choices.fineness)
+            return _look(_Same(settings), request.layout, places, sigma, priors, is_quick)
+
+
+class _Same:
+    """Settings as the key of a cache: what they say counts."""
+
+    def __init__(self, settings: MachineSettings) -> None:
+        self.settings, self._text = settings, repr(settings)
+
+    def __hash__(self) -> int:
+        return hash(self._text)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Same) and self._text == other._text
+
+
+@lru_cache(maxsize=64)
+def _look(
+    same: _Same,
+    layout: Layout,
+    places: tuple[Place, ...],
+    sigma: float,
+    priors: tuple[tuple[str, float], ...],
+    is_quick: bool,
+) -> Preview:
+    plan = planned(same.settings, layout, places)
+    return preview(
+        same.settings, plan.as_measured(), sigma=sigma, priors=dict(priors), is_quick=is_quick
+    )
+
+
+DESK, SLOW_DESK = Desk(), Desk()  # what takes seconds holds up nobody who drags a mark
+
+
+@router.post("/preview")
+def preview_plan(request: PlanRequest, project: TheProject) -> PlanAnswer:
+    """What marks could tell before a hole is cut."""
+    settings = opened(project)
+    choices, _ = read_choices(project)
+    plan = planned(settings, request.layout, request.places)
+    outlook = DESK.look(settings, choices, request, is_quick=True)
+    return PlanAnswer(
+        marks=len(plan.touches),
+        distances=len(plan.spans),
+        minutes=plan.minutes,
+        sigma=outlook.sigma,
+        effects=_effects(outlook),
+        pairs=outlook.pairs,
+        apart=APART,
+        trouble=_trouble(settings, request),
+        command=_command(project, choices, plan, outlook.sigma),
+    )
+
+
+def _command(project: Project, choices: Choices, plan: Planned, sigma: float) -> str:
+    """The form, and what its marks could tell."""
+    number = next_number(project)
+    form = FORM.format(number)
+    made = grid_command(project, choices, plan, form=form, program=PROGRAM.format(number))
+    looked = command(
+        *("preview", choices.settings, form, "--sigma", f"{sigma:.12g}"),
+        *(*prior_words(planned_priors(choices)), *unit_words(choices)),
+    )
+    return f"{made}\n{looked}"
+
+
+@router.post("/preview/additions")
+def additions(request: PlanRequest, project: TheProject) -> list[AdditionAnswer]:
+    """What could be measured in addition; takes some seconds."""
+    choices, _ = read_choices(project)
+    outlook = SLOW_DESK.look(opened(project), choices, request, is_quick=False)
+    return [
+        AdditionAnswer(
+            title=addition.option.title,
+            do=list(addition.option.do),
+            minutes=addition.option.minutes,
+            pairs=addition.pairs,
+        )
+        for addition in outlook.additions[:4]
+    ]
+
+
+@router.get("/reach")
+def reach(project: TheProject) -> ReachAnswer:
+    """Where on the sheet the machine is usable."""
+    choices, _ = read_choices(project)
+    settings = opened(project)
+    survey = survey_sheet(settings)
+    known = expected_priors(measured_to(choices))
+    expected = expected_anywhere(settings, known)
+    with shown_in(choices.units):
+        said = expected_sentence(expected)
+    rows, columns = len(survey.y), len(survey.x)
+    verdicts = survey.reached.verdict.reshape(rows, columns)
+    down = np.linspace(0, rows - 1, ROWS).round().astype(int)
+    across = np.linspace(0, columns - 1, COLUMNS).round().astype(int)
+    return ReachAnswer(
+        columns=COLUMNS,
+        rows=ROWS,
+        verdicts=verdicts[np.ix_(down, across)].ravel().tolist(),
+        words=list(REACH_WORDS),
+        shares={word: percent(share) for word, share in survey.shares.items()},
+        conclusion=conclusion_of(survey),
+        extremes=list(_extremes(survey)),
+        assumed=list(survey.assumed),
+        expected=ExpectedAnswer(whole=expected.whole, shape=expected.all_shape, said=said)
+        if expected
+        else None,
+        command=command(
+            "reach",
+            choices.settings,
+            *prior_words(known, expected_priors({})),
+            *unit_words(choices),
+        ),
+    )
+
+
+def opened(project: Project) -> MachineSettings:
+    """The opened settings. Raises InputError if none are open."""
+    choices, _ = read_choices(project)
+    if not choices.settings:
+        raise InputError("no settings are open; open the settings of the machine first")
+    return settings_in(project.path(choices.settings))
+
+
+def _trouble(settings: MachineSettings, request: PlanRequest) -> str:
+    try:
+        refuse_unreachable(planned(settings, request.layout, request.places), settings)
+    except (ValueError, InputError) as error:
+        return str(error)
+    return ""
+
+
+def _effects(outlook: Preview) -> list[PlannedEffect]:
+    return [
+        PlannedEffect(
+            name=outline.effect,
+            noun=noun_of(outline.effect),
+            is_seen=outline.smallest is not None and outline.smallest <= 1,
+            is_distinct=bool((outlook.matrix[i] >= APART).all()),
+            alike=[noun_of(name) for name in outline.alike],
+            sigmas=[round(float(value), 1) for value in outlook.matrix[i]],
+        )
+        for i, outline in enumerate(outlook.outlines)
+    ]
+
+
+def _extremes(survey: Survey) -> Iterable[ExtremeAnswer]:
+    each: list[tuple[str, Extreme | None, str]] = [
+        ("tightest chain", survey.tightest, "N"),
+        ("slackest chain", survey.slackest, "N"),
+        ("softest place", survey.softest, "mm/N"),
+    ]
+    for title, extreme, unit in each:
+        if extreme:
+            yield ExtremeAnswer(
+                title=title,
+                place=extreme.place,
+                value=extreme.value,
+                unit=unit,
+                side=extreme.side,
+            )

@@ -1,0 +1,336 @@
+"""What the tape said: each reading is saved into a marks.toml as it is typed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from fastapi import APIRouter, UploadFile
+from pydantic import BaseModel
+
+from plumb.fit.read_inputs import settings_in
+from plumb.lab.choices import FILE, Choices, Edges, choices_text, read_choices
+from plumb.lab.commands import command, known_words, unit_words
+from plumb.lab.project import Project
+from plumb.lab.routes.project import TheProject
+from plumb.marks.edges import from_edges, in_machine
+from plumb.marks.form import (
+    Form,
+    head_of,
+    read_form,
+    toml_text,
+    with_distances,
+    with_readings,
+)
+from plumb.marks.model import Measurements
+from plumb.marks.read import read_marks
+from plumb.marks.tape_sigma import tape_sigma
+from plumb.model.predict import known_effects
+from plumb.text.errors import InputError
+
+router = APIRouter(tags=["readings"])
+ENDING = ".toml"
+CHECK = "check"  # how the names of check marks begin: they take part only if somebody says so
+
+
+class AskedMark(BaseModel):
+    """A mark whose place is measured. mm."""
+
+    index: int
+    name: str
+    target: tuple[float, float]  # machine frame
+    meant: tuple[float, float]  # the same, from the chosen edges
+    read: tuple[float, float] | None  # from the chosen edges; None: yet to come
+    place: tuple[float, float] | None  # the same in the machine frame
+
+
+class AskedDistance(BaseModel):
+    """A measured distance [mm] between two marks."""
+
+    between: tuple[str, str]
+    length: float
+
+
+class FormFile(BaseModel):
+    """A file of marks in the folder."""
+
+    name: str
+    read: int  # readings that it has
+    asked: int  # readings and marks that wait
+    is_used: bool  # whether the verdict goes by it
+    off_target: float | None  # [mm] RMS of its marks; None: none is read
+
+
+class ReadingsAnswer(BaseModel):
+    """A form with its readings."""
+
+    files: list[FormFile]
+    file: str  # the form below; empty if there is none
+    digest: str
+    edges: Edges  # from which the readings count
+    sheet: tuple[float, float]
+    marks: list[AskedMark]
+    distances: list[AskedDistance]
+    tape_sigma: float | None  # [mm] as stated in the file
+    command: str
+
+
+class TypedReading(BaseModel):
+    """A reading as it was typed [mm from the chosen edges]; None takes it out."""
+
+    index: int
+    read: tuple[float, float] | None
+
+
+class TypedReadings(BaseModel):
+    """Readings for a form, and the digest of the form that the page knows.
+
+    `edges`: from which they count, whatever is chosen by now.
+    """
+
+    file: str
+    digest: str
+    edges: Edges
+    readings: list[TypedReading]
+
+
+class TypedDistances(BaseModel):
+    """All distances of a form."""
+
+    file: str
+    digest: str
+    distances: list[AskedDistance]
+
+
+class Fineness(BaseModel):
+    """The finest division of the tape [mm]; None: nothing is stated."""
+
+    file: str
+    digest: str
+    finest: float | None
+
+
+@router.get("/readings")
+def show_readings(project: TheProject, file: str = "") -> ReadingsAnswer:
+    """A form of the folder: the named, else the newest that is used."""
+    choices, _ = read_choices(project)
+    # Before the form is read: who saves it meanwhile is not taken for known.
+    digests = {each: project.digest(each) for each in project.names()}
+    forms = _forms(project, choices)
+    name = file or next(iter(_by_use(forms, choices)), "")
+    digest = digests.get(name, "")
+    form = forms.get(name) if name else None
+    if file.startswith(CHECK) and project.read(file) is not None:
+        form = form_of(project, choices, file)
+    if name and not form:
+        raise InputError(f"{name}: there is no such form of marks in the folder")
+    sheet = _sheet_of(project, choices, form)
+    measurements = form.measurements if form else Measurements(())
+    return ReadingsAnswer(
+        files=[_form_file(name, forms[name], choices) for name in _by_use(forms, choices)],
+        file=name,
+        digest=digest,
+        edges=choices.edges,
+        sheet=sheet,
+        marks=_marks(measurements, sheet, choices.edges),
+        distances=[
+            AskedDistance(between=distance.between, length=distance.length)
+            for distance in measurements.distances
+        ],
+        tape_sigma=measurements.tape_sigma,
+        command=_command(choices, name, measurements)
+        if name
+        else command("grid", "--marks", "..."),
+    )
+
+
+@router.put("/readings")
+def save_readings(typed: TypedReadings, project: TheProject) -> ReadingsAnswer:
+    """Put readings into a form, or take them out."""
+    choices, _ = read_choices(project)
+    form = form_of(project, choices, typed.file)
+    sheet = _sheet_of(project, choices, form)
+    places = {
+        each.index: each.read and in_machine(each.read, sheet=sheet, corner=typed.edges)
+        for each in typed.readings
+    }
+    return _saved(project, typed.file, typed.digest, with_readings(form, places), form.comment)
+
+
+@router.put("/distances")
+def save_distances(typed: TypedDistances, project: TheProject) -> ReadingsAnswer:
+    """Replace the distances of a form."""
+    choices, _ = read_choices(project)
+    form = form_of(project, choices, typed.file)
+    _refuse_two_places(form, [name for each in typed.distances for name in each.between])
+    distances = [(each.between, each.length) for each in typed.distances]
+    head = with_distances(form, distances)
+    return _saved(project, typed.file, typed.digest, head, form.comment)
+
+
+@router.put("/fineness")
+def save_fineness(stated: Fineness, project: TheProject) -> ReadingsAnswer:
+    """State how fine the tape is."""
+    choices, digest = read_choices(project)
+    form = form_of(project, choices, stated.file)
+    head = {key: value for key, value in form.head.items() if key != "tape_sigma_mm"}
+    if stated.finest is not None:
+        head = {"frame": head.pop("frame"), "tape_sigma_mm": tape_sigma(stated.finest), **head}
+        choices = choices.model_copy(update={"fineness": stated.finest})
+    project.save(
+        {FILE: choices_text(choices), stated.file: toml_text(head, form.comment).encode()},
+        read={FILE: digest, stated.file: stated.digest},
+    )
+    return show_readings(project, stated.file)
+
+
+@router.post("/marks")
+def open_marks(file: UploadFile, project: TheProject) -> ReadingsAnswer:
+    """Take a file of marks into the project; another form than marks.toml becomes such."""
+    choices, digest = read_choices(project)
+    sheet = _sheet_of(project, choices, None)
+    content = file.file.read()
+    ending = Path(file.filename or "").suffix.lower()
+    with TemporaryDirectory() as scratch:
+        copy = Path(scratch) / f"marks{ending if ending in ('.csv', '.ini') else ENDING}"
+        copy.write_bytes(content)
+        content = _as_toml(copy, content, sheet)
+    name = free_name(project, "marks")
+    chosen = choices.model_copy(update={"marks": [*choices.marks, name]})
+    project.save({name: content, FILE: choices_text(chosen)}, read={FILE: digest, name: ""})
+    return show_readings(project, name)
+
+
+def free_name(project: Project, stem: str) -> str:
+    """The first of marks.toml, marks-2.toml ... that no file has."""
+    number = 1
+    while True:
+        name = f"{stem}{ENDING}" if number == 1 else f"{stem}-{number}{ENDING}"
+        if project.read(name) is None:
+            return name
+        number += 1
+
+
+def _command(choices: Choices, name: str, measurements: Measurements) -> str:
+    """The arrows of a form, and the readings that disagree."""
+    unit = unit_words(choices, measurements.typed.unit)
+    arrows = command("compare", choices.settings, name, *unit)
+    doubts = command("diagnose", choices.settings, name, *known_words(choices), *unit)
+    return f"{arrows}\n{doubts}"
+
+
+def _as_toml(path: Path, content: bytes, sheet: tuple[float, float]) -> bytes:
+    """A file of marks as a marks.toml; InputError if it is none."""
+    if path.suffix == ENDING:
+        try:
+            read_form(path, sheet=sheet, known=known_effects())
+            return content
+        except InputError:
+            read_marks(path, sheet=sheet, known=known_effects())
+    measurements = read_marks(path, sheet=sheet, known=known_effects())
+    return toml_text(head_of(measurements)).encode()
+
+
+def _saved(
+    project: Project, name: str, digest: str, head: Mapping[str, Any], comment: tuple[str, ...]
+) -> ReadingsAnswer:
+    """Save a form; from its first reading on the verdict goes by it."""
+    files, read = {name: toml_text(head, comment).encode()}, {name: digest}
+    choices, known = read_choices(project)
+    if name not in choices.marks and not name.startswith(CHECK):
+        chosen = choices.model_copy(update={"marks": [*choices.marks, name]})
+        files, read = {**files, FILE: choices_text(chosen)}, {**read, FILE: known}
+    project.save(files, read=read)
+    return show_readings(project, name)
+
+
+def _refuse_two_places(form: Form, ends: Sequence[str]) -> None:
+    """Nobody knows from which of two places a distance was measured."""
+    for name in ends:
+        if len({mark.target for mark in form.measurements.marks if mark.name == name}) > 1:
+            raise InputError(f"mark {name} is at two places: measure from another mark")
+
+
+def _forms(project: Project, choices: Choices) -> dict[str, Form]:
+    """Every form in the folder by its name."""
+    forms = {}
+    for name in project.names():
+        if not name.endswith(ENDING) or name == choices.settings:
+            continue
+        if name.startswith(CHECK) and name not in choices.marks:
+            continue
+        try:
+            forms[name] = form_of(project, choices, name)
+        except InputError:
+            if name in choices.marks:
+                raise
+    return forms
+
+
+def form_of(project: Project, choices: Choices, name: str) -> Form:
+    """A form of the folder. Raises InputError."""
+    machine = settings_in(project.path(choices.settings)) if choices.settings else None
+    sheet = machine.sheet if machine else (0.0, 0.0)
+    return read_form(project.path(name), sheet=sheet, known=known_effects())
+
+
+def _by_use(forms: Mapping[str, Form], choices: Choices) -> list[str]:
+    """Names of forms: what waits for readings first, then what is used, the newest first.
+
+    Of those that wait, the marks that somebody took from the verdict come first.
+    """
+    used = [name for name in reversed(choices.marks) if name in forms]
+    order = [*used, *(name for name in forms if name not in used)]
+    waiting = [name for name in order if _waits(forms[name])]
+    waiting.sort(key=lambda name: name != choices.proposed)
+    return [*waiting, *(name for name in order if name not in waiting)]
+
+
+def _waits(form: Form) -> bool:
+    return any(mark.measured is None for mark in form.measurements.marks)
+
+
+def _form_file(name: str, form: Form, choices: Choices) -> FormFile:
+    measurements = form.measurements
+    read = len(measurements.measured_marks) + len(measurements.distances)
+    return FormFile(
+        name=name,
+        read=read,
+        asked=len(measurements.marks) + len(measurements.distances),
+        is_used=name in choices.marks,
+        off_target=measurements.off_target,
+    )
+
+
+def _sheet_of(project: Project, choices: Choices, form: Form | None) -> tuple[float, float]:
+    """The sheet on which the marks were cut [mm]."""
+    in_force = form and form.measurements.rounds[0].cut_with
+    if in_force:
+        return in_force.sheet
+    if not choices.settings:
+        raise InputError("no settings are open; open the settings of the machine first")
+    return settings_in(project.path(choices.settings)).sheet
+
+
+def _marks(measurements: Measurements, sheet: tuple[float, float], corner: str) -> list[AskedMark]:
+    return [
+        AskedMark(
+            index=index,
+            name=mark.name,
+            target=mark.target,
+            meant=_shown(mark.target, sheet, corner),
+            read=mark.measured and _shown(mark.measured, sheet, corner),
+            place=mark.measured,
+        )
+        for index, mark in enumerate(measurements.marks)
+    ]
+
+
+def _shown(
+    place: tuple[float, float], sheet: tuple[float, float], corner: str
+) -> tuple[float, float]:
+    """A place from the edges, without the noise of a computer's arithmetic."""
+    x, y = from_edges(place, sheet=sheet, corner=corner)
+    return round(x, 6) + 0.0, round(y, 6) + 0.0

@@ -1,0 +1,278 @@
+"""The verdict: a sentence, a card for each suspect, and what could hide."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Annotated
+
+import numpy as np
+from fastapi import APIRouter, Depends, Request
+from pydantic import BaseModel
+
+from plumb import api
+from plumb.cure.add import Addition
+from plumb.cure.auto import AutoAddition, add_auto
+from plumb.diagnosis.answer import Diagnosis, Together
+from plumb.diagnosis.diagnosis import Examined, examine
+from plumb.diagnosis.explanation import Explanation
+from plumb.diagnosis.fingerprint import fingerprint_of
+from plumb.diagnosis.sentence import SHOWN, odds_words, verdict_sentence
+from plumb.diagnosis.sizes import Size
+from plumb.fit.plausible import plausible_range
+from plumb.lab.background import Background, Progress
+from plumb.lab.choices import read_choices
+from plumb.lab.commands import command, known_words, unit_words
+from plumb.lab.live_boards import key_of
+from plumb.lab.project import Project
+from plumb.lab.routes.comparison import board_words, inputs_of
+from plumb.lab.routes.project import TheProject
+from plumb.model.catalogue import every_effect, label
+from plumb.model.plain import noun_of, nouns_of, plain_range, plain_size, plainly
+from plumb.text.shown import shown_in, worded
+
+router = APIRouter(tags=["verdict"])
+MOST_CARDS = 6
+Vector = tuple[float, float]
+
+
+class Arrow(BaseModel):
+    """An error [mm, machine frame]: from where to how far."""
+
+    name: str
+    place: Vector
+    error: Vector
+
+
+class SizeAnswer(BaseModel):
+    """A fitted size in words, and its interval on the range that real machines have."""
+
+    said: str
+    range_said: str  # empty: no limit is known
+    value: float
+    low: float | None  # None: these marks say nothing of it
+    high: float | None
+    plausible_low: float | None
+    plausible_high: float | None
+    plausible: bool
+
+
+class EffectAnswer(BaseModel):
+    """An effect of a suspect card."""
+
+    name: str
+    noun: str
+    summary: str
+    sizes: list[SizeAnswer]
+    hidden_share: float | None  # that the refitted frame swallows
+    remedy: str
+    check: str  # how it is measured directly; empty if nobody can
+    fingerprint: list[Arrow]
+    seen: float  # [mm] RMS of what the frame leaves of it
+
+
+class Card(BaseModel):
+    """A suspect: an effect, or several that act at once."""
+
+    title: str
+    effects: list[EffectAnswer]
+    odds: str  # empty: not weighed
+    rms_after: float  # [mm]
+    share: float  # of what the frame leaves unexplained
+    possible: bool
+    looks_like: list[str]
+
+
+class Hidden(BaseModel):
+    """An effect that is not proved."""
+
+    noun: str
+    mm: float
+    share: float | None  # in the frame
+
+
+class Verdict(BaseModel):
+    """What the marks prove."""
+
+    verdict: str
+    sentence: str
+    rms_set: float  # [mm] as the settings stand
+    rms_frame: float  # with the frame fitted
+    rms_added: float | None  # with what is added
+    added: str  # what that is
+    sigma: float  # [mm] of a reading
+    noise: str
+    before: list[Arrow]
+    after: list[Arrow]
+    cards: list[Card]
+    more_cards: int
+    could_hide: list[Hidden]
+    blind: str  # what these marks say nothing of
+    slips: list[str]
+    notes: list[str]
+
+
+class VerdictAnswer(BaseModel):
+    """A verdict, or how far it is."""
+
+    share: float
+    verdict: Verdict | None
+    command: str
+
+
+def background_of(request: Request) -> Background:
+    """The thread of this server for long work."""
+    known = getattr(request.app.state, "background", None)
+    if known is None:
+        known = request.app.state.background = Background()
+    assert isinstance(known, Background)
+    return known
+
+
+TheBackground = Annotated[Background, Depends(background_of)]
+
+
+@router.get("/verdict")
+def show_verdict(project: TheProject, background: TheBackground) -> VerdictAnswer:
+    """The verdict on the readings so far."""
+    choices, _ = read_choices(project)
+    key = key_of(project)  # before the files are read: what changes meanwhile is asked for again
+    inputs = inputs_of(project)
+
+    def work(progress: Progress) -> Verdict:
+        progress(0.1)
+        examined = examine(inputs)
+        progress(0.6)
+        auto = add_auto(inputs, diagnosis=examined.diagnosis)
+        progress(0.8)
+        with shown_in(choices.units):
+            return verdict_of(inputs, examined, auto)
+
+    answer = background.ask("verdict", f"{key}\n{choices.units}", work)
+    return VerdictAnswer(
+        share=answer.share,
+        verdict=answer.result,
+        command=command("diagnose", *board_and_known(project, inputs)),
+    )
+
+
+def board_and_known(project: Project, inputs: api.Inputs) -> list[str]:
+    """The board, what is known and the unit, as a command takes them."""
+    choices, _ = read_choices(project)
+    unit = unit_words(choices, inputs.measurements.typed.unit)
+    return [*board_words(project), *known_words(choices), *unit]
+
+
+def verdict_of(inputs: api.Inputs, examined: Examined, auto: AutoAddition) -> Verdict:
+    """A diagnosis as the page shows it."""
+    diagnosis = examined.diagnosis
+    raw = api.compare(inputs)
+    addition = auto.addition
+    shown = list(zip(diagnosis.explanations, examined.explanations, strict=True))[:MOST_CARDS]
+    unproved = [each for each in diagnosis.could_hide if each.effect not in diagnosis.suspects]
+    blind = [each.effect for each in unproved if each.mm is None]
+    return Verdict(
+        verdict=diagnosis.verdict,
+        sentence=verdict_sentence(diagnosis),
+        rms_set=raw.rms,
+        rms_frame=diagnosis.rms_before,
+        rms_added=addition.after.fit_rms if addition else None,
+        added=plainly(addition.effects_added) if addition and addition.effects_added else "",
+        sigma=diagnosis.noise.sigma,
+        noise=diagnosis.noise.origin,
+        before=[Arrow(name=m.name, place=m.predicted, error=m.error) for m in raw.marks],
+        after=_after(addition, [mark.name for mark in raw.marks]) if addition else [],
+        cards=[_card(examined, i, *each) for i, each in enumerate(shown)],
+        more_cards=max(len(diagnosis.explanations) - MOST_CARDS, 0),
+        could_hide=_could_hide(diagnosis),
+        blind=f"these marks say nothing of {nouns_of(blind)}" if blind else "",
+        slips=[slip.sentence for slip in diagnosis.slips],
+        notes=[*diagnosis.disagreements, *diagnosis.warnings],
+    )
+
+
+def _after(addition: Addition, names: Sequence[str]) -> list[Arrow]:
+    fitted = addition.after_fit
+    return [
+        Arrow(name=name, place=tuple(place), error=tuple(error))
+        for name, place, error in zip(
+            names, fitted.predicted.tolist(), fitted.errors.tolist(), strict=True
+        )
+    ]
+
+
+def _could_hide(diagnosis: Diagnosis) -> list[Hidden]:
+    shares = {ranked.effect: ranked.hidden_share for ranked in diagnosis.ranking}
+    hidden = [
+        Hidden(noun=noun_of(each.effect), mm=each.mm, share=shares[each.effect])
+        for each in diagnosis.could_hide
+        if each.effect not in diagnosis.suspects and each.mm
+    ]
+    return sorted(hidden, key=lambda each: -each.mm)[:SHOWN]
+
+
+def _card(examined: Examined, index: int, together: Together, fitted: Explanation) -> Card:
+    diagnosis = examined.diagnosis
+    return Card(
+        title=plainly(together.effects),
+        effects=[_effect(diagnosis, name, together, fitted) for name in together.effects],
+        odds=odds_words(together.share) if together.share is not None else "",
+        rms_after=together.rms_after,
+        share=together.explained_share(diagnosis.rms_before),
+        possible=together.possible,
+        looks_like=_looks_like(diagnosis, index),
+    )
+
+
+def _looks_like(diagnosis: Diagnosis, index: int) -> list[str]:
+    """The explanations that draw nearly the same arrows here, the nearest first."""
+    near = sorted(
+        (apart, j if i == index else i)
+        for (i, j), apart in diagnosis.differences.items()
+        if index in (i, j)
+    )
+    return [
+        f"{plainly(diagnosis.explanations[other].effects)}, {worded(apart)} RMS apart"
+        for apart, other in near[:3]
+    ]
+
+
+def _effect(
+    diagnosis: Diagnosis, name: str, together: Together, fitted: Explanation
+) -> EffectAnswer:
+    words = next(each for each in every_effect() if each["name"] == name)
+    ranked = next(each for each in diagnosis.ranking if each.effect == name)
+    check, print_of = words["check"], fingerprint_of(fitted, name, fitted.board.rows)
+    return EffectAnswer(
+        name=label(name),
+        noun=words["noun"],
+        summary=words["summary"],
+        sizes=[_size(name, size) for size in together.sizes[name]],
+        hidden_share=ranked.hidden_share,
+        remedy=words["remedy"],
+        check=f"{check['title']}, about {check['minutes']:.0f} minutes"
+        if check and check["title"]
+        else "",
+        fingerprint=[
+            Arrow(name="", place=tuple(place), error=tuple(error))
+            for place, error in zip(
+                print_of.places.tolist(), np.round(print_of.alone, 4).tolist(), strict=True
+            )
+        ],
+        seen=print_of.beyond_rms,
+    )
+
+
+def _size(effect: str, size: Size) -> SizeAnswer:
+    name = f"{effect}.{size.name}"
+    known = plausible_range(name)
+    low, high = known.limits
+    return SizeAnswer(
+        said=plain_size(name, size.value, size.low, size.high),
+        range_said=plain_range(name, low, high) if low is not None and high is not None else "",
+        value=size.value,
+        low=size.low,
+        high=size.high,
+        plausible_low=low,
+        plausible_high=high,
+        plausible=size.plausible,
+    )

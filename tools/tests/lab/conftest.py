@@ -1,0 +1,84 @@
+"""A lab that is served, and a browser that looks at it."""
+
+import shutil
+import threading
+
+import pytest
+from playwright.sync_api import expect, sync_playwright
+from plumb.vm.garage import random_garage, set_up
+from plumb.vm.hiding import hide
+from plumb.vm.owner import VirtualOwner
+from plumb.vm.pseudo_terminal import Pace, PseudoTerminal
+from served_lab import SharedLab
+
+BUSY_MS = 120_000  # of a busy computer
+expect.set_options(timeout=BUSY_MS)
+# Without these Chromium asks the network for things that nobody wants here.
+QUIET = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-sync"]
+QUIET += ["--no-first-run", "--disable-component-update", "--disable-quic"]
+
+
+@pytest.fixture(scope="session")
+def shared(tmp_path_factory):
+    """The lab of those tests that do not end it, or start it again."""
+    shared = SharedLab(tmp_path_factory.mktemp("lab"))
+    yield shared
+    shared.end()
+
+
+@pytest.fixture
+def lab(shared):
+    """A lab on an empty folder."""
+    return shared.emptied()
+
+
+@pytest.fixture(scope="session")
+def browser():
+    """Debian's Chromium."""
+    with sync_playwright() as playwright:
+        running = playwright.chromium.launch(
+            executable_path=shutil.which("chromium"), args=QUIET, headless=True
+        )
+        yield running
+        running.close()
+
+
+@pytest.fixture
+def page(browser):
+    """A page of desktop size. What its scripts complain of fails the test."""
+    context = browser.new_context(viewport={"width": 1280, "height": 900})
+    context.set_default_timeout(BUSY_MS)
+    shown = context.new_page()
+    complaints = []
+    shown.on("pageerror", lambda error: complaints.append(str(error)))
+    yield shown
+    context.close()
+    assert complaints == []
+
+
+@pytest.fixture
+def cable_machine():
+    """The virtual machine of the cable."""
+    owner = VirtualOwner(random_garage(hide([], millimetres=3, seed=1), 1))
+    owner.machine.start()
+    owner.sender.await_start()
+    set_up(owner.sender, owner.settings)
+    owner.machine.advance(10_000)
+    return owner.machine
+
+
+@pytest.fixture
+def cable(cable_machine):
+    """A virtual machine at a serial port, whose cable can be pulled."""
+    terminal, pace, pulled = PseudoTerminal(cable_machine), Pace(20), threading.Event()
+
+    def serve():
+        while not pulled.is_set():
+            terminal.pass_time(pace.due())
+        terminal.close()
+
+    thread = threading.Thread(target=serve)
+    thread.start()
+    yield terminal.path, pulled
+    pulled.set()
+    thread.join()

@@ -1,0 +1,19 @@
+"""A virtual machine on the page of a lab: how a test starts it, and its bar."""
+
+PATIENCE = 300_000  # [ms] of a busy computer
+
+
+def start_virtual(page, lab, *, speed=1000, number=None):
+    """Open the lab, start a virtual machine, of this number or drawn, and read its settings."""
+    page.goto(lab.url)
+    page.get_by_label("and cuts").select_option(str(speed))
+    if number is not None:
+        page.get_by_text("A certain machine").click()
+        page.get_by_label("Its number").fill(str(number))
+    page.get_by_role("button", name="Start a virtual machine").click()
+    page.get_by_role("heading", name="This machine is open").wait_for(timeout=PATIENCE)
+
+
+def bar(page):
+    """The line of the machine, in view on all screens."""
+    return page.get_by_role("region", name="The machine", exact=True)

@@ -1,0 +1,97 @@
+"""Takes the pictures of the lab that README shows.
+
+    .venv/bin/python tools/tests/lab/readme_pictures.py [FOLDER]
+
+It serves the example's machine, opens it in Chromium, and writes the pictures into docs/pictures.
+Look at each before you commit it.
+"""
+
+import shutil
+import sys
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from conftest import QUIET
+from playwright.sync_api import Browser, Page, sync_playwright
+from screens import ROOT, measured_machine, settle
+from served_lab import ServedLab, serve
+
+PICTURES = ROOT / "docs/pictures"
+PATIENCE_MS = 60_000  # of a busy computer
+
+
+def verdict(page: Page) -> None:
+    """The sentence, the errors before and after, the suspects."""
+    page.locator(".card").first.wait_for()
+
+
+def bench(page: Page) -> None:
+    """Two effects, added after each other."""
+    stairs = page.get_by_role("table", name="How the error falls")
+    for effect in ("a tape that reads wrong", "chain stretch"):
+        page.get_by_role("checkbox", name=effect).check()
+        stairs.get_by_role("rowheader", name=effect).wait_for()
+
+
+def correction(page: Page) -> None:
+    """All numbers accepted, and what is left then."""
+    page.get_by_role("button", name="Accept all").click()
+    page.get_by_role("button", name="Write").wait_for()
+    page.locator(".numbers[aria-busy=false]").wait_for()
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture of a screen."""
+
+    name: str
+    step: str
+    size: tuple[int, int]
+    scheme: str
+    prepare: Callable[[Page], None]
+
+
+EACH = (
+    Picture("lab-verdict", "verdict", (1280, 1000), "light", verdict),
+    Picture("lab-bench", "bench", (1280, 1000), "dark", bench),
+    Picture("lab-phone", "correct", (390, 844), "light", correction),
+)
+
+
+def take(browser: Browser, lab: ServedLab, picture: Picture, folder: Path) -> None:
+    """Open the screen, bring it into its state, and write the picture."""
+    width, height = picture.size
+    context = browser.new_context(
+        viewport={"width": width, "height": height},
+        color_scheme=picture.scheme,
+        reduced_motion="reduce",
+    )
+    page = context.new_page()
+    page.set_default_timeout(PATIENCE_MS)
+    page.goto(f"{lab.url}#/{picture.step}")
+    picture.prepare(page)
+    settle(page)
+    page.evaluate("() => { document.activeElement.blur(); scrollTo(0, 0); }")
+    page.mouse.move(0, 0)
+    page.screenshot(path=folder / f"{picture.name}.png")
+    context.close()
+
+
+def main(folder: Path = PICTURES) -> None:
+    """Take all of them."""
+    with sync_playwright() as playwright, tempfile.TemporaryDirectory() as scratch:
+        lab = serve(measured_machine(Path(scratch) / "garage"))
+        browser = playwright.chromium.launch(
+            executable_path=shutil.which("chromium"), args=QUIET, headless=True
+        )
+        for picture in EACH:
+            take(browser, lab, picture, folder)
+            print(folder / f"{picture.name}.png")
+        browser.close()
+        lab.end()
+
+
+if __name__ == "__main__":
+    main(*map(Path, sys.argv[1:]))

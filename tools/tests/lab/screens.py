@@ -1,0 +1,190 @@
+"""A walk through every screen of the lab, and what is looked at on each."""
+
+import json
+import time
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import httpx2
+from folder import note_fit
+
+ROOT = Path(__file__).resolve().parents[3]
+EXAMPLE = ROOT / "docs/example"
+AXE = (ROOT / "tools/lab/node_modules/axe-core/axe.min.js").read_text()
+PICTURES = ROOT / ".build/lab/screenshots"
+
+SIZES = {"desktop": (1280, 900), "phone": (375, 740)}
+SCHEMES = ("light", "dark")
+BUSY_S = 180  # of a busy computer
+SETTLED_MS = 400  # after the last answer, for what is drawn then
+SMALLEST_TEXT = 14  # CSS pixels; the body has 18
+SMALLEST_TARGET = 44  # CSS pixels, for a finger
+
+# Text that can be seen and is smaller than it may be, with its size.
+SMALL_TEXT = """(smallest) => {
+  const small = [];
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  while (walker.nextNode()) {
+    const text = walker.currentNode.textContent.trim();
+    const parent = walker.currentNode.parentElement;
+    if (!text || !parent.checkVisibility({ checkVisibilityCSS: true })) continue;
+    const drawn = parent.closest("svg") && parent.getScreenCTM ? parent.getScreenCTM().d : 1;
+    const size = parseFloat(getComputedStyle(parent).fontSize) * Math.abs(drawn);
+    if (size < smallest - 0.01) small.push(`${size.toFixed(1)} px: ${text.slice(0, 40)}`);
+  }
+  return [...new Set(small)];
+}"""
+
+# What can be pressed and is smaller than a finger; links within sentences are text.
+SMALL_TARGETS = """(smallest) => {
+  const small = [];
+  const pressed = "button, a[href], input, select, summary, [role=button], [role=slider]";
+  for (const each of document.querySelectorAll(pressed)) {
+    if (!each.checkVisibility({ checkVisibilityCSS: true })) continue;
+    if (each.closest("p, svg, .skip") || each.getAttribute("aria-hidden") === "true") continue;
+    const whole = each.closest("label") ?? each;
+    const box = whole.getBoundingClientRect();
+    const room = Math.max(box.height, each.getBoundingClientRect().height);
+    if (room < smallest - 0.5) small.push(`${room.toFixed(0)} px: ${each.outerHTML.slice(0, 90)}`);
+  }
+  return small;
+}"""
+
+WIDER = """() => [...document.querySelectorAll("body *")]
+  .filter((each) => each.getBoundingClientRect().right > innerWidth + 1)
+  .filter((each) => each.getBoundingClientRect().left > -500)
+  .slice(0, 3).map((each) => each.outerHTML.slice(0, 120))"""
+
+
+def measured_machine(folder: Path) -> Path:
+    """A folder with a machine that was measured, as the page keeps it."""
+    folder.mkdir(exist_ok=True)
+    for name in ("groundcontrol.ini", "marks.toml"):
+        (folder / name).write_bytes((EXAMPLE / name).read_bytes())
+    choices = {"settings": "groundcontrol.ini", "marks": ["marks.toml"]}
+    (folder / "lab.json").write_text(json.dumps(choices))
+    return folder
+
+
+def fitted_machine(folder: Path) -> Path:
+    """A folder with a machine after its second correction, as the page keeps it."""
+    folder.mkdir(exist_ok=True)
+    for name in ("groundcontrol.ini", "machine.toml", "marks.toml"):
+        (folder / name).write_bytes((EXAMPLE / name).read_bytes())
+    choices = {
+        "settings": "machine.toml",
+        "marks": ["marks.toml"],
+        "settings_before": ["groundcontrol.ini"],
+    }
+    (folder / "lab.json").write_text(json.dumps(choices))
+    day = datetime(2026, 5, 1, 12, tzinfo=UTC)
+    note_fit(folder, day, 0.9, 2978.0)
+    note_fit(folder, day + timedelta(days=30), 0.5, 2984.0)
+    return folder
+
+
+def with_check_marks(lab):
+    """Two check marks are cut and read, the second far off."""
+    headers = {"X-Plumb-Token": lab.token}
+    with httpx2.Client(base_url=f"{lab.site}api/", headers=headers, timeout=60) as client:
+        assert client.post("check").status_code == 200
+        form = client.get("readings", params={"file": "check.toml"}).json()
+        readings = [
+            {"index": mark["index"], "read": [mark["meant"][0] + off, mark["meant"][1]]}
+            for mark, off in zip(form["marks"], (0.3, 4.0), strict=True)
+        ]
+        body = {**{key: form[key] for key in ("file", "digest", "edges")}, "readings": readings}
+        assert client.put("readings", json=body).status_code == 200
+
+
+def with_virtual_machine(lab):
+    """A slow virtual machine that cuts, half way through the marks of a lab with a machine."""
+    headers = {"X-Plumb-Token": lab.token}
+    with httpx2.Client(base_url=f"{lab.site}api/", headers=headers, timeout=60) as client:
+
+        def ask(method, path, **body):
+            answer = client.request(method, path, json=body or None)
+            assert answer.status_code == 200, answer.text
+            return answer.json()
+
+        def wait_for(true):
+            end = time.monotonic() + BUSY_S
+            while not true(ask("GET", "machine")):
+                assert time.monotonic() < end, ask("GET", "machine")
+                time.sleep(0.05)
+
+        ask("POST", "machine/virtual", seed=9, speed=1000)
+        wait_for(lambda machine: machine["phase"] == "ready")
+        ask("POST", "machine/settings")
+        ask("POST", "grid/cut")
+        wait_for(lambda machine: machine["program"]["done"] > machine["program"]["total"] / 2)
+        ask("POST", "machine/speed", speed=1)
+
+
+def places(page) -> list[str]:
+    """The addresses of all screens that are open, in the order of the way."""
+    links = page.locator("nav a").all()
+    return list(dict.fromkeys(link.get_attribute("href") for link in links))
+
+
+def settle(page):
+    """Wait until nothing is on its way and nothing is worked out."""
+    page.wait_for_load_state("networkidle")
+    busy = "() => !document.querySelector('[aria-busy=true], progress:not([value])')"
+    page.wait_for_function(busy, timeout=120_000)
+    page.wait_for_timeout(SETTLED_MS)
+
+
+def walk(page):
+    """Open each screen in turn; yields its name when it has settled."""
+    for place in places(page):
+        page.evaluate("(place) => { location.hash = place }", place)
+        settle(page)
+        yield place.removeprefix("#/")
+
+
+def axe_findings(page) -> list[str]:
+    """What axe finds on the page: rule, and the first element."""
+    if not page.evaluate("() => 'axe' in window"):
+        page.evaluate(AXE)
+    run = "() => axe.run(document, {resultTypes: ['violations']}).then((all) => all.violations)"
+    return [
+        f"{each['id']}: {each['help']}: {len(each['nodes'])}: {each['nodes'][0]['html'][:150]}"
+        for each in page.evaluate(run)
+    ]
+
+
+# How much the keyboard should reach; of a group of radio buttons, only that which is chosen.
+REACHABLE = """() => {
+  const all = "a[href], button, input, select, textarea, summary, [tabindex]";
+  return [...document.querySelectorAll(all)].filter((each) =>
+    each.tabIndex >= 0 && !each.disabled && each.checkVisibility({ checkVisibilityCSS: true })
+    && !(each.type === "radio" && !each.checked)).length;
+}"""
+
+# Where the keyboard is: the number of the element on the page, and whether it can be seen there.
+FOCUSED = """() => {
+  const here = document.activeElement;
+  if (!here || here === document.body) return null;
+  const marked = here.matches("input[type=radio]") ? here.nextElementSibling ?? here : here;
+  const style = getComputedStyle(marked);
+  const box = here.getBoundingClientRect();
+  const shown = box.width > 0 && box.bottom > 0 && box.top < innerHeight;
+  const outlined = style.outlineStyle !== "none" && parseFloat(style.outlineWidth) >= 2;
+  return { place: [...document.querySelectorAll("*")].indexOf(here), seen: shown && outlined,
+           html: here.outerHTML.slice(0, 120) };
+}"""
+
+
+def tabbed(page, most=600) -> list[dict]:
+    """Where the keyboard comes, from the top of the page to its end."""
+    page.evaluate("() => { document.activeElement.blur(); getSelection().removeAllRanges(); }")
+    page.evaluate("() => document.querySelector('.skip').focus()")
+    stops = [page.evaluate(FOCUSED)]
+    while len(stops) < most:
+        page.keyboard.press("Tab")
+        stop = page.evaluate(FOCUSED)
+        if stop is None or stop["place"] == stops[0]["place"]:
+            break
+        stops.append(stop)
+    return stops

@@ -1,0 +1,78 @@
+"""Check marks that somebody types, and the diary, in a real browser."""
+
+import json
+import re
+import shutil
+from datetime import UTC, datetime, timedelta
+
+from folder import EXAMPLE, note_fit
+from playwright.sync_api import expect
+
+PATIENCE = 300_000  # [ms] of a busy computer
+JUDGED = ".judged"
+
+
+def with_fitted_machine(lab):
+    """The lab's folder with the example's machine after a correction."""
+    for name in ("machine.toml", "marks.toml", "groundcontrol.ini"):
+        shutil.copy(EXAMPLE / name, lab.folder)
+    (lab.folder / "lab.json").write_text('{"settings": "machine.toml", "marks": ["marks.toml"]}')
+
+
+def type_off(page, mark, x, y):
+    """Type a check mark that lies so far [mm] right of its target, and so far below it."""
+    for edge, off in (("left", x), ("top", y)):
+        field = page.get_by_label(f"Mark {mark} from the {edge}, mm", exact=True)
+        field.fill(str(float(field.get_attribute("placeholder")) + off))
+
+
+def where(page):
+    """Where the check marks are, as numbers."""
+    expect(page.get_by_text("from your edges")).to_be_visible(timeout=PATIENCE)
+    return re.findall(r"\d+", page.get_by_text("from your edges").inner_text())
+
+
+def test_two_check_marks_hold_then_miss_and_others_are_planned(lab, page):
+    with_fitted_machine(lab)
+    page.goto(f"{lab.url}#/check")
+    page.get_by_role("button", name="Write check.nc and its form").click(timeout=PATIENCE)
+    page.get_by_label("Mark 2 from the left, mm").wait_for(timeout=PATIENCE)
+    first = where(page)
+    assert "G1" in (lab.folder / "check.nc").read_text()
+    type_off(page, 1, 0.3, 0.1)
+    type_off(page, 2, -0.2, 0.4)
+    expect(page.locator(JUDGED)).to_contain_text("The settings hold.", timeout=PATIENCE)
+    offs = page.locator("table.checked tbody td:last-child").all_inner_texts()
+    assert all(0 < float(off.removesuffix(" mm")) < 1.5 for off in offs) and len(offs) == 2
+    fallen = page.locator(".off-target td").all_inner_texts()
+    assert [text.strip() for text in fallen] == ["8.95 mm", "0.39 mm"]
+    type_off(page, 2, -4, 0.4)
+    expect(page.locator(JUDGED)).to_contain_text("More than noise, at mark 2", timeout=PATIENCE)
+    page.get_by_role("button", name="Let the verdict go by these marks too").click()
+    expect(page.get_by_role("button", name="Let the verdict")).to_have_count(0, timeout=PATIENCE)
+    assert json.loads((lab.folder / "lab.json").read_text())["marks"] == [
+        "marks.toml",
+        "check.toml",
+    ]
+    kept = (lab.folder / "check.toml").read_bytes()
+    page.get_by_role("button", name="Write two other marks").click()
+    expect(page.locator(JUDGED)).to_have_count(0, timeout=PATIENCE)
+    assert where(page) != first
+    assert (lab.folder / "check-2.nc").exists()
+    assert (lab.folder / "check.toml").read_bytes() == kept
+
+
+def test_the_diary_shows_a_fit_that_comes_in_and_a_number_that_moved(lab, page):
+    day = datetime(2026, 5, 1, 12, tzinfo=UTC)
+    note_fit(lab.folder, day, 0.9, 2978.0)
+    page.goto(f"{lab.url}#/diary")
+    rows = page.locator(".rounds tbody tr")
+    expect(rows).to_have_count(1, timeout=PATIENCE)
+    expect(rows).to_contain_text(re.compile(r"chain sag.*8\.90 mm.*0\.90 mm", re.DOTALL))
+    assert page.locator(".course.moved").count() == 0
+    note_fit(lab.folder, day + timedelta(days=30), 0.5, 2984.0)
+    expect(rows).to_have_count(2, timeout=PATIENCE)
+    expect(page.locator(".course.moved")).to_contain_text("gap between the motors: 2984.0 mm")
+    page.get_by_role("radio", name="inch").check()
+    expect(page.locator(".course")).to_contain_text("117.48 inch", timeout=PATIENCE)
+    expect(rows.last).to_contain_text("0.020 inch")

@@ -1,0 +1,54 @@
+"""Cutting in a browser: hold, stop, a cable pulled."""
+
+import re
+
+import httpx2
+from lab_machine import PATIENCE, bar, start_virtual
+
+
+def test_hold_waits_and_stop_gives_up_and_cutting_again_is_read_rightly(lab, page):
+    start_virtual(page, lab, speed=10)  # so that it still cuts when a busy page presses Hold
+    page.goto(f"{lab.site}#/cut")
+    cut = page.get_by_role("button", name="Move the sled and cut 9 marks")
+    cut.click()
+    bar(page).get_by_text(re.compile(r"runs grid.nc: \d\d of")).wait_for(timeout=PATIENCE)
+    page.keyboard.press("Escape")
+    go_on = bar(page).get_by_role("button", name="Go on")
+    go_on.wait_for(timeout=PATIENCE)
+    held, before = bar(page).inner_text(), ""
+    while held != before:  # the last move comes to its end
+        page.wait_for_timeout(1000)
+        held, before = bar(page).inner_text(), held
+    assert "holds" in held
+    go_on.click()
+    bar(page).get_by_role("button", name="Stop").click()
+    page.get_by_text("Stopped after").wait_for(timeout=PATIENCE)
+    hurry = {"json": {"speed": 1000}, "headers": {"X-Plumb-Token": lab.token}, "timeout": 120}
+    assert httpx2.post(f"{lab.site}api/machine/speed", **hurry).status_code == 200
+    cut.click()  # which waits until it is enabled
+    page.get_by_text("All marks are cut.").wait_for(timeout=PATIENCE)
+    page.get_by_role("button", name="Let a tape read the 9 marks").click()
+    page.get_by_role("link", name="7 Verdict").wait_for()
+    assert (lab.folder / "marks.toml").read_text().count("\nmeasured = [") == 9
+
+
+def test_a_cable_pulled_in_mid_cut_loses_no_work(lab, page, cable):
+    path, pulled = cable
+    page.goto(lab.url)
+    page.get_by_text("Another port").click()
+    page.get_by_label(re.compile("Its name")).fill(path)
+    page.get_by_role("button", name="Connect", exact=True).click()
+    page.get_by_role("button", name="Read its settings; nothing moves").click()
+    page.get_by_role("heading", name="This machine is open").wait_for(timeout=PATIENCE)
+    page.goto(f"{lab.site}#/cut")
+    page.get_by_role("button", name="Move the sled and cut 9 marks").click()
+    bar(page).get_by_text(re.compile(r"runs grid.nc: [5-9] of")).wait_for(timeout=PATIENCE)
+    pulled.set()
+    page.get_by_text("The line was lost after").wait_for(timeout=PATIENCE)
+    said = bar(page).inner_text()
+    assert "the line was lost; check the cable" in said
+    assert "Where the sled is, is not known" in said
+    assert bar(page).get_by_role("button", name="Stop").count() == 0
+    assert (lab.folder / "marks.toml").exists() and (lab.folder / "machine.toml").exists()
+    page.get_by_role("link", name="Connect the machine again").click()
+    assert page.get_by_role("button", name=f"Connect {path} again").is_enabled()

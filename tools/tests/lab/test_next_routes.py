@@ -1,0 +1,272 @@
+"""Taking a proposal: the files of its command, byte for byte, and nothing is overwritten."""
+
+import json
+import shlex
+import time
+from contextlib import contextmanager
+
+import pytest
+from folder import asked
+from plumb.cli.main import main
+from plumb.marks.form import head_of, read_form, toml_text
+from plumb.marks.read import Measurements
+from plumb.settings.files import write_machine_toml
+from plumb.vm.owner import VirtualOwner
+from synthetic import BELIEVED, SHEET, TRUE, grid, marks_on
+
+PATIENCE = 120  # [s]
+MARKS = "marks.toml"
+BEFORE = {"machine.toml", MARKS, "lab.json"}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A machine whose nine marks leave a question open."""
+    path = tmp_path_factory.mktemp("garage")
+    write_machine_toml(path / "machine.toml", BELIEVED)
+    marks = marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.3, seed=2)
+    (path / MARKS).write_text(toml_text(head_of(Measurements(marks))))
+    return path
+
+
+@pytest.fixture(scope="module")
+def kept(folder):
+    """Its lab, which works a proposal out once for each state of the folder."""
+    with asked(folder) as client:
+        yield client
+
+
+@pytest.fixture
+def client(kept, folder, monkeypatch):
+    """The lab with the folder as it was."""
+    monkeypatch.chdir(folder)
+    kept.post("/api/machine/disconnect")
+    for path in folder.iterdir():
+        if path.name not in ("machine.toml", MARKS):
+            path.unlink()
+    choose(folder)
+    return kept
+
+
+def choose(folder, **choices):
+    said = {"settings": "machine.toml", "marks": [MARKS], **choices}
+    (folder / "lab.json").write_text(json.dumps(said))
+
+
+def got(answer, status=200):
+    assert answer.status_code == status, answer.text
+    return answer.json()
+
+
+def finished(client):
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end:
+        answer = got(client.get("/api/next"))
+        if answer["share"] == 1:
+            return answer
+        time.sleep(0.05)
+    raise AssertionError("the proposal never ends")
+
+
+def takings(client):
+    """What can be taken, by its title."""
+    proposed = finished(client)["next"]
+    each = {other["title"]: other["taking"] for other in proposed["others"]}
+    each |= {proposed["headline"]: proposed["taking"]}
+    return {title: taking for title, taking in each.items() if taking}
+
+
+def wanted(taking):
+    return {"choose": taking["choose"], "digest": taking["digest"]}
+
+
+def take(client, title):
+    taking = takings(client)[title]
+    got(client.post("/api/next", json=wanted(taking)))
+    return taking
+
+
+def names(folder):
+    return {path.name for path in folder.iterdir()} - {".lab.lock"}
+
+
+def typed(client, file, off=0.0):
+    """Each mark of a form is read so far [mm] from where it was sent."""
+    form = got(client.get("/api/readings", params={"file": file}))
+    readings = [
+        {"index": mark["index"], "read": [mark["meant"][0] + off, mark["meant"][1]]}
+        for mark in form["marks"]
+    ]
+    body = {"file": file, "digest": form["digest"], "edges": "top-left", "readings": readings}
+    return got(client.put("/api/readings", json=body))
+
+
+def until(client, true):
+    end = time.monotonic() + PATIENCE
+    while not true(state := got(client.get("/api/machine"))):
+        assert time.monotonic() < end, state
+        time.sleep(0.02)
+    return state
+
+
+@contextmanager
+def virtual_machine(client):
+    """The lab with a virtual machine that is ready."""
+    got(client.post("/api/machine/virtual", json={"seed": 9, "speed": 1000}))
+    until(client, lambda state: state["phase"] == "ready")
+    yield
+    got(client.post("/api/machine/disconnect"))
+
+
+@pytest.mark.parametrize("units", ["mm", "inch"])
+def test_what_is_taken_is_what_the_command_writes(client, folder, units):
+    choose(folder, units=units, known={"motor_gap": {"value": 2979.0, "sigma": 0.5}})
+    each = takings(client)
+    assert {"chains swapped, 4 marks", "4 marks with 5 kg more", "every mark read again"} <= {*each}
+    for title, taking in each.items():
+        got(client.post("/api/next", json=wanted(taking)))
+        files = [name for name in (taking["form"], taking["program"]) if name]
+        assert names(folder) == BEFORE | {*files}
+        here = {name: (folder / name).read_bytes() for name in files}
+        for name in files:
+            (folder / name).unlink()
+        assert main(shlex.split(taking["command"])[1:]) == 0
+        assert {name: (folder / name).read_bytes() for name in files} == here, title
+        assert bool(taking["program"]) is (title != "every mark read again")
+        got(client.delete("/api/next"))
+        assert names(folder) == BEFORE
+
+
+def test_marks_that_were_taken_are_cut_read_and_counted(client, folder):
+    before = got(client.get("/api/grid"))
+    assert (before["program"], before["is_proposed"], before["pauses"]) == ("grid-2.nc", False, [])
+    take(client, "4 marks with 5 kg more")
+    shown = got(client.get("/api/grid"))
+    assert (shown["program"], shown["form"], shown["is_proposed"]) == ("more.nc", "more.toml", True)
+    assert shown["trouble"] == "" and shown["waits"] == len(shown["marks"]) == 4
+    assert [pause["do"] for pause in shown["pauses"]] == [
+        "let 5.0 kg more hang on the sled, low and in the middle",
+        "take off what hangs on the sled",
+    ]
+    lines = [mark["lines"] for mark in shown["marks"]]
+    first, last = (pause["lines"] for pause in shown["pauses"])
+    assert first < lines[0] and lines == sorted(lines) and lines[-1] < last
+    assert got(client.get("/api/readings"))["file"] == "more.toml"
+    typed(client, "more.toml", off=2.0)
+    assert got(client.get("/api/project"))["choices"]["marks"] == [MARKS, "more.toml"]
+    assert len(got(client.get("/api/comparison"))["marks"]) == 13
+    assert got(client.get("/api/grid"))["program"] == "grid-2.nc"
+    assert got(client.delete("/api/next"), 422)["error"] == "more.toml has readings, so it stays"
+    assert (folder / "more.toml").exists() and (folder / "more.nc").exists()
+
+
+def test_nothing_in_the_folder_is_overwritten(client, folder):
+    (folder / "more.toml").write_text("mine")
+    (folder / "more-2.nc").write_text("mine too")
+    taking = take(client, "4 more marks")
+    assert (taking["form"], taking["program"]) == ("more-3.toml", "more-3.nc")
+    assert (folder / "more.toml").read_text() == "mine"
+    again = take(client, "4 more marks")
+    assert again["form"] == "more-3.toml" and again["is_saved"] and not taking["is_saved"]
+    assert not (folder / "more-4.toml").exists()
+    other = take(client, "4 marks with 5 kg more")
+    assert other["form"] == "more-4.toml"
+    got(client.delete("/api/next"))
+    assert names(folder) == BEFORE | {"more.toml", "more-2.nc", "more-3.toml", "more-3.nc"}
+
+
+def test_a_proposal_that_the_page_did_not_show_is_not_taken(client, folder):
+    taking = takings(client)["4 more marks"]
+    for changed in ({"digest": "0" * 64}, {"choose": taking["choose"] + 1}):
+        refused = got(client.post("/api/next", json={**wanted(taking), **changed}), 409)
+        assert refused["error"].startswith("the proposal has changed")
+    for number in (0, 99):
+        body = {**wanted(taking), "choose": number}
+        assert "no proposal number" in got(client.post("/api/next", json=body), 422)["error"]
+    check = next(i for i in range(1, 9) if i not in {t["choose"] for t in takings(client).values()})
+    body = {"choose": check, "digest": ""}
+    assert "has no marks" in got(client.post("/api/next", json=body), 422)["error"]
+    choose(folder, known={"motor_gap": {"value": 2979.0, "sigma": 0.4}})
+    body = wanted(taking)
+    assert "still worked out" in got(client.post("/api/next", json=body), 422)["error"]
+    assert names(folder) == BEFORE
+
+
+@pytest.mark.parametrize("name", ["machine.toml", MARKS, "lab.json", "more.toml.bak"])
+def test_only_a_form_of_a_proposal_is_taken_out(client, folder, name):
+    (folder / "machine.nc").write_text("mine")
+    (folder / "more.toml.bak").write_text("mine")
+    choose(folder, proposed=name)
+    assert "no proposal was taken" in got(client.delete("/api/next"), 422)["error"]
+    assert got(client.get("/api/grid"))["is_proposed"] is False
+    assert {name, "machine.nc"} <= names(folder)
+
+
+def test_after_a_correction_the_form_names_the_settings_that_are_open(client, folder):
+    text = (folder / "machine.toml").read_text()
+    (folder / "machine-2.toml").write_text(text.replace("2978.4", "2981.0"))
+    marks = (folder / MARKS).read_text()
+    try:
+        (folder / MARKS).write_text(f'cut_with = "machine.toml"\n{marks}')
+        choose(folder, settings="machine-2.toml")
+        taking = take(client, "4 more marks")
+        assert "--cut-next-with machine-2.toml" in taking["command"]
+        form = (folder / "more.toml").read_bytes()
+        assert b'cut_with = "machine-2.toml"' in form
+        (folder / "more.toml").unlink()
+        assert main([*shlex.split(taking["command"])[1:], "--json"]) == 0
+        assert (folder / "more.toml").read_bytes() == form
+        rounds = read_form(folder / "more.toml", sheet=SHEET).measurements.rounds
+        assert rounds[0].cut_with.motor_gap == 2981.0
+    finally:
+        (folder / MARKS).write_text(marks)
+
+
+def test_a_way_that_the_sled_cannot_take_is_said_and_not_cut(client, folder):
+    take(client, "4 more marks")
+    form = (folder / "more.toml").read_text()
+    lines = [line for line in form.splitlines() if line.startswith("target")]
+    (folder / "more.toml").write_text(form.replace(lines[0], "target = [5.0, 1218.0]"))
+    assert "leaves the sheet" in got(client.get("/api/grid"))["trouble"]
+    with virtual_machine(client):
+        assert "leaves the sheet" in got(client.post("/api/grid/cut"), 422)["error"]
+
+
+def test_a_virtual_machine_bears_the_weight_from_pause_to_pause(client, folder, monkeypatch):
+    borne, weigh_down = [], VirtualOwner.weigh_down
+
+    def weighing(owner, weight):
+        borne.append(round(weight - owner.settings.sled_weight, 1))
+        weigh_down(owner, weight)
+
+    monkeypatch.setattr(VirtualOwner, "weigh_down", weighing)
+    take(client, "4 marks with 5 kg more")
+    with virtual_machine(client):
+        got(client.post("/api/grid/cut"))
+        waiting = until(client, lambda state: state["waits_for"])
+        assert waiting["waits_for"].startswith("let 5.0 kg more hang") and waiting["holds"]
+        assert borne == [0.0, pytest.approx(5 * 9.81, abs=0.1)]
+        got(client.post("/api/machine/go-on"))
+        until(client, lambda state: state["waits_for"].startswith("take off"))
+        assert borne[2:] == [0.0]
+        assert got(client.get("/api/machine"))["program"]["outcome"] == "running"
+        got(client.post("/api/machine/go-on"))
+        until(client, lambda state: state["program"]["outcome"] == "done")
+        got(client.post("/api/grid/cut"))
+        until(client, lambda state: state["waits_for"])
+        got(client.post("/api/machine/stop"))
+        until(client, lambda state: state["phase"] == "ready")
+        got(client.post("/api/grid/cut"))  # whoever gave up begins with nothing on the sled
+        assert borne[3:5] == [0.0, pytest.approx(5 * 9.81, abs=0.1)] and borne[5] == 0.0
+
+
+def test_chains_of_a_virtual_machine_stay(client, folder):
+    take(client, "chains swapped, 4 marks")
+    shown = got(client.get("/api/grid"))
+    assert [pause["do"].split(",")[0] for pause in shown["pauses"]] == [
+        "hang each chain on the other's sprocket",
+        "hang each chain on its sprocket again",
+    ]
+    with virtual_machine(client):
+        refused = got(client.post("/api/grid/cut"), 422)["error"]
+        assert "the chains of a virtual machine stay" in refused

@@ -1,0 +1,264 @@
+"""Before and at the cut: what is known, the reach, what a plan could tell, program and form."""
+
+import json
+import tomllib
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from folder import EXAMPLE, asked, with_settings
+from plumb.bench.causes import MAKER
+from plumb.cli.main import main
+from plumb.fit.expected import expected_error
+from plumb.fit.fit import rms
+from plumb.fit.problem import PRIORS
+from plumb.fit.shape import best_pose
+from plumb.grid import Grid, GridError, PlainMachine, program
+from plumb.lab.choices import Choices, Number
+from plumb.lab.known import stated
+from plumb.lab.planned import in_turn, planned
+from plumb.lab.project import Project
+from plumb.lab.routes.comparison import inputs_of
+from plumb.line.sender import cleaned
+from plumb.model.predict import lengths, places
+
+
+@pytest.fixture
+def lab(tmp_path):
+    with with_settings(tmp_path) as client:
+        yield client
+
+
+def got(answer, status=200):
+    assert answer.status_code == status, answer.text
+    return answer.json()
+
+
+def choose(lab, **changes):
+    project = got(lab.get("/api/project"))
+    body = {"choices": {**project["choices"], **changes}, "read": project["choices_digest"]}
+    return got(lab.put("/api/choices", json=body))
+
+
+def test_without_settings_a_line_says_what_is_missing(tmp_path):
+    with asked(tmp_path) as lab:
+        for path in ("known", "reach", "layouts", "grid"):
+            assert "open the settings" in got(lab.get(f"/api/{path}"), 422)["error"]
+
+
+def test_known_numbers_are_asked_as_they_are_measured(lab):
+    known = {number["name"]: number for number in got(lab.get("/api/known"))["numbers"]}
+    frame = got(lab.get("/api/project"))["machine"]["frame"]
+    height = known["motor_height"]
+    edge = got(lab.get("/api/project"))["machine"]["sheet"][1] / 2
+    assert height["believed"] == pytest.approx(frame["motor_height"] - edge)
+    for name in ("motor_gap", "motor_height", "rotation_radius", "sled_weight"):
+        number = known[name]
+        value = (number["believed"] - number["zero"]) * number["scale"]
+        assert value == pytest.approx(frame[name])
+    links = known["chain_pitch.left"]
+    assert (635.635 - links["zero"]) * links["scale"] == pytest.approx(0.001)
+
+
+def test_what_is_known_goes_into_the_fit(tmp_path):
+    choices = Choices(
+        known={
+            "motor_gap": Number(value=2980.0, sigma=1.0),
+            "rotation_radius": Number(value=140.0, sigma=0.5),
+            "sled_weight": Number(value=100.0, sigma=0.0),
+        }
+    )
+    statements = stated(choices)
+    assert {check.name: (check.value, check.sigma) for check in statements.checked} == {
+        "motor_gap": (2980.0, 1.0),
+        "rotation_radius": (140.0, 0.5),
+    }
+    assert statements.priors == {**PRIORS, "rotation_radius": 5.0}
+
+
+def test_the_verdict_goes_by_what_is_known(lab, tmp_path):
+    (tmp_path / "marks.toml").write_bytes((EXAMPLE / "marks.toml").read_bytes())
+    choose(lab, marks=["marks.toml"], known={"motor_gap": {"value": 2990.0, "sigma": 0.5}})
+    inputs = inputs_of(Project(tmp_path))
+    assert [(check.name, check.value) for check in inputs.checked] == [("motor_gap", 2990.0)]
+
+
+def test_reach_says_what_the_command_says_and_how_far_off_is_normal(
+    lab, tmp_path, capsys, monkeypatch
+):
+    answer = got(lab.get("/api/reach"))
+    assert len(answer["verdicts"]) == answer["columns"] * answer["rows"]
+    assert main(["reach", str(tmp_path / "groundcontrol.ini")]) == 0
+    printed = " ".join(capsys.readouterr().out.split())
+    assert answer["conclusion"] in printed and answer["expected"]["said"] in printed
+    usable = answer["verdicts"].count(0) / len(answer["verdicts"])
+    assert usable == pytest.approx(float(answer["shares"]["usable"].rstrip(" %")) / 100, abs=0.05)
+    expected = answer["expected"]
+    assert 1 < expected["shape"] < expected["whole"] < 50
+    choose(lab, known={"motor_gap": {"value": 2990.0, "sigma": 0.5}}, units="inch")
+    better = got(lab.get("/api/reach"))
+    assert better["expected"]["shape"] < expected["shape"]
+    assert "--prior motor_gap=0.5" in better["command"]
+    monkeypatch.chdir(tmp_path)
+    assert main(better["command"].split()[1:]) == 0
+    assert better["expected"]["said"] in " ".join(capsys.readouterr().out.split())
+    assert main([*better["command"].split()[1:], "--json"]) == 0
+    said = json.loads(capsys.readouterr().out)["expected"]
+    assert said["among_marks_mm"] == pytest.approx(better["expected"]["shape"])
+
+
+def test_the_expected_error_is_what_wrong_numbers_make():
+    """Machines drawn from the priors put their marks that far off."""
+    priors = {"motor_gap": 3.0, "motor_height": 4.0}
+    expected = expected_error(MAKER, {**priors, "motor_center_x": 0.0, "sheet_rotation": 0.0})
+    x = np.linspace(-1119.2, 1119.2, 7)
+    y = np.linspace(509.6, -509.6, 5)
+    targets = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    chains, _ = lengths(MAKER, targets)
+    source = np.random.default_rng(5)
+    whole, shape = [], []
+    for gap, height in source.standard_normal((400, 2)):
+        true = replace(
+            MAKER,
+            motor_gap=MAKER.motor_gap + 3.0 * gap,
+            motor_height=MAKER.motor_height + 4.0 * height,
+        )
+        moved, _ = places(true, chains)
+        whole.append(rms(moved - targets) ** 2)
+        shape.append(rms(best_pose(targets, moved).errors) ** 2)
+    assert expected.frame == pytest.approx(np.sqrt(np.mean(whole)), rel=0.1)
+    assert expected.shape == pytest.approx(np.sqrt(np.mean(shape)), rel=0.1)
+
+
+def test_layouts_have_their_marks_and_minutes(lab):
+    layouts = {layout["id"]: layout for layout in got(lab.get("/api/layouts"))}
+    assert [layouts[name]["marks"] for name in ("nine", "fifteen", "twenty-five")] == [9, 15, 25]
+    minutes = [layouts[name]["minutes"] for name in ("nine", "distances", "fifteen", "twenty-five")]
+    assert minutes == sorted(minutes)
+    assert layouts["distances"]["distances"] == len(layouts["distances"]["spans"]) == 12
+    assert layouts["nine"]["places"][0][0] < 0 < layouts["nine"]["places"][0][1]
+
+
+def test_a_plan_tells_what_the_command_tells(lab, tmp_path, capsys):
+    answer = got(lab.post("/api/preview", json={"layout": "fifteen"}))
+    choose(lab, layout="fifteen")
+    got(lab.post("/api/grid"))
+    words = answer["command"].splitlines()[-1].split()[1:]
+    assert words[1:3] == ["groundcontrol.ini", "marks.toml"]
+    words[1:3] = [str(tmp_path / name) for name in words[1:3]]
+    main([*words, "--json"])
+    said = json.loads(capsys.readouterr().out)
+    assert answer["marks"] == said["marks"] == 15
+    assert [effect["name"] for effect in answer["effects"]] == said["effects"]
+    seen = [outline["effect"] for outline in said["outlines"] if outline["smallest"] <= 1]
+    assert [effect["name"] for effect in answer["effects"] if effect["is_seen"]] == seen
+    assert 0 < len(seen) < len(said["effects"])
+    assert answer["pairs"] == said["pairs_told_apart"]
+    assert answer["trouble"] == ""
+
+
+def test_what_is_known_makes_a_plan_tell_more(lab):
+    body = {"layout": "nine"}
+    before = got(lab.post("/api/preview", json=body))
+    choose(lab, known={"motor_gap": {"value": 2978.4, "sigma": 0.3}})
+    after = got(lab.post("/api/preview", json=body))
+    assert after["pairs"] > before["pairs"]
+    assert "--prior motor_gap=0.29" in after["command"]
+
+
+def test_more_marks_tell_more(lab):
+    few, many = (
+        got(lab.post("/api/preview", json={"layout": layout})) for layout in ("nine", "twenty-five")
+    )
+    assert many["pairs"] > few["pairs"] and many["minutes"] > few["minutes"]
+    places = [[-900, 400], [900, 400], [0, -400]]
+    mine = got(lab.post("/api/preview", json={"layout": "own", "places": places}))
+    assert mine["marks"] == 3 and mine["pairs"] < few["pairs"]
+
+
+def test_what_cannot_be_planned_is_said(lab):
+    places = [[-900, 400], [5000, 400], [0, -400]]
+    asked = {"layout": "own", "places": places}
+    answer = lab.post("/api/preview", json=asked)
+    assert "outside the sheet" in answer.json().get("trouble", "") + answer.json().get("error", "")
+    two = got(lab.post("/api/preview", json={"layout": "own", "places": places[:1]}), 422)
+    assert "too few marks" in two["error"]
+
+
+def test_additions_come_best_first(lab):
+    before = got(lab.post("/api/preview", json={"layout": "nine"}))
+    best, *_ = got(lab.post("/api/preview/additions", json={"layout": "nine"}))
+    assert best["pairs"] > before["pairs"] and best["do"] and best["minutes"] > 0
+
+
+def test_places_are_taken_in_bands_there_and_back():
+    assert in_turn([(0, 0), (500, 400), (-500, 420), (300, -20), (-300, 10)]) == [
+        (-500, 420),
+        (500, 400),
+        (300, -20),
+        (0, 0),
+        (-300, 10),
+    ]
+
+
+def test_places_of_a_grid_are_checked_and_cut_in_their_order():
+    grid = Grid(repeats=0, places=((-900.0, 300.0), (800.0, -200.0)))
+    text = program(grid, PlainMachine())
+    assert "(pattern: places, 2 marks with repeats)" in text
+    assert text.index("G1 X-900 Y300 F700") < text.index("G1 X800 Y-200 F700")
+    with pytest.raises(GridError, match="outside the sheet"):
+        program(grid._replace(places=((0.0, 700.0),)), PlainMachine())
+
+
+def test_program_and_form_are_written_and_no_reading_is_overwritten(lab, tmp_path):
+    before = got(lab.get("/api/grid"))
+    assert not before["is_saved"] and before["trouble"] == ""
+    assert (before["form"], before["program"]) == ("marks.toml", "grid.nc")
+    lines = list(cleaned(before["text"].splitlines()))
+    for mark in before["marks"]:
+        x, y = mark["place"]
+        assert lines[mark["lines"] - 3] == f"G1 X{x:g} Y{y:g} F700"
+        assert lines[mark["lines"] - 2].startswith("G1 Z-0.5")
+    assert [mark["name"] for mark in before["marks"]] == list("123654789")
+    got(lab.post("/api/grid"))
+    after = got(lab.get("/api/grid"))
+    assert after["is_saved"] and after["waits"] == 9
+    assert (tmp_path / "grid.nc").read_text() == after["text"]
+    form = tomllib.loads((tmp_path / "marks.toml").read_text())
+    assert form["cut_with"] == "groundcontrol.ini" and len(form["mark"]) == 9
+    choose(lab, layout="fifteen")
+    assert got(lab.get("/api/grid"))["form"] == "marks.toml"  # nothing was read yet
+    text = (tmp_path / "marks.toml").read_text()
+    read = text.replace("# measured = [ , ]", "measured = [101.0, 102.0]", 1)
+    (tmp_path / "marks.toml").write_text(read)
+    got(lab.post("/api/grid"))
+    assert (tmp_path / "marks.toml").read_text() == read
+    form = tomllib.loads((tmp_path / "marks-2.toml").read_text())
+    assert len(form["mark"]) == 15 and (tmp_path / "grid-2.nc").exists()
+
+
+def test_the_program_is_that_of_the_command(lab, tmp_path):
+    got(lab.post("/api/grid"))
+    settings = str(tmp_path / "groundcontrol.ini")
+    words = ["grid", "--settings", settings, "--columns", "3", "--rows", "3", "--repeats", "0"]
+    main([*words, "--output", str(tmp_path / "same.nc"), "--marks", str(tmp_path / "same.toml")])
+    assert (tmp_path / "same.nc").read_text() == (tmp_path / "grid.nc").read_text()
+    assert (tmp_path / "same.toml").read_text() == (tmp_path / "marks.toml").read_text()
+
+
+def test_a_form_of_distances_names_them(lab, tmp_path):
+    choose(lab, layout="distances")
+    got(lab.post("/api/grid"))
+    text = (tmp_path / "marks.toml").read_text()
+    assert text.count("# [[distance]]") == 12 and '# between = ["1", "9"]' in text
+    plan = planned(MAKER, "distances", ()).as_measured()
+    lengths = {distance.between: distance.length for distance in plan.distances}
+    assert lengths["1", "3"] == pytest.approx(2238.4)
+
+
+def test_a_grid_is_not_cut_without_a_machine(lab, tmp_path):
+    assert "connect it first" in got(lab.post("/api/grid/cut"), 422)["error"]
+    assert (
+        "of a virtual machine"
+        in got(lab.post("/api/machine/readings", json={"form": "marks.toml"}), 422)["error"]
+    )

@@ -1,0 +1,89 @@
+"""What is known, the reach, and marks that are moved by mouse and keys, in a browser."""
+
+import json
+import re
+
+import pytest
+from folder import EXAMPLE
+
+PATIENCE = 300_000  # [ms] of a busy computer
+
+
+@pytest.fixture
+def opened(lab, page):
+    """A page on a folder whose settings are open."""
+    (lab.folder / "groundcontrol.ini").write_bytes((EXAMPLE / "groundcontrol.ini").read_bytes())
+    (lab.folder / "lab.json").write_text('{"settings": "groundcontrol.ini"}')
+    page.goto(lab.url)
+    page.get_by_role("heading", name="This machine is open").wait_for(timeout=PATIENCE)
+    return page
+
+
+def choices(lab):
+    return json.loads((lab.folder / "lab.json").read_text())
+
+
+def until(page, true):
+    for _ in range(300):
+        if true():
+            return
+        page.wait_for_timeout(100)
+    pytest.fail("did not come")
+
+
+def cells(page):
+    """How many cells of effect against effect count as apart."""
+    text = page.get_by_text(re.compile("Effect against effect: ")).inner_text()
+    return int(re.search(r"(\d+) of", text)[1])
+
+
+def test_marks_are_chosen_dragged_added_and_taken_away(lab, opened):
+    page = opened
+    page.goto(f"{lab.site}#/measure")
+    page.get_by_text(re.compile("Effect against effect: ")).wait_for(timeout=PATIENCE)
+    nine = cells(page)
+    page.get_by_label(re.compile("Twenty-five marks")).check()
+    until(page, lambda: cells(page) > nine)
+    assert choices(lab)["layout"] == "twenty-five"
+    page.get_by_label(re.compile("^Nine marks")).check()
+    until(page, lambda: cells(page) == nine)
+    first = page.get_by_role("button", name=re.compile(r"^Mark 1 at"))
+    box = first.bounding_box()
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 90, box["y"] + 80, steps=4)
+    page.mouse.up()
+    until(page, lambda: choices(lab)["layout"] == "own")
+    moved = choices(lab)["planned"]
+    assert len(moved) == 9 and moved[1] == [0, 509.6]
+    assert moved[0][0] > -1119 and moved[0][1] < 509
+    first.focus()
+    page.keyboard.press("ArrowRight")
+    until(page, lambda: choices(lab)["planned"][0][0] == moved[0][0] + 25)
+    page.keyboard.press("Delete")
+    until(page, lambda: len(choices(lab)["planned"]) == 8)
+    page.get_by_role("button", name="Add a mark in the middle").click()
+    until(page, lambda: choices(lab)["planned"][-1] == [0, 0])
+    until(page, lambda: cells(page) != nine)
+
+
+def test_what_is_known_is_kept_and_makes_less_error_normal(lab, opened):
+    page = opened
+    page.goto(f"{lab.site}#/reach")
+    normal = page.locator(".say", has_text="That is normal.")
+    normal.wait_for(timeout=PATIENCE)
+    before = float(re.search(r"off by ([\d.]+) mm", normal.inner_text())[1])
+    page.goto(f"{lab.site}#/known")
+    gap = page.get_by_role("textbox", name="the gap between the motors, mm")
+    gap.fill("3602,5")
+    page.get_by_role("textbox", name=re.compile("the gap.*how far it may be off")).fill("0,8")
+    page.keyboard.press("Tab")
+    until(page, lambda: choices(lab).get("known") == {"motor_gap": {"value": 3602.5, "sigma": 0.8}})
+    gap.fill("about two")
+    page.keyboard.press("Tab")
+    page.get_by_text(re.compile("Type a number, like")).wait_for()
+    assert choices(lab).get("known")["motor_gap"]["value"] == 3602.5
+    page.goto(f"{lab.site}#/reach")
+    normal.wait_for(timeout=PATIENCE)
+    assert float(re.search(r"off by ([\d.]+) mm", normal.inner_text())[1]) < before
+    assert "of the sheet is usable" in page.get_by_role("heading", level=1).inner_text()

@@ -1,0 +1,244 @@
+"""Readings as they are typed: each is saved, none is lost, and what disagrees is said."""
+
+import re
+
+import pytest
+from folder import EXAMPLE, example_form, with_settings
+from plumb.lab.routes import readings
+from plumb.marks.form import read_form
+from plumb.marks.read import read_marks
+
+SHEET = (2438.4, 1219.2)
+
+
+@pytest.fixture
+def client(tmp_path):
+    return with_settings(tmp_path)
+
+
+def shown(client, **query):
+    answer = client.get("/api/readings", params=query)
+    assert answer.status_code == 200, answer.text
+    return answer.json()
+
+
+def put(client, typed, *, digest, file="marks.toml", edges="top-left"):
+    rows = [{"index": index, "read": read} for index, read in typed.items()]
+    body = {"file": file, "digest": digest, "edges": edges, "readings": rows}
+    return client.put("/api/readings", json=body)
+
+
+def choose(client, **change):
+    project = client.get("/api/project").json()
+    body = {"choices": {**project["choices"], **change}, "read": project["choices_digest"]}
+    assert client.put("/api/choices", json=body).status_code == 200
+
+
+def test_a_reading_is_in_the_file_at_once_and_the_command_line_reads_it(client, tmp_path):
+    form = tmp_path / "marks.toml"
+    form.write_text(example_form())
+    before = shown(client)
+    assert (before["file"], before["files"][0]["read"]) == ("marks.toml", 0)
+    assert before["marks"][0]["meant"] == pytest.approx([100, 100])
+    after = put(client, {0: [98, 106], 3: [1783, 109.5]}, digest=before["digest"]).json()
+    assert [mark["read"] is not None for mark in after["marks"]].count(True) == 2
+    assert after["marks"][3]["read"] == pytest.approx([1783, 109.5])
+    measurements = read_marks(form, sheet=SHEET)
+    assert [mark.name for mark in measurements.marks] == ["1", "4"]
+    assert client.get("/api/project").json()["choices"]["marks"] == ["marks.toml"]
+    assert form.read_text().startswith("# Calibration marks, mm from the sheet's top left corner")
+
+
+def test_a_reading_can_be_taken_out_again(client, tmp_path):
+    (tmp_path / "marks.toml").write_text(example_form(read=5))
+    answer = put(client, {1: None}, digest=shown(client)["digest"]).json()
+    assert answer["marks"][1]["read"] is None
+    assert len(read_marks(tmp_path / "marks.toml", sheet=SHEET).marks) == 4
+
+
+@pytest.mark.parametrize(
+    ("edges", "read"),
+    [
+        ("top-left", [98, 106]),
+        ("top-right", [2340.4, 106]),
+        ("bottom-left", [98, 1113.2]),
+        ("bottom-right", [2340.4, 1113.2]),
+    ],
+)
+def test_readings_count_from_the_chosen_edges(client, tmp_path, edges, read):
+    (tmp_path / "marks.toml").write_text(example_form())
+    choose(client, edges=edges)
+    form = shown(client)
+    answer = put(client, {0: read}, digest=form["digest"], edges=form["edges"]).json()
+    assert answer["marks"][0]["read"] == pytest.approx(read)
+    assert "measured = [98.0, 106.0]" in (tmp_path / "marks.toml").read_text()
+
+
+def test_a_reading_counts_from_the_edges_that_its_page_showed(client, tmp_path):
+    (tmp_path / "marks.toml").write_text(example_form())
+    form = shown(client)
+    choose(client, edges="bottom-right")  # in another tab
+    answer = put(client, {0: [98, 106]}, digest=form["digest"], edges=form["edges"]).json()
+    assert "measured = [98.0, 106.0]" in (tmp_path / "marks.toml").read_text()
+    assert answer["edges"] == "bottom-right"
+    assert answer["marks"][0]["read"] == pytest.approx([2340.4, 1113.2])
+
+
+def test_a_form_that_changes_while_it_is_shown_is_not_taken_for_known(
+    client, tmp_path, monkeypatch
+):
+    (tmp_path / "marks.toml").write_text(example_form())
+    forms = readings._forms
+
+    def changed_then(project, choices):
+        read = forms(project, choices)
+        (tmp_path / "marks.toml").write_text(example_form(read=3))
+        return read
+
+    with monkeypatch.context() as patched:
+        patched.setattr(readings, "_forms", changed_then)
+        old = shown(client)
+    assert old["marks"][0]["read"] is None
+    assert put(client, {0: [99, 99]}, digest=old["digest"]).status_code == 409
+
+
+def test_a_form_in_inches_keeps_its_inches_and_what_was_typed_as_a_fraction(client, tmp_path):
+    text = 'frame = "sheet-top-left"\nunits = "inch"\n'
+    text += '[[mark]]\nname = "1"\ntarget = [4, 4]\nmeasured = ["4 1/16", 4.25]\n'
+    text += '[[mark]]\nname = "2"\ntarget = [80, 40]\n# measured = [ , ]\n'
+    (tmp_path / "marks.toml").write_text(text)
+    put(client, {1: [80.1875 * 25.4, 40.5 * 25.4]}, digest=shown(client)["digest"])
+    saved = (tmp_path / "marks.toml").read_text()
+    assert 'measured = ["4 1/16", 4.25]' in saved
+    assert "measured = [80.1875, 40.5]" in saved
+
+
+def test_an_older_save_is_refused_and_changes_nothing(client, tmp_path):
+    (tmp_path / "marks.toml").write_text(example_form())
+    old = shown(client)["digest"]
+    assert put(client, {0: [98, 106]}, digest=old).status_code == 200
+    kept = (tmp_path / "marks.toml").read_bytes()
+    refused = put(client, {0: [99, 99]}, digest=old)
+    assert refused.status_code == 409
+    assert "marks.toml has changed" in refused.json()["error"]
+    assert (tmp_path / "marks.toml").read_bytes() == kept
+
+
+def test_a_mark_that_is_not_there_is_refused(client, tmp_path):
+    (tmp_path / "marks.toml").write_text(example_form())
+    digest = shown(client)["digest"]
+    assert put(client, {99: [1, 1]}, digest=digest).status_code == 422
+    assert put(client, {-1: [1, 1]}, digest=digest).status_code == 422
+
+
+def test_distances_are_saved_and_taken_out(client, tmp_path):
+    (tmp_path / "marks.toml").write_text(example_form())
+    body = {
+        "file": "marks.toml",
+        "digest": shown(client)["digest"],
+        "distances": [{"between": ["2", "4"], "length": 1123.5}],
+    }
+    answer = client.put("/api/distances", json=body).json()
+    assert answer["distances"] == [{"between": ["2", "4"], "length": 1123.5}]
+    measurements = read_marks(tmp_path / "marks.toml", sheet=SHEET)
+    assert [mark.name for mark in measurements.marks] == ["2", "4"]
+    body = {**body, "digest": answer["digest"], "distances": []}
+    assert client.put("/api/distances", json=body).json()["distances"] == []
+
+
+def test_a_distance_to_a_name_with_two_places_is_refused(client, tmp_path):
+    (tmp_path / "marks.toml").write_text(example_form(read=23))
+    digest = shown(client)["digest"]
+    distances = [{"between": ["2", "1"], "length": 500.0}]
+    body = {"file": "marks.toml", "digest": digest, "distances": distances}
+    answer = client.put("/api/distances", json=body)
+    assert answer.status_code == 422 and "mark 1 is at two places" in answer.json()["error"]
+    assert "[[distance]]" not in (tmp_path / "marks.toml").read_text()
+
+
+def test_the_fineness_of_the_tape_becomes_its_sigma(client, tmp_path):
+    (tmp_path / "marks.toml").write_text(example_form())
+    sigmas = {}
+    for finest in (1.0, 25.4 / 16, None):
+        body = {"file": "marks.toml", "digest": shown(client)["digest"], "finest": finest}
+        sigmas[finest] = client.put("/api/fineness", json=body).json()["tape_sigma"]
+    assert sigmas == {1.0: 0.49, 25.4 / 16: 0.61, None: None}
+    assert "tape_sigma_mm" not in (tmp_path / "marks.toml").read_text()
+
+
+@pytest.mark.parametrize("name", ["marks.csv", "Calibration Measurements.ini"])
+def test_a_picked_file_of_another_form_becomes_a_form_with_the_same_readings(
+    client, tmp_path, name
+):
+    picked = EXAMPLE / "places.csv"
+    if name.endswith("ini"):
+        picked = EXAMPLE.parents[1] / "tools/plumb/examples/mibproj" / name
+    if not picked.is_file() or ("target_x_mm" not in picked.read_text() and name.endswith("csv")):
+        picked = tmp_path / "picked.csv"
+        picked.write_text(
+            "name,target_x_mm,target_y_mm,measured_x_mm,measured_y_mm\n"
+            "a,0,0,1.5,2\nb,500,0,501,1\nc,0,400,1,402\n"
+        )
+    answer = client.post("/api/marks", files={"file": (name, picked.read_bytes())}).json()
+    before = read_marks(picked, sheet=SHEET)
+    after = read_marks(tmp_path / answer["file"], sheet=SHEET)
+    assert [mark.name for mark in after.marks] == [mark.name for mark in before.marks]
+    assert after.measured == pytest.approx(before.measured)
+    assert after.controller == before.controller
+    assert client.get("/api/project").json()["choices"]["marks"] == [answer["file"]]
+
+
+def test_a_picked_marks_toml_stays_byte_for_byte(client, tmp_path):
+    content = (EXAMPLE / "marks.toml").read_bytes()
+    for name in ("marks.toml", "marks-2.toml"):
+        answer = client.post("/api/marks", files={"file": ("mine.toml", content)}).json()
+        assert answer["file"] == name
+        assert (tmp_path / name).read_bytes() == content
+
+
+def test_a_file_without_marks_is_refused_in_a_line(client, tmp_path):
+    files = {"file": ("holiday.csv", b"sun,sea\n1,2\n")}
+    refused = client.post("/api/marks", files=files)
+    assert refused.status_code == 422
+    assert "\n" not in refused.json()["error"]
+    assert not (tmp_path / "marks.toml").exists()
+
+
+def test_a_slip_is_named_with_what_was_meant(client, tmp_path):
+    text = example_form(read=6).replace("measured = [1221.5, 111]", "measured = [1122.5, 111]")
+    (tmp_path / "marks.toml").write_text(text)
+    answer = client.get("/api/doubts", params={"file": "marks.toml"}).json()
+    assert answer["digest"] == shown(client)["digest"]
+    (doubt,) = answer["doubts"]
+    assert (doubt["index"], doubt["is_mark"]) == (2, True)
+    assert doubt["off"] == pytest.approx(99, abs=3)
+    assert re.search("1122.5 written for 1212.5|misread by 100 mm", doubt["sentence"])
+    assert doubt["corrected"][0] == pytest.approx(1222.5, abs=10.1)
+
+
+def test_a_reading_in_the_wrong_place_is_named_before_a_fit_is_possible(client, tmp_path):
+    (tmp_path / "marks.toml").write_text(example_form())
+    put(client, {3: [109.5, 1783]}, digest=shown(client)["digest"])
+    (doubt,) = client.get("/api/doubts", params={"file": "marks.toml"}).json()["doubts"]
+    assert "x and y, from the corner, may be exchanged" in doubt["sentence"]
+
+
+def test_good_readings_raise_no_doubt_however_few_they_are(client, tmp_path):
+    for count in (1, 2, 3, 5, 8):
+        (tmp_path / "marks.toml").write_text(example_form(read=count))
+        answer = client.get("/api/doubts", params={"file": "marks.toml"}).json()
+        assert answer["doubts"] == [], count
+
+
+def test_what_a_form_says_besides_readings_stays(client, tmp_path):
+    text = 'frame = "machine"\ndate = 2026-05-01\nnew_sheet = true\nsled_weight_n = 110\n'
+    text += '[[mark]]\nname = "a \\"b\\" \\\\ é"\ntarget = [0, 0]\napproach = [0, 1]\n'
+    text += "chains = [1500.25, 1600]\nsled_weight_n = 90\n"
+    text += "[benchmark]\nacross = [1908.0, 1903.5, 1900.0]\n"
+    (tmp_path / "marks.toml").write_text(text)
+    before = read_form(tmp_path / "marks.toml", sheet=SHEET)
+    answer = put(client, {0: [1220, 610]}, digest=shown(client)["digest"])
+    assert answer.status_code == 200, answer.text
+    after = read_form(tmp_path / "marks.toml", sheet=SHEET)
+    assert after.head["mark"][0].pop("measured") == pytest.approx([0.8, -0.4])
+    assert after.head == before.head

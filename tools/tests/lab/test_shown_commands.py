@@ -1,0 +1,232 @@
+"""The command that a screen shows does what the screen does, with every choice made there."""
+
+import json
+import re
+import shlex
+import time
+import tomllib
+
+import pytest
+from folder import EXAMPLE, with_settings
+from plumb.cli.main import build_parser, main
+from scipy.special import chdtri
+
+# A gap that is wrong, so that it changes every fit; a ring that no fit moves unless it is known.
+KNOWN = {
+    "motor_gap": {"value": 2984.0, "sigma": 0.5},
+    "rotation_radius": {"value": 141.0, "sigma": 1.0},
+    "chain_pitch.left": {"value": 0.004, "sigma": 0.0002},
+}
+PLACES = [[-900, 400], [900, 400], [0, -400]]
+PATIENCE = 120  # [s]
+
+
+@pytest.fixture
+def client(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with with_settings(tmp_path) as client:
+        (tmp_path / "marks.toml").write_bytes((EXAMPLE / "marks.toml").read_bytes())
+        choose(client, marks=["marks.toml"])
+        yield client
+
+
+def choose(client, **changes):
+    project = client.get("/api/project").json()
+    body = {"choices": {**project["choices"], **changes}, "read": project["choices_digest"]}
+    answer = client.put("/api/choices", json=body)
+    assert answer.status_code == 200, answer.text
+
+
+def got(answer):
+    assert answer.status_code == 200, answer.text
+    return answer.json()
+
+
+def finished(client, path):
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end:
+        answer = got(client.get(f"/api/{path}"))
+        if answer["share"] == 1:
+            return answer
+        time.sleep(0.05)
+    raise AssertionError(f"{path} never ends")
+
+
+def said_by(command, capsys):
+    """What the last line of a command says to a program."""
+    capsys.readouterr()
+    assert main([*shlex.split(command.splitlines()[-1])[1:], "--json"]) in (0, 1)
+    return json.loads(capsys.readouterr().out)
+
+
+BENCHES = [
+    {"effects": []},
+    {"effects": ["chain_stretch"]},
+    {"effects": ["chain_pitch"]},
+    {"effects": ["chain_pitch", "chain_stretch"], "held": {"chain_pitch.left": 0.002}},
+]
+
+
+@pytest.mark.parametrize("known", [{}, KNOWN], ids=["nothing", "known"])
+@pytest.mark.parametrize("bench", BENCHES, ids=["frame", "stretch", "pitch", "held"])
+def test_the_bench(client, tmp_path, capsys, bench, known):
+    choose(client, known=known)
+    shown = got(client.post("/api/bench/fit", json=bench))
+    got(client.post("/api/bench/machine", json={**bench, "read": ""}))
+    here = tomllib.loads((tmp_path / "new.toml").read_text())
+    (tmp_path / "new.toml").unlink()
+    said = said_by(shown["command"], capsys)
+    assert tomllib.loads((tmp_path / "new.toml").read_text()) == here
+    assert said["after"]["fit_rms_mm"] == pytest.approx(shown["fit_rms"], rel=2e-5)
+    assert said["after"]["left_out_rms_mm"] == pytest.approx(shown["left_out_rms"], rel=2e-5)
+    radius = {each["name"] for each in said["parameters"]} & {"rotation_radius"}
+    assert bool(radius) == bool(known)
+
+
+def test_the_verdict_and_the_next_measurement(client, capsys):
+    choose(client, known=KNOWN)
+    shown = finished(client, "verdict")
+    said = said_by(shown["command"], capsys)
+    # Only a command line takes the names in brackets.
+    bare = re.sub(r" \([a-z]+_[a-z_]+\)", "", said["sentence"])
+    assert bare == shown["verdict"]["sentence"] != said["sentence"]
+    assert said["rms_mm"] == pytest.approx(shown["verdict"]["rms_frame"])
+    assert got(client.get("/api/known"))["command"] == shown["command"]
+    words = shlex.split(got(client.get("/api/next"))["command"])
+    assert ["diagnose", *words[2:]] == shlex.split(shown["command"])[1:]
+
+
+@pytest.mark.parametrize(
+    "accepted",
+    [
+        ["motor_height", "motor_gap"],
+        ["motor_height", "chain_stretch.compliance"],
+        ["motor_gap", "motor_height", "motor_center_x", "rotation_radius"],
+        [],
+    ],
+)
+def test_the_correction(client, tmp_path, capsys, accepted):
+    choose(client, known=KNOWN, accepted=accepted)
+    shown = finished(client, "correction")
+    offered = [number["name"] for number in shown["correction"]["numbers"]]
+    if not accepted:
+        choose(client, accepted=offered)
+        shown = finished(client, "correction")
+    assert {*accepted} <= {*offered}
+    project = got(client.get("/api/project"))
+    read = {"settings": project["files"]["groundcontrol.ini"], "choices": project["choices_digest"]}
+    written = got(client.post("/api/correction", json=read))["files"]
+    assert shown["file"] == written[0] == "machine.toml"
+    here = {name: (tmp_path / name).read_text() for name in written}
+    for name in written:
+        (tmp_path / name).unlink()
+    said = said_by(shown["command"], capsys)
+    assert said["after"]["fit_rms_mm"] == pytest.approx(shown["correction"]["rms_accepted"])
+    assert sorted(said["written"]) == sorted(written)
+    there = tomllib.loads((tmp_path / "machine.toml").read_text())
+    assert there == tomllib.loads(here.pop("machine.toml"))
+    for name, text in here.items():
+        assert (tmp_path / name).read_text() == text, name
+
+
+def test_a_correction_names_the_file_of_the_client(client):
+    def names():
+        words = shlex.split(got(client.get("/api/correction"))["command"])
+        return words[words.index("--client") + 1 : words.index("-o")]
+
+    assert names() == ["groundcontrol"]
+    machine = {"file": ("machine.toml", (EXAMPLE / "machine.toml").read_bytes())}
+    got(client.post("/api/settings", files=machine))
+    assert names() == ["none"]
+    choose(client, settings_before=["groundcontrol.ini"])
+    assert names() == ["groundcontrol", "--original", "groundcontrol.ini"]
+
+
+@pytest.mark.parametrize("known", [{}, KNOWN], ids=["nothing", "known"])
+def test_the_preview(client, tmp_path, capsys, known):
+    choose(client, known=known, fineness=1.0, layout="fifteen")
+    shown = got(client.post("/api/preview", json={"layout": "fifteen"}))
+    grid, preview = shown["command"].splitlines()
+    assert "marks-2.toml" in grid and "marks-2.toml" in preview  # marks.toml has readings
+    assert main(shlex.split(grid)[1:]) == 0
+    said = said_by(preview, capsys)
+    assert said["sigma_mm"] == pytest.approx(shown["sigma"])
+    assert said["pairs_told_apart"] == shown["pairs"] and said["marks"] == shown["marks"] == 15
+    written = (tmp_path / "marks-2.toml").read_bytes()
+    got(client.post("/api/grid"))
+    assert (tmp_path / "marks-2.toml").read_bytes() == written
+
+
+def test_the_readings(client, capsys):
+    choose(client, known=KNOWN)
+    arrows, doubts = got(client.get("/api/readings"))["command"].splitlines()
+    compared = got(client.get("/api/comparison"))
+    assert said_by(arrows, capsys)["rms_mm"] == pytest.approx(compared["rms"])
+    assert arrows == compared["command"]
+    assert doubts == finished(client, "verdict")["command"]
+
+
+def test_files_without_readings_are_not_named(client, tmp_path):
+    choose(client, layout="nine")
+    got(client.post("/api/grid"))
+    choose(client, marks=["marks.toml", "marks-2.toml"])
+    for path in ("verdict", "next", "comparison", "correction"):
+        assert "marks-2.toml" not in got(client.get(f"/api/{path}"))["command"]
+
+
+def in_inches(text):
+    """A form as it would have been typed in inches."""
+    numbers = re.sub(r"-?\d+\.?\d*(?=[],])", lambda m: f"{float(m[0]) / 25.4:.4f}", text)
+    return f'units = "inch"\n{numbers}'
+
+
+@pytest.mark.parametrize(
+    ("units", "typed"), [("mm", "mm"), ("inch", "mm"), ("mm", "inch"), ("inch", "inch")]
+)
+def test_every_command_is_understood_and_shows_the_chosen_unit(client, tmp_path, units, typed):
+    if typed == "inch":
+        (tmp_path / "marks.toml").write_text(in_inches((tmp_path / "marks.toml").read_text()))
+    choose(client, units=units, known=KNOWN)
+    marks = ("verdict", "next", "comparison", "correction", "readings")
+    of_marks = [got(client.get(f"/api/{path}"))["command"] for path in marks]
+    bench = got(client.post("/api/bench/fit", json={"effects": ["chain_stretch"]}))
+    of_marks.append(bench["command"])
+    others = [got(client.get(f"/api/{path}"))["command"] for path in ("reach", "diary")]
+    plan = got(client.post("/api/preview", json={"layout": "own", "places": PLACES}))
+    others.append(plan["command"])
+    (tmp_path / "marks-2.toml").touch()  # as the plan will be written
+    of_marks = "\n".join(of_marks).splitlines()
+    for command in "\n".join([*of_marks, *others]).splitlines():
+        asked = build_parser().parse_args(shlex.split(command)[1:])
+        if asked.command == "grid":
+            continue  # says no length; its --units are those of the program
+        assert (asked.units or (typed if command in of_marks else "mm")) == units, command
+
+
+@pytest.mark.parametrize(
+    ("off", "holds"), [(0.3, True), (0.85, True), (4.0, False)], ids=["near", "between", "far"]
+)
+def test_the_check(client, tmp_path, capsys, off, holds):
+    for name in ("groundcontrol.ini", "machine.toml"):
+        (tmp_path / name).write_bytes((EXAMPLE / name).read_bytes())
+    choose(client, settings="machine.toml", known=KNOWN, units="inch")
+    got(client.post("/api/check"))
+    form = got(client.get("/api/readings", params={"file": "check.toml"}))
+    readings = [
+        {"index": mark["index"], "read": [mark["meant"][0], mark["meant"][1] + off]}
+        for mark in form["marks"]
+    ]
+    body = {**{key: form[key] for key in ("file", "digest", "edges")}, "readings": readings}
+    got(client.put("/api/readings", json=body))
+    shown = got(client.get("/api/check"))
+    assert shown["holds"] is holds
+    command = shlex.split(shown["command"])[1:]
+    assert main(command) == int(not holds)
+    assert " ".join(capsys.readouterr().out.split()).startswith(shown["sentence"])
+    said = said_by(shown["command"], capsys)
+    assert said["holds"] is holds
+    within_95_of_100 = said["chi_square"] <= chdtri(2 * len(said["marks"]), 0.05)
+    assert bool(within_95_of_100) is (off < 0.5)
+    for here, there in zip(shown["marks"], said["marks"], strict=True):
+        assert there["expected_mm"] == pytest.approx(here["promised"])
+        assert there["hole"] == pytest.approx(here["measured"])

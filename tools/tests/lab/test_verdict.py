@@ -1,0 +1,109 @@
+"""The verdict of the lab: what the command line says, for each state of the folder."""
+
+import time
+
+import pytest
+from folder import EXAMPLE, example_form, with_settings
+from plumb import api
+from plumb.diagnosis.sentence import verdict_sentence
+from plumb.text.readers import read_on_page
+
+PATIENCE = 60  # [s]
+
+
+@pytest.fixture
+def client(tmp_path):
+    client = with_settings(tmp_path)
+    (tmp_path / "marks.toml").write_bytes((EXAMPLE / "marks.toml").read_bytes())
+    files = {"file": ("marks.toml", (EXAMPLE / "marks.toml").read_bytes())}
+    (tmp_path / "marks.toml").unlink()
+    assert client.post("/api/marks", files=files).status_code == 200
+    return client
+
+
+def finished(client, path, name):
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end:
+        answer = client.get(f"/api/{path}")
+        assert answer.status_code == 200, answer.text
+        if answer.json()["share"] == 1 and (answer.json()[name] or answer.json().get("nothing")):
+            return answer.json()
+        time.sleep(0.05)
+    raise AssertionError(f"{path} never ends")
+
+
+def test_it_says_what_the_command_line_says(client, tmp_path):
+    verdict = finished(client, "verdict", "verdict")["verdict"]
+    inputs = api.read(tmp_path / "groundcontrol.ini", tmp_path / "marks.toml")
+    diagnosis = api.diagnose(inputs)
+    with read_on_page():
+        assert verdict["sentence"] == verdict_sentence(diagnosis)
+    # A command line takes the names of effects; the page has buttons.
+    assert "(chain_" in verdict_sentence(diagnosis) and "(chain_" not in verdict["sentence"]
+    assert verdict["rms_frame"] == pytest.approx(diagnosis.rms_before)
+    assert len(verdict["cards"]) + verdict["more_cards"] == len(diagnosis.explanations)
+    first, card = diagnosis.explanations[0], verdict["cards"][0]
+    assert card["rms_after"] == pytest.approx(first.rms_after)
+    left = 1 - card["share"]
+    assert left == pytest.approx((first.rms_after / diagnosis.rms_before) ** 2)
+    name = first.effects[0]
+    size, shown = first.sizes[name][0], card["effects"][0]["sizes"][0]
+    assert (shown["value"], shown["low"], shown["high"]) == (size.value, size.low, size.high)
+    largest = max(
+        each.mm or 0 for each in diagnosis.could_hide if each.effect not in diagnosis.suspects
+    )
+    assert verdict["could_hide"][0]["mm"] == pytest.approx(largest)
+
+
+def test_the_maps_hold_the_same_marks_before_and_after(client, tmp_path):
+    verdict = finished(client, "verdict", "verdict")["verdict"]
+    assert [arrow["name"] for arrow in verdict["before"]] == [
+        arrow["name"] for arrow in verdict["after"]
+    ]
+
+    def rms(arrows):
+        squares = [x * x + y * y for x, y in (arrow["error"] for arrow in arrows)]
+        return (sum(squares) / len(squares)) ** 0.5
+
+    assert rms(verdict["before"]) == pytest.approx(verdict["rms_set"])
+    assert rms(verdict["after"]) == pytest.approx(verdict["rms_added"])
+    assert verdict["rms_added"] < verdict["rms_set"]
+
+
+def test_a_changed_reading_is_never_answered_by_the_verdict_before(client, tmp_path):
+    before = finished(client, "verdict", "verdict")["verdict"]
+    form = tmp_path / "marks.toml"
+    form.write_text(
+        form.read_text().replace("measured = [659.5, 110.5]", "measured = [659.5, 210.5]")
+    )
+    after = finished(client, "verdict", "verdict")["verdict"]
+    assert (before["verdict"], after["verdict"]) == ("cannot_tell", "slip")
+    assert after["slips"] and after["after"] == [] and after["rms_added"] is None
+
+
+def test_the_next_measurement_has_its_steps_and_places(client):
+    proposal = finished(client, "next", "next")["next"]
+    assert "minutes" in proposal["headline"]
+    assert proposal["steps"]
+    assert proposal["others"]
+
+
+def test_a_form_that_waits_beside_the_readings_does_no_harm(client, tmp_path):
+    (tmp_path / "more.toml").write_text(example_form())
+    project = client.get("/api/project").json()
+    choices = {**project["choices"], "marks": ["marks.toml", "more.toml"]}
+    client.put("/api/choices", json={"choices": choices, "read": project["choices_digest"]})
+    assert client.get("/api/comparison").status_code == 200
+
+
+def test_too_few_marks_are_refused_in_a_line(client, tmp_path):
+    (tmp_path / "marks.toml").write_text(
+        example_form(read=1).replace("# measured", "unread = true\n# measured")
+    )
+    end = time.monotonic() + PATIENCE
+    answer = client.get("/api/verdict")
+    while answer.status_code == 200 and time.monotonic() < end:
+        time.sleep(0.05)
+        answer = client.get("/api/verdict")
+    assert answer.status_code == 422
+    assert "too few" in answer.json()["error"]
