@@ -6,13 +6,11 @@ calibration. Lengths are mm, forces N, angles rad.
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from os import PathLike, fspath
+from os import PathLike
 from pathlib import Path
 
-from plumb.cli.files import inputs_of
 from plumb.cure.add import Addition, priors_with
 from plumb.cure.add import add as add_effects
 from plumb.cure.auto import AutoAddition, add_auto
@@ -21,6 +19,7 @@ from plumb.diagnosis import diagnose as diagnosis_of
 from plumb.fit.compare import Comparison
 from plumb.fit.compare import compare as comparison_of
 from plumb.fit.inputs import Inputs
+from plumb.fit.read_inputs import read_inputs
 from plumb.plan import Next, propose
 from plumb.settings.toml import machine_toml
 from plumb.text.errors import InputError
@@ -61,15 +60,10 @@ def read(
     the frame may be wrong. `checked` holds numbers that were measured directly, with their sigmas.
     Raises InputError for what cannot be used.
     """
-    asked = argparse.Namespace(
-        settings=fspath(settings),
-        marks=[fspath(path) for path in marks],
-        cut_with=None if cut_with is None else fspath(cut_with),
-        controller=controller,
-    )
     checks = [Checked(name, *numbers) for name, numbers in (checked or {}).items()]
     frame = priors_with(list((priors or {}).items()))
-    return replace(inputs_of(asked), sigma=sigma, priors=frame, checked=checks)
+    inputs = read_inputs(settings, marks, cut_with=cut_with, controller=controller)
+    return replace(inputs, sigma=sigma, priors=frame, checked=checks)
 
 
 def compare(inputs: Inputs) -> Comparison:

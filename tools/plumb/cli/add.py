@@ -7,16 +7,28 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from plumb.cli.add_text import PATCH_WARNING, as_text, auto_text, turn_sentences
+from plumb.cli.add_text import as_text, auto_text
+from plumb.cli.checked import refuse_unfitted, with_stated
 from plumb.cli.client import client_files_of, client_text, typed_json
 from plumb.cli.compare import panel_of, score_json
 from plumb.cli.files import inputs_of, picture_form
-from plumb.cli.output import STDOUT, refuse_twins, write_outputs
-from plumb.cli.steps import CLIENT_OF, add_named, next_step, same_inputs, second_round, usual_client
+from plumb.cli.output import STDOUT, refuse_twins, say_failure, write_outputs
+from plumb.cli.steps import (
+    AUTO,
+    CLIENT_OF,
+    add_named,
+    next_step,
+    same_inputs,
+    second_round,
+    usual_client,
+)
 from plumb.cli.text import about, print_json
-from plumb.cure.add import Addition, Parameter, Quality, add, priors_with
+from plumb.cure.add import Addition, Parameter, Quality, add
 from plumb.cure.auto import AutoAddition, add_auto, without_marks
+from plumb.cure.machine_file import toml_of
 from plumb.cure.record import record_of
+from plumb.diary.entries import FIT, fit_entry
+from plumb.diary.keeping import keep
 from plumb.firmware.client_files import ClientFiles
 from plumb.fit.compare import Comparison
 from plumb.fit.inputs import Inputs
@@ -25,9 +37,9 @@ from plumb.model.catalogue import is_sketch
 from plumb.model.plain import noun_of
 from plumb.pictures.panel import Panel
 from plumb.pictures.staircase import Stair, draw_staircase
-from plumb.settings.files import machine_toml, published_machine
-from plumb.settings.fit_record import FitRecord
 from plumb.text.errors import InputError
+
+NONE = "none"  # as an effect: the frame alone
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -37,24 +49,39 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.without:
         marks = without_marks(inputs.measurements, arguments.without)
         inputs = replace(inputs, measurements=marks)
-    inputs = replace(inputs, priors=priors_with(arguments.prior), sigma=arguments.sigma)
+    inputs = with_stated(inputs, arguments)
     if not arguments.effect and not arguments.patch:
-        raise InputError("nothing to add: name effects with --effect, or give --effect auto")
-    if "auto" in arguments.effect:
+        raise InputError(
+            "nothing to add: name effects with --effect, or give --effect auto, or --effect none"
+        )
+    if AUTO in arguments.effect:
         return _run_auto(arguments, inputs)
-    result = add(inputs, effects=arguments.effect, patch=arguments.patch)
+    effects, held = _named(arguments.effect), dict(arguments.hold)
+    refuse_unfitted(inputs.checked, effects, held)
+    result = add(inputs, effects=effects, held=held, patch=arguments.patch)
     files, client = written(arguments, inputs, result)
     if arguments.json:
         print_json({**as_json(result), **_written_json(files, client)})
     else:
         print(as_text(result, asked_patch=arguments.patch))
         _print_written(files, client, arguments)
-    return int(not result.pays)
+    return int(not result.pays and arguments.effect != [NONE])
+
+
+def _named(effects: list[str]) -> list[str]:
+    """The effects that were named; none: the frame alone is fitted."""
+    if NONE not in effects:
+        return effects
+    if len(effects) > 1:
+        raise InputError("--effect none fits the frame alone; name no effects with it")
+    return []
 
 
 def _run_auto(arguments: argparse.Namespace, inputs: Inputs) -> int:
     if len(arguments.effect) > 1:
         raise InputError("--effect auto finds the effects itself; name no others with it")
+    if arguments.hold:
+        raise InputError("--effect auto finds the sizes itself; hold none with it")
     result = add_auto(inputs, patch=arguments.patch)
     files: list[str] = []
     client: ClientFiles | None = None
@@ -68,7 +95,7 @@ def _run_auto(arguments: argparse.Namespace, inputs: Inputs) -> int:
         if result.addition:
             _print_written(files, client, arguments)
         else:
-            corrected = ["add", *same_inputs(arguments), "--effect", "auto"]
+            corrected = ["add", *same_inputs(arguments), "--effect", AUTO]
             print(f"\n{next_step('When the file is corrected:', corrected)}")
     return int(not result.done)
 
@@ -90,7 +117,18 @@ def written(
     files |= client.files if client else {}
     read = [arguments.settings, *arguments.marks, arguments.cut_with, arguments.original]
     write_outputs(files, inputs=[path for path in read if path])
+    if arguments.output:
+        _keep_in_diary(arguments, inputs, result, settings=files[arguments.output].decode())
     return list(files), client
+
+
+def _keep_in_diary(
+    arguments: argparse.Namespace, inputs: Inputs, result: Addition, *, settings: str
+) -> None:
+    """Add the fit to the diary next to the new settings; a failure is said, and no more."""
+    machine, firmware = Path(arguments.output).name, arguments.firmware
+    entry = fit_entry(result, inputs, machine=machine, settings=settings, firmware=firmware)
+    say_failure(keep(arguments.output, FIT, entry))
 
 
 def _refuse_sketches(arguments: argparse.Namespace, result: Addition) -> None:
@@ -152,28 +190,6 @@ def _files(arguments: argparse.Namespace, inputs: Inputs, result: Addition) -> d
         form = picture_form(arguments.picture)
         files[arguments.picture] = fall_of(result, form=form)
     return files
-
-
-def toml_of(
-    result: Addition,
-    *,
-    source: str,
-    firmware: str = "plumb",
-    record: FitRecord | None = None,
-) -> bytes:
-    """The new machine as the bytes of a machine.toml, with the formula of its firmware."""
-    ours = replace(result.settings, fitted=record)
-    settings = published_machine(ours) if firmware == "published" else ours
-    lines = [
-        f"Fitted to {source}: {result.after.fit_rms:.2f} mm RMS "
-        f"(counted for the numbers fitted {result.after.priced_rms:.2f}, checked on marks not used "
-        f"{result.after.left_out_rms:.2f}), {result.raw.rms:.2f} mm before.",
-        *turn_sentences(result),
-        *result.cures,
-        *([f"{PATCH}: {PATCH_WARNING}"] if PATCH in result.effects_added else []),
-        *result.warnings,
-    ]
-    return machine_toml(settings, comment="\n".join(lines)).encode()
 
 
 def fall_of(result: Addition, *, form: str = "png") -> bytes:

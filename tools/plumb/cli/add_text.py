@@ -5,6 +5,7 @@ from __future__ import annotations
 from plumb.cli.screen import sentences, table
 from plumb.cure.add import Addition
 from plumb.cure.auto import AutoAddition
+from plumb.cure.machine_file import PATCH_WARNING, turn_sentences
 from plumb.diagnosis.noise import origin_words
 from plumb.diagnosis.sentence import verdict_sentence
 from plumb.fit.patch import PATCH
@@ -47,10 +48,6 @@ COLUMNS = (
     "Counted: the RMS, counted for the numbers fitted. Checked: on marks not used, each predicted "
     "by a fit without it."
 )
-PATCH_WARNING = (
-    "It is no physics: a smooth map that holds for this machine, sled and sheet as they are, and "
-    "only where marks were measured."
-)
 
 
 def as_text(result: Addition, *, asked_patch: bool = False) -> str:
@@ -77,7 +74,7 @@ def as_text(result: Addition, *, asked_patch: bool = False) -> str:
         said.append(PATCH_WARNING)
     elif asked_patch:
         said.append("a residual patch would predict marks not used no better, so none was added")
-    parts.append(sentences(said))
+    parts += [sentences(said)] if said else []
     return "\n\n".join(parts)
 
 
@@ -88,18 +85,6 @@ def _benchmark_sentence(result: Addition) -> str:
         "expect when it is cut again with the new settings, if nothing else changes."
     )
     return sentences([said], mark="")
-
-
-def turn_sentences(result: Addition) -> list[str]:
-    """What to do about the sheet's rotation, if the marks show it."""
-    if not result.after_fit.shows_sheet_rotation:
-        return []
-    rise = result.sheet_rise
-    which = "raise" if rise > 0 else "lower"
-    return [
-        f"no setting holds the sheet's rotation: {which} its right end by {worded(abs(rise))} over "
-        f"its width of {worded(result.settings.sheet_width, 0)}"
-    ]
 
 
 def quality_table(result: Addition) -> str:

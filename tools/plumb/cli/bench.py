@@ -28,7 +28,7 @@ from plumb.bench.report import (
 from plumb.bench.scenarios import CURE, LOOP, NAMES, SCENARIOS, Scenario
 from plumb.cli.arguments.bench import BOARDS, FAST
 from plumb.cli.ending import INTERRUPTED
-from plumb.cli.output import write_outputs
+from plumb.cli.output import refuse_early, write_outputs
 from plumb.cli.screen import Bar, sentences, table
 from plumb.cli.text import print_json
 from plumb.text.errors import InputError
@@ -36,6 +36,7 @@ from plumb.text.errors import InputError
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the bench, print its table, and return the exit code."""
+    refuse_early(arguments.write)
     chosen = chosen_of(arguments.scenario)
     boards = arguments.boards or (FAST if arguments.fast else BOARDS)
     with _on_cluster(arguments.cluster) if arguments.cluster else nullcontext():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from dataclasses import dataclass
 
-from plumb.cli.add_text import COLUMNS, parameter_table, quality_table, turn_sentences
+from plumb.cli.add_text import COLUMNS, parameter_table, quality_table
 from plumb.cli.client import client_text
 from plumb.cli.compare import conclusion
 from plumb.cli.diagnose import explanation_table
@@ -13,6 +13,7 @@ from plumb.cli.next import after, first_proposal
 from plumb.cli.screen import headline, sentences
 from plumb.cli.steps import add_auto, next_step, same_inputs, second_round
 from plumb.cure.auto import AutoAddition
+from plumb.cure.machine_file import turn_sentences
 from plumb.diagnosis.sentence import verdict_sentence
 from plumb.firmware.client_files import ClientFiles
 from plumb.fit.compare import Comparison
@@ -53,7 +54,7 @@ def as_text(
         parts += [quality_table(addition), parameter_table(addition)]
         parts.append(sentences([COLUMNS], mark=""))
         said = [*turn_sentences(addition), *addition.cures, *addition.warnings]
-        parts.append(sentences(said))
+        parts += [sentences(said)] if said else []
     elif diagnosis.explanations:
         parts.append(explanation_table(diagnosis))
     parts.append(headline(sentence(this)))

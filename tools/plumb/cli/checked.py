@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 from plumb.cli.arguments.checked import EXAMPLE, Measured
@@ -35,3 +35,20 @@ def usable_checks(said: Sequence[Measured], priors: Mapping[str, float]) -> list
     if len({check.name for check in said}) < len(said):
         raise InputError("--checked: a number is given twice; give the mean of both")
     return [Checked(*check) for check in said]
+
+
+def refuse_unfitted(
+    checks: Sequence[Checked], effects: Collection[str], held: Collection[str]
+) -> None:
+    """Raise InputError for a check of a number that these effects do not fit."""
+    for check in checks:
+        effect = check.name.rpartition(".")[0]
+        if effect and effect not in effects:
+            raise InputError(
+                f"--checked {check.name}: {effect} is not fitted here; name it with --effect, or "
+                "leave this check out"
+            )
+        if check.name in held:
+            raise InputError(
+                f"--checked {check.name}: --hold keeps it at a size; leave out either of the two"
+            )

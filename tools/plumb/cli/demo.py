@@ -10,15 +10,16 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from plumb.cli import demo_loop
-from plumb.cli.add import fall_of, toml_of
-from plumb.cli.add_text import COLUMNS, turn_sentences
+from plumb.cli.add import fall_of
+from plumb.cli.add_text import COLUMNS
 from plumb.cli.calibrate import round_of
 from plumb.cli.calibrate_text import sentence
 from plumb.cli.ending import ended
-from plumb.cli.output import write_outputs
+from plumb.cli.output import refuse_early, write_outputs
 from plumb.cli.parser import Parser
 from plumb.cli.screen import sentences, table
 from plumb.cure.demo import GOAL, MARKS, SETTINGS, Demonstration, demonstrate
+from plumb.cure.machine_file import toml_of, turn_sentences
 from plumb.cure.record import record_of
 from plumb.diagnosis.sentence import verdict_sentence
 from plumb.firmware.client_files import client_files
@@ -38,6 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(arguments: Sequence[str] | None) -> int:
     parsed = _parser().parse_args(arguments)
     _make(parsed.folder)
+    refuse_early(parsed.picture)
     if not parsed.real:
         try:
             shown = demo_loop.shown(parsed.folder, seed=parsed.seed, elf=parsed.mega)
@@ -136,10 +138,13 @@ def as_text(demonstration: Demonstration) -> str:
             _parameters(demonstration),
             "What is doubtful:",
             sentences(_doubts(demonstration)),
-            "What the settings files do not hold:",
-            sentences(turn_sentences(chosen)),
+            *_beyond_settings(turn_sentences(chosen)),
         ]
     )
+
+
+def _beyond_settings(turned: Sequence[str]) -> list[str]:
+    return ["What the settings files do not hold:", sentences(turned)] if turned else []
 
 
 def _paragraph(text: str) -> str:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass, replace
 
-from plumb.cli.add import heading_of, stairs_of, toml_of
+from plumb.cli.add import heading_of, stairs_of
 from plumb.cli.compare import panel_of
 from plumb.cli.screen import bar, headline, sentences, table
+from plumb.cure.machine_file import toml_of
 from plumb.diagnosis.sentence import verdict_sentence
 from plumb.fit.compare import Comparison
 from plumb.grid.options import Grid

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from plumb.cli.output import write_outputs
+from plumb.cli.output import refuse_early, write_outputs
 from plumb.cli.screen import Bar, sentences, table
 from plumb.text.errors import InputError
 from plumb.trials.report import (
@@ -23,6 +23,7 @@ def run(arguments: argparse.Namespace) -> int:
         faults = faults_named(arguments.only)
     except ValueError as error:
         raise InputError(f"--only: {error}") from None
+    refuse_early(arguments.write)
     shown = Bar("faults", patience=0.0)
     try:
         report = tried_all(
@@ -44,9 +45,9 @@ def as_text(report: FaultReport) -> str:
     """The tables for people, then what all of it came to."""
     parts = []
     if report.rows:
-        parts.append(table(HEADER, [row.cells() for row in report.rows]))
+        tried = sentences([report.last_line()], mark="")
+        parts.append(f"{table(HEADER, [row.cells() for row in report.rows])}\n\n{tried}")
     if report.unseen:
         cells = [row.unseen_cells() for row in report.unseen]
         parts.append(f"What no encoder sees:\n{table(UNSEEN_HEADER, cells, words=[-1])}")
-    parts.append(sentences([report.last_line()], mark=""))
     return "\n\n".join(parts)

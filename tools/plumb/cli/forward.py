@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import argparse
 
-from plumb.cli.files import settings_in
 from plumb.cli.places_text import answered, answers_table, count_sentence
 from plumb.cli.text import print_json
+from plumb.fit.read_inputs import settings_in
 from plumb.model.predict import FOUND, places
 from plumb.text.points import read_pairs
 from plumb.text.shown import unit

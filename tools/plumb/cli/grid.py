@@ -8,16 +8,14 @@ import io
 from collections.abc import Mapping
 from dataclasses import replace
 
-import numpy as np
-
 import plumb.grid as marks_grid
-from plumb.cli.files import settings_in
 from plumb.cli.measuring import content_of
 from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.steps import next_step
 from plumb.cli.text import print_json
-from plumb.model.predict import CANNOT_HANG, TOO_SLACK, TOO_TIGHT, USABLE, reach
+from plumb.fit.read_inputs import settings_in
 from plumb.model.reach import with_soft_chains
+from plumb.model.way import refuse_way
 from plumb.pictures.measuring_sheet import measuring_sheet
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
@@ -81,30 +79,13 @@ def _paper(arguments: argparse.Namespace) -> bytes:
 
 
 def refuse_out_of_reach(arguments: argparse.Namespace) -> None:
-    """Refuse a grid that the tool allows, but our model of the machine does not.
-
-    The tool knows straight chains without weight; the model knows all that the settings say.
-    """
-    passed: list[tuple[str, float, float]] = []
+    """Refuse a grid that the tool allows, but our model of the machine does not."""
     try:
         grid, machine = marks_grid.from_arguments(arguments)
-        marks_grid.check(grid, machine)
-        marks_grid.check(grid, machine, lambda _grid, _machine, *place: passed.append(place))
+        settings = _settings_of(arguments.settings, machine)
+        refuse_way(grid, machine, settings, most_give=arguments.most_give)
     except marks_grid.GridError:
         return  # the grid refuses it when it is made
-    points = np.array([place[1:] for place in passed])
-    reached = reach(
-        _settings_of(arguments.settings, machine),
-        points,
-        most_tension=grid.max_tension,
-        least_tension=grid.min_tension,
-        least_free=marks_grid.MIN_FREE_CHAIN,
-        most_give=arguments.most_give,
-    )
-    for i in np.flatnonzero(reached.verdict != USABLE)[:1]:
-        what, x, y = passed[i]
-        why = _reason(int(reached.verdict[i]), reached.tension[i], float(reached.give[i]))
-        raise InputError(f"{what} at x {x:.1f} y {y:.1f} {why}; see plumb reach")
 
 
 def _settings_of(path: str | None, machine: marks_grid.PlainMachine) -> MachineSettings:
@@ -130,13 +111,3 @@ def _settings_of(path: str | None, machine: marks_grid.PlainMachine) -> MachineS
         sled_weight=plain.sled_weight,
     )
     return with_soft_chains(settings)[0]
-
-
-def _reason(verdict: int, tension: np.ndarray, give: float) -> str:
-    if verdict == CANNOT_HANG:
-        return "is a place where no sled can hang: raise --margin"
-    if verdict == TOO_TIGHT:
-        return f"puts {max(tension):.0f} N on a chain: raise --margin or lighten the sled"
-    if verdict == TOO_SLACK:
-        return f"leaves {min(tension):.1f} N on a chain: raise --margin or move the motors apart"
-    return f"lets every newton move the sled {give:.2f} mm: raise --margin or --most-give"

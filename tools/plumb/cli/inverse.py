@@ -6,9 +6,9 @@ import argparse
 
 import numpy as np
 
-from plumb.cli.files import settings_in
 from plumb.cli.places_text import answered, answers_table, count_sentence
 from plumb.cli.text import print_json
+from plumb.fit.read_inputs import settings_in
 from plumb.model.controllers import chain_lengths, clamped
 from plumb.model.predict import FOUND, OUT_OF_REACH, Array, Codes, lengths
 from plumb.settings.machine import MachineSettings

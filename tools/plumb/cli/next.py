@@ -9,7 +9,7 @@ import numpy as np
 
 from plumb.cli.checked import with_stated
 from plumb.cli.diagnose import proposal_json
-from plumb.cli.files import inputs_of, picture_form, settings_in
+from plumb.cli.files import inputs_of, picture_form
 from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import bar, sentences, table
 from plumb.cli.steps import free_name, next_step, same_inputs
@@ -17,14 +17,14 @@ from plumb.cli.text import print_json
 from plumb.diagnosis import Diagnosis, diagnose
 from plumb.diagnosis.sentence import verdict_sentence
 from plumb.fit.inputs import Inputs
-from plumb.grid.cut_with import cut_with_lines
-from plumb.model.plain import noun_of, plainly
+from plumb.fit.read_inputs import settings_in
 from plumb.pictures.plan import draw_plan
 from plumb.plan import Next, Proposal, propose
-from plumb.plan.plan_marks import marks_file
+from plumb.plan.case import Case
 from plumb.plan.proposal import AGAIN, CONFIRM, EXPLORE, FIND, REREAD, SETTLE
+from plumb.plan.proposal_files import form_of, program_of
+from plumb.plan.proposal_text import headline_of, promise_of, steps_of
 from plumb.text.errors import InputError
-from plumb.text.shown import bare, worded
 
 SHOWN, SPOKEN = 8, 3  # proposals in the table, and in whole sentences; --json has all
 HEADS = {
@@ -38,13 +38,14 @@ HEADS = {
 
 def run(arguments: argparse.Namespace) -> int:
     """Diagnose, propose, write, print, and return the exit code."""
-    refuse_twins(arguments.picture, arguments.template)
+    refuse_twins(arguments.picture, arguments.template, arguments.output)
     form = picture_form(arguments.picture) if arguments.picture else ""
     inputs = with_stated(inputs_of(arguments), arguments)
     diagnosis = diagnose(inputs)
     advice = propose(diagnosis, inputs, progress=bar("simulating"))
     files = _files(arguments, advice, inputs, form)
-    read = [arguments.settings, *arguments.marks, *filter(None, [arguments.cut_with])]
+    named = filter(None, [arguments.cut_with, arguments.cut_next_with])
+    read = [arguments.settings, *arguments.marks, *named]
     write_outputs(files, inputs=read)
     if arguments.json:
         print_json({**as_json(diagnosis, advice), "written": list(files)})
@@ -59,58 +60,62 @@ def _files(
     arguments: argparse.Namespace, advice: Next, inputs: Inputs, form: str
 ) -> dict[str, bytes]:
     """The files that were asked for."""
-    if not (arguments.picture or arguments.template):
+    if not (arguments.picture or arguments.template or arguments.output):
         if arguments.choose is not None:
-            raise InputError("--choose is for --picture and --marks: add --picture or --marks")
+            raise InputError("--choose is for --picture, --marks and --output: add what you want")
         return {}
-    place, chosen = _chosen(advice, arguments.choose)
-    case, option = advice.case, chosen.option
-    assert case, "what is proposed is proposed for a case"
+    place, chosen = _chosen(advice, arguments.choose, is_cut=bool(arguments.output))
+    assert advice.case, "what is proposed is proposed for a case"
     files: dict[str, bytes] = {}
     machine = inputs.cut_with or inputs.settings
     if arguments.picture:
         old = inputs.measurements.targets
         files[arguments.picture] = draw_plan(
-            option.visits,
+            chosen.option.visits,
             np.unique(old, axis=0) if len(old) else old,
-            title=f"Next: {option.title}",
-            usual_weight=case.usual_weight,
+            title=f"Next: {chosen.option.title}",
+            usual_weight=advice.case.usual_weight,
             sheet=machine.sheet,
             form=form,
         )
     if arguments.template:
-        text = marks_file(
-            option.visits,
-            sheet=machine.sheet,
-            controller=case.controller,
-            said=(f"Proposal {place}: {option.title}.", *option.do),
-            cut_with=_cut_with(arguments, inputs),
+        moved_by = arguments.cut_next_with or _in_force(arguments, advice.case)
+        sheet = settings_in(moved_by).sheet if moved_by else machine.sheet
+        files[arguments.template] = form_of(
+            advice, place, arguments.template, settings=moved_by, sheet=sheet
         )
-        files[arguments.template] = text.encode()
+    if arguments.output:
+        files[arguments.output] = program_of(advice, place)
     return files
 
 
-def _cut_with(arguments: argparse.Namespace, inputs: Inputs) -> str:
-    """The lines that name the settings that move the machine for these marks, if a file has them.
+def _in_force(arguments: argparse.Namespace, case: Case) -> str | None:
+    """The file of the settings that the marks there are were cut with, if it was given.
 
-    They are those of the marks there are: the new marks are cut before anything is changed.
+    New marks are cut before anything is changed, unless somebody says otherwise.
     """
-    in_force = inputs.measurements.rounds[0].cut_with or inputs.cut_with or inputs.settings
     for path in (arguments.cut_with, arguments.settings):
-        if path and settings_in(path) == in_force:
-            return cut_with_lines(path, arguments.template)
-    return ""
+        if path and settings_in(path) == case.settings:
+            return str(path)
+    return None
 
 
-def _chosen(advice: Next, wanted: int | None) -> tuple[int, Proposal]:
-    """The proposal to draw, with its place."""
-    having = [i for i, proposal in enumerate(advice.proposals, 1) if len(proposal.option.visits)]
+def _chosen(advice: Next, wanted: int | None, *, is_cut: bool) -> tuple[int, Proposal]:
+    """The proposal to draw or to cut, with its place."""
+    having = [
+        i
+        for i, proposal in enumerate(advice.proposals, 1)
+        if (proposal.option.is_cut if is_cut else len(proposal.option.visits))
+    ]
+    if not having and is_cut:
+        raise InputError("nothing is proposed that is cut: leave out --output")
     if not having:
         raise InputError("nothing is proposed that has marks: leave out --picture and --marks")
     place = having[0] if wanted is None else wanted
     if place not in having:
         raise InputError(
-            f"--choose {place}: the proposals that have marks are {', '.join(map(str, having))}"
+            f"--choose {place}: the proposals that {'are cut' if is_cut else 'have marks'} are "
+            f"{', '.join(map(str, having))}"
         )
     return place, advice.proposals[place - 1]
 
@@ -167,33 +172,15 @@ def after(best: Proposal, arguments: argparse.Namespace) -> str:
     said = next_step("When they are measured:", again)
     if written:
         return said
-    asked = ["next", *same_inputs(arguments), "--marks", form]
-    return f"{next_step('A form for them:', asked)}\n{said}"
+    cut = free_name("more", ".nc")
+    asked = ["next", *same_inputs(arguments), "--marks", form, "--output", cut]
+    return f"{next_step('Cut them by a program, and fill in a form:', asked)}\n{said}"
 
 
 def first_proposal(best: Proposal) -> str:
     """The best proposal in sentences."""
-    minutes = f"about {best.option.minutes:.0f} minutes"
-    said = [*best.option.do]
-    if best.parts:
-        pairs = [f"{_nouns(a)} from {_nouns(b)}" for a, b in best.parts]
-        said.append(f"It tells {'; '.join(pairs)}.")
-    if best.option.checks:
-        said.append(f"VALUE: {best.option.value}.")
-    first = sentences([f"Next: {best.option.title}; {minutes}{_promise(best)}."], mark="")
-    return f"{first}\n{sentences(said, mark='  ')}"
-
-
-def _promise(best: Proposal) -> str:
-    if best.question == FIND and best.rooms:
-        first = best.rooms[0]
-        noun = noun_of(first.effect)
-        now, then = (worded(size, 1) for size in (first.now, first.then))
-        return f". {noun[0].upper()}{noun[1:]} could hide {now} now, {then} then"
-    if best.chance is None:
-        return ""
-    verb = {SETTLE: "settle it", CONFIRM: "confirm it", REREAD: "show it"}.get(best.question, "")
-    return f", chance to {verb} {_percent(best.chance)}" if verb else ""
+    first = sentences([f"Next: {headline_of(best)}."], mark="")
+    return f"{first}\n{sentences(steps_of(best), mark='  ')}"
 
 
 def _stable(kept: int, of: int) -> str:
@@ -220,15 +207,7 @@ def _table(advice: Next) -> str:
 
 
 def _row(place: str, proposal: Proposal, counted: bool) -> list[str]:
-    if proposal.question == FIND and proposal.rooms:
-        promise = ", ".join(
-            f"{noun_of(room.effect)} {bare(room.now, 1)} -> {worded(room.then, 1)}"
-            for room in proposal.rooms[:2]
-            if room.then < 0.9 * room.now
-        )
-    else:
-        promise = _percent(proposal.chance)
-    row = [place, proposal.option.title, f"{proposal.option.minutes:.0f}", promise or "no change"]
+    row = [place, proposal.option.title, f"{proposal.option.minutes:.0f}", promise_of(proposal)]
     if counted:
         pairs = (
             f"{len(proposal.parts)} pair{'s' if len(proposal.parts) != 1 else ''}"
@@ -237,14 +216,6 @@ def _row(place: str, proposal: Proposal, counted: bool) -> list[str]:
         )
         row += [f"{proposal.left:.1f}" if proposal.left is not None else "-", pairs or "none"]
     return row
-
-
-def _percent(chance: float | None) -> str:
-    """A chance in steps of five in a hundred: it is not known better."""
-    if chance is None:
-        return "-"
-    near = 5 * round(20 * chance)
-    return "below 5 %" if near < 5 else "above 95 %" if near > 95 else f"{near:.0f} %"
 
 
 def _how(advice: Next) -> str:
@@ -271,8 +242,3 @@ def _how(advice: Next) -> str:
         "or the upper and lower, half of the marks by themselves: where their numbers differ, "
         "something is local."
     )
-
-
-def _nouns(explanation: str) -> str:
-    """An explanation, `effect + effect`, in a maker's words."""
-    return plainly(explanation.split(" + "))

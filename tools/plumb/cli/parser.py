@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 from plumb.text.errors import InputError
 
 # How the help calls arguments that are names of files.
-FILES = ("SETTINGS", "MARKS", "PLAN", "FILE", "INI", "LOG")
+FILES = ("SETTINGS", "JOB", "MARKS", "PLAN", "FILE", "INI", "LOG")
 
 
 class Parser(argparse.ArgumentParser):

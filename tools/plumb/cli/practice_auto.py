@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from plumb.cli.ending import INTERRUPTED
-from plumb.cli.output import write_outputs
+from plumb.cli.output import refuse_early, write_outputs
 from plumb.cli.practice_text import as_json, as_text
 from plumb.cli.screen import Bar
 from plumb.cli.text import print_json
@@ -17,6 +17,7 @@ from plumb.vm.tournament import all_levels, level_tasks, matrix_tasks, played
 
 def run_auto(arguments: argparse.Namespace) -> int:
     """Play, print the rates, and return the exit code."""
+    refuse_early(arguments.write)
     seed = 1 if arguments.seed is None else arguments.seed
     levels = [arguments.level] if arguments.level else all_levels()
     tasks = (

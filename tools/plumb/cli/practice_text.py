@@ -7,7 +7,6 @@ from dataclasses import asdict
 from typing import Any
 
 from plumb.cli.screen import headline, sentences, table
-from plumb.model.plain import plainly
 from plumb.text.shown import bare, unit, worded
 from plumb.vm.game import Played
 from plumb.vm.page import ratio_words
@@ -42,7 +41,7 @@ def score_text(score: Score) -> str:
         ["yours", bare(sled.after)],
         ["with the truth known", bare(sled.known)],
     ]
-    said = [_claims(score)]
+    said = [score.sentence]
     said.append(
         f"You spent {score.spent.marks} marks and {score.spent.minutes:.0f} minutes"
         + (f", {score.hints} hints among them." if score.hints else ".")
@@ -55,17 +54,6 @@ def score_text(score: Score) -> str:
             table([f"error all over the sheet, {unit()} RMS", "left"], rows),
         ]
     )
-
-
-def _claims(score: Score) -> str:
-    parts = []
-    if score.named:
-        parts.append(f"You found {plainly(score.named)}.")
-    if score.missed:
-        parts.append(f"You missed {plainly(score.missed)}.")
-    if score.false:
-        parts.append(f"You added {plainly(score.false)}, which is not there.")
-    return " ".join(parts) or "You added no effect."
 
 
 def score_json(score: Score) -> dict[str, Any]:

@@ -7,13 +7,14 @@ from typing import Any
 
 import plumb.grid as marks_grid
 from plumb.cli.arguments.preview import COLUMNS, ROWS
-from plumb.cli.files import picture_form, settings_in
+from plumb.cli.files import picture_form
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import sentences, table
 from plumb.cli.steps import next_step
 from plumb.cli.text import print_json
 from plumb.cure.add import priors_with
 from plumb.fit.problem import USUAL_SIGMA
+from plumb.fit.read_inputs import settings_in
 from plumb.marks.read import Mark, Measurements, read_plan
 from plumb.model.plain import noun_of, plain_before
 from plumb.pictures.preview import draw_preview

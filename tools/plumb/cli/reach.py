@@ -6,13 +6,16 @@ import argparse
 from typing import Any
 
 from plumb.cli.arguments.reach import OPTIONS
-from plumb.cli.files import picture_form, settings_in
+from plumb.cli.files import picture_form
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import sentences, table
 from plumb.cli.steps import next_step
 from plumb.cli.text import print_json
+from plumb.cure.add import priors_with
+from plumb.fit.expected import Expected, expected_anywhere, expected_priors, expected_sentence
+from plumb.fit.read_inputs import settings_in
 from plumb.model.predict import REACH_WORDS
-from plumb.model.reach import Extreme, Survey, percent, survey_sheet
+from plumb.model.reach import Extreme, Survey, conclusion_of, percent, survey_sheet
 from plumb.pictures.reach import draw_map
 from plumb.text.errors import InputError
 from plumb.text.shown import bare, unit, worded
@@ -40,14 +43,17 @@ def run(arguments: argparse.Namespace) -> int:
             f"{limits['most_tension']:g}: no chain can keep both"
         )
     form = picture_form(arguments.output, option="-o") if arguments.output else ""
-    survey = survey_sheet(settings_in(arguments.settings), **limits)
+    settings = settings_in(arguments.settings)
+    priors_with(arguments.prior)  # refuses a number that is none
+    survey = survey_sheet(settings, **limits)
+    expected = expected_anywhere(settings, expected_priors(dict(arguments.prior)))
     if arguments.output:
         drawn = draw_map(survey, form=form)
         write_outputs({arguments.output: drawn}, inputs=[arguments.settings])
     if arguments.json:
-        print_json(as_json(survey, written=arguments.output))
+        print_json(as_json(survey, expected, written=arguments.output))
     else:
-        print(as_text(survey))
+        print(as_text(survey, expected))
         cut = ["grid", "--settings", arguments.settings, *CUT_THERE]
         print(f"\n{next_step('Cut marks where it is usable:', cut)}")
     return 0
@@ -59,12 +65,17 @@ def map_of(survey: Survey) -> list[str]:
     return ["".join(SIGNS[verdict] for verdict in row) for row in verdicts[::MAP_ROWS, ::MAP_STEP]]
 
 
-def as_json(survey: Survey, *, written: str | None = None) -> dict[str, Any]:
+def as_json(
+    survey: Survey, expected: Expected | None, *, written: str | None = None
+) -> dict[str, Any]:
     """The survey by the names of the interface."""
     return {
         "usable_share": survey.shares[REACH_WORDS[0]],
         "shares": {word.replace(" ", "_"): share for word, share in survey.shares.items()},
         "limits": survey.limits,
+        "expected": {"among_marks_mm": expected.all_shape, "whole_mm": expected.whole}
+        if expected
+        else None,
         "tightest": _extreme_json(survey.tightest, "tension_n"),
         "slackest": _extreme_json(survey.slackest, "tension_n"),
         "softest": _extreme_json(survey.softest, "give_mm_per_n"),
@@ -81,8 +92,8 @@ def _extreme_json(extreme: Extreme | None, unit: str) -> dict[str, Any] | None:
     return {"place": extreme.place, unit: extreme.value, **side}
 
 
-def as_text(survey: Survey) -> str:
-    """The survey for people: conclusion, map, worst places."""
+def as_text(survey: Survey, expected: Expected | None) -> str:
+    """The survey for people: conclusion, what is normal, map, worst places."""
     lines = map_of(survey)
     edge = "+" + "-" * len(lines[0]) + "+"
     shares = survey.shares.values()
@@ -92,7 +103,8 @@ def as_text(survey: Survey) -> str:
         if share
     ]
     parts = [
-        _conclusion(survey),
+        conclusion_of(survey),
+        *([sentences([expected_sentence(expected)], mark="")] if expected else []),
         "\n".join([edge, *(f"|{line}|" for line in lines), edge]),
         "\n".join(legend),
     ]
@@ -101,16 +113,6 @@ def as_text(survey: Survey) -> str:
     if survey.assumed:
         parts.append(sentences(survey.assumed))
     return "\n\n".join(parts)
-
-
-def _conclusion(survey: Survey) -> str:
-    if survey.all_usable:
-        return "The whole sheet is usable."
-    if not survey.shares[REACH_WORDS[0]]:
-        return "No place of the sheet is usable."
-    usable, *bad = [(word, share) for word, share in survey.shares.items() if share]
-    rest = ", ".join(f"{percent(share)} {word}" for word, share in bad)
-    return f"{percent(usable[1])} of the sheet is usable; {rest}."
 
 
 def _worst(survey: Survey, tightest: Extreme, slackest: Extreme, softest: Extreme) -> str:

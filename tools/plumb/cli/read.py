@@ -6,16 +6,16 @@ import argparse
 from typing import Any
 
 from plumb.cli.output import write_outputs
-from plumb.cli.screen import table
+from plumb.cli.screen import sentences, table
 from plumb.cli.text import print_json
-from plumb.firmware.settings import every_setting, machine_of
+from plumb.firmware.read_back import machine_of_numbers
+from plumb.firmware.settings import every_setting
+from plumb.firmware.telemetry import slip_suspicion, telemetry_in
 from plumb.line.memory import read_numbers
 from plumb.line.sender import Sender, Status
 from plumb.line.serial_port import SerialPort, port_for
 from plumb.settings.files import machine_toml
-from plumb.text.errors import InputError
 
-WIDTH, HEIGHT = 0, 1  # $-numbers of the sheet
 FIRST_EFFECT = 100  # from here on zero means that the machine does without
 
 
@@ -26,31 +26,27 @@ def run(arguments: argparse.Namespace) -> int:
         sender = Sender(port)
         sender.await_start()
         numbers, status = read_numbers(sender), sender.status
+        telemetry = telemetry_in("\n".join(sender.ask("B30")))
     finally:
         port.close()
+    suspicion = slip_suspicion(telemetry) if telemetry else None
     written = []
     if arguments.output:
-        write_outputs({arguments.output: _toml(numbers)}, inputs=[])
+        write_outputs(
+            {arguments.output: machine_toml(machine_of_numbers(numbers)).encode()}, inputs=[]
+        )
         written = [arguments.output]
     if arguments.json:
-        print_json(_json(numbers, status, written))
+        print_json({**_json(numbers, status, written), "suspicion": suspicion})
         return 0
     print(_table(numbers))
     if status:
         print("\nThe sled is at x {:.2f}, y {:.2f}, the bit at z {:.2f} mm.".format(*status.place))
+    if suspicion:
+        print(f"\n{sentences([suspicion])}")
     if written:
         print(f"Written: {arguments.output}")
     return 0
-
-
-def _toml(numbers: dict[int, float]) -> bytes:
-    known = {row.number for row in every_setting() if row.access == "listed"}
-    listed = {number: value for number, value in numbers.items() if number in known}
-    try:
-        machine = machine_of(listed, sheet=(numbers[WIDTH], numbers[HEIGHT]))
-    except (KeyError, ValueError) as error:
-        raise InputError(f"the machine's numbers make no machine: {error}") from None
-    return machine_toml(machine).encode()
 
 
 def _json(numbers: dict[int, float], status: Status | None, written: list[str]) -> dict[str, Any]:

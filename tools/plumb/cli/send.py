@@ -4,20 +4,24 @@ from __future__ import annotations
 
 import argparse
 import signal
-import sys
-from datetime import datetime
+from collections.abc import Sequence
 from pathlib import Path
 from threading import Event
 
+from plumb.cli.output import say_failure
+from plumb.cli.question import Question
 from plumb.cli.screen import Bar, sentences
-from plumb.firmware.client_files import gcode
-from plumb.firmware.numbers import firmware_numbers
-from plumb.line.memory import Written, as_lines, write_numbers
+from plumb.diary.entries import PROGRAM, program_entry
+from plumb.diary.keeping import keep
+from plumb.diary.numbers_written import write_and_keep
+from plumb.line.machine_numbers import kept_before, lines_for
+from plumb.line.memory import Written
 from plumb.line.sender import Sender, StoppedError, cleaned
 from plumb.line.serial_port import SerialPort, port_for
+from plumb.line.waits import PAUSED, waits_in
 from plumb.settings.files import read_settings
 from plumb.text.errors import refusal
-from plumb.text.files import read_text, write_whole
+from plumb.text.files import read_text
 
 SHOWN = 20  # changed numbers in the answer
 
@@ -28,93 +32,128 @@ def run(arguments: argparse.Namespace) -> int:
     is_file = Path(what).is_file()
     if not is_file and (what.endswith((".nc", ".toml", ".gcode", ".ngc")) or "/" in what):
         raise refusal(what, "there is no such file", remedy="check the name")
-    numbers = _numbers(what) if what.endswith(".toml") else None
+    numbers = lines_for(read_settings(what), what) if what.endswith(".toml") else None
     if arguments.undo:
-        numbers = _kept_before(what)
-    lines = list(cleaned(read_text(what).splitlines() if is_file else [what]))
+        numbers = kept_before(what)
+    text = read_text(what).splitlines() if is_file else [what]
+    list(cleaned(text))  # raises InputError before the line is opened, which resets the board
     port = SerialPort(port_for(arguments.port))
     try:
         sender = Sender(port, said=print)
         sender.await_start()
         if numbers is not None:
-            _print_written(_write(sender, what, numbers))
+            written = _write(sender, what, numbers, back=arguments.undo)
+            _print_written(written, back=arguments.undo)
             return 0
-        code = _stream(sender, lines)
+        code = _stream_and_note(sender, what, text)
         sender.await_rest()
         return code
     finally:
         port.close()
 
 
-def _numbers(path: str) -> list[str]:
-    """The lines that write a machine's numbers."""
-    settings = read_settings(path)
-    if settings.controller != "plumb":
-        why = "holds the published numbers, which a client sends"
-        raise refusal(path, why, remedy="give a machine.toml that plumb add wrote")
-    return gcode(firmware_numbers(settings)).decode().splitlines()
-
-
-def _write(sender: Sender, path: str, lines: list[str]) -> tuple[Written, str]:
-    """Write numbers; the file that keeps the old numbers."""
-    written = write_numbers(sender, lines)
-    kept = f"{Path(path).with_suffix('')}-before-{datetime.now():%Y-%m-%d-%H%M%S}.nc"
-    write_whole(kept, as_lines(written.before).encode())
+def _write(sender: Sender, path: str, lines: list[str], *, back: bool) -> tuple[Written, str]:
+    """Write numbers; the file that keeps the numbers before."""
+    written, kept, failure = write_and_keep(sender, path, lines, back=back)
+    say_failure(failure)
     return written, kept
 
 
-def _kept_before(path: str) -> list[str]:
-    """The lines of the newest file that kept the machine's numbers before `path` was sent."""
-    stem = Path(path).with_suffix("")
-    kept = sorted(stem.parent.glob(f"{stem.name}-before-*.nc"))
-    if not kept:
-        raise refusal(path, "nothing was kept when it was sent", remedy="send it first")
-    return read_text(kept[-1]).splitlines()
-
-
-def _print_written(done: tuple[Written, str]) -> None:
+def _print_written(done: tuple[Written, str], *, back: bool) -> None:
     written, kept = done
     rows = [f"${number}: {old:g} -> {new:g}" for number, (old, new) in written.changed.items()]
     more = len(rows) - SHOWN
     rows = rows[:SHOWN] + ([f"and {more} more"] if more > 0 else [])
     print("The machine holds the numbers; each was read back.")
     print(sentences(rows) if rows else "- none had to change")
-    print(f"The old numbers are in {kept}. To bring them back: plumb send --undo, with this file.")
+    if back:
+        print(f"The numbers that it took back are in {kept}.")
+    else:
+        undo = "To bring them back: plumb send --undo, with this file."
+        print(f"The old numbers are in {kept}. {undo}")
 
 
-def _hold(sender: Sender) -> None:
-    """Hold the machine, and ask what now; where nobody can answer, stop."""
-    sender.hold()
-    if not sys.stdin.isatty():
-        sender.stop()
-    answer = input("The machine holds. Enter goes on; s and Enter stops: ")
-    if answer.strip().lower().startswith("s"):
-        sender.stop()
-    sender.go_on()
+class _Attendant:
+    """Attends to a program: Ctrl-C holds it, and a program that waits is asked about."""
+
+    def __init__(self, bar: Bar, text: Sequence[str]) -> None:
+        """`text`: the program with its comments, which say what its pauses are for."""
+        self.pressed = Event()  # Ctrl-C
+        self._bar = bar
+        self._waits = {wait.lines: wait.do for wait in waits_in(text)}
+        self._total = sum(1 for _ in cleaned(text))
+        self._done = 0
+        self._waits_now = False
+        self._question: Question | None = None
+
+    def answered(self, done: int) -> None:
+        """The machine took this many lines."""
+        self._done = done
+        self._bar.show(done / self._total)
+
+    def hear(self, line: str) -> None:
+        """Print what the machine says, and note that it waits."""
+        if line == PAUSED:
+            self._waits_now = True
+        else:
+            print(line)
+
+    def attend(self, sender: Sender) -> None:
+        """Hold, ask, and do what is answered; called again and again."""
+        if self._question:
+            self._settle(sender, self._question)
+        elif self._waits_now:
+            self._waits_now = False
+            self._ask(f"The program waits: {self._waits.get(self._done) or 'it does not say why'}.")
+        elif self.pressed.is_set():
+            self.pressed.clear()
+            sender.hold()
+            self._ask("The machine holds.")
+
+    def _ask(self, why: str) -> None:
+        self._bar.clear()
+        self._question = Question(f"{why} Enter goes on; s and Enter stops: ")
+
+    def _settle(self, sender: Sender, question: Question) -> None:
+        """Do what was answered. Ctrl-C, and an input that has ended, stop the machine."""
+        if question.answer is None and not self.pressed.is_set():
+            return
+        self._question = None
+        gives_up = self.pressed.is_set() or question.is_unheard
+        if gives_up or (question.answer or "").lower().startswith("s"):
+            sender.stop()
+        sender.go_on()
 
 
-def _stream(sender: Sender, lines: list[str]) -> int:
+def _stream_and_note(sender: Sender, what: str, text: Sequence[str]) -> int:
+    """Stream a program; that goes into the diary of the program's folder, if there is such."""
+    code = 1
+    try:
+        code = _stream(sender, text)
+    finally:
+        is_file = Path(what).is_file()
+        entry = program_entry(
+            Path(what).name if is_file else what, list(cleaned(text)), whole=code == 0
+        )
+        say_failure(keep(what if is_file else ".", PROGRAM, entry, begin=False))
+    return code
+
+
+def _stream(sender: Sender, text: Sequence[str]) -> int:
     """Stream a program; Ctrl-C holds the machine where it is."""
     bar = Bar("sending", patience=0.5)
-    total = len(lines)
-    pressed = Event()
-
-    def attend(sender: Sender) -> None:
-        if pressed.is_set():
-            pressed.clear()
-            bar.clear()
-            _hold(sender)
-
-    sender.attend = attend
-    before = signal.signal(signal.SIGINT, lambda *_: pressed.set())
+    lines = list(cleaned(text))
+    attendant = _Attendant(bar, text)
+    sender.attend, sender.said = attendant.attend, attendant.hear
+    before = signal.signal(signal.SIGINT, lambda *_: attendant.pressed.set())
     try:
-        sender.stream(lines, answered=lambda done: bar.show(done / total))
+        sender.stream(lines, answered=attendant.answered)
     except StoppedError:
         print("The machine has stopped. It knows where it is; the rest was not sent.")
         return 1
     finally:
         bar.clear()
         signal.signal(signal.SIGINT, before)
-    if total > 1:
-        print(f"{total} lines were sent, and the machine took each.")
+    if len(lines) > 1:
+        print(f"{len(lines)} lines were sent, and the machine took each.")
     return 0

@@ -5,13 +5,13 @@ from __future__ import annotations
 import argparse
 
 from plumb.cli.client import client_files_of, client_text, typed_json
-from plumb.cli.files import settings_in
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import table
 from plumb.cli.steps import next_step
 from plumb.cli.text import print_json
 from plumb.firmware.client_files import gcode
 from plumb.firmware.numbers import Number, firmware_numbers
+from plumb.fit.read_inputs import settings_in
 from plumb.text.errors import InputError, refusal
 
 

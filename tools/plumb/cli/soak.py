@@ -33,6 +33,7 @@ def as_text(worked: Soak) -> str:
         ["longest silence", f"{worked.silence:.2f} s"],
         ["waits for a move in the middle of another", str(worked.late)],
     ]
+    rows.append(["slips of a chain that were suspected", str(worked.suspected)])
     if worked.longest_tick:
         rows.append(["longest control tick", f"{worked.longest_tick} us"])
     if worked.most_writes:

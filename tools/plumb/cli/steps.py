@@ -11,6 +11,7 @@ from pathlib import Path
 from plumb.cli.screen import console
 
 INDENT = "  "
+AUTO = "auto"  # as an effect: those that the marks prove
 CLIENT_OF = {".ini": "groundcontrol", ".json": "webcontrol"}  # by the ending of its file
 # What the next command has to be given again, by the name that the parser has for it.
 REPEATED = {
@@ -45,8 +46,13 @@ def command_text(words: Iterable[str]) -> str:
     return " \\\n".join(lines)
 
 
-def same_inputs(arguments: argparse.Namespace, *more: str, checked: bool = True) -> list[str]:
-    """The settings, the marks (with `more` of them) and how they are read, as they were given."""
+def same_inputs(
+    arguments: argparse.Namespace, *more: str, effects: Sequence[str] = (AUTO,)
+) -> list[str]:
+    """The settings, the marks (with `more` of them) and how they are read, as they were given.
+
+    Checks of effects that are not fitted are left out; with "auto" any may be.
+    """
     words = [arguments.settings, *arguments.marks, *more]
     for option, name in REPEATED.items():
         value = getattr(arguments, name, None)
@@ -54,9 +60,11 @@ def same_inputs(arguments: argparse.Namespace, *more: str, checked: bool = True)
             if each is not None:
                 words += [option, f"{each:g}" if isinstance(each, float) else str(each)]
     for name, sigma in getattr(arguments, "prior", None) or ():
-        words += ["--prior", f"{name}={sigma:g}"]
-    for check in (getattr(arguments, "checked", None) or ()) if checked else ():
-        words += ["--checked", f"{check.name}={check.value:g}+-{check.sigma:g}"]
+        words += ["--prior", f"{name}={sigma:.12g}"]
+    for check in getattr(arguments, "checked", None) or ():
+        effect = check.name.rpartition(".")[0]
+        if not effect or effect in effects or AUTO in effects:
+            words += ["--checked", f"{check.name}={check.value:.12g}+-{check.sigma:.12g}"]
     return words
 
 
@@ -72,16 +80,18 @@ def usual_client(arguments: argparse.Namespace) -> list[str]:
 
 def add_named(arguments: argparse.Namespace, effects: Sequence[str]) -> list[str]:
     """The command that adds these effects and writes the files."""
-    same = same_inputs(arguments, checked=False)
+    same = same_inputs(arguments, effects=effects)
     machine = free_name("machine", ".toml")
     named = ["--effect", *effects] if effects else []
+    for name, size in getattr(arguments, "hold", []):
+        named += ["--hold", f"{name}={size:.12g}"]
     patch = ["--patch"] if getattr(arguments, "patch", False) else []
     return ["add", *same, *named, *patch, *usual_client(arguments), "-o", machine]
 
 
 def add_auto(arguments: argparse.Namespace) -> list[str]:
     """The command that adds what is most likely and writes the files."""
-    return add_named(arguments, ["auto"])
+    return add_named(arguments, [AUTO])
 
 
 def second_round(arguments: argparse.Namespace, files: Sequence[str]) -> str:

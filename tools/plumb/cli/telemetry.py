@@ -51,6 +51,7 @@ def run(arguments: argparse.Namespace) -> int:
         ["reason of the start", telemetry.start],
         ["went wrong so far", history(telemetry)],
         ["the last of it", last_event(telemetry)],
+        ["suspected slips", "left {}  right {}".format(*telemetry.slips)],
     ]
     print(table(["what", "measured"], rows, words=[-1]))
     print()

@@ -19,7 +19,7 @@ from plumb.vm.garage import VirtualMachine, random_garage, set_up
 from plumb.vm.hiding import described, hide
 from plumb.vm.in_process import InProcessPort
 from plumb.vm.picture import VmPicture
-from plumb.vm.pseudo_terminal import Pace, PseudoTerminal
+from plumb.vm.pseudo_terminal import Pace, PseudoTerminal, preload
 from plumb.vm.tape import BLANK, Tape
 
 EEPROM_BYTES = 4096
@@ -28,18 +28,25 @@ SAVE_EVERY, LOOK_EVERY = 1.0, 0.1  # [s] of this computer's time
 
 def run(arguments: argparse.Namespace) -> int:
     """Start it, serve until Ctrl-C, and return the exit code."""
+    if arguments.preload:
+        print(preload())
+        return 0
     tape_form = _form(arguments)
     hidden = hide(arguments.hide, millimetres=arguments.size, seed=arguments.seed)
-    garage = random_garage(hidden, arguments.seed)
+    garage = random_garage(hidden, arguments.seed, feed=arguments.feed)
     try:
         machine = garage.machine(elf=arguments.mega)
     except RuntimeError as error:
         raise InputError(f"--mega: {error}") from None
     _wake(machine, garage.settings, arguments)
-    terminal = PseudoTerminal(machine, link=arguments.link)
     tape = Tape(garage, np.random.default_rng([arguments.seed, 5]), noise=arguments.noise)
-    print(f"The machine is at {terminal.link or terminal.path}. Ctrl-C ends it.", flush=True)
+    if tape_form:
+        tape.get_ready(tape_form)
+    terminal = PseudoTerminal(machine)
     try:
+        if arguments.link:
+            terminal.link_as(arguments.link)
+        print(f"The machine is at {terminal.link or terminal.path}. Ctrl-C ends it.", flush=True)
         _serve(terminal, arguments, lambda: _fill(tape, machine, tape_form, arguments.readings))
     except KeyboardInterrupt:
         pass

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 
+from plumb.cli.arguments.checked import add_checked
 from plumb.cli.arguments.client import add_client, add_firmware
 from plumb.cli.arguments.shared import (
     add_force,
@@ -13,6 +14,7 @@ from plumb.cli.arguments.shared import (
     add_sigma,
     add_units,
     add_without,
+    named_number,
 )
 
 HELP = "fit the frame and the named effects to the marks, and write the new settings"
@@ -32,8 +34,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         action="extend",
         default=[],
-        help="effects to fit (plumb effects lists them), or auto: what plumb diagnose proves. "
-        "Other effects of SETTINGS stay as they are",
+        help="effects to fit (plumb effects lists them); auto: what plumb diagnose proves; none: "
+        "the frame alone. Other effects of SETTINGS stay as they are",
+    )
+    parser.add_argument(
+        "--hold",
+        metavar="NAME=SIZE",
+        action="append",
+        type=held_size,
+        default=[],
+        help="keep a parameter of these effects at a size, like chain_pitch.left=0.001; the rest "
+        "is fitted",
     )
     parser.add_argument(
         "--patch",
@@ -48,9 +59,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_firmware(parser)
     add_prior(parser)
     add_sigma(parser, usual="tape_sigma_mm of MARKS and repeats, else from the residuals")
+    add_checked(parser)
     parser.add_argument(
         "--picture", metavar="FILE", help="draw how the error falls: .png, .svg, .pdf"
     )
     add_force(parser)
     add_units(parser)
     add_json(parser)
+
+
+def held_size(text: str) -> tuple[str, float]:
+    """Reads NAME=SIZE."""
+    name, size = named_number(text)
+    if size is None:
+        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=SIZE, like chain_pitch.left=0.001")
+    return name, size

@@ -28,13 +28,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--choose",
         metavar="N",
         type=int,
-        help="the number of the proposal for --picture and --marks [the best with marks]",
+        help="the number of the proposal for --picture, --marks and --output [the best that has "
+        "them]",
     )
     parser.add_argument(
         "--picture", metavar="FILE", help="draw the proposal on the sheet: .png, .svg, .pdf"
     )
     parser.add_argument(
         "--marks", dest="template", metavar="FILE", help="write a marks.toml to fill in"
+    )
+    parser.add_argument(
+        "--output", metavar="FILE", help="write the G-code that cuts the proposed marks"
+    )
+    parser.add_argument(
+        "--cut-next-with",
+        metavar="SETTINGS",
+        help="the settings that the machine has now, if they are not those of MARKS; the form "
+        "names them",
     )
     add_force(parser)
     add_units(parser)

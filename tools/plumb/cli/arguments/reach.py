@@ -5,7 +5,14 @@ from __future__ import annotations
 import argparse
 
 from plumb import _core
-from plumb.cli.arguments.shared import add_force, add_json, add_settings, add_units, limit
+from plumb.cli.arguments.shared import (
+    add_force,
+    add_json,
+    add_prior,
+    add_settings,
+    add_units,
+    limit,
+)
 
 OPTIONS = {
     "most_tension": ("N", "largest tension of a chain at its sprocket; motors stall near 290 N"),
@@ -30,6 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
             default=usual[name],
             help=f"{meaning} [%(default)g]",
         )
+    add_prior(parser)
     add_force(parser)
     add_units(parser)
     add_json(parser)

@@ -136,11 +136,17 @@ def limit(text: str) -> float:
 
 def prior(text: str) -> tuple[str, float]:
     """Reads NAME=SIGMA."""
-    name, separator, value = text.partition("=")
-    try:
-        sigma = float(value)
-    except ValueError:
-        sigma = -1.0
-    if not (separator and math.isfinite(sigma) and sigma >= 0):
+    name, sigma = named_number(text)
+    if sigma is None or sigma < 0:
         raise argparse.ArgumentTypeError(f"'{text}' is not NAME=SIGMA, like motor_gap=1.5")
     return name, sigma
+
+
+def named_number(text: str) -> tuple[str, float | None]:
+    """A name and the number behind its =; None if there is no such number."""
+    name, _, value = text.partition("=")
+    try:
+        number = float(value)
+    except ValueError:
+        return name, None
+    return name, number if math.isfinite(number) else None

@@ -6,6 +6,7 @@ import argparse
 
 from plumb.cli.arguments.shared import length
 
+FEEDS = ("top", "bottom")
 HELP = "start a virtual machine with a serial port, as if a board were plugged in"
 EXIT = "Exit: 0 ended with Ctrl-C or after --seconds; 2 it cannot be started."
 
@@ -34,6 +35,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=0,
         help="draws frame, sheet, motors and the random effect [%(default)s]",
     )
+    parser.add_argument(
+        "--feed",
+        choices=FEEDS,
+        default="top",
+        help="where the chains leave the sprockets: over the top, or off the bottom [%(default)s]",
+    )
     parser.add_argument("--reveal", action="store_true", help="say at the end what was hidden")
     parser.add_argument(
         "--eeprom", metavar="FILE", help="keep the board's memory in this file from run to run"
@@ -43,6 +50,24 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="begin with an empty memory: no settings, no chain lengths",
     )
+    _add_brain(parser)
+    parser.add_argument(
+        "--form",
+        metavar="FORM",
+        help="a form that plumb grid wrote: a tape fills it in once all its marks are cut",
+    )
+    parser.add_argument("--readings", metavar="FILE", help="write the filled form to this file")
+    parser.add_argument(
+        "--noise",
+        metavar="MM",
+        type=length,
+        default=0.4,
+        help="noise of the tape's readings [%(default)g]",
+    )
+
+
+def _add_brain(parser: argparse.ArgumentParser) -> None:
+    """What runs, how fast, and what clients need for its port."""
     parser.add_argument(
         "--mega",
         metavar="ELF",
@@ -57,15 +82,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--seconds", metavar="S", type=length, help="end after S seconds")
     parser.add_argument(
-        "--form",
-        metavar="FORM",
-        help="a form that plumb grid wrote: a tape fills it in once all its marks are cut",
-    )
-    parser.add_argument("--readings", metavar="FILE", help="write the filled form to this file")
-    parser.add_argument(
-        "--noise",
-        metavar="MM",
-        type=length,
-        default=0.4,
-        help="noise of the tape's readings [%(default)g]",
+        "--preload",
+        action="store_true",
+        help="print the library that a client needs for this port (LD_PRELOAD), and end",
     )

@@ -1,0 +1,145 @@
+"""`plumb diary`: how the errors and the numbers of a machine went over time."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from plumb.cli.files import picture_form
+from plumb.cli.output import write_outputs
+from plumb.cli.screen import headline, sentences, table
+from plumb.cli.text import print_json
+from plumb.diary.file import Diary, Entry, has_diary, read_diary
+from plumb.diary.history import Course, History, history_of
+from plumb.diary.noted import noted
+from plumb.model.plain import named, plain_name, plain_size
+from plumb.pictures.diary import Run, draw_diary
+from plumb.text.errors import refusal
+from plumb.text.shown import bare, unit, worded
+
+LAST = 10  # other entries
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Read, draw, print, and return the exit code."""
+    diary = read_diary(arguments.folder)
+    if not has_diary(arguments.folder):
+        remedy = "plumb add -o machine.toml begins it in the folder of that file"
+        raise refusal(diary.path, "there is no diary", remedy=remedy)
+    history, written = history_of(diary), []
+    if arguments.picture:
+        form = picture_form(arguments.picture)
+        write_outputs({arguments.picture: _picture(history, form)}, inputs=[str(diary.path)])
+        written = [arguments.picture]
+    if arguments.json:
+        print_json(_json(diary, history, written))
+    else:
+        print(_text(diary, history))
+    return 0
+
+
+def _picture(history: History, form: str) -> bytes:
+    errors = [
+        Run("before", "mm RMS", [(fit.at, fit.before, None) for fit in history.fits]),
+        Run("fitted", "mm RMS", [(fit.at, fit.rms, None) for fit in history.fits]),
+        Run("at marks left out", "mm RMS", [(fit.at, fit.left_out, None) for fit in history.fits]),
+    ]
+    numbers = [
+        Run(
+            plain_name(course.name),
+            course.unit,
+            [(point.at, point.value, (point.low, point.high)) for point in course.points],
+        )
+        for course in history.courses
+    ]
+    return draw_diary(errors, numbers, form=form)
+
+
+def _text(diary: Diary, history: History) -> str:
+    parts = [headline(_sentence(history))]
+    if history.fits:
+        parts += [_fits(history), _numbers(history)]
+    others = [entry for entry in diary.entries if entry.kind != "fit"][-LAST:]
+    if others:
+        parts.append(table(["date", "what else"], [[_date(each), noted(each)] for each in others]))
+    if diary.spoilt:
+        lines = ", ".join(map(str, diary.spoilt))
+        parts.append(sentences([f"{diary.path}: line {lines} is cut or was changed; passed over"]))
+    return "\n\n".join(parts)
+
+
+def _sentence(history: History) -> str:
+    if not history.fits:
+        return "The diary has no fit yet."
+    count, newest = len(history.fits), history.fits[-1]
+    fits = f"{count} fit{'s' if count > 1 else ''}"
+    moved = [plain_name(course.name) for course in history.courses if course.has_moved]
+    said = f"{fits}; the newest leaves {worded(newest.left_out)} at marks left out of it"
+    return f"{said}. Moved since the fit before: {', '.join(moved)}." if moved else f"{said}."
+
+
+def _fits(history: History) -> str:
+    rows = [
+        [
+            f"{fit.at:%Y-%m-%d %H:%M}",
+            str(fit.count),
+            bare(fit.before),
+            bare(fit.rms),
+            bare(fit.left_out),
+            ", ".join(map(named, fit.effects)) or "frame only",
+        ]
+        for fit in history.fits
+    ]
+    heads = ["date", "readings", f"before [{unit()} RMS]", "fitted", "left out", "added"]
+    return table(heads, rows, words=[-1])
+
+
+def _numbers(history: History) -> str:
+    rows = [[_now(course), _change(course), _moved(course)] for course in history.courses]
+    return table(["number, with its 95 % interval", "change", ""], rows)
+
+
+def _now(course: Course) -> str:
+    point = course.points[-1]
+    return plain_size(course.name, point.value, point.low, point.high)
+
+
+def _change(course: Course) -> str:
+    return "" if course.change is None else f"{course.change:+.3g} {course.unit}"
+
+
+def _moved(course: Course) -> str:
+    return "moved" if course.has_moved else ""
+
+
+def _date(entry: Entry) -> str:
+    return f"{entry.at:%Y-%m-%d %H:%M}"
+
+
+def _json(diary: Diary, history: History, written: list[str]) -> dict[str, Any]:
+    return {
+        "fits": [
+            {
+                "at": fit.at.isoformat(),
+                "machine": fit.machine,
+                "readings": fit.count,
+                "before_mm": fit.before,
+                "rms_mm": fit.rms,
+                "left_out_mm": fit.left_out,
+                "effects": fit.effects,
+            }
+            for fit in history.fits
+        ],
+        "numbers": [
+            {
+                "name": course.name,
+                "unit": course.unit,
+                "moved": course.has_moved,
+                "points": [{**vars(point), "at": point.at.isoformat()} for point in course.points],
+            }
+            for course in history.courses
+        ],
+        "entries": [{"at": entry.at.isoformat(), "kind": entry.kind} for entry in diary.entries],
+        "spoilt_lines": diary.spoilt,
+        "written": written,
+    }

@@ -1,0 +1,85 @@
+"""`plumb gap`: the motor gap from a chain that was pulled tight from motor to motor."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from plumb.cli.screen import headline, sentences
+from plumb.cli.text import print_json
+from plumb.fit.read_inputs import settings_in
+from plumb.model.gap import BEYOND, MotorGap, motor_gap
+from plumb.text.errors import InputError
+from plumb.text.shown import worded
+
+MOST_SPREAD = 0.5  # [mm]
+LEAST_GAP, MOST_GAP = 1000.0, 6000.0  # [mm]
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Work the gap out, print it, and return the exit code."""
+    settings = settings_in(arguments.settings)
+    lengths = arguments.length
+    if not all(LEAST_GAP < each < MOST_GAP for each in lengths):
+        raise InputError(
+            f"--length {min(lengths):g}: a chain from motor to motor has {LEAST_GAP:g} to "
+            f"{MOST_GAP:g} mm; send B10 L after B11 and take what the machine says"
+        )
+    if settings.chain_weight <= 0:
+        raise InputError("the settings lack the chain's weight: add chain_weight = 0.00137293")
+    if arguments.drop is not None and arguments.drop < 1:
+        raise InputError("--drop is at least 1 mm: a tighter chain bends the frame")
+    if arguments.flex is not None and arguments.flex < 0:
+        raise InputError("--flex cannot be negative: a pull brings the motors closer")
+    measured = motor_gap(
+        lengths,
+        chain_weight=settings.chain_weight,
+        drop=arguments.drop,
+        flex=arguments.flex,
+    )
+    if arguments.json:
+        print_json(_json(arguments, measured))
+    else:
+        print(headline(f"Motor gap {worded(measured.gap)} ± {worded(measured.interval)}."))
+        print()
+        print(sentences(_reasons(arguments, measured)))
+    return 0
+
+
+def _reasons(arguments: argparse.Namespace, measured: MotorGap) -> list[str]:
+    by = "the drop says" if arguments.drop is not None else "B11 states"
+    lines = [
+        f"The chain less {worded(BEYOND)} of links past the sprocket and {worded(measured.sag)} of "
+        f"sag, plus {worded(measured.stretch)} of stretch and {worded(measured.flex)} of flex, "
+        f"with the {measured.pull:.0f} N that {by}.",
+        f"It counts links of true pitch: a chain that is 0.1 % long makes it "
+        f"{worded(measured.gap / 1000, 1)} too small. Check it with a tape, or let marks find the "
+        "pitch.",
+    ]
+    if arguments.drop is None:
+        lines.append("A ruler at the middle of the tight chain makes it better: --drop.")
+    if arguments.flex is None:
+        lines.append("Nobody measured how much the frame bends: --flex makes it better.")
+    if _differ(measured):
+        lines.append(f"The lengths differ by {worded(measured.spread)}: pull again with B11.")
+    return lines
+
+
+def _differ(measured: MotorGap) -> bool:
+    """Whether the lengths differ by more than pulls of a sound machine do."""
+    return measured.spread > MOST_SPREAD
+
+
+def _json(arguments: argparse.Namespace, measured: MotorGap) -> dict[str, Any]:
+    return {
+        "gap_mm": measured.gap,
+        "interval_mm": measured.interval,
+        "pull_N": measured.pull,
+        "pull_by": "B11" if arguments.drop is None else "drop",
+        "beyond_mm": BEYOND,
+        "sag_mm": measured.sag,
+        "stretch_mm": measured.stretch,
+        "flex_mm": measured.flex,
+        "spread_mm": measured.spread,
+        "pull_again": _differ(measured),
+    }

@@ -1,0 +1,69 @@
+"""`plumb guide`: a machine's first day, step by step."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from textwrap import wrap
+
+from plumb.cli.steps import next_step
+from plumb.guide.progress import progress_in
+from plumb.guide.steps import SETTINGS, Visit
+from plumb.guide.talk import Talk
+from plumb.guide.walk import walk
+from plumb.line.sender import Sender
+from plumb.line.serial_port import SerialPort, port_for
+from plumb.text.errors import refusal
+
+WIDTH = 79  # characters of a line
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Walk, and return the exit code."""
+    folder = Path(arguments.folder)
+    if not folder.is_dir():
+        raise refusal(folder, "there is no such folder", remedy="make it, or name another")
+    progress = progress_in(folder)
+    _say("Nothing moves before you say yes to it. Keep a hand on the power switch all the same.")
+    port = SerialPort(port_for(arguments.port))
+    try:
+        sender = Sender(port)
+        sender.await_start()
+        talk = Talk(_say, _answer, unit=arguments.units)
+        if not walk(Visit(sender, talk, progress), first=arguments.step or ""):
+            return 1
+    finally:
+        port.close()
+    grid = ["grid", "--settings", str(folder / SETTINGS), "--marks", "marks.toml"]
+    _say("\nAll steps are done.")
+    print(next_step("Cut a grid of marks:", [*grid, "--output", "grid.nc"]))
+    calibrate = ["calibrate", str(folder / SETTINGS), "marks.toml"]
+    for name, sigma in progress.sigmas.items():
+        calibrate += ["--prior", f"{name}={sigma:g}"]
+    print(next_step("Type in what you measured. Then calibrate, with what you know:", calibrate))
+    return 0
+
+
+def _say(text: str) -> None:
+    """Print lines, none wider than a terminal."""
+    print(_folded(text), flush=True)
+
+
+def _answer(question: str) -> str:
+    """What the owner types; from a pipe it is printed too, so that it can be read afterwards."""
+    text = input(_folded(question))
+    if not sys.stdin.isatty():
+        print(text)
+    return text
+
+
+def _folded(text: str) -> str:
+    end = " " if text.endswith(" ") else ""
+    return (
+        "\n".join(
+            "\n".join(wrap(line, WIDTH, subsequent_indent=" " * (len(line) - len(line.lstrip()))))
+            for line in text.rstrip().split("\n")
+        )
+        + end
+    )

@@ -1,0 +1,198 @@
+"""`plumb home`: keeps holes as home marks, and restores a lost position by them."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import dataclass, field
+from datetime import date
+from typing import Any
+
+import numpy as np
+
+from plumb.cli.output import STDOUT, say_failure, write_outputs
+from plumb.cli.screen import headline, sentences, table
+from plumb.cli.steps import next_step
+from plumb.cli.text import print_json
+from plumb.cli.touches import home_mark, touches_of
+from plumb.diary.entries import HOME
+from plumb.diary.keeping import keep
+from plumb.fit.read_inputs import settings_in
+from plumb.recovery.home import (
+    HomeFit,
+    HomeMark,
+    hole_program,
+    home_file,
+    home_fit,
+    new_home_mark,
+    place_of,
+    read_home_marks,
+    write_home_marks,
+)
+from plumb.recovery.repair import repair_program
+from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError
+from plumb.text.shown import bare, signed, unit, worded
+
+
+@dataclass
+class _Answer:
+    """What the command says and writes."""
+
+    marks: dict[str, HomeMark]
+    said: list[str] = field(default_factory=list)
+    lines: list[str] = field(default_factory=list)
+    fits: list[HomeFit] = field(default_factory=list)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Keep, restore or list, write, print, and return the exit code."""
+    settings = settings_in(arguments.settings)
+    if arguments.keep and (arguments.at or arguments.touch):
+        raise InputError("--keep goes alone: keep the home mark first, then restore by it")
+    if arguments.touch and not arguments.at:
+        raise InputError("--touch needs --at: name the home mark by which the chains were set")
+    answer = _Answer(read_home_marks(home_file(arguments.settings)))
+    if arguments.keep:
+        _keep(arguments, settings, answer)
+    if arguments.at:
+        _restore(arguments, settings, answer)
+    written = _written(arguments, answer)
+    if arguments.json:
+        print_json(_json(settings, answer, written))
+    else:
+        print(_text(arguments, settings, answer))
+    return int(not all(fit.fits for fit in answer.fits))
+
+
+def _keep(arguments: argparse.Namespace, settings: MachineSettings, answer: _Answer) -> None:
+    """Keep a hole, with what makes it."""
+    name, place = arguments.keep
+    mark = new_home_mark(settings, name, place, date=f"{date.today():%Y-%m-%d}")
+    answer.marks[name] = mark
+    answer.lines = hole_program(place)
+    answer.said = [
+        f"Home mark {name} is kept at {_place(place)}, with the chains {_chains(mark)}.",
+        "Make the hole with the program, in what cannot move: the frame, or a board on it. A hole "
+        "in a sheet serves until the sheet is moved.",
+    ]
+
+
+def _restore(arguments: argparse.Namespace, settings: MachineSettings, answer: _Answer) -> None:
+    """The chains with the bit in a home mark, and how well others fit."""
+    mark = home_mark(arguments.settings, arguments.at)
+    shown = place_of(settings, mark).tolist()
+    where = f"home mark {mark.name}"
+    answer.lines = repair_program(np.array(mark.chains), where=where)
+    answer.said = [
+        f"With the bit in home mark {mark.name}, the chains are {_chains(mark)}.",
+        f"Put the bit into it, send {answer.lines[-1]}, and the machine shows {_place(shown)}.",
+    ]
+    for touched in touches_of(arguments):
+        other = answer.marks.get(touched.name)
+        if other is None:
+            raise InputError(f"--touch {touched.name}: give the name of a home mark")
+        answer.fits.append(home_fit(settings, other, touched.shown))
+
+
+def _written(arguments: argparse.Namespace, answer: _Answer) -> list[str]:
+    """Write the program first: a home mark is kept only if that could be written."""
+    written = []
+    if arguments.output:
+        if not answer.lines:
+            raise InputError(f"-o {arguments.output}: there is no program without --keep or --at")
+        content = "\n".join([*answer.lines, ""]).encode()
+        write_outputs({arguments.output: content}, inputs=[arguments.settings])
+        written += [] if arguments.output == STDOUT else [arguments.output]
+    if arguments.keep:
+        path = home_file(arguments.settings)
+        write_home_marks(path, answer.marks)
+        written.append(str(path))
+    if arguments.keep or arguments.at:
+        entry = {
+            "mark": arguments.at or arguments.keep[0],
+            "kept": bool(arguments.keep),
+            "lines": answer.lines,
+            "fits": [_fit_json(fit) for fit in answer.fits],
+        }
+        say_failure(keep(arguments.settings, HOME, entry, begin=False))
+    return written
+
+
+def _text(arguments: argparse.Namespace, settings: MachineSettings, answer: _Answer) -> str:
+    if not answer.said:
+        return _listed(arguments, settings, answer)
+    parts = [headline(answer.said[0]), sentences(answer.said[1:], mark="")]
+    parts += [_fit_text(fit) for fit in answer.fits]
+    if arguments.output:
+        parts.append(next_step("Send it:", ["send", arguments.output]))
+    elif arguments.at and not answer.fits:
+        parts.append(next_step("Send it:", ["send", answer.lines[-1]]))
+    return "\n\n".join(parts)
+
+
+def _listed(arguments: argparse.Namespace, settings: MachineSettings, answer: _Answer) -> str:
+    """All home marks, or how to begin."""
+    if not answer.marks:
+        keeping = ["home", arguments.settings, "--keep=left=-900,250", "-o", "left.nc"]
+        return f"There is no home mark yet.\n\n{next_step('Keep a hole:', keeping)}"
+    rows = [
+        [mark.name, _place(place_of(settings, mark).tolist()), _chains(mark)]
+        for mark in answer.marks.values()
+    ]
+    return table(["home mark", f"place [{unit()}]", "chains [mm]"], rows, words=[1, 2])
+
+
+def _fit_text(fit: HomeFit) -> str:
+    x, y = fit.error
+    error = f"{signed(x)}, {signed(y)} {unit()}"
+    if fit.fits:
+        said = (
+            f"Home mark {fit.name} fits: its hole is {error} from where the machine shows it, and "
+            f"two touches by hand differ by up to {worded(fit.limit)}."
+        )
+    else:
+        left, right = fit.chains
+        said = (
+            f"Home mark {fit.name} does not fit: its hole is {error} from where the machine shows "
+            f"it, more than the {worded(fit.limit)} of two touches by hand. Its chains are "
+            f"{signed(left)} (left) and {signed(right)} {unit()} (right) longer than the machine "
+            "believes. Check that the bit was in the right holes, and that neither hole has moved."
+        )
+    return sentences([said], mark="")
+
+
+def _place(place: Any) -> str:
+    return f"{bare(place[0])}, {bare(place[1])}"
+
+
+def _chains(mark: HomeMark) -> str:
+    """Both chains as the machine takes them, in mm whatever lengths are shown in."""
+    return f"L{mark.chains[0]:.3f} R{mark.chains[1]:.3f}"
+
+
+def _fit_json(fit: HomeFit) -> dict[str, Any]:
+    return {
+        "mark": fit.name,
+        "error": fit.error,
+        "chains": fit.chains,
+        "limit_mm": fit.limit,
+        "fits": fit.fits,
+    }
+
+
+def _json(settings: MachineSettings, answer: _Answer, written: list[str]) -> dict[str, Any]:
+    return {
+        "marks": [
+            {
+                "name": mark.name,
+                "place": place_of(settings, mark).tolist(),
+                "kept_place": mark.place,
+                "chains": mark.chains,
+                "date": mark.date,
+            }
+            for mark in answer.marks.values()
+        ],
+        "lines": answer.lines,
+        "fits": [_fit_json(fit) for fit in answer.fits],
+        "written": written,
+    }

@@ -1,0 +1,53 @@
+"""`plumb resume`: writes a program that goes on with a job after a halt."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from plumb.cli.output import STDOUT, write_outputs
+from plumb.cli.screen import sentences
+from plumb.cli.steps import next_step
+from plumb.fit.read_inputs import settings_in
+from plumb.jobs.outline import comment_of
+from plumb.jobs.resume import Machine, Resumed, resume_at_line, resume_at_place
+from plumb.text.errors import InputError
+from plumb.text.files import read_text
+from plumb.text.shown import bare, worded
+
+SHOWN = 8  # passes that are named
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Write the program, say how it begins, and return the exit code."""
+    if arguments.line is None and arguments.at is None:
+        raise InputError("say where to go on: --line N, --at X,Y, or both")
+    machine = Machine(settings_in(arguments.settings), (*arguments.start, 0.0), dict(arguments.set))
+    lines = read_text(arguments.job).splitlines()
+    if arguments.at is None:
+        resumed = resume_at_line(machine, lines, arguments.line)
+    else:
+        resumed = resume_at_place(machine, lines, arguments.at, arguments.line)
+    name = Path(arguments.job).name
+    title = f"(plumb: {comment_of(name)} from line {resumed.first} on)"
+    content = "\n".join([title, *resumed.lines, ""]).encode()
+    inputs = [arguments.job, arguments.settings]
+    write_outputs({arguments.output: content}, inputs=inputs)
+    print(sentences(_report(resumed, name), mark=""))
+    if arguments.output != STDOUT:
+        check = ["check", arguments.output, arguments.settings]
+        print(f"\n{next_step('Look at it before you send it:', check)}")
+    return 0
+
+
+def _report(resumed: Resumed, name: str) -> list[str]:
+    x, y, z = resumed.begins
+    where = f"X{bare(x)} Y{bare(y)}"
+    if resumed.entry is None:
+        return [f"{name} goes on with line {resumed.first}, from {where}, where the bit was free."]
+    said = [f"{name} goes on in the middle of line {resumed.first}, at {where}, {worded(-z)} deep."]
+    others = [line for line in resumed.entry.passes if line != resumed.first]
+    if others:
+        named = ", ".join(map(str, others[:SHOWN])) + (" and more" if others[SHOWN:] else "")
+        said.append(f"It cuts there again at line {named}: --line picks that pass.")
+    return said

@@ -1,0 +1,215 @@
+"""`plumb slip`: whether a chain slipped by whole links, and the line that repairs it."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from plumb.cli.output import STDOUT, say_failure, write_outputs
+from plumb.cli.screen import headline, sentences, table
+from plumb.cli.steps import next_step
+from plumb.cli.text import print_json
+from plumb.cli.touches import touches_of
+from plumb.diary.entries import SLIP as SLIP_ENTRY
+from plumb.diary.keeping import keep
+from plumb.fit.read_inputs import settings_in
+from plumb.recovery.next_hole import next_hole
+from plumb.recovery.repair import repair_program
+from plumb.recovery.slip import (
+    CANNOT_TELL,
+    LINK,
+    NOTHING,
+    OTHER,
+    SHEET,
+    SLIP,
+    Account,
+    SlipFinding,
+    find_slip,
+)
+from plumb.recovery.touched import Point
+from plumb.text.errors import InputError
+from plumb.text.shown import bare, signed, unit, worded
+
+SIDES = ("left", "right")
+SHOWN = 4  # accounts
+SURE = 0.999  # odds beyond which no more digits are said
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Weigh, write, print, and return the exit code."""
+    if not arguments.touch:
+        raise InputError(
+            "no mark was touched: put the bit into a hole that the machine made, read what it "
+            "shows, and give both with --touch=X,Y:X,Y; two holes far apart can tell"
+        )
+    settings = settings_in(arguments.settings)
+    finding = find_slip(
+        settings,
+        touches_of(arguments),
+        sigma=arguments.sigma,
+        fixed=arguments.fixed,
+        taped=arguments.taped,
+    )
+    lines = _lines(finding)
+    written = _written(arguments, lines)
+    further = next_hole(settings, finding) if finding.verdict == CANNOT_TELL else None
+    answer = {**_json(finding, lines, written), "touch_next": further}
+    say_failure(keep(arguments.settings, SLIP_ENTRY, answer, begin=False))
+    if arguments.json:
+        print_json(answer)
+    else:
+        print(_text(finding, lines, arguments, further))
+    return int(finding.verdict in (SLIP, CANNOT_TELL))
+
+
+def _lines(finding: SlipFinding) -> list[str]:
+    """The repair, if there is something to repair."""
+    if finding.verdict != SLIP:
+        return []
+    where = f"the hole of touch {finding.touches[-1].name}"
+    return repair_program(finding.true_chains, where=where)
+
+
+def _written(arguments: argparse.Namespace, lines: Sequence[str]) -> list[str]:
+    if not (arguments.output and lines):
+        return []
+    content = "\n".join([*lines, ""]).encode()
+    write_outputs({arguments.output: content}, inputs=[arguments.settings])
+    return [] if arguments.output == STDOUT else [arguments.output]
+
+
+def _text(
+    finding: SlipFinding,
+    lines: Sequence[str],
+    arguments: argparse.Namespace,
+    further: Point | None,
+) -> str:
+    parts = [headline(sentence(finding)), _touches(finding), _odds(finding)]
+    if lines:
+        there = finding.touches[-1]
+        said = (
+            f"Leave the bit in the hole of touch {there.name}, where the machine shows "
+            f"{bare(there.shown[0])}, {bare(there.shown[1])}, and send the line that says how long "
+            f"the chains are: {lines[-1]}. Then look why the chain could slip: a worn sprocket, a "
+            "slack chain, a sled that hung."
+        )
+        parts.append(sentences([said], mark=""))
+        repair = [arguments.output] if arguments.output else [lines[-1]]
+        parts.append(next_step("Send it:", ["send", *repair]))
+    elif finding.verdict == CANNOT_TELL:
+        said = "Touch another hole far from these, and give all touches."
+        if further:
+            said = (
+                f"Touch another hole near {bare(further[0], 0)}, {bare(further[1], 0)}, where the "
+                "likeliest accounts differ most, and give all touches."
+            )
+        parts.append(sentences([said], mark=""))
+    return "\n\n".join(parts)
+
+
+def sentence(finding: SlipFinding) -> str:
+    """The verdict in a sentence."""
+    if finding.verdict == SLIP:
+        both = 0 not in finding.best.links
+        slipped = "both slipped on their sprockets" if both else "it slipped on its sprocket"
+        return f"{_longer(finding.best)}: {slipped}."
+    worst = worded(float(np.hypot(*finding.errors.T).max()))
+    says = {
+        NOTHING: f"No chain slipped: each hole is within {worst} of where the machine shows it.",
+        SHEET: "No chain slipped: the sheet has moved, or another sheet is on the machine.",
+        OTHER: f"No slip and no moved sheet explains errors of up to {worst}: check that each hole "
+        "is the hole that you mean, the settings, and whether a motor or a beam has moved.",
+        CANNOT_TELL: f"These touches cannot tell; the likeliest is: {_account(finding.best)}.",
+    }
+    return says[finding.verdict]
+
+
+def _longer(account: Account) -> str:
+    """Which chain is how much longer or shorter."""
+    said = [
+        f"the {side} chain is {abs(count)} link{'s' if abs(count) > 1 else ''} "
+        f"({worded(abs(count) * LINK)}) {'longer' if count > 0 else 'shorter'}"
+        for side, count in zip(SIDES, account.links, strict=True)
+        if count
+    ]
+    joined = " and ".join(said)
+    return f"{joined[0].upper()}{joined[1:]} than the machine believes"
+
+
+def _account(account: Account) -> str:
+    """An account in a few words."""
+    if account.kind == SLIP:
+        said = [
+            f"{side} {count:+d}" for side, count in zip(SIDES, account.links, strict=True) if count
+        ]
+        return f"a slip, links: {', '.join(said)}"
+    return {
+        NOTHING: "nothing but noise",
+        SHEET: "the sheet has moved",
+        OTHER: "something else",
+    }[account.kind]
+
+
+def _touches(finding: SlipFinding) -> str:
+    rows = [
+        [
+            touch.name,
+            f"{bare(touch.hole[0], 1)}, {bare(touch.hole[1], 1)}",
+            f"{bare(touch.shown[0], 1)}, {bare(touch.shown[1], 1)}",
+            f"{signed(error[0])}, {signed(error[1])}",
+            f"{signed(left[0])}, {signed(left[1])}",
+        ]
+        for touch, error, left in zip(
+            finding.touches, finding.errors.tolist(), finding.left.tolist(), strict=True
+        )
+    ]
+    heads = ["touch", f"hole [{unit()}]", "shown", "error", "left by the likeliest"]
+    return table(heads, rows)
+
+
+def _odds(finding: SlipFinding) -> str:
+    rows = [
+        [_account(account), _percent(account.odds)]
+        for account in finding.accounts[:SHOWN]
+        if account.odds >= 1e-4
+    ]
+    return table(["what may have happened", "odds"], rows)
+
+
+def _percent(odds: float) -> str:
+    """Odds for people; what is not quite certain does not look it."""
+    return f"{100 * odds:.3g} %" if odds < SURE else f"> {100 * SURE:g} %"
+
+
+def _json(finding: SlipFinding, lines: Sequence[str], written: Sequence[str]) -> dict[str, Any]:
+    return {
+        "verdict": finding.verdict,
+        "sentence": sentence(finding),
+        "accounts": [
+            {"kind": account.kind, "links": account.links, "odds": account.odds}
+            for account in finding.accounts
+        ],
+        "touches": [
+            {
+                "name": touch.name,
+                "hole": touch.hole,
+                "shown": touch.shown,
+                "error": error,
+                "left": left,
+                "chains": chains,
+            }
+            for touch, error, left, chains in zip(
+                finding.touches,
+                finding.errors.tolist(),
+                finding.left.tolist(),
+                finding.believed.tolist(),
+                strict=True,
+            )
+        ],
+        "sigma_mm": finding.sigma,
+        "lines": list(lines),
+        "written": list(written),
+    }
