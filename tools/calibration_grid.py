@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes the G-code for a grid of calibration marks; needs Python 3.9 and nothing else.
 
-The same program as `plumb grid`, without installing anything: only the folder plumb/grid next
-to this file must be there.
+The same program as `plumb grid`, without installing anything: only the folders plumb/grid and
+plumb/text next to this file must be there.
 """
 
 import sys

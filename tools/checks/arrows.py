@@ -1,6 +1,7 @@
 """Who may include whom: an include that the table below does not name is refused."""
 
 import ast
+import os
 import re
 import sys
 from collections.abc import Iterator
@@ -56,6 +57,10 @@ ARROWS = {
         ],
         ANYTHING,
     ),
+    "tools/dry_run": (
+        ["src", "src/machine", "lib/*", "tools/vm/brain", "tools/vm/host_avr"],
+        ANYTHING,
+    ),
     "tools/core": (["lib/Kinematics", "lib/Settings", "src"], ANYTHING),
     "tools/bench": (["lib/*", "tools/judge", "test/test_effects"], ANYTHING),
 }
@@ -76,26 +81,44 @@ SEARCHED = [
 # The rooms of the package, floor by floor from the top: a room may import those on floors below.
 PACKAGE = "tools/plumb"
 FLOORS = (
-    ("api",),
     ("cli",),
-    ("trials",),
-    ("pages", "vm"),
-    ("bench", "pictures"),
-    ("cure", "plan"),
+    ("lab",),
+    ("api", "guide", "trials"),
+    ("pages", "report", "vm"),
+    ("bench", "diary", "pictures"),
+    ("cure", "jobs", "plan", "recovery"),
     ("diagnosis",),
     ("fit", "line"),
     ("board", "firmware"),
     ("marks", "model"),
-    ("settings",),
-    ("text", "grid"),
-    ("_core", "_judge", "_vm"),
+    ("settings", "grid"),
+    ("text",),
+    ("_core", "_dry_run", "_judge", "_vm"),
 )
 
+# The folders of the lab's page: which folders each may import from, itself always.
+PAGE = "tools/lab/src"
+PAGE_ARROWS = {
+    "api": (),
+    "controls": ("api",),
+    "sheet": ("api", "controls"),
+    "shell": ("api", "controls", "sheet", "machine", "steps", "bench", "practice"),
+    "machine": ("api", "controls", "sheet", "shell"),
+    "readings": ("api", "controls", "sheet", "shell", "machine"),
+    "steps": ("api", "controls", "sheet", "shell", "machine", "readings"),
+    "bench": ("api", "controls", "sheet", "shell", "machine"),
+    "practice": ("api", "controls", "sheet", "shell", "machine", "readings", "bench"),
+}
+# In the shell only the list of screens knows the screens.
+SCREENS = ("steps", "bench", "practice")
+LIST_OF_SCREENS = "tools/lab/src/shell/steps.ts"
+SCRIPT_IMPORT = re.compile(r"^\s*(?:import|export)\b[^;]*?[\"']([^\"']+)[\"']", re.MULTILINE)
+
 # What tools/calibration_grid.py runs without an installation.
-STANDARD_LIBRARY_ONLY = "tools/plumb/grid"
+STANDARD_LIBRARY_ONLY = ("tools/plumb/grid", "tools/plumb/text/readers.py")
 # The judge shares nothing with the model, so only the bench may ask it; only the virtual machine's
 # room has the world that it hangs in.
-ONLY = {"_judge": "bench", "_vm": "vm"}
+ONLY = {"_dry_run": "jobs", "_judge": "bench", "_vm": "vm"}
 
 
 def violations(root: Path) -> Iterator[str]:
@@ -108,10 +131,13 @@ def violations(root: Path) -> Iterator[str]:
                 why = refusal(root, path, part, rule, header)
                 if why:
                     yield f"{name}:{line}: {part} may not include {header}: {why}"
+        elif name.is_relative_to(PAGE) and path.suffix in tree.SCRIPT:
+            yield from (f"{name}:{line}: {why}" for line, why in across(path, name))
         elif name.is_relative_to(PACKAGE) and path.suffix == ".py":
             yield from (f"{name}:{line}: {why}" for line, why in upward(path, name))
-            if name.is_relative_to(STANDARD_LIBRARY_ONLY):
+            if any(name.is_relative_to(place) for place in STANDARD_LIBRARY_ONLY):
                 yield from (f"{name}:{line}: {why}" for line, why in third_party(path))
+                yield from (f"{name}:{line}: {why}" for line, why in beyond_the_bare(path))
 
 
 def part_of(name: Path) -> tuple[str, str | None]:
@@ -138,6 +164,24 @@ def third_party(path: Path) -> Iterator[tuple[int, str]]:
             yield line, f"imports {module}, not of the standard library"
 
 
+def beyond_the_bare(path: Path) -> Iterator[tuple[int, str]]:
+    """Line number and reason for each import from the package that needs an installation."""
+    bare = tuple(
+        place.removeprefix("tools/").removesuffix(".py") for place in STANDARD_LIBRARY_ONLY
+    )
+    for node in ast.walk(ast.parse(tree.text_of(path))):
+        if isinstance(node, ast.Import):
+            modules = [alias.name for alias in node.names]
+        else:
+            modules = [node.module or ""] if isinstance(node, ast.ImportFrom) else []
+        for module in modules:
+            place = module.replace(".", "/")
+            if place.startswith("plumb") and not f"{place}/".startswith(
+                tuple(f"{b}/" for b in bare)
+            ):
+                yield node.lineno, f"imports {module}, which runs only where plumb is installed"
+
+
 def imports(path: Path) -> Iterator[tuple[int, str]]:
     """Line number and top-level name of each module that a Python file imports."""
     for node in ast.walk(ast.parse(tree.text_of(path))):
@@ -161,6 +205,31 @@ def upward(path: Path, name: Path) -> Iterator[tuple[int, str]]:
             yield line, f"{room} may not import {to}: imports only go down the floors"
         elif room != ONLY.get(to, room):
             yield line, f"{room} may not import {to}: only {ONLY[to]} may"
+
+
+def across(path: Path, name: Path) -> Iterator[tuple[int, str]]:
+    """Line number and reason for each import that a folder of the page may not make."""
+    place = name.relative_to(PAGE)
+    folder = place.parts[0] if len(place.parts) > 1 else ""
+    if folder and folder not in PAGE_ARROWS:
+        yield (
+            1,
+            f"{folder} is no folder of the page: add it to PAGE_ARROWS in tools/checks/arrows.py",
+        )
+        return
+    text = tree.text_of(path)
+    for match in SCRIPT_IMPORT.finditer(text):
+        if not match[1].startswith("."):
+            continue
+        line = text.count("\n", 0, match.start(1)) + 1
+        target = Path(os.path.normpath(place.parent / match[1])).parts
+        to = target[0] if len(target) > 1 else ""
+        if not folder or to == folder:
+            continue
+        if to not in PAGE_ARROWS[folder]:
+            yield line, f"{folder} may not import {to or match[1]}"
+        elif folder == "shell" and to in SCREENS and name.as_posix() != LIST_OF_SCREENS:
+            yield line, f"only {LIST_OF_SCREENS} may import {to}"
 
 
 def rooms_imported(path: Path) -> Iterator[tuple[int, str]]:

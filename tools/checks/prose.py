@@ -16,6 +16,8 @@ CRUTCHES = re.compile(
     re.IGNORECASE,
 )
 CXX_COMMENT = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
+# Of TypeScript; an address in a text has two slashes too.
+SCRIPT_COMMENT = re.compile(r"(?<![:\"'`\w])//[^\n]*|/\*.*?\*/", re.DOTALL)
 PYTHON_COMMENT = re.compile(r"^\s*#.*|(?<=  )# .*", re.MULTILINE)
 # What a page quotes is not its prose: blocks of a screen, code, words and addresses of others.
 QUOTED = re.compile(r"^```.*?^```$|^ {4}.*?$|`[^`\n]*`|\"[^\"\n]*\"|\]\([^)]*\)", re.DOTALL | re.M)
@@ -44,6 +46,9 @@ def prose_of(path: Path) -> Iterator[tuple[int, str]]:
         for match in CXX_COMMENT.finditer(text):
             if not match[0].startswith('"'):
                 yield line_of(text, match.start()), match[0]
+    elif path.suffix in tree.SCRIPT | {".css"}:
+        for match in SCRIPT_COMMENT.finditer(text):
+            yield line_of(text, match.start()), match[0]
     elif tree.is_python(path):
         for match in PYTHON_COMMENT.finditer(text):
             yield line_of(text, match.start()), match[0]

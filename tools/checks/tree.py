@@ -9,6 +9,9 @@ import pathspec
 
 ROOT = Path(__file__).resolve().parents[2]
 CXX = {".h", ".hpp", ".cpp"}
+SCRIPT = {".ts", ".tsx", ".js"}
+# What tools/lab/make writes; a test of the lab makes it again and compares.
+BUILT = ("tools/plumb/lab/page", "tools/lab/src/api/schema.ts")
 
 
 def own_files(root: Path) -> list[Path]:
@@ -32,7 +35,12 @@ def own_files(root: Path) -> list[Path]:
         files += [
             root / here / name for name in names if not ignored.match_file((here / name).as_posix())
         ]
-    return sorted(path for path in files if path.is_file())
+    built = [root / name for name in BUILT]
+    return sorted(
+        path
+        for path in files
+        if path.is_file() and not any(path.is_relative_to(each) for each in built)
+    )
 
 
 def text_of(path: Path) -> str:

@@ -39,11 +39,12 @@ def cxx(name: str, *suites: str) -> Room:
     return Room(name, opened, (*COPIED, "tools/mutation"))
 
 
-def python(name: str, *tests: str) -> Room:
-    """A folder of Python below tools."""
+def python(name: str, *tests: str, commands: tuple[str, ...] = ()) -> Room:
+    """A folder of Python below tools, and the commands that say what it does."""
 
     def opened(is_quick: bool) -> PythonRoom:
         files = sorted(path.relative_to(ROOT) for path in (ROOT / name).glob("*.py"))
+        files += [Path(f"tools/plumb/cli/{command}.py") for command in commands]
         return PythonRoom(ROOT, files, list(tests), is_quick)
 
     return Room(name, opened, ("tools/plumb", "tools/tests", "tools/mutation"))
@@ -63,4 +64,23 @@ ROOMS = (
         "tools/tests/diagnosis/test_mixed_up.py",
         "tools/tests/diagnosis/test_halves.py",
     ),
+    python(
+        "tools/plumb/diary",
+        "tools/tests/diary",
+        "tools/tests/cli/test_diary_and_recheck.py",
+        commands=("diary", "recheck"),
+    ),
+    python(
+        "tools/plumb/recovery",
+        "tools/tests/recovery",
+        "tools/tests/cli/test_slip_and_home.py",
+        commands=("slip", "home"),
+    ),
+    python("tools/plumb/jobs", "tools/tests/jobs", commands=("check", "resume")),
+    python("tools/plumb/guide", "tools/tests/guide"),
+    python("tools/plumb/line", "tools/tests/line"),
+    python("tools/plumb/marks", "tools/tests/marks"),
+    python("tools/plumb/fit", "tools/tests/fit"),
+    python("tools/plumb/plan", "tools/tests/plan"),
+    python("tools/plumb/settings", "tools/tests/settings"),
 )

@@ -2,7 +2,7 @@
 
 # A change in one of these needs a new build; other Python files are used where they stand.
 plumb_sources=(
-  tools/pyproject.toml tools/CMakeLists.txt tools/core tools/judge tools/vm lib src
+  tools/pyproject.toml tools/CMakeLists.txt tools/core tools/dry_run tools/judge tools/vm lib src
   tools/requirements_lab.txt
 )
 

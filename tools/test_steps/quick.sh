@@ -58,6 +58,7 @@ touched_by() {
     src/board/*) suites+=(test_board) ;;
     src/*) suites+=(test_machine test_dialogues) rooms+=(tools/tests/settings) ;;
     test/dialogues/*) suites+=(test_dialogues) ;;
+    test/programs/*) suites+=(test_dialogues) rooms+=(tools/tests/jobs) ;;
     test/test_*/*) suites+=("$(cut -d / -f 2 <<<"$1")") ;;
     test/vm/*) rooms+=(tools/tests/firmware) ;;
     tools/judge/*) suites+=(test_reference) ;;
@@ -73,6 +74,7 @@ touched_by() {
     tools/setup | tools/setup_steps/*) rooms+=("$project/test_setup.py") ;;
     tools/test | tools/test_steps/*) rooms+=("$project/test_test_run.py") ;;
     tools/bench/*) rooms+=("$project/test_bench.py") ;;
+    tools/dry_run/*) rooms+=(tools/tests/jobs) ;;
     tools/core/*) rooms+=("$project/test_core_types.py" tools/tests/model) ;;
     tools/*) rooms+=("$project") ;;
     docs/* | *.md) rooms+=("$project/test_docs.py" "$project/test_recipes.py") ;;

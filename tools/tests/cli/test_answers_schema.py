@@ -7,7 +7,8 @@ from pathlib import Path
 import plumb.cli.read as read_command
 import pytest
 from jsonschema import Draft202012Validator as Validator
-from plumb.cli.main import COMMANDS, build_parser
+from plumb.cli.main import COMMANDS, build_parser, main
+from plumb.diary.file import append
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 SCHEMA = json.loads(resources.files("plumb.cli").joinpath("answers.schema.json").read_text("utf-8"))
@@ -26,16 +27,23 @@ QUESTIONS = (
     ("bench", "--scenario", "none-9", "one-9", "--boards", "1"),
     ("calibrate", *BOARD),
     ("calibrate", *BOARD, *TAPE, *CLIENT),
+    ("check", EXAMPLE / "pocket.nc", INI),
+    ("check", EXAMPLE / "pocket.nc", INI, "--marks", EXAMPLE / "marks.toml"),
     ("compare", *BOARD),
     ("compare", *BOARD, "spans.toml"),
     ("compare", *SPANS),
     ("diagnose", *BOARD),
     ("diagnose", *SLIPPED),
     ("diagnose", *BOARD, "--sigma", "5"),
+    ("diary", "kept"),
     ("effects",),
     ("forward", INI, "--lengths", "pairs.csv"),
+    ("gap", TOML, "--length", "2989.29"),
+    ("gap", TOML, "--length", "2989.29", "2990.10", "--flex", "1", "--drop", "18.3"),
     ("grid", *GRID),
     ("grid", *GRID, "--output", "grid.nc", "--marks", "form.toml"),
+    ("home", "kept.toml", "--keep=low=0,-400", "-o", "hole.nc"),
+    ("home", "kept.toml", "--at", "left", "--touch=right:903,-250"),
     ("inverse", INI, "--points", "pairs.csv", "--controller", "plumb"),
     ("next", *BOARD),
     ("next", *BOARD, *TAPE),
@@ -46,7 +54,13 @@ QUESTIONS = (
     ("preview", INI, *GRID),
     ("reach", INI),
     ("read",),
+    ("recheck", "kept/machine.toml", "--touch=-900,250:-900,250", "--touch=900,-250:905,-250"),
+    ("recheck", TOML, BOARD[1], "--check", BOARD[1]),
+    ("report", *BOARD, "-o", "report.html"),
+    ("report", *SLIPPED, "-o", "report.html"),
     ("settings", TOML),
+    ("slip", TOML, "--touch=-900,250:-895.4,253.7", "--touch=900,-250:897.9,-246.5"),
+    ("slip", TOML, "--touch=0,0:5,5"),
     ("telemetry", EXAMPLE / "client.log"),
 )
 
@@ -56,6 +70,26 @@ GAME = (
     '"claimed": ["sled_swing"], "chosen": ["sled_swing"], "solved": true, "false": 0, '
     '"marks": 25, "minutes": 40.5, "sled_before": 5.0, "sled_frame": 3.0, "sled_after": 0.1, '
     '"sled_known": 0.1, "cut_before": 5.1, "cut_after": 0.5, "cut_known": 0.5}\n'
+)
+
+HOME = (
+    "[mark.left]\nplace = [-900.0, 250.0]\nchains = [876.851, 2387.777]\n"
+    "[mark.right]\nplace = [900.0, -250.0]\nchains = [2589.437, 1315.760]\n"
+)
+
+FIT = {
+    **{"machine": "machine.toml", "effects": ["chain_pitch"], "marks": [], "distances": []},
+    **{"before_mm": 5.0, "rms_mm": 0.5, "left_out_mm": None},
+    "numbers": [
+        {"name": "motor_gap", "unit": "mm", "value": 2978.0, "low": 2977.0, "high": 2979.0}
+    ],
+    **{"unknowns": ["motor_gap"], "covariance": [[0.25]]},
+}
+
+
+TELEMETRY = (
+    b"[Telemetry|error:0,0,0|dry:0|tick:1|illegal:0,0,0|supply:5.00,5.00|eeprom:ok|start:usual"
+    b"|events:0,0,0,0|last:none,0|slips:0,1|slipped:right,-31,12,341]\r\n"
 )
 
 
@@ -68,6 +102,8 @@ class Board:
     def write(self, characters):
         if b"$$" in characters:
             self.waiting = b"$0=2438.4\r\n$1=1219.2\r\nok\r\n"
+        elif b"B30" in characters:
+            self.waiting = TELEMETRY + b"ok\r\n"
 
     def read(self):
         self.time += 0.2
@@ -94,10 +130,27 @@ def folder(tmp_path, monkeypatch):
         'target = [500, 0]\n[[distance]]\nbetween = ["a", "b"]\nmm = 501.5\n'
     )
     (tmp_path / "games.jsonl").write_text(GAME)
+    (tmp_path / "kept.toml").write_text(TOML.read_text())
+    (tmp_path / "home.toml").write_text(HOME)
+    (tmp_path / "kept").mkdir()
+    (tmp_path / "kept/machine.toml").write_text(TOML.read_text())
+    append(tmp_path / "kept", "fit", {**FIT, "settings": TOML.read_text()})
     (tmp_path / "pairs.csv").write_text("1700,1700\n0,0\n9000,100\n")
     monkeypatch.setattr(read_command, "port_for", str)
     monkeypatch.setattr(read_command, "SerialPort", Board)
     monkeypatch.chdir(tmp_path)
+
+
+def test_plumb_read_says_which_chain_may_have_slipped(monkeypatch, capsys):
+    assert main(["read"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "Look at the right chain" in said and "near x -31, y 12 mm, 5 minutes ago" in said
+    assert main(["read", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["suspicion"].startswith("Look at the right chain")
+    for silent in (b"", TELEMETRY.replace(b"right,-31,12,341", b"none,0,0,0")):
+        monkeypatch.setattr(f"{__name__}.TELEMETRY", silent)
+        assert main(["read", "--json"]) == 0
+        assert json.loads(capsys.readouterr().out)["suspicion"] is None
 
 
 def validator_of(name):

@@ -12,6 +12,7 @@ from plumb.marks.read import read_plan
 from plumb.model.catalogue import effect_names
 from plumb.plan.plan_marks import marks_file
 from plumb.plan.planned_visits import sent
+from plumb.plan.visits_program import program
 from plumb.settings.files import write_machine_toml
 from synthetic import BELIEVED, EFFECTS, TRUE, grid, marks_on
 
@@ -85,6 +86,62 @@ def test_a_proposal_is_drawn_and_waits_for_the_tape(run, ask, csv, maker, tmp_pa
     assert code in (0, 1) and after["verdict"]
 
 
+def test_a_proposal_is_cut_by_a_program(run, ask, csv, maker, tmp_path):
+    marks = marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.3, seed=2)
+    path, cut = csv("m.csv", marks), tmp_path / "more.nc"
+    for _ in range(2):  # a second run replaces the first
+        code, answer = ask("next", maker, path, "--sigma", "0.3", "--output", cut)
+        assert code == 0 and answer["written"] == [str(cut)]
+    chosen = next(each for each in answer["next"] if each["marks"])
+    text = cut.read_text()
+    touched = re.findall(r"G1 X(\S+) Y(\S+) F\S+\nG1 Z-0\.5 ", text)
+    targets = [mark["target"] for mark in chosen["marks"]]
+    assert np.array(touched, dtype=float) == pytest.approx(np.array(targets), abs=0.001)
+    # GroundControl sends no line that is longer than the machine's buffer.
+    assert max(map(len, text.splitlines())) <= 80
+    assert all(line.count("(") == line.count(")") <= 1 for line in text.splitlines())
+    assert chosen["do"][0][:20] in text
+    assert run("check", cut, maker)[0] == 0
+
+
+def test_the_program_waits_for_another_weight(file):
+    targets = np.array([(-300.0, 100.0), (0.0, 100.0), (300.0, 100.0), (300.0, -100.0)])
+    visits = sent(BELIEVED, targets, controller="plumb", sled_weight=97.9)
+    weights = np.array([97.9, 97.9 + 5 * 9.81, 97.9 + 5 * 9.81, 97.9])
+    text = program(dataclasses.replace(visits, sled_weights=weights), usual_weight=97.9)
+    before = [part.count("G1 Z-0.5") for part in text.split("M0")[:-1]]
+    assert before == [1, 2] and text.index("let 5.0 kg more hang") < text.index("M0")
+    assert "take off what hangs on the sled" in text.split("M0")[1]
+    # From the usual side: from below.
+    assert "G0 X-300.000 Y60.000\nG1 X-300.000 Y100.000" in text
+
+
+def test_the_program_waits_before_the_first_mark_and_at_the_end_until_all_is_as_it_was():
+    visits = sent(BELIEVED, [(0.0, 0.0), (300.0, 0.0)], controller="plumb", sled_weight=146.95)
+    parts = program(visits, usual_weight=97.9).split("M0")
+    assert [part.count("G1 Z-0.5") for part in parts] == [0, 2, 0]
+    assert "let 5.0 kg more" in parts[0] and "G0 Z5" in parts[0] and "take off" in parts[1]
+    assert parts[1].index("G0 X0 Y0") < parts[1].index("take off")
+    swapped = sent(BELIEVED, [(0.0, 0.0)], controller="plumb", sled_weight=97.9, swapped=True)
+    first, middle, end = program(swapped, usual_weight=97.9).split("M0")
+    assert "each chain on the other's sprocket" in first and "on its sprocket again" in middle
+    assert end.strip() == ""
+    usual = sent(BELIEVED, [(0.0, 0.0)], controller="plumb", sled_weight=97.9)
+    assert "M0" not in program(usual, usual_weight=97.9)
+
+
+def test_what_is_only_read_again_is_not_cut(run, ask, csv, maker, tmp_path):
+    path = csv("m.csv", marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.3, seed=2))
+    command = ["next", maker, path]
+    _, answer = ask(*command)
+    again = [each["kind"] for each in answer["next"]].index("repeats") + 1
+    form, cut = tmp_path / "more.toml", tmp_path / "more.nc"
+    code, _, complaint = run(*command, "--choose", again, "--output", cut)
+    assert code == 2 and "the proposals that are cut are" in complaint and not cut.exists()
+    assert run(*command, "--choose", again, "--marks", form)[0] == 0
+    assert form.read_text().count(FILL) == 27
+
+
 @pytest.mark.parametrize("swapped", [False, True])
 def test_a_form_keeps_place_side_weight_and_swap(file, swapped):
     targets, sides = (
@@ -140,6 +197,7 @@ def test_what_was_checked_is_not_proposed_again(ask):
         (["--choose", "1"], "--choose"),
         (["--marks", "x.toml", "--choose", "99"], "--choose 99"),
         (["--marks", "x.svg", "--picture", "x.svg"], "two results"),
+        (["--marks", "x.nc", "--output", "x.nc"], "two results"),
     ],
 )
 def test_next_refuses_in_one_line(run, tmp_path, monkeypatch, options, complaint):
@@ -231,6 +289,22 @@ def test_a_form_names_what_was_in_force_not_what_was_fitted_since(run, maker, cs
     asked = run("next", fitted, marks, "--cut-with", maker, "--marks", form)
     assert asked[0] == 0, asked
     assert 'cut_with = "machine.toml"' in form.read_text()
+
+
+def test_a_form_names_the_settings_that_the_machine_has_now_if_somebody_says_so(
+    run, maker, csv, tmp_path
+):
+    marks = csv("marks.csv", marks_on(TRUE, BELIEVED, grid(3, 3)))
+    now, form = tmp_path / "now.toml", tmp_path / "more.toml"
+    write_machine_toml(now, dataclasses.replace(BELIEVED, sheet_width=2400.0))
+    command = ["next", maker, marks, "--marks", form, "--cut-next-with"]
+    assert run(*command, now)[0] == 0
+    assert 'cut_with = "now.toml"' in form.read_text()
+    # The form counts from the edges of the sheet of those settings.
+    name, target = re.search(r'name = "(\S+)/.*"\ntarget = \[(\S+),', form.read_text()).groups()
+    assert float(target) == pytest.approx(float(name) + 2400.0 / 2, abs=1)
+    code, _, complaint = run(*command, tmp_path / "nothing.toml")
+    assert code == 2 and "nothing.toml" in complaint
 
 
 def test_sentences_and_tables_name_effects_as_makers_do(run):

@@ -18,6 +18,8 @@ SHARED = {
         "__init__",
         "add_text",
         "calibrate_text",
+        "check_form",
+        "check_text",
         "checked",
         "client",
         "demo",
@@ -29,9 +31,10 @@ SHARED = {
         "output",
         "parser",
     ),
-    *("places_text", "practice_auto", "practice_text", "screen", "steps", "text"),
+    *("places_text", "practice_auto", "practice_text", "question", "screen", "steps", "text"),
+    "touches",
 }
-SHARED_ARGUMENTS = {"__init__", "checked", "client", "shared"}
+SHARED_ARGUMENTS = {"__init__", "checked", "client", "job", "shared", "touch"}
 # What takes longer to load than a command needs to refuse a wrong word.
 HEAVY = ("numpy", "scipy", "matplotlib")
 

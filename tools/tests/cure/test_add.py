@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 from plumb.cure.add import add, priors_with
 from plumb.cure.demo import MARKS, SETTINGS
+from plumb.cure.machine_file import turn_sentences
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import PRIORS, Checked
 from plumb.marks.read import Measurements, read_marks
@@ -96,6 +97,15 @@ def test_the_sheet_is_to_be_turned_back():
     turned = Measurements(marks_on(BELIEVED, BELIEVED, grid(5, 3), rotation=0.002))
     result = add(Inputs(BELIEVED, turned), effects=["chain_sag"])
     assert result.sheet_rise == pytest.approx(0.002 * 2438.4, rel=0.01)
+    (sentence,) = turn_sentences(result)
+    assert "raise its right end by 4.88 mm" in sentence
+
+
+@pytest.mark.parametrize(("turn", "said"), [(0.0001, 0), (-0.0001, 0), (0.0006, 1), (-0.0006, 1)])
+def test_a_turn_that_may_be_none_asks_for_nothing(turn, said):
+    marks = marks_on(BELIEVED, BELIEVED, grid(5, 3), rotation=turn, noise=0.5)
+    result = add(Inputs(BELIEVED, Measurements(marks)), effects=["chain_sag"])
+    assert len(turn_sentences(result)) == said
 
 
 def test_distances_alone_can_be_added_to():

@@ -55,6 +55,34 @@ def test_two_exchanged_marks_are_both_named_with_the_correction(pair, seed):
         assert slip.length == pytest.approx(20, abs=2)
 
 
+def repeated(seed):
+    """The same marks, the last two by the names of the corners that they repeat."""
+    marks = marks_on(PITCH, BELIEVED, TARGETS, noise=0.3, seed=seed)
+    names = {repeat: marks[corner].name for corner, repeat in ((0, 15), (14, 16))}
+    return [replace(mark, name=names.get(i, mark.name)) for i, mark in enumerate(marks)]
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("pair", [(0, 15), (14, 16)])
+def test_two_exchanged_readings_of_a_mark_name_it_without_itself(pair, seed):
+    marks = exchanged(repeated(seed), *pair)
+    slips = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).slips
+    assert [slip.name for slip in slips] == [str(pair[0])] * 2
+    assert all(slip.sentence.endswith("; its two readings may be exchanged") for slip in slips)
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(("index", "off"), [(15, -40.0), (16, 40.0), (15, -36.0), (0, 40.0)])
+def test_a_misread_repeat_is_not_taken_for_two_exchanged_readings(index, off, seed):
+    marks = repeated(seed)
+    x, y = marks[index].measured
+    marks[index] = replace(marks[index], measured=(x + off, y))
+    (slip,) = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).slips
+    assert slip.name == marks[index].name
+    assert slip.guess == "its other reading may be the wrong one"
+    assert slip.length == pytest.approx(abs(off), abs=2)
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_two_exchanged_distances_are_both_named(seed):
     known = distances_between(marks_on(PITCH, BELIEVED, grid(3, 3), noise=0.2, seed=seed))

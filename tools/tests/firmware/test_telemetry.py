@@ -7,7 +7,7 @@ from plumb.cli import main as cli
 
 WELL = (
     "error:0.094,0.074,0.002|dry:0|tick:1208|illegal:0,0,0|supply:5.01,4.96|eeprom:ok|start:usual"
-    "|events:2,0,5,1|last:supply,8"
+    "|events:2,0,5,1|last:supply,8|slips:0,0|slipped:none,0,0,0"
 )
 
 
@@ -85,6 +85,40 @@ def test_what_ever_went_wrong_is_told_and_is_no_warning(ask):
     assert "never any" in ask(nothing)[1]
 
 
+@pytest.mark.parametrize(
+    ("slips", "last", "hint"),
+    [
+        (
+            "1,0",
+            "left,-312,120,341",
+            "Look at the left chain: a motor's load fell away for a moment, once since power-on, "
+            "the last time on the left near x -312, y 120 mm, 5 minutes ago.",
+        ),
+        (
+            "0,2",
+            "right,5,-6,59",
+            "Look at the right chain: a motor's load fell away for a moment, 2",
+        ),
+        ("1,2", "left,5,-6,59", "Look at both chains"),
+        ("0,2", "right,5,-6,59", "near x 5, y -6 mm, 59 s ago"),
+        ("0,2", "right,5,-6,60", "1 minute ago"),
+        ("0,2", "right,5,-6,7300", "2 hours ago"),
+    ],
+)
+def test_a_chain_that_may_have_slipped_is_to_be_looked_at(ask, slips, last, hint):
+    line = WELL.replace("slips:0,0", f"slips:{slips}").replace("none,0,0,0", last)
+    (warning,) = json.loads(ask(line, "--json")[1])["warnings"]
+    assert hint in warning
+    code, said, _ = ask(line)
+    assert code == 1
+    assert hint in " ".join(said.split())
+
+
+def test_a_firmware_that_does_not_watch_for_slips_is_well(ask):
+    code, said, _ = ask(WELL.partition("|slips")[0], "--json")
+    assert (code, json.loads(said)["last_slip"]) == (0, None)
+
+
 def test_the_last_line_of_a_log_counts(ask):
     code, said, _ = ask(f"{WELL.replace('dry:0', 'dry:9')}]\n[Telemetry|{WELL}")
     assert (code, "All is well." in said) == (0, True)
@@ -101,6 +135,9 @@ def test_the_last_line_of_a_log_counts(ask):
         WELL.replace("start:usual", "start:later"),
         WELL.replace("events:2,0,5,1", "events:2,0,5"),
         WELL.replace("last:supply", "last:flood"),
+        WELL.replace("slips:0,0", "slips:0"),
+        WELL.replace("slipped:none", "slipped:z"),
+        WELL.replace("|slipped:none,0,0,0", ""),
     ],
 )
 def test_a_damaged_line_is_refused(ask, fields):

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from plumb.board.observations import observe
 from plumb.board.sighting import sighted
-from plumb.cli.add import as_json, as_text, toml_of
+from plumb.cli.add import as_json, as_text
 from plumb.cure.add import add
+from plumb.cure.machine_file import toml_of
 from plumb.fit.fit import fit
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements

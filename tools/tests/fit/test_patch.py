@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hidden_boards import MAKER, board, plan
-from plumb.cli.add import toml_of
 from plumb.cli.main import main
 from plumb.cure.add import add
 from plumb.cure.auto import add_auto
 from plumb.cure.demo import MARKS, SETTINGS
+from plumb.cure.machine_file import toml_of
 from plumb.fit.compare import compare
 from plumb.fit.inputs import Inputs
 from plumb.fit.patch import PATCH, SIZES

@@ -225,7 +225,7 @@ def test_the_forces_at_every_place_balance_the_sled():
 REFUSALS = [
     ("--margin 20", "the lead-in of mark 11 at x -1199.2 y -629.6 is outside the sheet"),
     ("--min-tension 25", "mark 11 at x -1119.2 y -549.6 leaves 23.0 N on the right chain"),
-    ("--sled-weight-n 150", "more than --max-tension 200: raise --margin or lighten the sled"),
+    ("--sled-weight-n 150", "more than --max-tension 200: raise --margin, or lighten the sled"),
     ("--motor-offset 60", "mark 1 at x -1119.2 y 509.6 puts 216 N on a chain"),
     ("--motor-spacing 2250", "N on the right chain, less than --min-tension"),
     ("--columns 2 --max-tension 120", "the way to the lead-in of mark 2"),

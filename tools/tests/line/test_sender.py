@@ -1,6 +1,8 @@
 """The sender: ahead of the answers, never beyond the machine's buffer, and stopped by a refusal."""
 
 import pytest
+from plumb.line.memory import refuse_while_moving
+from plumb.line.port import LostError
 from plumb.line.sender import (
     AHEAD,
     GO_ON,
@@ -71,6 +73,45 @@ def test_nothing_more_is_sent_after_a_refusal():
     assert sender.stream(["G0 X0"]) == 1
 
 
+def test_answers_to_lines_behind_a_refused_line_are_for_no_later_line():
+    board = Board(lambda line: "error: no such word" if line in ("$1", "$3") else "ok")
+    said = []
+    sender = Sender(board, said.append)
+    with pytest.raises(RefusedError, match="'\\$1': the machine says"):
+        sender.stream(["$0", "$1", "$2", "$3", "$4"])
+    assert board.waiting == ["$2", "$3", "$4"]
+    counted = []
+    sender.stream(["G0 X1", "G0 X2"], answered=lambda done: counted.append(len(board.waiting)))
+    assert counted == [1, 0]
+    assert said == ["error: no such word"]
+
+
+def test_an_alarm_forgets_the_lines_behind_it():
+    def answer(line):
+        if line != "G0 X1":
+            return "ok"
+        board.waiting.clear()
+        return "ALARM: Halted"
+
+    board = Board(answer)
+    sender = Sender(board)
+    with pytest.raises(RefusedError, match="ALARM"):
+        sender.stream(["G0 X0", "G0 X1", "G0 X2", "G0 X3"])
+    sender.attend = lambda sender: board.time < 30 or pytest.fail("an answer is missing")
+    assert sender.stream(["$0", "$1"]) == 2
+
+
+def test_a_stop_forgets_the_lines_behind_a_refused_line():
+    board = Board(lambda line: "error: no such word" if line == "$1" else "ok")
+    sender = Sender(board)
+    with pytest.raises(RefusedError):
+        sender.stream(["$1", "$2", "$3"])
+    sender.brake()
+    board.waiting = ["!"]
+    assert sender.stream(["G0 X1"]) == 1
+    assert board.waiting == []
+
+
 def test_an_alarm_stops_the_stream_too():
     board = Board(lambda line: "ALARM: the sled was not keeping up")
     with pytest.raises(RefusedError, match="ALARM: the sled"):
@@ -136,6 +177,60 @@ def test_a_machine_that_stands_is_not_waited_for():
     assert board.time < 1.1
 
 
+def reported(x):
+    return f"<Idle,MPos:{x:.2f},0.00,0.00,WPos:0,0,0>\r\n".encode()
+
+
+def stalled_board():
+    """A board whose computer stands still for two seconds while the sled moves."""
+    board = Board()
+    reads = [reported(0), b"", *[reported(x) for x in range(1, 5)], *[reported(5)] * 50]
+    jumps = {1: 2.0}  # [s] by the number of the read
+
+    def read():
+        board.count += 1
+        board.time += jumps.get(board.count - 1, 0.2)
+        return reads[min(board.count, len(reads)) - 1]
+
+    board.count, board.read = 0, read
+    return board
+
+
+def test_a_computer_that_stood_still_does_not_take_a_moving_machine_for_one_that_stands():
+    sender = Sender(stalled_board())
+    sender.await_start()
+    sender.await_rest()
+    assert sender.status.place[0] == 5
+    sender = Sender(stalled_board())
+    with pytest.raises(InputError, match="the machine moves"):
+        refuse_while_moving(sender)
+
+
+def test_a_machine_that_falls_silent_while_it_is_waited_for_is_named():
+    board = Board()
+    sender = Sender(board)
+    sender.await_start()
+    board.deaf = True
+    with pytest.raises(LostError, match="silent for 5 s"):
+        sender.await_rest()
+    assert board.time < 6
+
+
+def test_what_came_while_this_program_stood_still_is_read_before_the_machine_is_given_up():
+    board = Board()
+    usual, stood = board.read, []
+
+    def read():
+        if stood or board.time < 1:
+            return usual()
+        stood.append(board.time)
+        board.time += 60  # and meanwhile the answers come
+        return b""
+
+    board.read = read
+    assert Sender(board).stream([f"G0 X{i}" for i in range(20)]) == 20
+
+
 def test_a_line_may_come_in_pieces():
     board = Board()
     pieces = [b"<Idle,MPos:3.0", b"0,4.00,5.00,WPos:0,0,0>\r", b"\no", b"k\r\n"]
@@ -161,6 +256,16 @@ def test_a_hold_is_a_single_character_and_going_on_answers_no_line():
     assert HOLD + GO_ON in board.written
     assert HOLD == b"\x84"
     assert sender.stream(["G0 X1"]) == 1
+
+
+@pytest.mark.parametrize("press", [Sender.go_on, Sender.brake])
+def test_the_ok_of_a_pressed_key_answers_no_line(press):
+    board = Board()
+    board.answers = lambda line: "error: no" if line == "G1 Xtwo" else "ok"
+    sender = Sender(board)
+    press(sender)
+    with pytest.raises(RefusedError, match=r"^'G1 Xtwo': the machine says: error: no$"):
+        sender.stream(["G1 Xtwo"])
 
 
 def test_whoever_stops_sends_nothing_more():

@@ -52,3 +52,9 @@ def test_words_are_as_many_as_can_be_read_and_names_come_when_asked(count, witho
     plain, named = (draw([panel], sheet=SHEET, form="svg", names=on).decode() for on in (0, 1))
     assert plain.count("<!-- 0.7 -->") == without and "<!-- mark" not in plain
     assert named.count("<!-- mark") == with_names
+
+
+@pytest.mark.parametrize("form", FORMATS)
+def test_a_name_with_a_dollar_is_a_name_and_no_formula(form):
+    named = Panel("$\\frac{$ 7.0 mm", PLACES, ERRORS, names=("$\\frac{$", "$5 $6", "c"))
+    assert draw([named], sheet=SHEET, form=form, names=True).startswith(STARTS[form])

@@ -22,7 +22,11 @@ NAMED = re.compile(r"(?<![\w./-])(?:docs|include|lib|src|test|tools)/[\w./-]*\w/
 def pages(root: Path) -> list[Path]:
     """The pages that people write or generate."""
     below = (page for folder in FOLDERS for page in (root / folder).rglob("*.md"))
-    shown = (page for page in below if not any(part[0] == "." for part in page.parts))
+    shown = (
+        page
+        for page in below
+        if not any(part[0] == "." or part == "node_modules" for part in page.parts)
+    )
     return sorted({*root.glob("README.md"), *shown})
 
 

@@ -18,7 +18,11 @@ STORIES = {
     "bench/causes.py",
     "bench/hiding.py",
     # The example of an option, whose help must not wait for the catalogue.
+    "cli/arguments/add.py",
     "cli/arguments/checked.py",
+    # Machines on which chains slip, and a question to the owner about the links of a chain.
+    "bench/slipped_chains.py",
+    "lab/routes/known.py",
     "cure/demo.py",
     "cli/demo.py",
 }

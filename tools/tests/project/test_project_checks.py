@@ -168,6 +168,13 @@ def test_names_allow(tmp_path, line):
     assert said("names", plant(tmp_path, {"lib/Motion/src/Motion.h": line}))[0] == 0
 
 
+def test_names_refuse_two_files_of_tests_with_the_same_name(tmp_path):
+    files = {f"tools/tests/{folder}/test_new.py": "" for folder in ("lab", "line")}
+    code, out = said("names", plant(tmp_path, files))
+    assert code == 1 and "test_new.py: tools/tests/" in out
+    assert said("names", plant(tmp_path / "one", {"tools/tests/lab/test_new.py": ""}))[0] == 0
+
+
 @pytest.mark.parametrize(
     "text",
     [

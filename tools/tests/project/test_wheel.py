@@ -3,12 +3,15 @@
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import sysconfig
 import zipfile
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
+from urllib.request import urlopen
 
 import pytest
 from plumb.cure.demo import MARKS, SETTINGS
@@ -38,6 +41,9 @@ def wheel(tmp_path_factory):
     return next(folder.glob("plumb-*.whl"))
 
 
+run_to_its_end = partial(subprocess.run, capture_output=True)
+
+
 @pytest.fixture(scope="module")
 def plumb(wheel, tmp_path_factory):
     """Runs a command of the installed wheel in an empty folder, without the project's folder."""
@@ -49,17 +55,17 @@ def plumb(wheel, tmp_path_factory):
     shutil.copy(MARKS, empty / "marks.ini")
     machine = replace(read_settings(SETTINGS), controller="plumb")
     (empty / "machine.toml").write_text(machine_toml(machine))
+    (empty / "job.nc").write_text("G0 Z2\nG0 X50\nG1 Z-1 F60\nG1 X90 F500\nG0 Z2\n")
     (empty / "points.csv").write_text("0,0\n")
     (empty / "chains.csv").write_text("1700,1700\n")
     # Without -S the project's installation would answer to the name plumb.
     packages = os.pathsep.join([str(installed), sysconfig.get_path("purelib")])
 
-    def run(*arguments):
-        return subprocess.run(
+    def run(*arguments, start=run_to_its_end):
+        return start(
             [sys.executable, "-S", "-m", "plumb.cli.main", *arguments],
             cwd=empty,
             env={"PATH": os.environ["PATH"], "HOME": str(empty), "PYTHONPATH": packages},
-            capture_output=True,
             text=True,
         )
 
@@ -71,16 +77,22 @@ COMMANDS = {
     "grid": ("--columns", "3", "--rows", "3"),
     "preview": ("groundcontrol.ini", "--columns", "3", "--rows", "3"),
     "calibrate": MEASURED,
+    "check": ("job.nc", "groundcontrol.ini"),
     "compare": MEASURED,
     "diagnose": MEASURED,
     "next": MEASURED,
     "add": (*MEASURED, "--effect", "chain_pitch", "-o", "fitted.toml"),
     "effects": (),
     "bench": ("--scenario", "none-9", "--boards", "1"),
+    "report": (*MEASURED, "-o", "report.html"),
     "inverse": ("groundcontrol.ini", "--points", "points.csv"),
     "forward": ("groundcontrol.ini", "--lengths", "chains.csv"),
+    "resume": ("job.nc", "groundcontrol.ini", "--line", "4"),
     "settings": ("machine.toml",),
     "reach": ("groundcontrol.ini",),
+    "home": ("machine.toml", "--keep=left=-900,250"),
+    "slip": ("machine.toml", "--touch=-900,250:-895,253"),
+    "gap": ("machine.toml", "--length", "2989.3", "--drop", "18.3"),
     "vm": ("--seconds", "1"),
     "practice": ("start", "game", "--seed", "1"),
     "faults": ("--only", "ctrl-X", "--tries", "1"),
@@ -88,8 +100,11 @@ COMMANDS = {
 }
 # What needs a file or a board that an empty folder lacks, and what its refusal names.
 LACKING = {
+    "diary": ("none",),
+    "recheck": ("groundcontrol.ini", "--touch=0,0:0,0", "--touch=9,0:9,0"),
     "telemetry": ("log.txt",),
     "send": ("marks.nc", "--port", "none"),
+    "guide": ("--port", "none"),
     "read": ("--port", "none"),
     "flash": ("none.hex", "--port", "none"),
 }
@@ -98,14 +113,16 @@ LACKING = {
 def test_every_command_is_tried(plumb):
     shown = plumb("--help").stdout
     names = re.findall(r"^    ([a-z]+)\b", shown.partition("COMMAND\n")[2], re.MULTILINE)
-    assert set(names) == {*COMMANDS, *LACKING}, shown
+    assert set(names) == {*COMMANDS, *LACKING, "lab"}, shown
 
 
 @pytest.mark.parametrize("command", LACKING)
 def test_a_command_without_its_file_or_board_says_so(plumb, command):
     done = plumb(command, *LACKING[command])
     assert done.returncode == 2, done.stderr
-    assert re.match(r"plumb: (log\.txt|marks\.nc|none|none\.hex): ", done.stderr), done.stderr
+    assert re.match(
+        r"plumb: (log\.txt|marks\.nc|none|none\.hex|(none/)?diary\.jsonl): ", done.stderr
+    ), done.stderr
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -114,6 +131,25 @@ def test_the_command_runs_from_an_empty_folder(plumb, command):
     assert "Traceback" not in done.stderr, done.stderr
     assert done.returncode in (0, 1), f"{done.returncode}: {done.stderr}"
     assert done.stdout
+
+
+def test_the_lab_is_served_from_the_wheel_with_its_page(plumb):
+    served = plumb(
+        "lab",
+        "--no-browser",
+        "--port",
+        "0",
+        start=partial(subprocess.Popen, stdout=subprocess.PIPE),
+    )
+    try:
+        address = [served.stdout.readline() for _ in range(2)][1].partition("?")[0]
+        page = urlopen(address, timeout=120).read().decode()
+        assert '<div id="lab">' in page
+        for name in re.findall(r'(?:src|href)="\./([^"]+)"', page):
+            assert len(urlopen(address + name, timeout=120).read()) > 1000, name
+    finally:
+        served.send_signal(signal.SIGINT)
+        assert served.wait(20) == 0
 
 
 def test_the_wheel_says_which_python_it_needs(wheel):

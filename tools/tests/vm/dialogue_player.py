@@ -19,11 +19,17 @@ NUMBER = re.compile(r"[-+]?\d+(?:\.\d*)?")
 SPECIAL = {"X": b"\x18", "N": b"\n", "H": b"\x84", **{str(i): bytes([0x90 + i]) for i in range(5)}}
 PATIENCE = 150.0  # [s] for a line that is expected
 UNPOWERED, LOOKS_ALIKE, MEASURED = 0.15, 0.25, 0.02  # [s] as on the pins of a Mega
+SLED_WEIGHT, CHAIN_WEIGHT = 97.9, 0.00137293  # [N], [N/mm] as the firmware takes them
 NUMBERS = {
-    **{f"{side}.weight": 0.00137293 for side in ("left", "right")},
+    **{f"{side}.weight": CHAIN_WEIGHT for side in ("left", "right")},
     **{f"{side}.compliance": 5.2e-6 for side in ("left", "right")},
 }
-WIRES = {"block": "blocked", "unplug": "encoder_unplugged", "reverse": "motor_reversed"}
+WIRES = {
+    "complain": "driver_complains",
+    "block": "blocked",
+    "unplug": "encoder_unplugged",
+    "reverse": "motor_reversed",
+}
 ENDS = {"free": "block", "plug": "unplug"}
 
 
@@ -51,6 +57,19 @@ def steps_of(name: str) -> list[Step]:
     return steps
 
 
+def weighed(steps: list[Step], sled_weight: float) -> list[Step]:
+    """The steps with the settings of another sled where they set how far its chains sag."""
+    sag = f"$160={(CHAIN_WEIGHT / sled_weight) ** 2 / 24:.4g}"
+    others: list[Step] = []
+    for step in steps:
+        if step.mark == "->" and step.text.startswith("$160=") and sled_weight != SLED_WEIGHT:
+            weight = Step("->", f"$62={sled_weight}", step.place)
+            others += [weight, Step("<-", "ok", step.place), Step("->", sag, step.place)]
+        else:
+            others.append(step)
+    return others
+
+
 def matches(line: str, wanted: str) -> bool:
     """Whether a line is as expected: `*` any rest, `#` any number, numbers within t."""
     text, _, within = wanted.rpartition(" within ")
@@ -75,9 +94,20 @@ def matches(line: str, wanted: str) -> bool:
 class Player:
     """A virtual machine, and whoever reads it a dialogue."""
 
-    def __init__(self, name: str, *, elf: str | None = None) -> None:
-        self.steps = steps_of(name)
-        self.machine = _vm.VirtualMachine(NUMBERS, paid_out=1651.0, elf=elf)
+    def __init__(
+        self,
+        name: str,
+        *,
+        elf: str | None = None,
+        sled_weight: float = SLED_WEIGHT,
+        shield: int = 2,
+    ) -> None:
+        """`sled_weight` [N]: the firmware's setting says the same. `shield`: N of v1.N."""
+        self.steps = weighed(steps_of(name), sled_weight)
+        self.sled_weight = sled_weight
+        self.machine = _vm.VirtualMachine(
+            NUMBERS | {"sled_weight": sled_weight}, paid_out=1651.0, elf=elf, shield=shield
+        )
         self.lines = deque[str]()
         self.partial = self.status = self.errors = ""
         self.reported = self.since = 0.0
@@ -179,6 +209,10 @@ class Player:
             self.machine.miss_edges(axis, int(numbers[0]))
         elif verb == "supply":
             self.machine.set_board_supply(numbers[0])
+        elif verb == "hook":
+            self.machine.hook_across(axis, numbers[0])
+        elif verb == "unhook":
+            self.machine.unhook()
         elif verb == "probe":
             self.machine.set_probe_height(numbers[0])
         elif verb == "hang":
@@ -224,7 +258,8 @@ class Player:
     def place(self) -> np.ndarray:
         """[mm] where the judge hangs the sled on these chains."""
         chains = np.array([self.machine.chains])
-        return _judge.places(NUMBERS, chains, pushes=0 * chains, weights=np.array([97.9]))[0]
+        weights = np.array([self.sled_weight])
+        return _judge.places(NUMBERS, chains, pushes=0 * chains, weights=weights)[0]
 
     def ask_sled(self, rest: str) -> bool:
         x, y, most = map(float, NUMBER.findall(rest))

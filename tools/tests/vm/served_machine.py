@@ -9,7 +9,7 @@ from pathlib import Path
 
 PLUMB = [sys.executable, "-m", "plumb.cli.main"]
 SPEED = 10  # times real time
-START = 30  # [s] in which a program on a busy computer must have begun
+START = 120  # [s] in which a program on a busy computer must have begun
 
 # A lane of tools/test ignores Ctrl-C, and what it starts would too.
 INTERRUPTIBLE = functools.partial(
@@ -17,9 +17,11 @@ INTERRUPTIBLE = functools.partial(
 )
 
 
-def plumb(*words: str, folder: Path, code: int = 0) -> str:
+def plumb(*words: str, folder: Path, code: int = 0, typed: str = "") -> str:
     """What a command prints; its exit code must be this."""
-    done = subprocess.run([*PLUMB, *words], cwd=folder, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(
+        [*PLUMB, *words], cwd=folder, capture_output=True, text=True, timeout=120, input=typed
+    )
     assert done.returncode == code, done.stdout + done.stderr
     return done.stdout + done.stderr
 
@@ -33,7 +35,8 @@ class Served:
             command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
         )
         end = time.monotonic() + START
-        while not (folder / "maslow").exists() and time.monotonic() < end:
+        while not (folder / "maslow").exists():
+            assert self.program.poll() is None and time.monotonic() < end, "no machine"
             time.sleep(0.05)
 
     def stop(self) -> str:

@@ -1,30 +1,40 @@
 """GroundControl's and WebControl's ways with a serial port, in real time: how each opens it, what
-it asks first, how it streams a job and how it stops.
+it asks first, how it streams a job, stops, pauses, and measures chains.
 
-What they do was watched on the clients' code; none of that code is here. A pseudo terminal has no
-DTR and no parity, so each opening stands for the reset that the client asks for with either.
+What they do was watched on the clients' code at this port; none of that code is here. How they use
+DTR and parity is in test_port_library.py.
 """
 
 import re
+import threading
 import time
-from pathlib import Path
 
 import pytest
 import serial
+from plumb.vm.garage import random_garage
+from plumb.vm.hiding import hide
+from plumb.vm.owner import VirtualOwner
+from plumb.vm.pseudo_terminal import Pace, PseudoTerminal
 
 AHEAD = 126  # characters that a client sends without an answer
 READ_FOR = 0.25  # [s] after which a client takes what came for a line
+SPACING = 0.05  # [s] between two lines of a client
 JOB = ["G21 ", "G90 ", "G0 X30 Y20 ", "G1 X40 Y20 F1000 ", "G2 X40 Y30 I0 J5 ", "", "(a comment) "]
 JOB += [f"G1 X{40 - 2 * step} Y{30 - step} " for step in range(9)] + ["G4 P200 ", "G0 X20 Y10 "]
-LASTS = 90  # [s] at most, on a busy computer
+# What both send to calibrate: chains measured, a motor driven, single axes moved, chains declared.
+CALIBRATION = ["$42=2000 ", "B11 S100 T1 R ", "$42=2.0 ", "G91 ", "B09 L5 ", "B09 R-5 ", "G90 "]
+LASTS = 300  # [s] at most, on a busy computer
+PER_SECOND = 5  # reports of the machine
 PLACE = re.compile(r"MPos:([-\d.]+),([-\d.]+),([-\d.]+),WPos:")
 
 
 class Client:
     """A client at the port: it counts answers as both clients do, and keeps what it heard."""
 
-    def __init__(self, path: Path, openings: int, silence: float):
-        self.path, self.silence = str(path), silence
+    def __init__(self, terminal: PseudoTerminal, openings: int, silence: float):
+        """silence [s] of the machine's time after which the client gives up."""
+        self.path, self.silence = terminal.path, silence
+        self.clock = lambda: terminal.machine.seconds
         self.line = self.opened()
         for _ in range(openings - 1):
             self.line.close()
@@ -32,8 +42,8 @@ class Client:
         self.waiting: list[int] = []  # lengths of the lines that are not answered
         self.answers = 0
         self.heard: list[str] = []
-        self.last_line = time.monotonic()
-        self.end = self.last_line + LASTS
+        self.last_line = self.clock()
+        self.end = time.monotonic() + LASTS
 
     def opened(self) -> serial.Serial:
         return serial.Serial(self.path, 57600, timeout=READ_FOR)
@@ -42,10 +52,10 @@ class Client:
         """The next line, or nothing; it must be whole and come before the client gives up."""
         raw = self.line.readline()
         assert time.monotonic() < self.end, f"no answer: {self.heard[-5:]}"
-        assert time.monotonic() - self.last_line < self.silence
         if not raw:
+            assert self.clock() - self.last_line < self.silence
             return ""
-        self.last_line = time.monotonic()
+        self.last_line = self.clock()
         assert raw.endswith(b"\r\n"), raw
         text = raw.decode("ascii").strip()
         self.heard.append(text)
@@ -61,7 +71,13 @@ class Client:
         while sum(self.waiting) + len(raw) > AHEAD:
             self.hear()
         self.waiting.append(len(raw))
+        time.sleep(SPACING)
         self.line.write(raw)
+
+    def press(self, character: str) -> None:
+        """A button: its character goes at once, and the next answer is for it."""
+        self.waiting.insert(0, len(character) + 1)
+        self.line.write(f"{character}\n".encode())
 
     def ask(self, text: str) -> list[str]:
         """What the machine says until the line is answered."""
@@ -75,10 +91,21 @@ class Client:
         while self.waiting:
             self.hear()
 
+    def hear_until(self, start: str) -> str:
+        """The next line that begins so."""
+        while not (text := self.hear()).startswith(start):
+            pass
+        return text
+
+    def measure(self, side: str) -> float:
+        """[mm] The length of a chain, as both clients read it."""
+        said = [text for text in self.ask(f"B10 {side}") if text.startswith("[Measure")]
+        return float(said[0][len("[Measure: ") : -1])
+
     def hear_for(self, seconds: float) -> None:
-        end = time.monotonic() + seconds
-        while time.monotonic() < end:
-            self.hear()
+        """Hears so long a time of the machine."""
+        for _ in range(round(seconds * PER_SECOND)):
+            self.hear_until("<")
 
     def rest(self) -> tuple[float, float]:
         """[mm] The place, when the reports of a second no longer change it."""
@@ -97,9 +124,9 @@ class Client:
         return float(newest[1]), float(newest[2])
 
 
-def greet_as_groundcontrol(path: Path) -> Client:
+def greet_as_groundcontrol(terminal: PseudoTerminal) -> Client:
     """It opens twice and drops DTR, sends ctrl-X at once, and asks when an answer came."""
-    client = Client(path, openings=3, silence=2)
+    client = Client(terminal, openings=3, silence=2)
     client.line.write(b"\x18\n")
     while client.answers == 0:
         client.hear()
@@ -109,9 +136,9 @@ def greet_as_groundcontrol(path: Path) -> Client:
     return client
 
 
-def greet_as_webcontrol(path: Path) -> Client:
+def greet_as_webcontrol(terminal: PseudoTerminal) -> Client:
     """It opens with and without parity and says nothing until the machine said ok."""
-    client = Client(path, openings=4, silence=5)
+    client = Client(terminal, openings=4, silence=5)
     while client.answers == 0:
         client.hear()
     client.ask("B05 ")
@@ -120,10 +147,29 @@ def greet_as_webcontrol(path: Path) -> Client:
     return client
 
 
+@pytest.fixture
+def terminal():
+    """The port of a machine whose time runs as a board's does, or later on a busy computer."""
+    owner = VirtualOwner(random_garage(hide([], millimetres=3, seed=1), 1))
+    owner.switch_on()
+    owner.machine.advance(10_000)  # until all is in the EEPROM
+    terminal, pace, ended = PseudoTerminal(owner.machine), Pace(1), threading.Event()
+
+    def serve():
+        while not ended.is_set():
+            terminal.pass_time(pace.due())
+
+    thread = threading.Thread(target=serve)
+    thread.start()
+    yield terminal
+    ended.set()
+    thread.join()
+    terminal.close()
+
+
 @pytest.fixture(params=[greet_as_groundcontrol, greet_as_webcontrol])
-def client(request, served, tmp_path):
-    served("--speed", "1")
-    client = request.param(tmp_path / "maslow")
+def client(request, terminal):
+    client = request.param(terminal)
     yield client
     client.line.close()
 
@@ -150,4 +196,48 @@ def test_a_client_connects_streams_a_job_and_stops_it(client):
     assert y == pytest.approx(10, abs=0.1)
     client.ask("G0 X20 Y10 ")
     assert client.rest() == pytest.approx((20, 10), abs=0.05)
+    assert not any(text.startswith(("ALARM", "error")) for text in client.heard)
+
+
+def test_a_client_pauses_and_goes_on(client):
+    client.ask("G21 ")
+    client.say("G1 X10 F800 ")
+    client.say("M0 ")
+    client.hear_until("Maslow Paused")
+    assert len(client.waiting) == 1
+    client.hear_for(3)
+    assert len(client.waiting) == 1
+    client.press("~")
+    client.settle()
+    # A second ~ is answered too: GroundControl sends it whenever a window closes.
+    client.press("~")
+    client.settle()
+    client.ask("G0 X0 ")
+    # A tool that is not in the spindle pauses; the same tool does not.
+    client.say("T2 M6 ")
+    client.hear_until("Tool Change: Please insert tool 2")
+    client.hear_until("Maslow Paused")
+    client.press("~")
+    client.settle()
+    assert "Maslow Paused" not in client.ask("T2 M6 ")
+    assert client.rest()[0] == pytest.approx(0, abs=0.05)
+
+
+def test_a_client_measures_and_declares_chains(client):
+    client.ask("G21 ")
+    client.ask("G0 X0 Y0 ")
+    client.rest()
+    before = client.measure("L"), client.measure("R")
+    for text in CALIBRATION:
+        client.ask(text)
+    moved = client.measure("L") - before[0], client.measure("R") - before[1]
+    assert moved == pytest.approx((5, -5), abs=0.05)
+    client.ask("B15 ")
+    assert client.rest() == pytest.approx((0, 0), abs=0.05)
+    left, right = client.measure("L"), client.measure("R")
+    assert (left, right) == pytest.approx(before, abs=0.05)
+    assert f"Left: {left:.2f}mm" in client.ask(f"B06 L{left} R{right} ")
+    assert client.rest() == pytest.approx((0, 0), abs=0.05)
+    said = client.ask("B08 ")
+    assert "Message: The machine chains have been manually re-calibrated." in said
     assert not any(text.startswith(("ALARM", "error")) for text in client.heard)

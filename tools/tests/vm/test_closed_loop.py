@@ -1,6 +1,7 @@
 """The closed loop: a hidden effect is found, added, and the next sheet is better."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -37,8 +38,10 @@ def test_long_chains_are_told_from_a_wrong_tape_and_the_error_falls():
     assert "on another sheet" in heard[-1]
 
 
-def test_a_machine_without_a_fault_cuts_where_it_should(tmp_path):
-    owner = VirtualOwner(Garage(Hidden(), friction=0.0), noise=0.0)
+@pytest.mark.parametrize("feed", ["top", "bottom"])
+def test_a_machine_without_a_fault_cuts_where_it_should(tmp_path, feed):
+    garage = Garage(Hidden(), friction=0.0, settings=replace(MAKER, feed=feed))
+    owner = VirtualOwner(garage, noise=0.0)
     owner.switch_on()
     path = tmp_path / "marks.toml"
     path.write_text(owner.cut_grid(Grid(columns=2, rows=2, repeats=0)))
@@ -57,6 +60,15 @@ def test_an_owner_measures_what_is_true_and_no_better():
     assert true_value(owner.garage, "chain_stretch.compliance") == 5.17e-6
     assert true_value(owner.garage, "motor_level.height_difference") == 0
     assert true_value(owner.garage, "sled_friction.drag") == owner.garage.friction
+
+
+def test_an_owner_measures_the_motors_height_from_the_sheet_as_it_lies():
+    """A tape starts at the sheet's edge. A sheet that lies low makes the motors seem high."""
+    low = Garage(Hidden(), motor_height=1075.0, sheet_center=(2.0, -6.0))
+    assert true_value(low, "motor_height") == pytest.approx(1081.0)
+    turned = replace(low, sheet_center=(0.0, -6.0), sheet_turn=0.01)
+    assert true_value(turned, "motor_height") == pytest.approx(1081.0 * np.cos(0.01))
+    assert true_value(low, "motor_gap") == low.motor_gap
 
 
 def test_a_cut_that_goes_sideways_is_no_mark():

@@ -18,6 +18,7 @@ STOPS_WITHIN = {
     "12 V gone, processor on USB": 8.0,
     "encoder unplugged": 8.0,
     "channel of an encoder lost": 15.0,
+    "driver too hot: it complains and lets go": 12.0,
     "motor unplugged": 12.0,
     "motor blocked": 12.0,
     "motor wired in reverse": 15.0,
@@ -85,10 +86,10 @@ def test_ways_are_compared_by_their_places():
 
 def test_the_page_says_what_was_lost():
     fault = fault_named("Stop")
-    report = tried_all([fault, fault_named("chain skips")], tries=1, seed=3)
+    report = tried_all([fault, fault_named("chain climbs")], tries=1, seed=3)
     assert report.is_well
     text = page(report)
-    assert "| Stop | 1 | 0 |" in text and "plumb diagnose" in text
+    assert "| Stop | 1 | 0 |" in text and "plumb slip" in text
     row = report.rows[0]
     wrong = replace(row, outcomes=(replace(row.outcomes[0], astray=0.6),))
     assert not replace(report, rows=(wrong,)).is_well

@@ -1,11 +1,13 @@
 """The virtual machine behind a serial port, driven by the commands that drive a board."""
 
 import os
+import re
 import subprocess
-import time
 
 import pytest
 import serial
+from plumb.cli.main import main
+from plumb.diary.file import append, read_diary
 from plumb.line.serial_port import port_for
 from plumb.text.errors import InputError
 from served_machine import INTERRUPTIBLE, PLUMB, START, plumb
@@ -27,6 +29,29 @@ def test_a_program_is_cut_read_with_a_tape_and_the_machine_tells_its_place(serve
     assert not os.path.lexists(tmp_path / "maslow")
 
 
+READING = """
+import sys
+import numpy as np
+from plumb.vm.garage import random_garage
+from plumb.vm.hiding import hide
+from plumb.vm.tape import Tape
+from types import SimpleNamespace as Machine
+form = "[[mark]]\\nname = '1'\\ntarget = [100.0, 200.0]\\n# measured = [ , ]\\n"
+garage = random_garage(hide([], millimetres=3, seed=1), 1)
+tape = Tape(garage, np.random.default_rng(1), noise=0.4)
+tape.get_ready(form)
+loaded = set(sys.modules)
+cut = (1, 0.0, 0.0, 0.0, 0.5)
+assert "\\nmeasured = [" in tape.fill_when_cut(form, Machine(cuts=lambda: [cut], height=1.0))
+assert set(sys.modules) == loaded, set(sys.modules) - loaded
+"""
+
+
+def test_a_machine_that_is_served_does_not_fall_silent_to_load_what_its_tape_needs():
+    done = subprocess.run([PLUMB[0], "-c", READING], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
 def test_numbers_are_written_read_back_kept_and_brought_back(served, tmp_path):
     served()
     plumb("read", "--port", "maslow", "-o", "machine.toml", folder=tmp_path)
@@ -37,29 +62,83 @@ def test_numbers_are_written_read_back_kept_and_brought_back(served, tmp_path):
     assert len(list(tmp_path.glob("machine-before-*.nc"))) == 1
     said = plumb("send", "--undo", "--port", "maslow", "machine.toml", folder=tmp_path)
     assert "$2: 2980.5 -> 2978.4" in said
+    there, back = read_diary(tmp_path).of_kind("numbers")
+    assert there.content["changed"] == {"$2": [2978.4, 2980.5]}
+    assert back.content["changed"] == {"$2": [2980.5, 2978.4]}
+    assert there.content["firmware"] == "Firmware Version 1.28"
+    assert (tmp_path / there.content["kept"]).is_file()
+    # From now on the folder's diary hears of each line.
+    plumb("send", "--port", "maslow", "B10 L", folder=tmp_path)
+    (entry,) = read_diary(tmp_path).of_kind("program")
+    assert entry.content["program"] == "B10 L" and entry.content["whole"]
 
 
 def test_a_refused_line_stops_the_program(served, tmp_path):
     served()
+    append(tmp_path, "fit", {})
     (tmp_path / "job.nc").write_text("G21\nG0 X--5\nG0 X10\n")
     said = plumb("send", "--port", "maslow", "job.nc", folder=tmp_path, code=2)
     assert "'G0 X--5': the machine says: ALARM: Halted" in said
+    (entry,) = read_diary(tmp_path).of_kind("program")
+    assert entry.content["lines"] == 3 and not entry.content["whole"]
 
 
 def test_ctrl_c_stops_the_machine_and_it_knows_where_it_is(served, tmp_path):
     served()
-    (tmp_path / "job.nc").write_text("G21\nG1 X900 F300\n")
-    command = [*PLUMB, "send", "--port", "maslow", "job.nc"]
+    (tmp_path / "job.nc").write_text("G21\nG1 X5 F300\nG4 P200\nB10 L\nG1 X900\n")
+    command = [PLUMB[0], "-u", *PLUMB[1:], "send", "--port", "maslow", "job.nc"]
     sending = INTERRUPTIBLE(
         command, cwd=tmp_path, stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True
     )
-    time.sleep(4)
+    assert any("[Measure" in line for line in sending.stdout)  # so it is on its way to x 900
     sending.send_signal(2)
     assert "The machine has stopped." in sending.communicate(timeout=START)[0]
     assert sending.returncode == 1
     said = plumb("read", "--port", "maslow", folder=tmp_path)
     assert "ALARM" not in said
     assert "The sled is at x 0.00" not in said and "The sled is at x 900" not in said
+
+
+WAITING = """G21
+G0 X5
+(let 5 kg more hang on the sled)
+M0
+G0 X10
+M0
+B10 L
+"""
+
+
+def test_a_program_that_waits_says_why_and_goes_on_with_enter(served, tmp_path):
+    served()
+    (tmp_path / "job.nc").write_text(WAITING)
+    said = plumb("send", "--port", "maslow", "job.nc", folder=tmp_path, typed="\n\n")
+    enter = "Enter goes on; s and Enter stops: "
+    assert f"The program waits: let 5 kg more hang on the sled. {enter}" in said
+    assert f"The program waits: it does not say why. {enter}" in said
+    assert said.index("[Measure") > said.rindex(enter)
+    assert "6 lines were sent" in said
+
+
+@pytest.mark.parametrize("typed", ["s\n", ""])
+def test_a_program_that_waits_is_stopped_by_s_and_where_nobody_can_answer(served, tmp_path, typed):
+    served()
+    (tmp_path / "job.nc").write_text(WAITING)
+    said = plumb("send", "--port", "maslow", "job.nc", folder=tmp_path, typed=typed, code=1)
+    assert "The machine has stopped." in said and "[Measure" not in said
+    assert re.search(r"x (4\.9|5\.0)\d,", plumb("read", "--port", "maslow", folder=tmp_path))
+
+
+def test_ctrl_c_ends_the_machine_from_the_moment_that_its_port_is_there(tmp_path, monkeypatch):
+    link, memory = tmp_path / "maslow", tmp_path / "memory.bin"
+
+    def interrupted(*said, **options):
+        assert link.is_symlink()
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("plumb.cli.vm.print", interrupted, raising=False)
+    assert main(["vm", "--link", str(link), "--eeprom", str(memory)]) == 0
+    assert not link.is_symlink() and memory.exists()
 
 
 def test_opening_the_port_resets_the_board_each_time(served, tmp_path):

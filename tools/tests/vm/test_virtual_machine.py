@@ -20,13 +20,13 @@ def said_by(machine, line: str, milliseconds: int) -> list[str]:
     return [line for line in lines if not line.startswith(("<", "[PE"))]
 
 
-def started(**options) -> _vm.VirtualMachine:
+def started(*, lines: str = SETTINGS, **options) -> _vm.VirtualMachine:
     """A machine that knows its settings and its chains."""
     machine = _vm.VirtualMachine(NUMBERS, **options)
     machine.start()
     machine.advance(3000)
     assert "ready" in machine.take_said().decode()
-    assert said_by(machine, SETTINGS.strip(), 3000) == ["ok"] * 7
+    assert said_by(machine, lines.strip(), 3000) == ["ok"] * lines.count("\n")
     assert "ok" in said_by(machine, "B06 L1651 R1651", 1000)
     return machine
 
@@ -42,6 +42,35 @@ def test_the_sled_is_where_the_judge_says(machine):
     rest = _judge.places(NUMBERS, chains, pushes=0 * chains, weights=np.array([97.9]))
     assert machine.sled == pytest.approx(tuple(rest[0]), abs=1e-6)
     assert machine.sled == pytest.approx((300, -200), abs=0.05)
+
+
+def test_chains_off_the_bottom_bring_the_sled_where_the_judge_says():
+    machine = started(over_top=False, lines=SETTINGS + "$38=2\n")
+    for x, y in ((300, -200), (-700, 350)):
+        said_by(machine, f"G0 X{x} Y{y}", 90_000)
+        chains = np.array([machine.chains])
+        weights = np.array([97.9])
+        rest = _judge.places(NUMBERS, chains, pushes=0 * chains, weights=weights, over_top=False)
+        assert machine.sled == pytest.approx(tuple(rest[0]), abs=1e-6)
+        assert machine.sled == pytest.approx((x, y), abs=0.05)
+        over = _judge.places(NUMBERS, chains, pushes=0 * chains, weights=weights)
+        assert np.hypot(*(over - rest)[0]) > 20
+    # A chain off the bottom is paid out as the count falls.
+    count, paid = machine.count("left"), machine.chains[0]
+    said_by(machine, "G0 X-600", 30_000)
+    assert (machine.count("left") - count) * COUNT == pytest.approx(
+        paid - machine.chains[0], abs=2 * COUNT
+    )
+    assert machine.chains[0] - paid > 50
+
+
+@pytest.mark.parametrize(("over_top", "feed"), [(True, 2), (False, 1)])
+def test_a_feed_that_the_settings_have_wrong_winds_in_what_should_be_paid_out(over_top, feed):
+    """Motor and encoder are both taken the wrong way, so the machine itself cannot notice."""
+    machine = started(over_top=over_top, lines=f"{SETTINGS}$38={feed}\n")
+    left, _ = machine.chains
+    said_by(machine, "G0 X100", 20_000)
+    assert machine.chains[0] < left - 20
 
 
 def test_the_encoder_counts_what_the_motor_pays_out(machine):
@@ -104,6 +133,18 @@ def test_a_beam_that_creeps_lowers_the_sled(machine):
     assert machine.sled[1] - place[1] == pytest.approx(-0.1, abs=0.03)
 
 
+def test_a_sled_of_twenty_kilograms_travels_without_an_alarm():
+    machine = started(lines=SETTINGS.replace("$62=97.9", "$62=196.1"))
+    machine.set("sled_weight", 196.1)
+    for place in ((-370, -290), (1100, -290), (-1100, -540), (0, -40)):
+        machine.send(b"G0 X%d Y%d\n" % place)
+        since = machine.seconds
+        while machine.sled != pytest.approx(place, abs=5):
+            machine.advance(200)
+            assert machine.seconds - since < 240
+        assert "ALARM" not in machine.take_said().decode()
+
+
 def test_an_unplugged_encoder_stops_the_machine(machine):
     machine.set_wire("left", "encoder_unplugged", True)
     assert any("ALARM" in line for line in said_by(machine, "G0 X200", 10_000))
@@ -149,3 +190,8 @@ def test_above_the_sheet_the_sled_is_where_its_chains_put_it(machine):
         chains = np.array([machine.chains])
         rest = _judge.places(NUMBERS, chains, pushes=0 * chains, weights=np.array([97.9]))
         assert machine.sled == pytest.approx(tuple(rest[0]), abs=0.7)
+
+
+def test_a_shield_that_nobody_knows_is_refused():
+    with pytest.raises(ValueError, match="a shield is 2 or 3"):
+        _vm.VirtualMachine({}, shield=4)

@@ -1,0 +1,93 @@
+"""`plumb add --checked`: a number that was measured directly counts in the fit, or is refused."""
+
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+from plumb import api
+from plumb.cli.main import main
+
+EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
+BOARD = (str(EXAMPLE / "groundcontrol.ini"), str(EXAMPLE / "marks.toml"))
+PITCH = (*BOARD, "--effect", "chain_pitch")
+COMMAND = re.compile(r"^  plumb (?:.*\\\n)*.*", re.MULTILINE)
+
+
+def value_of(answer, name):
+    return next(each for each in answer["parameters"] if each["name"] == name)["value"]
+
+
+def next_command(said):
+    return shlex.split(COMMAND.findall(said)[-1].replace("\\\n", " "))[1:]
+
+
+def test_a_check_moves_the_fit_as_much_as_its_sigma_says(ask):
+    _, free = ask("add", *PITCH)
+    _, near = ask("add", *PITCH, "--checked", "motor_gap=2985+-0.01")
+    _, far = ask("add", *PITCH, "--checked", "motor_gap=2985+-50")
+    assert value_of(near, "motor_gap") == pytest.approx(2985, abs=0.2)
+    assert value_of(far, "motor_gap") == pytest.approx(value_of(free, "motor_gap"), abs=0.2)
+    wanted = api.read(*BOARD, checked={"motor_gap": (2985, 0.01)})
+    assert near["after"]["fit_rms_mm"] == api.add(wanted, ["chain_pitch"]).after.fit_rms
+
+
+def test_auto_takes_what_was_checked_into_its_verdict(ask):
+    _, free = ask("add", *BOARD, "--effect", "auto")
+    _, taken = ask("add", *BOARD, "--effect", "auto", "--checked", "tape_scale.strain=0+-0.0001")
+    assert free["auto"]["verdict"] == "cannot_tell" and free["auto"]["rivals"]
+    assert taken["auto"]["verdict"] == "one_suspect" and not taken["auto"]["rivals"]
+
+
+@pytest.mark.parametrize(
+    ("options", "complaint"),
+    [
+        (["tape_scale.strain=0+-0.0001"], "tape_scale is not fitted here; name it with --effect"),
+        (["nonsense=1+-1"], "nonsense"),
+        (["rotation_radius=139+-1"], "no such number is fitted"),
+        (["motor_gap=2980+-1", "--prior", "motor_gap=0"], "no such number is fitted"),
+        (["motor_gap=2980+-1", "--checked", "motor_gap=2981+-1"], "twice"),
+        (["chain_pitch.left=0.002+-0.001", "--hold", "chain_pitch.left=0.002"], "--hold keeps it"),
+    ],
+)
+def test_what_cannot_count_is_refused_in_one_line(run, options, complaint):
+    code, said, refused = run("add", *PITCH, "--checked", *options)
+    assert code == 2 and said == "" and complaint in refused and refused.count("\n") == 1
+
+
+def test_the_next_command_says_what_was_checked_with_all_its_digits(run, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    check = ("--checked", "motor_gap=2978.4375+-0.3", "--checked", "chain_pitch.left=0.0018+-0.001")
+    code, said, _ = run("add", *PITCH, *check, "--prior", "motor_height=12.3456789")
+    again = next_command(said)
+    assert code == 0 and again[-2:] == ["-o", "machine.toml"]
+    for words in (check[:2], check[2:], ("--prior", "motor_height=12.3456789")):
+        assert " ".join(words) in " ".join(again)
+    assert main(again) == 0
+
+
+def test_the_frame_alone_can_be_fitted(ask, run):
+    code, answer = ask("add", *BOARD, "--effect", "none")
+    wanted = api.add(api.read(*BOARD))
+    assert code == 0 and answer["after"]["fit_rms_mm"] == wanted.after.fit_rms
+    assert answer["effects_added"] == []
+    assert "--effect none" in run("add", *BOARD, "--effect", "none")[1]
+    code, _, refused = run("add", *BOARD, "--effect", "none", "chain_pitch")
+    assert code == 2 and "name no effects with it" in refused
+
+
+def test_diagnose_hands_its_checks_to_the_command_that_adds(run):
+    tape, frame = "tape_scale.strain=0+-0.0001", "motor_gap=2978.4+-1"
+    checks = (tape, frame, "chain_stretch.compliance=5e-06+-5e-05")
+    said = run("diagnose", *BOARD, *(word for check in checks for word in ("--checked", check)))[1]
+    words = next_command(said)
+    assert words[0] == "add" and words[words.index("--effect") + 1] == "chain_stretch"
+    given = [words[i + 1] for i, word in enumerate(words) if word == "--checked"]
+    assert given == list(checks[1:]), "the tape is not fitted, so its check cannot count"
+
+
+def test_the_most_likely_is_added_with_what_was_checked(run):
+    said = run("calibrate", *BOARD, "--checked", "motor_gap=2978.4+-1")[1]
+    words = next_command(said)
+    assert words[words.index("--effect") + 1] == "auto"
+    assert words[words.index("--checked") + 1] == "motor_gap=2978.4+-1"

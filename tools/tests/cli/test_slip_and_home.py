@@ -1,0 +1,156 @@
+"""`plumb slip` and `plumb home`: the repair that they write, and what they refuse."""
+
+from pathlib import Path
+
+import pytest
+from plumb.diary.file import append, read_diary
+
+EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
+SLIPPED = ("--touch=-900,250:-902.4,256.1", "--touch=900,-250:894.5,-247.1")
+STILL = ("--touch=-900,250:-900.3,250.2", "--touch=900,-250:900.2,-249.9")
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    (tmp_path / "machine.toml").write_text((EXAMPLE / "machine.toml").read_text())
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_a_slip_is_named_and_its_repair_written(run, folder):
+    code, said, _ = run("slip", "machine.toml", *SLIPPED, "-o", "repair.nc")
+    assert code == 1
+    assert said.startswith("The left chain is 1 link (6.35 mm) longer than the machine believes")
+    comment, line = (folder / "repair.nc").read_text().splitlines()
+    assert "touch 2" in comment and line.startswith("B06 L") and line in said
+    assert "plumb send repair.nc" in said
+
+
+def test_touches_odds_and_the_line_are_said(run):
+    said = run("slip", "machine.toml", *SLIPPED)[1]
+    rows = [line.split() for line in said.splitlines() if line.startswith(("1 ", "2 "))]
+    assert rows[0][1:7] == ["-900.0,", "250.0", "-902.4,", "256.1", "+2.40,", "-6.10"]
+    assert rows[1][1:7] == ["900.0,", "-250.0", "894.5,", "-247.1", "+5.50,", "-2.90"]
+    assert "a slip, links: left +1  > 99.9 %" in said
+    line = next(each for each in said.splitlines() if each.startswith("  plumb send "))
+    assert line == "  plumb send 'B06 L2589.564 R1315.333'"
+    said = run("slip", "machine.toml", "--touch=0,0:5,5", "--sigma", "3")[1]
+    shown = said[said.index("what may have happened") : said.index("Touch another")]
+    odds = [each.split()[-2] for each in shown.splitlines() if each.endswith(" %")]
+    assert len(odds) == 4 and all(0 < float(each) < 99 for each in odds)
+
+
+def test_the_repair_is_a_link_more_than_the_machine_believes(ask):
+    _, answer = ask("slip", "machine.toml", *SLIPPED)
+    left, right = (float(word[1:]) for word in answer["lines"][-1].split()[1:])
+    believed = answer["touches"][-1]["chains"]
+    assert left == pytest.approx(believed[0] + 6.35, abs=1e-3)
+    assert right == pytest.approx(believed[1], abs=1e-3)
+
+
+def test_where_nothing_slipped_there_is_nothing_to_repair(run, folder):
+    code, said, _ = run("slip", "machine.toml", *STILL, "-o", "repair.nc")
+    assert code == 0 and said.startswith("No chain slipped")
+    assert "B06" not in said and not (folder / "repair.nc").exists()
+
+
+def test_a_single_hole_asks_for_another(run, ask):
+    code, said, _ = run("slip", "machine.toml", SLIPPED[0])
+    assert code == 1 and "cannot tell" in said
+    x, y = ask("slip", "machine.toml", SLIPPED[0])[1]["touch_next"]
+    assert f"Touch another hole near {x}, {y}, where the likeliest" in said
+    assert ask("slip", "machine.toml", *SLIPPED)[1]["touch_next"] is None
+    code, said, _ = run("slip", "machine.toml", SLIPPED[0], "--fixed")
+    assert code == 1 and said.startswith("The left chain is 1 link")
+
+
+def test_both_chains_are_said_in_a_sentence(ask):
+    touched = ("--touch=-900,250:-902.4,256.1", "--fixed")
+    _, left = ask("slip", "machine.toml", *touched)
+    assert left["accounts"][0]["links"] == [1, 0]
+    _, answer = ask("slip", "machine.toml", "--touch=-900,250:-896.6,260.2", "--fixed")
+    assert answer["accounts"][0]["links"] == [1, 1]
+    assert "and the right chain is 1 link" in answer["sentence"]
+    assert "both slipped on their sprockets" in answer["sentence"]
+
+
+def test_a_home_mark_goes_by_its_name(ask):
+    ask("home", "machine.toml", "--keep=left=-900,250")
+    _, answer = ask("slip", "machine.toml", "--touch=left:-902.4,256.1", SLIPPED[1])
+    assert answer["touches"][0]["name"] == "left" and answer["verdict"] == "slip"
+
+
+def test_home_marks_are_kept_listed_and_restored(run, ask, folder):
+    assert "no home mark yet" in run("home", "machine.toml")[1]
+    code, said, _ = run("home", "machine.toml", "--keep=left=-900,250", "-o", "left.nc")
+    assert code == 0 and "-900.00, 250.00" in said
+    program = (folder / "left.nc").read_text().splitlines()
+    assert program[:2] == ["G21", "G90"] and program[-3].startswith("G1 X-900.000 Y250.000")
+    run("home", "machine.toml", "--keep=right=900,-250")
+    _, answer = ask("home", "machine.toml")
+    assert [mark["name"] for mark in answer["marks"]] == ["left", "right"]
+    chains = answer["marks"][0]["chains"]
+    code, said, _ = run("home", "machine.toml", "--at", "left", "-o", "restore.nc")
+    assert code == 0
+    line = (folder / "restore.nc").read_text().splitlines()[-1]
+    assert line == f"B06 L{chains[0]:.3f} R{chains[1]:.3f}"
+    assert f"send {line}, and the machine shows -900.00, 250.00." in " ".join(said.split())
+    listed = run("home", "machine.toml")[1].splitlines()
+    assert f"L{chains[0]:.3f} R{chains[1]:.3f}" in listed[1]
+    said = " ".join(run("home", "machine.toml", "--keep=low=0,-400")[1].split())
+    assert "Make the hole with the program, in what cannot move" in said
+
+
+@pytest.mark.parametrize(("shown", "code"), [("900.4,-250.7", 0), ("905.1,-247.2", 1)])
+def test_a_second_mark_fits_or_not(run, shown, code):
+    run("home", "machine.toml", "--keep=left=-900,250")
+    run("home", "machine.toml", "--keep=right=900,-250")
+    done, said, _ = run("home", "machine.toml", "--at", "left", f"--touch=right:{shown}")
+    assert done == code and ("does not fit" in said) is bool(code)
+
+
+def test_what_was_done_goes_into_a_diary_that_is_there(run, folder):
+    run("home", "machine.toml", "--keep=left=-900,250")
+    run("slip", "machine.toml", *SLIPPED)
+    assert read_diary(folder).entries == ()
+    append(folder, "fit", {})
+    run("home", "machine.toml", "--at", "left")
+    run("slip", "machine.toml", *SLIPPED)
+    (home,), (slip,) = (read_diary(folder).of_kind(kind) for kind in ("home", "slip"))
+    assert home.content["mark"] == "left" and not home.content["kept"]
+    assert slip.content["verdict"] == "slip"
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        (["slip", "machine.toml"], "no mark was touched"),
+        (["slip", "machine.toml", "--touch=left:0,0"], "no home mark 'left'; there is none yet"),
+        (["slip", "machine.toml", "--touch=0,0:0,9000"], "what the machine shows cannot be"),
+        (["home", "machine.toml", "--at", "left"], "no home mark 'left'"),
+        (["home", "machine.toml", "-o", "a.nc"], "there is no program without --keep or --at"),
+        (["home", "machine.toml", "--touch=a:0,0"], "--touch needs --at"),
+        (["home", "machine.toml", "--keep=a=0,0", "--at", "a"], "--keep goes alone"),
+        (["home", "machine.toml", "--keep=a=0,9000"], "home mark a"),
+    ],
+)
+def test_what_cannot_be_is_refused(run, folder, words, why):
+    code, _, error = run(*words)
+    assert code == 2 and why in error and error.count("\n") == 1
+    assert not (folder / "home.toml").exists()
+
+
+@pytest.mark.parametrize(
+    "touch",
+    ["--touch=0,0", "--touch=:0,0", "--touch=0,0:x,1", "--touch=0,nan:0,0", "--keep=a b=0,0"],
+)
+def test_a_touch_that_is_no_touch_is_refused(run, touch):
+    command = "home" if "keep" in touch else "slip"
+    code, _, error = run(command, "machine.toml", touch)
+    assert code == 2 and ("is not" in error or "is no place" in error)
+
+
+def test_a_touch_without_a_name_of_a_home_mark_does_not_fit_one(run):
+    run("home", "machine.toml", "--keep=left=-900,250")
+    code, _, error = run("home", "machine.toml", "--at", "left", "--touch=1,2:3,4")
+    assert code == 2 and "give the name of a home mark" in error

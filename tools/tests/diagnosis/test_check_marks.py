@@ -1,0 +1,99 @@
+"""Check marks: a fit that holds is believed, a machine that has changed is noticed."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from plumb import api
+from plumb.diagnosis.check_marks import check
+from plumb.marks.model import Mark, Measurements, Round
+from plumb.model.predict import lengths, places
+from plumb.plan.check_places import check_places
+
+EXAMPLE = Path(__file__).resolve().parents[3] / "docs" / "example"
+TAPE = 0.5  # [mm]
+
+
+@pytest.fixture(scope="module")
+def inputs():
+    return replace(api.read(EXAMPLE / "machine.toml", EXAMPLE / "marks.toml"), sigma=TAPE)
+
+
+@pytest.fixture(scope="module")
+def sent(inputs):
+    return check_places(inputs.settings, inputs.measurements.targets)
+
+
+def measured(inputs, sent, offsets):
+    marks = tuple(
+        Mark(name, tuple(place), tuple(place + offset), approach=(0.0, 40.0))
+        for name, place, offset in zip("AB", sent, np.array(offsets, dtype=float), strict=True)
+    )
+    return Measurements(marks, rounds=(Round(cut_with=inputs.settings),))
+
+
+def test_places_are_on_the_sheet_and_far_from_marks_that_were_fitted(inputs, sent):
+    width, height = inputs.settings.sheet
+    known = inputs.measurements.targets
+    assert len(sent) == 2
+    assert np.all(np.abs(sent) < [width / 2, height / 2])
+    gaps = np.linalg.norm(sent[:, np.newaxis] - known, axis=2).min(axis=1)
+    assert gaps.min() > 200
+    assert np.linalg.norm(sent[0] - sent[1]) > 200
+
+
+def test_a_new_place_is_chosen_when_the_first_are_taken(inputs, sent):
+    taken = np.vstack([inputs.measurements.targets, sent])
+    again = check_places(inputs.settings, taken)
+    gaps = np.linalg.norm(again[:, np.newaxis] - sent, axis=2)
+    assert gaps.min() > 100
+
+
+def test_marks_where_they_should_be_hold(inputs, sent):
+    result = check(inputs, measured(inputs, sent, [[0.3, -0.2], [0.0, 0.4]]))
+    assert result.holds
+    assert [mark.is_within for mark in result.marks] == [True, True]
+    assert [mark.off for mark in result.marks] == pytest.approx([0.36, 0.4], abs=0.02)
+
+
+def test_the_promise_is_no_better_than_the_tape_and_no_worse_than_it_needs_to_be(inputs, sent):
+    fine = replace(inputs, sigma=0.1)
+    coarse = check(inputs, measured(inputs, sent, [[0, 0], [0, 0]])).marks
+    sharp = check(fine, measured(inputs, sent, [[0, 0], [0, 0]])).marks
+    # Twice ln 100 is the 99 % point of two squares.
+    assert all(3.035 * TAPE < mark.promised < 3.035 * TAPE * 1.3 for mark in coarse)
+    assert all(sharp[i].promised < coarse[i].promised / 3 for i in range(2))
+
+
+@pytest.mark.parametrize("offset", [[3.0, 0.0], [0.0, -3.0]])
+def test_a_mark_far_off_is_named(inputs, sent, offset):
+    result = check(inputs, measured(inputs, sent, [[0, 0], offset]))
+    assert not result.holds
+    assert [mark.is_within for mark in result.marks] == [True, False]
+
+
+def test_marks_that_are_both_a_little_off_the_same_way_count_together(inputs, sent):
+    apart = check(inputs, measured(inputs, sent, [[0.85, 0], [0.85, 0]]))
+    assert all(mark.is_within for mark in apart.marks)
+    assert apart.chi_square > check(inputs, measured(inputs, sent, [[0.85, 0], [0, 0]])).chi_square
+
+
+def test_99_of_100_honest_checks_hold(inputs, sent):
+    random = np.random.default_rng(7)
+    base = check(inputs, measured(inputs, sent, [[0, 0], [0, 0]]))
+    held = 0
+    for _ in range(40):
+        # What the fit leaves open is small here, so the tape makes nearly all of it.
+        noise = TAPE * random.standard_normal((2, 2))
+        held += check(inputs, measured(inputs, sent, noise)).holds
+    assert 38 <= held <= 40
+    assert base.holds
+
+
+def test_a_motor_that_moved_is_noticed(inputs, sent):
+    moved = replace(inputs.settings, motor_gap=inputs.settings.motor_gap + 6.0)
+    chains = lengths(inputs.settings, sent)[0]
+    there = places(moved, chains)[0]
+    result = check(inputs, measured(inputs, sent, there - sent))
+    assert not result.holds

@@ -1,0 +1,129 @@
+"""The diary's file: entries are only added, a cut line is noticed, and writers wait."""
+
+import json
+import os
+import subprocess
+import sys
+from datetime import UTC, datetime
+
+import pytest
+from plumb.diary.file import NAME, append, has_diary, read_diary
+from plumb.text.errors import InputError
+
+NOON = datetime(2026, 5, 1, 12, tzinfo=UTC)
+
+
+def lines_of(folder):
+    return (folder / NAME).read_bytes().splitlines(keepends=True)
+
+
+def test_entries_come_back_as_they_were_written(tmp_path):
+    content = {"rms_mm": 0.1 + 0.2, "marks": [[1.5, -2.0]], "said": 'a "word"\nand 5 µm'}
+    append(tmp_path, "fit", content, at=NOON)
+    append(tmp_path, "program", {"lines": 3})
+    diary = read_diary(tmp_path)
+    assert [entry.kind for entry in diary.entries] == ["fit", "program"]
+    assert diary.entries[0].content == content and diary.entries[0].at == NOON
+    assert diary.entries[1].at.tzinfo is not None
+    assert diary.of_kind("program") == diary.entries[1:]
+    assert diary.spoilt == ()
+
+
+def test_a_line_is_json_that_other_programs_read(tmp_path):
+    append(tmp_path, "fit", {"rms_mm": float("nan"), "pair": (1, 2)}, at=NOON)
+    line = json.loads((tmp_path / NAME).read_text())
+    assert line["kind"] == "fit" and line["at"] == "2026-05-01T12:00:00+00:00"
+    assert line["rms_mm"] is None and line["pair"] == [1, 2]
+
+
+def test_a_folder_without_a_diary_has_no_entries(tmp_path):
+    assert read_diary(tmp_path).entries == () and not has_diary(tmp_path)
+    append(tmp_path, "fit", {})
+    assert has_diary(tmp_path)
+
+
+def test_an_entry_changes_nothing_that_was_there(tmp_path):
+    append(tmp_path, "fit", {"number": 1})
+    before = (tmp_path / NAME).read_bytes()
+    append(tmp_path, "fit", {"number": 2})
+    assert (tmp_path / NAME).read_bytes().startswith(before)
+
+
+@pytest.mark.parametrize("kept", [1, 20, 40, -2, -1])
+def test_a_line_cut_anywhere_is_noticed_and_spoils_no_other(tmp_path, kept):
+    for number in range(3):
+        append(tmp_path, "fit", {"number": number})
+    lines = lines_of(tmp_path)
+    (tmp_path / NAME).write_bytes(b"".join(lines[:2]) + lines[2][:kept])
+    append(tmp_path, "fit", {"number": 3})
+    diary = read_diary(tmp_path)
+    # Of a line that lacks its end alone nothing is lost.
+    whole = [0, 1, 2, 3] if kept == -1 else [0, 1, 3]
+    assert [entry.content["number"] for entry in diary.entries] == whole
+    assert diary.spoilt == (() if kept == -1 else (3,))
+
+
+@pytest.mark.parametrize(
+    "change", [(b'"number": 1', b'"number": 7'), (b'"kind": "fit"', b'"kind": "fat"')]
+)
+def test_a_line_that_somebody_changed_does_not_count(tmp_path, change):
+    for number in range(3):
+        append(tmp_path, "fit", {"number": number})
+    lines = lines_of(tmp_path)
+    (tmp_path / NAME).write_bytes(lines[0] + lines[1].replace(*change) + lines[2])
+    diary = read_diary(tmp_path)
+    assert [entry.content["number"] for entry in diary.entries] == [0, 2]
+    assert diary.spoilt == (2,)
+
+
+def test_other_people_of_the_computer_may_read_it(tmp_path):
+    before = os.umask(0)
+    try:
+        append(tmp_path, "fit", {})
+    finally:
+        os.umask(before)
+    assert (tmp_path / NAME).stat().st_mode & 0o777 == 0o644
+
+
+def test_two_writers_lose_nothing(tmp_path):
+    # Entries longer than what a pipe or a file system writes in one go.
+    program = (
+        "import sys; from plumb.diary.file import append\n"
+        "for i in range(25): append(sys.argv[1], 'fit', {'of': sys.argv[2], 'i': i, "
+        "'long': 'x' * 100_000})"
+    )
+    writers = [
+        subprocess.Popen([sys.executable, "-c", program, tmp_path, name]) for name in ("a", "b")
+    ]
+    assert [writer.wait() for writer in writers] == [0, 0]
+    diary = read_diary(tmp_path)
+    for name in ("a", "b"):
+        mine = [entry.content["i"] for entry in diary.entries if entry.content["of"] == name]
+        assert mine == list(range(25))
+    assert diary.spoilt == ()
+
+
+def test_a_writer_waits_until_the_other_has_finished(tmp_path):
+    import fcntl
+
+    append(tmp_path, "fit", {"number": 0})
+    handle = os.open(tmp_path / NAME, os.O_RDWR | os.O_APPEND)
+    fcntl.flock(handle, fcntl.LOCK_EX)
+    program = "import sys; from plumb.diary.file import append; append(sys.argv[1], 'fit', {})"
+    writer = subprocess.Popen([sys.executable, "-c", program, tmp_path])
+    with pytest.raises(subprocess.TimeoutExpired):
+        writer.wait(timeout=1.5)
+    assert len(read_diary(tmp_path).entries) == 1
+    os.close(handle)
+    assert writer.wait(timeout=120) == 0
+    assert len(read_diary(tmp_path).entries) == 2
+
+
+def test_a_folder_that_takes_no_file_is_named(tmp_path):
+    with pytest.raises(
+        InputError, match=r"diary\.jsonl: cannot be written \(.*\); check the rights"
+    ):
+        append(tmp_path / "none", "fit", {})
+    (tmp_path / NAME).mkdir()
+    with pytest.raises(InputError, match=r"diary\.jsonl: cannot be read"):
+        read_diary(tmp_path)

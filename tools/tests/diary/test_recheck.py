@@ -1,0 +1,116 @@
+"""Rechecks: an unchanged machine holds its interval, and what changed is named with its size."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plumb.cure.add import add
+from plumb.cure.record import record_of
+from plumb.diary.entries import FIT, fit_entry
+from plumb.diary.file import append, read_diary
+from plumb.diary.recheck import LEFT, RIGHT, recheck
+from plumb.fit.inputs import Inputs
+from plumb.marks.read import Measurements
+from plumb.model.predict import lengths, places
+from plumb.recovery.touched import Touch
+from plumb.settings.toml import machine_toml
+from plumb.text.errors import InputError
+from synthetic import BELIEVED, TRUE, grid, marks_on
+
+AT = np.array([(-900.0, 250.0), (900.0, -250.0)])
+NOISE = 0.5  # [mm] of a coordinate, as the board was read
+
+
+def fitted_to(seed, folder, *, turn=0.0):
+    """The settings fitted to a board of the true machine, with their diary in a folder.
+
+    `turn` [rad] of the sheet.
+    """
+    marks = marks_on(TRUE, BELIEVED, grid(5, 3), noise=NOISE, seed=seed, rotation=turn)
+    board = Measurements(marks)
+    inputs = Inputs(BELIEVED, board, sigma=NOISE)
+    result = add(inputs, effects=["chain_pitch", "chain_sag"])
+    text = machine_toml(result.settings)
+    record = record_of(result, inputs)
+    append(folder, FIT, fit_entry(result, inputs, machine="machine.toml", settings=text))
+    return replace(result.settings, fitted=record)
+
+
+def touched(settings, *, longer=(0.0, 0.0), true=TRUE, noise=(0, 0), turn=0.0):
+    """Marks made by the settings on the true machine, with chains that became longer, on a sheet
+    that is turned [rad]."""
+    where = places(true, lengths(settings, AT)[0] + np.array(longer))[0] + noise
+    where = where @ np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
+    return [
+        Touch(str(i), tuple(hole), tuple(target))
+        for i, (hole, target) in enumerate(zip(where.tolist(), AT.tolist(), strict=True))
+    ]
+
+
+@pytest.fixture(scope="module")
+def machine(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("machine")
+    settings = fitted_to(1, folder)
+    return settings, read_diary(folder)
+
+
+def test_an_unchanged_machine_is_within_its_interval_ninety_nine_times_of_a_hundred(tmp_path):
+    source, holds, sizes = np.random.default_rng(5), [], []
+    for seed in range(1, 41):
+        folder = tmp_path / str(seed)
+        folder.mkdir()
+        settings = fitted_to(seed, folder)
+        for _ in range(5):
+            noise = NOISE * source.standard_normal(AT.shape)
+            checked = recheck(read_diary(folder), settings, touched(settings, noise=noise))
+            holds.append(checked.holds)
+            sizes.append(checked.chi_square)
+    # Neither too wide nor too narrow: chi-square of four numbers has the mean 4.
+    assert np.mean(holds) >= 0.965 and 3.2 < np.mean(sizes) < 4.8
+
+
+@pytest.mark.parametrize("turn", [0.004, -0.004])
+def test_a_turned_sheet_is_no_change_of_the_machine(tmp_path, turn):
+    settings = fitted_to(1, tmp_path, turn=turn)
+    diary = read_diary(tmp_path)
+    still = recheck(diary, settings, touched(settings, turn=turn))
+    assert still.holds and still.turn == pytest.approx(turn, abs=0.001)
+    # The lab says how far to raise its right end; somebody did.
+    straight = recheck(diary, settings, touched(settings))
+    assert straight.holds and straight.turn == 0
+    for now in (turn, 0.0):
+        slipped = recheck(diary, settings, touched(settings, turn=now, longer=(4.0, 0)))
+        assert not slipped.holds and slipped.changes[0].name == LEFT
+    # Turned the other way it is another sheet.
+    assert not recheck(diary, settings, touched(settings, turn=-turn)).holds
+
+
+@pytest.mark.parametrize(("longer", "name"), [((4.0, 0), LEFT), ((0, -4.0), RIGHT)])
+def test_a_chain_that_became_longer_is_named_with_its_size(machine, longer, name):
+    settings, diary = machine
+    checked = recheck(diary, settings, touched(settings, longer=longer))
+    assert not checked.holds
+    best = checked.changes[0]
+    assert best.name == name and best.explains
+    assert best.size == pytest.approx(sum(longer), abs=2.5 * best.sigma)
+
+
+def test_a_motor_that_moved_is_among_what_explains_it(machine):
+    settings, diary = machine
+    moved = replace(TRUE, motor_gap=TRUE.motor_gap + 8.0)
+    checked = recheck(diary, settings, touched(settings, true=moved))
+    assert not checked.holds
+    gap = next(change for change in checked.changes if change.name == "motor_gap")
+    assert gap.explains and gap.size == pytest.approx(8.0, abs=3 * gap.sigma)
+
+
+def test_what_the_fit_knew_less_well_is_expected_to_be_farther_off(machine):
+    settings, diary = machine
+    checked = recheck(diary, settings, touched(settings))
+    assert (checked.expected > 3.03 * 0.5).all() and (checked.expected < 6).all()
+
+
+def test_settings_that_the_diary_does_not_know_are_refused(machine):
+    settings, diary = machine
+    with pytest.raises(InputError, match="knows no fit that gave these settings"):
+        recheck(diary, BELIEVED, touched(settings))

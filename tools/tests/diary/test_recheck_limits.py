@@ -1,0 +1,108 @@
+"""Limits and sizes of a recheck, on a diary whose fit knew what a test says that it knew."""
+
+import math
+
+import numpy as np
+import pytest
+from plumb.bench.causes import MAKER
+from plumb.diary.entries import FIT
+from plumb.diary.file import append, read_diary
+from plumb.diary.recheck import LEFT, RIGHT, SHEET_X, SHEET_Y, recheck
+from plumb.model.predict import lengths, places
+from plumb.recovery.touched import Touch
+from plumb.settings.toml import machine_toml
+
+AT = np.array([(-900.0, 250.0), (900.0, -250.0)])
+SIGMA = 0.1  # [mm] of a coordinate
+SURE_OF = {2: 9.210, 3: 11.345, 4: 13.277}  # chi-square, 99 %, by degrees of freedom
+
+
+@pytest.fixture
+def checked(tmp_path):
+    def check(errors, *, known=None, sigma=SIGMA):
+        """A recheck with these errors (n, 2) [mm]; known: sigmas of what the fit did not know."""
+        names = list(known or {})
+        covariance = np.diag([known[name] ** 2 for name in names]).tolist() if names else [[0.0]]
+        entry = {
+            "settings": machine_toml(MAKER),
+            "unknowns": names or ["motor_gap"],
+            "covariance": covariance,
+        }
+        append(tmp_path, FIT, entry)
+        touches = [
+            Touch(str(i), tuple(hole), tuple(at))
+            for i, (hole, at) in enumerate(zip((AT + errors).tolist(), AT.tolist(), strict=True))
+        ]
+        return recheck(read_diary(tmp_path), MAKER, touches, sigma=sigma)
+
+    return check
+
+
+def along(change):
+    """What a unit of a change does to the marks (2, 2) [mm]."""
+    return {
+        SHEET_X: np.array([[1.0, 0.0], [1.0, 0.0]]),
+        SHEET_Y: np.array([[0.0, 1.0], [0.0, 1.0]]),
+        "turn": np.stack([-AT[:, 1], AT[:, 0]], axis=1),
+    }[change]
+
+
+@pytest.mark.parametrize(("share", "holds"), [(0.99, True), (1.01, False)])
+def test_marks_hold_up_to_the_99_percent_of_chi_square(checked, share, holds):
+    size = SIGMA * math.sqrt(share * SURE_OF[4] / 4)
+    assert checked(np.full((2, 2), size) * [[1, -1], [-1, 1]]).holds is holds
+
+
+def test_without_a_stated_error_a_touch_is_good_to_half_a_millimetre(checked):
+    assert checked(np.full((2, 2), 0.8), sigma=None).chi_square == pytest.approx(
+        4 * (0.8 / 0.5) ** 2
+    )
+
+
+def test_a_mark_is_expected_as_far_off_as_touch_and_fit_allow(checked):
+    plain = checked(np.zeros((2, 2)))
+    assert plain.expected == pytest.approx([SIGMA * math.sqrt(SURE_OF[2])] * 2, rel=1e-3)
+    turned = checked(np.zeros((2, 2)), known={"sheet_rotation": 0.002})
+    far = 0.002 * np.hypot(*AT[0])
+    wide = math.sqrt(SURE_OF[2] * (SIGMA**2 + far**2))
+    assert turned.expected == pytest.approx([wide] * 2, rel=1e-3)
+
+
+def test_a_turned_sheet_is_allowed_as_far_as_the_fit_did_not_know_its_rotation(checked):
+    known = {"sheet_rotation": 0.002}
+    assert checked(0.002 * along("turn"), known=known).chi_square == pytest.approx(1, rel=0.01)
+    assert checked(-0.002 * along("turn"), known=known).holds
+    mirrored = 0.002 * along("turn") * (-1, 1)
+    assert not checked(mirrored, known=known).holds
+
+
+def test_what_another_board_alone_depends_on_allows_nothing(checked):
+    errors = np.full((2, 2), 3 * SIGMA)
+    plain, other = checked(errors), checked(errors, known={"sheet2.x": 5.0})
+    assert other.chi_square == pytest.approx(plain.chi_square)
+
+
+@pytest.mark.parametrize(("change", "size"), [(SHEET_X, 3.0), (SHEET_Y, -2.0)])
+def test_a_sheet_that_moved_is_named_with_its_size(checked, change, size):
+    best = checked(size * along(change)).changes[0]
+    assert (best.name, best.explains) == (change, True)
+    assert best.size == pytest.approx(size)
+    assert best.sigma == pytest.approx(SIGMA / math.sqrt(2)), "the mean of two touches"
+
+
+@pytest.mark.parametrize(("name", "longer"), [(LEFT, (1.5, 0)), (RIGHT, (0, -1.5))])
+def test_a_chain_is_named_with_its_size(checked, name, longer):
+    where = places(MAKER, lengths(MAKER, AT)[0] + np.array(longer))[0]
+    best = checked(where - AT).changes[0]
+    assert (best.name, best.explains) == (name, True)
+    assert best.size == pytest.approx(sum(longer), abs=0.02)
+
+
+@pytest.mark.parametrize(("share", "explains"), [(0.99, True), (1.01, False)])
+def test_a_change_explains_what_it_leaves_within_the_99_percent(checked, share, explains):
+    # One of four numbers is spent on the change; what is left is across it.
+    across = np.array([[1.0, 0.0], [-1.0, 0.0]]) * SIGMA * math.sqrt(share * SURE_OF[3] / 2)
+    again = checked(3.0 * along(SHEET_Y) + across)
+    change = next(each for each in again.changes if each.name == SHEET_Y)
+    assert change.explains is explains
+    assert change.chi_square == pytest.approx(share * SURE_OF[3], rel=1e-3)

@@ -1,0 +1,27 @@
+"""The command itself, to the end of the day."""
+
+import plumb.cli.guide
+from plumb.cli.main import main
+from plumb.guide.progress import Progress
+from plumb.guide.steps import STEPS
+
+
+def test_at_the_end_it_names_the_grid_and_what_is_known(tmp_path, monkeypatch, capsys):
+    progress = Progress(tmp_path, [step.name for step in STEPS], {"motor_gap": 4.0})
+    progress.save()
+    monkeypatch.setattr(plumb.cli.guide, "SerialPort", lambda path: Silent())
+    monkeypatch.setattr(plumb.cli.guide.Sender, "await_start", lambda sender: None)
+    assert main(["guide", str(tmp_path), "--port", "any"]) == 0
+    said = " ".join(capsys.readouterr().out.replace("\\", "").split())
+    assert f"plumb grid --settings {tmp_path}/machine.toml" in said
+    assert "--prior motor_gap=4" in said
+
+
+def test_a_folder_that_is_missing_is_refused(tmp_path, capsys):
+    assert main(["guide", str(tmp_path / "none"), "--port", "any"]) == 2
+    assert "there is no such folder" in capsys.readouterr().err
+
+
+class Silent:
+    def close(self):
+        pass

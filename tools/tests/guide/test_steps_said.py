@@ -1,0 +1,124 @@
+"""What a step of the guide sends, and how it takes an answer, an alarm and a place that is off."""
+
+from types import SimpleNamespace
+
+import pytest
+from plumb.guide import steps
+from plumb.guide.progress import Progress
+from plumb.guide.steps import Visit, check_wires, first_mark, set_chains, show_reach
+from plumb.guide.talk import Talk
+from plumb.settings.toml import machine_toml
+from synthetic import BELIEVED
+
+
+class Sent(Visit):
+    """A visit that keeps what it would send; `alarms` stops the machine at lines with a word."""
+
+    def __init__(self, folder, answers, *, place=(0.0, 0.0, 0.0), alarms=None):
+        self.said, self.sent, self.alarms = [], [], alarms or {}
+        left = list(answers)
+        talk = Talk(self.said.append, lambda question: self.said.append(question) or left.pop(0))
+        sender = SimpleNamespace(status=SimpleNamespace(place=place))
+        super().__init__(sender, talk, Progress(folder))
+        (folder / "machine.toml").write_text(machine_toml(BELIEVED))
+
+    def move(self, *lines):
+        self.sent += lines
+        return next((why for word, why in self.alarms.items() if word in " ".join(lines)), "")
+
+
+@pytest.fixture
+def numbers(monkeypatch):
+    """The numbers that the machine holds."""
+    held = {11: 1651.0, 16: 1.0}
+    monkeypatch.setattr(steps, "read_numbers", lambda _sender: held)
+    return held
+
+
+PAY_OUT = ["B06 L0 R0", "B02 L1 R0", "B02 L0 R1"]
+
+
+def test_a_sprocket_turns_as_typed_and_back_until_its_tooth_is_up(tmp_path, numbers):
+    visit = Sent(tmp_path, ["12,5", "-40", "41", "40", "0", "-3.25", "0", "y", "y", "y"])
+    assert set_chains(visit)
+    turns = [("L", 12.5), ("L", -40), ("L", 40), ("R", -3.25)]
+    lines = [
+        line for chain, size in turns for line in ("G91", f"B09 {chain}{size:.2f} F300", "G90")
+    ]
+    assert visit.sent == [*lines, *PAY_OUT]
+    assert "That is not from -40 to 40 mm." in visit.said
+    assert sum("1651 mm of chain" in line for line in visit.said) == 2
+
+
+def test_an_alarm_while_a_chain_is_paid_out_ends_the_step(tmp_path, numbers):
+    visit = Sent(tmp_path, ["0", "0", "y", "y", "y"], alarms={"B02 L1": "Position Lost"})
+    assert not set_chains(visit)
+    assert visit.said[-1] == "The machine stopped: Position Lost" and visit.sent == PAY_OUT[:2]
+
+
+@pytest.mark.parametrize(
+    "answers", [["0", "0", "n"], ["0", "0", "y", "n"], ["0", "0", "y", "y", "n"]]
+)
+def test_what_was_not_agreed_to_is_not_sent(tmp_path, numbers, answers):
+    visit = Sent(tmp_path, answers)
+    assert not set_chains(visit) and visit.sent == PAY_OUT[: len(answers) - 3]
+
+
+@pytest.mark.parametrize(
+    ("place", "is_there"),
+    [
+        ((0.5, -0.5, 0.0), True),
+        ((0.6, 0.0, 0.0), False),
+        ((-0.6, 0.0, 0.0), False),
+        ((0.0, 0.6, 0.0), False),
+        ((0.0, -0.6, 0.0), False),
+        ((0.0, 0.0, 9.0), True),
+    ],
+)
+def test_a_mark_is_made_only_in_the_middle(tmp_path, place, is_there):
+    width, height = BELIEVED.sheet
+    visit = Sent(tmp_path, ["y", "y", f"{width / 2}", f"{height / 2}"], place=place)
+    assert first_mark(visit) is is_there
+    dimple = ["G91", "G1 Z-2 F100", "G0 Z5", "G90"] if is_there else []
+    assert visit.sent == ["B15", *dimple]
+    said = f"The sled is not in the middle: it reports {place[0]:.2f}, {place[1]:.2f} mm"
+    assert (said in visit.said) is not is_there
+
+
+def test_an_alarm_on_the_way_to_the_middle_is_said_and_no_mark_made(tmp_path):
+    visit = Sent(tmp_path, ["y"], alarms={"B15": "Sled Not Keeping Up"})
+    assert not first_mark(visit) and visit.sent == ["B15"]
+    assert visit.said[-1] == "The sled is not in the middle: Sled Not Keeping Up"
+
+
+@pytest.mark.parametrize("answers", [["n"], ["y", "n"]])
+def test_a_mark_that_was_not_agreed_to_is_not_made(tmp_path, answers):
+    visit = Sent(tmp_path, answers)
+    assert not first_mark(visit) and visit.sent == ["B15"][: len(answers) - 1]
+
+
+def test_an_alarm_at_the_mark_is_no_mark(tmp_path):
+    visit = Sent(tmp_path, ["y", "y"], alarms={"Z-2": "Z is stuck"})
+    assert not first_mark(visit) and visit.said[-1] == "The machine stopped: Z is stuck"
+
+
+@pytest.mark.parametrize(("attached", "axes"), [(1.0, "LRZ"), (0.0, "LR")])
+def test_z_is_jogged_only_where_it_has_a_motor(tmp_path, numbers, attached, axes):
+    numbers[16] = attached
+    visit = Sent(tmp_path, ["y", "s"] * len(axes))
+    assert check_wires(visit)
+    jogs = [line for line in visit.sent if line.startswith(("B09", "G0", "G1"))]
+    assert len(jogs) == 2 * len(axes) and len(visit.sent) == 6 * len(axes)
+    assert ("G0 Z5" in visit.sent) is ("G0 Z-5" in visit.sent) is (attached > 0)
+    assert ("B09 L-20 F300" in visit.sent) and ("B09 R20 F300" in visit.sent)
+
+
+def test_what_is_known_less_well_is_normal_too(tmp_path):
+    visit = Sent(tmp_path, [])
+    said = []
+    for sigma in (1.0, 20.0):
+        visit.progress.sigmas["motor_height"] = sigma
+        assert show_reach(visit)
+        said.append(visit.said[-1])
+    assert all("of the sheet" in each and "normal" in each for each in said)
+    assert said[0] != said[1]

@@ -1,0 +1,40 @@
+"""Lines with numbers for the machine: the right file's, and those that it had before."""
+
+import pytest
+from plumb.line.machine_numbers import kept_before, lines_for
+from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError
+
+
+def settings(controller):
+    return MachineSettings(
+        motor_gap=2978.4,
+        motor_height=1072.6,
+        rotation_radius=140.0,
+        sheet_width=2438.4,
+        sheet_height=1219.2,
+        feed="top",
+        controller=controller,
+    )
+
+
+def test_the_published_numbers_are_refused():
+    with pytest.raises(InputError, match=r"^stock\.ini: holds the published numbers"):
+        lines_for(settings("stock"), "stock.ini")
+
+
+def test_the_numbers_of_this_firmware_are_lines():
+    lines = lines_for(settings("plumb"), "machine.toml")
+    assert lines and all(line.startswith("$") for line in lines)
+
+
+def test_the_newest_numbers_come_back(tmp_path):
+    for day, gap in (("2026-01-02", 2), ("2026-01-10", 3), ("2025-12-31", 1)):
+        (tmp_path / f"machine-before-{day}.nc").write_text(f"$2={gap}\n$3=5\n")
+    (tmp_path / "other-before-2027-01-01.nc").write_text("$2=4\n")
+    assert kept_before(tmp_path / "machine.toml") == ["$2=3", "$3=5"]
+
+
+def test_without_kept_numbers_there_is_a_remedy(tmp_path):
+    with pytest.raises(InputError, match="nothing was kept when it was sent; send it first"):
+        kept_before(tmp_path / "machine.toml")

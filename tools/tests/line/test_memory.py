@@ -1,0 +1,65 @@
+"""The machine's numbers over the line: listed, written, read back."""
+
+import pytest
+from numbers_machine import NumbersMachine
+from plumb.line.memory import as_lines, read_numbers, version_of, write_numbers
+from plumb.line.sender import Sender
+from plumb.text.errors import InputError
+
+
+def test_all_numbers_are_read():
+    assert read_numbers(Sender(NumbersMachine())) == {12: 2978.4, 15: 8113.73, 38: 0.0}
+
+
+def test_a_board_without_numbers_is_no_machine():
+    machine = NumbersMachine()
+    machine.numbers = {}
+    with pytest.raises(InputError, match="is it a Maslow's firmware"):
+        read_numbers(Sender(machine))
+
+
+def test_the_version_is_the_line_that_names_the_firmware():
+    machine = NumbersMachine()
+    assert version_of(Sender(machine)) == "Firmware Version 1.28"
+    machine.says = ["Grbl v1.00"]
+    assert version_of(Sender(machine)) == ""
+
+
+def test_what_changed_is_said_with_its_old_number():
+    machine = NumbersMachine()
+    written = write_numbers(Sender(machine), ["$12=2978.41", "$15 = 8113.73", "$38=15.5"])
+    assert written.before == {12: 2978.4, 15: 8113.73, 38: 0.0}
+    assert written.changed == {38: (0.0, 15.5)}  # $12: the machine prints seven digits
+    assert machine.numbers[12] == 2978.41
+
+
+@pytest.mark.parametrize("line", ["B05", "$12", "G1 X5", "$12=5 $13=6"])
+def test_a_line_that_sets_no_number_is_refused_before_any_is_sent(line):
+    machine = NumbersMachine()
+    with pytest.raises(InputError, match=r"is no number for the machine: \$N=VALUE"):
+        write_numbers(Sender(machine), ["$38=15.5", line])
+    assert machine.written == []
+
+
+@pytest.mark.parametrize(
+    ("line", "held"), [("$38=15.5", "38=0.0"), ("$15=8114.73", "15=8113.73"), ("$99=1", "99=None")]
+)
+def test_a_number_that_the_machine_does_not_hold_is_named(line, held):
+    machine = NumbersMachine(forgets=(15, 38, 99))
+    with pytest.raises(InputError, match=rf"holds \${held} though .* was sent"):
+        write_numbers(Sender(machine), [line])
+
+
+def test_a_machine_that_moves_gets_no_numbers():
+    machine = NumbersMachine(speed=0.1)
+    with pytest.raises(InputError, match="the machine moves"):
+        write_numbers(Sender(machine), ["$38=15.5"])
+    assert machine.written == []
+
+
+def test_a_machine_at_rest_may_report_a_place_that_jitters():
+    write_numbers(Sender(NumbersMachine(speed=0.01)), ["$38=15.5"])
+
+
+def test_only_numbers_that_a_line_may_set_are_written_as_lines():
+    assert as_lines({12: 2978.4, 99: 1.0, 13: 1234.56789}) == "$12=2978.4\n$13=1234.56789\n"

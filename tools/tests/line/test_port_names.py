@@ -1,0 +1,60 @@
+"""Which line a command takes, and why a line cannot be opened."""
+
+from types import SimpleNamespace
+
+import pytest
+import serial
+from plumb.line import serial_port
+from plumb.line.serial_port import SerialPort, port_for
+from plumb.text.errors import InputError
+
+BOARD = SimpleNamespace(device="/dev/ttyACM0", vid=0x2341)
+OTHER = SimpleNamespace(device="/dev/ttyACM1", vid=0x1A86)
+BUILT_IN = SimpleNamespace(device="/dev/ttyS0", vid=None)  # of the computer, not on USB
+
+
+@pytest.fixture
+def plug(monkeypatch):
+    def plugged(*ports):
+        monkeypatch.setattr(serial_port.list_ports, "comports", lambda: list(ports))
+
+    return plugged
+
+
+def test_a_named_line_is_taken_as_it_is(plug):
+    plug(BOARD)
+    assert port_for("/tmp/maslow") == "/tmp/maslow"
+
+
+def test_the_only_board_on_usb_is_taken(plug):
+    plug(BUILT_IN, BOARD)
+    assert port_for(None) == "/dev/ttyACM0"
+
+
+def test_without_a_board_it_says_what_to_do(plug):
+    plug(BUILT_IN)
+    with pytest.raises(InputError, match="no board on USB: connect the Mega"):
+        port_for(None)
+
+
+def test_of_several_boards_none_is_guessed(plug):
+    plug(BOARD, OTHER)
+    with pytest.raises(InputError, match=r"several boards on USB \(/dev/ttyACM0, /dev/ttyACM1\)"):
+        port_for(None)
+
+
+@pytest.mark.parametrize(
+    ("error", "remedy"),
+    [
+        ("[Errno 16] Device or resource busy", "close the program that has it"),
+        ("Could not exclusively lock port", "close the program that has it"),
+        ("[Errno 2] No such file or directory", "check the cable and the name"),
+    ],
+)
+def test_why_a_line_cannot_be_opened_decides_what_to_do(monkeypatch, error, remedy):
+    def refuse(*_, **__):
+        raise serial.SerialException(error)
+
+    monkeypatch.setattr(serial_port.serial, "Serial", refuse)
+    with pytest.raises(InputError, match=f"^COM3: cannot be opened; {remedy}$"):
+        SerialPort("COM3")

@@ -1,0 +1,291 @@
+"""The thread that owns a line: programs, hold, go on, stop, and a line that is lost."""
+
+import time
+from threading import Event
+
+import pytest
+from plumb.line.port import LostError
+from plumb.line.sender import GO_ON, HOLD, STOP
+from plumb.line.worker import LineWorker
+from plumb.text.errors import InputError
+
+
+class SlowBoard:
+    """A board that moves a millimetre a line, answers each when it is there, and can be pulled."""
+
+    def __init__(self):
+        self.x, self.time = 0.0, 0.0
+        self.waiting, self.written = [], b""
+        self.holds = self.is_pulled = self.is_closed = self.is_silent = False
+        self.greeting = b""
+        self.says = {}
+
+    def write(self, characters):
+        if self.is_pulled:
+            raise LostError("USB: the line was lost; check the cable")
+        self.written += characters
+        if characters == HOLD:
+            self.holds = True
+        elif characters == STOP:
+            self.holds, self.waiting = False, ["!"]
+        else:
+            self.waiting.append(characters.decode().strip())
+            self.holds = self.holds and characters != GO_ON
+
+    def read(self):
+        time.sleep(0.001)
+        if self.is_pulled:
+            raise LostError("USB: the line was lost; check the cable")
+        self.time += 0.2
+        if self.is_silent:
+            return b""
+        said, self.greeting = self.greeting, b""
+        if self.waiting and not self.holds:
+            line = self.waiting.pop(0)
+            self.x += line.startswith("G1")
+            said += self.says.get(line, b"ok") + b"\r\n"
+        state = "Pause" if self.holds else "Idle"
+        return said + f"<{state},MPos:{self.x:.2f},0.00,0.00,WPos:0,0,0>\r\n".encode()
+
+    def seconds(self):
+        return self.time
+
+    def close(self):
+        self.is_closed = True
+
+
+def until(true, worker):
+    """Wait for a state; say what it was instead."""
+    end = time.monotonic() + 120  # of a busy computer
+    while not true(worker.state):
+        assert time.monotonic() < end, worker.state
+        time.sleep(0.002)
+
+
+@pytest.fixture
+def board():
+    return SlowBoard()
+
+
+@pytest.fixture
+def worker(board):
+    working = LineWorker(lambda: board)
+    until(lambda state: state.phase == "ready", working)
+    yield working
+    working.close()
+
+
+JOB = [f"G1 X{i} Y{i * i} F1000" for i in range(1, 400)]
+
+
+def test_a_program_is_sent_and_counted_and_then_something_is_done(worker, board):
+    then = []
+    worker.send("grid.nc", ["(a comment)", *JOB[:20]], lambda sender: then.append(sender.status))
+    with pytest.raises(InputError, match="busy"):
+        worker.send("other.nc", ["G1 X1"])
+    until(lambda state: state.phase == "ready", worker)
+    program = worker.state.program
+    assert (program.title, program.done, program.total) == ("grid.nc", 20, 20)
+    assert program.outcome == "done"
+    assert then[0].place[0] == board.x == 20
+    assert b"other" not in board.written and not worker.state.moves
+
+
+def test_hold_stops_at_once_and_go_on_goes_on(worker, board):
+    worker.send("grid.nc", JOB[:60])
+    until(lambda state: state.moves, worker)
+    worker.hold()
+    until(lambda state: state.holds and not state.moves, worker)
+    x, done = board.x, worker.state.program.done
+    assert 0 < x < 60
+    time.sleep(0.05)
+    assert (board.x, worker.state.program.done) == (x, done)
+    assert worker.state.phase == "busy"
+    worker.go_on()
+    until(lambda state: state.phase == "ready", worker)
+    assert worker.state.program.outcome == "done" and board.x == 60
+    assert not worker.state.holds
+
+
+def test_stop_gives_the_program_up_even_in_a_hold(worker, board):
+    worker.send("grid.nc", JOB)
+    until(lambda state: state.moves, worker)
+    worker.hold()
+    until(lambda state: state.holds, worker)
+    worker.stop()
+    until(lambda state: state.phase == "ready", worker)
+    assert worker.state.program.outcome == "stopped"
+    assert 0 < worker.state.program.done < len(JOB)
+    assert board.written.endswith(STOP)
+    assert worker.state.knows_place
+    worker.send("again", ["G1 X1"])
+    until(lambda state: state.phase == "ready" and state.program.outcome == "done", worker)
+
+
+@pytest.mark.parametrize("is_at_work", [True, False])
+def test_after_go_on_and_stop_together_the_next_program_comes_to_its_end(worker, board, is_at_work):
+    if is_at_work:
+        worker.send("grid.nc", JOB)
+        until(lambda state: state.moves, worker)
+        worker.hold()
+        until(lambda state: state.holds, worker)
+    worker.stop()
+    worker.go_on()
+    until(lambda state: STOP in board.written, worker)
+    until(lambda state: state.phase == "ready" and not board.waiting, worker)
+    time.sleep(0.05)
+    assert not is_at_work or GO_ON not in board.written
+    worker.send("again", JOB[:50])
+    until(lambda state: state.program.outcome == "done", worker)
+    assert worker.state.program.done == 50
+
+
+def test_stop_is_passed_on_when_nothing_is_sent(worker, board):
+    worker.stop()
+    until(lambda state: board.written.endswith(STOP), worker)
+    assert worker.state.phase == "ready"
+
+
+def test_a_line_lost_in_mid_cut_is_said_and_the_place_is_not_known(worker, board):
+    worker.send("grid.nc", JOB)
+    until(lambda state: state.program.done > 5, worker)
+    board.is_pulled = True
+    until(lambda state: state.phase == "lost", worker)
+    state = worker.state
+    assert state.program.outcome == "lost" and 5 < state.program.done < len(JOB)
+    assert "USB: the line was lost" in state.trouble
+    assert f"{state.program.done} of {len(JOB)} lines of grid.nc were done" in state.trouble
+    assert not state.knows_place and not state.moves
+    with pytest.raises(InputError, match="connect it again"):
+        worker.send("grid.nc", JOB)
+    worker.await_end()
+    assert board.is_closed
+
+
+def test_a_line_lost_at_rest_takes_no_place_away(worker, board):
+    board.is_pulled = True
+    until(lambda state: state.phase == "lost", worker)
+    assert worker.state.knows_place
+
+
+def test_a_machine_that_falls_silent_is_lost_also_at_rest(worker, board):
+    board.is_silent = True
+    until(lambda state: state.phase == "lost", worker)
+    assert "silent for 5 s" in worker.state.trouble
+
+
+def test_a_machine_that_is_not_there_is_said(board):
+    def opened():
+        raise InputError("COM9: cannot be opened; check the cable and the name")
+
+    worker = LineWorker(opened)
+    until(lambda state: state.phase == "lost", worker)
+    assert worker.state.trouble.startswith("COM9: cannot be opened")
+
+
+def test_a_refused_line_ends_the_program(worker, board):
+    board.says["G1 X3"] = b"error: no such word"
+    worker.send("bad.nc", ["G1 X1", "G1 X2", "G1 X3"])
+    until(lambda state: state.phase == "ready", worker)
+    assert worker.state.program.outcome == "refused"
+    assert worker.state.trouble == "'G1 X3': the machine says: error: no such word"
+
+
+def test_a_place_is_known_as_the_machine_says(board):
+    board.greeting = b"ALARM: Position Lost. Power was lost before the position was kept.\r\n"
+    worker = LineWorker(lambda: board)
+    until(lambda state: state.phase == "ready", worker)
+    assert not worker.state.knows_place
+    assert worker.state.trouble.startswith("ALARM: Position Lost")
+    board.says["B06 L1651 R1651"] = b"position loaded at:\r\nok"
+    worker.send("chains", ["B06 L1651 R1651"])
+    until(lambda state: state.phase == "ready", worker)
+    assert worker.state.knows_place and worker.state.trouble == ""
+    worker.close()
+
+
+def test_work_that_fails_hands_its_error_to_whoever_asked(worker):
+    def work(sender):
+        raise InputError("no")
+
+    with pytest.raises(InputError, match=r"^no$"):
+        worker.do(work).result(10)
+    until(lambda state: state.phase == "ready", worker)
+    assert worker.do(lambda sender: sender.ask("$$")).result(10) == []
+
+
+def test_closing_in_mid_cut_stops_the_machine(worker, board):
+    worker.send("grid.nc", JOB)
+    until(lambda state: state.moves, worker)
+    worker.close()
+    worker.await_end()
+    assert board.written.endswith(STOP) and board.is_closed
+    assert worker.state.phase == "none"
+
+
+class CoastingBoard(SlowBoard):
+    """A board whose sled still moves when its line is answered, and is heard in bursts only."""
+
+    def __init__(self):
+        super().__init__()
+        self.bursts = [(1, 2, 3), (4, 5, 6), (7, 8, 9)]
+
+    def read(self):
+        if self.x and self.bursts:
+            self.time += 2.0
+            return b"".join(
+                b"<Idle,MPos:%d.00,0.00,0.00,WPos:0,0,0>\r\n" % x for x in self.bursts.pop(0)
+            )
+        if not self.bursts:
+            self.x = 9.0
+        return super().read()
+
+
+def test_a_program_is_not_done_while_the_sled_moves_though_this_program_stood_still():
+    places = []
+    worker = LineWorker(CoastingBoard)
+    until(lambda state: state.phase == "ready", worker)
+    worker.send("job.nc", ["G1 X9"], lambda sender: places.append(sender.status.place[0]))
+    until(lambda state: state.phase == "ready", worker)
+    assert worker.state.program.outcome == "done" and places == [9.0]
+    worker.close()
+
+
+def test_a_program_is_done_just_when_the_line_takes_other_work(board):
+    outcomes = []
+
+    def note(works):
+        outcomes.append(worker.state.program.outcome)
+
+    worker = LineWorker(lambda: board, working=note)
+    until(lambda state: state.phase == "ready", worker)
+    worker.send("job.nc", ["G1 X1"])
+    until(lambda state: state.program.outcome == "done", worker)
+    assert outcomes == ["running", "running"] and worker.state.phase == "ready"
+    worker.close()
+
+
+def test_work_has_ended_when_the_line_takes_other_work(board):
+    line_is_free = Event()
+    worker = LineWorker(lambda: board, working=lambda works: works or line_is_free.wait(10))
+    until(lambda state: state.phase == "ready", worker)
+    done = Event()
+    future = worker.do(lambda sender: done.set())
+    assert done.wait(10) and not future.done() and worker.state.phase == "busy"
+    line_is_free.set()
+    assert future.result(10) is None
+    assert worker.do(lambda sender: "next").result(10) == "next"
+    worker.close()
+
+
+def test_work_that_comes_while_the_line_is_lost_is_given_up(worker, board):
+    futures = []
+
+    def read():
+        futures.append(worker.do(lambda sender: None))
+        raise LostError("USB: the line was lost; check the cable")
+
+    board.read = read
+    until(lambda state: state.phase == "lost", worker)
+    with pytest.raises(LostError, match="check the cable"):
+        futures[0].result(10)

@@ -1,0 +1,127 @@
+"""A client of the virtual machine reads whole lines, all of them and none of before it came,
+however busy the computer is."""
+
+import serial
+from plumb.vm.pseudo_terminal import PseudoTerminal
+from plumb.vm.whole_lines import LONGEST_PAUSE, WholeLines
+
+
+def test_the_begin_of_a_line_waits_for_its_end():
+    lines = WholeLines()
+    assert lines.take(b"ok\r\n$30=0 (z", 3) == b"ok\r\n"
+    assert lines.take(b" axis)", 3) == b""
+    assert lines.take(b"\r", 3) == b""
+    assert lines.take(b"\n$31", 3) == b"$30=0 (z axis)\r\n"
+
+
+def test_what_is_no_line_goes_after_a_pause():
+    lines = WholeLines()
+    assert lines.take(b"Gr", LONGEST_PAUSE) == b""
+    assert lines.take(b"", LONGEST_PAUSE - 1) == b""
+    assert lines.take(b"", 1) == b"Gr"
+    assert lines.take(b"", LONGEST_PAUSE) == b""
+    assert lines.take(b"bl", 3) == b""
+
+
+def test_each_byte_begins_the_pause_again():
+    lines = WholeLines()
+    for byte in (b"$", b"3", b"0"):
+        assert lines.take(byte, 1) == b""
+        assert lines.take(b"", LONGEST_PAUSE - 1) == b""
+    assert lines.take(b"\n", 1) == b"$30\n"
+
+
+class SlowSpeaker:
+    """A machine that says the next part each time its time passes."""
+
+    def __init__(self, *parts: bytes):
+        self.parts = list(parts)
+
+    def advance(self, milliseconds: int) -> None:
+        pass
+
+    def start(self) -> None:
+        pass
+
+    def stop(self) -> None:
+        pass
+
+    def send(self, characters: bytes) -> None:
+        pass
+
+    def take_said(self) -> bytes:
+        return self.parts.pop(0) if self.parts else b""
+
+
+def test_the_port_hands_over_whole_lines():
+    terminal = PseudoTerminal(SlowSpeaker(b"", b"$30=0 (z", b" axis)\r\nok", b"\r\n"))
+    client = serial.Serial(terminal.path, 57600, timeout=0)
+    heard = []
+    for _ in range(4):
+        terminal.pass_time(1)
+        heard.append(client.read(100))
+    client.close()
+    terminal.close()
+    assert heard == [b"", b"", b"$30=0 (z axis)\r\n", b"ok\r\n"]
+
+
+def test_the_next_client_does_not_hear_what_was_begun_for_the_last():
+    terminal = PseudoTerminal(SlowSpeaker(b"", b"$30=0 (z"))
+    serial.Serial(terminal.path, 57600, timeout=0).close()
+    terminal.pass_time(1)
+    first = serial.Serial(terminal.path, 57600, timeout=0)
+    terminal.pass_time(1)
+    first.close()
+    with serial.Serial(terminal.path, 57600, timeout=0) as second:
+        for _ in range(3):
+            terminal.pass_time(LONGEST_PAUSE)
+            assert second.read(100) == b""
+    terminal.close()
+
+
+def test_a_client_that_stood_still_loses_no_line():
+    said = [b"<Idle,MPos:%d.00,0.00,0.00,WPos:0,0,0>\r\n" % number for number in range(3000)]
+    terminal = PseudoTerminal(SlowSpeaker(b"", *said))
+    client = serial.Serial(terminal.path, 57600, timeout=0)
+    for _ in said:
+        terminal.pass_time(1)
+    stood_at = len(terminal.machine.parts)
+    heard = b""
+    for _ in said:
+        heard += client.read(100)
+        terminal.pass_time(1)
+    heard += client.read(100_000)
+    client.close()
+    terminal.close()
+    # A program that does not read holds the machine's time, so nothing has to be thrown away.
+    assert stood_at > 0
+    assert heard == b"".join(said)
+
+
+def test_without_a_client_the_machines_time_goes_on():
+    said = [b"<Idle,MPos:0.00,0.00,0.00,WPos:0,0,0>\r\n"] * 3000
+    terminal = PseudoTerminal(SlowSpeaker(b"", *said))
+    serial.Serial(terminal.path, 57600, timeout=0).close()
+    for _ in range(3001):
+        terminal.pass_time(1)
+    terminal.close()
+    assert terminal.machine.parts == []
+
+
+def test_a_client_that_opens_the_port_hears_nothing_of_before():
+    """The old machine speaks on until the opening shows; that takes long on a busy computer."""
+
+    class Opened(SlowSpeaker):
+        client = None
+
+        def advance(self, milliseconds: int) -> None:
+            if len(self.parts) == 1 and not self.client:
+                self.client = serial.Serial(terminal.path, 57600, timeout=0)
+
+    terminal = PseudoTerminal(Opened(b"", b"<Idle,MPos:1.00,0.00,0.00,WPos:0,0,0>\r\n"))
+    with serial.Serial(terminal.path, 57600, timeout=0):
+        terminal.pass_time(1)
+        terminal.pass_time(1)
+    with terminal.machine.client as client:
+        assert client.read(100) == b""
+    terminal.close()
