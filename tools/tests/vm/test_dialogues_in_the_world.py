@@ -9,17 +9,12 @@ import pytest
 from dialogue_player import DIALOGUES, ROOT, DialogueError, Player, matches
 
 ELF = ROOT / ".pio/build/megaatmega2560/firmware.elf"
-ELSEWHERE = {
-    # The chain pulls here, so a motor without its encoder is driven and noticed while it rests;
-    # test_faults.py tries lost encoders.
-    "lost_encoder.nc",
-}
 MACHINES = {
     # At the top edge the usual sled pulls usual motors round when they have no power: it sinks.
     "beyond_sheet.nc": {"sled_weight": 80.0},  # [N]
     "driver_error.nc": {"shield": 3},  # the drivers of v1.2 have no pin to complain
 }
-NAMES = sorted({path.name for path in DIALOGUES.glob("*.nc")} - ELSEWHERE)
+NAMES = sorted(path.name for path in DIALOGUES.glob("*.nc"))
 
 
 @pytest.mark.parametrize("name", NAMES)
