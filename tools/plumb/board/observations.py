@@ -30,6 +30,7 @@ class Observations:
     names: tuple[str, ...]  # (k,) of the marks
     distance_rows: Array  # (m, 2) the rows at both ends
     distances: Array  # (m,) [mm]
+    distance_rounds: Array  # (m,) int: the file of each; its rows may be visits of an earlier file
     approaches: Array  # (r, 2) unit vectors of the last move of each visit; zero if not known
     rounds: Array  # (r,) int: the file of each visit
     zero_groups: Array  # (r,) int: visits with equal numbers have the chains' zeros in common
@@ -74,6 +75,7 @@ def observe(
         names=tuple(marks[i].name for i in rows),
         distance_rows=np.array(ends, dtype=int).reshape(-1, 2),
         distances=measurements.distance_lengths,
+        distance_rounds=np.array([each.round for each in measurements.distances], dtype=int),
         approaches=_directions([mark.approach or (0.0, 0.0) for mark in marks]),
         swapped=np.array([mark.chains_swapped for mark in marks], dtype=bool),
         rounds=_rounds(measurements),

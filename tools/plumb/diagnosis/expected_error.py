@@ -102,6 +102,7 @@ def _visits(chains: Array, weight: float) -> Observations:
         names=(),
         distance_rows=np.zeros((0, 2), dtype=int),
         distances=np.zeros(0),
+        distance_rounds=np.zeros(0, dtype=int),
         approaches=np.zeros((count, 2)),
         rounds=first,
         zero_groups=first,

@@ -93,7 +93,7 @@ def _numbers_of(explanation: Explanation, number: int) -> Array:
     """Which measured numbers (n,) belong to a round."""
     rows = explanation.board.rows
     marks = np.repeat(rows.rounds[rows.mark_rows] == number, 2)
-    return np.concatenate([marks, rows.rounds[rows.distance_rows[:, 0]] == number])
+    return np.concatenate([marks, rows.distance_rounds == number])
 
 
 def _move(explanation: Explanation, basis: Array, mask: Array, noise: Noise) -> Move | None:

@@ -15,9 +15,7 @@ def rounds_columns(frame: Explanation) -> Array | None:
     """What independent normals move of the measured numbers (n, c) [mm], together as what may have
     changed between rounds does; None if there is a single round."""
     board, rows = frame.board, frame.board.rows
-    number = np.concatenate(
-        [np.repeat(rows.rounds[rows.mark_rows], 2), rows.rounds[rows.distance_rows[:, 0]]]
-    )
+    number = np.concatenate([np.repeat(rows.rounds[rows.mark_rows], 2), rows.distance_rounds])
     later = np.unique(number)[1:]
     if not len(later):
         return None

@@ -60,6 +60,7 @@ def without(rows: Observations, reading: Reading) -> Observations:
             rows,
             distance_rows=np.delete(rows.distance_rows, reading.index, axis=0),
             distances=np.delete(rows.distances, reading.index),
+            distance_rounds=np.delete(rows.distance_rounds, reading.index),
         )
     return replace(
         rows,

@@ -78,11 +78,12 @@ def _by_round(rows: Observations, repeats: list[int]) -> list[list[int]]:
     ]
 
 
-def repeated_distances(rows: Observations) -> list[list[int]]:
-    """Indices of distances between the same two marks, where there are several."""
-    spans: dict[frozenset[int], list[int]] = {}
+def repeated_distances(rows: Observations, *, in_a_round: bool = False) -> list[list[int]]:
+    """Indices of distances between the same two marks, where there are several (in a round)."""
+    spans: dict[tuple[frozenset[int], int], list[int]] = {}
+    rounds = rows.distance_rounds if in_a_round else np.zeros(len(rows.distances), dtype=int)
     for i, ends in enumerate(rows.distance_rows.tolist()):
-        spans.setdefault(frozenset(ends), []).append(i)
+        spans.setdefault((frozenset(ends), int(rounds[i])), []).append(i)
     return [repeats for repeats in spans.values() if len(repeats) > 1]
 
 

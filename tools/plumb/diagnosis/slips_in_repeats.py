@@ -101,7 +101,7 @@ def _all_apart(rows: Observations, *, in_a_round: bool = True) -> list[_Apart]:
             for i, index in enumerate(repeats.picked.tolist())
             if kept[i] > KEPT
         ]
-    for group in repeated_distances(rows):
+    for group in repeated_distances(rows, in_a_round=in_a_round):
         lengths, share = rows.distances[group], 1 - 1 / len(group)
         readings += [
             _Apart(Reading(index, False), (lengths[[i]] - lengths.mean()) / share, share, (*group,))

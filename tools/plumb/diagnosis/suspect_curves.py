@@ -130,6 +130,7 @@ def visits_all_over(
         names=("",) * count,
         distance_rows=np.zeros((0, 2), dtype=int),
         distances=np.zeros(0),
+        distance_rounds=np.zeros(0, dtype=int),
         approaches=rows.approaches[like],
         rounds=rows.rounds[like],
         zero_groups=rows.zero_groups[like],

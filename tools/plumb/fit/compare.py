@@ -138,11 +138,8 @@ def _rounds(
     """Each file by itself, if there are several."""
     if len(measurements.rounds) < 2:
         return ()
-    of_name = {mark.name: mark.round for mark in measurements.marks}
     marks = np.array([mark.round for mark in measurements.measured_marks], dtype=int)
-    distances = np.array(
-        [of_name[distance.between[0]] for distance in measurements.distances], dtype=int
-    )
+    distances = np.array([distance.round for distance in measurements.distances], dtype=int)
     compared = []
     for number, file_round in enumerate(measurements.rounds):
         of_marks, of_spans = errors[marks == number], spans[distances == number]

@@ -35,7 +35,7 @@ def join_measurements(parts: Iterable[Measurements]) -> Measurements:
     for number, part in enumerate(several):
         rounds.append(_next_round(part, labels[number], rounds))
         _refuse_a_copy(part, several[:number])
-        numbered = replace(part, marks=tuple(replace(mark, round=number) for mark in part.marks))
+        numbered = _numbered(part, number)
         made = [(mark.name, _made(mark, rounds[number])) for mark in numbered.marks]
         clash = any(how not in known.get(name, [how]) for name, how in made)
         joined.append(_renamed(numbered, f"{labels[number]}:") if clash else numbered)
@@ -50,6 +50,15 @@ def join_measurements(parts: Iterable[Measurements]) -> Measurements:
         source=" + ".join(part.source for part in several),
         typed=_typed(several),
         rounds=tuple(rounds),
+    )
+
+
+def _numbered(part: Measurements, number: int) -> Measurements:
+    """A file whose marks and distances belong to the round with this number."""
+    return replace(
+        part,
+        marks=tuple(replace(mark, round=number) for mark in part.marks),
+        distances=tuple(replace(distance, round=number) for distance in part.distances),
     )
 
 

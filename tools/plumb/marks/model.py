@@ -51,6 +51,7 @@ class Distance:
 
     between: tuple[str, str]
     length: float  # [mm]
+    round: int = 0  # index into the rounds: a later file may measure between marks of an earlier
 
 
 @dataclass(frozen=True)

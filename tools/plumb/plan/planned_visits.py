@@ -62,6 +62,7 @@ class Visits:
             names=self.names,
             distance_rows=np.zeros((0, 2), dtype=int),
             distances=np.zeros(0),
+            distance_rounds=np.zeros(0, dtype=int),
             approaches=self.approaches,
             # As the first round: for a few more marks nobody zeroes chains or takes another sheet.
             rounds=np.zeros(count, dtype=int),

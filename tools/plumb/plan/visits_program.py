@@ -10,13 +10,13 @@ import numpy as np
 from plumb.grid.options import DEPTH, Grid
 from plumb.marks.model import Mark
 from plumb.plan.planned_visits import Visits
+from plumb.settings.machine import GRAVITY
 
 Array = np.ndarray
 USUAL = Grid()  # heights, feeds and the way into a mark, as a grid has them
 
 
 FIRST_LINE = "(Plumb: the best marks to measure next)"
-KILOGRAM = 9.81  # [N]
 LEAST = 1e-6  # [N] a smaller change of the weight is none
 COMMENT = 70  # characters: a client sends no line that is longer than the machine's buffer
 
@@ -49,7 +49,7 @@ def _weight_changes(weight: float, next_weight: float, usual: float) -> list[str
     """The pause in which another weight [N] is hung on the sled; no line for the same."""
     if abs(next_weight - weight) <= LEAST:
         return []
-    kilograms = (next_weight - usual) / KILOGRAM
+    kilograms = (next_weight - usual) / GRAVITY
     if abs(next_weight - usual) <= LEAST:
         return ["(take off what hangs on the sled)", "M0"]
     return [f"(let {kilograms:.1f} kg more hang on the sled, low and in the middle)", "M0"]

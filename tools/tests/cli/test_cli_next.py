@@ -8,11 +8,7 @@ import numpy as np
 import pytest
 from plumb.cure.demo import MARKS, SETTINGS
 from plumb.grid.cut_with import digest_of
-from plumb.marks.read import read_plan
 from plumb.model.catalogue import effect_names
-from plumb.plan.plan_marks import marks_file
-from plumb.plan.planned_visits import sent
-from plumb.plan.visits_program import program
 from plumb.settings.files import write_machine_toml
 from synthetic import BELIEVED, EFFECTS, TRUE, grid, marks_on
 
@@ -104,32 +100,6 @@ def test_a_proposal_is_cut_by_a_program(run, ask, csv, maker, tmp_path):
     assert run("check", cut, maker)[0] == 0
 
 
-def test_the_program_waits_for_another_weight(file):
-    targets = np.array([(-300.0, 100.0), (0.0, 100.0), (300.0, 100.0), (300.0, -100.0)])
-    visits = sent(BELIEVED, targets, controller="plumb", sled_weight=97.9)
-    weights = np.array([97.9, 97.9 + 5 * 9.81, 97.9 + 5 * 9.81, 97.9])
-    text = program(dataclasses.replace(visits, sled_weights=weights), usual_weight=97.9)
-    before = [part.count("G1 Z-0.5") for part in text.split("M0")[:-1]]
-    assert before == [1, 2] and text.index("let 5.0 kg more hang") < text.index("M0")
-    assert "take off what hangs on the sled" in text.split("M0")[1]
-    # From the usual side: from below.
-    assert "G0 X-300.000 Y60.000\nG1 X-300.000 Y100.000" in text
-
-
-def test_the_program_waits_before_the_first_mark_and_at_the_end_until_all_is_as_it_was():
-    visits = sent(BELIEVED, [(0.0, 0.0), (300.0, 0.0)], controller="plumb", sled_weight=146.95)
-    parts = program(visits, usual_weight=97.9).split("M0")
-    assert [part.count("G1 Z-0.5") for part in parts] == [0, 2, 0]
-    assert "let 5.0 kg more" in parts[0] and "G0 Z5" in parts[0] and "take off" in parts[1]
-    assert parts[1].index("G0 X0 Y0") < parts[1].index("take off")
-    swapped = sent(BELIEVED, [(0.0, 0.0)], controller="plumb", sled_weight=97.9, swapped=True)
-    first, middle, end = program(swapped, usual_weight=97.9).split("M0")
-    assert "each chain on the other's sprocket" in first and "on its sprocket again" in middle
-    assert end.strip() == ""
-    usual = sent(BELIEVED, [(0.0, 0.0)], controller="plumb", sled_weight=97.9)
-    assert "M0" not in program(usual, usual_weight=97.9)
-
-
 def test_what_is_only_read_again_is_not_cut(run, ask, csv, maker, tmp_path):
     path = csv("m.csv", marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.3, seed=2))
     command = ["next", maker, path]
@@ -140,29 +110,6 @@ def test_what_is_only_read_again_is_not_cut(run, ask, csv, maker, tmp_path):
     assert code == 2 and "the proposals that are cut are" in complaint and not cut.exists()
     assert run(*command, "--choose", again, "--marks", form)[0] == 0
     assert form.read_text().count(FILL) == 27
-
-
-@pytest.mark.parametrize("swapped", [False, True])
-def test_a_form_keeps_place_side_weight_and_swap(file, swapped):
-    targets, sides = (
-        np.array([(-1000.0, 480.0), (20.0, -300.0)]),
-        np.array([(0.0, 1.0), (0.6, -0.8)]),
-    )
-    visits = sent(
-        BELIEVED,
-        targets,
-        controller="plumb",
-        sled_weight=147.0,
-        approaches=sides,
-        swapped=swapped,
-    )
-    text = marks_file(visits, sheet=BELIEVED.sheet, controller="plumb", said=("Four marks.",))
-    read = read_plan(file("form.toml", text), sheet=BELIEVED.sheet)
-    assert read.controller == "plumb" and len(read.marks) == 2
-    for mark, target, side in zip(read.marks, targets, sides, strict=True):
-        assert mark.target == pytest.approx(tuple(target), abs=0.001)
-        assert mark.approach == pytest.approx(tuple(side), abs=0.001)
-        assert mark.sled_weight == 147.0 and mark.chains_swapped == swapped
 
 
 def test_a_check_enters_both_commands(ask, csv, maker):

@@ -1,0 +1,97 @@
+"""Numbers that were measured directly, and numbers that are held: what they do to a fit."""
+
+from dataclasses import replace
+
+import pytest
+from plumb.board.observations import observe
+from plumb.fit.fit import fit
+from plumb.fit.problem import PRIORS, Checked, Problem
+from plumb.marks.read import Measurements
+from synthetic import BELIEVED, TRUE, grid, marks_on
+
+ROWS = observe(BELIEVED, Measurements(marks_on(TRUE, BELIEVED, grid(4, 3), noise=0.3)))
+
+
+def fitted(**how):
+    return fit(BELIEVED, ROWS, sigma=0.3, **how)
+
+
+def estimate(of_fit, name):
+    (only,) = [each for each in of_fit.estimates if each.name == name]
+    return only
+
+
+def test_a_sharp_check_holds_its_number():
+    check = Checked("motor_gap", 2985.0, 0.001)
+    gap = estimate(fitted(checked=[check]), "motor_gap")
+    assert gap.value == pytest.approx(2985.0, abs=0.01)
+    assert gap.high - gap.low == pytest.approx(2 * 1.96 * 0.001, rel=0.01)
+    # A blunt check says nothing.
+    blunt = estimate(fitted(checked=[replace(check, sigma=1e4)]), "motor_gap")
+    assert blunt.value == pytest.approx(estimate(fitted(), "motor_gap").value, abs=1e-3)
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+def test_a_check_pulls_from_either_side(side):
+    free = estimate(fitted(effects=["chain_pitch"]), "chain_pitch.left").value
+    check = Checked("chain_pitch.left", free + side * 0.001, 0.0002)
+    pulled = estimate(fitted(effects=["chain_pitch"], checked=[check]), check.name).value
+    assert 0 < side * (pulled - free) < 0.001
+
+
+def test_checks_of_what_is_not_fitted_do_not_count():
+    checks = [Checked("chain_pitch.left", 0.005, 1e-5), Checked("motor_gap", 2990.0, 0.01)]
+    priors = {**PRIORS, "motor_gap": 0.0}
+    with_checks, without = (fitted(priors=priors, checked=each) for each in (checks, ()))
+    assert with_checks.settings == without.settings
+    assert with_checks.settings.motor_gap == BELIEVED.motor_gap
+    held = {"chain_pitch.left": 0.001}
+    one_held = fitted(effects=["chain_pitch"], checked=checks[:1], held=held)
+    assert one_held.settings.effect("chain_pitch", "left") == 0.001
+    assert "chain_pitch.left" not in [each.name for each in one_held.estimates]
+    assert "chain_pitch.right" in [each.name for each in one_held.estimates]
+
+
+def test_what_no_setting_holds_can_be_held_too():
+    free = fitted(effects=["tape_scale"])
+    held = fitted(held={"tape_scale.strain": 0.002})
+    assert held.lab_effects == {"tape_scale": {"strain": 0.002}}
+    assert free.lab_effects.keys() == {"tape_scale"}
+    assert held.rms != pytest.approx(fitted().rms, rel=0.05)
+
+
+def test_every_number_begins_where_the_settings_have_it():
+    problem = Problem.of(TRUE, ROWS, ["chain_pitch"], PRIORS, 0.3)
+    start = dict(zip(problem.names, problem.start, strict=True))
+    assert start["motor_gap"] == TRUE.motor_gap and start["motor_center_x"] == 1.5
+    assert start["chain_pitch.left"] == 0.0021
+    assert start["sheet_rotation"] == 0.0
+    before = {each.name: each.before for each in fit(TRUE, ROWS, sigma=0.3).estimates}
+    assert before["motor_height"] == TRUE.motor_height
+
+
+def test_a_prior_is_told_and_a_free_number_has_none():
+    known = {each.name: each.prior_sigma for each in fitted(effects=["chain_pitch"]).estimates}
+    assert {name: known[name] for name in PRIORS} == PRIORS
+    assert known["chain_pitch.left"] is None
+
+
+def test_a_search_that_begins_at_a_fit_ends_there_with_the_same_numbers():
+    cold = fitted(effects=["chain_pitch"])
+    warm = fitted(effects=["chain_pitch"], near=cold)
+    assert warm.settled
+    for known, again in zip(cold.estimates, warm.estimates, strict=True):
+        assert again.value == pytest.approx(known.value, abs=1e-3 * (known.high - known.low))
+
+
+def test_a_search_that_begins_at_another_fit_finds_the_least_all_the_same():
+    moved = observe(BELIEVED, Measurements(marks_on(TRUE, BELIEVED, grid(4, 3), noise=0.3, seed=9)))
+    elsewhere = fit(BELIEVED, moved, sigma=0.3)
+    cold = fitted(effects=["chain_pitch"])
+    warm = fitted(effects=["chain_pitch"], near=elsewhere)
+    for known, again in zip(cold.estimates, warm.estimates, strict=True):
+        assert again.value == pytest.approx(known.value, abs=1e-3 * (known.high - known.low))
+    # Where the sled of the other fit cannot hang, the search begins as ever.
+    gone = tuple(replace(each, value=1e5) for each in elsewhere.estimates)
+    lost = fitted(effects=["chain_pitch"], near=replace(elsewhere, estimates=gone))
+    assert lost.settings.motor_gap == pytest.approx(cold.settings.motor_gap, abs=1e-4)

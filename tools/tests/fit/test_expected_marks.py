@@ -1,0 +1,106 @@
+"""How far off marks will be before anything is measured."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plumb.board.sighting import SHEET_ROTATION
+from plumb.fit.expected import (
+    COLUMNS,
+    MARGIN,
+    ROWS,
+    WIDE,
+    Expected,
+    _over,
+    expected_anywhere,
+    expected_error,
+    expected_priors,
+    expected_sentence,
+)
+from plumb.fit.fit import rms
+from plumb.fit.problem import PRIORS
+from plumb.fit.shape import best_pose
+from plumb.model.catalogue import parameter_words
+from plumb.model.predict import FOUND, NAMES, lengths, places
+from synthetic import BELIEVED, grid
+
+AT = grid(4, 3)
+TYPICAL = {name: words["typical"] for name, words in parameter_words().items() if name in NAMES}
+
+
+def moved_by(**wrong):
+    """How far a machine with these numbers is off at each place (n, 2) [mm]."""
+    chains, outcome = lengths(BELIEVED, AT)
+    where, reached = places(replace(BELIEVED, **wrong), chains)
+    assert (outcome == FOUND).all() and (reached == FOUND).all()
+    return where - AT
+
+
+def with_effect(name, size):
+    effect, _, parameter = name.partition(".")
+    return {effect: {parameter: size}}
+
+
+@pytest.mark.parametrize("number", ["motor_gap", "motor_height", "rotation_radius"])
+def test_a_number_of_the_frame_counts_as_far_as_it_may_be_off(number):
+    moved = moved_by(**{number: getattr(BELIEVED, number) + 0.5})
+    expected = expected_error(BELIEVED, {number: 0.5}, at=AT)
+    assert expected.frame == pytest.approx(rms(moved), rel=0.01)
+    assert expected.shape == pytest.approx(
+        rms(best_pose(AT, AT + moved).errors), rel=0.01, abs=1e-9
+    )
+    assert expected_error(BELIEVED, {number: 0.0}, at=AT).frame == 0.0
+
+
+def test_a_turned_sheet_moves_marks_and_keeps_their_shape():
+    expected = expected_error(BELIEVED, {SHEET_ROTATION: 0.01}, at=AT)
+    assert expected.frame == pytest.approx(0.01 * rms(AT))
+    assert expected.shape == 0.0
+
+
+def test_independent_numbers_add_up_by_their_squares():
+    alone = [expected_error(BELIEVED, {name: sigma}, at=AT) for name, sigma in PRIORS.items()]
+    together = expected_error(BELIEVED, PRIORS, at=AT)
+    assert together.frame == pytest.approx(np.hypot.reduce([each.frame for each in alone]))
+    assert together.shape == pytest.approx(np.hypot.reduce([each.shape for each in alone]))
+
+
+def test_effects_count_by_their_typical_sizes_until_the_settings_have_them():
+    whole = expected_error(BELIEVED, {}, at=AT).effects
+    for name, size in TYPICAL.items():
+        moved = moved_by(effects=with_effect(name, size / 10))
+        shape = 10 * rms(best_pose(AT, AT + moved).errors)
+        known = replace(BELIEVED, effects=with_effect(name, 1e-9 * size))
+        left = expected_error(known, {}, at=AT).effects
+        assert whole**2 - left**2 == pytest.approx(shape**2, rel=0.2, abs=1e-3 * whole**2), name
+
+
+def test_all_of_it_is_the_frame_and_the_effects():
+    expected = Expected(frame=4.0, shape=2.4, effects=3.0)
+    assert expected.whole == 5.0 and expected.all_shape == pytest.approx(np.hypot(2.4, 3.0))
+    said = expected_sentence(expected)
+    assert "off by 3.8 mm among each other" in said and "together by 5 mm" in said
+    assert expected_sentence(None) == ""
+
+
+def test_places_reach_all_over_the_sheet():
+    looked_at = _over((2000.0, 1000.0))
+    assert looked_at.shape == (COLUMNS * ROWS, 2)
+    assert looked_at.max(axis=0).tolist() == [1000 - MARGIN, 500 - MARGIN]
+    assert looked_at.min(axis=0).tolist() == [MARGIN - 1000, MARGIN - 500]
+    by_places = expected_error(BELIEVED, PRIORS, at=_over(BELIEVED.sheet))
+    assert expected_error(BELIEVED, PRIORS) == by_places
+    assert expected_anywhere(BELIEVED, PRIORS) == by_places
+
+
+def test_what_an_owner_knows_replaces_what_is_usual():
+    usual = expected_priors({})
+    assert usual == {**PRIORS, **WIDE}
+    known = expected_priors({"motor_gap": 0.5, "sled_weight": 1.0, "chain_pitch.left": 1e-4})
+    assert known == {**usual, "motor_gap": 0.5, "sled_weight": 1.0}
+
+
+def test_where_no_sled_hangs_nothing_is_expected():
+    assert expected_anywhere(replace(BELIEVED, motor_height=-2000.0), PRIORS) is None
+    stock = replace(BELIEVED, controller="stock", motor_height=-2000.0)
+    assert expected_anywhere(stock, PRIORS) is None

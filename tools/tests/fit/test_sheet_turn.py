@@ -1,0 +1,95 @@
+"""How the sheet is turned: what a fit says of it, and when it is proved."""
+
+import numpy as np
+import pytest
+from plumb.board.observations import model_and_observations, observe
+from plumb.board.sighting import SHEET_ROTATION
+from plumb.fit.fit import fit
+from plumb.fit.problem import PRIORS
+from plumb.marks.read import Measurements, Round, join_measurements
+from synthetic import BELIEVED, distances_between, grid, marks_on
+
+SIGMA = 0.5
+
+
+def sheet(turn, name, **how):
+    """A file of marks with hardly any noise, read on a sheet that is turned [rad]."""
+    seed = ord(name)
+    marks = marks_on(BELIEVED, BELIEVED, grid(3, 3), rotation=turn, noise=1e-4, seed=seed)
+    return Measurements(marks, source=f"{name}.toml", rounds=(Round(**how),))
+
+
+def fit_of(*parts):
+    _, rows = model_and_observations(BELIEVED, join_measurements(parts))
+    return fit(BELIEVED, rows, sigma=SIGMA)
+
+
+def two_sheets(first, last):
+    return fit_of(sheet(first, "a"), sheet(last, "b", new_sheet=True))
+
+
+def half_width(fitted, name=SHEET_ROTATION):
+    (turn,) = [each for each in fitted.estimates if each.name == name]
+    return (turn.high - turn.low) / 2
+
+
+def test_a_turn_is_proved_once_its_interval_leaves_out_zero():
+    half = half_width(fit_of(sheet(0.0, "a")))
+    for share in (0.8, 1.3):
+        for side in (-1, 1):
+            fitted = fit_of(sheet(side * share * half, "a"))
+            assert fitted.last_sheet_rotation == pytest.approx(side * share * half, rel=0.01)
+            assert fitted.proves_sheet_rotation == (share > 1), (share, side)
+
+
+def test_of_two_sheets_the_last_counts():
+    turned = two_sheets(0.004, -0.003)
+    assert turned.sheet_rotation == pytest.approx(0.004, rel=0.01)
+    assert turned.last_sheet_rotation == pytest.approx(-0.003, rel=0.01)
+    assert turned.proves_sheet_rotation and turned.shows_sheet_rotation
+    assert not two_sheets(0.004, 0.0).proves_sheet_rotation
+    assert two_sheets(0.0, 0.004).proves_sheet_rotation
+
+
+def test_the_last_sheet_is_as_sure_as_if_it_were_the_first():
+    half = half_width(two_sheets(0.0, 0.0))
+    for share in (0.85, 1.2):
+        assert two_sheets(0.004, share * half).proves_sheet_rotation == (share > 1)
+
+
+def test_distances_alone_do_not_show_how_the_sheet_lies():
+    board = distances_between(marks_on(BELIEVED, BELIEVED, grid(3, 3), rotation=0.01))
+    fitted = fit(BELIEVED, observe(BELIEVED, board), sigma=SIGMA)
+    assert fitted.sheet_rotation == 0.0
+    assert not fitted.shows_sheet_rotation and not fitted.proves_sheet_rotation
+
+
+def test_a_sheet_that_is_held_is_not_turned():
+    fitted = fit(
+        BELIEVED,
+        observe(BELIEVED, sheet(0.004, "a")),
+        priors={**PRIORS, SHEET_ROTATION: 0.0},
+        sigma=SIGMA,
+    )
+    assert fitted.sheet_rotation == fitted.last_sheet_rotation == 0.0
+    assert not fitted.shows_sheet_rotation and not fitted.proves_sheet_rotation
+    assert fitted.rms > 1
+
+
+def test_where_the_first_sheet_is_held_the_last_is_judged_by_itself():
+    for turn, is_proved in ((0.004, True), (0.0, False)):
+        parts = sheet(0.0, "a"), sheet(turn, "b", new_sheet=True)
+        _, rows = model_and_observations(BELIEVED, join_measurements(parts))
+        fitted = fit(BELIEVED, rows, priors={**PRIORS, SHEET_ROTATION: 0.0}, sigma=SIGMA)
+        assert fitted.last_sheet_rotation == pytest.approx(turn, abs=1e-5)
+        assert fitted.proves_sheet_rotation == is_proved
+
+
+def test_what_nothing_feels_stays_where_it_was_and_no_surer():
+    marks = marks_on(BELIEVED, BELIEVED, grid(3, 3))
+    rows = observe(BELIEVED, Measurements(marks))
+    assert all(each.felt for each in fit(BELIEVED, rows, sigma=SIGMA).estimates)
+    alone = fit(BELIEVED, observe(BELIEVED, distances_between(marks)), sigma=SIGMA)
+    (turn,) = [each for each in alone.estimates if each.name == SHEET_ROTATION]
+    assert not turn.felt and turn.value == turn.before
+    assert (turn.low, turn.high) == pytest.approx(np.array([-1.96, 1.96]) * PRIORS[SHEET_ROTATION])

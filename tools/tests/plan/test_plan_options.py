@@ -1,0 +1,183 @@
+"""Each kind of option: where its marks lie, how heavy, from which side, and its minutes."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plan_cases import MACHINE, case_on, nine
+from plumb.fit.problem import Checked
+from plumb.marks.read import Measurements
+from plumb.plan.direct_checks import FRAME_CHECKS, effect_checks
+from plumb.plan.options import (
+    FEW,
+    HANGING,
+    MARK,
+    READ_AGAIN,
+    READING,
+    ROOM_FOR_A_SECOND,
+    ROUND,
+    SHARPER,
+    SWAPPING,
+    _Shop,
+    checks_for,
+    options,
+    spots,
+)
+from plumb.plan.planned_visits import sent
+from plumb.settings.machine import GRAVITY
+from synthetic import distances_between, grid, marks_on
+
+USUAL = MACHINE.sled_weight
+
+
+@pytest.fixture(scope="module")
+def case():
+    return case_on(nine(), "sled_friction", "chain_pitch")
+
+
+@pytest.fixture(scope="module")
+def by_kind(case):
+    kinds = {}
+    for option in options(case):
+        kinds.setdefault(option.kind, []).append(option)
+    return kinds
+
+
+def test_minutes_are_a_round_its_marks_and_what_is_to_be_done(by_kind):
+    (marks,), (swap,), (again,) = (by_kind[kind] for kind in ("marks", "swap", "repeats"))
+    assert marks.minutes == ROUND + FEW * MARK
+    assert swap.minutes == marks.minutes + SWAPPING
+    assert again.minutes == ROUND + READ_AGAIN * 9 * READING
+    for heavier in by_kind["weight"]:
+        assert heavier.minutes == ROUND + len(heavier.visits) * MARK + HANGING
+    # Reading again is quicker than cutting, and swapping takes longest.
+    assert READING < MARK < ROUND < HANGING < SWAPPING
+
+
+def test_extra_weight_is_hung_on_as_told(by_kind):
+    hung = [(option.visits.sled_weights.max() - USUAL) / GRAVITY for option in by_kind["weight"]]
+    # Four marks with each weight that does not double the sled, and all nine with 5 kg.
+    assert hung == pytest.approx([2.5, 5.0, 5.0, 10.0])
+    for option, kilograms in zip(by_kind["weight"], hung, strict=True):
+        assert np.ptp(option.visits.sled_weights) == 0
+        assert f"Hang {kilograms:g} kg more" in option.do[0]
+        assert option.title.endswith(f"with {kilograms:g} kg more")
+    near = by_kind["weight"][2].visits
+    gaps = np.abs(near.targets - grid(3, 3))
+    assert gaps == pytest.approx(np.full((9, 2), ROOM_FOR_A_SECOND))
+    assert (np.abs(near.targets) <= np.abs(grid(3, 3)) + ROOM_FOR_A_SECOND).all()
+
+
+def test_a_light_sled_is_not_loaded_beyond_its_double():
+    light = replace(MACHINE, sled_weight=50.0)
+    marks = marks_on(light, light, grid(3, 3), noise=0.5)
+    weighed = tuple(replace(mark, sled_weight=50.0) for mark in marks)
+    offered = _Shop(case_on(Measurements(weighed), "chain_stretch")).heavier()
+    extra = {round((option.visits.sled_weights[0] - 50.0) / GRAVITY, 6) for option in offered}
+    assert extra == {2.5, 5.0}
+
+
+def test_two_marks_close_together_are_touched_from_opposite_sides(by_kind):
+    (sides,) = by_kind["approach"]
+    visits = sides.visits
+    assert len(visits) == FEW and sides.minutes == ROUND + FEW * MARK
+    assert np.hypot(*visits.approaches.T) == pytest.approx(np.ones(FEW))
+    assert {tuple(side) for side in visits.approaches.tolist()} <= {
+        (1.0, 0.0),
+        (-1.0, 0.0),
+        (0.0, 1.0),
+        (0.0, -1.0),
+    }
+    for first, second in ((0, 1), (2, 3)):
+        assert visits.approaches[first] == pytest.approx(-visits.approaches[second])
+        gap = np.abs(visits.targets[first] - visits.targets[second])
+        assert gap == pytest.approx((ROOM_FOR_A_SECOND, ROOM_FOR_A_SECOND))
+    apart = np.linalg.norm(visits.targets[0] - visits.targets[2])
+    assert apart > 2 * ROOM_FOR_A_SECOND
+    assert "opposite sides" in sides.do[0] and spots(visits) in sides.do[0]
+
+
+def test_sides_and_swapped_chains_are_for_effects_that_feel_them():
+    plain = _Shop(case_on(nine(), "frame_lean"))
+    assert plain.sides() == [] and plain.swapped() == []
+    assert _Shop(case_on(nine(), "sled_friction")).swapped() == []
+    (swapped,) = _Shop(case_on(nine(), "chain_pitch")).swapped()
+    assert swapped.visits.swapped.all() and len(swapped.visits) == FEW
+
+
+def test_every_mark_is_read_again_as_it_was_made(by_kind, case):
+    (again,) = by_kind["repeats"]
+    assert not again.is_cut and by_kind["marks"][0].is_cut
+    assert not by_kind["check"][0].is_cut
+    assert again.visits.names == case.board.rows.names * READ_AGAIN
+    assert again.visits.chains == pytest.approx(np.tile(case.board.rows.chains, (READ_AGAIN, 1)))
+    assert again.do == ("Read each of the 9 marks 3 more times with a newly laid tape.",)
+
+
+def test_repeated_marks_count_as_a_single_place():
+    marks = nine().marks + nine(seed=2).marks[:2]
+    shop = _Shop(case_on(Measurements(marks), "chain_pitch"))
+    assert shop.old().names == tuple("012345678") and len(shop.repeats().visits) == 27
+    assert shop.old_targets.tolist() == grid(3, 3).tolist()
+
+
+def test_distances_alone_have_no_marks_to_read_again():
+    board = distances_between(marks_on(MACHINE, MACHINE, grid(3, 2), noise=0.5))
+    shop = _Shop(case_on(board, "chain_pitch"))
+    assert shop.repeats() is None and shop.old_targets.shape == (0, 2)
+    assert len(shop.ordinary()[0].visits) == FEW
+
+
+def test_a_suspect_alone_is_confirmed_by_no_repeats():
+    kinds = {
+        option.kind for option in options(case_on(nine(), "chain_pitch", verdict="one_suspect"))
+    }
+    assert kinds == {"marks", "weight", "swap", "check"}
+
+
+def test_new_marks_come_as_the_nearest_mark_did():
+    sides = [(0.0, 1.0) if mark.target[0] > 0 else (1.0, 0.0) for mark in nine().marks]
+    marks = [replace(mark, approach=side) for mark, side in zip(nine().marks, sides, strict=True)]
+    shop = _Shop(case_on(Measurements(tuple(marks)), "chain_pitch"))
+    visits = shop.visits(np.array([(1000.0, 450.0), (-1000.0, 450.0)]), USUAL)
+    assert visits.approaches.tolist() == [[0.0, 1.0], [1.0, 0.0]]
+    assert len(shop.visits(np.array([(0.0, 9000.0)]), USUAL)) == 0
+
+
+def test_a_number_is_checked_if_that_tells_more_than_is_known():
+    sigma = FRAME_CHECKS["motor_gap"].sigmas["motor_gap"]
+    for known, is_offered in ((1.01 * SHARPER * sigma, True), (0.99 * SHARPER * sigma, False)):
+        made = [Checked("motor_gap", MACHINE.motor_gap, known)]
+        offered = checks_for(case_on(nine(), "chain_pitch", checked=made))
+        names = [check.name for option in offered for check in option.checks]
+        assert ("motor_gap" in names) == is_offered and "motor_height" in names
+        # The radius is a solid part that no fit moves.
+        assert "rotation_radius" not in names
+
+
+def test_checks_of_suspects_bring_their_numbers_and_words():
+    (check,) = [each for each in checks_for(case_on(nine(), "chain_pitch")) if each.kind == "check"]
+    direct = effect_checks()["chain_pitch"]
+    assert {each.name: each.sigma for each in check.checks} == {
+        f"chain_pitch.{side}": sigma for side, sigma in direct.sigmas.items()
+    }
+    assert (check.title, check.minutes) == (direct.direct.title, direct.direct.minutes)
+    assert check.do == (direct.direct.steps,) and check.value == direct.direct.value
+
+
+def test_many_marks_spread_all_over_the_sheet(case):
+    many = _Shop(case).many()
+    assert many.kind == "many" and len(many.visits) == 28
+    assert many.minutes == ROUND + 28 * MARK
+    assert np.abs(many.visits.targets).max(axis=0) == pytest.approx((1050.0, 460.0))
+
+
+def test_places_are_told_once_and_old_marks_by_name():
+    visits = sent(
+        MACHINE,
+        [(100.0, 200.0), (100.0, 200.0), (-0.0, 50.4)],
+        controller="plumb",
+        sled_weight=USUAL,
+        names=("7", "7", "0/50"),
+    )
+    assert spots(visits) == "7 (100, 200), (0, 50)"

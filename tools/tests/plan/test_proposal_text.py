@@ -1,0 +1,108 @@
+"""Proposals in sentences: what to hope of them, and what they cost."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plumb.model.plain import noun_of
+from plumb.plan.ahead import Check
+from plumb.plan.options import Option
+from plumb.plan.planned_visits import nowhere
+from plumb.plan.proposal import (
+    AGAIN,
+    CONFIRM,
+    EXPLORE,
+    FIND,
+    REREAD,
+    SETTLE,
+    Proposal,
+    RoomThen,
+    _order,
+)
+from plumb.plan.proposal_text import headline_of, percent, promise_of, steps_of
+
+CUT = Option("marks", "4 more marks", ("Cut four.",), 9.4, nowhere())
+ROOMS = (RoomThen("chain_sag", 5.0, 1.24), RoomThen("chain_pitch", 2.0, 1.9))
+
+
+def proposal(question=SETTLE, chance=0.42, **how):
+    return Proposal(CUT, question, chance, None, **how)
+
+
+@pytest.mark.parametrize(
+    ("chance", "said"),
+    [
+        (None, "-"),
+        (0.0, "below 5 %"),
+        (0.02, "below 5 %"),
+        (0.03, "5 %"),
+        (0.42, "40 %"),
+        (0.43, "45 %"),
+        (0.97, "95 %"),
+        (0.98, "above 95 %"),
+        (1.0, "above 95 %"),
+    ],
+)
+def test_a_chance_is_told_in_steps_of_five(chance, said):
+    assert percent(chance) == said
+
+
+@pytest.mark.parametrize(
+    ("question", "hope"),
+    [
+        (SETTLE, ", chance to settle it 40 %"),
+        (CONFIRM, ", chance to confirm it 40 %"),
+        (REREAD, ", chance to show it 40 %"),
+        (EXPLORE, ""),
+    ],
+)
+def test_the_headline_tells_minutes_and_hope(question, hope):
+    assert headline_of(proposal(question)) == f"4 more marks; about 9 minutes{hope}"
+    assert headline_of(proposal(question, None)) == "4 more marks; about 9 minutes"
+
+
+def test_where_an_effect_could_hide_the_hope_is_how_much_less():
+    noun = noun_of("chain_sag")
+    said = headline_of(proposal(FIND, rooms=ROOMS))
+    hope = f"{noun[0].upper()}{noun[1:]} could hide 5.0 mm now, 1.2 mm then"
+    assert said == f"4 more marks; about 9 minutes. {hope}"
+    # Only what becomes clearly less is worth a word.
+    assert promise_of(proposal(FIND, rooms=ROOMS)) == f"{noun} 5.0 -> 1.2 mm"
+    assert promise_of(proposal(FIND, rooms=ROOMS[1:])) == "no change"
+    third = RoomThen("motor_level", 9.0, 1.0)
+    both = promise_of(proposal(FIND, rooms=(third, *ROOMS)))
+    assert both == f"{noun_of('motor_level')} 9.0 -> 1.0 mm, {noun} 5.0 -> 1.2 mm"
+
+
+def test_without_such_rooms_a_promise_is_a_chance():
+    assert promise_of(proposal()) == "40 %"
+    assert promise_of(proposal(FIND)) == "40 %"
+    assert promise_of(proposal(SETTLE, rooms=ROOMS)) == "40 %"
+
+
+def test_steps_tell_what_is_parted_and_which_value_to_give():
+    assert steps_of(proposal()) == ["Cut four."]
+    pairs = (("chain_sag", "frame_lean"), ("chain_pitch + tape_scale", "chain_sag"))
+    sag, lean, pitch, tape = map(noun_of, ("chain_sag", "frame_lean", "chain_pitch", "tape_scale"))
+    said = steps_of(proposal(parts=pairs))
+    assert said == ["Cut four.", f"It tells {sag} from {lean}; {pitch} and {tape} from {sag}."]
+    check = replace(CUT, checks=(Check("motor_gap", 1.0),), value="the gap, mm")
+    assert steps_of(Proposal(check, SETTLE, 0.5, None))[-1] == "VALUE: the gap, mm."
+
+
+def test_the_rate_is_what_is_gained_for_each_minute_with_a_round_more():
+    assert proposal().rate == pytest.approx(0.42 / (9.4 + AGAIN))
+    assert proposal(SETTLE, None).rate == 0.0
+    gained = (5.0 - 1.24) + (2.0 - 1.9)
+    assert proposal(FIND, rooms=ROOMS).rate == pytest.approx(gained / (9.4 + AGAIN))
+
+
+def test_a_single_suspect_is_checked_before_marks_are_cut():
+    check = replace(CUT, kind="check", minutes=60.0)
+    marks = [proposal(CONFIRM, 0.2), proposal(CONFIRM, 0.9)]
+    direct = Proposal(check, CONFIRM, 0.1, None)
+    assert sorted([*marks, direct], key=_order) == [direct, marks[1], marks[0]]
+    direct = replace(direct, question=SETTLE)
+    several = [replace(each, question=SETTLE) for each in marks]
+    assert sorted([*several, direct], key=_order) == [several[1], several[0], direct]
+    assert np.isfinite(direct.rate)

@@ -1,0 +1,139 @@
+"""What to measure where no effect is in question: the places and the chances."""
+
+from dataclasses import replace
+from math import sqrt
+
+import numpy as np
+import pytest
+from plan_cases import MACHINE, SIGMA, case_on, nine
+from plumb.diagnosis.slip_cause import Slip
+from plumb.marks.read import Measurements
+from plumb.plan.check_places import BELOW, check_places
+from plumb.plan.options import MARK, READING, ROUND
+from plumb.plan.sites import NEAR, grid, new_places, usable
+from plumb.plan.strangers import BESIDE, READ_AGAIN, SURE, for_slips, near_the_worst
+from synthetic import distances_between, marks_on
+from synthetic import grid as targets_of
+
+
+def slip(name, *offset):
+    return Slip(name, offset, (SIGMA,) * len(offset), (0.0,) * len(offset), offset, "")
+
+
+def with_offset(measurements, index, offset):
+    """The same marks, of which one is read elsewhere."""
+    marks = list(measurements.marks)
+    marks[index] = replace(marks[index], measured=tuple(np.add(marks[index].measured, offset)))
+    return replace(measurements, marks=tuple(marks))
+
+
+def test_a_second_reading_shows_a_slip_as_often_as_noise_allows():
+    case = case_on(nine(), "chain_pitch")
+    even = SURE * sqrt(2) * SIGMA  # as often as not
+    far = -even - 2 * sqrt(2) * SIGMA
+    several = [slip("3", even, 0.0), slip("3", 0.0, far), slip("3", 0.0, 0.0)]
+    chances = [chance for _, chance in for_slips(case, several)]
+    assert chances == pytest.approx([0.5, 0.9772, 0.00135], abs=1e-3)
+
+
+def test_the_mark_is_read_again_as_it_was_made_and_a_distance_by_its_name():
+    marks = nine().marks
+    board = Measurements(marks, distances_between(marks[:2]).distances)
+    case = case_on(board, "chain_pitch")
+    (mark, _), (span, _) = for_slips(case, [slip("3", 5.0, 0.0), slip("1 - 0", 5.0)])
+    assert mark.visits.names == ("3",) and mark.visits.targets[0].tolist() == [-1100.0, 0.0]
+    assert mark.visits.chains[0].tolist() == case.board.rows.chains[3].tolist()
+    assert mark.do[0].startswith("Read 3 again") and not mark.is_cut
+    assert len(span.visits) == 0 and "the distance 1 - 0" in span.do[0]
+
+
+def test_marks_around_the_worst_place_lie_inwards_of_it():
+    case = case_on(with_offset(nine(), 8, (6.0, 0.0)), "chain_pitch")
+    again, near = near_the_worst(case)
+    worst, second = list(dict.fromkeys(again.visits.names))
+    assert worst == "8" and len(again.visits) == 2 * READ_AGAIN
+    assert again.minutes == ROUND + READING * 2 * READ_AGAIN
+    assert near.minutes == ROUND + MARK * len(near.visits)
+    assert f"around {worst}, {second}" in near.do[0]
+    places = {tuple(place) for place in near.visits.targets.tolist()}
+    assert {(1100.0 - BESIDE, -500.0), (1100.0, -500.0 + BESIDE)} <= places
+    half = np.array(MACHINE.sheet) / 2
+    assert (np.abs(near.visits.targets) <= half - 50).all()
+    assert (near.visits.targets % 10 == 0).all()
+
+
+def test_places_at_the_edge_are_brought_onto_the_sheet_in_whole_centimetres():
+    targets = targets_of(3, 3) * [1.0, 1.16]
+    marks = Measurements(marks_on(MACHINE, MACHINE, targets, noise=SIGMA))
+    case = case_on(with_offset(marks, 7, (9.0, 0.0)), "chain_pitch")
+    _, near = near_the_worst(case)
+    # Below the middle the mark lies at y -580, so the mark beside it is brought in to -560.
+    assert (-BESIDE, -560.0) in {tuple(place) for place in near.visits.targets.tolist()}
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_worst_is_worst_by_the_best_single_effect_for_its_parameters(seed):
+    case = case_on(nine(seed=seed), "chain_pitch")
+    runout = case.singles["sprocket_runout"]
+    # Noise lets four parameters explain a little: less than what they cost.
+    best = runout if case.frame.cost - runout.cost > 2 * 4 else case.frame
+    errors = np.linalg.norm(best.numbers.reshape(-1, 2), axis=1)
+    again = near_the_worst(replace(case, singles={"sprocket_runout": runout}))[0]
+    assert list(dict.fromkeys(again.visits.names)) == [str(i) for i in np.argsort(-errors)[:2]]
+
+
+def test_distances_that_are_worst_are_measured_again():
+    board = distances_between(marks_on(MACHINE, MACHINE, targets_of(3, 3), noise=0.2))
+    spans = list(board.distances)
+    spans[5] = replace(spans[5], length=spans[5].length + 9.0)
+    case = replace(
+        case_on(replace(board, distances=tuple(spans)), "chain_pitch"),
+        spans=tuple(" - ".join(each.between) for each in spans),
+    )
+    (again,) = near_the_worst(case)
+    assert again.do[0].startswith(f"Measure the distances {case.spans[5]}, ")
+    assert again.do[0].count(" - ") == 4 and "3 more times" in again.do[0]
+    assert again.minutes == ROUND + READING * 3 * 4 and len(again.visits) == 0
+
+
+def test_a_grid_spreads_to_its_margins_from_the_top_left():
+    places = grid((2000.0, 1000.0), 3, 2, margin=(0.1, 0.2))
+    assert places.tolist() == [
+        [-800.0, 300.0],
+        [0.0, 300.0],
+        [800.0, 300.0],
+        [-800.0, -300.0],
+        [0.0, -300.0],
+        [800.0, -300.0],
+    ]
+    assert grid((2000.0, 1000.0), 1, 1).tolist() == [[0.0, 0.0]]
+
+
+def test_new_places_are_not_near_known_ones():
+    sheet = (2000.0, 1000.0)
+    assert new_places(sheet, np.zeros((0, 2))).tolist() == grid(sheet).tolist()
+    at, beyond = np.array([(NEAR, 0.0)]), np.array([(NEAR + 1.0, 0.0)])
+    assert len(new_places(sheet, at)) == len(grid(sheet)) - 1
+    assert len(new_places(sheet, beyond)) == len(grid(sheet))
+
+
+def test_check_marks_lie_far_from_what_was_fitted_and_from_each_other():
+    known = targets_of(3, 3)
+    first, second = check_places(MACHINE, known)
+    places = grid(MACHINE.sheet, 15, 9)
+    places = places[usable(MACHINE, places, MACHINE.sled_weight)]
+    places = places[usable(MACHINE, places - [0.0, BELOW], MACHINE.sled_weight)]
+
+    def gap(place, marks):
+        return np.linalg.norm(marks - place, axis=1).min()
+
+    assert gap(first, known) == max(gap(place, known) for place in places)
+    both = np.vstack([known, first])
+    assert gap(second, both) == max(gap(place, both) for place in places)
+    assert len(check_places(MACHINE, known, 4)) == 4
+    assert len(check_places(MACHINE, np.zeros((0, 2)))) == 2
+
+
+def test_a_machine_that_reaches_nothing_has_no_place_for_a_check():
+    low = replace(MACHINE, motor_height=-2000.0)
+    assert check_places(low, np.zeros((0, 2))).shape == (0, 2)

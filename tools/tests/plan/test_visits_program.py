@@ -1,0 +1,116 @@
+"""Planned visits as a program that cuts them, and as a form that waits for their readings."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from plumb.marks.model import Mark
+from plumb.marks.read import read_plan
+from plumb.plan.plan_marks import marks_file
+from plumb.plan.planned_visits import joined, nowhere, place_name, sent
+from plumb.plan.visits_program import program, way_into
+from synthetic import BELIEVED
+
+
+def test_the_program_waits_for_another_weight():
+    targets = np.array([(-300.0, 100.0), (0.0, 100.0), (300.0, 100.0), (300.0, -100.0)])
+    visits = sent(BELIEVED, targets, controller="plumb", sled_weight=97.9)
+    weights = np.array([97.9, 97.9 + 5 * 9.81, 97.9 + 5 * 9.81, 97.9])
+    text = program(dataclasses.replace(visits, sled_weights=weights), usual_weight=97.9)
+    before = [part.count("G1 Z-0.5") for part in text.split("M0")[:-1]]
+    assert before == [1, 2] and text.index("let 5.0 kg more hang") < text.index("M0")
+    assert "take off what hangs on the sled" in text.split("M0")[1]
+    # From the usual side: from below.
+    assert "G0 X-300.000 Y60.000\nG1 X-300.000 Y100.000" in text
+
+
+def test_the_program_waits_before_the_first_mark_and_at_the_end_until_all_is_as_it_was():
+    visits = sent(BELIEVED, [(0.0, 0.0), (300.0, 0.0)], controller="plumb", sled_weight=146.95)
+    parts = program(visits, usual_weight=97.9).split("M0")
+    assert [part.count("G1 Z-0.5") for part in parts] == [0, 2, 0]
+    assert "let 5.0 kg more" in parts[0] and "G0 Z5" in parts[0] and "take off" in parts[1]
+    assert parts[1].index("G0 X0 Y0") < parts[1].index("take off")
+    swapped = sent(BELIEVED, [(0.0, 0.0)], controller="plumb", sled_weight=97.9, swapped=True)
+    first, middle, end = program(swapped, usual_weight=97.9).split("M0")
+    assert "each chain on the other's sprocket" in first and "on its sprocket again" in middle
+    assert end.strip() == ""
+    usual = sent(BELIEVED, [(0.0, 0.0)], controller="plumb", sled_weight=97.9)
+    assert "M0" not in program(usual, usual_weight=97.9)
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+def test_a_form_keeps_place_side_weight_and_swap(file, swapped):
+    targets, sides = (
+        np.array([(-1000.0, 480.0), (20.0, -300.0)]),
+        np.array([(0.0, 1.0), (0.6, -0.8)]),
+    )
+    visits = sent(
+        BELIEVED,
+        targets,
+        controller="plumb",
+        sled_weight=147.0,
+        approaches=sides,
+        swapped=swapped,
+    )
+    text = marks_file(visits, sheet=BELIEVED.sheet, controller="plumb", said=("Four marks.",))
+    read = read_plan(file("form.toml", text), sheet=BELIEVED.sheet)
+    assert read.controller == "plumb" and len(read.marks) == 2
+    for mark, target, side in zip(read.marks, targets, sides, strict=True):
+        assert mark.target == pytest.approx(tuple(target), abs=0.001)
+        assert mark.approach == pytest.approx(tuple(side), abs=0.001)
+        assert mark.sled_weight == 147.0 and mark.chains_swapped == swapped
+
+
+def test_places_on_the_sheet_are_counted_from_its_top_left_corner():
+    visits = sent(BELIEVED, [(-1219.2, 609.6), (0.0, 0.0)], controller="plumb", sled_weight=98.0)
+    text = marks_file(visits, sheet=BELIEVED.sheet, controller="plumb", said=("Two.", "Read it."))
+    assert "target = [0.000, 0.000]" in text and "target = [1219.200, 609.600]" in text
+    assert text.count("# measured = [ , ]") == 2 and "# Two.\n# Read it.\n" in text
+    assert "approach" not in text and "chains_swapped" not in text
+    assert 'name = "0/0"' in text and "sled_weight_n = 98.0" in text
+
+
+def test_a_new_mark_is_named_by_its_place():
+    assert place_name(np.array([-120.4, 35.0])) == "-120/35"
+    assert place_name(np.array([-0.0, -0.0])) == "0/0"
+
+
+@pytest.mark.parametrize("kilograms", [2.5, 10.0])
+def test_the_weight_to_hang_is_told_in_kilograms(kilograms):
+    heavy = 98.0 + kilograms * 9.81
+    visits = sent(BELIEVED, [(0.0, 0.0)], controller="plumb", sled_weight=heavy)
+    assert f"let {kilograms} kg more hang" in program(visits, usual_weight=98.0)
+
+
+def test_a_mark_is_entered_from_its_side_as_far_as_usual():
+    usual = np.subtract(way_into(Mark("1", (100.0, 200.0))), (100.0, 200.0))
+    assert usual == pytest.approx((0.0, -40.0))
+    fromleft = way_into(Mark("1", (100.0, 200.0), approach=(1.0, 0.0)))
+    assert fromleft == pytest.approx((60.0, 200.0))
+
+
+def test_what_to_do_first_is_said_in_comments_that_no_bracket_ends():
+    visits = sent(BELIEVED, [(0.0, 0.0)], controller="plumb", sled_weight=98.0)
+    long = "Cut and read a mark (0, 0) " + 20 * "and so on "
+    lines = program(visits, usual_weight=98.0, do=[long]).splitlines()
+    said = [line for line in lines if "and so on" in line]
+    assert len(said) == 4 and all(line.count("(") == line.count(")") == 1 for line in said)
+    assert max(map(len, said)) <= 72 and lines.index(said[-1]) < lines.index("G21")
+
+
+def test_visits_are_taken_and_joined_with_all_they_are():
+    sides = np.array([(1.0, 0.0), (0.0, 0.0), (0.0, -1.0)])
+    targets = [(-300.0, 100.0), (0.0, 100.0), (300.0, 100.0)]
+    how = {"controller": "plumb", "sled_weight": 120.0, "approaches": sides}
+    visits = sent(BELIEVED, targets, names=("a", "b", "c"), **how)
+    back = joined(visits.taken([2]), nowhere(), visits.taken([0, 1]))
+    assert back.names == ("c", "a", "b") and len(back) == 3
+    assert back.targets.tolist() == [list(targets[i]) for i in (2, 0, 1)]
+    assert back.chains[1:] == pytest.approx(visits.chains[:2])
+    read = back.marks(np.add(back.targets, (1.0, 2.0)))
+    assert [mark.approach for mark in read] == [(0.0, -1.0), (1.0, 0.0), None]
+    assert read[0].measured == (301.0, 102.0) and read[0].target == (300.0, 100.0)
+    assert {mark.sled_weight for mark in read} == {120.0}
+    assert not any(mark.chains_swapped for mark in read)
+    rows = back.rows()
+    assert rows.count == 6 and rows.mark_rows.tolist() == [0, 1, 2] and not rows.measured.any()
