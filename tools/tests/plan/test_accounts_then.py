@@ -6,11 +6,14 @@ from plumb.bench.boards import cut, plan
 from plumb.bench.causes import PUBLISHED, Hidden, causes_of
 from plumb.bench.owner import BoardOwner
 from plumb.diagnosis import diagnose
+from plumb.diagnosis.clean import felt_effects
+from plumb.diagnosis.likeliest import listing
+from plumb.diagnosis.weighing import weigh
 from plumb.fit.inputs import Inputs
 from plumb.plan import propose
 from plumb.plan.accounts_then import accounts_then
 from plumb.plan.ahead import Planned
-from plumb.plan.case import case_of
+from plumb.plan.case import LIKELY, MOST_TRUTHS, case_of
 from plumb.plan.options import many_marks
 from plumb.plan.outlook import Rediagnosis
 from plumb.plan.planned_visits import nowhere
@@ -79,6 +82,23 @@ def test_truths_hold_their_accounts_and_all_weight(tape):
     for truth in case.truths:
         assert truth.counts_with in accounts and {*truth.counts_with} <= {*truth.effects}
     assert len(case.truths) > len(case.hypotheses)
+
+
+def test_truths_are_the_likeliest_that_hold_nine_tenths(tape):
+    *_, case = tape
+    weighed = weigh(case.frame, felt_effects(case.frame), case.noise, with_slips=False)
+    listed = {hypothesis.effects for hypothesis in case.hypotheses}
+    members = [
+        weighed.clean[member]
+        for each in listing(weighed.effects, weighed.clean)
+        if each.effects in listed
+        for member in each.members
+    ]
+    shares = np.sort(np.exp(np.array(members) - np.logaddexp.reduce(members)))[::-1]
+    count = len(case.truths)
+    assert shares[: count - 1].sum() < LIKELY <= shares[:count].sum() and count < MOST_TRUTHS
+    kept = [truth.weight for truth in case.truths]
+    assert kept == pytest.approx(list(shares[:count] / shares[:count].sum()))
 
 
 @pytest.mark.parametrize(("seed", "settles"), [(3, False), (6, True)])

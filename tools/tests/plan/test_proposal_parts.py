@@ -5,11 +5,12 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from plan_cases import MACHINE, SIGMA, case_on, nine
+from plan_cases import MACHINE, case_on, nine
 from plumb.diagnosis.explanation import explain
 from plumb.diagnosis.sizes import Room
 from plumb.marks.read import Measurements
 from plumb.plan.ahead import Check, Planned
+from plumb.plan.case import _root
 from plumb.plan.options import many_marks
 from plumb.plan.planned_visits import nowhere
 from plumb.plan.proposal import DISTINGUISHED, _parted, _readings, _rooms, _smallest, _stability
@@ -185,8 +186,31 @@ def test_a_hypothesis_keeps_what_its_marks_say():
     assert (drawn.mean(axis=1) - only.mean) / spread == pytest.approx(
         np.zeros(len(spread)), abs=0.1
     )
-    # What no reading feels is not drawn.
-    unfelt = case_on(Measurements(tuple(replace(m, approach=None) for m in nine().marks)))
-    (friction,) = [each for each in unfelt.hypotheses if each.effects == ("sled_friction",)]
-    assert friction.root.shape[0] == len(friction.columns)
-    assert unfelt.noise.sigma == SIGMA
+
+
+@pytest.mark.parametrize("scale", [1e-5, 1.0, 1e5])
+def test_what_no_reading_feels_is_not_drawn(scale):
+    case = case_on(nine(), "chain_pitch")
+    slopes = scale * np.array([[1.0, 0.0, 2.0], [0.0, 0.0, 3.0], [1.0, 0.0, 0.0]])
+    unfelt = replace(case.hypotheses[0], mean=np.array([1.0, 2.0, 3.0]), root=_root(slopes))
+    drawn = unfelt.drawn(np.random.default_rng(1), 50)
+    assert drawn.shape == (3, 50) and (drawn[1] == 2.0).all()
+    felt = slopes[:, [0, 2]]
+    covariance = np.linalg.inv(felt.T @ felt)
+    assert (unfelt.root @ unfelt.root.T)[np.ix_([0, 2], [0, 2])] == pytest.approx(covariance)
+
+
+def test_without_a_proof_each_effect_may_have_about_its_typical_size():
+    case = case_on(nine())
+    assert sum(each.weight for each in case.hypotheses) == pytest.approx(1.0)
+    (runout,) = [each for each in case.hypotheses if each.effects == ("sprocket_runout",)]
+    slopes = case.frame.slopes[:, runout.columns]
+    usual = np.zeros((4, len(runout.columns)))
+    usual[:, -4:] = np.eye(4)
+    normal = slopes.T @ slopes + usual.T @ usual
+    assert runout.root @ runout.root.T == pytest.approx(np.linalg.inv(normal), rel=1e-4, abs=1e-8)
+    mean = np.linalg.solve(normal, slopes.T @ case.frame.residual)
+    assert runout.mean == pytest.approx(mean, rel=1e-4, abs=1e-6)
+    # Fewer marks leave more open, and nothing more than was open before them.
+    spread = np.diag(runout.root @ runout.root.T)[-4:]
+    assert (spread < 1).all() and (spread > 0).all()
