@@ -95,3 +95,10 @@ def save_choices(
             if error.name != FILE:
                 raise
     raise ChangedError(FILE)
+
+
+def with_marks(choices: Choices, name: str) -> Choices:
+    """The choices with a file of marks as the last that is used; as they are if it is used."""
+    if name in choices.marks:
+        return choices
+    return choices.model_copy(update={"marks": [*choices.marks, name]})

@@ -68,3 +68,19 @@ def test_readings_count_from_the_edges_that_are_named_with_them(open_machine, pa
     right = page.get_by_label("Mark 1 from the right, mm", exact=True)
     expect(right).to_have_value(re.compile(r"2\d\d\d"), timeout=PATIENCE)
     assert float(right.input_value()) + x == pytest.approx(2438.4)
+
+
+def test_a_question_that_nobody_answers_is_said_and_asked_again(lab, page):
+    never = []
+    page.clock.install()
+    page.route("**/api/practice", lambda route: never.append(route))
+    page.goto(f"{lab.url}#/practice")
+    wait_for(page, lambda: never)
+    said = page.get_by_text("The lab does not answer, so this may be old")
+    assert said.count() == 0
+    page.clock.fast_forward(10_000)
+    said.wait_for(timeout=PATIENCE)
+    page.unroute("**/api/practice")
+    page.clock.fast_forward(3_000)
+    page.get_by_role("button", name="Begin").first.wait_for(timeout=PATIENCE)
+    assert said.count() == 0

@@ -1,4 +1,5 @@
 // Asks the server, with the types of its schema. A refusal becomes an error whose message is its line.
+import { inTime, READ_MS, SAVE_MS, WORK_MS } from "./patience";
 import type { components } from "./schema";
 import { token } from "./token";
 
@@ -17,24 +18,47 @@ export class Refusal extends Error {
   }
 }
 
-async function asked<Answer>(path: string, request: RequestInit): Promise<Answer> {
+/** What nobody answered; the next try may be answered. */
+export function isSilence(error: unknown): boolean {
+  return error instanceof Refusal && error.status === 0;
+}
+
+interface Asking extends RequestInit {
+  /** How long to wait for the whole answer [ms]. */
+  patienceMs: number;
+}
+
+async function asked<Answer>(path: string, { patienceMs, ...request }: Asking): Promise<Answer> {
   let response: Response;
+  let text: string;
   try {
-    response = await fetch(`api/${path}`, {
-      ...request,
-      headers: { ...request.headers, "X-Plumb-Token": token() },
+    [response, text] = await inTime(patienceMs, async (signal) => {
+      const answer = await fetch(`api/${path}`, {
+        ...request,
+        signal,
+        headers: { ...request.headers, "X-Plumb-Token": token() },
+      });
+      return [answer, await answer.text()];
     });
   } catch {
     throw new Refusal("The lab does not answer. Is plumb lab still running in its terminal?", 0);
   }
-  if (response.ok) return (await response.json()) as Answer;
-  const body = (await response.json().catch(() => ({}))) as { error?: string };
-  throw new Refusal(body.error ?? `The lab answered ${response.status}.`, response.status);
+  if (response.ok) return JSON.parse(text) as Answer;
+  throw new Refusal(reasonIn(text) ?? `The lab answered ${response.status}.`, response.status);
+}
+
+/** The line of a refusal, if there is any. */
+function reasonIn(text: string): string | undefined {
+  try {
+    return (JSON.parse(text) as { error?: string }).error;
+  } catch {
+    return undefined;
+  }
 }
 
 /** Reads something. */
-export function get<Answer>(path: string): Promise<Answer> {
-  return asked(path, {});
+export function get<Answer>(path: string, patienceMs = READ_MS): Promise<Answer> {
+  return asked(path, { patienceMs });
 }
 
 /** Sends something to be kept or done. */
@@ -44,6 +68,7 @@ export function send<Answer>(
   body?: unknown,
 ): Promise<Answer> {
   return asked(path, {
+    patienceMs: method === "PUT" ? SAVE_MS : WORK_MS,
     method,
     headers: { "Content-Type": "application/json" },
     ...(body === undefined ? {} : { body: JSON.stringify(body) }),
@@ -54,5 +79,5 @@ export function send<Answer>(
 export function sendFile<Answer>(path: string, file: File): Promise<Answer> {
   const form = new FormData();
   form.set("file", file);
-  return asked(path, { method: "POST", body: form });
+  return asked(path, { patienceMs: WORK_MS, method: "POST", body: form });
 }

@@ -1,6 +1,8 @@
 // Connects a machine: a board at a port, or a virtual machine to try; afterwards its settings can be read.
 import { useEffect, useState } from "preact/hooks";
-import { get, type Project, type Schemas, send } from "../api/client";
+import { get, isSilence, type Project, type Schemas, send } from "../api/client";
+import { LOOK_MS } from "../api/patience";
+import { Lookout } from "../shell/lookout";
 import { type Machine, subject, useMachine } from "../shell/machine";
 import { useProject } from "../shell/project";
 import "./connection.css";
@@ -34,9 +36,13 @@ function Ways() {
   const [typed, setTyped] = useState("");
   const [busy, run] = useDo();
   useEffect(() => {
-    const look = () => get<Port[]>("machine/ports").then(setPorts, () => setPorts([]));
-    void look();
-    const timer = setInterval(look, 3000);
+    const lookout = new Lookout(() => get<Port[]>("machine/ports", LOOK_MS), isSilence, {
+      state: setPorts,
+      silence: (is) => is && setPorts([]),
+      refusal: () => setPorts([]),
+    });
+    void lookout.look();
+    const timer = setInterval(() => void lookout.look(), 3000);
     return () => clearInterval(timer);
   }, []);
   const connect = (port: string) => run(() => send("POST", "machine/board", { port }));
@@ -140,7 +146,7 @@ function VirtualStart({ busy, run }: StartParts) {
 /** Waits until the machine takes work. */
 async function ready(): Promise<void> {
   for (;;) {
-    const machine = await get<Machine>("machine");
+    const machine = await get<Machine>("machine", LOOK_MS);
     if (machine.phase !== "connecting") return;
     await new Promise((done) => setTimeout(done, 100));
   }

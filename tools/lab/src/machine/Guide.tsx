@@ -3,6 +3,7 @@ import { useEffect } from "preact/hooks";
 import type { Schemas } from "../api/client";
 import { isReady, useMachine } from "../shell/machine";
 import { useProject } from "../shell/project";
+import { Silence } from "../shell/Silence";
 import { useWatched } from "../shell/watched";
 import { GuideQuestion } from "./GuideQuestion";
 import "./guide.css";
@@ -16,11 +17,12 @@ export interface Guide {
   guide: Answer | undefined;
   press: (path: string, body?: unknown) => void;
   busy: boolean;
+  silent: boolean;
 }
 
 export function useGuide(): Guide {
   const { setTrouble, reload } = useProject();
-  const { state, press, busy } = useWatched<Answer>({
+  const { state, silent, press, busy } = useWatched<Answer>({
     path: "guide",
     works: isUnderWay,
     oftenMs: LOOK_MS,
@@ -30,14 +32,14 @@ export function useGuide(): Guide {
   useEffect(() => {
     if (here) return () => void reload(); // what the step wrote
   }, [here, reload]);
-  return { guide: state, press, busy };
+  return { guide: state, press, busy, silent };
 }
 
 function isUnderWay(guide: Answer): boolean {
   return guide.here !== "";
 }
 
-export function FirstDay({ guide, press, busy }: Guide) {
+export function FirstDay({ guide, press, busy, silent }: Guide) {
   const ready = isReady(useMachine());
   if (!guide) return null;
   const place = guide.steps.findIndex((step) => step.name === guide.open);
@@ -47,6 +49,7 @@ export function FirstDay({ guide, press, busy }: Guide) {
     <section class="guide" aria-labelledby="guide-title">
       <h2 id="guide-title">Its first day, step by step</h2>
       <p>Nothing moves before you press a button that says what moves and how far.</p>
+      <Silence silent={silent} />
       <ol>
         {guide.steps.map((step, index) => (
           <li key={step.name} class={step.done ? "done" : ""} data-here={step.name === guide.here}>

@@ -2,6 +2,7 @@
 import { useState } from "preact/hooks";
 import type { Schemas } from "../api/client";
 import { Screen } from "../shell/Screen";
+import { Silence } from "../shell/Silence";
 import { Bars } from "./Bars";
 import { CutMarks } from "./CutMarks";
 import { MoreToDo } from "./MoreToDo";
@@ -17,7 +18,13 @@ export function Practice() {
   const play = usePractice();
   const { practice } = play;
   const picking = usePicks(practice?.game);
-  if (!practice) return <Screen title="Practice" say="The game is being looked for." />;
+  if (!practice) {
+    return (
+      <Screen title="Practice" say="The game is being looked for." busy={!play.silent}>
+        <Silence silent={play.silent} />
+      </Screen>
+    );
+  }
   if (!practice.game) {
     return (
       <Screen
@@ -26,6 +33,7 @@ export function Practice() {
         command={commands(picking.picks, null, false)}
         why={<Rules />}
       >
+        <Silence silent={play.silent} />
         {practice.taken ? (
           <p class="missing">{practice.taken}</p>
         ) : (
@@ -73,6 +81,7 @@ function Playing({ play, game, picking }: PlayingParts) {
       command={commands(picking.picks, game, placing)}
       why={<Rules />}
     >
+      <Silence silent={play.silent} />
       {game.score ? <Score score={game.score} /> : <Bars game={game} />}
       {play.practice?.trouble && (
         <p class="trouble" role="alert">

@@ -14,11 +14,12 @@ export interface Play {
   practice: PracticeState | undefined;
   step: (name: string, body?: unknown) => Promise<void>;
   busy: boolean;
+  silent: boolean;
 }
 
 export function usePractice(): Play {
   const { setTrouble, reload } = useProject();
-  const { state, press, busy } = useWatched<PracticeState>({
+  const { state, silent, press, busy } = useWatched<PracticeState>({
     path: "practice",
     works: isAtWork,
     oftenMs: LOOK_MS,
@@ -32,7 +33,7 @@ export function usePractice(): Play {
     await press(name, body);
     await reload();
   };
-  return { practice: state, step, busy: busy || works };
+  return { practice: state, silent, step, busy: busy || works };
 }
 
 function isAtWork(practice: PracticeState): boolean {

@@ -1,7 +1,8 @@
 // Distances between marks: they need no edge of the sheet.
-import { useState } from "preact/hooks";
+import { useRef, useState } from "preact/hooks";
 import { lengthText, namedLength, typedLength } from "../controls/lengths";
 import { useProject } from "../shell/project";
+import { withInstead } from "./distances";
 import { type Distance, useDistances } from "./useDistances";
 import type { Doubt } from "./useDoubts";
 import type { Form } from "./useReadings";
@@ -21,15 +22,25 @@ export function Distances({ form, take, doubts }: DistancesParts) {
   const length = typedLength(text, units);
   const [from = "", to = ""] = ends;
   const ready = from !== "" && to !== "" && from !== to && !!length && length > 0;
-  const saved = useDistances(form, take);
-  const save = async (distances: Distance[]) => {
-    // What was typed stays in its field until it is saved, and what is typed meanwhile stays too.
-    if (await saved(distances)) setText((now) => (now === text ? "" : now));
-  };
+  const save = useDistances(form, take);
+  const underWay = useRef("");
   const doubted = new Set(doubts.filter((doubt) => !doubt.is_mark).map((doubt) => doubt.index));
   const add = (event: Event) => {
     event.preventDefault();
-    if (ready && length) void save([...form.distances, { between: [from, to], length }]);
+    const typed = JSON.stringify([from, to, text]);
+    // Who presses twice adds it once.
+    if (!ready || !length || underWay.current === typed) return;
+    underWay.current = typed;
+    void save((all) => [...all, { between: [from, to], length }]).then((taken) => {
+      // What was typed stays in its field until it is saved, and what is typed meanwhile stays too.
+      if (taken) setText((now) => (now === text ? "" : now));
+      if (underWay.current === typed) underWay.current = "";
+    });
+  };
+  const change = (distance: Distance) => {
+    setEnds(distance.between);
+    setText(lengthText(distance.length, units));
+    void save((all) => withInstead(all, distance));
   };
   return (
     <details class="distances" open={form.distances.length > 0}>
@@ -44,16 +55,7 @@ export function Distances({ form, take, doubts }: DistancesParts) {
             <span>
               {distance.between.join(" to ")}: {namedLength(distance.length, units)}
             </span>
-            <button
-              type="button"
-              onClick={() => {
-                setEnds(distance.between);
-                setText(lengthText(distance.length, units));
-                void save(form.distances.filter((_, other) => other !== index)).then(() =>
-                  setText(lengthText(distance.length, units)),
-                );
-              }}
-            >
+            <button type="button" onClick={() => change(distance)}>
               Change
             </button>
           </li>

@@ -1,5 +1,6 @@
 // Readings that disagree, each with its likely cause and, if it has a cause, a button that takes the correction.
 import { lengthText, type Unit } from "../controls/lengths";
+import { withInstead } from "./distances";
 import { useDistances } from "./useDistances";
 import type { Doubt } from "./useDoubts";
 import type { Form, TypedForm } from "./useReadings";
@@ -15,11 +16,10 @@ export function Doubts({ form, doubts, readings, units }: DoubtsParts) {
   const saveDistances = useDistances(form, readings.take);
   if (doubts.length === 0) return null;
   const correct = ({ is_mark, index }: Doubt, [first = 0, second = 0]: number[]) => {
+    const doubted = form.distances[index];
     if (is_mark) readings.kept.put((typed) => ({ ...typed, [index]: [first, second] }));
-    else
-      void saveDistances(
-        form.distances.map((each, other) => (other === index ? { ...each, length: first } : each)),
-      );
+    else if (doubted)
+      void saveDistances((all) => withInstead(all, doubted, { ...doubted, length: first }));
   };
   return (
     <ul class="doubts" aria-live="polite" aria-label="Readings that disagree">

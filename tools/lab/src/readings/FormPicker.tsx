@@ -6,17 +6,15 @@ import type { Form } from "./useReadings";
 interface FormPickerParts {
   form: Form;
   choose: (name: string) => void;
-  take: (form: Form) => void;
 }
 
-export function FormPicker({ form, choose, take }: FormPickerParts) {
+export function FormPicker({ form, choose }: FormPickerParts) {
   const { setTrouble, reload } = useProject();
   const pick = async (input: HTMLInputElement) => {
     const file = input.files?.[0];
     if (!file) return;
     try {
       const answer = await sendFile<Form>("marks", file);
-      take(answer);
       choose(answer.file);
       setTrouble("");
       await reload();

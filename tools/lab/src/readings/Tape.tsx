@@ -1,7 +1,7 @@
 // From which edges the tape measures, and how fine its lines are.
-import { type Choices, type Schemas, send } from "../api/client";
+import type { Choices } from "../api/client";
 import { useProject } from "../shell/project";
-import type { Form } from "./useReadings";
+import { type Form, useSave } from "./saves";
 
 const EDGES = [
   ["top-left", "left and top edge"],
@@ -26,22 +26,12 @@ interface TapeParts {
 }
 
 export function Tape({ form, take }: TapeParts) {
-  const { project, choose, setTrouble, reload } = useProject();
+  const { project, choose } = useProject();
+  const save = useSave(form, take);
   const stated = form.tape_sigma !== null;
   const finest = project.choices.fineness ?? 0.5;
-  const state = async (value: string) => {
-    const body: Schemas["Fineness"] = {
-      file: form.file,
-      digest: form.digest,
-      finest: value ? Number(value) : null,
-    };
-    try {
-      take(await send<Form>("PUT", "fineness", body));
-      await reload();
-    } catch (error) {
-      setTrouble(error instanceof Error ? error.message : String(error));
-    }
-  };
+  const state = (value: string) =>
+    save("fineness", () => ({ finest: value ? Number(value) : null }));
   return (
     <div class="tape">
       <label>

@@ -1,25 +1,18 @@
 // Saves the distances of a form; says whether the server took them.
-import { type Schemas, send } from "../api/client";
-import { useProject } from "../shell/project";
-import type { Form } from "./useReadings";
+import type { Schemas } from "../api/client";
+import { type Form, useSave } from "./saves";
 
 export type Distance = Schemas["AskedDistance"];
+/** What becomes of the distances, whatever they are by then. */
+export type Change = (distances: Distance[]) => Distance[];
 
 export function useDistances(
   form: Form,
   take: (form: Form) => void,
-): (distances: Distance[]) => Promise<boolean> {
-  const { setTrouble, reload } = useProject();
-  return async (distances) => {
-    try {
-      const body: Schemas["TypedDistances"] = { file: form.file, digest: form.digest, distances };
-      take(await send<Form>("PUT", "distances", body));
-      setTrouble("");
-      await reload();
-      return true;
-    } catch (error) {
-      setTrouble(error instanceof Error ? error.message : String(error));
-      return false;
-    }
-  };
+): (change: Change) => Promise<boolean> {
+  const save = useSave(form, take);
+  return (change) =>
+    save("distances", (now): Omit<Schemas["TypedDistances"], "file" | "digest"> => {
+      return { distances: change(now.distances) };
+    });
 }

@@ -1,13 +1,14 @@
 // The form of readings: loaded, kept while it is typed, and saved reading by reading.
 import { useCallback, useEffect, useRef, useState } from "preact/hooks";
-import { get, type Schemas, send } from "../api/client";
+import { get, isSilence, type Schemas, send } from "../api/client";
 import { namedLength } from "../controls/lengths";
 import { type Kept, useKept } from "../shell/kept";
 import { same } from "../shell/merge";
 import { useProject } from "../shell/project";
 import { Turns } from "../shell/turns";
+import { type Form, savesOf } from "./saves";
 
-export type Form = Schemas["ReadingsAnswer"];
+export type { Form };
 export type Place = readonly [number, number];
 /** A reading [mm from the chosen edges] for each mark by its number in the form. */
 export type Typed = Record<string, Place>;
@@ -15,7 +16,7 @@ export type Typed = Record<string, Place>;
 export interface TypedForm {
   form: Form | undefined;
   kept: Kept<Typed>;
-  /** Shows an answer of the server. */
+  /** Shows what a save left, unless another form is open by now. */
   take: (form: Form) => void;
   chooseFile: (name: string) => void;
   /** A reading in words. */
@@ -23,20 +24,24 @@ export interface TypedForm {
 }
 
 const NOTHING: Typed = {};
+const AGAIN_MS = 3000; // after a server that did not answer
 
 /** The form of this name; without a name the newest. */
 export function useReadings(first = ""): TypedForm {
   const { project, setTrouble, reload: reloadProject } = useProject();
   const [file, setFile] = useState(first);
   const [form, setForm] = useState<Form>();
+  const [silences, setSilences] = useState(0);
   const newest = useRef<Form | undefined>(undefined);
   const turns = useRef(new Turns()).current;
   const show = useCallback((answer: Form) => {
     newest.current = answer;
+    savesOf(answer.file).learn(answer);
     setForm((before) => (same(before, answer) ? before : answer));
   }, []);
   const take = useCallback(
     (answer: Form) => {
+      if (newest.current?.file !== answer.file) return;
       // An answer that a save has overtaken is old.
       turns.overtake();
       show(answer);
@@ -51,8 +56,15 @@ export function useReadings(first = ""): TypedForm {
       setTrouble("");
     } catch (error) {
       setTrouble(error instanceof Error ? error.message : String(error));
+      if (isSilence(error)) setSilences((count) => count + 1);
     }
   }, [file, turns, show, setTrouble]);
+  // What nobody answered is asked again.
+  useEffect(() => {
+    if (silences === 0) return;
+    const timer = setTimeout(() => void load(), AGAIN_MS);
+    return () => clearTimeout(timer);
+  }, [silences, load]);
   const onDisk = form ? project.files[form.file] : "";
   const known = Object.keys(project.files).join();
   // What is on disk or chosen has changed.
@@ -65,14 +77,16 @@ export function useReadings(first = ""): TypedForm {
     place: `readings:${form?.file ?? ""}:${form?.edges ?? ""}`,
     saved: form ? typedIn(form) : NOTHING,
     save: async (value) => {
-      const now = newest.current;
-      if (!now) return value;
-      const readings = changes(typedIn(now), value);
-      const body = { file: now.file, digest: now.digest, edges: now.edges, readings };
-      const answer = await send<Form>("PUT", "readings", body);
+      if (!form) return value;
+      const { file, edges } = form;
+      const readings = changes(typedIn(form), value);
+      const answer = await savesOf(file).save(form, ({ digest }) =>
+        send<Form>("PUT", "readings", { file, digest, edges, readings }),
+      );
       take(answer);
       void reloadProject();
-      return typedIn(answer);
+      // From other edges its numbers are others.
+      return answer.edges === edges ? typedIn(answer) : value;
     },
     reload: load,
   });

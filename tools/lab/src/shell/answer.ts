@@ -1,6 +1,6 @@
 // An answer that takes seconds: asked again until it is whole, and again when the folder has changed.
 import { useEffect, useState } from "preact/hooks";
-import { get, Refusal } from "../api/client";
+import { get, isSilence } from "../api/client";
 import { useProject } from "./project";
 
 const AGAIN_MS = 400;
@@ -32,8 +32,7 @@ export function useAnswer<Answer extends Slow>(
         if (now.share < 1) setTimeout(() => void (over || ask()), AGAIN_MS);
       } catch (error) {
         if (over) return;
-        const silent = error instanceof Refusal && error.status === 0;
-        if (silent) setTimeout(() => void (over || ask()), 5 * AGAIN_MS);
+        if (isSilence(error)) setTimeout(() => void (over || ask()), 5 * AGAIN_MS);
         else setRefused(error instanceof Error ? error.message : String(error));
       }
     };

@@ -79,6 +79,12 @@ function unmerged<Value>(edit: { value: Value } | undefined, saved: Value): Merg
   return { value: edit ? edit.value : saved, clashes: [] };
 }
 
+/** Whether choices are on their way: what goes by them has to wait. */
+export function useChoosing(): boolean {
+  useOutbox();
+  return editOf("choices") !== undefined;
+}
+
 /** Renders again when an edit comes or goes. */
 export function useOutbox(): void {
   const [, change] = useReducer((count: number, _: undefined) => count + 1, 0);

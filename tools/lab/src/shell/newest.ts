@@ -1,7 +1,9 @@
 // A question that is asked again whenever what it depends on has changed: only the answer to the newest counts.
 import { useEffect, useState } from "preact/hooks";
-import { get } from "../api/client";
+import { get, isSilence } from "../api/client";
 import { useProject } from "./project";
+
+const AGAIN_MS = 3000; // after a question that nobody answered
 
 /**
  * The answer of a path for this state. The last answer stays in view until the next is there, and an answer to a
@@ -14,12 +16,20 @@ export function useNewest<Answer>(path: string, state: string): Answer | undefin
   useEffect(() => {
     if (!path) return;
     let over = false;
-    get<Answer>(path).then(
-      (now) => over || setAnswer(now),
-      (error: Error) => over || setTrouble(error.message),
-    );
+    let timer = 0;
+    const ask = () =>
+      get<Answer>(path).then(
+        (now) => over || setAnswer(now),
+        (error: Error) => {
+          if (over) return;
+          setTrouble(error.message);
+          if (isSilence(error)) timer = window.setTimeout(ask, AGAIN_MS);
+        },
+      );
+    void ask();
     return () => {
       over = true;
+      clearTimeout(timer);
     };
   }, [path, state, setTrouble]);
   return answer;

@@ -61,6 +61,7 @@ export function isUnderWay(place: string): boolean {
 export function setUnderWay(place: string, is: boolean): void {
   if (is) underWay.add(place);
   else underWay.delete(place);
+  tell();
 }
 
 /** The places whose edits wait. */

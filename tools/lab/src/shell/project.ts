@@ -2,6 +2,7 @@
 import { createContext } from "preact";
 import { useCallback, useContext, useEffect, useRef, useState } from "preact/hooks";
 import { type Choices, get, type Project, send } from "../api/client";
+import { LOOK_MS } from "../api/patience";
 import { type Kept, useKept } from "./kept";
 import { same } from "./merge";
 import { editOf, openOutbox } from "./outbox";
@@ -90,7 +91,7 @@ function useLoadedProject(setTrouble: (change: (line: string) => string) => void
   const reload = useCallback(async () => {
     const question = turns.begin();
     try {
-      const answer = await get<Project>("project");
+      const answer = await get<Project>("project", LOOK_MS);
       if (turns.counts(question)) show(answer);
       setTrouble((line) => (line.startsWith(SILENT) ? "" : line));
     } catch (error) {
@@ -98,8 +99,16 @@ function useLoadedProject(setTrouble: (change: (line: string) => string) => void
     }
   }, [turns, show, setTrouble]);
   useEffect(() => {
-    void reload();
-    const timer = setInterval(() => document.hidden || void reload(), LOOK_AGAIN_MS);
+    let looks = false;
+    // Looks that nobody answers would take all the connections that a browser has.
+    const look = async () => {
+      if (looks) return;
+      looks = true;
+      await reload();
+      looks = false;
+    };
+    void look();
+    const timer = setInterval(() => document.hidden || void look(), LOOK_AGAIN_MS);
     return () => clearInterval(timer);
   }, [reload]);
   return { project, take, reload };

@@ -4,7 +4,7 @@ import { useEffect, useReducer, useRef } from "preact/hooks";
 import { Refusal } from "../api/client";
 import type { KeptParts } from "./kept";
 import { merge, same } from "./merge";
-import { editOf, forget, keep, setUnderWay } from "./outbox";
+import { editOf, forget, isUnderWay, keep, setUnderWay } from "./outbox";
 
 const PAUSE_MS = 250; // after the last key
 const AGAIN_MS = 3000; // after a server that did not answer
@@ -16,29 +16,52 @@ export interface Sending<Value> extends KeptParts<Value> {
   refuse: (value: Value, line: string) => void;
 }
 
+const sends = new Map<string, Promise<boolean>>(); // under way, by place
+
 export function useSending<Value>(sending: Sending<Value>): void {
   const newest = useRef(sending);
   newest.current = sending;
-  const busy = useRef(false);
   const failed = useRef(false);
   const [tries, tried] = useReducer((count: number, _: undefined) => count + 1, 0);
   const send = useRef(async () => {
-    if (busy.current || !newest.current.ready) return;
-    busy.current = true;
-    failed.current = !(await answered(newest.current));
-    busy.current = false;
+    if (isUnderWay(newest.current.place) || !newest.current.ready) return;
+    failed.current = !(await sent(newest.current));
     tried(undefined);
   });
-  const { ready, value } = sending;
+  const { place, ready, value } = sending;
   const text = JSON.stringify(value);
+  const underWay = isUnderWay(place);
   // A new text, or a try that came back, starts the clock again.
   useEffect(() => {
-    if (!ready) return;
+    if (!ready || underWay) return;
     const pause = failed.current ? AGAIN_MS : (newest.current.pause ?? PAUSE_MS);
     const timer = setTimeout(() => void send.current(), pause);
     return () => clearTimeout(timer);
-  }, [ready, text, tries]);
-  useEffect(() => () => void send.current(), []);
+  }, [place, ready, underWay, text, tries]);
+  const shown = useRef(sending);
+  // What waits goes out when another place is shown, and when the screen closes.
+  useEffect(() => () => void leave(shown.current), [place]);
+  useEffect(() => {
+    shown.current = sending;
+  });
+}
+
+/** Sends what waits for a place that is not shown any more, after what is under way to it. */
+async function leave<Value>(left: Sending<Value>): Promise<void> {
+  if (!left.ready) return;
+  const before = sends.get(left.place);
+  if (!before) return void sent(left);
+  await before;
+  const edit = editOf(left.place) as { value: Value; was: Value } | undefined;
+  if (edit && !isUnderWay(left.place)) void sent({ ...left, value: edit.value, saved: edit.was });
+}
+
+/** Sends the value; `sends` knows of it until it is answered. */
+function sent<Value>(sending: Sending<Value>): Promise<boolean> {
+  const { place } = sending;
+  const way = answered(sending).finally(() => sends.delete(place));
+  sends.set(place, way);
+  return way;
 }
 
 /** Sends the value; false if nobody answered, so that it is to be sent again. */

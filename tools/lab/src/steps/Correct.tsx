@@ -3,8 +3,7 @@ import { useRef } from "preact/hooks";
 import { namedLength } from "../controls/lengths";
 import { Progress } from "../controls/Progress";
 import { useAnswer } from "../shell/answer";
-import { useOutbox } from "../shell/kept";
-import { editOf } from "../shell/outbox";
+import { useChoosing } from "../shell/kept";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
 import { Numbers } from "./correct/Numbers";
@@ -18,7 +17,7 @@ export function Correct() {
   const { answer, refused } = useAnswer<CorrectionAnswer>("correction");
   const writing = useWriting();
   const units = project.choices.units ?? "mm";
-  useOutbox();
+  const choosing = useChoosing();
   // The numbers stay in view while they are fitted again.
   const latest = useRef(answer?.correction);
   latest.current = answer?.correction ?? latest.current;
@@ -44,7 +43,7 @@ export function Correct() {
   };
   // Whether the fit on the screen is that of what is accepted, and the server knows what that is.
   const current =
-    editOf("choices") === undefined &&
+    !choosing &&
     answer.share === 1 &&
     made.settings === project.choices.settings &&
     made.numbers.every((number) => number.is_accepted === accepted.includes(number.name));
@@ -81,7 +80,11 @@ export function Correct() {
             : `Write ${count} ${count === 1 ? "number" : "numbers"} into ${answer.file}`}
         </button>
         {before.length > 0 && (
-          <button type="button" disabled={writing.busy} onClick={() => void writing.undo(known)}>
+          <button
+            type="button"
+            disabled={choosing || writing.busy}
+            onClick={() => void writing.undo(known)}
+          >
             Go back to {before.at(-1)}
           </button>
         )}

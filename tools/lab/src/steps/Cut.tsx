@@ -1,7 +1,9 @@
 // Step 5: cut the marks: save the program, or send it; hold and stop are in the bar.
-import { useEffect, useState } from "preact/hooks";
-import { get, type Project, type Schemas, send } from "../api/client";
+import { useState } from "preact/hooks";
+import { type Project, type Schemas, send } from "../api/client";
+import { useChoosing } from "../shell/kept";
 import { isReady, type Machine, useMachine } from "../shell/machine";
+import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
 import { CutMap } from "./cut/CutMap";
@@ -21,7 +23,8 @@ const PROPOSED =
 
 export function Cut() {
   const { project } = useProject();
-  const grid = useGrid();
+  // The program as it would be written now; asked again when a file or a choice is saved.
+  const grid = useNewest<Grid>("grid", JSON.stringify(project.files));
   const machine = useMachine();
   if (!grid) return <Screen title="Cut the marks" say="One moment …" busy />;
   const runs = machine.program?.title === grid.program && machine.program.outcome === "running";
@@ -55,37 +58,12 @@ function whileRunning({ waits_for }: Machine): string {
   return waits_for ? `${sentence(waits_for)} Then press Go on, below.` : CUTS;
 }
 
-/** The program as it would be written now. */
-function useGrid(): Grid | undefined {
-  const { project, setTrouble } = useProject();
-  const [grid, setGrid] = useState<Grid>();
-  const { files, choices } = project;
-  useEffect(() => {
-    let over = false;
-    get<Grid>("grid").then(
-      (answer) => over || setGrid(answer),
-      (error: Error) => over || setTrouble(error.message),
-    );
-    return () => {
-      over = true;
-    };
-  }, [
-    files,
-    choices.layout,
-    choices.new_sheet,
-    choices.planned,
-    choices.proposed,
-    choices.settings,
-    setTrouble,
-  ]);
-  return grid;
-}
-
 /** What can be done now: one button that says what will happen, and saving. */
 function Choice({ grid }: { grid: Grid }) {
   const { take, reload, setTrouble } = useProject();
   const machine = useMachine();
-  const [busy, setBusy] = useState(false);
+  const [works, setBusy] = useState(false);
+  const busy = useChoosing() || works;
   const run = (work: () => Promise<unknown>) => {
     setBusy(true);
     work()

@@ -31,7 +31,7 @@ export function Readings() {
       why={<Why />}
       command={form.command}
     >
-      <FormPicker form={form} choose={readings.chooseFile} take={readings.take} />
+      <FormPicker form={form} choose={readings.chooseFile} />
       {form.marks.length > 0 && (
         <>
           <Tape form={form} take={readings.take} />

@@ -13,7 +13,7 @@ from plumb.diagnosis.check_sentence import check_sentence
 from plumb.fit.inputs import Inputs
 from plumb.fit.read_inputs import settings_in
 from plumb.grid import program
-from plumb.lab.choices import FILE, Choices, choices_text, read_choices
+from plumb.lab.choices import Choices, read_choices, save_choices
 from plumb.lab.commands import command, known_words, unit_words
 from plumb.lab.machine_line import TheLine
 from plumb.lab.planned import Planned, planned, refuse_unreachable
@@ -124,13 +124,15 @@ def cut_check(project: TheProject, line: TheLine) -> MachineAnswer:
 @router.post("/check/use")
 def use_check(project: TheProject) -> ProjectAnswer:
     """Let the verdict go by the check marks too, so that the next check needs new marks."""
-    choices, digest = read_choices(project)
     form = f"{CHECK}{_newest(project)}{ENDING}"
     if project.read(form) is None:
         raise InputError("there are no check marks yet: cut them first")
-    used = [*(name for name in choices.marks if name != form), form]
-    chosen = choices.model_copy(update={"marks": used})
-    project.save({FILE: choices_text(chosen)}, read={FILE: digest})
+
+    def with_it_last(choices: Choices) -> Choices:
+        used = [*(name for name in choices.marks if name != form), form]
+        return choices.model_copy(update={"marks": used})
+
+    save_choices(project, with_it_last)
     return show(project)
 
 

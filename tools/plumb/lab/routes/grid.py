@@ -9,7 +9,7 @@ from pydantic import BaseModel
 
 from plumb.fit.read_inputs import settings_in
 from plumb.grid import program, touches_of
-from plumb.lab.choices import FILE, Choices, choices_text, read_choices
+from plumb.lab.choices import FILE, Choices, read_choices, save_choices, with_marks
 from plumb.lab.commands import command
 from plumb.lab.machine_line import MachineLine, TheLine
 from plumb.lab.planned import Planned, planned, refuse_unreachable
@@ -202,10 +202,11 @@ def read_with_tape(request: FormRequest, project: TheProject, line: TheLine) -> 
     filled = line.do(lambda sender: owner.tape.fill_when_cut(blank.decode(), owner.machine))
     if filled is None:
         raise InputError("the marks are not all cut yet: cut them first")
-    choices, known[FILE] = read_choices(project)
-    if request.form not in choices.marks and not request.form.startswith(CHECK):
-        choices = choices.model_copy(update={"marks": [*choices.marks, request.form]})
-    project.save({request.form: filled.encode(), FILE: choices_text(choices)}, read=known)
+    files = {request.form: filled.encode()}
+    if request.form.startswith(CHECK):
+        project.save(files, read=known)
+    else:
+        save_choices(project, lambda now: with_marks(now, request.form), files=files, read=known)
     return show(project)
 
 

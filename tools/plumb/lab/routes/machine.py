@@ -12,7 +12,7 @@ from pydantic import BaseModel, Field
 from plumb.diary.numbers_written import write_and_keep
 from plumb.firmware.read_back import machine_of_numbers
 from plumb.firmware.settings import every_setting
-from plumb.lab.choices import FILE, choices_text, read_choices
+from plumb.lab.choices import save_choices
 from plumb.lab.guard import PROTOCOL
 from plumb.lab.machine_line import MachineLine, TheLine, line_of, ports
 from plumb.lab.project import Project
@@ -218,10 +218,12 @@ def read_into_project(project: TheProject, line: TheLine) -> ProjectAnswer:
     text = machine_toml(machine_of_numbers(line.do(read_numbers))).encode()
     # Marks that were cut with the old settings need them as they were.
     name = MACHINE if project.read(MACHINE) in (None, text) else free_name(project, "machine")
-    choices, digest = read_choices(project)
-    chosen = choices.model_copy(update={"settings": name})
-    known = {FILE: digest, name: project.digest(name)}
-    project.save({name: text, FILE: choices_text(chosen)}, read=known)
+    save_choices(
+        project,
+        lambda choices: choices.model_copy(update={"settings": name}),
+        files={name: text},
+        read={name: project.digest(name)},
+    )
     return show(project)
 
 

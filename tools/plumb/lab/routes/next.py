@@ -11,7 +11,7 @@ from pydantic import BaseModel
 from plumb import api
 from plumb.fit.read_inputs import settings_in
 from plumb.lab.background import Answer, Background, Progress
-from plumb.lab.choices import FILE, choices_text, read_choices
+from plumb.lab.choices import read_choices, save_choices
 from plumb.lab.commands import command
 from plumb.lab.live_boards import key_of
 from plumb.lab.project import ChangedError, Project, digest_of
@@ -113,18 +113,19 @@ def take_next(wanted: Wanted, project: TheProject, background: TheBackground) ->
         raise InputError(f"proposal {wanted.choose} has no marks: do what it says, by hand")
     if written.digest != wanted.digest:
         raise ChangedError("the proposal")
-    choices, digest = read_choices(project)
-    chosen = choices.model_copy(update={"proposed": written.form})
-    known = {name: project.digest(name) if written.is_saved else "" for name in written.names}
-    files = {} if written.is_saved else written.files
-    project.save({**files, FILE: choices_text(chosen)}, read={FILE: digest, **known})
+    save_choices(
+        project,
+        lambda choices: choices.model_copy(update={"proposed": written.form}),
+        files={} if written.is_saved else written.files,
+        read={name: project.digest(name) if written.is_saved else "" for name in written.names},
+    )
     return show(project)
 
 
 @router.delete("/next")
 def put_back(project: TheProject) -> ProjectAnswer:
     """Take the files of a proposal out of the folder again; readings stay."""
-    choices, digest = read_choices(project)
+    choices, _ = read_choices(project)
     form = choices.proposed
     if not FORM.fullmatch(form):
         raise InputError("no proposal was taken")
@@ -132,8 +133,7 @@ def put_back(project: TheProject) -> ProjectAnswer:
     known = {name: project.digest(name) for name in names}
     if has_readings(project, form):
         raise InputError(f"{form} has readings, so it stays")
-    chosen = choices.model_copy(update={"proposed": ""})
-    project.save({FILE: choices_text(chosen)}, read={FILE: digest, **known})
+    save_choices(project, lambda now: now.model_copy(update={"proposed": ""}), read=known)
     project.remove(names, read=known)
     return show(project)
 

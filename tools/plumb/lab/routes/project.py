@@ -10,7 +10,7 @@ from fastapi import APIRouter, Depends, Request, UploadFile
 from pydantic import BaseModel
 
 from plumb.fit.read_inputs import settings_in
-from plumb.lab.choices import FILE, Choices, choices_text, read_choices
+from plumb.lab.choices import FILE, Choices, choices_text, read_choices, save_choices
 from plumb.lab.project import Project, digest_of
 from plumb.settings.machine import MachineSettings
 
@@ -80,7 +80,7 @@ def show(project: TheProject) -> ProjectAnswer:
 
 
 @router.put("/choices")
-def save_choices(change: ChoicesChange, project: TheProject) -> ProjectAnswer:
+def replace_choices(change: ChoicesChange, project: TheProject) -> ProjectAnswer:
     """Replace the choices, if they are still those that the page knows."""
     project.save({FILE: choices_text(change.choices)}, read={FILE: change.read})
     return show(project)
@@ -95,9 +95,11 @@ def open_settings(file: UploadFile, project: TheProject) -> ProjectAnswer:
         copy = Path(scratch) / name
         copy.write_bytes(content)
         settings_in(copy)
-    choices, digest = read_choices(project)
-    chosen = choices.model_copy(update={"settings": name})
-    project.save({name: content, FILE: choices_text(chosen)}, read={FILE: digest})
+    save_choices(
+        project,
+        lambda choices: choices.model_copy(update={"settings": name}),
+        files={name: content},
+    )
     return show(project)
 
 

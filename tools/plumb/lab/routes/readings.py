@@ -11,7 +11,7 @@ from fastapi import APIRouter, UploadFile
 from pydantic import BaseModel
 
 from plumb.fit.read_inputs import settings_in
-from plumb.lab.choices import FILE, Choices, Edges, choices_text, read_choices
+from plumb.lab.choices import Choices, Edges, read_choices, save_choices, with_marks
 from plumb.lab.commands import command, known_words, unit_words
 from plumb.lab.project import Project
 from plumb.lab.routes.project import TheProject
@@ -173,15 +173,18 @@ def save_distances(typed: TypedDistances, project: TheProject) -> ReadingsAnswer
 @router.put("/fineness")
 def save_fineness(stated: Fineness, project: TheProject) -> ReadingsAnswer:
     """State how fine the tape is."""
-    choices, digest = read_choices(project)
+    choices, _ = read_choices(project)
     form = form_of(project, choices, stated.file)
     head = {key: value for key, value in form.head.items() if key != "tape_sigma_mm"}
+    chosen: dict[str, float] = {}
     if stated.finest is not None:
         head = {"frame": head.pop("frame"), "tape_sigma_mm": tape_sigma(stated.finest), **head}
-        choices = choices.model_copy(update={"fineness": stated.finest})
-    project.save(
-        {FILE: choices_text(choices), stated.file: toml_text(head, form.comment).encode()},
-        read={FILE: digest, stated.file: stated.digest},
+        chosen["fineness"] = stated.finest
+    save_choices(
+        project,
+        lambda now: now.model_copy(update=chosen),
+        files={stated.file: toml_text(head, form.comment).encode()},
+        read={stated.file: stated.digest},
     )
     return show_readings(project, stated.file)
 
@@ -189,7 +192,7 @@ def save_fineness(stated: Fineness, project: TheProject) -> ReadingsAnswer:
 @router.post("/marks")
 def open_marks(file: UploadFile, project: TheProject) -> ReadingsAnswer:
     """Take a file of marks into the project; another form than marks.toml becomes such."""
-    choices, digest = read_choices(project)
+    choices, _ = read_choices(project)
     sheet = _sheet_of(project, choices, None)
     content = file.file.read()
     ending = Path(file.filename or "").suffix.lower()
@@ -198,8 +201,7 @@ def open_marks(file: UploadFile, project: TheProject) -> ReadingsAnswer:
         copy.write_bytes(content)
         content = _as_toml(copy, content, sheet)
     name = free_name(project, "marks")
-    chosen = choices.model_copy(update={"marks": [*choices.marks, name]})
-    project.save({name: content, FILE: choices_text(chosen)}, read={FILE: digest, name: ""})
+    save_choices(project, lambda now: with_marks(now, name), files={name: content}, read={name: ""})
     return show_readings(project, name)
 
 
@@ -238,11 +240,11 @@ def _saved(
 ) -> ReadingsAnswer:
     """Save a form; from its first reading on the verdict goes by it."""
     files, read = {name: toml_text(head, comment).encode()}, {name: digest}
-    choices, known = read_choices(project)
-    if name not in choices.marks and not name.startswith(CHECK):
-        chosen = choices.model_copy(update={"marks": [*choices.marks, name]})
-        files, read = {**files, FILE: choices_text(chosen)}, {**read, FILE: known}
-    project.save(files, read=read)
+    choices, _ = read_choices(project)
+    if name in choices.marks or name.startswith(CHECK):
+        project.save(files, read=read)
+    else:
+        save_choices(project, lambda now: with_marks(now, name), files=files, read=read)
     return show_readings(project, name)
 
 

@@ -1,0 +1,37 @@
+// Saves of a form: its readings, its distances, and how fine the tape is. They wait for each other.
+import { type Schemas, send } from "../api/client";
+import { useProject } from "../shell/project";
+import { Succession } from "../shell/succession";
+
+export type Form = Schemas["ReadingsAnswer"];
+const forms = new Map<string, Succession<Form>>(); // of this tab, by file
+
+/** The saves of the form in a file. */
+export function savesOf(file: string): Succession<Form> {
+  const saves = forms.get(file) ?? new Succession<Form>();
+  forms.set(file, saves);
+  return saves;
+}
+
+/** Saves a part of a form, made from the form as the saves before it left it; says whether it was taken. */
+export function useSave(
+  form: Form,
+  take: (form: Form) => void,
+): (path: string, part: (now: Form) => object) => Promise<boolean> {
+  const { setTrouble, reload } = useProject();
+  const { file } = form;
+  return async (path, part) => {
+    try {
+      const put = (now: Form) =>
+        send<Form>("PUT", path, { file, digest: now.digest, ...part(now) });
+      take(await savesOf(file).save(form, put));
+      setTrouble("");
+      await reload();
+      return true;
+    } catch (error) {
+      await reload(); // so that what somebody else saved comes into view
+      setTrouble(error instanceof Error ? error.message : String(error));
+      return false;
+    }
+  };
+}
