@@ -82,5 +82,6 @@ ROOMS = (
     python("tools/plumb/marks", "tools/tests/marks"),
     python("tools/plumb/fit", "tools/tests/fit"),
     python("tools/plumb/plan", "tools/tests/plan"),
+    python("tools/plumb/report", "tools/tests/report"),
     python("tools/plumb/settings", "tools/tests/settings"),
 )

@@ -128,7 +128,9 @@ def _drawn(checked: Checked, settings: MachineSettings, name: str) -> Drawn:
     spoiled = {finding.line for finding in checked.findings if finding.is_wrong}
     bad = np.isin(over_sheet["line"], list(spoiled))
     if checked.hanging is not None:
-        bad[samples.move[checked.hanging.verdict != USABLE]] = True
+        # Above the sheet the sled may pass where it could not cut.
+        passing = np.unique(samples.move[checked.hanging.verdict != USABLE])
+        bad[passing] |= over_sheet.cut[passing]
     kinds = np.where(bad, "bad", np.where(over_sheet.cut, "cut", "rapid"))
     labels = [
         ((part.low[0] + part.high[0]) / 2, (part.low[1] + part.high[1]) / 2, str(number))

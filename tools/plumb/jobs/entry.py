@@ -84,7 +84,7 @@ def entry_at(moves: Moves, place: tuple[float, float], *, line: int | None) -> E
     return Entry(
         line=int(lines[row]),
         rows=moves.only(np.flatnonzero((lines == lines[row]) & (np.arange(len(moves)) >= row))),
-        share=float((best - begin[0]) / max(len(begin) - 1, 1)),
+        share=float((best - begin[0]) / (len(begin) - 1)),
         place=(float(x), float(y)),
         z=float(samples.z[best]),
         plunge=_plunge(moves, row),

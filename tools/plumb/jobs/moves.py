@@ -73,7 +73,7 @@ class Moves:
         counts = np.maximum(counts, 2)
         move = np.repeat(np.arange(len(self)), counts)
         first = np.cumsum(counts) - counts
-        share = (np.arange(len(move)) - first[move]) / np.maximum(counts[move] - 1, 1)
+        share = (np.arange(len(move)) - first[move]) / (counts[move] - 1)
         return Samples(move, self.places_at(move, share), self._z_at(move, share))
 
     def _z_at(self, move: Rows, share: Array) -> Array:

@@ -1,4 +1,4 @@
-"""A job on its sheet: where it lies, and its cuts from near, with what is wrong in red."""
+"""A job on its sheet: where it lies, and its cuts from near, with what is wrong in orange."""
 
 from __future__ import annotations
 

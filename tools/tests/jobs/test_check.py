@@ -115,6 +115,17 @@ def test_no_limit_is_named_where_none_acts():
     assert check(MAKER, ["G0 Z3", "G1 X50 F600", "G4 P10"]).slower == ()
 
 
+def test_the_limit_that_acts_most_often_comes_first_with_its_slowest_line():
+    lines = ["G0 Z3", "G1 Z-1 F300", "G1 X30 F1000", "G1 X60 F3000", "G1 X90 F2000"]
+    slower = check(MAKER, lines, numbers={15: 900}).slower
+    assert [(each.because, each.moves, each.line) for each in slower] == [
+        (GREATEST, 3, 3),
+        (Z, 1, 2),
+    ]
+    once = check(MAKER, [lines[0], "G1 Z-1 F300", "G1 Z1 F300", lines[2]], numbers={15: 900}).slower
+    assert [(each.because, each.moves) for each in once] == [(Z, 2), (GREATEST, 1)]
+
+
 def test_times_are_those_of_the_ways():
     times = check(MAKER, ["G0 Z3", "G0 X100", "G1 X200 F600", "G4 P2000"]).times
     assert times.asked == pytest.approx(10.0)

@@ -63,7 +63,7 @@ def test_marks_around_the_worst_place_lie_inwards_of_it():
 
 
 def test_places_at_the_edge_are_brought_onto_the_sheet_in_whole_centimetres():
-    targets = targets_of(3, 3) * [1.0, 1.16]
+    targets = targets_of(3, 3) * [1.0, 1.16] + np.array((3.0, 0.0))
     marks = Measurements(marks_on(MACHINE, MACHINE, targets, noise=SIGMA))
     case = case_on(with_offset(marks, 7, (9.0, 0.0)), "chain_pitch")
     _, near = near_the_worst(case)
