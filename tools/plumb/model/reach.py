@@ -76,12 +76,19 @@ def with_soft_chains(settings: MachineSettings) -> tuple[MachineSettings, tuple[
         for parameter in effect["parameters"]
     }
     assumed = tuple(
-        f"The settings have no {noun_of(name.partition('.')[0])} that could be: {size:.3g} "
-        f"{units[name]} is usual with {settings.sled_weight:.1f} N of sled and "
+        f"The settings have {_too_little(settings, name)}: this takes the usual {size:.3g} "
+        f"{units[name]}, for {settings.sled_weight:.1f} N of sled and "
         f"{settings.chain_weight * 1e3:.2f} N per m of chain."
         for name, size in missing.items()
     )
     return with_parameters(settings, missing), assumed
+
+
+def _too_little(settings: MachineSettings, name: str) -> str:
+    """What settings say of a parameter that no chain has so small."""
+    effect, _, parameter = name.partition(".")
+    noun = noun_of(effect)
+    return f"a {noun} that no chain has" if settings.effect(effect, parameter) else f"no {noun}"
 
 
 def survey_sheet(settings: MachineSettings, **limits: float) -> Survey:

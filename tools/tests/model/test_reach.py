@@ -127,6 +127,10 @@ def test_chains_that_no_setting_makes_soft_are_made_so():
     cured, assumed = with_soft_chains(replace(TRUE, effects=absurd))
     assert cured.effect("chain_sag", "weight_ratio_squared") == sag
     assert len(assumed) == 1 and "97.9 N of sled" in assumed[0]
+    assert assumed[0].startswith("The settings have a chain sag that no chain has: ")
+    none = {name: sizes for name, sizes in TRUE.effects.items() if name != "chain_sag"}
+    _, assumed = with_soft_chains(replace(TRUE, effects=none))
+    assert assumed[0].startswith("The settings have no chain sag: this takes the usual ")
 
 
 def test_the_survey_finds_the_lower_corners_of_the_usual_machine():
@@ -152,7 +156,7 @@ def test_reach_begins_with_its_conclusion_and_tells_what_it_assumed(run):
     assert code == 0 and said.splitlines()[0].startswith("99.7 % of the sheet is usable")
     assert "too slack" in said and "too tight" not in said
     assert (
-        "is usual with 97.9 N of sled" in " ".join(said.split())
+        "1/N, for 97.9 N of sled" in " ".join(said.split())
         and max(map(len, said.splitlines())) <= 96
     )
     assert "10 N move it 8.9 mm" in said
