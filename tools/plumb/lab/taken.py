@@ -44,6 +44,11 @@ def program_name(form: str) -> str:
     return f"{PurePath(form).stem}.nc"
 
 
+def is_read_again(project: Project, form: str) -> bool:
+    """Whether the marks of a form are on the sheet already: somebody took it, nothing cuts it."""
+    return bool(FORM.fullmatch(form)) and project.read(program_name(form)) is None
+
+
 def taken_marks(project: Project, choices: Choices) -> Taken | None:
     """What was taken and is to be cut; None once it has readings, and where nothing is cut."""
     form = choices.proposed

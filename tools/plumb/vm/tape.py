@@ -13,6 +13,7 @@ from plumb.vm.garage import Garage
 
 Array = np.ndarray
 Cut = tuple[int, float, float, float, float]
+Target = tuple[float, float]  # [mm] from the sheet's corner, as two forms write it alike
 BLANK = "# measured = [ , ]"
 NUMBER = re.compile(r"-?[\d.]+")
 DIMPLE = 3.0  # [mm] a plunge that went farther sideways is a line, not a mark
@@ -42,11 +43,13 @@ class Tape:
         self._slip = slip
         self._read = 0  # marks on this sheet that were read already
         self._places: dict[str, list[Array]] = {}  # on the sheet [mm], by the mark's name
+        # Where marks are [mm], by target, and by form in the order in which the forms were read.
+        self._rounds: list[dict[Target, Array]] = []
 
     def lay(self, garage: Garage, source: np.random.Generator) -> None:
         """Another sheet, whose readings draw their noise from another source."""
         self._source = source
-        self.garage, self._read, self._places = garage, 0, {}
+        self.garage, self._read, self._places, self._rounds = garage, 0, {}, []
 
     def get_ready(self, form: str) -> None:
         """Load what reading this form takes: a client takes a machine that is silent for two
@@ -73,6 +76,10 @@ class Tape:
         order = order_of(form, read, sheet=sheet)
         for name, i in zip(_waiting_names(form), order, strict=True):
             self._places.setdefault(name, []).append(seen[i])
+        first: dict[Target, Array] = {}
+        for target, i in zip(_waiting_targets(form), order, strict=True):
+            first.setdefault(_as_key(target), seen[i])
+        self._rounds.append(first)
         if self._slip and len(read):
             turn = self._source.uniform(0, 2 * np.pi)
             slipped = self._source.integers(len(read))
@@ -98,6 +105,31 @@ class Tape:
             (x + noise * self._source.standard_normal(), y + noise * self._source.standard_normal())
             for x, y in self._places[name]
         ]
+
+    def fill_again(self, form: str) -> str:
+        """A form whose marks are on this sheet already and were read before: each is read again.
+
+        A target that was cut in several rounds has a name in each, in their order. Raises
+        ValueError for a mark that this tape has not read.
+        """
+        corner = np.array(self.garage.settings.sheet) / 2
+        names: dict[Target, list[str]] = {}
+        for name, target in zip(_waiting_names(form), _waiting_targets(form), strict=True):
+            key = _as_key(target)
+            here = names.setdefault(key, [])
+            if name not in here:
+                here.append(name)
+            rounds = [first[key] for first in self._rounds if key in first]
+            if len(rounds) < len(here):
+                raise ValueError(
+                    f"the tape has read no mark {name} on this sheet of the virtual machine: "
+                    "type what yours says"
+                )
+            place = rounds[here.index(name)]
+            read = place + self._noise * self._source.standard_normal(2)
+            x, y = read * (1, -1) + corner
+            form = form.replace(BLANK, f"measured = [{x:.1f}, {y:.1f}]", 1)
+        return form
 
     def fill_when_cut(self, form: str, machine: VirtualMachine) -> str | None:
         """The same, once the sheet has all the marks of the form and the bit is out of it."""
@@ -134,6 +166,11 @@ def order_of(form: str, readings: Array, *, sheet: tuple[float, float]) -> Array
 def _from_corner(readings: Array, sheet: tuple[float, float]) -> Array:
     corner: Array = (readings * (1, -1) + (sheet[0] / 2, sheet[1] / 2)).reshape(-1, 2)
     return corner
+
+
+def _as_key(target: Array) -> Target:
+    """A target as all forms write it: `plumb grid` to 0.01 mm, `plumb next` to 0.001 mm."""
+    return round(float(target[0]), 1) + 0.0, round(float(target[1]), 1) + 0.0
 
 
 def _waiting_names(form: str) -> list[str]:

@@ -1,6 +1,7 @@
 """Taking a proposal: the files of its command, byte for byte, and nothing is overwritten."""
 
 import json
+import math
 import shlex
 import time
 from contextlib import contextmanager
@@ -270,3 +271,39 @@ def test_chains_of_a_virtual_machine_stay(client, folder):
     with virtual_machine(client):
         refused = got(client.post("/api/grid/cut"), 422)["error"]
         assert "the chains of a virtual machine stay" in refused
+
+
+def test_marks_that_are_only_to_be_read_again_are_read_by_the_tape_that_read_them(client, folder):
+    with virtual_machine(client):
+        got(client.post("/api/machine/settings"))
+        got(client.post("/api/grid/cut"))
+        until(client, lambda state: state["program"] and state["program"]["outcome"] == "done")
+        until(client, lambda state: state["phase"] == "ready" and not state["moves"])
+        first = got(client.get("/api/grid"))["form"]
+        (folder / "more.toml").write_bytes((folder / first).read_bytes())
+        asked = got(client.get("/api/readings", params={"file": "more.toml"}))
+        assert asked["again"] == 9
+        for form in (first, "more.toml"):
+            got(client.post("/api/machine/readings", json={"form": form}))
+        before = {mark["name"]: mark["read"] for mark in readings_in(client, first)}
+        off = [
+            math.dist(mark["read"], before[mark["name"]])
+            for mark in readings_in(client, "more.toml")
+        ]
+        assert len(off) == 9 and 0 < max(off) < 3.0
+        choices = got(client.get("/api/project"))["choices"]
+        assert choices["marks"][-2:] == [first, "more.toml"]
+        assert got(client.get("/api/readings", params={"file": "more.toml"}))["again"] == 0
+
+
+def readings_in(client, file):
+    return got(client.get("/api/readings", params={"file": file}))["marks"]
+
+
+def test_a_tape_that_never_read_the_marks_says_so(client):
+    take(client, "every mark read again")
+    with virtual_machine(client):
+        body = {"form": "more.toml"}
+        refused = got(client.post("/api/machine/readings", json=body), 422)["error"]
+        assert "the tape has read no mark 0 on this sheet" in refused
+        assert got(client.get("/api/readings", params={"file": "more.toml"}))["again"] > 0

@@ -5,6 +5,7 @@ import { Distances } from "../readings/Distances";
 import { Doubts } from "../readings/Doubts";
 import { FormPicker } from "../readings/FormPicker";
 import { Grid } from "../readings/Grid";
+import { ReadAgain } from "../readings/ReadAgain";
 import { ReadingsMap } from "../readings/ReadingsMap";
 import { Tape } from "../readings/Tape";
 import { useDoubts } from "../readings/useDoubts";
@@ -34,6 +35,7 @@ export function Readings() {
       <FormPicker form={form} choose={readings.chooseFile} />
       {form.marks.length > 0 && (
         <>
+          <ReadAgain form={form} />
           <Tape form={form} take={readings.take} />
           <ReadingsMap form={form} doubted={doubted} />
           <p class="count" role="status" aria-busy={looking}>

@@ -19,7 +19,7 @@ from plumb.lab.routes.machine import MachineAnswer, machine
 from plumb.lab.routes.plan import opened
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.readings import CHECK
-from plumb.lab.taken import Taken, taken_marks
+from plumb.lab.taken import Taken, is_read_again, taken_marks
 from plumb.line.sender import cleaned
 from plumb.marks.form import BLANK
 from plumb.plan.options import HANGING, MARK, ROUND
@@ -199,7 +199,10 @@ def read_with_tape(request: FormRequest, project: TheProject, line: TheLine) -> 
     blank = project.read(request.form)
     if blank is None or BLANK not in blank.decode():
         raise InputError(f"{request.form}: no mark of it waits for a reading")
-    filled = line.do(lambda sender: owner.tape.fill_when_cut(blank.decode(), owner.machine))
+    if is_read_again(project, request.form):
+        filled: str | None = owner.tape.fill_again(blank.decode())
+    else:
+        filled = line.do(lambda sender: owner.tape.fill_when_cut(blank.decode(), owner.machine))
     if filled is None:
         raise InputError("the marks are not all cut yet: cut them first")
     files = {request.form: filled.encode()}

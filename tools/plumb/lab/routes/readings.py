@@ -15,6 +15,7 @@ from plumb.lab.choices import Choices, Edges, read_choices, save_choices, with_m
 from plumb.lab.commands import command, known_words, unit_words
 from plumb.lab.project import Project
 from plumb.lab.routes.project import TheProject
+from plumb.lab.taken import is_read_again
 from plumb.marks.edges import from_edges, in_machine
 from plumb.marks.form import (
     Form,
@@ -74,6 +75,7 @@ class ReadingsAnswer(BaseModel):
     marks: list[AskedMark]
     distances: list[AskedDistance]
     tape_sigma: float | None  # [mm] as stated in the file
+    again: int  # marks that wait and are on the sheet already: they are only to be read again
     command: str
 
 
@@ -140,6 +142,7 @@ def show_readings(project: TheProject, file: str = "") -> ReadingsAnswer:
             for distance in measurements.distances
         ],
         tape_sigma=measurements.tape_sigma,
+        again=_waiting(form) if form and is_read_again(project, name) else 0,
         command=_command(choices, name, measurements)
         if name
         else command("grid", "--marks", "..."),
@@ -291,7 +294,12 @@ def _by_use(forms: Mapping[str, Form], choices: Choices) -> list[str]:
 
 
 def _waits(form: Form) -> bool:
-    return any(mark.measured is None for mark in form.measurements.marks)
+    return _waiting(form) > 0
+
+
+def _waiting(form: Form) -> int:
+    """How many marks of a form wait for a reading."""
+    return sum(mark.measured is None for mark in form.measurements.marks)
 
 
 def _form_file(name: str, form: Form, choices: Choices) -> FormFile:
