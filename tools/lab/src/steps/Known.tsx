@@ -6,9 +6,11 @@ import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
 import { KnownNumber } from "./known/KnownNumber";
+import { numberOf, type Value, withKnown } from "./known/values";
 import "./known/known.css";
 
 type Answer = Schemas["KnownAnswer"];
+type Number = Schemas["KnownNumber"];
 
 export function Known() {
   const { project, choose } = useProject();
@@ -19,10 +21,26 @@ export function Known() {
   const shown = numbers.find((number) => number.name === here);
   if (!project.machine || !shown)
     return <Screen title="What do you know already?" say="One moment …" busy />;
-  const keep = (name: string, value: { value: number; sigma: number } | undefined) => {
-    const { [name]: _, ...others } = known;
-    void choose({ known: value ? { ...others, [name]: value } : others });
+  const keep = (number: Number, value: Value | undefined) => {
+    const usual = numberOf(number, { value: number.believed ?? number.zero, sigma: 0 }).value;
+    void choose({ known: withKnown(known, numbers, { name: number.name, value, usual }) });
   };
+  const list = (some: Number[]) => (
+    <ul class="known">
+      {some.map((number) => (
+        <KnownNumber
+          key={number.name}
+          number={number}
+          known={known[number.name]}
+          here={here === number.name}
+          look={() => setHere(number.name)}
+          keep={(value) => keep(number, value)}
+        />
+      ))}
+    </ul>
+  );
+  const more = numbers.filter((number) => !number.is_first);
+  const stated = more.filter((number) => known[number.name]).length;
   return (
     <Screen
       title="What do you know already?"
@@ -37,22 +55,16 @@ export function Known() {
     >
       <MachinePicture
         machine={project.machine}
-        marked={shown.marked as Distance}
+        marked={(shown.marked || undefined) as Distance | undefined}
         words={shown.title}
       />
-      <p class="steps">{shown.steps}</p>
-      <ul class="known">
-        {numbers.map((number) => (
-          <KnownNumber
-            key={number.name}
-            number={number}
-            known={known[number.name]}
-            here={here === number.name}
-            look={() => setHere(number.name)}
-            keep={(value) => keep(number.name, value)}
-          />
-        ))}
-      </ul>
+      {list(numbers.filter((number) => number.is_first))}
+      <details class="more-known" open={stated > 0}>
+        <summary>
+          More that can be measured ({stated} of {more.length} known)
+        </summary>
+        {list(more)}
+      </details>
     </Screen>
   );
 }

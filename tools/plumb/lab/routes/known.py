@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 from fastapi import APIRouter
 from pydantic import BaseModel
 
-from plumb.lab.choices import read_choices
+from plumb.lab.by_hand import Curve, Reading, Unit, readings
+from plumb.lab.choices import Choices, read_choices
 from plumb.lab.commands import command, known_words, unit_words
 from plumb.lab.routes.plan import opened
 from plumb.lab.routes.project import TheProject
@@ -15,23 +14,27 @@ from plumb.plan.direct_checks import FRAME_CHECKS, effect_checks
 from plumb.settings.machine import GRAVITY, MachineSettings
 
 router = APIRouter(tags=["known"])
-LINKS = 635.0  # [mm] of 100 links of a new chain
+WEIGHT = "sled_weight"
+FIRST = ("chain_pitch",)  # effects that everybody measures
 
 
 class KnownNumber(BaseModel):
-    """A number that can be measured by hand: it is (what is read - zero) * scale."""
+    """A number that can be measured by hand: it is curve(what is read - zero) * scale."""
 
     name: str
     title: str
     steps: str
-    unit: Literal["mm", "kg"]
+    unit: Unit
     minutes: float
     zero: float
     scale: float
-    believed: float  # what the settings say, as it would be read
+    curve: Curve
+    believed: float | None  # what the settings say, as it would be read; None: they leave it out
     usual: float  # how far a careful reading may be off
     digits: int
-    marked: str  # the distance on the drawing
+    marked: str  # the distance on the drawing; empty: none is
+    by: str  # the number by whose square this is divided; empty: none is
+    is_first: bool  # it belongs to what everybody measures
 
 
 class KnownAnswer(BaseModel):
@@ -48,8 +51,9 @@ def show_known(project: TheProject) -> KnownAnswer:
     choices, _ = read_choices(project)
     marks = choices.marks or ["marks.toml"]
     known = [*known_words(choices), *unit_words(choices)]
+    numbers = [*_frame(settings), *_effects(settings, choices)]
     return KnownAnswer(
-        numbers=[*_frame(settings), *_chains(settings)],
+        numbers=sorted(numbers, key=lambda number: not number.is_first),
         command=command("diagnose", choices.settings, *marks, *known),
     )
 
@@ -62,17 +66,20 @@ def _frame(settings: MachineSettings) -> list[KnownNumber]:
         _of_frame("motor_height", settings.motor_height, zero=-edge),
         _of_frame("rotation_radius", settings.rotation_radius, zero=0.0),
         KnownNumber(
-            name="sled_weight",
+            name=WEIGHT,
             title="the weight of the sled",
             steps="Weigh the sled with router and bricks, as it cuts, to 0.2 kg.",
             unit="kg",
             minutes=8.0,
             zero=0.0,
             scale=GRAVITY,
+            curve="straight",
             believed=settings.sled_weight / GRAVITY,
             usual=0.2,
             digits=1,
-            marked="sled_weight",
+            marked=WEIGHT,
+            by="",
+            is_first=True,
         ),
     ]
 
@@ -87,29 +94,44 @@ def _of_frame(name: str, value: float, *, zero: float) -> KnownNumber:
         minutes=check.direct.minutes,
         zero=zero,
         scale=1.0,
+        curve="straight",
         believed=value + zero,
         usual=check.sigmas[name],
         digits=1,
         marked=name,
+        by="",
+        is_first=True,
     )
 
 
-def _chains(settings: MachineSettings) -> list[KnownNumber]:
-    """The length of 100 links of each chain."""
-    check = effect_checks()["chain_pitch"]
+def _effects(settings: MachineSettings, choices: Choices) -> list[KnownNumber]:
+    """Numbers of effects, as far as they can be measured directly."""
+    stated = choices.known.get(WEIGHT)
+    by_hand = readings(settings, stated.value if stated else settings.sled_weight)
     return [
-        KnownNumber(
-            name=f"chain_pitch.{side}",
-            title=f"100 links of the {side} chain",
-            steps=check.direct.steps,
-            unit="mm",
-            minutes=check.direct.minutes / 2,
-            zero=LINKS,
-            scale=1 / LINKS,
-            believed=LINKS * (1 + settings.effect("chain_pitch", side)),
-            usual=round(LINKS * check.sigmas[side], 2),
-            digits=1,
-            marked="chain",
-        )
-        for side in ("left", "right")
+        _of_effect(f"{effect}.{part}", by_hand[f"{effect}.{part}"], settings)
+        for effect, check in effect_checks().items()
+        for part in check.sigmas
     ]
+
+
+def _of_effect(name: str, reading: Reading, settings: MachineSettings) -> KnownNumber:
+    effect, _, part = name.partition(".")
+    check = effect_checks()[effect]
+    value, is_first = settings.effect(effect, part), effect in FIRST
+    return KnownNumber(
+        name=name,
+        title=reading.title,
+        steps=check.direct.steps,
+        unit=reading.unit,
+        minutes=check.direct.minutes / len(check.sigmas),
+        zero=reading.zero,
+        scale=reading.scale,
+        curve=reading.curve,
+        believed=reading.read(value) if value or is_first else None,
+        usual=reading.usual,
+        digits=reading.digits,
+        marked=reading.marked,
+        by=WEIGHT if reading.unit == "g" else "",
+        is_first=is_first,
+    )

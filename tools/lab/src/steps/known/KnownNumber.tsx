@@ -3,9 +3,9 @@ import { useEffect, useState } from "preact/hooks";
 import type { Schemas } from "../../api/client";
 import { shownLength, typedLength, type Unit } from "../../controls/lengths";
 import { useProject } from "../../shell/project";
+import { numberOf, readingOf, type Value } from "./values";
 
 type Known = Schemas["KnownNumber"];
-type Value = { value: number; sigma: number };
 
 interface NumberParts {
   number: Known;
@@ -20,8 +20,9 @@ export function KnownNumber({ number, known, here, look, keep }: NumberParts) {
   const unit: Unit = number.unit === "mm" ? (project.choices.units ?? "mm") : "mm";
   const name = number.unit === "mm" ? unit : number.unit;
   const show = (read: number) => shownLength(read, unit, number.digits);
-  const saved = known ? show(known.value / number.scale + number.zero) : "";
-  const sure = show(known ? known.sigma / number.scale : number.usual);
+  const stated = known && readingOf(number, known);
+  const saved = stated ? show(stated.value) : "";
+  const sure = shownLength(stated?.sigma ?? number.usual, unit, Math.max(number.digits, 1));
   const [read, setRead] = useState(saved);
   const [sigma, setSigma] = useState(sure);
   useEffect(() => setRead(saved), [saved]);
@@ -32,16 +33,18 @@ export function KnownNumber({ number, known, here, look, keep }: NumberParts) {
     if (read === "") {
       if (known) keep(undefined);
     } else if (!wrong && typed !== undefined && error !== undefined) {
-      const value = (typed - number.zero) * number.scale;
-      if (read !== saved || sigma !== sure) keep({ value, sigma: error * number.scale });
+      if (read !== saved || sigma !== sure) keep(numberOf(number, { value: typed, sigma: error }));
     }
   };
   return (
     <li class={here ? "here" : ""} onFocusCapture={look}>
       <b>{number.title}</b>
       <small>
-        the settings say {show(number.believed)} {name}
+        {number.believed === null
+          ? "the settings leave it out"
+          : `the settings say ${show(number.believed)} ${name}`}
       </small>
+      {here && <small class="steps">{number.steps}</small>}
       <span class="typed">
         <input
           inputMode="decimal"
@@ -63,7 +66,9 @@ export function KnownNumber({ number, known, here, look, keep }: NumberParts) {
         />{" "}
         {name}
       </span>
-      {wrong && <small class="wrong">Type a number, like {show(number.believed)}.</small>}
+      {wrong && (
+        <small class="wrong">Type a number, like {show(number.believed ?? number.usual)}.</small>
+      )}
     </li>
   );
 }

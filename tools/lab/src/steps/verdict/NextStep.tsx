@@ -48,7 +48,15 @@ export function NextStep({ sheet, before, wanted, want }: NextParts) {
           </SheetMap>
         )}
       </div>
-      {next.taking && <TakeMarks taking={next.taking} />}
+      {next.taking ? (
+        <TakeMarks taking={next.taking} />
+      ) : (
+        <p class="take">
+          <a class="button primary" href="#/known">
+            Type what you measured
+          </a>
+        </p>
+      )}
       <Others next={next} />
       <details class="command">
         <summary>In a terminal</summary>

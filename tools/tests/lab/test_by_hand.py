@@ -1,0 +1,107 @@
+"""Numbers that are measured by hand: each that the command line takes is asked as it is read."""
+
+import math
+
+import pytest
+from folder import with_settings
+from plumb.bench.causes import MAKER
+from plumb.lab.by_hand import readings
+from plumb.plan.direct_checks import FRAME_CHECKS, effect_checks
+
+WEIGHT = 98.1  # [N]
+EACH = readings(MAKER, WEIGHT)
+
+
+@pytest.fixture
+def client(tmp_path):
+    with with_settings(tmp_path) as client:
+        yield client
+
+
+def shown(client):
+    answer = client.get("/api/known")
+    assert answer.status_code == 200, answer.text
+    return {number["name"]: number for number in answer.json()["numbers"]}
+
+
+def choose(client, **change):
+    project = client.get("/api/project").json()
+    body = {"choices": {**project["choices"], **change}, "read": project["choices_digest"]}
+    assert client.put("/api/choices", json=body).status_code == 200
+
+
+def test_the_page_asks_for_each_number_that_can_be_measured_directly(client):
+    parts = {
+        f"{effect}.{part}" for effect, check in effect_checks().items() for part in check.sigmas
+    }
+    assert {*shown(client)} == {*FRAME_CHECKS, "sled_weight", *parts}
+    assert {*EACH} == parts
+
+
+# What is read, the number by the words of its check, and the check's steps.
+READ = [
+    ("chain_pitch.left", 635.635, (635.635 - 635) / 635),
+    ("chain_zero.right", -1.5, -1.5),
+    ("chain_sag.weight_ratio_squared", 420, (0.420 / 3000 / 10.0) ** 2 / 24),
+    ("chain_stretch.compliance", 1.5, 1.5 / 3000 / 98.1),
+    ("motor_level.height_difference", -4, -4),
+    ("frame_flex.inward", 0.4, 0.4 / 50),
+    ("frame_flex.downward", 1.0, 1.0 / 50),
+    ("chain_plane.gap_squared", 40, 1600),
+    ("frame_lean.tangent_squared", 15, math.tan(math.radians(15)) ** 2),
+    ("sled_swing.right", -2, -2),
+    ("sled_swing.up", 2, 2),
+    ("tape_scale.strain", 0.3, (1000.3 - 1000) / 1000),
+]
+
+
+@pytest.mark.parametrize(("name", "read", "value"), READ)
+def test_a_number_follows_from_what_is_read(name, read, value):
+    assert EACH[name].value(read) == pytest.approx(value, rel=1e-9)
+    assert EACH[name].read(value) == pytest.approx(read, rel=1e-9)
+
+
+def test_the_angle_of_a_sheet_follows_from_how_much_its_diagonals_differ():
+    width, height = MAKER.sheet
+    angle = 0.002
+    long, short = (math.hypot(width + sign * height * angle, height) for sign in (1, -1))
+    by_words = (long**2 - short**2) / (4 * width * height)
+    assert EACH["sheet_skew.angle"].value(long - short) == pytest.approx(by_words, rel=1e-4)
+
+
+@pytest.mark.parametrize("name", [*EACH])
+def test_a_careful_reading_is_as_sure_as_its_check(name):
+    """At the size that is met in workshops."""
+    effect, _, part = name.partition(".")
+    reading, sigma = EACH[name], effect_checks()[effect].sigmas[part]
+    usual = next(read for each, read, _ in [*READ, *MORE] if each == name)
+    spread = reading.value(usual + reading.usual) - reading.value(usual)
+    assert spread == pytest.approx(sigma, rel=0.2)
+
+
+MORE = [("chain_pitch.right", 635.0, 0), ("chain_zero.left", 0.0, 0), ("sheet_skew.angle", 4.0, 0)]
+
+
+def test_what_the_settings_leave_out_is_not_said_to_be_zero(client):
+    numbers = shown(client)
+    assert numbers["frame_lean.tangent_squared"]["believed"] is None
+    assert numbers["chain_pitch.left"]["believed"] == pytest.approx(635)
+    firsts = [name for name, number in numbers.items() if number["is_first"]]
+    assert firsts == [*numbers][: len(firsts)] and "sled_weight" in firsts
+
+
+def test_a_chain_is_weighed_against_the_sled_that_the_owner_weighed(client):
+    name = "chain_sag.weight_ratio_squared"
+    before = shown(client)[name]
+    choose(client, known={"sled_weight": {"value": 2 * WEIGHT, "sigma": 2.0}})
+    after = shown(client)[name]
+    assert after["by"] == "sled_weight"
+    per_gram = math.sqrt(24 * after["scale"])
+    assert per_gram == pytest.approx(1 / 3e6 / 20.0)
+    assert before["scale"] != after["scale"]
+
+
+def test_what_is_measured_goes_into_the_command(client):
+    choose(client, known={"frame_lean.tangent_squared": {"value": 0.07, "sigma": 0.005}})
+    said = client.get("/api/known").json()["command"]
+    assert "--checked frame_lean.tangent_squared=0.07+-0.005" in said
