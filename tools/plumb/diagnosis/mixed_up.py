@@ -91,11 +91,13 @@ def _best(board: Board) -> MixedPair | None:
     marks = np.arange(rows.measured.size).reshape(-1, 2)
     spans = rows.measured.size + np.arange(len(rows.distances)).reshape(-1, 1)
     best, most, tried = None, 0.0, 0
-    for numbers, readings, is_mark in (
-        (marks, rows.measured, True),
-        (spans, rows.distances.reshape(-1, 1), False),
+    for numbers, readings, rounds, is_mark in (
+        (marks, rows.measured, rows.rounds[rows.mark_rows], True),
+        (spans, rows.distances.reshape(-1, 1), rows.distance_rounds, False),
     ):
         drops = _drops(basis, left, numbers, readings / board.sigma)
+        # Nobody writes a reading into another file; what changed between them is no exchange.
+        drops[rounds[:, np.newaxis] != rounds] = -np.inf
         tried += int(np.sum(drops > -np.inf))
         if drops.size and drops.max() > most:
             i, j = (int(at) for at in np.unravel_index(np.argmax(drops), drops.shape))

@@ -5,15 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plumb.board.observations import model_and_observations
+from plumb.diagnosis import diagnose
 from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.halves import round_warnings
+from plumb.diagnosis.mixed_up import MixedPair, find_mixed_up
 from plumb.diagnosis.moved_rounds import rounds_columns
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.readings import Reading, without
 from plumb.diagnosis.repeats import distance_spread, repeated_distances
 from plumb.diagnosis.significance import KNOWN
 from plumb.diagnosis.slips_in_repeats import clear_repeats, twins_that_agree
-from plumb.fit.inputs import Stated
+from plumb.fit.inputs import Inputs, Stated
 from plumb.marks.read import join_measurements
 from synthetic import BELIEVED, distances_between, grid, marks_on
 
@@ -81,6 +83,25 @@ def test_what_changed_between_files_is_no_slip():
     board = board_of(replace(both, distances=(*both.distances[:-1], changed, again)))
     (slip,) = clear_repeats(board, Stated(SIGMA)).slips
     assert slip.reading.index in (131, 132)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_what_changed_between_files_is_no_exchange_of_readings(seed):
+    assert find_mixed_up(board_of(two_files(SKIPPED, seed))).pairs == ()
+    both = two_files(PITCH, seed)
+    spans = list(both.distances)
+    longest = max(range(66), key=lambda i: spans[i].length)
+    first, second = spans[0], spans[longest]
+    spans[0] = replace(first, length=second.length)
+    spans[longest] = replace(second, length=first.length)
+    mixed_up = find_mixed_up(board_of(replace(both, distances=tuple(spans))))
+    assert mixed_up.pairs == (MixedPair(0, longest, is_mark=False),)
+
+
+def test_a_file_that_does_not_go_with_the_other_is_no_slip():
+    diagnosis = diagnose(Inputs(BELIEVED, two_files(SKIPPED), sigma=SIGMA))
+    assert diagnosis.verdict == "not_in_library" and diagnosis.slips == ()
+    assert diagnosis.disagreements[0].startswith("b does not go with the other rounds")
 
 
 def test_a_distance_that_is_left_out_takes_its_file_along():
