@@ -114,6 +114,18 @@ def test_a_straight_chain_closes_the_triangle():
     assert angle == pytest.approx(down, abs=1.1 * BELIEVED.sprocket_radius / straight)
 
 
+@pytest.mark.parametrize(("feed", "side"), [("top", 1), ("bottom", -1)])
+def test_a_chain_leaves_its_sprocket_over_the_top_or_below(feed, side):
+    machine, place = replace(BELIEVED, feed=feed), np.array([300.0, -100.0])
+    rows = observe(machine, Measurements((Mark("1", tuple(place), tuple(place)),)))
+    angle = known(rows, machine)["angle"].values[0, 0]
+    sprocket = np.array([-machine.motor_gap / 2, machine.motor_height])
+    straight = np.hypot(*(place - sprocket))
+    down = np.arctan2(sprocket[1] - place[1], place[0] - sprocket[0])
+    tangent = np.arcsin(machine.sprocket_radius / straight)
+    assert angle - down == pytest.approx(side * tangent, rel=0.2)
+
+
 @pytest.mark.parametrize("pitch", [0.0, 0.004])  # of both chains: 8 mm in two metres
 def test_an_eccentric_sprocket_is_a_sine_against_the_phase(pitch):
     runout = {"left_sine": 0.4, "left_cosine": 0.0, "right_sine": 0.0, "right_cosine": -0.3}
