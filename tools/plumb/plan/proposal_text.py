@@ -14,13 +14,14 @@ def headline_of(best: Proposal) -> str:
     return f"{best.option.title}; about {best.option.minutes:.0f} minutes{_hope(best)}"
 
 
-def steps_of(best: Proposal) -> list[str]:
-    """What to do, and what it tells, in sentences."""
+def steps_of(best: Proposal, *, is_converted: bool = False) -> list[str]:
+    """What to do, and what it tells, in sentences; how a number follows from what is measured,
+    unless `is_converted`: whoever asks works it out."""
     said = [*best.option.do]
     if best.parts:
         pairs = [f"{_nouns(a)} from {_nouns(b)}" for a, b in best.parts]
         said.append(f"It tells {'; '.join(pairs)}.")
-    if best.option.checks:
+    if best.option.checks and not is_converted:
         said.append(f"VALUE: {best.option.value}.")
     return said
 

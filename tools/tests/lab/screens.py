@@ -35,6 +35,13 @@ SMALL_TEXT = """(smallest) => {
   return [...new Set(small)];
 }"""
 
+MOST_WORDS = 40  # that a screen says before its picture
+
+# Buttons that all want to be pressed next: a screen has a single such button.
+WANTED = """() => [...document.querySelectorAll("main .primary")]
+  .filter((each) => each.checkVisibility({ checkVisibilityCSS: true }))
+  .map((each) => each.innerText)"""
+
 # What can be pressed and is smaller than a finger; links within sentences are text.
 SMALL_TARGETS = """(smallest) => {
   const small = [];

@@ -7,6 +7,7 @@ from folder import with_settings
 from plumb.bench.causes import MAKER
 from plumb.lab.by_hand import readings
 from plumb.plan.direct_checks import FRAME_CHECKS, effect_checks
+from plumb.vm.owner import true_value
 
 WEIGHT = 98.1  # [N]
 EACH = readings(MAKER, WEIGHT)
@@ -105,3 +106,22 @@ def test_what_is_measured_goes_into_the_command(client):
     choose(client, known={"frame_lean.tangent_squared": {"value": 0.07, "sigma": 0.005}})
     said = client.get("/api/known").json()["command"]
     assert "--checked frame_lean.tangent_squared=0.07+-0.005" in said
+
+
+def test_a_virtual_machine_is_measured_by_hand_as_well_as_a_careful_owner_can(client):
+    body = {"name": "motor_gap"}
+    refused = client.post("/api/known/measured", json=body)
+    assert refused.status_code == 422 and "type what you measured" in refused.json()["error"]
+    assert client.post("/api/machine/virtual", json={"hides": "nothing"}).status_code == 200
+    asked = {**shown(client)}
+    owner = client.app.app.state.line.virtual
+    for name, number in asked.items():
+        measured = client.post("/api/known/measured", json={"name": name}).json()
+        true = true_value(owner.garage, name)
+        assert abs(measured["value"] - true) < 5 * measured["sigma"]
+        if number["curve"] == "straight":
+            usual = number["usual"] * abs(number["scale"])
+            assert measured["sigma"] == pytest.approx(usual, rel=0.1)
+    unknown = client.post("/api/known/measured", json={"name": "sled_colour"})
+    assert unknown.status_code == 422
+    client.post("/api/machine/disconnect")

@@ -87,3 +87,21 @@ def test_what_is_known_is_kept_and_makes_less_error_normal(lab, opened):
     normal.wait_for(timeout=PATIENCE)
     assert float(re.search(r"off by ([\d.]+) mm", normal.inner_text())[1]) < before
     assert "of the sheet is usable" in page.get_by_role("heading", level=1).inner_text()
+
+
+def test_who_comes_for_a_number_sees_it_and_types_what_is_read(lab, opened):
+    page = opened
+    page.goto(f"{lab.site}#/known/frame_lean.tangent_squared")
+    lean = page.get_by_role("textbox", name="how far the frame leans, degrees")
+    lean.wait_for(timeout=PATIENCE)  # though it is folded away for others
+    page.get_by_text("with a plumb line or an angle gauge").wait_for()
+    assert lean.bounding_box()["y"] < 900
+    lean.fill("15")
+    page.keyboard.press("Tab")
+    until(page, lambda: choices(lab).get("known"))
+    known = choices(lab)["known"]["frame_lean.tangent_squared"]
+    assert known["value"] == pytest.approx(0.0718, abs=1e-4)
+    assert known["sigma"] == pytest.approx(0.005, rel=0.1)
+    page.reload()
+    lean.wait_for(timeout=PATIENCE)
+    assert lean.input_value() == "15.0"

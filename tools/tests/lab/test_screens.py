@@ -5,6 +5,7 @@ Pictures of them lie in .build/lab/screenshots.
 
 import pytest
 from screens import (
+    MOST_WORDS,
     PICTURES,
     REACHABLE,
     SCHEMES,
@@ -13,6 +14,7 @@ from screens import (
     SMALL_TEXT,
     SMALLEST_TARGET,
     SMALLEST_TEXT,
+    WANTED,
     WIDER,
     axe_findings,
     fitted_machine,
@@ -128,6 +130,12 @@ def faults(page):
     yield from axe_findings(page)
     if page.evaluate("() => document.documentElement.scrollWidth > innerWidth"):
         yield f"wider than the page: {page.evaluate(WIDER)}"
+    wanted = page.evaluate(WANTED)
+    if len(wanted) > 1:
+        yield f"wanted next: {wanted}"
+    for said in page.locator("main .say").all_inner_texts():
+        if len(said.split()) > MOST_WORDS and not page.url.endswith("verdict"):  # as long as it is
+            yield f"more than {MOST_WORDS} words: {said}"
     for what, script, least in (
         ("text", SMALL_TEXT, SMALLEST_TEXT),
         ("target", SMALL_TARGETS, SMALLEST_TARGET),

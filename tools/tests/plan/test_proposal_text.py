@@ -87,7 +87,9 @@ def test_steps_tell_what_is_parted_and_which_value_to_give():
     said = steps_of(proposal(parts=pairs))
     assert said == ["Cut four.", f"It tells {sag} from {lean}; {pitch} and {tape} from {sag}."]
     check = replace(CUT, checks=(Check("motor_gap", 1.0),), value="the gap, mm")
-    assert steps_of(Proposal(check, SETTLE, 0.5, None))[-1] == "VALUE: the gap, mm."
+    by_hand = Proposal(check, SETTLE, 0.5, None)
+    assert steps_of(by_hand)[-1] == "VALUE: the gap, mm."
+    assert steps_of(by_hand, is_converted=True) == ["Cut four."]
 
 
 def test_the_rate_is_what_is_gained_for_each_minute_with_a_round_more():

@@ -8,15 +8,19 @@ import { type Loaded, ProjectContext, type Shared, useSharedProject } from "./pr
 import { ROOMS, STEPS, type Step } from "./steps";
 import { Way, WayOn } from "./Way";
 
-/** The id behind # in the address. */
+/** The id of the screen behind # in the address; behind a further / a screen may have a place. */
 function useAddress(): string {
-  const [id, setId] = useState(location.hash.replace(/^#\/?/, ""));
+  const [id, setId] = useState(idInAddress);
   useEffect(() => {
-    const changed = () => setId(location.hash.replace(/^#\/?/, ""));
+    const changed = () => setId(idInAddress());
     addEventListener("hashchange", changed);
     return () => removeEventListener("hashchange", changed);
   }, []);
   return id;
+}
+
+function idInAddress(): string {
+  return location.hash.replace(/^#\/?/, "").split("/")[0] ?? "";
 }
 
 export function Lab() {

@@ -78,6 +78,7 @@ export function Check() {
         {machine.kind === "virtual" && answer.is_saved && !answer.sentence && (
           <button
             type="button"
+            class={isCut ? "primary" : ""}
             disabled={busy || !ready || !isCut}
             onClick={() => void read(answer.form, setTrouble, take)}
           >

@@ -48,6 +48,8 @@ export function Correct() {
     made.settings === project.choices.settings &&
     made.numbers.every((number) => number.is_accepted === accepted.includes(number.name));
   const before = project.choices.settings_before ?? [];
+  // Nothing is accepted since the last correction was written: it goes to the machine next.
+  const isWritten = before.length > 0 && accepted.length === 0;
   const count = made.numbers.filter((number) => accepted.includes(number.name)).length;
   return (
     <Screen
@@ -71,7 +73,7 @@ export function Correct() {
       <p class="buttons">
         <button
           type="button"
-          class="primary"
+          class={isWritten ? "" : "primary"}
           disabled={count === 0 || !current || writing.busy}
           onClick={() => void writing.write(known)}
         >
@@ -89,7 +91,7 @@ export function Correct() {
           </button>
         )}
       </p>
-      <ToMachine writing={writing} />
+      <ToMachine writing={writing} isNext={isWritten} />
     </Screen>
   );
 }

@@ -1,5 +1,5 @@
 // Step 2: what the owner knows without a mark: a drawing with the distance, a number, and how sure it is.
-import { useState } from "preact/hooks";
+import { useRef, useState } from "preact/hooks";
 import type { Choices, Schemas } from "../api/client";
 import { type Distance, MachinePicture } from "../machine/MachinePicture";
 import { useNewest } from "../shell/newest";
@@ -12,18 +12,28 @@ import "./known/known.css";
 type Answer = Schemas["KnownAnswer"];
 type Number = Schemas["KnownNumber"];
 
+const FIRST = "motor_gap";
+
+/** The number for which somebody came here, behind the screen in the address. */
+function numberInAddress(): string {
+  return location.hash.split("/")[2] ?? "";
+}
+
 export function Known() {
   const { project, choose } = useProject();
-  const [here, setHere] = useState("motor_gap");
+  const [here, setHere] = useState(() => numberInAddress() || FIRST);
   const answer = useNewest<Answer>("known", project.choices_digest);
   const known: NonNullable<Choices["known"]> = project.choices.known ?? {};
   const numbers = answer?.numbers ?? [];
-  const shown = numbers.find((number) => number.name === here);
+  // A measurement takes a moment, in which another number may be typed.
+  const newest = useRef(known);
+  newest.current = known;
+  const shown = numbers.find((number) => number.name === here) ?? numbers[0];
   if (!project.machine || !shown)
     return <Screen title="What do you know already?" say="One moment …" busy />;
   const keep = (number: Number, value: Value | undefined) => {
     const usual = numberOf(number, { value: number.believed ?? number.zero, sigma: 0 }).value;
-    void choose({ known: withKnown(known, numbers, { name: number.name, value, usual }) });
+    void choose({ known: withKnown(newest.current, numbers, { name: number.name, value, usual }) });
   };
   const list = (some: Number[]) => (
     <ul class="known">
@@ -32,7 +42,8 @@ export function Known() {
           key={number.name}
           number={number}
           known={known[number.name]}
-          here={here === number.name}
+          here={shown.name === number.name}
+          wanted={numberInAddress() === number.name}
           look={() => setHere(number.name)}
           keep={(value) => keep(number, value)}
         />
@@ -59,7 +70,7 @@ export function Known() {
         words={shown.title}
       />
       {list(numbers.filter((number) => number.is_first))}
-      <details class="more-known" open={stated > 0}>
+      <details class="more-known" open={stated > 0 || !shown.is_first}>
         <summary>
           More that can be measured ({stated} of {more.length} known)
         </summary>

@@ -6,15 +6,20 @@ from fastapi import APIRouter
 from pydantic import BaseModel
 
 from plumb.lab.by_hand import Curve, Reading, Unit, readings
-from plumb.lab.choices import Choices, read_choices
+from plumb.lab.choices import Choices, Number, read_choices
 from plumb.lab.commands import command, known_words, unit_words
+from plumb.lab.machine_line import TheLine
 from plumb.lab.routes.plan import opened
 from plumb.lab.routes.project import TheProject
+from plumb.plan.ahead import Check
 from plumb.plan.direct_checks import FRAME_CHECKS, effect_checks
 from plumb.settings.machine import GRAVITY, MachineSettings
+from plumb.text.errors import InputError
+from plumb.text.values import refuse_unknown
 
 router = APIRouter(tags=["known"])
 WEIGHT = "sled_weight"
+WEIGHED = 0.2  # [kg] to which a sled is weighed
 FIRST = ("chain_pitch",)  # effects that everybody measures
 
 
@@ -44,6 +49,12 @@ class KnownAnswer(BaseModel):
     command: str
 
 
+class Measuring(BaseModel):
+    """The number that somebody measures."""
+
+    name: str
+
+
 @router.get("/known")
 def show_known(project: TheProject) -> KnownAnswer:
     """What the owner may know, and the command that goes by what is known now."""
@@ -56,6 +67,25 @@ def show_known(project: TheProject) -> KnownAnswer:
         numbers=sorted(numbers, key=lambda number: not number.is_first),
         command=command("diagnose", choices.settings, *marks, *known),
     )
+
+
+@router.post("/known/measured")
+def measure(measuring: Measuring, project: TheProject, line: TheLine) -> Number:
+    """Let the owner of the virtual machine measure a number of it, as well as a careful reading."""
+    owner = line.virtual
+    if owner is None:
+        raise InputError("a virtual machine alone is measured by the lab: type what you measured")
+    sigmas = {
+        f"{effect}.{part}": sigma
+        for effect, check in effect_checks().items()
+        for part, sigma in check.sigmas.items()
+    }
+    for check in FRAME_CHECKS.values():
+        sigmas |= check.sigmas
+    sigmas[WEIGHT] = WEIGHED * GRAVITY
+    refuse_unknown([measuring.name], sigmas)
+    (checked,) = owner.check([Check(measuring.name, sigmas[measuring.name])])
+    return Number(value=checked.value, sigma=checked.sigma)
 
 
 def _frame(settings: MachineSettings) -> list[KnownNumber]:
@@ -75,7 +105,7 @@ def _frame(settings: MachineSettings) -> list[KnownNumber]:
             scale=GRAVITY,
             curve="straight",
             believed=settings.sled_weight / GRAVITY,
-            usual=0.2,
+            usual=WEIGHED,
             digits=1,
             marked=WEIGHT,
             by="",

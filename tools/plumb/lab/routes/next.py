@@ -58,6 +58,7 @@ class NextMeasurement(BaseModel):
     steps: list[str]
     marks: list[Arrow]  # without errors
     taking: Taking | None  # None: it is measured without marks
+    by_hand: str  # the first of the numbers that are measured directly; empty: none is
     others: list[Other]
     ordinary: Other | None  # what as many ordinary marks as patience allows would bring
 
@@ -154,12 +155,13 @@ def _measurement(project: Project, inputs: api.Inputs, advice: Next) -> NextMeas
     visits = best.option.visits
     return NextMeasurement(
         headline=headline_of(best),
-        steps=list(steps_of(best)),
+        steps=steps_of(best, is_converted=True),
         marks=[
             Arrow(name=name, place=tuple(place), error=(0.0, 0.0))
             for name, place in zip(visits.names, visits.targets.tolist(), strict=True)
         ],
         taking=_taking(project, inputs, advice, 1),
+        by_hand=best.option.checks[0].name if best.option.checks else "",
         others=[
             _other(each, _taking(project, inputs, advice, place))
             for place, each in enumerate(others[:MOST_OTHERS], start=2)

@@ -6,7 +6,13 @@ import type { Writing } from "./useWriting";
 
 const SHOWN = 12;
 
-export function ToMachine({ writing }: { writing: Writing }) {
+interface ToMachineParts {
+  writing: Writing;
+  /** Whether sending is what comes next. */
+  isNext: boolean;
+}
+
+export function ToMachine({ writing, isNext }: ToMachineParts) {
   const { project } = useProject();
   const machine = useMachine();
   const { written, sent, busy } = writing;
@@ -34,7 +40,7 @@ export function ToMachine({ writing }: { writing: Writing }) {
           {file && (
             <button
               type="button"
-              class="primary"
+              class={isNext && !sent ? "primary" : ""}
               disabled={busy || !isReady(machine)}
               onClick={() => void writing.toMachine(file, false)}
             >

@@ -1,7 +1,8 @@
 // A number that can be measured by hand: what is read, and how far that may be off.
-import { useEffect, useState } from "preact/hooks";
-import type { Schemas } from "../../api/client";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { type Schemas, send } from "../../api/client";
 import { shownLength, typedLength, type Unit } from "../../controls/lengths";
+import { useMachine } from "../../shell/machine";
 import { useProject } from "../../shell/project";
 import { numberOf, readingOf, type Value } from "./values";
 
@@ -11,12 +12,27 @@ interface NumberParts {
   number: Known;
   known: Value | undefined;
   here: boolean;
+  /** Somebody came to this screen for it. */
+  wanted: boolean;
   look: () => void;
   keep: (value: Value | undefined) => void;
 }
 
-export function KnownNumber({ number, known, here, look, keep }: NumberParts) {
-  const { project } = useProject();
+export function KnownNumber({ number, known, here, wanted, look, keep }: NumberParts) {
+  const { project, setTrouble } = useProject();
+  const isVirtual = useMachine().kind === "virtual";
+  const place = useRef<HTMLLIElement>(null);
+  useEffect(() => {
+    if (wanted) place.current?.scrollIntoView({ block: "center" });
+  }, [wanted]);
+  const measure = () =>
+    send<Value>("POST", "known/measured", { name: number.name }).then(
+      (measured) => {
+        keep(measured);
+        setTrouble("");
+      },
+      (error: Error) => setTrouble(error.message),
+    );
   const unit: Unit = number.unit === "mm" ? (project.choices.units ?? "mm") : "mm";
   const name = number.unit === "mm" ? unit : number.unit;
   const show = (read: number) => shownLength(read, unit, number.digits);
@@ -37,7 +53,7 @@ export function KnownNumber({ number, known, here, look, keep }: NumberParts) {
     }
   };
   return (
-    <li class={here ? "here" : ""} onFocusCapture={look}>
+    <li ref={place} class={here ? "here" : ""} onFocusCapture={look}>
       <b>{number.title}</b>
       <small>
         {number.believed === null
@@ -66,6 +82,11 @@ export function KnownNumber({ number, known, here, look, keep }: NumberParts) {
         />{" "}
         {name}
       </span>
+      {here && isVirtual && (
+        <button type="button" onClick={() => void measure()}>
+          Measure it on the virtual machine
+        </button>
+      )}
       {wrong && (
         <small class="wrong">Type a number, like {show(number.believed ?? number.usual)}.</small>
       )}

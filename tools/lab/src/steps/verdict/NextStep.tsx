@@ -2,6 +2,7 @@
 import { Progress } from "../../controls/Progress";
 import { SheetMap, usePixel } from "../../sheet/SheetMap";
 import { useAnswer } from "../../shell/answer";
+import { useMachine } from "../../shell/machine";
 import { TakeMarks } from "./TakeMarks";
 import type { NextAnswer, Size, VerdictParts } from "./words";
 
@@ -15,6 +16,7 @@ interface NextParts {
 
 export function NextStep({ sheet, before, wanted, want }: NextParts) {
   const { answer, refused } = useAnswer<NextAnswer>("next", wanted);
+  const isVirtual = useMachine().kind === "virtual";
   if (!wanted) {
     return (
       <p>
@@ -52,8 +54,8 @@ export function NextStep({ sheet, before, wanted, want }: NextParts) {
         <TakeMarks taking={next.taking} />
       ) : (
         <p class="take">
-          <a class="button primary" href="#/known">
-            Type what you measured
+          <a class="button primary" href={`#/known/${next.by_hand}`}>
+            {isVirtual ? "Measure it" : "Type what you measured"}
           </a>
         </p>
       )}
