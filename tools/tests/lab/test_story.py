@@ -85,8 +85,11 @@ def accept_one_by_one(visit):
 
 def write_and_send(visit, count):
     """Into a file and into the machine, back again, and in for good."""
+    wanted = visit.page.locator("main .primary")
+    expect(wanted).to_have_text(f"Write {count} numbers into machine-2.toml", timeout=PATIENCE)
     visit.press(f"Write {count} numbers into machine-2.toml")
     visit.see("Written: machine-2.toml")
+    expect(wanted).to_have_text(re.compile("^Write machine-2.toml into"), timeout=PATIENCE)
     written = read_settings(visit.folder / "machine-2.toml")
     before = read_settings(visit.folder / "machine.toml").motor_gap
     assert visit.number(GAP) == before != pytest.approx(written.motor_gap, abs=1)
