@@ -62,6 +62,12 @@ def test_marks_around_the_worst_place_lie_inwards_of_it():
     assert (near.visits.targets % 10 == 0).all()
 
 
+def test_marks_around_the_middle_of_the_sheet_are_not_in_the_old_hole():
+    _, near = near_the_worst(case_on(with_offset(nine(), 4, (9.0, 0.0)), "chain_pitch"))
+    places = {tuple(place) for place in near.visits.targets.tolist()}
+    assert {(-BESIDE, 0.0), (0.0, -BESIDE)} <= places and (0.0, 0.0) not in places
+
+
 def test_places_at_the_edge_are_brought_onto_the_sheet_in_whole_centimetres():
     targets = targets_of(3, 3) * [1.0, 1.16] + np.array((3.0, 0.0))
     marks = Measurements(marks_on(MACHINE, MACHINE, targets, noise=SIGMA))
