@@ -225,9 +225,10 @@ void Axes::lift(float z, float speed, float acceleration) {
              motion::toCounts(acceleration * seconds_per_tick_ * seconds_per_tick_));
 }
 
-void Axes::lower() {
+void Axes::lower(float speed, float acceleration) {
   const WithoutTicks hold(clock_);
-  lift_.goBack();
+  lift_.goTo(0, motion::toCounts(speed * seconds_per_tick_),
+             motion::toCounts(acceleration * seconds_per_tick_ * seconds_per_tick_));
 }
 
 float Axes::plannedZ() const {

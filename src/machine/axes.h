@@ -76,8 +76,8 @@ class Axes {
   /// Moves z away from its planned height to the height `z` [mm], with `speed` [mm/s] and
   /// `acceleration` [mm/s^2].
   void lift(float z, float speed, float acceleration);
-  /// Moves z back to its planned height.
-  void lower();
+  /// Moves z back to its planned height; speed and acceleration as above.
+  void lower(float speed, float acceleration);
   bool isLifted() const;
   float plannedZ() const;  ///< [mm] planned height
   float liftedTo() const;  ///< [mm] height that z is going to

@@ -26,12 +26,12 @@ void Machine::loop() {
     return;
   }
   char line[gcode::Input::kRoom + 1];
-  if (!input_.takeLine(line)) return clock_.sleep();
+  if ((interlude_.isOn() && !isHalted()) || !input_.takeLine(line)) return clock_.sleep();
   answers_.begin(line);
   const bool done = execute(line);
   // The clients' Hold and Pause only stop sending. The queue is short enough that the sled then
   // stops soon.
-  waitWhile([&] { return !answers_.isAnswered() && isFarAhead(); });
+  waitWhile([&] { return !answers_.isAnswered() && (interlude_.isOn() || isFarAhead()); });
   answer(done);
 }
 

@@ -20,6 +20,7 @@ class Interlude {
   /// Begins a hold: the axes stop on their path.
   void hold(const gcode::Modal& modal, uint32_t now_ms, bool is_input_empty) {
     begin(modal, now_ms, is_input_empty);
+    is_ending_ = is_lowering_ = false;
     is_held_ = true;
   }
 

@@ -28,7 +28,7 @@ void OperatorLines::serve() {
     axes_.hold(false);
     return;
   }
-  if (axes_.isAtRest() && interlude_.takesLines(clock_.milliseconds(), input_.isEmpty()))
+  if (interlude_.takesLines(clock_.milliseconds(), input_.isEmpty()) && axes_.isAtRest())
     serveLine();
 }
 
@@ -37,7 +37,7 @@ bool OperatorLines::bringZBack() {
   if (interlude_.beginsLowering()) {
     out_ << FLASH("Z goes back to ");
     out_.fixed(modal_.fromMm(axes_.plannedZ()), 2).end();
-    axes_.lower();
+    axes_.lower(z_.mostFeed() / 60, z_.acceleration());
   }
   return false;
 }

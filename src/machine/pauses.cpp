@@ -23,8 +23,9 @@ bool Pauses::changeTool(uint16_t tool) {
   if (!waiting_.drain() || !spindle_.turn(false)) return false;
   out_ << FLASH("Tool Change: Please insert tool ") << int32_t(tool);
   out_.end();
+  if (!pause(input_.takeResume())) return false;
   modal_.tool_in_spindle = tool;
-  return pause(input_.takeResume());
+  return true;
 }
 
 bool Pauses::setZByHand(float z) {

@@ -14,7 +14,8 @@ const int32_t kKeptCounts = 12;  // 0.1 mm of chain
 void PositionKeeper::begin(settings::Known known) {
   const bool at_rest = known == settings::Known::kAtRest;
   const bool was_set = known != settings::Known::kNothing;
-  lost_ = at_rest ? uint8_t(0) : was_set ? uint8_t(kLostChains) : uint8_t(kUnset);
+  // Nothing says which axis moved, so z may be anywhere too.
+  lost_ = at_rest ? uint8_t(0) : was_set ? uint8_t(kLostChains | kLostZ) : uint8_t(kUnset);
   state_ = at_rest ? State::kKept : State::kSettling;
   takeCounts();
 }
@@ -25,7 +26,7 @@ void PositionKeeper::doubt(Axis axis) {
 }
 
 void PositionKeeper::declareChains() {
-  lost_ = 0;
+  lost_ = uint8_t(lost_ & kLostZ);
   reconsider();
 }
 

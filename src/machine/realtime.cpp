@@ -59,6 +59,7 @@ void Machine::takeQuick(gcode::Quick quick) {
       out_.line(FLASH("ok"));
       return operator_lines_.resume();
     case Quick::kHold:
+      if (axes_.isDriven() || axis_tests_.isTesting()) return stopNow();
       if (!stopping_ && !isHalted()) operator_lines_.hold();
       return;
     case Quick::kReset:

@@ -27,7 +27,7 @@ bool SingleAxis::move(Axis axis, float goal, float feed, bool until_probe) {
   }
   waiting_.settle();
   // The axis ran on for a moment.
-  if (touched) axes_.declare(axis, axes_.length(axis) - touched_at);
+  if (touched) z_.declare(axes_.length(axis) - touched_at);
   planner_.standAt(axes_.setPoint());
   return !waiting_.isStopping() && (touched || !until_probe);
 }
@@ -120,7 +120,6 @@ bool SingleAxis::probe(float target) {
     place_.standHere();
     return answers_.refuseMotion(FLASH("probe did not connect"));
   }
-  z_.declare(axes_.length(kZAxis));
   out_.line(FLASH("z axis zeroed"));
   return true;
 }

@@ -68,6 +68,7 @@ class SledPlace {
   void lose(FlashText why);
   /// Takes over which axes' counts were proved wrong.
   void doubtCounts();
+  void doubt(Axis axis) { keeper_.doubt(axis); }
   /// What must be set before the sled can cross the sheet.
   FlashText whatIsLost() const;
   /// Stores the position once everything rests; to be called often.

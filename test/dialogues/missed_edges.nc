@@ -29,6 +29,8 @@
 ~~ declare
 <* position loaded at:
 <* ok
+-> G10 Z0
+<* ok
 -> G1 X20 F800
 <- ok
 ~~ miss right 14

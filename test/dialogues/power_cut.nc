@@ -1,4 +1,4 @@
-; At rest the position survives; in motion the machine says that it is lost, and asks.
+; At rest the position survives; in motion the machine says that it is lost, z included, and asks.
 ~~ include setup.inc
 -> G0 X40 Y20
 <- ok
@@ -43,6 +43,13 @@
 <- 0.00 within 0.05
 <- 0.00 within 0.05
 <- ok
+; The chains are set, but z may have been on its way too.
+-> G0 X10
+<- ALARM: Halted at G0 X10: z is not known*
+>> !
+<* z is not known*
+-> G10 Z0
+<* ok
 -> G0 X10
 <- ok
 ~~ wait 4

@@ -51,6 +51,8 @@
 <* *
 <* *
 <- ok
+-> G10 Z0
+<* ok
 ; So it is once chains were pulled by hand meanwhile, or declared.
 -> B99 ON
 <* ok

@@ -145,6 +145,8 @@ TEST(Clean, TakesAwayARightChecksum) {
   EXPECT_EQ("N1G21", cleaned("N1 G21*27"));
   EXPECT_EQ("N1G21", cleaned("N1 G21*27 "));
   EXPECT_EQ("N1G21*28", cleaned("N1 G21*28"));
+  EXPECT_EQ("N1G21*283", cleaned("N1 G21*283")) << "27 and 256 more";
+  EXPECT_EQ("N1G21*65563", cleaned("N1 G21*65563"));
   EXPECT_EQ("N1G21*2 7", cleaned("N1 G21*2 7"));
   EXPECT_EQ("N1G21*", cleaned("N1 G21*"));
   EXPECT_EQ("*", cleaned("*"));

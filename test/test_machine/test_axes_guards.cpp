@@ -55,7 +55,7 @@ TEST(AxesGuards, WhatTheTickUsesIsTouchedOnlyWhileItIsHeldOff) {
       {"isAtRest", [&] { axes.isAtRest(); }},
       {"goAt", [&] { axes.goAt(128); }},
       {"lift", [&] { axes.lift(1, 1, 1); }},
-      {"lower", [&] { axes.lower(); }},
+      {"lower", [&] { axes.lower(1, 1); }},
       {"isLifted", [&] { axes.isLifted(); }},
       {"plannedZ", [&] { axes.plannedZ(); }},
       {"liftedTo", [&] { axes.liftedTo(); }},

@@ -64,7 +64,7 @@ TEST(AxesLift, KnowsWhereZIsPlannedAndWhereItGoes) {
   EXPECT_FLOAT_EQ(1, driven.axes.target(kZAxis));
   EXPECT_FLOAT_EQ(3, driven.axes.plannedZ()) << "the way keeps its heights";
   EXPECT_TRUE(driven.axes.isLifted());
-  driven.axes.lower();
+  driven.axes.lower(5, 50);
   EXPECT_TRUE(driven.axes.isLifted()) << "it is on its way back";
   driven.ticks(200);
   EXPECT_FALSE(driven.axes.isLifted());

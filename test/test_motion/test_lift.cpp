@@ -37,7 +37,7 @@ TEST(Lift, GoesToItsGoalAndBackInTheTimeOfATrapezoid) {
     EXPECT_LE(run(lift), way > kTop * 10 ? most : 2 * std::sqrt(double(way) / kGain) + 4) << goal;
     EXPECT_EQ(goal, lift.at());
   }
-  lift.goBack();
+  lift.goTo(0, kTop, kGain);
   run(lift);
   EXPECT_EQ(0, lift.at());
 }

@@ -69,10 +69,11 @@ Number broken(const char*& text) {
 
 /// Whether `star` begins the checksum of its line: the exclusive or of all characters before it.
 bool beginsChecksum(const char* line, const char* star) {
-  uint8_t sum = 0, stated = 0;
+  uint8_t sum = 0;
+  uint16_t stated = 0;
   for (; line != star; ++line) sum ^= uint8_t(*line);
   const char* at = star + 1;
-  for (; isDigit(*at); ++at) stated = uint8_t(10 * stated + (*at - '0'));
+  for (; isDigit(*at) && stated < 256; ++at) stated = uint16_t(10 * stated + (*at - '0'));
   while (*at == ' ') ++at;
   return at != star + 1 && *at == '\0' && stated == sum;
 }

@@ -19,7 +19,6 @@ class Lift {
     const int32_t least = top_ / 1000 + 1;
     gain_ = gain < least ? least : gain;
   }
-  void goBack() { goal_ = 0; }
   /// Sets the distance to `at` [counts], at rest.
   void standAt(int32_t at) {
     at_ = goal_ = at;

@@ -1,0 +1,18 @@
+; A hold in a dwell: the dwell's line is not answered before ~, so a sender's next line cannot be taken for the operator's.
+~~ include setup.inc
+-> G1 Z-3 F300
+<- ok
+~~ wait 8
+-> G4 P2000
+<- dwell time*
+~~ wait 1
+>> ^H
+~~ wait 3
+~~ quiet
+>> ~
+<- ok
+<- ok
+-> G0 Z5
+<- ok
+~~ wait 14
+~~ z 5 within 0.03
