@@ -24,6 +24,8 @@
 -> B06 L1711 R1709
 <* position loaded at:
 <* ok
+-> G10 Z0
+<* ok
 ~~ wait 1
 ~~ power cut
 <* ok

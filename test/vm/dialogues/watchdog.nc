@@ -49,6 +49,8 @@
 -> B06 L1710 R1710
 <* position loaded at:
 <* ok
+-> G10 Z0
+<* ok
 -> G1 X5 Y0 F600
 <- ok
 ~~ wait 6

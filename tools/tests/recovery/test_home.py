@@ -156,6 +156,7 @@ def test_a_lost_position_is_back_with_the_bit_in_the_hole(seed):
     assert any("Position Lost" in line for line in heard)
     workshop.put_bit_at(holes["left"] + HAND * source.standard_normal(2))
     workshop.send(*repair_program(np.array(marks["left"].chains), where="home mark left"))
+    workshop.send("G10 Z0")  # which may have been on its way too
     after = [workshop.place_at(*site) for site in sites]
     # As good as a touch, larger where the same chains move the sled more.
     assert np.abs(np.subtract(after, before)).max() < 4 * HAND
