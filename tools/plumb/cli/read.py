@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
 
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import sentences, table
@@ -11,8 +10,9 @@ from plumb.cli.text import print_json
 from plumb.firmware.read_back import machine_of_numbers
 from plumb.firmware.settings import every_setting
 from plumb.firmware.telemetry import slip_suspicion, telemetry_in
+from plumb.line.lost_place import lost_place
 from plumb.line.memory import read_numbers
-from plumb.line.sender import Sender, Status
+from plumb.line.sender import Sender
 from plumb.line.serial_port import SerialPort, port_for
 from plumb.settings.files import machine_toml
 
@@ -25,7 +25,9 @@ def run(arguments: argparse.Namespace) -> int:
     try:
         sender = Sender(port)
         sender.await_start()
-        numbers, status = read_numbers(sender), sender.status
+        numbers = read_numbers(sender)
+        lost = lost_place(sender.greeting)
+        place = sender.status.place if sender.status and not lost else None
         telemetry = telemetry_in("\n".join(sender.ask("B30")))
     finally:
         port.close()
@@ -37,11 +39,21 @@ def run(arguments: argparse.Namespace) -> int:
         )
         written = [arguments.output]
     if arguments.json:
-        print_json({**_json(numbers, status, written), "suspicion": suspicion})
+        print_json(
+            {
+                "settings": {f"${number}": value for number, value in numbers.items()},
+                "place": place,
+                "lost": lost or None,
+                "written": written,
+                "suspicion": suspicion,
+            }
+        )
         return 0
     print(_table(numbers))
-    if status:
-        print("\nThe sled is at x {:.2f}, y {:.2f}, the bit at z {:.2f} mm.".format(*status.place))
+    if place:
+        print("\nThe sled is at x {:.2f}, y {:.2f}, the bit at z {:.2f} mm.".format(*place))
+    if lost:
+        print(f"\n{sentences(_way_back(lost), mark='')}")
     if suspicion:
         print(f"\n{sentences([suspicion])}")
     if written:
@@ -49,12 +61,13 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _json(numbers: dict[int, float], status: Status | None, written: list[str]) -> dict[str, Any]:
-    return {
-        "settings": {f"${number}": value for number, value in numbers.items()},
-        "place": status.place if status else None,
-        "written": written,
-    }
+def _way_back(lost: str) -> list[str]:
+    """That the machine does not know its place, in its words, and what brings it back."""
+    return [
+        f"The machine does not know where its sled is. It says: {lost}",
+        "The way back: put the bit into a home mark and ask plumb home --at for the line to send; "
+        "or set the chains with B06 or B08. Then set z with the bit at the sheet's face (G10 Z0).",
+    ]
 
 
 def _table(numbers: dict[int, float]) -> str:

@@ -55,6 +55,7 @@ class Sender:
     # Called again and again while lines are on their way; it may hold the machine, or stop it.
     attend: Callable[[Sender], None] = lambda sender: None
     reports: int = 0  # that came so far
+    greeting: tuple[str, ...] = ()  # what the machine said before its first report
     _partial: str = ""
     _heard_at: float = math.inf  # nobody expects a machine to speak before it was asked
     _spare: int = 0  # answers to come that belong to no line
@@ -74,6 +75,7 @@ class Sender:
                     "program has the line"
                 )
         self.said = said
+        self.greeting += tuple(greeted)
         for line in greeted:
             if line.startswith(WRONG):
                 said(line)

@@ -15,6 +15,7 @@ from queue import Empty, SimpleQueue
 from threading import Event, Lock, Thread
 from typing import Any, Literal, TypeVar
 
+from plumb.line.lost_place import lost_place
 from plumb.line.port import LostError, Port
 from plumb.line.sender import (
     REPORTS,
@@ -32,7 +33,6 @@ Result = TypeVar("Result")
 Phase = Literal["none", "connecting", "ready", "busy", "stopping", "lost"]
 LEAVES = 5.0  # [s] in which a line is usually let go of
 SAID = 30  # lines of the machine that are kept
-LOST_PLACE = ("Position Lost", "Chain lengths are not known")
 FOUND_PLACE = "position loaded at:"
 
 
@@ -221,7 +221,7 @@ class LineWorker:
         program = self.state.program
         assert program is not None
         changes: dict[str, Any] = {"program": replace(program, outcome=outcome), "trouble": trouble}
-        if any(words in trouble for words in LOST_PLACE):
+        if lost_place([trouble]):
             changes["knows_place"] = False
         return _Done(changes)
 
@@ -326,7 +326,7 @@ class LineWorker:
         if line == PAUSED and program and program.outcome == "running":
             changes["program"] = replace(program, paused_at=program.done)
             self._paused(program.done)
-        if any(words in line for words in LOST_PLACE):
+        if lost_place([line]):
             changes["knows_place"] = False
         elif line.startswith(FOUND_PLACE):
             changes["knows_place"] = True
