@@ -7,6 +7,7 @@ import time
 import serial
 from serial.tools import list_ports
 
+from plumb.line.line_lock import LineLock, TakenError, refuse_others
 from plumb.line.port import LostError
 from plumb.text.errors import InputError, refusal
 from plumb.text.readers import to_do
@@ -19,14 +20,21 @@ class SerialPort:
     """An open line. Opening it resets the Mega."""
 
     def __init__(self, path: str) -> None:
-        """Raises InputError if the line cannot be opened."""
+        """Raises InputError if the line cannot be opened, or if another program has it."""
         self.path = path
+        try:
+            self._lock = LineLock(path)
+        except TakenError:
+            why, remedy = "another plumb has the line", "wait until it is done, or end it"
+            raise refusal(path, why, remedy=remedy) from None
         try:
             self._line = serial.Serial(path, BAUD, timeout=PATIENCE, exclusive=True)
         except serial.SerialException as error:
+            self._lock.release()
             busy = "busy" in str(error).lower() or "lock" in str(error).lower()
             remedy = "close the program that has it" if busy else "check the cable and the name"
             raise refusal(path, "cannot be opened", remedy=remedy) from None
+        refuse_others(path, self._line.fileno())
 
     def write(self, characters: bytes) -> None:
         """Put characters on the line."""
@@ -50,6 +58,7 @@ class SerialPort:
     def close(self) -> None:
         """Let go of the line."""
         self._line.close()
+        self._lock.release()
 
     def _lost(self) -> LostError:
         return LostError(str(refusal(self.path, "the line was lost", remedy="check the cable")))
