@@ -42,10 +42,8 @@ def run(arguments: argparse.Namespace) -> int:
     tape = Tape(garage, np.random.default_rng([arguments.seed, 5]), noise=arguments.noise)
     if tape_form:
         tape.get_ready(tape_form)
-    terminal = PseudoTerminal(machine)
+    terminal = _terminal(machine, arguments.link)
     try:
-        if arguments.link:
-            terminal.link_as(arguments.link)
         print(f"The machine is at {terminal.link or terminal.path}. Ctrl-C ends it.", flush=True)
         _serve(terminal, arguments, lambda: _fill(tape, machine, tape_form, arguments.readings))
     except KeyboardInterrupt:
@@ -57,6 +55,18 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.reveal:
         print(f"Hidden was: {described(hidden)}.")
     return 0
+
+
+def _terminal(machine: VirtualMachine, link: str | None) -> PseudoTerminal:
+    """The machine's port, under its name. A machine whose name is taken leaves no trace."""
+    terminal = PseudoTerminal(machine)
+    if link:
+        try:
+            terminal.link_as(link)
+        except InputError:
+            terminal.close()
+            raise
+    return terminal
 
 
 def _form(arguments: argparse.Namespace) -> str:

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import plumb._vm
 from plumb._vm import VirtualMachine
+from plumb.line.line_lock import PSEUDO, LineLock, TakenError
 from plumb.text.errors import refusal
 from plumb.vm.opening import OpeningWatch
 from plumb.vm.whole_lines import WholeLines
@@ -43,6 +44,7 @@ class PseudoTerminal:
         self._master, slave = pty.openpty()
         tty.setraw(slave)
         self.path = os.ttyname(slave)
+        self._serves = LineLock(_served(self.path))
         # Without a program at the other end the master hangs up; so an opening shows.
         os.close(slave)
         os.set_blocking(self._master, False)
@@ -57,10 +59,11 @@ class PseudoTerminal:
 
     def close(self) -> None:
         """Take the port away."""
-        if self.link:
-            self.link.unlink(missing_ok=True)
+        if self.link and _leads_to(self.link) == self.path:
+            self.link.unlink()
         self._openings.close()
         os.close(self._master)
+        self._serves.release()
 
     def pass_time(self, milliseconds: int) -> None:
         """Let the machine's time pass, and carry what is on the line both ways.
@@ -84,6 +87,7 @@ class PseudoTerminal:
         """Give the port a name; InputError if something else has it."""
         path = Path(link)
         if path.is_symlink():
+            _refuse_if_used(path)
             path.unlink()
         try:
             path.symlink_to(self.path)
@@ -129,6 +133,30 @@ class PseudoTerminal:
             self._waiting = b""  # what nobody reads is lost, as on a wire
         with contextlib.suppress(OSError):
             self._waiting = self._waiting[os.write(self._master, self._waiting) :]
+
+
+def _served(path: str) -> str:
+    """What a machine holds as long as it serves the pseudo terminal at `path`."""
+    return f"{path}-machine"
+
+
+def _leads_to(link: Path) -> str:
+    """Where a link leads; empty if it is none."""
+    return os.readlink(link) if link.is_symlink() else ""
+
+
+def _refuse_if_used(link: Path) -> None:
+    """InputError for the link of a machine that runs, or of something else that is there."""
+    there = _leads_to(link)
+    if not there.startswith(PSEUDO):
+        if link.exists():
+            raise refusal(link, "is the name of something else", remedy="give another --link")
+        return
+    try:
+        LineLock(_served(there)).release()
+    except TakenError:
+        why = "a virtual machine is at it already"
+        raise refusal(link, why, remedy="end it or give another --link") from None
 
 
 class Pace:
