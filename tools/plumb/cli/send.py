@@ -14,13 +14,13 @@ from plumb.cli.screen import Bar, sentences
 from plumb.diary.entries import PROGRAM, program_entry
 from plumb.diary.keeping import keep
 from plumb.diary.numbers_written import write_and_keep
+from plumb.jobs.program_file import refuse_other_files, refuse_what_is_no_program
 from plumb.line.machine_numbers import kept_before, lines_for
 from plumb.line.memory import Written
 from plumb.line.sender import Sender, StoppedError, cleaned
 from plumb.line.serial_port import SerialPort, port_for
 from plumb.line.waits import PAUSED, waits_in
 from plumb.settings.files import read_settings
-from plumb.text.errors import refusal
 from plumb.text.files import read_text
 
 SHOWN = 20  # changed numbers in the answer
@@ -29,14 +29,8 @@ SHOWN = 20  # changed numbers in the answer
 def run(arguments: argparse.Namespace) -> int:
     """Send it, print what the machine says, and return the exit code."""
     what = arguments.what
-    is_file = Path(what).is_file()
-    if not is_file and (what.endswith((".nc", ".toml", ".gcode", ".ngc")) or "/" in what):
-        raise refusal(what, "there is no such file", remedy="check the name")
-    numbers = lines_for(read_settings(what), what) if what.endswith(".toml") else None
-    if arguments.undo:
-        numbers = kept_before(what)
-    text = read_text(what).splitlines() if is_file else [what]
-    list(cleaned(text))  # raises InputError before the line is opened, which resets the board
+    numbers = _numbers(what, back=arguments.undo)
+    text = _program(what) if numbers is None else []
     port = SerialPort(port_for(arguments.port))
     try:
         sender = Sender(port, said=print)
@@ -50,6 +44,30 @@ def run(arguments: argparse.Namespace) -> int:
         return code
     finally:
         port.close()
+
+
+def _numbers(what: str, *, back: bool) -> list[str] | None:
+    """The numbers of a machine.toml, or those before it was sent; None for a program."""
+    if back:
+        return kept_before(what)
+    if not what.endswith(".toml"):
+        return None
+    refuse_other_files(what, read_text(what))
+    return lines_for(read_settings(what), what)
+
+
+def _program(what: str) -> list[str]:
+    """The lines of a program, or a single line; all is read before the line is opened, which resets
+    the board. InputError for what cannot be sent."""
+    looks_like_file = what.endswith((".nc", ".gcode", ".ngc")) or "/" in what
+    if not looks_like_file and not Path(what).exists():
+        lines = [what]
+    else:
+        text = read_text(what)
+        refuse_what_is_no_program(what, text)
+        lines = text.splitlines()
+    list(cleaned(lines))
+    return lines
 
 
 def _write(sender: Sender, path: str, lines: list[str], *, back: bool) -> tuple[Written, str]:

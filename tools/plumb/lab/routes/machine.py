@@ -12,6 +12,7 @@ from pydantic import BaseModel, Field
 from plumb.diary.numbers_written import write_and_keep
 from plumb.firmware.read_back import machine_of_numbers
 from plumb.firmware.settings import every_setting
+from plumb.jobs.program_file import refuse_what_is_no_program
 from plumb.lab.choices import save_choices
 from plumb.lab.guard import PROTOCOL
 from plumb.lab.machine_line import MachineLine, TheLine, line_of, ports
@@ -181,6 +182,7 @@ def disconnect(line: TheLine) -> MachineAnswer:
 @router.post("/machine/program")
 def send_program(request: ProgramRequest, line: TheLine) -> MachineAnswer:
     """Begin to send G-code. The machine moves."""
+    refuse_what_is_no_program(request.title, request.text)
     line.send(request.title, request.text.splitlines())
     return machine(line)
 
