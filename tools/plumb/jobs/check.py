@@ -12,6 +12,7 @@ from plumb.jobs.findings import Finding, findings_of
 from plumb.jobs.hanging import Hanging, hanging_along
 from plumb.jobs.moves import Samples
 from plumb.jobs.parts import Part, parts_of
+from plumb.jobs.resting import rests_too_high
 from plumb.jobs.speeds import Slower, Times, slower_moves, times_of
 from plumb.settings.machine import MachineSettings
 
@@ -55,11 +56,13 @@ def check(
     over_sheet = done.moves.only(done.moves.over_sheet)
     samples = over_sheet.sampled(STEP)
     parts = parts_of(over_sheet, samples)
+    findings = findings_of(done)
+    findings += rests_too_high(settings, done, findings)
     errors = errors_of(Believed.of(inputs), settings, parts) if inputs else None
     return Checked(
         done=done,
         samples=samples,
-        findings=findings_of(done),
+        findings=tuple(sorted(findings, key=lambda finding: finding.line)),
         hanging=hanging_along(settings, over_sheet, samples, limits or {}),
         slower=slower_moves(over_sheet),
         times=times_of(done),

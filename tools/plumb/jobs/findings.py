@@ -11,6 +11,7 @@ from plumb.jobs.dry_run import Done
 from plumb.jobs.moves import IN_WOOD, Moves
 
 HALTS, LEAVES, GOUGES, WAITS, IGNORED = "halts", "leaves the sheet", "gouges", "waits", "ignored"
+SINKS = "may sink"
 WRONG = (HALTS, LEAVES, GOUGES)
 ACROSS = 0.05  # [mm] over the sheet: more than z alone moves
 

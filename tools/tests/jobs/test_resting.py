@@ -1,0 +1,74 @@
+"""plumb check names the places where the sled may sink when its motors let go."""
+
+from dataclasses import replace
+
+import pytest
+from plumb.bench.causes import MAKER
+from plumb.cli.main import main
+from plumb.jobs.check import check
+from plumb.jobs.findings import SINKS
+from plumb.line.sender import Sender
+from plumb.settings.files import machine_toml
+from plumb.vm.garage import random_garage, set_up
+from plumb.vm.hiding import hide
+from plumb.vm.in_process import InProcessPort
+
+WEAK = 2  # the seed of a machine whose gears hold little
+LOW, HIGH = 200, 500  # [mm] y of rests that hold, and that may not
+
+
+def rests(lines, settings=MAKER):
+    """Lines at which the sled may sink."""
+    checked = check(settings, lines)
+    assert checked.is_good
+    return [each.line for each in checked.findings if each.kind == SINKS]
+
+
+@pytest.mark.parametrize(("y", "lines"), [(LOW, []), (HIGH, [3])])
+def test_the_end_of_a_program_is_looked_at(y, lines):
+    assert rests(["G21", "G0 Z5", f"G0 X0 Y{y}"]) == lines
+    assert rests(["G0 Z5", f"G0 X0 Y{y}", "G0 Y0"]) == []
+
+
+def test_a_pause_is_looked_at_where_the_sled_then_is():
+    assert rests(["G0 Z5", f"G0 Y{HIGH}", "M0", f"G0 Y{LOW}", "M0", "G0 Y0"]) == [3]
+    assert rests(["M0", "G0 Z5", f"G0 Y{HIGH}", "G0 X5", "M0"]) == [4, 5]
+    assert rests(["M0", "G4 P1"]) == []
+
+
+def test_a_heavier_sled_sinks_from_lower_places():
+    end = ["G0 Z5", f"G0 X0 Y{LOW}"]
+    assert rests(end, replace(MAKER, sled_weight=1.2 * MAKER.sled_weight)) == [2]
+
+
+def test_a_caution_is_said_and_is_no_error(tmp_path, capsys):
+    (tmp_path / "machine.toml").write_text(machine_toml(MAKER))
+    job = [f"G0 Y{HIGH}", "M0", f"G0 X5 Y{HIGH}", "M0", "G0 X0", "M0", f"G0 Y{HIGH + 50}"]
+    (tmp_path / "job.nc").write_text("\n".join(["G0 Z5", *job, ""]))
+    assert main(["check", str(tmp_path / "job.nc"), str(tmp_path / "machine.toml")]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "Nothing is wrong with job.nc." in said
+    assert "line 3: the program waits at X0.00 Y500.00, where the sled may sink" in said
+    assert "a chain pulls with 137 N, and some gears hold no more than 104 N" in said
+    assert "may sink at 2 more rests; --json has all" in said
+
+
+def test_a_machine_with_weak_gears_sinks_only_where_the_check_says_so():
+    garage = random_garage(hide([], millimetres=3, seed=WEAK), WEAK, feed="top")
+    machine = garage.machine(elf=None)
+    machine.start()
+    sender = Sender(InProcessPort(machine))
+    sender.await_start()
+    set_up(sender, garage.settings)
+    sank = {}
+    for y in (LOW, 300):
+        sender.stream([f"G0 X0 Y{y}", "G4 P0"])
+        machine.advance(500)
+        sender.listen()
+        before = sender.status.place[1]
+        machine.advance(6000)
+        sender.listen()
+        sank[y] = before - sender.status.place[1] > 0.5
+        assert sank[y] == bool(rests(["G0 Z5", f"G0 X0 Y{y}"], garage.settings))
+    machine.stop()
+    assert sank == {LOW: False, 300: True}
