@@ -279,7 +279,7 @@ def _surprises(parameters: Sequence[Parameter]) -> list[str]:
     """Sentences about numbers that no real machine has, that moved too far, or that may be zero."""
     said = []
     for parameter in parameters:
-        if _may_be_zero(parameter):
+        if may_be_zero(parameter):
             said.append(_zero_sentence(parameter))
         elif not parameter.plausible:
             said.append(_impossible(parameter))
@@ -294,7 +294,7 @@ def _surprises(parameters: Sequence[Parameter]) -> list[str]:
     return said
 
 
-def _may_be_zero(parameter: Parameter) -> bool:
+def may_be_zero(parameter: Parameter) -> bool:
     """Whether a free parameter that was absent before may be absent still."""
     free = parameter.prior_sigma is None and parameter.before == 0
     return free and parameter.low < 0 < parameter.high

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from plumb.cure.add import Addition, add
+from plumb.cure.add import Addition, add, may_be_zero
 from plumb.diagnosis import Diagnosis, diagnose
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements
@@ -67,7 +67,7 @@ def add_auto(
     best = (possible[0] if possible else ()) if known else diagnosis.to_add
     chosen = tuple(sorted(best, key=order.index))
     rivals = tuple(possible[1:])
-    addition = add(inputs, effects=chosen)
+    chosen, addition = _added(inputs, chosen)
     if not known and chosen and not _helps(addition):
         chosen, addition = (), add(inputs, effects=())
     reason, offer = _reason(diagnosis, chosen, rivals), None
@@ -77,6 +77,19 @@ def add_auto(
         addition = patched if patch else addition
     settled_by = _settled_by(chosen, rivals)
     return AutoAddition(diagnosis, chosen, rivals, addition, reason, offer, settled_by)
+
+
+def _added(inputs: Inputs, chosen: tuple[str, ...]) -> tuple[tuple[str, ...], Addition]:
+    """These effects and their fit, without those that it gives an impossible size which may as well
+    be zero."""
+    addition = add(inputs, effects=chosen)
+    useful = tuple(name for name in chosen if not _is_needless(name, addition))
+    return (chosen, addition) if useful == chosen else _added(inputs, useful)
+
+
+def _is_needless(effect: str, addition: Addition) -> bool:
+    sizes = [each for each in addition.parameters if each.name.partition(".")[0] == effect]
+    return all(map(may_be_zero, sizes)) and not all(each.plausible for each in sizes)
 
 
 def _helps(addition: Addition) -> bool:

@@ -3,6 +3,7 @@
 import json
 from dataclasses import replace
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,6 +19,8 @@ from plumb.settings.files import read_settings
 from plumb.text.errors import InputError
 
 WIDE = plan(5, 5)
+EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
+NEGATIVE_STRETCH = Path(__file__).with_name("negative_stretch.toml")
 
 
 def moved(measurements, index, by):
@@ -133,6 +136,17 @@ def test_impossible_sizes_are_never_added_by_themselves():
     )
     assert result.chosen == () and not result.done
     assert "no real machine has" in result.reason
+
+
+def test_an_effect_of_impossible_size_that_may_be_zero_is_left_out():
+    stock = read_settings(EXAMPLE / "groundcontrol.ini")
+    measured = read_marks(NEGATIVE_STRETCH, sheet=stock.sheet)
+    result = add_auto(Inputs(stock, measured))
+    best = result.diagnosis.explanations[0].effects
+    assert set(best) == {"chain_stretch", "chain_pitch"}  # the stretch below nothing
+    assert result.chosen == ("chain_pitch",)
+    assert all(parameter.plausible for parameter in result.addition.parameters)
+    assert result.addition.settings.effect("chain_stretch", "compliance") >= 0
 
 
 def test_the_command_writes_nothing_for_a_slip_and_says_so(tmp_path, capsys):
