@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from plumb.cli.add_text import COLUMNS, parameter_table, quality_table
 from plumb.cli.client import client_text
-from plumb.cli.compare import conclusion
+from plumb.cli.compare import conclusion, outside_sentence
 from plumb.cli.diagnose import explanation_table
 from plumb.cli.next import after, first_proposal
 from plumb.cli.screen import headline, sentences
@@ -47,6 +47,9 @@ def as_text(
     """The whole round for people: what is, what is missing, what was done, what comes next."""
     diagnosis, addition = this.result.diagnosis, this.result.addition
     parts = [conclusion(this.comparison, inputs.settings.sheet_width, inputs.measurements.typed)]
+    outside = outside_sentence(this.comparison.promised) if this.comparison.promised else ""
+    if outside:
+        parts.append(sentences([f"{outside} The diagnosis asks for that again."], mark=""))
     parts.append(sentences([verdict_sentence(diagnosis)], mark=""))
     if diagnosis.slips:
         parts.append(sentences([slip.sentence for slip in diagnosis.slips]))

@@ -14,6 +14,7 @@ from plumb.diagnosis.check_marks import Check, check
 from plumb.diagnosis.check_sentence import check_sentence
 from plumb.diary.entries import RECHECK
 from plumb.diary.keeping import keep
+from plumb.fit.read_inputs import refuse_the_same_twice
 from plumb.marks.read import read_marks
 from plumb.model.predict import known_effects
 from plumb.text.errors import InputError
@@ -28,6 +29,7 @@ def held_against_marks(arguments: argparse.Namespace) -> int:
         raise InputError(
             f"--check {arguments.check}: give the marks to which {arguments.settings} was fitted"
         )
+    refuse_the_same_twice([*arguments.marks, arguments.check])
     inputs = with_stated(inputs_of(arguments), arguments)
     if inputs.settings.fitted is None:
         raise InputError(f"{arguments.settings} was fitted to no marks: give what plumb add wrote")

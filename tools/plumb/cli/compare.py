@@ -15,6 +15,7 @@ from plumb.cli.text import about, print_json
 from plumb.fit.compare import Comparison, compare
 from plumb.marks.model import Typed
 from plumb.marks.score import Score
+from plumb.model.plain import plain_size
 from plumb.pictures.panel import Panel
 from plumb.pictures.sheet import draw
 from plumb.settings.fit_record import FitRecord
@@ -176,7 +177,18 @@ def promised_sentence(record: FitRecord, sheet_width: float) -> str:
             f" The sheet counts as turned by {signed(rise)} {unit()} over its width, as the fit "
             "saw it."
         )
-    return said
+    outside = outside_sentence(record)
+    return f"{said} {outside}" if outside else said
+
+
+def outside_sentence(record: FitRecord) -> str:
+    """What the fit found outside of the machine, which an error as set counts; "" for nothing."""
+    sizes = [
+        plain_size(f"{effect}.{name}", size)
+        for effect, parameters in record.lab_effects.items()
+        for name, size in parameters.items()
+    ]
+    return f"The error counts what the fit found: {'; '.join(sizes)}." if sizes else ""
 
 
 def benchmark_sentence(score: Score, left: Score | None) -> str:

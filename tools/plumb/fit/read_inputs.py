@@ -34,7 +34,7 @@ def read_inputs(
     in_force = settings_in(cut_with) if cut_with else None
     # Marks count from the edges of the sheet on which they were cut.
     sheet = (in_force or machine).sheet
-    _refuse_the_same_twice(marks)
+    refuse_the_same_twice(marks)
     known = known_effects()
     parts = [read_marks(path, sheet=sheet, known=known) for path in marks]
     parts = [with_settings_in_force(machine, part, cut_with=in_force) for part in parts]
@@ -42,7 +42,7 @@ def read_inputs(
     return Inputs(machine, measurements, cut_with=in_force, controller=controller)
 
 
-def _refuse_the_same_twice(paths: Sequence[AnyPath]) -> None:
+def refuse_the_same_twice(paths: Sequence[AnyPath]) -> None:
     """A file given twice would pass for readings that repeat without any noise."""
     seen: set[str] = set()
     for path in paths:

@@ -208,3 +208,17 @@ def test_settings_that_changed_since_the_cut_are_noticed(run, ask, fitted):
 
 def test_the_digest_of_settings_counts_every_number_that_moves_the_sled():
     assert {*KEYS, "chainlength"} == {key.lower() for _, key in SOURCES.values()}
+
+
+def test_what_was_fitted_outside_of_the_machine_is_said_where_the_error_counts_it(run, fitted):
+    add = ("add", "groundcontrol.ini", "marks.toml", "--effect", "tape_scale", "-o", "tape.toml")
+    assert run(*add)[0] == 0
+    counted = "The error counts what the fit found: tape reads 0.1"
+    for command in ("compare", "calibrate"):
+        assert counted in " ".join(run(command, "tape.toml", "marks.toml")[1].split())
+        assert "counts what" not in run(command, "machine.toml", "marks.toml")[1]
+
+
+def test_marks_that_a_fit_has_seen_check_nothing(run, fitted):
+    code, _, error = run("recheck", "machine.toml", "marks.toml", "--check", "marks.toml")
+    assert code == 2 and "marks.toml: is given twice" in error
