@@ -34,6 +34,13 @@ def test_a_pause_is_looked_at_where_the_sled_then_is():
     assert rests(["G0 Z5", f"G0 Y{HIGH}", "M0", f"G0 Y{LOW}", "M0", "G0 Y0"]) == [3]
     assert rests(["M0", "G0 Z5", f"G0 Y{HIGH}", "G0 X5", "M0"]) == [4, 5]
     assert rests(["M0", "G4 P1"]) == []
+    assert rests([f"G0 Y{HIGH}", "M0", "G0 Y0"]) == [2]
+    assert rests(["G0 Z5", f"G0 Y{HIGH} M0", "G0 Y0"]) == [2]
+
+
+def test_the_tighter_chain_counts():
+    for x in (600, -600):  # where the chains pull with 91 and 111 N
+        assert rests(["G0 Z5", f"G0 X{x} Y350"]) == [2]
 
 
 def test_a_heavier_sled_sinks_from_lower_places():
