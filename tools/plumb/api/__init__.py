@@ -16,6 +16,7 @@ from plumb.cure.add import add as add_effects
 from plumb.cure.auto import AutoAddition, add_auto
 from plumb.diagnosis import Checked, Diagnosis
 from plumb.diagnosis import diagnose as diagnosis_of
+from plumb.fit.absurd_checks import refuse_absurd
 from plumb.fit.compare import Comparison
 from plumb.fit.compare import compare as comparison_of
 from plumb.fit.inputs import Inputs
@@ -63,6 +64,7 @@ def read(
     checks = [Checked(name, *numbers) for name, numbers in (checked or {}).items()]
     frame = priors_with(list((priors or {}).items()))
     inputs = read_inputs(settings, marks, cut_with=cut_with, controller=controller)
+    refuse_absurd(checks, inputs.settings)
     return replace(inputs, sigma=sigma, priors=frame, checked=checks)
 
 

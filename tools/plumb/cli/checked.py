@@ -9,6 +9,7 @@ from dataclasses import replace
 from plumb.cli.arguments.checked import EXAMPLE, Measured
 from plumb.cure.add import priors_with
 from plumb.diagnosis import Checked
+from plumb.fit.absurd_checks import refuse_absurd
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import PRIORS
 from plumb.model.catalogue import parameter_words
@@ -19,6 +20,7 @@ def with_stated(inputs: Inputs, arguments: argparse.Namespace) -> Inputs:
     """The inputs with all numbers that the command line states."""
     priors = priors_with(arguments.prior)
     checks = usable_checks(arguments.checked, priors)
+    refuse_absurd(checks, inputs.settings)
     return replace(inputs, priors=priors, sigma=arguments.sigma, checked=checks)
 
 

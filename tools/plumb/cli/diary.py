@@ -61,7 +61,8 @@ def _text(diary: Diary, history: History) -> str:
         parts += [_fits(history), _numbers(history)]
     others = [entry for entry in diary.entries if entry.kind != "fit"][-LAST:]
     if others:
-        parts.append(table(["date", "what else"], [[_date(each), noted(each)] for each in others]))
+        rows = [[_date(each), noted(each)] for each in others]
+        parts.append(table(["date", "what else"], rows, words=[1]))
     if diary.spoilt:
         lines = ", ".join(map(str, diary.spoilt))
         parts.append(sentences([f"{diary.path}: line {lines} is cut or was changed; passed over"]))

@@ -10,9 +10,12 @@ from plumb.cli.text import print_json
 from plumb.fit.read_inputs import settings_in
 from plumb.model.gap import BEYOND, MotorGap, motor_gap
 from plumb.text.errors import InputError
-from plumb.text.shown import worded
+from plumb.text.shown import brief, worded
 
 MOST_SPREAD = 0.5  # [mm]
+MISREAD = 5.0  # [mm] of spread: no two pulls of a machine differ so much
+USUAL_PULLS = (60.0, 105.0)  # [N] of B11
+POSSIBLE_PULLS = (25.0, 250.0)  # [N] of a drop that can be meant
 LEAST_GAP, MOST_GAP = 1000.0, 6000.0  # [mm]
 
 
@@ -37,6 +40,7 @@ def run(arguments: argparse.Namespace) -> int:
         drop=arguments.drop,
         flex=arguments.flex,
     )
+    _refuse_misread(arguments, measured)
     if arguments.json:
         print_json(_json(arguments, measured))
     else:
@@ -44,6 +48,36 @@ def run(arguments: argparse.Namespace) -> int:
         print()
         print(sentences(_reasons(arguments, measured)))
     return 0
+
+
+def _refuse_misread(arguments: argparse.Namespace, measured: MotorGap) -> None:
+    """Raise InputError for lengths, or a drop, that no machine gives."""
+    if measured.spread > MISREAD:
+        raise InputError(
+            f"--length: the lengths differ by {worded(measured.spread)}, and pulls differ by "
+            f"{worded(MISREAD, 0)} at most: a length was misread, or the chain skipped; pull again"
+        )
+    drop = arguments.drop
+    if drop is None or _is_in(measured.pull, POSSIBLE_PULLS):
+        return
+    shifted = (drop / 10, 10 * drop)  # the point in another place
+    meant = [each for each in shifted if _is_in(measured.pull * drop / each, USUAL_PULLS)]
+    asked = f"is it {_number(meant[0])}?" if meant else "measure it again"
+    usual, possible = (f"{low:.0f} to {high:.0f} N" for low, high in (USUAL_PULLS, POSSIBLE_PULLS))
+    raise InputError(
+        f"--drop {_number(drop)}: that means a pull of {measured.pull:.0f} N, and B11 pulls with "
+        f"{usual} (from a drop {possible} are taken): {asked}"
+    )
+
+
+def _is_in(pull: float, limits: tuple[float, float]) -> bool:
+    """Whether a pull [N] is within limits."""
+    return limits[0] <= pull <= limits[1]
+
+
+def _number(length: float) -> str:
+    """A length [mm] as it was typed, without its unit."""
+    return brief(length).partition(" ")[0]
 
 
 def _reasons(arguments: argparse.Namespace, measured: MotorGap) -> list[str]:

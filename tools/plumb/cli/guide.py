@@ -62,7 +62,15 @@ def _folded(text: str) -> str:
     end = " " if text.endswith(" ") else ""
     return (
         "\n".join(
-            "\n".join(wrap(line, WIDTH, subsequent_indent=" " * (len(line) - len(line.lstrip()))))
+            "\n".join(
+                wrap(
+                    line,
+                    WIDTH,
+                    subsequent_indent=" " * (len(line) - len(line.lstrip())),
+                    break_on_hyphens=False,  # names of files stay whole
+                    break_long_words=False,
+                )
+            )
             for line in text.rstrip().split("\n")
         )
         + end

@@ -69,7 +69,7 @@ def _keep(arguments: argparse.Namespace, settings: MachineSettings, answer: _Ans
     name, place = arguments.keep
     mark = new_home_mark(settings, name, place, date=f"{date.today():%Y-%m-%d}")
     answer.marks[name] = mark
-    answer.lines = hole_program(place)
+    answer.lines = hole_program(mark)
     answer.said = [
         f"Home mark {name} is kept at {_place(place)}, with the chains {_chains(mark)}.",
         "Make the hole with the program, in what cannot move: the frame, or a board on it. A hole "

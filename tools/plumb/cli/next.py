@@ -203,7 +203,8 @@ def _table(advice: Next) -> str:
     if counted:
         header += ["suspects left", "tells apart"]
     header[1] = "what"
-    return table(header, rows, left=2)
+    said = [header.index(HEADS[FIND])] if question == FIND else []  # sizes of effects in words
+    return table(header, rows, left=2, words=said)
 
 
 def _row(place: str, proposal: Proposal, counted: bool) -> list[str]:

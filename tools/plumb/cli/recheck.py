@@ -15,6 +15,7 @@ from plumb.diary.file import read_diary
 from plumb.diary.recheck import LEFT, RIGHT, SHEET_X, SHEET_Y, Change, Recheck, recheck
 from plumb.fit.read_inputs import settings_in
 from plumb.model.plain import plain_name, words_of
+from plumb.recovery.touched import FAR, are_apart
 from plumb.text.errors import InputError
 from plumb.text.shown import bare, signed, unit, worded
 
@@ -31,9 +32,15 @@ def run(arguments: argparse.Namespace) -> int:
             raise InputError(f"{name.replace('_', '-')} is for --check: leave it out")
     if len(arguments.touch) < FEWEST:
         raise InputError("two marks are needed: give --touch twice, for places far apart")
+    touches = touches_of(arguments)
+    if not are_apart(touches):
+        raise InputError(
+            f"the marks are less than {worded(FAR, 0)} apart: they are a single place; touch "
+            "another far from it"
+        )
     folder = Path(arguments.settings).parent
     settings = settings_in(arguments.settings)
-    checked = recheck(read_diary(folder), settings, touches_of(arguments), sigma=arguments.sigma)
+    checked = recheck(read_diary(folder), settings, touches, sigma=arguments.sigma)
     return report(arguments, _json(checked), _text(checked))
 
 

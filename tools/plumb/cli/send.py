@@ -11,6 +11,7 @@ from threading import Event
 from plumb.cli.output import say_failure
 from plumb.cli.question import Question
 from plumb.cli.screen import Bar, sentences
+from plumb.cli.steps import next_step
 from plumb.diary.entries import PROGRAM, program_entry
 from plumb.diary.keeping import keep
 from plumb.diary.numbers_written import write_and_keep
@@ -33,11 +34,11 @@ def run(arguments: argparse.Namespace) -> int:
     text = _program(what) if numbers is None else []
     port = SerialPort(port_for(arguments.port))
     try:
-        sender = Sender(port, said=print)
+        sender = Sender(port, said=_say)
         sender.await_start()
         if numbers is not None:
             written = _write(sender, what, numbers, back=arguments.undo)
-            _print_written(written, back=arguments.undo)
+            _print_written(arguments, written)
             return 0
         code = _stream_and_note(sender, what, text)
         sender.await_rest()
@@ -77,18 +78,25 @@ def _write(sender: Sender, path: str, lines: list[str], *, back: bool) -> tuple[
     return written, kept
 
 
-def _print_written(done: tuple[Written, str], *, back: bool) -> None:
+def _say(line: str) -> None:
+    """Print what the machine says, on lines that fit the screen."""
+    print(sentences([line], mark=""))
+
+
+def _print_written(arguments: argparse.Namespace, done: tuple[Written, str]) -> None:
     written, kept = done
     rows = [f"${number}: {old:g} -> {new:g}" for number, (old, new) in written.changed.items()]
     more = len(rows) - SHOWN
     rows = rows[:SHOWN] + ([f"and {more} more"] if more > 0 else [])
     print("The machine holds the numbers; each was read back.")
     print(sentences(rows) if rows else "- none had to change")
-    if back:
-        print(f"The numbers that it took back are in {kept}.")
+    if arguments.undo:
+        print(sentences([f"The numbers that it took back are in {kept}."], mark=""))
     else:
-        undo = "To bring them back: plumb send --undo, with this file."
-        print(f"The old numbers are in {kept}. {undo}")
+        print(sentences([f"The old numbers are in {kept}."], mark=""))
+        port = ["--port", arguments.port] if arguments.port else []
+        undo = ["send", "--undo", arguments.what, *port]
+        print(next_step("To bring them back:", undo))
 
 
 class _Attendant:
@@ -114,7 +122,7 @@ class _Attendant:
         if line == PAUSED:
             self._waits_now = True
         else:
-            print(line)
+            _say(line)
 
     def attend(self, sender: Sender) -> None:
         """Hold, ask, and do what is answered; called again and again."""

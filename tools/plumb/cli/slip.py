@@ -29,7 +29,7 @@ from plumb.recovery.slip import (
     SlipFinding,
     find_slip,
 )
-from plumb.recovery.touched import Point
+from plumb.recovery.touched import Point, lost_sign
 from plumb.text.errors import InputError
 from plumb.text.shown import bare, signed, unit, worded
 
@@ -62,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
         print_json(answer)
     else:
         print(_text(finding, lines, arguments, further))
-    return int(finding.verdict in (SLIP, CANNOT_TELL))
+    return int(finding.verdict not in (NOTHING, SHEET))
 
 
 def _lines(finding: SlipFinding) -> list[str]:
@@ -107,7 +107,12 @@ def _text(
                 "likeliest accounts differ most, and give all touches."
             )
         parts.append(sentences([said], mark=""))
-    return "\n\n".join(parts)
+    asked = [
+        f"Touch {touch.name}: has {name} lost its sign? The other sign lies near the hole."
+        for touch in finding.touches
+        if (name := lost_sign(touch))
+    ]
+    return "\n\n".join([*parts, sentences(asked, mark="")] if asked else parts)
 
 
 def sentence(finding: SlipFinding) -> str:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import argparse
 
 from plumb.recovery.home import HomeMark, home_file, read_home_marks
-from plumb.recovery.touched import Touch
+from plumb.recovery.touched import Touch, refuse_repeated
 from plumb.text.errors import InputError
 
 
 def touches_of(arguments: argparse.Namespace) -> tuple[Touch, ...]:
-    """The touches, numbered, those of home marks by name."""
+    """The touches, numbered, those of home marks by name. Raises InputError for a hole twice."""
     touches = []
     for number, (hole, shown) in enumerate(arguments.touch, 1):
         if isinstance(hole, str):
@@ -18,6 +18,7 @@ def touches_of(arguments: argparse.Namespace) -> tuple[Touch, ...]:
             touches.append(Touch(hole, mark.place, shown))
         else:
             touches.append(Touch(str(number), hole, shown))
+    refuse_repeated(touches)
     return tuple(touches)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -136,7 +137,7 @@ def tell_numbers(visit: Visit) -> bool:
     written, _, failure = write_and_keep(visit.sender, str(visit.path), lines)
     write_whole(visit.path, machine_toml(changed).encode())
     rows = [f"  ${number}: {old:g} -> {new:g}" for number, (old, new) in written.changed.items()]
-    undo = to_do(f"plumb send --undo {visit.path.name} brings them back", page="nothing is lost")
+    undo = to_do(f"plumb send --undo {_file(visit)} brings them back", page="nothing is lost")
     talk.say("\n".join(["The machine holds these numbers; each was read back.", *rows]))
     talk.say(f"The numbers that it had before are kept in this folder: {undo}.")
     if failure:
@@ -144,12 +145,17 @@ def tell_numbers(visit: Visit) -> bool:
     return True
 
 
+def _file(visit: Visit) -> str:
+    """The settings' file, as a shell takes it where the guide was started."""
+    return shlex.quote(str(visit.path))
+
+
 def show_reach(visit: Visit) -> bool:
     """Say how much of the sheet the machine can use, and how far off is normal now."""
     settings = visit.settings()
     survey = survey_sheet(settings)
     expected = expected_anywhere(settings, expected_priors(visit.progress.sigmas))
-    where = to_do(f"plumb reach {visit.path.name} draws where", page="Reach shows where")
+    where = to_do(f"plumb reach {_file(visit)} draws where", page="Reach shows where")
     visit.talk.say(
         f"The machine can use {percent(survey.shares['usable'])} of the sheet; {where}.\n"
         f"{expected_sentence(expected)}"

@@ -71,11 +71,12 @@ def new_home_mark(
     return HomeMark(name, place, (left, right), date, settings.file.name if settings.file else "")
 
 
-def hole_program(place: Point) -> list[str]:
+def hole_program(mark: HomeMark) -> list[str]:
     """The lines of a program that makes the hole of a home mark, come to as a grid comes to its
     marks."""
-    x, y = place
+    x, y = mark.place
     return [
+        f"(Plumb: the hole of home mark {mark.name})",
         "G21",
         "G90",
         f"G0 Z{USUAL.safe_height:g}",

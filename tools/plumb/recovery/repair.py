@@ -12,4 +12,4 @@ def chains_line(chains: Array) -> str:
 
 def repair_program(chains: Array, *, where: str) -> list[str]:
     """The lines of a program that declares chains with the bit at a place, said in words."""
-    return [f"(only with the bit in {where}, and nothing moved since)", chains_line(chains)]
+    return [f"(Plumb: only with the bit in {where}, and nothing moved since)", chains_line(chains)]

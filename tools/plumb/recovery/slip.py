@@ -17,6 +17,7 @@ import scipy
 from plumb.model.predict import Array
 from plumb.recovery.touched import (
     Touch,
+    are_apart,
     believed_chains,
     places_with,
     sigma_of,
@@ -117,7 +118,7 @@ def _finding(
     accounts, log_density = _weighed(errors, holes, used, fixed)
     best = accounts[0]
     return SlipFinding(
-        verdict=_verdict(accounts, count=len(touches), fixed=fixed),
+        verdict=_verdict(accounts, apart=are_apart(touches), fixed=fixed),
         accounts=accounts,
         touches=tuple(touches),
         errors=errors[NO_LINKS],
@@ -189,13 +190,13 @@ def _log_density(error: Array, covariance: Array) -> float:
     return float(-0.5 * (size + error @ np.linalg.solve(covariance, error)))
 
 
-def _verdict(accounts: Sequence[Account], *, count: int, fixed: bool) -> str:
+def _verdict(accounts: Sequence[Account], *, apart: bool, fixed: bool) -> str:
     """What may be said of it."""
     best = accounts[0]
     if best.odds < GATE:
         return CANNOT_TELL
-    # With a single mark any slip looks like some sheet that was shifted.
-    if best.kind in (SLIP, SHEET) and count < 2 and not fixed:
+    # At a single place any slip looks like some sheet that was shifted.
+    if best.kind in (SLIP, SHEET) and not apart and not fixed:
         return CANNOT_TELL
     return best.kind
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import combinations
+from math import dist
 
 import numpy as np
 
@@ -13,6 +15,9 @@ from plumb.text.errors import InputError
 
 Point = tuple[float, float]
 TOUCH_SIGMA = 0.5  # [mm] of a coordinate: the bit in its hole, and the hole's place
+MISREAD = 100.0  # [mm] of a touch: a slip of two links shows less
+SAME = 3.0  # [mm] between two holes: a bit is wider
+FAR = 50.0  # [mm] between holes from which on they are two places; nearer, they err alike
 
 
 @dataclass(frozen=True)
@@ -22,6 +27,30 @@ class Touch:
     name: str
     hole: Point  # where the mark is known to be
     shown: Point  # what the machine says of the bit in it
+
+
+def refuse_repeated(touches: Sequence[Touch]) -> None:
+    """Raise InputError for a hole that is given twice: what it says counts once."""
+    for (first, earlier), (second, later) in combinations(enumerate(touches, 1), 2):
+        if dist(earlier.hole, later.hole) < SAME:
+            raise InputError(
+                f"touch {second} is touch {first} again; touch another hole far from it"
+            )
+
+
+def are_apart(touches: Sequence[Touch]) -> bool:
+    """Whether two of the holes are far enough apart to be two places."""
+    return any(dist(left.hole, right.hole) >= FAR for left, right in combinations(touches, 2))
+
+
+def lost_sign(touch: Touch) -> str:
+    """The coordinate, x or y, whose sign was lost: the other sign shows the bit near the hole."""
+    (x, y), (shown_x, shown_y) = touch.hole, touch.shown
+    if dist(touch.hole, touch.shown) <= MISREAD:
+        return ""
+    flipped = {"x": (-shown_x, shown_y), "y": (shown_x, -shown_y)}
+    near = [name for name, place in flipped.items() if dist((x, y), place) <= MISREAD]
+    return near[0] if near else ""
 
 
 def believed_chains(settings: MachineSettings, touches: Sequence[Touch]) -> Array:

@@ -8,7 +8,8 @@ from pathlib import Path
 PRACTICE_MARKS = b"# Marks of a virtual machine, cut for practice.\n"
 DEMO_MARKS = b"# Marks of a virtual machine, read by the demo.\n"
 # How our text files begin: a machine.toml, a grid's program, that of proposed marks, a job's
-# outline, the page of the bench, the marks of a demo or of practice, a report.
+# outline, a program for known holes, the page of the bench, the marks of a demo or of practice,
+# a report.
 BEGINNINGS = (
     b"# Settings of one hanging machine, for plumb.",
     b"(Plumb calibration grid)",

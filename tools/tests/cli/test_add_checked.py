@@ -47,6 +47,13 @@ def test_auto_takes_what_was_checked_into_its_verdict(ask):
         (["rotation_radius=139+-1"], "no such number is fitted"),
         (["motor_gap=2980+-1", "--prior", "motor_gap=0"], "no such number is fitted"),
         (["motor_gap=2980+-1", "--checked", "motor_gap=2981+-1"], "twice"),
+        (["tape_scale.strain=0.1+-0.0001"], "0.1 mm per metre is 0.0001"),
+        (["tape_scale.strain=-0.0096+-0.0001"], "real machines have -0.003 to 0.003"),
+        (["frame_flex.inward=8+-0.1"], "VALUE is in mm/N"),
+        (["motor_gap=298+-1"], "far from the 2978.4 of the settings"),
+        (["motor_gap=29784+-1"], "far from the 2978.4 of the settings"),
+        (["tape_scale.strain=0,0001+-0.0001"], "write a point, not a comma"),
+        (["motor_gap=VALUE+-1"], "put your number in place of VALUE"),
         (["chain_pitch.left=0.002+-0.001", "--hold", "chain_pitch.left=0.002"], "--hold keeps it"),
     ],
 )

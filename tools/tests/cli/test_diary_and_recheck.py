@@ -47,7 +47,9 @@ def test_a_fit_is_kept_shown_drawn_and_held_against_marks(run, ask, folder):
 
     run("add", *words, "chain_sag", "-o", "machine.toml")
     code, said, _ = run("diary")
-    assert said.startswith("2 fits") and "The likeliest: the left chain is" in said
+    assert said.startswith("2 fits")
+    assert "The likeliest: the left chain is" in " ".join(said.split())
+    assert max(map(len, said.splitlines())) <= 80
 
 
 def test_what_cannot_be_is_refused(run, folder):
@@ -55,8 +57,21 @@ def test_what_cannot_be_is_refused(run, folder):
     assert code == 2 and "there is no diary; plumb add -o machine.toml begins it" in error
     code, _, error = run("recheck", "groundcontrol.ini", "--touch=0,0:0,0")
     assert code == 2 and "two marks are needed" in error
-    code, _, error = run("recheck", "groundcontrol.ini", "--touch=0,0:0,0", "--touch=9,0:9,0")
+    code, _, error = run("recheck", "groundcontrol.ini", "--touch=0,0:0,0", "--touch=90,0:90,0")
     assert code == 2 and "knows no fit that gave these settings" in error
+
+
+@pytest.mark.parametrize(
+    ("second", "complaint"),
+    [
+        ("1,2:1,2", "touch 2 is touch 1 again; touch another hole far from it"),
+        ("30,39:30,39", "the marks are less than 50 mm apart: they are a single place"),
+        ("30,40:30,40", "knows no fit that gave these settings"),
+    ],
+)
+def test_a_place_that_was_touched_twice_is_no_second_place(run, second, complaint):
+    code, _, error = run("recheck", "groundcontrol.ini", "--touch=0,0:0,0", f"--touch={second}")
+    assert code == 2 and complaint in error
 
 
 def fit_with(low, high, **more):

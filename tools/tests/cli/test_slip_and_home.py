@@ -65,6 +65,42 @@ def test_a_single_hole_asks_for_another(run, ask):
     assert code == 1 and said.startswith("The left chain is 1 link")
 
 
+def test_the_same_hole_again_is_no_proof(run):
+    code, said, error = run("slip", "machine.toml", SLIPPED[0], SLIPPED[0])
+    assert code == 2 and said == ""
+    assert "touch 2 is touch 1 again; touch another hole far from it" in error
+    run("home", "machine.toml", "--keep=left=-900,250")
+    again = "--touch=left:-902.1,256"
+    code, _, error = run("slip", "machine.toml", SLIPPED[1], SLIPPED[0], again)
+    assert code == 2 and "touch 3 is touch 2 again" in error
+    code, said, _ = run("slip", "machine.toml", SLIPPED[0], "--touch=-880,250:-882.4,256.1")
+    assert code == 1 and "cannot tell" in said, "holes so near err alike"
+    run("home", "machine.toml", "--keep=right=900,-250")
+    twice = ("--touch=right:900,-250", "--touch=right:900,-250")
+    assert run("home", "machine.toml", "--at", "left", *twice)[0] == 2
+
+
+def test_a_program_of_ours_is_replaced_and_no_other(run, folder):
+    keeping = ("home", "machine.toml", "--keep=left=-900,250", "-o", "left.nc")
+    restoring = ("home", "machine.toml", "--at", "left", "-o", "back.nc")
+    repairing = ("slip", "machine.toml", *SLIPPED, "-o", "repair.nc")
+    for words, code in ((keeping, 0), (restoring, 0), (repairing, 1)):
+        assert [run(*words)[0] for _ in range(2)] == [code, code], words
+        (folder / words[-1]).write_text("G21\nG90\n")
+        assert run(*words)[0] == 2, "what another wrote"
+
+
+def test_a_lost_minus_is_no_sound_machine(run):
+    lost = "--touch=-900,250:902.4,256.1"
+    code, said, _ = run("slip", "machine.toml", lost)
+    assert code == 1 and "Touch 1: has x lost its sign?" in said
+    assert "lost its sign" not in run("slip", "machine.toml", *SLIPPED)[1]
+    said = run("slip", "machine.toml", SLIPPED[1], "--touch=-900,-250:-902.4,256.1")[1]
+    assert "Touch 2: has y lost its sign?" in said
+    code, said, _ = run("slip", "machine.toml", "--touch=-900,250:-300,400", "--touch=0,0:9,250")
+    assert code == 1 and "lost its sign" not in said, "far away by either sign"
+
+
 def test_both_chains_are_said_in_a_sentence(ask):
     touched = ("--touch=-900,250:-902.4,256.1", "--fixed")
     _, left = ask("slip", "machine.toml", *touched)
@@ -86,7 +122,7 @@ def test_home_marks_are_kept_listed_and_restored(run, ask, folder):
     code, said, _ = run("home", "machine.toml", "--keep=left=-900,250", "-o", "left.nc")
     assert code == 0 and said.count("-900.00, 250.00") == 1
     program = (folder / "left.nc").read_text().splitlines()
-    assert program[:2] == ["G21", "G90"] and program[-3].startswith("G1 X-900.000 Y250.000")
+    assert program[1:3] == ["G21", "G90"] and program[-3].startswith("G1 X-900.000 Y250.000")
     run("home", "machine.toml", "--keep=right=900,-250")
     _, answer = ask("home", "machine.toml")
     assert [mark["name"] for mark in answer["marks"]] == ["left", "right"]

@@ -69,6 +69,9 @@ def test_the_whole_day(machine, tmp_path):
     assert progress_in(tmp_path).done == [step.name for step in STEPS]
     settings = settings_in(tmp_path / "machine.toml")
     assert settings.motor_gap == 2980
+    said = "\n".join(visit.said)
+    assert f"plumb send --undo {tmp_path}/machine.toml brings" in said
+    assert f"plumb reach {tmp_path}/machine.toml draws" in said
     assert settings.motor_height == pytest.approx(464.5 + settings.sheet_height / 2)
     assert read_numbers(visit.sender)[2] == 2980
     assert max(map(abs, machine.sled)) < 15  # the true gap is another

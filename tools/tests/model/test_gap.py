@@ -99,3 +99,24 @@ def test_what_no_chain_can_be_is_refused(words):
     code = f"import sys; from plumb.cli.main import main; sys.exit(main({words!r}))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.returncode == 2
+
+
+@pytest.mark.parametrize(
+    ("words", "complaint"),
+    [
+        (["2989.29", "--drop", "183"], "--drop 183: that means a pull of 8 N"),
+        (["2989.29", "--drop", "183"], "is it 18.3?"),
+        (["2989.29", "--drop", "1.83"], "is it 18.3?"),
+        (["2989.29", "--drop", "61.5"], "measure it again"),
+        (["2989.29", "--drop", "6"], "measure it again"),
+        (["2989.29", "2994.30"], "the lengths differ by 5.01 mm"),
+    ],
+)
+def test_a_number_that_was_misread_is_no_gap(words, complaint, capsys):
+    assert main(["gap", MACHINE, "--length", *words]) == 2
+    assert complaint in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("words", [["2989.29", "2994.28"], ["2989", "--drop", "60"]])
+def test_what_is_odd_but_possible_is_taken(words):
+    assert main(["gap", MACHINE, "--length", *words]) == 0

@@ -4,7 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from plumb.cli.next import _table as table_of
 from plumb.model.plain import noun_of
+from plumb.plan import Next
 from plumb.plan.ahead import Check
 from plumb.plan.options import Option
 from plumb.plan.planned_visits import nowhere
@@ -72,6 +74,14 @@ def test_where_an_effect_could_hide_the_hope_is_how_much_less():
     third = RoomThen("motor_level", 9.0, 1.0)
     both = promise_of(proposal(FIND, rooms=(third, *ROOMS)))
     assert both == f"{noun_of('motor_level')} 9.0 -> 1.0 mm, {noun} 5.0 -> 1.2 mm"
+
+
+def test_a_table_of_what_could_hide_fits_the_screen():
+    rooms = (RoomThen("motor_level", 9.0, 1.0), RoomThen("chain_zero", 6.0, 5.2))
+    both = (proposal(FIND, rooms=rooms), proposal(FIND, rooms=rooms))
+    lines = table_of(Next("", None, both, None, None)).splitlines()
+    assert max(map(len, lines)) <= 80 and "could hide then" in lines[0]
+    assert f"{noun_of('chain_zero')} 6.0 -> 5.2 mm" in " ".join(" ".join(lines).split())
 
 
 def test_without_such_rooms_a_promise_is_a_chance():

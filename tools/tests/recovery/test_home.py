@@ -63,9 +63,10 @@ def test_the_chains_are_those_that_the_machine_pays_out_there():
 
 
 def test_the_hole_is_come_to_as_a_grid_comes_to_its_marks():
-    program = hole_program(LEFT)
-    assert program[3:6] == ["G0 X-900.000 Y210.000", "G1 X-900.000 Y250.000 F700", "G1 Z-2 F40"]
-    assert program[2] == program[-1] == "G0 Z5"
+    program = hole_program(new_home_mark(MAKER, "left", LEFT))
+    assert program[0] == "(Plumb: the hole of home mark left)"
+    assert program[4:7] == ["G0 X-900.000 Y210.000", "G1 X-900.000 Y250.000 F700", "G1 Z-2 F40"]
+    assert program[3] == program[-1] == "G0 Z5"
 
 
 def test_better_settings_show_the_hole_elsewhere_by_the_same_chains():
@@ -147,7 +148,7 @@ def test_a_lost_position_is_back_with_the_bit_in_the_hole(seed):
         for name, place in (("left", LEFT), ("right", RIGHT))
     }
     for mark in marks.values():
-        workshop.send(*hole_program(mark.place))
+        workshop.send(*hole_program(mark))
     holes = dict(zip(marks, marks_on(workshop.machine.cuts()), strict=True))
     sites = [(0.0, 0.0), (-600.0, -300.0), (700.0, 300.0)]
     before = [workshop.place_at(*site) for site in sites]
@@ -180,7 +181,7 @@ def test_until_the_chains_are_set_the_machine_goes_nowhere():
 def test_a_chain_that_slipped_after_that_does_not_fit():
     workshop = Workshop(5)
     mark = new_home_mark(MAKER, "right", RIGHT)
-    workshop.send(*hole_program(mark.place))
+    workshop.send(*hole_program(mark))
     hole = marks_on(workshop.machine.cuts())[0]
     workshop.machine.slip("left", 6.35)
     missed = workshop.place_at(*RIGHT) - hole

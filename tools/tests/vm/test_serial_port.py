@@ -58,7 +58,8 @@ def test_numbers_are_written_read_back_kept_and_brought_back(served, tmp_path):
     text = (tmp_path / "machine.toml").read_text()
     (tmp_path / "machine.toml").write_text(text.replace("2978.4", "2980.5"))
     said = plumb("send", "--port", "maslow", "machine.toml", folder=tmp_path)
-    assert "$2: 2978.4 -> 2980.5" in said
+    assert "$2: 2978.4 -> 2980.5" in said and max(map(len, said.splitlines())) <= 80
+    assert "To bring them back:\n  plumb send --undo machine.toml --port maslow\n" in said
     assert len(list(tmp_path.glob("machine-before-*.nc"))) == 1
     said = plumb("send", "--undo", "--port", "maslow", "machine.toml", folder=tmp_path)
     assert "$2: 2980.5 -> 2978.4" in said

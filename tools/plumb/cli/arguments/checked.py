@@ -35,6 +35,10 @@ def checked(text: str) -> Measured:
     """Reads NAME=VALUE+-SIGMA."""
     name, _, numbers = text.partition("=")
     value, _, sigma = re.sub("±", "+-", numbers).partition("+-")
+    if "VALUE" in numbers:
+        raise argparse.ArgumentTypeError(f"'{text}': put your number in place of VALUE")
+    if "," in numbers:
+        raise argparse.ArgumentTypeError(f"'{text}': write a point, not a comma")
     try:
         check = Measured(name.strip(), float(value), float(sigma))
     except ValueError:

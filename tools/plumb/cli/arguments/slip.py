@@ -15,8 +15,8 @@ from plumb.cli.arguments.touch import add_touch
 
 HELP = "say from touched marks whether a chain slipped by whole links, and how to repair it"
 EXIT = (
-    "Exit: 0 no chain slipped; 1 a chain slipped, or the touches cannot tell; 2 an input cannot be "
-    "used."
+    "Exit: 0 no chain slipped; 1 a chain slipped, or the touches cannot tell, or no slip explains "
+    "them; 2 an input cannot be used."
 )
 
 

@@ -1,0 +1,41 @@
+"""Measured numbers that no machine has are refused; what is odd but possible is taken."""
+
+from dataclasses import replace
+
+import pytest
+from plumb.bench.causes import MAKER
+from plumb.fit.absurd_checks import refuse_absurd
+from plumb.fit.problem import Checked
+from plumb.text.errors import InputError
+
+MACHINE = replace(MAKER, motor_gap=3000.0, motor_center_x=0.0)
+POSSIBLE = [
+    ("tape_scale.strain", 0.0089, 1e-5),
+    ("tape_scale.strain", -0.0089, 1e-5),
+    ("tape_scale.strain", 0.1, 0.05),  # says hardly anything
+    ("frame_flex.inward", -0.01, 0.001),  # noise
+    ("motor_gap", 3290.0, 1.0),
+    ("motor_gap", 2710.0, 1.0),
+    ("motor_gap", 3500.0, 100.0),
+    ("motor_center_x", -190.0, 1.0),
+]
+ABSURD = [
+    ("tape_scale.strain", 0.0091, 1e-5),
+    ("tape_scale.strain", -0.0091, 1e-5),
+    ("tape_scale.strain", 0.1, 0.045),
+    ("motor_gap", 3310.0, 1.0),
+    ("motor_gap", 2690.0, 1.0),
+    ("motor_gap", 3500.0, 95.0),
+    ("motor_center_x", -210.0, 1.0),
+]
+
+
+@pytest.mark.parametrize("check", POSSIBLE)
+def test_what_is_odd_but_possible_is_taken(check):
+    refuse_absurd([Checked(*check)], MACHINE)
+
+
+@pytest.mark.parametrize("check", ABSURD)
+def test_what_no_machine_has_is_refused(check):
+    with pytest.raises(InputError, match=f"--checked {check[0]}="):
+        refuse_absurd([Checked(*POSSIBLE[0]), Checked(*check)], MACHINE)
