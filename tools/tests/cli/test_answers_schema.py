@@ -55,7 +55,7 @@ QUESTIONS = (
     ("reach", INI),
     ("read",),
     ("recheck", "kept/machine.toml", "--touch=-900,250:-900,250", "--touch=900,-250:905,-250"),
-    ("recheck", TOML, BOARD[1], "--check", BOARD[1]),
+    ("recheck", TOML, BOARD[1], "--check", "kept/marks.toml"),
     ("report", *BOARD, "-o", "report.html"),
     ("report", *SLIPPED, "-o", "report.html"),
     ("settings", TOML),
@@ -134,6 +134,7 @@ def folder(tmp_path, monkeypatch):
     (tmp_path / "home.toml").write_text(HOME)
     (tmp_path / "kept").mkdir()
     (tmp_path / "kept/machine.toml").write_text(TOML.read_text())
+    (tmp_path / "kept/marks.toml").write_bytes(Path(BOARD[1]).read_bytes())
     append(tmp_path / "kept", "fit", {**FIT, "settings": TOML.read_text()})
     (tmp_path / "pairs.csv").write_text("1700,1700\n0,0\n9000,100\n")
     monkeypatch.setattr(read_command, "port_for", str)

@@ -135,13 +135,14 @@ def _of_frame(name: str, value: float, *, zero: float) -> KnownNumber:
 
 
 def _effects(settings: MachineSettings, choices: Choices) -> list[KnownNumber]:
-    """Numbers of effects, as far as they can be measured directly."""
+    """Numbers of effects, as far as they can be measured directly and the page has words for it."""
     stated = choices.known.get(WEIGHT)
     by_hand = readings(settings, stated.value if stated else settings.sled_weight)
     return [
         _of_effect(f"{effect}.{part}", by_hand[f"{effect}.{part}"], settings)
         for effect, check in effect_checks().items()
         for part in check.sigmas
+        if f"{effect}.{part}" in by_hand
     ]
 
 
