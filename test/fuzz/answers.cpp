@@ -7,6 +7,8 @@
 
 namespace {
 
+const uint8_t kHold = 0x84;
+
 bool startsWith(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
 }
@@ -44,31 +46,34 @@ void checkLine(const std::string& line) {
 void Answers::taken(char character) {
   const bool follows_quick = after_quick_;
   after_quick_ = character == '!' || character == '~' || character == '`' || character == '\x18';
-  if (after_quick_) {
-    if (character != '~') {
-      dropLines();
-      is_locked_ = is_paused_ = false;
-    }
-    ++quick_;
-    is_paused_ = false;
-  } else if (character == '\n' && !follows_quick) {
-    ++lines_;
+  if (after_quick_) takenQuick(character);
+  if (character == '\n' && !follows_quick) ++lines_;
+  // In a comment it is text: then lines are answered, which no rule forbids.
+  if (uint8_t(character) == kHold) is_held_ = true;
+}
+
+void Answers::takenQuick(char character) {
+  if (character != '~') {
+    dropLines();
+    is_locked_ = false;
   }
+  ++quick_;
+  is_held_ = is_lowering_ = false;
 }
 
 void Answers::said(const std::string& line) {
   checkLine(line);
   if (line == "ok" || startsWith(line, "error:")) {
     ++answered_;
+    is_lowering_ = false;
     must(answered_ <= lines_ + quick_, "an answer too many: " + line);
   }
   if (startsWith(line, "ALARM:") && !startsWith(line, "ALARM: Position Lost")) {
     dropLines();
     is_locked_ = true;
     is_halted_ = startsWith(line, "ALARM: Halted at ");
-    is_paused_ = false;
   }
-  if (line == "Maslow Paused") is_paused_ = true;
+  if (startsWith(line, "Z goes back to ")) is_lowering_ = true;
   if (startsWith(line, "FAKE_SERVO ")) is_simulated_ = line == "FAKE_SERVO on";
   const std::size_t equals = line.find('=');
   if (startsWith(line, "$") && equals != std::string::npos && std::isdigit(uint8_t(line[1]))) {
@@ -80,7 +85,8 @@ void Answers::said(const std::string& line) {
 
 void Answers::wentRound() {
   const int kMostRounds = 4;
-  const bool waits = !isComplete() && !is_locked_ && answered_ == answered_before_;
+  const bool may_wait = is_locked_ || is_held_ || is_lowering_;
+  const bool waits = !isComplete() && !may_wait && answered_ == answered_before_;
   rounds_ = waits ? rounds_ + 1 : 0;
   answered_before_ = answered_;
   must(rounds_ <= kMostRounds, "a line was never answered");

@@ -21,15 +21,16 @@ class Answers {
   /// After a halt the moves before it are finished; after an alarm nothing turns.
   bool mayDrive() const { return !is_locked_ || is_halted_; }
   bool isSimulated() const { return is_simulated_; }
-  bool isPaused() const { return is_paused_; }
   /// Settings lines since the last look.
   int takeSettings();
 
  private:
   void dropLines() { lines_ = answered_ - quick_; }
+  void takenQuick(char character);
 
   long lines_ = 0, quick_ = 0, answered_ = 0, answered_before_ = 0;
   int rounds_ = 0, settings_ = 0;
-  bool after_quick_ = false, is_locked_ = false, is_halted_ = false, is_simulated_ = false,
-       is_paused_ = false;
+  bool after_quick_ = false, is_locked_ = false, is_halted_ = false, is_simulated_ = false;
+  // Lines wait without an answer in a hold, and behind it while z goes back.
+  bool is_held_ = false, is_lowering_ = false;
 };

@@ -1,7 +1,8 @@
 // Runs a fuzz target where there is no libFuzzer: mutates a corpus, keeps what reaches new edges,
 // writes the input of a crash into a file.
 //
-// DRIVER FOLDER SECONDS [SEED [NEW_FOLDER]] fuzzes; DRIVER FILE runs a single input.
+// DRIVER FOLDER LENGTH [SEED [NEW_FOLDER]] fuzzes; DRIVER FILE runs a single input. A length is a
+// number of runs, whose inputs are the same on every machine, or a time: 600s.
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -76,7 +77,17 @@ std::size_t edgeCount() {
   return count;
 }
 
-int fuzz(const char* folder, double seconds, unsigned seed, const char* new_folder) {
+/// How long to fuzz: `runs`, or if these are zero `seconds`.
+struct Length {
+  explicit Length(const std::string& text)
+      : runs(text.back() == 's' ? 0 : std::atol(text.c_str())), seconds(std::atof(text.c_str())) {}
+  bool isOver(long ran, double since) const { return runs > 0 ? ran >= runs : since >= seconds; }
+
+  long runs;
+  double seconds;
+};
+
+int fuzz(const char* folder, const Length& length, unsigned seed, const char* new_folder) {
   Corpus corpus = readCorpus(folder);
   if (corpus.empty()) {
     std::fprintf(stderr, "%s holds no corpus\n", folder);
@@ -90,7 +101,7 @@ int fuzz(const char* folder, double seconds, unsigned seed, const char* new_fold
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   long runs = 0;
-  for (double next_report = 60; since() < seconds; ++runs) {
+  for (double next_report = 60; !length.isOver(runs, since()); ++runs) {
     const Input input = mutator.next(corpus);
     if (run(input)) {
       corpus.push_back(input);
@@ -132,10 +143,10 @@ int main(int argc, char** argv) {
     return 0;
   }
   if (argc < 3) {
-    std::fprintf(stderr, "use: %s FOLDER SECONDS [SEED [NEW_FOLDER]], or %s FILE\n", argv[0],
+    std::fprintf(stderr, "use: %s FOLDER LENGTH [SEED [NEW_FOLDER]], or %s FILE\n", argv[0],
                  argv[0]);
     return 2;
   }
   const unsigned seed = argc > 3 ? unsigned(std::atoi(argv[3])) : 1;
-  return fuzz(argv[1], std::atof(argv[2]), seed, argc > 4 ? argv[4] : nullptr);
+  return fuzz(argv[1], Length(argv[2]), seed, argc > 4 ? argv[4] : nullptr);
 }
