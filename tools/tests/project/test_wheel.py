@@ -101,7 +101,7 @@ COMMANDS = {
 # What needs a file or a board that an empty folder lacks, and what its refusal names.
 LACKING = {
     "diary": ("none",),
-    "recheck": ("groundcontrol.ini", "--touch=0,0:0,0", "--touch=9,0:9,0"),
+    "recheck": ("groundcontrol.ini", "--touch=0,0:0,0", "--touch=900,0:900,0"),
     "telemetry": ("log.txt",),
     "send": ("marks.nc", "--port", "none"),
     "guide": ("--port", "none"),
