@@ -59,7 +59,9 @@ void Machine::takeQuick(gcode::Quick quick) {
       out_.line(FLASH("ok"));
       return operator_lines_.resume();
     case Quick::kHold:
-      if (axes_.isDriven() || axis_tests_.isTesting()) return stopNow();
+      // A chain does not go on at a duty. The line gets no answer, so the client must hear why.
+      if (axes_.isDriven() || axis_tests_.isTesting())
+        return raiseAlarm(FLASH("A hold ended a pull or a test of motors. Press Stop."));
       if (!stopping_ && !isHalted()) operator_lines_.hold();
       return;
     case Quick::kReset:
