@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from dataclasses import dataclass, field
 from datetime import date
+from math import dist
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from plumb.cli.output import STDOUT, say_failure, write_outputs
 from plumb.cli.screen import headline, sentences, table
 from plumb.cli.steps import next_step
 from plumb.cli.text import print_json
-from plumb.cli.touches import home_mark, touches_of
+from plumb.cli.touches import asked_signs, home_mark, touches_of
 from plumb.diary.entries import HOME
 from plumb.diary.keeping import keep
 from plumb.fit.read_inputs import settings_in
@@ -29,6 +30,7 @@ from plumb.recovery.home import (
     write_home_marks,
 )
 from plumb.recovery.repair import repair_program
+from plumb.recovery.touched import SAME
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.text.shown import bare, signed, unit, worded
@@ -42,6 +44,7 @@ class _Answer:
     said: list[str] = field(default_factory=list)
     lines: list[str] = field(default_factory=list)
     fits: list[HomeFit] = field(default_factory=list)
+    asked: list[str] = field(default_factory=list)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -91,7 +94,13 @@ def _restore(arguments: argparse.Namespace, settings: MachineSettings, answer: _
         other = answer.marks.get(touched.name)
         if other is None:
             raise InputError(f"--touch {touched.name}: give the name of a home mark")
+        if dist(other.place, mark.place) < SAME:
+            raise InputError(
+                f"--touch {touched.name}: that is the hole of --at {mark.name}, by which the "
+                "chains were set; touch another home mark"
+            )
         answer.fits.append(home_fit(settings, other, touched.shown))
+        answer.asked += asked_signs([touched])
 
 
 def _written(arguments: argparse.Namespace, answer: _Answer) -> list[str]:
@@ -123,6 +132,7 @@ def _text(arguments: argparse.Namespace, settings: MachineSettings, answer: _Ans
         return _listed(arguments, settings, answer)
     parts = [headline(answer.said[0]), sentences(answer.said[1:], mark="")]
     parts += [_fit_text(fit) for fit in answer.fits]
+    parts += [sentences(answer.asked, mark="")] if answer.asked else []
     if arguments.output:
         parts.append(next_step("Send it:", ["send", arguments.output]))
     elif arguments.at and not answer.fits:

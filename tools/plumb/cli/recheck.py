@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from plumb.cli.check_form import held_against_marks, report
-from plumb.cli.screen import headline, table
-from plumb.cli.touches import touches_of
+from plumb.cli.screen import headline, sentences, table
+from plumb.cli.touches import asked_signs, touches_of
 from plumb.diary.file import read_diary
 from plumb.diary.recheck import LEFT, RIGHT, SHEET_X, SHEET_Y, Change, Recheck, recheck
 from plumb.fit.read_inputs import settings_in
@@ -78,6 +78,9 @@ def _text(checked: Recheck) -> str:
             for change in checked.changes[:SHOWN]
         ]
         parts.append(table(["a single change", "explains the marks"], changes))
+    asked = asked_signs(checked.touches)
+    if asked:
+        parts.append(sentences(asked, mark=""))
     return "\n\n".join(parts)
 
 

@@ -12,7 +12,7 @@ from plumb.cli.output import STDOUT, say_failure, write_outputs
 from plumb.cli.screen import headline, sentences, table
 from plumb.cli.steps import next_step
 from plumb.cli.text import print_json
-from plumb.cli.touches import touches_of
+from plumb.cli.touches import asked_signs, touches_of
 from plumb.diary.entries import SLIP as SLIP_ENTRY
 from plumb.diary.keeping import keep
 from plumb.fit.read_inputs import settings_in
@@ -29,7 +29,7 @@ from plumb.recovery.slip import (
     SlipFinding,
     find_slip,
 )
-from plumb.recovery.touched import Point, lost_sign
+from plumb.recovery.touched import Point
 from plumb.text.errors import InputError
 from plumb.text.shown import bare, signed, unit, worded
 
@@ -107,11 +107,7 @@ def _text(
                 "likeliest accounts differ most, and give all touches."
             )
         parts.append(sentences([said], mark=""))
-    asked = [
-        f"Touch {touch.name}: has {name} lost its sign? The other sign lies near the hole."
-        for touch in finding.touches
-        if (name := lost_sign(touch))
-    ]
+    asked = asked_signs(finding.touches)
     return "\n\n".join([*parts, sentences(asked, mark="")] if asked else parts)
 
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 
 from plumb.recovery.home import HomeMark, home_file, read_home_marks
-from plumb.recovery.touched import Touch, refuse_repeated
+from plumb.recovery.touched import Touch, lost_sign, refuse_repeated
 from plumb.text.errors import InputError
 
 
@@ -30,3 +31,12 @@ def home_mark(settings: str, name: str) -> HomeMark:
         known = f"it has {', '.join(marks)}" if marks else "there is none yet: plumb home --keep"
         raise InputError(f"{path}: no home mark {name!r}; {known}")
     return marks[name]
+
+
+def asked_signs(touches: Sequence[Touch]) -> list[str]:
+    """A question about each touch that seems to have lost a minus sign."""
+    return [
+        f"Touch {touch.name}: has {name} lost its sign? The other sign lies near the hole."
+        for touch in touches
+        if (name := lost_sign(touch))
+    ]

@@ -37,13 +37,16 @@ def test_a_fit_is_kept_shown_drawn_and_held_against_marks(run, ask, folder):
     near = ("--touch=-900.4,250.3:-900,250", "--touch=900.6,-249.8:900,-250")
     code, said, _ = run("recheck", "machine.toml", *near)
     assert code == 0 and "still within its interval" in said
+    lost = (near[0], "--touch=900.6,-249.8:900,250")
+    code, said, _ = run("recheck", "machine.toml", *lost)
+    assert code == 1 and "Touch 2: has y lost its sign?" in said and "Touch 1" not in said
     far = ("--touch=-897.8,243.7:-900,250", "--touch=905.8,-252.6:900,-250")
     code, answer = ask("recheck", "machine.toml", *far)
     assert code == 1 and not answer["holds"] and "Something changed since" in answer["sentence"]
     assert answer["changes"][0]["name"] == "left chain"
     assert answer["changes"][0]["size"] == pytest.approx(6.35, abs=1.0)
     kinds = [entry.kind for entry in read_diary(folder).entries]
-    assert kinds == ["fit", "recheck", "recheck"]
+    assert kinds == ["fit", "recheck", "recheck", "recheck"]
 
     run("add", *words, "chain_sag", "-o", "machine.toml")
     code, said, _ = run("diary")

@@ -101,6 +101,21 @@ def test_a_lost_minus_is_no_sound_machine(run):
     assert code == 1 and "lost its sign" not in said, "far away by either sign"
 
 
+def test_a_home_mark_is_not_held_against_itself(run):
+    for kept in ("left=-900,250", "twin=-899,252", "right=900,-250"):
+        run("home", "machine.toml", f"--keep={kept}")
+    restored = ("home", "machine.toml", "--at", "left")
+    for name in ("left", "twin"):
+        code, said, error = run(*restored, f"--touch={name}:-900,250")
+        assert code == 2 and said == ""
+        assert f"--touch {name}: that is the hole of --at left" in error
+        assert "touch another home mark" in error
+    code, said, _ = run(*restored, "--touch=right:900,-250")
+    assert code == 0 and "lost its sign" not in said
+    code, said, _ = run(*restored, "--touch=right:900,250")
+    assert code == 1 and "Touch right: has y lost its sign?" in said
+
+
 def test_both_chains_are_said_in_a_sentence(ask):
     touched = ("--touch=-900,250:-902.4,256.1", "--fixed")
     _, left = ask("slip", "machine.toml", *touched)

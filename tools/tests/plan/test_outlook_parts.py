@@ -1,6 +1,7 @@
 """The diagnosis of boards to come: its noise, what stands and what falls, and by how much."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -130,3 +131,62 @@ def test_a_misfit_is_as_likely_as_chance_says():
     assert (rediagnosis(unknown)._misfit(left, boards.beyond, 3.0) == np.ones(800)).all()
     assert (test._misfit(100 * left, boards.beyond, 0.4) == np.ones(800)).all()
     assert (test._misfit(100 * left, boards.beyond, 0.6) < 0.01).all()
+
+
+PITCH, SAG, TAPE = "chain_pitch", "chain_sag", "tape_scale"
+NONE = 99  # explanations that are left where nothing is proved
+# Each board: whether anything is proved, the accounts listed, those that fit, and the single
+# effects that explain all alone. Then whether it is settled, and how many explanations are left.
+WEIGHED = [
+    ((True, [(PITCH,)], [(PITCH,)], []), (1, 1)),
+    ((True, [(PITCH, SAG)], [(PITCH, SAG)], []), (1, 1)),
+    ((True, [(PITCH,), (TAPE,)], [(PITCH,), (TAPE,)], []), (0, 2)),
+    ((True, [(PITCH,), (TAPE,)], [(PITCH,)], []), (1, 1)),
+    ((True, [(PITCH,)], [], []), (0, 1)),
+    ((False, [(PITCH,)], [(PITCH,)], []), (0, NONE)),
+    ((True, [(SAG,)], [(SAG,)], []), (0, 1)),
+    ((True, [(PITCH, TAPE)], [(PITCH, TAPE)], []), (0, 1)),
+    ((True, [], [(PITCH,)], []), (0, 1)),
+]
+ALONE = [
+    ((True, [(PITCH,)], [(PITCH,)], [TAPE]), (0, 1)),
+    ((True, [(PITCH,)], [(PITCH,)], [TAPE, PITCH]), (0, 2)),
+    ((True, [(PITCH,), (TAPE,)], [(PITCH,), (TAPE,)], [PITCH]), (0, 1)),
+]
+
+
+class _Said(Rediagnosis):
+    """A diagnosis of boards of which it is said what they prove."""
+
+    def __init__(self, boards, *, is_left_out):
+        self.boards_said, self.is_left_out = boards, is_left_out
+        self.felt, self.frame, self.limit, self.nothing = [PITCH, SAG, TAPE], None, 5.0, NONE
+
+    def _turned(self, drawn):
+        return SimpleNamespace(few=drawn)
+
+    def _asked(self, drawn, answer):
+        return np.array([answer(self.boards_said[each]) for each in drawn])
+
+    def _gains(self, fitted, effects, readings):
+        return self._asked(readings, lambda board: 5.1 if board[0] else 5.0), readings
+
+    def _fits(self, effects, boards):
+        return self._asked(boards.few, lambda board: effects in board[2])
+
+    def _stands(self, effects, boards):
+        return self._asked(boards.few, lambda board: effects[0] in board[3])
+
+
+@pytest.mark.parametrize("is_left_out", [False, True])
+def test_an_account_settles_only_what_no_single_effect_explains(is_left_out):
+    # Where the settings leave out an effect on purpose, single effects are weighed like all else.
+    alone = [(board, (1, 1) if len(board[1]) == 1 else (0, 2)) for board, _ in ALONE]
+    cases = [*WEIGHED, *(alone if is_left_out else ALONE)]
+    test = _Said([board for board, _ in cases], is_left_out=is_left_out)
+    truth = SimpleNamespace(effects=(PITCH, SAG), counts_with=(PITCH,))
+    listed = [board[1] for board, _ in cases]
+    for number, (board, expected) in enumerate(cases):
+        assert test.weighed(truth, np.array([number]), [board[1]]) == expected, board
+    together = test.weighed(truth, np.arange(len(cases)), listed)
+    assert together == pytest.approx(np.mean([expected for _, expected in cases], axis=0))
