@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from plumb.jobs.coordinates import Coordinates, coordinates_of
 from plumb.jobs.dry_run import Run
 from plumb.jobs.entry import Entry, entry_at
 from plumb.jobs.moves import IN_WOOD, Moves, safe_height
@@ -51,10 +52,10 @@ def resume_at_line(machine: Machine, lines: Sequence[str], line: int) -> Resumed
     moves = machine.after(lines).finish().moves
     done = _last_free(machine, lines, moves, line - 1)
     run = machine.after(lines[:done])
-    head = _Head(lines[:done], run, safe_height(moves))
-    x, y, z = run.place
+    begins = x, y, z = run.place
+    head = _Head(machine, lines[:done], run, safe_height(moves))
     program = [*head.to_place((x, y, max(z, 0.0))), *head.modes(), *lines[done:]]
-    return Resumed(tuple(program), done + 1, run.place, None)
+    return Resumed(tuple(program), done + 1, begins, None)
 
 
 def resume_at_place(
@@ -67,8 +68,8 @@ def resume_at_place(
     if run.modes["motion"] > NO_CYCLE:
         # A hole is drilled from its beginning.
         return resume_at_line(machine, lines, entry.line)
-    head = _Head(lines[: entry.line], run, safe_height(moves))
     origin = run.origin
+    head = _Head(machine, lines[: entry.line], run, safe_height(moves))
     program = [
         *head.to_place((*entry.place, head.safe)),
         *entry.program(origin),
@@ -95,10 +96,13 @@ def _last_free(machine: Machine, lines: Sequence[str], moves: Moves, before: int
 class _Head:
     """What a resumed program says before the job goes on."""
 
-    def __init__(self, done: Sequence[str], run: Run, safe: float) -> None:
+    def __init__(self, machine: Machine, done: Sequence[str], run: Run, safe: float) -> None:
+        """The run is that of the lines done, and is used up."""
         self.safe = safe
-        self._run, self._modes = run, run.modes
+        self._begin, self._modes = run.origin, run.modes
         self._tools: ToolsInUse = tools_after(done)
+        self._before: Coordinates = coordinates_of(machine.after([]))
+        self._after: Coordinates = coordinates_of(run)
 
     def to_place(self, place: Place) -> list[str]:
         """Up, tool and spindle, across, and down to the height of `place` [mm] of the machine."""
@@ -111,17 +115,15 @@ class _Head:
         lines += self._tools.spindle_lines
         lines.append(f"{machine}G0 X{x:.4f} Y{y:.4f}")
         if self._tools.declares:
-            there = zip((*place[:2], self.safe), self._run.origin, strict=True)
-            counted = [coordinate - begin for coordinate, begin in there]
-            lines.append("G92 X{:.4f} Y{:.4f} Z{:.4f}".format(*counted))
-            z = place[2] - self._run.origin[2]
+            lines += self._after.lines_at((*place[:2], self.safe), self._before)
+            z = place[2] - self._begin[2]
         if place[2] != self.safe:
             lines.append(f"G0 Z{z:.4f}")
         return lines
 
     @property
     def _origin(self) -> Place:
-        return (0.0, 0.0, 0.0) if self._tools.declares else self._run.origin
+        return (0.0, 0.0, 0.0) if self._tools.declares else self._begin
 
     def modes(self) -> list[str]:
         """The modes with which the job's next line is read."""

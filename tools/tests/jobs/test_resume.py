@@ -150,6 +150,34 @@ def test_coordinates_that_the_program_sets_are_set_again(code):
         same_moves(halted.finish().moves, wanted)
 
 
+LATER = {
+    "another system": ("G10 L2 P2 X50 Y40 Z1\nG55", "G54"),
+    "two of them": ("G10 L2 P3 X50\nG10 L20 P2 X3 Y4\nG56", "G55"),
+    "a longer bit": ("G43.1 Z7", "G43.1 Z9"),
+    "no tool's length": ("G43.1 Z7", "G49"),
+    "no shift": ("G92 X10 Y20 Z5", "G92.1"),
+    "a shift put aside": ("G92 X10 Y20 Z5", "G92.2"),
+    "a shift taken back": ("G92 X10 Y20 Z5\nG92.2", "G92.3"),
+    "both": ("G10 L2 P2 X50\nG55\nG43.1 Z7\nG92 Y9", "G92.1\nG54\nG49"),
+}
+
+
+@pytest.mark.parametrize("name", LATER)
+def test_coordinates_that_the_program_changes_later_begin_where_they_did(name):
+    first, later = (each.split("\n") for each in LATER[name])
+    up = "G53 G0 Z12"
+    lines = ["G0 X40 Y10", *first, up, "G0 X5", "G53 G1 Z-1 F60", "X25 Y8 F500", up]
+    lines += [*later, up, "G0 X9 Y3", "G0 Z8", "G1 Z6", "X19", up]
+    cut = lines.index("X25 Y8 F500") + 1
+    moves = run_dry(lines).moves
+    resumed = resume_at_line(MACHINE, lines, cut)
+    wanted = moves.only(moves["line"] >= resumed.first)
+    same_moves(run_dry(resumed.lines).moves, wanted)
+    halted = MACHINE.after(lines[: cut - 1])
+    halted.send(resumed.lines)
+    same_moves(halted.finish().moves, wanted)
+
+
 @pytest.mark.parametrize(
     ("code", "z"),
     [("G92 X10 Y20", -1), ("G43.1 Z7", -8), ("G92 Z15", 8), ("G10 L2 P1 X30 Y-5", -1)],
