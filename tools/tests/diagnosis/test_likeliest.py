@@ -40,7 +40,7 @@ def test_what_every_machine_has_is_no_reason_for_doubt(index):
     assert diagnosis.to_add == first.effects
     assert first.share > 0.5 and sum(each.share for each in diagnosis.explanations) <= 1 + 1e-9
     if diagnosis.verdict == "cannot_tell":
-        assert "Most likely it is" in verdict_sentence(diagnosis)
+        assert "Most likely: " in verdict_sentence(diagnosis)
 
 
 def test_the_likeliest_account_is_added():

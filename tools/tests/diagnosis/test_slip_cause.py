@@ -80,23 +80,23 @@ def explained(*effects, possible=True, rms_after=0.5, share=None):
 @pytest.mark.parametrize(
     ("verdict", "explanations", "words"),
     [
-        ("nothing_provable", (), "Nothing is provable: 2.00 mm RMS are left"),
+        ("nothing_provable", (), "Nothing is provable: the fitted frame leaves 2.00 mm RMS"),
         ("one_suspect", (explained("sag"),), "One suspect: sag. The error falls from 2.00 to 0.50"),
         ("one_suspect", (explained("sag", "lean"),), "Several effects at once: sag and lean."),
         ("one_suspect", (explained("sag", possible=False),), "no real machine has"),
         ("cannot_tell", (explained("sag", possible=False),), "no real machine has"),
         ("cannot_tell", (explained("a"), explained("b")), "cannot tell which: a; or b."),
         ("cannot_tell", (explained("a"),) * 8, "a; a; a; a; a; a; a; or a."),
-        ("cannot_tell", (explained("a"),) * 10, "a; a; a; a; a; a; a; or a or 2 more."),
+        ("cannot_tell", (explained("a"),) * 10, "a; a; a; a; a; a; a; a; or 2 more."),
         (
             "cannot_tell",
             (explained("a", "b", share=0.8), explained("c", share=0.2)),
-            "Most likely it is a and b (odds 4 to 1); next, c (odds 1 to 4).",
+            "Most likely: a and b (odds 4 to 1); next, c (1 to 4).",
         ),
         ("cannot_tell", tuple(explained("a", share=s) for s in (0.6, 0.3, 0.1)), ", and 1 more."),
         ("not_in_library", (), "alone or up to three together (unless more than three"),
-        ("not_in_library", (explained("a"),), "these marks one effect would explain 40 %"),
-        ("not_in_library", (explained("a", "b"),), "these marks 2 effects at once would explain"),
+        ("not_in_library", (explained("a"),), "A could be it, but here one effect explains 40 %"),
+        ("not_in_library", (explained("a", "b"),), "here 2 effects explain 40 %"),
     ],
 )
 def test_each_verdict_has_its_sentence(verdict, explanations, words):
