@@ -7,8 +7,10 @@ from dataclasses import dataclass
 
 from plumb.cure.add import priors_with
 from plumb.diagnosis import Checked
+from plumb.fit.absurd_checks import is_absurd
 from plumb.fit.expected import WIDE
 from plumb.lab.choices import Choices
+from plumb.settings.machine import MachineSettings
 
 
 @dataclass(frozen=True)
@@ -25,6 +27,13 @@ def stated(choices: Choices) -> Statements:
     wide = [(name, WIDE[name]) for name in known if name in WIDE]
     checked = tuple(Checked(name, number.value, number.sigma) for name, number in known.items())
     return Statements(priors_with(wide), checked)
+
+
+def possible(choices: Choices, settings: MachineSettings) -> Choices:
+    """The choices without numbers that cannot have been measured on this machine."""
+    absurd = {check.name for check in stated(choices).checked if is_absurd(check, settings)}
+    known = {name: number for name, number in choices.known.items() if name not in absurd}
+    return choices.model_copy(update={"known": known})
 
 
 def planned_priors(choices: Choices) -> dict[str, float]:

@@ -22,7 +22,11 @@ PAIR = LONG[:2]
     [
         ("one_suspect", [account(*LONG)], "at once: chains that are not parallel"),
         ("one_suspect", [account(*LONG, possible=False)], "it: 3 effects at once. Look"),
-        ("cannot_tell", [account(*PAIR, possible=False)] * 6, "it: 2 effects at once; or 5 more. Look"),
+        (
+            "cannot_tell",
+            [account(*PAIR, possible=False)] * 6,
+            "it: 2 effects at once; or 5 more. Look",
+        ),
         ("cannot_tell", [account(*PAIR)] * 12, "right; or 11 more."),
         ("cannot_tell", [account("chain_sag")] * 12, "chain sag; chain sag; or"),
         ("cannot_tell", [account(*LONG, share=s) for s in (0.6, 0.3, 0.1)], "and 2 more."),

@@ -8,7 +8,7 @@ from plumb.fit.absurd_checks import refuse_absurd
 from plumb.fit.problem import Checked
 from plumb.text.errors import InputError
 
-MACHINE = replace(MAKER, motor_gap=3000.0, motor_center_x=0.0)
+MACHINE = replace(MAKER, motor_gap=3000.0, motor_center_x=0.0, sled_weight=110.0)
 POSSIBLE = [
     ("tape_scale.strain", 0.0089, 1e-5),
     ("tape_scale.strain", -0.0089, 1e-5),
@@ -18,6 +18,9 @@ POSSIBLE = [
     ("motor_gap", 2710.0, 1.0),
     ("motor_gap", 3500.0, 100.0),
     ("motor_center_x", -190.0, 1.0),
+    ("sled_weight", 38.0, 1.0),  # of 110 N
+    ("sled_weight", 255.0, 1.0),
+    ("sled_weight", 9.8, 14.0),
 ]
 ABSURD = [
     ("tape_scale.strain", 0.0091, 1e-5),
@@ -27,6 +30,9 @@ ABSURD = [
     ("motor_gap", 2690.0, 1.0),
     ("motor_gap", 3500.0, 95.0),
     ("motor_center_x", -210.0, 1.0),
+    ("sled_weight", 9.8, 2.0),  # a kilogram
+    ("sled_weight", 32.0, 1.0),
+    ("sled_weight", 265.0, 1.0),
 ]
 
 

@@ -75,14 +75,22 @@ def test_what_is_known_is_kept_and_makes_less_error_normal(lab, opened):
     before = float(re.search(r"off by ([\d.]+) mm", normal.inner_text())[1])
     page.goto(f"{lab.site}#/known")
     gap = page.get_by_role("textbox", name="the gap between the motors, mm")
-    gap.fill("3602,5")
+    gap.fill("2982,5")
     page.get_by_role("textbox", name=re.compile("the gap.*how far it may be off")).fill("0,8")
     page.keyboard.press("Tab")
-    until(page, lambda: choices(lab).get("known") == {"motor_gap": {"value": 3602.5, "sigma": 0.8}})
+    until(page, lambda: choices(lab).get("known") == {"motor_gap": {"value": 2982.5, "sigma": 0.8}})
     gap.fill("about two")
     page.keyboard.press("Tab")
     page.get_by_text(re.compile("Type a number, like")).wait_for()
-    assert choices(lab).get("known")["motor_gap"]["value"] == 3602.5
+    assert choices(lab).get("known")["motor_gap"]["value"] == 2982.5
+    gap.fill("298")
+    page.keyboard.press("Tab")
+    refused = page.get_by_role("alert").filter(has_text="298.0 mm is far from the 2978.4 mm")
+    refused.wait_for()
+    assert gap.get_attribute("aria-invalid") == "true"
+    gap.fill("2982.5")
+    page.keyboard.press("Tab")
+    refused.wait_for(state="detached")
     page.goto(f"{lab.site}#/reach")
     normal.wait_for(timeout=PATIENCE)
     assert float(re.search(r"off by ([\d.]+) mm", normal.inner_text())[1]) < before

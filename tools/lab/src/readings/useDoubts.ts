@@ -1,13 +1,21 @@
 // Asks which readings disagree, a moment after each change.
 import { useEffect, useState } from "preact/hooks";
-import { get, type Schemas } from "../api/client";
+import { get, isSilence, type Schemas } from "../api/client";
 import type { Form } from "./useReadings";
 
 export type Doubt = Schemas["DoubtAnswer"];
 const PAUSE_MS = 500;
 
-export function useDoubts(form: Form | undefined): { doubts: Doubt[]; looking: boolean } {
+interface Doubts {
+  doubts: Doubt[];
+  looking: boolean;
+  /** Why nothing is looked for; empty if it is. */
+  refused: string;
+}
+
+export function useDoubts(form: Form | undefined): Doubts {
   const [answer, setAnswer] = useState<Schemas["DoubtsAnswer"]>();
+  const [refused, setRefused] = useState("");
   const { file = "", digest = "" } = form ?? {};
   const empty = !form?.distances.length && !form?.marks.some((mark) => mark.read);
   useEffect(() => {
@@ -15,8 +23,14 @@ export function useDoubts(form: Form | undefined): { doubts: Doubt[]; looking: b
     let over = false;
     const timer = setTimeout(async () => {
       const asked = get<Schemas["DoubtsAnswer"]>(`doubts?file=${encodeURIComponent(file)}`);
-      const doubts = await asked.catch(() => ({ file, digest, doubts: [] }));
-      if (!over) setAnswer(doubts);
+      let line = "";
+      const doubts = await asked.catch((error: Error) => {
+        line = isSilence(error) ? "" : error.message;
+        return { file, digest, doubts: [] };
+      });
+      if (over) return;
+      setAnswer(doubts);
+      setRefused(line);
     }, PAUSE_MS);
     return () => {
       over = true;
@@ -26,5 +40,5 @@ export function useDoubts(form: Form | undefined): { doubts: Doubt[]; looking: b
   const current = answer?.file === file && answer.digest === digest;
   // An answer about the readings before stays in view, so that rings do not flicker.
   const doubts = !empty && answer?.file === file ? answer.doubts : [];
-  return { doubts, looking: !current && !empty };
+  return { doubts, looking: !current && !empty, refused: empty ? "" : refused };
 }

@@ -18,7 +18,7 @@ import "../readings/readings.css";
 export function Readings() {
   const { project } = useProject();
   const readings = useReadings();
-  const { doubts, looking } = useDoubts(readings.form);
+  const { doubts, looking, refused } = useDoubts(readings.form);
   const { form, kept } = readings;
   if (!form) return <Screen title="What does the tape say?" say="One moment …" busy />;
   const read = form.marks.filter((mark) => mark.read).length;
@@ -51,6 +51,11 @@ export function Readings() {
           {kept.refused && (
             <p class="trouble" role="alert">
               {kept.refused}
+            </p>
+          )}
+          {refused && (
+            <p class="trouble" role="alert">
+              Nothing looks for readings that disagree. {refused}
             </p>
           )}
           <Doubts form={form} doubts={doubts} readings={readings} units={units} />

@@ -14,6 +14,7 @@ from plumb.fit.read_inputs import settings_in
 from plumb.lab.choices import Choices, read_choices
 from plumb.lab.commands import command, unit_words
 from plumb.lab.known import stated
+from plumb.lab.known_numbers import refuse_absurd_known
 from plumb.lab.project import Project
 from plumb.lab.routes.project import TheProject
 from plumb.marks.form import read_form
@@ -75,7 +76,7 @@ def compare(project: TheProject) -> ComparisonAnswer:
 def inputs_of(project: Project, *, among: Sequence[str] | None = None) -> api.Inputs:
     """The opened settings with all readings, or with those in files of these names.
 
-    Raises InputError if something is missing.
+    Raises InputError if something is missing, or cannot have been measured.
     """
     choices, _ = read_choices(project)
     if not choices.settings:
@@ -88,6 +89,7 @@ def inputs_of(project: Project, *, among: Sequence[str] | None = None) -> api.In
     if not marks:
         raise InputError("there are no readings yet; type in what you measured first")
     inputs = api.read(settings, *marks)
+    refuse_absurd_known(inputs.settings, choices)
     known = stated(choices)
     return replace(inputs, priors=known.priors, checked=known.checked)
 

@@ -10,6 +10,7 @@ from plumb.fit.inputs import Inputs
 from plumb.fit.read_inputs import settings_in
 from plumb.lab.choices import read_choices
 from plumb.lab.known import stated
+from plumb.lab.known_numbers import refuse_absurd_known
 from plumb.lab.routes.project import TheProject
 from plumb.marks.edges import from_edges
 from plumb.marks.form import read_form
@@ -39,9 +40,10 @@ class DoubtsAnswer(BaseModel):
 
 @router.get("/doubts")
 def show_doubts(project: TheProject, file: str) -> DoubtsAnswer:
-    """Which readings of a form no machine explains."""
+    """Which readings of a form no machine explains, by what is known of this machine."""
     choices, _ = read_choices(project)
     settings = settings_in(project.path(choices.settings))
+    refuse_absurd_known(settings, choices)
     digest = project.digest(file)
     form = read_form(project.path(file), sheet=settings.sheet, known=known_effects())
     in_force = form.measurements.rounds[0].cut_with

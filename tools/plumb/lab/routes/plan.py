@@ -14,7 +14,7 @@ from plumb.fit.expected import expected_anywhere, expected_priors, expected_sent
 from plumb.fit.read_inputs import settings_in
 from plumb.lab.choices import Choices, Layout, read_choices
 from plumb.lab.commands import command, prior_words, unit_words
-from plumb.lab.known import measured_to, planned_priors
+from plumb.lab.known import measured_to, planned_priors, possible
 from plumb.lab.planned import KINDS, Place, Planned, planned, refuse_unreachable
 from plumb.lab.project import Project
 from plumb.lab.rounds import FORM, PROGRAM, grid_command, next_number
@@ -155,7 +155,7 @@ class Desk:
         with self._lock:
             if mine != self._newest:
                 raise InputError("another plan came meanwhile")
-            priors = tuple(sorted(planned_priors(choices).items()))
+            priors = tuple(sorted(planned_priors(possible(choices, settings)).items()))
             places = tuple(request.places)
             sigma = tape_sigma(choices.fineness)
             return _look(_Same(settings), request.layout, places, sigma, priors, is_quick)
@@ -208,7 +208,7 @@ def preview_plan(request: PlanRequest, project: TheProject) -> PlanAnswer:
         pairs=outlook.pairs,
         apart=APART,
         trouble=_trouble(settings, request),
-        command=_command(project, choices, plan, outlook.sigma),
+        command=_command(project, possible(choices, settings), plan, outlook.sigma),
     )
 
 
@@ -246,6 +246,7 @@ def reach(project: TheProject) -> ReachAnswer:
     choices, _ = read_choices(project)
     settings = opened(project)
     survey = survey_sheet(settings)
+    choices = possible(choices, settings)
     known = expected_priors(measured_to(choices))
     expected = expected_anywhere(settings, known)
     with shown_in(choices.units):

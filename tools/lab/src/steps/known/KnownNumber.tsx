@@ -45,6 +45,8 @@ export function KnownNumber({ number, known, here, wanted, look, keep }: NumberP
   useEffect(() => setSigma(sure), [sure]);
   const [typed, error] = [typedLength(read, unit), typedLength(sigma, unit)];
   const wrong = (read !== "" && typed === undefined) || error === undefined || error <= 0;
+  // Why what is saved cannot be; not said of what is typed over it.
+  const refused = read === saved ? number.refused : "";
   const done = () => {
     if (read === "") {
       if (known) keep(undefined);
@@ -65,7 +67,7 @@ export function KnownNumber({ number, known, here, wanted, look, keep }: NumberP
         <input
           inputMode="decimal"
           aria-label={`${number.title}, ${name}`}
-          aria-invalid={wrong}
+          aria-invalid={wrong || refused !== ""}
           placeholder="not measured"
           value={read}
           onInput={(event) => setRead(event.currentTarget.value)}
@@ -86,6 +88,11 @@ export function KnownNumber({ number, known, here, wanted, look, keep }: NumberP
         <button type="button" onClick={() => void measure()}>
           Measure it on the virtual machine
         </button>
+      )}
+      {refused && (
+        <small class="wrong" role="alert">
+          {refused}
+        </small>
       )}
       {wrong && (
         <small class="wrong">Type a number, like {show(number.believed ?? number.usual)}.</small>
