@@ -70,10 +70,51 @@ TEST(Quick, CharactersFindRoomWhenNothingElseDoes) {
   EXPECT_EQ(125u + 1, lines(input).size());
 }
 
-TEST(Input, DropsAQuestionMarkAndControlCharacters) {
+TEST(Input, DropsAQuestionMark) {
   Input input;
-  put(input, std::string("G?1\r \x01\0X5\r\n", 11));
+  put(input, "G?1 X5?\n");
   EXPECT_EQ("G1 X5|", lines(input));
+}
+
+TEST(Input, DropsControlCharactersInFrontOfALine) {
+  Input input;
+  put(input, std::string("\0\x01\x7f", 2) + "G1 X5\n\x10\rG1 X6\n\x02G1");
+  EXPECT_EQ("G1 X5|G1 X6|", lines(input));
+  put(input, "\n\x02G2\n");
+  EXPECT_EQ("G1|G2|", lines(input));
+}
+
+TEST(Input, MakesAControlCharacterInALineAMistakeAsADigitMayHaveBecomeIt) {
+  for (const char each : {'\x00', '\x01', '\x0b', '\x10', '\x1f', '\x7f'}) {
+    Input input;
+    put(input, std::string("G0\nX1") + each + "0\n");
+    EXPECT_EQ("G0|X1?0|", lines(input)) << int(each);
+  }
+  Input input;
+  put(input, "X5 (a\x10) Y6\n");
+  char line[Input::kRoom + 1];
+  ASSERT_TRUE(input.takeLine(line));
+  EXPECT_EQ(Fault::kNone, faultOf(line));
+}
+
+TEST(Input, MakesAReturnAMistakeUnlessItIsAtTheEnd) {
+  Input input;
+  put(input, "X5\r\nX6\r \r\t\nX\r7 (-)\n");
+  EXPECT_EQ("X5|X6  |X?7 (-)|", lines(input)) << "a minus sign may have become that return";
+  put(input, "X8 (\r) Y8\r");
+  input.clear();
+  put(input, "X9\n");
+  EXPECT_EQ("X9|", lines(input));
+  put(input, "X8 (\r) Y8\n");
+  EXPECT_EQ("X8 (?) Y8|", lines(input)) << "the comment's end stays";
+}
+
+TEST(Input, SkipsALineThatAnUnreadableCharacterMakesTooLong) {
+  Input input;
+  put(input, std::string(125, 'X') + "\rXX\nG1\n" + std::string(1000, '\x10') + "\n");
+  EXPECT_EQ("(too long)|G1||", lines(input));
+  put(input, "X" + std::string(1000, '\x10') + "\n");
+  EXPECT_EQ("(too long)|", lines(input));
 }
 
 TEST(Input, MakesOtherBytesAMistakeButNotInComments) {

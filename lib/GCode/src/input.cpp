@@ -5,17 +5,19 @@ namespace gcode {
 namespace {
 
 const char kCtrlX = 24;
-// Marks a line that was too long to keep. No client can send this character, as control characters
-// are dropped.
-const char kTooLong = 1;
-// Replaces a byte that is no ASCII: in a comment it is harmless, elsewhere a mistake. A question
+// Marks a line that was too long to keep. No client can send it: kept() replaces this character. It
+// begins no word, so that in a hold the line waits as any line with a mistake.
+const char kTooLong = 127;
+// Replaces a byte that no line holds: in a comment it is harmless, elsewhere a mistake. A question
 // mark from the client is never stored.
 const char kUnreadable = '?';
+
+bool isControl(char character) { return uint8_t(character) < ' ' && character != '\t'; }
 
 /// The character that is stored for a character.
 char kept(char character) {
   if (character == '\t') return ' ';
-  return uint8_t(character) > 126 ? kUnreadable : character;
+  return isControl(character) || uint8_t(character) > 126 ? kUnreadable : character;
 }
 
 }  // namespace
@@ -23,6 +25,10 @@ char kept(char character) {
 void Input::store(char character) {
   ring_[uint8_t((uint16_t(first_) + used_) % kRoom)] = character;
   ++used_;
+}
+
+bool Input::isInLine() const {
+  return used_ != 0 && ring_[uint8_t((uint16_t(first_) + used_ - 1) % kRoom)] != '\n';
 }
 
 /// What a byte above 127 asks for. It asks for nothing in a comment or in a letter in UTF-8, whose
@@ -54,17 +60,30 @@ Quick Input::put(char character) {
   if (after_quick_) return Quick::kReset;
   if (character == '\n') {
     if (after_quick) return Quick::kNone;
-    swallowing_ = false;
+    swallowing_ = after_return_ = false;
     if (used_ == kRoom) return Quick::kOverflow;
     store('\n');
     ++lines_;
     return Quick::kNone;
   }
-  const bool is_control = uint8_t(character) < 32 && character != '\t';
-  if (swallowing_ || character == '?' || is_control) return Quick::kNone;
+  // In front of a line there may be noise, from the moment when the port was opened.
+  if (character == '?' || (isControl(character) && !isInLine())) return Quick::kNone;
+  if (character == '\r') {
+    after_return_ = true;
+    return Quick::kNone;
+  }
+  if (after_return_ && kept(character) != ' ') {
+    after_return_ = false;
+    keep(kUnreadable);
+  }
+  return keep(kept(character));
+}
+
+Quick Input::keep(char character) {
+  if (swallowing_) return Quick::kNone;
   // The last place is reserved for a line's end.
   if (used_ < kRoom - 1) {
-    store(kept(character));
+    store(character);
     return Quick::kNone;
   }
   if (lines_ != 0) return Quick::kOverflow;
@@ -112,7 +131,7 @@ bool Input::takeResume() {
 
 void Input::clear() {
   first_ = used_ = lines_ = resumable_ = 0;
-  swallowing_ = false;
+  swallowing_ = after_return_ = false;
   comment_ = 0;
 }
 

@@ -55,12 +55,18 @@ class Input {
 
  private:
   void store(char character);
+  /// Stores an ordinary character, or skips a line that is too long.
+  Quick keep(char character);
+  /// Whether something of a line is stored whose end has not come.
+  bool isInLine() const;
   Quick putQuick(char character);
 
   char ring_[kRoom];
   uint8_t first_ = 0, used_ = 0, lines_ = 0;
   uint8_t resumable_ = 0;  ///< lines before the last `~`: the line taken last, and waiting lines
   bool after_quick_ = false, swallowing_ = false, was_too_long_ = false;
+  bool after_return_ =
+      false;  ///< a CR came in this line; only spaces may be between it and the end
   // Where a byte above 127 is part of a text.
   char comment_ = 0;  ///< the character that began the comment; 0: none
   bool after_text_ = false;
