@@ -26,6 +26,9 @@ class Answers {
   bool isAnswered() const { return is_answered_; }
   /// Sets whether the line counts as answered.
   void setAnswered(bool yes) { is_answered_ = yes; }
+  /// From now on no refusal halts the machine, or one may again: nothing of a program depends on a
+  /// line of the operator.
+  void serve(bool yes) { is_serving_ = yes; }
   /// Whether a refusal has asked for a halt since the last call.
   bool mustHalt() {
     const bool must = must_halt_;
@@ -47,7 +50,7 @@ class Answers {
   bool refuseCode(const gcode::Piece& piece);
 
  private:
-  bool halts() const { return values_.at(kRefusedMotion) == 0; }
+  bool halts() const { return values_.at(kRefusedMotion) == 0 && !is_serving_; }
   void beginRefusal();
   bool endRefusal();
   void beginHalt();
@@ -55,7 +58,7 @@ class Answers {
   Printer& out_;
   const settings::Values& values_;
   const char* line_ = "";
-  bool is_answered_ = false, must_halt_ = false;
+  bool is_answered_ = false, must_halt_ = false, is_serving_ = false;
 };
 
 // Refusals of more than one part.

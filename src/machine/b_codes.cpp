@@ -101,11 +101,20 @@ bool Machine::measureChain(uint8_t, const Words& words) {
   return single_axis_.measureChain(words.has('L'));
 }
 
+bool Machine::wakeForTest() {
+  return motors_.wake() && waitWhile([&] { return interlude_.isOn(); });
+}
+
+bool Machine::testMotors(uint8_t, const Words&) {
+  return wakeForTest() && axis_tests_.testMotors();
+}
+
 bool Machine::pullChain(uint8_t, const Words& words) {
   const float duty = words.has('S') ? words.value('S') : 100;
   const float seconds = words.has('T') ? words.value('T') : 1;
   if (!(fabs(duty) <= 255 && seconds >= 0 && seconds <= 60))
     return answers_.refuse(FLASH("S is -255 to 255, T at most 60 s"));
+  if (!wakeForTest()) return false;
   return axis_tests_.pullChain(words.has('L') ? kLeftAxis : kRightAxis, int16_t(duty), seconds);
 }
 

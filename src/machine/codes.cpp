@@ -84,7 +84,7 @@ bool Machine::dwell(const gcode::Piece& piece) {
   if (!drain()) return false;
   out_ << FLASH("dwell time ");
   out_.fixed(seconds, 3).line(FLASH(" s"));
-  return waitFor(uint32_t(seconds * 1000));
+  return Waiting::dwell(uint32_t(seconds * 1000));
 }
 
 bool Machine::declare(const gcode::Piece& piece) {

@@ -80,6 +80,7 @@ void Machine::echo(const char* line) {
 bool Machine::runCode(const char* text) {
   const gcode::Mistake mistake = gcode::findMistake(text);
   if (mistake.fault != gcode::Fault::kNone) return answers_.refuseMistake(mistake);
+  new_values_.refreshGeometry();
   modal_.beginLine();
   gcode::Pieces pieces(text);
   gcode::Piece piece;
@@ -90,6 +91,8 @@ bool Machine::runCode(const char* text) {
 
 bool Machine::runPiece(const gcode::Piece& piece) {
   const Words& words = piece.words;
+  // A hold may have come in a wait that goes on in a hold, as a dwell does.
+  waitWhile([&] { return interlude_.isOn(); });
   // After a stop broke a line off only its modes still count: a stopped jog ends in G90.
   if (stopping_ || answers_.isAnswered()) return piece.letter == 'G' && modal_.take(piece.tenths);
   if (const char axis = foreignAxis(words))

@@ -34,7 +34,6 @@ bool Drilling::drill(const gcode::Words& words) {
     return answers_.refuseMotion(FLASH("holes are drilled in the plane of G17 only"));
   if (modal_.inverse_time || modal_.machine_coordinates)
     return answers_.refuseMotion(FLASH("no hole is drilled with G53 or G93"));
-  new_values_.refreshGeometry();
   const Place at = place_.counted();
   const float from[] = {at.x, at.y, at.z};
   const float offset[] = {coordinates_.begin(0), coordinates_.begin(1), coordinates_.begin(2)};
@@ -48,7 +47,7 @@ bool Drilling::drill(const gcode::Words& words) {
 
 bool Drilling::runStep(const gcode::DrillStep& step) {
   if (step.kind == gcode::DrillStep::kDwell)
-    return waiting_.drain() && waiting_.waitFor(cycle_.dwell());
+    return waiting_.drain() && waiting_.dwell(cycle_.dwell());
   const bool across = step.kind == gcode::DrillStep::kAcross;
   const float feed = moves_.feedOf(step.kind == gcode::DrillStep::kFeed ? 1 : 0);
   const float z = z_.within(step.z);

@@ -8,10 +8,9 @@ namespace machine {
 /// The cycle in force. lib/GCode works out its steps.
 class Drilling {
  public:
-  Drilling(gcode::Modal& modal, NewValues& new_values, const Coordinates& coordinates,
-           const SledPlace& place, const ZAxis& z, Moves& moves, Answers& answers, Waiting& waiting)
+  Drilling(gcode::Modal& modal, const Coordinates& coordinates, const SledPlace& place,
+           const ZAxis& z, Moves& moves, Answers& answers, Waiting& waiting)
       : modal_(modal),
-        new_values_(new_values),
         coordinates_(coordinates),
         place_(place),
         z_(z),
@@ -29,7 +28,6 @@ class Drilling {
   bool runStep(const gcode::DrillStep& step);
 
   gcode::Modal& modal_;
-  NewValues& new_values_;
   const Coordinates& coordinates_;
   const SledPlace& place_;
   const ZAxis& z_;

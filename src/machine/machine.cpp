@@ -28,9 +28,9 @@ Machine::Machine(const Ports& ports, const BoardName& board)
       pauses_(interlude_, input_, modal_, spindle_, place_, out_, *this),
       operator_lines_(interlude_, input_, modal_, axes_, motors_, z_, coordinates_, ports.clock,
                       out_, answers_, *this),
-      moves_(values_, geometry_, planner_, motors_, new_values_, coordinates_, place_, z_, cutter_,
-             pauses_, modal_, out_, answers_, *this),
-      drilling_(modal_, new_values_, coordinates_, place_, z_, moves_, answers_, *this),
+      moves_(values_, geometry_, planner_, motors_, coordinates_, place_, z_, cutter_, pauses_,
+             modal_, out_, answers_, *this),
+      drilling_(modal_, coordinates_, place_, z_, moves_, answers_, *this),
       single_axis_(values_, geometry_, axes_, planner_, motors_, place_, z_, ports.aux, modal_,
                    out_, answers_, *this),
       axis_tests_(axes_, values_, out_, motors_, place_, *this) {}

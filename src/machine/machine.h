@@ -127,7 +127,9 @@ class Machine : private Waiting, private Dispatch {
   bool sayVersion(uint8_t, const gcode::Words&);
   bool sayNoCalibration(uint8_t, const gcode::Words&);
   bool measureOut(uint8_t, const gcode::Words& words);
-  bool testMotors(uint8_t, const gcode::Words&) { return axis_tests_.testMotors(); }
+  /// Gives the motors power for a test that drives them in a hold too: it begins after the hold.
+  bool wakeForTest();
+  bool testMotors(uint8_t, const gcode::Words&);
   bool setChains(uint8_t, const gcode::Words& words);
   bool setChainsToMarks(uint8_t, const gcode::Words&) { return single_axis_.setChainsToMarks(); }
   bool moveChains(uint8_t, const gcode::Words& words) { return single_axis_.moveChains(words); }

@@ -42,7 +42,6 @@ float Moves::feedOf(uint8_t kind) const {
 bool Moves::move(uint8_t kind, const Words& words) {
   cutter_.aim(kind);
   takeFeed(words);
-  new_values_.refreshGeometry();
   // After a rest with motors off a jog starts where the sled is, even at the sheet's edge.
   if (modal_.relative && !motors_.areOn()) place_.countFromAim();
   Place target = targetOf(words);
@@ -92,7 +91,6 @@ bool Moves::goToKept(const gcode::Piece& piece) {
   const Words& words = piece.words;
   const float* const kept = coordinates_.goal(piece);
   if (kept == nullptr) return false;
-  new_values_.refreshGeometry();
   const bool all = !words.hasPlace();
   const bool across = all || goesAcross(words);
   if (!all && !goSafely(targetOf(words), across)) return false;

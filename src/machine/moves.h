@@ -5,7 +5,6 @@
 #include "cutter.h"
 #include "edge_cut.h"
 #include "motor_power.h"
-#include "new_values.h"
 #include "pauses.h"
 #include "z_axis.h"
 
@@ -15,14 +14,12 @@ namespace machine {
 class Moves {
  public:
   Moves(const settings::Values& values, const Geometry& geometry, Planner& mover,
-        MotorPower& motors, NewValues& new_values, Coordinates& coordinates, SledPlace& place,
-        ZAxis& z, Cutter& cutter, Pauses& pauses, gcode::Modal& modal, Printer& out,
-        Answers& answers, Waiting& waiting)
+        MotorPower& motors, Coordinates& coordinates, SledPlace& place, ZAxis& z, Cutter& cutter,
+        Pauses& pauses, gcode::Modal& modal, Printer& out, Answers& answers, Waiting& waiting)
       : values_(values),
         geometry_(geometry),
         planner_(mover),
         motors_(motors),
-        new_values_(new_values),
         coordinates_(coordinates),
         place_(place),
         z_(z),
@@ -64,7 +61,6 @@ class Moves {
   const Geometry& geometry_;
   Planner& planner_;
   MotorPower& motors_;
-  NewValues& new_values_;
   Coordinates& coordinates_;
   SledPlace& place_;
   ZAxis& z_;

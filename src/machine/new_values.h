@@ -30,7 +30,7 @@ class NewValues {
   /// values in a row, so the geometry waits for refreshGeometry().
   void take(uint8_t touches);
   /// Takes over the geometry if it is out of date, and works out the place. To be called before
-  /// each move.
+  /// each line that moves or asks for the place.
   void refreshGeometry();
   /// Refreshes the geometry once no new value has come for a while, and says the place. To be
   /// called often.

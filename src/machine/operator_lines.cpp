@@ -22,7 +22,8 @@ void OperatorLines::resume() {
 void OperatorLines::serve() {
   if (!interlude_.isOn()) return;
   if (interlude_.isEnding()) {
-    if (!bringZBack()) return;
+    // Z may be about to rise, as soon as its motor has power.
+    if (interlude_.isServing() || !bringZBack()) return;
     modal_ = interlude_.modal();
     interlude_.end();
     axes_.hold(false);
@@ -37,7 +38,11 @@ bool OperatorLines::bringZBack() {
   if (interlude_.beginsLowering()) {
     out_ << FLASH("Z goes back to ");
     out_.fixed(modal_.fromMm(axes_.plannedZ()), 2).end();
-    axes_.lower(z_.mostFeed() / 60, z_.acceleration());
+    // While the motors rested G10 may have said where z is.
+    interlude_.serve(true);
+    const bool has_power = motors_.areOn() || motors_.wake();
+    interlude_.serve(false);
+    if (has_power) axes_.lower(z_.mostFeed() / 60, z_.acceleration());
   }
   return false;
 }
@@ -51,9 +56,11 @@ void OperatorLines::serveLine() {
   const bool is_other_answered = answers_.isAnswered();
   answers_.setAnswered(false);
   interlude_.serve(true);
+  answers_.serve(true);
   input_.dropLine();
   const bool done = run(line);
   interlude_.serve(false);
+  answers_.serve(false);
   dispatch_.answer(done);
   answers_.setAnswered(is_other_answered);
 }

@@ -16,7 +16,7 @@ void Machine::service() {
   new_values_.refreshWhenQuiet(isMoving());
   // In a test of loops the motors also hold between the jumps.
   motors_.restWhenIdle(isMoving() || axes_.isDriven() || axis_tests_.isTesting() ||
-                       interlude_.isOn());
+                       interlude_.isOn() || isDwelling());
   place_.keepWhenAtRest(clock_.milliseconds());
   memory_.step();
   keepReporting();

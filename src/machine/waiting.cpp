@@ -10,6 +10,13 @@ bool Waiting::waitFor(uint32_t ms) {
   return waitWhile([&] { return clock_.milliseconds() - start < ms; });
 }
 
+bool Waiting::dwell(uint32_t ms) {
+  dwelling_ = true;
+  const bool completed = waitFor(ms);
+  dwelling_ = false;
+  return completed;
+}
+
 bool Waiting::drain() {
   if (!isMoving()) return !stopping_;
   waitWhile([&] { return isMoving(); });

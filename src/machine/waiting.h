@@ -39,6 +39,9 @@ class Waiting {
     return !stopping_;
   }
   bool waitFor(uint32_t ms);
+  /// A wait of the program, in which the motors keep their power.
+  bool dwell(uint32_t ms);
+  bool isDwelling() const { return dwelling_; }
   /// Waits until the moves queued so far are done and the motors have reached their end.
   bool drain();
   /// Waits until all axes are near their set-points, but not for ever.
@@ -52,6 +55,7 @@ class Waiting {
   Clock& clock_;
   Axes& axes_;
   bool stopping_ = false;  ///< a stop was asked for; every wait ends
+  bool dwelling_ = false;
 
  private:
   const Planner& planner_;

@@ -16,3 +16,17 @@
 <- ok
 ~~ wait 14
 ~~ z 5 within 0.03
+; What is behind the dwell in its line comes after ~.
+-> $17=2
+<- ok
+-> G4 P1000 M3
+<- dwell time*
+~~ wait 0.5
+>> ^H
+~~ wait 2
+~~ spindle low
+>> ~
+<- ok
+<- Turning Spindle On
+<- ok
+~~ spindle high

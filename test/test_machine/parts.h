@@ -9,6 +9,7 @@
 #include "board_at_rest.h"
 #include "machine/axis_tests.h"
 #include "machine/drilling.h"
+#include "machine/new_values.h"
 #include "machine/operator_lines.h"
 #include "machine/single_axis.h"
 #include "settings_flash.h"
@@ -63,9 +64,9 @@ struct Parts : testing::Test, machine::Dispatch {
         pauses(interlude, input, modal, spindle, place, out, waiting),
         operator_lines(interlude, input, modal, axes, motors, z, coordinates, board, out, answers,
                        *this),
-        moves(values, geometry, planner, motors, new_values, coordinates, place, z, cutter, pauses,
-              modal, out, answers, waiting),
-        drilling(modal, new_values, coordinates, place, z, moves, answers, waiting),
+        moves(values, geometry, planner, motors, coordinates, place, z, cutter, pauses, modal, out,
+              answers, waiting),
+        drilling(modal, coordinates, place, z, moves, answers, waiting),
         single_axis(values, geometry, axes, planner, motors, place, z, board, modal, out, answers,
                     waiting),
         axis_tests(axes, values, out, motors, place, waiting) {
