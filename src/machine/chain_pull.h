@@ -13,6 +13,10 @@ namespace machine {
 /// 1.2 turns a minute, the motor is switched off; until it stands the chain pulls with about 80 N,
 /// and the gears hold it. A sled at the top of the sheet pulls with 145 N.
 ///
+/// The duty that B11 states bounds winding in. It does not bound paying out, which must end within
+/// a moment: a motor that pays out pulls on nothing. A motor that is wired in reverse winds in
+/// there; it is switched off after a millimetre (kWrongWay), and is not well (kDead).
+///
 /// 38 N: motor constant k = 3.7 Nm/A at the sprocket, winding and supply R = 4.1 ohm, viscous
 /// friction b = 0.4 Nm s/rad, so (k^2 / R + b) / radius. R and k of a motor are known to 30 % and
 /// 10 %, so the force to 30 %: 60 to 105 N. Even if the program were late, the motor would stall at

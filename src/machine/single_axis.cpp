@@ -67,15 +67,15 @@ bool SingleAxis::setChainsToMarks() {
 
 bool SingleAxis::moveChains(const gcode::Words& words) {
   const float feed = words.value('F') > 0 ? words.value('F') : kAxisFeed;
-  bool completed = true;
+  const float given[] = {words.value('L'), words.value('R')};
+  float goals[2];
   for (uint8_t i = 0; i < 2; ++i) {
-    const Axis axis = Axis(i);
-    const float given = words.value(axis == kLeftAxis ? 'L' : 'R');
-    if (modal_.relative && given == 0) continue;
-    const float goal = modal_.relative ? axes_.target(axis) + given : given;
-    if (!isLength(goal)) return answers_.refuseMotion(tooLongForChains());
-    completed = completed && move(axis, goal, feed);
+    goals[i] = modal_.relative ? axes_.target(Axis(i)) + given[i] : given[i];
+    if (!isLength(goals[i])) return answers_.refuseMotion(tooLongForChains());
   }
+  bool completed = true;
+  for (uint8_t i = 0; i < 2; ++i)
+    if (!modal_.relative || given[i] != 0) completed = completed && move(Axis(i), goals[i], feed);
   place_.search();
   return completed;
 }

@@ -50,6 +50,7 @@ void Answers::taken(char character) {
   if (character == '\n' && !follows_quick) ++lines_;
   // In a comment it is text: then lines are answered, which no rule forbids.
   if (uint8_t(character) == kHold) is_held_ = true;
+  if (uint8_t(character) == kHold || after_quick_) is_idle_ = false;
 }
 
 void Answers::takenQuick(char character) {
@@ -58,22 +59,26 @@ void Answers::takenQuick(char character) {
     is_locked_ = false;
   }
   ++quick_;
-  is_held_ = is_lowering_ = false;
+  is_held_ = false;
 }
 
 void Answers::said(const std::string& line) {
   checkLine(line);
   if (line == "ok" || startsWith(line, "error:")) {
     ++answered_;
-    is_lowering_ = false;
     must(answered_ <= lines_ + quick_, "an answer too many: " + line);
   }
   if (startsWith(line, "ALARM:") && !startsWith(line, "ALARM: Position Lost")) {
     dropLines();
     is_locked_ = true;
+    is_idle_ = false;
     is_halted_ = startsWith(line, "ALARM: Halted at ");
   }
-  if (startsWith(line, "Z goes back to ")) is_lowering_ = true;
+  if (startsWith(line, "<")) {
+    is_idle_ = startsWith(line, "<Idle,");
+    is_waiting_ = startsWith(line, "<Pause,");
+  }
+  if (startsWith(line, "Z goes back to ")) is_waiting_ = true;
   if (startsWith(line, "FAKE_SERVO ")) is_simulated_ = line == "FAKE_SERVO on";
   const std::size_t equals = line.find('=');
   if (startsWith(line, "$") && equals != std::string::npos && std::isdigit(uint8_t(line[1]))) {
@@ -85,7 +90,7 @@ void Answers::said(const std::string& line) {
 
 void Answers::wentRound() {
   const int kMostRounds = 4;
-  const bool may_wait = is_locked_ || is_held_ || is_lowering_;
+  const bool may_wait = is_locked_ || is_held_ || is_waiting_;
   const bool waits = !isComplete() && !may_wait && answered_ == answered_before_;
   rounds_ = waits ? rounds_ + 1 : 0;
   answered_before_ = answered_;

@@ -20,6 +20,8 @@ class Answers {
   bool isLocked() const { return is_locked_; }
   /// After a halt the moves before it are finished; after an alarm nothing turns.
   bool mayDrive() const { return !is_locked_ || is_halted_; }
+  /// Whether the last status says so, and nothing came since that could change it.
+  bool isIdle() const { return is_idle_; }
   bool isSimulated() const { return is_simulated_; }
   /// Settings lines since the last look.
   int takeSettings();
@@ -31,6 +33,7 @@ class Answers {
   long lines_ = 0, quick_ = 0, answered_ = 0, answered_before_ = 0;
   int rounds_ = 0, settings_ = 0;
   bool after_quick_ = false, is_locked_ = false, is_halted_ = false, is_simulated_ = false;
-  // Lines wait without an answer in a hold, and behind it while z goes back.
-  bool is_held_ = false, is_lowering_ = false;
+  // Lines wait without an answer in a hold, and behind it while z goes back: until a status no
+  // longer says so, whatever a second `~` asks for.
+  bool is_held_ = false, is_waiting_ = false, is_idle_ = false;
 };

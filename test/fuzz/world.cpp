@@ -48,6 +48,7 @@ class World : public Wire, public Drives, public Aux, public Clock {
     for (;;) {
       machine.loop();
       answers_.wentRound();
+      checkRest();
     }
   }
 
@@ -124,6 +125,15 @@ class World : public Wire, public Drives, public Aux, public Clock {
   SimulatedEeprom eeprom;
 
  private:
+  /// Between two lines of the program, at rest, the next move begins at the height where z is.
+  void checkRest() const {
+    const float kHair = 0.01f;  // [mm]
+    const Axes& axes = machine_->axes();
+    if (!answers_.isIdle() || !machine_->planner().isIdle() || !axes.isEmpty()) return;
+    must(std::fabs(axes.target(kZAxis) - machine_->place().aim().z) < kHair,
+         "the next move of z begins elsewhere");
+  }
+
   void pass(int ms) {
     for (int i = 0; i < ms; ++i) {
       ++now_ms_;
