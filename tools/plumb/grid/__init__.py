@@ -5,7 +5,7 @@ from plumb.grid.form import marks_list
 from plumb.grid.gcode import program
 from plumb.grid.options import MIN_FREE_CHAIN, Grid, GridError, PlainMachine
 from plumb.grid.picture import preview
-from plumb.grid.spans import spans_of
+from plumb.grid.spans import spans_in, spans_of
 from plumb.grid.touches import listed, touches_of
 from plumb.grid.way import check, inwards, tensions
 
@@ -24,6 +24,7 @@ __all__ = [
     "preview",
     "program",
     "run",
+    "spans_in",
     "spans_of",
     "tensions",
     "touches_of",

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from plumb.grid import benchmark_pattern
 from plumb.grid.options import Grid, PlainMachine
+from plumb.grid.spans import spans_line
 from plumb.grid.touches import listed, touches_of
 
 
@@ -28,6 +29,7 @@ def marks_list(
     lines = [
         "# Calibration marks, mm from the sheet's top left corner; x right, y down, approach too.",
         "# Fill in each measured line and take away its #; delete a [[mark]] that you cannot read.",
+        *([spans_line(spans)] if spans else []),
         f'frame = "sheet-top-left"{cut_with}',
     ]
     for mark in listed(touches_of(grid, machine)):

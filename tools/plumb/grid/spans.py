@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from plumb.grid.limits import demand
 from plumb.grid.options import Grid
 from plumb.text.readers import to_do
 
 Cell = tuple[int, int]  # row and column
+ASKED = "# Lay the tape between these marks, in this order: "
 
 
 def spans_of(grid: Grid) -> list[tuple[str, str]]:
@@ -28,3 +31,19 @@ def spans_of(grid: Grid) -> list[tuple[str, str]]:
         return str(cell[0] * grid.columns + cell[1] + 1)
 
     return [(name(first), name(second)) for first, second in spans]
+
+
+def spans_line(spans: Sequence[tuple[str, str]]) -> str:
+    """The line of a form's head that says between which marks a tape is laid."""
+    return ASKED + ", ".join(f"{first} - {second}" for first, second in spans)
+
+
+def spans_in(head: Sequence[str]) -> list[tuple[str, str]]:
+    """The spans that the lines of a form's head ask for, in their order."""
+    pairs = [
+        pair.split(" - ")
+        for line in head
+        if line.startswith(ASKED)
+        for pair in line[len(ASKED) :].split(", ")
+    ]
+    return [(pair[0], pair[1]) for pair in pairs if len(pair) == 2]

@@ -98,6 +98,15 @@ class Tape:
         """Marks that were cut on this sheet before [mm from its middle], by their names."""
         self._places = {name: [np.array(place) for place in each] for name, each in places.items()}
 
+    def lengths(self, spans: Sequence[tuple[str, str]]) -> list[float]:
+        """The tape's readings [mm] of distances between marks that were read on this sheet."""
+        noise = self._noise
+        return [
+            float(np.linalg.norm(self._places[second][-1] - self._places[first][-1]))
+            + noise * float(self._source.standard_normal())
+            for first, second in spans
+        ]
+
     def read_again(self, name: str) -> list[tuple[float, float]]:
         """New readings of a name's marks on this sheet, in their order [mm from its middle]."""
         noise = self._noise

@@ -2,7 +2,7 @@
 import { useRef, useState } from "preact/hooks";
 import { lengthText, namedLength, typedLength } from "../controls/lengths";
 import { useProject } from "../shell/project";
-import { withInstead } from "./distances";
+import { beyond, withInstead } from "./distances";
 import { type Distance, useDistances } from "./useDistances";
 import type { Doubt } from "./useDoubts";
 import type { Form } from "./useReadings";
@@ -42,24 +42,30 @@ export function Distances({ form, take, doubts }: DistancesParts) {
     setText(lengthText(distance.length, units));
     void save((all) => withInstead(all, distance));
   };
+  const others = new Set(beyond(form.distances, form.spans));
+  const list = form.distances.map((distance, index) => [distance, index] as const);
   return (
-    <details class="distances" open={form.distances.length > 0}>
-      <summary>Distances between marks ({form.distances.length})</summary>
+    <details class="distances" open={others.size > 0}>
+      <summary>
+        {form.spans.length > 0 ? "More distances" : "Distances between marks"} ({others.size})
+      </summary>
       <ul>
-        {form.distances.map((distance, index) => (
-          <li
-            key={`${distance.between.join("-")}-${distance.length}`}
-            id={`distance-${index}`}
-            class={doubted.has(index) ? "doubted" : ""}
-          >
-            <span>
-              {distance.between.join(" to ")}: {namedLength(distance.length, units)}
-            </span>
-            <button type="button" onClick={() => change(distance)}>
-              Change
-            </button>
-          </li>
-        ))}
+        {list
+          .filter(([distance]) => others.has(distance))
+          .map(([distance, index]) => (
+            <li
+              key={`${distance.between.join("-")}-${distance.length}`}
+              id={`distance-${index}`}
+              class={doubted.has(index) ? "doubted" : ""}
+            >
+              <span>
+                {distance.between.join(" to ")}: {namedLength(distance.length, units)}
+              </span>
+              <button type="button" onClick={() => change(distance)}>
+                Change
+              </button>
+            </li>
+          ))}
       </ul>
       <form onSubmit={add}>
         {([0, 1] as const).map((side) => (

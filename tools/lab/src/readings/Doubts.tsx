@@ -47,7 +47,7 @@ export function Doubts({ form, doubts, readings, units }: DoubtsParts) {
 
 /** Brings the reading into view, ready to be changed. */
 function lookAt({ is_mark, index }: Doubt): void {
-  const place = is_mark ? `#mark-${index} input` : `#distance-${index} button`;
+  const place = is_mark ? `#mark-${index} input` : `#distance-${index} :is(button, input)`;
   const shown = document.querySelector<HTMLElement>(place);
   if (shown) shown.focus();
   // On a phone its cell opens first.

@@ -52,6 +52,12 @@ export function Measure() {
         show={setMoved}
         keep={keep}
       />
+      {id !== "own" && chosen && chosen.spans.length > 0 && (
+        <p class="to-tape">
+          <strong>Measure these distances, in this order:</strong>{" "}
+          {chosen.spans.map(([from, to]) => `${from + 1} to ${to + 1}`).join(", ")}.
+        </p>
+      )}
       {(trouble || plan?.trouble) && (
         <p class="trouble" role="alert">
           {trouble || plan?.trouble}

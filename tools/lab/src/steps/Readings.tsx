@@ -3,10 +3,12 @@
 import { namedLength } from "../controls/lengths";
 import { Distances } from "../readings/Distances";
 import { Doubts } from "../readings/Doubts";
+import { lengthBetween } from "../readings/distances";
 import { FormPicker } from "../readings/FormPicker";
 import { Grid } from "../readings/Grid";
 import { ReadAgain } from "../readings/ReadAgain";
 import { ReadingsMap } from "../readings/ReadingsMap";
+import { Spans } from "../readings/Spans";
 import { Tape } from "../readings/Tape";
 import { useDoubts } from "../readings/useDoubts";
 import { useReadings } from "../readings/useReadings";
@@ -14,6 +16,11 @@ import { Clashes } from "../shell/Clashes";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
 import "../readings/readings.css";
+
+const PLACED =
+  "Type where each mark is, from the two edges. Each number is saved at once and stays open to change. A reading that disagrees gets a ring: look at it again.";
+const TAPED =
+  "Lay the tape between the two marks of each line, in this order, and type what it says. Each number is saved at once and stays open to change.";
 
 export function Readings() {
   const { project } = useProject();
@@ -25,10 +32,13 @@ export function Readings() {
   const units = project.choices.units ?? "mm";
   const off = form.files.find((file) => file.name === form.file)?.off_target ?? null;
   const doubted = new Set(doubts.filter((doubt) => doubt.is_mark).map((doubt) => doubt.index));
+  const asked = form.spans.filter((span) => lengthBetween(form.distances, span)).length;
+  const isTaped = form.spans.length > 0;
+  const grid = <Grid form={form} readings={readings} doubted={doubted} />;
   return (
     <Screen
       title="What does the tape say?"
-      say="Type where each mark is, from the two edges. Each number is saved at once and stays open to change. A reading that disagrees gets a ring: look at it again."
+      say={isTaped ? TAPED : PLACED}
       why={<Why />}
       command={form.command}
     >
@@ -39,7 +49,8 @@ export function Readings() {
           <Tape form={form} take={readings.take} />
           <ReadingsMap form={form} doubted={doubted} />
           <p class="count" role="status" aria-busy={looking}>
-            {read} of {form.marks.length} marks are read.
+            {isTaped && `${asked} of ${form.spans.length} distances are read. `}
+            {(!isTaped || read > 0) && `${read} of ${form.marks.length} marks are read.`}
             {off !== null && ` They are off by ${namedLength(off, units, 2)} (RMS).`}
             {looking && " Looking for readings that disagree …"}
           </p>
@@ -59,7 +70,15 @@ export function Readings() {
             </p>
           )}
           <Doubts form={form} doubts={doubts} readings={readings} units={units} />
-          <Grid form={form} readings={readings} doubted={doubted} />
+          {isTaped && <Spans form={form} take={readings.take} doubts={doubts} />}
+          {isTaped ? (
+            <details class="places" open={read > 0}>
+              <summary>Where the marks are, if you measure that too</summary>
+              {grid}
+            </details>
+          ) : (
+            grid
+          )}
           <Distances form={form} take={readings.take} doubts={doubts} />
         </>
       )}

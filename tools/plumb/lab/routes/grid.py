@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 from fastapi import APIRouter
 from pydantic import BaseModel
 
 from plumb.fit.read_inputs import settings_in
-from plumb.grid import program, touches_of
+from plumb.grid import program, spans_in, touches_of
 from plumb.lab.choices import FILE, Choices, read_choices, save_choices, with_marks
 from plumb.lab.commands import command
 from plumb.lab.machine_line import MachineLine, TheLine
@@ -21,7 +22,8 @@ from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.readings import CHECK
 from plumb.lab.taken import Taken, is_read_again, taken_marks
 from plumb.line.sender import cleaned
-from plumb.marks.form import BLANK
+from plumb.marks.form import BLANK, read_form, toml_text, with_distances
+from plumb.model.predict import known_effects
 from plumb.plan.options import HANGING, MARK, ROUND
 from plumb.plan.visits_way import refuse_way
 from plumb.settings.machine import MachineSettings
@@ -205,12 +207,24 @@ def read_with_tape(request: FormRequest, project: TheProject, line: TheLine) -> 
         filled = line.do(lambda sender: owner.tape.fill_when_cut(blank.decode(), owner.machine))
     if filled is None:
         raise InputError("the marks are not all cut yet: cut them first")
-    files = {request.form: filled.encode()}
+    settings = settings_in(project.path(read_choices(project)[0].settings))
+    files = {request.form: _as_asked(filled, project.path(request.form), settings, owner)}
     if request.form.startswith(CHECK):
         project.save(files, read=known)
     else:
         save_choices(project, lambda now: with_marks(now, request.form), files=files, read=known)
     return show(project)
+
+
+def _as_asked(filled: str, form: Path, settings: MachineSettings, owner: VirtualOwner) -> bytes:
+    """What the tape filled in; where distances are asked, these instead of places."""
+    blank = read_form(form, sheet=settings.sheet, known=known_effects())
+    spans = spans_in(blank.comment)
+    if not spans:
+        return filled.encode()
+    lengths = [round(length, 1) for length in owner.tape.lengths(spans)]
+    head = with_distances(blank, list(zip(spans, lengths, strict=True)))
+    return toml_text(head, blank.comment).encode()
 
 
 def _lay(owner: VirtualOwner, raised: float, *, new_sheet: bool) -> None:

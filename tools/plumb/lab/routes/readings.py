@@ -11,6 +11,7 @@ from fastapi import APIRouter, UploadFile
 from pydantic import BaseModel
 
 from plumb.fit.read_inputs import settings_in
+from plumb.grid import spans_in
 from plumb.lab.choices import Choices, Edges, read_choices, save_choices, with_marks
 from plumb.lab.commands import command, known_words, unit_words
 from plumb.lab.project import Project
@@ -74,6 +75,7 @@ class ReadingsAnswer(BaseModel):
     sheet: tuple[float, float]
     marks: list[AskedMark]
     distances: list[AskedDistance]
+    spans: list[tuple[str, str]]  # names of marks between which a distance is asked, in order
     tape_sigma: float | None  # [mm] as stated in the file
     again: int  # marks that wait and are on the sheet already: they are only to be read again
     command: str
@@ -141,6 +143,7 @@ def show_readings(project: TheProject, file: str = "") -> ReadingsAnswer:
             AskedDistance(between=distance.between, length=distance.length)
             for distance in measurements.distances
         ],
+        spans=spans_in(form.comment) if form else [],
         tape_sigma=measurements.tape_sigma,
         again=_waiting(form) if form and is_read_again(project, name) else 0,
         command=_command(choices, name, measurements)
@@ -298,17 +301,26 @@ def _waits(form: Form) -> bool:
 
 
 def _waiting(form: Form) -> int:
-    """How many marks of a form wait for a reading."""
+    """How many marks of a form wait for a reading; where distances are asked, how many of those."""
+    if spans := _lengths_asked(form):
+        taped = {frozenset(distance.between) for distance in form.measurements.distances}
+        return sum(frozenset(span) not in taped for span in spans)
     return sum(mark.measured is None for mark in form.measurements.marks)
+
+
+def _lengths_asked(form: Form) -> list[tuple[str, str]]:
+    """The spans of a form that waits for distances and for no places."""
+    return [] if form.measurements.measured_marks else spans_in(form.comment)
 
 
 def _form_file(name: str, form: Form, choices: Choices) -> FormFile:
     measurements = form.measurements
     read = len(measurements.measured_marks) + len(measurements.distances)
+    asked = len(measurements.marks) + len(measurements.distances)
     return FormFile(
         name=name,
         read=read,
-        asked=len(measurements.marks) + len(measurements.distances),
+        asked=read + _waiting(form) if _lengths_asked(form) else asked,
         is_used=name in choices.marks,
         off_target=measurements.off_target,
     )

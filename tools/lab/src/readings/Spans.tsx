@@ -1,0 +1,84 @@
+// The distances that a form asks for, in the order in which they are measured: a field for each.
+import { useEffect, useState } from "preact/hooks";
+import { lengthText, typedLength } from "../controls/lengths";
+import { useProject } from "../shell/project";
+import { lengthBetween, withLength } from "./distances";
+import { useDistances } from "./useDistances";
+import type { Doubt } from "./useDoubts";
+import type { Form } from "./useReadings";
+
+interface SpansParts {
+  form: Form;
+  take: (form: Form) => void;
+  doubts: Doubt[];
+}
+
+export function Spans({ form, take, doubts }: SpansParts) {
+  const save = useDistances(form, take);
+  const doubted = new Set(doubts.filter((doubt) => !doubt.is_mark).map((doubt) => doubt.index));
+  return (
+    <ol class="spans" aria-label="Distances to measure">
+      {form.spans.map((span) => {
+        const measured = lengthBetween(form.distances, span);
+        const index = measured ? form.distances.indexOf(measured) : -1;
+        return (
+          <Span
+            key={`${form.file}/${span.join(" to ")}`}
+            name={span.join(" to ")}
+            index={index}
+            length={measured?.length}
+            doubted={doubted.has(index)}
+            keep={(length) => void save((all) => withLength(all, span, length))}
+          />
+        );
+      })}
+    </ol>
+  );
+}
+
+interface SpanParts {
+  name: string;
+  /** Its place among the distances of the form; -1 if it is not measured. */
+  index: number;
+  length: number | undefined;
+  doubted: boolean;
+  keep: (length: number | undefined) => void;
+}
+
+function Span({ name, index, length, doubted, keep }: SpanParts) {
+  const units = useProject().project.choices.units ?? "mm";
+  const saved = length === undefined ? "" : lengthText(length, units);
+  const [text, setText] = useState(saved);
+  useEffect(() => setText(saved), [saved]);
+  const typed = typedLength(text, units);
+  const wrong = text.trim() !== "" && !(typed && typed > 0);
+  const done = () => {
+    if (wrong || text === saved) return;
+    if (text.trim() !== "" || saved !== "") keep(text.trim() === "" ? undefined : typed);
+  };
+  return (
+    <li id={index < 0 ? undefined : `distance-${index}`} class={doubted ? "doubted" : ""}>
+      <label>
+        <span>{name}</span>
+        <input
+          inputMode={units === "mm" ? "decimal" : "text"}
+          autoComplete="off"
+          enterKeyHint="next"
+          aria-label={`Distance ${name}, ${units}`}
+          aria-invalid={wrong}
+          placeholder={units}
+          value={text}
+          onInput={(event) => setText(event.currentTarget.value)}
+          onBlur={done}
+          onKeyDown={(event) => {
+            if (event.key !== "Enter") return;
+            const after = event.currentTarget.closest("li")?.nextElementSibling;
+            const next = after?.querySelector("input");
+            if (next) next.focus();
+            else event.currentTarget.blur();
+          }}
+        />
+      </label>
+    </li>
+  );
+}
