@@ -121,7 +121,7 @@ class LineWorker:
             return self._state
 
     def do(self, work: Callable[[Sender], Result]) -> Future[Result]:
-        """Have work done with the machine. Raises InputError while there is other work.
+        """Have work done with the machine. Raises InputError in a hold or while other work is done.
 
         The future is done when the line takes other work again, or is lost.
         """
@@ -199,6 +199,9 @@ class LineWorker:
         with self._lock:
             if self._state.phase != "ready":
                 raise InputError(_busy(self._state.phase))
+            if self._state.holds:
+                # It would keep the lines and not answer them.
+                raise InputError("the machine holds: press Go on, or Stop, first")
             self._state = replace(
                 self._state,
                 phase="busy",
@@ -264,6 +267,7 @@ class LineWorker:
             done = task.run(sender)
         finally:
             self._working(False)
+        self._see(sender)
         self._note(phase="ready", **done.changes)
         done.then()
 

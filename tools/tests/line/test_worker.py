@@ -146,6 +146,34 @@ def test_stop_is_passed_on_when_nothing_is_sent(worker, board):
     assert worker.state.phase == "ready"
 
 
+def test_a_machine_that_holds_takes_no_work_because_no_line_would_be_answered(worker, board):
+    worker.hold()
+    until(lambda state: state.holds, worker)
+    for begin in (lambda: worker.do(lambda sender: sender.ask("B05")), lambda: send(worker)):
+        with pytest.raises(InputError, match="the machine holds: press Go on, or Stop"):
+            begin()
+    assert worker.state.phase == "ready" and b"B05" not in board.written
+    worker.go_on()
+    until(lambda state: not state.holds, worker)
+    assert worker.do(lambda sender: sender.ask("B05")).result(10) == []
+
+
+def test_after_a_stop_in_a_hold_the_machine_takes_work_at_once(worker, board):
+    worker.send("grid.nc", JOB)
+    until(lambda state: state.moves, worker)
+    worker.hold()
+    until(lambda state: state.holds, worker)
+    worker.stop()
+    until(lambda state: state.phase == "ready", worker)
+    assert not worker.state.holds
+    assert worker.do(lambda sender: sender.ask("B05")).result(10) == []
+
+
+def send(worker):
+    """A program of a line."""
+    worker.send("one.nc", ["G1 X1"])
+
+
 def test_a_line_lost_in_mid_cut_is_said_and_the_place_is_not_known(worker, board):
     worker.send("grid.nc", JOB)
     until(lambda state: state.program.done > 5, worker)
