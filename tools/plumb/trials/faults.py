@@ -21,11 +21,11 @@ def any_job(scene: Scene) -> list[str]:
 
 
 def writing_job(scene: Scene) -> list[str]:
-    """Settings are written, and positions are kept between moves."""
-    lines = list[str]()
-    for value in scene.source.integers(1000, 1999, size=3):
+    """Settings are written, and positions are kept while a relay's spindle starts and stops."""
+    lines = ["$17=2"]
+    for value in scene.source.integers(400, 1199, size=3):
         x = scene.source.uniform(-40, 40)
-        lines += [f"$9={value}", f"G1 X{x:.2f} F800", "G4 P4000"]
+        lines += [f"$9={value}", f"G1 X{x:.2f} F800", "M3", "M5"]
     return lines
 
 
