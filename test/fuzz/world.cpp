@@ -125,12 +125,14 @@ class World : public Wire, public Drives, public Aux, public Clock {
   SimulatedEeprom eeprom;
 
  private:
-  /// Between two lines of the program, at rest, the next move begins at the height where z is.
+  /// Between two lines of the program, at rest, the next move begins at the height where z is. From
+  /// a height beyond all travel, which an EEPROM may claim, no move begins.
   void checkRest() const {
     const float kHair = 0.01f;  // [mm]
     const Axes& axes = machine_->axes();
+    const float z = machine_->place().aim().z;
     if (!answers_.isIdle() || !machine_->planner().isIdle() || !axes.isEmpty()) return;
-    must(std::fabs(axes.target(kZAxis) - machine_->place().aim().z) < kHair,
+    must(std::fabs(axes.target(kZAxis) - z) < kHair || std::fabs(z) > kMostTravel,
          "the next move of z begins elsewhere");
   }
 
