@@ -18,15 +18,19 @@ export function ReadingsMap({ form, doubted }: MapParts) {
   const read = form.marks.filter((mark) => mark.place);
   const exaggeration = exaggerationFor(read, form.sheet[0]);
   const [width, height] = form.sheet;
+  const fromEdges = form.spans.length === 0 || read.length > 0;
   const x = corner[1] === "left" ? -width / 2 : width / 2;
   const y = corner[0] === "top" ? -height / 2 : height / 2;
   return (
     <figure class="readings-map">
       <SheetMap sheet={form.sheet} label={`${read.length} readings on the sheet`}>
-        <g stroke="var(--act)" class="edges">
-          <line x1={-width / 2} x2={width / 2} y1={y} y2={y} />
-          <line y1={-height / 2} y2={height / 2} x1={x} x2={x} />
-        </g>
+        {fromEdges && (
+          <g stroke="var(--act)" class="edges">
+            <line x1={-width / 2} x2={width / 2} y1={y} y2={y} />
+            <line y1={-height / 2} y2={height / 2} x1={x} x2={x} />
+          </g>
+        )}
+        <Taped form={form} />
         {form.marks.map((mark, index) => (
           <Spot
             key={mark.index}
@@ -48,9 +52,26 @@ export function ReadingsMap({ form, doubted }: MapParts) {
         ))}
       </SheetMap>
       <figcaption>
-        Arrows are {exaggeration} times longer than life. Blue: the edges you measure from.
+        {read.length > 0 && `Arrows are ${exaggeration} times longer than life. `}
+        {fromEdges ? "Blue: the edges you measure from." : "Dashed: the distances to measure."}
       </figcaption>
     </figure>
+  );
+}
+
+/** The distances that are asked for. */
+function Taped({ form }: { form: Form }) {
+  const pixel = usePixel();
+  const places = new Map(form.marks.map((mark) => [mark.name, mark.target]));
+  return (
+    <g stroke="var(--soft)" stroke-width={pixel} stroke-dasharray={`${5 * pixel}`}>
+      {form.spans.map(([from, to]) => {
+        const [start, end] = [places.get(from), places.get(to)];
+        if (!start || !end) return null;
+        const [x1, y1, x2, y2] = [start[0], -start[1], end[0], -end[1]];
+        return <line key={`${from} to ${to}`} x1={x1} y1={y1} x2={x2} y2={y2} />;
+      })}
+    </g>
   );
 }
 

@@ -29,26 +29,30 @@ export function Tape({ form, take }: TapeParts) {
   const { project, choose } = useProject();
   const save = useSave(form, take);
   const stated = form.tape_sigma !== null;
+  // Where distances alone are asked, no edge counts.
+  const fromEdges = form.spans.length === 0 || form.marks.some((mark) => mark.read);
   const finest = project.choices.fineness ?? 0.5;
   const state = (value: string) =>
     save("fineness", () => ({ finest: value ? Number(value) : null }));
   return (
     <div class="tape">
-      <label>
-        Measured from
-        <select
-          value={project.choices.edges}
-          onChange={(event) =>
-            void choose({ edges: event.currentTarget.value as NonNullable<Choices["edges"]> })
-          }
-        >
-          {EDGES.map(([corner, said]) => (
-            <option key={corner} value={corner}>
-              {said}
-            </option>
-          ))}
-        </select>
-      </label>
+      {fromEdges && (
+        <label>
+          Measured from
+          <select
+            value={project.choices.edges}
+            onChange={(event) =>
+              void choose({ edges: event.currentTarget.value as NonNullable<Choices["edges"]> })
+            }
+          >
+            {EDGES.map(([corner, said]) => (
+              <option key={corner} value={corner}>
+                {said}
+              </option>
+            ))}
+          </select>
+        </label>
+      )}
       <label>
         Finest lines of the tape
         <select

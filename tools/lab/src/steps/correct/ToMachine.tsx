@@ -66,6 +66,16 @@ export function ToMachine({ writing, isNext }: ToMachineParts) {
               : `The machine holds ${sent.changed.length} ${sent.back ? "old" : "new"} numbers; each was read back. Those before are in ${sent.kept}.`}{" "}
             {sent.failure}
           </p>
+          {sent.changed.length > 0 && (
+            <p>The sled stands where it stood; its place reads otherwise with other numbers.</p>
+          )}
+          {!sent.back && (
+            <p>
+              <a class="button primary" href="#/check">
+                Check it with two marks
+              </a>
+            </p>
+          )}
           <table>
             <tbody>
               {sent.changed.slice(0, SHOWN).map((number) => (

@@ -25,14 +25,19 @@ export function KnownNumber({ number, known, here, wanted, look, keep }: NumberP
   useEffect(() => {
     if (wanted) place.current?.scrollIntoView({ block: "center" });
   }, [wanted]);
-  const measure = () =>
-    send<Value>("POST", "known/measured", { name: number.name }).then(
-      (measured) => {
-        keep(measured);
-        setTrouble("");
-      },
-      (error: Error) => setTrouble(error.message),
-    );
+  const [busy, setBusy] = useState(false);
+  const measure = () => {
+    setBusy(true);
+    return send<Value>("POST", "known/measured", { name: number.name })
+      .then(
+        (measured) => {
+          keep(measured);
+          setTrouble("");
+        },
+        (error: Error) => setTrouble(error.message),
+      )
+      .finally(() => setBusy(false));
+  };
   const unit: Unit = number.unit === "mm" ? (project.choices.units ?? "mm") : "mm";
   const name = number.unit === "mm" ? unit : number.unit;
   const show = (read: number) => shownLength(read, unit, number.digits);
@@ -84,11 +89,6 @@ export function KnownNumber({ number, known, here, wanted, look, keep }: NumberP
         />{" "}
         {name}
       </span>
-      {here && isVirtual && (
-        <button type="button" onClick={() => void measure()}>
-          Measure it on the virtual machine
-        </button>
-      )}
       {refused && (
         <small class="wrong" role="alert">
           {refused}
@@ -96,6 +96,11 @@ export function KnownNumber({ number, known, here, wanted, look, keep }: NumberP
       )}
       {wrong && (
         <small class="wrong">Type a number, like {show(number.believed ?? number.usual)}.</small>
+      )}
+      {here && isVirtual && (
+        <button type="button" disabled={busy} onClick={() => void measure()}>
+          {busy ? "Measuring …" : "Measure it on the virtual machine"}
+        </button>
       )}
     </li>
   );
