@@ -7,6 +7,7 @@ import pytest
 from folder import EXAMPLE, example_form
 from playwright.sync_api import expect
 from plumb.cli.main import main
+from plumb.grid.spans import spans_line
 from plumb.marks.read import read_marks
 
 SHEET = (2438.4, 1219.2)
@@ -97,6 +98,31 @@ def test_a_slip_is_ringed_and_its_correction_taken(lab, page):
 
 def disagreeing(page):
     return page.get_by_role("list", name="Readings that disagree")
+
+
+def test_each_distance_that_is_asked_has_its_field(lab, page):
+    spans = [("2", "4"), ("4", "12"), ("8", "12")]
+    with_form(lab, f"{spans_line(spans)}\n{example_form()}")
+    page.goto(f"{lab.url}#/readings")
+    fields = page.get_by_role("list", name="Distances to measure").get_by_role("textbox")
+    expect(fields).to_have_count(len(spans))
+    first = page.get_by_label("Distance 2 to 4, mm", exact=True)
+    first.fill("1123,5")
+    first.press("Enter")
+    expect(fields.nth(1)).to_be_focused()
+    fields.nth(1).fill("about two")
+    fields.nth(2).fill("757")
+    fields.nth(2).press("Enter")
+    page.get_by_text("2 of 3 distances are read.").wait_for()
+    expect(fields.nth(1)).to_have_attribute("aria-invalid", "true")
+    page.get_by_text("More distances (0)").wait_for()
+    assert not page.get_by_label(LEFT.format(1), exact=True).is_visible()
+    assert not page.get_by_label("Measured from").count()
+    read = read_marks(lab.folder / "marks.toml", sheet=SHEET).distances
+    assert {each.between: each.length for each in read} == {spans[0]: 1123.5, spans[2]: 757}
+    first.fill("")
+    first.press("Tab")
+    page.get_by_text("1 of 3 distances are read.").wait_for()
 
 
 def test_a_slip_in_a_distance_is_named_and_its_correction_taken(lab, page):
