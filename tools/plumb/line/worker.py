@@ -33,6 +33,7 @@ Result = TypeVar("Result")
 Phase = Literal["none", "connecting", "ready", "busy", "stopping", "lost"]
 LEAVES = 5.0  # [s] in which a line is usually let go of
 SAID = 30  # lines of the machine that are kept
+SURE = 2  # reports after which it shows whether a hold that was pressed is done
 FOUND_PLACE = "position loaded at:"
 
 
@@ -111,6 +112,7 @@ class LineWorker:
         self._places = deque[tuple[float, Status]]()
         self._paused: Callable[[int], None] = lambda lines: None
         self._waits = False  # in mid-work, for a person
+        self._held_at = -SURE  # reports that had come at the last hold
         self._thread = Thread(target=self._run, name="line to the machine", daemon=True)
         self._thread.start()
 
@@ -280,6 +282,7 @@ class LineWorker:
         if self._stop.is_set() or self._end.is_set():
             for pressed in (self._stop, self._hold, self._go_on):
                 pressed.clear()
+            self._held_at = -SURE
             self._note(phase="stopping")
             sender.stop()
         self._press(sender)
@@ -288,12 +291,16 @@ class LineWorker:
         """Pass on what somebody pressed."""
         if self._stop.is_set():
             self._stop.clear()
+            self._held_at = -SURE
             sender.brake()
         if self._hold.is_set():
             self._hold.clear()
+            self._held_at = sender.reports
             sender.hold()
+            self._note(holds=True)
         if self._go_on.is_set():
             self._go_on.clear()
+            self._held_at = -SURE
             sender.go_on()
 
     def _await_rest(self, sender: Sender) -> None:
@@ -318,7 +325,8 @@ class LineWorker:
             max(map(abs, map(float.__sub__, status.place, old.place))) > STANDS
             for _, old in self._places
         )
-        self._note(place=status.place, holds=status.state == "Pause", moves=moves)
+        holds = status.state == "Pause" or sender.reports - self._held_at < SURE
+        self._note(place=status.place, holds=holds, moves=moves)
 
     def _hear(self, line: str) -> None:
         """Note what the machine said."""

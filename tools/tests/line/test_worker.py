@@ -169,6 +169,39 @@ def test_after_a_stop_in_a_hold_the_machine_takes_work_at_once(worker, board):
     assert worker.do(lambda sender: sender.ask("B05")).result(10) == []
 
 
+class LateBoard(SlowBoard):
+    """A board whose next report still says what was before a hold."""
+
+    late = 0
+
+    def read(self):
+        if self.holds and self.late == 0:
+            self.late, self.holds = 1, False
+            try:
+                return super().read()
+            finally:
+                self.holds = True
+        return super().read()
+
+
+def test_a_hold_counts_from_the_press_not_from_the_next_report():
+    board = LateBoard()
+    worker = LineWorker(lambda: board)
+    until(lambda state: state.phase == "ready", worker)
+    worker.hold()
+    until(lambda state: board.late == 1, worker)
+    with pytest.raises(InputError, match="the machine holds"):
+        worker.do(lambda sender: sender.ask("B05"))
+    worker.close()
+
+
+def test_a_hold_that_the_machine_ignores_is_forgotten(worker, board):
+    board.write = lambda characters: None  # as in an alarm
+    worker.hold()
+    until(lambda state: state.holds, worker)
+    until(lambda state: not state.holds, worker)
+
+
 def send(worker):
     """A program of a line."""
     worker.send("one.nc", ["G1 X1"])
