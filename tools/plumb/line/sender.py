@@ -21,6 +21,8 @@ START = 12.0  # [s] a board that was reset by the line takes up to six
 HOLD, GO_ON, STOP = b"\x84", b"~\n", b"!\n"
 ANSWERS = ("ok", "error:")
 WRONG = ("ALARM", "error:")  # how lines begin that nobody may miss
+HALTED = "Stop"  # what a machine reports that waits for Stop; it answers questions alone
+PATIENT = 5  # reports, a second of them
 STANDS = 0.02  # [mm] between two reports of a machine at rest
 REPORTS = 0.6  # [s] in which it reports thrice
 PER_SECOND = 5  # reports
@@ -58,6 +60,7 @@ class Sender:
     greeting: tuple[str, ...] = ()  # what the machine said before its first report
     _partial: str = ""
     _heard_at: float = math.inf  # nobody expects a machine to speak before it was asked
+    _halted_from: int = 0  # reports that had come when it was last seen to do something
     _spare: int = 0  # answers to come that belong to no line
     _left: int = 0  # answers to come for lines that were on their way behind a refused line
     _on_the_way: deque[tuple[str, int]] = field(default_factory=deque)
@@ -88,6 +91,7 @@ class Sender:
         """
         done = 0
         self._heard_at = self.port.seconds()
+        self._halted_from = self.reports
         for line in cleaned(lines):
             while self._characters() + len(line) + 1 > AHEAD:
                 done = self._hear(done, answered)
@@ -165,7 +169,9 @@ class Sender:
         self.attend(self)
         for line in self._lines():
             if self._note_status(line):
+                self._refuse_if_halted()
                 continue
+            self._halted_from = self.reports
             if self._is_left_over(line):
                 continue
             if line == "ok" and self._spare:
@@ -189,6 +195,15 @@ class Sender:
         self._on_the_way.clear()
         where = f"{line!r}: " if line else ""
         raise RefusedError(f"{where}the machine says: {answer}")
+
+    def _refuse_if_halted(self) -> None:
+        """Refuse to wait on for a machine that halted before: it drops lines without an answer."""
+        if self.status is None or self.status.state != HALTED:
+            self._halted_from = self.reports
+        elif self.reports - self._halted_from >= PATIENT:
+            line = self._on_the_way[0][0] if self._on_the_way else ""
+            self._on_the_way.clear()
+            raise RefusedError(f"{line!r}: the machine has halted; press Stop first")
 
     def _is_left_over(self, line: str) -> bool:
         """Whether it answers a line that was on its way behind a refused line."""

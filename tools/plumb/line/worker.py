@@ -18,6 +18,7 @@ from typing import Any, Literal, TypeVar
 from plumb.line.lost_place import lost_place
 from plumb.line.port import LostError, Port
 from plumb.line.sender import (
+    HALTED,
     REPORTS,
     STANDS,
     Sender,
@@ -35,6 +36,7 @@ LEAVES = 5.0  # [s] in which a line is usually let go of
 SAID = 30  # lines of the machine that are kept
 SURE = 2  # reports after which it shows whether a hold that was pressed is done
 FOUND_PLACE = "position loaded at:"
+HAS_HALTED = "The machine has halted: press Stop."
 
 
 @dataclass(frozen=True)
@@ -327,6 +329,10 @@ class LineWorker:
         )
         holds = status.state == "Pause" or sender.reports - self._held_at < SURE
         self._note(place=status.place, holds=holds, moves=moves)
+        if status.state == HALTED and not self._state.trouble:
+            self._note(trouble=HAS_HALTED)
+        elif status.state != HALTED and self._state.trouble == HAS_HALTED:
+            self._note(trouble="")
 
     def _hear(self, line: str) -> None:
         """Note what the machine said."""

@@ -101,6 +101,37 @@ def test_an_alarm_forgets_the_lines_behind_it():
     assert sender.stream(["$0", "$1"]) == 2
 
 
+class HaltedBoard(Board):
+    """A machine that halted before: it drops lines, and answers the questions of some."""
+
+    state = "Stop"
+
+    def __init__(self, questions=()):
+        super().__init__()
+        self.questions = questions
+
+    def read(self):
+        self.waiting = [line for line in self.waiting if line in self.questions]
+        return super().read().replace(b"Idle", self.state.encode())
+
+
+def test_a_machine_that_halted_before_is_not_waited_for():
+    board = HaltedBoard()
+    with pytest.raises(RefusedError, match=r"^'G0 X5': the machine has halted; press Stop first$"):
+        Sender(board).stream(["G0 X5", "G0 X6"])
+    assert board.time < 3
+    assert Sender(HaltedBoard(questions=["$$", "B05"])).stream(["$$"] * 20 + ["B05"] * 20) == 40
+
+
+def test_a_machine_that_holds_is_waited_for_longer():
+    board = HaltedBoard()
+    board.state = "Pause"
+    sender = Sender(board, attend=lambda sender: setattr(board, "deaf", board.time > 30))
+    with pytest.raises(LostError):
+        sender.stream(["G0 X5"])
+    assert board.time > 30
+
+
 def test_a_stop_forgets_the_lines_behind_a_refused_line():
     board = Board(lambda line: "error: no such word" if line == "$1" else "ok")
     sender = Sender(board)

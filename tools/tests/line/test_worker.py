@@ -17,7 +17,7 @@ class SlowBoard:
         self.x, self.time = 0.0, 0.0
         self.waiting, self.written = [], b""
         self.holds = self.is_pulled = self.is_closed = self.is_silent = False
-        self.greeting = b""
+        self.greeting, self.state = b"", "Idle"
         self.says = {}
 
     def write(self, characters):
@@ -44,7 +44,7 @@ class SlowBoard:
             line = self.waiting.pop(0)
             self.x += line.startswith("G1")
             said += self.says.get(line, b"ok") + b"\r\n"
-        state = "Pause" if self.holds else "Idle"
+        state = "Pause" if self.holds else self.state
         return said + f"<{state},MPos:{self.x:.2f},0.00,0.00,WPos:0,0,0>\r\n".encode()
 
     def seconds(self):
@@ -200,6 +200,13 @@ def test_a_hold_that_the_machine_ignores_is_forgotten(worker, board):
     worker.hold()
     until(lambda state: state.holds, worker)
     until(lambda state: not state.holds, worker)
+
+
+def test_a_halt_is_said_until_it_is_over(worker, board):
+    board.state = "Stop"
+    until(lambda state: state.trouble == "The machine has halted: press Stop.", worker)
+    board.state = "Idle"
+    until(lambda state: state.trouble == "", worker)
 
 
 def send(worker):
