@@ -22,7 +22,7 @@ STORIES = {
     "cli/arguments/checked.py",
     # Machines on which chains slip, and a question to the owner about the links of a chain.
     "bench/slipped_chains.py",
-    "lab/routes/known.py",
+    "lab/known_numbers.py",
     # What a rule or a scale reads for a number: the page asks for no number without such words.
     "lab/by_hand.py",
     "cure/demo.py",
