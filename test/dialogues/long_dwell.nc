@@ -4,14 +4,11 @@
 <- ok
 -> G4 P5000
 <- dwell*
-~~ wait 4
+~~ wait 3.5
+~~ pull left 2
+~~ wait 0.5
 ~~ on left
+~~ pull left 0
 <- ok
-~~ wait 1
-~~ on left
-~~ wait 1.5
+~~ wait 3
 ~~ off left
--> G82 X20 Z-1 R0 P4000 F300
-~~ wait 6
-~~ on left
-<- ok
