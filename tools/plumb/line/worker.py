@@ -203,7 +203,7 @@ class LineWorker:
         with self._lock:
             if self._state.phase != "ready":
                 raise InputError(_busy(self._state.phase))
-            if self._state.holds:
+            if self._state.holds or self._hold.is_set():
                 # It would keep the lines and not answer them.
                 raise InputError("the machine holds: press Go on, or Stop, first")
             self._state = replace(

@@ -195,6 +195,15 @@ def test_a_hold_counts_from_the_press_not_from_the_next_report():
     worker.close()
 
 
+def test_work_that_comes_with_a_hold_is_refused(worker):
+    for _ in range(20):
+        worker.hold()
+        with pytest.raises(InputError, match="the machine holds"):
+            worker.do(lambda sender: sender.ask("B05"))
+        worker.go_on()
+        until(lambda state: not state.holds, worker)
+
+
 def test_a_hold_that_the_machine_ignores_is_forgotten(worker, board):
     board.write = lambda characters: None  # as in an alarm
     worker.hold()
