@@ -296,10 +296,10 @@ class LineWorker:
             self._held_at = -SURE
             sender.brake()
         if self._hold.is_set():
-            self._hold.clear()
             self._held_at = sender.reports
-            sender.hold()
             self._note(holds=True)
+            self._hold.clear()
+            sender.hold()
         if self._go_on.is_set():
             self._go_on.clear()
             self._held_at = -SURE
