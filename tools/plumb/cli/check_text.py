@@ -15,7 +15,6 @@ from plumb.jobs.hanging import Hanging
 from plumb.text.shown import bare, signed, unit, worded
 
 SHOWN = 12  # lines of a kind
-SINKING = 2  # rests at which the sled may sink
 PARTS = 12  # parts in the table
 CUT = 10.0  # [N] the side force of a light cut
 
@@ -120,10 +119,7 @@ def _notes(checked: Checked) -> list[str]:
     waits = [finding.line for finding in checked.findings if finding.kind == WAITS]
     if waits:
         notes.append(f"the machine waits for you at line {_lines(waits)}")
-    sinks = [finding for finding in checked.findings if finding.kind == SINKS]
-    notes += [f"line {each.line}: {each.says}" for each in sinks[:SINKING]]
-    if len(sinks) > SINKING:
-        notes.append(f"it may sink at {len(sinks) - SINKING} more rests; --json has all")
+    notes += [f"line {each.line}: {each.says}" for each in checked.findings if each.kind == SINKS]
     ignored = Counter(each.says for each in checked.findings if each.kind == IGNORED)
     for code, count in ignored.items():
         notes.append(

@@ -12,7 +12,7 @@ from plumb.jobs.findings import Finding, findings_of
 from plumb.jobs.hanging import Hanging, hanging_along
 from plumb.jobs.moves import Samples
 from plumb.jobs.parts import Part, parts_of
-from plumb.jobs.resting import rests_too_high
+from plumb.jobs.resting import ends_too_high
 from plumb.jobs.speeds import Slower, Times, slower_moves, times_of
 from plumb.settings.machine import MachineSettings
 
@@ -57,7 +57,7 @@ def check(
     samples = over_sheet.sampled(STEP)
     parts = parts_of(over_sheet, samples)
     findings = findings_of(done)
-    findings += rests_too_high(settings, done, findings)
+    findings += ends_too_high(settings, done)
     errors = errors_of(Believed.of(inputs), settings, parts) if inputs else None
     return Checked(
         done=done,
