@@ -1,5 +1,7 @@
 """Holds at any moment, and other feeds, leave the way of a program as it is."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from plumb.bench.causes import MAKER
@@ -9,6 +11,7 @@ from plumb.vm.garage import VirtualMachine, set_up
 from plumb.vm.in_process import InProcessPort
 from scipy.spatial import cKDTree
 
+ELF = Path(__file__).resolve().parents[3] / ".pio/build/megaatmega2560/firmware.elf"
 HOLD, GO_ON = b"\x84", b"~"
 FEEDS = [bytes([each]) for each in range(0x90, 0x95)]
 STEP = 20  # [ms] between two looks
@@ -42,10 +45,10 @@ G0 X70
 """
 
 
-def machine_at_rest():
+def machine_at_rest(elf=None):
     """A machine without errors at the middle of its sheet."""
     chains, _ = lengths(MAKER, np.zeros((1, 2)))
-    machine = VirtualMachine(judged(MAKER), paid_out=float(chains[0, 0]))
+    machine = VirtualMachine(judged(MAKER), paid_out=float(chains[0, 0]), elf=elf)
     machine.start()
     sender = Sender(InProcessPort(machine))
     sender.await_start()
@@ -107,10 +110,10 @@ class Client:
         raise AssertionError(f"{self.answered} of {len(self.lines)} lines were answered")
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_holds_at_any_moment_leave_the_way_as_it_is(seed):
+@pytest.mark.parametrize(("seed", "elf"), [(0, None), (1, None), (2, None), (3, str(ELF))])
+def test_holds_at_any_moment_leave_the_way_as_it_is(seed, elf):
     usual = Client(machine_at_rest()).run(None)
-    client = Client(machine_at_rest())
+    client = Client(machine_at_rest(elf))
     held = client.run(np.random.default_rng(seed))
     assert client.holds > 20 and len(held) > 1.3 * len(usual)
     assert cKDTree(usual).query(held)[0].max() < APART
