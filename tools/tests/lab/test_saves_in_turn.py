@@ -93,8 +93,11 @@ def test_what_another_tab_saved_in_between_is_not_replaced(lab, form, late):
     assert len(read(lab).readings) == 9 and not read(lab).distances
     assert form.locator(".distances form input").input_value() == FEW[0][2]
     form.get_by_text("9 of 23 marks are read").wait_for()
+    form.wait_for_timeout(500)
+    assert form.get_by_role("alert").get_by_text("in the meantime").is_visible(), "it stays"
     form.get_by_role("button", name="Add the distance").click()
     let_go(form, late, 1)
+    expect(form.get_by_role("alert")).to_have_count(0)
     expect(form.locator(".distances li")).to_have_count(1)
     assert len(read(lab).readings) == 9
 

@@ -34,6 +34,7 @@ export function useReadings(first = ""): TypedForm {
   const [silences, setSilences] = useState(0);
   const newest = useRef<Form | undefined>(undefined);
   const turns = useRef(new Turns()).current;
+  const refused = useRef(""); // what this said of a load
   const show = useCallback((answer: Form) => {
     newest.current = answer;
     savesOf(answer.file).learn(answer);
@@ -53,9 +54,11 @@ export function useReadings(first = ""): TypedForm {
     try {
       const answer = await get<Form>(`readings?file=${encodeURIComponent(file)}`);
       if (turns.counts(question)) show(answer);
-      setTrouble("");
+      // Why a save was refused stays in view.
+      setTrouble((line) => (line === refused.current ? "" : line));
     } catch (error) {
-      setTrouble(error instanceof Error ? error.message : String(error));
+      refused.current = error instanceof Error ? error.message : String(error);
+      setTrouble(refused.current);
       if (isSilence(error)) setSilences((count) => count + 1);
     }
   }, [file, turns, show, setTrouble]);

@@ -19,7 +19,7 @@ export interface Shared {
   reload: () => Promise<void>;
   /** What went wrong last; empty if nothing. */
   trouble: string;
-  setTrouble: (line: string) => void;
+  setTrouble: (line: string | ((before: string) => string)) => void;
 }
 
 export const ProjectContext = createContext<Shared | null>(null);
