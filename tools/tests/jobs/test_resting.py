@@ -48,12 +48,12 @@ def test_a_heavier_sled_sinks_from_lower_places():
 
 def test_a_caution_is_said_and_is_no_error(tmp_path, capsys):
     (tmp_path / "machine.toml").write_text(machine_toml(MAKER))
-    job = ["M0", f"G0 Y{HIGH}"]
+    job = ["M0", f"G0 X9 Y{HIGH}", "G0 X5"]
     (tmp_path / "job.nc").write_text("\n".join(["G0 Z5", *job, ""]))
     assert main(["check", str(tmp_path / "job.nc"), str(tmp_path / "machine.toml")]) == 0
     said = " ".join(capsys.readouterr().out.split())
     assert "Nothing is wrong with job.nc." in said
-    assert "line 3: the program ends at X0.00 Y500.00, where the sled may sink" in said
+    assert "line 4: the program ends at X5.00 Y500.00, where the sled may sink" in said
     assert "a chain pulls with 137 N, and some gears hold no more than 104 N" in said
 
 

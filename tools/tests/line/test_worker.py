@@ -5,7 +5,7 @@ from threading import Event
 
 import pytest
 from plumb.line.port import LostError
-from plumb.line.sender import GO_ON, HOLD, STOP
+from plumb.line.sender import GO_ON, HOLD, STOP, StoppedError
 from plumb.line.worker import LineWorker
 from plumb.text.errors import InputError
 
@@ -122,6 +122,20 @@ def test_stop_gives_the_program_up_even_in_a_hold(worker, board):
     until(lambda state: state.phase == "ready" and state.program.outcome == "done", worker)
 
 
+def test_after_a_stop_in_a_hold_the_line_is_free_at_once(worker):
+    holds = []
+    future = worker.do(lambda sender: sender.stream(JOB))
+    future.add_done_callback(lambda _: holds.append(worker.state.holds))
+    until(lambda state: state.moves, worker)
+    worker.hold()
+    until(lambda state: state.holds, worker)
+    worker.stop()
+    with pytest.raises(StoppedError):
+        future.result(10)
+    until(lambda _: holds, worker)
+    assert holds == [False]
+
+
 @pytest.mark.parametrize("is_at_work", [True, False])
 def test_after_go_on_and_stop_together_the_next_program_comes_to_its_end(worker, board, is_at_work):
     if is_at_work:
@@ -155,17 +169,6 @@ def test_a_machine_that_holds_takes_no_work_because_no_line_would_be_answered(wo
     assert worker.state.phase == "ready" and b"B05" not in board.written
     worker.go_on()
     until(lambda state: not state.holds, worker)
-    assert worker.do(lambda sender: sender.ask("B05")).result(10) == []
-
-
-def test_after_a_stop_in_a_hold_the_machine_takes_work_at_once(worker, board):
-    worker.send("grid.nc", JOB)
-    until(lambda state: state.moves, worker)
-    worker.hold()
-    until(lambda state: state.holds, worker)
-    worker.stop()
-    until(lambda state: state.phase == "ready", worker)
-    assert not worker.state.holds
     assert worker.do(lambda sender: sender.ask("B05")).result(10) == []
 
 
@@ -209,6 +212,13 @@ def test_a_hold_that_the_machine_ignores_is_forgotten(worker, board):
     worker.hold()
     until(lambda state: state.holds, worker)
     until(lambda state: not state.holds, worker)
+
+
+def test_what_halted_the_machine_is_not_covered_by_that_it_has_halted(worker, board):
+    board.greeting, board.state = b"ALARM: a chain is stuck. Press Stop.\r\n", "Stop"
+    until(lambda state: state.trouble, worker)
+    time.sleep(0.05)
+    assert worker.state.trouble == "ALARM: a chain is stuck. Press Stop."
 
 
 def test_a_halt_is_said_until_it_is_over(worker, board):
