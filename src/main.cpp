@@ -7,6 +7,7 @@
 #include "board/motors.h"
 #include "board/serial_line.h"
 #include "board/shield.h"
+#include "board/stack_guard.h"
 #include "board/watchdog.h"
 #include "machine/machine.h"
 #include "settings_flash.h"
@@ -38,6 +39,7 @@ machine::BoardName nameOf(const board::Shield* shield) {
 }  // namespace
 
 void setup() {
+  board::stack_guard::paint();
   line.begin();
   const board::Shield* const shield = board::detectShield();
   motors.begin(shield);

@@ -5,6 +5,7 @@
 #include <Arduino.h>
 
 #include "sleep.h"
+#include "stack_guard.h"
 #include "watchdog.h"
 
 namespace board {
@@ -60,7 +61,7 @@ ISR(TIMER1_COMPA_vect) {
   allowTicks(false);
   ticking = true;
   sei();
-  if (silent_ticks < most_silent_ticks) {
+  if (silent_ticks < most_silent_ticks && stack_guard::isWhole()) {
     ++silent_ticks;
     on_tick();
   } else {
@@ -120,6 +121,8 @@ void ControlClock::releaseTicks() {
   if (ticking || --holds != 0 || !on_tick) return;
   allowTicks(true);
 }
+
+bool ControlClock::isStackWhole() { return stack_guard::isWhole(); }
 
 uint16_t ControlClock::longestTick() {
   holdTicks();

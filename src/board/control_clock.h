@@ -10,7 +10,7 @@ namespace board {
 class ControlClock : public machine::Clock {
  public:
   /// Calls `tick` 100 or 200 times a second. While idle() has not been called for a second, it
-  /// calls `hang` in place of `tick`.
+  /// calls `hang` in place of `tick`, and so it does once the stack has run into the data.
   void begin(void (*tick)(), void (*hang)(), uint8_t ticks_per_second);
   uint32_t milliseconds() override;
   void idle() override;
@@ -19,6 +19,7 @@ class ControlClock : public machine::Clock {
   void holdTicks() override;
   void releaseTicks() override;
   uint16_t longestTick() override;
+  bool isStackWhole() override;
 };
 
 }  // namespace board

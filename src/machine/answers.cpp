@@ -26,6 +26,7 @@ FlashText textOf(gcode::Fault fault) {
 
 FlashText tooLongForChains() { return FLASH("no chain is that long"); }
 FlashText tooLongForZ() { return FLASH("no z axis is that long"); }
+FlashText tooLongALine() { return FLASH("a line of more than 126 characters, which was skipped"); }
 FlashText tooFar() { return FLASH("that is farther than any machine reaches"); }
 
 void Answers::beginError() {
@@ -50,6 +51,13 @@ bool Answers::refuseMotion(FlashText why) {
 bool Answers::refuseMotion(FlashText why, char letter) {
   beginRefusal();
   out_ << why << letter;
+  return endRefusal();
+}
+
+bool Answers::refuseMotion(FlashText why, float mm, FlashText more) {
+  beginRefusal();
+  out_ << why;
+  out_.fixed(mm, 0) << more;
   return endRefusal();
 }
 
@@ -82,7 +90,8 @@ void Answers::beginHalt() {
   out_ << FLASH("ALARM: Halted at ");
   // As people write it: reading removed the spaces between words.
   for (const char* at = line_; *at != '\0'; ++at) {
-    if (at != line_ && isLetter(*at) && !isLetter(at[-1]) && at[-1] != ' ') out_ << ' ';
+    if (at != line_ && isLetter(*at) && *at != 'E' && !isLetter(at[-1]) && at[-1] != ' ')
+      out_ << ' ';
     out_ << *at;
   }
   if (*line_ != '\0') out_ << FLASH(": ");

@@ -29,6 +29,8 @@ class Answers {
   /// From now on no refusal halts the machine, or one may again: nothing of a program depends on a
   /// line of the operator.
   void serve(bool yes) { is_serving_ = yes; }
+  /// Whether a line of the operator is in execution.
+  bool isServing() const { return is_serving_; }
   /// Whether a refusal has asked for a halt since the last call.
   bool mustHalt() {
     const bool must = must_halt_;
@@ -44,6 +46,8 @@ class Answers {
   bool refuseMotion(FlashText why);
   /// Refuses a motion with a sentence that ends in `letter`.
   bool refuseMotion(FlashText why, char letter);
+  /// Refuses a motion with a sentence around a length [mm].
+  bool refuseMotion(FlashText why, float mm, FlashText more);
   /// Refuses a line without meaning, in the words of the published firmware.
   bool refuseStatement();
   bool refuseMistake(gcode::Mistake mistake);
@@ -65,5 +69,6 @@ class Answers {
 FlashText tooLongForChains();
 FlashText tooLongForZ();
 FlashText tooFar();
+FlashText tooLongALine();
 
 }  // namespace machine

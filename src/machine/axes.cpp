@@ -194,17 +194,25 @@ void Axes::forgetWay() {
   lift_.absorb();
 }
 
-void Axes::hold(bool yes) {
+void Axes::stand() {
   const WithoutTicks hold(clock_);
-  if (yes)
-    playback_.hold();
-  else
-    playback_.resume();
+  playback_.hold();
+  lift_.brake();
+}
+
+void Axes::goOn() {
+  const WithoutTicks hold(clock_);
+  playback_.resume();
+}
+
+bool Axes::isPathAtRest() const {
+  const WithoutTicks hold(clock_);
+  return playback_.isAtRest();
 }
 
 bool Axes::isAtRest() const {
   const WithoutTicks hold(clock_);
-  return playback_.isAtRest();
+  return playback_.isAtRest() && lift_.isAtRest();
 }
 
 bool Axes::isEmpty() const {
@@ -273,62 +281,6 @@ void Axes::jumpTo(Axis axis, float length) {
   axis_[axis].set_point = motion::toCounts(withinTravel(length));
 }
 
-void Axes::follow() {
-  const WithoutTicks hold(clock_);
-  for (Controlled& controlled : axis_) {
-    if (controlled.mode == AxisMode::kFollow) continue;
-    controlled.loop.rest();
-    controlled.watch.rest();
-    controlled.mode = AxisMode::kFollow;
-  }
-  fault_ = motion::Fault::kNone;
-  disproved_ = 0;
-}
-
-void Axes::release(Axis axis) {
-  const WithoutTicks hold(clock_);
-  axis_[axis].mode = AxisMode::kOff;
-  axis_[axis].duty = 0;
-  drives_.release(axis);
-}
-
-void Axes::releaseAll() {
-  for (uint8_t i = 0; i < kAxisCount; ++i) release(Axis(i));
-}
-
-void Axes::driveOpen(Axis axis, int16_t duty) {
-  const WithoutTicks hold(clock_);
-  axis_[axis].mode = AxisMode::kOpen;
-  axis_[axis].duty = duty > 255 ? 255 : duty < -255 ? -255 : duty;
-}
-
-void Axes::turn(Axis axis, float rpm) {
-  const WithoutTicks hold(clock_);
-  Controlled& controlled = axis_[axis];
-  if (controlled.mode != AxisMode::kTurn) controlled.loop.rest();
-  controlled.mode = AxisMode::kTurn;
-  controlled.rpm = rpm;
-}
-
-bool Axes::isPowered() const {
-  for (const Controlled& controlled : axis_)
-    if (controlled.mode != AxisMode::kOff) return true;
-  return false;
-}
-
-bool Axes::isTurning() const {
-  const WithoutTicks hold(clock_);
-  for (const Controlled& controlled : axis_)
-    if (controlled.moved > 1 || controlled.moved < -1) return true;
-  return false;
-}
-
-bool Axes::isDriven() const {
-  for (const Controlled& controlled : axis_)
-    if (controlled.mode == AxisMode::kOpen || controlled.mode == AxisMode::kTurn) return true;
-  return false;
-}
-
 int32_t Axes::counts(Axis axis) const {
   const WithoutTicks hold(clock_);
   return axis_[axis].counts;
@@ -337,7 +289,9 @@ int32_t Axes::counts(Axis axis) const {
 void Axes::setCounts(int32_t left, int32_t right, int32_t z) {
   const int32_t counts[kAxisCount] = {left, right, z};
   const WithoutTicks hold(clock_);
+  releaseAll();
   for (uint8_t i = 0; i < kAxisCount; ++i) axis_[i].counts = counts[i];
+  standStill();
 }
 
 float Axes::length(Axis axis) const { return float(counts(axis)) * axis_[axis].per_count; }

@@ -59,9 +59,13 @@ class Axes {
   /// Set-points that wait to be taken.
   uint8_t waiting() const { return set_points_.count(); }
   void dropSetPoints();
-  /// Brakes along the path and stays, or goes on.
-  void hold(bool yes);
-  /// Whether the axes rest on their path, for now.
+  /// Everything brakes, the path and z away from it, and stays. For Course alone, as goOn() is.
+  void stand();
+  /// The path goes on.
+  void goOn();
+  /// Whether the path rests, for now; z may be on its way.
+  bool isPathAtRest() const;
+  /// Whether nothing is on its way, for now.
   bool isAtRest() const;
   /// From now on goes at `share` 256ths of the planned speed; see motion::Playback.
   void goAt(uint16_t share);
@@ -110,6 +114,7 @@ class Axes {
 
   // Lengths.
   int32_t counts(Axis axis) const;
+  /// Takes over counts: no motor has power then, so none drives to where its set-point was.
   void setCounts(int32_t left, int32_t right, int32_t z);
   float length(Axis axis) const;  ///< [mm] measured
   float target(Axis axis) const;  ///< [mm] set-point

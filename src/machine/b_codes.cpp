@@ -9,12 +9,6 @@ using gcode::Words;
 
 const float kMostTestLength = 1000;  // [mm]
 
-bool holds(const char* text, char letter) {
-  for (; *text != '\0'; ++text)
-    if (*text == letter) return true;
-  return false;
-}
-
 /// Codes that read no words, or only whether letters are there.
 bool isBare(uint8_t code) { return code == 5 || code == 20 || code == 30 || code == 99; }
 
@@ -52,7 +46,7 @@ bool Machine::runB(const char* line) {
       {20, &Machine::showZLimits},     {30, &Machine::tellTelemetry},
   };
   const uint8_t code = bCodeOf(line);
-  if (code == 99) return simulateMotors(holds(line + 3, 'O') && holds(line + 3, 'N'));
+  if (code == 99) return switchMotors(line + 3);
   Words words;
   if (code != 255 && !isBare(code)) {
     const gcode::Mistake mistake = gcode::findMistake(line + 3, bareLetters(code));
@@ -63,10 +57,12 @@ bool Machine::runB(const char* line) {
   // All codes but questions act on the machine, so moves that were queued before come first. A line
   // of the operator during a wait acts at once.
   if (!isQuestion(code)) {
-    if (!interlude_.isServing()) {
+    if (!answers_.isServing()) {
       if (!drain()) return false;
       new_values_.refreshGeometry();
     }
+    if ((code == 2 || code == 11) && !words.has('L') && !words.has('R'))
+      return answers_.refuse(FLASH("B02 and B11 need a chain: L or R"));
     if (!SingleAxis::isLength(words.value('L')) || !SingleAxis::isLength(words.value('R')))
       return answers_.refuseMotion(tooLongForChains());
   }
@@ -93,6 +89,8 @@ bool Machine::measureOut(uint8_t, const Words& words) {
 }
 
 bool Machine::setChains(uint8_t, const Words& words) {
+  if (!words.has('L') || !words.has('R'))
+    return answers_.refuseMotion(FLASH("B06 needs the lengths of both chains, L and R"));
   out_.line(FLASH("Setting Chain Lengths To: "));
   return single_axis_.setChains(words.value('L'), words.value('R'));
 }
@@ -101,9 +99,7 @@ bool Machine::measureChain(uint8_t, const Words& words) {
   return single_axis_.measureChain(words.has('L'));
 }
 
-bool Machine::wakeForTest() {
-  return motors_.wake() && waitWhile([&] { return interlude_.isOn(); });
-}
+bool Machine::wakeForTest() { return motors_.wake() && untilRunning(); }
 
 bool Machine::testMotors(uint8_t, const Words&) {
   return wakeForTest() && axis_tests_.testMotors();
@@ -134,6 +130,12 @@ bool Machine::tellTelemetry(uint8_t, const Words&) {
   return true;
 }
 
+bool Machine::switchMotors(const char* word) {
+  if (strncmp_P(word, PSTR("ON"), 3) == 0) return simulateMotors(true);
+  if (*word == '\0' || strncmp_P(word, PSTR("OFF"), 4) == 0) return simulateMotors(false);
+  return answers_.refuse(FLASH("B99 is ON or OFF"));
+}
+
 bool Machine::simulateMotors(bool on) {
   if (!drain()) return false;
   axes_.releaseAll();
@@ -142,8 +144,7 @@ bool Machine::simulateMotors(bool on) {
   memory_.setRow(kSimulatedMotors, on);
   axes_.simulate(on);
   greeting_.sayMotors(on);
-  if (was_on && !on && axes_.isImagined())
-    place_.lose(FLASH("Motion was simulated, so the chains are elsewhere."));
+  if (was_on && !on && axes_.isImagined()) place_.lose(settings::Doubt::kSimulated);
   return true;
 }
 

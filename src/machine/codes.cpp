@@ -78,6 +78,7 @@ bool Machine::beginMotion(const gcode::Piece& piece) {
 
 bool Machine::dwell(const gcode::Piece& piece) {
   const Words& words = piece.words;
+  if (words.hasPlace()) return answers_.refuseMotion(FLASH("G4 takes P or S and goes nowhere"));
   const float seconds =
       float(fabs(words.value('P') != 0 ? words.value('P') / 1000 : words.value('S')));
   if (!(seconds < 86400)) return answers_.refuseMotion(FLASH("a dwell is shorter than a day"));
@@ -94,12 +95,14 @@ bool Machine::declare(const gcode::Piece& piece) {
   if (!drain()) return false;
   if (!words.has('Z')) return true;
   const float z = modal_.toMm(words.value('Z'));
-  if (!SingleAxis::isLength(z)) return answers_.refuseMotion(tooLongForZ());
+  if (!ZAxis::reaches(z)) return answers_.refuseMotion(tooLongForZ());
   z_.declare(z);
   return true;
 }
 
 bool Machine::probeDown(const gcode::Piece& piece) {
+  if (goesAcross(piece.words))
+    return answers_.refuseMotion(FLASH("a probe goes along z, and takes no X or Y"));
   return single_axis_.probe(moves_.targetOf(piece.words).z);
 }
 

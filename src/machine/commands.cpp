@@ -14,6 +14,16 @@ char foreignAxis(const Words& words) {
   return gcode::kNoLetter;
 }
 
+/// The letter of a coordinate that no machine reaches; 0 if there is none.
+char farAxis(const gcode::Modal& modal, const Words& words) {
+  for (uint8_t axis = 0; axis < kPlaceAxes; ++axis) {
+    const float most = axis == kZAxis ? kMostZ : kMostTravel;
+    if (!(float(fabs(modal.toMm(words.value(kAxisLetters[axis])))) <= most))
+      return kAxisLetters[axis];
+  }
+  return gcode::kNoLetter;
+}
+
 /// M0, M1, M2 and M30.
 bool endsLine(uint16_t tenths) { return tenths <= 20 || tenths == 300; }
 
@@ -21,29 +31,27 @@ bool endsLine(uint16_t tenths) { return tenths <= 20 || tenths == 300; }
 
 void Machine::loop() {
   service();
-  if (stopping_) {
-    finishStop();
-    return;
-  }
+  if (isStopping()) return finishStop();
   char line[gcode::Input::kRoom + 1];
-  if ((interlude_.isOn() && !isHalted()) || !input_.takeLine(line)) return clock_.sleep();
+  if (course_.isWaiting() || !input_.takeLine(line)) return clock_.sleep();
   answers_.begin(line);
   const bool done = execute(line);
   // The clients' Hold and Pause only stop sending. The queue is short enough that the sled then
   // stops soon.
-  waitWhile([&] { return !answers_.isAnswered() && (interlude_.isOn() || isFarAhead()); });
+  waitWhile([&] { return !answers_.isAnswered() && (course_.isWaiting() || isFarAhead()); });
   answer(done);
 }
 
 void Machine::answer(bool done) {
   if (answers_.mustHalt()) halt();
   // A line that a stop or an alarm broke off gets no answer.
-  if (done && !stopping_ && !answers_.isAnswered()) out_.line(FLASH("ok"));
+  if (done && !isStopping() && !answers_.isAnswered()) out_.line(FLASH("ok"));
 }
 
 void Machine::halt() {
-  lock_ = Lock::kHalted;
-  input_.clear();
+  if (!untilRunning()) return;
+  course_.take(Event::kHalt);
+  forgetLines();
   // Moves that were queued before are good: let them end first.
   if (drain()) spindle_.turn(false);
 }
@@ -52,7 +60,7 @@ bool Machine::execute(char* line) {
   if (input_.wasTooLong()) {
     if (isHalted()) return false;
     answers_.begin("");
-    return answers_.refuseMotion(FLASH("a line of more than 126 characters, which was skipped"));
+    return answers_.refuseMotion(tooLongALine());
   }
   char* first = line;
   while (*first == ' ') ++first;
@@ -92,16 +100,25 @@ bool Machine::runCode(const char* text) {
 bool Machine::runPiece(const gcode::Piece& piece) {
   const Words& words = piece.words;
   // A hold may have come in a wait that goes on in a hold, as a dwell does.
-  waitWhile([&] { return interlude_.isOn(); });
+  untilRunning();
   // After a stop broke a line off only its modes still count: a stopped jog ends in G90.
-  if (stopping_ || answers_.isAnswered()) return piece.letter == 'G' && modal_.take(piece.tenths);
+  if (isStopping() || answers_.isAnswered())
+    return piece.letter == 'G' && modal_.take(piece.tenths);
   if (const char axis = foreignAxis(words))
     return answers_.refuseMotion(FLASH("there is no axis "), axis);
   if (piece.letter != 'M' && words.has('T') && !setTool(words)) return false;
   // S of a G4 are seconds.
   if (piece.letter != 'M' && !(piece.letter == 'G' && piece.tenths == 40) && !spindle_.takeS(words))
     return false;
-  if (piece.letter == 'G' && modal_.take(piece.tenths)) return moveInMode(words);
+  const bool was_relative = modal_.relative;
+  const bool is_mode = piece.letter == 'G' && modal_.take(piece.tenths);
+  if (const char axis = farAxis(modal_, words))
+    return answers_.refuseMotion(FLASH("that is farther than any machine reaches: "), axis);
+  if (is_mode) {
+    // A jog begins where the sled is, even at the sheet's edge.
+    if (modal_.relative && !was_relative) place_.countFromAim();
+    return moveInMode(words);
+  }
   if (piece.letter == 'G') return run(piece);
   if (piece.letter != 'M') return moveInMode(words);
   // Codes that end or pause a program come after the line's motion, all others before it.

@@ -13,11 +13,8 @@ uint8_t goalRow(const gcode::Piece& piece) {
 
 }  // namespace
 
-bool Coordinates::mayCrossSheet() {
-  if (!place_.isTrusted()) return answers_.refuseMotion(place_.whatIsLost());
-  if (place_.isKnown()) return true;
-  return answers_.refuseMotion(
-      FLASH("the chains put the sled nowhere: set their lengths first (B06 or B08)"));
+bool Coordinates::mayCrossSheet() const {
+  return (place_.isTrusted() && place_.isKnown()) || answers_.refuseMotion(place_.whatIsLost());
 }
 
 bool Coordinates::keep(uint8_t row, float value) {

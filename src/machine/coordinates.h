@@ -23,7 +23,7 @@ class Coordinates {
   float begin(uint8_t axis) const { return offsets_.at(modal_.system, axis); }
 
   /// Whether the sled may cross the sheet; refuses the line if not.
-  bool mayCrossSheet();
+  bool mayCrossSheet() const;
 
   /// G10 with L.
   bool declare(const gcode::Words& words);

@@ -9,10 +9,12 @@ FlashText textOf(gcode::DrillFault fault) {
   switch (fault) {
     case DrillFault::kNoDepth:
       return FLASH("a hole needs R and Z");
+    case DrillFault::kTooFar:
+      return FLASH("no z axis is that long: R or Z");
     case DrillFault::kUpward:
       return FLASH("a hole's Z is below its R");
     case DrillFault::kNoPeck:
-      return FLASH("G83 needs Q, the depth of a peck");
+      return FLASH("G83 needs Q, the depth of a peck, of 0.01 mm at least");
     case DrillFault::kBadRepeat:
       return FLASH("L and K are whole numbers from 1 to 999");
     default:
@@ -34,6 +36,7 @@ bool Drilling::drill(const gcode::Words& words) {
     return answers_.refuseMotion(FLASH("holes are drilled in the plane of G17 only"));
   if (modal_.inverse_time || modal_.machine_coordinates)
     return answers_.refuseMotion(FLASH("no hole is drilled with G53 or G93"));
+  if (!coordinates_.mayCrossSheet()) return false;
   const Place at = place_.counted();
   const float from[] = {at.x, at.y, at.z};
   const float offset[] = {coordinates_.begin(0), coordinates_.begin(1), coordinates_.begin(2)};

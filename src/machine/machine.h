@@ -6,7 +6,6 @@
 #include "drilling.h"
 #include "feed_override.h"
 #include "greeting.h"
-#include "lock.h"
 #include "operator_lines.h"
 #include "reports.h"
 #include "settings_lines.h"
@@ -54,6 +53,7 @@ class Machine : private Waiting, private Dispatch {
   uint8_t ticksPerSecond() const { return ticks_per_second_; }
 
   // What a dry run looks at.
+  const Course& course() const { return course_; }
   const Axes& axes() const { return axes_; }
   const Planner& planner() const { return planner_; }
   const gcode::Modal& modal() const { return modal_; }
@@ -68,21 +68,23 @@ class Machine : private Waiting, private Dispatch {
 
   // realtime.cpp: what goes on while anything waits; stops and alarms.
   void service() override;
-  void keepReporting() override;
+  void keepReporting();
   void readWire();
   void takeQuick(gcode::Quick quick);
   void stopNow();
+  void forgetLines();
   void finishStop();
   void resetSoftly();
   void raiseAlarm(FlashText text);
   /// Says the texts as one line.
   void raiseAlarm(FlashText text, FlashText more, FlashText end);
+  void watchStack();
   void watchAxes();
   void watchEncoders();
   void raiseAlarmOf(motion::Fault fault);
   static FlashText mendAndSet();
   void changeFeed(gcode::Quick quick);
-  bool isHalted() const { return lock_ != Lock::kOpen; }
+  bool isHalted() const { return course_.isHalted(); }
   bool isFarAhead() const;
 
   // commands.cpp: turns a line into pieces.
@@ -141,6 +143,8 @@ class Machine : private Waiting, private Dispatch {
   bool clearZLimits(uint8_t, const gcode::Words&) { return z_.clearLimits(); }
   bool showZLimits(uint8_t, const gcode::Words&) { return z_.showLimits(); }
   bool tellTelemetry(uint8_t, const gcode::Words&);
+  /// B99: only the word ON simulates the motors.
+  bool switchMotors(const char* word);
   bool simulateMotors(bool on);
 
   // Each part knows the parts above it, never the parts below.
@@ -153,10 +157,10 @@ class Machine : private Waiting, private Dispatch {
   gcode::Input input_;
   gcode::Modal modal_;
   Axes axes_;
+  Course course_;
   Planner planner_;
   PositionKeeper keeper_;
   Cutter cutter_;
-  Interlude interlude_;
   FeedOverride feed_;
   Greeting greeting_;
   Answers answers_;
@@ -169,14 +173,13 @@ class Machine : private Waiting, private Dispatch {
   NewValues new_values_;
   SettingsLines settings_lines_;
   Coordinates coordinates_;
-  Pauses pauses_;
   OperatorLines operator_lines_;
+  Pauses pauses_;
   Moves moves_;
   Drilling drilling_;
   SingleAxis single_axis_;
   AxisTests axis_tests_;
   YieldNotice yield_notice_;
-  Lock lock_ = Lock::kOpen;
   uint8_t ticks_per_second_ = 100;
   volatile bool hung_ = false;
 };

@@ -4,8 +4,14 @@
 #include "settings_table.h"
 
 namespace machine {
+namespace {
+
+const float kSlid = 0.4f;  // [mm] of an axis; SledPlace follows a sled that went farther
+
+}  // namespace
 
 bool MotorPower::wake() {
+  rest_ = Rest::kUnwatched;
   if (!axes_.isPowered()) {
     keeper_.beginMoving();
     waiting_.waitWhile([&] { return !keeper_.mayMove(); });
@@ -20,8 +26,17 @@ bool MotorPower::wake() {
 void MotorPower::restWhenIdle(bool is_busy) {
   const uint32_t now = waiting_.milliseconds();
   if (is_busy) last_busy_ms_ = now;
-  if (is_busy || !axes_.isPowered()) return;
-  if (now - last_busy_ms_ >= uint32_t(values_.at(kIdleTime))) axes_.releaseAll();
+  if (rest_ == Rest::kLetGo && place_.farthestOff() > kSlid) return holdAgain();
+  if (is_busy || !axes_.isPowered() || rest_ == Rest::kStayOn) return;
+  if (now - last_busy_ms_ < uint32_t(values_.at(kIdleTime))) return;
+  axes_.releaseAll();
+  rest_ = Rest::kLetGo;
+}
+
+void MotorPower::holdAgain() {
+  if (!wake()) return;
+  stayOn(true);
+  out_.line(FLASH("The sled slid with its motors off: they hold it until after its next move."));
 }
 
 bool MotorPower::awaitRecord() {

@@ -1,31 +1,52 @@
 // When motors get power, and when they lose it at rest.
 #pragma once
 
-#include "position_keeper.h"
+#include "sled_place.h"
 #include "waiting.h"
 
 namespace machine {
 
-/// Gives the motors power, but never before the EEPROM says that the machine moves. Switches them
-/// off after a rest of $9.
+/// Gives the motors power, but never before the EEPROM says that the machine moves. Lets them go
+/// after a rest of $9, and watches them then: friction may not hold a heavy sled high on the sheet.
+/// A sled that slides is held again where it was.
 class MotorPower {
  public:
-  MotorPower(Axes& axes, PositionKeeper& keeper, const settings::Values& values, Waiting& waiting)
-      : axes_(axes), keeper_(keeper), values_(values), waiting_(waiting) {}
+  MotorPower(Axes& axes, PositionKeeper& keeper, const settings::Values& values, SledPlace& place,
+             Printer& out, Waiting& waiting)
+      : axes_(axes),
+        keeper_(keeper),
+        values_(values),
+        place_(place),
+        out_(out),
+        waiting_(waiting) {}
 
   bool areOn() const { return axes_.isPowered(); }
   /// Returns once all motors hold their set-points; false after a stop.
   bool wake();
   /// To be called often. `is_busy`: something moves or holds on purpose.
   void restWhenIdle(bool is_busy);
+  /// From now on they stay on at rest, until the next move or a stop; or no longer.
+  void stayOn(bool yes) { rest_ = yes ? Rest::kStayOn : Rest::kUnwatched; }
   /// Waits at most a second for the position's record.
   bool awaitRecord();
 
  private:
+  /// What the motors do at rest.
+  enum class Rest : uint8_t {
+    kUnwatched,  ///< on, or switched off by a command, a stop or an alarm
+    kLetGo,      ///< off and watched
+    kStayOn,     ///< on until the next move or stop: the sled slid, or the bit is in the work
+  };
+
+  void holdAgain();
+
   Axes& axes_;
   PositionKeeper& keeper_;
   const settings::Values& values_;
+  SledPlace& place_;
+  Printer& out_;
   Waiting& waiting_;
+  Rest rest_ = Rest::kUnwatched;
   uint32_t last_busy_ms_ = 0;
 };
 

@@ -31,7 +31,7 @@ bool AxisTests::testDirection(Axis axis, int8_t direction) {
   if (!rampMotor(axis, sign)) return false;
   // A positive drive winds chain in and must lower the count.
   const int32_t wound = (before - axes_.counts(axis)) * sign;
-  if (wound <= kPassCounts) place_.doubt(axis);
+  if (wound <= kPassCounts) place_.doubt(axis, settings::Doubt::kCounts);
   out_ << FLASH("Direction ") << int32_t(direction);
   out_.line(wound > kPassCounts ? FLASH(" - Pass") : FLASH(" - Fail"));
   return true;
@@ -83,7 +83,7 @@ bool AxisTests::measureTaut(Axis axis, int16_t most_duty, uint32_t ms) {
           FLASH("The chain is not tight yet: hook it on the other sprocket, send B11 again."));
       break;
     case ChainPull::Result::kDead:
-      place_.doubt(axis);
+      place_.doubt(axis, settings::Doubt::kCounts);
       out_ << (axis == kLeftAxis ? FLASH("The left") : FLASH("The right"));
       out_.line(FLASH(" motor hardly turns: check its supply, its cables and its encoder."));
       break;

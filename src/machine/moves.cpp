@@ -6,7 +6,8 @@ namespace {
 
 using gcode::Words;
 
-const float kLeastFeed = 1;  // [mm/min]
+const float kLeastFeed = 1;      // [mm/min]
+const float kInTheWork = 0.05f;  // [mm] below the surface: nobody lets go of a bit there
 
 }  // namespace
 
@@ -42,8 +43,6 @@ float Moves::feedOf(uint8_t kind) const {
 bool Moves::move(uint8_t kind, const Words& words) {
   cutter_.aim(kind);
   takeFeed(words);
-  // After a rest with motors off a jog starts where the sled is, even at the sheet's edge.
-  if (modal_.relative && !motors_.areOn()) place_.countFromAim();
   Place target = targetOf(words);
   if (modal_.inverse_time && kind != 0 && !(modal_.inverse_feed > 0))
     return answers_.refuseMotion(FLASH("with G93 each line needs its F"));
@@ -56,8 +55,8 @@ bool Moves::move(uint8_t kind, const Words& words) {
 }
 
 bool Moves::isNear(const Place& target) {
-  if (fabs(target.x) < kMostTravel && fabs(target.y) < kMostTravel && fabs(target.z) < kMostTravel)
-    return true;
+  if (!ZAxis::reaches(target.z)) return answers_.refuseMotion(tooLongForZ());
+  if (fabs(target.x) < kMostTravel && fabs(target.y) < kMostTravel) return true;
   return answers_.refuseMotion(tooFar());
 }
 
@@ -102,6 +101,7 @@ bool Moves::goToKept(const gcode::Piece& piece) {
 }
 
 bool Moves::goSafely(const Place& target, bool across) {
+  if (across && !coordinates_.mayCrossSheet()) return false;
   const float feed = values_.at(kGreatestFeed);
   Place next = place_.counted();
   next.z = target.z;
@@ -157,8 +157,15 @@ float Moves::fittingFeed(const motion::Path<float>& path, const Place& target, f
 bool Moves::queue(const motion::Path<float>& path, const Place& target, float feed) {
   const uint8_t beam = cutter_.takeBeam();
   const Place& aim = place_.aim();
+  // An arrow key starts where the sled is.
+  const bool is_jog = modal_.relative && modal_.motion == 0;
+  if (place_.movedBy() > 0 && !is_jog)
+    return answers_.refuseMotion(FLASH("the sled moved "), place_.movedBy(),
+                                 FLASH(" mm while its motors were off: bring it back, or begin "
+                                       "again from where it is"));
   const bool goes = path.drawn != motion::Drawn::kNoLength;
   if (!goes && target.z == aim.z) return true;
+  if (target.z != aim.z && !z_.mayMove()) return false;
   if (feed < 0) feed = fittingFeed(path, target, -feed);
   const Area area = geometry_.sheet().grownTo({aim.x, aim.y});
   if (goes && !mayGo(path, area)) return false;
@@ -208,6 +215,8 @@ bool Moves::queuePiece(const motion::Path<float>& piece, float z, float feed, ui
   if (!waiting_.waitWhile([&] { return !planner_.hasRoom(); }) || !motors_.wake()) return false;
   if (!planner_.add(piece, z, feed / 60, geometry_, beam))
     return answers_.refuseMotion(FLASH("that is no path"));
+  const bool cuts = modal_.motion >= 1 && modal_.motion <= 3;
+  motors_.stayOn(cuts && z < coordinates_.begin(kZAxis) - kInTheWork);
   if (piece.drawn == motion::Drawn::kYes)
     place_.aimAt({piece.to.x, piece.to.y, z});
   else

@@ -7,62 +7,70 @@ namespace machine {
 
 using gcode::Words;
 
-void OperatorLines::hold() {
-  interlude_.hold(modal_, clock_.milliseconds(), input_.isEmpty());
-  axes_.hold(true);
+void OperatorLines::wait(Event event) {
+  if (course_.isRunning()) program_ = modal_;
+  const bool was_turn = isOperatorsTurn();
+  if (course_.take(event) && !was_turn) since_ms_ = clock_.milliseconds();
 }
 
 void OperatorLines::resume() {
-  if (!interlude_.isOn()) return;
-  // That `~` was for this hold, not for an M0 that waits.
-  input_.takeResume();
-  interlude_.resume();
+  const uint32_t now = clock_.milliseconds();
+  // A `~` that ends a wait is no answer to a pause to come.
+  if (!course_.isRunning() || now - resumed_ms_ < kTwice) input_.takeResume();
+  resumed_ms_ = now;
+  course_.take(Event::kResume);
+}
+
+gcode::Input& OperatorLines::inputFor(char character) {
+  const uint32_t kFirstMs = 300;  // a sender that has not noticed may go on for a moment
+  if (character != '\n' && !coming_->isInLine()) {
+    const bool is_own = isOperatorsTurn() && clock_.milliseconds() - since_ms_ >= kFirstMs;
+    coming_ = is_own ? &typed_ : &input_;
+  }
+  return *coming_;
 }
 
 void OperatorLines::serve() {
-  if (!interlude_.isOn()) return;
-  if (interlude_.isEnding()) {
-    // Z may be about to rise, as soon as its motor has power.
-    if (interlude_.isServing() || !bringZBack()) return;
-    modal_ = interlude_.modal();
-    interlude_.end();
-    axes_.hold(false);
-    return;
-  }
-  if (interlude_.takesLines(clock_.milliseconds(), input_.isEmpty()) && axes_.isAtRest())
-    serveLine();
+  if (answers_.isServing()) return;
+  if (course_.isComingBack()) comeBack();
+  if (!isOperatorsTurn() || axes_.isPathAtRest()) serveLine();
 }
 
-bool OperatorLines::bringZBack() {
-  if (!axes_.isLifted()) return true;
-  if (interlude_.beginsLowering()) {
-    out_ << FLASH("Z goes back to ");
-    out_.fixed(modal_.fromMm(axes_.plannedZ()), 2).end();
-    // While the motors rested G10 may have said where z is.
-    interlude_.serve(true);
-    const bool has_power = motors_.areOn() || motors_.wake();
-    interlude_.serve(false);
-    if (has_power) axes_.lower(z_.mostFeed() / 60, z_.acceleration());
+void OperatorLines::comeBack() {
+  if (!axes_.isLifted()) {
+    modal_ = program_;
+    course_.take(Event::kBack);
+    return;
   }
-  return false;
+  if (!course_.take(Event::kLower)) return;
+  out_ << FLASH("Z goes back to ");
+  out_.fixed(modal_.fromMm(axes_.plannedZ()), 2).end();
+  // While the motors rested G10 may have said where z is. A hold may come while they wake.
+  if ((motors_.areOn() || motors_.wake()) && course_.is(State::kLowering))
+    axes_.lower(z_.mostFeed() / 60, z_.acceleration());
 }
 
 void OperatorLines::serveLine() {
   char line[gcode::Input::kRoom + 1];
-  if (!input_.peekLine(line)) return;
+  if (!typed_.takeLine(line)) return;
   gcode::clean(line);
-  if (!isForOperator(line)) return;
   // A line of the program that waits keeps its answer, or lack of it, whatever this line gets.
   const bool is_other_answered = answers_.isAnswered();
   answers_.setAnswered(false);
-  interlude_.serve(true);
   answers_.serve(true);
-  input_.dropLine();
-  const bool done = run(line);
-  interlude_.serve(false);
+  const bool done = runOrRefuse(line);
   answers_.serve(false);
   dispatch_.answer(done);
   answers_.setAnswered(is_other_answered);
+}
+
+bool OperatorLines::runOrRefuse(const char* line) {
+  if (!isOperatorsTurn())
+    return answers_.refuse(FLASH("the program went on before this line; send it again"));
+  if (typed_.wasTooLong()) return answers_.refuse(tooLongALine());
+  if (isForOperator(line)) return run(line);
+  return answers_.refuse(
+      FLASH("the program waits: answer it with ~ or !; until then only z, its zero and questions"));
 }
 
 bool OperatorLines::isForOperator(const char* line) const {
@@ -84,8 +92,7 @@ bool OperatorLines::isForOperator(const gcode::Piece& piece) const {
     case 10:
       return words.has('Z') && z_.hasMotor();
     case 100:
-      return words.has('Z') && !words.has('L') &&
-             float(fabs(modal_.toMm(words.value('Z')))) <= kMostTravel;
+      return words.has('Z') && !words.has('L') && ZAxis::reaches(modal_.toMm(words.value('Z')));
     case 200:
     case 210:
     case 900:
@@ -115,8 +122,8 @@ bool OperatorLines::run(const char* line) {
 bool OperatorLines::jogZ(const Words& words) {
   const float target =
       z_.within(modal_.targetOf(axes_.liftedTo(), words.value('Z'), coordinates_.begin(kZAxis)));
-  if (!(float(fabs(target)) <= kMostTravel)) return answers_.refuse(tooLongForZ());
-  if (!motors_.areOn() && !motors_.wake()) return false;
+  if (!ZAxis::reaches(target)) return answers_.refuse(tooLongForZ());
+  if (!z_.mayMove() || (!motors_.areOn() && !motors_.wake())) return false;
   const float most = z_.mostFeed();
   const float asked = words.has('F') ? modal_.toMm(words.value('F')) : most;
   axes_.lift(target, (asked < most ? asked : most) / 60, z_.acceleration());

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "coordinates.h"
-#include "interlude.h"
+#include "course.h"
 #include "motor_power.h"
 #include "z_axis.h"
 
@@ -21,12 +21,17 @@ class Dispatch {
 };
 
 /// Serves a hold or a pause from its beginning until z is back at the program's height.
+///
+/// A sender that runs ahead, or has not noticed yet, may have sent lines of its program. So the
+/// operator's lines have another room: it takes what comes after the first moments of a hold
+/// or pause, and whatever of a program waits is as it was. Each of these lines is done at once, or
+/// refused with the reason, and never done later.
 class OperatorLines {
  public:
-  OperatorLines(Interlude& interlude, gcode::Input& input, gcode::Modal& modal, Axes& axes,
+  OperatorLines(Course& course, gcode::Input& input, gcode::Modal& modal, Axes& axes,
                 MotorPower& motors, ZAxis& z, const Coordinates& coordinates, Clock& clock,
                 Printer& out, Answers& answers, Dispatch& dispatch)
-      : interlude_(interlude),
+      : course_(course),
         input_(input),
         modal_(modal),
         axes_(axes),
@@ -38,23 +43,35 @@ class OperatorLines {
         answers_(answers),
         dispatch_(dispatch) {}
 
-  /// 0x84: the sled brakes along its path and the program waits.
-  void hold();
+  /// 0x84: everything brakes and the program waits.
+  void hold() { wait(Event::kHold); }
+  /// The program waits at the line in execution.
+  void pause() { wait(Event::kPause); }
   /// `~`.
   void resume();
+  /// A stop: forgets the operator's lines.
+  void clear() { typed_.clear(); }
+  /// The room for the line that a character belongs to.
+  gcode::Input& inputFor(char character);
   /// To be called often: does a line of the operator, or a step of z's way back.
   void serve();
   /// Whether a line may be done while the program waits.
   bool isForOperator(const char* line) const;
 
  private:
+  /// [ms] Somebody who presses `~` twice answers one question.
+  enum : uint16_t { kTwice = 1000 };
+
   bool isForOperator(const gcode::Piece& piece) const;
-  bool bringZBack();
+  void wait(Event event);
+  bool isOperatorsTurn() const { return course_.lines() == Lines::kOperator; }
+  void comeBack();
   void serveLine();
+  bool runOrRefuse(const char* line);
   bool run(const char* line);
   bool jogZ(const gcode::Words& words);
 
-  Interlude& interlude_;
+  Course& course_;
   gcode::Input& input_;
   gcode::Modal& modal_;
   Axes& axes_;
@@ -65,6 +82,11 @@ class OperatorLines {
   Printer& out_;
   Answers& answers_;
   Dispatch& dispatch_;
+  gcode::Input typed_;                          ///< lines of the operator
+  gcode::Input* coming_ = &input_;              ///< the room of the line that came last
+  gcode::Modal program_;                        ///< modes of the program, restored at the end
+  uint32_t since_ms_ = 0;                       ///< when the wait began
+  uint32_t resumed_ms_ = uint32_t(0) - kTwice;  ///< when the last `~` came
 };
 
 }  // namespace machine

@@ -1,18 +1,18 @@
 // Pauses: M0, tool changes, the z axis that is set by hand; all wait for `~`.
 #pragma once
 
-#include "interlude.h"
+#include "operator_lines.h"
 #include "sled_place.h"
 #include "spindle.h"
 
 namespace machine {
 
-/// Each waits for queued moves first, and returns false after a stop.
+/// Each waits for queued moves and for the end of a hold first, and returns false after a stop.
 class Pauses {
  public:
-  Pauses(Interlude& interlude, gcode::Input& input, gcode::Modal& modal, Spindle& spindle,
+  Pauses(OperatorLines& operator_lines, gcode::Input& input, gcode::Modal& modal, Spindle& spindle,
          SledPlace& place, Printer& out, Waiting& waiting)
-      : interlude_(interlude),
+      : operator_lines_(operator_lines),
         input_(input),
         modal_(modal),
         spindle_(spindle),
@@ -28,9 +28,9 @@ class Pauses {
   bool setZByHand(float z);
 
  private:
-  bool pause(bool resumed);
+  bool pause();
 
-  Interlude& interlude_;
+  OperatorLines& operator_lines_;
   gcode::Input& input_;
   gcode::Modal& modal_;
   Spindle& spindle_;

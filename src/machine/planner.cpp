@@ -48,18 +48,12 @@ void Planner::addAxis(Axis axis, float length, float feed) {
   moves_.add(motion::line(from, to), z_to, feed, motion::Space::kChains);
 }
 
-void Planner::stop(Axes& axes) {
-  axes.hold(true);
-  is_stopping_ = true;
+void Planner::standHere(Axes& axes) {
+  axes.dropSetPoints();
+  moves_.standAt(axes.setPoint());
 }
 
 bool Planner::fill(Axes& axes, const Geometry& geometry) {
-  if (is_stopping_ && axes.isAtRest()) {
-    is_stopping_ = false;
-    axes.dropSetPoints();
-    axes.hold(false);
-    moves_.standAt(axes.setPoint());
-  }
   const auto exactly = [&geometry](motion::Point<float> place) { return geometry.inverse(place); };
   const motion::Filled filled = moves_.fill(axes.setPoints(), exactly);
   return filled == motion::Filled::kYes;

@@ -38,8 +38,8 @@ class Planner {
   /// where no sled can hang.
   bool fill(Axes& axes, const Geometry& geometry);
 
-  /// Brakes along the path; once the axes stand, fill() drops the rest of it.
-  void stop(Axes& axes);
+  /// Drops what is left of the path; to be called where the axes stand.
+  void standHere(Axes& axes);
   void forget() { moves_.forget(); }
 
   /// From now on multiplies feeds by `times`, up to the greatest feed.
@@ -54,7 +54,6 @@ class Planner {
   motion::Mover moves_;
   float boost_ = 1;          ///< [1] factor of feeds
   float greatest_feed_ = 0;  ///< [mm/s]
-  bool is_stopping_ = false;
 };
 
 }  // namespace machine

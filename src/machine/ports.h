@@ -91,6 +91,9 @@ class Clock {
   /// [us] Longest time from when a control tick was due until it was over, since the last call; 0
   /// where nobody measures it.
   virtual uint16_t longestTick() { return 0; }
+  /// Whether the stack has kept out of the program's data since the start. If not, the tick does
+  /// not run any more, and the board has taken the power off the motors.
+  virtual bool isStackWhole() { return true; }
 
  protected:
   ~Clock() = default;

@@ -20,9 +20,9 @@ void PositionKeeper::begin(settings::Known known) {
   takeCounts();
 }
 
-void PositionKeeper::doubt(Axis axis) {
+void PositionKeeper::doubt(Axis axis, settings::Doubt why) {
   lost_ = uint8_t(lost_ | (axis == kZAxis ? kLostZ : kLostChains));
-  if (!axes_.isSimulated()) memory_.doubtPosition();
+  if (!axes_.isSimulated()) memory_.doubtPosition(why);
 }
 
 void PositionKeeper::declareChains() {

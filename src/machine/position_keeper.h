@@ -33,9 +33,9 @@ class PositionKeeper {
   bool hasLost() const { return (lost_ & (kLostChains | kLostZ)) != 0; }
 
   /// The counts of an axis were proved wrong: stores nothing until it is declared.
-  void doubt(Axis axis);
+  void doubt(Axis axis, settings::Doubt why);
   /// The counts of the chains were proved wrong, or a record says so.
-  void doubtChains() { doubt(kLeftAxis); }
+  void doubtChains(settings::Doubt why) { doubt(kLeftAxis, why); }
   /// The position was never known, or was erased: there is no record.
   void startAfresh() { lost_ = kUnset; }
 

@@ -6,9 +6,11 @@ namespace machine {
 
 void Machine::service() {
   readWire();
-  if (!stopping_) operator_lines_.serve();
+  operator_lines_.serve();
+  if (isStopping() && axes_.isAtRest()) planner_.standHere(axes_);
   if (!planner_.fill(axes_, geometry_))
     raiseAlarm(FLASH("No sled can hang on the way; the machine has halted. Press Stop."));
+  watchStack();
   watchAxes();
   if (telemetry_.findsFailure())
     raiseAlarm(telemetry_.failing(), FLASH(" complains: too hot, a short, or no 12 V"),
@@ -16,7 +18,7 @@ void Machine::service() {
   new_values_.refreshWhenQuiet(isMoving());
   // In a test of loops the motors also hold between the jumps.
   motors_.restWhenIdle(isMoving() || axes_.isDriven() || axis_tests_.isTesting() ||
-                       interlude_.isOn() || isDwelling());
+                       course_.isWaiting() || isDwelling());
   place_.keepWhenAtRest(clock_.milliseconds());
   memory_.step();
   keepReporting();
@@ -25,9 +27,9 @@ void Machine::service() {
 void Machine::keepReporting() {
   clock_.idle();
   if (!reports_.areDue()) return;
-  reports_.sayStatus(interlude_.isOn() ? FLASH("Pause")
-                     : isHalted()      ? FLASH("Stop")
-                                       : FLASH("Idle"),
+  reports_.sayStatus(course_.isWaiting() ? FLASH("Pause")
+                     : isHalted()        ? FLASH("Stop")
+                                         : FLASH("Idle"),
                      place_.now(isMoving()));
   reports_.sayErrors();
 }
@@ -43,7 +45,7 @@ void Machine::readWire() {
   for (;;) {
     const int16_t character = wire_.read();
     if (character < 0) return;
-    takeQuick(input_.put(char(character)));
+    takeQuick(operator_lines_.inputFor(char(character)).put(char(character)));
   }
 }
 
@@ -56,14 +58,14 @@ void Machine::takeQuick(gcode::Quick quick) {
       out_.line(FLASH("ok"));
       return stopNow();
     case Quick::kResume:
-      out_.line(FLASH("ok"));
+      // Whoever holds counts answers: neither 0x84 nor the ~ behind it has any.
+      if (!course_.is(State::kHeld)) out_.line(FLASH("ok"));
       return operator_lines_.resume();
     case Quick::kHold:
       // A chain does not go on at a duty. The line gets no answer, so the client must hear why.
       if (axes_.isDriven() || axis_tests_.isTesting())
         return raiseAlarm(FLASH("A hold ended a pull or a test of motors. Press Stop."));
-      if (!stopping_ && !isHalted()) operator_lines_.hold();
-      return;
+      return operator_lines_.hold();
     case Quick::kReset:
       return resetSoftly();
     case Quick::kOverflow:
@@ -75,13 +77,15 @@ void Machine::takeQuick(gcode::Quick quick) {
 }
 
 void Machine::stopNow() {
-  stopping_ = true;
-  interlude_.end();
-  lock_ = Lock::kOpen;
-  input_.clear();
+  course_.take(Event::kStop);
+  forgetLines();
   // Off at once, whatever else the stop has to wait for.
   cutter_.off();
-  planner_.stop(axes_);
+}
+
+void Machine::forgetLines() {
+  input_.clear();
+  operator_lines_.clear();
 }
 
 void Machine::finishStop() {
@@ -89,7 +93,8 @@ void Machine::finishStop() {
   // A motor that was let go runs on for a while.
   awaitStandstill();
   // A new stop may come meanwhile: it is answered, and this stop goes on.
-  stopping_ = false;
+  course_.take(Event::kStood);
+  motors_.stayOn(false);
   if (isHalted()) {
     place_.search();
     spindle_.turn(false);
@@ -116,14 +121,23 @@ void Machine::resetSoftly() {
 void Machine::raiseAlarm(FlashText text) { raiseAlarm(text, FLASH(""), FLASH("")); }
 
 void Machine::raiseAlarm(FlashText text, FlashText more, FlashText end) {
-  if (lock_ == Lock::kAlarm) return;
-  stopNow();
-  lock_ = Lock::kAlarm;
+  if (!course_.take(Event::kAlarm)) return;
+  forgetLines();
+  cutter_.off();
   axes_.releaseAll();
   planner_.forget();
   axes_.standStill();
   out_ << FLASH("ALARM: ") << text << more;
   out_.line(end);
+}
+
+void Machine::watchStack() {
+  if (clock_.isStackWhole() || course_.is(State::kFalling) || course_.is(State::kAlarm)) return;
+  place_.doubt(kLeftAxis, settings::Doubt::kStack);
+  // Stop does not help: what the data hold may be wrong.
+  raiseAlarm(
+      FLASH("The firmware's stack ran into its data. Switch the Mega off and on, and report the "
+            "line before this one."));
 }
 
 void Machine::watchAxes() {
@@ -147,7 +161,7 @@ void Machine::watchAxes() {
 void Machine::watchEncoders() {
   for (uint8_t i = 0; i < kAxisCount; ++i) {
     if (!keeper_.trusts(Axis(i)) || !axes_.hasMissedSteps(Axis(i))) continue;
-    keeper_.doubt(Axis(i));
+    keeper_.doubt(Axis(i), settings::Doubt::kCounts);
     raiseAlarm(FLASH("An encoder missed steps (B30 says which), so its counts are wrong. "),
                mendAndSet(), FLASH(""));
   }

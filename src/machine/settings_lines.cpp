@@ -18,7 +18,9 @@ void SettingsLines::dump() {
     if (values_.table().at(i).access != settings::Access::kListed) continue;
     settings::putSetting(values_, i, put);
     out_.end();
-    waiting_.keepReporting();
+    // Whatever else goes on, goes on; a stop ends the dump.
+    waiting_.service();
+    if (waiting_.isStopping()) return;
   }
 }
 

@@ -7,6 +7,7 @@ namespace {
 const float kAxisFeed = 800;  // [mm/min] unless a command says otherwise
 // The clients send F1 in the units in force; the published firmware ignores it too.
 const float kProbeFeed = 60;  // [mm/min]
+const char kChainLetters[] = {'L', 'R'};
 
 }  // namespace
 
@@ -67,21 +68,22 @@ bool SingleAxis::setChainsToMarks() {
 
 bool SingleAxis::moveChains(const gcode::Words& words) {
   const float feed = words.value('F') > 0 ? words.value('F') : kAxisFeed;
-  const float given[] = {words.value('L'), words.value('R')};
   float goals[2];
   for (uint8_t i = 0; i < 2; ++i) {
-    goals[i] = modal_.relative ? axes_.target(Axis(i)) + given[i] : given[i];
+    const float is = axes_.target(Axis(i)), given = words.value(kChainLetters[i]);
+    // A chain without a word stays.
+    goals[i] = !words.has(kChainLetters[i]) ? is : modal_.relative ? is + given : given;
     if (!isLength(goals[i])) return answers_.refuseMotion(tooLongForChains());
   }
   bool completed = true;
   for (uint8_t i = 0; i < 2; ++i)
-    if (!modal_.relative || given[i] != 0) completed = completed && move(Axis(i), goals[i], feed);
+    if (goals[i] != axes_.target(Axis(i))) completed = completed && move(Axis(i), goals[i], feed);
   place_.search();
   return completed;
 }
 
 bool SingleAxis::goHome() {
-  if (!place_.trustsChains()) return answers_.refuseMotion(place_.whatIsLost());
+  if (!place_.isKnown()) return answers_.refuseMotion(place_.whatIsLost());
   const motion::Lengths<float> lengths = geometry_.inverse({0, 0});
   if (!lengths.reachable)
     return answers_.refuseMotion(FLASH("with these settings no sled can hang at 0,0"));
@@ -108,7 +110,8 @@ void SingleAxis::sayProbing(float target, float feed) {
 
 bool SingleAxis::probe(float target) {
   if (!z_.hasMotor()) return answers_.refuseMotion(FLASH("a probe needs a z motor ($16)"));
-  if (!isLength(target)) return answers_.refuseMotion(tooLongForZ());
+  if (!z_.mayMove()) return false;
+  if (!ZAxis::reaches(target)) return answers_.refuseMotion(tooLongForZ());
   if (!waiting_.drain()) return false;
   if (aux_.probeTouches())
     return answers_.refuseMotion(FLASH("the probe touches already: lift z, or look for a short"));

@@ -6,6 +6,24 @@ namespace {
 
 const float kMovedByHand = 0.5f;  // [mm] more than chains give when motors are switched off
 
+FlashText textOf(settings::Doubt why) {
+  using settings::Doubt;
+  switch (why) {
+    case Doubt::kMoving:
+      return FLASH("Power was lost before the position was kept.");
+    case Doubt::kScale:
+      return FLASH("Encoders are scaled otherwise ($12, $13, $19, $20) than when it was kept.");
+    case Doubt::kPlace:
+      return FLASH("The kept place is not where the chains put the sled.");
+    case Doubt::kSimulated:
+      return FLASH("Motion was simulated, so the chains are elsewhere.");
+    case Doubt::kStack:
+      return FLASH("The firmware's stack had run into its data.");
+    default:
+      return FLASH("The encoders' counts were wrong before power was lost.");
+  }
+}
+
 }  // namespace
 
 FoundPlace SledPlace::byChains(float left, float right) const {
@@ -49,6 +67,7 @@ void SledPlace::declareZ(float z) {
 
 bool SledPlace::find() {
   out_.line(FLASH("[Forward Calculating Position]"));
+  moved_by_ = 0;
   if (search()) {
     say();
     return true;
@@ -70,9 +89,9 @@ void SledPlace::restore(const settings::Started& started) {
       search();
       return sayUnset(started.source == settings::Source::kDefaults);
     case Known::kMoving:
-      return lose(FLASH("Power was lost before the position was kept."));
+      return lose(settings::Doubt::kMoving);
     case Known::kDoubted:
-      return lose(FLASH("The encoders' counts were wrong before power was lost."));
+      return lose(memory_.doubted());
     case Known::kAtRest:
       break;
   }
@@ -80,9 +99,9 @@ void SledPlace::restore(const settings::Started& started) {
   using settings::Agreement;
   const Agreement agreement = settings::compare(kept, memory_.scale(), place_.x, place_.y);
   if (agreement == Agreement::kScaleChanged)
-    lose(FLASH("Encoders are scaled otherwise ($12, $13, $19, $20) than when it was kept."));
+    lose(settings::Doubt::kScale);
   else if (is_found && agreement == Agreement::kPlaceDiffers)
-    lose(FLASH("The kept place is not where the chains put the sled."));
+    lose(settings::Doubt::kPlace);
 }
 
 void SledPlace::sayUnset(bool has_defaults) {
@@ -92,31 +111,48 @@ void SledPlace::sayUnset(bool has_defaults) {
             "(Actions -> Set Chain Lengths, or B06 L R)."));
 }
 
-void SledPlace::lose(FlashText why) {
-  keeper_.doubtChains();
+void SledPlace::lose(settings::Doubt why) {
+  keeper_.doubtChains(why);
   is_known_ = false;
   axes_.standStill();
   // Else the next move of z would start from chains of no length.
   standHere();
   // WebControl looks for the first two words.
-  out_ << FLASH("ALARM: Position Lost. ") << why << FLASH(" Last known chain lengths: ");
+  out_ << FLASH("ALARM: Position Lost. ") << textOf(why) << FLASH(" Last known chain lengths: ");
   sayLengths();
   out_.line(FLASH(" mm. Set them (B06 L R), or set the chains to their marks (B08)."));
 }
 
 void SledPlace::doubtCounts() {
   for (uint8_t i = 0; i < kAxisCount; ++i)
-    if (axes_.isDisproved(Axis(i))) keeper_.doubt(Axis(i));
+    if (axes_.isDisproved(Axis(i))) keeper_.doubt(Axis(i), settings::Doubt::kCounts);
 }
 
 FlashText SledPlace::whatIsLost() const {
-  return keeper_.trustsChains() ? FLASH("z is not known: set it first (G10 Z0 or G38.2)")
-                                : FLASH("Position Lost: set the chain lengths first (B06 or B08)");
+  if (!keeper_.trustsChains())
+    return FLASH("Position Lost: set the chain lengths first (B06 or B08)");
+  return is_known_ ? FLASH("z is not known: set it first (G10 Z0 or G38.2)")
+                   : FLASH("the chains put the sled nowhere: set their lengths first (B06 or B08)");
 }
 
 void SledPlace::followPulledChains() {
-  for (uint8_t i = 0; i < kAxisCount; ++i)
-    if (float(fabs(axes_.error(Axis(i)))) > kMovedByHand) search();
+  if (farthestOff() <= kMovedByHand) return;
+  const bool begins = moved_by_ == 0;
+  if (begins) left_at_ = aim_;
+  search();
+  if (!is_known_) return;
+  if (begins) out_.line(FLASH("The sled moves while its motors are off."));
+  const float x = aim_.x - left_at_.x, y = aim_.y - left_at_.y, z = aim_.z - left_at_.z;
+  moved_by_ = float(sqrt(x * x + y * y + z * z));
+}
+
+float SledPlace::farthestOff() const {
+  float farthest = 0;
+  for (uint8_t i = 0; i < kAxisCount; ++i) {
+    const float off = float(fabs(axes_.error(Axis(i))));
+    if (off > farthest) farthest = off;
+  }
+  return farthest;
 }
 
 void SledPlace::keepWhenAtRest(uint32_t now_ms) {

@@ -46,7 +46,7 @@ class SledPlace {
 
   /// Works out the place from the measured chains; all moves begin there.
   bool search();
-  /// Works out the place as search() does, and says it.
+  /// Works out the place as search() does, and says it: from now on the sled belongs there.
   bool find();
   /// All moves begin at the place that was worked out last.
   void standHere();
@@ -65,14 +65,19 @@ class SledPlace {
   void restore(const settings::Started& started);
   void sayUnset(bool has_defaults);
   /// From now on the chains are not trusted; says why.
-  void lose(FlashText why);
+  void lose(settings::Doubt why);
   /// Takes over which axes' counts were proved wrong.
   void doubtCounts();
-  void doubt(Axis axis) { keeper_.doubt(axis); }
+  void doubt(Axis axis, settings::Doubt why) { keeper_.doubt(axis, why); }
   /// What must be set before the sled can cross the sheet.
   FlashText whatIsLost() const;
   /// Stores the position once everything rests; to be called often.
   void keepWhenAtRest(uint32_t now_ms);
+
+  /// [mm] How far the axis that is farthest from its set-point is from it.
+  float farthestOff() const;
+  /// [mm] How far the tool moved while its motors were off, since its place was said.
+  float movedBy() const { return moved_by_; }
 
   /// Where the tool is commanded to be now.
   Place now(bool is_moving);
@@ -93,6 +98,8 @@ class SledPlace {
   Place aim_ = {0, 0, 0};
   motion::Point<float> counted_ = {0, 0};  ///< [mm]
   Place place_ = {0, 0, 0};                ///< where the tool was at the last call of now()
+  Place left_at_ = {0, 0, 0};              ///< where the motors left the tool
+  float moved_by_ = 0;                     ///< [mm]
   bool is_known_ = false;
 };
 

@@ -18,10 +18,10 @@ bool Waiting::dwell(uint32_t ms) {
 }
 
 bool Waiting::drain() {
-  if (!isMoving()) return !stopping_;
+  if (!isMoving()) return !isStopping();
   waitWhile([&] { return isMoving(); });
   settle();
-  return !stopping_;
+  return !isStopping();
 }
 
 void Waiting::settle() {

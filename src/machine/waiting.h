@@ -1,7 +1,7 @@
 // How a command waits while the machine keeps working.
 #pragma once
 
-#include "axes.h"
+#include "course.h"
 #include "planner.h"
 
 namespace machine {
@@ -13,17 +13,13 @@ namespace machine {
 /// false once a stop was asked for: then the command returns too.
 class Waiting {
  public:
-  Waiting(Clock& clock, Axes& axes, const Planner& mover)
-      : clock_(clock), axes_(axes), planner_(mover) {}
+  Waiting(Clock& clock, Axes& axes, const Planner& mover, const Course& course)
+      : clock_(clock), axes_(axes), planner_(mover), course_(course) {}
 
   /// A round of everything that goes on by itself.
   virtual void service() = 0;
-  /// Says the status if it is due, and shows that the program is alive. For code that writes many
-  /// lines without a wait.
-  virtual void keepReporting() = 0;
-
   uint32_t milliseconds() { return clock_.milliseconds(); }
-  bool isStopping() const { return stopping_; }
+  bool isStopping() const { return course_.isStopping(); }
   bool isMoving() const { return !planner_.isIdle() || !axes_.isEmpty(); }
 
   /// A round of a wait: the processor sleeps until something comes, for a millisecond at most.
@@ -35,8 +31,12 @@ class Waiting {
   /// Waits as long as condition() holds.
   template <class Condition>
   bool waitWhile(Condition condition) {
-    while (!stopping_ && condition()) pass();
-    return !stopping_;
+    while (!isStopping() && condition()) pass();
+    return !isStopping();
+  }
+  /// Waits for the end of a hold or pause.
+  bool untilRunning() {
+    return waitWhile([&] { return course_.isWaiting(); });
   }
   bool waitFor(uint32_t ms);
   /// A wait of the program, in which the motors keep their power.
@@ -54,11 +54,11 @@ class Waiting {
 
   Clock& clock_;
   Axes& axes_;
-  bool stopping_ = false;  ///< a stop was asked for; every wait ends
   bool dwelling_ = false;
 
  private:
   const Planner& planner_;
+  const Course& course_;
 };
 
 }  // namespace machine

@@ -1,21 +1,20 @@
 // Limits of z, and how they move when z is declared.
 #include "z_axis.h"
 
-#include <math.h>
-
 namespace machine {
-namespace {
-
-const float kNoLimit = 10000;  // [mm] the table's "none"
-
-}  // namespace
-
 float ZAxis::mostFeed() const { return values_.at(kZSpeed) * float(fabs(values_.at(kZPerTurn))); }
 
 float ZAxis::within(float z) const {
   const float high = values_.at(kZUpperLimit), low = values_.at(kZLowerLimit);
+  if (!reaches(z)) return z;
   if (z > high) return high;
   return z < low ? low : z;
+}
+
+bool ZAxis::mayMove() {
+  if (values_.at(kZPositionP) > 0 || axes_.isSimulated()) return true;
+  return answers_.refuseMotion(
+      FLASH("z does not follow while $29 is 0: connect your client, or send $29=1300"));
 }
 
 bool ZAxis::setLimit(bool upper) {
@@ -29,14 +28,14 @@ bool ZAxis::setLimit(bool upper) {
 }
 
 bool ZAxis::clearLimits() {
-  memory_.setRow(kZUpperLimit, kNoLimit);
-  memory_.setRow(kZLowerLimit, -kNoLimit);
+  memory_.setRow(kZUpperLimit, kMostZ);
+  memory_.setRow(kZLowerLimit, -kMostZ);
   out_.line(FLASH("Z Axis Limits Cleared"));
   return true;
 }
 
 void ZAxis::sayLimit(float limit) {
-  if (float(fabs(limit)) >= kNoLimit)
+  if (float(fabs(limit)) >= kMostZ)
     out_ << FLASH("NAN");
   else
     out_.fixed(modal_.fromMm(limit), 2);
@@ -66,8 +65,8 @@ void ZAxis::declareInHold(float z) {
 
 void ZAxis::shiftLimits(float shift) {
   const float high = values_.at(kZUpperLimit), low = values_.at(kZLowerLimit);
-  if (high < kNoLimit) memory_.setRow(kZUpperLimit, high + shift);
-  if (low > -kNoLimit) memory_.setRow(kZLowerLimit, low + shift);
+  if (high < kMostZ) memory_.setRow(kZUpperLimit, high + shift);
+  if (low > -kMostZ) memory_.setRow(kZLowerLimit, low + shift);
 }
 
 }  // namespace machine

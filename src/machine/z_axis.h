@@ -1,10 +1,15 @@
 // The z axis: its limits (B17 to B20), its declared height, its speed.
 #pragma once
 
+#include <math.h>
+
 #include "answers.h"
 #include "sled_place.h"
 
 namespace machine {
+
+/// [mm] No z goes farther. A limit of this size is none.
+const float kMostZ = 10000;
 
 /// Limits are in machine coordinates; they shift when z is declared.
 class ZAxis {
@@ -22,7 +27,12 @@ class ZAxis {
   bool hasMotor() const { return values_.at(kZMotor) != 0; }
   float mostFeed() const;                                            ///< [mm/min]
   float acceleration() const { return values_.at(kAccelerationZ); }  ///< [mm/s^2]
-  float within(float z) const;  ///< [mm] limited to the allowed range
+  /// [mm] z limited to the allowed range. A z that no axis reaches stays, to be refused.
+  float within(float z) const;
+  /// Whether an axis reaches that z [mm].
+  static bool reaches(float z) { return float(fabs(z)) <= kMostZ; }
+  /// Refuses to move z by a motor whose loop has no gain: it would lag without an alarm.
+  bool mayMove();
   bool setLimit(bool upper);
   bool clearLimits();
   bool showLimits();

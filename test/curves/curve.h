@@ -7,21 +7,21 @@
 #include <random>
 
 /// A place on the sheet [mm].
-struct Spot {
+struct SheetPlace {
   double x, y;
 };
 
 /// An arc before its numbers are rounded.
 struct Meant {
-  Spot from, to, centre;
+  SheetPlace from, to, centre;
   double radius, first, sweep;  ///< [mm], [rad] direction of its start from the centre, [rad]
 
-  Spot at(double share) const {
+  SheetPlace at(double share) const {
     const double angle = first + sweep * share;
     return {centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)};
   }
 
-  double distanceTo(Spot place) const {
+  double distanceTo(SheetPlace place) const {
     const double x = place.x - centre.x, y = place.y - centre.y;
     double turned = std::fmod((std::atan2(y, x) - first) * (sweep > 0 ? 1 : -1), 2 * M_PI);
     if (turned < 0) turned += 2 * M_PI;
@@ -33,21 +33,21 @@ struct Meant {
 
 /// An arc in the words of a program [mm], rounded to the last digit.
 struct Rounded {
-  Spot from, to, centre;
+  SheetPlace from, to, centre;
   double radius;  ///< as for R: negative for the long way round
 };
 
 inline double rounded(double value, double digit) { return std::round(value / digit) * digit; }
 
-inline Spot rounded(Spot place, double digit) {
+inline SheetPlace rounded(SheetPlace place, double digit) {
   return {rounded(place.x, digit), rounded(place.y, digit)};
 }
 
 /// The words of an arc; I and J count from its start.
 inline Rounded rounded(const Meant& meant, double digit) {
-  const Spot from = rounded(meant.from, digit);
-  const Spot centre = {from.x + rounded(meant.centre.x - meant.from.x, digit),
-                       from.y + rounded(meant.centre.y - meant.from.y, digit)};
+  const SheetPlace from = rounded(meant.from, digit);
+  const SheetPlace centre = {from.x + rounded(meant.centre.x - meant.from.x, digit),
+                             from.y + rounded(meant.centre.y - meant.from.y, digit)};
   const double radius = rounded(meant.radius, digit);
   return {from, rounded(meant.to, digit), centre, std::fabs(meant.sweep) > M_PI ? -radius : radius};
 }
@@ -81,6 +81,6 @@ class Curve {
 
   std::mt19937 random_;
   double most_sweep_;
-  Spot at_ = {300, -200};
+  SheetPlace at_ = {300, -200};
   double ahead_ = 0.3;  ///< [rad] direction of the curve
 };

@@ -15,7 +15,7 @@
 <- ok
 ~~ wait 4
 ~~ sled X0 Y600 within 0.1
-; Relative moves count on, as long as the motors are on.
+; Relative moves count on.
 -> G91 G0 Y30
 <- This line leads beyond the sheet: *
 <- ok
@@ -59,7 +59,7 @@
 ~~ status <Idle,MPos:0.00,609.60,-2.00,WPos:0.000,0.000,0.000> within 0.05
 -> G0 X80 Y600
 <- ok
-; After a rest a jog starts where the sled is.
+; With G91 a program begins to count where the sled is, as a jog does.
 -> G0 X90 Y700
 <- This line leads beyond the sheet: *
 <- ok

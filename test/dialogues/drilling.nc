@@ -49,6 +49,8 @@
 <- error: a hole needs R and Z
 -> G83 X5 Z-1 R1
 <- error: G83 needs Q*
+-> G83 X5 Z-1 R1 Q0.0000001
+<- error: G83 needs Q, the depth of a peck, of 0.01 mm at least
 -> G81 X5 Z2 R1
 <- error: a hole's Z is below its R
 -> G80

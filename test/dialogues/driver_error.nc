@@ -11,6 +11,6 @@
 ~~ off right
 ; B30 is answered meanwhile.
 -> B30
-<- B30
+<* B30
 <- [Telemetry|error:#,#,#|dry:#|tick:#|illegal:0,0,0|supply:#,#|eeprom:ok|start:usual|events:0,0,0,1|last:driver,1|slips:0,0|slipped:none,0,0,0]
 <* ok

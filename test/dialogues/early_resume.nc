@@ -28,11 +28,15 @@
 >> ~
 <- ok
 <- ok
-; A tool change as well.
+; Not for a tool change: nobody has changed a tool before the machine asks for it.
 >> G1 X200^NM6 T2^N~
 <- ok
 <- ok
 <- Tool change to tool 2
 <- Tool Change: Please insert tool 2
 <- Maslow Paused
+~~ wait 1
+~~ quiet
+>> ~
+<- ok
 <- ok

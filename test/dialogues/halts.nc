@@ -63,7 +63,7 @@
 <* *
 ; No way behind the sprockets, and none for chains.
 -> G1 X30 Y99999
-<- ALARM: Halted at G1 X30 Y99999: that is farther than any machine reaches. Press Stop.
+<- ALARM: Halted at G1 X30 Y99999: that is farther than any machine reaches: Y. Press Stop.
 >> !
 <- ok
 <- Laser off

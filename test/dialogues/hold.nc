@@ -14,7 +14,6 @@
 ~~ quiet
 >> ~
 <- ok
-<- ok
 ~~ wait 2
 ~~ sled X100 Y0 within 0.06
 ~~ status <Idle,MPos:100.00,0.00,0.00,WPos:0.000,0.000,0.000> within 0.02
@@ -62,16 +61,15 @@
 <- ok
 ~~ wait 4
 ~~ z 2.5 within 0.02
-; Its own line of motion waits.
+; What would move the sled is refused.
 -> X20
-~~ wait 1
-~~ quiet
+<- error: the program waits: answer it with ~ or !; until then only z, its zero and questions
 >> ~
-<- ok
 <- Z goes back to -2.00
 <- ok
+-> X20
 <- ok
-~~ wait 2
+~~ wait 3
 ~~ sled X20 Y0 within 0.06
 ~~ z 0 within 0.02
 ; A stop in a hold forgets the rest where the sled stands.

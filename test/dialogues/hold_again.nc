@@ -8,7 +8,6 @@
 <- ok
 ~~ wait 6
 >> ~
-<- ok
 <- Z goes back*
 ~~ wait 1
 >> ^H

@@ -14,20 +14,18 @@
 <- ok
 ~~ wait 3
 >> ~
-<- ok
 <- Z goes back to 0.00
 <- ok
 ~~ wait 12
 ~~ sled X100 Y0 within 0.06
-; A line that is too long waits for ~, and is refused then.
+; A line that is too long is refused too, and the program goes on.
 -> G1 X0 F600
 ~~ wait 2
 >> ^H
 ~~ wait 1
 -> G0 Z1 (a line that is longer than anything the machine has room for, as a macro might be, with more and more and more words in it)
-~~ wait 1
-~~ quiet
+<- error: a line of more than 126 characters, which was skipped
 >> ~
 <- ok
-<- ok
-<- ALARM: Halted at a line of more than 126 characters, which was skipped. Press Stop.
+~~ wait 2
+~~ sled X0 Y0 within 0.06

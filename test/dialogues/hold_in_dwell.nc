@@ -11,7 +11,6 @@
 ~~ quiet
 >> ~
 <- ok
-<- ok
 -> G0 Z5
 <- ok
 ~~ wait 14
@@ -26,7 +25,6 @@
 ~~ wait 2
 ~~ spindle low
 >> ~
-<- ok
 <- Turning Spindle On
 <- ok
 ~~ spindle high

@@ -6,22 +6,20 @@
 ~~ quiet
 >> ~
 <- ok
-<- ok
 ~~ wait 4
--> G1 X5 Z-1 F800
+-> G0 X5 Z-1
 <- ok
 ~~ wait 12
 ~~ sled X5 Y0 within 0.06
 ~~ off z
-; A ~ that comes while z's motor wakes for the operator's jog: z rises and goes back.
+; A ~ that comes while z's motor wakes for the operator's jog: if z rises, it goes back.
 >> ^H
 ~~ wait 1
->> G0 Z3^N????????????????~
-<- ok
-<- ok
-<- Z goes back to -1.00
+>> G0 Z3^N?????????????????????~
 ~~ wait 14
+~~ answers from now
 ~~ z -1 within 0.03
+~~ status <Idle,*
 ; A pull begins after the hold.
 >> B11 S-60 T3 L^N??????^H
 <- B11 S-60 T3 L
@@ -29,7 +27,6 @@
 ~~ sled X5 Y0 within 0.1
 ~~ quiet
 >> ~
-<- ok
 ~~ wait 1
 >> ^H
 <- ALARM: A hold ended a pull*

@@ -6,7 +6,6 @@
 ~~ wait 2
 >> ~
 <- ok
-<- ok
 ~~ wait 2
 -> G1 X5
 <- ok

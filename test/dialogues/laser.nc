@@ -30,7 +30,6 @@
 ~~ hold within 1
 ~~ laser low
 >> ~
-<- ok
 ~~ wait 0.3
 ~~ laser high
 <- ok

@@ -4,7 +4,7 @@
 <- ok
 ~~ wait 2
 ~~ unplug left
--> G1 Z-15 F40
+-> G0 Z-15
 ~~ wait 10
 ~~ chains 1717.98 1685.66 3.2
 ~~ wait 24

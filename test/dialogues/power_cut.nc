@@ -24,7 +24,7 @@
 ~~ wait 3
 ~~ power cut
 <* ok
-<- ALARM: Position Lost*
+<- ALARM: Position Lost. Power was lost before the position was kept.*
 -> G0 X0
 <* ALARM: Halted at G0 X0: Position Lost*
 >> !
@@ -36,7 +36,7 @@
 ~~ errors [PE:0.00,0.00,127] within 0.1
 ~~ power cut
 <* ok
-<- ALARM: Position Lost*
+<- ALARM: Position Lost. Power was lost before the position was kept.*
 ~~ hang X0 Y0
 ~~ declare
 <* position loaded at:

@@ -99,3 +99,23 @@
 -> B99 ON
 <* ok
 ~~ off left
+; Only the word ON simulates motors.
+-> B99 NO
+<- B99 NO
+<- error: B99 is ON or OFF
+-> B99 TURN IT OFF SIMULATION
+<- B99 TURN IT OFF SIMULATION
+<- error: B99 is ON or OFF
+-> B99 ONE
+<- B99 ONE
+<- error: B99 is ON or OFF
+-> b99 on
+<- B99 ON
+<- FAKE_SERVO on
+<- ok
+-> B99 OFFICE
+<- B99 OFFICE
+<- error: B99 is ON or OFF
+-> B99
+<- B99
+<* ok

@@ -41,16 +41,31 @@ void checkLine(const std::string& line) {
     must(passNumbers(line, 10, 1, "]"), "a measurement that clients cannot read: " + line);
 }
 
+/// Whether a line begins with a character, or goes on; no byte of a line is noise or a question.
+bool beginsLine(char character) {
+  return character == '\t' || (character >= ' ' && uint8_t(character) <= 126 && character != '?');
+}
+
 }  // namespace
 
 void Answers::taken(char character) {
   const bool follows_quick = after_quick_;
   after_quick_ = character == '!' || character == '~' || character == '`' || character == '\x18';
-  if (after_quick_) takenQuick(character);
-  if (character == '\n' && !follows_quick) ++lines_;
+  if (after_quick_)
+    takenQuick(character);
+  else if (character == '\n')
+    takenEnd(follows_quick);
+  else if (beginsLine(character))
+    is_in_line_ = true;
   // In a comment it is text: then lines are answered, which no rule forbids.
   if (uint8_t(character) == kHold) is_held_ = true;
   if (uint8_t(character) == kHold || after_quick_) is_idle_ = false;
+}
+
+void Answers::takenEnd(bool follows_quick) {
+  if (!follows_quick && !is_cut_) ++lines_;
+  if (!follows_quick || is_cut_) is_in_line_ = false;
+  is_cut_ = false;
 }
 
 void Answers::takenQuick(char character) {
@@ -58,15 +73,21 @@ void Answers::takenQuick(char character) {
     dropLines();
     is_locked_ = false;
   }
-  ++quick_;
+  ++(character == '~' && is_held_ ? resumed_ : quick_);
   is_held_ = false;
+}
+
+void Answers::dropLines() {
+  lines_ = answered_ - quick_;
+  resumed_ = 0;
+  is_cut_ = is_in_line_;
 }
 
 void Answers::said(const std::string& line) {
   checkLine(line);
   if (line == "ok" || startsWith(line, "error:")) {
     ++answered_;
-    must(answered_ <= lines_ + quick_, "an answer too many: " + line);
+    must(answered_ <= lines_ + quick_ + resumed_, "an answer too many: " + line);
   }
   if (startsWith(line, "ALARM:") && !startsWith(line, "ALARM: Position Lost")) {
     dropLines();

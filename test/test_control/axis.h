@@ -10,7 +10,7 @@
 #include "published_loop.h"
 #include "world/motor.h"
 
-const double kChainPerTurn = 63.5;                 // [mm]
+const double kTurnLength = 63.5;                   // [mm]
 const motion::Gains kPosition = {1300, 0, 34, 1};  // the published defaults
 const motion::Gains kSpeed = {5, 0, 0.28f, 1};
 const unsigned kMotors = 40;
@@ -41,11 +41,11 @@ class AxisWith {
     const int16_t moved = int16_t(counts - counts_);
     counts_ = counts;
     loop_.measure(float(turned));
-    const double error = asked.set_point / kChainPerTurn - counts * per_count;
-    duty = loop_.follow(float(error), float(asked.ahead / kChainPerTurn), float(turned));
-    fault = watch_.look(int16_t(duty), moved, float(error * kChainPerTurn));
+    const double error = asked.set_point / kTurnLength - counts * per_count;
+    duty = loop_.follow(float(error), float(asked.ahead / kTurnLength), float(turned));
+    fault = watch_.look(int16_t(duty), moved, float(error * kTurnLength));
     motor.run(duty, seconds);
-    return asked.set_point - motor.turns() * kChainPerTurn;
+    return asked.set_point - motor.turns() * kTurnLength;
   }
 
   /// A control tick with a set-point that stays, or jumps.
@@ -64,7 +64,7 @@ class AxisWith {
   motion::Fault fault = motion::Fault::kNone;
 };
 
-using Axis = AxisWith<motion::AxisLoop>;
+using ControlledAxis = AxisWith<motion::AxisLoop>;
 using PublishedAxis = AxisWith<PublishedLoop>;
 
 /// A set-point that goes to and fro with bounded acceleration, and the way it will go a few ticks

@@ -77,8 +77,8 @@ class SledWith {
   void drive(const double (&ahead)[2]) {
     const double asked[2] = {motion::toMm<double>(now_.left), motion::toMm<double>(now_.right)};
     for (int i = 0; i < 2; ++i) axis_[i].tick({asked[i] - length0_[i], ahead[i]});
-    const double left = length0_[0] + axis_[0].motor.turns() * kChainPerTurn;
-    const double right = length0_[1] + axis_[1].motor.turns() * kChainPerTurn;
+    const double left = length0_[0] + axis_[0].motor.turns() * kTurnLength;
+    const double right = length0_[1] + axis_[1].motor.turns() * kTurnLength;
     const double x = (left * left - right * right) / (4 * kHalf);
     places.push_back({x, kUp - std::sqrt(left * left - (x + kHalf) * (x + kHalf))});
   }

@@ -7,7 +7,7 @@ namespace {
 
 /// Worst error [mm] along 60 mm there and back with bounded acceleration, after the first tick.
 double worstOnTheWay(unsigned seed, double rate, double feed) {
-  Axis axis(seed, rate);
+  ControlledAxis axis(seed, rate);
   ToAndFro way(feed, axis.seconds);
   double worst = 0;
   for (double goal : {60.0, 0.0})
@@ -43,7 +43,7 @@ TEST_P(AtRate, ChainsFollowWithinHalfAMillimetre) {
 
 TEST_P(AtRate, AnAxisComesToRestAndStaysThere) {
   for (unsigned seed = 0; seed < kMotors; ++seed) {
-    Axis axis(seed, GetParam());
+    ControlledAxis axis(seed, GetParam());
     double lowest = 1e9, highest = -1e9;
     for (int i = 0; i < int(3 * GetParam()); ++i) {
       const double error = axis.tick(i < 20 ? 0.05 * i : 1.0);
@@ -58,7 +58,7 @@ TEST_P(AtRate, AnAxisComesToRestAndStaysThere) {
 
 TEST_P(AtRate, AStepIsPassedByLittle) {
   for (unsigned seed = 0; seed < kMotors; ++seed) {
-    Axis axis(seed, GetParam());
+    ControlledAxis axis(seed, GetParam());
     double beyond = 0;
     for (int i = 0; i < int(2 * GetParam()); ++i) beyond = std::min(beyond, axis.tick(2.0));
     EXPECT_GT(beyond, -0.8) << "motor " << seed;
@@ -67,7 +67,7 @@ TEST_P(AtRate, AStepIsPassedByLittle) {
 
 TEST_P(AtRate, ABlockedMotorThatComesFreeDoesNotShootOff) {
   for (unsigned seed = 0; seed < kMotors; ++seed) {
-    Axis axis(seed, GetParam());
+    ControlledAxis axis(seed, GetParam());
     axis.motor.wires.blocked = true;
     for (int i = 0; i < int(GetParam()); ++i) axis.tick(1.5);
     EXPECT_EQ(255, axis.duty);
@@ -81,7 +81,7 @@ TEST_P(AtRate, ABlockedMotorThatComesFreeDoesNotShootOff) {
 
 TEST_P(AtRate, WhatIsWiredWronglyLeavesItsSetPointAtOnce) {
   for (int fault = 0; fault < 3; ++fault) {
-    Axis axis(1, GetParam());
+    ControlledAxis axis(1, GetParam());
     axis.motor.wires.motor_reversed = fault == 0;
     axis.motor.wires.encoder_reversed = fault == 1;
     axis.motor.wires.encoder_unplugged = fault == 2;
@@ -92,7 +92,7 @@ TEST_P(AtRate, WhatIsWiredWronglyLeavesItsSetPointAtOnce) {
     for (double at = 0; ticks < int(GetParam()); ++ticks) {
       at += 13.3 / GetParam();
       axis.tick(at);
-      travelled = std::fabs(axis.motor.turns() * kChainPerTurn);
+      travelled = std::fabs(axis.motor.turns() * kTurnLength);
       if (axis.duty == 255 || axis.duty == -255) break;
     }
     EXPECT_LT(ticks, int(0.3 * GetParam())) << "fault " << fault;

@@ -7,13 +7,13 @@ using motion::Gains;
 
 namespace {
 
-const float kTick = 0.01f, kCounts = 8113.73f;
-const float kPerMinute = 60 / kTick;  // ticks a minute
+const float kTickSeconds = 0.01f, kCountsPerTurn = 8113.73f;
+const float kPerMinute = 60 / kTickSeconds;  // ticks a minute
 const Gains kNone = {0, 0, 0, 1};
 
-AxisLoop loopWith(const Gains& position, const Gains& speed = kNone, float tick = kTick) {
+AxisLoop loopWith(const Gains& position, const Gains& speed = kNone, float tick = kTickSeconds) {
   AxisLoop loop;
-  loop.tune(position, speed, kCounts, tick);
+  loop.tune(position, speed, kCountsPerTurn, tick);
   loop.rest();
   return loop;
 }
@@ -36,10 +36,10 @@ TEST(PositionGains, SpeedAskedForCountsWhereThereIsAnyGain) {
   AxisLoop loop = loopWith({0, 0, 0, 1});
   loop.follow(0, 0.001f, 0);
   EXPECT_EQ(0, loop.wanted());
-  loop.tune({0.5f, 0, 0, 1}, kNone, kCounts, kTick);
+  loop.tune({0.5f, 0, 0, 1}, kNone, kCountsPerTurn, kTickSeconds);
   loop.follow(0, 0.001f, 0);
   EXPECT_NEAR(double(loop.wanted()), 6, 1e-4);
-  loop.tune({0, 0, 0, 1}, kNone, kCounts, kTick);
+  loop.tune({0, 0, 0, 1}, kNone, kCountsPerTurn, kTickSeconds);
   loop.follow(0, 0.001f, 0);
   EXPECT_EQ(0, loop.wanted()) << "a gain that was taken back";
 }
@@ -70,16 +70,16 @@ TEST(PositionGains, WeightMovesTheProportionalPartFromTheErrorToTheMeasure) {
   EXPECT_NEAR(double(loop.wanted()), 4 * 0.25, 1e-5) << "a jump of the set-point";
   loop.follow(0.75f, 0, 0.25f);
   EXPECT_NEAR(double(loop.wanted()), 4 * 0.25 - 4 * 0.25, 1e-5) << "less 4 for each turn it came";
-  loop.tune({4, 0, 0, 1}, kNone, kCounts, kTick);
+  loop.tune({4, 0, 0, 1}, kNone, kCountsPerTurn, kTickSeconds);
   loop.follow(0.75f, 0, 0);
   EXPECT_NEAR(double(loop.wanted()), 4 * 0.75, 1e-5) << "the whole of it acts on the error";
-  loop.tune({4, 0, 0, 0.25f}, kNone, kCounts, kTick);
+  loop.tune({4, 0, 0, 0.25f}, kNone, kCountsPerTurn, kTickSeconds);
   loop.follow(0.75f, 0, 0);
   EXPECT_NEAR(double(loop.wanted()), 4 * 0.25 * 0.75, 1e-5) << "what was summed is forgotten";
 }
 
 TEST(PositionGains, AnErrorOfACountIsNoneAtRest) {
-  const float count = 1 / kCounts;
+  const float count = 1 / kCountsPerTurn;
   for (const float sign : {-1.0f, 1.0f}) {
     AxisLoop loop = loopWith({1300, 0, 0, 1});
     loop.follow(sign * 1.49f * count, 0, 0);
@@ -106,9 +106,9 @@ TEST(SpeedGains, IntegralAddsWhatItSums) {
   // Each tick the sum grows by 32 * 0.01 * 10 = 3.2; the duty is a whole number.
   AxisLoop loop = loopWith(kNone, {0, 32, 0, 1});
   for (const int duty : {3, 9, 19}) EXPECT_EQ(duty, loop.run(10));
-  loop.tune(kNone, {2, 0, 0, 1}, kCounts, kTick);
+  loop.tune(kNone, {2, 0, 0, 1}, kCountsPerTurn, kTickSeconds);
   EXPECT_EQ(39, loop.run(10)) << "without the gain the sum is gone";
-  loop.tune(kNone, {0, 32, 0, 1}, kCounts, kTick);
+  loop.tune(kNone, {0, 32, 0, 1}, kCountsPerTurn, kTickSeconds);
   EXPECT_EQ(42, loop.run(10)) << "and begins at zero";
 }
 

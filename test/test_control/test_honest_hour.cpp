@@ -37,7 +37,7 @@ class Work {
     return false;
   }
 
-  Axis axis;
+  ControlledAxis axis;
 
  private:
   bool tick(const Asked& asked) {

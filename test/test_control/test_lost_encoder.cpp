@@ -23,7 +23,7 @@ struct Run {
 
 /// Moves there and back at 800 mm/min, so that the watch learns the duty that the motor needs, and
 /// rests.
-void learn(Axis& axis, double rate) {
+void learn(ControlledAxis& axis, double rate) {
   ToAndFro way(800, axis.seconds);
   for (double goal : {20.0, 0.0})
     while (!way.isAt(goal)) axis.tick(way.towards(goal));
@@ -31,7 +31,7 @@ void learn(Axis& axis, double rate) {
 }
 
 Run runOf(const Case& lost, unsigned seed, double goal) {
-  Axis axis(seed, lost.rate);
+  ControlledAxis axis(seed, lost.rate);
   ToAndFro way(std::max(lost.feed, 1.0), axis.seconds);
   if (lost.lost != Lost::kBeforeTheFirstMove) learn(axis, lost.rate);
   if (lost.lost == Lost::kOnTheWay)

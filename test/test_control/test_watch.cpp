@@ -18,7 +18,7 @@ struct Said {
 };
 
 Said saidOf(unsigned seed, double rate, const world::Wires& wires) {
-  Axis axis(seed, rate);
+  ControlledAxis axis(seed, rate);
   ToAndFro way(800, axis.seconds);
   for (int i = 0; i < int(rate); ++i) axis.tick(way.towards(60));
   axis.motor.wires = wires;
@@ -33,7 +33,7 @@ Said saidOf(unsigned seed, double rate, const world::Wires& wires) {
 
 TEST_P(Watched, CuttingIsNeverAFault) {
   for (unsigned seed = 0; seed < kMotors; ++seed) {
-    Axis axis(seed, GetParam());
+    ControlledAxis axis(seed, GetParam());
     ToAndFro way(800, axis.seconds);
     // Long moves, short moves and reversals in the middle of a move.
     double goals[] = {60, 0, 3, -3, 0.5, 0, 40, 20, 20.02, -30};
@@ -68,13 +68,13 @@ TEST_P(Watched, ReversedMotorAndReversedEncoderTurnBack) {
     encoder.encoder_reversed = true;
     for (const world::Wires& wires : {motor, encoder}) {
       // The fault is there from the first tick on, as after a repair.
-      Axis axis(seed, GetParam());
+      ControlledAxis axis(seed, GetParam());
       axis.motor.wires = wires;
       ToAndFro way(800, axis.seconds);
       for (int i = 0; i < int(GetParam()) && axis.fault == Fault::kNone; ++i)
         axis.tick(way.towards(60));
       EXPECT_EQ(Fault::kTurnsBack, axis.fault) << "motor " << seed;
-      EXPECT_LT(std::fabs(axis.motor.turns()) * kChainPerTurn, 6) << "motor " << seed;
+      EXPECT_LT(std::fabs(axis.motor.turns()) * kTurnLength, 6) << "motor " << seed;
     }
   }
 }

@@ -9,11 +9,11 @@
 
 namespace {
 
-const std::string kFolder = "test/programs/";
+const std::string kPrograms = "test/programs/";
 
 std::vector<std::string> programs() {
   std::vector<std::string> names;
-  for (const auto& file : std::filesystem::directory_iterator(kFolder)) {
+  for (const auto& file : std::filesystem::directory_iterator(kPrograms)) {
     const std::filesystem::path& path = file.path();
     if (path.extension() != ".places" && path.extension() != ".md")
       names.push_back(path.filename().string());
@@ -25,7 +25,7 @@ std::vector<std::string> programs() {
 /// Questions for each line of a program that its places ask about.
 std::multimap<int, std::string> questionsOf(const std::string& program) {
   const std::string name = std::filesystem::path(program).replace_extension(".places").string();
-  std::ifstream text(kFolder + name);
+  std::ifstream text(kPrograms + name);
   std::multimap<int, std::string> questions;
   for (std::string row; std::getline(text, row);) {
     std::istringstream numbers(row);
@@ -43,7 +43,7 @@ std::vector<Step> stepsOf(const std::string& program) {
   std::vector<Step> steps = readScript("test/dialogues", "setup.inc");
   const std::multimap<int, std::string> questions = questionsOf(program);
   if (questions.empty()) throw std::runtime_error(program + " has no places");
-  std::ifstream text(kFolder + program);
+  std::ifstream text(kPrograms + program);
   int number = 0;
   const auto step = [&](Step::Kind kind, const std::string& text) {
     steps.push_back({kind, text, program + ":" + std::to_string(number)});
@@ -53,6 +53,7 @@ std::vector<Step> stepsOf(const std::string& program) {
     step(Step::kSend, line);
     const bool waits =
         line.find("M6") != std::string::npos || line.find("M06") != std::string::npos;
+    if (waits) step(Step::kSkipTo, "Maslow Paused");
     if (waits) step(Step::kSend, "~");
     for (int answers = waits ? 2 : 1; answers > 0; --answers) step(Step::kSkipTo, "ok");
     const auto asked = questions.equal_range(number);

@@ -16,7 +16,9 @@
 #include "reference/numbers.h"
 #include "reference/reference.h"
 
-const double kChainWeight = 0.00137293, kSledWeight = 97.9, kCompliance = 5.17e-6;
+const double kChainWeight = 0.00137293;  // [N/mm]
+const double kSledWeight = 97.9;         // [N]
+const double kCompliance = 5.17e-6;      // [1/N]
 const double kRadius = 63.5 / 6.283185307179586;
 
 /// Where the motors are [mm].

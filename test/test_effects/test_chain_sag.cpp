@@ -3,14 +3,11 @@
 #include <gtest/gtest.h>
 #include <math.h>
 
-#include "params.h"
-#include "reference/reference.h"
+#include "hidden.h"
 
 using namespace kinematics;
 
 namespace {
-
-const double kChainWeight = 0.00137293, kSledWeight = 97.9;  // [N/mm], [N]
 
 Machine<double> sagging(double weight_ratio_squared, double rotation_radius, double gap) {
   const Frame<double> frame = {

@@ -155,11 +155,32 @@ TEST(Drilling, SaysWhatIsMissing) {
   EXPECT_EQ(DrillFault::kNoDepth, tool.read("G81 X1 R1"));
   EXPECT_EQ(DrillFault::kNoDepth, Driller(5).read("G81 X1 Z-1"));
   EXPECT_EQ(DrillFault::kUpward, Driller(5).read("G81 X1 Z2 R1"));
+  EXPECT_EQ(DrillFault::kTooFar, Driller(5).read("G81 X1 Z-1 R10001"));
+  EXPECT_EQ(DrillFault::kTooFar, Driller(5).read("G81 X1 Z-10001 R1"));
+  EXPECT_EQ(DrillFault::kNone, Driller(5).read("G81 X1 Z-10000 R10000"));
   EXPECT_EQ(DrillFault::kNoPeck, Driller(5).read("G83 X1 Z-1 R1"));
   EXPECT_EQ(DrillFault::kNoPeck, Driller(5).read("G83 X1 Z-1 R1 Q0"));
+  EXPECT_EQ(DrillFault::kNoPeck, Driller(5).read("G83 X1 Z-1 R1 Q0.0099"));
+  EXPECT_EQ(DrillFault::kNoPeck, Driller(5).read("G20 G83 X1 Z-1 R1 Q0.0003"));
+  EXPECT_EQ(DrillFault::kNone, Driller(5).read("G83 X1 Z-1 R1 Q0.01"));
   EXPECT_EQ(DrillFault::kBadRepeat, Driller(5).read("G81 X1 Z-1 R1 L0"));
   EXPECT_EQ(DrillFault::kBadRepeat, Driller(5).read("G81 X1 Z-1 R1 L1.5"));
   EXPECT_EQ(DrillFault::kBadDwell, Driller(5).read("G82 X1 Z-1 R1 P-1"));
+}
+
+TEST(Drilling, PecksToTheBottomInTheSmallestPecks) {
+  Driller tool(5);
+  ASSERT_EQ(DrillFault::kNone, tool.read("G83 X0 Z-3 R5 Q0.01"));
+  const std::string steps = tool.allSteps();
+  EXPECT_EQ("feed -3", steps.substr(steps.rfind("feed"), 7));
+}
+
+TEST(Drilling, MakesNoStepOfManyHolesWhereNothingMoves) {
+  Driller tool(2);
+  ASSERT_EQ(DrillFault::kNone, tool.read("G81 X3 Z2 R2 L999"));
+  std::string all;
+  for (int i = 0; i < 999; ++i) all += (i == 0 ? "" : ", ") + std::string("across 3 0");
+  EXPECT_EQ(all, tool.allSteps());
 }
 
 TEST(Drilling, MakesNoHoleOfALineWithAFault) {

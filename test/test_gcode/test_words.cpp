@@ -141,6 +141,12 @@ TEST(Clean, RemovesSpacesPercentAndSlashAndMakesLettersCapital) {
   EXPECT_EQ("", cleaned("   "));
 }
 
+TEST(Clean, KeepsTheSpaceBehindALetterWithoutNumber) {
+  EXPECT_EQ("G1X Y5", cleaned("G1 X  (c) Y5"));
+  EXPECT_EQ("G1X-Y5", cleaned("G1 X - Y5"));
+  EXPECT_EQ(Fault::kNoNumber, faultOf("G1 X Y5"));
+}
+
 TEST(Clean, TakesAwayARightChecksum) {
   EXPECT_EQ("N1G21", cleaned("N1 G21*27"));
   EXPECT_EQ("N1G21", cleaned("N1 G21*27 "));

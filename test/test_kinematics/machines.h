@@ -6,6 +6,8 @@
 #include "reference/reference.h"
 #include "tried/tried.h"
 
+const double kCloseEnough = 0.025;  // [mm] three encoder counts
+
 /// The machine in the judge's numbers.
 inline reference::Machine judgeOf(const Tried& tried) {
   reference::Machine machine;

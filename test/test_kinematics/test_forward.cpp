@@ -13,8 +13,6 @@ INSTANTIATE_TEST_SUITE_P(Forward, FromAnywhere, testing::ValuesIn(triedMachines(
 
 namespace {
 
-const double kCloseEnough = 0.025;  // [mm] three encoder counts
-
 template <class Real>
 double miss(const Place<Real>& place, Point<Real> target) {
   return hypot(double(place.sled.x - target.x), double(place.sled.y - target.y));

@@ -77,12 +77,9 @@ double apart(Chains<First> first, Chains<Second> second) {
               fabs(double(first.right) - double(second.right)));
 }
 
-const double kCloseEnough = 0.025;  // [mm] three encoder counts
-const float kNan = nanf("");
-
 Quadrilateral<float> published() { return lawsOf<float>(triedSleds()[0]); }
 
-Found foundAt(float x, float y) {
+Found foundTilted(float x, float y) {
   const TiltedPaidOut<float> paid = inverse(published(), Point<float>{x, y});
   const TiltedPaidOut<float> level = inverse(published(), Point<float>{x, y}, 0.0f);
   EXPECT_EQ(paid.found, level.found);
@@ -94,7 +91,7 @@ Found foundAt(float x, float y) {
   return paid.found;
 }
 
-Found foundFor(float left, float right) {
+Found foundTiltedFor(float left, float right) {
   return forward(published(), Chains<float>{left, right}).found;
 }
 
@@ -134,7 +131,7 @@ TEST_P(EverySled, AnyGuessOfTheTiltGivesTheSameLengths) {
   const Quadrilateral<float> machine = lawsOf<float>(GetParam());
   for (const Point<float>& place : sheetPlaces<float>(10, 17, 9)) {
     const TiltedPaidOut<float> paid = inverse(machine, place);
-    for (float guess : {-0.9f, -0.4f, 0.0f, 0.4f, 0.9f, 3.0f, kNan}) {
+    for (float guess : {-0.9f, -0.4f, 0.0f, 0.4f, 0.9f, 3.0f, nanf("")}) {
       const TiltedPaidOut<float> other = inverse(machine, place, guess);
       ASSERT_EQ(Found::kYes, other.found) << "from " << guess;
       EXPECT_LT(apart(paid.chains, other.chains), 0.002) << "from " << guess;
@@ -259,25 +256,26 @@ TEST(Quadrilateral, StepsSmoothlyInFloat) {
 }
 
 TEST(Quadrilateral, RefusesPlacesThatAreNoNumbers) {
-  EXPECT_EQ(Found::kOutOfReach, foundAt(kNan, 0));
-  EXPECT_EQ(Found::kOutOfReach, foundAt(0, kNan));
-  EXPECT_EQ(Found::kOutOfReach, foundAt(INFINITY, 0));
-  EXPECT_EQ(Found::kOutOfReach, foundAt(0, -INFINITY));
-  EXPECT_EQ(Found::kOutOfReach, foundAt(1e30f, -1e30f));
+  EXPECT_EQ(Found::kOutOfReach, foundTilted(nanf(""), 0));
+  EXPECT_EQ(Found::kOutOfReach, foundTilted(0, nanf("")));
+  EXPECT_EQ(Found::kOutOfReach, foundTilted(INFINITY, 0));
+  EXPECT_EQ(Found::kOutOfReach, foundTilted(0, -INFINITY));
+  EXPECT_EQ(Found::kOutOfReach, foundTilted(1e30f, -1e30f));
 }
 
 TEST(Quadrilateral, RefusesPlacesAboveOrBesideTheMotors) {
-  EXPECT_EQ(Found::kOutOfReach, foundAt(0, 940));  // brackets level with the sprockets
-  EXPECT_EQ(Found::kOutOfReach, foundAt(0, 1072.6f));
-  EXPECT_EQ(Found::kOutOfReach, foundAt(0, 1500));
-  EXPECT_EQ(Found::kOutOfReach, foundAt(300, 1080));
-  EXPECT_EQ(Found::kOutOfReach, foundAt(1600, 0));
-  EXPECT_EQ(Found::kOutOfReach, foundAt(-1480, -500));
-  EXPECT_EQ(Found::kOutOfReach, foundAt(-1489.2f, 1072.6f));
+  EXPECT_EQ(Found::kOutOfReach, foundTilted(0, 940));  // brackets level with the sprockets
+  EXPECT_EQ(Found::kOutOfReach, foundTilted(0, 1072.6f));
+  EXPECT_EQ(Found::kOutOfReach, foundTilted(0, 1500));
+  EXPECT_EQ(Found::kOutOfReach, foundTilted(300, 1080));
+  EXPECT_EQ(Found::kOutOfReach, foundTilted(1600, 0));
+  EXPECT_EQ(Found::kOutOfReach, foundTilted(-1480, -500));
+  EXPECT_EQ(Found::kOutOfReach, foundTilted(-1489.2f, 1072.6f));
 }
 
 TEST(Quadrilateral, SearchesNoLongerWherePlacesAreOutOfReach) {
-  for (const Point<float>& place : {Point<float>{0, 1500}, {1600, 0}, {-1480, -500}, {kNan, kNan}})
+  for (const Point<float>& place :
+       {Point<float>{0, 1500}, {1600, 0}, {-1480, -500}, {nanf(""), nanf("")}})
     EXPECT_EQ(1, inverse(published(), place).tries) << place.x << " " << place.y;
 }
 
@@ -304,15 +302,15 @@ TEST(Quadrilateral, EveryPlaceIsRefusedOrGivesChainsThatPull) {
 }
 
 TEST(Quadrilateral, RefusesChainsThatCannotHoldIt) {
-  EXPECT_EQ(Found::kOutOfReach, foundFor(1000, 1000));  // too short to meet
-  EXPECT_EQ(Found::kOutOfReach, foundFor(0, 0));
-  EXPECT_EQ(Found::kOutOfReach, foundFor(-500, 100));
-  EXPECT_NE(Found::kYes, foundFor(300, 4000));  // all on one motor
-  EXPECT_NE(Found::kYes, foundFor(5000, 500));
-  EXPECT_EQ(Found::kOutOfReach, foundFor(kNan, 1500));
-  EXPECT_EQ(Found::kOutOfReach, foundFor(1500, kNan));
-  EXPECT_EQ(Found::kOutOfReach, foundFor(INFINITY, 1500));
-  EXPECT_EQ(Found::kOutOfReach, foundFor(1e30f, 1e30f));
+  EXPECT_EQ(Found::kOutOfReach, foundTiltedFor(1000, 1000));  // too short to meet
+  EXPECT_EQ(Found::kOutOfReach, foundTiltedFor(0, 0));
+  EXPECT_EQ(Found::kOutOfReach, foundTiltedFor(-500, 100));
+  EXPECT_NE(Found::kYes, foundTiltedFor(300, 4000));  // all on one motor
+  EXPECT_NE(Found::kYes, foundTiltedFor(5000, 500));
+  EXPECT_EQ(Found::kOutOfReach, foundTiltedFor(nanf(""), 1500));
+  EXPECT_EQ(Found::kOutOfReach, foundTiltedFor(1500, nanf("")));
+  EXPECT_EQ(Found::kOutOfReach, foundTiltedFor(INFINITY, 1500));
+  EXPECT_EQ(Found::kOutOfReach, foundTiltedFor(1e30f, 1e30f));
 }
 
 TEST(Quadrilateral, RefusesASledThatWouldTopple) {
@@ -332,7 +330,8 @@ TEST(Quadrilateral, RefusesASledThatWouldTopple) {
 
 TEST(Quadrilateral, AGuessThatIsNoNumberDoesNotSpoilTheSearch) {
   const Chains<float> chains = inverse(published(), Point<float>{200, -300}).chains;
-  const TiltedPlace<float> place = forward(published(), chains, Point<float>{kNan, INFINITY}, kNan);
+  const TiltedPlace<float> place =
+      forward(published(), chains, Point<float>{nanf(""), INFINITY}, nanf(""));
   ASSERT_EQ(Found::kYes, place.found);
   EXPECT_LT(miss(place, Point<float>{200, -300}), kCloseEnough);
 }

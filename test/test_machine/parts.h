@@ -18,7 +18,7 @@
 struct Rounds : machine::Waiting {
   Rounds(BoardAtRest& board, machine::Axes& axes, machine::Planner& planner,
          machine::Geometry& geometry, settings::Memory& memory)
-      : Waiting(board, axes, planner),
+      : Waiting(board, axes, planner, course),
         board_(board),
         planner_(planner),
         geometry_(geometry),
@@ -31,9 +31,9 @@ struct Rounds : machine::Waiting {
     memory_.step();
     if (++board_.now_ms % 10 == 0) axes_.tick();
   }
-  void keepReporting() override {}
-  void stop() { stopping_ = true; }
+  void stop() { course.take(machine::Event::kStop); }
 
+  machine::Course course{axes_};
   int rounds = 0;
   std::function<void()> in_each_round = [] {};
 
@@ -56,14 +56,14 @@ struct Parts : testing::Test, machine::Dispatch {
         cutter(board, values),
         answers(out, values),
         place(out, axes, geometry, planner, keeper, memory, modal),
-        motors(axes, keeper, values, waiting),
+        motors(axes, keeper, values, place, out, waiting),
         spindle(cutter, board, out, waiting),
         z(memory, values, axes, place, modal, out, answers),
         new_values(values, geometry, axes, planner, board, cutter, place, board, out),
         coordinates(memory, values, modal, place, out, answers),
-        pauses(interlude, input, modal, spindle, place, out, waiting),
-        operator_lines(interlude, input, modal, axes, motors, z, coordinates, board, out, answers,
-                       *this),
+        operator_lines(waiting.course, input, modal, axes, motors, z, coordinates, board, out,
+                       answers, *this),
+        pauses(operator_lines, input, modal, spindle, place, out, waiting),
         moves(values, geometry, planner, motors, coordinates, place, z, cutter, pauses, modal, out,
               answers, waiting),
         drilling(modal, coordinates, place, z, moves, answers, waiting),
@@ -128,7 +128,6 @@ struct Parts : testing::Test, machine::Dispatch {
   machine::PositionKeeper keeper;
   Rounds waiting;
   machine::Cutter cutter;
-  machine::Interlude interlude;
   machine::Answers answers;
   machine::SledPlace place;
   machine::MotorPower motors;
@@ -136,8 +135,8 @@ struct Parts : testing::Test, machine::Dispatch {
   machine::ZAxis z;
   machine::NewValues new_values;
   machine::Coordinates coordinates;
-  machine::Pauses pauses;
   machine::OperatorLines operator_lines;
+  machine::Pauses pauses;
   machine::Moves moves;
   machine::Drilling drilling;
   machine::SingleAxis single_axis;

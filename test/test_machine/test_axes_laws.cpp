@@ -42,6 +42,19 @@ TEST(AxesYield, BecauseOfAnyAxisThatIsFarOff) {
   }
 }
 
+TEST(AxesCounts, AreTakenOverWithoutPowerAndWithoutAWayToGo) {
+  Driven driven;
+  driven.axes.follow();
+  driven.ticks(2);
+  driven.axes.setCounts(200000, -300, 7);
+  driven.ticks(1);
+  EXPECT_FALSE(driven.axes.isPowered());
+  for (const Axis axis : {kLeftAxis, kRightAxis, kZAxis}) {
+    EXPECT_EQ(0, driven.board.duty[axis]);
+    EXPECT_NEAR(0, double(driven.axes.error(axis)), 1e-4);
+  }
+}
+
 TEST(AxesLift, KnowsWhereZIsPlannedAndWhereItGoes) {
   Driven driven;
   driven.axes.simulate(true);

@@ -111,15 +111,33 @@ struct PlaceAlone : Parts {};
 
 TEST_F(PlaceAlone, IsNoneWithoutTrustAndSaysWhy) {
   EXPECT_TRUE(place.isKnown());
-  place.lose(FLASH("Why."));
+  place.lose(settings::Doubt::kSimulated);
   EXPECT_FALSE(place.isKnown() || place.trustsChains());
-  expectSaid("ALARM: Position Lost. Why. Last known chain lengths: ");
+  expectSaid(
+      "ALARM: Position Lost. Motion was simulated, so the chains are elsewhere. Last known chain "
+      "lengths: ");
   EXPECT_TRUE(place.search());
   EXPECT_FALSE(place.isKnown());
   place.trustChains();
   EXPECT_TRUE(place.find());
   EXPECT_TRUE(place.isKnown());
   expectSaid("position loaded at:\r\n0.00\r\n0.00\r\n");
+}
+
+TEST_F(PlaceAlone, IsKeptAsNoneWhereTheChainsPutTheSledNowhere) {
+  const auto isPlaceKept = [&] {
+    for (int i = 0; i < 1000; ++i) {
+      waiting.pass();
+      place.keepWhenAtRest(board.now_ms);
+    }
+    return settings::Memory(eeprom, values).start().position.has_place;
+  };
+  axes.simulate(false);
+  EXPECT_TRUE(isPlaceKept());
+  axes.declare(kLeftAxis, 100);
+  axes.declare(kRightAxis, 100);
+  place.trustChains();
+  EXPECT_FALSE(isPlaceKept());
 }
 
 TEST_F(PlaceAlone, BringsAimAndCountTogetherWhenItIsLookedFor) {
@@ -233,7 +251,7 @@ TEST_F(NewValuesAlone, LookForThePlaceBeforeAMove) {
 
 struct OperatorAlone : Parts {
   void send(const std::string& text) {
-    for (const char c : text) input.put(c);
+    for (const char c : text) operator_lines.inputFor(c).put(c);
   }
   void serveFor(uint32_t ms) {
     waiting.in_each_round = [&] { operator_lines.serve(); };
@@ -261,12 +279,11 @@ TEST_F(OperatorAlone, JogsZInAHoldAndTheProgramGoesOnAsItWas) {
   EXPECT_EQ((std::vector<bool>{true, true, true}), answered);
   EXPECT_EQ("B20", asked);
   EXPECT_TRUE(modal.relative);
-  EXPECT_TRUE(interlude.isOn());
-  EXPECT_FALSE(interlude.isPaused()) << "it is held";
+  EXPECT_TRUE(waiting.course.is(State::kHeld));
   operator_lines.resume();
   serveFor(4000);
   expectSaid("Z goes back to 0.00");
-  EXPECT_FALSE(modal.relative || interlude.isOn());
+  EXPECT_FALSE(modal.relative || waiting.course.isWaiting());
   EXPECT_TRUE(waiting.drain());
   expectAt(30, 0, 0);
 }
@@ -298,7 +315,7 @@ TEST_F(OperatorAlone, SetsZByHandWhereThereIsNoMotor) {
   values.setRow(kZMotor, 0);
   waiting.in_each_round = [&] {
     operator_lines.serve();
-    if (interlude.isPaused()) operator_lines.resume();
+    if (waiting.course.is(State::kPaused)) operator_lines.resume();
   };
   EXPECT_TRUE(moves.move(0, words("G0 Z-3")));
   expectSaid("Please adjust Z-Axis to a depth of -3.00 mm");

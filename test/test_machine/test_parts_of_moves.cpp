@@ -28,18 +28,18 @@ TEST_F(MovesAlone, KeepToTheSheetWhileTheProgramCountsBeyondIt) {
   board.said.clear();
   EXPECT_TRUE(moves.move(0, words("G0 X1301")));
   EXPECT_EQ("", board.said) << "once for each time that the path leaves it";
-  // In motion a jog goes on from where the program counts, after a rest from where the sled is.
+  // The program goes on from where it counts, after a rest too.
   modal.relative = true;
   EXPECT_TRUE(moves.move(0, words("G0 X-1")));
   EXPECT_FLOAT_EQ(1300, place.counted().x);
   EXPECT_TRUE(waiting.drain());
   axes.releaseAll();
   EXPECT_TRUE(moves.move(0, words("G0 X-1")));
-  EXPECT_NEAR(1218.2, place.aim().x, 0.01);
+  EXPECT_FLOAT_EQ(1299, place.counted().x);
 }
 
 TEST_F(MovesAlone, AreRefusedWhereThePlaceIsNotKnown) {
-  keeper.doubtChains();
+  keeper.doubtChains(settings::Doubt::kCounts);
   EXPECT_FALSE(moves.move(0, words("G0 X1")));
   expectSaid("Position Lost: set the chain lengths first");
   EXPECT_TRUE(answers.mustHalt());
@@ -143,7 +143,7 @@ TEST_F(CoordinatesAlone, RefuseWhatHasNoMeaning) {
   }
   EXPECT_FALSE(coordinates.shift(words("G92")));
   EXPECT_FALSE(coordinates.keepGoal(piece("G28.1 X1")));
-  keeper.doubt(kZAxis);
+  keeper.doubt(kZAxis, settings::Doubt::kCounts);
   EXPECT_FALSE(coordinates.shift(words("G92 X0")));
   EXPECT_FALSE(coordinates.declare(words("G10 L20 P1 X0")));
   EXPECT_TRUE(coordinates.declare(words("G10 L2 P1 X0")));
@@ -153,7 +153,7 @@ TEST_F(CoordinatesAlone, RefuseWhatHasNoMeaning) {
 struct SingleAxisAlone : Parts {};
 
 TEST_F(SingleAxisAlone, TakesTheChainsLengthsAndLooksForThePlace) {
-  keeper.doubtChains();
+  keeper.doubtChains(settings::Doubt::kCounts);
   EXPECT_TRUE(single_axis.setChains(1700, 1700));
   EXPECT_TRUE(place.isKnown());
   EXPECT_NEAR(0, place.aim().x, 0.01);

@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "machine/course.h"
 #include "machine/planner.h"
 #include "set_counts.h"
 #include "settings_flash.h"
@@ -68,6 +69,10 @@ class World {
   void tick() {
     ASSERT_TRUE(planner_.fill(axes_, geometry_));
     axes_.tick();
+    if (course_.isStopping() && axes_.isAtRest()) {
+      planner_.standHere(axes_);
+      course_.take(Event::kStood);
+    }
     const SetPoint point = axes_.setPoint();
     const FoundPlace found = geometry_.forward(
         motion::toMm<float>(point.left), motion::toMm<float>(point.right),
@@ -82,7 +87,7 @@ class World {
     while (!isDone()) tick();
   }
 
-  void stop() { planner_.stop(axes_); }
+  void stop() { course_.take(Event::kStop); }
   Geometry& geometry() { return geometry_; }
   SetPoint setPoint() { return axes_.setPoint(); }
 
@@ -95,6 +100,7 @@ class World {
   SetCounts drives_;
   NoClock clock_;
   Axes axes_;
+  Course course_{axes_};
   Planner planner_;
   Geometry geometry_;
   motion::Point<float> at_;

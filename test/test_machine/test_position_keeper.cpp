@@ -234,7 +234,7 @@ TEST_F(Keeper, AStopBeforeMotorsHavePowerComesBackToRest) {
 
 TEST_F(Keeper, KeepsNothingThatIsDoubtful) {
   machine.wake();
-  machine.keeper.doubt(kRightAxis);
+  machine.keeper.doubt(kRightAxis, settings::Doubt::kCounts);
   machine.axes.releaseAll();
   machine.pass(2000);
   EXPECT_EQ(1, machine.kept);
@@ -250,7 +250,7 @@ TEST_F(Keeper, KeepsNothingThatIsDoubtful) {
 }
 
 TEST_F(Keeper, ADoubtOverZLeavesTheChains) {
-  machine.keeper.doubt(kZAxis);
+  machine.keeper.doubt(kZAxis, settings::Doubt::kCounts);
   machine.pass(1000);
   EXPECT_TRUE(machine.keeper.trustsChains());
   EXPECT_FALSE(machine.keeper.trustsAll());
@@ -271,7 +271,7 @@ TEST_F(Keeper, ImaginedMotionLeavesTheRecordAlone) {
   EXPECT_EQ(1, machine.kept);
   EXPECT_EQ(Known::kAtRest, machine.afterCut().known);
   EXPECT_TRUE(machine.axes.isImagined());
-  machine.keeper.doubt(kLeftAxis);
+  machine.keeper.doubt(kLeftAxis, settings::Doubt::kCounts);
   machine.pass(100);
   EXPECT_EQ(Known::kAtRest, machine.afterCut().known)
       << "the chains themselves are where they were";

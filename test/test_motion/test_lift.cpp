@@ -86,3 +86,22 @@ TEST(Lift, KeepsItsSumsFromOverflowing) {
   }
   EXPECT_EQ(1 << 17, lift.speed());
 }
+
+TEST(Lift, BrakesAsSoonAsItCanAndStays) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 300; ++round) {
+    Lift lift;
+    lift.goTo(round % 2 ? 20000 : -20000, kTop, kGain);
+    for (unsigned i = random() % 60; i > 0; --i) lift.advance();
+    const int32_t from = lift.at(), speed = lift.speed();
+    lift.brake();
+    const int32_t first = lift.goal();
+    lift.advance();
+    lift.brake();
+    EXPECT_EQ(first, lift.goal()) << "a second hold changes nothing";
+    run(lift);
+    EXPECT_EQ(first, lift.at());
+    EXPECT_LE(std::abs(lift.at() - from), speed * double(speed) / (2 * kGain));
+    EXPECT_GE((lift.at() - from) * (speed < 0 ? -1 : 1), 0);
+  }
+}

@@ -24,7 +24,7 @@ const Text kTexts[] = {{"InchesOfThreeDecimals", 0.0254, kInchDigit},
                        {"MillimetresOfTwoDecimals", 0.01, kMillimetreDigit},
                        {"MillimetresOfThreeDecimals", 0.001, kMillimetreDigit}};
 
-Point<float> single(Spot place) { return {float(place.x), float(place.y)}; }
+Point<float> single(SheetPlace place) { return {float(place.x), float(place.y)}; }
 
 Path<float> drawn(const Meant& meant, const Text& text) {
   const Rounded words = rounded(meant, text.digit);
@@ -35,7 +35,7 @@ Path<float> drawn(const Meant& meant, const Text& text) {
 /// Largest distance [mm] between a drawn path and the intended arc, in both directions.
 double farthest(const Path<float>& path, const Meant& meant) {
   const int steps = 60;
-  std::vector<Spot> drawn;
+  std::vector<SheetPlace> drawn;
   double off = 0;
   for (int i = 0; i <= steps; ++i) {
     const Point<float> place = placeOn(path, float(i) / steps);
@@ -43,7 +43,7 @@ double farthest(const Path<float>& path, const Meant& meant) {
     off = std::max(off, meant.distanceTo(drawn.back()));
   }
   for (int i = 0; i <= steps; ++i) {
-    const Spot place = meant.at(double(i) / steps);
+    const SheetPlace place = meant.at(double(i) / steps);
     double nearest = 1e9;
     for (int k = 0; k < steps; ++k) {
       const double dx = drawn[k + 1].x - drawn[k].x, dy = drawn[k + 1].y - drawn[k].y;

@@ -92,7 +92,7 @@ TEST(Position, ADoubtIsKeptUntilAPositionIs) {
   Eeprom eeprom = travelled(3);
   {
     Ring ring(eeprom);
-    ring.slots.doubt();
+    ring.slots.doubt(Doubt::kCounts);
     ring.settle();
   }
   EXPECT_EQ(Known::kDoubted, Ring(eeprom).known);
@@ -113,6 +113,31 @@ TEST(Position, ADoubtIsKeptUntilAPositionIs) {
   EXPECT_EQ(Known::kMoving, Ring(eeprom).known) << "that doubt is over";
 }
 
+TEST(Position, ADoubtKeepsItsFirstReason) {
+  for (const Doubt why : {Doubt::kMoving, Doubt::kScale, Doubt::kPlace, Doubt::kSimulated,
+                          Doubt::kStack, Doubt::kCounts}) {
+    Eeprom eeprom = travelled(3);
+    {
+      Ring ring(eeprom);
+      ring.slots.doubt(why);
+      ring.slots.doubt(Doubt::kPlace);
+      ring.settle();
+    }
+    for (int start = 0; start < 3; ++start) {
+      Ring ring(eeprom);
+      ASSERT_EQ(Known::kDoubted, ring.known) << int(why);
+      EXPECT_EQ(why, ring.slots.doubted());
+      ring.slots.doubt(Doubt::kScale);
+      ring.settle();
+    }
+    Ring ring(eeprom);
+    ring.slots.keep(positionOf(4));
+    ring.slots.doubt(Doubt::kStack);
+    ring.settle();
+    EXPECT_EQ(Doubt::kStack, Ring(eeprom).slots.doubted()) << "that reason is over";
+  }
+}
+
 TEST(Position, ADoubtInMotionIsKeptAndInARecordHalfWritten) {
   for (int steps = 0; steps < 40; ++steps) {
     Eeprom eeprom = travelled(3);
@@ -121,7 +146,7 @@ TEST(Position, ADoubtInMotionIsKeptAndInARecordHalfWritten) {
     ring.settle();
     ring.slots.keep(positionOf(9));
     for (int i = 0; i < steps; ++i) ring.step();
-    ring.slots.doubt();
+    ring.slots.doubt(Doubt::kCounts);
     ring.settle();
     ASSERT_EQ(Known::kDoubted, Ring(eeprom).known) << steps;
   }
@@ -130,7 +155,7 @@ TEST(Position, ADoubtInMotionIsKeptAndInARecordHalfWritten) {
 TEST(Position, NothingCanBeDoubtedOfAVirginBoard) {
   Eeprom eeprom;
   Ring ring(eeprom);
-  ring.slots.doubt();
+  ring.slots.doubt(Doubt::kCounts);
   ring.settle();
   EXPECT_EQ(0u, eeprom.writes);
   EXPECT_EQ(Known::kNothing, Ring(eeprom).known);

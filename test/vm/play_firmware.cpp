@@ -133,6 +133,7 @@ class Player {
       return stream(std::atoi(rest.c_str()), with_z, length);
     }
     if (verb == "hang") return hang(rest);
+    if (verb == "overrun") return machine_->board.overrunStack();
     if (verb == "supply") return machine_->board.setSupply(std::atof(rest.c_str()));
     if (verb == "low") return machine_->board.setPin(std::atoi(rest.c_str()), false);
     if (verb == "wake") return machine_->board.wake(std::atof(rest.c_str()));

@@ -31,7 +31,8 @@ std::unique_ptr<brain::Brain> brainFor(world::World& world, const std::optional<
   return std::make_unique<brain::MegaBrain>(world, *elf, shield == 2 ? vm::kShield2 : vm::kShield3);
 #else
   throw std::runtime_error(
-      "this build of plumb has no simulated Mega: install libsimavr-dev and build it again");
+      "the lab was built without the simulated Mega; run tools/setup, or install libsimavr-dev and "
+      "libelf-dev and build the lab again");
 #endif
 }
 

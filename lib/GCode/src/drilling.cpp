@@ -8,6 +8,8 @@ namespace {
 
 // [mm] The rapid move of a peck ends this far above the bottom of the hole so far.
 const float kPeckClearance = 0.25f;
+const float kLeastPeck = 0.01f;  // [mm] a smaller peck would never come to an end
+const float kMostZ = 10000;      // [mm]
 const float kMostHoles = 999;
 const float kMostDwell = 3600000;  // [ms]
 
@@ -27,7 +29,7 @@ DrillFault Drilling::readSizes(const Modal& modal, const Words& words) {
   has_r_ = has_r_ || words.has('R');
   if (!has_bottom_ || !has_r_) return DrillFault::kNoDepth;
   if (words.has('Q')) peck_ = modal.toMm(words.value('Q'));
-  if (modal.motion == kPeck && !(peck_ > 0)) return DrillFault::kNoPeck;
+  if (modal.motion == kPeck && !(peck_ >= kLeastPeck)) return DrillFault::kNoPeck;
   const float dwell = words.has('P') ? words.value('P') : float(dwell_ms_);
   if (!(dwell >= 0 && dwell < kMostDwell)) return DrillFault::kBadDwell;
   dwell_ms_ = uint32_t(dwell);
@@ -50,6 +52,7 @@ DrillFault Drilling::read(const Modal& modal, const Words& words, const float (&
   if (fault != DrillFault::kNone) return fault;
   r_ = r_word_ + (modal.relative ? initial_z_ : offset[2]);
   bottom_ = bottom_word_ + (modal.relative ? r_ : offset[2]);
+  if (!(float(fabs(bottom_)) <= kMostZ && float(fabs(r_)) <= kMostZ)) return DrillFault::kTooFar;
   if (!(bottom_ <= r_)) return DrillFault::kUpward;
   const bool goes_back = !modal.retracts_to_r && initial_z_ > r_;
   clear_z_ = goes_back ? initial_z_ : r_;
@@ -65,7 +68,7 @@ DrillFault Drilling::read(const Modal& modal, const Words& words, const float (&
 
 bool Drilling::moveZ(DrillStep& step, DrillStep::Kind kind, float z, At then) {
   at_ = then;
-  if (z_ == z) return next(step);
+  if (z_ == z) return false;
   z_ = z;
   step = {kind, x_, y_, z};
   return true;
@@ -79,6 +82,12 @@ void Drilling::goOn() {
 }
 
 bool Drilling::next(DrillStep& step) {
+  while (at_ != At::kDone)
+    if (advance(step)) return true;
+  return false;
+}
+
+bool Drilling::advance(DrillStep& step) {
   switch (at_) {
     case At::kStart:
       return moveZ(step, DrillStep::kRapid, z_ < r_ ? r_ : z_, At::kAcross);
@@ -99,17 +108,13 @@ bool Drilling::next(DrillStep& step) {
                    depth_ + kPeckClearance < r_ ? depth_ + kPeckClearance : r_, At::kDown);
     case At::kBottom:
       at_ = At::kUp;
-      if (cycle_ != kDrillAndDwell) return next(step);
       step = {DrillStep::kDwell, x_, y_, z_};
-      return true;
+      return cycle_ == kDrillAndDwell;
     case At::kUp:
-      if (z_ == clear_z_) {
-        goOn();
-        return next(step);
-      }
-      z_ = clear_z_;
-      step = {DrillStep::kRapid, x_, y_, z_};
-      return true;
+      return moveZ(step, DrillStep::kRapid, clear_z_, At::kOn);
+    case At::kOn:
+      goOn();
+      return false;
     default:
       return false;
   }

@@ -12,8 +12,9 @@ namespace gcode {
 enum class DrillFault : uint8_t {
   kNone,
   kNoDepth,    ///< no Z or no R, in this line or before
+  kTooFar,     ///< the hole's bottom or R is more than 10 m from zero
   kUpward,     ///< the hole's bottom is above R
-  kNoPeck,     ///< G83 without Q, or Q is not above zero
+  kNoPeck,     ///< G83 without Q, or Q is below 0.01 mm
   kBadRepeat,  ///< L or K is not a whole number from 1 to 999
   kBadDwell,   ///< P is below zero, or an hour or more
 };
@@ -43,10 +44,23 @@ class Drilling {
   uint32_t dwell() const { return dwell_ms_; }  ///< [ms] at the bottom, with G82
 
  private:
-  enum class At : uint8_t { kStart, kAcross, kAbove, kDown, kPecked, kReturn, kBottom, kUp, kDone };
+  enum class At : uint8_t {
+    kStart,
+    kAcross,
+    kAbove,
+    kDown,
+    kPecked,
+    kReturn,
+    kBottom,
+    kUp,
+    kOn,
+    kDone
+  };
 
   DrillFault readSizes(const Modal& modal, const Words& words);
   DrillFault readRepeat(const Words& words);
+  /// Does what is next; returns whether that is a step, or nothing moves.
+  bool advance(DrillStep& step);
   bool moveZ(DrillStep& step, DrillStep::Kind kind, float z, At then);
   void goOn();
 

@@ -14,6 +14,10 @@ const char kUnreadable = '?';
 
 bool isControl(char character) { return uint8_t(character) < ' ' && character != '\t'; }
 
+/// Whether senders of Grbl command with that byte, or with what UTF-8 puts in front of it. No digit
+/// becomes such a byte by a single wrong bit.
+bool isOfGrbl(uint8_t byte) { return (byte >= 0x80 && byte <= 0xa1) || byte == 0xc2; }
+
 /// The character that is stored for a character.
 char kept(char character) {
   if (character == '\t') return ' ';
@@ -27,60 +31,75 @@ void Input::store(char character) {
   ++used_;
 }
 
-bool Input::isInLine() const {
-  return used_ != 0 && ring_[uint8_t((uint16_t(first_) + used_ - 1) % kRoom)] != '\n';
-}
-
-/// What a byte above 127 asks for. It asks for nothing in a comment or in a letter in UTF-8, whose
-/// first byte is above 127 too.
-Quick Input::putQuick(char character) {
+Quick Input::quickOf(char character) {
   const uint8_t byte = uint8_t(character);
-  const bool is_text = comment_ != 0 || after_text_;
-  const bool is_quick = byte == 0x84 || (byte >= 0x90 && byte <= 0x94);
-  after_text_ = byte > 127 && (is_text || !is_quick);
-  if (character == '\n' || (character == ')' && comment_ == '('))
-    comment_ = 0;
-  else if (comment_ == 0 && (character == '(' || character == ';'))
-    comment_ = character;
-  if (is_text || !is_quick) return Quick::kNone;
+  if (byte == '!') return Quick::kStop;
+  if (byte == '~') return Quick::kResume;
+  if (byte == '`' || byte == kCtrlX) return Quick::kReset;
+  if (isText()) return Quick::kNone;
   if (byte == 0x84) return Quick::kHold;
+  if (byte < 0x90 || byte > 0x94) return Quick::kNone;
   return Quick(uint8_t(Quick::kFeedUsual) + (byte - 0x90));
 }
 
 Quick Input::put(char character) {
-  const Quick quick = putQuick(character);
-  if (quick != Quick::kNone) return quick;
+  const Quick quick = quickOf(character);
+  if (quick >= Quick::kHold) return quick;
   const bool after_quick = after_quick_;
-  after_quick_ = character == '!' || character == '~' || character == '`' || character == kCtrlX;
-  if (character == '!') return Quick::kStop;
-  if (character == '~') {
-    resumable_ = uint8_t(lines_ + 1);
-    return Quick::kResume;
-  }
-  if (after_quick_) return Quick::kReset;
+  after_quick_ = quick != Quick::kNone;
+  if (quick == Quick::kResume) resumable_ = uint8_t(lines_ + 1);
+  if (quick != Quick::kNone) return quick;
   if (character == '\n') {
-    if (after_quick) return Quick::kNone;
-    swallowing_ = after_return_ = false;
-    if (used_ == kRoom) return Quick::kOverflow;
-    store('\n');
-    ++lines_;
+    // The end of the quick character, and of what it cut.
+    if (!after_quick) return endLine();
+    if (line_ == Line::kCut) line_ = Line::kBegins;
     return Quick::kNone;
   }
-  // In front of a line there may be noise, from the moment when the port was opened.
-  if (character == '?' || (isControl(character) && !isInLine())) return Quick::kNone;
+  if (character == '?' || (!isText() && isOfGrbl(uint8_t(character)))) return Quick::kNone;
+  return take(character);
+}
+
+Quick Input::endLine() {
+  const bool is_cut = line_ == Line::kCut;
+  line_ = Line::kBegins;
+  if (is_cut) return Quick::kNone;
+  if (used_ == kRoom) return Quick::kOverflow;
+  store('\n');
+  ++lines_;
+  return Quick::kNone;
+}
+
+Quick Input::take(char character) {
+  switch (line_) {
+    case Line::kTooLong:
+    case Line::kCut:
+      return Quick::kNone;
+    case Line::kComment:
+      if (character == ')') line_ = Line::kWords;
+      return keep(kept(character));
+    case Line::kRemark:
+      return keep(kept(character));
+    case Line::kBegins:
+      // There may be noise, from the moment when the port was opened.
+      if (isControl(character) || uint8_t(character) > 126) return Quick::kNone;
+      break;
+    default:
+      break;
+  }
   if (character == '\r') {
-    after_return_ = true;
+    line_ = Line::kEnds;
     return Quick::kNone;
   }
-  if (after_return_ && kept(character) != ' ') {
-    after_return_ = false;
+  if (line_ == Line::kEnds) {
+    if (kept(character) == ' ') return keep(' ');
+    // A wrong bit may have made that CR of a minus sign.
     keep(kUnreadable);
   }
+  line_ = character == '(' ? Line::kComment : character == ';' ? Line::kRemark : Line::kWords;
   return keep(kept(character));
 }
 
 Quick Input::keep(char character) {
-  if (swallowing_) return Quick::kNone;
   // The last place is reserved for a line's end.
   if (used_ < kRoom - 1) {
     store(character);
@@ -89,7 +108,7 @@ Quick Input::keep(char character) {
   if (lines_ != 0) return Quick::kOverflow;
   used_ = 0;
   store(kTooLong);
-  swallowing_ = true;
+  line_ = Line::kTooLong;
   return Quick::kNone;
 }
 
@@ -131,8 +150,7 @@ bool Input::takeResume() {
 
 void Input::clear() {
   first_ = used_ = lines_ = resumable_ = 0;
-  swallowing_ = after_return_ = false;
-  comment_ = 0;
+  if (line_ != Line::kBegins) line_ = Line::kCut;
 }
 
 }  // namespace gcode

@@ -22,8 +22,9 @@ enum class Quick : uint8_t {
 
 /// Room for 127 characters that wait; clients rely on 126.
 ///
-/// Only the main program uses it. A line longer than the whole room is dropped to its end; a mark
-/// waits in its place, and wasTooLong() is true once that was taken.
+/// Only the main program uses it. The line that comes in is in one of the states of Line.
+/// A line longer than the whole room is dropped to its end; a mark waits in its place, and
+/// wasTooLong() is true once that was taken.
 class Input {
  public:
   enum : uint8_t { kRoom = 127 };
@@ -34,8 +35,8 @@ class Input {
   /// Free characters, as the status reports it.
   uint8_t room() const { return uint8_t(kRoom - used_); }
 
-  /// Whether nothing waits, not even part of a line.
-  bool isEmpty() const { return used_ == 0; }
+  /// Whether something of a line came whose end has not come.
+  bool isInLine() const { return line_ != Line::kBegins; }
 
   /// Takes the oldest line, without its end; false if none is complete.
   bool takeLine(char (&line)[kRoom + 1]);
@@ -51,25 +52,36 @@ class Input {
   /// counts once, and never for a line that ended after it.
   bool takeResume();
 
+  /// Forgets all that waits. What is still to come of a line that has begun is dropped to its end:
+  /// the rest of a line may be another line.
   void clear();
 
  private:
+  /// The line that comes in.
+  enum class Line : uint8_t {
+    kBegins,   ///< nothing of it has come
+    kWords,    ///< words are coming
+    kComment,  ///< in a comment that `)` ends
+    kRemark,   ///< behind a `;`, which ends with the line
+    kEnds,     ///< a CR came: only spaces may be between it and the end
+    kTooLong,  ///< it has no room and is skipped to its end
+    kCut,      ///< clear() came inside it: it is dropped to its end
+  };
+
+  Quick quickOf(char character);
+  bool isText() const { return line_ == Line::kComment || line_ == Line::kRemark; }
+  Quick endLine();
+  /// Takes a character that belongs to a line.
+  Quick take(char character);
   void store(char character);
   /// Stores an ordinary character, or skips a line that is too long.
   Quick keep(char character);
-  /// Whether something of a line is stored whose end has not come.
-  bool isInLine() const;
-  Quick putQuick(char character);
 
   char ring_[kRoom];
   uint8_t first_ = 0, used_ = 0, lines_ = 0;
   uint8_t resumable_ = 0;  ///< lines before the last `~`: the line taken last, and waiting lines
-  bool after_quick_ = false, swallowing_ = false, was_too_long_ = false;
-  bool after_return_ =
-      false;  ///< a CR came in this line; only spaces may be between it and the end
-  // Where a byte above 127 is part of a text.
-  char comment_ = 0;  ///< the character that began the comment; 0: none
-  bool after_text_ = false;
+  Line line_ = Line::kBegins;
+  bool after_quick_ = false, was_too_long_ = false;
 };
 
 }  // namespace gcode

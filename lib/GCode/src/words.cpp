@@ -67,6 +67,13 @@ Number broken(const char*& text) {
   return {0, Fault::kBadNumber};
 }
 
+/// Whether a space between these characters means something: two numbers that must not join, or a
+/// letter without its number.
+bool staysApart(char before, char after) {
+  return endsNumber(before) ? endsNumber(after) || after == 'E'
+                            : isLetter(before) && isLetter(after);
+}
+
 /// Whether `star` begins the checksum of its line: the exclusive or of all characters before it.
 bool beginsChecksum(const char* line, const char* star) {
   uint8_t sum = 0;
@@ -99,7 +106,7 @@ void clean(char* line) {
       gap = true;
       continue;
     }
-    if (gap && to != line && endsNumber(to[-1]) && (endsNumber(c) || c == 'E')) *to++ = ' ';
+    if (gap && to != line && staysApart(to[-1], c)) *to++ = ' ';
     gap = false;
     *to++ = c;
   }

@@ -19,7 +19,7 @@ enum class Fault : uint8_t {
 /// exclusive or of what stands before it) goes too if it is right, and stays as a mistake if not.
 ///
 /// Where any of these was between two digits, or between a digit and an E, a space stays, so that
-/// two numbers never join.
+/// two numbers never join. It also stays between two letters, so that a line can be quoted.
 void clean(char* line);
 
 /// A number, and what is wrong with it; its value is zero if anything is.

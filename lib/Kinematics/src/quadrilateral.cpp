@@ -31,7 +31,7 @@ namespace {
 // Wrap is radius * angle, and angle = pi/4 + asin((sine - cosine) / sqrt(2)). From level to
 // upright these odd coefficients give it within 0.00016 rad: 0.0016 mm. The coefficients for a sled
 // on a ring are closer over a narrower range: a chain on a ring never hangs as steep.
-const double kArc[3] = {0.70818114, 0.05135919, 0.02569482};
+const double kTiltedArc[3] = {0.70818114, 0.05135919, 0.02569482};
 
 // A chain pulls with at most weight / sine_of_sum, so this keeps tensions within what chains stand.
 const float kLeastSine = 1.0f / 32;
@@ -277,7 +277,7 @@ Quadrilateral<Real> prepare(const Frame<Real>& frame, const BracketSled<Real>& s
   machine.center[kRight] = frame.motor_center_x + half_frame;
   machine.feed_radius = feedRadius(frame);
   machine.radius_squared = frame.sprocket_radius * frame.sprocket_radius;
-  machine.wrap = wrapOf(frame, kArc);
+  machine.wrap = wrapOf(frame, kTiltedArc);
   machine.links[kLeft] = Real(1) / (Real(1) + pitch.left);
   machine.links[kRight] = Real(1) / (Real(1) + pitch.right);
   const Real half_gap = sled.mount_gap * Real(0.5);

@@ -41,7 +41,7 @@ struct Quadrilateral {
   Real center[kSideCount], height;    ///< [mm] x and y of the sprockets' centres
   Real feed_radius;                   ///< [mm] sprocket's, negative off the bottom
   Real radius_squared;                ///< [mm^2] of the sprocket
-  Wrap<Real> wrap;                    ///< by kArc in quadrilateral.cpp
+  Wrap<Real> wrap;                    ///< by kTiltedArc in quadrilateral.cpp
   Real links[kSideCount];             ///< [1] nominal length of chain per length
   Real steepest;                      ///< [1] tilt_sine of the most tilted sled
   Real rough_drop;                    ///< [mm] see roughTilt in quadrilateral.cpp

@@ -24,6 +24,12 @@ class Lift {
     at_ = goal_ = at;
     speed_ = 0;
   }
+  /// Brakes: the goal is where z can stand at the earliest.
+  void brake() {
+    const int32_t size = speed_ < 0 ? -speed_ : speed_, ticks = size / gain_;
+    const int32_t way = ticks * size - gain_ * (ticks * (ticks + 1) / 2);
+    goal_ = at_ + (speed_ < 0 ? -way : way);
+  }
   /// The place where z is becomes its planned place.
   void absorb() { standAt(0); }
 

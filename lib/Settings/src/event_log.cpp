@@ -7,13 +7,13 @@ namespace settings {
 
 namespace {
 
-const uint8_t kIdentity[3] = {'P', 'e', 1};
+const uint8_t kEventIdentity[3] = {'P', 'e', 1};
 
 }  // namespace
 
 uint32_t EventLog::sumOf(const Record& record) {
   Checksum sum;
-  for (uint8_t each : kIdentity) sum.add(each);
+  for (uint8_t each : kEventIdentity) sum.add(each);
   const uint8_t* const at = reinterpret_cast<const uint8_t*>(&record);
   for (uint8_t i = sizeof record.sum; i < kBytes; ++i) sum.add(at[i]);
   return sum.value();

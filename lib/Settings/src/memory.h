@@ -74,7 +74,8 @@ class Memory {
 
   /// To be called when the counts are proved wrong: until keepPosition() the stored position counts
   /// as doubted, even after a power cut.
-  void doubtPosition() { slots_.doubt(); }
+  void doubtPosition(Doubt why) { slots_.doubt(why); }
+  Doubt doubted() const { return slots_.doubted(); }
 
   /// Counts an event in the log, which no reset erases.
   void note(Event event) { log_.note(event); }

@@ -17,6 +17,11 @@ enum : uint8_t { kKnownAt = 2, kCountsAt = 3, kPlaceAt = 15, kScaleAt = 23, kMar
 enum : uint8_t { kIsKnown = 1, kHasPlace = 2 };
 const uint8_t kIdentity[3] = {'P', 'p', 1};
 
+bool isDoubt(uint8_t mark) {
+  return mark == uint8_t(Doubt::kCounts) ||
+         (mark >= uint8_t(Doubt::kMoving) && mark <= uint8_t(Doubt::kStack));
+}
+
 uint32_t sumOf(const uint8_t* record) {
   Checksum sum;
   for (uint8_t each : kIdentity) sum.add(each);
@@ -110,12 +115,12 @@ Known PositionSlots::load(Position& position) {
   if (!found) return Known::kNothing;
   readNewest();
   const uint8_t mark = record_[kMarkAt];
-  mark_ = mark == kRests || mark == kWrong ? mark : uint8_t(kMoved);
+  mark_ = mark == kRests || isDoubt(mark) ? mark : uint8_t(kMoved);
   position = positionIn(record_);
   if (!(record_[kKnownAt] & kIsKnown)) return Known::kNothing;
   if (mark_ == kRests) return Known::kAtRest;
   if (mark_ == kMoved) return Known::kMoving;
-  wanted_ = kWrong;
+  wanted_ = mark_;
   return Known::kDoubted;
 }
 
@@ -173,8 +178,8 @@ void PositionSlots::beginMoving() {
   holds_newest_ = false;
 }
 
-void PositionSlots::doubt() {
-  wanted_ = kWrong;
+void PositionSlots::doubt(Doubt why) {
+  if (wanted_ == kMoved) wanted_ = uint8_t(why);
   tried_ = false;
   beginMoving();
   // Without a record there is nothing to mark.

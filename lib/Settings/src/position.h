@@ -19,7 +19,18 @@ enum class Known : uint8_t {
   kAtRest,   ///< the machine stood there when power went
   kMoving,   ///< power went in motion (or other firmware ran): the place is where the machine last
              ///< stood
-  kDoubted,  ///< the counts were proved wrong: the place is where the machine believed to be
+  kDoubted,  ///< the place is where the machine believed to be; doubted() says why it is wrong
+};
+
+/// Why a position is not believed: the byte that marks its record. A number keeps its meaning for
+/// ever.
+enum class Doubt : uint8_t {
+  kMoving = 0x81,     ///< power went in motion
+  kScale = 0x82,      ///< $12, $13, $19 or $20 had changed
+  kPlace = 0x83,      ///< the chains put the sled elsewhere
+  kSimulated = 0x84,  ///< simulated motion changed lengths
+  kStack = 0x85,      ///< the firmware's data were overwritten
+  kCounts = 0xA5,     ///< the encoders' counts were proved wrong
 };
 
 /// Whether stored counts and stored place still agree.
@@ -61,8 +72,12 @@ class PositionSlots {
   /// is given up.
   void beginMoving();
 
-  /// Marks the newest record as proved wrong. beginMoving() keeps that mark, keep() ends it.
-  void doubt();
+  /// Marks the newest record as wrong. Of several reasons the first counts; beginMoving() keeps
+  /// that mark, keep() ends it.
+  void doubt(Doubt why);
+
+  /// Why the position of a record that says kDoubted is wrong.
+  Doubt doubted() const { return Doubt(mark_); }
 
   /// True while something is to be written.
   bool isBusy() const { return writing_ || (moving_ && mark_ != wanted_); }
@@ -74,7 +89,7 @@ class PositionSlots {
   void step();
 
  private:
-  enum : uint8_t { kMoved = 0, kRests = 0x5A, kWrong = 0xA5 };
+  enum : uint8_t { kMoved = 0, kRests = 0x5A };
 
   uint16_t addressOf(uint8_t slot) const { return uint16_t(first_ + slot * kBytesPerSlot); }
   uint8_t after(uint8_t slot) const { return slot + 1 < slots_ ? uint8_t(slot + 1) : uint8_t(0); }
@@ -91,7 +106,7 @@ class PositionSlots {
   uint8_t mark_;       ///< of the newest record
   uint16_t sequence_;  ///< of the newest record
   bool exists_;        ///< there is a newest record
-  uint8_t wanted_;     ///< what the mark should say while moving_: kMoved or kWrong
+  uint8_t wanted_;     ///< what the mark should say while moving_: kMoved or a Doubt
   bool moving_;        ///< the mark should say `wanted_`
   bool tried_;         ///< the mark has been written, and is not there yet
   bool writing_;       ///< a record is being written

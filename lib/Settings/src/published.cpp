@@ -8,7 +8,7 @@ namespace settings {
 
 namespace {
 
-const uint16_t kVersionAt = 300, kMarkerAt = 301, kCountsAt = 310, kCountsMarkerAt = 322;
+const uint16_t kVersionAt = 300, kMarkerAt = 301, kPublishedCountsAt = 310, kCountsMarkerAt = 322;
 const uint16_t kBlockAt = 340, kEarlierEndAt = 486, kEndAt = 494;
 const uint16_t kOldMarkersAt[] = {5, 105, 205};
 const uint8_t kMarker = 56, kVersion = 5;
@@ -112,9 +112,9 @@ uint8_t importSettings(const Bytes& bytes, const Recognised& found, Values& valu
 
 Position importPosition(const Bytes& bytes) {
   Position position = {};
-  position.left = int32_t(numberAt(bytes, kCountsAt, 4));
-  position.right = int32_t(numberAt(bytes, kCountsAt + 4, 4));
-  position.z = int32_t(numberAt(bytes, kCountsAt + 8, 4));
+  position.left = int32_t(numberAt(bytes, kPublishedCountsAt, 4));
+  position.right = int32_t(numberAt(bytes, kPublishedCountsAt + 4, 4));
+  position.z = int32_t(numberAt(bytes, kPublishedCountsAt + 8, 4));
   return position;
 }
 

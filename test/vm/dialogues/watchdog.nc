@@ -21,7 +21,7 @@
 ~~ laser low
 <- ALARM: The firmware was busy for too long*
 >> !
-<- ok
+<* ok
 -> B06 L1710 R1710
 <* position loaded at:
 <* ok

@@ -315,6 +315,8 @@ void VirtualBoard::paintStack() {
   for (uint16_t at = data_end_; at < kRamEnd; ++at) avr_->data[at] = kPaint;
 }
 
+void VirtualBoard::overrunStack() { avr_->data[data_end_ + kOutlivesReset] = 0; }
+
 int VirtualBoard::stackUsed() const {
   uint16_t at = uint16_t(data_end_ + kOutlivesReset);
   while (at < kRamEnd && avr_->data[at] == kPaint) ++at;

@@ -84,6 +84,8 @@ class VirtualBoard {
   /// Fills unused RAM with a pattern, to count later how many bytes of stack were ever used.
   void paintStack();
   int stackUsed() const;
+  /// Writes into the last bytes above the program's data, as a stack without end would.
+  void overrunStack();
 
   /// Share of the time, and most cycles, that the control tick takes. While it runs, its interrupt
   /// is switched off. Other interrupts in between are included.

@@ -1,0 +1,129 @@
+// The table of states: its laws over all states and events, and the door of path and z.
+#include <gtest/gtest.h>
+
+#include "board_at_rest.h"
+#include "machine/course.h"
+#include "machine/feed_override.h"
+
+using namespace machine;
+using gcode::Quick;
+
+namespace {
+
+/// All of an enum whose last value is kCount.
+template <class Enum>
+std::vector<Enum> all() {
+  std::vector<Enum> values;
+  for (int i = 0; i < int(Enum::kCount); ++i) values.push_back(Enum(i));
+  return values;
+}
+
+bool isHaltedIn(State state) { return state >= State::kHalted; }
+
+}  // namespace
+
+TEST(Course, IsStoppedAndFailsInEveryState) {
+  for (const State state : all<State>()) {
+    EXPECT_EQ(State::kStopping, Course::after(state, Event::kStop)) << int(state);
+    const bool has_failed = state == State::kFalling || state == State::kAlarm;
+    EXPECT_EQ(has_failed ? State::kCount : State::kFalling, Course::after(state, Event::kAlarm))
+        << int(state);
+  }
+}
+
+TEST(Course, HoldsWhateverMoves) {
+  for (const State state : all<State>()) {
+    const State held = Course::after(state, Event::kHold);
+    if (Course::pathGoesIn(state) || state == State::kLowering) {
+      EXPECT_NE(State::kCount, held) << int(state);
+    }
+    if (held == State::kCount) continue;
+    EXPECT_FALSE(Course::pathGoesIn(held)) << int(state);
+  }
+}
+
+TEST(Course, LetsThePathGoWhereLinesMayMoveItOrQueuedMovesEnd) {
+  for (const State state : all<State>())
+    EXPECT_EQ(state == State::kRunning || state == State::kHalted, Course::pathGoesIn(state));
+}
+
+TEST(Course, OpensAHaltByNothingButAStop) {
+  for (const State state : all<State>())
+    for (const Event event : all<Event>()) {
+      const State next = Course::after(state, event);
+      if (!isHaltedIn(state) || event == Event::kStop || next == State::kCount) continue;
+      EXPECT_TRUE(isHaltedIn(next)) << int(state) << " " << int(event);
+    }
+}
+
+TEST(Course, RunsAgainOnlyOnceZIsBackOrAllHasStood) {
+  for (const State state : all<State>())
+    for (const Event event : all<Event>())
+      if (Course::after(state, event) == State::kRunning) {
+        EXPECT_TRUE(event == Event::kBack || (event == Event::kStood && state == State::kStopping))
+            << int(state) << " " << int(event);
+      }
+}
+
+TEST(Course, EndsAPauseOnlyByResumeOrStopOrFault) {
+  EXPECT_EQ(State::kHeld, Course::after(State::kPaused, Event::kHold));
+  for (const State state : {State::kHeld, State::kPaused}) {
+    EXPECT_EQ(State::kResuming, Course::after(state, Event::kResume));
+    for (const Event event : {Event::kPause, Event::kLower, Event::kBack, Event::kStood})
+      EXPECT_EQ(State::kCount, Course::after(state, event));
+  }
+}
+
+TEST(Course, DoesLinesOfTheOperatorOnlyWhereThePathStands) {
+  for (const State state : all<State>()) {
+    const bool is_operators = Course::linesIn(state) == Lines::kOperator;
+    EXPECT_EQ(state == State::kHeld || state == State::kPaused, is_operators) << int(state);
+    EXPECT_EQ(state == State::kRunning, Course::linesIn(state) == Lines::kProgram) << int(state);
+    EXPECT_EQ(state == State::kHalted || state == State::kAlarm,
+              Course::linesIn(state) == Lines::kQuestions)
+        << int(state);
+  }
+}
+
+TEST(Course, BrakesZOffThePathAndTakesNoEventThatTheTableLacks) {
+  BoardAtRest board;
+  Axes axes(board, board);
+  Course course(axes);
+  axes.simulate(true);
+  axes.follow();
+  EXPECT_FALSE(course.take(Event::kBack));
+  EXPECT_TRUE(course.take(Event::kPause));
+  axes.lift(5, 2, 10);
+  for (int i = 0; i < 100; ++i) axes.tick();
+  EXPECT_FALSE(axes.isAtRest());
+  EXPECT_TRUE(axes.isPathAtRest());
+  EXPECT_TRUE(course.take(Event::kHold));
+  const float from = axes.target(kZAxis);
+  for (int i = 0; i < 300; ++i) axes.tick();
+  EXPECT_TRUE(axes.isAtRest());
+  // v^2 / 2a = 0.2 mm.
+  EXPECT_NEAR(from + 0.2f, axes.target(kZAxis), 0.03f);
+  EXPECT_EQ(State::kHeld, course.state());
+}
+
+TEST(FeedOverride, GoesInStepsBetweenItsEnds) {
+  FeedOverride feed;
+  EXPECT_EQ(100, feed.percent());
+  EXPECT_FALSE(feed.take(Quick::kFeedUsual));
+  for (int i = 0; i < 12; ++i) feed.take(Quick::kFeedUp);
+  EXPECT_EQ(200, feed.percent());
+  EXPECT_FALSE(feed.take(Quick::kFeedUpOne));
+  EXPECT_FLOAT_EQ(2, feed.boost());
+  EXPECT_FLOAT_EQ(1, feed.shareOfPlan());
+  EXPECT_TRUE(feed.take(Quick::kFeedDownOne));
+  EXPECT_EQ(199, feed.percent());
+  EXPECT_TRUE(feed.take(Quick::kFeedUsual));
+  for (int i = 0; i < 12; ++i) feed.take(Quick::kFeedDown);
+  EXPECT_EQ(10, feed.percent());
+  EXPECT_FALSE(feed.take(Quick::kFeedDownOne));
+  EXPECT_FLOAT_EQ(1, feed.boost());
+  EXPECT_FLOAT_EQ(0.1f, feed.shareOfPlan());
+  EXPECT_TRUE(feed.take(Quick::kFeedUpOne));
+  EXPECT_EQ(11, feed.percent());
+  EXPECT_FALSE(feed.take(Quick::kStop));
+}
