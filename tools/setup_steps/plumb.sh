@@ -1,10 +1,7 @@
 # The Python package `plumb` and its compiled parts, from tools/ into .venv; sourced by tools/setup.
 
-# A change in one of these needs a new build; other Python files are used where they stand.
-plumb_sources=(
-  tools/pyproject.toml tools/CMakeLists.txt tools/core tools/dry_run tools/judge tools/vm lib src
-  tools/requirements_lab.txt
-)
+# A build holds as long as what it was made of: these files, and what CMake found on this machine.
+plumb_sources=(tools/pyproject.toml tools/CMakeLists.txt tools/requirements_lab.txt)
 
 setup_plumb() {
   local wanted note=.venv/plumb.note
@@ -12,7 +9,7 @@ setup_plumb() {
     say "does not install the package plumb: tools/pyproject.toml is missing"
     return
   fi
-  wanted=$(fingerprint "${plumb_sources[@]}")
+  wanted=$(made_of)
   if same_as "$note" "$wanted"; then return; fi
 
   say "builds and installs the package plumb"
@@ -21,3 +18,19 @@ setup_plumb() {
     stop "plumb does not build: $(grep -iE '(^|[ :])error' "$log" | head -n 1) (all of it in .setup.log)"
   printf '%s\n' "$wanted" >"$note"
 }
+
+# One number for all that the compiled modules are made of.
+made_of() {
+  {
+    fingerprint "${plumb_sources[@]}"
+    (cd tools && ../.venv/bin/python -B -m plumb.text.compiled)
+    "${CXX:-c++}" --version
+    cmake --version
+    .venv/bin/python --version
+    for library in simavr elf; do fingerprint "$(readlink -f "$(library_file "$library")")"; done
+    fingerprint /usr/include/eigen3/Eigen/src/Core/util/Macros.h
+  } 2>&1 | sha256sum | cut -d ' ' -f 1
+}
+
+# Where the compiler finds a library; its bare name if it has none.
+library_file() { "${CXX:-c++}" "-print-file-name=lib$1.so"; }

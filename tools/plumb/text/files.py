@@ -1,11 +1,18 @@
-"""Whole text files in and out: read with a clear refusal, written completely or not at all."""
+"""Whole text files in and out: read with a clear refusal, written completely or not at all.
+
+A link that somebody names at a command line is followed. In a folder that may come from elsewhere
+none is: `links_refused` says so for all that is opened here, and `opened` is the door.
+"""
 
 from __future__ import annotations
 
+import errno
 import os
 import stat
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from os import PathLike
 from pathlib import Path
 
@@ -13,7 +20,30 @@ from plumb.text.errors import refusal
 
 # A file of marks or settings has a few kilobytes; more is some other file picked by mistake.
 LARGEST_FILE_BYTES = 5_000_000
+_follows: ContextVar[bool] = ContextVar("follows", default=True)
 _PIPED: dict[str, bytes] = {}  # what came through pipes, which can be read only once
+
+
+@contextmanager
+def links_refused() -> Iterator[None]:
+    """Until the end, no link is followed, in reading and in writing."""
+    token = _follows.set(False)
+    try:
+        yield
+    finally:
+        _follows.reset(token)
+
+
+def opened(path: str | PathLike[str], flags: int, *, follows: bool | None = None) -> int:
+    """A handle of a file. Raises InputError for a link where none is followed, and OSError."""
+    is_followed = _follows.get() if follows is None else follows
+    try:
+        return os.open(path, flags if is_followed else flags | os.O_NOFOLLOW, 0o644)
+    except OSError as error:
+        if error.errno == errno.ELOOP:
+            remedy = "put the file itself into the folder"
+            raise refusal(path, "is a link", remedy=remedy) from None
+        raise
 
 
 def read_bytes(path: str | PathLike[str]) -> bytes:
@@ -24,7 +54,7 @@ def read_bytes(path: str | PathLike[str]) -> bytes:
             raise refusal(path, "is a folder", remedy="name the file inside it")
         if place.stat().st_size > LARGEST_FILE_BYTES:
             raise refusal(path, "is larger than 5 MB", remedy="check that it is the right file")
-        content = _PIPED.get(str(path)) or place.read_bytes()
+        content = _PIPED.get(str(path)) or _content(path)
         if not place.is_file():
             _PIPED[str(path)] = content
     except FileNotFoundError:
@@ -35,6 +65,11 @@ def read_bytes(path: str | PathLike[str]) -> bytes:
     if not content.strip():
         raise refusal(path, "the file is empty", remedy="check that it was saved")
     return content
+
+
+def _content(path: str | PathLike[str]) -> bytes:
+    with os.fdopen(opened(path, os.O_RDONLY), "rb") as file:
+        return file.read()
 
 
 def read_text(path: str | PathLike[str]) -> str:
@@ -73,7 +108,8 @@ def write_all(files: Mapping[str, bytes]) -> None:
         poured = [path for path in files if _is_poured_into(path)]
         for path in files:
             if path not in poured:
-                staged[path] = _staged(Path(os.path.realpath(path)), files[path])
+                target = os.path.realpath(path) if _follows.get() else path
+                staged[path] = _staged(Path(target), files[path])
         for path in poured:
             with open(path, "wb") as stream:
                 stream.write(files[path])
@@ -90,7 +126,7 @@ def _is_poured_into(path: str | PathLike[str]) -> bool:
     """Whether it is a device or a pipe, which takes bytes and cannot be replaced; InputError for
     what takes no result at all."""
     try:
-        mode = os.stat(path).st_mode
+        mode = os.stat(path, follow_symlinks=_follows.get()).st_mode
     except FileNotFoundError:
         return False
     except (OSError, ValueError) as error:

@@ -45,14 +45,15 @@ def bare(length: float | None, digits: int = 2) -> str:
     """A length [mm] without its unit, with this many decimals if it is in mm; a dash for none."""
     if length is None or not math.isfinite(length):
         return "-"
-    return f"{in_unit(length) + 0.0:.{digits + _FINER[unit()]}f}"
+    # No zero has a sign: that of a rounded number is chance.
+    return f"{in_unit(length):z.{digits + _FINER[unit()]}f}"
 
 
 def signed(length: float | None, digits: int = 2) -> str:
     """The same with its sign."""
     if length is None:
         return "-"
-    return f"{in_unit(length):+.{digits + _FINER[unit()]}f}"
+    return f"{in_unit(length):+z.{digits + _FINER[unit()]}f}"
 
 
 def worded(length: float | None, digits: int = 2) -> str:

@@ -224,7 +224,7 @@ PYTHON_EXPECTED = {
 }
 
 
-@pytest.mark.parametrize("is_quick", [False, True])
+@pytest.mark.parametrize("is_quick", [pytest.param(False, marks=pytest.mark.slow), True])
 def test_each_mutant_of_a_python_toy_has_the_verdict_that_its_tests_deserve(tmp_path, is_quick):
     folders = {"toy/thing.py": THING, "tests/test_thing.py": THING_TESTS, "conftest.py": ""}
     for name, text in folders.items():

@@ -6,10 +6,15 @@ import pytest
 from page_commands import faults_on, pages, rewritten
 
 PAGES = pages()
+# Their commands drive a machine, or fit and draw much. Those of README are run by
+# cli/test_client_files.py too.
+COMMANDS = ("bench", "calibrate", "guide", "home", "lab", "next", "practice", "report", "send")
+LONG = {"README.md", *(f"docs/commands/{name}.md" for name in (*COMMANDS, "soak", "vm"))}
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("page", PAGES)
+@pytest.mark.parametrize(
+    "page", [pytest.param(page, marks=pytest.mark.slow if page in LONG else ()) for page in PAGES]
+)
 def test_the_commands_of_a_page_run_as_shown(page: str, tmp_path: Path) -> None:
     faults = faults_on(PAGES[page], tmp_path)
     assert not faults, "\n".join(faults)

@@ -17,7 +17,7 @@ apt-get() { echo "runs: apt-get $*"; }
 env() { shift; "$@"; }
 source "$root/tools/setup_steps/debian.sh"
 """
-LAB = "g++ cmake python3-dev python3 python3-venv libeigen3-dev"
+LAB = "g++ cmake python3-dev python3 python3-venv libeigen3-dev ccache"
 
 
 def step(tmp_path: Path, machine: str, packages: str) -> list[str]:
@@ -76,6 +76,51 @@ def test_what_is_installed_is_left_alone(tmp_path):
     missing = f"dpkg-query() {{ echo '{here.replace('cmake=ii', 'cmake=rc')}'; }}"
     said = step(tmp_path, f"{missing}; id() {{ echo 0; }}", "lab")
     assert said[0] == "says: installs with apt-get: cmake"
+
+
+# The step that builds the lab; the compiler finds the libraries that lie in the folder.
+BUILD = """
+set -euo pipefail
+root=$PWD log=log
+say() { echo "says: $1"; }
+stop() { echo "stops: $1"; exit 1; }
+source <(sed -n '/^fingerprint()/,/^}/p; /^same_as()/p' "$1/tools/setup")
+source "$1/tools/setup_steps/plumb.sh"
+c++() { if [ "$1" = --version ]; then cat compiler; else echo "$PWD/${1#*=}"; fi; }
+cmake() { echo cmake; }
+setup_plumb
+"""
+
+
+@pytest.fixture
+def build(tmp_path):
+    """Runs the step in an empty folder and says whether it built the lab."""
+    programs = {"python": "cat sources 2>/dev/null || cat ../sources", "pip": 'echo "$*" >>pip.log'}
+    for name, script in programs.items():
+        program = tmp_path / ".venv/bin" / name
+        program.parent.mkdir(parents=True, exist_ok=True)
+        program.write_text(f"#!/bin/sh\n{script}\n")
+        program.chmod(0o755)
+    (tmp_path / "tools").mkdir()
+    for name in ("tools/pyproject.toml", "compiler", "sources"):
+        (tmp_path / name).write_text(name)
+
+    def step() -> bool:
+        command = ["bash", "-c", BUILD, "step", ROOT]
+        done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
+        assert done.returncode == 0 and not done.stderr, done.stderr
+        return done.stdout == "says: builds and installs the package plumb\n"
+
+    return step
+
+
+@pytest.mark.parametrize("change", ["libsimavr.so", "libelf.so", "compiler", "sources"])
+def test_the_lab_is_built_again_when_the_machine_or_the_sources_change(build, tmp_path, change):
+    assert build() and not build()
+    (tmp_path / change).write_text("another")
+    assert build() and not build()
+    (tmp_path / change).write_text("and another")
+    assert build()
 
 
 def test_an_unknown_set_is_refused_before_anything_happens():

@@ -21,12 +21,13 @@ from plumb.settings.toml import machine_toml
 ROOT = Path(__file__).resolve().parents[3]
 PIP = [sys.executable, "-m", "pip", "--disable-pip-version-check"]
 
-pytestmark = pytest.mark.slow
-
 
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory):
-    """A wheel built from a copy of what the package is made of, without the folder test."""
+    """A wheel built from a copy of what the package is made of, without the folder test.
+
+    The compiler's cache knows what the clone's build compiled.
+    """
     source = tmp_path_factory.mktemp("source")
     for folder in ("lib", "src", "tools"):
         shutil.copytree(

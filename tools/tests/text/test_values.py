@@ -1,6 +1,7 @@
 """Single checks on values that people type."""
 
 import pytest
+from plumb.text.shown import bare, signed
 from plumb.text.values import number, number_in, one_of, pair, refuse_unknown, within
 
 
@@ -61,3 +62,8 @@ def test_one_of_and_within_name_what_is_possible():
         one_of("side", ("top", "bottom"))
     with pytest.raises(ValueError, match="1 to 2"):
         within(3, 1, 2)
+
+
+def test_a_number_that_is_shown_as_zero_has_no_sign_by_chance():
+    assert signed(-1e-12) == signed(1e-12) == "+0.00" and bare(-0.004) == "0.00"
+    assert signed(-0.02) == "-0.02" and bare(-0.02) == "-0.02"

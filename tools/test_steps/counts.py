@@ -1,18 +1,18 @@
-"""Counts a JUnit file: `count_tests.py FILE STATUS` prints how many tests passed and failed.
+"""What a JUnit file says: how many tests passed, and which groups of them took the longest.
 
-STATUS is the exit code of the command that wrote the file. A skipped test counts as failed: it
-proved nothing. So does a suite without tests, a missing file, and a status unexplained.
+A skipped test counts as failed: it proved nothing. So does a suite without tests, a missing file,
+and a command that failed without a failed test.
 """
 
-import sys
 import xml.etree.ElementTree as ElementTree
+from collections import Counter
 from pathlib import Path
 
 FAILED = {"failure", "error", "skipped"}
 
 
 def count(path: Path, status: int) -> tuple[int, int]:
-    """Tests that passed, tests that failed."""
+    """Tests that passed, tests that failed; status: the exit code of the command that wrote it."""
     try:
         suites = list(ElementTree.parse(path).iter("testsuite"))
     except (OSError, ElementTree.ParseError):
@@ -36,5 +36,18 @@ def count_suite(suite: ElementTree.Element) -> tuple[int, int]:
     return len(cases) - len(failed), len(failed) - (len(added) if len(failed) > len(added) else 0)
 
 
-if __name__ == "__main__":
-    print(*count(Path(sys.argv[1]), int(sys.argv[2])))
+def seconds_by_group(path: Path) -> Counter[str]:
+    """Seconds of the tests in each suite of the host and in each room of tools/tests."""
+    seconds: Counter[str] = Counter()
+    try:
+        suites = list(ElementTree.parse(path).iter("testsuite"))
+    except (OSError, ElementTree.ParseError):
+        return seconds
+    for suite in suites:
+        name = suite.get("name", "")
+        for case in suite.iter("testcase"):
+            # pytest names the module of a test: tests.ROOM.FILE
+            parts = case.get("classname", "").split(".")
+            room = f"tools/tests/{parts[1]}" if parts[0] == "tests" and len(parts) > 2 else name
+            seconds[room] += float(case.get("time", 0))
+    return seconds
