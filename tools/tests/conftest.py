@@ -6,8 +6,15 @@ from importlib import resources
 import pytest
 from jsonschema import Draft202012Validator
 from plumb.cli.main import main
+from plumb.text.compiled import stale_source
 
 SCHEMA = json.loads(resources.files("plumb.cli").joinpath("answers.schema.json").read_text("utf-8"))
+
+
+def pytest_configure():
+    """Old modules would be tested in place of the sources that are here."""
+    if source := stale_source():
+        pytest.exit(f"{source}: the lab was built without this change; run tools/setup", 2)
 
 
 @pytest.fixture

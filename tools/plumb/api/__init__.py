@@ -23,6 +23,7 @@ from plumb.fit.inputs import Inputs
 from plumb.fit.read_inputs import read_inputs
 from plumb.plan import Next, propose
 from plumb.settings.toml import machine_toml
+from plumb.text.compiled import refuse_stale
 from plumb.text.errors import InputError
 from plumb.text.files import write_whole
 
@@ -44,6 +45,8 @@ __all__ = [
 ]
 
 AnyPath = str | PathLike[str]
+
+refuse_stale()
 
 
 def read(

@@ -26,6 +26,7 @@ from plumb.cli.text import about, print_json
 from plumb.cure.add import Addition, Parameter, Quality, add
 from plumb.cure.auto import AutoAddition, add_auto, without_marks
 from plumb.cure.machine_file import toml_of
+from plumb.cure.origin import refuse_other_origin
 from plumb.cure.record import record_of
 from plumb.diary.entries import FIT, fit_entry
 from plumb.diary.keeping import keep
@@ -46,6 +47,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Fit, write, print, and return the exit code."""
     refuse_twins(arguments.output, arguments.picture)
     inputs = inputs_of(arguments)
+    refuse_other_origin(inputs)
     if arguments.without:
         marks = without_marks(inputs.measurements, arguments.without)
         inputs = replace(inputs, measurements=marks)
@@ -95,9 +97,16 @@ def _run_auto(arguments: argparse.Namespace, inputs: Inputs) -> int:
         if result.addition:
             _print_written(files, client, arguments)
         else:
-            corrected = ["add", *same_inputs(arguments), "--effect", AUTO]
-            print(f"\n{next_step('When the file is corrected:', corrected)}")
+            print(f"\n{_first(result, arguments)}")
     return int(not result.done)
+
+
+def _first(result: AutoAddition, arguments: argparse.Namespace) -> str:
+    """What comes before anything can be added."""
+    same = same_inputs(arguments)
+    if result.diagnosis.slips:
+        return next_step("When the file is corrected:", ["add", *same, "--effect", AUTO])
+    return next_step("What to measure next:", ["next", *same])
 
 
 def written(

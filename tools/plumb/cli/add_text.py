@@ -113,7 +113,7 @@ def parameter_table(result: Addition) -> str:
         rows.append(
             [
                 plain_size(parameter.name, parameter.value, parameter.low, parameter.high),
-                plain_before(parameter.name, parameter.before),
+                plain_before(parameter.name, parameter.before, parameter.low, parameter.high),
                 "" if parameter.plausible else "impossible",
             ]
         )

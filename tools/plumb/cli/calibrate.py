@@ -16,6 +16,7 @@ from plumb.cli.screen import bar
 from plumb.cli.steps import free_name, usual_client
 from plumb.cli.text import print_json
 from plumb.cure.auto import add_auto, without_marks
+from plumb.cure.origin import refuse_other_origin
 from plumb.firmware.client_files import ClientFiles
 from plumb.fit.compare import compare
 from plumb.fit.inputs import Inputs
@@ -25,6 +26,7 @@ from plumb.plan import propose
 def run(arguments: argparse.Namespace) -> int:
     """Compare, diagnose, add or propose, write, print, and return the exit code."""
     inputs = _inputs(arguments)
+    refuse_other_origin(inputs)
     this = round_of(inputs)
     files, client = _written(arguments, inputs, this)
     if arguments.json:

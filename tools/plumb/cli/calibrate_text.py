@@ -60,6 +60,8 @@ def as_text(
         parts += [sentences(said)] if said else []
     elif diagnosis.explanations:
         parts.append(explanation_table(diagnosis))
+    if addition is None and not diagnosis.slips:
+        parts.append(sentences([f"{this.result.reason.capitalize()}."], mark=""))
     parts.append(headline(sentence(this)))
     if this.done:
         parts.append(_written_text(files, client))
@@ -93,7 +95,11 @@ def sentence(this: Round) -> str:
 
 
 def _best(this: Round) -> Proposal | None:
-    return this.advice.proposals[0] if this.advice and this.advice.proposals else None
+    """What to measure first; more marks where they are too few, or lie too close together."""
+    proposals = this.advice.proposals if this.advice else ()
+    if this.result.diagnosis.left_open.is_too_much:
+        proposals = tuple(each for each in proposals if each.option.is_cut) or proposals
+    return proposals[0] if proposals else None
 
 
 def _written_text(files: list[str], client: ClientFiles | None) -> str:

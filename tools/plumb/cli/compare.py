@@ -16,6 +16,7 @@ from plumb.fit.compare import Comparison, compare
 from plumb.marks.model import Typed
 from plumb.marks.score import Score
 from plumb.model.plain import plain_size
+from plumb.model.ranks import ranked
 from plumb.pictures.panel import Panel
 from plumb.pictures.sheet import draw
 from plumb.settings.fit_record import FitRecord
@@ -202,12 +203,12 @@ def benchmark_sentence(score: Score, left: Score | None) -> str:
 
 def conclusion(comparison: Comparison, sheet_width: float, typed: Typed = MACHINE) -> str:
     if not comparison.marks:
-        farthest = max(comparison.distances, key=lambda distance: abs(distance.error))
+        farthest = ranked(comparison.distances, lambda distance: -abs(distance.error))[0]
         return (
             f"The distances are {worded(comparison.rms)} RMS from what the settings predict, "
             f"worst {worded(comparison.worst)} ({' - '.join(farthest.between)})."
         )
-    worst = max(comparison.marks, key=lambda mark: mark.length)
+    worst = ranked(comparison.marks, lambda mark: -mark.length)[0]
     said = [
         f"The marks lie {worded(comparison.rms)} RMS from where the settings predict them, "
         f"worst {worded(comparison.worst)} (mark {worst.name})."

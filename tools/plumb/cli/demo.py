@@ -24,7 +24,7 @@ from plumb.cure.record import record_of
 from plumb.diagnosis.sentence import verdict_sentence
 from plumb.firmware.client_files import client_files
 from plumb.fit.inputs import Inputs
-from plumb.text.errors import InputError, refusal
+from plumb.text.errors import refusal
 from plumb.text.shown import bare
 
 PICTURE = "error-falls"
@@ -41,10 +41,7 @@ def _run(arguments: Sequence[str] | None) -> int:
     _make(parsed.folder)
     refuse_early(parsed.picture)
     if not parsed.real:
-        try:
-            shown = demo_loop.shown(parsed.folder, seed=parsed.seed, elf=parsed.mega)
-        except RuntimeError as error:
-            raise InputError(f"--mega: {error}") from None
+        shown = demo_loop.shown(parsed.folder, seed=parsed.seed, elf=parsed.mega)
         files = shown.files | ({parsed.picture: shown.picture} if parsed.picture else {})
         write_outputs(files, inputs=[])
         print(demo_loop.as_text(shown.loop))
@@ -205,7 +202,7 @@ def _doubts(demonstration: Demonstration) -> list[str]:
     gap = next(parameter for parameter in chosen.parameters if parameter.name == "motor_gap")
     times = abs(gap.value - gap.before) / (gap.prior_sigma or math.nan)
     doubts.append(
-        f"The gap between the motors moved by {gap.value - gap.before:+.1f} mm from the assumed "
+        f"The gap between the motors moved by {gap.value - gap.before:+z.1f} mm from the assumed "
         f"{gap.before:g}, {times:.0f} times what a tape may be wrong: another sign that the "
         "assumed settings are not the real ones."
     )

@@ -81,10 +81,10 @@ def _cure(loop: Loop) -> list[str]:
     """What was added, and what the owner did with it."""
     if loop.auto.addition is None:
         return [f"plumb add: nothing was added: {loop.auto.reason}."]
-    what = nouns_of(loop.auto.chosen) if loop.auto.chosen else "the frame alone"
     rise = loop.addition.sheet_rise
     return [
-        f"plumb add: {what}. It promises {loop.promised:.2f} mm RMS at marks that it did not see.",
+        f"plumb add: {nouns_of(loop.auto.chosen)}. It promises {loop.promised:.2f} mm RMS at marks "
+        "that it did not see.",
         f"The new numbers went to the machine. The owner {'raised' if rise > 0 else 'lowered'} the "
         f"sheet's right end by {abs(rise):.1f} mm, as told, and cut the grid on a new sheet.",
     ]

@@ -16,7 +16,8 @@ from plumb.diagnosis.answer import Ranked, Together
 from plumb.diagnosis.sentence import SHOWN, verdict_sentence
 from plumb.diagnosis.sizes import Size
 from plumb.model.catalogue import every_effect, label, place_of
-from plumb.model.plain import named, noun_of, nouns_of, plain_size
+from plumb.model.plain import named, noun_of, nouns_of, plain_size, plainly
+from plumb.model.ranks import ranked
 from plumb.plan import Proposal, propose
 from plumb.text.shown import worded
 
@@ -49,6 +50,8 @@ def _next(diagnosis: Diagnosis, arguments: argparse.Namespace) -> str:
     if diagnosis.verdict == "slip":
         corrected = ["diagnose", *same_inputs(arguments)]
         return next_step("When the file is corrected:", corrected)
+    if diagnosis.left_open.is_too_much:
+        return next_step("What to measure next:", ["next", *same_inputs(arguments)])
     if diagnosis.verdict == "nothing_provable":
         return next_step("Fit the frame:", add_auto(arguments))
     first = diagnosis.explanations[0] if diagnosis.explanations else None
@@ -202,6 +205,8 @@ def explanation_table(diagnosis: Diagnosis) -> str:
     rows: list[list[str]] = []
     for explanation in diagnosis.explanations[:SHOWN]:
         rows += [["or", "", ""]] if rows else []
+        if not explanation.effects:
+            rows.append([plainly(()), worded(explanation.rms_after), ""])
         for name in explanation.effects:
             rows += _size_rows(explanation, name)
     return table(["suspect, with its 95 % interval", "error falls to", ""], rows, words=[-1])
@@ -221,7 +226,7 @@ def _size_rows(explanation: Together, name: str) -> list[list[str]]:
 def _reasons(diagnosis: Diagnosis) -> str:
     """Why suspects cannot be distinguished: how little their arrows differ."""
     said: list[str] = []
-    for (i, j), apart in sorted(diagnosis.differences.items(), key=itemgetter(1)):
+    for (i, j), apart in ranked(diagnosis.differences.items(), itemgetter(1)):
         if j >= SHOWN or len(said) == 3:
             continue
         nouns = [nouns_of(diagnosis.explanations[k].effects) for k in (i, j)]
@@ -252,7 +257,7 @@ def _hiding(diagnosis: Diagnosis) -> str:
     unproved = [
         hidden for hidden in diagnosis.could_hide if hidden.effect not in diagnosis.suspects
     ]
-    hiding = sorted(unproved, key=lambda hidden: -(hidden.mm or 0.0))
+    hiding = ranked(unproved, lambda hidden: -(hidden.mm or 0.0))
     shares = {ranked.effect: ranked.hidden_share for ranked in diagnosis.ranking}
     rows = [
         [

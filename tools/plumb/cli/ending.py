@@ -7,6 +7,7 @@ import os
 import sys
 from collections.abc import Callable
 
+from plumb.text.compiled import refuse_stale
 from plumb.text.errors import InputError
 
 REFUSED = 2
@@ -18,6 +19,7 @@ def ended(run: Callable[[], int], *, name: str, as_json: bool = False) -> int:
     """The exit code of `run`; what went wrong is a single line on standard error, and with --json
     an object {"error": ...} on the standard output too."""
     try:
+        refuse_stale()
         code = run()
         _flush()
         return code

@@ -85,7 +85,9 @@ def _files(
             advice, place, arguments.template, settings=moved_by, sheet=sheet
         )
     if arguments.output:
-        files[arguments.output] = program_of(advice, place)
+        files[arguments.output] = program_of(
+            advice, place, arguments.output, form=arguments.template
+        )
     return files
 
 

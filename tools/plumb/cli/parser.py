@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 from importlib import import_module
@@ -16,6 +17,11 @@ FILES = ("SETTINGS", "JOB", "MARKS", "PLAN", "FILE", "INI", "LOG")
 
 class Parser(argparse.ArgumentParser):
     """Complains like every other refusal, and knows the nearest word for a wrong word."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__(*arguments, **named)
+        # No option begins with a digit, so what does is a value: -650,-7 as well as -650.
+        self._negative_number_matcher = re.compile(r"-\.?\d")
 
     def error(self, message: str) -> NoReturn:
         """Refuse the command line."""

@@ -78,7 +78,7 @@ def _commands(arguments: argparse.Namespace, findings: Findings) -> list[Command
     verdict = findings.diagnosis.verdict
     if verdict == "slip":
         return [Command("When the file is corrected:", calibrate)]
-    if verdict in ("one_suspect", "nothing_provable"):
+    if verdict in ("one_suspect", "nothing_provable") and findings.auto.addition:
         return [Command("Write the new settings:", calibrate)]
     best = findings.advice.proposals[0] if findings.advice.proposals else None
     checks = best.option.checks if best else ()

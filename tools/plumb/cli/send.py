@@ -11,19 +11,33 @@ from threading import Event
 from plumb.cli.output import say_failure
 from plumb.cli.question import Question
 from plumb.cli.screen import Bar, sentences
-from plumb.cli.steps import next_step
+from plumb.cli.steps import free_name, next_step
 from plumb.diary.entries import PROGRAM, program_entry
 from plumb.diary.keeping import keep
 from plumb.diary.numbers_written import write_and_keep
+from plumb.firmware.in_force import refuse_other_numbers, refuse_other_origin
+from plumb.grid.cut_with import form_of
 from plumb.jobs.program_file import refuse_other_files, refuse_what_is_no_program
 from plumb.line.machine_numbers import kept_before, lines_for
-from plumb.line.memory import Written
-from plumb.line.sender import Sender, StoppedError, cleaned
+from plumb.line.memory import Written, read_numbers
+from plumb.line.port import LostError
+from plumb.line.reached import Reached
+from plumb.line.sender import RefusedError, Sender, StoppedError, cleaned
 from plumb.line.serial_port import SerialPort, port_for
 from plumb.line.waits import PAUSED, waits_in
+from plumb.marks.form import read_form
+from plumb.model.predict import known_effects
 from plumb.settings.files import read_settings
+from plumb.settings.machine import MachineSettings
+from plumb.text.errors import refusal
 from plumb.text.files import read_text
 
+NUMBERS = "$$"  # tells the sender how long the motors hold, and how far ahead answers come
+SETTINGS = (
+    "machine.toml",
+    "groundcontrol.ini",
+    "webcontrol.json",
+)  # that a program may be sent with
 SHOWN = 20  # changed numbers in the answer
 
 
@@ -32,17 +46,22 @@ def run(arguments: argparse.Namespace) -> int:
     what = arguments.what
     numbers = _numbers(what, back=arguments.undo)
     text = _program(what) if numbers is None else []
+    marks_of = None if arguments.force else _cut_with(what, text)
     port = SerialPort(port_for(arguments.port))
     try:
         sender = Sender(port, said=_say)
         sender.await_start()
+        if marks_of:
+            name = marks_of.file.name if marks_of.file else what
+            refuse_other_numbers(marks_of, read_numbers(sender), file=name)
         if numbers is not None:
+            if not (arguments.undo or arguments.force):
+                refuse_other_origin(read_settings(what), read_numbers(sender), file=what)
             written = _write(sender, what, numbers, back=arguments.undo)
             _print_written(arguments, written)
             return 0
-        code = _stream_and_note(sender, what, text)
-        sender.await_rest()
-        return code
+        sender.ask(NUMBERS)
+        return _stream_and_note(sender, arguments, text)
     finally:
         port.close()
 
@@ -69,6 +88,19 @@ def _program(what: str) -> list[str]:
         lines = text.splitlines()
     list(cleaned(lines))
     return lines
+
+
+def _cut_with(what: str, text: Sequence[str]) -> MachineSettings | None:
+    """What the marks of a program are to be cut with, as their form says; None if nothing does."""
+    form = form_of("\n".join(text), what)
+    if form is None or not Path(form).is_file():
+        return None
+    measurements = read_form(form, sheet=(0.0, 0.0), known=known_effects()).measurements
+    file_round = measurements.rounds[0]
+    if file_round.changed:
+        why = f"was made for {file_round.changed}, which has changed since"
+        raise refusal(form, why, remedy="make form and program again, or send with --force")
+    return file_round.cut_with
 
 
 def _write(sender: Sender, path: str, lines: list[str], *, back: bool) -> tuple[Written, str]:
@@ -99,11 +131,28 @@ def _print_written(arguments: argparse.Namespace, done: tuple[Written, str]) -> 
         print(next_step("To bring them back:", undo))
 
 
+def _print_resume(arguments: argparse.Namespace, reached: Reached) -> None:
+    """Say how far a program came, and how to go on."""
+    job = Path(arguments.what)
+    if not job.is_file():
+        return
+    print(sentences([f"All before line {reached.line} of {job.name} is done."], mark=""))
+    known = [job.with_name(name) for name in SETTINGS if job.with_name(name).is_file()]
+    port = ["--port", arguments.port] if arguments.port else []
+    if not known:
+        print(next_step("Read the machine's numbers:", ["read", *port, "-o", SETTINGS[0]]))
+    settings = str(known[0]) if known else SETTINGS[0]
+    rest = free_name("rest", ".nc")
+    resume = ["resume", str(job), settings, "--line", str(reached.line), "-o", rest]
+    print(next_step("To go on from there:", resume))
+
+
 class _Attendant:
     """Attends to a program: Ctrl-C holds it, and a program that waits is asked about."""
 
-    def __init__(self, bar: Bar, text: Sequence[str]) -> None:
+    def __init__(self, bar: Bar, text: Sequence[str], reached: Reached) -> None:
         """`text`: the program with its comments, which say what its pauses are for."""
+        self._reached = reached
         self.pressed = Event()  # Ctrl-C
         self._bar = bar
         self._waits = {wait.lines: wait.do for wait in waits_in(text)}
@@ -115,6 +164,7 @@ class _Attendant:
     def answered(self, done: int) -> None:
         """The machine took this many lines."""
         self._done = done
+        self._reached.note(done)
         self._bar.show(done / self._total)
 
     def hear(self, line: str) -> None:
@@ -147,15 +197,16 @@ class _Attendant:
         self._question = None
         gives_up = self.pressed.is_set() or question.is_unheard
         if gives_up or (question.answer or "").lower().startswith("s"):
+            self._reached.end()
             sender.stop()
         sender.go_on()
 
 
-def _stream_and_note(sender: Sender, what: str, text: Sequence[str]) -> int:
+def _stream_and_note(sender: Sender, arguments: argparse.Namespace, text: Sequence[str]) -> int:
     """Stream a program; that goes into the diary of the program's folder, if there is such."""
-    code = 1
+    code, what = 1, arguments.what
     try:
-        code = _stream(sender, text)
+        code = _stream(sender, arguments, text)
     finally:
         is_file = Path(what).is_file()
         entry = program_entry(
@@ -165,18 +216,30 @@ def _stream_and_note(sender: Sender, what: str, text: Sequence[str]) -> int:
     return code
 
 
-def _stream(sender: Sender, text: Sequence[str]) -> int:
-    """Stream a program; Ctrl-C holds the machine where it is."""
+def _stream(sender: Sender, arguments: argparse.Namespace, text: Sequence[str]) -> int:
+    """Stream a program, and wait until the place is kept; Ctrl-C holds the machine where it is."""
     bar = Bar("sending", patience=0.5)
     lines = list(cleaned(text))
-    attendant = _Attendant(bar, text)
+    reached = Reached(sender, text)
+    attendant = _Attendant(bar, text, reached)
     sender.attend, sender.said = attendant.attend, attendant.hear
     before = signal.signal(signal.SIGINT, lambda *_: attendant.pressed.set())
     try:
         sender.stream(lines, answered=attendant.answered)
+        sender.await_rest(attended=True)
     except StoppedError:
         print("The machine has stopped. It knows where it is; the rest was not sent.")
+        _print_resume(arguments, reached)
         return 1
+    except RefusedError:
+        reached.end()
+        sender.brake()
+        sender.await_rest()
+        _print_resume(arguments, reached)
+        raise
+    except LostError:
+        _print_resume(arguments, reached)
+        raise
     finally:
         bar.clear()
         signal.signal(signal.SIGINT, before)

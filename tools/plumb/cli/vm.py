@@ -34,10 +34,7 @@ def run(arguments: argparse.Namespace) -> int:
     tape_form = _form(arguments)
     hidden = hide(arguments.hide, millimetres=arguments.size, seed=arguments.seed)
     garage = random_garage(hidden, arguments.seed, feed=arguments.feed)
-    try:
-        machine = garage.machine(elf=arguments.mega)
-    except RuntimeError as error:
-        raise InputError(f"--mega: {error}") from None
+    machine = garage.machine(elf=arguments.mega)
     _wake(machine, garage.settings, arguments)
     tape = Tape(garage, np.random.default_rng([arguments.seed, 5]), noise=arguments.noise)
     if tape_form:

@@ -287,11 +287,17 @@ def _surprises(parameters: Sequence[Parameter]) -> list[str]:
         trusted = parameter.prior_sigma
         if trusted and not parameter.of_patch and abs(moved) > FAR * trusted:
             said.append(
-                f"{plain_name(parameter.name)} moved by {moved:+.3g} {parameter.unit} from the "
-                f"stated {parameter.before:g}, more than twice the {trusted:g} it was trusted "
-                "to: measure it again"
+                f"{plain_name(parameter.name)} moved by {'+' if moved > 0 else ''}"
+                f"{_finely(moved, parameter.unit)} from the "
+                f"stated {_finely(parameter.before, parameter.unit)}, more than twice the "
+                f"{_finely(trusted, parameter.unit)} it was trusted to: measure it again"
             )
     return said
+
+
+def _finely(size: float, of_unit: str) -> str:
+    """A size of the frame with its unit; a length in the unit in which lengths are shown."""
+    return worded(size) if of_unit == "mm" else f"{size:.3g} {of_unit}"
 
 
 def may_be_zero(parameter: Parameter) -> bool:

@@ -6,13 +6,16 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from plumb.cure.add import Addition, add, may_be_zero
+from plumb.cure.live_board import TooFewError
 from plumb.diagnosis import Diagnosis, diagnose
+from plumb.diagnosis.left_open import LeftOpen
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly
 from plumb.text.errors import InputError
 from plumb.text.readers import to_do
+from plumb.text.shown import worded
 from plumb.text.values import refuse_unknown
 
 
@@ -23,7 +26,7 @@ class AutoAddition:
     diagnosis: Diagnosis
     chosen: tuple[str, ...]  # effects added, what explains most first
     rivals: tuple[tuple[str, ...], ...]  # explanations that the marks allow as well
-    addition: Addition | None  # None for a slip: nothing is fitted to a wrong reading
+    addition: Addition | None  # None: nothing is fitted to a wrong reading, or to too few marks
     reason: str  # one sentence
     offer: tuple[float, float] | None = None  # [mm] left-out error without a patch, and with one
     # How to tell the chosen from their rivals.
@@ -32,8 +35,10 @@ class AutoAddition:
     @property
     def done(self) -> bool:
         """Whether nothing more is provable once the chosen effects are there."""
+        if self.addition is None:
+            return False
         if self.diagnosis.verdict in ("one_suspect", "cannot_tell"):
-            return bool(self.chosen)
+            return bool(self.chosen or self.rivals)
         return self.diagnosis.verdict == "nothing_provable"
 
 
@@ -57,6 +62,8 @@ def add_auto(
     diagnosis = diagnosis or diagnose(inputs)
     if diagnosis.verdict == "slip":
         return AutoAddition(diagnosis, (), (), None, _slip_reason(diagnosis))
+    if diagnosis.left_open.is_too_much:
+        return AutoAddition(diagnosis, (), (), None, _open_reason(diagnosis.left_open))
     known = diagnosis.verdict != "not_in_library"
     possible = [
         explanation.effects
@@ -66,8 +73,11 @@ def add_auto(
     order = [ranked.effect for ranked in diagnosis.ranking]
     best = (possible[0] if possible else ()) if known else diagnosis.to_add
     chosen = tuple(sorted(best, key=order.index))
-    rivals = tuple(possible[1:])
-    chosen, addition = _added(inputs, chosen)
+    try:
+        chosen, addition = _added(inputs, chosen)
+    except TooFewError as error:
+        return AutoAddition(diagnosis, (), (), None, f"nothing was added: {error}")
+    rivals = tuple(effects for effects in possible[1:] if {*effects} != {*chosen})
     if not known and chosen and not _helps(addition):
         chosen, addition = (), add(inputs, effects=())
     reason, offer = _reason(diagnosis, chosen, rivals), None
@@ -144,6 +154,14 @@ def _slip_reason(diagnosis: Diagnosis) -> str:
     )
 
 
+def _open_reason(left_open: LeftOpen) -> str:
+    return (
+        f"nothing was added: of the {worded(left_open.before, 1)} by which holes may be off among "
+        f"each other before anything is measured, these marks leave {worded(left_open.now, 1)} "
+        "open; measure marks all over the sheet, nine or more"
+    )
+
+
 def _reason(
     diagnosis: Diagnosis, chosen: tuple[str, ...], rivals: tuple[tuple[str, ...], ...]
 ) -> str:
@@ -155,13 +173,6 @@ def _reason(
             f"not all that the marks show is in the library, so {part} was added; read the worst "
             "marks again, and see " + to_do("plumb next", page="Verdict") + " for what to measure"
         )
-    if not chosen:
-        tried = "; ".join(plainly(explanation.effects) for explanation in diagnosis.explanations)
-        return (
-            "every explanation needs sizes that no real machine has, so none was added and only "
-            f"the frame was fitted ({tried}): check which settings were in force and the marks' "
-            "signs"
-        )
     name = plainly(chosen)
     if rivals:
         others = ", or ".join(plainly(rival) for rival in rivals)
@@ -169,5 +180,12 @@ def _reason(
         return (
             f"a choice: {name} explains the marks best, but they allow {others} as well; {asked} "
             "says what to measure to tell them apart"
+        )
+    if not chosen:
+        tried = "; ".join(plainly(explanation.effects) for explanation in diagnosis.explanations)
+        return (
+            "every explanation needs sizes that no real machine has, so none was added and only "
+            f"the frame was fitted ({tried}): check which settings were in force and the marks' "
+            "signs"
         )
     return f"{name} explains the marks; with it nothing more is provable"

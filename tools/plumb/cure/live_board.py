@@ -29,6 +29,10 @@ from plumb.text.values import refuse_unknown
 MOST_KEPT = 64  # fits
 
 
+class TooFewError(InputError):
+    """The marks are too few for the effects that were chosen."""
+
+
 class Weighted(Protocol):
     """fit() with all but the effects and the priors."""
 
@@ -116,7 +120,7 @@ class LiveBoard:
         frame = sum(sigma > 0 for sigma in self.inputs.priors.values())
         free = len([name for name in chosen.parameters if name not in chosen.held])
         if count < frame + free:
-            raise InputError(
+            raise TooFewError(
                 f"{measurements.source}: {count} measured numbers cannot settle {frame + free} "
                 f"unknowns ({frame} of frame and sheet, {free} of the effects); measure more "
                 "marks, add fewer effects, or "

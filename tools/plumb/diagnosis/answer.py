@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from plumb.diagnosis.left_open import LeftOpen
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.sizes import Room, Size
 from plumb.diagnosis.slip_cause import Slip
@@ -64,6 +65,7 @@ class Diagnosis:
     to_add: tuple[str, ...]  # effects to go on with: the first explanation, or the best at hand
     slips: tuple[Slip, ...]
     could_hide: tuple[Room, ...]
+    left_open: LeftOpen  # of the machine's errors all over the sheet
     warnings: tuple[str, ...]
     disagreements: tuple[str, ...] = ()  # rounds, or halves of the sheet, that do not go together
 

@@ -13,6 +13,7 @@ from plumb.diagnosis.doubts import find_doubts
 from plumb.diagnosis.explanation import Explanation
 from plumb.diagnosis.gain import search
 from plumb.diagnosis.judgement import Judgement, judge
+from plumb.diagnosis.left_open import left_open
 from plumb.diagnosis.measured import measured_board
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.ranking import rank
@@ -59,6 +60,7 @@ def examine(inputs: Inputs) -> Examined:
         to_add=judgement.to_add,
         slips=readings.slips,
         could_hide=doubts.could_hide,
+        left_open=left_open(readings.frame),
         warnings=doubts.warnings,
         disagreements=doubts.disagreements,
     )

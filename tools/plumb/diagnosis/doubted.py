@@ -23,6 +23,7 @@ from plumb.fit.inputs import Inputs
 from plumb.fit.problem import USUAL_SIGMA
 from plumb.marks.plausible import far_reading
 from plumb.marks.read import Measurements
+from plumb.model.ranks import greatest
 from plumb.text.shown import worded
 
 FEWEST = 4  # marks and distances from which slips are sought as in a diagnosis
@@ -99,7 +100,7 @@ def _slip_of_few(board: Board, inputs: Inputs) -> Reading | None:
     readings = readings_of(board.rows)
     weighed = weigh(frame, felt_effects(frame), noise)
     chances = weighed.slip_chances(np.ones(len(readings), dtype=bool))
-    worst = int(np.argmax(chances))
+    worst = greatest(chances)
     return readings[worst] if chances[worst] > SURE else None
 
 

@@ -18,6 +18,7 @@ from plumb.diagnosis.sizes import Room, room_for
 from plumb.diagnosis.slips import shifts
 from plumb.diagnosis.slips_in_repeats import twins_that_agree
 from plumb.model.catalogue import effect_names
+from plumb.model.ranks import ranked
 from plumb.text.shown import worded
 
 _IMPOSSIBLE = (
@@ -76,9 +77,8 @@ def _place_warnings(readings: CleanReadings, judgement: Judgement) -> list[str]:
     if judgement.verdict != "not_in_library" or not len(board.rows.measured):
         return []
     nearest = explain(board, judgement.to_add, start=readings.frame)
-    worst = max(
-        (shift for shift in shifts(nearest) if shift.reading.is_mark), key=lambda shift: shift.drop
-    )
+    of_marks = [shift for shift in shifts(nearest) if shift.reading.is_mark]
+    worst = ranked(of_marks, lambda shift: -shift.drop)[0]
     name, off = board.rows.names[worst.reading.index], float(np.hypot(*worst.offset))
     if worst.reading in twins_that_agree(board.rows, board.sigma):
         return [

@@ -50,18 +50,18 @@ def expected_error(
     y = np.linspace(height / 2, -height / 2, ROWS)
     places = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
     chains, outcome = lengths(model_by(used), places)
-    where, slopes, hanging = _hung(used, chains)
+    where, slopes, hanging = hung(used, chains)
     variance = _variance(used, slopes)
     good = (outcome == FOUND) & (hanging == FOUND)
     for rival, share in rivals:
-        elsewhere, _, reached = _hung(rival, chains)
+        elsewhere, _, reached = hung(rival, chains)
         variance += share * np.sum((elsewhere - where) ** 2, axis=1)
         good &= reached == FOUND
     sigma = np.where(good, np.sqrt(variance), np.nan).reshape(ROWS, COLUMNS)
     return ExpectedError(x, y, sigma)
 
 
-def _hung(explanation: Explanation, chains: Array) -> tuple[Array, Array, Array]:
+def hung(explanation: Explanation, chains: Array) -> tuple[Array, Array, Array]:
     """Where the sled hangs (n, 2) [mm] with these chains, slopes by NAMES (n, 2, v), and FOUND."""
     problem = explanation.board.problem
     values, _ = problem.values(explanation.unknowns)

@@ -17,6 +17,7 @@ import numpy as np
 from plumb.diagnosis.explanation import Explanation, span
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.significance import surprise, surprises
+from plumb.model.ranks import ranked
 
 Array = np.ndarray
 DRAWS = 4000  # of noise: its LEVEL is then right to about 0.3 % in chance
@@ -83,7 +84,7 @@ def gains_of(
         drop = float(np.sum((basis.T @ explanation.residual) ** 2))
         visible = basis.shape[1]
         gains.append(Gain(effect, drop, visible, surprise(drop, visible, noise.degrees)))
-    return tuple(sorted(gains, key=lambda gain: -gain.surprise))
+    return tuple(ranked(gains, lambda gain: -gain.surprise))
 
 
 def bases_beyond_fit(explanation: Explanation, candidates: Sequence[str]) -> dict[str, Array]:

@@ -17,6 +17,7 @@ from plumb.diagnosis.misfit import library_basis
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.significance import tail
 from plumb.model.catalogue import ZEROING_NAMES
+from plumb.model.ranks import greatest
 
 Array = np.ndarray
 CHANCE = 0.0027  # of a move beyond 3 sigma from noise alone
@@ -112,7 +113,7 @@ def _move(explanation: Explanation, basis: Array, mask: Array, noise: Noise) -> 
     lengths = np.linalg.norm(beyond, axis=0)
     felt = lengths > 1e-5 * np.linalg.norm(masked, axis=0)
     pulls = np.where(felt, np.abs(beyond.T @ left) / np.where(felt, lengths, 1.0), 0.0)
-    most = int(np.argmax(pulls))
+    most = greatest(pulls)
     single = float(tail(pulls[most] ** 2, 1, noise.degrees)) * len(free)
     if min(chance, single) > CHANCE:
         return None

@@ -64,6 +64,8 @@ def _likely(readings: CleanReadings, most: float) -> Judgement | None:
     answer = likeliest(readings.frame, readings.felt, readings.noise)
     if not answer.accounts or answer.field_chance > most:
         return None
+    if not any(account.explanation.effects for account in answer.accounts):
+        return Judgement("nothing_provable", Suspects((), True), ())
     survivors = tuple(Survivor(account.explanation, True) for account in answer.accounts)
     return Judgement(
         "one_suspect" if len(survivors) == 1 else "cannot_tell",

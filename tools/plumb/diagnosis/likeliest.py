@@ -19,6 +19,7 @@ from plumb.diagnosis.misfit import misfit_chance
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.sizes import possible
 from plumb.diagnosis.weighing import TOGETHER, weigh
+from plumb.model.ranks import ascending
 
 Array = np.ndarray
 LISTED = 0.95  # of all weight that the listed accounts hold together
@@ -69,7 +70,7 @@ def listing(effects: tuple[tuple[str, ...], ...], evidences: Array) -> list[List
     that one.
     """
     weights = np.exp(evidences - np.logaddexp.reduce(evidences))
-    order = np.argsort(-weights, kind="stable")
+    order = ascending(-evidences)
     before = np.cumsum(weights[order]) - weights[order]
     within = _within(effects)
     bases: list[int] = []
@@ -83,7 +84,7 @@ def listing(effects: tuple[tuple[str, ...], ...], evidences: Array) -> list[List
     belongs = np.where(holds.any(axis=0), holds.argmax(axis=0), -1)
     members = [np.flatnonzero(belongs == place) for place in range(len(bases))]
     counted = np.array([weights[each].sum() for each in members])
-    best = np.argsort(-counted, kind="stable")
+    best = ascending(-counted)
     so_far = np.cumsum(counted[best]) - counted[best]
     return [
         Listed(effects[bases[i]], float(counted[i]), tuple(members[i].tolist()))

@@ -14,6 +14,7 @@ from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.misfit import library_basis
 from plumb.diagnosis.slip_cause import Slip
 from plumb.marks.read import Measurements
+from plumb.model.ranks import greatest
 
 Array = np.ndarray
 LUCK = 0.001  # chance that noise alone makes any pair look mixed up
@@ -100,7 +101,7 @@ def _best(board: Board) -> MixedPair | None:
         drops[rounds[:, np.newaxis] != rounds] = -np.inf
         tried += int(np.sum(drops > -np.inf))
         if drops.size and drops.max() > most:
-            i, j = (int(at) for at in np.unravel_index(np.argmax(drops), drops.shape))
+            i, j = (int(at) for at in np.unravel_index(greatest(drops), drops.shape))
             if drops[i, j] > _needed(basis, left, numbers[[i, j]]):
                 best, most = MixedPair(i, j, is_mark), float(drops[i, j])
     # exp(-drop / 2) is the ratio of likelihoods of a guess that has no free number.

@@ -6,12 +6,13 @@ from plumb.diagnosis.answer import Ranked
 from plumb.diagnosis.clean import CleanReadings
 from plumb.diagnosis.sizes import hidden_share, sizes_of
 from plumb.diagnosis.suspects import evidence
+from plumb.model.ranks import ranked
 
 
 def rank(readings: CleanReadings) -> tuple[Ranked, ...]:
     """All effects, by how surprising it would be if noise alone gained as much."""
     frame, noise = readings.frame, readings.noise
-    ranked = [
+    effects = [
         Ranked(
             effect=name,
             gain=max(frame.cost - single.cost, 0.0),
@@ -22,4 +23,4 @@ def rank(readings: CleanReadings) -> tuple[Ranked, ...]:
         )
         for name, single in readings.singles.items()
     ]
-    return tuple(sorted(ranked, key=lambda effect: -effect.surprise))
+    return tuple(ranked(effects, lambda effect: -effect.surprise))

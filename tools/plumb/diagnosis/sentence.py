@@ -86,7 +86,8 @@ def _most_likely(diagnosis: Diagnosis, nouns: Nouns, shown: int) -> str:
         second = others.pop(0)
         said += f"; next, {nouns(second.effects)} ({odds_words(second.share)})"
     more = f", and {len(others)} more" if others else ""
-    return f"Something is missing: {_error_left(diagnosis)}. Most likely: {said}{more}."
+    missing = "is" if all(each.effects for each in diagnosis.explanations) else "may be"
+    return f"Something {missing} missing: {_error_left(diagnosis)}. Most likely: {said}{more}."
 
 
 def odds_words(share: float | None) -> str:

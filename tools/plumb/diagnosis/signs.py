@@ -9,6 +9,7 @@ from plumb.diagnosis.explanation import Board, Explanation, explain
 from plumb.diagnosis.misfit import LEVEL, misfit_chance
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.sizes import possible
+from plumb.model.ranks import ranked
 
 
 def sign_warning(
@@ -25,7 +26,7 @@ def sign_warning(
         fits = [explain(turned, (name,), start=frame) for name in felt]
         fits = [single for single in fits if misfit_chance(single, noise) > LEVEL]
         fits = [single for single in fits if _is_simple(single, noise)]
-        simple = [single.effects[0] for single in sorted(fits, key=lambda single: single.cost)]
+        simple = [single.effects[0] for single in ranked(fits, lambda single: single.cost)]
     if not simple:
         return (
             "tried with all y errors the other way round as well: nothing simple explains the "

@@ -22,6 +22,7 @@ from plumb.diagnosis.readings import Reading, Shift, readings_of, without
 from plumb.diagnosis.slips_in_repeats import clear_repeats, twins_that_agree
 from plumb.diagnosis.weighing import weigh
 from plumb.fit.inputs import Stated
+from plumb.model.ranks import greatest
 
 Array = np.ndarray
 SURE = 0.7  # how likely a slip must be to be named; without one it is hardly ever above 0.1
@@ -103,13 +104,13 @@ def _slip_of(board: Board, candidates: Sequence[str], stated: Stated | None) -> 
     if len(readings) < FEWEST or not allowed.any():
         return None
     chances = _chances(board, candidates, stated, allowed)
-    worst = int(np.argmax(chances))
+    worst = greatest(chances)
     rest = _with_noise(board, without(board.rows, readings[worst]), stated)
     if rest.sigma < board.sigma * (1 - SAME):
         chances = _chances(
             board.with_rows(board.rows, sigma=rest.sigma), candidates, stated, allowed
         )
-        worst = int(np.argmax(chances))
+        worst = greatest(chances)
     if chances[worst] <= SURE or _is_explained(board, candidates, stated):
         return None
     return readings[worst]

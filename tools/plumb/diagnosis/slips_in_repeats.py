@@ -21,6 +21,7 @@ from plumb.diagnosis.significance import tail
 from plumb.diagnosis.spread import Spread
 from plumb.fit.inputs import Stated
 from plumb.fit.problem import USUAL_SIGMA
+from plumb.model.ranks import ranked
 
 Array = np.ndarray
 LEVEL = 0.002  # chance at which noise alone makes a slip of one of all repeats
@@ -64,7 +65,7 @@ def clear_repeats(board: Board, stated: Stated | None) -> RepeatsCleared:
         apart = _all_apart(rows)
         if not apart:
             break
-        worst = max(apart, key=lambda other: other.drop)
+        worst = ranked(apart, lambda other: -other.drop)[0]
         if len(worst.twins) == 2:
             worst = _worse_of_two(board.with_rows(rows), worst, apart)
         rows = without(rows, worst.reading)
@@ -122,7 +123,7 @@ def _worse_of_two(board: Board, worst: _Apart, apart: list[_Apart]) -> _Apart:
         for other in apart
         if other.reading.is_mark == worst.reading.is_mark and other.reading.index in worst.twins
     ]
-    return max(both, key=lambda other: error(other.reading))
+    return ranked(both, lambda other: -error(other.reading))[0]
 
 
 def _sigma(rows: Observations, stated: Stated | None) -> tuple[float, float]:

@@ -18,6 +18,7 @@ from plumb.diagnosis.explanation import Explanation
 from plumb.fit.chain_view import ChainView, chain_errors, chain_view, hung_places
 from plumb.fit.covariates import Covariate, covariates
 from plumb.model.predict import FOUND, Array, settings_of
+from plumb.model.ranks import ascending
 from plumb.settings.machine import MachineSettings
 
 COLUMNS, ROWS = 41, 21  # places of the sheet behind a curve
@@ -155,7 +156,7 @@ def _curves(covariate: Covariate, drawn: Array) -> tuple[Curve, Curve]:
 def _curve(at: Array, drawn: Array) -> Curve:
     """Mean and spread in bins of about as many places."""
     known = np.isfinite(at) & np.isfinite(drawn)
-    order = np.argsort(at[known], kind="stable")
+    order = ascending(at[known])
     bins = [part for part in np.array_split(order, BINS) if len(part)]
     inside = [drawn[known][part] for part in bins]
     return Curve(

@@ -25,6 +25,7 @@ from plumb.diagnosis.misfit import library_misfit_chance, misfit_chance, spare_n
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.significance import surprise, tail
 from plumb.diagnosis.sizes import possible
+from plumb.model.ranks import greatest, ranked
 
 MOST_REFITTED = 12  # combinations that are refitted in full, the best by the frame's slopes
 UNHEARD = np.log(0.01)  # of the chance that a machine is beyond all that the catalogue knows
@@ -79,7 +80,7 @@ def find_suspects(
         survivors += [survivor for survivor in standing if survivor.possible or alone]
         if any(survivor.possible for survivor in survivors):
             chance = chance_of_imitation(frame, felt, size, noise, real=True)
-    survivors.sort(key=lambda survivor: -survivor.worth)
+    survivors = ranked(survivors, lambda survivor: -survivor.worth)
     if survivors and not any(survivor.possible for survivor in survivors):
         most = max(len(survivor.explanation.effects) for survivor in survivors)
         chance = chance_of_imitation(frame, felt, most, noise, real=False)
@@ -96,7 +97,7 @@ def _standing(
             continue  # as many unknowns as numbers explain anything
         if misfit_chance(explanation, noise) > MISFIT_LEVEL and complete(explanation, felt, noise):
             standing.append(Survivor(explanation, possible(explanation, noise)))
-    return sorted(standing, key=lambda survivor: -survivor.worth)
+    return ranked(standing, lambda survivor: -survivor.worth)
 
 
 def best_at_hand(frame: Explanation, felt: Sequence[str]) -> tuple[str, ...]:
@@ -114,7 +115,7 @@ def best_at_hand(frame: Explanation, felt: Sequence[str]) -> tuple[str, ...]:
         values = [worth(candidate) for candidate in more]
         if not more or max(values) <= best:
             break
-        best, chosen = max(values), more[int(np.argmax(values))]
+        best, chosen = max(values), more[greatest(values)]
     return chosen.effects
 
 
@@ -167,7 +168,7 @@ def _promising(
                 break
         if worst >= limit:
             promising.append((float(left @ left) + 2 * fitted.shape[1], effects))
-    return [effects for _, effects in sorted(promising)[:MOST_REFITTED]]
+    return [effects for _, effects in ranked(promising, lambda each: each[0])[:MOST_REFITTED]]
 
 
 def evidence(single: Explanation, frame: Explanation, noise: Noise) -> float:

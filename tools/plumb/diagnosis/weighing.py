@@ -21,6 +21,7 @@ from plumb.diagnosis.moved_rounds import rounds_columns
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.smooth import field_columns
 from plumb.model.catalogue import EVERY_MACHINE
+from plumb.model.ranks import ranked
 
 Array = np.ndarray
 TOGETHER = 3  # effects at once in an account; all at once are an account too
@@ -49,7 +50,7 @@ class Weighed:
     def best(self) -> tuple[str, ...]:
         """The effects of the likeliest account of a few effects."""
         few = [i for i, names in enumerate(self.effects) if len(names) <= TOGETHER]
-        return self.effects[max(few, key=lambda i: float(self.clean[i]))]
+        return self.effects[ranked(few, lambda i: -float(self.clean[i]))[0]]
 
     @property
     def field_chance(self) -> float:

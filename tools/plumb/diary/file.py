@@ -19,11 +19,11 @@ from pathlib import Path
 from typing import Any
 
 from plumb.text.errors import refusal
+from plumb.text.files import opened
 
 NAME = "diary.jsonl"
 DIGITS = 16  # of a line's digest
 HEAD = '{"digest": "%s", '  # what a line begins with
-RIGHTS = 0o644
 
 Folder = str | PathLike[str]
 
@@ -81,7 +81,8 @@ def read_diary(folder: Folder) -> Diary:
     """The diary of a folder; empty if nobody has begun it. Raises InputError."""
     path = diary_path(folder)
     try:
-        content = path.read_bytes()
+        with os.fdopen(opened(path, os.O_RDONLY, follows=False), "rb") as file:
+            content = file.read()
     except FileNotFoundError:
         return Diary(path, ())
     except OSError as error:
@@ -137,7 +138,7 @@ def _entry(line: bytes) -> Entry | None:
 def _add_line(path: Path, line: bytes) -> None:
     """Put a line at the end, behind a cut line if there is such; all of it reaches the disk."""
     is_new = not path.exists()
-    handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, RIGHTS)
+    handle = opened(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, follows=False)
     try:
         fcntl.flock(handle, fcntl.LOCK_EX)
         length = os.fstat(handle).st_size

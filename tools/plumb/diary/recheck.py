@@ -18,6 +18,7 @@ from plumb.diagnosis.check_marks import LEVEL
 from plumb.diary.entries import FIT
 from plumb.diary.file import Diary, Entry
 from plumb.model.predict import FOUND, NAMES, Array, places_with_slopes, values_of
+from plumb.model.ranks import ranked
 from plumb.recovery.touched import TOUCH_SIGMA, Touch, believed_chains, turned_back
 from plumb.settings.machine import MachineSettings
 from plumb.settings.machine_tables import MACHINE_KEYS, machine_in
@@ -75,7 +76,7 @@ def recheck(
     fit = _fit_of(diary, settings)
     fitted = settings.fitted.last_sheet_rotation if settings.fitted else 0.0
     turned = [_recheck(fit, settings, touches, turn, sigma) for turn in (fitted, 0.0)]
-    return min(turned, key=lambda checked: checked.chi_square)
+    return ranked(turned, lambda checked: checked.chi_square)[0]
 
 
 def _recheck(
@@ -152,7 +153,10 @@ def _slope_of(name: str, where: Array, slopes: Array) -> Array:
 def _changes(
     settings: MachineSettings, fit: Entry, chains: Array, errors: Array, covariance: Array
 ) -> tuple[Change, ...]:
-    """Each single change, sized to explain the errors best, the best first."""
+    """Each single change, sized to explain the errors best, the best first.
+
+    Of changes that explain them alike, first what moves most easily: a chain, the sheet, the frame.
+    """
     where, slopes = _places(settings, chains)
     columns = {}
     for side, name in enumerate((LEFT, RIGHT)):
@@ -160,8 +164,9 @@ def _changes(
         columns[name] = (_places(settings, longer)[0] - where).ravel() / STEP
     for axis, name in enumerate((SHEET_X, SHEET_Y)):
         columns[name] = np.tile(np.eye(2)[axis], len(chains))
-    for name in {*FRAME, *fit.content["unknowns"]} & {*NAMES}:
-        columns[name] = _slope_of(name, where, slopes)
+    for name in (*FRAME, *fit.content["unknowns"]):
+        if name in NAMES:
+            columns[name] = _slope_of(name, where, slopes)
     limit = scipy.special.chdtri(errors.size - 1, 1 - LEVEL)
     changes = []
     for name, column in columns.items():
@@ -170,4 +175,4 @@ def _changes(
         left = errors - size * column
         rest = float(left @ np.linalg.solve(covariance, left))
         changes.append(Change(name, float(size), float(sigma), rest, explains=bool(rest <= limit)))
-    return tuple(sorted(changes, key=lambda change: (change.chi_square, change.name)))
+    return tuple(ranked(changes, lambda change: change.chi_square))

@@ -40,7 +40,7 @@ def firmware_numbers(settings: MachineSettings) -> tuple[Number, ...]:
     The published corrections are zero, as the effects hold all there is. Raises InputError if the
     firmware would refuse a number, or would compute chains that differ by more than WORST.
     """
-    values = _values(settings)
+    values = values_of(settings)
     rows = {setting.number: setting for setting in every_setting()}
     numbers = tuple(
         Number(number, rows[number].name, format_value(value).strip(), rows[number].unit)
@@ -50,7 +50,7 @@ def firmware_numbers(settings: MachineSettings) -> tuple[Number, ...]:
     return numbers
 
 
-def _values(settings: MachineSettings) -> dict[int, float]:
+def values_of(settings: MachineSettings) -> dict[int, float]:
     numbers = {
         0: settings.sheet_width,
         1: settings.sheet_height,

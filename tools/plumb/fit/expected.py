@@ -76,7 +76,7 @@ def expected_error(
     Raises ValueError where the controller cannot go.
     """
     model = settings.as_plumb_model()
-    targets = _over(settings.sheet) if at is None else at
+    targets = places_over(settings.sheet) if at is None else at
     where, slopes, outcome = places_with_slopes(
         values_of(model),
         over_top=model.feed == "top",
@@ -111,7 +111,7 @@ def expected_anywhere(settings: MachineSettings, priors: Mapping[str, float]) ->
     return expected if np.isfinite(expected.whole) else None
 
 
-def _over(sheet: tuple[float, float]) -> Array:
+def places_over(sheet: tuple[float, float]) -> Array:
     """Places (n, 2) [mm] all over a sheet."""
     width, height = sheet
     x = np.linspace(-width / 2 + MARGIN, width / 2 - MARGIN, COLUMNS)

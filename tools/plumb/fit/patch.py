@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from plumb.fit.fit import Fit
 from plumb.model.catalogue import empirical_effects, parameter_names
+from plumb.model.ranks import ranked
 
 PATCH = empirical_effects()[0]["name"]
 SIZES = (0.2, 0.4, 0.8, 1.6, 3.2, 6.4)  # [mm] of one term, one standard deviation
@@ -40,5 +41,5 @@ def best_patch(
     for size in SIZES:
         held = {**priors, **dict.fromkeys(parameter_names(PATCH), size)}
         tried.append(Patched(weighted(effects=effects, priors=held), size))
-    best = min(tried, key=lambda patched: patched.fit.left_out_rms)
+    best = ranked(tried, lambda patched: patched.fit.left_out_rms)[0]
     return best if best.fit.left_out_rms < WORTH * without.left_out_rms else None

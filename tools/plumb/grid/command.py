@@ -13,7 +13,7 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NoReturn
 
-from plumb.grid.cut_with import cut_with_lines
+from plumb.grid.cut_with import cut_with_lines, with_form
 from plumb.grid.form import marks_list
 from plumb.grid.gcode import FIRST_LINE, program
 from plumb.grid.limits import demand
@@ -162,6 +162,8 @@ def run(
             free = arguments.force or not os.path.isfile(arguments.marks)
             demand(free, kept)
             named = cut_with_lines(arguments.settings, arguments.marks)
+            if arguments.output:
+                files[arguments.output] = with_form(text, arguments.marks, arguments.output)
             files[arguments.marks] = marks_list(
                 grid,
                 machine,

@@ -1,4 +1,5 @@
 """Which settings are in force while marks are cut: their file, and a digest of what moves the sled.
+A form names them, and a program names its form.
 
 GroundControl rewrites its file whenever a window is moved, so only the numbers count that say where
 the sled hangs.
@@ -10,6 +11,7 @@ import configparser
 import hashlib
 import json
 import os
+import re
 
 from plumb.grid.webcontrol import as_ini, is_webcontrol
 
@@ -32,6 +34,10 @@ KEYS = (
     "topbeamtilt",
 )
 
+ENDINGS = (".ini", ".json", ".toml")  # of settings
+LONGEST = 60  # characters of a form's name in a comment
+FORM = re.compile(r"^\(form: (.+)\)$", re.MULTILINE)
+
 
 def cut_with_lines(settings: str | None, form: str) -> str:
     """The lines of a form at that path that name the settings' file and keep its digest."""
@@ -40,6 +46,22 @@ def cut_with_lines(settings: str | None, form: str) -> str:
     near = os.path.relpath(settings, os.path.dirname(os.path.abspath(form)))
     name = json.dumps(near.replace(os.sep, "/"))
     return f'\ncut_with = {name}\ncut_with_digest = "{digest_of(settings)}"'
+
+
+def with_form(program: str, form: str, path: str) -> str:
+    """A program at that path with a comment that names the form for its readings, so that whoever
+    sends it knows what it is to be cut with; without, where no comment can hold the name."""
+    near = os.path.relpath(form, os.path.dirname(os.path.abspath(path))).replace(os.sep, "/")
+    if not near.isascii() or not near.isprintable() or set(near) & set("()") or len(near) > LONGEST:
+        return program
+    first, rest = program.split("\n", 1)
+    return f"{first}\n(form: {near})\n{rest}"
+
+
+def form_of(program: str, path: str) -> str | None:
+    """The form for the readings of a program at that path; None if it names none."""
+    named = FORM.search(program)
+    return os.path.join(os.path.dirname(path), named[1]) if named else None
 
 
 def digest_of(settings: str | os.PathLike[str]) -> str:
@@ -64,6 +86,21 @@ def digest_of(settings: str | os.PathLike[str]) -> str:
     if not said:
         return hashlib.sha256(content).hexdigest()
     return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()
+
+
+def settings_as_they_were(named: str | os.PathLike[str], digest: str) -> str | None:
+    """The file with the settings that a form names: the named, or if that says something else by
+    now, a file next to it that says what it said. None if nobody kept them."""
+    path = os.fspath(named)
+    if not digest or (os.path.isfile(path) and digest_of(path) == digest):
+        return path
+    folder = os.path.dirname(path) or "."
+    for name in sorted(os.listdir(folder)) if os.path.isdir(folder) else ():
+        other = os.path.join(folder, name)
+        is_file = os.path.isfile(other) and not os.path.islink(other)
+        if name.endswith(ENDINGS) and is_file and digest_of(other) == digest:
+            return other
+    return None if os.path.exists(path) else path
 
 
 def _plain(value: str) -> str:

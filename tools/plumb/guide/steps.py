@@ -11,7 +11,7 @@ import numpy as np
 
 from plumb.diary.numbers_written import write_and_keep
 from plumb.firmware.client_files import gcode
-from plumb.firmware.numbers import firmware_numbers
+from plumb.firmware.numbers import CLIENT_NUMBERS, firmware_numbers
 from plumb.firmware.read_back import machine_of_numbers
 from plumb.fit.expected import (
     expected_anywhere,
@@ -20,10 +20,11 @@ from plumb.fit.expected import (
     expected_sentence,
 )
 from plumb.fit.read_inputs import settings_in
+from plumb.guide.kept import keep_other
 from plumb.guide.numbers import HEAVIEST, LENGTHS, LIGHTEST
 from plumb.guide.progress import Progress
 from plumb.guide.talk import Talk
-from plumb.guide.wires import Jog, chain_jog, height_jog, remedy
+from plumb.guide.wires import HEIGHT, Jog, chain_jog, height_jog, ran_away, remedy
 from plumb.line.memory import read_numbers
 from plumb.line.sender import RefusedError, Sender
 from plumb.model.reach import percent, survey_sheet
@@ -35,7 +36,7 @@ from plumb.text.shown import bare, brief, unit, worded
 
 SETTINGS = "machine.toml"
 SLEDS = {"r": "on a ring or a linkage: both chains point at the bit", "b": "on two brackets"}
-EXTENDED, Z_ATTACHED = 11, 16  # $-numbers
+EXTENDED, Z_ATTACHED, Z_GAIN = 11, 16, 29  # $-numbers
 TURN = 40.0  # [mm] of chain: two thirds of a turn of the sprocket
 NEAR = 0.5  # [mm] from the middle, at most
 DIMPLE = 2.0  # [mm] depth of the first mark
@@ -57,9 +58,19 @@ class Visit:
     def path(self) -> Path:
         return self.progress.folder / SETTINGS
 
+    @property
+    def height(self) -> float:
+        """Of the bit, as the machine last reported it [mm]."""
+        return self.sender.status.place[2] if self.sender.status else np.nan
+
     def settings(self) -> MachineSettings:
         """The machine as the folder knows it."""
         return settings_in(self.path)
+
+    def write(self, text: str) -> None:
+        """Write the settings; those that were there stay under another name, as marks need them."""
+        keep_other(self.path, text.encode())
+        write_whole(self.path, text.encode())
 
     def move(self, *lines: str) -> str:
         """Send lines and wait until the machine stands; what it said if it refused them."""
@@ -80,7 +91,7 @@ def read_machine(visit: Visit) -> bool:
         question = f"{visit.path.name} exists. Replace it with the machine's numbers?"
         if not visit.talk.says_yes(question):
             return True
-    write_whole(visit.path, machine_toml(machine_of_numbers(numbers)).encode())
+    visit.write(machine_toml(machine_of_numbers(numbers)))
     visit.talk.say(f"The machine answers, and its numbers are in {visit.path.name}.")
     return True
 
@@ -88,18 +99,32 @@ def read_machine(visit: Visit) -> bool:
 def check_wires(visit: Visit) -> bool:
     """Jog each axis a little and ask what the owner saw."""
     jogs = [chain_jog("left"), chain_jog("right")]
-    if read_numbers(visit.sender).get(Z_ATTACHED):
+    if _has_z(visit):
         jogs.append(height_jog())
     return all(_is_wired_right(visit, jog) for jog in jogs)
+
+
+def _has_z(visit: Visit) -> bool:
+    """Whether z has a motor; it gets the gain that a client sends, without which it drifts."""
+    numbers = read_numbers(visit.sender)
+    if not numbers.get(Z_ATTACHED):
+        return False
+    if not numbers.get(Z_GAIN):
+        line = f"${Z_GAIN}={CLIENT_NUMBERS[Z_GAIN]:g}"
+        visit.sender.stream([line])
+        visit.talk.say(f"No client has told this machine how to hold z, so it got {line}.")
+    return True
 
 
 def _is_wired_right(visit: Visit, jog: Jog) -> bool:
     if not visit.talk.agrees(jog.moves, jog.act):
         return False
+    before = visit.height
     alarm = visit.move(*jog.there)
+    astray = ran_away(HEIGHT, visit.height - before) if jog.axis == "z" and not alarm else ""
     seen = visit.talk.choice(jog.question, jog.answers)
-    mend = remedy(jog.axis, seen, alarm)
-    if not alarm:
+    mend = astray or remedy(jog.axis, seen, alarm)
+    if not (alarm or astray):
         visit.move(*jog.back)
     if not mend:
         return True
@@ -135,7 +160,7 @@ def tell_numbers(visit: Visit) -> bool:
     changed = replace(settings, **frame_of(frame))
     lines = gcode(firmware_numbers(changed)).decode().splitlines()
     written, _, failure = write_and_keep(visit.sender, str(visit.path), lines)
-    write_whole(visit.path, machine_toml(changed).encode())
+    visit.write(machine_toml(changed))
     rows = [f"  ${number}: {old:g} -> {new:g}" for number, (old, new) in written.changed.items()]
     undo = to_do(f"plumb send --undo {_file(visit)} brings them back", page="nothing is lost")
     talk.say("\n".join(["The machine holds these numbers; each was read back.", *rows]))
@@ -205,6 +230,7 @@ def _turn_to_twelve(visit: Visit, side: str) -> None:
 def first_mark(visit: Visit) -> bool:
     """Hang the sled, drive it to the middle, make a dimple, and compare with the tape."""
     talk, settings = visit.talk, visit.settings()
+    _has_z(visit)
     moves = "Hang the sled on both chains. Both motors then bring it to the MIDDLE of the sheet."
     if not talk.agrees(moves, "Move the sled to the middle of the sheet"):
         return False

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from plumb.text.shown import brief
+from plumb.text.shown import brief, worded
 
-CHAIN, HEIGHT = 20.0, 5.0  # [mm] of a jog
+CHAIN, HEIGHT = 20.0, 1.0  # [mm] of a jog
+FOLLOWS = 0.3  # [mm] between what was asked for and what the machine counts, at most
 SPEED = 300  # [mm/min]
 SLED = "The sled, if it hangs, rises a little on that side and comes back."
 PLUGS = {"left": "MP3", "right": "MP1", "z": "MP2"}
@@ -47,20 +48,31 @@ def chain_jog(side: str) -> Jog:
 
 
 def height_jog() -> Jog:
-    """Raises the bit by 5 mm, and lowers it again."""
+    """Raises the bit by 1 mm, and lowers it again."""
     return Jog(
         "z",
         ("G91", f"G0 Z{HEIGHT:g}", "G90"),
         ("G91", f"G0 Z-{HEIGHT:g}", "G90"),
-        f"The Z motor raises the router by {brief(HEIGHT)}. The bit leaves the sheet.",
+        f"The Z motor raises the router by {brief(HEIGHT)}, or lowers it if a wire is wrong: take "
+        "the bit out, or leave it room. Watch the screw that lifts the router.",
         f"Raise the router by {brief(HEIGHT)}",
-        "Did the router go up?",
+        "Did the router go up? A turn of its screw by a few degrees counts.",
         {
             "s": "it went up",
             "l": "it went down",
             "o": "a chain moved",
             "n": "nothing moved",
         },
+    )
+
+
+def ran_away(asked: float, counted: float) -> str:
+    """What is wrong with a way [mm] that the machine counted; empty if it is as was asked."""
+    if abs(counted - asked) <= FOLLOWS:
+        return ""
+    return (
+        f"The machine was to move by {worded(asked)} and counts {worded(counted)}: the motor does "
+        "not follow. Check its power wires, its encoder, and its gains ($29 to $36)."
     )
 
 
@@ -78,6 +90,12 @@ def remedy(axis: str, seen: str, alarm: str) -> str:
     if "wired in reverse" in alarm:
         if seen == "l":
             return f"The power wires of {motor} are swapped: exchange the two."
+        if seen == "n":
+            return (
+                f"The power wires of {motor} are swapped, or its encoder counts backwards; it "
+                "stopped too soon to tell. Exchange its two power wires: if it was the encoder, "
+                "this step then says what is left to do."
+            )
         return f"The encoder of {motor} counts backwards: exchange its wires A and B."
     if "stands still" in alarm:
         if seen == "n":
@@ -95,7 +113,10 @@ def remedy(axis: str, seen: str, alarm: str) -> str:
     if seen == "s":
         return ""
     if axis == "z":
-        return "Z runs upside down: give $20 (its encoder's steps) the other sign."
+        return (
+            "Z runs upside down: give $19 (its travel for one turn) the other sign, and in your "
+            "client too, which sends its own zDistPerRot."
+        )
     return (
         f"{motor.capitalize()} runs the wrong way. If the chains leave the bottom of the "
         "sprockets, set $38 to 2. If not, exchange its two power wires, and its encoder's A and B."

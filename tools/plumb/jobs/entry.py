@@ -9,6 +9,7 @@ import numpy as np
 
 from plumb.jobs.moves import Flags, Moves, Rows
 from plumb.model.predict import Array
+from plumb.model.ranks import least
 from plumb.text.errors import InputError
 
 NEAR = 5.0  # [mm] a cut passes a place
@@ -67,7 +68,7 @@ def entry_at(moves: Moves, place: tuple[float, float], *, line: int | None) -> E
     samples = moves.only(cut).sampled(STEP)
     away = np.hypot(*(samples.places - place).T)
     if away.min() > NEAR:
-        nearest = samples.places[int(np.argmin(away))]
+        nearest = samples.places[least(away)]
         raise InputError(
             f"no cut passes within {NEAR:g} mm of X{place[0]:g} Y{place[1]:g}; the nearest is at "
             f"X{nearest[0]:.1f} Y{nearest[1]:.1f}"
@@ -75,7 +76,7 @@ def entry_at(moves: Moves, place: tuple[float, float], *, line: int | None) -> E
     near = np.flatnonzero(away <= away.min() + ALIKE)
     # The sled goes away and comes back between two passes.
     stretches = np.split(near, np.flatnonzero(np.diff(near) > 1) + 1)
-    passes = [int(stretch[np.argmin(away[stretch])]) for stretch in stretches]
+    passes = [int(stretch[least(away[stretch])]) for stretch in stretches]
     best = passes[0]
     row = int(cut[samples.move[best]])
     lines = moves["line"].astype(int)

@@ -14,6 +14,7 @@ HALTS, LEAVES, GOUGES, WAITS, IGNORED = "halts", "leaves the sheet", "gouges", "
 SINKS = "may sink"
 WRONG = (HALTS, LEAVES, GOUGES)
 ACROSS = 0.05  # [mm] over the sheet: more than z alone moves
+SAME_HOLE = 0.1  # [mm] over the sheet between a plunge and a cut that made room for it
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,7 @@ def findings_of(done: Done) -> tuple[Finding, ...]:
     findings = [Finding(each.line, HALTS, f"{refused} {each.why}") for each in done.refused]
     findings += [finding for line, text in done.said for finding in _said(line, text)]
     findings += _gouges(done.moves)
+    findings += _plunges(done.moves)
     return tuple(sorted(findings, key=lambda finding: finding.line))
 
 
@@ -61,3 +63,29 @@ def _gouges(moves: Moves) -> Iterator[Finding]:
         yield Finding(
             int(moves["line"][row]), GOUGES, f"G0 crosses the sheet with the bit {deep:.2f} mm deep"
         )
+
+
+def _plunges(moves: Moves) -> Iterator[Finding]:
+    """G0 down into wood that nothing has cut; down a hole that is there, as pecks go, is none."""
+    straight = moves.rapid & moves.over_sheet & (moves["length"] <= ACROSS)
+    low = moves["z_to"]
+    for row in np.flatnonzero(straight & (low < moves["z_from"]) & (low < IN_WOOD)):
+        into = float(_depth_of_hole(moves, int(row)) - low[row])
+        if into > -IN_WOOD:
+            yield Finding(
+                int(moves["line"][row]),
+                GOUGES,
+                f"G0 drives the bit {into:.2f} mm down into wood that nothing has cut",
+            )
+
+
+def _depth_of_hole(moves: Moves, row: int) -> float:
+    """The z [mm] down to which earlier cuts have freed the place of a move; 0: nothing did."""
+    x, y = moves["to_x"][row], moves["to_y"][row]
+    middle = np.stack([moves["from_x"] + moves["to_x"], moves["from_y"] + moves["to_y"]]) / 2
+    # No place of a move is farther from its middle than the way along it.
+    near = np.hypot(*(middle - [[x], [y]])) <= moves["length"] + SAME_HOLE
+    earlier = moves.cut & ~moves.rapid & (np.arange(len(moves)) < row)
+    samples = moves.only(earlier & near).sampled(SAME_HOLE / 2)
+    here = np.hypot(*(samples.places - (x, y)).T) <= SAME_HOLE
+    return float(samples.z[here].min(initial=0.0))

@@ -9,6 +9,7 @@ import numpy as np
 
 from plumb.jobs.moves import Moves, Samples
 from plumb.model.predict import CANNOT_HANG, REACH_WORDS, USABLE, Codes, reach
+from plumb.model.ranks import greatest
 from plumb.model.reach import with_soft_chains
 from plumb.settings.machine import MachineSettings
 
@@ -51,7 +52,7 @@ def hanging_along(
     verdict = there.verdict[back]
     hangs = cut & (verdict != CANNOT_HANG)
     tension, give = there.tension[back], np.where(hangs, there.give[back], -1.0)
-    softest = int(np.argmax(give))
+    softest = greatest(give)
     lines = moves["line"][samples.move].astype(int)
     pulls = (0.0, 0.0)
     if hangs.any():

@@ -9,6 +9,7 @@ import numpy as np
 from plumb.jobs.dry_run import Done
 from plumb.jobs.moves import Flags, Moves
 from plumb.model.predict import Array
+from plumb.model.ranks import least
 
 LESS = 0.995  # of a feed: below it a limit acts
 GREATEST, Z = "the greatest feed ($15)", "the speed of z ($18)"
@@ -54,7 +55,7 @@ def slower_moves(moves: Moves) -> tuple[Slower, ...]:
     for cause in (GREATEST, Z, ARC, CHAINS):
         rows = np.flatnonzero(slowed & (causes == cause))
         if len(rows):
-            worst = rows[np.argmin(top[rows])]
+            worst = rows[least(top[rows])]
             numbers = float(asked[worst]), float(top[worst])
             causes_seen.append(Slower(cause, len(rows), int(moves["line"][worst]), *numbers))
     return tuple(sorted(causes_seen, key=lambda each: -each.moves))

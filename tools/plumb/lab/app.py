@@ -28,7 +28,9 @@ from plumb.lab.routes import (
     doubts,
     grid,
     guide,
+    held,
     known,
+    live,
     machine,
     next,
     plan,
@@ -38,6 +40,7 @@ from plumb.lab.routes import (
     verdict,
 )
 from plumb.text.errors import InputError
+from plumb.text.files import links_refused
 from plumb.text.readers import read_on_page
 
 PAGE = Path(__file__).parent / "page"
@@ -46,6 +49,8 @@ PAGE = Path(__file__).parent / "page"
 ROUTERS = (
     project.router,
     machine.router,
+    held.router,
+    live.router,
     guide.router,
     known.router,
     plan.router,
@@ -95,13 +100,13 @@ def lab_app(folder: Path, *, address: Address, token: str) -> ASGIApp:
 
 
 class _ForPage:
-    """Messages of the application are read on the page."""
+    """Messages are read on the page, and no link is followed: a folder may come from elsewhere."""
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        with read_on_page():
+        with read_on_page(), links_refused():
             await self._app(scope, receive, send)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future
 from contextlib import contextmanager
 from contextvars import copy_context
@@ -65,6 +65,12 @@ class MachineLine:
         worker = self._worker
         return worker.state if worker else LineState()
 
+    @property
+    def silence(self) -> float:
+        """How long ago a board last reported [s]; 0 where no report is due."""
+        worker = self._worker
+        return worker.silence if worker and not self.virtual else 0.0
+
     def connect_board(self, path: str) -> None:
         """Connect the board at a serial port. Raises InputError for what is no port."""
         if not PORT.fullmatch(path) or ".." in path:
@@ -121,6 +127,15 @@ class MachineLine:
             raise InputError("somebody pressed Stop; the machine has stopped") from None
         except TimeoutError:
             raise InputError(f"the machine did not do it in {PATIENCE:.0f} s: look at it") from None
+
+    def read_numbers(self) -> Mapping[int, float]:
+        """All numbers that the machine lists now. Raises InputError."""
+        self.do(self.note_numbers)
+        return self.state.numbers
+
+    def note_numbers(self, sender: Sender) -> None:
+        """In the middle of work: read the machine's numbers into the state."""
+        self._working().read_numbers(sender)
 
     def begin(self, work: Callable[[Sender], None]) -> Future[None]:
         """Begin work that may take long. Raises InputError while that cannot be.
@@ -196,4 +211,9 @@ def line_of(connection: HTTPConnection) -> MachineLine:
     return line
 
 
-TheLine = Annotated[MachineLine, Depends(line_of)]
+async def _line(connection: HTTPConnection) -> MachineLine:
+    """The same without a thread: Stop waits for nobody's."""
+    return line_of(connection)
+
+
+TheLine = Annotated[MachineLine, Depends(_line)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextvars import copy_context
 from dataclasses import dataclass, replace
 from threading import Lock, Thread
 
@@ -32,7 +33,8 @@ class PracticeDesk:
             if self.doing:
                 raise InputError(f"{self.doing.words} first: wait until that is done")
             self.doing, self.trouble = Doing(words, 0, of), ""
-        Thread(target=self._do, args=(work,), daemon=True).start()
+        # The thread speaks to whom this thread speaks to, and follows no link either.
+        Thread(target=copy_context().run, args=(self._do, work), daemon=True).start()
 
     def _do(self, work: Callable[[Callable[[int], None]], None]) -> None:
         try:

@@ -12,13 +12,16 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from hashlib import sha256
+from itertools import count
 from pathlib import Path
 
 from plumb.text.errors import InputError
-from plumb.text.files import write_all
+from plumb.text.files import links_refused, opened, write_all
 
 # A name is a single word without a folder, so no name from outside leads out of the project.
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
+# Settings as they were when marks were cut with them; the lab keeps them.
+KEPT = re.compile(r"\.settings-[0-9a-f]{16}\.(ini|json|toml)")
 MISSING = ""  # digest of a file that does not exist
 LOCK = ".lab.lock"
 
@@ -40,7 +43,7 @@ class Project:
     def path(self, name: str) -> Path:
         """Where a file of this name lies. Raises ValueError for what is no plain name, and for a
         link: it may lead out of the folder."""
-        if not NAME.fullmatch(name):
+        if not NAME.fullmatch(name) and not KEPT.fullmatch(name):
             raise ValueError(f"{name!r} is no plain file name")
         path = self.folder / name
         if path.is_symlink():
@@ -58,11 +61,31 @@ class Project:
     def read(self, name: str) -> bytes | None:
         """What is in a file; None if there is none."""
         path = self.path(name)
-        return path.read_bytes() if path.is_file() else None
+        if not path.is_file():
+            return None
+        with os.fdopen(opened(path, os.O_RDONLY, follows=False), "rb") as file:
+            return file.read()
 
     def digest(self, name: str) -> str:
         """A number for what is in a file; MISSING if there is none."""
         return digest_of(self.read(name))
+
+    def free_name(self, stem: str, *endings: str) -> str:
+        """The first of `stem`, `stem-2` ... that no file has with any of these endings; with the
+        first of them."""
+        return next(
+            f"{each}{endings[0]}"
+            for each in _numbered(stem)
+            if all(self.read(f"{each}{ending}") is None for ending in endings)
+        )
+
+    def place_for(self, content: bytes, stem: str, ending: str) -> str:
+        """The first of these names that no file has, or a file with just this content."""
+        return next(
+            f"{each}{ending}"
+            for each in _numbered(stem)
+            if self.read(f"{each}{ending}") in (None, content)
+        )
 
     def save(self, files: Mapping[str, bytes], *, read: Mapping[str, str]) -> None:
         """Write all of them or none.
@@ -74,7 +97,8 @@ class Project:
             self._refuse_changed(read)
             staged = {str(self.path(name)): content for name, content in files.items()}
             try:
-                write_all(staged)
+                with links_refused():
+                    write_all(staged)
             except InputError as error:  # the disk's fault, so it may go later
                 raise OSError(str(error).removeprefix(f"{self.folder}/")) from None
 
@@ -101,6 +125,12 @@ class Project:
         with os.fdopen(os.open(self.folder / LOCK, flags, 0o600), "w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             yield
+
+
+def _numbered(stem: str) -> Iterator[str]:
+    """A name and its followers, as `machine`, `machine-2` ..."""
+    yield stem
+    yield from (f"{stem}-{number}" for number in count(2))
 
 
 def digest_of(content: bytes | None) -> str:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from pathlib import PurePath
+
+from plumb.grid.cut_with import digest_of
 from plumb.lab.choices import Choices
 from plumb.lab.commands import command
 from plumb.lab.planned import Planned
@@ -9,6 +12,7 @@ from plumb.lab.project import Project
 from plumb.marks.form import read_form
 from plumb.model.predict import known_effects
 from plumb.text.errors import InputError
+from plumb.text.ours import is_ours
 
 FORM, PROGRAM = "marks{}.toml", "grid{}.nc"
 
@@ -24,6 +28,16 @@ def form_text(project: Project, choices: Choices, plan: Planned, form: str) -> b
     return plan.form(path, settings=settings, new_sheet=on_new_sheet(choices)).encode()
 
 
+def kept_settings(project: Project, choices: Choices) -> dict[str, bytes]:
+    """The open settings as a file that nobody replaces, by the digest that a form names."""
+    name = choices.settings
+    content = project.read(name)
+    if content is None:
+        return {}
+    digest = digest_of(project.path(name))[:16]
+    return {f".settings-{digest}{PurePath(name).suffix.lower()}": content}
+
+
 def grid_command(
     project: Project, choices: Choices, plan: Planned, *, form: str, program: str
 ) -> str:
@@ -37,10 +51,16 @@ def grid_command(
 def next_number(project: Project) -> str:
     """What the next round has in the names of its files: nothing, or -2, -3 ..."""
     number, count = "", 1
-    while has_readings(project, FORM.format(number)):
+    while has_readings(project, FORM.format(number)) or _is_foreign(project, number):
         count += 1
         number = f"-{count}"
     return number
+
+
+def _is_foreign(project: Project, number: str) -> bool:
+    """Whether the program of a round would replace one that the lab did not write."""
+    name = PROGRAM.format(number)
+    return project.read(name) is not None and not is_ours(project.path(name))
 
 
 def has_readings(project: Project, name: str) -> bool:

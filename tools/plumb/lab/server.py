@@ -17,14 +17,13 @@ import uvicorn
 from starlette.types import ASGIApp
 
 from plumb.lab.app import lab_app
-from plumb.lab.connections import Connection
+from plumb.lab.connections import MOST_CONNECTIONS, Connection
 from plumb.lab.guard import Address
 from plumb.text.errors import InputError, refusal
 
 HOST = "127.0.0.1"
 TOKEN_FILE = ".lab.token"  # keeps the token, so that an open page survives a restart
 IDLE_S = 15  # a connection on which nothing happens is closed
-MOST_CONNECTIONS = 64
 LARGEST_MESSAGE = 65_536  # bytes of the page's live line
 MOST_MESSAGES = 16  # that wait to be taken
 TOKEN = re.compile(r"[A-Za-z0-9_-]{43}")
@@ -47,13 +46,12 @@ def serve(folder: Path, *, port: int, browser: bool, say: Callable[[str], None])
 
 
 def _settings(app: ASGIApp) -> uvicorn.Config:
-    """How patient the server is, and with how many."""
+    """How patient the server is; connections.py says with how many."""
     return uvicorn.Config(
         app,
         http=Connection,
         log_level="error",
         timeout_keep_alive=IDLE_S,
-        limit_concurrency=MOST_CONNECTIONS,
         ws_max_size=LARGEST_MESSAGE,
         ws_max_queue=MOST_MESSAGES,
         ws_per_message_deflate=False,

@@ -14,6 +14,7 @@ from plumb.line.waits import Wait, waits_in
 from plumb.marks.form import read_form
 from plumb.marks.model import Mark
 from plumb.model.predict import known_effects
+from plumb.settings.machine import MachineSettings
 
 STEM = "more"  # as plumb next calls them
 FORM = re.compile(rf"{STEM}(-\d+)?\.toml")
@@ -27,6 +28,7 @@ class Taken:
     program: str
     text: str  # the G-code
     marks: tuple[Mark, ...]  # in the order in which they are cut
+    cut_with: MachineSettings | None = None  # that the form names
 
     @property
     def waits(self) -> tuple[Wait, ...]:
@@ -58,5 +60,6 @@ def taken_marks(project: Project, choices: Choices) -> Taken | None:
     if text is None:
         return None
     sheet = settings_in(project.path(choices.settings)).sheet if choices.settings else (0.0, 0.0)
-    marks = read_form(project.path(form), sheet=sheet, known=known_effects()).measurements.marks
-    return Taken(form, program_name(form), text.decode(), marks)
+    measured = read_form(project.path(form), sheet=sheet, known=known_effects()).measurements
+    cut_with = measured.rounds[0].cut_with
+    return Taken(form, program_name(form), text.decode(), measured.marks, cut_with)

@@ -11,6 +11,7 @@ import re
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
+from time import monotonic
 
 from plumb.line.port import LostError, Port
 from plumb.text.errors import InputError
@@ -21,13 +22,16 @@ START = 12.0  # [s] a board that was reset by the line takes up to six
 HOLD, GO_ON, STOP = b"\x84", b"~\n", b"!\n"
 ANSWERS = ("ok", "error:")
 WRONG = ("ALARM", "error:")  # how lines begin that nobody may miss
+QUESTIONS = ("$$", "B05", "B10 L", "B10 R", "?")  # move nothing, and power no motor
+PAUSED = "Pause"  # what a machine reports that holds
 HALTED = "Stop"  # what a machine reports that waits for Stop; it answers questions alone
 PATIENT = 5  # reports, a second of them
 STANDS = 0.02  # [mm] between two reports of a machine at rest
 REPORTS = 0.6  # [s] in which it reports thrice
 PER_SECOND = 5  # reports
-KEPT = 4.0  # [s] after which motors are off and the position is in the memory
+KEPT = 2.0  # [s] after the motors are off: then the position is in the memory
 COMMENT = re.compile(r"\([^)]*\)")
+NUMBER = re.compile(r"\$(9|71)\s*=\s*([\d.]+)")  # that say how long motors hold, and are ahead
 STATUS = re.compile(r"<(\w+),MPos:(-?[\d.]+),(-?[\d.]+),(-?[\d.]+)")
 
 
@@ -57,11 +61,18 @@ class Sender:
     # Called again and again while lines are on their way; it may hold the machine, or stop it.
     attend: Callable[[Sender], None] = lambda sender: None
     reports: int = 0  # that came so far
+    worked: int = 0  # reports of a machine that did not pause
+    holds_for: float = 2.0  # [s] after a motion until the motors are off ($9)
+    ahead: float = 1.0  # [s] of motion that may be left of a line that is answered ($71)
+    reported_at: float = 0.0  # when the last came, by this computer's clock [s]; 0: none did
     greeting: tuple[str, ...] = ()  # what the machine said before its first report
+    _stirred: Watch | None = None  # since it last may have moved; None: it has not
+    _place: tuple[float, float, float] | None = None  # [mm] where it stands, or last moved to
     _partial: str = ""
     _heard_at: float = math.inf  # nobody expects a machine to speak before it was asked
     _halted_from: int = 0  # reports that had come when it was last seen to do something
     _spare: int = 0  # answers to come that belong to no line
+    _has_held: bool = False  # no `~` has come since the last hold
     _left: int = 0  # answers to come for lines that were on their way behind a refused line
     _on_the_way: deque[tuple[str, int]] = field(default_factory=deque)
 
@@ -93,6 +104,7 @@ class Sender:
         self._heard_at = self.port.seconds()
         self._halted_from = self.reports
         for line in cleaned(lines):
+            self._note_line(line)
             while self._characters() + len(line) + 1 > AHEAD:
                 done = self._hear(done, answered)
             self.port.write(line.encode("ascii") + b"\n")
@@ -115,19 +127,17 @@ class Sender:
         """Wait until the sled stands and the machine has kept its position.
 
         The next program that opens the line resets the board; a board that still moves then loses
-        its position. attended: somebody may hold or stop the machine meanwhile.
+        its position. A machine that stands may still hold with its motors, after whatever it was
+        told. attended: somebody may hold or stop the machine meanwhile.
         """
-        place = self.status.place if self.status else None
-        needed, stands = REPORTS, Watch(self)
-        while not stands.has_lasted(needed):
+        watch = Watch(self)
+        while not (watch.has_lasted(REPORTS) and self._has_kept_place()):
             self.listen()
             if attended:
                 self.attend(self)
-            now = self.status.place if self.status else None
-            if attended and self.status and self.status.state == "Pause":
-                stands = Watch(self)
-            if now and place and max(map(abs, map(float.__sub__, now, place))) > STANDS:
-                place, needed, stands = now, KEPT, Watch(self)
+
+    def _has_kept_place(self) -> bool:
+        return self._stirred is None or self._stirred.has_lasted(self.holds_for + KEPT)
 
     def listen(self) -> None:
         """Take what comes while nothing is asked. Raises LostError if nothing has come for long."""
@@ -137,16 +147,20 @@ class Sender:
             if line == "ok":
                 self._spare = max(0, self._spare - 1)
             elif not self._note_status(line):
-                self.said(line)
+                self._say(line)
 
     def hold(self) -> None:
         """Stop along the path, as soon as the motors can."""
         self.port.write(HOLD)
+        self._has_held = True
 
     def go_on(self) -> None:
         """Go on after a hold."""
         self.port.write(GO_ON)
-        self._spare += 1  # its `ok` answers no line
+        self._stirred = Watch(self)
+        # Behind a hold it has no `ok`; one that ends a pause has, and it answers no line.
+        self._spare += not self._has_held
+        self._has_held = False
 
     def stop(self) -> None:
         """Give up: the machine brakes and forgets what it has not done; raises StoppedError."""
@@ -158,7 +172,9 @@ class Sender:
     def brake(self) -> None:
         """Stop a machine that nothing is being sent to."""
         self.port.write(STOP)
+        self._stirred = Watch(self)
         self._spare += 1
+        self._has_held = False
         self._left = 0  # what the machine has not begun it forgets
 
     def _characters(self) -> int:
@@ -177,15 +193,34 @@ class Sender:
             if line == "ok" and self._spare:
                 self._spare -= 1
             elif line == "ok" and self._on_the_way:
-                self._on_the_way.popleft()
+                line, _ = self._on_the_way.popleft()
+                self._note_line(line)
                 done += 1
                 if answered:
                     answered(done)
             elif line.startswith(WRONG):
                 self._refuse(line)
             else:
-                self.said(line)
+                self._say(line)
         return done
+
+    def _say(self, line: str) -> None:
+        """Pass on what is no answer, and learn what the machine says of its numbers."""
+        self._note_number(line)
+        self.said(line)
+
+    def _note_line(self, line: str) -> None:
+        """Note a line that is sent, or answered: it may power the motors."""
+        self._note_number(line)
+        if line not in QUESTIONS:
+            self._stirred = Watch(self)
+
+    def _note_number(self, line: str) -> None:
+        row = NUMBER.match(line)
+        if row and row[1] == "9":
+            self.holds_for = float(row[2]) / 1000
+        elif row:
+            self.ahead = float(row[2]) / 1000
 
     def _refuse(self, answer: str) -> None:
         line = self._on_the_way[0][0] if self._on_the_way else ""
@@ -235,8 +270,19 @@ class Sender:
         if match:
             x, y, z = map(float, match.groups()[1:])
             self.status = Status(match[1], (x, y, z))
+            self._note_motion(self.status)
             self.reports += 1
+            self.worked += match[1] != PAUSED
+            self.reported_at = monotonic()
         return match is not None or line.startswith("[PE:")
+
+    def _note_motion(self, status: Status) -> None:
+        """Note a place that is not the last, and a hold, in which the motors keep their power."""
+        place = self._place or status.place
+        moved = max(map(abs, map(float.__sub__, status.place, place))) > STANDS
+        if moved or status.state == PAUSED:
+            self._stirred = Watch(self)
+        self._place = status.place if moved else place
 
 
 class Watch:
@@ -246,6 +292,8 @@ class Watch:
     nothing had moved since. So time counts only as far as reports came in it.
     """
 
+    speed = 1.0  # of the machine's time: that of a virtual machine may be higher
+
     def __init__(self, sender: Sender) -> None:
         self._sender = sender
         self._since, self._reports = sender.port.seconds(), sender.reports
@@ -253,7 +301,7 @@ class Watch:
     def has_lasted(self, seconds: float) -> bool:
         """Whether so long has passed, and nearly all its reports came."""
         came = self._sender.reports - self._reports
-        passed = self._sender.port.seconds() - self._since
+        passed = self.speed * (self._sender.port.seconds() - self._since)
         return passed >= seconds and came >= int(seconds * PER_SECOND) - 1
 
 

@@ -6,17 +6,20 @@ Hold, go on and stop do not wait for the work that is being done.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
 from queue import Empty, SimpleQueue
 from threading import Event, Lock, Thread
+from time import monotonic
 from typing import Any, Literal, TypeVar
 
 from plumb.line.lost_place import lost_place
+from plumb.line.memory import read_numbers
 from plumb.line.port import LostError, Port
+from plumb.line.progress import Progress
 from plumb.line.sender import (
     HALTED,
     REPORTS,
@@ -27,7 +30,7 @@ from plumb.line.sender import (
     Watch,
     cleaned,
 )
-from plumb.line.waits import PAUSED, Wait, waits_in
+from plumb.line.waits import PAUSED, waits_in
 from plumb.text.errors import InputError
 
 Result = TypeVar("Result")
@@ -37,25 +40,6 @@ SAID = 30  # lines of the machine that are kept
 SURE = 2  # reports after which it shows whether a hold that was pressed is done
 FOUND_PLACE = "position loaded at:"
 HAS_HALTED = "The machine has halted: press Stop."
-
-
-@dataclass(frozen=True)
-class Progress:
-    """A program on its way."""
-
-    title: str
-    done: int  # lines that the machine took
-    total: int
-    outcome: Literal["running", "done", "stopped", "refused", "lost"] = "running"
-    waits: tuple[Wait, ...] = ()  # its pauses
-    paused_at: int = -1  # lines that it had taken when it last came to a pause
-
-    @property
-    def wait(self) -> Wait | None:
-        """The pause in which it is; None if it goes on, or is held elsewhere."""
-        if self.outcome != "running" or self.paused_at != self.done:
-            return None
-        return next((wait for wait in self.waits if wait.lines == self.done), None)
 
 
 @dataclass(frozen=True)
@@ -86,6 +70,7 @@ class LineState:
     trouble: str = ""  # what went wrong last
     program: Progress | None = None
     said: tuple[str, ...] = ()  # the machine's last lines
+    numbers: Mapping[int, float] = field(default_factory=dict)  # all that it last listed
 
     @property
     def waits_for(self) -> str:
@@ -115,6 +100,7 @@ class LineWorker:
         self._paused: Callable[[int], None] = lambda lines: None
         self._waits = False  # in mid-work, for a person
         self._held_at = -SURE  # reports that had come at the last hold
+        self._sender: Sender | None = None
         self._thread = Thread(target=self._run, name="line to the machine", daemon=True)
         self._thread.start()
 
@@ -123,6 +109,13 @@ class LineWorker:
         """How things are now."""
         with self._lock:
             return self._state
+
+    @property
+    def silence(self) -> float:
+        """How long ago the machine last reported [s]; 0 where no report is due."""
+        sender = self._sender
+        due = sender and sender.reported_at and self.state.phase in ("ready", "busy", "stopping")
+        return monotonic() - sender.reported_at if sender and due else 0.0
 
     def do(self, work: Callable[[Sender], Result]) -> Future[Result]:
         """Have work done with the machine. Raises InputError in a hold or while other work is done.
@@ -175,6 +168,10 @@ class LineWorker:
             return self._finished("done", "")
 
         self._begin(_Task(sending), program=progress)
+
+    def read_numbers(self, sender: Sender) -> None:
+        """In the middle of work: read the machine's numbers into the state."""
+        self._note(numbers=read_numbers(sender))
 
     def hold(self) -> None:
         """Stop along the path as soon as the motors can."""
@@ -236,11 +233,14 @@ class LineWorker:
         port: Port | None = None
         try:
             port = self._opened()
-            sender = Sender(port, said=self._hear, attend=self._attend)
+            sender = self._sender = Sender(port, said=self._hear, attend=self._attend)
             sender.await_start()
+            self._read_first(sender)
             self._note(phase="ready")
             while not self._end.is_set():
                 self._serve(sender)
+            if not self.state.holds:
+                sender.await_rest()  # whoever opens the line next resets the board
         except Exception as error:
             self._lose(str(error) or type(error).__name__)
         else:
@@ -249,6 +249,15 @@ class LineWorker:
             self._give_up()
             if port:
                 port.close()
+
+    def _read_first(self, sender: Sender) -> None:
+        """Read the numbers of a machine that was connected, if it lists any."""
+        try:
+            self.read_numbers(sender)
+        except LostError:
+            raise
+        except (InputError, StoppedError):
+            return  # it is no machine that can be calibrated, or somebody pressed Stop
 
     def _give_up(self) -> None:
         """Give up what came in while the line was lost: the line takes no work any more."""

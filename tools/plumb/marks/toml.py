@@ -9,7 +9,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from plumb.grid.cut_with import digest_of
+from plumb.grid.cut_with import settings_as_they_were
 from plumb.marks.benchmark import read_benchmark
 from plumb.marks.model import Distance, Mark, Measurements, Point, Round, Typed
 from plumb.marks.plausible import Sheet, to_machine
@@ -112,13 +112,15 @@ def _round(
     """How the file's marks were cut; the path in cut_with starts at the file's folder."""
     cut_with, changed = None, ""
     if "cut_with" in head:
-        with naming(path, "cut_with"):
-            name = text_of(head["cut_with"])
-            cut_with = read_settings(Path(path).parent / name, known=known)
         with naming(path, "cut_with_digest"):
             was = text_of(head.get("cut_with_digest", ""))
-        if was not in ("", digest_of(Path(path).parent / name)):
-            cut_with, changed = None, name
+        with naming(path, "cut_with"):
+            name = text_of(head["cut_with"])
+            kept = settings_as_they_were(Path(path).parent / name, was)
+            if kept is None:
+                changed = name
+            else:
+                cut_with = read_settings(kept, known=known)
     return Round(
         date=str(head.get("date", "")),
         cut_with=cut_with,

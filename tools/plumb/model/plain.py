@@ -45,15 +45,19 @@ def named(effect: str) -> str:
     return noun if noun == effect else to_do(f"{noun} ({effect})", page=noun)
 
 
-def nouns_of(effects: list[str] | tuple[str, ...], *, last: str = "and") -> str:
-    """Several effects in a maker's words, with their names."""
-    *others, final = [named(effect) for effect in effects]
-    return f"{', '.join(others)} {last} {final}" if others else final
+def nouns_of(effects: Iterable[str]) -> str:
+    """Effects that act together in a maker's words, with their names."""
+    return _listed(map(named, effects))
 
 
 def plainly(effects: Iterable[str]) -> str:
-    """Several effects that act together in a maker's words, without their names."""
-    *others, final = map(noun_of, effects)
+    """Effects that act together in a maker's words, without their names."""
+    return _listed(map(noun_of, effects))
+
+
+def _listed(nouns: Iterable[str]) -> str:
+    """Nouns as a list; an explanation may have no effect."""
+    *others, final = [*nouns] or ["the frame alone"]
     return f"{', '.join(others)} and {final}" if others else final
 
 
@@ -76,11 +80,15 @@ def plain_size(name: str, value: float, low: float | None = None, high: float | 
     return f"{said} ({least} to {most})"
 
 
-def plain_before(name: str, value: float) -> str:
-    """A size as it was before, in the unit of its words."""
+def plain_before(
+    name: str, value: float, low: float | None = None, high: float | None = None
+) -> str:
+    """A size as it was before, in the unit of its words; as fine as the interval that it has now,
+    or nobody could tell how far it moved."""
     words = words_of(name)
     shown = shown_size(words, value)
-    return f"{_rounded(shown, digits_for(shown, []))} {_unit(words)}" if shown else "0"
+    ends = [shown_size(words, end) for end in (low, high) if end is not None]
+    return f"{_rounded(shown, digits_for(shown, ends))} {_unit(words)}" if shown else "0"
 
 
 def plain_range(name: str, low: float, high: float) -> str:

@@ -20,6 +20,7 @@ from plumb.model.predict import (
     usual_parameters,
     with_parameters,
 )
+from plumb.model.ranks import greatest
 from plumb.settings.machine import MachineSettings
 
 COLUMNS, ROWS = 305, 153  # of a survey: a place each 8 mm of the usual sheet, edges included
@@ -105,7 +106,7 @@ def survey_sheet(settings: MachineSettings, **limits: float) -> Survey:
         tightest = _extreme(places, np.where(hanging[:, None], reached.tension, -np.inf))
         slackest = _extreme(places, -np.where(hanging[:, None], reached.tension, np.inf))
         slackest = replace(slackest, value=-slackest.value)
-        most = int(np.argmax(np.where(hanging, reached.give, -np.inf)))
+        most = greatest(np.where(hanging, reached.give, -np.inf))
         softest = Extreme(_place(places, most), float(reached.give[most]))
     return Survey(
         machine.sheet,
@@ -139,7 +140,7 @@ def conclusion_of(survey: Survey) -> str:
 
 def _extreme(places: Array, tension: Array) -> Extreme:
     """The largest of all chains' tensions (n, 2)."""
-    i, side = np.unravel_index(int(np.argmax(tension)), tension.shape)
+    i, side = np.unravel_index(greatest(tension), tension.shape)
     return Extreme(_place(places, int(i)), float(tension[i, side]), ("left", "right")[side])
 
 

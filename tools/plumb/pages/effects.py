@@ -5,10 +5,8 @@ With --check nothing is written; exit 1 if a page or a picture is not as it woul
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from plumb.fit.fit import rms
@@ -28,9 +26,8 @@ from plumb.pages.fingerprints import (
     look_alikes,
     worst,
 )
+from plumb.pages.writer import write_pages
 from plumb.pictures.fingerprints import Picture, drawing
-from plumb.text.errors import InputError
-from plumb.text.files import write_all
 
 PAGE = "docs/effects.md"
 PICTURES = "docs/pictures/effects"
@@ -40,42 +37,7 @@ _FRAME_NUMBERS = ", ".join(f"`{name}`" for name in FRAME_STEPS)
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Write the page and its pictures, or check them; 1 if they are stale, 2 if refused."""
-    parser = argparse.ArgumentParser(prog="docs_effects", description=__doc__.splitlines()[0])
-    parser.add_argument("--check", action="store_true", help="write nothing, exit 1 if stale")
-    parser.add_argument("--folder", default=".", help="the project [%(default)s]")
-    parsed = parser.parse_args(arguments)
-    root = Path(parsed.folder)
-    texts = pages()
-    if parsed.check:
-        stale = stale_files(root, texts)
-        if stale:
-            print(f"{', '.join(stale)}: stale; run .venv/bin/python -m plumb.pages.effects")
-        return int(bool(stale))
-    try:
-        (root / PICTURES).mkdir(parents=True, exist_ok=True)
-        write_all({str(root / name): text.encode() for name, text in texts.items()})
-        for name in leftovers(root, texts):
-            (root / name).unlink()
-    except (InputError, OSError) as error:
-        print(f"docs_effects: {error}", file=sys.stderr)
-        return 2
-    return 0
-
-
-def stale_files(root: Path, texts: Mapping[str, str]) -> list[str]:
-    """Names of files that differ from the texts, are missing, or are not of an effect."""
-    differ = [
-        name
-        for name, text in texts.items()
-        if not (root / name).is_file() or (root / name).read_bytes() != text.encode()
-    ]
-    return differ + leftovers(root, texts)
-
-
-def leftovers(root: Path, texts: Mapping[str, str]) -> list[str]:
-    """Pictures of effects that are no more."""
-    there = sorted((root / PICTURES).glob("*.svg"))
-    return [name for name in (f"{PICTURES}/{path.name}" for path in there) if name not in texts]
+    return write_pages(arguments, pages, command="plumb.pages.effects", pictures=PICTURES)
 
 
 def pages() -> dict[str, str]:

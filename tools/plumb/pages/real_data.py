@@ -6,7 +6,6 @@ With --check nothing is written; exit 1 if the page or a picture is not as it wo
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -29,7 +28,8 @@ from plumb.pages.real_sets import (
     real_set,
     refusal_of,
 )
-from plumb.pages.tables import file_writer, markdown_table, mm, percent
+from plumb.pages.tables import markdown_table, mm, percent
+from plumb.pages.writer import write_pages
 from plumb.pictures.fingerprints import Picture, drawing
 from plumb.settings.files import read_settings
 
@@ -58,11 +58,7 @@ was fitted, the verdict of `plumb diagnose`, and what the numbers cannot tell.
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Write the page and its pictures, or check them; 1 if they are stale, 2 if refused."""
-    parser = argparse.ArgumentParser(prog="docs_real_data", description=__doc__.splitlines()[0])
-    parser.add_argument("--check", action="store_true", help="write nothing, exit 1 if stale")
-    parser.add_argument("--folder", default=".", help="the project [%(default)s]")
-    parsed = parser.parse_args(arguments)
-    return file_writer(Path(parsed.folder), pages(), check=parsed.check, command=COMMAND)
+    return write_pages(arguments, pages, command=COMMAND)
 
 
 def pages() -> dict[str, str]:

@@ -5,13 +5,11 @@ With --check nothing is written; exit 1 if the page is not as it would be writte
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Iterable, Sequence
-from pathlib import Path
 
 from plumb.firmware.settings import Setting, every_setting, format_value
-from plumb.pages.tables import file_writer
+from plumb.pages.writer import write_pages
 
 PAGE = "docs/settings.md"
 COMMAND = "plumb.pages.settings"
@@ -21,12 +19,12 @@ LAST_PUBLISHED, FIRST_OF_OURS, FIRST_EFFECT = 44, 60, 100
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Write the page, or check it; 1 if it is stale, 2 if refused."""
-    parser = argparse.ArgumentParser(prog="docs_settings", description=__doc__.splitlines()[0])
-    parser.add_argument("--check", action="store_true", help="write nothing, exit 1 if stale")
-    parser.add_argument("--folder", default=".", help="the project [%(default)s]")
-    parsed = parser.parse_args(arguments)
-    texts = {PAGE: page(every_setting())}
-    return file_writer(Path(parsed.folder), texts, check=parsed.check, command=COMMAND)
+    return write_pages(arguments, pages, command=COMMAND)
+
+
+def pages() -> dict[str, str]:
+    """The page by its name below the project's root."""
+    return {PAGE: page(every_setting())}
 
 
 def page(settings: Sequence[Setting]) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from plumb.model.ranks import least, ranked
 from plumb.pictures.panel import Spots
 from plumb.pictures.scale import View
 
@@ -29,7 +30,7 @@ def label_boxes(
         low, high = np.min(choices, axis=0)[:2], np.max(choices, axis=0)[2:]
         near = obstacles[((obstacles > low) & (obstacles < high)).all(axis=1)]
         costs = [_cost(each, near, boxes, view) + _rank_cost(i) for i, each in enumerate(choices)]
-        boxes = np.vstack([boxes, choices[int(np.argmin(costs))]])
+        boxes = np.vstack([boxes, choices[least(costs)]])
     return boxes
 
 
@@ -42,7 +43,7 @@ def _obstacles(spots: Spots, factor: float) -> Array:
 
 def _choices(place: Array, error: Array, extent: Array, gap: float) -> list[Array]:
     """Boxes around a place, those away from its arrow first, then the same farther out."""
-    away = sorted(AROUND, key=lambda side: float(np.dot(side, error)))
+    away = ranked(AROUND, lambda side: float(np.dot(side, error)))
     boxes = []
     for far in (1.0, 2.2):
         for side in away:

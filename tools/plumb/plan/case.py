@@ -21,6 +21,7 @@ from plumb.diagnosis.sizes import Size
 from plumb.diagnosis.weighing import weigh
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import effect_names
+from plumb.model.ranks import ascending, ranked
 from plumb.settings.machine import MachineSettings
 
 Array = np.ndarray
@@ -150,11 +151,11 @@ def _weighed(
         explanation.cost + 2 * len(explanation.board.columns(explanation.effects))
         for explanation in explanations
     ]
-    weights = np.exp(-(np.array(prices) - min(prices)) / 2)
-    weights *= [
+    shares = [
         1.0 if explanation.effects in possible else IMPOSSIBLE for explanation in explanations
     ]
-    best = np.argsort(-weights, kind="stable")[:MOST_HYPOTHESES]
+    logs = np.log(shares) - (np.array(prices) - min(prices)) / 2
+    weights, best = np.exp(logs), ascending(-logs)[:MOST_HYPOTHESES]
     best = best[weights[best] > LIGHT * weights.sum()]
     return tuple(_as_fitted(explanations[i], weights[i] / weights[best].sum()) for i in best)
 
@@ -192,7 +193,7 @@ def _with_small_ones(
         if each.effects in by_effects
         for member in each.members
     ]
-    sets.sort(key=lambda account: -account[0])
+    sets = ranked(sets, lambda account: -account[0])
     weights = np.exp(np.array([evidence for evidence, *_ in sets]) - sets[0][0])
     likely = np.cumsum(weights) - weights < LIKELY * weights.sum()
     kept = int(min(likely.sum(), MOST_TRUTHS))
@@ -237,9 +238,12 @@ def hidden_hypotheses(frame: Explanation) -> tuple[Hypothesis, ...]:
 
 
 def _root(slopes: Array) -> Array:
-    """A root of the covariance of unknowns with these whitened slopes; what is not felt is not
-    drawn."""
+    """The symmetric root of the covariance of unknowns with these whitened slopes; what is not felt
+    is not drawn.
+
+    Any other root has the signs of singular vectors, and with them what is drawn, from rounding.
+    """
     _, sizes, turned = np.linalg.svd(slopes, full_matrices=False)
     felt = sizes > 1e-6 * sizes[0]
-    root: Array = turned[felt].T / sizes[felt]
+    root: Array = turned[felt].T / sizes[felt] @ turned[felt]
     return root

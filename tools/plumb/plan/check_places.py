@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from plumb.model.ranks import greatest
 from plumb.plan.sites import grid, usable
 from plumb.settings.machine import MachineSettings
 
@@ -22,6 +23,6 @@ def check_places(settings: MachineSettings, known: Array, count: int = COUNT) ->
     chosen: list[Array] = []
     while len(chosen) < count and len(places):
         gaps = np.linalg.norm(places[:, np.newaxis] - np.vstack([taken, *chosen]), axis=2)
-        best = places[int(np.argmax(gaps.min(axis=1, initial=np.inf)))]
+        best = places[greatest(gaps.min(axis=1, initial=np.inf))]
         chosen.append(best)
     return np.array(chosen).reshape(-1, 2)

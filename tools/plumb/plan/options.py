@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from plumb.model.catalogue import is_felt_by_approach, is_of_chain
+from plumb.model.ranks import least, ranked
 from plumb.plan.ahead import Check
 from plumb.plan.case import Case
 from plumb.plan.direct_checks import FRAME_CHECKS, NumberCheck, effect_checks
@@ -166,8 +167,9 @@ class _Shop:
         for pattern in PATTERNS:
             wanted = np.array(pattern) * (width / 2, height / 2)
             gaps = np.linalg.norm(pool.targets[:, np.newaxis] - wanted, axis=2)
-            tries.append([int(i) for i in gaps.argmin(axis=0)])
-        return max((chosen for chosen in tries if len(set(chosen)) == FEW), key=chooser.worth)
+            tries.append([least(column) for column in gaps.T])
+        several = [chosen for chosen in tries if len(set(chosen)) == FEW]
+        return ranked(several, lambda chosen: -chooser.worth(chosen))[0]
 
     def sides(self) -> list[Option]:
         """Two marks close together, touched from opposite sides, where friction may play a part."""
@@ -215,7 +217,7 @@ class _Shop:
         if len(near) > MOST_NEAR:
             # Of marks that lie close together a few do as well as all.
             gaps = np.linalg.norm(grid(self.case.settings.sheet)[:, np.newaxis] - near, axis=2)
-            near = near[np.unique(gaps.argmin(axis=1))]
+            near = near[np.unique([least(row) for row in gaps])]
         places = np.vstack([near, self.new_targets])
         places = places[usable(self.case.settings, places, weight)]
         return self.visits(places, weight, swapped=swapped)
@@ -251,7 +253,7 @@ class _Shop:
             approaches = np.tile(sides, (len(places), 1))
         elif len(self.old_targets) and len(places):
             gaps = np.linalg.norm(places[:, np.newaxis] - self.old_targets, axis=2)
-            nearest = np.array(list(self.known.values()))[gaps.argmin(axis=1)]
+            nearest = np.array(list(self.known.values()))[[least(row) for row in gaps]]
             approaches = self.rows.approaches[nearest]
         try:
             return sent(

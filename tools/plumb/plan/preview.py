@@ -24,6 +24,7 @@ from plumb.diagnosis.sizes import hidden_share
 from plumb.fit.problem import PRIORS
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names, parameter_words
+from plumb.model.ranks import ranked
 from plumb.plan.ahead import ahead
 from plumb.plan.case import Case, hidden_hypotheses
 from plumb.plan.options import Option, many_marks, options
@@ -187,7 +188,7 @@ def _outline(frame: Explanation, i: int, matrix: Array, limit: float) -> Outline
             )
             for parameter in typical
         ),
-        alike=tuple(other for _, other in sorted(alike)),
+        alike=tuple(other for _, other in ranked(alike, lambda each: each[0])),
     )
 
 
@@ -207,7 +208,7 @@ def _additions(case: Case, matrix: Array) -> tuple[PlanAddition, ...]:
         then = _matrix(case.frame, ahead(case.frame, option.visits, option.checks).slopes)
         worth = float(np.sum(np.minimum(then**2, ENOUGH) - np.minimum(matrix**2, ENOUGH)))
         additions.append(PlanAddition(option, _reached(then), worth))
-    return tuple(sorted(additions, key=lambda addition: -addition.rate))
+    return tuple(ranked(additions, lambda addition: -addition.rate))
 
 
 def _reached(matrix: Array) -> int:

@@ -11,6 +11,7 @@ from plumb.diagnosis.answer import Diagnosis
 from plumb.diagnosis.explanation import span
 from plumb.diagnosis.sizes import Room
 from plumb.fit.inputs import Inputs
+from plumb.model.ranks import ranked
 from plumb.plan.ahead import Planned
 from plumb.plan.case import Case, case_of
 from plumb.plan.options import Option, many_marks, options
@@ -98,14 +99,16 @@ def propose(
         weighed.append(_weighed(case, option, diagnosis.could_hide))
         progress((number + 1) / len(everything))
     against = weighed.pop() if blind else None
-    ranked = tuple(sorted(weighed, key=_order))
     stable = _stability(case) if diagnosis.verdict == "one_suspect" else None
-    return Next(diagnosis.verdict, case, ranked, against, stable)
+    return Next(diagnosis.verdict, case, _best_first(weighed), against, stable)
 
 
-def _order(proposal: Proposal) -> tuple[bool, float]:
-    """Best first; one suspect is confirmed best by what measures the cause itself."""
-    return proposal.question == CONFIRM and proposal.option.kind != "check", -proposal.rate
+def _best_first(proposals: Sequence[Proposal]) -> tuple[Proposal, ...]:
+    """One suspect is confirmed best by what measures the cause itself."""
+    by_rate = ranked(proposals, lambda proposal: -proposal.rate)
+    return tuple(
+        sorted(by_rate, key=lambda each: each.question == CONFIRM and each.option.kind != "check")
+    )
 
 
 def _weighed(case: Case, option: Option, rooms: Sequence[Room]) -> Proposal:
@@ -164,7 +167,7 @@ def _rooms(case: Case, planned: Planned, rooms: Sequence[Room]) -> tuple[RoomThe
         rooms_then.append(
             RoomThen(room.effect, room.mm, room.mm * (now / then if then > 0 else 1.0))
         )
-    return tuple(sorted(rooms_then, key=lambda room: room.then - room.now))
+    return tuple(ranked(rooms_then, lambda room: room.then - room.now))
 
 
 def _smallest(slopes: Array, columns: Array, frame: Array) -> float:
@@ -190,7 +193,7 @@ def _stability(case: Case) -> tuple[int, int]:
             fitted = span(frame.slopes[np.ix_(rows, columns)])
             left = frame.residual[rows] - fitted @ (fitted.T @ frame.residual[rows])
             costs[name] = float(left @ left) + 2 * len(board.columns([name]))
-        kept += min(costs, key=costs.__getitem__) == suspect.effects[0]
+        kept += ranked(costs, costs.__getitem__)[0] == suspect.effects[0]
     return kept, len(groups)
 
 

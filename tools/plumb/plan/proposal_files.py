@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from plumb.grid.cut_with import cut_with_lines
+from plumb.grid.cut_with import cut_with_lines, with_form
 from plumb.plan.plan_marks import marks_file
 from plumb.plan.proposal import Next
 from plumb.plan.visits_program import program
@@ -27,8 +27,10 @@ def form_of(
     ).encode()
 
 
-def program_of(advice: Next, place: int) -> bytes:
-    """The program that cuts the proposal with this number, from 1."""
+def program_of(advice: Next, place: int, path: str, *, form: str | None) -> bytes:
+    """The program at that path that cuts the proposal with this number, from 1; it names the form
+    for its readings."""
     option = advice.proposals[place - 1].option
     assert advice.case, "what is proposed is proposed for a case"
-    return program(option.visits, usual_weight=advice.case.usual_weight, do=option.do).encode()
+    text = program(option.visits, usual_weight=advice.case.usual_weight, do=option.do)
+    return (with_form(text, form, path) if form else text).encode()

@@ -60,4 +60,4 @@ def _hope(best: Proposal) -> str:
 
 def _nouns(explanation: str) -> str:
     """An explanation, `effect + effect`, in a maker's words."""
-    return plainly(explanation.split(" + "))
+    return plainly(filter(None, explanation.split(" + ")))

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from plumb.diagnosis.explanation import Board, Explanation
+from plumb.model.ranks import greatest
 from plumb.plan.ahead import visit_slopes
 from plumb.plan.case import Case, Hypothesis
 from plumb.plan.planned_visits import Visits
@@ -122,7 +123,7 @@ class Chooser:
 
     def _best_with(self, chosen: list[int], options: Array) -> int:
         left = options[~np.isin(options, chosen)]
-        return int(left[np.argmax(self._worths(chosen, left))])
+        return int(left[greatest(self._worths(chosen, left))])
 
     def _worths(self, chosen: list[int], options: Array) -> Array:
         """The worth of the chosen visits with each of the options, or without any."""

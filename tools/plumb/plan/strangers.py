@@ -9,6 +9,7 @@ import numpy as np
 
 from plumb.diagnosis.explanation import Explanation
 from plumb.diagnosis.slip_cause import Slip
+from plumb.model.ranks import ascending, ranked
 from plumb.plan.case import Case
 from plumb.plan.options import MARK, READING, ROUND, Option, spots
 from plumb.plan.planned_visits import Visits, joined, nowhere, sent
@@ -38,14 +39,14 @@ def for_slips(case: Case, slips: Sequence[Slip]) -> list[tuple[Option, float]]:
 def near_the_worst(case: Case) -> list[Option]:
     """Marks around the places that are explained worst, then readings of these once more."""
     rows = case.board.rows
-    best = min(
+    best = ranked(
         [case.frame, *case.singles.values()],
-        key=lambda explanation: explanation.cost + 2 * len(case.board.columns(explanation.effects)),
-    )
+        lambda explanation: explanation.cost + 2 * len(case.board.columns(explanation.effects)),
+    )[0]
     if not len(rows.measured):
         return [_worst_distances(case, best)]
     errors = best.numbers[: rows.measured.size].reshape(-1, 2)
-    worst = np.argsort(-np.linalg.norm(errors, axis=1), kind="stable")
+    worst = ascending(-np.linalg.norm(errors, axis=1))
     places: dict[str, Array] = {}
     for i in worst:
         places.setdefault(rows.names[i], rows.targets[i])
@@ -75,7 +76,7 @@ def near_the_worst(case: Case) -> list[Option]:
 
 def _worst_distances(case: Case, best: Explanation) -> Option:
     """The distances that are explained worst, to be measured again."""
-    worst = np.argsort(-np.abs(best.numbers), kind="stable")[: 2 * WORST]
+    worst = ascending(-np.abs(best.numbers))[: 2 * WORST]
     said = ", ".join(case.spans[i] for i in worst)
     do = f"Measure the distances {said} {READ_AGAIN} more times: this tells a slip from more."
     minutes = ROUND + READING * READ_AGAIN * len(worst)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from plumb.model.predict import FOUND, Array, lengths
+from plumb.model.ranks import greatest
 from plumb.recovery.slip import LINK, OTHER, POSES, SHEET, Account, SlipFinding, pose_slopes
 from plumb.recovery.touched import Point, places_with
 from plumb.settings.machine import MachineSettings
@@ -38,7 +39,7 @@ def next_hole(settings: MachineSettings, finding: SlipFinding) -> Point | None:
     tells = np.where(np.isfinite(tells), tells, -1.0)
     if not len(spots) or tells.max() <= 0:
         return None
-    x, y = spots[int(np.argmax(tells))].tolist()
+    x, y = spots[greatest(tells)].tolist()
     return round(x), round(y)
 
 

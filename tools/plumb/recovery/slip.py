@@ -15,6 +15,7 @@ import numpy as np
 import scipy
 
 from plumb.model.predict import Array
+from plumb.model.ranks import ranked
 from plumb.recovery.touched import (
     Touch,
     are_apart,
@@ -99,8 +100,9 @@ def find_slip(
     """
     used = sigma or sigma_of(settings, taped=taped)
     fitted = settings.fitted.last_sheet_rotation if taped and settings.fitted else 0.0
-    turned = [_finding(settings, touches, turn, used, fixed) for turn in {fitted, 0.0}]
-    return max(turned, key=lambda finding: finding.log_density)
+    turns = (fitted, 0.0) if fitted else (0.0,)
+    turned = [_finding(settings, touches, turn, used, fixed) for turn in turns]
+    return ranked(turned, lambda finding: -finding.log_density)[0]
 
 
 def _finding(
@@ -155,8 +157,8 @@ def _weighed(
             weigh(SLIP, links, OFTEN[SLIP] * share * AND_SHEET * often, moved)
     totals = {key: float(scipy.special.logsumexp(each)) for key, each in logs.items()}
     whole = float(scipy.special.logsumexp([*totals.values()]))
-    accounts = [Account(*key, odds=float(np.exp(log - whole))) for key, log in totals.items()]
-    return tuple(sorted(accounts, key=lambda account: -account.odds)), whole
+    likeliest = ranked(totals, lambda key: -totals[key])
+    return tuple(Account(*key, odds=float(np.exp(totals[key] - whole))) for key in likeliest), whole
 
 
 def _slip_shares() -> Iterator[tuple[Links, float]]:

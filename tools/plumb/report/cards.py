@@ -16,6 +16,7 @@ from plumb.fit.plausible import plausible_range
 from plumb.model.catalogue import every_effect, place_of
 from plumb.model.plain import plain_range, plain_size, plainly
 from plumb.model.predict import frame_words
+from plumb.model.ranks import ranked
 from plumb.report.findings import Findings
 from plumb.report.maps import fingerprint_map
 from plumb.text.shown import worded
@@ -156,16 +157,16 @@ def _look_alikes(findings: Findings, effect: str, said: str) -> str:
     """The explanations without this effect that draw nearly the same arrows here, with how far
     they are apart; what the catalogue says where there is none."""
     explanations = findings.diagnosis.explanations
-    near = sorted(
+    near = [
         (apart, other)
         for (i, j), apart in findings.diagnosis.differences.items()
         for mine, other in ((i, j), (j, i))
         if effect in explanations[mine].effects and effect not in explanations[other].effects
-    )
+    ]
     said = _with_nouns(said)
     if not near:
         return said
-    apart, other = near[0]
+    apart, other = ranked(near, lambda each: each[0])[0]
     return (
         f"{plainly(explanations[other].effects)}: on these marks only {worded(apart)} RMS apart. "
         f"In general: {said}"

@@ -104,7 +104,8 @@ def _curves(examined: Examined, used: Explanation, rows: Observations) -> tuple[
     """Those of the explanations, best first; of what is added where none stands."""
     if not len(rows.measured):
         return ()
-    drawn = list(examined.explanations[:MOST_CURVES])
+    # The frame alone draws nothing beyond the frame.
+    drawn = [each for each in examined.explanations if each.effects][:MOST_CURVES]
     if not drawn and used.effects:
         drawn = [used]
     return tuple(suspect_curves(examined.readings.frame, each, rows) for each in drawn)

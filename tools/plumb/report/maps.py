@@ -108,7 +108,7 @@ def chain_map(
             _draw_circle(axis, place, radius, longer=size > 0)
             if len(sizes) <= MANY:
                 digits = 1 if unit() == "mm" else 2
-                said = f"{round(in_unit(size), digits) + 0.0:+.{digits}f}"
+                said = f"{in_unit(size):+z.{digits}f}"
                 at = (place[0], place[1] - radius - 12)
                 axis.text(*at, said, ha="center", va="top", fontsize=TYPE, color=light("ink"))
     return inline(figure, says=says, name=name)

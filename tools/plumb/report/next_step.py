@@ -69,7 +69,7 @@ def _headline(findings: Findings, best: Proposal | None) -> str:
         return f"read {names} again, and correct the file."
     if diagnosis.verdict == "one_suspect" and chosen:
         return f"add {plainly(chosen)}, then cut new marks to see that it holds."
-    if diagnosis.verdict == "nothing_provable":
+    if diagnosis.verdict == "nothing_provable" and findings.auto.addition:
         return "use the fitted frame, then cut new marks to see that it holds."
     if best is None:
         return "nothing that can be proposed would tell more."

@@ -243,6 +243,8 @@ def _figures(findings: Findings) -> tuple[Figure, ...]:
 
 def _fall_note(findings: Findings) -> str:
     chosen = findings.auto.chosen
+    if findings.auto.addition is None and not findings.diagnosis.slips:
+        return f"{findings.auto.reason.capitalize()}."
     if findings.auto.rivals and chosen:
         return f"Shown is the most likely explanation, {plainly(chosen)}: it is not settled yet."
     return ""

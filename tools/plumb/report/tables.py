@@ -13,6 +13,7 @@ from plumb.diary.history import DiaryFit
 from plumb.fit.compare import Comparison
 from plumb.model.catalogue import parameter_words
 from plumb.model.plain import noun_of, plain_before, plain_size
+from plumb.model.ranks import ranked
 from plumb.report.cards import hidden_words
 from plumb.report.findings import Findings
 from plumb.settings.fit_record import FitRecord
@@ -89,7 +90,7 @@ def settings_of(findings: Findings) -> tuple[Setting, ...]:
     return tuple(
         Setting(
             said=plain_size(each.name, each.value, each.low, each.high),
-            before=plain_before(each.name, each.before),
+            before=plain_before(each.name, each.before, each.low, each.high),
             name=each.name,
             exact=f"{each.value:.6g} {each.unit} ({each.low:.6g} to {each.high:.6g})",
             number=_number(words.get(each.name)),
@@ -113,10 +114,9 @@ def hiding_in(findings: Findings) -> tuple[Hiding, ...]:
         for hidden in diagnosis.could_hide
         if hidden.mm and hidden.effect not in diagnosis.suspects
     ]
-    known.sort(key=lambda pair: -pair[0])
     return tuple(
         Hiding(noun_of(effect), worded(size, 1), hidden_words(shares[effect]))
-        for size, effect in known[:MOST_HIDING]
+        for size, effect in ranked(known, lambda pair: -pair[0])[:MOST_HIDING]
     )
 
 
@@ -195,7 +195,7 @@ def readings_of(findings: Findings) -> Readings:
         return _distances(findings.comparison)
     typed, slips = findings.inputs.measurements.typed, _slips(findings)
     order = range(len(findings.comparison.marks))
-    shown = sorted(order, key=lambda i: -findings.comparison.marks[i].length)[:MOST_READINGS]
+    shown = ranked(order, lambda i: -findings.comparison.marks[i].length)[:MOST_READINGS]
     rows = []
     for i in sorted(shown):
         mark, left = findings.comparison.marks[i], findings.framed
@@ -219,7 +219,7 @@ def _known(value: float) -> float | None:
 
 
 def _distances(comparison: Comparison) -> Readings:
-    worst = sorted(comparison.distances, key=lambda each: -abs(each.error))[:MOST_READINGS]
+    worst = ranked(comparison.distances, lambda each: -abs(each.error))[:MOST_READINGS]
     rows = tuple(
         Reading(
             " - ".join(each.between),

@@ -116,8 +116,8 @@ def row(each: Trial) -> str:
     motors = f"seed {frame.seed}" if frame.seed else "nominal"
     return (
         f"| {frame.gap:.2f} | {frame.flex:.2f} | {motors} | {frame.volts:.1f} | {each.pull:.0f} | "
-        f"{each.force_error:+.2f} ± {force.interval:.2f} | {drop.gap:.2f} | "
-        f"{each.drop_error:+.2f} ± {drop.interval:.2f} |"
+        f"{each.force_error:+z.2f} ± {force.interval:.2f} | {drop.gap:.2f} | "
+        f"{each.drop_error:+z.2f} ± {drop.interval:.2f} |"
     )
 
 

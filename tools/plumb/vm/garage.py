@@ -14,6 +14,7 @@ from plumb.firmware.numbers import CLIENT_NUMBERS, firmware_numbers
 from plumb.line.sender import Sender
 from plumb.model.predict import judged
 from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError
 from plumb.vm.hiding import astray
 
 __all__ = ["Garage", "VirtualMachine", "random_garage", "set_up", "with_new_sheet"]
@@ -53,17 +54,23 @@ class Garage:
         return float(self.on_sheet(middle)[0, 1])
 
     def machine(self, *, elf: str | None = None, shield: int = SHIELD) -> VirtualMachine:
-        """The machine with an empty memory, its chains laid, without power; `shield`: N of v1.N."""
-        friction = self.friction + self.hidden.drag
-        return VirtualMachine(
-            self.numbers,
-            friction=friction,
-            seed=self.seed,
-            paid_out=EXTENDED,
-            elf=elf,
-            over_top=self.settings.feed == "top",
-            shield=shield,
-        )
+        """The machine with an empty memory, its chains laid, without power; `shield`: N of v1.N.
+
+        InputError where the simulated Mega cannot run `elf`, or was not there when the lab was
+        built.
+        """
+        try:
+            return VirtualMachine(
+                self.numbers,
+                friction=self.friction + self.hidden.drag,
+                seed=self.seed,
+                paid_out=EXTENDED,
+                elf=elf,
+                over_top=self.settings.feed == "top",
+                shield=shield,
+            )
+        except RuntimeError as error:
+            raise InputError(str(error)) from None
 
     def on_sheet(self, places: Array) -> Array:
         """Places (n, 2) [mm] of the sled as the sheet has them, from its middle."""

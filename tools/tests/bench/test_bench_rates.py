@@ -41,6 +41,7 @@ def value(rate, of):
     return rate_of(rate, of).value
 
 
+@pytest.mark.slow
 def test_nothing_is_named_where_nothing_is_hidden():
     results = outcomes("none-9", (24, 28, 30)) + outcomes("none-25", (2, 3, 5, 6, 7))
     assert value("false naming", results) == 0
@@ -56,6 +57,7 @@ def test_noise_from_few_repeats_invents_nothing():
         assert diagnose(Inputs(MAKER, measured)).verdict == "nothing_provable"
 
 
+@pytest.mark.slow
 def test_an_effect_of_three_millimetres_is_named_first_and_with_few_others():
     results = outcomes("one-25", (3, 6, 7, 8, 15, 16, 19, 20))
     assert value("right class first", results) == 1
@@ -70,12 +72,14 @@ def test_nine_marks_still_name_most():
     assert value("truth inside", results) == 1
 
 
+@pytest.mark.slow
 def test_what_the_library_does_not_know_is_flagged():
     # A bump, a cubic field and a sled that tips.
     assert value("flagged", outcomes("unknown-25", range(3))) == 1
     assert value("flagged", outcomes("unknown-9", range(3))) == 1
 
 
+@pytest.mark.slow
 def test_a_slip_is_named_before_any_effect():
     for name in ("slip-9", "slip-one-25", "slip-digits"):
         results = outcomes(name, range(2))
@@ -87,6 +91,7 @@ def test_two_effects_are_both_named():
     assert value("both", outcomes("pairs-25", (0, 1, 3))) == 1
 
 
+@pytest.mark.slow
 def test_what_is_added_brings_the_sled_near_to_the_known_truth():
     scenario = next(scenario for scenario in SCENARIOS if scenario.name == "one-25")
     # Pitch may take a look-alike along; the others are cured as if the truth were known.
@@ -236,6 +241,7 @@ def test_the_command_prints_rates_and_names_its_scenarios(run, ask, tmp_path):
     assert code == 2 and "everything" in complaint and "none-9" in complaint
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_rates_however_many_programs_run():
     scenarios = [scenario for scenario in SCENARIOS if scenario.name in ("none-9", "slip-9")]
     alone, together = (

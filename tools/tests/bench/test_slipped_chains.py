@@ -19,6 +19,7 @@ PURE = [mishap for mishap in MISHAPS if mishap.links != NO_LINKS and not mishap.
 HARMLESS = [mishap for mishap in MISHAPS if mishap.links == NO_LINKS]
 
 
+@pytest.mark.slow
 def test_the_right_chain_and_count_are_named():
     counts = [count_slips(mishap, BOARDS) for mishap in PURE]
     assert len(counts) == 48
@@ -26,6 +27,7 @@ def test_the_right_chain_and_count_are_named():
     assert sum(count.false for count in counts) == 0
 
 
+@pytest.mark.slow
 def test_no_slip_is_named_where_there_is_none():
     counts = [count_slips(mishap, range(1, 25)) for mishap in HARMLESS]
     assert len(counts) == 6

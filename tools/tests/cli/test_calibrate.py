@@ -7,11 +7,15 @@ import re
 import shlex
 import shutil
 from dataclasses import replace
+from importlib import resources
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from plumb.cli.calibrate_text import Round, sentence
 from plumb.cli.main import build_parser
+from plumb.diagnosis.left_open import LeftOpen
 from plumb.settings.files import read_settings, write_machine_toml
 from synthetic import BELIEVED, EFFECTS, TRUE, grid, marks_on
 
@@ -113,6 +117,58 @@ def test_a_slip_comes_first_and_the_mark_can_be_left_out(run):
     assert without == [*corrected, "--without", "11"]
     code, said, _ = run(*without)
     assert code == 0 and Path("machine.toml").exists()
+
+
+MADGRIZZLE = resources.files("plumb") / "examples/madgrizzle-2018-09-04/groundcontrol.ini"
+ROW = """name,target_x_mm,target_y_mm,measured_x_mm,measured_y_mm
+a,-1000,500,-1002.8,500.2
+b,0,500,-0.2,497.4
+c,1000,500,1000.8,502.1
+"""
+CORNERS = """d,-1000,-450,-1001.6,-450.9
+e,1000,-450,1001,-448
+"""
+
+
+def test_marks_in_a_row_are_too_little_and_more_marks_are_asked_for(run, file):
+    row = file("row.csv", ROW)
+    code, said, _ = run("calibrate", MADGRIZZLE, row)
+    assert code == 1 and not Path("machine.toml").exists()
+    text = " ".join(said.split())
+    assert "Nothing is provable" in text and "these marks leave 1.1 mm open" in text
+    assert re.search(r"Not yet: first measure \d+ more marks, about \d+ minutes; nothing", text)
+    cut, again = printed(said)
+    assert cut[0] == "next" and "--output" in cut and again[0] == "calibrate"
+    code, said, _ = run("add", MADGRIZZLE, row, "--effect", "auto", "-o", "machine.toml")
+    assert code == 1 and not Path("machine.toml").exists()
+    assert printed(said)[0][0] == "next"
+    assert printed(run("diagnose", MADGRIZZLE, row)[1])[-1][0] == "next"
+    assert run("report", MADGRIZZLE, row, "-o", "report.html")[0] == 0
+    page = " ".join(Path("report.html").read_text().split())
+    assert "Nothing was added: of the" in page and "Write the new settings" not in page
+    assert "use the fitted frame" not in page
+    # Two more, near the lower corners, are enough.
+    code, said, _ = run("calibrate", MADGRIZZLE, file("more.csv", ROW + CORNERS))
+    assert "mm open;" not in " ".join(said.split())
+
+
+@pytest.mark.parametrize(("now", "first"), [(0.9, "marks"), (0.1, "check")])
+def test_marks_come_first_where_there_are_too_few(now, first):
+    check, marks = (
+        SimpleNamespace(option=SimpleNamespace(is_cut=is_cut, title=title, minutes=9))
+        for is_cut, title in ((False, "check"), (True, "marks"))
+    )
+    diagnosis = SimpleNamespace(left_open=LeftOpen(2.0, now), slips=())
+    result = SimpleNamespace(diagnosis=diagnosis, addition=None)
+    this = Round(None, result, SimpleNamespace(proposals=(check, marks)))
+    assert f"first measure {first}, about 9 minutes" in sentence(this)
+
+
+def test_too_few_marks_for_an_effect_are_no_refusal_where_nobody_named_it(run, monkeypatch):
+    monkeypatch.setattr("plumb.cure.live_board.different_numbers", lambda *_: 5)
+    code, said, complaint = run("calibrate", INI, "marks.toml")
+    assert (code, complaint) == (1, "") and "5 measured numbers cannot settle" in said
+    assert "Not yet: first measure " in said and not Path("machine.toml").exists()
 
 
 def test_the_client_that_was_named_counts(run):

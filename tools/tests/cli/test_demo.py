@@ -94,4 +94,4 @@ def test_mega_alone_runs_the_program_that_was_built(tmp_path, monkeypatch, capsy
     monkeypatch.setattr("plumb.cli.demo.BUILT", "absent.elf")
     assert main(["--folder", str(tmp_path), "--mega"]) == 2
     said = capsys.readouterr().err
-    assert said == "demo: --mega: cannot read absent.elf; build it with pio run\n"
+    assert said == "demo: cannot read absent.elf; build it with pio run\n"

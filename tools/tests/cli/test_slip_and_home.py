@@ -206,3 +206,12 @@ def test_a_touch_without_a_name_of_a_home_mark_does_not_fit_one(run):
     run("home", "machine.toml", "--keep=left=-900,250")
     code, _, error = run("home", "machine.toml", "--at", "left", "--touch=1,2:3,4")
     assert code == 2 and "give the name of a home mark" in error
+
+
+def test_a_hole_on_the_left_half_needs_no_equals_sign(run):
+    wanted = run("slip", "machine.toml", *SLIPPED)
+    assert run("slip", "machine.toml", *(word for each in SLIPPED for word in each.split("="))) == (
+        wanted
+    )
+    kept = run("home", "machine.toml", "--keep", "-900,250")
+    assert kept[0] == 2 and "is not NAME=X,Y" in kept[2]

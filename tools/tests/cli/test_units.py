@@ -10,6 +10,7 @@ from plumb.marks.read import join_measurements, read_marks
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 INI, MARKS = EXAMPLE / "groundcontrol.ini", EXAMPLE / "marks.toml"
 SHEET = (2438.4, 1219.2)
+INCHES = ("--units", "inch")
 
 
 def row_of(said, name="1"):
@@ -131,3 +132,20 @@ def test_json_and_files_stay_in_mm(ask, run, tmp_path):
 def test_the_unit_of_a_command_does_not_stay_for_the_next(run):
     run("compare", INI, MARKS, "--units", "inch")
     assert "inch" not in run("compare", INI, MARKS)[1]
+
+
+def test_in_inches_a_number_before_is_as_fine_as_after(run):
+    said = run("add", INI, MARKS, "--effect", "chain_pitch", *INCHES)[1]
+    row = next(line for line in said.splitlines() if line.startswith("gap between the motors"))
+    assert re.fullmatch(r"gap between the motors 117.\d\d inch \(.*\) +117.26 inch", row), row
+
+
+def test_a_number_that_moved_too_far_is_said_in_the_unit_on_the_screen(run, tmp_path):
+    marks = tmp_path / "marks.csv"
+    places = [(x, y) for x in (-1000, 0, 1000) for y in (450, -450)]
+    rows = [f"{x},{y},{x * 1.01},{y * 1.01}" for x, y in places]
+    marks.write_text("\n".join(["target_x_mm,target_y_mm,measured_x_mm,measured_y_mm", *rows]))
+    said = " ".join(run("add", INI, marks, "--effect", "none", *INCHES)[1].split())
+    moved = re.search(r"gap between the motors moved by ([-+][\d.]+) inch from the stated", said)
+    assert moved and abs(float(moved[1])) > 0.236
+    assert "the stated 117.260 inch, more than twice the 0.118 inch it was trusted to" in said

@@ -9,16 +9,21 @@ import numpy as np
 import pytest
 from hidden_boards import MAKER, board, plan, size_for
 from plumb.cli.main import main
+from plumb.cure import auto
 from plumb.cure.auto import add_auto, without_marks
 from plumb.cure.demo import MARKS, SETTINGS
 from plumb.diagnosis import diagnose
+from plumb.diagnosis.answer import Together
 from plumb.fit.inputs import Inputs
-from plumb.marks.read import read_marks
+from plumb.marks.read import Measurements, read_marks
+from plumb.model.catalogue import parameter_words
 from plumb.model.plain import noun_of
 from plumb.settings.files import read_settings
 from plumb.text.errors import InputError
+from synthetic import BELIEVED, grid, marks_on
 
 WIDE = plan(5, 5)
+DATA = Path(__file__).resolve().parents[1] / "data"
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 NEGATIVE_STRETCH = Path(__file__).with_name("negative_stretch.toml")
 
@@ -80,6 +85,34 @@ def test_a_choice_is_said_to_be_one_with_what_would_settle_it():
     assert checks and {*checks} <= open_ones and len(checks) == len({*checks})
 
 
+@pytest.mark.parametrize(
+    ("marks", "chosen"),
+    [
+        ("frame_or_chain_zero.toml", {"chain_zero"}),
+        ("frame_or_runout.toml", {"chain_stretch", "sprocket_runout"}),
+    ],
+)
+def test_the_frame_alone_is_a_rival_and_no_choice_is_its_own(marks, chosen):
+    stock = read_settings(DATA / "stock_bottom.ini")
+    result = add_auto(Inputs(stock, read_marks(DATA / marks, sheet=stock.sheet)))
+    assert {*result.chosen} == chosen and result.done
+    assert () in result.rivals and chosen not in map(set, result.rivals)
+    assert "the frame alone as well" in result.reason
+
+
+def test_where_the_best_is_needless_the_frame_stands_against_the_others(monkeypatch):
+    inputs = Inputs(MAKER, board({}, WIDE, seed=6))
+    both = tuple(Together((name,), {name: ()}, 0.5) for name in ("chain_pitch", "chain_zero"))
+    diagnosis = replace(diagnose(inputs), verdict="cannot_tell", explanations=both)
+    diagnosis = replace(diagnosis, to_add=("chain_pitch",))
+    monkeypatch.setattr(auto, "_is_needless", lambda name, addition: name == "chain_pitch")
+    result = add_auto(inputs, diagnosis=diagnosis)
+    assert result.chosen == () and result.rivals == (("chain_zero",),) and result.done
+    assert "the frame alone explains the marks best, but they allow" in result.reason
+    alone = add_auto(inputs, diagnosis=replace(diagnosis, explanations=both[:1]))
+    assert alone.chosen == () and alone.rivals == () and not alone.done
+
+
 def test_nothing_is_added_where_nothing_is_hidden():
     result = add_auto(Inputs(MAKER, board({}, WIDE, seed=6)))
     assert result.chosen == () and result.done
@@ -116,6 +149,19 @@ def test_a_known_effect_is_not_left_out_because_another_is_unknown():
     assert result.diagnosis.verdict == "not_in_library" and not result.done
     assert "chain_plane" in result.chosen
     assert result.addition.after.left_out_rms < 0.7 * result.addition.before.left_out_rms
+
+
+@pytest.mark.parametrize(("share", "is_added"), [(0.5, True), (3.0, False)])
+def test_where_not_all_is_known_no_size_is_added_that_no_machine_has(share, is_added):
+    # The effect pays in both: marks that are left out are predicted better with it.
+    largest = parameter_words()["chain_pitch.left"]["high"]
+    true = replace(BELIEVED, effects={"chain_pitch": {"left": share * largest}})
+    marks = marks_on(true, BELIEVED, grid(5, 5), noise=0.5, seed=3)
+    inputs = Inputs(BELIEVED, Measurements(marks, source="made up"), sigma=0.5)
+    unknown = replace(diagnose(inputs), verdict="not_in_library", to_add=("chain_pitch",))
+    result = add_auto(inputs, diagnosis=unknown)
+    assert (result.chosen == ("chain_pitch",)) is is_added
+    assert result.addition.effects_added == result.chosen
 
 
 def test_a_tape_that_reads_long_is_fitted_along_and_its_remedy_told():

@@ -93,6 +93,9 @@ def test_repeats_count_only_what_was_done_alike():
         (Spread(12 * 0.16, 12), Stated(0.5), "stated and repeats", 0.4484, 22),
         (Spread(2 * 0.16, 2), Stated(0.5), "stated and repeats", 0.4848, 12),
         (Spread(12 * 1.0, 12), Stated(0.5), "repeats", 1.0, 12),
+        # Few repeats do not overrule a statement, however much they differ from it.
+        (Spread(5 * 4.0, 5), Stated(0.5), "stated and repeats", 1.2247, 15),
+        (Spread(6 * 4.0, 6), Stated(0.5), "repeats", 2.0, 6),
         (Spread(12 * 0.01, 12), Stated(0.5), "repeats", 0.1, 12),
         (Spread(12 * 1.0, 12), Stated(0.5, is_final=True), "stated", 0.5, np.inf),
     ],

@@ -87,6 +87,7 @@ def test_a_torn_sheet_is_told_by_its_halves():
     assert any("left and right half" in warning for warning in diagnosis.disagreements)
 
 
+@pytest.mark.slow
 def test_whole_sheets_have_no_halves():
     said = [
         diagnose(

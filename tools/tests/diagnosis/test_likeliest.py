@@ -7,11 +7,14 @@ from plumb.bench.causes import MAKER, PUBLISHED, Hidden
 from plumb.bench.hiding import usual_machine
 from plumb.board.observations import observe
 from plumb.cure.auto import add_auto
-from plumb.diagnosis import diagnose
+from plumb.diagnosis import diagnose, judgement
+from plumb.diagnosis.clean import felt_effects
 from plumb.diagnosis.explanation import Board, explain
-from plumb.diagnosis.likeliest import listing
+from plumb.diagnosis.likeliest import Likeliest, Likely, listing
+from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.sentence import verdict_sentence
-from plumb.diagnosis.weighing import left_out
+from plumb.diagnosis.significance import KNOWN
+from plumb.diagnosis.weighing import accounts, left_out, weigh
 from plumb.fit.inputs import Inputs
 
 WIDE = plan(5, 5, repeats=True)
@@ -56,10 +59,33 @@ def test_a_field_that_no_mechanics_made_is_still_in_no_library():
     assert diagnose(Inputs(PUBLISHED, board.measurements)).verdict == "not_in_library"
 
 
+def test_where_the_frame_alone_is_likeliest_nothing_is_provable(monkeypatch):
+    def frame_alone(frame, felt, noise):
+        return Likeliest((Likely(frame, 1.0),), 0.0)
+
+    monkeypatch.setattr(judgement, "likeliest", frame_alone)
+    diagnosis = diagnose(Inputs(PUBLISHED, usual(0).measurements))
+    assert diagnosis.verdict == "nothing_provable"
+    assert diagnosis.explanations == () and diagnosis.to_add == ()
+
+
 def test_published_settings_leave_out_the_stretch():
     for settings, missing in ((MAKER, ()), (PUBLISHED, ("chain_stretch",))):
         rows = observe(settings, usual(0).measurements)
         assert left_out(explain(Board.of(settings, rows, sigma=0.4))) == missing
+
+
+def test_that_nothing_acts_is_an_account_too():
+    board = cut(Hidden(), WIDE, seed=5, noise=0.4, tape_sigma=0.4, settings=MAKER)
+    frame = explain(Board.of(MAKER, observe(MAKER, board.measurements), sigma=0.4))
+    felt = felt_effects(frame)
+    sets, before = accounts(frame, felt)
+    weights = dict(zip(sets, before, strict=True))
+    assert weights[()] == 0 and weights[felt[:1]] == pytest.approx(np.log(0.1 / 0.9))
+    weighed = weigh(frame, felt, Noise(0.4, KNOWN, "stated"))
+    assert weighed.best == ()
+    # Without it a board on which nothing acts would be taken for one with an effect.
+    assert listing(weighed.effects, weighed.clean)[0].effects == ()
 
 
 def test_a_set_with_more_effects_than_a_likelier_one_counts_with_it():

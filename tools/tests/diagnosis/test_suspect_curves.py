@@ -16,6 +16,7 @@ from plumb.diagnosis.suspect_curves import (
 )
 from plumb.fit.covariates import covariates
 from plumb.marks.read import Mark, Measurements
+from plumb.model.ranks import ascending
 from synthetic import BELIEVED, TRUE, grid, marks_on
 
 RUNOUT = {"left_sine": 0.4, "left_cosine": 0.0, "right_sine": 0.0, "right_cosine": 0.0}
@@ -64,7 +65,7 @@ def test_four_fifths_of_the_places_lie_in_the_shade(stretched):
     drawn = added_chains(frame, both, sheet)[:, 0]
     heights = next(each for each in covariates(model_by(frame), sheet) if each.name == "height")
     curve = suspect_curves(frame, both, frame.board.rows).curves["height"][0]
-    order = np.argsort(heights.values[:, 0], kind="stable")
+    order = ascending(heights.values[:, 0])
     bins = np.array_split(order, BINS)
     inside = [
         np.mean((drawn[part] >= low) & (drawn[part] <= high))

@@ -36,6 +36,12 @@ PAIR = LONG[:2]
             + [account("chain_sag", share=0.1)],
             "; next, chain stretch and chains too long or too short (1 to 1), and 1 more.",
         ),
+        (
+            "cannot_tell",
+            [account("chain_sag", share=0.5), account(share=0.3)],
+            "Something may be missing: the fitted frame leaves 2.00 mm RMS. Most likely: "
+            "chain sag (odds 1 to 1); next, the frame alone (1 to 2).",
+        ),
         ("not_in_library", [], "more than noise."),
         ("not_in_library", [account(*LONG)] * 3, "3 effects at once; or 2 more could be it"),
         ("not_in_library", [account(*PAIR)] * 6, "2 effects at once; or 5 more could be it"),

@@ -8,7 +8,7 @@ from plumb.cure.add import add
 from plumb.cure.record import record_of
 from plumb.diary.entries import FIT, fit_entry
 from plumb.diary.file import append, read_diary
-from plumb.diary.recheck import LEFT, RIGHT, recheck
+from plumb.diary.recheck import LEFT, RIGHT, SHEET_X, recheck
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements
 from plumb.model.predict import lengths, places
@@ -54,6 +54,7 @@ def machine(tmp_path_factory):
     return settings, read_diary(folder)
 
 
+@pytest.mark.slow
 def test_an_unchanged_machine_is_within_its_interval_ninety_nine_times_of_a_hundred(tmp_path):
     source, holds, sizes = np.random.default_rng(5), [], []
     for seed in range(1, 41):
@@ -114,3 +115,17 @@ def test_settings_that_the_diary_does_not_know_are_refused(machine):
     settings, diary = machine
     with pytest.raises(InputError, match="knows no fit that gave these settings"):
         recheck(diary, BELIEVED, touched(settings))
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_what_explains_marks_alike_comes_in_the_same_order_on_every_processor(machine, seed):
+    """Marks that lie off along x: the sheet moved, or both motors did, by the very same column."""
+    settings, diary = machine
+    rounding = 1e-12 * np.random.default_rng(seed).standard_normal(AT.shape)
+    along_x = np.array([(5.0, 0.0), (5.0, 0.0)])
+    checked = recheck(diary, settings, touched(settings, noise=along_x * (1 + rounding)))
+    first, second = checked.changes[:2]
+    assert (first.name, second.name) == (SHEET_X, "motor_center_x")
+    assert first.chi_square == pytest.approx(second.chi_square, rel=1e-9)
+    names = [change.name for change in checked.changes]
+    assert len(set(names)) == len(names) and {LEFT, RIGHT, "motor_gap"} <= set(names)

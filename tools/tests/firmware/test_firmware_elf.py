@@ -129,7 +129,7 @@ def test_the_loop_runs_at_200_hz_if_a_setting_asks_for_it(player):
     assert 0.12 < counted["tick_share_streaming"] < 0.3
 
 
-@pytest.mark.parametrize("dialogue", ["hangs.nc", "held.nc", "watchdog.nc", "board.nc"])
+@pytest.mark.parametrize("dialogue", ["hangs.nc", "held.nc", "stack.nc", "watchdog.nc", "board.nc"])
 def test_motors_are_let_go_when_the_firmware_hangs_or_the_board_fails(player, dialogue):
     done = played(player, DIALOGUES, dialogue)
     assert done.returncode == 0, done.stdout + done.stderr

@@ -11,11 +11,11 @@ from plumb.fit.expected import (
     ROWS,
     WIDE,
     Expected,
-    _over,
     expected_anywhere,
     expected_error,
     expected_priors,
     expected_sentence,
+    places_over,
 )
 from plumb.fit.fit import rms
 from plumb.fit.problem import PRIORS
@@ -84,11 +84,11 @@ def test_all_of_it_is_the_frame_and_the_effects():
 
 
 def test_places_reach_all_over_the_sheet():
-    looked_at = _over((2000.0, 1000.0))
+    looked_at = places_over((2000.0, 1000.0))
     assert looked_at.shape == (COLUMNS * ROWS, 2)
     assert looked_at.max(axis=0).tolist() == [1000 - MARGIN, 500 - MARGIN]
     assert looked_at.min(axis=0).tolist() == [MARGIN - 1000, MARGIN - 500]
-    by_places = expected_error(BELIEVED, PRIORS, at=_over(BELIEVED.sheet))
+    by_places = expected_error(BELIEVED, PRIORS, at=places_over(BELIEVED.sheet))
     assert expected_error(BELIEVED, PRIORS) == by_places
     assert expected_anywhere(BELIEVED, PRIORS) == by_places
 

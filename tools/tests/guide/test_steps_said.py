@@ -24,13 +24,15 @@ class Sent(Visit):
 
     def move(self, *lines):
         self.sent += lines
+        if "G0 Z1" in lines:
+            self.sender.status.place = (0.0, 0.0, 1.0)
         return next((why for word, why in self.alarms.items() if word in " ".join(lines)), "")
 
 
 @pytest.fixture
 def numbers(monkeypatch):
     """The numbers that the machine holds."""
-    held = {11: 1651.0, 16: 1.0}
+    held = {11: 1651.0, 16: 1.0, 29: 1300.0}
     monkeypatch.setattr(steps, "read_numbers", lambda _sender: held)
     return held
 
@@ -75,7 +77,7 @@ def test_what_was_not_agreed_to_is_not_sent(tmp_path, numbers, answers):
         ((0.0, 0.0, 9.0), True),
     ],
 )
-def test_a_mark_is_made_only_in_the_middle(tmp_path, place, is_there):
+def test_a_mark_is_made_only_in_the_middle(tmp_path, numbers, place, is_there):
     width, height = BELIEVED.sheet
     visit = Sent(tmp_path, ["y", "y", f"{width / 2}", f"{height / 2}"], place=place)
     assert first_mark(visit) is is_there
@@ -85,19 +87,19 @@ def test_a_mark_is_made_only_in_the_middle(tmp_path, place, is_there):
     assert (said in visit.said) is not is_there
 
 
-def test_an_alarm_on_the_way_to_the_middle_is_said_and_no_mark_made(tmp_path):
+def test_an_alarm_on_the_way_to_the_middle_is_said_and_no_mark_made(tmp_path, numbers):
     visit = Sent(tmp_path, ["y"], alarms={"B15": "Sled Not Keeping Up"})
     assert not first_mark(visit) and visit.sent == ["B15"]
     assert visit.said[-1] == "The sled is not in the middle: Sled Not Keeping Up"
 
 
 @pytest.mark.parametrize("answers", [["n"], ["y", "n"]])
-def test_a_mark_that_was_not_agreed_to_is_not_made(tmp_path, answers):
+def test_a_mark_that_was_not_agreed_to_is_not_made(tmp_path, numbers, answers):
     visit = Sent(tmp_path, answers)
     assert not first_mark(visit) and visit.sent == ["B15"][: len(answers) - 1]
 
 
-def test_an_alarm_at_the_mark_is_no_mark(tmp_path):
+def test_an_alarm_at_the_mark_is_no_mark(tmp_path, numbers):
     visit = Sent(tmp_path, ["y", "y"], alarms={"Z-2": "Z is stuck"})
     assert not first_mark(visit) and visit.said[-1] == "The machine stopped: Z is stuck"
 
@@ -109,7 +111,7 @@ def test_z_is_jogged_only_where_it_has_a_motor(tmp_path, numbers, attached, axes
     assert check_wires(visit)
     jogs = [line for line in visit.sent if line.startswith(("B09", "G0", "G1"))]
     assert len(jogs) == 2 * len(axes) and len(visit.sent) == 6 * len(axes)
-    assert ("G0 Z5" in visit.sent) is ("G0 Z-5" in visit.sent) is (attached > 0)
+    assert ("G0 Z1" in visit.sent) is ("G0 Z-1" in visit.sent) is (attached > 0)
     assert ("B09 L-20 F300" in visit.sent) and ("B09 R20 F300" in visit.sent)
 
 

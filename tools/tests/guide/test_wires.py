@@ -3,9 +3,10 @@
 import pytest
 from plumb.bench.causes import Hidden
 from plumb.guide.progress import Progress
-from plumb.guide.steps import Visit
+from plumb.guide.steps import Visit, check_wires
 from plumb.guide.talk import Talk
-from plumb.guide.wires import chain_jog, remedy
+from plumb.guide.wires import chain_jog, ran_away, remedy
+from plumb.line.memory import read_numbers
 from plumb.line.sender import Sender
 from plumb.vm.garage import Garage
 from plumb.vm.in_process import InProcessPort
@@ -53,8 +54,98 @@ def test_the_wrong_motor_moved_so_a_plug_is_on_the_wrong_socket(axis, plug):
     assert plug in remedy(axis, "o", "")
 
 
-def test_z_that_goes_down_wants_another_sign():
-    assert "$20" in remedy("z", "l", "")
+Z_FAULTS = {
+    (): "",
+    ("motor_reversed",): "power wires of the z motor are swapped",
+    ("encoder_reversed",): "encoder of the z motor counts backwards",
+    ("motor_reversed", "encoder_reversed"): "give $19 (its travel for one turn) the other sign",
+    ("motor_unplugged",): "gets no power",
+    ("encoder_unplugged",): "its encoder is silent",
+}
+
+
+class FirstDay:
+    """A machine that no client ever spoke to, and an owner who watches z as well as he can."""
+
+    def __init__(self, folder, faults, *, sees=0.05):
+        self.machine = Garage(Hidden()).machine()
+        for fault in faults:
+            self.machine.set_wire("z", fault, True)
+        self.machine.start()
+        self.said, self._sees, self._before = [], sees, 0.0
+        self.sender = Sender(InProcessPort(self.machine))
+        self.sender.await_start()
+        self.visit = Visit(self.sender, Talk(self.said.append, self._answer), Progress(folder))
+        self.heights = []
+        self.sender.attend = lambda _: self.heights.append(self.machine.height)
+
+    def _answer(self, question):
+        if "router go up" not in question:
+            self._before = self.machine.height
+            return "s" if "What did you see" in question else "y"
+        went = self.machine.height - self._before
+        return "n" if abs(went) < self._sees else "s" if went > 0 else "l"
+
+    def check(self):
+        """Take the step; what it says of z at the end."""
+        self.said.clear()
+        self.heights.clear()
+        done = check_wires(self.visit)
+        return done, "" if done else self.said[-1]
+
+
+@pytest.mark.parametrize("faults", Z_FAULTS, ids="-".join)
+def test_a_fault_of_z_is_named_before_it_has_gone_far(tmp_path, faults):
+    day = FirstDay(tmp_path, faults)
+    done, said = day.check()
+    assert done is (not faults) and Z_FAULTS[faults] in said
+    assert max(map(abs, day.heights)) < 1.05
+    day.machine.advance(60_000)
+    assert abs(day.machine.height) < 1.05
+    assert read_numbers(day.sender)[29] == 1300
+
+
+@pytest.mark.parametrize(
+    "faults", [each for each in Z_FAULTS if "reversed" in str(each)], ids="-".join
+)
+def test_z_rises_when_what_was_named_is_done(tmp_path, faults):
+    day = FirstDay(tmp_path, faults)
+    day.check()
+    if len(faults) == 1:
+        day.machine.set_wire("z", faults[0], False)
+    else:
+        day.sender.stream(["$19=-3.17"])
+    assert day.check() == (True, "")
+    assert max(day.heights) - day.heights[0] > 0.7
+
+
+@pytest.mark.parametrize("fault", ["motor_reversed", "encoder_reversed"])
+def test_an_owner_who_saw_nothing_is_led_to_the_cure_all_the_same(tmp_path, fault):
+    day = FirstDay(tmp_path, (fault,), sees=0.5)
+    assert "are swapped, or its encoder counts backwards" in day.check()[1]
+    # He exchanges the power wires, which was wrong if it was the encoder.
+    day.machine.set_wire("z", "motor_reversed", fault == "encoder_reversed")
+    done, said = day.check()
+    assert done is (fault == "motor_reversed")
+    if not done:
+        assert "give $19" in said
+        day.sender.stream(["$19=-3.17"])
+        assert day.check() == (True, "")
+
+
+def test_what_ran_away_is_not_called_good(tmp_path):
+    day = FirstDay(tmp_path, ())
+    day.sender.stream(["$33=0"])
+    done, said = day.check()
+    assert not done and "was to move by 1.00 mm and counts 0." in said
+    assert day.machine.height > 0.5, "and is not moved again"
+    for asked, counted, is_good in [
+        (1, 1.29, True),
+        (1, 0.71, True),
+        (1, 1.31, False),
+        (1, 0.69, False),
+    ]:
+        assert (ran_away(asked, counted) == "") is is_good
 
 
 def test_an_alarm_that_names_no_wire_is_said_as_it_is():

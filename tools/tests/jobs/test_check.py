@@ -77,8 +77,46 @@ def test_a_rapid_in_the_wood_is_a_gouge_if_it_goes_across(way, is_gouge):
     assert (GOUGES in {each.kind for each in checked.findings}) is is_gouge
 
 
+def test_a_rapid_down_and_across_is_a_single_gouge():
+    assert lines_and_kinds(["G0 Z5", "G0 X9 Z-5", "G0 Z9"]) == [(2, GOUGES)]
+
+
 def test_a_rapid_way_of_a_drilling_cycle_is_no_gouge():
     assert check(MAKER, ["G0 Z2", "G83 X9 Z-6 R1 Q2 F50", "X20", "G80", "G0 X0"]).is_good
+
+
+@pytest.mark.parametrize(
+    ("lines", "gouges"),
+    [
+        (["G0 Z5", "G0 X10 Y10", "G0 Z-12"], [(3, "12.00")]),
+        (["G0 Z5", "G53 G0 Z-5"], [(2, "5.00")]),
+        (["G20", "G0 Z.2", "G0 Z-.5"], [(3, "12.70")]),
+        (["G0 Z5", "G0 Z-0.009"], []),
+        (["G0 Z5", "G0 Z-0.02"], [(2, "0.02")]),
+        # A hole that is there gives room, as far as it goes, and where it is.
+        (["G1 Z-3 F60", "G0 Z5", "G0 Z-2.5", "G1 Z-5"], []),
+        (["G1 Z-3 F60", "G0 Z5", "G0 Z-4", "G0 Z5"], [(3, "1.00")]),
+        (["G1 Z-3 F60", "G0 Z5", "G0 X1", "G0 Z-3", "G0 Z5"], [(4, "3.00")]),
+        (["G1 Z-3 F60", "G1 X40 F500", "G0 Z5", "G0 X21.3", "G0 Z-3", "G1 Z-4"], []),
+        (["G1 Z-3 F60", "G2 X40 I20 F500", "G0 Z5", "G0 X20 Y20", "G0 Z-3", "G0 Z4"], []),
+        (
+            ["G1 Z-3 F60", "G2 X40 I20 F500", "G0 Z5", "G0 X20 Y19", "G0 Z-3", "G0 Z4"],
+            [(5, "3.00")],
+        ),
+        (["G1 Z-3 F60", "G1 X40 F500", "G0 Z5", "G0 Z-3", "G1 Z-4"], []),
+        # The way up gouges nothing.
+        (["G0 Z-5", "G0 Z-3"], [(1, "5.00")]),
+        # A rapid makes no room, and neither does what is cut later.
+        (["G0 Z-3", "G0 Z5", "G0 Z-3", "G1 Z-4 F60"], [(1, "3.00"), (3, "3.00")]),
+        (["G0 Z2", "G83 X9 Z-6 R1 Q2 F50", "G80"], []),
+        (["G0 Z2", "G81 X9 Z-6 R-1 F50", "G80"], [(2, "1.00")]),
+    ],
+)
+def test_a_rapid_into_wood_that_nothing_has_cut_is_a_gouge(lines, gouges):
+    findings = check(MAKER, [*lines, "G0 Z9"]).findings
+    assert [(each.line, each.kind) for each in findings] == [(line, GOUGES) for line, _ in gouges]
+    for finding, (_, deep) in zip(findings, gouges, strict=True):
+        assert finding.says == f"G0 drives the bit {deep} mm down into wood that nothing has cut"
 
 
 def test_a_cut_in_a_corner_is_where_the_chains_cannot_hold_the_sled():

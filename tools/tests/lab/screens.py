@@ -16,7 +16,13 @@ PICTURES = ROOT / ".build/lab/screenshots"
 SIZES = {"desktop": (1280, 900), "phone": (375, 740)}
 SCHEMES = ("light", "dark")
 BUSY_S = 180  # of a busy computer
-SETTLED_MS = 400  # after the last answer, for what is drawn then
+DRAWN = """async () => {
+  const frame = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+  await frame();
+  await frame();
+  const fading = document.getAnimations().filter((each) => each.effect.getTiming().iterations < 99);
+  await Promise.allSettled(fading.map((each) => each.finished));
+}"""
 SMALLEST_TEXT = 14  # CSS pixels; the body has 18
 SMALLEST_TARGET = 44  # CSS pixels, for a finger
 
@@ -139,7 +145,12 @@ def settle(page):
     page.wait_for_load_state("networkidle")
     busy = "() => !document.querySelector('[aria-busy=true], progress:not([value])')"
     page.wait_for_function(busy, timeout=120_000)
-    page.wait_for_timeout(SETTLED_MS)
+    drawn(page)
+
+
+def drawn(page):
+    """Wait until the page has drawn what the last answer changed, and nothing fades any longer."""
+    page.evaluate(DRAWN)
 
 
 def walk(page):

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import httpx2
+import hurried_plumb
 from plumb.lab.server import TOKEN_FILE
 
 
@@ -37,7 +38,7 @@ class ServedLab:
         self.process.wait(120)
 
 
-PLUMB = (sys.executable, "-m", "plumb.cli.main")
+PLUMB = (sys.executable, hurried_plumb.__file__)
 
 
 def serve(folder, *, port=0, command=PLUMB):

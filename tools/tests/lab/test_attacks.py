@@ -35,10 +35,11 @@ def contents(lab):
     }
 
 
+@pytest.mark.parametrize("every", [7, pytest.param(1, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("attack", ATTACKS)
-def test_each_try_is_refused_and_changes_nothing(lab, attack):
+def test_each_try_is_refused_and_changes_nothing(lab, attack, every):
     before = contents(lab)
-    for each in ATTACKS[attack]:
+    for each in ATTACKS[attack][::every]:
         answer = answered(lab, each.bytes(lab))
         sent = each.bytes(lab)[:300]
         assert status(answer) == 0 or 400 <= status(answer) < 500, (sent, answer[:600])

@@ -22,9 +22,10 @@ def test_hold_waits_and_stop_gives_up_and_cutting_again_is_read_rightly(lab, pag
     page.keyboard.press("Escape")
     go_on = bar(page).get_by_role("button", name="Go on")
     go_on.wait_for(timeout=PATIENCE)
+    set_speed(lab, 10)
     held, before = bar(page).inner_text(), ""
     while held != before:  # the last move comes to its end
-        page.wait_for_timeout(1000)
+        page.wait_for_timeout(200)
         held, before = bar(page).inner_text(), held
     assert "holds" in held
     go_on.click()

@@ -3,6 +3,7 @@
 import pytest
 from playwright.sync_api import expect
 from plumb.guide.progress import progress_in
+from screens import drawn
 
 WIDE, PHONE = {"width": 1280, "height": 900}, {"width": 375, "height": 812}
 
@@ -39,7 +40,7 @@ def test_a_reversed_motor_is_found_on_the_first_page(first_day, lab, cable_machi
     for side in ("left", "right"):
         page.get_by_role("button", name=f"Wind 20 mm of the {side} chain in").click()
         page.get_by_role("button", name=f"the {side} chain got shorter").click()
-    page.get_by_role("button", name="Raise the router by 5 mm").click()
+    page.get_by_role("button", name="Raise the router by 1 mm").click()
     page.get_by_role("button", name="it went up").click()
     page.get_by_role("button", name="Begin: What do you know of the machine?").wait_for()
     assert progress_in(lab.folder).done == ["read", "wires"]
@@ -75,7 +76,7 @@ def test_an_answer_from_before_a_press_is_not_taken_for_the_state_after_it(first
     with page.expect_response("**/api/guide") as shown:
         route.fulfill(response=before)
     shown.value.finished()
-    page.wait_for_timeout(200)
+    drawn(page)
     assert page.get_by_text("The machine works").is_visible()
     held.clear()
     for route, answer in looks[1:]:

@@ -5,7 +5,7 @@ import re
 import pytest
 from folder import example_form
 from playwright.sync_api import expect
-from screens import fitted_machine
+from screens import drawn, fitted_machine
 
 PATIENCE = 300_000  # [ms] of a busy computer
 
@@ -49,7 +49,7 @@ def test_an_answer_to_an_older_question_changes_nothing(open_machine, page, scre
     expect(page.locator(shown).first).to_contain_text(" inch", timeout=PATIENCE)
     with page.expect_response(f"**/api/{screen}"):
         asked[0].fulfill(response=late[0])
-    page.wait_for_timeout(200)  # for what would be drawn then
+    drawn(page)
     expect(page.locator(shown).first).to_contain_text(" inch", timeout=PATIENCE)
 
 
@@ -62,7 +62,9 @@ def test_readings_count_from_the_edges_that_are_named_with_them(open_machine, pa
     x = float(left.input_value(timeout=PATIENCE))
     page.get_by_label("Measured from").select_option("top-right")
     wait_for(page, lambda: saves)
-    page.wait_for_timeout(500)  # for what would be asked then
+    # What the page would ask then is answered before this.
+    page.evaluate("() => fetch('/').then((answer) => answer.text())")
+    drawn(page)
     assert float(left.input_value()) == x
     saves[0].continue_()
     right = page.get_by_label("Mark 1 from the right, mm", exact=True)

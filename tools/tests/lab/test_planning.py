@@ -82,7 +82,8 @@ def test_what_is_known_is_kept_and_makes_less_error_normal(lab, opened):
     gap.fill("about two")
     page.keyboard.press("Tab")
     page.get_by_text(re.compile("Type a number, like")).wait_for()
-    assert choices(lab).get("known")["motor_gap"]["value"] == 2982.5
+    # What cannot be read does not count, and the number before it no more.
+    until(page, lambda: "motor_gap" not in (choices(lab).get("known") or {}))
     gap.fill("298")
     page.keyboard.press("Tab")
     refused = page.get_by_role("alert").filter(has_text="298.0 mm is far from the 2978.4 mm")

@@ -18,8 +18,6 @@ from plumb.lab.project import digest_of
 from screens import measured_machine
 from served_lab import PLUMB, serve
 
-KILLS = 6
-
 
 def choose(lab, choices, read):
     """Save choices that replace those of this digest."""
@@ -32,12 +30,13 @@ def kept(folder):
     return json.loads((folder / "lab.json").read_text())
 
 
-def test_a_server_killed_in_the_middle_of_saves_leaves_whole_files(tmp_path):
+@pytest.mark.parametrize("kills", [1, pytest.param(6, marks=pytest.mark.slow)])
+def test_a_server_killed_in_the_middle_of_saves_leaves_whole_files(tmp_path, kills):
     """Saves of half a megabyte, one after the other; the kill comes at any moment."""
     chance = random.Random(1)
     lab = serve(tmp_path)
     try:
-        for _ in range(KILLS):
+        for _ in range(kills):
             assert save_until_killed(lab, chance.uniform(0, 0.5)) >= 1
             assert len(kept(tmp_path)["known"]) in (5_000, 5_001)
             lab = serve(tmp_path, port=lab.port)

@@ -6,6 +6,7 @@ import pytest
 from folder import EXAMPLE, example_form
 from playwright.sync_api import expect
 from plumb.marks.form import read_form
+from screens import drawn
 
 SHEET = (2438.4, 1219.2)
 LEFT, TOP = "Mark {} from the left, mm", "Mark {} from the top, mm"
@@ -93,7 +94,7 @@ def test_what_another_tab_saved_in_between_is_not_replaced(lab, form, late):
     assert len(read(lab).readings) == 9 and not read(lab).distances
     assert form.locator(".distances form input").input_value() == FEW[0][2]
     form.get_by_text("9 of 23 marks are read").wait_for()
-    form.wait_for_timeout(500)
+    drawn(form)
     assert form.get_by_role("alert").get_by_text("in the meantime").is_visible(), "it stays"
     form.get_by_role("button", name="Add the distance").click()
     let_go(form, late, 1)

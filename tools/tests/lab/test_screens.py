@@ -111,7 +111,17 @@ def seen(browser, lab, size, scheme):
     context.close()
 
 
-WAYS = [(size, scheme) for size in SIZES for scheme in SCHEMES]
+def ways(*first):
+    """Each width in each scheme; those that come first are in the fast run."""
+    return [
+        pytest.param(
+            (size, scheme),
+            id=f"{size}-{scheme}",
+            marks=() if f"{size}-{scheme}" in first else pytest.mark.slow,
+        )
+        for size in SIZES
+        for scheme in SCHEMES
+    ]
 
 
 def by_keyboard(page):
@@ -143,7 +153,7 @@ def faults(page):
         yield from (f"{what}: {each}" for each in page.evaluate(script, least))
 
 
-@pytest.mark.parametrize("shown", WAYS, indirect=True, ids="-".join)
+@pytest.mark.parametrize("shown", ways("desktop-light", "phone-dark"), indirect=True)
 def test_every_screen_is_accessible_and_fits(shown):
     findings, names = [], []
     for name in walk(shown):
@@ -156,7 +166,7 @@ def test_every_screen_is_accessible_and_fits(shown):
     assert findings == [], "\n".join(findings)
 
 
-@pytest.mark.parametrize("shown_cutting", WAYS, indirect=True, ids="-".join)
+@pytest.mark.parametrize("shown_cutting", ways("phone-light"), indirect=True)
 def test_the_machine_in_mid_cut_is_in_view_on_every_screen(shown_cutting):
     page, findings = shown_cutting, []
     for place in IN_MID_CUT:
@@ -180,14 +190,14 @@ def faults_at(page, places, when):
         yield from (f"{place}: {each}" for each in faults(page))
 
 
-@pytest.mark.parametrize("shown_fitted", WAYS, indirect=True, ids="-".join)
+@pytest.mark.parametrize("shown_fitted", ways("desktop-dark"), indirect=True)
 def test_screens_after_a_correction(shown_fitted):
     findings = list(faults_at(shown_fitted, WHEN_FITTED, "when-fitted"))
     assert shown_fitted.locator(".course.moved").count() == 1
     assert findings == [], "\n".join(findings)
 
 
-@pytest.mark.parametrize("shown_empty", WAYS, indirect=True, ids="-".join)
+@pytest.mark.parametrize("shown_empty", ways("phone-dark"), indirect=True)
 def test_screens_at_the_first_visit(shown_empty):
     findings = list(faults_at(shown_empty, AT_FIRST, "at-first"))
     assert findings == [], "\n".join(findings)

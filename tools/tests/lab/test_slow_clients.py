@@ -66,6 +66,7 @@ def test_a_gigabyte_that_is_declared_is_refused_at_its_header(lab):
     assert status(answered(lab, sent)) == 413
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("target", ["/api/choices", "/api/settings"])
 def test_a_gigabyte_without_a_length_is_cut_off_after_a_few(lab, target):
     kind = "multipart/form-data; boundary=x" if target == "/api/settings" else "application/json"
@@ -114,6 +115,7 @@ def test_a_body_that_never_comes_is_refused(lab):
         assert is_closed(line)
 
 
+@pytest.mark.slow
 def test_hundreds_of_silent_connections_do_not_keep_the_owner_out(lab):
     lines = [line_to(lab) for _ in range(300)]
     for line in lines[::2]:
@@ -156,6 +158,7 @@ def test_a_live_line_is_opened_by_the_page_and_closed_at_an_oversized_message(la
     assert closed.value.rcvd.code == 1009
 
 
+@pytest.mark.slow
 def test_a_flood_on_the_live_line_costs_no_memory_and_keeps_nobody_out(lab):
     before = memory(lab)
     with live(lab) as line:
@@ -165,6 +168,7 @@ def test_a_flood_on_the_live_line_costs_no_memory_and_keeps_nobody_out(lab):
     assert memory(lab) - before < 20_000
 
 
+@pytest.mark.slow
 def test_a_hundred_live_lines_do_not_keep_the_owner_out(lab):
     refused = 0
     with ExitStack() as lines:

@@ -1,6 +1,9 @@
 """The sender: ahead of the answers, never beyond the machine's buffer, and stopped by a refusal."""
 
+from types import SimpleNamespace
+
 import pytest
+from line_board import REPORT, Board
 from plumb.line.memory import refuse_while_moving
 from plumb.line.port import LostError
 from plumb.line.sender import (
@@ -12,43 +15,10 @@ from plumb.line.sender import (
     Sender,
     Status,
     StoppedError,
+    Watch,
     cleaned,
 )
 from plumb.text.errors import InputError
-
-REPORT = "<Idle,MPos:1.00,-2.50,0.00,WPos:0.000,0.000,0.000>\r\n[PE:0.00,0.00,127]\r\n"
-
-
-class Board:
-    """A machine that answers a line each time it is heard, and reports meanwhile."""
-
-    def __init__(self, answers=lambda line: "ok", *, deaf=False):
-        self.answers, self.deaf = answers, deaf
-        self.waiting: list[str] = []
-        self.most = 0
-        self.time = 0.0
-        self.written = b""
-
-    def write(self, characters: bytes) -> None:
-        self.written += characters
-        if characters.endswith(b"\n"):
-            self.waiting.append(characters.decode().rstrip("\n"))
-        self.most = max(self.most, sum(len(line) + 1 for line in self.waiting))
-
-    def read(self) -> bytes:
-        self.time += 0.2
-        if self.deaf:
-            return b""
-        said = REPORT
-        if self.waiting:
-            said = self.answers(self.waiting.pop(0)) + "\r\n" + said
-        return said.encode()
-
-    def seconds(self) -> float:
-        return self.time
-
-    def close(self) -> None:
-        pass
 
 
 def test_lines_go_ahead_of_the_answers_up_to_the_buffer():
@@ -320,3 +290,19 @@ def test_comments_and_blanks_are_left_out():
 def test_a_line_that_the_machine_cannot_take_is_refused(line, why):
     with pytest.raises(InputError, match=why):
         list(cleaned(["G21", line]))
+
+
+def test_a_watch_goes_by_the_machines_time_and_by_its_reports(monkeypatch):
+    now = [0.0]
+    sender = SimpleNamespace(port=SimpleNamespace(seconds=lambda: now[0]), reports=0)
+    watch = Watch(sender)
+    now[0], sender.reports = 3.9, 100
+    assert not watch.has_lasted(4)
+    now[0] = 4.0
+    assert watch.has_lasted(4)
+    monkeypatch.setattr(Watch, "speed", 10.0)
+    watch, sender.reports = Watch(sender), 118
+    now[0] += 0.4
+    assert not Watch(sender).has_lasted(4) and not watch.has_lasted(4)
+    sender.reports = 119
+    assert watch.has_lasted(4)

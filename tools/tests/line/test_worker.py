@@ -28,9 +28,10 @@ class SlowBoard:
             self.holds = True
         elif characters == STOP:
             self.holds, self.waiting = False, ["!"]
+        elif self.holds and characters == GO_ON:
+            self.holds = False  # it has no `ok`
         else:
             self.waiting.append(characters.decode().strip())
-            self.holds = self.holds and characters != GO_ON
 
     def read(self):
         time.sleep(0.001)
@@ -89,6 +90,22 @@ def test_a_program_is_sent_and_counted_and_then_something_is_done(worker, board)
     assert program.outcome == "done"
     assert then[0].place[0] == board.x == 20
     assert b"other" not in board.written and not worker.state.moves
+
+
+def test_the_line_is_let_go_of_when_the_place_is_kept(worker, board):
+    worker.send("grid.nc", JOB[:5])
+    until(lambda state: state.phase == "ready", worker)
+    begin = board.time
+    worker.close()
+    assert board.is_closed and board.time - begin > 2.5
+
+
+def test_a_line_of_a_machine_that_holds_is_let_go_of_at_once(worker, board):
+    worker.hold()
+    until(lambda state: state.holds, worker)
+    begin = board.time
+    worker.close()
+    assert board.is_closed and board.time - begin < 1.5
 
 
 def test_hold_stops_at_once_and_go_on_goes_on(worker, board):

@@ -84,6 +84,7 @@ def test_the_object_holds_what_the_sentences_say(capsys):
     assert answer["interval_mm"] > 1
 
 
+@pytest.mark.slow
 def test_the_tables_of_the_page_are_what_the_trials_give():
     page = (ROOT / "docs/commands/gap.md").read_text()
     for table in tables():

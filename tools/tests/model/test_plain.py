@@ -4,7 +4,16 @@ import math
 
 import pytest
 from plumb.model.catalogue import every_effect, parameter_words
-from plumb.model.plain import named, noun_of, nouns_of, plain_before, plain_range, plain_size
+from plumb.model.plain import (
+    named,
+    noun_of,
+    nouns_of,
+    plain_before,
+    plain_range,
+    plain_size,
+    plainly,
+)
+from plumb.text.shown import shown_in
 
 
 @pytest.mark.parametrize(
@@ -82,4 +91,16 @@ def test_several_effects_are_listed_with_an_and():
     assert nouns_of(["chain_sag", "chain_stretch"]) == (
         "chain sag (chain_sag) and chain stretch (chain_stretch)"
     )
-    assert nouns_of(["a", "b", "c"], last="or") == "a, b or c"
+    assert nouns_of(["a", "b", "c"]) == "a, b and c"
+    assert nouns_of(()) == plainly([]) == "the frame alone"
+
+
+@pytest.mark.parametrize(
+    ("shown", "now", "before"),
+    [("mm", "2980.2 mm", "2978.4 mm"), ("inch", "117.330 inch", "117.260 inch")],
+)
+def test_a_size_before_is_as_fine_as_the_size_now(shown, now, before):
+    interval = (2979.8, 2980.6)
+    with shown_in(shown):
+        assert f"motors {now} (" in plain_size("motor_gap", 2980.18, *interval)
+        assert plain_before("motor_gap", 2978.4, *interval) == before

@@ -93,7 +93,7 @@ def test_the_picture_of_an_effect_that_is_no_more_is_told_and_taken_away(written
 def test_a_folder_that_cannot_be_written_is_refused(tmp_path, capsys):
     (tmp_path / "docs").write_text("a file")
     assert main(["--folder", str(tmp_path)]) == 2
-    assert capsys.readouterr().err.startswith("docs_effects: ")
+    assert capsys.readouterr().err.startswith("plumb.pages.effects: ")
 
 
 def test_arrows_point_where_the_marks_went():

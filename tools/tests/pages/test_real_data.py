@@ -16,7 +16,7 @@ from plumb.pages.real_sets import (
     real_set,
     refusal_of,
 )
-from plumb.pages.tables import file_writer
+from plumb.pages.writer import write_pages
 
 SETS = {name: real_set(name) for name in HOLES}
 TEXTS = pages()
@@ -101,10 +101,12 @@ def test_the_page_shows_every_set():
 
 
 def test_a_stale_page_is_told(tmp_path, capsys):
-    assert file_writer(tmp_path, TEXTS, check=False, command=COMMAND) == 0
-    assert file_writer(tmp_path, TEXTS, check=True, command=COMMAND) == 0
+    def ends(*options):
+        return write_pages([*options, "--folder", str(tmp_path)], lambda: TEXTS, command=COMMAND)
+
+    assert ends() == ends("--check") == 0
     Path(tmp_path / PAGE).write_text(TEXTS[PAGE].replace("0.6", "0.5"))
-    assert file_writer(tmp_path, TEXTS, check=True, command=COMMAND) == 1
+    assert ends("--check") == 1
     assert f"{PAGE}: stale" in capsys.readouterr().out
 
 

@@ -317,6 +317,7 @@ def test_the_same_board_gets_the_same_chances(pitch):
     assert outlook(case, planned) == outlook(case, planned)
 
 
+@pytest.mark.slow
 def test_chances_come_true(first):
     # What was promised and what came, over options of very different chances.
     promised, came = [], []
@@ -346,6 +347,7 @@ def _one_of_each_kind(answer):
     return best.values()
 
 
+@pytest.mark.slow
 def test_four_proposed_measurements_beat_many_blind_ones(first):
     # Few boards of the six effects that nine marks leave most open; the page on next has the rates.
     more = visits_of(plan(7, 4))

@@ -19,7 +19,7 @@ from plumb.plan.proposal import (
     SETTLE,
     Proposal,
     RoomThen,
-    _order,
+    _best_first,
 )
 from plumb.plan.proposal_text import headline_of, percent, promise_of, steps_of
 
@@ -113,8 +113,8 @@ def test_a_single_suspect_is_checked_before_marks_are_cut():
     check = replace(CUT, kind="check", minutes=60.0)
     marks = [proposal(CONFIRM, 0.2), proposal(CONFIRM, 0.9)]
     direct = Proposal(check, CONFIRM, 0.1, None)
-    assert sorted([*marks, direct], key=_order) == [direct, marks[1], marks[0]]
+    assert _best_first([*marks, direct]) == (direct, marks[1], marks[0])
     direct = replace(direct, question=SETTLE)
     several = [replace(each, question=SETTLE) for each in marks]
-    assert sorted([*several, direct], key=_order) == [several[1], several[0], direct]
+    assert _best_first([*several, direct]) == (several[1], several[0], direct)
     assert np.isfinite(direct.rate)

@@ -1,11 +1,13 @@
 """Plays a dialogue of test/dialogues on a virtual machine, as the stage of the host's tests does.
 
 test/vm/script.h says what its lines mean, test/test_dialogues/stage_questions.cpp what is asked.
+As a program it takes a dialogue, an ELF file, the sled's weight [N] and the shield.
 """
 
 from __future__ import annotations
 
 import re
+import sys
 from collections import deque
 from dataclasses import dataclass
 from pathlib import Path
@@ -49,7 +51,7 @@ class Step:
 def steps_of(name: str) -> list[Step]:
     """The steps of a dialogue, with those of the files that it includes."""
     steps = []
-    for number, line in enumerate((DIALOGUES / name).read_text(encoding="latin-1").splitlines(), 1):
+    for number, line in enumerate((DIALOGUES / name).read_text(encoding="latin-1").split("\n"), 1):
         if line.startswith("~~ include "):
             steps += steps_of(line[11:])
         elif line and not line.startswith(";"):
@@ -341,3 +343,9 @@ class Player:
         self.partial = ""
         self.machine.start()
         return True
+
+
+if __name__ == "__main__":
+    Player(
+        sys.argv[1], elf=sys.argv[2], sled_weight=float(sys.argv[3]), shield=int(sys.argv[4])
+    ).play()

@@ -1,9 +1,7 @@
 """The flashed program on the simulated Mega and the firmware for the host drive the same world."""
 
 import re
-import subprocess
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,8 +11,6 @@ from plumb.model.predict import lengths
 from plumb.vm.garage import EXTENDED, Garage, set_up
 from plumb.vm.in_process import InProcessPort
 
-ROOT = Path(__file__).resolve().parents[3]
-ELF = ROOT / ".pio/build/megaatmega2560/firmware.elf"
 MOVES = ("G0 X20 Y10", "G1 X0 Y-20 F600", "G1 X5 Y-20 Z1 F300", "G0 X0 Y0 Z0")
 COUNT = 63.5 / 8113.73  # [mm] of chain for an encoder count
 # [counts] Between two rests. The loop lets a chain rest within 1.5 counts of its set-point, and
@@ -24,13 +20,6 @@ DEAD_BAND = 1.5  # [counts]
 ASKED = ("G1 X2 Y1 F30", "G2 X3 Y2 I0 J1 F25", "G1 X0 Y0 F20")  # in inches: reported to 0.3 counts
 REPORT = re.compile(r"<\w+,MPos:(-?[\d.]+),(-?[\d.]+),")
 REPORTED_EVERY, TICK = 200, 10  # [ms]
-
-
-@pytest.fixture(scope="module")
-def elf() -> str:
-    pio = ["flock", ROOT / ".pio", ROOT / ".venv/bin/pio"]
-    subprocess.run([*pio, "run", "-s", "-d", ROOT, "-e", "megaatmega2560"], check=True)
-    return str(ELF)
 
 
 def rests(elf: str | None) -> list[list[int]]:
@@ -95,7 +84,6 @@ def test_both_ask_for_the_same_lengths_at_the_same_ticks(elf):
     assert np.median(steps) > 3
 
 
-@pytest.mark.slow
 def test_both_rest_at_the_same_counts(elf):
     flashed, host = rests(elf), rests(None)
     asked = targets()

@@ -7,7 +7,6 @@ import pytest
 from plumb import _vm
 from plumb.bench.causes import MAKER
 from plumb.model.predict import judged
-from test_both_brains import elf  # noqa: F401
 
 NUMBERS = {**judged(MAKER), "left.inward": 0.004, "right.inward": 0.006}
 GAP, BEYOND = NUMBERS["motor_gap"], 12.7  # [mm]
@@ -164,7 +163,7 @@ def test_a_short_pull_is_gentle_and_says_nothing():
     assert pulled.most_pull < 115
 
 
-def test_the_flashed_program_pulls_as_the_host_does(elf):  # noqa: F811
+def test_the_flashed_program_pulls_as_the_host_does(elf):
     host, mega = (Pulled("B11 S255 T6 L", elf=each) for each in (None, elf))
     ours, theirs = (numbers_of(each.answered()) for each in (host, mega))
     np.testing.assert_allclose(theirs[0], ours[0], atol=0.15)

@@ -1,29 +1,28 @@
-"""GroundControl's and WebControl's ways with a serial port, in real time: how each opens it, what
-it asks first, how it streams a job, stops, pauses, and measures chains.
+"""GroundControl's and WebControl's ways with a serial port: how each opens it, what it asks first,
+how it streams a job, stops, pauses, and measures chains.
 
-What they do was watched on the clients' code at this port; none of that code is here. How they use
-DTR and parity is in test_port_library.py.
+The clock is the machine's: its time passes while a client listens or waits. What clients do was
+watched on their code at this port; none of that code is here. How they use DTR and parity is in
+test_port_library.py.
 """
 
 import re
-import threading
-import time
 
 import pytest
 import serial
 from plumb.vm.garage import random_garage
 from plumb.vm.hiding import hide
 from plumb.vm.owner import VirtualOwner
-from plumb.vm.pseudo_terminal import Pace, PseudoTerminal
+from plumb.vm.pseudo_terminal import PseudoTerminal
 
 AHEAD = 126  # characters that a client sends without an answer
-READ_FOR = 0.25  # [s] after which a client takes what came for a line
-SPACING = 0.05  # [s] between two lines of a client
+READ_FOR = 250  # [ms] after which a client takes what came for a line
+SPACING = 50  # [ms] between two lines of a client
+LOOK_EVERY = 5  # [ms] a client looks for what came
 JOB = ["G21 ", "G90 ", "G0 X30 Y20 ", "G1 X40 Y20 F1000 ", "G2 X40 Y30 I0 J5 ", "", "(a comment) "]
 JOB += [f"G1 X{40 - 2 * step} Y{30 - step} " for step in range(9)] + ["G4 P200 ", "G0 X20 Y10 "]
 # What both send to calibrate: chains measured, a motor driven, single axes moved, chains declared.
 CALIBRATION = ["$42=2000 ", "B11 S100 T1 R ", "$42=2.0 ", "G91 ", "B09 L5 ", "B09 R-5 ", "G90 "]
-LASTS = 300  # [s] at most, on a busy computer
 PER_SECOND = 5  # reports of the machine
 PLACE = re.compile(r"MPos:([-\d.]+),([-\d.]+),([-\d.]+),WPos:")
 
@@ -32,30 +31,45 @@ class Client:
     """A client at the port: it counts answers as both clients do, and keeps what it heard."""
 
     def __init__(self, terminal: PseudoTerminal, openings: int, silence: float):
-        """silence [s] of the machine's time after which the client gives up."""
-        self.path, self.silence = terminal.path, silence
-        self.clock = lambda: terminal.machine.seconds
+        """silence [s] after which the client gives up."""
+        self.terminal, self.silence = terminal, silence
+        self.now = 0  # [ms] since the client began
         self.line = self.opened()
         for _ in range(openings - 1):
             self.line.close()
             self.line = self.opened()
+        self.came = b""  # and is no whole line yet
         self.waiting: list[int] = []  # lengths of the lines that are not answered
         self.answers = 0
         self.heard: list[str] = []
-        self.last_line = self.clock()
-        self.end = time.monotonic() + LASTS
+        self.last_line = self.now
 
     def opened(self) -> serial.Serial:
-        return serial.Serial(self.path, 57600, timeout=READ_FOR)
+        line = serial.Serial(self.terminal.path, 57600, timeout=0)
+        self.wait(SPACING)
+        return line
+
+    def wait(self, milliseconds: int) -> None:
+        """Let time pass."""
+        self.terminal.pass_time(milliseconds)
+        self.now += milliseconds
+
+    def read_line(self) -> bytes:
+        """What comes until a line is whole or the client no longer waits for its end."""
+        end = self.now + READ_FOR
+        while b"\n" not in self.came and self.now < end:
+            self.wait(LOOK_EVERY)
+            self.came += self.line.read(4096)
+        line, newline, self.came = self.came.partition(b"\n")
+        return line + newline
 
     def hear(self) -> str:
         """The next line, or nothing; it must be whole and come before the client gives up."""
-        raw = self.line.readline()
-        assert time.monotonic() < self.end, f"no answer: {self.heard[-5:]}"
+        raw = self.read_line()
         if not raw:
-            assert self.clock() - self.last_line < self.silence
+            assert self.now - self.last_line < 1000 * self.silence, self.heard[-5:]
             return ""
-        self.last_line = self.clock()
+        self.last_line = self.now
         assert raw.endswith(b"\r\n"), raw
         text = raw.decode("ascii").strip()
         self.heard.append(text)
@@ -71,7 +85,7 @@ class Client:
         while sum(self.waiting) + len(raw) > AHEAD:
             self.hear()
         self.waiting.append(len(raw))
-        time.sleep(SPACING)
+        self.wait(SPACING)
         self.line.write(raw)
 
     def press(self, character: str) -> None:
@@ -149,21 +163,12 @@ def greet_as_webcontrol(terminal: PseudoTerminal) -> Client:
 
 @pytest.fixture
 def terminal():
-    """The port of a machine whose time runs as a board's does, or later on a busy computer."""
+    """The port of a machine whose time the client lets pass."""
     owner = VirtualOwner(random_garage(hide([], millimetres=3, seed=1), 1))
     owner.switch_on()
     owner.machine.advance(10_000)  # until all is in the EEPROM
-    terminal, pace, ended = PseudoTerminal(owner.machine), Pace(1), threading.Event()
-
-    def serve():
-        while not ended.is_set():
-            terminal.pass_time(pace.due())
-
-    thread = threading.Thread(target=serve)
-    thread.start()
+    terminal = PseudoTerminal(owner.machine)
     yield terminal
-    ended.set()
-    thread.join()
     terminal.close()
 
 

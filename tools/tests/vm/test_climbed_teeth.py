@@ -1,7 +1,5 @@
 """A chain that climbs over a tooth slips by a link, and the firmware suspects it, not more."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from plumb.trials.scene import Scene
@@ -17,8 +15,6 @@ from plumb.trials.slips import (
     tries,
 )
 
-ROOT = Path(__file__).resolve().parents[3]
-ELF = ROOT / ".pio/build/megaatmega2560/firmware.elf"
 LINK = 6.35  # [mm]
 
 
@@ -27,6 +23,7 @@ def scene():
     return Scene(2, friction=FRICTION)
 
 
+@pytest.mark.slow
 def test_most_slips_are_suspected_and_never_of_the_other_chain():
     seen = list(tries([2], feeds=[400.0]))
     assert len(seen) == 20
@@ -45,8 +42,8 @@ def test_it_is_said_where_and_when_a_chain_may_have_slipped(scene, chain):
     assert 3 < last.seconds_ago < 20
 
 
-def test_the_flashed_program_suspects_it_too():
-    scene = Scene(2, elf=str(ELF), friction=FRICTION)
+def test_the_flashed_program_suspects_it_too(elf):
+    scene = Scene(2, elf=elf, friction=FRICTION)
     assert telemetry_of(scene).last_slip is None
     seen = tried(scene, "right", (0.0, 0.0), 400.0, winds_in=True)
     assert (seen.named, seen.other) == (1, 0)

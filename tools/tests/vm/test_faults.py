@@ -1,8 +1,6 @@
 """Faults strike a virtual machine: it stops in time, says so, and never believes a wrong place."""
 
-import subprocess
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,8 +8,6 @@ from plumb.trials.faults import FAULTS, UNSEEN, Fault, nothing
 from plumb.trials.report import faults_named, page, tried_all
 from plumb.trials.trial import are_kept, farthest_from, length_of, tried
 
-ROOT = Path(__file__).resolve().parents[3]
-ELF = ROOT / ".pio/build/megaatmega2560/firmware.elf"
 # [mm] of the bit's way after which it stands, where the machine stops a job.
 STOPS_WITHIN = {
     "power cut in mid-move": 8.0,
@@ -102,14 +98,18 @@ def test_an_unknown_fault_is_refused():
         faults_named(["rust"])
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
-    "name", ["power cut in", "encoder edges", "encoder unplugged", "main program", "client opens"]
+    "name",
+    [
+        "power cut in",
+        *(
+            pytest.param(name, marks=pytest.mark.slow)
+            for name in ("encoder edges", "encoder unplugged", "main program", "client opens")
+        ),
+    ],
 )
-def test_the_flashed_program_believes_no_wrong_place(name):
-    pio = ["flock", ROOT / ".pio", ROOT / ".venv/bin/pio"]
-    subprocess.run([*pio, "run", "-s", "-d", ROOT, "-e", "megaatmega2560"], check=True)
-    outcome = tried(fault_named(name), 5, elf=str(ELF))
+def test_the_flashed_program_believes_no_wrong_place(elf, name):
+    outcome = tried(fault_named(name), 5, elf=elf)
     assert outcome.struck and not outcome.is_false and outcome.settings_kept, outcome
     # A main program may be late without harm.
     assert outcome.noticed or name == "main program", outcome

@@ -2,6 +2,7 @@
 
 import os
 import re
+import shlex
 import subprocess
 
 import pytest
@@ -16,7 +17,8 @@ from served_machine import INTERRUPTIBLE, PLUMB, START, plumb
 def test_a_program_is_cut_read_with_a_tape_and_the_machine_tells_its_place(served, tmp_path):
     grid = ["grid", "--columns", "2", "--rows", "2", "--margin", "550", "--repeats", "0"]
     plumb(*grid, "--marks", "form.toml", "--output", "grid.nc", folder=tmp_path)
-    server = served("--form", "form.toml", "--readings", "read.toml", "--reveal")
+    files = ["--form", "form.toml", "--readings", "read.toml"]
+    server = served(*files, "--reveal", "--speed", "200")
     sent = plumb("send", "--port", "maslow", "grid.nc", folder=tmp_path)
     assert "and the machine took each" in sent
     printed = plumb("read", "--port", "maslow", "-o", "machine.toml", folder=tmp_path)
@@ -84,6 +86,35 @@ def test_a_refused_line_stops_the_program(served, tmp_path):
     assert entry.content["lines"] == 3 and not entry.content["whole"]
 
 
+MOVES = "G21\nG90\nG1 X0 Y60 F800\nG4 P500\n"
+
+
+@pytest.mark.parametrize("end", ["M2", "G0 X--5"], ids=["good", "refused"])
+def test_a_program_ends_when_the_place_is_kept(end, served, tmp_path):
+    served()
+    (tmp_path / "job.nc").write_text(f"{MOVES}{end}\n")
+    code = 0 if end == "M2" else 2
+    for _ in range(2):
+        said = plumb("send", "--port", "maslow", "job.nc", folder=tmp_path, code=code)
+        assert "Position Lost" not in said
+    assert "Position Lost" not in plumb("read", "--port", "maslow", folder=tmp_path)
+
+
+def test_what_was_not_cut_is_resumed_by_the_command_that_is_printed(served, tmp_path):
+    served()
+    (tmp_path / "job.nc").write_text(f"(a job)\n{MOVES}G0 X--5\n")
+    said = plumb("send", "--port", "maslow", "job.nc", folder=tmp_path, code=2)
+    line = int(re.search(r"All before line (\d) of job.nc is done", said)[1])
+    assert line == 4
+    commands = re.findall(r"^  plumb (.*)$", said.replace("\\\n", " "), re.MULTILINE)
+    read, resume = (shlex.split(each) for each in commands)
+    assert read == ["read", "--port", "maslow", "-o", "machine.toml"]
+    assert resume[-4:] == ["--line", f"{line}", "-o", "rest.nc"]
+    plumb(*read, folder=tmp_path)
+    plumb(*resume, folder=tmp_path)
+    assert "G1 X0 Y60 F800" in (tmp_path / "rest.nc").read_text()
+
+
 def test_ctrl_c_stops_the_machine_and_it_knows_where_it_is(served, tmp_path):
     served()
     (tmp_path / "job.nc").write_text("G21\nG1 X5 F300\nG4 P200\nB10 L\nG1 X900\n")
@@ -93,7 +124,8 @@ def test_ctrl_c_stops_the_machine_and_it_knows_where_it_is(served, tmp_path):
     )
     assert any("[Measure" in line for line in sending.stdout)  # so it is on its way to x 900
     sending.send_signal(2)
-    assert "The machine has stopped." in sending.communicate(timeout=START)[0]
+    said = sending.communicate(timeout=START)[0]
+    assert "The machine has stopped." in said and "plumb resume job.nc machine.toml --line" in said
     assert sending.returncode == 1
     said = plumb("read", "--port", "maslow", folder=tmp_path)
     assert "ALARM" not in said
@@ -168,7 +200,7 @@ def test_a_fresh_machine_knows_no_chains(served, tmp_path):
     ("words", "why"),
     [
         (["vm", "--hide", "wind"], "--hide unknown name 'wind'"),
-        (["vm", "--mega", "absent.elf"], "--mega: cannot read absent.elf"),
+        (["vm", "--mega", "absent.elf"], "cannot read absent.elf"),
         (["vm", "--form", "here"], "--form and --readings go together"),
         (["vm", "--link", "here"], "cannot be the name of the port"),
         (["vm", "--eeprom", "here"], "is no memory of 4096 bytes"),

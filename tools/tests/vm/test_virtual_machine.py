@@ -5,6 +5,7 @@ import pytest
 from plumb import _judge, _vm
 from plumb.bench.causes import MAKER
 from plumb.model.predict import judged
+from plumb.vm import garage as garage_room
 
 NUMBERS = judged(MAKER)
 COUNT = 63.5 / 8113.73  # [mm] of chain
@@ -195,3 +196,19 @@ def test_above_the_sheet_the_sled_is_where_its_chains_put_it(machine):
 def test_a_shield_that_nobody_knows_is_refused():
     with pytest.raises(ValueError, match="a shield is 2 or 3"):
         _vm.VirtualMachine({}, shield=4)
+
+
+@pytest.mark.parametrize(
+    "command",
+    [["vm"], ["soak"], ["faults", "--only", "ctrl-X", "--tries", "1"], ["practice", "--auto"]],
+    ids=lambda command: command[0],
+)
+def test_every_command_refuses_what_the_simulated_mega_cannot_run(run, command, monkeypatch):
+    monkeypatch.setattr(garage_room, "VirtualMachine", without_simavr)
+    code, _, said = run(*command, "--mega", "firmware.elf")
+    assert code == 2
+    assert said.splitlines()[-1] == "plumb: the lab was built without the simulated Mega"
+
+
+def without_simavr(*_, **__):
+    raise RuntimeError("the lab was built without the simulated Mega")

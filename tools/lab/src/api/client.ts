@@ -66,9 +66,10 @@ export function send<Answer>(
   method: "POST" | "PUT" | "DELETE",
   path: string,
   body?: unknown,
+  patienceMs = method === "PUT" ? SAVE_MS : WORK_MS,
 ): Promise<Answer> {
   return asked(path, {
-    patienceMs: method === "PUT" ? SAVE_MS : WORK_MS,
+    patienceMs,
     method,
     headers: { "Content-Type": "application/json" },
     ...(body === undefined ? {} : { body: JSON.stringify(body) }),

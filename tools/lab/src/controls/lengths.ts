@@ -2,12 +2,17 @@
 export type Unit = "mm" | "inch";
 const INCH = 25.4;
 
-/** What was typed, in mm; undefined if it is no length. "12,5", "48 3/16" and "3/8" are lengths. */
-export function typedLength(text: string, unit: Unit): number | undefined {
-  const clean = text
-    .trim()
-    .replace(",", ".")
-    .replace(/\s*(mm|inch|in|")$/i, "");
+const SIGN = /\s*(mm|inch|in|"|″|”)$/i;
+
+/**
+ * What was typed, in mm; undefined if it is no length. "12,5", "48 3/16" and "3/8" are lengths; a sign behind them says
+ * the unit, whatever was chosen.
+ */
+export function typedLength(text: string, chosen: Unit): number | undefined {
+  const trimmed = text.trim();
+  const sign = SIGN.exec(trimmed)?.[1]?.toLowerCase();
+  const unit: Unit = sign === undefined ? chosen : sign === "mm" ? "mm" : "inch";
+  const clean = trimmed.replace(SIGN, "").replace(",", ".");
   const parts = /^(-?)(?:(\d+(?:\.\d*)?|\.\d+)|(?:(\d+)[ -]+)?(\d+)\/(\d+))$/.exec(clean);
   if (!parts) return undefined;
   const [, minus, decimal, whole, above, below] = parts;
@@ -15,6 +20,12 @@ export function typedLength(text: string, unit: Unit): number | undefined {
     decimal !== undefined ? Number(decimal) : Number(whole ?? 0) + Number(above) / Number(below);
   if (!Number.isFinite(size)) return undefined;
   return (minus ? -size : size) * (unit === "inch" ? INCH : 1);
+}
+
+/** Why a text is no length, and how one is typed; empty for a length and where nothing is typed. */
+export function noLength(text: string, unit: Unit): string {
+  if (!text.trim() || typedLength(text, unit) !== undefined) return "";
+  return `“${text.trim()}” is no length: type it like ${unit === "mm" ? "11.9" : "4 13/32"}`;
 }
 
 /** A length [mm] in the unit that was chosen, without its name. An inch gets a decimal more. */

@@ -2,6 +2,7 @@
 import { useEffect, useState } from "preact/hooks";
 import { get, isSilence, type Project, type Schemas, send } from "../api/client";
 import { LOOK_MS } from "../api/patience";
+import { useDo } from "../shell/doing";
 import { Lookout } from "../shell/lookout";
 import { type Machine, subject, useMachine } from "../shell/machine";
 import { useProject } from "../shell/project";
@@ -13,22 +14,6 @@ export function Connection() {
   const machine = useMachine();
   if (machine.kind === "none") return <Ways />;
   return <Connected machine={machine} />;
-}
-
-/** Does something with the machine; what is refused is shown. */
-function useDo(): [boolean, (work: () => Promise<unknown>) => void] {
-  const { setTrouble } = useProject();
-  const [busy, setBusy] = useState(false);
-  const run = (work: () => Promise<unknown>) => {
-    setBusy(true);
-    work()
-      .then(
-        () => setTrouble(""),
-        (error: Error) => setTrouble(error.message),
-      )
-      .finally(() => setBusy(false));
-  };
-  return [busy, run];
 }
 
 function Ways() {

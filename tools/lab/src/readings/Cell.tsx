@@ -1,9 +1,11 @@
 // Where a mark is, from the two edges. What is typed stays as it was typed; half a reading waits in this browser.
 import { useState } from "preact/hooks";
 import type { Schemas } from "../api/client";
-import { lengthText, typedLength, type Unit } from "../controls/lengths";
-import { forgetHalf, halfOf, keepHalf } from "./halves";
+import { lengthText, noLength, typedLength, type Unit } from "../controls/lengths";
+import { forgetHalf, type HalfPlace, halfOf, keepHalf } from "./halves";
 import type { Place } from "./useReadings";
+
+type Texts = readonly [string, string];
 
 interface CellParts {
   mark: Schemas["AskedMark"];
@@ -11,8 +13,10 @@ interface CellParts {
   units: Unit;
   /** Names of the two edges, like "left". */
   from: readonly [string, string];
-  /** Its name among the halves that wait. */
-  place: string;
+  /** From which it is typed. */
+  edges: string;
+  /** Its place among the halves that wait. */
+  place: HalfPlace;
   doubted: boolean;
   /** Another mark of this name comes before it. */
   again: boolean;
@@ -22,73 +26,80 @@ interface CellParts {
   paste: (text: string) => boolean;
 }
 
-export function Cell({
-  mark,
-  value,
-  units,
-  from,
-  place,
-  doubted,
-  again,
-  next,
-  change,
-  paste,
-}: CellParts) {
-  const [texts, setTexts] = useState<readonly [string, string] | undefined>(() => halfOf(place));
-  const said = texts && (means(texts, value, units) || !complete(texts, units)) ? texts : undefined;
+export function Cell(parts: CellParts) {
+  const { mark, value, units, from, edges, place, doubted, again, next, change, paste } = parts;
+  const [texts, setTexts] = useState<Texts | undefined>(() => halfOf(place, edges));
+  const saysValue = texts && (value ? means(texts, value, units) : !complete(texts, units));
+  const said = saysValue ? texts : undefined;
   const shown = said ?? (value ? value.map((mm) => lengthText(mm, units)) : ["", ""]);
   const name = again ? `${mark.name} again` : mark.name;
   const type = (axis: 0 | 1, text: string) => {
-    const next = [shown[0] ?? "", shown[1] ?? ""] as [string, string];
-    next[axis] = text;
-    setTexts(next);
-    const read = complete(next, units);
-    if (read) change(read);
-    else if (!next[0].trim() && !next[1].trim()) change(undefined);
-    if (read || (!next[0].trim() && !next[1].trim())) forgetHalf(place);
-    else keepHalf(place, next);
+    const typed = [shown[0] ?? "", shown[1] ?? ""] as [string, string];
+    typed[axis] = text;
+    setTexts(typed);
+    const read = complete(typed, units);
+    const isHalf = !read && typed.some((each) => each.trim() !== "");
+    // Half a reading is none: the number before it does not count any more.
+    if (read || value) change(read);
+    if (isHalf) keepHalf(place, edges, typed);
+    else forgetHalf(place);
   };
   return (
     <fieldset class={doubted ? "cell doubted" : "cell"} id={`mark-${mark.index}`}>
       <legend>{name}</legend>
       {([0, 1] as const).map((axis) => {
         const text = shown[axis] ?? "";
-        const wrong = text.trim() !== "" && typedLength(text, units) === undefined;
+        const reason = lacks([shown[0] ?? "", shown[1] ?? ""], axis, from, units);
+        const reasonId = `mark-${mark.index}-${axis}`;
         return (
-          <input
-            key={axis}
-            inputMode={units === "mm" ? "decimal" : "text"}
-            autoComplete="off"
-            enterKeyHint="next"
-            aria-label={`Mark ${name} from the ${from[axis]}, ${units}`}
-            aria-invalid={wrong}
-            placeholder={lengthText(mark.meant[axis], units)}
-            value={text}
-            onInput={(event) => type(axis, event.currentTarget.value)}
-            onKeyDown={(event) => {
-              if (event.key !== "Enter") return;
-              const after = event.currentTarget.nextElementSibling;
-              if (after instanceof HTMLInputElement) after.focus();
-              else next();
-            }}
-            onPaste={(event) => {
-              if (paste(event.clipboardData?.getData("text") ?? "")) event.preventDefault();
-            }}
-          />
+          <span key={axis} class="half">
+            <input
+              inputMode={units === "mm" ? "decimal" : "text"}
+              autoComplete="off"
+              enterKeyHint="next"
+              aria-label={`Mark ${name} from the ${from[axis]}, ${units}`}
+              aria-invalid={reason !== ""}
+              aria-describedby={reason ? reasonId : undefined}
+              placeholder={lengthText(mark.meant[axis], units)}
+              value={text}
+              onInput={(event) => type(axis, event.currentTarget.value)}
+              onKeyDown={(event) => {
+                if (event.key !== "Enter") return;
+                const after = event.currentTarget.parentElement?.nextElementSibling;
+                const field = after?.querySelector("input");
+                if (field) field.focus();
+                else next();
+              }}
+              onPaste={(event) => {
+                if (paste(event.clipboardData?.getData("text") ?? "")) event.preventDefault();
+              }}
+            />
+            {reason && (
+              <small id={reasonId} class={text ? "reason" : "reason awaited"}>
+                {reason}
+              </small>
+            )}
+          </span>
         );
       })}
     </fieldset>
   );
 }
 
+/** Why a field keeps its mark from being read; empty if it does not. */
+function lacks(texts: Texts, axis: 0 | 1, from: readonly [string, string], units: Unit): string {
+  const isMissing = texts[axis].trim() === "" && texts[1 - axis]?.trim() !== "";
+  return isMissing ? `not read: from the ${from[axis]}?` : noLength(texts[axis], units);
+}
+
 /** Both numbers [mm], if both are lengths. */
-function complete(texts: readonly [string, string], units: Unit): Place | undefined {
+function complete(texts: Texts, units: Unit): Place | undefined {
   const [x, y] = texts.map((text) => typedLength(text, units));
   return x === undefined || y === undefined ? undefined : [x, y];
 }
 
 /** Whether the texts say this reading. */
-function means(texts: readonly [string, string], value: Place | undefined, units: Unit): boolean {
+function means(texts: Texts, value: Place | undefined, units: Unit): boolean {
   const read = complete(texts, units);
   return !!read && !!value && read.every((mm, axis) => Math.abs(mm - (value[axis] ?? 0)) < 1e-3);
 }

@@ -65,7 +65,8 @@ export function Grid({ form, readings, doubted }: GridParts) {
               value={kept.value[mark.index]}
               units={units}
               from={[across, upright]}
-              place={`${project.key}:${form.file}:${edges}:${mark.index}`}
+              edges={edges}
+              place={{ key: project.key, file: form.file, index: mark.index }}
               doubted={doubted.has(mark.index)}
               again={isAgain(form.marks, form.marks.indexOf(mark))}
               next={() => next(mark.index)}

@@ -1,6 +1,6 @@
 // The distances that a form asks for, in the order in which they are measured: a field for each.
-import { useEffect, useState } from "preact/hooks";
-import { lengthText, typedLength } from "../controls/lengths";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { lengthText, noLength, typedLength } from "../controls/lengths";
 import { useProject } from "../shell/project";
 import { lengthBetween, withLength } from "./distances";
 import { useDistances } from "./useDistances";
@@ -49,12 +49,20 @@ function Span({ name, index, length, doubted, keep }: SpanParts) {
   const units = useProject().project.choices.units ?? "mm";
   const saved = length === undefined ? "" : lengthText(length, units);
   const [text, setText] = useState(saved);
-  useEffect(() => setText(saved), [saved]);
   const typed = typedLength(text, units);
   const wrong = text.trim() !== "" && !(typed && typed > 0);
+  // What is no length stays in view until it is mended; the number before it does not count any more.
+  const stays = useRef(false);
+  stays.current = wrong;
+  useEffect(() => {
+    if (!stays.current || saved !== "") setText(saved);
+  }, [saved]);
+  const reason = noLength(text, units) || (wrong ? "a distance is above zero" : "");
+  const reasonId = `span-${name.replaceAll(" ", "-")}`;
   const done = () => {
-    if (wrong || text === saved) return;
-    if (text.trim() !== "" || saved !== "") keep(text.trim() === "" ? undefined : typed);
+    if (text === saved) return;
+    const length = wrong || text.trim() === "" ? undefined : typed;
+    if (length !== undefined || saved !== "") keep(length);
   };
   return (
     <li id={index < 0 ? undefined : `distance-${index}`} class={doubted ? "doubted" : ""}>
@@ -66,6 +74,7 @@ function Span({ name, index, length, doubted, keep }: SpanParts) {
           enterKeyHint="next"
           aria-label={`Distance ${name}, ${units}`}
           aria-invalid={wrong}
+          aria-describedby={reason ? reasonId : undefined}
           placeholder={units}
           value={text}
           onInput={(event) => setText(event.currentTarget.value)}
@@ -79,6 +88,11 @@ function Span({ name, index, length, doubted, keep }: SpanParts) {
           }}
         />
       </label>
+      {reason && (
+        <small id={reasonId} class="reason">
+          {reason}
+        </small>
+      )}
     </li>
   );
 }

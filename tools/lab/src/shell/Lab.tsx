@@ -2,6 +2,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { Clashes } from "./Clashes";
 import { Header } from "./Header";
+import { Held } from "./Held";
 import { MachineBar } from "./MachineBar";
 import { MachineContext, useLiveMachine } from "./machine";
 import { type Loaded, ProjectContext, type Shared, useSharedProject } from "./project";
@@ -27,16 +28,16 @@ export function Lab() {
   const loaded = useSharedProject();
   const { shared, trouble } = loaded;
   const id = useAddress();
-  const machine = useLiveMachine();
+  const live = useLiveMachine();
   if (!shared) {
     return <main class="alone">{trouble ? <p role="alert">{trouble}</p> : <p>Loading …</p>}</main>;
   }
   const step: Step = [...STEPS, ...ROOMS].find((step) => step.id === id) ?? (STEPS[0] as Step);
   return (
     <ProjectContext.Provider value={shared}>
-      <MachineContext.Provider value={machine}>
+      <MachineContext.Provider value={live.machine}>
         <Header />
-        <MachineBar />
+        <MachineBar live={live} />
         <Way project={shared.project} here={step.id} />
         <Main step={step} shared={shared} loaded={loaded} />
       </MachineContext.Provider>
@@ -66,6 +67,7 @@ function Main({ step, shared, loaded }: { step: Step; shared: Shared; loaded: Lo
         </p>
       )}
       <Clashes kept={loaded.choices} />
+      <Held />
       {missing ? (
         <section class="screen">
           <h1>{step.title}</h1>

@@ -2,21 +2,27 @@
 import { useEffect } from "preact/hooks";
 import { send } from "../api/client";
 import { namedLength } from "../controls/lengths";
-import { isReady, type Machine, subject, useMachine } from "./machine";
+import { isReady, type LiveMachine, type Machine, subject } from "./machine";
+import type { Press } from "./presses";
 import { useProject } from "./project";
 import "./machine-bar.css";
 
-export function MachineBar() {
-  const machine = useMachine();
+const UNREACHABLE = "Cannot reach the machine: use its power switch";
+
+export function MachineBar({ live }: { live: LiveMachine }) {
+  const { machine, presses, press } = live;
   const { project, setTrouble } = useProject();
-  const press = (way: "hold" | "go-on" | "stop") =>
-    send("POST", `machine/${way}`).catch((error: Error) => setTrouble(error.message));
+  const goOn = () => {
+    presses.giveUp();
+    send("POST", "machine/go-on").catch((error: Error) => setTrouble(error.message));
+  };
+  const unseen = machine.unseen > 0;
   const runs = machine.moves || machine.phase === "busy";
   const works = machine.kind !== "none" && machine.phase !== "lost";
   useEffect(() => {
     if (!works || !runs) return;
     const pressed = (event: KeyboardEvent) => {
-      if (event.key === "Escape" && !event.repeat) void press("hold");
+      if (event.key === "Escape" && !event.repeat) void presses.press("hold");
     };
     addEventListener("keydown", pressed);
     return () => removeEventListener("keydown", pressed);
@@ -26,7 +32,7 @@ export function MachineBar() {
   const share = program?.outcome === "running" ? program.done / Math.max(1, program.total) : null;
   return (
     <section class={`machine-bar ${tone(machine)}`} aria-label="The machine">
-      <p class="state" role="status">
+      <p class={unseen ? "state old" : "state"} role="status">
         <strong>{stateWords(machine)}</strong>
         {machine.place && machine.knows_place && (
           <span class="place">{placeWords(machine.place, project.choices.units ?? "mm")}</span>
@@ -34,25 +40,30 @@ export function MachineBar() {
       </p>
       {works && (
         <p class="presses">
-          {machine.holds ? (
-            <button
-              type="button"
-              class={machine.waits_for ? "primary" : ""}
-              onClick={() => void press("go-on")}
-            >
+          {!unseen && machine.holds && (
+            <button type="button" class={machine.waits_for ? "primary" : ""} onClick={goOn}>
               Go on
             </button>
-          ) : (
-            <button type="button" title="Also the key Escape" onClick={() => void press("hold")}>
+          )}
+          {!unseen && !machine.holds && (
+            <button
+              type="button"
+              title="Also the key Escape"
+              onClick={() => void presses.press("hold")}
+            >
               Hold
             </button>
           )}
-          <button type="button" class="stop" onClick={() => void press("stop")}>
-            Stop
+          <button type="button" class="stop" onClick={() => void presses.press("stop")}>
+            {unseen ? UNREACHABLE : "Stop"}
           </button>
         </p>
       )}
-      {share !== null && (
+      {machine.phase === "lost" && <p class="said">{UNREACHABLE}.</p>}
+      <p class="pressed" role="status">
+        {press && pressWords(press)}
+      </p>
+      {share !== null && !unseen && (
         <progress value={share} aria-label={`${program?.title} so far`}>
           {Math.round(share * 100)} %
         </progress>
@@ -70,7 +81,15 @@ export function MachineBar() {
   );
 }
 
+function pressWords({ way, state, line }: Press): string {
+  const name = way === "stop" ? "Stop" : "Hold";
+  if (state === "done") return `${name} was passed on to the machine.`;
+  if (state === "refused") return `${name} was refused: ${line}.`;
+  return state === "unanswered" ? `Nobody answers ${name}; it is sent again and again.` : "";
+}
+
 function tone(machine: Machine): string {
+  if (machine.unseen) return "bad";
   if (machine.phase === "lost" || !machine.knows_place) return "bad";
   return machine.moves || machine.phase === "busy" ? "moves" : "";
 }
@@ -79,6 +98,7 @@ function tone(machine: Machine): string {
 function stateWords(machine: Machine): string {
   const { phase, program } = machine;
   const name = subject(machine);
+  if (machine.unseen > 0) return `${name}: last seen ${machine.unseen} s ago`;
   if (phase === "lost") return `${name}: the line is lost`;
   if (phase === "connecting") return `${name}: connecting`;
   if (phase === "stopping") return `${name} stops`;

@@ -1,10 +1,12 @@
 // The machine as it is now: the server says so over a websocket, each time that something changes.
 import { createContext } from "preact";
-import { useContext, useEffect, useState } from "preact/hooks";
-import type { Schemas } from "../api/client";
-import { token } from "../api/token";
+import { useContext, useEffect, useMemo, useState } from "preact/hooks";
+import { isSilence, type Schemas } from "../api/client";
+import { Live } from "./live";
+import { type Press, Presses } from "./presses";
 
-export type Machine = Schemas["MachineAnswer"];
+/** How it is; `unseen` seconds ago, 0 while it is heard of all the time. */
+export type Machine = Schemas["MachineAnswer"] & { unseen: number };
 
 const NONE: Machine = {
   kind: "none",
@@ -18,8 +20,12 @@ const NONE: Machine = {
   program: null,
   waits_for: "",
   said: [],
+  silent_s: 0,
+  numbers: "",
+  unseen: 0,
 };
-const TRY_AGAIN_MS = 1000;
+const LOOK_MS = 500;
+const REST_MS = 1000; // before a press is sent again
 
 export const MachineContext = createContext<Machine>(NONE);
 
@@ -30,7 +36,7 @@ export function useMachine(): Machine {
 
 /** Whether it can take work now. */
 export function isReady(machine: Machine): boolean {
-  return machine.phase === "ready" && !machine.moves && !machine.holds;
+  return machine.phase === "ready" && !machine.moves && !machine.holds && machine.unseen === 0;
 }
 
 /** Its name at the beginning of a sentence. */
@@ -38,29 +44,34 @@ export function subject(machine: Machine): string {
   return machine.kind === "virtual" ? "The virtual machine" : machine.name;
 }
 
+/** What the frame knows of the machine, and how it is stopped. */
+export interface LiveMachine {
+  machine: Machine;
+  press: Press | undefined;
+  presses: Presses;
+}
+
 /** Listens to the machine; for the frame alone. */
-export function useLiveMachine(): Machine {
-  const [machine, setMachine] = useState(NONE);
+export function useLiveMachine(): LiveMachine {
+  const [said, setSaid] = useState<Schemas["MachineAnswer"]>(NONE);
+  const [silent, setSilent] = useState(0);
+  const [press, setPress] = useState<Press>();
+  const live = useMemo(() => new Live(setSaid), []);
+  const presses = useMemo(() => {
+    const rest = () => new Promise<void>((done) => setTimeout(done, REST_MS));
+    return new Presses({ press: (way) => live.press(way), isSilence, rest }, setPress);
+  }, [live]);
   useEffect(() => {
-    let socket: WebSocket | undefined;
-    let timer = 0;
-    let over = false;
-    const listen = () => {
-      socket = new WebSocket(new URL("api/live", location.href.replace(/^http/, "ws")), [
-        "plumb",
-        token(),
-      ]);
-      socket.onmessage = (message) => setMachine(JSON.parse(message.data) as Machine);
-      socket.onclose = () => {
-        if (!over) timer = window.setTimeout(listen, TRY_AGAIN_MS);
-      };
-    };
-    listen();
+    live.open();
+    const timer = setInterval(() => setSilent(live.silence()), LOOK_MS);
     return () => {
-      over = true;
-      clearTimeout(timer);
-      socket?.close();
+      clearInterval(timer);
+      live.close();
     };
-  }, []);
-  return machine;
+  }, [live]);
+  const machine = useMemo(
+    () => ({ ...said, unseen: silent ? silent + said.silent_s : said.silent_s }),
+    [said, silent],
+  );
+  return { machine, press, presses };
 }

@@ -1,6 +1,6 @@
 // Step 5: cut the marks: save the program, or send it; hold and stop are in the bar.
-import { useState } from "preact/hooks";
 import { type Project, type Schemas, send } from "../api/client";
+import { useDo } from "../shell/doing";
 import { useChoosing } from "../shell/kept";
 import { isReady, type Machine, useMachine } from "../shell/machine";
 import { useNewest } from "../shell/newest";
@@ -50,29 +50,22 @@ export function Cut() {
   );
 }
 
-function running({ waits_for }: Machine): string {
+function running({ waits_for, unseen }: Machine): string {
+  if (unseen > 0) return "Nobody sees the machine";
   return waits_for ? "The machine waits for you" : "The machine cuts";
 }
 
-function whileRunning({ waits_for }: Machine): string {
+function whileRunning({ waits_for, unseen }: Machine): string {
+  if (unseen > 0) return "It may cut on. Look at it, with a hand on its power switch.";
   return waits_for ? `${sentence(waits_for)} Then press Go on, below.` : CUTS;
 }
 
 /** What can be done now: one button that says what will happen, and saving. */
 function Choice({ grid }: { grid: Grid }) {
-  const { take, reload, setTrouble } = useProject();
+  const { take, reload } = useProject();
   const machine = useMachine();
-  const [works, setBusy] = useState(false);
+  const [works, run] = useDo();
   const busy = useChoosing() || works;
-  const run = (work: () => Promise<unknown>) => {
-    setBusy(true);
-    work()
-      .then(
-        () => setTrouble(""),
-        (error: Error) => setTrouble(error.message),
-      )
-      .finally(() => setBusy(false));
-  };
   const save = async () => take(await send<Project>("POST", "grid"));
   const putBack = async () => take(await send<Project>("DELETE", "next"));
   const cut = async () => {

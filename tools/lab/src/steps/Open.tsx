@@ -24,7 +24,7 @@ export function Open() {
       title={machine ? "This machine is open" : "Which machine is it?"}
       say={
         machine
-          ? "Is it yours? Another file replaces it. Nothing moves before you press a button that says what moves."
+          ? "Is it yours? Else open another file; this file stays. Nothing moves before you press a button that says what moves."
           : "Open the settings that your machine has now, connect the machine, or try a virtual machine. Nothing moves here."
       }
       why={

@@ -7,6 +7,7 @@ import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
 import { CouldHide } from "./verdict/CouldHide";
 import { ErrorMaps } from "./verdict/ErrorMaps";
+import { HalfTyped } from "./verdict/HalfTyped";
 import { NextStep } from "./verdict/NextStep";
 import { SuspectCard } from "./verdict/SuspectCard";
 import type { VerdictAnswer } from "./verdict/words";
@@ -26,7 +27,12 @@ export function Verdict() {
   const { answer, refused } = useAnswer<VerdictAnswer>("verdict");
   const [isNextWanted, wantNext] = useState(false);
   const verdict = answer?.verdict;
-  if (refused) return <Screen title="No verdict yet" say={refused} />;
+  if (refused)
+    return (
+      <Screen title="No verdict yet" say={refused}>
+        <HalfTyped />
+      </Screen>
+    );
   if (!verdict) {
     return (
       <Screen title="Why are the marks off?" say="Every known effect is tried on your readings.">
@@ -52,6 +58,7 @@ export function Verdict() {
           </li>
         </ul>
       )}
+      <HalfTyped />
       <ErrorMaps verdict={verdict} sheet={sheet} units={units} />
       <NextStep
         sheet={sheet}

@@ -29,3 +29,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="write back the numbers that the machine had before you sent FILE",
     )
+    parser.add_argument(
+        "--force",
+        action="store_true",
+        help="send marks, or numbers, though the machine holds others than those that they were "
+        "made for",
+    )

@@ -13,12 +13,14 @@ from plumb.diagnosis.check_sentence import check_sentence
 from plumb.fit.inputs import Inputs
 from plumb.fit.read_inputs import settings_in
 from plumb.grid import program
+from plumb.grid.cut_with import with_form
 from plumb.lab.choices import Choices, read_choices, save_choices
 from plumb.lab.commands import command, known_words, unit_words
+from plumb.lab.held import refuse_other_machine
 from plumb.lab.machine_line import TheLine
 from plumb.lab.planned import Planned, planned, refuse_unreachable
 from plumb.lab.project import Project
-from plumb.lab.rounds import form_text, grid_command
+from plumb.lab.rounds import form_text, grid_command, kept_settings
 from plumb.lab.routes.comparison import inputs_of, read_names
 from plumb.lab.routes.machine import MachineAnswer, machine
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
@@ -114,6 +116,7 @@ def cut_check(project: TheProject, line: TheLine) -> MachineAnswer:
     """Write both, and send the program. The machine moves."""
     if not line.state.knows_place:
         raise InputError("where the sled is, is not known: set its chains first")
+    refuse_other_machine(project, line)
     name, text = _save(project)
     if owner := line.virtual:
         line.do(lambda sender: owner.weigh_down(owner.settings.sled_weight))
@@ -225,8 +228,10 @@ def _save(project: Project) -> tuple[str, str]:
         form = f"{CHECK}{number}{ENDING}"
     name, plan = f"{CHECK}{number}.nc", _plan(inputs, _cut_before(project, choices, form))
     text = program(plan.grid, plan.machine)
-    files = {form: form_text(project, _same_sheet(choices), plan, form), name: text.encode()}
-    project.save(files, read={each: project.digest(each) for each in files})
+    filled = form_text(project, _same_sheet(choices), plan, form)
+    files = {form: filled, name: with_form(text, form, name).encode()}
+    known = {each: project.digest(each) for each in files}
+    project.save({**files, **kept_settings(project, choices)}, read=known)
     return name, text
 
 

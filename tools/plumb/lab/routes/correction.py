@@ -11,6 +11,7 @@ from plumb.cure.add import Addition, Parameter
 from plumb.cure.auto import add_auto
 from plumb.cure.correction import Correction, correct, has_setting
 from plumb.cure.machine_file import toml_of, turn_sentences
+from plumb.cure.origin import refuse_other_origin
 from plumb.cure.record import record_of
 from plumb.diary.entries import FIT, fit_entry
 from plumb.diary.keeping import keep
@@ -19,11 +20,12 @@ from plumb.fit.inputs import Inputs
 from plumb.lab.background import Progress
 from plumb.lab.choices import FILE, Choices, choices_text, read_choices
 from plumb.lab.commands import command, known_words, unit_words
+from plumb.lab.held import refuse_unanswered
 from plumb.lab.live_boards import key_of
+from plumb.lab.machine_line import TheLine
 from plumb.lab.project import Project
 from plumb.lab.routes.comparison import board_words, inputs_of
 from plumb.lab.routes.project import TheProject
-from plumb.lab.routes.readings import free_name
 from plumb.lab.routes.verdict import TheBackground
 from plumb.model.plain import plain_change, plain_range
 from plumb.text.errors import InputError
@@ -32,6 +34,7 @@ from plumb.text.shown import shown_in
 router = APIRouter(tags=["correction"])
 CLIENT_OF = {Path(file).suffix: client for client, file in CLIENT_FILES.items()}
 NO_CLIENT = "none"
+WRITTEN = (".toml", ".nc", *(f"-{file}" for file in CLIENT_FILES.values()))  # by a correction
 
 
 class ChangedNumber(BaseModel):
@@ -102,6 +105,7 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
     choices, _ = read_choices(project)
     key = "\n".join([key_of(project), choices.units, *sorted(choices.accepted)])
     inputs = inputs_of(project)
+    refuse_other_origin(inputs)
 
     def work(progress: Progress) -> CorrectionParts:
         progress(0.1)
@@ -114,7 +118,7 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
             return _parts(made, auto.reason, choices)
 
     answer = background.ask("correction", key, work)
-    file = free_name(project, "machine")
+    file = project.free_name("machine", *WRITTEN)
     unit = unit_words(choices, inputs.measurements.typed.unit)
     add = answer.result.add if answer.result else [*known_words(choices), "--effect", "auto"]
     client = ["--client", *_client_words(choices)]
@@ -127,17 +131,19 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
 
 
 @router.post("/correction")
-def write(known: Write, project: TheProject) -> Written:
+def write(known: Write, project: TheProject, line: TheLine) -> Written:
     """Write the machine with the accepted numbers, and what belongs to its client; open it."""
     choices, _ = read_choices(project)
     inputs = inputs_of(project)
+    refuse_other_origin(inputs)
+    refuse_unanswered(project, line)
     auto = add_auto(inputs)
     if auto.addition is None:
         raise InputError(auto.reason)
     made = correct(inputs, auto.chosen, choices.accepted).accepted
     if made is None:
         raise InputError("no number is accepted, so there is nothing to write")
-    name = free_name(project, "machine")
+    name = project.free_name("machine", *WRITTEN)
     text = toml_of(made, source=" ".join(choices.marks), record=record_of(made, inputs))
     client = _client_files(project, choices, made, name)
     chosen = choices.model_copy(
@@ -150,7 +156,12 @@ def write(known: Write, project: TheProject) -> Written:
     more = {Path(path).name: content for path, content in client.files.items()}
     project.save(
         {**more, name: text, FILE: choices_text(chosen)},
-        read={FILE: known.choices, choices.settings: known.settings, name: ""},
+        read={
+            FILE: known.choices,
+            choices.settings: known.settings,
+            **dict.fromkeys(more, ""),
+            name: "",
+        },
     )
     failure = _in_diary(project, made, inputs, name, text.decode())
     return Written(

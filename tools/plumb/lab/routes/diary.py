@@ -86,7 +86,7 @@ def show_diary(project: TheProject) -> DiaryAnswer:
                 before=_known(fit.before),
                 rms=_known(fit.rms),
                 left_out=_known(fit.left_out),
-                effects=plainly(fit.effects) if fit.effects else "the frame",
+                effects=plainly(fit.effects),
             )
             for fit in history.fits
         ],

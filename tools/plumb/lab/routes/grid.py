@@ -10,12 +10,22 @@ from pydantic import BaseModel
 
 from plumb.fit.read_inputs import settings_in
 from plumb.grid import program, spans_in, touches_of
+from plumb.grid.cut_with import with_form
 from plumb.lab.choices import FILE, Choices, read_choices, save_choices, with_marks
 from plumb.lab.commands import command
+from plumb.lab.held import refuse_other_machine
 from plumb.lab.machine_line import MachineLine, TheLine
 from plumb.lab.planned import Planned, planned, refuse_unreachable
 from plumb.lab.project import Project
-from plumb.lab.rounds import FORM, PROGRAM, form_text, grid_command, next_number, on_new_sheet
+from plumb.lab.rounds import (
+    FORM,
+    PROGRAM,
+    form_text,
+    grid_command,
+    kept_settings,
+    next_number,
+    on_new_sheet,
+)
 from plumb.lab.routes.machine import MachineAnswer, machine
 from plumb.lab.routes.plan import opened
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
@@ -150,7 +160,8 @@ def cut_grid(project: TheProject, line: TheLine) -> MachineAnswer:
     choices, _ = read_choices(project)
     taken = taken_marks(project, choices)
     if taken:
-        return _cut_taken(taken, opened(project), line)
+        return _cut_taken(taken, project, line)
+    refuse_other_machine(project, line)
     name, text = _save(project)
     owner = line.virtual
     if owner:
@@ -160,15 +171,16 @@ def cut_grid(project: TheProject, line: TheLine) -> MachineAnswer:
     return machine(line)
 
 
-def _cut_taken(taken: Taken, settings: MachineSettings, line: MachineLine) -> MachineAnswer:
+def _cut_taken(taken: Taken, project: Project, line: MachineLine) -> MachineAnswer:
     """Send the program of a proposal. Who owns a virtual machine hangs weights in its pauses."""
-    refuse_way(settings, taken.marks)
+    refuse_way(opened(project), taken.marks)
     owner = line.virtual
+    if owner and taken.swaps_chains:
+        raise InputError("the chains of a virtual machine stay: take another measurement")
+    refuse_other_machine(project, line)
     if owner is None:
         line.send(taken.program, taken.text.splitlines())
         return machine(line)
-    if taken.swaps_chains:
-        raise InputError("the chains of a virtual machine stay: take another measurement")
     weights = _weights_after_pauses(taken, owner.settings.sled_weight)
 
     line.do(lambda sender: _lay(owner, 0.0, new_sheet=False))
@@ -272,7 +284,7 @@ def _save(project: Project) -> tuple[str, str]:
     text = program(plan.grid, plan.machine)
     number, files = _files(project, choices, plan, text)
     known = {name: project.digest(name) for name in files}
-    project.save(files, read={FILE: digest, **known})
+    project.save({**files, **kept_settings(project, choices)}, read={FILE: digest, **known})
     return PROGRAM.format(number), text
 
 
@@ -281,9 +293,9 @@ def _files(
 ) -> tuple[str, dict[str, bytes]]:
     """The number of the next round, and its files: a form with readings is never replaced."""
     number = next_number(project)
-    form = FORM.format(number)
+    form, file = FORM.format(number), PROGRAM.format(number)
     filled = form_text(project, choices, plan, form)
-    return number, {form: filled, PROGRAM.format(number): text.encode()}
+    return number, {form: filled, file: with_form(text, form, file).encode()}
 
 
 def _command(project: Project, choices: Choices, plan: Planned, number: str) -> str:

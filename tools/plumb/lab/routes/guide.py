@@ -18,7 +18,6 @@ from plumb.lab.guide_desk import GuideDesk, Kind
 from plumb.lab.machine_line import MachineLine, TheLine
 from plumb.lab.project import Project
 from plumb.lab.routes.project import TheProject
-from plumb.line.memory import read_numbers
 from plumb.text.errors import InputError
 
 router = APIRouter(tags=["guide"])
@@ -136,8 +135,9 @@ def _keep(project: Project, line: MachineLine, visit: Visit, step: str) -> None:
     """Open the machine that a step wrote, with what its owner knows of it."""
     if step not in ("read", "numbers"):
         return
+    line.note_numbers(visit.sender)
     if line.virtual:
-        line.virtual.settings = machine_of_numbers(read_numbers(visit.sender))
+        line.virtual.settings = machine_of_numbers(line.state.numbers)
     frame = settings_in(visit.path).frame
     known = {
         name: Number(value=frame[name], sigma=sigma)

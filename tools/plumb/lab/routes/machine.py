@@ -2,34 +2,35 @@
 
 from __future__ import annotations
 
-import asyncio
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Literal
 
-from fastapi import APIRouter, WebSocket, WebSocketDisconnect
+from fastapi import APIRouter
 from pydantic import BaseModel, Field
 
 from plumb.diary.numbers_written import write_and_keep
+from plumb.firmware.in_force import digest_of_numbers
 from plumb.firmware.read_back import machine_of_numbers
 from plumb.firmware.settings import every_setting
 from plumb.jobs.program_file import refuse_what_is_no_program
 from plumb.lab.choices import save_choices
-from plumb.lab.guard import PROTOCOL
-from plumb.lab.machine_line import MachineLine, TheLine, line_of, ports
+from plumb.lab.held import refuse_foreign_fit
+from plumb.lab.machine_line import MachineLine, TheLine, ports
 from plumb.lab.project import Project
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
-from plumb.lab.routes.readings import free_name
 from plumb.line.machine_numbers import kept_before, lines_for
-from plumb.line.memory import Written, read_numbers
+from plumb.line.memory import Written
 from plumb.line.sender import Sender
 from plumb.settings.files import machine_toml, read_settings
+from plumb.text.errors import InputError
 from plumb.vm.garage import random_garage
 from plumb.vm.hiding import RANDOM, hide
 from plumb.vm.owner import VirtualOwner
 
 router = APIRouter(tags=["machine"])
 MACHINE = "machine.toml"
-LOOK_EVERY = 0.1  # [s] between two looks at the machine
+SILENT = 2.0  # [s] a machine reports five times a second
 Speed = Annotated[float, Field(ge=1, le=1000)]
 
 
@@ -64,6 +65,8 @@ class MachineAnswer(BaseModel):
     program: ProgramAnswer | None
     waits_for: str  # what is to be done before the program goes on; empty if it does not wait
     said: list[str]  # the machine's last lines
+    silent_s: int  # since the machine last reported; 0 while it does
+    numbers: str  # a digest of the numbers that it last listed; empty if it listed none
 
 
 class BoardRequest(BaseModel):
@@ -102,9 +105,13 @@ class LineRequest(BaseModel):
 
 
 class NumbersRequest(BaseModel):
-    """The file of the project whose numbers go to the machine."""
+    """The file of the project whose numbers go to the machine.
+
+    `replaces`: the digest of the machine's numbers that the owner gives up for those of the file.
+    """
 
     file: str = MACHINE
+    replaces: str = Field(default="", max_length=64)
 
 
 class NumberChange(BaseModel):
@@ -138,6 +145,8 @@ def machine(line: TheLine) -> MachineAnswer:
             "name": line.name,
             "program": vars(state.program) if state.program else None,
             "waits_for": state.waits_for,
+            "silent_s": int(line.silence) if line.silence >= SILENT else 0,
+            "numbers": digest_of_numbers(state.numbers) if state.numbers else "",
         }
     )
 
@@ -194,8 +203,8 @@ def send_line(request: LineRequest, line: TheLine) -> list[str]:
 
 
 @router.post("/machine/hold")
-def hold(line: TheLine) -> MachineAnswer:
-    """Stop along the path, without leaving it."""
+async def hold(line: TheLine) -> MachineAnswer:
+    """Stop along the path, without leaving it. No thread has to be free for it."""
     line.hold()
     return machine(line)
 
@@ -208,8 +217,8 @@ def go_on(line: TheLine) -> MachineAnswer:
 
 
 @router.post("/machine/stop")
-def stop(line: TheLine) -> MachineAnswer:
-    """Stop, and give up what was being done."""
+async def stop(line: TheLine) -> MachineAnswer:
+    """Stop, and give up what was being done. No thread has to be free for it."""
     line.stop()
     return machine(line)
 
@@ -217,9 +226,9 @@ def stop(line: TheLine) -> MachineAnswer:
 @router.post("/machine/settings")
 def read_into_project(project: TheProject, line: TheLine) -> ProjectAnswer:
     """Read the machine's numbers into a machine.toml, and open it; another machine.toml stays."""
-    text = machine_toml(machine_of_numbers(line.do(read_numbers))).encode()
+    text = machine_toml(machine_of_numbers(line.read_numbers())).encode()
     # Marks that were cut with the old settings need them as they were.
-    name = MACHINE if project.read(MACHINE) in (None, text) else free_name(project, "machine")
+    name = project.place_for(text, "machine", ".toml")
     save_choices(
         project,
         lambda choices: choices.model_copy(update={"settings": name}),
@@ -234,6 +243,7 @@ def write_numbers(request: NumbersRequest, project: TheProject, line: TheLine) -
     """Write the numbers of a file, read them back, and keep the old numbers in a file."""
     path = project.path(request.file)
     lines = lines_for(read_settings(path), request.file)
+    refuse_foreign_fit(project, line, request.file, replaces=request.replaces)
     return _written(line, project, request.file, lines)
 
 
@@ -252,11 +262,15 @@ def _written(
     def write(sender: Sender) -> tuple[Written, str, str]:
         # With other numbers the reported place is another, which looks like a move.
         sender.await_rest()
-        return write_and_keep(sender, path, lines, back=back)
+        try:
+            return write_and_keep(sender, path, lines, back=back)
+        finally:
+            with suppress(InputError):  # what went wrong with the numbers is said
+                line.note_numbers(sender)
 
     written, kept, failure = line.do(write)
     if line.virtual:
-        line.virtual.settings = machine_of_numbers(line.do(read_numbers))
+        line.virtual.settings = machine_of_numbers(line.state.numbers)
     return NumbersAnswer(
         changed=_changes(written), back=back, kept=Path(kept).name, failure=failure
     )
@@ -275,27 +289,3 @@ def _changes(written: Written) -> list[NumberChange]:
         )
         for number, (before, after) in written.changed.items()
     ]
-
-
-@router.websocket("/live")
-async def live(websocket: WebSocket) -> None:
-    """Says how the machine is, each time that something changes."""
-    line = line_of(websocket)
-    await websocket.accept(subprotocol=PROTOCOL)
-    gone = asyncio.create_task(_gone(websocket))
-    said: MachineAnswer | None = None
-    while not gone.done():
-        now = machine(line)
-        if now != said:
-            await websocket.send_text(now.model_dump_json())
-            said = now
-        await asyncio.wait([gone], timeout=LOOK_EVERY)
-
-
-async def _gone(websocket: WebSocket) -> None:
-    """Ends when the page has left; whatever it sends is ignored."""
-    try:
-        while True:
-            await websocket.receive_text()
-    except (WebSocketDisconnect, KeyError, RuntimeError):
-        return

@@ -15,7 +15,7 @@ from plumb.lab.choices import read_choices, save_choices
 from plumb.lab.commands import command
 from plumb.lab.live_boards import key_of
 from plumb.lab.project import ChangedError, Project, digest_of
-from plumb.lab.rounds import has_readings
+from plumb.lab.rounds import has_readings, kept_settings
 from plumb.lab.routes.comparison import inputs_of
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.verdict import Arrow, TheBackground, board_and_known
@@ -114,10 +114,11 @@ def take_next(wanted: Wanted, project: TheProject, background: TheBackground) ->
         raise InputError(f"proposal {wanted.choose} has no marks: do what it says, by hand")
     if written.digest != wanted.digest:
         raise ChangedError("the proposal")
+    kept = kept_settings(project, read_choices(project)[0])
     save_choices(
         project,
         lambda choices: choices.model_copy(update={"proposed": written.form}),
-        files={} if written.is_saved else written.files,
+        files={} if written.is_saved else {**written.files, **kept},
         read={name: project.digest(name) if written.is_saved else "" for name in written.names},
     )
     return show(project)
@@ -226,17 +227,17 @@ def _written(project: Project, advice: Next, place: int) -> _Written | None:
         settings=settings,
         sheet=settings_in(settings).sheet,
     )
-    program = program_of(advice, place) if option.is_cut else None
     count = 1
     while True:
         name = f"{STEM}.toml" if count == 1 else f"{STEM}-{count}.toml"
-        there = project.read(name), project.read(program_name(name))
+        cut_by = program_name(name)
+        program = program_of(advice, place, cut_by, form=name) if option.is_cut else None
+        there = project.read(name), project.read(cut_by)
         if there in ((None, None), (form, program)):
             break
         count += 1
-    files = {name: form} if program is None else {name: form, program_name(name): program}
-    cut = program_name(name) if program else ""
-    return _Written(name, cut, files, is_saved=there[0] is not None)
+    files = {name: form} if program is None else {name: form, cut_by: program}
+    return _Written(name, cut_by if program else "", files, is_saved=there[0] is not None)
 
 
 def _command(

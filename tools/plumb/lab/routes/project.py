@@ -88,17 +88,20 @@ def replace_choices(change: ChoicesChange, project: TheProject) -> ProjectAnswer
 
 @router.post("/settings")
 def open_settings(file: UploadFile, project: TheProject) -> ProjectAnswer:
-    """Take a settings' file into the project. A file that cannot be read changes nothing."""
+    """Take a settings' file into the project, next to those that are there: marks and corrections
+    go by them. A file that cannot be read changes nothing."""
     content = file.file.read()
-    name = ENDINGS.get(Path(file.filename or "").suffix.lower(), "groundcontrol.ini")
+    usual = Path(ENDINGS.get(Path(file.filename or "").suffix.lower(), "groundcontrol.ini"))
     with TemporaryDirectory() as scratch:
-        copy = Path(scratch) / name
+        copy = Path(scratch) / usual
         copy.write_bytes(content)
         settings_in(copy)
+    name = project.place_for(content, usual.stem, usual.suffix)
     save_choices(
         project,
         lambda choices: choices.model_copy(update={"settings": name}),
         files={name: content},
+        read={name: project.digest(name)},
     )
     return show(project)
 

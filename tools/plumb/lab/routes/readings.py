@@ -206,19 +206,9 @@ def open_marks(file: UploadFile, project: TheProject) -> ReadingsAnswer:
         copy = Path(scratch) / f"marks{ending if ending in ('.csv', '.ini') else ENDING}"
         copy.write_bytes(content)
         content = _as_toml(copy, content, sheet)
-    name = free_name(project, "marks")
+    name = project.free_name("marks", ENDING)
     save_choices(project, lambda now: with_marks(now, name), files={name: content}, read={name: ""})
     return show_readings(project, name)
-
-
-def free_name(project: Project, stem: str) -> str:
-    """The first of marks.toml, marks-2.toml ... that no file has."""
-    number = 1
-    while True:
-        name = f"{stem}{ENDING}" if number == 1 else f"{stem}-{number}{ENDING}"
-        if project.read(name) is None:
-            return name
-        number += 1
 
 
 def _command(choices: Choices, name: str, measurements: Measurements) -> str:

@@ -28,6 +28,7 @@ from plumb.lab.routes.comparison import board_words, inputs_of
 from plumb.lab.routes.project import TheProject
 from plumb.model.catalogue import every_effect, label
 from plumb.model.plain import noun_of, nouns_of, plain_range, plain_size, plainly
+from plumb.model.ranks import ranked
 from plumb.text.shown import shown_in, worded
 
 router = APIRouter(tags=["verdict"])
@@ -207,7 +208,7 @@ def _could_hide(diagnosis: Diagnosis) -> list[Hidden]:
         for each in diagnosis.could_hide
         if each.effect not in diagnosis.suspects and each.mm
     ]
-    return sorted(hidden, key=lambda each: -each.mm)[:SHOWN]
+    return ranked(hidden, lambda each: -each.mm)[:SHOWN]
 
 
 def _card(examined: Examined, index: int, together: Together, fitted: Explanation) -> Card:
@@ -225,14 +226,14 @@ def _card(examined: Examined, index: int, together: Together, fitted: Explanatio
 
 def _looks_like(diagnosis: Diagnosis, index: int) -> list[str]:
     """The explanations that draw nearly the same arrows here, the nearest first."""
-    near = sorted(
+    near = [
         (apart, j if i == index else i)
         for (i, j), apart in diagnosis.differences.items()
         if index in (i, j)
-    )
+    ]
     return [
         f"{plainly(diagnosis.explanations[other].effects)}, {worded(apart)} RMS apart"
-        for apart, other in near[:3]
+        for apart, other in ranked(near, lambda each: each[0])[:3]
     ]
 
 

@@ -12,7 +12,7 @@ interface MapParts {
 }
 
 export function CutMap({ sheet, grid }: MapParts) {
-  const { program, place, knows_place, kind } = useMachine();
+  const { program, place, knows_place, kind, unseen } = useMachine();
   const taken = program?.title === grid.program ? program.done : 0;
   const done = grid.marks.filter((mark) => taken >= mark.lines).length;
   return (
@@ -26,16 +26,27 @@ export function CutMap({ sheet, grid }: MapParts) {
             hollow={taken < mark.lines}
           />
         ))}
-        {place && knows_place && kind !== "none" && <Sled place={place} />}
+        {place && knows_place && kind !== "none" && <Sled place={place} old={unseen > 0} />}
       </SheetMap>
     </figure>
   );
 }
 
-function Sled({ place: [x, y, z] }: { place: readonly [number, number, number] }) {
+interface SledParts {
+  place: readonly [number, number, number];
+  /** It may be elsewhere by now. */
+  old: boolean;
+}
+
+function Sled({ place: [x, y, z], old }: SledParts) {
   const pixel = usePixel();
   return (
-    <g fill="none" stroke="var(--before)" stroke-width={2 * pixel}>
+    <g
+      fill="none"
+      stroke={old ? "var(--soft)" : "var(--before)"}
+      stroke-width={2 * pixel}
+      stroke-dasharray={old ? 4 * pixel : undefined}
+    >
       <circle cx={x} cy={-y} r={16 * pixel} />
       <circle cx={x} cy={-y} r={3 * pixel} fill={z < DEEP ? "var(--before)" : "none"} />
     </g>

@@ -46,14 +46,19 @@ export function KnownNumber({ number, known, here, wanted, look, keep }: NumberP
   const sure = shownLength(stated?.sigma ?? number.usual, unit, Math.max(number.digits, 1));
   const [read, setRead] = useState(saved);
   const [sigma, setSigma] = useState(sure);
-  useEffect(() => setRead(saved), [saved]);
+  const mending = useRef(false); // what is no number stays in view until it is mended
+  useEffect(() => {
+    if (!mending.current || saved !== "") setRead(saved);
+  }, [saved]);
   useEffect(() => setSigma(sure), [sure]);
   const [typed, error] = [typedLength(read, unit), typedLength(sigma, unit)];
   const wrong = (read !== "" && typed === undefined) || error === undefined || error <= 0;
   // Why what is saved cannot be; not said of what is typed over it.
   const refused = read === saved ? number.refused : "";
   const done = () => {
-    if (read === "") {
+    mending.current = read !== "" && typed === undefined;
+    if (read === "" || mending.current) {
+      // The number before it does not count any more.
       if (known) keep(undefined);
     } else if (!wrong && typed !== undefined && error !== undefined) {
       if (read !== saved || sigma !== sure) keep(numberOf(number, { value: typed, sigma: error }));
@@ -73,6 +78,7 @@ export function KnownNumber({ number, known, here, wanted, look, keep }: NumberP
           inputMode="decimal"
           aria-label={`${number.title}, ${name}`}
           aria-invalid={wrong || refused !== ""}
+          aria-describedby={wrong ? `no-number-${number.name}` : undefined}
           placeholder="not measured"
           value={read}
           onInput={(event) => setRead(event.currentTarget.value)}
@@ -95,7 +101,9 @@ export function KnownNumber({ number, known, here, wanted, look, keep }: NumberP
         </small>
       )}
       {wrong && (
-        <small class="wrong">Type a number, like {show(number.believed ?? number.usual)}.</small>
+        <small class="wrong" id={`no-number-${number.name}`}>
+          Type a number, like {show(number.believed ?? number.usual)}.
+        </small>
       )}
       {here && isVirtual && (
         <button type="button" disabled={busy} onClick={() => void measure()}>

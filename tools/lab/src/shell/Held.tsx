@@ -1,0 +1,92 @@
+// What the connected machine and the open file say otherwise, and the question which of the two holds: nothing is cut
+// before it is answered.
+import { type Project, type Schemas, send } from "../api/client";
+import { useDo } from "./doing";
+import { isReady, type Machine, subject, useMachine } from "./machine";
+import { useNewest } from "./newest";
+import { useProject } from "./project";
+import "./held.css";
+
+type Answer = Schemas["HeldAnswer"];
+const SHOWN = 6;
+
+export function Held() {
+  const machine = useMachine();
+  const { project } = useProject();
+  const file = project.choices.settings ?? "";
+  const state = JSON.stringify([machine.numbers, file, project.files[file]]);
+  const held = useNewest<Answer>(machine.numbers && file ? "machine/held" : "", state);
+  if (!machine.numbers || !held || held.file !== file || held.numbers.length === 0) return null;
+  if (held.is_fit)
+    return (
+      <p class="which-holds" role="status">
+        {subject(machine)} does not hold the numbers of {file} yet.{" "}
+        <a href="#/correct">Write them into it</a> before you cut.
+      </p>
+    );
+  return <Question held={held} machine={machine} />;
+}
+
+function Question({ held, machine }: { held: Answer; machine: Machine }) {
+  const { take, reload } = useProject();
+  const [busy, run] = useDo();
+  const { file, numbers } = held;
+  const takeIn = async () => take(await send<Project>("POST", "machine/settings"));
+  const write = async () => {
+    await send("POST", "machine/numbers", { file, replaces: machine.numbers });
+    await reload();
+  };
+  const blocked = busy || !isReady(machine);
+  return (
+    <section class="which-holds" role="alert" aria-label="Which numbers hold?">
+      <h2>
+        {subject(machine)} holds other numbers than {file}. Which hold?
+      </h2>
+      <table>
+        <thead>
+          <tr>
+            <th scope="col">number</th>
+            <th scope="col">{file}</th>
+            <th scope="col">the machine</th>
+          </tr>
+        </thead>
+        <tbody>
+          {numbers.slice(0, SHOWN).map((each) => (
+            <tr key={each.number}>
+              <th scope="row">
+                {each.name} (${each.number})
+              </th>
+              <td>
+                {shown(each.in_file)} {each.unit}
+              </td>
+              <td>
+                {shown(each.in_machine)} {each.unit}
+              </td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+      {numbers.length > SHOWN && <p>and {numbers.length - SHOWN} more.</p>}
+      <p class="buttons">
+        <button type="button" disabled={blocked} onClick={() => run(takeIn)}>
+          The machine's: take them into the folder
+        </button>
+        {held.is_written_here && (
+          <button type="button" disabled={blocked} onClick={() => run(write)}>
+            Those of {file}: write them into the machine; nothing moves
+          </button>
+        )}
+      </p>
+      {!held.is_written_here && (
+        <p>
+          If those of {file} hold: disconnect here, connect with your client, which sends them, and
+          come back.
+        </p>
+      )}
+    </section>
+  );
+}
+
+function shown(value: number): string {
+  return String(Number(value.toPrecision(7)));
+}

@@ -1,0 +1,82 @@
+// The live line to the lab: it says how the machine is, each second at least, and takes Stop and Hold.
+import { Refusal, type Schemas, send } from "../api/client";
+import { token } from "../api/token";
+import type { Way } from "./presses";
+
+type Answer = Schemas["MachineAnswer"];
+const TRY_AGAIN_MS = 1000;
+const SILENT_MS = 3500; // the lab speaks each second; a busy computer may be late
+const PRESS_MS = 2000; // for the answer to a press
+
+export class Live {
+  private socket: WebSocket | undefined;
+  private timer = 0;
+  private over = false;
+  private heardAt = Date.now();
+  private count = 0;
+  private readonly waiting = new Map<number, (error: string) => void>();
+  private readonly hear: (machine: Answer) => void;
+
+  constructor(hear: (machine: Answer) => void) {
+    this.hear = hear;
+  }
+
+  open(): void {
+    const address = new URL("api/live", location.href.replace(/^http/, "ws"));
+    this.over = false;
+    const socket = new WebSocket(address, ["plumb", token()]);
+    this.socket = socket;
+    socket.onmessage = (message) => this.take(JSON.parse(message.data));
+    socket.onclose = () => {
+      if (!this.over) this.timer = window.setTimeout(() => this.open(), TRY_AGAIN_MS);
+    };
+  }
+
+  close(): void {
+    this.over = true;
+    clearTimeout(this.timer);
+    this.socket?.close();
+  }
+
+  /** How long nobody has spoken [s]; 0 while the line is alive. */
+  silence(): number {
+    const passed = Date.now() - this.heardAt;
+    return passed < SILENT_MS ? 0 : Math.round(passed / 1000);
+  }
+
+  /** Presses over the line and by a request; the first answer counts. Fails if there is none. */
+  async press(way: Way): Promise<void> {
+    const request = send("POST", `machine/${way}`, undefined, PRESS_MS);
+    const answers = [request.then(() => undefined)];
+    if (this.socket?.readyState === WebSocket.OPEN) answers.push(this.overLine(this.socket, way));
+    try {
+      await Promise.any(answers);
+    } catch (error) {
+      const errors = (error as AggregateError).errors as Refusal[];
+      throw errors.find(({ status }) => status !== 0) ?? errors[0];
+    }
+  }
+
+  private overLine(socket: WebSocket, way: Way): Promise<undefined> {
+    this.count += 1;
+    const { count } = this;
+    return new Promise((done, fail) => {
+      const late = () => fail(new Refusal("The lab does not answer.", 0));
+      const timer = setTimeout(late, PRESS_MS);
+      this.waiting.set(count, (error) => {
+        clearTimeout(timer);
+        if (error) fail(new Refusal(error, 422));
+        else done(undefined);
+      });
+      socket.send(`${way} ${count}`);
+    });
+  }
+
+  private take(said: Answer | { press: number; error: string }): void {
+    this.heardAt = Date.now();
+    if ("press" in said) {
+      this.waiting.get(said.press)?.(said.error);
+      this.waiting.delete(said.press);
+    } else this.hear(said);
+  }
+}

@@ -1,0 +1,56 @@
+// Stop and Hold: sent until they are answered, over the live line and as a request, whichever comes through.
+
+export type Way = "stop" | "hold";
+/** What became of the last press. */
+export interface Press {
+  way: Way;
+  state: "sent" | "unanswered" | "done" | "refused";
+  /** Why it was refused. */
+  line: string;
+}
+
+export interface Channel {
+  /** Sends a press and waits for its answer for a moment. */
+  press: (way: Way) => Promise<void>;
+  /** Whether nobody answered, so that the press is to be sent again. */
+  isSilence: (error: unknown) => boolean;
+  /** Waits before the next try. */
+  rest: () => Promise<void>;
+}
+
+export class Presses {
+  private newest = 0;
+  private readonly channel: Channel;
+  private readonly hear: (press: Press) => void;
+
+  constructor(channel: Channel, hear: (press: Press) => void) {
+    this.channel = channel;
+    this.hear = hear;
+  }
+
+  /** Sends a press until it is answered, or another is pressed. */
+  async press(way: Way): Promise<void> {
+    this.newest += 1;
+    const turn = this.newest;
+    const hear = (state: Press["state"], line = "") => {
+      if (turn === this.newest) this.hear({ way, state, line });
+    };
+    hear("sent");
+    while (turn === this.newest) {
+      try {
+        await this.channel.press(way);
+        return hear("done");
+      } catch (error) {
+        if (!this.channel.isSilence(error))
+          return hear("refused", error instanceof Error ? error.message : String(error));
+      }
+      hear("unanswered");
+      await this.channel.rest();
+    }
+  }
+
+  /** Nothing is sent again: something else was pressed. */
+  giveUp(): void {
+    this.newest += 1;
+  }
+}

@@ -1,0 +1,33 @@
+"""Diagnoses and proposals of the same inputs are worked out once: tests ask how they are said."""
+
+import pickle
+
+import pytest
+from plumb.diagnosis import diagnose
+from plumb.model.catalogue import effect_names
+from plumb.plan import propose
+
+DIAGNOSING = ("plumb.cli.diagnose", "plumb.cli.next", "plumb.cure.auto")
+PROPOSING = ("plumb.cli.diagnose", "plumb.cli.next", "plumb.cli.calibrate", "plumb.report.findings")
+_known = {}
+
+
+def _once(work, inputs, *others, **how):
+    key = work.__name__, *effect_names(), pickle.dumps(inputs)
+    if key not in _known:
+        _known[key] = work(*others, inputs, **how)
+    return _known[key]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def asked_again():
+    """For the tests of a room whose conftest imports it."""
+    with pytest.MonkeyPatch.context() as patch:
+        for room in DIAGNOSING:
+            patch.setattr(f"{room}.diagnose", lambda inputs: _once(diagnose, inputs))
+        for room in PROPOSING:
+            patch.setattr(
+                f"{room}.propose",
+                lambda diagnosis, inputs, **how: _once(propose, inputs, diagnosis, **how),
+            )
+        yield

@@ -1,0 +1,106 @@
+"""Boards of the judge with something hidden, through every command that reads marks: each answers,
+or refuses in one line; none ends in a traceback, and no number of an answer is nonsense."""
+
+import re
+import warnings
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+import pytest
+from plumb.bench.boards import cut, plan
+from plumb.bench.causes import MAKER, PUBLISHED
+from plumb.bench.hiding import slip
+from plumb.bench.scenarios import SCENARIOS
+from plumb.marks.form import head_of, toml_text
+from plumb.plan.outlook import outlook
+from plumb.settings.files import write_machine_toml
+
+DATA = Path(__file__).resolve().parents[1] / "data"
+QUICK = {"compare": (), "diagnose": (), "add": ("--effect", "auto")}
+COMMANDS = {
+    **QUICK,
+    "next": (),
+    "calibrate": ("-o", "fitted.toml"),
+    "report": ("-o", "report.html"),
+}
+# A row, a column and a square of marks settle little; so do three marks.
+GRIDS = ((5, 3), (3, 3), (5, 5), (3, 1), (1, 4), (2, 2), (7, 3), (4, 2))
+KNOWN = (MAKER, PUBLISHED)
+FEW, MANY, TOGETHER = 24, 1000, 50
+
+
+def board_of(index):
+    """Board number `index`: what is hidden, the layout and the settings take turns."""
+    scenario = SCENARIOS[index % len(SCENARIOS)]
+    # As many turns of the layout as it takes to meet every scenario with each.
+    turn = index // len(SCENARIOS) + index
+    settings, grid = [*product(KNOWN, GRIDS)][turn % (len(KNOWN) * len(GRIDS))]
+    layout = plan(*grid, repeats=scenario.repeats and min(grid) > 1, spans=scenario.spans)
+    hidden = scenario.hide(index, scenario.plan)
+    board = cut(
+        hidden,
+        layout,
+        seed=index,
+        noise=scenario.noise,
+        tape_sigma=scenario.stated,
+        settings=settings,
+    )
+    if scenario.slips and layout.again:
+        kind = scenario.slips[index % len(scenario.slips)]
+        board, _ = slip(board, kind, np.random.default_rng(index))
+    return settings, board.measurements
+
+
+def written(folder, index):
+    """The files of a board."""
+    settings, measurements = board_of(index)
+    folder.mkdir()
+    write_machine_toml(folder / "machine.toml", settings)
+    (folder / "marks.toml").write_text(toml_text(head_of(measurements)))
+
+
+@pytest.fixture
+def answer(run, tmp_path, monkeypatch):
+    """Gives a board to some commands; a fault names the board and the command."""
+    # How often a plan is simulated changes its chance, and not the way through the code.
+    monkeypatch.setitem(outlook.__kwdefaults__, "draws", 0)
+
+    def answered(index, commands):
+        folder = tmp_path / f"{index}"
+        written(folder, index)
+        monkeypatch.chdir(folder)
+        for command, options in commands.items():
+            case = f"board {index}, plumb {command}"
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                try:
+                    code, said, complaint = run(command, "machine.toml", "marks.toml", *options)
+                except Exception as error:
+                    raise AssertionError(case) from error
+            assert bool(said) == (code < 2), case
+            assert code < 2 or complaint.count("\n") == 1, f"{case}: {complaint}"
+
+    return answered
+
+
+@pytest.mark.parametrize("index", range(FEW))
+def test_a_board_is_answered(index, answer):
+    answer(index, QUICK)
+
+
+def test_marks_that_the_frame_alone_may_explain_are_answered(run, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    marks = "frame_or_chain_zero.toml"
+    for command, options in COMMANDS.items():
+        code, said, _ = run(command, DATA / "stock_bottom.ini", DATA / marks, *options)
+        assert code in (0, 1)
+        if command in ("diagnose", "calibrate"):
+            assert re.search(r"^or\nthe frame alone +0.\d\d mm$", said, re.MULTILINE)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("first", range(0, MANY, TOGETHER))
+def test_many_boards_are_answered_by_every_command(first, answer):
+    for index in range(first, first + TOGETHER):
+        answer(index, COMMANDS)

@@ -1,0 +1,125 @@
+"""Commands refuse to mix marks of a machine with numbers of another, and say both values."""
+
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import plumb.cli.send as send_command
+import pytest
+from numbers_machine import NumbersMachine
+from plumb import api
+from plumb.cure.machine_file import toml_of
+from plumb.cure.record import record_of
+from plumb.firmware.in_force import numbers_in_force
+from plumb.grid.cut_with import form_of, with_form
+from plumb.settings.files import read_settings, write_machine_toml
+from synthetic import BELIEVED, TRUE, grid, marks_on
+
+ROOT = Path(__file__).resolve().parents[3]
+EXAMPLE = ROOT / "docs/example"
+OTHER = replace(BELIEVED, motor_gap=BELIEVED.motor_gap + 30)
+BOTH = "motor_gap ($2) is 3008.4 in other.toml and 2978.4 in the machine"
+
+
+@pytest.fixture(autouse=True)
+def board(tmp_path, monkeypatch):
+    """A board that holds the numbers of machine.toml, in a folder with other.toml."""
+    monkeypatch.chdir(tmp_path)
+    write_machine_toml("machine.toml", BELIEVED)
+    write_machine_toml("other.toml", OTHER)
+    board = NumbersMachine()
+    board.numbers = numbers_in_force(BELIEVED)
+    monkeypatch.setattr(send_command, "SerialPort", lambda path: board)
+    return board
+
+
+def grid_cut_with(run, settings):
+    """A form and a program of a mark in the middle, made for these settings."""
+    shape = ["--places=0,0", "--settings", settings]
+    assert run("grid", *shape, "--marks", "marks.toml", "--output", "grid.nc")[0] == 0
+
+
+def test_marks_of_another_machine_are_not_sent(run, board):
+    grid_cut_with(run, "other.toml")
+    code, _, said = run("send", "--port", "USB", "grid.nc")
+    assert code == 2 and BOTH in said and "Which holds?" in said
+    assert board.written == []
+
+
+def test_marks_of_this_machine_are_sent_and_others_with_force(run, board):
+    # The board knows numbers alone, so a line that moves must have come to it.
+    for settings, force in (("machine.toml", []), ("other.toml", ["--force"])):
+        board.answer = lambda line, answer=board.answer: answer(line) if "$" in line else []
+        Path("marks.toml").unlink(missing_ok=True)
+        Path("grid.nc").unlink(missing_ok=True)
+        grid_cut_with(run, settings)
+        code, said, refused = run("send", "--port", "USB", "grid.nc", *force)
+        assert code == 0 and "the machine took each" in said, refused
+
+
+def test_a_program_whose_settings_have_changed_is_not_sent(run, board):
+    grid_cut_with(run, "machine.toml")
+    write_machine_toml("machine.toml", OTHER)
+    code, _, said = run("send", "--port", "USB", "grid.nc")
+    assert code == 2 and "was made for machine.toml, which has changed since" in said
+    assert board.written == []
+
+
+def fitted(name, settings):
+    """A machine.toml that was fitted to marks which were cut with these settings."""
+    write_machine_toml("before.toml", settings)
+    marks = marks_on(TRUE, settings, grid(3, 3), noise=0.1, seed=3)
+    rows = ["name,target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"]
+    rows += [",".join(map(str, (mark.name, *mark.target, *mark.measured))) for mark in marks]
+    Path("read.csv").write_text("\n".join(rows))
+    inputs = api.read("before.toml", "read.csv")
+    made = api.add(inputs)
+    Path(name).write_bytes(toml_of(made, source="read.csv", record=record_of(made, inputs)))
+    return read_settings(name)
+
+
+def test_a_fit_to_marks_of_another_machine_is_not_written(run, board):
+    fitted("fit.toml", OTHER)
+    code, _, said = run("send", "--port", "USB", "fit.toml")
+    assert code == 2 and board.written == []
+    assert "fit.toml was fitted to marks of another machine" in said
+    assert "motor_gap ($2) is 3008.4 in before.toml and 2978.4 in the machine" in said
+    assert run("send", "--port", "USB", "fit.toml", "--force")[0] == 0
+    assert board.written != []
+
+
+def test_a_fit_is_written_into_its_machine_and_into_a_machine_that_holds_it(run, board):
+    settings = fitted("fit.toml", BELIEVED)
+    assert run("send", "--port", "USB", "fit.toml")[0] == 0
+    assert board.numbers[2] == pytest.approx(settings.motor_gap, rel=1e-6)
+    assert run("send", "--port", "USB", "fit.toml")[0] == 0
+
+
+@pytest.mark.parametrize("command", [["calibrate"], ["add", "--effect", "auto"]])
+def test_settings_of_a_machine_that_did_not_cut_the_marks_are_not_corrected(run, command):
+    shutil.copy(EXAMPLE / "groundcontrol.ini", "cut.ini")
+    text = (EXAMPLE / "groundcontrol.ini").read_text().replace("2978.4", "3008.4")
+    Path("wrong.ini").write_text(text)
+    text = (EXAMPLE / "marks.toml").read_text()
+    Path("marks.toml").write_text(f'cut_with = "cut.ini"\n{text}')
+    before = set(Path().iterdir())
+    name, *more = command
+    code, _, said = run(name, "wrong.ini", "marks.toml", *more)
+    assert code == 2 and set(Path().iterdir()) == before
+    assert "motor_gap ($2) is 3008.4 in wrong.ini and 2978.4 in cut.ini" in said
+    assert run(name, "wrong.ini", "marks.toml", *more, "--cut-with", "cut.ini")[0] != 2
+    assert run(name, "cut.ini", "marks.toml", *more)[0] != 2
+
+
+@pytest.mark.parametrize("form", ["marks.toml", "a b/marks-2.toml", "../marks.toml"])
+def test_a_program_says_which_form_is_its_own(form):
+    text = with_form("(Plumb calibration grid)\nG21\n", f"jobs/{form}", "jobs/grid.nc")
+    assert text.splitlines()[1] == f"(form: {form})"
+    assert Path(form_of(text, "jobs/grid.nc")) == Path("jobs", form)
+
+
+@pytest.mark.parametrize("form", ["marks (2).toml", "märks.toml", "m" * 61, "a\nb.toml"])
+def test_a_name_that_no_comment_can_hold_is_left_out(form):
+    program = "(Plumb calibration grid)\nG21\n"
+    assert with_form(program, form, "grid.nc") == program
+    assert form_of(program, "grid.nc") is None

@@ -1,0 +1,76 @@
+"""What marks leave open of a machine's errors: a row settles little, however well it is fitted."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hidden_boards import MAKER, plan
+from plumb.bench.boards import cut
+from plumb.bench.causes import Hidden
+from plumb.cure.auto import add_auto
+from plumb.diagnosis import diagnose
+from plumb.diagnosis.left_open import LeftOpen
+from plumb.fit.expected import expected_error
+from plumb.fit.inputs import Inputs
+from plumb.fit.problem import PRIORS, Checked
+
+
+def open_of(layout, *, noise=0.5, seed=3, settings=MAKER):
+    board = cut(Hidden(), layout, seed=seed, noise=noise, tape_sigma=noise, settings=settings)
+    return diagnose(Inputs(settings, board.measurements)).left_open
+
+
+@pytest.mark.parametrize(
+    ("columns", "rows", "is_too_much"),
+    [(3, 1, True), (9, 1, True), (1, 4, True), (2, 2, True), (3, 2, False), (3, 3, False)],
+)
+def test_a_row_of_marks_leaves_too_much_open(columns, rows, is_too_much):
+    assert open_of(plan(columns, rows)).is_too_much is is_too_much
+
+
+def test_distances_settle_the_shape_though_they_say_nothing_of_where_the_sheet_lies():
+    by_places, by_spans = (open_of(plan(3, 3, spans=spans)) for spans in (False, True))
+    assert by_spans.now < by_places.now and not by_spans.is_too_much
+
+
+def test_better_readings_and_more_of_them_leave_less():
+    sizes = [open_of(plan(3, 3), noise=noise).now for noise in (1.0, 0.5, 0.2)]
+    assert sizes == sorted(sizes, reverse=True) and sizes[0] > 1.5 * sizes[2]
+    assert open_of(plan(5, 5)).now < open_of(plan(3, 3)).now
+    # Read to a tenth of a millimetre, marks all over the sheet still cannot tell all effects apart.
+    assert open_of(plan(5, 5), noise=0.1).now > 0.1
+
+
+def test_before_anything_is_measured_it_is_what_is_normal():
+    bare = replace(MAKER, effects={})
+    normal = expected_error(bare, PRIORS)
+    assert open_of(plan(3, 3), settings=bare).before == pytest.approx(normal.all_shape, rel=0.1)
+
+
+def test_the_limit_is_a_share_of_what_may_be_off():
+    assert LeftOpen(2.0, 0.61).is_too_much and not LeftOpen(2.0, 0.59).is_too_much
+
+
+def test_nothing_is_fitted_to_too_little_by_any_door():
+    marks = cut(Hidden(), plan(3, 1), seed=3, settings=MAKER).measurements
+    result = add_auto(Inputs(MAKER, marks))
+    assert result.addition is None and result.chosen == () and not result.done
+    said = result.reason
+    assert "leave 1.2 mm open; measure marks all over the sheet" in said and "2.5 mm by" in said
+
+
+def test_a_number_that_is_known_leaves_less_open():
+    marks = cut(Hidden(), plan(3, 1), seed=3, settings=MAKER).measurements
+    inputs = Inputs(MAKER, marks)
+    known = replace(inputs, priors={**PRIORS, "motor_gap": 0.1})
+    assert diagnose(known).left_open.before < diagnose(inputs).left_open.before
+    assert np.isfinite(diagnose(replace(inputs, priors={**PRIORS, "motor_gap": 0})).left_open.now)
+    checks = [Checked(f"chain_pitch.{side}", 0.0, 1e-5) for side in ("left", "right")]
+    checked = diagnose(replace(inputs, checked=checks)).left_open
+    assert checked.before < 0.9 * diagnose(inputs).left_open.before
+    assert checked.now < 0.95 * diagnose(inputs).left_open.now
+
+
+def test_places_that_the_sled_cannot_reach_do_not_count():
+    high = replace(MAKER, sheet_height=2600.0)  # its top edge lies above the motors
+    assert 0 < open_of(plan(3, 3), settings=high).now < 10

@@ -1,0 +1,77 @@
+"""Which lines are surely done: those that were answered long enough ago on a machine that works."""
+
+import pytest
+from plumb.line.reached import LATE, Reached
+from plumb.line.sender import PAUSED, PER_SECOND, Sender
+
+LINES = ["(a job)", "G21", "", "G0 X1", "G1 X2 F100 (cut)", "; end", "G0 X3"]
+
+
+class Reports:
+    """A machine that only reports."""
+
+    def __init__(self):
+        self.state = "Idle"
+        self.sender = Sender(self)
+
+    def read(self):
+        return f"<{self.state},MPos:0.00,0.00,0.00,WPos:0,0,0>\r\n".encode()
+
+    def seconds(self):
+        return 0.0
+
+    def pass_on(self, seconds):
+        for _ in range(round(seconds * PER_SECOND)):
+            self.sender.listen()
+
+
+@pytest.fixture
+def machine():
+    return Reports()
+
+
+def test_an_answer_counts_when_its_motion_is_over(machine):
+    reached = Reached(machine.sender, LINES)
+    assert reached.line == 2
+    reached.note(1)
+    machine.pass_on(1.0)
+    reached.note(2)
+    machine.pass_on(0.8 + LATE - 1.0)
+    assert reached.line == 2
+    machine.pass_on(0.2)
+    assert reached.line == 4
+    machine.pass_on(0.8)
+    assert reached.line == 4
+    machine.pass_on(0.2)
+    assert reached.line == 5
+    reached.note(4)
+    assert reached.line == 5
+    machine.pass_on(60)
+    assert reached.line == 7, "the last line, as nothing says that it is done"
+
+
+def test_after_a_stop_nothing_is_done_any_more(machine):
+    reached = Reached(machine.sender, LINES)
+    reached.note(2)
+    machine.pass_on(0.8 + LATE)
+    reached.end()
+    machine.pass_on(60)
+    assert reached.line == 2
+
+
+def test_a_hold_makes_no_line_done(machine):
+    reached = Reached(machine.sender, LINES)
+    reached.note(2)
+    machine.state = PAUSED
+    machine.pass_on(600)
+    assert reached.line == 2
+
+
+def test_a_machine_that_answers_farther_ahead_has_come_less_far(machine):
+    machine.sender.ahead = 10.0
+    reached = Reached(machine.sender, LINES)
+    reached.note(3)
+    machine.pass_on(9.8 + LATE)
+    assert reached.line == 2
+    machine.pass_on(0.2)
+    assert reached.line == 7

@@ -1,0 +1,55 @@
+"""The order of computed numbers: what differs by rounding alone ties, and keeps its place."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import plumb
+import pytest
+from plumb.model.ranks import TIE, ascending, greatest, least, ranked
+
+
+def rounded_otherwise(numbers, seed):
+    """The numbers as another processor may round them."""
+    return numbers * (1 + 1e-12 * np.random.default_rng(seed).standard_normal(len(numbers)))
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_rounding_changes_no_order(seed):
+    numbers = np.array([5.0, 3.0, 5.0, -2000.0, 3.0, 1e-15, 0.0, -1e-14, np.inf, 3.0])
+    assert ascending(rounded_otherwise(numbers, seed)).tolist() == [3, 5, 6, 7, 1, 4, 9, 0, 2, 8]
+    assert least(rounded_otherwise(numbers[:3], seed)) == 1
+    assert greatest(rounded_otherwise(numbers[:3], seed)) == 0
+
+
+def test_what_is_apart_is_in_order():
+    assert ascending([2.0 + 2 * TIE, 2.0 - 2 * TIE, 2.0]).tolist() == [1, 2, 0]
+    assert ascending([1e6, 1e6 - 1, 1e6 - 0.05]).tolist() == [1, 0, 2]  # a share of large numbers
+    assert ascending([0.0, -0.5 * TIE, -5 * TIE]).tolist() == [2, 0, 1]
+    assert ascending([np.inf, 1e300, -np.inf, np.inf]).tolist() == [2, 1, 0, 3]
+    assert ascending([]).tolist() == []
+
+
+def test_a_row_of_ties_is_one_tie():
+    """Else it would matter where a row is entered."""
+    assert ascending([1.2 * TIE, 0.6 * TIE, 0.0]).tolist() == [0, 1, 2]
+
+
+def test_a_table_is_counted_through_its_rows():
+    table = np.array([[1.0, 7.0], [7.0, 0.0]])
+    assert (greatest(table), least(table)) == (1, 3)
+
+
+def test_items_come_by_their_numbers():
+    assert ranked(["bb", "a", "cc", "d"], len) == ["a", "d", "bb", "cc"]
+
+
+def test_nothing_that_users_get_is_ranked_by_the_last_bit():
+    """These alone may: they rank yes and no, whole numbers, or places that nobody is shown."""
+    allowed = {"model/ranks.py", "diagnosis/likeliest.py", "jobs/parts.py", "pictures/panel.py"}
+    root, ranks = Path(plumb.__file__).parent, re.compile(r"arg(?:min|max|sort)\(")
+    users = [path for path in root.rglob("*.py") if path.parent.name not in ("bench", "vm")]
+    ranking = [
+        path.relative_to(root).as_posix() for path in users if ranks.search(path.read_text())
+    ]
+    assert {*ranking} <= allowed and "model/ranks.py" in ranking

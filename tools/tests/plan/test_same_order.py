@@ -1,0 +1,54 @@
+"""Answers come in the same order however a processor rounds: a board of ties, rounded otherwise."""
+
+import numpy as np
+from plumb.cli.compare import conclusion
+from plumb.diagnosis import diagnose
+from plumb.fit.compare import compare
+from plumb.fit.inputs import Inputs
+from plumb.marks.read import Mark, Measurements
+from plumb.model.reach import _extreme as extreme
+from plumb.model.reach import survey_sheet
+from plumb.plan import propose
+from synthetic import BELIEVED, grid
+
+
+def mirrored_board(seed):
+    """Marks whose errors mirror each other, left and right: what is of one chain ties with what is
+    of the other, and so do marks of both halves."""
+    targets = grid(3, 3)
+    x = targets[:, 0]
+    read = targets + np.stack([2e-3 * x, 2.0 - 1e-6 * x**2], axis=1)
+    read *= 1 + 1e-12 * np.random.default_rng(seed).standard_normal(read.shape)
+    marks = zip(targets.tolist(), read.tolist(), strict=True)
+    return Measurements(
+        tuple(Mark(str(i), tuple(there), tuple(seen)) for i, (there, seen) in enumerate(marks))
+    )
+
+
+def answers(seed):
+    """What a user gets in an order, or as that which is most."""
+    measurements = mirrored_board(seed)
+    inputs = Inputs(BELIEVED, measurements, sigma=0.5)
+    diagnosis = diagnose(inputs)
+    proposals = propose(diagnosis, inputs).proposals
+    return {
+        "ranking": [each.effect for each in diagnosis.ranking],
+        "explanations": [each.effects for each in diagnosis.explanations],
+        "proposals": [(each.option.title, each.option.do) for each in proposals],
+        "worst mark": conclusion(compare(BELIEVED, measurements), BELIEVED.sheet_width),
+    }
+
+
+def test_rounding_changes_no_answer():
+    usual, otherwise = answers(0), answers(1)
+    for what, order in usual.items():
+        assert otherwise[what] == order, what
+    assert len(usual["proposals"]) > 3
+
+
+def test_of_places_that_mirror_each_other_the_first_is_named():
+    places = np.array([(-1.0, 0.0), (1.0, 0.0)])
+    tension = np.array([(50.0, 9.0), (9.0, 50.0 * (1 + 1e-13))])
+    assert (extreme(places, tension).place, extreme(places, tension).side) == ((-1, 0), "left")
+    reached = survey_sheet(BELIEVED)
+    assert reached.tightest.place[0] < 0 and reached.slackest.place[0] < 0
