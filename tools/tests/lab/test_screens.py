@@ -181,6 +181,19 @@ def test_the_machine_in_mid_cut_is_in_view_on_every_screen(shown_cutting):
     assert findings == [], "\n".join(findings)
 
 
+@pytest.mark.parametrize("shown", ways("phone-dark"), indirect=True)
+def test_text_on_a_map_has_its_size_before_anybody_watches_the_map_grow(shown):
+    shown.add_init_script("""window.ResizeObserver = class {
+      observe() {}
+      disconnect() {}
+    }""")
+    shown.reload()
+    shown.evaluate("() => { location.hash = '#/reach' }")
+    settle(shown)
+    shown.locator("svg .spot text").first.wait_for()
+    assert shown.evaluate(SMALL_TEXT, SMALLEST_TEXT) == []
+
+
 def faults_at(page, places, when):
     """The faults of some screens, each with its picture."""
     for place in places:

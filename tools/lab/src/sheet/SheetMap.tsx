@@ -1,7 +1,7 @@
 // The sheet from the front, with whatever lies on it. Places are mm in the machine frame: the origin is
 // the middle of the sheet, y runs up. Sizes of text and lines are CSS pixels at any width.
 import { type ComponentChildren, createContext } from "preact";
-import { useContext, useEffect, useRef, useState } from "preact/hooks";
+import { useContext, useLayoutEffect, useRef, useState } from "preact/hooks";
 
 /** How many mm of the sheet a CSS pixel shows. */
 const PixelContext = createContext(2);
@@ -21,12 +21,13 @@ export function SheetMap({ sheet, label, acts = false, children }: SheetMapParts
   const edge = width * 0.05; // room for arrows that leave the sheet
   const place = useRef<SVGSVGElement>(null);
   const [pixel, setPixel] = useState(2);
-  useEffect(() => {
+  // Before the first paint, so that nobody sees text in a wrong size.
+  useLayoutEffect(() => {
     const drawn = place.current;
     if (!drawn) return;
-    const watch = new ResizeObserver(() =>
-      setPixel((width + 2 * edge) / Math.max(drawn.clientWidth, 1)),
-    );
+    const measure = () => setPixel((width + 2 * edge) / Math.max(drawn.clientWidth, 1));
+    measure();
+    const watch = new ResizeObserver(measure);
     watch.observe(drawn);
     return () => watch.disconnect();
   }, [width, edge]);
