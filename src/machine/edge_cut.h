@@ -10,6 +10,7 @@ namespace machine {
 /// Where both coordinates are outside, the sled waits in a corner, and the piece has no length.
 class EdgeCut {
  public:
+  /// Reads path and area as long as it lives.
   EdgeCut(const motion::Path<float>& path, const Area& area);
 
   /// Whether any of the path is out of the area.
@@ -30,8 +31,8 @@ class EdgeCut {
   void cutAt(float share);
   bool isInside(uint8_t index) const;
 
-  const motion::Path<float> path_;
-  const Area area_;
+  const motion::Path<float>& path_;
+  const Area& area_;
   motion::Path<float> piece_;
   motion::Point<float> here_;    ///< where the next piece begins
   float shares_[kMostCuts + 1];  ///< ends of the pieces as shares of the path; the last is 1

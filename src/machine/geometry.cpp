@@ -47,14 +47,19 @@ bool Geometry::isSheetReachable() const {
   return true;
 }
 
+float Geometry::shapeRing(const Values& values, bool bends) {
+  ::Geometry shape = geometryOf(values);
+  const float waves = Effects::wavesOf(shape.effects.value);
+  if (!bends) Effects::clearBends(shape.effects.value);
+  ring_ = kinematics::prepare(shape.frame, shape.effects);
+  return waves;
+}
+
 void Geometry::prepareRing(const Values& values, const kinematics::Frame<float>& frame) {
-  const kinematics::EffectParams<float> effects = geometryOf(values).effects;
-  kinematics::EffectParams<float> rigid = effects;
-  Effects::clearBends(rigid.value);
   const kinematics::Point<float> corner = {half_width_, -half_height_};
-  ring_ = kinematics::prepare(frame, rigid);
+  shapeRing(values, false);
   const kinematics::PaidOut<float> straight = kinematics::inverse(ring_, corner);
-  ring_ = kinematics::prepare(frame, effects);
+  const float wave_size = shapeRing(values, true);
   const kinematics::PaidOut<float> bent = kinematics::inverse(ring_, corner);
   const bool both_hang = straight.found == Found::kYes && bent.found == Found::kYes;
   const float sag = both_hang ? float(fabs(bent.chains.left - straight.chains.left)) : kUnknownSag;
@@ -66,7 +71,7 @@ void Geometry::prepareRing(const Values& values, const kinematics::Frame<float>&
   const float span = float(sqrt(far_run * far_run + drop * drop));
   sprockets_.effects = motion::sagSlopes(sag, far_run, least_run, drop, span);
   const motion::Slopes<float> waves =
-      waveSlopes(Effects::wavesOf(effects.value), frame.sprocket_radius);
+      waveSlopes(wave_size, frame.sprocket_radius);
   sprockets_.effects.first += waves.first;
   sprockets_.effects.second += waves.second;
   sprockets_.effects.third += waves.third;

@@ -34,7 +34,7 @@ class Machine : private Waiting, private Dispatch {
   Machine(const Ports& ports, const BoardName& board);
 
   /// To be called once after power-on: reads settings and position, and says the greeting.
-  void begin();
+  __attribute__((noinline)) void begin();
 
   /// A round of the main program: executes at most one line.
   void loop();
@@ -68,7 +68,7 @@ class Machine : private Waiting, private Dispatch {
 
   // realtime.cpp: what goes on while anything waits; stops and alarms.
   void service() override;
-  void keepReporting();
+  __attribute__((noinline)) void keepReporting();
   void readWire();
   void takeQuick(gcode::Quick quick);
   void stopNow();
@@ -88,7 +88,7 @@ class Machine : private Waiting, private Dispatch {
   bool isFarAhead() const;
 
   // commands.cpp: turns a line into pieces.
-  bool execute(char* line);
+  __attribute__((noinline)) bool execute(char* line);
   void answer(bool done) override;
   void halt();
   void echo(const char* line);

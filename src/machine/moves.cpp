@@ -169,7 +169,8 @@ bool Moves::queue(const motion::Path<float>& path, const Place& target, float fe
   if (feed < 0) feed = fittingFeed(path, target, -feed);
   const Area area = geometry_.sheet().grownTo({aim.x, aim.y});
   if (goes && !mayGo(path, area)) return false;
-  if (!queuePieces(EdgeCut(path, area), target.z, feed, beam)) return false;
+  EdgeCut cut(path, area);
+  if (!queuePieces(cut, target.z, feed, beam)) return false;
   place_.countFrom(target.x, target.y);
   return true;
 }
@@ -200,7 +201,7 @@ void Moves::sayBeyondSheet(motion::Point<float> end) {
   out_.fixed(modal_.fromMm(end.y), 2).end();
 }
 
-bool Moves::queuePieces(EdgeCut cut, float z_to, float feed, uint8_t beam) {
+bool Moves::queuePieces(EdgeCut& cut, float z_to, float feed, uint8_t beam) {
   const float z_from = place_.aim().z;
   while (cut.next()) {
     const float share = cut.share();

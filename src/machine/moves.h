@@ -52,8 +52,8 @@ class Moves {
                  const gcode::Words& words, float feed);
   float fittingFeed(const motion::Path<float>& path, const Place& target, float times) const;
   bool queue(const motion::Path<float>& path, const Place& target, float feed);
-  bool mayGo(const motion::Path<float>& path, const Area& area);
-  bool queuePieces(EdgeCut cut, float z_to, float feed, uint8_t beam);
+  __attribute__((noinline)) bool mayGo(const motion::Path<float>& path, const Area& area);
+  bool queuePieces(EdgeCut& cut, float z_to, float feed, uint8_t beam);
   bool queuePiece(const motion::Path<float>& piece, float z, float feed, uint8_t beam);
   void sayBeyondSheet(motion::Point<float> end);
 

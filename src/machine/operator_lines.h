@@ -66,7 +66,7 @@ class OperatorLines {
   void wait(Event event);
   bool isOperatorsTurn() const { return course_.lines() == Lines::kOperator; }
   void comeBack();
-  void serveLine();
+  __attribute__((noinline)) void serveLine();
   bool runOrRefuse(const char* line);
   bool run(const char* line);
   bool jogZ(const gcode::Words& words);

@@ -36,7 +36,7 @@ class Planner {
 
   /// Gives the axes as many set-points as they have room for. False if the path comes to a place
   /// where no sled can hang.
-  bool fill(Axes& axes, const Geometry& geometry);
+  __attribute__((noinline)) bool fill(Axes& axes, const Geometry& geometry);
 
   /// Drops what is left of the path; to be called where the axes stand.
   void standHere(Axes& axes);

@@ -72,7 +72,7 @@ class SledPlace {
   /// What must be set before the sled can cross the sheet.
   FlashText whatIsLost() const;
   /// Stores the position once everything rests; to be called often.
-  void keepWhenAtRest(uint32_t now_ms);
+  __attribute__((noinline)) void keepWhenAtRest(uint32_t now_ms);
 
   /// [mm] How far the axis that is farthest from its set-point is from it.
   float farthestOff() const;

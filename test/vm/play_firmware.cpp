@@ -1,5 +1,5 @@
 // Plays a dialogue with the firmware as it is flashed, on a simulated Mega with motors on its pins:
-// `play_firmware ELF FOLDER DIALOGUE [EEPROM]`. At the end it prints measured figures, a line each.
+// `play_firmware ELF FOLDER DIALOGUE`. At the end it prints measured figures, a line each.
 // Exit code 0: all lines came as written, 1: a line differed, 2: the dialogue could not be played.
 #include <cmath>
 #include <cstdio>
@@ -34,7 +34,7 @@ struct Machine {
         right(board, kRight, kMainTop),
         z(board, kZ, kZTop) {
     board.setEeprom(eeprom);
-    board.paintStack();
+    board.followStack();
   }
 
   void run(double seconds) {
@@ -78,7 +78,8 @@ class Player {
 
   void tellFigures() const {
     std::printf("first_line_ms %.0f\n", first_line_ms_);
-    std::printf("stack %d\n", machine_->board.stackUsed());
+    std::printf("stack_main %d\n", machine_->board.mainStack());
+    std::printf("stack_interrupts %d\n", machine_->board.interruptStack());
     std::printf("tick_share %.4f\n", machine_->board.tickShare());
     std::printf("longest_tick %ld\n", machine_->board.longestTick());
   }

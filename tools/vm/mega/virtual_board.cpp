@@ -147,7 +147,7 @@ void VirtualBoard::run(avr_cycle_count_t cycles) {
   const avr_cycle_count_t end = avr_->cycle + cycles;
   // No burst of instructions and no sleep goes past a timer.
   avr_cycle_timer_register(avr_, cycles, onEndOfRun, this);
-  while (avr_->cycle < end) step(kMostAtOnce);
+  while (avr_->cycle < end) step(is_stack_followed_ ? 1 : kMostAtOnce);
 }
 
 void VirtualBoard::step(avr_cycle_count_t most_cycles) {
@@ -157,6 +157,7 @@ void VirtualBoard::step(avr_cycle_count_t most_cycles) {
   const int state = avr_run(avr_);
   avr_->run_cycle_limit = most_cycles;
   noteTick();
+  if (is_stack_followed_) noteStack();
   watchWatchdog();
   if (avr_->pc == 0) restoreOutside();
   if (state == cpu_Done || state == cpu_Crashed) throw std::runtime_error("the board crashed");
@@ -229,6 +230,17 @@ void VirtualBoard::noteTick() {
   ++ticks_;
   was_ticking_ = true;
   is_tick_masked_ = false;
+}
+
+void VirtualBoard::noteStack() {
+  const uint16_t pointer = uint16_t(avr_->data[R_SPL] | avr_->data[R_SPH] << 8);
+  if (pointer < kRamBegin) return;  // not set yet
+  if (avr_->interrupts.running_ptr > 0) {
+    interrupt_stack_ = std::max(interrupt_stack_, main_pointer_ - pointer);
+    return;
+  }
+  main_pointer_ = pointer;
+  main_stack_ = std::max(main_stack_, kRamEnd - pointer);
 }
 
 void VirtualBoard::onTimerMask(avr_t* avr, avr_io_addr_t address, uint8_t mask, void* parameter) {

@@ -84,6 +84,12 @@ class VirtualBoard {
   /// Fills unused RAM with a pattern, to count later how many bytes of stack were ever used.
   void paintStack();
   int stackUsed() const;
+  /// From now on follows the stack at each instruction, which is slower.
+  void followStack() { is_stack_followed_ = true; }
+  /// [bytes] Deepest stack of the main program by itself, and of interrupts, since followStack().
+  /// An interrupt may come where the main program is deepest: what the stack needs is their sum.
+  int mainStack() const { return main_stack_; }
+  int interruptStack() const { return interrupt_stack_; }
   /// Writes into the last bytes above the program's data, as a stack without end would.
   void overrunStack();
 
@@ -131,6 +137,7 @@ class VirtualBoard {
   /// simavr never resets while the watchdog's interrupt waits.
   void watchWatchdog();
   void noteTick();
+  void noteStack();
   void noteTickMask(bool is_allowed);
 
   avr_t* avr_;
@@ -145,6 +152,9 @@ class VirtualBoard {
   avr_cycle_count_t longest_gap_ = 0, asleep_ = 0;
   avr_cycle_count_t bitten_since_ = 0;
   int ticks_ = 0, resets_ = 0;
+  int main_stack_ = 0, interrupt_stack_ = 0;
+  uint16_t main_pointer_ = 0;  ///< the stack's pointer when the main program ran last
+  bool is_stack_followed_ = false;
   bool are_interrupts_held_ = false;
   bool was_ticking_ = false, is_tick_masked_ = false;
 };
