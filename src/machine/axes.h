@@ -2,34 +2,12 @@
 // program's view of them.
 #pragma once
 
-#include <Motion.h>
-#include <Settings.h>
-
-#include "ports.h"
+#include "ticked_axis.h"
 
 namespace machine {
 
 using motion::AxisLoop;
-using motion::Gains;
 using motion::SetPoint;
-
-/// [mm] No axis goes farther. Twice this length still fits the counts of a set-point.
-const float kMostTravel = 16000;
-
-/// What an axis does.
-enum class AxisMode : uint8_t {
-  kOff,     ///< no power
-  kFollow,  ///< follows its set-points
-  kTurn,    ///< turns at a speed
-  kOpen,    ///< driven at a duty
-};
-
-/// An axis as it was at the last tick, for the tests of the loops.
-struct AxisState {
-  float rpm;         ///< measured
-  float wanted_rpm;  ///< output of the position loop
-  int16_t duty;
-};
 
 /// All three axes.
 ///
@@ -37,7 +15,8 @@ struct AxisState {
 /// the tick off while they touch numbers that it uses.
 class Axes {
  public:
-  Axes(Drives& drives, Clock& clock) : drives_(drives), clock_(clock) {}
+  Axes(Drives& drives, Clock& clock)
+      : clock_(clock), axis_{{drives, kLeftAxis}, {drives, kRightAxis}, {drives, kZAxis}} {}
 
   /// Sets how often tick() is called. To be called once, before prepare().
   void setTicksPerSecond(float ticks) {
@@ -71,7 +50,7 @@ class Axes {
   void goAt(uint16_t share);
 
   /// Strength of a laser at this tick; 0 while motors are simulated.
-  uint8_t beam() const { return simulated_ ? 0 : playback_.beam(); }
+  uint8_t beam() const { return isSimulated() ? 0 : playback_.beam(); }
 
   /// Whether the feed yielded much since the last call, because an axis fell behind.
   bool hasYielded();
@@ -108,9 +87,9 @@ class Axes {
   bool isDriven() const;
   /// Simulates the motors from now on: they take no power and follow exactly.
   void simulate(bool on);
-  bool isSimulated() const { return simulated_; }
+  bool isSimulated() const { return axis_[kLeftAxis].isSimulated(); }
   /// Whether simulated motion has changed lengths, so that they are not those of the chains.
-  bool isImagined() const { return is_imagined_; }
+  bool isImagined() const;
 
   // Lengths.
   int32_t counts(Axis axis) const;
@@ -132,66 +111,31 @@ class Axes {
   /// The worst fault since the last call.
   motion::Fault fault();
   /// Whether, since the axis last got power, a fault has proved its counts wrong.
-  bool isDisproved(Axis axis) const { return (disproved_ & (1 << axis)) != 0; }
+  bool isDisproved(Axis axis) const { return axis_[axis].isDisproved(); }
   /// Whether the encoder of an axis missed many steps since a length was declared: the length is
   /// then wrong by more than an eighth of the position error's limit.
-  bool hasMissedSteps(Axis axis) const;
+  bool hasMissedSteps(Axis axis) const { return axis_[axis].hasMissedSteps(); }
 
  private:
-  struct Controlled {
-    AxisMode mode = AxisMode::kOff;
-    int8_t sign = 1;      ///< sign between drive and count
-    bool is_held = true;  ///< its position loop has a gain; without a gain nothing is watched
-    uint16_t raw = 0;     ///< encoder, as last read
-    int16_t moved = 0;    ///< [encoder counts] at the last tick
-    int16_t duty = 0;
-    uint16_t missed_before = 0;  ///< illegal steps when a length was declared
-    uint16_t most_missed = 0;    ///< illegal steps beyond which a length is wrong
-    int32_t most_counts = 0;     ///< [encoder counts] for kMostTravel
-    int32_t counts = 0;          ///< [encoder counts] since zero length
-    int32_t set_point = 0;       ///< [counts of motion::kCountsPerMm]
-    int32_t most_behind = 0;     ///< [counts of motion::kCountsPerMm]
-    int32_t asked = 0;           ///< change of `set_point` in a tick soon to come
-    int16_t astray = 0;          ///< [encoder counts] that the motor turned while it was simulated
-    float per_count = 1;         ///< [mm] may be negative
-    float turns_per_count = 1;
-    float turns_per_mm = 1;
-    float turns_per_fine = 1;  ///< per count of motion::kCountsPerMm
-    float fine_per_count = 1;  ///< counts of motion::kCountsPerMm per encoder count
-    float rpm = 0;             ///< commanded with kTurn
-    AxisLoop loop;
-    motion::Watch watch;
-  };
-
   void takeSetPoint();
-  void forgetWay();
-  void readEncoder(Controlled& controlled, Axis axis);
-  void control(Controlled& controlled, Axis axis);
-  int32_t measured(const Controlled& controlled) const;
   void watchForSlips();
-  void note(motion::Fault seen, Axis axis);
-  void imagine(Controlled& controlled, int32_t counts);
-  void forgetMissed(Axis axis) { axis_[axis].missed_before = drives_.illegalSteps(axis); }
-  static int32_t countsOf(const Controlled& controlled, float length);
+  void forgetWay();
+  /// [counts of motion::kCountsPerMm]
+  int32_t plannedHeight() const { return axis_[kZAxis].setPoint() - lift_.at(); }
+  void liftTo(int32_t goal, float speed, float acceleration);
 
-  Drives& drives_;
   Clock& clock_;
   motion::SetPoints set_points_;
   motion::Playback playback_;
   motion::Lift lift_;
   motion::Yield yield_;
-  int32_t worst_off_ = 0;  ///< [counts of motion::kCountsPerMm] of any axis at this tick
   volatile bool has_yielded_ = false;
-  Controlled axis_[kAxisCount];
+  TickedAxis axis_[kAxisCount];
   motion::Pace paces_[kAxisCount];
   motion::SlipWatch slip_watches_[kZAxis];  ///< of the chains
   volatile uint8_t slips_[kZAxis] = {0, 0};
   float seconds_per_tick_ = 0.01f;
   uint8_t ticks_ahead_ = AxisLoop::ticksAhead(0.01f);
-  volatile motion::Fault fault_ = motion::Fault::kNone;
-  volatile uint8_t disproved_ = 0;  ///< a bit for each axis
-  bool simulated_ = false;
-  volatile bool is_imagined_ = false;
 };
 
 }  // namespace machine

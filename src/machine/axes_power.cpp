@@ -1,25 +1,16 @@
-// Which motors have power, and what drives them.
+// Which motors have power, what drives them, and whether they are simulated.
 #include "axes.h"
 
 namespace machine {
 
 void Axes::follow() {
   const WithoutTicks hold(clock_);
-  for (Controlled& controlled : axis_) {
-    if (controlled.mode == AxisMode::kFollow) continue;
-    controlled.loop.rest();
-    controlled.watch.rest();
-    controlled.mode = AxisMode::kFollow;
-  }
-  fault_ = motion::Fault::kNone;
-  disproved_ = 0;
+  for (TickedAxis& axis : axis_) axis.follow();
 }
 
 void Axes::release(Axis axis) {
   const WithoutTicks hold(clock_);
-  axis_[axis].mode = AxisMode::kOff;
-  axis_[axis].duty = 0;
-  drives_.release(axis);
+  axis_[axis].release();
 }
 
 void Axes::releaseAll() {
@@ -28,34 +19,41 @@ void Axes::releaseAll() {
 
 void Axes::driveOpen(Axis axis, int16_t duty) {
   const WithoutTicks hold(clock_);
-  axis_[axis].mode = AxisMode::kOpen;
-  axis_[axis].duty = duty > 255 ? 255 : duty < -255 ? -255 : duty;
+  axis_[axis].driveOpen(duty);
 }
 
 void Axes::turn(Axis axis, float rpm) {
   const WithoutTicks hold(clock_);
-  Controlled& controlled = axis_[axis];
-  if (controlled.mode != AxisMode::kTurn) controlled.loop.rest();
-  controlled.mode = AxisMode::kTurn;
-  controlled.rpm = rpm;
+  axis_[axis].turn(rpm);
 }
 
 bool Axes::isPowered() const {
-  for (const Controlled& controlled : axis_)
-    if (controlled.mode != AxisMode::kOff) return true;
+  for (const TickedAxis& axis : axis_)
+    if (axis.mode() != AxisMode::kOff) return true;
   return false;
 }
 
 bool Axes::isTurning() const {
   const WithoutTicks hold(clock_);
-  for (const Controlled& controlled : axis_)
-    if (controlled.moved > 1 || controlled.moved < -1) return true;
+  for (const TickedAxis& axis : axis_)
+    if (axis.isTurning()) return true;
   return false;
 }
 
 bool Axes::isDriven() const {
-  for (const Controlled& controlled : axis_)
-    if (controlled.mode == AxisMode::kOpen || controlled.mode == AxisMode::kTurn) return true;
+  for (const TickedAxis& axis : axis_)
+    if (axis.mode() == AxisMode::kOpen || axis.mode() == AxisMode::kTurn) return true;
+  return false;
+}
+
+void Axes::simulate(bool on) {
+  const WithoutTicks hold(clock_);
+  for (TickedAxis& axis : axis_) axis.simulate(on);
+}
+
+bool Axes::isImagined() const {
+  for (const TickedAxis& axis : axis_)
+    if (axis.isImagined()) return true;
   return false;
 }
 

@@ -97,6 +97,13 @@ TEST(AxesImagination, StaysKnownUntilMotorsRunForReal) {
   EXPECT_FALSE(driven.axes.isImagined()) << "begun again";
 }
 
+TEST(AxesImagination, AHeightThatIsDeclaredMeanwhileIsNotThatOfTheRealZ) {
+  Driven driven;
+  driven.axes.simulate(true);
+  driven.axes.declareLifted(2);
+  EXPECT_TRUE(driven.axes.isImagined());
+}
+
 TEST(AxesImagination, ChainsThatAreTurnedByHandAreOtherThanSaid) {
   for (const int sign : {-1, 1}) {
     Driven driven;
