@@ -59,7 +59,7 @@ bool Machine::runB(const char* line) {
   if (!isQuestion(code)) {
     if (!answers_.isServing()) {
       if (!drain()) return false;
-      new_values_.refreshGeometry();
+      new_values_.refreshBeforeLine();
     }
     if ((code == 2 || code == 11) && !words.has('L') && !words.has('R'))
       return answers_.refuse(FLASH("B02 and B11 need a chain: L or R"));

@@ -88,7 +88,7 @@ void Machine::echo(const char* line) {
 bool Machine::runCode(const char* text) {
   const gcode::Mistake mistake = gcode::findMistake(text);
   if (mistake.fault != gcode::Fault::kNone) return answers_.refuseMistake(mistake);
-  new_values_.refreshGeometry();
+  new_values_.refreshBeforeLine();
   modal_.beginLine();
   gcode::Pieces pieces(text);
   gcode::Piece piece;
@@ -116,7 +116,7 @@ bool Machine::runPiece(const gcode::Piece& piece) {
     return answers_.refuseMotion(FLASH("that is farther than any machine reaches: "), axis);
   if (is_mode) {
     // A jog begins where the sled is, even at the sheet's edge.
-    if (modal_.relative && !was_relative) place_.countFromAim();
+    if (modal_.relative && !was_relative) program_.countFromAim();
     return moveInMode(words);
   }
   if (piece.letter == 'G') return run(piece);
@@ -201,7 +201,7 @@ void Machine::restoreDefaults(settings::Reset what) {
   answers_.setAnswered(true);
   if (!forgets_position) return;
   new_values_.prepareGeometry();
-  place_.search();
+  place_.search(Search::kErased);
   place_.sayUnset(true);
 }
 

@@ -32,7 +32,7 @@ bool Coordinates::declare(const gcode::Words& words) {
         FLASH("P is 1 to 6, for G54 to G59, or 0 for the coordinates in force"));
   if (here && goesAcross(words) && !mayCrossSheet()) return false;
   const uint8_t index = system == 0 ? modal_.system : uint8_t(system - 1);
-  Place aim = place_.aim();
+  Place aim = program_.aim();
   for (uint8_t axis = 0; axis < kPlaceAxes; ++axis) {
     if (!words.has(kAxisLetters[axis])) continue;
     const float word = modal_.toMm(words.value(kAxisLetters[axis]));
@@ -46,7 +46,7 @@ bool Coordinates::declare(const gcode::Words& words) {
 bool Coordinates::shift(const gcode::Words& words) {
   if (!words.hasPlace()) return answers_.refuseMotion(FLASH("G92 needs X, Y or Z"));
   if (goesAcross(words) && !mayCrossSheet()) return false;
-  Place aim = place_.aim();
+  Place aim = program_.aim();
   for (uint8_t axis = 0; axis < kPlaceAxes; ++axis) {
     if (!words.has(kAxisLetters[axis])) continue;
     const float word = modal_.toMm(words.value(kAxisLetters[axis]));
@@ -73,7 +73,7 @@ bool Coordinates::keepGoal(const gcode::Piece& piece) {
     return answers_.refuseMotion(FLASH("it keeps the place where the tool is"));
   if (!mayCrossSheet()) return false;
   const uint8_t row = goalRow(piece);
-  const Place& aim = place_.aim();
+  const Place& aim = program_.aim();
   return keep(row, aim.x) && keep(uint8_t(row + 1), aim.y) && keep(uint8_t(row + 2), aim.z);
 }
 

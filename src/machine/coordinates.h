@@ -10,11 +10,12 @@ namespace machine {
 class Coordinates {
  public:
   Coordinates(settings::Memory& memory, const settings::Values& values, const gcode::Modal& modal,
-              const SledPlace& place, Printer& out, Answers& answers)
+              const SledPlace& place, const ProgramPlace& program, Printer& out, Answers& answers)
       : memory_(memory),
         values_(values),
         modal_(modal),
         place_(place),
+        program_(program),
         out_(out),
         answers_(answers),
         offsets_(values.from(kFirstPlaceSetting)) {}
@@ -50,6 +51,7 @@ class Coordinates {
   const settings::Values& values_;
   const gcode::Modal& modal_;
   const SledPlace& place_;
+  const ProgramPlace& program_;
   Printer& out_;
   Answers& answers_;
   gcode::WorkOffsets offsets_;

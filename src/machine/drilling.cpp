@@ -25,7 +25,7 @@ FlashText textOf(gcode::DrillFault fault) {
 }  // namespace
 
 void Drilling::begin(uint8_t cycle) {
-  if (modal_.motion <= gcode::kNoMotion) cycle_.begin(place_.aim().z);
+  if (modal_.motion <= gcode::kNoMotion) cycle_.begin(program_.aim().z);
   modal_.motion = cycle;
 }
 
@@ -37,7 +37,7 @@ bool Drilling::drill(const gcode::Words& words) {
   if (modal_.inverse_time || modal_.machine_coordinates)
     return answers_.refuseMotion(FLASH("no hole is drilled with G53 or G93"));
   if (!coordinates_.mayCrossSheet()) return false;
-  const Place at = place_.counted();
+  const Place at = program_.counted();
   const float from[] = {at.x, at.y, at.z};
   const float offset[] = {coordinates_.begin(0), coordinates_.begin(1), coordinates_.begin(2)};
   const gcode::DrillFault fault = cycle_.read(modal_, words, from, offset);
@@ -55,12 +55,12 @@ bool Drilling::runStep(const gcode::DrillStep& step) {
   const float feed = moves_.feedOf(step.kind == gcode::DrillStep::kFeed ? 1 : 0);
   const float z = z_.within(step.z);
   if (across) {
-    if (!moves_.moveStraight({step.x, step.y, place_.aim().z}, true, feed)) return false;
+    if (!moves_.moveStraight({step.x, step.y, program_.aim().z}, true, feed)) return false;
     // Beyond the sheet the sled stays at the edge, so the hole would be in a wrong place.
-    return !place_.isCountedBeyond() ||
+    return !program_.isCountedBeyond() ||
            answers_.refuseMotion(FLASH("the hole is beyond the sheet"));
   }
-  Place next = place_.counted();
+  Place next = program_.counted();
   next.z = z;
   return moves_.moveStraight(next, false, feed);
 }

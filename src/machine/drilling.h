@@ -8,11 +8,11 @@ namespace machine {
 /// The cycle in force. lib/GCode works out its steps.
 class Drilling {
  public:
-  Drilling(gcode::Modal& modal, const Coordinates& coordinates, const SledPlace& place,
+  Drilling(gcode::Modal& modal, const Coordinates& coordinates, const ProgramPlace& program,
            const ZAxis& z, Moves& moves, Answers& answers, Waiting& waiting)
       : modal_(modal),
         coordinates_(coordinates),
-        place_(place),
+        program_(program),
         z_(z),
         moves_(moves),
         answers_(answers),
@@ -29,7 +29,7 @@ class Drilling {
 
   gcode::Modal& modal_;
   const Coordinates& coordinates_;
-  const SledPlace& place_;
+  const ProgramPlace& program_;
   const ZAxis& z_;
   Moves& moves_;
   Answers& answers_;

@@ -66,7 +66,7 @@ bool AxisTests::testSpeeds(const LoopTest& test) {
   out_.line(FLASH("--PID Velocity Test Stop--"));
   out_.end();
   waiting_.awaitStandstill();
-  place_.search();
+  place_.search(Search::kChainsDriven);
   return completed;
 }
 
@@ -104,7 +104,7 @@ bool AxisTests::testLengths(const LoopTest& test) {
   out_.line(FLASH("--PID Position Test Stop--"));
   out_.end();
   waiting_.awaitStandstill();
-  place_.search();
+  place_.search(Search::kChainsDriven);
   return completed;
 }
 
@@ -127,7 +127,7 @@ bool AxisTests::testDuties(const LoopTest& test) {
   out_.line(FLASH("--Voltage Test Stop--"));
   out_.end();
   waiting_.awaitStandstill();
-  place_.search();
+  place_.search(Search::kChainsDriven);
   return completed;
 }
 

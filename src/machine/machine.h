@@ -58,6 +58,7 @@ class Machine : private Waiting, private Dispatch {
   const Planner& planner() const { return planner_; }
   const gcode::Modal& modal() const { return modal_; }
   const SledPlace& place() const { return place_; }
+  const ProgramPlace& program() const { return program_; }
   const Coordinates& coordinates() const { return coordinates_; }
 
  private:
@@ -164,6 +165,7 @@ class Machine : private Waiting, private Dispatch {
   FeedOverride feed_;
   Greeting greeting_;
   Answers answers_;
+  ProgramPlace program_;
   SledPlace place_;
   Reports reports_;
   Telemetry telemetry_;

@@ -48,7 +48,7 @@ bool AxisTests::testMotors() {
   }
   if (completed) out_.line(FLASH("Tests complete."));
   waiting_.awaitStandstill();
-  place_.search();
+  place_.search(Search::kChainsDriven);
   return completed;
 }
 
@@ -64,7 +64,7 @@ bool AxisTests::pullChain(Axis axis, int16_t duty, float seconds) {
     completed = driveFor(axis, duty < kGentleDuty ? duty : kGentleDuty, ms);
   axes_.release(axis);
   waiting_.awaitStandstill();
-  place_.search();
+  place_.search(Search::kChainsDriven);
   return completed;
 }
 

@@ -22,7 +22,7 @@ void Moves::takeFeed(const Words& words) {
 }
 
 Place Moves::targetOf(const Words& words) const {
-  Place target = place_.counted();
+  Place target = program_.counted();
   for (uint8_t axis = 0; axis < kPlaceAxes; ++axis) {
     if (!words.has(kAxisLetters[axis])) continue;
     float& coordinate = part(target, axis);
@@ -49,7 +49,7 @@ bool Moves::move(uint8_t kind, const Words& words) {
   const float feed = feedOf(kind);
   if (kind < 2) return moveStraight(target, goesAcross(words), feed);
   if (!mayTurn(words) || !isNear(target) || !coordinates_.mayCrossSheet()) return false;
-  const Place from = place_.counted();
+  const Place from = program_.counted();
   if (!z_.hasMotor()) target.z = from.z;
   return moveRound(kind == 2, {from.x, from.y}, target, words, feed);
 }
@@ -75,14 +75,14 @@ bool Moves::mayTurn(const Words& words) {
 
 bool Moves::moveStraight(Place target, bool across, float feed) {
   if (!isNear(target) || (across && !coordinates_.mayCrossSheet())) return false;
-  const float z = place_.aim().z;
+  const float z = program_.aim().z;
   if (!z_.hasMotor() && target.z != z) {
     const float kSameDepth = 0.1f;  // [mm]
     const bool asks = float(fabs(target.z - z)) > kSameDepth;
     if (asks && !pauses_.setZByHand(target.z)) return false;
-    target.z = place_.aim().z;
+    target.z = program_.aim().z;
   }
-  const Place from = place_.counted();
+  const Place from = program_.counted();
   return queue(motion::line<float>({from.x, from.y}, {target.x, target.y}), target, feed);
 }
 
@@ -93,7 +93,7 @@ bool Moves::goToKept(const gcode::Piece& piece) {
   const bool all = !words.hasPlace();
   const bool across = all || goesAcross(words);
   if (!all && !goSafely(targetOf(words), across)) return false;
-  Place goal = place_.counted();
+  Place goal = program_.counted();
   for (uint8_t axis = 0; axis < kPlaceAxes; ++axis)
     if (all || words.has(kAxisLetters[axis])) part(goal, axis) = kept[axis];
   goal.z = z_.within(goal.z);
@@ -103,12 +103,12 @@ bool Moves::goToKept(const gcode::Piece& piece) {
 bool Moves::goSafely(const Place& target, bool across) {
   if (across && !coordinates_.mayCrossSheet()) return false;
   const float feed = values_.at(kGreatestFeed);
-  Place next = place_.counted();
+  Place next = program_.counted();
   next.z = target.z;
-  if (target.z > place_.aim().z && !moveStraight(next, false, feed)) return false;
-  next = {target.x, target.y, place_.aim().z};
+  if (target.z > program_.aim().z && !moveStraight(next, false, feed)) return false;
+  next = {target.x, target.y, program_.aim().z};
   if (across && !moveStraight(next, true, feed)) return false;
-  next = place_.counted();
+  next = program_.counted();
   next.z = target.z;
   return moveStraight(next, false, feed);
 }
@@ -149,14 +149,14 @@ bool Moves::moveRound(bool clockwise, motion::Point<float> from, const Place& ta
 
 /// The feed for a move that G93 times: `times` [1/min] is 1 / its time.
 float Moves::fittingFeed(const motion::Path<float>& path, const Place& target, float times) const {
-  const float rise = target.z - place_.aim().z, most = values_.at(kGreatestFeed);
+  const float rise = target.z - program_.aim().z, most = values_.at(kGreatestFeed);
   const float feed = times * float(sqrt(path.length * path.length + rise * rise));
   return feed > most ? most : feed;
 }
 
 bool Moves::queue(const motion::Path<float>& path, const Place& target, float feed) {
   const uint8_t beam = cutter_.takeBeam();
-  const Place& aim = place_.aim();
+  const Place& aim = program_.aim();
   // An arrow key starts where the sled is.
   const bool is_jog = modal_.relative && modal_.motion == 0;
   if (place_.movedBy() > 0 && !is_jog)
@@ -171,7 +171,7 @@ bool Moves::queue(const motion::Path<float>& path, const Place& target, float fe
   if (goes && !mayGo(path, area)) return false;
   EdgeCut cut(path, area);
   if (!queuePieces(cut, target.z, feed, beam)) return false;
-  place_.countFrom(target.x, target.y);
+  program_.countFrom(target.x, target.y);
   return true;
 }
 
@@ -181,7 +181,7 @@ bool Moves::mayGo(const motion::Path<float>& path, const Area& area) {
   const Area sheet = geometry_.sheet();
   // True for nearly every line; the rest costs a thousand cycles.
   if (sheet.holds(path) && geometry_.isReachable(path.to)) return true;
-  const float beyond = sheet.distanceTo({place_.aim().x, place_.aim().y});
+  const float beyond = sheet.distanceTo({program_.aim().x, program_.aim().y});
   const bool nearer = path.sweep == 0 && sheet.distanceTo(area.clamped(path.to)) < beyond;
   if (beyond > kOnEdge && !nearer)
     return answers_.refuseMotion(
@@ -191,7 +191,7 @@ bool Moves::mayGo(const motion::Path<float>& path, const Area& area) {
   while (cut.next())
     if (!geometry_.isReachable(cut.piece().to))
       return answers_.refuseMotion(FLASH("no sled can hang there"));
-  if (leaves && !place_.isCountedBeyond()) sayBeyondSheet(area.clamped(path.to));
+  if (leaves && !program_.isCountedBeyond()) sayBeyondSheet(area.clamped(path.to));
   return true;
 }
 
@@ -202,7 +202,7 @@ void Moves::sayBeyondSheet(motion::Point<float> end) {
 }
 
 bool Moves::queuePieces(EdgeCut& cut, float z_to, float feed, uint8_t beam) {
-  const float z_from = place_.aim().z;
+  const float z_from = program_.aim().z;
   while (cut.next()) {
     const float share = cut.share();
     const float z = share == 1 ? z_to : z_from + (z_to - z_from) * share;
@@ -219,9 +219,9 @@ bool Moves::queuePiece(const motion::Path<float>& piece, float z, float feed, ui
   const bool cuts = modal_.motion >= 1 && modal_.motion <= 3;
   motors_.stayOn(cuts && z < coordinates_.begin(kZAxis) - kInTheWork);
   if (piece.drawn == motion::Drawn::kYes)
-    place_.aimAt({piece.to.x, piece.to.y, z});
+    program_.endAt({piece.to.x, piece.to.y, z});
   else
-    place_.aimAtZ(z);
+    program_.endAtZ(z);
   return true;
 }
 

@@ -14,14 +14,16 @@ namespace machine {
 class Moves {
  public:
   Moves(const settings::Values& values, const Geometry& geometry, Planner& mover,
-        MotorPower& motors, Coordinates& coordinates, SledPlace& place, ZAxis& z, Cutter& cutter,
-        Pauses& pauses, gcode::Modal& modal, Printer& out, Answers& answers, Waiting& waiting)
+        MotorPower& motors, Coordinates& coordinates, const SledPlace& place, ProgramPlace& program,
+        ZAxis& z, Cutter& cutter, Pauses& pauses, gcode::Modal& modal, Printer& out,
+        Answers& answers, Waiting& waiting)
       : values_(values),
         geometry_(geometry),
         planner_(mover),
         motors_(motors),
         coordinates_(coordinates),
         place_(place),
+        program_(program),
         z_(z),
         cutter_(cutter),
         pauses_(pauses),
@@ -62,7 +64,8 @@ class Moves {
   Planner& planner_;
   MotorPower& motors_;
   Coordinates& coordinates_;
-  SledPlace& place_;
+  const SledPlace& place_;
+  ProgramPlace& program_;
   ZAxis& z_;
   Cutter& cutter_;
   Pauses& pauses_;

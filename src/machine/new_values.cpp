@@ -67,19 +67,21 @@ void NewValues::sayCarriedTwice() {
   out_.line(FLASH(". Set one of each pair to 0, in your client too."));
 }
 
-void NewValues::refreshGeometry() {
-  if (!is_geometry_stale_) return;
+void NewValues::refreshGeometry(Search why) {
   prepareGeometry();
   sayCarriedTwice();
-  place_.search();
+  place_.search(why);
   place_.reconsider();
+}
+
+void NewValues::refreshBeforeLine() {
+  if (is_geometry_stale_) refreshGeometry(Search::kBeforeLine);
 }
 
 void NewValues::refreshWhenQuiet(bool is_moving) {
   if (!is_geometry_stale_ || is_moving || clock_.milliseconds() - geometry_changed_ms_ < kQuietMs)
     return;
-  refreshGeometry();
-  if (place_.trustsChains()) place_.find();
+  refreshGeometry(Search::kNewSettings);
 }
 
 }  // namespace machine

@@ -27,11 +27,11 @@ class NewValues {
   /// At the start: takes over all settings, without working out the place.
   void takeAll();
   /// Takes over what new values touch; `touches` are bits of settings::Touch. Clients send many
-  /// values in a row, so the geometry waits for refreshGeometry().
+  /// values in a row, so the geometry waits for refreshBeforeLine().
   void take(uint8_t touches);
   /// Takes over the geometry if it is out of date, and works out the place. To be called before
   /// each line that moves or asks for the place.
-  void refreshGeometry();
+  void refreshBeforeLine();
   /// Refreshes the geometry once no new value has come for a while, and says the place. To be
   /// called often.
   void refreshWhenQuiet(bool is_moving);
@@ -41,6 +41,7 @@ class NewValues {
   void sayCarriedTwice();
 
  private:
+  void refreshGeometry(Search why);
   void arrangeDrives();
 
   const settings::Values& values_;

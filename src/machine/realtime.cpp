@@ -96,16 +96,13 @@ void Machine::finishStop() {
   course_.take(Event::kStood);
   motors_.stayOn(false);
   if (isHalted()) {
-    place_.search();
+    place_.search(Search::kHalted);
     spindle_.turn(false);
     return;
   }
   spindle_.turn(false);
   spindle_.switchLaser(false);
-  if (keeper_.trustsChains())
-    place_.find();
-  else
-    place_.search();
+  place_.search(Search::kStopped);
   if (keeper_.hasLost()) out_.line(place_.whatIsLost());
 }
 

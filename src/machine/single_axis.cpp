@@ -40,7 +40,7 @@ bool SingleAxis::measureOut(Axis axis) {
                               : FLASH("Measuring out right chain"));
   const bool completed = move(axis, values_.at(kExtendLength), 0.9f * values_.at(kGreatestFeed));
   axes_.release(axis);
-  place_.search();
+  place_.search(Search::kChainsDriven);
   if (!completed) return false;
   out_.fixed(axes_.length(axis), 2).line(FLASH("mm"));
   return true;
@@ -55,7 +55,7 @@ bool SingleAxis::setChains(float left, float right) {
   out_ << FLASH("Right: ");
   out_.fixed(axes_.length(kRightAxis), 2).line(FLASH("mm"));
   place_.trustChains();
-  place_.find();
+  place_.search(Search::kDeclared);
   return true;
 }
 
@@ -78,7 +78,7 @@ bool SingleAxis::moveChains(const gcode::Words& words) {
   bool completed = true;
   for (uint8_t i = 0; i < 2; ++i)
     if (goals[i] != axes_.target(Axis(i))) completed = completed && move(Axis(i), goals[i], feed);
-  place_.search();
+  place_.search(Search::kChainsDriven);
   return completed;
 }
 
@@ -89,7 +89,7 @@ bool SingleAxis::goHome() {
     return answers_.refuseMotion(FLASH("with these settings no sled can hang at 0,0"));
   const bool completed =
       move(kLeftAxis, lengths.left, kAxisFeed) && move(kRightAxis, lengths.right, kAxisFeed);
-  if (completed) place_.find();
+  if (completed) place_.search(Search::kCentred);
   return completed;
 }
 

@@ -27,13 +27,13 @@ FlashText textOf(settings::Doubt why) {
 }  // namespace
 
 FoundPlace SledPlace::byChains(float left, float right) const {
-  return geometry_.forward(left, right, {place_.x, place_.y});
+  return geometry_.forward(left, right, {sled_.x, sled_.y});
 }
 
 void SledPlace::say() const {
   out_.line(FLASH("position loaded at:"));
-  out_.fixed(modal_.fromMm(place_.x), 2).end();
-  out_.fixed(modal_.fromMm(place_.y), 2).end();
+  out_.fixed(modal_.fromMm(sled_.x), 2).end();
+  out_.fixed(modal_.fromMm(sled_.y), 2).end();
 }
 
 void SledPlace::sayLengths() const {
@@ -41,41 +41,52 @@ void SledPlace::sayLengths() const {
   out_.fixed(axes_.length(kRightAxis), 2);
 }
 
-bool SledPlace::search() {
+bool SledPlace::isSaid(Search why) {
+  switch (why) {
+    case Search::kStart:
+    case Search::kDeclared:
+    case Search::kCentred:
+    case Search::kStopped:
+    case Search::kNewSettings:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool SledPlace::search(Search why) {
+  const bool is_said = isSaid(why) && keeper_.trustsChains();
+  if (is_said) {
+    out_.line(FLASH("[Forward Calculating Position]"));
+    moved_by_ = 0;
+  }
   const FoundPlace found = byChains(axes_.length(kLeftAxis), axes_.length(kRightAxis));
+  hangs_ = found.found;
   axes_.standStill();
-  is_known_ = found.found && keeper_.trustsChains();
-  place_.x = found.found ? found.at.x : 0;
-  place_.y = found.found ? found.at.y : 0;
+  sled_.x = hangs_ ? found.at.x : 0;
+  sled_.y = hangs_ ? found.at.y : 0;
   standHere();
-  return found.found;
+  if (is_said) hangs_ ? say() : sayNowhere();
+  return hangs_;
 }
 
 void SledPlace::standHere() {
-  place_.z = axes_.length(kZAxis);
-  aim_ = place_;
-  countFromAim();
+  sled_.z = axes_.length(kZAxis);
+  program_.beginAt(sled_);
   planner_.standAt(axes_.setPoint());
 }
 
 void SledPlace::declareZ(float z) {
   axes_.declare(kZAxis, z);
-  aim_.z = z;
+  program_.beginAtZ(z);
   planner_.standAt(axes_.setPoint());
   keeper_.declareZ();
 }
 
-bool SledPlace::find() {
-  out_.line(FLASH("[Forward Calculating Position]"));
-  moved_by_ = 0;
-  if (search()) {
-    say();
-    return true;
-  }
+void SledPlace::sayNowhere() {
   out_ << FLASH("Message: Unable to find valid machine position for chain lengths ");
   sayLengths();
   out_.line(FLASH(" . Please set the chains to a known length (Actions -> Set Chain Lengths)"));
-  return false;
 }
 
 void SledPlace::restore(const settings::Started& started) {
@@ -86,7 +97,7 @@ void SledPlace::restore(const settings::Started& started) {
   keeper_.begin(started.known);
   switch (started.known) {
     case Known::kNothing:
-      search();
+      search(Search::kStart);
       return sayUnset(started.source == settings::Source::kDefaults);
     case Known::kMoving:
       return lose(settings::Doubt::kMoving);
@@ -95,9 +106,9 @@ void SledPlace::restore(const settings::Started& started) {
     case Known::kAtRest:
       break;
   }
-  const bool is_found = find();
+  const bool is_found = search(Search::kStart);
   using settings::Agreement;
-  const Agreement agreement = settings::compare(kept, memory_.scale(), place_.x, place_.y);
+  const Agreement agreement = settings::compare(kept, memory_.scale(), sled_.x, sled_.y);
   if (agreement == Agreement::kScaleChanged)
     lose(settings::Doubt::kScale);
   else if (is_found && agreement == Agreement::kPlaceDiffers)
@@ -113,7 +124,6 @@ void SledPlace::sayUnset(bool has_defaults) {
 
 void SledPlace::lose(settings::Doubt why) {
   keeper_.doubtChains(why);
-  is_known_ = false;
   axes_.standStill();
   // Else the next move of z would start from chains of no length.
   standHere();
@@ -129,20 +139,24 @@ void SledPlace::doubtCounts() {
 }
 
 FlashText SledPlace::whatIsLost() const {
-  if (!keeper_.trustsChains())
-    return FLASH("Position Lost: set the chain lengths first (B06 or B08)");
-  return is_known_ ? FLASH("z is not known: set it first (G10 Z0 or G38.2)")
-                   : FLASH("the chains put the sled nowhere: set their lengths first (B06 or B08)");
+  switch (whereabouts()) {
+    case Whereabouts::kLost:
+      return FLASH("Position Lost: set the chain lengths first (B06 or B08)");
+    case Whereabouts::kNowhere:
+      return FLASH("the chains put the sled nowhere: set their lengths first (B06 or B08)");
+    default:
+      return FLASH("z is not known: set it first (G10 Z0 or G38.2)");
+  }
 }
 
 void SledPlace::followPulledChains() {
   if (farthestOff() <= kMovedByHand) return;
   const bool begins = moved_by_ == 0;
-  if (begins) left_at_ = aim_;
-  search();
-  if (!is_known_) return;
+  if (begins) left_at_ = program_.aim();
+  search(Search::kPulled);
+  if (!isKnown()) return;
   if (begins) out_.line(FLASH("The sled moves while its motors are off."));
-  const float x = aim_.x - left_at_.x, y = aim_.y - left_at_.y, z = aim_.z - left_at_.z;
+  const float x = sled_.x - left_at_.x, y = sled_.y - left_at_.y, z = sled_.z - left_at_.z;
   moved_by_ = float(sqrt(x * x + y * y + z * z));
 }
 
@@ -174,20 +188,20 @@ void SledPlace::keepWhenAtRest(uint32_t now_ms) {
 }
 
 Place SledPlace::now(bool is_moving) {
-  place_.z = axes_.length(kZAxis);
-  if (!is_moving || !is_known_) {
-    place_.x = aim_.x;
-    place_.y = aim_.y;
-    return place_;
+  sled_.z = axes_.length(kZAxis);
+  if (!is_moving || !isKnown()) {
+    sled_.x = program_.aim().x;
+    sled_.y = program_.aim().y;
+    return sled_;
   }
   const SetPoint point = axes_.setPoint();
   const FoundPlace found =
       byChains(motion::toMm<float>(point.left), motion::toMm<float>(point.right));
   if (found.found) {
-    place_.x = found.at.x;
-    place_.y = found.at.y;
+    sled_.x = found.at.x;
+    sled_.y = found.at.y;
   }
-  return place_;
+  return sled_;
 }
 
 }  // namespace machine

@@ -7,48 +7,60 @@
 #include "planner.h"
 #include "position_keeper.h"
 #include "printer.h"
+#include "program_place.h"
 
 namespace machine {
 
-/// Where the tool is [mm].
-struct Place {
-  float x, y, z;
+/// What is known of the place of the sled.
+enum class Whereabouts : uint8_t {
+  kLost,     ///< the lengths of the chains are not known
+  kNowhere,  ///< the lengths are known, but no sled can hang on such chains
+  kFound,    ///< the place is known
 };
 
-/// Three places: where the sled is, where its last queued move ends (aim), and where the program
-/// believes that end to be (counted: may be beyond the sheet).
+/// Why the place is worked out from the chains. The reason decides whether it is said.
+enum class Search : uint8_t {
+  kStart,         ///< the machine starts
+  kDeclared,      ///< somebody said how long the chains are
+  kCentred,       ///< the chains were brought to their lengths at 0,0
+  kStopped,       ///< a stop ended what was going on
+  kNewSettings,   ///< a client has sent its settings
+  kBeforeLine,    ///< a line comes after new settings, before the client has fallen silent
+  kHalted,        ///< a stop came after a fault
+  kErased,        ///< the stored position was erased
+  kChainsDriven,  ///< chains were moved one by one, or tested
+  kPulled,        ///< the motors are off, and the chains are no longer as they were left
+};
+
+/// Where the sled is. Works it out from the chains, keeps it through a power cut, and says it, or
+/// why it is lost. Where the program is follows: see ProgramPlace.
 class SledPlace {
  public:
   SledPlace(Printer& out, Axes& axes, const Geometry& geometry, Planner& mover,
-            PositionKeeper& keeper, settings::Memory& memory, const gcode::Modal& modal)
+            PositionKeeper& keeper, settings::Memory& memory, const gcode::Modal& modal,
+            ProgramPlace& program)
       : out_(out),
         axes_(axes),
         geometry_(geometry),
         planner_(mover),
         keeper_(keeper),
         memory_(memory),
-        modal_(modal) {}
+        modal_(modal),
+        program_(program) {}
 
-  /// Whether the chains give a place for the sled, and can be trusted.
-  bool isKnown() const { return is_known_; }
+  Whereabouts whereabouts() const {
+    if (!keeper_.trustsChains()) return Whereabouts::kLost;
+    return hangs_ ? Whereabouts::kFound : Whereabouts::kNowhere;
+  }
+  bool isKnown() const { return whereabouts() == Whereabouts::kFound; }
   /// Whether nothing has proved the chains or z wrong since they were declared.
   bool isTrusted() const { return keeper_.trustsAll(); }
-  const Place& aim() const { return aim_; }
-  Place counted() const { return {counted_.x, counted_.y, aim_.z}; }
-  /// Whether the program's place is not the sled's: it is beyond the sheet's edge.
-  bool isCountedBeyond() const { return counted_.x != aim_.x || counted_.y != aim_.y; }
 
-  void aimAt(const Place& place) { aim_ = place; }
-  void aimAtZ(float z) { aim_.z = z; }
-  void countFrom(float x, float y) { counted_ = {x, y}; }
-  /// From now on the program counts from where the sled is.
-  void countFromAim() { counted_ = {aim_.x, aim_.y}; }
-
-  /// Works out the place from the measured chains; all moves begin there.
-  bool search();
-  /// Works out the place as search() does, and says it: from now on the sled belongs there.
-  bool find();
-  /// All moves begin at the place that was worked out last.
+  /// Works out the place from the measured chains; all moves begin there. If the reason is one to
+  /// say it and the chains are trusted, says it, and from now on the sled belongs there. Returns
+  /// whether a sled can hang on these chains.
+  bool search(Search why);
+  /// All moves begin where the sled was found last, at the height that z has now.
   void standHere();
   /// Declares that the tool is at this z [mm].
   void declareZ(float z);
@@ -83,7 +95,9 @@ class SledPlace {
   Place now(bool is_moving);
 
  private:
+  static bool isSaid(Search why);
   void say() const;
+  void sayNowhere();
   void sayLengths() const;
   void followPulledChains();
   FoundPlace byChains(float left, float right) const;
@@ -95,12 +109,11 @@ class SledPlace {
   PositionKeeper& keeper_;
   settings::Memory& memory_;
   const gcode::Modal& modal_;
-  Place aim_ = {0, 0, 0};
-  motion::Point<float> counted_ = {0, 0};  ///< [mm]
-  Place place_ = {0, 0, 0};                ///< where the tool was at the last call of now()
-  Place left_at_ = {0, 0, 0};              ///< where the motors left the tool
-  float moved_by_ = 0;                     ///< [mm]
-  bool is_known_ = false;
+  ProgramPlace& program_;
+  Place sled_ = {0, 0, 0};     ///< where the tool was at the last search or call of now()
+  Place left_at_ = {0, 0, 0};  ///< where the motors left the tool
+  float moved_by_ = 0;         ///< [mm]
+  bool hangs_ = false;         ///< whether a sled can hang on the chains as last searched
 };
 
 }  // namespace machine

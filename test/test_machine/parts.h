@@ -55,18 +55,18 @@ struct Parts : testing::Test, machine::Dispatch {
         waiting(board, axes, planner, geometry, memory),
         cutter(board, values),
         answers(out, values),
-        place(out, axes, geometry, planner, keeper, memory, modal),
+        place(out, axes, geometry, planner, keeper, memory, modal, program),
         motors(axes, keeper, values, place, out, waiting),
         spindle(cutter, board, out, waiting),
         z(memory, values, axes, place, modal, out, answers),
         new_values(values, geometry, axes, planner, board, cutter, place, board, out),
-        coordinates(memory, values, modal, place, out, answers),
+        coordinates(memory, values, modal, place, program, out, answers),
         operator_lines(waiting.course, input, modal, axes, motors, z, coordinates, board, out,
                        answers, *this),
         pauses(operator_lines, input, modal, spindle, place, out, waiting),
-        moves(values, geometry, planner, motors, coordinates, place, z, cutter, pauses, modal, out,
-              answers, waiting),
-        drilling(modal, coordinates, place, z, moves, answers, waiting),
+        moves(values, geometry, planner, motors, coordinates, place, program, z, cutter, pauses,
+              modal, out, answers, waiting),
+        drilling(modal, coordinates, program, z, moves, answers, waiting),
         single_axis(values, geometry, axes, planner, motors, place, z, board, modal, out, answers,
                     waiting),
         axis_tests(axes, values, out, motors, place, waiting) {
@@ -92,7 +92,7 @@ struct Parts : testing::Test, machine::Dispatch {
     axes.declare(machine::kLeftAxis, lengths.left);
     axes.declare(machine::kRightAxis, lengths.right);
     keeper.declareChains();
-    place.search();
+    place.search(machine::Search::kHalted);
   }
 
   /// The words of a line's first code.
@@ -129,6 +129,7 @@ struct Parts : testing::Test, machine::Dispatch {
   Rounds waiting;
   machine::Cutter cutter;
   machine::Answers answers;
+  machine::ProgramPlace program;
   machine::SledPlace place;
   machine::MotorPower motors;
   machine::Spindle spindle;

@@ -1,4 +1,4 @@
-// Answers, waits, power, place, z, spindle, pauses and the operator, each without the rest of the
+// Answers, waits, power, z, spindle, pauses and the operator, each without the rest of the
 // machine.
 #include "machine/reports.h"
 #include "machine/telemetry.h"
@@ -107,75 +107,6 @@ TEST_F(MotorPowerAlone, GoesAfterARest) {
   EXPECT_FALSE(motors.areOn());
 }
 
-struct PlaceAlone : Parts {};
-
-TEST_F(PlaceAlone, IsNoneWithoutTrustAndSaysWhy) {
-  EXPECT_TRUE(place.isKnown());
-  place.lose(settings::Doubt::kSimulated);
-  EXPECT_FALSE(place.isKnown() || place.trustsChains());
-  expectSaid(
-      "ALARM: Position Lost. Motion was simulated, so the chains are elsewhere. Last known chain "
-      "lengths: ");
-  EXPECT_TRUE(place.search());
-  EXPECT_FALSE(place.isKnown());
-  place.trustChains();
-  EXPECT_TRUE(place.find());
-  EXPECT_TRUE(place.isKnown());
-  expectSaid("position loaded at:\r\n0.00\r\n0.00\r\n");
-}
-
-TEST_F(PlaceAlone, IsKeptAsNoneWhereTheChainsPutTheSledNowhere) {
-  const auto isPlaceKept = [&] {
-    for (int i = 0; i < 1000; ++i) {
-      waiting.pass();
-      place.keepWhenAtRest(board.now_ms);
-    }
-    return settings::Memory(eeprom, values).start().position.has_place;
-  };
-  axes.simulate(false);
-  EXPECT_TRUE(isPlaceKept());
-  axes.declare(kLeftAxis, 100);
-  axes.declare(kRightAxis, 100);
-  place.trustChains();
-  EXPECT_FALSE(isPlaceKept());
-}
-
-TEST_F(PlaceAlone, BringsAimAndCountTogetherWhenItIsLookedFor) {
-  place.countFrom(50, 60);
-  EXPECT_TRUE(place.isCountedBeyond());
-  place.search();
-  EXPECT_FALSE(place.isCountedBeyond());
-  EXPECT_NEAR(0, place.counted().x, 0.01);
-  place.declareZ(3);
-  EXPECT_FLOAT_EQ(3, place.aim().z);
-  EXPECT_FLOAT_EQ(3, place.counted().z);
-}
-
-TEST_F(PlaceAlone, IsFollowedInMotionAndIsTheAimAtRest) {
-  EXPECT_TRUE(moves.move(0, words("G0 X30")));
-  waiting.waitFor(1000);
-  const float middle = place.now(true).x;
-  EXPECT_GT(middle, 3);
-  EXPECT_LT(middle, 27);
-  EXPECT_FLOAT_EQ(30, place.now(false).x);
-}
-
-TEST_F(PlaceAlone, IsLookedForWhereAChainWasPulledAtRest) {
-  axes.simulate(false);
-  waiting.in_each_round = [&] { place.keepWhenAtRest(board.now_ms); };
-  waiting.waitFor(1000);
-  for (const auto& [counts, least, most] :
-       {std::tuple<int, float, float>{45, 0, 0}, {128, 0.3f, 2}}) {
-    place.search();
-    const Place before = place.aim();
-    board.counted[kLeftAxis] = uint16_t(board.counted[kLeftAxis] + counts);
-    waiting.waitFor(1000);
-    const float moved = float(std::hypot(place.aim().x - before.x, place.aim().y - before.y));
-    EXPECT_GE(moved, least) << counts;
-    EXPECT_LE(moved, most) << counts;
-  }
-}
-
 struct ZAxisAlone : Parts {};
 
 TEST_F(ZAxisAlone, KeepsItsLimitsWithTheMachineWhenZIsDeclared) {
@@ -244,9 +175,9 @@ TEST_F(NewValuesAlone, WaitForQuietBeforeThePlaceIsSaid) {
 TEST_F(NewValuesAlone, LookForThePlaceBeforeAMove) {
   values.setRow(kMotorCenterX, 10);
   new_values.take(settings::kGeometry);
-  EXPECT_NEAR(0, place.aim().x, 0.01);
-  new_values.refreshGeometry();
-  EXPECT_NEAR(10, place.aim().x, 0.01);
+  EXPECT_NEAR(0, program.aim().x, 0.01);
+  new_values.refreshBeforeLine();
+  EXPECT_NEAR(10, program.aim().x, 0.01);
 }
 
 struct OperatorAlone : Parts {

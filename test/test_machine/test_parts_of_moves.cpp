@@ -12,18 +12,18 @@ TEST_F(MovesAlone, GoToTheTargetAndCountFromIt) {
   expectAt(20, -10, -1);
   modal.relative = true;
   EXPECT_TRUE(moves.move(0, words("G0 X5")));
-  EXPECT_FLOAT_EQ(25, place.aim().x);
+  EXPECT_FLOAT_EQ(25, program.aim().x);
   modal.inches = true;
   EXPECT_TRUE(moves.move(0, words("G0 Y1")));
-  EXPECT_FLOAT_EQ(15.4f, place.aim().y);
+  EXPECT_FLOAT_EQ(15.4f, program.aim().y);
 }
 
 TEST_F(MovesAlone, KeepToTheSheetWhileTheProgramCountsBeyondIt) {
   hangAt(1200, 0);
   EXPECT_TRUE(moves.move(0, words("G0 X1300")));
-  EXPECT_FLOAT_EQ(1219.2f, place.aim().x);
-  EXPECT_FLOAT_EQ(1300, place.counted().x);
-  EXPECT_TRUE(place.isCountedBeyond());
+  EXPECT_FLOAT_EQ(1219.2f, program.aim().x);
+  EXPECT_FLOAT_EQ(1300, program.counted().x);
+  EXPECT_TRUE(program.isCountedBeyond());
   expectSaid("leads beyond the sheet");
   board.said.clear();
   EXPECT_TRUE(moves.move(0, words("G0 X1301")));
@@ -31,11 +31,11 @@ TEST_F(MovesAlone, KeepToTheSheetWhileTheProgramCountsBeyondIt) {
   // The program goes on from where it counts, after a rest too.
   modal.relative = true;
   EXPECT_TRUE(moves.move(0, words("G0 X-1")));
-  EXPECT_FLOAT_EQ(1300, place.counted().x);
+  EXPECT_FLOAT_EQ(1300, program.counted().x);
   EXPECT_TRUE(waiting.drain());
   axes.releaseAll();
   EXPECT_TRUE(moves.move(0, words("G0 X-1")));
-  EXPECT_FLOAT_EQ(1299, place.counted().x);
+  EXPECT_FLOAT_EQ(1299, program.counted().x);
 }
 
 TEST_F(MovesAlone, AreRefusedWhereThePlaceIsNotKnown) {
@@ -156,7 +156,7 @@ TEST_F(SingleAxisAlone, TakesTheChainsLengthsAndLooksForThePlace) {
   keeper.doubtChains(settings::Doubt::kCounts);
   EXPECT_TRUE(single_axis.setChains(1700, 1700));
   EXPECT_TRUE(place.isKnown());
-  EXPECT_NEAR(0, place.aim().x, 0.01);
+  EXPECT_NEAR(0, program.aim().x, 0.01);
   expectSaid("Left: 1700.00mm");
   EXPECT_FALSE(single_axis.setChains(17000, 1700));
 }
@@ -187,7 +187,7 @@ TEST_F(SingleAxisAlone, MakesZeroWhereTheProbeTouches) {
   waiting.in_each_round = [] {};
   EXPECT_FALSE(single_axis.probe(-0.5f));
   expectSaid("probe did not connect");
-  EXPECT_NEAR(axes.length(kZAxis), place.aim().z, 0.01) << "the next move begins there";
+  EXPECT_NEAR(axes.length(kZAxis), program.aim().z, 0.01) << "the next move begins there";
 }
 
 struct AxisTestsAlone : Parts {};

@@ -78,7 +78,7 @@ class DryRun {
 
   /// Where the program believes the bit to be, and where its coordinates begin [mm].
   std::vector<double> place() const {
-    const machine::Place place = stage_.machine().place().counted();
+    const machine::Place place = stage_.machine().program().counted();
     return {place.x, place.y, place.z};
   }
   std::vector<double> origin() const {
