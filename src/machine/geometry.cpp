@@ -70,8 +70,7 @@ void Geometry::prepareRing(const Values& values, const kinematics::Frame<float>&
   const float least_run = near_run > 50 ? near_run : 50;
   const float span = float(sqrt(far_run * far_run + drop * drop));
   sprockets_.effects = motion::sagSlopes(sag, far_run, least_run, drop, span);
-  const motion::Slopes<float> waves =
-      waveSlopes(wave_size, frame.sprocket_radius);
+  const motion::Slopes<float> waves = waveSlopes(wave_size, frame.sprocket_radius);
   sprockets_.effects.first += waves.first;
   sprockets_.effects.second += waves.second;
   sprockets_.effects.third += waves.third;

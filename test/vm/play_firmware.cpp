@@ -34,7 +34,6 @@ struct Machine {
         right(board, kRight, kMainTop),
         z(board, kZ, kZTop) {
     board.setEeprom(eeprom);
-    board.followStack();
   }
 
   void run(double seconds) {
@@ -54,6 +53,34 @@ struct Machine {
   vm::VirtualBoard board;
   vm::VirtualMotor left, right, z;
   double most_drive[3] = {0, 0, 0}, least_drive[3] = {0, 0, 0};
+};
+
+/// Moves around a circle, in the words of a program for smooth curves.
+struct Moves {
+  double length = 0.05;  // [mm]
+  bool with_z = false, round = false;
+
+  void take(const std::string& word) {
+    if (word == "z" || word == "round")
+      (word == "z" ? with_z : round) = true;
+    else
+      length = std::atof(word.c_str());
+  }
+
+  std::string line(int index) const {
+    const double kRadius = 5;  // [mm]
+    const double angle = index * length / kRadius;
+    char text[40];
+    std::snprintf(text, sizeof text, "G%d X%.3f Y%.3f", round ? 3 : 1, kRadius * std::cos(angle),
+                  kRadius * std::sin(angle));
+    std::string line = text;
+    if (round) line += " R5";
+    if (with_z) {
+      std::snprintf(text, sizeof text, " Z%.3f", 0.2 * std::sin(angle));
+      line += text;
+    }
+    return line + "\n";
+  }
 };
 
 class Player {
@@ -78,8 +105,7 @@ class Player {
 
   void tellFigures() const {
     std::printf("first_line_ms %.0f\n", first_line_ms_);
-    std::printf("stack_main %d\n", machine_->board.mainStack());
-    std::printf("stack_interrupts %d\n", machine_->board.interruptStack());
+    std::printf("stack %d\n", machine_->board.mainStack() + machine_->board.interruptStack());
     std::printf("tick_share %.4f\n", machine_->board.tickShare());
     std::printf("longest_tick %ld\n", machine_->board.longestTick());
   }
@@ -127,12 +153,11 @@ class Player {
       return machine_->board.strap(uint8_t(std::atoi(rest.c_str())));
     }
     if (verb == "stream") {
-      bool with_z = false;
-      double length = 0.05;
-      for (std::string word; words >> word;)
-        word == "z" ? void(with_z = true) : void(length = std::atof(word.c_str()));
-      return stream(std::atoi(rest.c_str()), with_z, length);
+      Moves moves;
+      for (std::string word; words >> word;) moves.take(word);
+      return stream(std::atoi(rest.c_str()), moves);
     }
+    if (verb == "stack") return machine_->board.followStack();
     if (verb == "hang") return hang(rest);
     if (verb == "overrun") return machine_->board.overrunStack();
     if (verb == "supply") return machine_->board.setSupply(std::atof(rest.c_str()));
@@ -221,23 +246,17 @@ class Player {
     std::printf("sleep_share_%s %.4f\n", when, board.sleepShare());
   }
 
-  /// Sends moves of `length` [mm] as fast as they are acknowledged, 126 characters ahead; prints
+  /// Sends moves as fast as they are acknowledged, 126 characters ahead; prints
   /// the speed.
-  void stream(int count, bool with_z, double step) {
+  void stream(int count, const Moves& moves) {
     std::deque<std::size_t> unanswered;
     std::size_t waiting = 0;
     int sent = 0, answered = 0;
     const double start = machine_->board.seconds();
     machine_->board.watchTicksFromNow();
     while (answered < count) {
-      char text[40];
-      // Around a circle, in the words of a program for smooth curves.
-      const double angle = sent * step / 5;
-      const int length_xy = std::snprintf(text, sizeof text, "G1 X%.3f Y%.3f", 5 * std::cos(angle),
-                                          5 * std::sin(angle));
-      std::snprintf(text + length_xy, sizeof text - length_xy, with_z ? " Z%.3f\n" : "\n",
-                    0.2 * std::sin(angle));
-      const std::size_t length = std::string(text).size();
+      const std::string text = moves.line(sent);
+      const std::size_t length = text.size();
       if (sent < count && waiting + length <= 126) {
         machine_->board.send(text);
         unanswered.push_back(length);
@@ -257,7 +276,7 @@ class Player {
     tellTicks("streaming");
     const double lines_per_second = count / (machine_->board.seconds() - start);
     std::printf("lines_per_second %.1f\n", lines_per_second);
-    std::printf("mm_per_minute %.0f\n", lines_per_second * step * 60);
+    std::printf("mm_per_minute %.0f\n", lines_per_second * moves.length * 60);
   }
 
   std::string elf_;

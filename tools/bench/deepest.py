@@ -19,6 +19,7 @@ DRAWN, CHANGED, KEPT = 400, 400, 12  # candidates drawn freely, then changed; th
 AT_ONCE = 2
 MOST_STEPS = 6
 PAUSES = (0, 0.02, 0.1, 0.3)  # [s] between two lines
+MOVES = 40  # the queue has room for 16: a line waits in the middle of being done
 QUICK = ("!", "~", "^H", "?", "^0", "^1", "^2", "^3", "^4")
 DIALOGUES = board.ROOT / "test/vm/dialogues"
 RESULT = DIALOGUES / "deepest.nc"
@@ -76,16 +77,18 @@ def one_more(drawn: random.Random, lines: Steps, found: list[tuple[int, Steps]])
 
 
 def a_step(drawn: random.Random, lines: Steps) -> str:
-    """A line, a quick character, or a pause."""
-    kind = drawn.choices(("line", "quick", "pause"), (6, 2, 2))[0]
+    """A line, a quick character, a pause, or moves that come faster than they are made."""
+    kind = drawn.choices(("line", "quick", "pause", "moves"), (6, 2, 2, 2))[0]
     if kind == "line":
         return drawn.choice(lines)
+    if kind == "moves":
+        return f"~~ stream {MOVES} {drawn.choice(('0.3', 'z 0.3', 'round 0.3'))}"
     return f">> {drawn.choice(QUICK)}" if kind == "quick" else f"~~ wait {drawn.choice(PAUSES)}"
 
 
 def text_of(steps: Steps) -> str:
-    """The dialogue of a candidate: a machine with every effect, at a known place, then the steps."""
-    return "\n".join(["~~ include every_effect.inc", *steps, "~~ wait 1", ""])
+    """The dialogue of a candidate: its steps, on a machine with every effect at a known place."""
+    return "\n".join(["~~ include every_effect.inc", "~~ stack", *steps, "~~ wait 1", ""])
 
 
 def depth(program: Path, name: str, steps: Steps) -> int:

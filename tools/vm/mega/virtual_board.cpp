@@ -11,7 +11,6 @@ namespace {
 const avr_cycle_count_t kPerCharacter = 10 * 16 * 17;  // 58,824 baud, ten bits
 // Everything that is read between two runs of the simulator is at most this old.
 const avr_cycle_count_t kMostAtOnce = 500;
-const uint8_t kPaint = 0xa5;
 const uint16_t kOutlivesReset = 16;  // [bytes] most above .bss, for variables that no start clears
 
 /// A pin of the Mega: port letter, bit, and the registers of its PWM.
@@ -323,16 +322,6 @@ void VirtualBoard::setEeprom(const std::vector<uint8_t>& bytes) {
   avr_ioctl(avr_, AVR_IOCTL_EEPROM_SET, &desc);
 }
 
-void VirtualBoard::paintStack() {
-  for (uint16_t at = data_end_; at < kRamEnd; ++at) avr_->data[at] = kPaint;
-}
-
 void VirtualBoard::overrunStack() { avr_->data[data_end_ + kOutlivesReset] = 0; }
-
-int VirtualBoard::stackUsed() const {
-  uint16_t at = uint16_t(data_end_ + kOutlivesReset);
-  while (at < kRamEnd && avr_->data[at] == kPaint) ++at;
-  return kRamEnd - at;
-}
 
 }  // namespace vm

@@ -81,9 +81,6 @@ class VirtualBoard {
   std::vector<uint8_t> eeprom() const;
   void setEeprom(const std::vector<uint8_t>& bytes);
 
-  /// Fills unused RAM with a pattern, to count later how many bytes of stack were ever used.
-  void paintStack();
-  int stackUsed() const;
   /// From now on follows the stack at each instruction, which is slower.
   void followStack() { is_stack_followed_ = true; }
   /// [bytes] Deepest stack of the main program by itself, and of interrupts, since followStack().
