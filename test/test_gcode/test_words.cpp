@@ -105,6 +105,8 @@ TEST(Word, BeyondAFloatIsAMistake) {
   EXPECT_EQ(Fault::kTooLarge, faultOf("X1e99"));
   EXPECT_EQ(Fault::kTooLarge, faultOf("X-1E400"));
   EXPECT_EQ(Fault::kTooLarge, faultOf("X9" + std::string(60, '9')));
+  EXPECT_EQ(Fault::kTooLarge, faultOf("X999999999E30"));
+  EXPECT_EQ(Fault::kNone, faultOf("X340000000E30"));
   EXPECT_EQ(Fault::kNone, faultOf("X1e-99"));
 }
 

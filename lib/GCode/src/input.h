@@ -68,6 +68,7 @@ class Input {
     kCut,      ///< clear() came inside it: it is dropped to its end
   };
 
+  static uint8_t after(uint8_t at) { return at == kRoom - 1 ? 0 : uint8_t(at + 1); }
   Quick quickOf(char character);
   bool isText() const { return line_ == Line::kComment || line_ == Line::kRemark; }
   Quick endLine();

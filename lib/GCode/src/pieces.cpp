@@ -8,8 +8,6 @@ namespace {
 
 const float kMostCode = 999;
 
-bool isCode(char letter) { return letter == 'G' || letter == 'M'; }
-
 bool holds(const char* letters, char letter) {
   for (; *letters != '\0'; ++letters)
     if (*letters == letter) return true;
@@ -77,7 +75,7 @@ bool isAnyCode(float code) {
 Mistake findMistake(const char* line) {
   Word word;
   bool is_subroutine = false;
-  while (readWord(line, word)) {
+  while (checkWord(line, word)) {
     // `O1000` alone is a program's number; `O100 CALL` would be a jump.
     if (is_subroutine) return {Fault::kNoCode, 'O'};
     is_subroutine = word.letter == 'O';
@@ -90,7 +88,7 @@ Mistake findMistake(const char* line) {
 
 Mistake findMistake(const char* words, const char* bare) {
   Word word;
-  while (readWord(words, word)) {
+  while (checkWord(words, word)) {
     if (word.fault == Fault::kNoNumber && holds(bare, word.letter)) continue;
     if (word.fault != Fault::kNone) return {word.fault, word.letter};
   }
@@ -123,7 +121,7 @@ bool Pieces::next(Piece& piece) {
 bool Pieces::read(Piece& piece) {
   piece.letter = kNoLetter;
   piece.tenths = 0;
-  piece.words = Words();
+  piece.words.clear();
   Word word;
   for (const char* before = at_; readWord(at_, word); before = at_) {
     if (!isCode(word.letter)) {

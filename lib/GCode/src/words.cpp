@@ -10,6 +10,7 @@ bool endsNumber(char c) { return isDigit(c) || c == '.'; }
 
 const int16_t kMostExponent = 60;  // beyond it the float is zero or infinite in any case
 const float kLargest = 3.402823e38f;
+const int16_t kSafeExponent = 28;
 
 /// Times or divided by powers of ten; each up to 10^10 is exact.
 float scaled(float number, int16_t exponent) {
@@ -17,8 +18,9 @@ float scaled(float number, int16_t exponent) {
   int16_t left = divides ? int16_t(-exponent) : exponent;
   if (left > kMostExponent) left = kMostExponent;
   while (left > 0) {
-    float power = 1;
-    for (uint8_t step = 0; step < 10 && left > 0; ++step, --left) power *= 10;
+    float power = 10;
+    --left;
+    for (uint8_t step = 1; step < 10 && left > 0; ++step, --left) power *= 10;
     number = divides ? number / power : number * power;
   }
   return number;
@@ -62,9 +64,22 @@ bool goesOn(const char* text) {
 }
 
 /// Passes over what looks like a number, so that a mistake is reported once.
-Number broken(const char*& text) {
+Fault broken(const char*& text) {
   while (endsNumber(*text) || *text == '-' || *text == '+' || *text == ' ') ++text;
-  return {0, Fault::kBadNumber};
+  return Fault::kBadNumber;
+}
+
+/// Reads a word; `with_values`: with the values of all letters, not of codes alone.
+bool read(const char*& text, Word& word, bool with_values) {
+  while (*text == ' ') ++text;
+  if (*text == '\0') return false;
+  word = {*text++, 0, Fault::kStray};
+  if (!isLetter(word.letter)) return true;
+  Decimal decimal;
+  word.fault = readDecimal(text, decimal);
+  if (word.fault == Fault::kNone && (with_values || isCode(word.letter)))
+    word.value = valueOf(decimal);
+  return true;
 }
 
 /// Whether a space between these characters means something: two numbers that must not join, or a
@@ -113,37 +128,45 @@ void clean(char* line) {
   *to = '\0';
 }
 
-Number readNumber(const char*& text) {
+Fault readDecimal(const char*& text, Decimal& decimal) {
   const char* at = text;
-  const bool negative = *at == '-';
+  decimal.is_negative = *at == '-';
   if (*at == '-' || *at == '+') ++at;
   Digits digits;
   for (; isDigit(*at); ++at) digits.take(*at, false);
   if (*at == '.')
     for (++at; isDigit(*at); ++at) digits.take(*at, true);
-  if (!digits.any) return at == text ? Number{0, Fault::kNoNumber} : broken(text);
+  if (!digits.any) return at == text ? Fault::kNoNumber : broken(text);
   if (*at == 'E' && !readExponent(at, digits.exponent)) return broken(text = at + 1);
   if (goesOn(at)) return broken(text);
   text = at;
-  const float number = scaled(float(digits.number), digits.exponent);
-  if (!(number <= kLargest)) return {0, Fault::kTooLarge};
-  return {negative ? -number : number, Fault::kNone};
+  decimal.digits = digits.number;
+  decimal.exponent = digits.exponent;
+  // Nine digits with a smaller exponent always fit.
+  const bool is_large = digits.exponent > kSafeExponent;
+  if (is_large && !(scaled(float(digits.number), digits.exponent) <= kLargest))
+    return Fault::kTooLarge;
+  return Fault::kNone;
 }
 
-bool readWord(const char*& text, Word& word) {
-  while (*text == ' ') ++text;
-  if (*text == '\0') return false;
-  word = {*text++, 0, Fault::kStray};
-  if (!isLetter(word.letter)) return true;
-  const Number number = readNumber(text);
-  word.value = number.value;
-  word.fault = number.fault;
-  return true;
+float valueOf(const Decimal& decimal) {
+  const float value = scaled(float(decimal.digits), decimal.exponent);
+  return decimal.is_negative ? -value : value;
 }
+
+Number readNumber(const char*& text) {
+  Decimal decimal;
+  const Fault fault = readDecimal(text, decimal);
+  return {fault == Fault::kNone ? valueOf(decimal) : 0, fault};
+}
+
+bool readWord(const char*& text, Word& word) { return read(text, word, true); }
+
+bool checkWord(const char*& text, Word& word) { return read(text, word, false); }
 
 void Words::add(char letter, float value) {
   if (has(letter)) return;
-  present_ |= uint32_t(1) << (letter - 'A');
+  present_[byteOf(letter)] |= bitOf(letter);
   value_[letter - 'A'] = value;
 }
 

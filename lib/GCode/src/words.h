@@ -22,6 +22,18 @@ enum class Fault : uint8_t {
 /// two numbers never join. It also stays between two letters, so that a line can be quoted.
 void clean(char* line);
 
+/// A number as it is written: `digits` times ten to the power of `exponent`.
+struct Decimal {
+  uint32_t digits;
+  int16_t exponent;
+  bool is_negative;
+};
+
+/// Reads the number at `text` as readNumber() does, but leaves its value to valueOf(): half the
+/// work where only mistakes count.
+Fault readDecimal(const char*& text, Decimal& decimal);
+float valueOf(const Decimal& decimal);
+
 /// A number, and what is wrong with it; its value is zero if anything is.
 struct Number {
   float value;
@@ -43,22 +55,39 @@ struct Word {
 /// Reads the word at `text` and moves on; false at the end of the line.
 bool readWord(const char*& text, Word& word);
 
+/// The same for whoever looks for mistakes: only a G and an M get their value.
+bool checkWord(const char*& text, Word& word);
+
+/// Whether a letter begins a command of a line.
+inline bool isCode(char letter) { return letter == 'G' || letter == 'M'; }
+
 /// Words by letter; where a letter is used twice, the first word counts.
 class Words {
  public:
-  Words() : present_(0) {}
+  Words() { clear(); }
 
-  bool has(char letter) const { return present_ >> (letter - 'A') & 1; }
+  void clear() {
+    for (uint8_t i = 0; i < kBytes; ++i) present_[i] = 0;
+  }
+  // Always inline: for a letter that is known this is a test of a bit.
+  __attribute__((always_inline)) bool has(char letter) const {
+    return (present_[byteOf(letter)] & bitOf(letter)) != 0;
+  }
   /// The letter's number; zero if the letter is missing or has no number.
   float value(char letter) const { return has(letter) ? value_[letter - 'A'] : 0; }
-  bool isEmpty() const { return present_ == 0; }
+  bool isEmpty() const { return (present_[0] | present_[1] | present_[2] | present_[3]) == 0; }
   /// Whether the words say where to go: X, Y or Z.
   bool hasPlace() const { return has('X') || has('Y') || has('Z'); }
   void add(char letter, float value);
-  void remove(char letter) { present_ &= ~(uint32_t(1) << (letter - 'A')); }
+  void remove(char letter) { present_[byteOf(letter)] &= uint8_t(~bitOf(letter)); }
 
  private:
-  uint32_t present_;
+  enum : uint8_t { kBytes = 4 };
+
+  static uint8_t byteOf(char letter) { return uint8_t(letter - 'A') >> 3; }
+  static uint8_t bitOf(char letter) { return uint8_t(1 << ((letter - 'A') & 7)); }
+
+  uint8_t present_[kBytes];  ///< a bit for each letter, in bytes: the board shifts bit by bit
   float value_[26];
 };
 
