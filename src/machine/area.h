@@ -9,10 +9,13 @@ namespace machine {
 struct Area {
   motion::Point<float> low, high;  ///< [mm] the lower left and the upper right corner
 
+  bool holds(motion::Point<float> place) const {
+    return place.x >= low.x && place.x <= high.x && place.y >= low.y && place.y <= high.y;
+  }
+
   /// Whether a place is in the area, or out of it by no more than `slack` [mm].
-  bool holds(motion::Point<float> place, float slack = 0) const {
-    return place.x >= low.x - slack && place.x <= high.x + slack && place.y >= low.y - slack &&
-           place.y <= high.y + slack;
+  bool nearlyHolds(motion::Point<float> place, float slack) const {
+    return Area{{low.x - slack, low.y - slack}, {high.x + slack, high.y + slack}}.holds(place);
   }
 
   /// Whether the whole path is in the area; for an arc, whether its whole circle is.

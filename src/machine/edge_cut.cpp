@@ -86,7 +86,7 @@ void EdgeCut::cutAt(float share) {
 bool EdgeCut::isInside(uint8_t index) const {
   const float kSlack = 0.002f;  // [mm] of a path along the edge
   const float before = index == 0 ? 0 : shares_[index - 1];
-  return area_.holds(motion::placeOn(path_, 0.5f * (before + shares_[index])), kSlack);
+  return area_.nearlyHolds(motion::placeOn(path_, 0.5f * (before + shares_[index])), kSlack);
 }
 
 }  // namespace machine

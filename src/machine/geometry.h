@@ -37,6 +37,16 @@ class Geometry {
     return (is_sheet_reachable_ && sheet().holds(place)) || inverse(place).reachable;
   }
 
+  /// Whether the whole path is on the sheet, and a sled can hang at its end.
+  bool holds(const motion::Path<float>& path) const {
+    return sheet().holds(path) && (is_sheet_reachable_ || inverse(path.to).reachable);
+  }
+
+  /// Where a path runs, for lib/Motion.
+  motion::Space spaceOf(const motion::Path<float>& path) const {
+    return sheet().holds(path) ? motion::Space::kSheet : motion::Space::kEdge;
+  }
+
   /// What lib/Motion needs to know of the chains.
   const motion::Sprockets<float>& sprockets() const { return sprockets_; }
 

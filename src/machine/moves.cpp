@@ -167,20 +167,27 @@ bool Moves::queue(const motion::Path<float>& path, const Place& target, float fe
   if (!goes && target.z == aim.z) return true;
   if (target.z != aim.z && !z_.mayMove()) return false;
   if (feed < 0) feed = fittingFeed(path, target, -feed);
-  const Area area = geometry_.sheet().grownTo({aim.x, aim.y});
+  // Nearly every path is on the sheet; to look for its cuts would cost a tenth of a short line.
+  const bool queued = goes && geometry_.holds(path)
+                          ? queuePiece(path, motion::Space::kSheet, target.z, feed, beam)
+                          : queueCut(path, target.z, feed, beam);
+  if (queued) program_.countFrom(target.x, target.y);
+  return queued;
+}
+
+/// Queues a path that leaves the sheet, ends where no sled may hang, or moves z alone.
+bool Moves::queueCut(const motion::Path<float>& path, float z_to, float feed, uint8_t beam) {
+  const Area area = geometry_.sheet().grownTo({program_.aim().x, program_.aim().y});
+  const bool goes = path.drawn != motion::Drawn::kNoLength;
   if (goes && !mayGo(path, area)) return false;
   EdgeCut cut(path, area);
-  if (!queuePieces(cut, target.z, feed, beam)) return false;
-  program_.countFrom(target.x, target.y);
-  return true;
+  return queuePieces(cut, z_to, feed, beam);
 }
 
 bool Moves::mayGo(const motion::Path<float>& path, const Area& area) {
   // [mm] A stop and stretched chains may leave the sled this far beyond the edge.
   const float kOnEdge = 1;
   const Area sheet = geometry_.sheet();
-  // True for nearly every line; the rest costs a thousand cycles.
-  if (sheet.holds(path) && geometry_.isReachable(path.to)) return true;
   const float beyond = sheet.distanceTo({program_.aim().x, program_.aim().y});
   const bool nearer = path.sweep == 0 && sheet.distanceTo(area.clamped(path.to)) < beyond;
   if (beyond > kOnEdge && !nearer)
@@ -206,15 +213,16 @@ bool Moves::queuePieces(EdgeCut& cut, float z_to, float feed, uint8_t beam) {
   while (cut.next()) {
     const float share = cut.share();
     const float z = share == 1 ? z_to : z_from + (z_to - z_from) * share;
-    if (!queuePiece(cut.piece(), z, feed, beam)) return false;
+    if (!queuePiece(cut.piece(), geometry_.spaceOf(cut.piece()), z, feed, beam)) return false;
   }
   return true;
 }
 
 /// Waits for room in the queue: a program waits here while its moves are made.
-bool Moves::queuePiece(const motion::Path<float>& piece, float z, float feed, uint8_t beam) {
+bool Moves::queuePiece(const motion::Path<float>& piece, motion::Space space, float z, float feed,
+                       uint8_t beam) {
   if (!waiting_.waitWhile([&] { return !planner_.hasRoom(); }) || !motors_.wake()) return false;
-  if (!planner_.add(piece, z, feed / 60, geometry_, beam))
+  if (!planner_.add(piece, z, feed / 60, space, beam))
     return answers_.refuseMotion(FLASH("that is no path"));
   const bool cuts = modal_.motion >= 1 && modal_.motion <= 3;
   motors_.stayOn(cuts && z < coordinates_.begin(kZAxis) - kInTheWork);

@@ -55,8 +55,12 @@ class Moves {
   float fittingFeed(const motion::Path<float>& path, const Place& target, float times) const;
   bool queue(const motion::Path<float>& path, const Place& target, float feed);
   __attribute__((noinline)) bool mayGo(const motion::Path<float>& path, const Area& area);
+  // Not inline: else every line would wait for room with the stack of the cuts.
+  __attribute__((noinline)) bool queueCut(const motion::Path<float>& path, float z_to, float feed,
+                                          uint8_t beam);
   bool queuePieces(EdgeCut& cut, float z_to, float feed, uint8_t beam);
-  bool queuePiece(const motion::Path<float>& piece, float z, float feed, uint8_t beam);
+  bool queuePiece(const motion::Path<float>& piece, motion::Space space, float z, float feed,
+                  uint8_t beam);
   void sayBeyondSheet(motion::Point<float> end);
 
   const settings::Values& values_;

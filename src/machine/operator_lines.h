@@ -66,6 +66,7 @@ class OperatorLines {
   void wait(Event event);
   bool isOperatorsTurn() const { return course_.lines() == Lines::kOperator; }
   void comeBack();
+  // Not inline: else every wait of the main program would have this line's stack.
   __attribute__((noinline)) void serveLine();
   bool runOrRefuse(const char* line);
   bool run(const char* line);

@@ -31,10 +31,8 @@ void Planner::setGeometry(const Geometry& geometry) {
   moves_.setArea(geometry.smoothArea());
 }
 
-bool Planner::add(const motion::Path<float>& path, float z_to, float feed, const Geometry& geometry,
+bool Planner::add(const motion::Path<float>& path, float z_to, float feed, motion::Space space,
                   uint8_t beam) {
-  const motion::Space space =
-      geometry.sheet().holds(path) ? motion::Space::kSheet : motion::Space::kEdge;
   const motion::Added added = moves_.add(path, z_to, feed, space, beam);
   return added == motion::Added::kYes || added == motion::Added::kNothing;
 }

@@ -26,9 +26,10 @@ class Planner {
   /// Whether all moves together last longer than `ticks`, which is at most 4000.
   bool lastsLonger(uint16_t ticks) const { return moves_.lastsLonger(ticks); }
 
-  /// Queues a move over the sheet from the end of the last move. `feed` [mm/s] is over all three
-  /// axes, `beam` the strength of a laser on it. False if the path could not be drawn.
-  bool add(const motion::Path<float>& path, float z_to, float feed, const Geometry& geometry,
+  /// Queues a move from the end of the last move; `space` is Geometry's of the path. `feed` [mm/s]
+  /// is over all three axes, `beam` the strength of a laser on it. False if the path could not be
+  /// drawn.
+  bool add(const motion::Path<float>& path, float z_to, float feed, motion::Space space,
            uint8_t beam = 0);
 
   /// Queues a move of a single axis to a length [mm], at rest; `feed` [mm/s].

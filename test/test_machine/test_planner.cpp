@@ -63,7 +63,7 @@ class World {
 
   void add(const motion::Path<float>& path, float z, float feed) {
     while (!planner_.hasRoom()) tick();
-    ASSERT_TRUE(planner_.add(path, z, feed, geometry_));
+    ASSERT_TRUE(planner_.add(path, z, feed, geometry_.spaceOf(path)));
   }
 
   void tick() {

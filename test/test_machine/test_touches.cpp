@@ -142,7 +142,8 @@ Signature howItMoves(const Values& values) {
   planner.standAt(axes.setPoint());
   const motion::Point<float> places[] = {{0, 0}, {0, 30}, {6, 30}, {6, 36}};
   for (int i = 1; i < 4; ++i)
-    planner.add(motion::line(places[i - 1], places[i]), i == 2 ? 1.0f : 0.0f, 14, geometry);
+    planner.add(motion::line(places[i - 1], places[i]), i == 2 ? 1.0f : 0.0f, 14,
+                motion::Space::kSheet);
   Signature result;
   while (!planner.isIdle() || !axes.isEmpty()) {
     planner.fill(axes, geometry);

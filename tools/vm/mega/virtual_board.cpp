@@ -71,6 +71,15 @@ void slowDownPhaseCorrectTimers(avr_t* avr) {
   }
 }
 
+/// The part of simavr that is the first serial line.
+avr_uart_t* serialLineOf(avr_t* avr) {
+  for (avr_io_t* part = avr->io_port; part != nullptr; part = part->next) {
+    avr_uart_t* const line = reinterpret_cast<avr_uart_t*>(part);
+    if (std::strcmp(part->kind, "uart") == 0 && line->name == '0') return line;
+  }
+  throw std::runtime_error("simavr has no serial line");
+}
+
 /// simavr prints what it loads and what it lacks on standard output.
 void logNothing(avr_t*, const int, const char*, va_list) {}
 
@@ -100,6 +109,7 @@ VirtualBoard::VirtualBoard(const std::string& elf) {
   flags &= ~uint32_t(AVR_UART_FLAG_STDIO | AVR_UART_FLAG_POLL_SLEEP);
   avr_ioctl(avr_, AVR_IOCTL_UART_SET_FLAGS('0'), &flags);
   const uint32_t port = AVR_IOCTL_UART_GETIRQ('0');
+  line_ = serialLineOf(avr_);
   wire_in_ = avr_io_getirq(avr_, port, UART_IRQ_INPUT);
   avr_irq_register_notify(avr_io_getirq(avr_, port, UART_IRQ_OUTPUT), onCharacter, this);
 }
@@ -121,6 +131,8 @@ void VirtualBoard::onSleep(avr_t* avr, avr_cycle_count_t cycles) {
 
 void VirtualBoard::send(const std::string& characters) {
   if (characters.empty()) return;
+  // simavr counts eleven bits, so a line without a gap would overrun.
+  line_->cycles_per_byte = kPerCharacter;
   const bool is_under_way = !to_send_.empty();
   to_send_ += characters;
   if (!is_under_way) awaitNextCharacter();

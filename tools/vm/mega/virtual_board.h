@@ -138,6 +138,7 @@ class VirtualBoard {
   void noteTickMask(bool is_allowed);
 
   avr_t* avr_;
+  avr_uart_t* line_;
   avr_irq_t* wire_in_;
   std::deque<std::function<void(bool)>> watches_;  ///< of pins; their addresses must not change
   std::map<char, avr_ioport_external_t> outside_;
