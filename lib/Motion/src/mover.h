@@ -91,7 +91,13 @@ class Mover {
   __attribute__((noinline)) bool cut(const Inverse& inverse);
   void advance();
   void push(SetPoints& set_points) const;
-  uint8_t beamNow() const;
+  /// The beam at the present speed: the move's beam times speed over feed. Not inline: few moves
+  /// have a beam.
+  __attribute__((noinline)) uint8_t beamNow() const {
+    if (way_ >= feed_way_) return beam_;
+    const uint8_t weaker = uint8_t((int32_t(beam_) * way_ + feed_way_ / 2) / feed_way_);
+    return weaker == 0 ? 1 : weaker;
+  }
 
   MoveQueue queue_;
   Tiles tiles_;

@@ -219,17 +219,14 @@ inline void Mover::advance() {
   }
 }
 
-/// The beam at the present speed: the move's beam times speed over feed.
-inline uint8_t Mover::beamNow() const {
-  if (beam_ == 0 || way_ >= feed_way_) return beam_;
-  const uint8_t weaker = uint8_t((int32_t(beam_) * way_ + feed_way_ / 2) / feed_way_);
-  return weaker == 0 ? 1 : weaker;
-}
-
 inline void Mover::push(SetPoints& set_points) const {
   const int32_t kMostWay = (1L << 17) - 1;
-  const uint32_t way = way_ < 1 ? 1 : way_ > kMostWay ? kMostWay : uint32_t(way_);
-  set_points.push({last_, way, gain_, beamNow()});
+  Leg& leg = set_points.vacant();
+  copy(last_, leg.to);
+  leg.way = way_ < 1 ? 1 : way_ > kMostWay ? kMostWay : uint32_t(way_);
+  leg.gain = gain_;
+  leg.beam = beam_ == 0 ? uint8_t(0) : beamNow();
+  set_points.push();
 }
 
 template <class Inverse>

@@ -49,9 +49,6 @@ class Playback {
     if (in_step_) {
       if (!is_held_ && share_ == kAllOfIt) return takeNext(ring, now);
       if (speed_ == 0 && (is_held_ || ring.isEmpty())) return false;
-      in_step_ = false;
-      gone_ = leg_.way;
-      if (speed_ == 0) begin(ring, now);
     }
     return walk(ring, now);
   }
@@ -90,7 +87,7 @@ class Playback {
       speed_ = 0;
       return false;
     }
-    now = leg_.to;
+    copy(leg_.to, now);
     speed_ = leg_.way;
     return true;
   }
@@ -113,7 +110,13 @@ class Playback {
     return left + (ring.first().way * shareOf(asked - left, leg_.way) >> kShareBits);
   }
 
-  bool walk(SetPoints& ring, SetPoint& now) {
+  // Not inline: else every tick would save the registers that only a slower tick needs.
+  __attribute__((noinline)) bool walk(SetPoints& ring, SetPoint& now) {
+    if (in_step_) {
+      in_step_ = false;
+      gone_ = leg_.way;
+      if (speed_ == 0) begin(ring, now);
+    }
     if (gone_ == leg_.way && ring.isEmpty()) {
       reset();
       return takeNext(ring, now);

@@ -10,6 +10,13 @@ struct SetPoint {
   int32_t left, right, z;  ///< [counts of kCountsPerMm]
 };
 
+/// Copies number by number: for a whole struct the board runs a loop that takes twice the cycles.
+inline void copy(const SetPoint& from, SetPoint& to) {
+  to.left = from.left;
+  to.right = from.right;
+  to.z = from.z;
+}
+
 /// The way to a set-point from the set-point before it, in a tick.
 struct Leg {
   SetPoint to;
@@ -17,6 +24,13 @@ struct Leg {
   uint16_t gain;  ///< [counts/tick] by which the way may change from tick to tick, at least 1
   uint8_t beam;   ///< strength of a laser on this leg; 0: off
 };
+
+inline void copy(const Leg& from, Leg& to) {
+  copy(from.to, to.to);
+  to.way = from.way;
+  to.gain = from.gain;
+  to.beam = from.beam;
+}
 
 /// A ring with one writer, the main program, and one reader, the control tick.
 ///
@@ -34,11 +48,15 @@ class SetPoints {
     return head >= tail ? uint8_t(head - tail) : uint8_t(head + kMost + 1 - tail);
   }
 
-  /// For the writer: adds a leg. To be called only if there is room.
-  void push(const Leg& leg) {
-    ring_[head_] = leg;
+  /// For the writer, only if there is room: the leg that push() adds.
+  Leg& vacant() { return ring_[head_]; }
+  void push() {
     fence();
     head_ = next(head_);
+  }
+  void push(const Leg& leg) {
+    vacant() = leg;
+    push();
   }
 
   /// For the reader: takes the next leg, or false if there is none.
@@ -47,7 +65,7 @@ class SetPoints {
       ran_dry_ = true;
       return false;
     }
-    leg = ring_[tail_];
+    copy(ring_[tail_], leg);
     fence();
     tail_ = next(tail_);
     return true;
@@ -86,7 +104,7 @@ class SetPoints {
 
   static uint8_t next(uint8_t at) { return at == kMost ? 0 : uint8_t(at + 1); }
 
-  Leg ring_[kMost + 1];
+  Leg ring_[kMost + 1] = {};
   volatile uint8_t head_ = 0, tail_ = 0;
   volatile bool ran_dry_ = false;
 };
