@@ -50,8 +50,10 @@ class Moves {
   bool isNear(const Place& target);
   bool mayTurn(const gcode::Words& words);
   motion::Point<float> centreAhead(const gcode::Words& words, motion::Point<float> from) const;
-  bool moveRound(bool clockwise, motion::Point<float> from, const Place& target,
-                 const gcode::Words& words, float feed);
+  // Not inline: else a line would wait for room with the stack of an arc, 260 bytes more.
+  __attribute__((noinline)) bool moveRound(bool clockwise, motion::Point<float> from,
+                                           const Place& target, const gcode::Words& words,
+                                           float feed);
   float fittingFeed(const motion::Path<float>& path, const Place& target, float times) const;
   bool queue(const motion::Path<float>& path, const Place& target, float feed);
   __attribute__((noinline)) bool mayGo(const motion::Path<float>& path, const Area& area);
