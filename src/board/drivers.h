@@ -101,6 +101,19 @@ inline Levels levelsOff(const Channel& channel) {
   }
 }
 
+/// Levels that take the power off the motor and short its winding.
+inline Levels levelsToBrake(const Channel& channel) {
+  switch (channel.driver) {
+    case Driver::kL298:
+      return {kLow, kLow, kHigh};
+    case Driver::kTb6643:
+      return {kHigh, kHigh, kLow};
+    default:
+      // Both outputs of a TLE5206 are low; a TLE9201 that is not disabled joins its outputs.
+      return {kLow, kLow, kLow};
+  }
+}
+
 /// Whether the driver's third pin is an input; on the TLE5206 it is an output.
 inline bool hasEnable(const Channel& channel) {
   return channel.enable != kNoPin && channel.driver != Driver::kTle5206;

@@ -82,6 +82,10 @@ void Motors::release(Axis axis) {
   if (shield_) put(axis, levelsOff(channel_[axis]));
 }
 
+void Motors::brake(Axis axis) {
+  if (shield_) put(axis, levelsToBrake(channel_[axis]));
+}
+
 void Motors::releaseAll() {
   ATOMIC_BLOCK(ATOMIC_RESTORESTATE) {
     for (uint8_t i = 0; i < kAxisCount; ++i) release(Axis(i));

@@ -15,6 +15,7 @@ class Motors : public machine::Drives {
   void begin(const Shield* shield);
   void drive(machine::Axis axis, int16_t duty) override;
   void release(machine::Axis axis) override;
+  void brake(machine::Axis axis) override;
   uint16_t count(machine::Axis axis) override;
   uint16_t illegalSteps(machine::Axis axis) override;
   void arrange(bool over_top, uint8_t pwm_choice) override;

@@ -78,6 +78,8 @@ class Axes {
   void follow();
   void release(Axis axis);
   void releaseAll();
+  /// Takes the power off all motors, brakes them for half a second, and lets them go then.
+  void brakeAll();
   void driveOpen(Axis axis, int16_t duty);
   void turn(Axis axis, float rpm);
   bool isPowered() const;

@@ -17,6 +17,12 @@ void Axes::releaseAll() {
   for (uint8_t i = 0; i < kAxisCount; ++i) release(Axis(i));
 }
 
+void Axes::brakeAll() {
+  const float kBrakes = 0.5f;  // [s] the fastest motor stands long before
+  const WithoutTicks hold(clock_);
+  for (TickedAxis& axis : axis_) axis.brake(uint8_t(kBrakes / seconds_per_tick_));
+}
+
 void Axes::driveOpen(Axis axis, int16_t duty) {
   const WithoutTicks hold(clock_);
   axis_[axis].driveOpen(duty);

@@ -15,7 +15,7 @@ enum class State : uint8_t {
   kStopping,  ///< `!`: everything brakes, what waits is forgotten
   kHalted,    ///< a motion was refused: queued moves end, lines are dropped
   kGivingUp,  ///< a hold in a halt: everything brakes, queued moves are forgotten
-  kFalling,   ///< an alarm: no motor has power, but one may still run on
+  kFalling,   ///< an alarm: no motor has power, and what still turns is braked
   kAlarm,     ///< nothing moves until a stop
   kCount,
 };

@@ -35,8 +35,10 @@ class Drives {
  public:
   /// Drives a motor with a duty of -255 to 255; positive winds chain in and makes its count fall.
   virtual void drive(Axis axis, int16_t duty) = 0;
-  /// Takes the power off a motor.
+  /// Takes the power off a motor: it runs on freely.
   virtual void release(Axis axis) = 0;
+  /// Takes the power off a motor and shorts its winding: what it generates brakes it.
+  virtual void brake(Axis axis) = 0;
   /// Encoder count: rises as chain is paid out, and wraps round.
   virtual uint16_t count(Axis axis) = 0;
   /// How often both channels of an encoder changed at once, so that its direction is unknown: an

@@ -121,7 +121,8 @@ void Machine::raiseAlarm(FlashText text, FlashText more, FlashText end) {
   if (!course_.take(Event::kAlarm)) return;
   forgetLines();
   cutter_.off();
-  axes_.releaseAll();
+  // A fault may have sped a motor up: it must not run on.
+  axes_.brakeAll();
   planner_.forget();
   axes_.standStill();
   out_ << FLASH("ALARM: ") << text << more;

@@ -24,7 +24,10 @@ int32_t TickedAxis::tick() {
   const float turned = scale_.turnsOf(moved_);
   loop_.measure(turned);
   int32_t off = 0;
-  if (mode_ == AxisMode::kOff) return off;
+  if (mode_ == AxisMode::kOff) {
+    letGoInTime();
+    return off;
+  }
   if (mode_ == AxisMode::kFollow) {
     if (is_simulated_) {
       imagine(scale_.countsOf(motion::toMm<float>(set_point_)));
@@ -129,7 +132,18 @@ void TickedAxis::follow() {
 void TickedAxis::release() {
   mode_ = AxisMode::kOff;
   duty_ = 0;
+  braking_ = 0;
   drives_.release(axis_);
+}
+
+void TickedAxis::brake(uint8_t ticks) {
+  release();
+  drives_.brake(axis_);
+  braking_ = ticks;
+}
+
+void TickedAxis::letGoInTime() {
+  if (braking_ != 0 && --braking_ == 0) drives_.release(axis_);
 }
 
 void TickedAxis::driveOpen(int16_t duty) {

@@ -66,6 +66,8 @@ class TickedAxis {
   AxisMode mode() const { return mode_; }
   void follow();
   void release();
+  /// Takes the power off the motor, and shorts its winding for so many ticks.
+  void brake(uint8_t ticks);
   void driveOpen(int16_t duty);
   void turn(float rpm);
   int16_t duty() const { return duty_; }
@@ -89,6 +91,7 @@ class TickedAxis {
  private:
   void readEncoder();
   int32_t followSetPoint(float turned);
+  void letGoInTime();
   void note(motion::Fault seen);
   void imagine(int32_t counts);
   int32_t measured() const { return scale_.fineOf(counts_); }
@@ -98,6 +101,7 @@ class TickedAxis {
   const Axis axis_;
   AxisMode mode_ = AxisMode::kOff;
   bool is_held_ = true;  ///< the position loop has a gain; without a gain nothing is watched
+  uint8_t braking_ = 0;  ///< [ticks] until a motor without power is let go
   bool is_simulated_ = false;
   volatile bool is_imagined_ = false;
   motion::Fault fault_ = motion::Fault::kNone;

@@ -149,6 +149,16 @@ TEST(Drivers, GiveATle9201DirectionDisableAndPwm) {
   expectLevels(levelsOff(left), 0, 255, 0);
 }
 
+TEST(Drivers, ShortAMotorToBrakeIt) {
+  for (const uint8_t straps : {61, 62, 63})
+    for (const Motor motor : {Motor::kLeft, Motor::kRight, Motor::kZ})
+      expectLevels(levelsToBrake(over(straps, motor)), 0, 0, 255);
+  expectLevels(levelsToBrake(over(52, Motor::kLeft)), 0, 0, 0);
+  for (const uint8_t straps : {6, 8})
+    expectLevels(levelsToBrake(over(straps, Motor::kLeft)), 255, 255, 0);
+  expectLevels(levelsToBrake(over(7, Motor::kLeft)), 0, 0, 0);
+}
+
 TEST(Drivers, CanReachFullDutyBothWaysOnPinsThatExist) {
   for (const Shield& shield : kShields)
     for (const Motor motor : {Motor::kLeft, Motor::kRight, Motor::kZ})

@@ -25,6 +25,7 @@ class MotorDrives : public Drives {
   }
   void drive(Axis axis, int16_t duty) override { duty_[axis] = duty; }
   void release(Axis axis) override { duty_[axis] = 0; }
+  void brake(Axis axis) override { duty_[axis] = 0; }
   uint16_t count(Axis axis) override { return uint16_t(motors[axis].counts()); }
   uint16_t illegalSteps(Axis) override { return 0; }
   void arrange(bool, uint8_t) override {}

@@ -10,6 +10,12 @@ namespace {
 /// When the encoder is lost.
 enum class Lost { kAtRest, kOnTheWay, kBeforeTheFirstMove };
 
+world::Wires unplugged() {
+  world::Wires wires;
+  wires.encoder_unplugged = true;
+  return wires;
+}
+
 struct Case {
   double rate, feed;  // [Hz], [mm/min]
   Lost lost;
@@ -46,6 +52,24 @@ Run runOf(const Case& lost, unsigned seed, double goal) {
   return run;
 }
 
+/// [mm] How far a motor that has lost its encoder on the way runs until it stands: braked from the
+/// alarm on, which is a tick late, or without any power from the loss on.
+double ranToStandstill(double rate, double feed, unsigned seed, double goal, bool is_cut_off) {
+  ControlledAxis axis(seed, rate);
+  ToAndFro way(feed, axis.seconds);
+  learn(axis, rate);
+  for (int i = 0; i < int(rate); ++i) axis.tick(way.towards(goal));
+  const double begin = axis.motor.turns();
+  axis.motor.wires = unplugged();
+  axis.motor.is_powered = !is_cut_off;
+  for (int i = 0; i < int(15 * rate) && axis.fault == Fault::kNone && !is_cut_off; ++i)
+    axis.tick(way.towards(goal));
+  axis.motor.is_powered = false;
+  axis.motor.is_shorted = !is_cut_off;
+  axis.motor.run(0, 4);
+  return std::fabs(axis.motor.turns() - begin) * kTurnLength;
+}
+
 /// Forty motors in both directions, sorted by how far they ran; how many were never noticed.
 std::vector<double> ranOf(const Case& lost, Fault expected, int& unseen) {
   std::vector<double> ran;
@@ -61,12 +85,6 @@ std::vector<double> ranOf(const Case& lost, Fault expected, int& unseen) {
   printf("%.0f Hz, %.0f mm/min: median %.2f mm, worst %.2f mm, unseen %d\n", lost.rate, lost.feed,
          ran[kMotors], ran.back(), unseen);
   return ran;
-}
-
-world::Wires unplugged() {
-  world::Wires wires;
-  wires.encoder_unplugged = true;
-  return wires;
 }
 
 world::Wires withOneChannel() {
@@ -89,6 +107,21 @@ TEST_P(LostEncoder, IsNoticedOnTheWayWithinThreeMillimetres) {
                 2);
       EXPECT_EQ(0, unseen);
     }
+}
+
+TEST_P(LostEncoder, LetsItsMotorRunThreeMillimetresFartherThanAPowerCut) {
+  for (const double feed : {20.0, 60.0, 200.0, 800.0, 1000.0}) {
+    double worst = 0, farthest = 0;
+    for (unsigned seed = 0; seed < kMotors; ++seed)
+      for (const double goal : {60.0, -60.0}) {
+        const double ran = ranToStandstill(GetParam(), feed, seed, goal, false);
+        farthest = std::max(farthest, ran);
+        worst = std::max(worst, ran - ranToStandstill(GetParam(), feed, seed, goal, true));
+      }
+    printf("%.0f Hz, %.0f mm/min: runs %.2f mm, %.2f mm more than a power cut\n", GetParam(), feed,
+           farthest, worst);
+    EXPECT_LT(worst, 3) << feed;
+  }
 }
 
 TEST_P(LostEncoder, IsNoticedInTheFirstJogWithinThreeMillimetres) {

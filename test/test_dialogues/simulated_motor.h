@@ -14,7 +14,7 @@ class SimulatedMotor {
   /// Lets `seconds` pass.
   void advance(double seconds) {
     const double kTimeConstant = 0.03;  // [s] inertia against the motor's back-EMF
-    const double time_constant = powered ? kTimeConstant : coasting;
+    const double time_constant = powered || shorted ? kTimeConstant : coasting;
     const int kStiction = 12;  // duty below which the gears hold
     const bool pulls = powered && !stuck && std::abs(duty) > kStiction;
     double target = pulls ? -duty * (reversed ? -1 : 1) / 255.0 * top_speed_ : 0.0;
@@ -54,6 +54,7 @@ class SimulatedMotor {
   double by_hand = 0;      ///< [mm/s] by which a hand pays out chain while the motor is off
   double coasting = 0.03;  ///< [s] time constant of a motor without power
   int16_t duty = 0;
+  bool shorted = false;  ///< without power, and its winding shorted
   bool powered = false, stuck = false, unplugged = false, reversed = false;
   double tight_at = -1e9;  ///< [mm] travel below which a chain that is hooked across is tight
   bool complains = false;  ///< its driver reports an error

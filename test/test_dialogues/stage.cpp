@@ -84,11 +84,17 @@ void Stage::takeLine(const std::string& line) {
 void Stage::drive(Axis axis, int16_t duty) {
   motor_[axis].duty = duty;
   motor_[axis].powered = true;
+  motor_[axis].shorted = false;
 }
 
 void Stage::release(Axis axis) {
   motor_[axis].duty = 0;
-  motor_[axis].powered = false;
+  motor_[axis].powered = motor_[axis].shorted = false;
+}
+
+void Stage::brake(Axis axis) {
+  release(axis);
+  motor_[axis].shorted = true;
 }
 
 uint16_t Stage::count(Axis axis) { return motor_[axis].countMissing(); }

@@ -38,6 +38,7 @@ class Stage : public machine::Wire,
   uint8_t lost() override { return 0; }
   void drive(machine::Axis axis, int16_t duty) override;
   void release(machine::Axis axis) override;
+  void brake(machine::Axis axis) override;
   uint16_t count(machine::Axis axis) override;
   uint16_t illegalSteps(machine::Axis axis) override { return motor_[axis].illegal; }
   void arrange(bool over_top, uint8_t pwm_choice) override;

@@ -16,8 +16,9 @@ struct BoardAtRest : machine::Wire, machine::Drives, machine::Aux, machine::Cloc
   }
   void write(char character) override { said += character; }
   uint8_t lost() override { return 0; }
-  void drive(machine::Axis axis, int16_t asked) override { duty[axis] = asked; }
-  void release(machine::Axis axis) override { duty[axis] = 0; }
+  void drive(machine::Axis axis, int16_t asked) override { put(axis, asked, false); }
+  void release(machine::Axis axis) override { put(axis, 0, false); }
+  void brake(machine::Axis axis) override { put(axis, 0, true); }
   uint16_t count(machine::Axis axis) override { return counted[axis]; }
   uint16_t illegalSteps(machine::Axis) override { return 0; }
   void arrange(bool over_top, uint8_t pwm_choice) override {
@@ -37,10 +38,17 @@ struct BoardAtRest : machine::Wire, machine::Drives, machine::Aux, machine::Cloc
   std::string input;                  ///< characters from the computer that nobody has read
   std::string said;                   ///< all that was written to the wire
   std::array<int16_t, 3> duty{};      ///< of each motor
+  std::array<bool, 3> shorted{};      ///< whether a motor's winding is
   std::array<uint16_t, 3> counted{};  ///< count of each encoder
   std::vector<float> arranged;        ///< arguments of the last arrange()
   std::vector<float> switched;        ///< outputs, in the order asked for
   std::vector<uint8_t> servo;         ///< angles [degrees]
   bool touches = false;
   uint32_t now_ms = 0;
+
+ private:
+  void put(machine::Axis axis, int16_t asked, bool is_shorted) {
+    duty[axis] = asked;
+    shorted[axis] = is_shorted;
+  }
 };

@@ -9,6 +9,7 @@
 struct SetCounts : machine::Drives {
   void drive(machine::Axis, int16_t) override {}
   void release(machine::Axis) override {}
+  void brake(machine::Axis) override {}
   uint16_t count(machine::Axis axis) override { return counted[axis]; }
   uint16_t illegalSteps(machine::Axis) override { return 0; }
   void arrange(bool, uint8_t) override {}

@@ -29,6 +29,7 @@ struct GuardedMotors : Drives {
   explicit GuardedMotors(const Gate& gate) : gate(gate) {}
   void drive(Axis, int16_t) override {}
   void release(Axis) override { EXPECT_GT(gate.depth, 0); }
+  void brake(Axis) override { EXPECT_GT(gate.depth, 0); }
   uint16_t count(Axis) override {
     EXPECT_GT(gate.depth, 0);
     return 0;
@@ -68,6 +69,7 @@ TEST(AxesGuards, WhatTheTickUsesIsTouchedOnlyWhileItIsHeldOff) {
       {"follow", [&] { axes.follow(); }},
       {"release", [&] { axes.release(kLeftAxis); }},
       {"releaseAll", [&] { axes.releaseAll(); }},
+      {"brakeAll", [&] { axes.brakeAll(); }},
       {"driveOpen", [&] { axes.driveOpen(kLeftAxis, 1); }},
       {"turn", [&] { axes.turn(kLeftAxis, 1); }},
       {"simulate", [&] { axes.simulate(true); }},

@@ -78,7 +78,9 @@ void MegaStage::showPins() {
     const Axis axis = Axis(i);
     const int16_t duty = int16_t(kShield2.drivers[axis].duty(*board_));
     since_driven_ms_[axis] = duty != 0 ? 0 : since_driven_ms_[axis] + 1;
-    if (since_driven_ms_[axis] < kUnpoweredMs)
+    if (kShield2.drivers[axis].shorts(*board_))
+      stage_.brake(axis);
+    else if (since_driven_ms_[axis] < kUnpoweredMs)
       stage_.drive(axis, duty);
     else
       stage_.release(axis);

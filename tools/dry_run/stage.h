@@ -56,6 +56,7 @@ class Stage : private machine::Wire,
   uint8_t lost() override { return 0; }
   void drive(machine::Axis, int16_t) override {}
   void release(machine::Axis) override {}
+  void brake(machine::Axis) override {}
   uint16_t count(machine::Axis) override { return 0; }
   uint16_t illegalSteps(machine::Axis) override { return 0; }
   void arrange(bool, uint8_t) override {}

@@ -69,6 +69,7 @@ class HostBrain : public Brain,
     world_.drive(world::Axis(axis), senseOf(axis) * duty);
   }
   void release(machine::Axis axis) override { world_.drive(world::Axis(axis), 0); }
+  void brake(machine::Axis axis) override { world_.brake(world::Axis(axis)); }
   uint16_t count(machine::Axis axis) override;
   uint16_t illegalSteps(machine::Axis axis) override { return encoders_[axis].illegal; }
   void arrange(bool over_top, uint8_t) override { over_top_ = over_top; }

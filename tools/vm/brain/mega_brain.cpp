@@ -61,7 +61,10 @@ void MegaBrain::passMillisecond() {
   }
   for (int axis = 0; axis < world::kAxisCount; ++axis) {
     const vm::DriverPins& driver = shield_.drivers[axis];
-    world_.drive(world::Axis(axis), driver.duty(*board_));
+    if (driver.shorts(*board_))
+      world_.brake(world::Axis(axis));
+    else
+      world_.drive(world::Axis(axis), driver.duty(*board_));
     driver.complain(*board_, world_.wires(world::Axis(axis)).driver_complains);
   }
   board_->setPin(shield_.probe, !world_.probeTouches());

@@ -23,6 +23,11 @@ struct DriverPins {
     const int level = board.pin(third).level;
     return level1 != 0 ? level : -level;
   }
+  /// Whether the pins short the motor's winding.
+  bool shorts(const VirtualBoard& board) const {
+    const int level1 = board.pin(input1).level, level2 = board.pin(input2).level;
+    return level1 == level2 && (has_flag || board.pin(third).level == 255);
+  }
   /// Shows whether the driver complains, where it can.
   void complain(VirtualBoard& board, bool complains) const {
     if (has_flag) board.setPin(third, !complains);

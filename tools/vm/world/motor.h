@@ -50,6 +50,9 @@ class Motor {
   double pull = 0;     ///< [Nm] pull of the cut, in addition to the load
   double by_hand = 0;  ///< [rad/s] at which somebody turns the sprocket of a motor without power
   bool is_powered = true;  ///< without power no current flows: only friction brakes
+  /// Without power, the bridge joins both ends of the winding: what the motor generates beyond the
+  /// bridge's drop brakes it.
+  bool is_shorted = false;
 
   /// Lets `seconds` pass with a duty of -255 to 255.
   void run(int duty, double seconds) {
@@ -64,7 +67,7 @@ class Motor {
     const bool is_fed = is_powered && !is_cut_off && c_.supply - weaker > c_.bridge_drop;
     for (double t = 0; t < seconds - kStep / 2; t += kStep) {
       if (!is_fed) rotor_ += by_hand * kStep;
-      current_ = is_fed ? (volts - c_.torque_constant * speed_) / whole : 0;
+      current_ = is_fed ? (volts - c_.torque_constant * speed_) / whole : shortCurrent();
       step(c_.torque_constant * current_, kStep);
     }
   }
@@ -88,6 +91,14 @@ class Motor {
   }
 
  private:
+  /// [A] Current of a shorted winding; the supply gives nothing to it, but keeps the bridge awake.
+  double shortCurrent() const {
+    const bool is_awake = c_.supply - weaker > c_.bridge_drop;
+    if (!is_shorted || !is_awake || wires.motor_unplugged || wires.driver_complains) return 0;
+    const double beyond = std::fabs(c_.torque_constant * speed_) - c_.bridge_drop;
+    return beyond > 0 ? -std::copysign(beyond, speed_) / c_.resistance : 0;
+  }
+
   /// `torque` [Nm] of the winding.
   void step(double torque, double seconds) {
     if (wires.blocked) {

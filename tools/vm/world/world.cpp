@@ -58,6 +58,12 @@ void World::drive(Axis axis, int duty) {
   duties_[axis] = duty;
   // The enable pin pulses the bridge, so at a duty of zero the motor runs free.
   motors_[axis].is_powered = duty != 0;
+  motors_[axis].is_shorted = false;
+}
+
+void World::brake(Axis axis) {
+  drive(axis, 0);
+  motors_[axis].is_shorted = true;
 }
 
 double World::travel(Axis axis) const { return laid_[axis] + turned(axis); }

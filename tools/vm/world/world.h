@@ -39,6 +39,8 @@ class World {
   /// Drives a motor with a duty of -255 to 255. A positive duty turns a sprocket so that it winds
   /// in a chain over its top and pays out a chain below; it lowers the bit.
   void drive(Axis axis, int duty);
+  /// Shorts the winding of a motor, until it is driven again or let go by a duty of zero.
+  void brake(Axis axis);
   /// Encoder counts since the world began. They rise as a chain over the top is paid out, as a
   /// chain below is wound in, and as the bit rises.
   int32_t count(Axis axis) { return senses_[axis] * motors_[axis].counts(); }
