@@ -66,7 +66,7 @@ class TickedAxis {
   AxisMode mode() const { return mode_; }
   void follow();
   void release();
-  /// Takes the power off the motor, and shorts its winding for so many ticks.
+  /// Takes the power off the motor, and shorts its winding for this number of ticks.
   void brake(uint8_t ticks);
   void driveOpen(int16_t duty);
   void turn(float rpm);

@@ -42,6 +42,12 @@ PARTS = {
 }
 
 
+def budget(name: str) -> int:
+    """A limit of the board in platformio.ini [bytes]."""
+    written = (ROOT / "platformio.ini").read_text(encoding="utf-8")
+    return int(re.findall(rf"^board_upload\.{name} = (\d+)$", written, re.MULTILINE)[0])
+
+
 def measure() -> Costs:
     """Builds every program and measures it."""
     BUILD.mkdir(parents=True, exist_ok=True)

@@ -32,22 +32,21 @@ Steps = list[str]
 
 
 def search() -> int:
-    """Writes the deepest dialogue found; returns its depth in bytes."""
+    """Writes the deepest dialogue; returns 0."""
     program, lines, drawn = player(), known_lines(), random.Random(SEED)
-    found: list[tuple[int, Steps]] = []
+    best: list[tuple[int, Steps]] = []
     with ThreadPoolExecutor(AT_ONCE) as pool:
         for tries in range(0, DRAWN + CHANGED, 2 * AT_ONCE):
             batch = [
-                one_more(drawn, lines, found if tries >= DRAWN else []) for _ in range(2 * AT_ONCE)
+                one_more(drawn, lines, best if tries >= DRAWN else []) for _ in range(2 * AT_ONCE)
             ]
             names = [f"deepest-{place}.nc" for place in range(len(batch))]
             depths = pool.map(lambda name, steps: depth(program, name, steps), names, batch)
-            found = sorted([*found, *zip(depths, batch, strict=True)], reverse=True)[:KEPT]
-            print(f"\rbench: {tries + len(batch)} tried, deepest {found[0][0]} bytes", end="")
+            best = sorted([*best, *zip(depths, batch, strict=True)], reverse=True)[:KEPT]
+            print(f"\rbench: {tries + len(batch)} tried, deepest {best[0][0]} bytes", end="")
     print()
-    deepest, steps = found[0]
-    RESULT.write_text(HEAD.format(tries=DRAWN + CHANGED) + text_of(steps), encoding="utf-8")
-    return deepest
+    RESULT.write_text(HEAD.format(tries=DRAWN + CHANGED) + text_of(best[0][1]), encoding="utf-8")
+    return 0
 
 
 def known_lines() -> Steps:
@@ -60,11 +59,11 @@ def known_lines() -> Steps:
     return sorted(sent)
 
 
-def one_more(drawn: random.Random, lines: Steps, found: list[tuple[int, Steps]]) -> Steps:
-    """A candidate: drawn freely, or one of those found with a step more, less or other."""
-    if not found:
+def one_more(drawn: random.Random, lines: Steps, best: list[tuple[int, Steps]]) -> Steps:
+    """A candidate: drawn freely, or one of the best with a step more, less or other."""
+    if not best:
         return [a_step(drawn, lines) for _ in range(drawn.randint(1, MOST_STEPS))]
-    steps = list(drawn.choice(found)[1])
+    steps = list(drawn.choice(best)[1])
     place = drawn.randrange(len(steps))
     change = drawn.choice(("more", "less", "other", "other"))
     if change == "more" and len(steps) < 2 * MOST_STEPS:

@@ -11,18 +11,22 @@ BEGIN = "<!-- firmware: begin; written by tools/bench/run --write -->"
 END = "<!-- firmware: end -->"
 VM = board.ROOT / "test/vm"
 # Row: what it must not exceed (or, for lines, fall below), and how it is shown.
+RAM = 8192
 BUDGETS = {
     # docs/decisions/0010-budgets-of-the-firmware.md says why so much.
-    "flash": 180 * 1024,
-    "static RAM": 5632,
-    "RAM never touched": 1024,
+    "flash": board.budget("maximum_size"),
+    "static RAM": board.budget("maximum_ram_size"),
+    "static RAM, deepest stack and a quarter of it": RAM,
     "control tick, share of the time at 100 Hz": 0.12,
     "the same, three axes with sag, stretch and pitch": 0.12,
-    "short G1 lines a second": 180,
+    "short G1 lines a second": 230,
+    "the same, three axes with sag, stretch and pitch, lines": 180,
     "first line after power-on, ms": 500,
 }
-AT_LEAST = {"RAM never touched", "short G1 lines a second"}
-RAM = 8192
+AT_LEAST = {
+    "short G1 lines a second",
+    "the same, three axes with sag, stretch and pitch, lines",
+}
 
 
 def measure() -> dict[str, float]:
@@ -33,12 +37,12 @@ def measure() -> dict[str, float]:
     dialogues = ("stream.nc", "fast_loop.nc", "hard.nc")
     slow, fast, hard = (figures_of(program, name) for name in dialogues)
     ram = size[".data"] + size[".bss"]
-    stack = max(slow["stack"], fast["stack"], hard["stack"])
+    stack = figures_of(program, "deepest.nc")["stack"]
     return {
         "flash": size[".text"] + size[".data"],
         "static RAM": ram,
         "deepest stack": stack,
-        "RAM never touched": RAM - ram - stack,
+        "static RAM, deepest stack and a quarter of it": ram + 1.25 * stack,
         "control tick, share of the time at 100 Hz": slow["tick_share_streaming"],
         "the same, three axes with sag, stretch and pitch": most(hard, "tick_share"),
         "the same at 200 Hz": fast["tick_share_streaming"],

@@ -7,6 +7,7 @@ import tomllib
 import absent
 import board
 import compare
+import deepest
 import effects
 import firmware
 import host
@@ -20,8 +21,15 @@ CHANGELOG = board.ROOT / "CHANGELOG.md"
 def main() -> int:
     parser = argparse.ArgumentParser(prog="tools/bench/run", description=__doc__)
     parser.add_argument("--write", action="store_true", help="record the figures in CHANGELOG.md")
+    parser.add_argument(
+        "--deepest",
+        action="store_true",
+        help="search the lines that take the most stack, 6 minutes",
+    )
     wanted = parser.parse_args()
     try:
+        if wanted.deepest:
+            return deepest.search()
         return measure(write=wanted.write)
     except (ToolError, table.TableError, OSError) as error:
         print(f"bench: {error}", file=sys.stderr)

@@ -2,14 +2,8 @@
 ; written by tools/bench/run --deepest. What comes back does not matter here.
 ~~ include every_effect.inc
 ~~ stack
-~~ wait 0.1
--> G21
--> G1 X10 F400
-~~ wait 0
->> ?
--> B09 R0 L0
-~~ wait 0.02
-~~ wait 0.02
->> ^3
--> $3=470
+~~ stream 40 0.3
+-> G1 X2.1111111111 Y1.11111111111 F700
+-> G54 G80
+-> $42=2000
 ~~ wait 1
