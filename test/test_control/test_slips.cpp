@@ -12,8 +12,8 @@ using namespace machine;
 
 namespace {
 
-const double kTick = 0.01;  // [s]
-const int kSettles = 200;   // [ticks] until the watch looks: two means and a calm of half a second
+const double kSlipTick = 0.01;  // [s]
+const int kSettles = 200;  // [ticks] until the watch looks: two means and a calm of half a second
 
 const double kLoad = 0.96;  // [Nm] 95 N of chain at an arm of 10.1 mm
 
@@ -34,7 +34,7 @@ struct LoadedMotors : Drives {
 
   void pass() {
     // A positive drive winds in.
-    for (unsigned i = 0; i < kAxisCount; ++i) motors[i].run(-duty_[i], kTick);
+    for (unsigned i = 0; i < kAxisCount; ++i) motors[i].run(-duty_[i], kSlipTick);
   }
 
   std::vector<world::Motor> motors;
@@ -60,7 +60,7 @@ struct Slips : testing::Test, Clock {
     for (; ticks > 0; --ticks) {
       while (axes.setPoints().hasRoom()) {
         for (int i = 0; i < kAxisCount; ++i)
-          at_[i] += int32_t(mm_per_second[i] * kTick * motion::kCountsPerMm);
+          at_[i] += int32_t(mm_per_second[i] * kSlipTick * motion::kCountsPerMm);
         axes.setPoints().push({{at_[kLeftAxis], at_[kRightAxis], at_[kZAxis]}, 9000, 200, 0});
       }
       axes.tick();

@@ -6,12 +6,12 @@ using motion::AxisLoop;
 
 namespace {
 
-const float kTick = 0.01f, kCounts = 8113.73f;
+const float kWindupTick = 0.01f, kCounts = 8113.73f;
 
 /// A loop at rest.
 AxisLoop loopWith(const motion::Gains& position, const motion::Gains& speed) {
   AxisLoop loop;
-  loop.tune(position, speed, kCounts, kTick);
+  loop.tune(position, speed, kCounts, kWindupTick);
   loop.rest();
   return loop;
 }
@@ -33,9 +33,9 @@ TEST(Windup, OfTheSpeedLoopEndsAtTheGreatestDuty) {
   AxisLoop loop = loopWith({0, 0, 0, 1}, {0, 20, 0, 1});
   for (int i = 0; i < 10000; ++i) loop.run(10);
   // Now it runs at 20: the sum of 255 falls by 2 a tick.
-  for (int i = 0; i < 4; ++i) loop.measure(20 * kTick / 60);
+  for (int i = 0; i < 4; ++i) loop.measure(20 * kWindupTick / 60);
   int ticks = 0;
-  while (loop.run(10) > 0 && ticks < 1000) ++ticks, loop.measure(20 * kTick / 60);
+  while (loop.run(10) > 0 && ticks < 1000) ++ticks, loop.measure(20 * kWindupTick / 60);
   EXPECT_NEAR(double(ticks), 127 + 16, 6) << "ticks until the duty has turned";
 }
 

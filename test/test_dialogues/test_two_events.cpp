@@ -13,8 +13,8 @@ using namespace machine;
 
 namespace {
 
-const long kBrakingMs = 400;    // from 15 mm/s at 100 mm/s^2, and z from 1 mm/s at 10 mm/s^2
-const double kMostError = 0.3;  // [mm]
+const long kBrakingMs = 400;  // from 15 mm/s at 100 mm/s^2, and z from 1 mm/s at 10 mm/s^2
+const double kMostOff = 0.3;  // [mm]
 const char kHoldStep[] = "^H";
 
 const Step kEvents[] = {
@@ -119,7 +119,7 @@ class Watched {
     if (!machine_->place().isTrusted()) return;
     for (const Axis axis : {kLeftAxis, kRightAxis, kZAxis}) {
       const double off = double(machine_->axes().length(axis)) - stage_.motor(axis).travel;
-      if (std::fabs(off) > kMostError) breaks("axis " + std::to_string(axis) + " is elsewhere");
+      if (std::fabs(off) > kMostOff) breaks("axis " + std::to_string(axis) + " is elsewhere");
     }
   }
 

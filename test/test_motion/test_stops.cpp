@@ -10,7 +10,7 @@ using namespace motion;
 namespace {
 
 /// Largest change of speed along x between two ticks [mm/s^2].
-double hardest(const Plain& plain) {
+double hardestAlongX(const Plain& plain) {
   double most = 0, last = 0, before = 0;
   for (const Asked& now : plain.asked) {
     most = std::max(most, std::fabs(now.x - 2 * last + before) / plain.seconds / plain.seconds);
@@ -21,7 +21,7 @@ double hardest(const Plain& plain) {
 }
 
 /// A motion along x at full feed.
-Plain cruising() {
+Plain cruisingToCorner() {
   Plain plain;
   plain.lineTo(500, 0);
   plain.lineTo(500, 100);
@@ -50,7 +50,7 @@ TEST(Hold, StandsWithinTheBrakingDistanceAndATick) {
       EXPECT_LE(distance(after, before), feed * feed / 200 + feed * seconds);
       EXPECT_GE(distance(after, before), feed * feed / 200 - feed * seconds);
       EXPECT_NEAR(after.x * 4 - after.y * 3, 0, 0.002);
-      EXPECT_LE(hardest(plain), 105);
+      EXPECT_LE(hardestAlongX(plain), 105);
     }
 }
 
@@ -61,7 +61,7 @@ TEST(Hold, LosesSpeedNoFasterThanItMayAtAnyMoment) {
     for (int i = 0; i < at; ++i) plain.tick();
     plain.playback.hold();
     standStill(plain);
-    EXPECT_LE(hardest(plain), 205) << at;
+    EXPECT_LE(hardestAlongX(plain), 205) << at;
     EXPECT_LE(plain.asked.back().x, 12.0001);
   }
 }
@@ -86,7 +86,7 @@ TEST(Hold, RestsOnThePathAndResumesToTheSameEnd) {
     EXPECT_EQ(toCounts(20.0f), plain.now.right);
     EXPECT_EQ(toCounts(-1.0f), plain.now.z);
     // The corner is passed within a tick, at up to 3.5 mm/s.
-    EXPECT_LE(hardest(plain), 410) << at;
+    EXPECT_LE(hardestAlongX(plain), 410) << at;
     EXPECT_TRUE(plain.playback.isDone());
   }
 }
@@ -97,7 +97,7 @@ TEST(Hold, InShortMovesRunsThroughSeveralOfThem) {
   const double before = plain.asked.back().x;
   plain.playback.hold();
   standStill(plain);
-  EXPECT_LE(hardest(plain), 205);
+  EXPECT_LE(hardestAlongX(plain), 205);
   EXPECT_LT(plain.asked.back().x, before + 1.3);
   plain.playback.resume();
   plain.run();
@@ -105,14 +105,14 @@ TEST(Hold, InShortMovesRunsThroughSeveralOfThem) {
 }
 
 TEST(Hold, ResumedWhileStillBrakingGoesOnAtThatSpeed) {
-  Plain plain = cruising();
+  Plain plain = cruisingToCorner();
   plain.playback.hold();
   for (int i = 0; i < 8; ++i) plain.tick();
   plain.playback.resume();
   for (int i = 0; i < 100; ++i) plain.tick();
   const std::vector<double> speeds = plain.speeds();
   EXPECT_GT(*std::min_element(speeds.begin() + 100, speeds.end()), 5);
-  EXPECT_LE(hardest(plain), 105);
+  EXPECT_LE(hardestAlongX(plain), 105);
 }
 
 TEST(Hold, WithNothingToDoKeepsWhatComes) {
@@ -127,7 +127,7 @@ TEST(Hold, WithNothingToDoKeepsWhatComes) {
 }
 
 TEST(Hold, ForgottenGoesOnFromWhereItStands) {
-  Plain plain = cruising();
+  Plain plain = cruisingToCorner();
   plain.playback.hold();
   standStill(plain);
   plain.set_points.clear();
@@ -138,7 +138,7 @@ TEST(Hold, ForgottenGoesOnFromWhereItStands) {
   plain.lineTo(0, 0);
   plain.run();
   EXPECT_EQ(0, plain.now.left);
-  EXPECT_LE(hardest(plain), 205);
+  EXPECT_LE(hardestAlongX(plain), 205);
 }
 
 TEST(Share, IsThatOfThePlannedSpeedAllTheWay) {
@@ -154,19 +154,19 @@ TEST(Share, IsThatOfThePlannedSpeedAllTheWay) {
     const std::vector<double> speeds = plain.speeds();
     EXPECT_NEAR(*std::max_element(speeds.begin(), speeds.end()), 15.0 * share / 256, 0.03);
     // Here, too, the corner is passed within a tick.
-    EXPECT_LE(hardest(plain), 105 + 350.0 * share / 256);
+    EXPECT_LE(hardestAlongX(plain), 105 + 350.0 * share / 256);
     EXPECT_TRUE(plain.playback.isDone());
   }
 }
 
 TEST(Share, ChangesWithinTheAcceleration) {
-  Plain plain = cruising();
+  Plain plain = cruisingToCorner();
   for (const int share : {128, 30, 256, 255, 100, 256}) {
     plain.playback.goAt(uint16_t(share));
     for (int i = 0; i < 60; ++i) plain.tick();
     EXPECT_NEAR(plain.speeds().back(), 15.0 * share / 256, 0.03) << share;
   }
-  EXPECT_LE(hardest(plain), 105);
+  EXPECT_LE(hardestAlongX(plain), 105);
   plain.run();
   EXPECT_EQ(toCounts(500.0f), plain.now.left);
   EXPECT_EQ(toCounts(100.0f), plain.now.right);
@@ -187,7 +187,7 @@ TEST(Boost, MakesMovesFasterWithinTheirLimits) {
   EXPECT_NEAR(plain.speeds().back(), 8, 0.01);
   plain.run();
   EXPECT_EQ(toCounts(200.0f), plain.now.left);
-  EXPECT_LE(hardest(plain), 105);
+  EXPECT_LE(hardestAlongX(plain), 105);
 }
 
 TEST(Boost, InARowOfShortMovesKeepsAccelerationAndEnd) {
@@ -199,14 +199,14 @@ TEST(Boost, InARowOfShortMovesKeepsAccelerationAndEnd) {
     }
     plain.run();
     EXPECT_EQ(toCounts(160.0f), plain.now.left);
-    EXPECT_LE(hardest(plain), 450);
+    EXPECT_LE(hardestAlongX(plain), 450);
     const std::vector<double> speeds = plain.speeds();
     EXPECT_NEAR(*std::max_element(speeds.begin(), speeds.end()), 6 * times, 0.1);
   }
 }
 
 TEST(LateMainProgram, SetPointsWaitWhereTheyAreAndSetOutFromRest) {
-  Plain plain = cruising();
+  Plain plain = cruisingToCorner();
   int taken = 0;
   for (int i = 0; i < 30; ++i) taken += plain.tickAlone();
   EXPECT_EQ(int(SetPoints::kMost), taken + 1);
@@ -223,7 +223,7 @@ TEST(LateMainProgram, IsNotBlamedForAPauseBetweenMoves) {
   for (int i = 0; i < 50; ++i) plain.tick();
   plain.lineTo(10, 0);
   plain.run();
-  EXPECT_LE(hardest(plain), 105);
+  EXPECT_LE(hardestAlongX(plain), 105);
   EXPECT_LT(plain.asked.size(), 50u + 90u);
 }
 

@@ -1,6 +1,7 @@
 """Names that may not be given: Arduino's macros in lib/, crutches in Python and C++.
 
-Two files of tests in Python never have the same name, as pytest takes them for one module.
+Two files of tests in Python never have the same name, as pytest takes them for one module. Two
+files of a suite in C++ never define the same name, as the compiler may read them as one file.
 lib/ avoids the names of Arduino's macros, so that both compile in either order. A name is a noun
 that says what it holds: `plan`, `effect`, `mark`.
 """
@@ -21,6 +22,14 @@ WITHOUT = (
 MACRO = re.compile(f"{WITH_ARGUMENTS}|{WITHOUT}")
 NOT_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
 
+# A constant, a type, or a function with its parameters, at the beginning of a line.
+DEFINITION = re.compile(
+    r"^(?:(?:const|constexpr) [^(\n]*?\b(\w+)(?: =|\{|;|\[)"
+    r"|(?:struct|class|enum class|enum) (\w+)[^;\n]*\{"
+    r"|(?!TEST|INSTANTIATE)\w[\w:<>,&* ]*[ &*](\w+)\(([^)]*)\)[^;{]*\{)",
+    re.MULTILINE,
+)
+
 CRUTCHES = {"one", "own", "found", "told", "beside", "anew", "so_many", "stands_in"}
 # In C++ `found` is the word for an outcome; docs/words.md says so.
 CXX_CRUTCH = re.compile(r"(?<!\w)_?(?:one|own|told|beside|anew|so_many|stands_in)_?(?!\w)")
@@ -31,6 +40,7 @@ def violations(root: Path) -> Iterator[str]:
     yield from names_in_cxx(root)
     yield from crutches(root)
     yield from twins(root)
+    yield from defined_twice(root)
 
 
 def twins(root: Path) -> Iterator[str]:
@@ -42,6 +52,20 @@ def twins(root: Path) -> Iterator[str]:
             first = seen.setdefault(path.name, name)
             if first != name:
                 yield f"{name}: {first} has the same name"
+
+
+def defined_twice(root: Path) -> Iterator[str]:
+    """Each name that two files of a suite define: see custom_together in platformio.ini."""
+    seen: dict[tuple[Path, str], Path] = {}
+    for path in tree.own_files(root):
+        name = path.relative_to(root)
+        if path.suffix != ".cpp" or not name.parent.name.startswith("test_"):
+            continue
+        for match in DEFINITION.finditer(NOT_CODE.sub(blank, tree.text_of(path))):
+            defined = " ".join(word for word in match.groups() if word)
+            first = seen.setdefault((path.parent, defined), name)
+            if first != name:
+                yield f"{name}: {first.name} defines {defined} too"
 
 
 def names_in_cxx(root: Path) -> Iterator[str]:

@@ -176,6 +176,23 @@ def test_names_allow(tmp_path, line):
     assert said("names", plant(tmp_path, {"lib/Motion/src/Motion.h": line}))[0] == 0
 
 
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("const float kTick = 1;\n", "kTick"),
+        ("struct Motor {\n};\n", "Motor"),
+        ("Plain cruising() {\n}\n", "cruising"),
+    ],
+)
+def test_names_refuse_a_name_that_two_files_of_a_suite_define(tmp_path, text, word):
+    files = {f"test/test_motion/test_{name}.cpp": text for name in ("mover", "stops")}
+    code, out = said("names", plant(tmp_path, files))
+    assert code == 1
+    assert f"test/test_motion/test_stops.cpp: test_mover.cpp defines {word} too" in out
+    apart = {"test/test_motion/test_mover.cpp": text, "test/test_control/test_sled.cpp": text}
+    assert said("names", plant(tmp_path / "apart", apart))[0] == 0
+
+
 def test_names_refuse_two_files_of_tests_with_the_same_name(tmp_path):
     files = {f"tools/tests/{folder}/test_new.py": "" for folder in ("lab", "line")}
     code, out = said("names", plant(tmp_path, files))
