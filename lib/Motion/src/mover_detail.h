@@ -192,8 +192,8 @@ bool Mover::step(float change, const Inverse& inverse) {
   return true;
 }
 
-/// The next set-point when no segment is in progress. False: no sled can hang there, and the last
-/// set-point stays.
+/// Goes on when no segment is in progress: begins the next segment, or takes a single tick. False:
+/// no sled can hang there, and the last set-point stays.
 template <class Inverse>
 bool Mover::cut(const Inverse& inverse) {
   if (!is_taken_up_) takeUp();
@@ -202,9 +202,7 @@ bool Mover::cut(const Inverse& inverse) {
                          queue_.exitSquared(),     even_ticks_, uneven_ticks_};
   const Stretch stretch = nextStretch(walk_.speed, bounds);
   if (stretch.ticks < 2) return step(stretch.change, inverse);
-  if (!begin(stretch, inverse)) return false;
-  advance();
-  return true;
+  return begin(stretch, inverse);
 }
 
 /// The next set-point of the segment in progress.
@@ -238,14 +236,14 @@ Filled Mover::fill(SetPoints& set_points, const Inverse& inverse) {
     walk_.speed = 0;
   }
   while (!queue_.isEmpty() && set_points.hasRoom()) {
-    if (segment_.ticks_left != 0) {
-      advance();
-      push(set_points);
-      continue;
+    bool rests = false;
+    if (segment_.ticks_left == 0) {
+      rests = walk_.speed == 0;
+      tiles_.setTime(rests || set_points.count() >= kEnoughWait);
+      if (!cut(inverse)) return Filled::kOutOfReach;
     }
-    const bool rests = walk_.speed == 0;
-    tiles_.setTime(rests || set_points.count() >= kEnoughWait);
-    if (!cut(inverse)) return Filled::kOutOfReach;
+    // Each is called here alone, so that the compiler puts them in place.
+    if (segment_.ticks_left != 0) advance();
     push(set_points);
     // While nothing moved the ring was empty as it should be: clear that mark.
     if (rests) set_points.hasRunDry();
