@@ -5,7 +5,7 @@
 #include "axis.h"
 
 /// A sled under control of a law, with any two of the forty motors.
-template <class Loop>
+template <class Loop, class Axis = AxisWith<Loop>>
 class SledWith {
  public:
   using Point = motion::Point<double>;
@@ -91,5 +91,5 @@ class SledWith {
   Point aim_ = start_;
   int ring_, waiting_ = 0;
   uint8_t ahead_;
-  AxisWith<Loop> axis_[2];
+  Axis axis_[2];
 };

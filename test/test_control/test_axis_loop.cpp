@@ -118,3 +118,48 @@ TEST(AxisLoop, TakesACountForNoErrorOnlyAtRest) {
   EXPECT_LT(100, dutyAfter(2 * kCount, 0));
   EXPECT_LT(dutyAfter(0, kCount) + 50, dutyAfter(kCount, kCount));
 }
+
+namespace {
+
+const float kPerTick = 0.01f / 60;  // [turns] in a tick of 10 ms at 1 rpm
+
+/// A loop whose motor stands, so that its duty grows, while set-points go on at a speed [rpm].
+motion::AxisLoop drivenAt(float rpm) {
+  motion::AxisLoop loop;
+  loop.tune(kPosition, kSpeed, 8113.73f, 0.01f);
+  loop.rest();
+  loop.measure(0);
+  for (int i = 0; i < 80; ++i) loop.follow(0, rpm * kPerTick, 0);
+  return loop;
+}
+
+}  // namespace
+
+TEST(AxisLoop, DropsItsDutyOnceWhereTheSetPointsTurnRound) {
+  for (const float way : {1.0f, -1.0f}) {
+    motion::AxisLoop loop = drivenAt(way * 0.3f);
+    const float before = way * float(loop.follow(0, way * 0.3f * kPerTick, 0));
+    ASSERT_GT(before, 100);
+    // What the new speed asks for is left.
+    EXPECT_LT(way * float(loop.follow(0, -way * 0.3f * kPerTick, 0)), 0);
+    // Driven against these set-points again, by an error, it keeps its duty.
+    float pushed = 0;
+    for (int i = 0; i < 20; ++i)
+      pushed = way * float(loop.follow(way * 0.001f, -way * 0.3f * kPerTick, 0));
+    EXPECT_GT(pushed, 50) << way;
+  }
+}
+
+TEST(AxisLoop, KeepsItsDutyWhereTheSetPointsHardlyMove) {
+  motion::AxisLoop loop = drivenAt(0.3f);
+  ASSERT_GT(loop.follow(0, -0.24f * kPerTick, 0), 80);
+  EXPECT_LT(loop.follow(0, -0.26f * kPerTick, 0), 0);
+}
+
+TEST(AxisLoop, KeepsADutyThatDrivesTheNewWayAlready) {
+  motion::AxisLoop loop = drivenAt(5);
+  for (int i = 0; i < 20; ++i) loop.follow(-0.01f, 5 * kPerTick, 0);
+  const int before = loop.follow(-0.01f, 5 * kPerTick, 0);
+  ASSERT_LT(before, -100);
+  EXPECT_LT(loop.follow(-0.01f, -kPerTick, 0), before + 10);
+}

@@ -16,10 +16,30 @@ double distanceToSide(Point place, Point from, Point to) {
   return std::hypot(place.x - from.x - at * way.x, place.y - from.y - at * way.y);
 }
 
+/// An axis whose rotor is where it shall be, always. The play of the gear is left: the encoder is
+/// on the rotor, so no law sees it.
+struct PlayAlone {
+  PlayAlone(unsigned seed, double rate) : motor{world::anyMotor(seed), 0}, seconds(1 / rate) {}
+
+  void tick(const Asked& asked) {
+    const double rotor = asked.set_point / kTurnLength,
+                 half = motor.constants.play / world::kTurn / 2;
+    const bool hangs = motor.constants.load > motor.constants.sprocket_friction;
+    motor.at = hangs ? rotor : std::min(std::max(motor.at, rotor - half), rotor + half);
+  }
+
+  struct {
+    world::MotorConstants constants;
+    double at;  ///< [turns] of the sprocket
+    double turns() const { return at; }
+  } motor;
+  double seconds;
+};
+
 /// How far the bit strays from the outline of a square of 30 mm [mm].
-template <class Loop>
+template <class Loop, class Axis = AxisWith<Loop>>
 double straysFromSquare(unsigned seed, double rate, double feed, int ring) {
-  SledWith<Loop> sled(seed, rate, ring);
+  SledWith<Loop, Axis> sled(seed, rate, ring);
   const Point corners[] = {{0, 0}, {30, 0}, {30, 30}, {0, 30}, {0, 0}};
   for (int i = 1; i < 5; ++i) sled.lineTo(corners[i], feed);
   sled.finish();
@@ -96,4 +116,20 @@ TEST_P(SledAtRate, CutsACornerLessThanThePublishedLaw) {
     EXPECT_LT(ours.worst, published.worst);
     EXPECT_LT(ours.median, 0.13);
   }
+}
+
+TEST_P(SledAtRate, StraysByThePlayOfItsGearsUnderAnyLaw) {
+  const Spread play = ofAll("play alone", GetParam(), 800, [](unsigned seed) {
+    return straysFromSquare<motion::AxisLoop, PlayAlone>(seed, GetParam(), 800,
+                                                         motion::SetPoints::kMost);
+  });
+  // A quarter of the chains is slack.
+  EXPECT_NEAR(play.median, 0, 0.001);
+  EXPECT_NEAR(play.worst, 0.062, 0.005);
+}
+
+TEST_P(SledAtRate, PassesASlowCornerOnMotorsThatTurnRound) {
+  const Spread ours = corners<motion::AxisLoop>("slow corner", GetParam(), 200);
+  EXPECT_LT(ours.median, 0.08);
+  EXPECT_LT(ours.worst, 0.12);
 }

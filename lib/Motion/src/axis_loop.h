@@ -25,6 +25,10 @@ struct Gains {
 /// change its speed. The speed loop's derivative acts on the change of the measured speed less the
 /// change of the feed forward.
 ///
+/// Where the set-points turn round, the duty that drove the other way is dropped at once. The loops
+/// alone would take it back by some 20 steps a tick, and friction and the bridge's loss hold the
+/// motor meanwhile.
+///
 /// At rest an error of a count is ignored: summed up, it would turn a motor whose encoder is
 /// disconnected.
 class AxisLoop {
@@ -80,6 +84,7 @@ class AxisLoop {
     const float change = error - error_;
     error_ = error;
     const float ahead = is_held_ ? asked * ticks_per_minute_ : 0;
+    turnRound(ahead);
     const float share = is_weighted_ ? position_.weight * error : error;
     float rpm = ahead + position_.proportional * share + position_.derivative * change;
     if (is_summed_) {
@@ -100,6 +105,15 @@ class AxisLoop {
  private:
   static constexpr float kAhead = 0.03f;  // [s]
   static constexpr float kNear = 1.5f;    // [counts]
+  static constexpr float kSlow = 0.25f;   // [rpm] slower set-points have no clear direction
+
+  /// Drops a duty against the direction of the set-points, once each time that they turn round.
+  void turnRound(float ahead) {
+    const bool lengthens = ahead > 0;
+    if (lengthens == lengthens_ || !(float(fabs(ahead)) > kSlow)) return;
+    lengthens_ = lengthens;
+    if ((duty_ > 0) != lengthens) duty_ = 0;
+  }
 
   int16_t drive(float rpm, float ahead) {
     wanted_ = clipped(rpm, kMostRpm);
@@ -128,6 +142,7 @@ class AxisLoop {
   Gains position_, speed_;
   float per_interval_, ticks_per_minute_, half_ticks_per_minute_, push_, near_;
   bool is_held_, is_summed_, is_weighted_, is_speed_summed_, is_speed_weighted_;
+  bool lengthens_ = true;  ///< the direction of the set-points
   float error_, sum_, rpm_, last_rpm_, last_lead_, duty_, wanted_, speed_sum_;
 };
 
