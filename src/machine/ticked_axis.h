@@ -45,8 +45,12 @@ class TickedAxis {
   /// [fine] Change of the set-point in a tick soon to come.
   int32_t asked() const { return asked_; }
   void ask(int32_t change) { asked_ = change; }
-  /// Sets the set-point to the length that the encoder shows.
-  void standStill() { set_point_ = measured(); }
+  /// Sets the set-point to the length that the encoder shows. The drive begins at zero: that of
+  /// before would go on if the encoder is lost, as it shows no error then.
+  void standStill() {
+    set_point_ = measured();
+    loop_.rest();
+  }
 
   // The length.
   int32_t counts() const { return counts_; }

@@ -140,6 +140,18 @@ TEST(AxesLengths, StandingStillForgetsWhatWaits) {
   EXPECT_EQ(0, driven.axes.waiting());
 }
 
+TEST(AxesDrive, EndsWhereTheyStandStillEvenIfTheEncoderIsLost) {
+  Driven driven;
+  driven.axes.follow();
+  driven.axes.jumpTo(kLeftAxis, 1);
+  driven.ticks(5);  // the encoder shows nothing
+  EXPECT_NE(0, driven.board.duty[kLeftAxis]);
+  driven.axes.standStill();
+  driven.ticks(5);
+  EXPECT_EQ(0, driven.board.duty[kLeftAxis]);
+  EXPECT_TRUE(driven.axes.isPowered());
+}
+
 TEST(AxesRate, IsThatOfTheTicks) {
   Driven driven;
   for (const float rate : {100.0f, 200.0f}) {
