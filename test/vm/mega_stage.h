@@ -22,6 +22,9 @@ class MegaStage {
   /// From power-on to the dialogue's end, through every power cut in it; throws Failure.
   void live();
 
+  /// The Mega's memory, by address.
+  const uint8_t* ram() const { return board_->avr()->data; }
+
  private:
   void startBoard(const std::vector<uint8_t>& eeprom);
   void passMillisecond();

@@ -1,10 +1,12 @@
 """Dialogues on the simulated Mega, and the programs that play them."""
 
+import re
+import struct
 from collections.abc import Sequence
 from pathlib import Path
 
 from board import FIRMWARE, built_firmware
-from commands import ROOT, compiled
+from commands import ROOT, compiled, output
 from kept import Done, kept, run
 
 BUILD = ROOT / ".build/vm"
@@ -26,18 +28,55 @@ def stage_player() -> Path:
     The firmware is built as well.
     """
     built_firmware()
-    sources = [
-        "test/vm/play_dialogues.cpp",
+    return _stage_program("play_dialogues", "test/vm/play_dialogues.cpp")
+
+
+def pair_player() -> Path:
+    """The program that plays any two events at once with the flashed program.
+
+    It looks at the machine in the Mega's RAM: see ram_places().
+    """
+    built_firmware()
+    parts = ("axes", "axes_lengths", "axes_power", "course", "ticked_axis")
+    machine = [f"src/machine/{part}.cpp" for part in parts]
+    law = "test/test_dialogues/two_events.cpp"
+    return _stage_program("play_two_events", "test/vm/play_two_events.cpp", law, *machine)
+
+
+def ram_places() -> list[int]:
+    """Addresses in the RAM of the firmware as built, in the order that the pair player asks for."""
+    made, dump = BUILD / "ram_places.o", BUILD / "ram_places.bin"
+    BUILD.mkdir(parents=True, exist_ok=True)
+    includes = ["-Isrc", *(f"-I{folder}" for folder in _libraries())]
+    options = ["-mmcu=atmega2560", "-Os", "-std=gnu++11", "-fno-access-control"]
+    quiet = "-Wno-invalid-offsetof"
+    output("avr-g++", *options, quiet, *includes, "-c", "test/vm/ram_places.cpp", "-o", made)
+    output("avr-objcopy", "-O", "binary", "-j", ".places", made, dump)
+    state, lost, size, *of_axis = struct.unpack("<7H", dump.read_bytes())
+    symbols = output("avr-nm", FIRMWARE)
+    built, machine = (
+        int(re.findall(rf"^(\w+) \w _Z{name}5setupE7machine", symbols, re.M)[0], 16) & 0xFFFF
+        for name in ("GVZ", "Z")
+    )
+    return [built, machine + state, machine + lost, size, *(machine + place for place in of_axis)]
+
+
+def _stage_program(name: str, *sources: str) -> Path:
+    """A program around the stage of the dialogues and the simulated Mega."""
+    stage = [
         "test/vm/mega_stage.cpp",
         BOARD,
         "test/test_dialogues/stage.cpp",
         "test/test_dialogues/stage_questions.cpp",
         *(_from_root(path) for path in sorted(ROOT.glob("tools/judge/reference/*.cpp"))),
     ]
-    folders = ["src", "test", "tools/vm/host_avr", "tools/judge"]
-    folders += [_from_root(path) for path in sorted(ROOT.glob("lib/*/src"))]
+    folders = ["src", "test", "tools/vm/host_avr", "tools/judge", *_libraries()]
     includes = [f"-I{folder}" for folder in folders]
-    return _built("play_dialogues", sources, [*includes, "-isystem", "/usr/include/eigen3"])
+    return _built(name, [*sources, *stage], [*includes, "-isystem", "/usr/include/eigen3"])
+
+
+def _libraries() -> list[str]:
+    return [_from_root(path) for path in sorted(ROOT.glob("lib/*/src"))]
 
 
 def check_board() -> Path:

@@ -27,7 +27,7 @@ ARROWS = {
     "tools/judge": ([], HOST + r"|(unsupported/)?Eigen/\w+|nanobind/.*"),
     "test/curves": ([], HOST),
     "test/tried": (["lib/Kinematics"], HOST + r"|Kinematics\.h"),
-    "test/vm": (["tools/judge", "tools/vm/*", "test/test_dialogues"], ANYTHING),
+    "test/vm": (["src/machine", "tools/judge", "tools/vm/*", "test/test_dialogues"], ANYTHING),
     # Replaces on the host a header of avr-libc that src includes.
     "tools/vm/host_avr": ([], C_HEADERS),
     "tools/vm/world": (["tools/judge"], HOST + r"|Eigen/\w+"),
