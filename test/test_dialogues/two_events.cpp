@@ -11,7 +11,7 @@ namespace {
 
 const long kBrakingMs = 400;     // from 15 mm/s at 100 mm/s^2, and z from 1 mm/s at 10 mm/s^2
 const long kReleasingMs = 1;     // a look may fall between the alarm and the release behind it
-const double kMostOff = 0.3;   // [mm]
+const double kMostOff = 0.3;     // [mm]
 const double kMostUnseen = 3.2;  // [mm] that a motor runs without its encoder: lost_encoder.nc
 const char kHoldStep[] = "^H";
 

@@ -1,4 +1,6 @@
-"""The types of tools/plumb hold under mypy --strict; every `type: ignore` says why on its line.
+"""The types of the package and of the research hold under mypy --strict.
+
+Every `type: ignore` says why on its line.
 
 Its name is not types.py: that would hide the module `types` of Python's library from all checks.
 """
@@ -11,6 +13,7 @@ from pathlib import Path
 
 import tree
 
+ROOMS = ("plumb", "research")
 ERROR = re.compile(r"[^:]+:\d+: error: ")
 IGNORE = re.compile(r"#\s*type:\s*ignore(?!\[[\w, -]+\]\s*#\s*\w)")
 
@@ -25,7 +28,7 @@ def ignored_without_reason(root: Path) -> Iterator[str]:
     """Lines that keep mypy quiet and do not say about what and why."""
     for path in tree.own_files(root):
         name = path.relative_to(root)
-        if name.parts[:2] != ("tools", "plumb"):
+        if name.parts[0] != "tools" or name.parts[1] not in ROOMS:
             continue
         for number, line in enumerate(tree.text_of(path).splitlines(), 1):
             if IGNORE.search(line):
@@ -33,9 +36,10 @@ def ignored_without_reason(root: Path) -> Iterator[str]:
 
 
 def errors_of_mypy(root: Path) -> list[str]:
-    """The errors in tools/plumb as mypy prints them; its last words where it could not run."""
+    """The errors as mypy prints them; its last words where it could not run."""
     config, cache = tree.ROOT / "tools/mypy.ini", root / ".build/mypy"
-    command = [sys.executable, "-m", "mypy", "--config-file", config, "--cache-dir", cache, "plumb"]
+    rooms = [name for name in ROOMS if (root / "tools" / name).is_dir()]
+    command = [sys.executable, "-m", "mypy", "--config-file", config, "--cache-dir", cache, *rooms]
     done = subprocess.run(command, cwd=root / "tools", capture_output=True, text=True)
     lines = [line for line in done.stdout.splitlines() if ERROR.match(line)]
     if done.returncode and not lines:

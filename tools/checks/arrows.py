@@ -83,8 +83,8 @@ PACKAGE = "tools/plumb"
 FLOORS = (
     ("cli",),
     ("lab",),
-    ("api", "guide", "trials"),
-    ("pages", "report", "vm"),
+    ("api", "guide"),
+    ("report", "vm"),
     ("bench", "diary", "pictures"),
     ("cure", "jobs", "plan", "recovery"),
     ("diagnosis",),

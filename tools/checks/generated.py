@@ -9,9 +9,9 @@ import tree
 
 # Commands for the .venv's Python; with --check each exits 1 when its page is stale.
 GENERATORS = [
-    ["-m", "plumb.pages.effects"],
-    ["-m", "plumb.pages.real_data"],
-    ["-m", "plumb.pages.settings"],
+    ["tools/research/effects_page.py"],
+    ["tools/research/real_data_page.py"],
+    ["tools/research/settings_page.py"],
 ]
 
 

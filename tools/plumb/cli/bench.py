@@ -3,14 +3,9 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, nullcontext
-from importlib import import_module
+from collections.abc import Callable, Sequence
 from typing import Any
 
-import joblib  # type: ignore[import-untyped]  # it brings no types
-
-from plumb.bench.page import page
 from plumb.bench.report import (
     CURE_HEADER,
     HEADER,
@@ -28,7 +23,6 @@ from plumb.bench.report import (
 from plumb.bench.scenarios import CURE, LOOP, NAMES, SCENARIOS, Scenario
 from plumb.cli.arguments.bench import BOARDS, FAST
 from plumb.cli.ending import INTERRUPTED
-from plumb.cli.output import refuse_early, write_outputs
 from plumb.cli.screen import Bar, sentences, table
 from plumb.cli.text import print_json
 from plumb.text.errors import InputError
@@ -36,41 +30,20 @@ from plumb.text.errors import InputError
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the bench, print its table, and return the exit code."""
-    refuse_early(arguments.write)
     chosen = chosen_of(arguments.scenario)
     boards = arguments.boards or (FAST if arguments.fast else BOARDS)
-    with _on_cluster(arguments.cluster) if arguments.cluster else nullcontext():
-        report = run_bench(
-            chosen,
-            boards=boards,
-            seed=arguments.seed,
-            progress=_counted(len(chosen) * boards),
-            jobs=-1 if arguments.cluster else arguments.jobs,
-        )
-    if arguments.write:
-        write_outputs({arguments.write: page(report).encode()}, inputs=[])
+    report = run_bench(
+        chosen,
+        boards=boards,
+        seed=arguments.seed,
+        progress=counted(len(chosen) * boards),
+        jobs=arguments.jobs,
+    )
     if arguments.json:
         print_json(as_json(report))
     else:
         print(as_text(report))
     return INTERRUPTED if report.interrupted else 0
-
-
-@contextmanager
-def _on_cluster(address: str) -> Iterator[None]:
-    """Lets joblib send the boards to the Dask cluster at that address."""
-    try:
-        client = import_module("distributed").Client
-    except ImportError:
-        raise InputError(
-            "--cluster needs Dask: pip install distributed, and plumb on every worker"
-        ) from None
-    try:
-        connected = client(address)
-    except (OSError, ValueError) as error:
-        raise InputError(f"--cluster {address}: no cluster answers ({error})") from None
-    with connected, joblib.parallel_config(backend="dask"):
-        yield
 
 
 def chosen_of(names: Sequence[str]) -> tuple[Scenario, ...]:
@@ -88,7 +61,7 @@ def chosen_of(names: Sequence[str]) -> tuple[Scenario, ...]:
     )
 
 
-def _counted(total: int) -> Callable[[str, int], None]:
+def counted(total: int) -> Callable[[str, int], None]:
     """A bar that is moved on by a number of boards of a scenario."""
     bar, done = Bar("boards", patience=0.0), 0
 

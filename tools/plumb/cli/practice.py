@@ -1,4 +1,4 @@
-"""`plumb practice`: find what is hidden in a virtual machine, or count how often the lab does."""
+"""`plumb practice`: find what is hidden in a virtual machine."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 from plumb.cli.arguments.practice import STEPS
-from plumb.cli.practice_auto import run_auto
 from plumb.cli.practice_text import left_sentence, score_json, score_text
 from plumb.cli.screen import sentences
 from plumb.cli.steps import next_step
@@ -42,13 +41,9 @@ SEEDS = 1_000_000
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Take a step of a game, or let the lab play, and return the exit code."""
-    if arguments.auto or arguments.matrix:
-        if arguments.step:
-            raise InputError(f"--auto plays whole games: leave out {arguments.step}")
-        return run_auto(arguments)
+    """Take a step of a game, and return the exit code."""
     if not arguments.step or not arguments.folder:
-        raise InputError(f"name a step ({', '.join(STEPS)}) and a folder, or give --auto")
+        raise InputError(f"name a step ({', '.join(STEPS)}) and a folder")
     steps: dict[str, Callable[[argparse.Namespace], int]] = {
         "start": _start,
         "measure": _measure,

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from bench_page import page
 from plumb.bench.boards import cut, plan
 from plumb.bench.causes import MAKER, SLED, Hidden, causes_of
 from plumb.bench.loop import followed
 from plumb.bench.owner import BoardOwner
-from plumb.bench.page import page
 from plumb.bench.report import loop_cells, run
 from plumb.bench.scenarios import SCENARIOS
 from plumb.plan.ahead import Check

@@ -6,12 +6,11 @@ slips first, degrees of freedom) says something else.
 """
 
 import json
-import sys
-import types
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from bench_page import page
 from plumb.bench import judge
 from plumb.bench.boards import chains_for, cut, plan, raw_field, size_for
 from plumb.bench.causes import CAUSES, MAKER, OUTSIDE, Hidden, causes_of
@@ -19,7 +18,6 @@ from plumb.bench.cure import shape_error
 from plumb.bench.hiding import REAL, SLIP_MM, Slip, nothing, raw, several, slip
 from plumb.bench.judged_board import judge_board
 from plumb.bench.outcome import Outcome, look_alikes
-from plumb.bench.page import page
 from plumb.bench.rates import Line, Rate, rate_of
 from plumb.bench.report import run as run_bench
 from plumb.bench.scenarios import NAMES, SCENARIOS, Scenario
@@ -275,20 +273,6 @@ def test_an_interruption_keeps_the_boards_that_are_done(run, ask, monkeypatch):
     assert {rate["count"] for rate in answer["rates"]} == {8}
     # With nothing done there is nothing to show.
     assert run("bench", "--scenario", "none-9", "--boards", 20) == (130, "", "")
-
-
-def test_a_cluster_that_is_not_there_is_refused_in_one_line(run, monkeypatch):
-    monkeypatch.setitem(sys.modules, "distributed", None)
-    code, said, complaint = run("bench", "--cluster", "tcp://127.0.0.1:1")
-    assert code == 2 and said == "" and "pip install distributed" in complaint
-
-    class Away:
-        def __init__(self, address):
-            raise OSError("timed out")
-
-    monkeypatch.setitem(sys.modules, "distributed", types.SimpleNamespace(Client=Away))
-    code, said, complaint = run("bench", "--cluster", "tcp://127.0.0.1:1")
-    assert code == 2 and "tcp://127.0.0.1:1: no cluster answers (timed out)" in complaint
 
 
 def test_names_of_scenarios_are_all_different():

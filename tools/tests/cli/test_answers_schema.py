@@ -50,7 +50,6 @@ QUESTIONS = (
     ("next", *SLIPPED),
     ("next", *BOARD, "--sigma", "5", "--marks", "form.toml"),
     ("practice", "start", "game", "--seed", "3"),
-    ("practice", "--auto", "--level", "1", "--games", "1", "--keep", "games.jsonl"),
     ("preview", INI, *GRID),
     ("reach", INI),
     ("read",),

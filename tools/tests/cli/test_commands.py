@@ -31,7 +31,7 @@ SHARED = {
         "output",
         "parser",
     ),
-    *("places_text", "practice_auto", "practice_text", "question", "screen", "steps", "text"),
+    *("places_text", "practice_text", "question", "screen", "steps", "text"),
     "touches",
 }
 SHARED_ARGUMENTS = {"__init__", "checked", "client", "job", "shared", "touch"}

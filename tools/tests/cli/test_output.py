@@ -131,32 +131,6 @@ def test_a_link_to_a_file_stays_and_its_file_is_replaced(run):
     assert run(*ADD, "-o", "link.toml")[0] == 2 and Path("machine.toml").read_text() == "notes\n"
 
 
-# Commands that work for minutes, and what they call for it.
-LONG = [
-    pytest.param(("faults",), "plumb.cli.faults.tried_all", id="faults"),
-    pytest.param(("bench",), "plumb.cli.bench.run_bench", id="bench"),
-    pytest.param(("practice", "--matrix"), "plumb.cli.practice_auto.played", id="practice"),
-]
-
-
-@pytest.mark.parametrize(("command", "work"), LONG)
-def test_long_work_does_not_begin_if_its_result_cannot_be_written(command, work, run, monkeypatch):
-    class BegunError(Exception):
-        pass
-
-    def begin(*_, **__):
-        raise BegunError
-
-    monkeypatch.setattr(work, begin)
-    Path("theirs.md").write_text("# Notes\n")
-    for result in ("theirs.md", "nowhere/page.md"):
-        code, _, said = run(*command, "--write", result)
-        assert code == 2 and said.startswith(f"plumb: {result}: ") and said.count("\n") == 1
-    for words in (("ours.md",), ("theirs.md", "--force")):
-        with pytest.raises(BegunError):
-            run(*command, "--write", *words)
-
-
 def test_a_full_disk_is_a_line_and_leaves_nothing(run):
     picture = ("--picture", "fall.png")
     for command in ((*ADD, *picture, "-o"), (*LINES, "-o"), (*GRID, "--output")):

@@ -6,6 +6,7 @@ import tomllib
 
 import numpy as np
 import pytest
+from fingerprints import default_machine
 from folder import EXAMPLE, asked, with_settings
 from plumb import api
 from plumb.cli.main import main
@@ -18,7 +19,6 @@ from plumb.fit.inputs import Inputs
 from plumb.fit.problem import Problem
 from plumb.marks.read import Mark, Measurements
 from plumb.model.predict import values_of
-from plumb.pages.fingerprints import default_machine
 
 PITCH = {"effects": ["chain_pitch"]}
 

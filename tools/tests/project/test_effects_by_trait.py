@@ -10,10 +10,6 @@ NAMES = {*effect_names(), *(effect["name"] for effect in empirical_effects())}
 # Where effects are written, and stories of particular effects on particular boards.
 OF_EFFECTS = ("model/lab_effects", "model/sketches")
 STORIES = {
-    "pages/real_data.py",
-    "pages/real_holes.py",
-    "pages/real_sets.py",
-    "bench/page.py",
     # What published settings leave out, and what a usual machine has.
     "bench/causes.py",
     "bench/hiding.py",

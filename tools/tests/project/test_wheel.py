@@ -96,8 +96,6 @@ COMMANDS = {
     "gap": ("machine.toml", "--length", "2989.3", "--drop", "18.3"),
     "vm": ("--seconds", "1"),
     "practice": ("start", "game", "--seed", "1"),
-    "faults": ("--only", "ctrl-X", "--tries", "1"),
-    "soak": ("--minutes", "1"),
 }
 # What needs a file or a board that an empty folder lacks, and what its refusal names.
 LACKING = {

@@ -4,7 +4,7 @@ import json
 
 import plumb._core
 import pytest
-from plumb.pages import settings
+import settings_page
 from plumb.text import compiled
 
 SAG = "lib/Kinematics/src/effects/chain_sag.h"
@@ -68,9 +68,9 @@ def test_every_program_refuses_with_a_line(an_edit, run):
 
 
 def test_the_generators_of_pages_refuse(an_edit, capsys, tmp_path):
-    assert settings.main(["--folder", str(tmp_path)]) == 2
-    assert capsys.readouterr().err.startswith(f"plumb.pages.settings: {SAG}: ")
-    assert settings.main(["--check"]) == 2
+    assert settings_page.main(["--folder", str(tmp_path)]) == 2
+    assert capsys.readouterr().err.startswith(f"settings_page: {SAG}: ")
+    assert settings_page.main(["--check"]) == 2
     assert not any(tmp_path.iterdir())
 
 

@@ -5,8 +5,12 @@ import re
 from dataclasses import replace
 from types import SimpleNamespace
 
+import games
 import numpy as np
 import pytest
+from game import Played, chosen_in, claimed_in, is_solved, play
+from game_rates import row_of, rows_of
+from matrix_page import page
 from plumb.bench.causes import MAKER, Hidden, causes_of
 from plumb.cli.main import main
 from plumb.grid.options import Grid
@@ -14,16 +18,12 @@ from plumb.marks.read import read_marks
 from plumb.plan.planned_visits import sent
 from plumb.settings.files import read_settings
 from plumb.text.errors import InputError
-from plumb.vm import tournament
 from plumb.vm.budget import Budget, Spent, cutting, reading
 from plumb.vm.floor import sled_error
-from plumb.vm.game import Played, chosen_in, claimed_in, is_solved, play
 from plumb.vm.garage import Garage, random_garage
 from plumb.vm.hiding import astray
 from plumb.vm.owner import VirtualOwner
-from plumb.vm.page import page
 from plumb.vm.practice import Practice, claims_of, hint
-from plumb.vm.rates import row_of, rows_of
 from plumb.vm.secret import KINDS, LARGEST, LEVELS, Secret, of_kind, of_level
 
 # One hidden effect, and two.
@@ -160,7 +160,6 @@ def test_what_the_budget_does_not_allow_is_refused_and_not_done(step, tmp_path):
         (["solve", "game"], "name the new machine.toml"),
         (["read", "game"], "name the marks"),
         (["start", "game"], "holds a game already"),
-        (["start", "other", "--auto"], "leave out start"),
         (["start", "other", "--level", "7"], "give 1, 2, 3, 4, 5"),
     ],
 )
@@ -232,7 +231,7 @@ def test_claims_are_the_effects_that_changed(tmp_path):
 
 
 def test_the_lab_plays_a_game_and_its_cost_is_counted():
-    game = play("x", of_level(1, 1), seed=1, grid=tournament.SMALL_GRID, budget=Budget())
+    game = play("x", of_level(1, 1), seed=1, grid=games.SMALL_GRID, budget=Budget())
     (hidden,) = of_level(1, 1).hidden.effects
     assert game.chosen == game.claimed == (hidden,) and game.solved and game.false == 0
     assert game.marks == 9 and game.minutes == 3 + 9 * 1.5
@@ -275,7 +274,7 @@ def test_a_game_is_solved_by_all_that_is_hidden_and_nothing_else():
 @pytest.mark.slow
 def test_the_lab_reads_a_slip_again_and_then_names_the_effect():
     secret = replace(of_level(1, 1), slip=10.0)
-    game = play("x", secret, seed=1, grid=tournament.LARGE_GRID, budget=Budget())
+    game = play("x", secret, seed=1, grid=games.LARGE_GRID, budget=Budget())
     assert game.verdict == "one_suspect" and game.solved
     # A reading costs no hole.
     assert game.marks == 25 and game.minutes == 3 + 25 * 1.5 + 0.75
@@ -314,24 +313,24 @@ def test_games_that_are_kept_are_not_played_again(tmp_path, monkeypatch):
         asked.append(task)
         return played(task.row, task.seed)
 
-    monkeypatch.setattr(tournament.Task, "play", play)
+    monkeypatch.setattr(games.Task, "play", play)
     run = {"budget": Budget(), "elf": None, "kept": str(kept), "jobs": 1}
-    tasks = tournament.level_tasks([1, 3], 2, 5)
+    tasks = games.level_tasks([1, 3], 2, 5)
     assert [(task.row, task.seed) for task in tasks] == [
         *(("level 1", 5), ("level 3", 5), ("level 1", 6), ("level 3", 6))
     ]
-    first = tournament.played(tasks, **run)
+    first = games.played(tasks, **run)
     assert [next(first), next(first)] == [played("level 1", 5), played("level 3", 5)]
     first.close()
-    assert len(list(tournament.played(tasks, **run))) == 4
+    assert len(list(games.played(tasks, **run))) == 4
     assert asked == [*tasks[:2], *tasks[2:]]
     kept.write_text("{}\n")
     with pytest.raises(InputError, match="line 1: is no game"):
-        list(tournament.played(tasks, **run))
+        list(games.played(tasks, **run))
 
 
 def test_the_matrix_asks_for_each_kind_with_25_and_9_marks():
-    rows = {task.row for task in tournament.matrix_tasks(1, 1)}
+    rows = {task.row for task in games.matrix_tasks(1, 1)}
     assert rows == {f"{kind} {marks}" for kind in KINDS for marks in (25, 9)}
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from plumb.cli.arguments.shared import add_force, add_json, count
+from plumb.cli.arguments.shared import add_json, count
 
 HELP = "how often the diagnosis is right: rates over boards with hidden effects"
 BOARDS, FAST = 200, 10  # of each scenario
@@ -33,9 +33,4 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="draws the boards; the same seed, the same boards [1]",
     )
     parser.add_argument("--jobs", metavar="N", type=count, default=1, help="processes at once [1]")
-    parser.add_argument(
-        "--cluster", metavar="ADDRESS", help="run on a Dask cluster, like tcp://10.0.0.1:8786"
-    )
-    parser.add_argument("--write", metavar="FILE", help="write the page with all rates (markdown)")
-    add_force(parser)
     add_json(parser)

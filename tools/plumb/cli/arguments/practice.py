@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import argparse
 
-from plumb.cli.arguments.shared import add_force, add_json, add_units, count
+from plumb.cli.arguments.shared import add_force, add_json, add_units
 
 STEPS = ("start", "measure", "read", "check", "hint", "solve")
 LEVELS = (1, 2, 3, 4, 5)
-HELP = "find what is hidden in a virtual machine; --auto counts how often the lab does"
+HELP = "find what is hidden in a virtual machine"
 EXIT = (
     "Exit: 0 done; 1 solved, but something was missed or claimed that is not there; 2 it cannot be "
-    "done; 130 interrupted, what is done is kept."
+    "done."
 )
 
 
@@ -32,22 +32,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=int,
         choices=LEVELS,
         help="1 one large effect, 2 one with look-alikes, 3 two, 4 not in the library, 5 with a "
-        "wrong reading [1; --auto: all]",
+        "wrong reading [1]",
     )
-    parser.add_argument("--seed", metavar="S", type=int, help="another machine [drawn; --auto: 1]")
-    parser.add_argument("--auto", action="store_true", help="let the lab's advice play")
-    parser.add_argument(
-        "--matrix", action="store_true", help="--auto for each effect, 25 and 9 marks, not levels"
-    )
-    parser.add_argument(
-        "--games", metavar="N", type=count, default=4, help="of each row [%(default)s]"
-    )
-    parser.add_argument("--jobs", metavar="N", type=count, default=1, help="games at once [1]")
-    parser.add_argument(
-        "--keep", metavar="FILE", help="add each game to it, and play only what it lacks"
-    )
-    parser.add_argument("--write", metavar="FILE", help="--matrix: write the page (markdown)")
-    parser.add_argument("--mega", metavar="ELF", help="--auto on a simulated Mega: slow")
+    parser.add_argument("--seed", metavar="S", type=int, help="another machine [drawn]")
     add_units(parser)
     add_force(parser)
     add_json(parser)

@@ -1,1 +1,0 @@
-"""Faults and long jobs on the virtual machine: what a machine does when something goes wrong."""

@@ -1,0 +1,186 @@
+"""What each effect does to marks on the default machine: its field, its size, its look-alikes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from plumb.board.observations import observe
+from plumb.board.sighting import sighted
+from plumb.fit.fit import rms
+from plumb.fit.shape import best_pose
+from plumb.marks.read import Mark, Measurements
+from plumb.model.catalogue import (
+    EVERY_MACHINE,
+    every_effect,
+    is_felt_by_approach,
+    is_lab,
+    is_sketch,
+    parameter_words,
+)
+from plumb.model.predict import FOUND, frame_words, library, values_of
+from plumb.settings.machine import MachineSettings, frame_of
+
+Array = np.ndarray
+SHEET = (2438.4, 1219.2)  # [mm]
+EDGE = (1150.0, 550.0)  # [mm] how far from the middle marks are made
+COLUMNS, ROWS = 13, 7  # of the marks by which sizes and cosines are worked out
+FRAME_STEPS = {"motor_gap": 3.0, "motor_height": 10.0, "rotation_radius": 1.0}  # [mm]
+RIGHT, UP = (1.0, 0.0), (0.0, 1.0)  # approaches
+SHAPELESS = 0.02  # [share of the raw error] below which there is no shape to speak of
+
+
+@dataclass(frozen=True)
+class Showing:
+    """A way in which an effect shows: some of its parameters at their typical size."""
+
+    label: str
+    parameters: Mapping[str, float]  # by full name, or numbers of the frame [mm] off
+    approach: tuple[float, float] = RIGHT
+
+
+@dataclass(frozen=True)
+class Field:
+    """Where marks land against where they were sent."""
+
+    sent: Array  # (n, 2) [mm]
+    raw: Array  # (n, 2) [mm] landed or read - sent
+    shape: Array  # (n, 2) [mm] after the best shift and rotation
+
+    @property
+    def has_shape(self) -> bool:
+        """Whether more than shift and rotation is to be seen."""
+        return rms(self.shape) > SHAPELESS * rms(self.raw)
+
+
+Fields = Mapping[str, Sequence[tuple[Showing, Field]]]
+
+
+@dataclass(frozen=True)
+class LookAlike:
+    """Another cause with a similar shape."""
+
+    name: str
+    cosine: float  # between the shapes; negative: the same with the other sign
+
+
+def default_machine() -> MachineSettings:
+    """The published default machine, with the sag and stretch that every machine has."""
+    width, height = SHEET
+    plain = MachineSettings(
+        sheet_width=width,
+        sheet_height=height,
+        feed="top",
+        **frame_of({number["name"]: number["usual"] for number in frame_words()}),
+    )
+    effects = {
+        effect["name"]: {each["name"]: each["typical"] for each in effect["parameters"]}
+        for effect in library()
+        if effect["name"] in EVERY_MACHINE
+    }
+    return replace(plain, effects=effects)
+
+
+def cases_of(effect: Mapping[str, Any]) -> list[Showing]:
+    """The ways in which an effect is shown: each parameter, both sides alike, both approaches."""
+    typical = {f"{effect['name']}.{each['name']}": each["typical"] for each in effect["parameters"]}
+    cases = [Showing(name.rpartition(".")[2], {name: value}) for name, value in typical.items()]
+    if [case.label for case in cases] == ["left", "right"]:
+        cases.append(Showing("both alike", typical))
+    if is_felt_by_approach(effect["name"]):
+        ways = (("approached moving right", RIGHT), ("approached moving up", UP))
+        cases = [Showing(f"{case.label}, {way}", typical, to) for case in cases for way, to in ways]
+    return cases
+
+
+def field_of(case: Showing, *, columns: int = COLUMNS, rows: int = ROWS) -> Field:
+    """The field of a case on a grid of marks over the sheet."""
+    across, up = np.linspace(-EDGE[0], EDGE[0], columns), np.linspace(EDGE[1], -EDGE[1], rows)
+    sent = np.array([(x, y) for y in up for x in across])
+    true, believed, outside = _machines(case)
+    marks = tuple(
+        Mark(str(i), (float(x), float(y)), approach=case.approach) for i, (x, y) in enumerate(sent)
+    )
+    sighting = sighted(
+        values_of(true),
+        outside,
+        observe(believed, Measurements(marks)),
+        over_top=True,
+        usual_weight=true.sled_weight,
+        names=(),
+    )
+    if (sighting.outcome != FOUND).any():
+        raise ValueError(f"{case.label}: the default machine cannot reach every mark")
+    landed = sighting.read.where
+    pose = best_pose(sent, landed)
+    assert pose, "a grid of marks has a shape"
+    return Field(sent, landed - sent, pose.errors)
+
+
+def _machines(case: Showing) -> tuple[MachineSettings, MachineSettings, dict[str, float]]:
+    """The true machine, the machine by the settings, and what lies outside of both."""
+    true = believed = default_machine()
+    outside = {}
+    for name, value in case.parameters.items():
+        effect, _, parameter = name.rpartition(".")
+        if not effect:
+            true = replace(true, **{name: getattr(true, name) + value})
+        elif is_lab(effect) or is_sketch(effect):
+            outside[name] = value
+        elif effect in EVERY_MACHINE:
+            others = {name: sizes for name, sizes in believed.effects.items() if name != effect}
+            believed = replace(believed, effects=others)
+        else:
+            sizes = {**true.effects.get(effect, {}), parameter: value}
+            true = replace(true, effects={**true.effects, effect: sizes})
+    return true, believed, outside
+
+
+def every_field() -> dict[str, list[tuple[Showing, Field]]]:
+    """The fields of all cases of all effects, and of the frame's numbers that marks feel."""
+    cases = {effect["name"]: cases_of(effect) for effect in every_effect()}
+    cases |= {name: [Showing(name, {name: step})] for name, step in FRAME_STEPS.items()}
+    return {
+        name: [(case, field_of(case)) for case in cases_shown]
+        for name, cases_shown in cases.items()
+    }
+
+
+def look_alikes(name: str, fields: Fields, *, most: int = 3) -> list[LookAlike]:
+    """The other causes whose shape comes nearest to any shape of this effect, nearest first."""
+    mine = [field for _, field in fields[name] if field.has_shape]
+    alikes = []
+    for other, cases in fields.items():
+        cosines = [
+            cosine(shown.shape, field.shape)
+            for shown in mine
+            for _, field in cases
+            if field.has_shape
+        ]
+        if other != name and cosines:
+            alikes.append(LookAlike(other, max(cosines, key=abs)))
+    # Rounded first, so that the order does not hang on the last bits.
+    return sorted(alikes, key=lambda alike: (-round(abs(alike.cosine), 2), alike.name))[:most]
+
+
+def cosine(first: Array, second: Array) -> float:
+    """Of the angle between two fields (n, 2), each taken as a long vector."""
+    return float(np.sum(first * second) / (np.linalg.norm(first) * np.linalg.norm(second)))
+
+
+def worst(errors: Array) -> float:
+    """Length [mm] of the longest error of (n, 2)."""
+    return float(np.hypot(errors[:, 0], errors[:, 1]).max())
+
+
+def label_with_size(case: Showing) -> str:
+    """The case with the sizes of its parameters, like `left = 2 mm`."""
+    words = parameter_words()
+    sizes = dict.fromkeys(
+        f"{value:g} {words[name]['unit']}".removesuffix(" 1")
+        for name, value in case.parameters.items()
+    )
+    name, comma, way = case.label.partition(", ")
+    return f"{name} = {' and '.join(sizes)}{comma}{way}"

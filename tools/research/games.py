@@ -1,0 +1,209 @@
+"""Lets the lab's advice play `plumb practice`, and prints how often it finds what is hidden.
+
+Each game is kept when it ends: a run that was stopped goes on where it was. docs/matrix.md is
+written by --matrix --write.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import joblib  # type: ignore[import-untyped]  # it brings no types
+from game import Played, play
+from game_rates import Row, row_of, rows_of
+from matrix_page import page, ratio_words
+from plumb.cli.arguments.practice import LEVELS as LEVEL_NUMBERS
+from plumb.cli.arguments.shared import add_force, count
+from plumb.cli.ending import INTERRUPTED, ended
+from plumb.cli.output import refuse_early, results_of, write_outputs
+from plumb.cli.screen import Bar, sentences, table
+from plumb.grid.options import Grid
+from plumb.text.errors import refusal
+from plumb.text.shown import bare, unit
+from plumb.vm.budget import Budget
+from plumb.vm.secret import KINDS, LEVELS, of_kind, of_level
+
+LARGE_GRID = Grid(columns=5, rows=5, repeats=0)
+SMALL_GRID = Grid(columns=3, rows=3, repeats=0)
+GRIDS = {"25": LARGE_GRID, "9": SMALL_GRID}
+HEADER = (
+    "hidden",
+    "games",
+    "solved",
+    "false",
+    "marks",
+    "minutes",
+    "before",
+    "after",
+    "best",
+    "ratio",
+)
+
+
+@dataclass(frozen=True)
+class Task:
+    """A game to play: a row of the table, and which game of it."""
+
+    row: str  # "level 3", or "chain_sag 25"
+    seed: int
+
+    def play(self, budget: Budget, elf: str | None) -> Played:
+        """Play it."""
+        what, _, which = self.row.rpartition(" ")
+        if what == "level":
+            secret, grid = of_level(int(which), self.seed), LARGE_GRID
+        else:
+            secret, grid = of_kind(what, self.seed), GRIDS[which]
+        return play(self.row, secret, seed=self.seed, grid=grid, budget=budget, elf=elf)
+
+
+def level_tasks(levels: Sequence[int], games: int, seed: int) -> list[Task]:
+    """A number of games of each level, in turns."""
+    rows = [f"level {level}" for level in levels]
+    return [Task(row, seed + game) for game in range(games) for row in rows]
+
+
+def matrix_tasks(games: int, seed: int) -> list[Task]:
+    """A number of games of each cell of the matrix, in turns, so that none is far behind."""
+    rows = [f"{kind} {marks}" for marks in GRIDS for kind in KINDS]
+    return [Task(row, seed + game) for game in range(games) for row in rows]
+
+
+def played(
+    tasks: Sequence[Task],
+    *,
+    budget: Budget,
+    elf: str | None,
+    kept: str | None,
+    jobs: int,
+) -> Iterator[Played]:
+    """The games that the file `kept` has, then those that it lacks; each is added as it ends."""
+    done = {(game.row, game.seed): game for game in _kept(kept)}
+    waiting = []
+    for task in tasks:
+        old = done.get((task.row, task.seed))
+        if old:
+            yield old
+        else:
+            waiting.append(task)
+    for game in _run(waiting, budget, elf, jobs):
+        if kept:
+            with open(kept, "a", encoding="utf-8") as file:
+                file.write(json.dumps(asdict(game)) + "\n")
+        yield game
+
+
+def _run(tasks: Sequence[Task], budget: Budget, elf: str | None, jobs: int) -> Iterator[Played]:
+    if jobs == 1:
+        yield from (task.play(budget, elf) for task in tasks)
+        return
+    pool = joblib.Parallel(n_jobs=jobs, return_as="generator_unordered")
+    yield from pool(joblib.delayed(Task.play)(task, budget, elf) for task in tasks)
+
+
+def _kept(path: str | None) -> list[Played]:
+    """The games of a file; InputError for a file of something else."""
+    if path is None or not Path(path).exists():
+        return []
+    games = []
+    for number, line in enumerate(Path(path).read_text(encoding="utf-8").splitlines(), 1):
+        try:
+            said = json.loads(line)
+            said |= {name: tuple(said[name]) for name in ("claimed", "chosen")}
+            games.append(Played(**said))
+        except (ValueError, TypeError, KeyError):
+            raise refusal(
+                path, "is no game", place=f"line {number}", remedy="name another file"
+            ) from None
+    return games
+
+
+def parser() -> argparse.ArgumentParser:
+    """The words that the script understands."""
+    words = argparse.ArgumentParser(
+        description=__doc__,
+        epilog="Exit: 0 done; 2 it cannot run; 130 interrupted, what is done is kept.",
+    )
+    words.add_argument("--level", type=int, choices=LEVEL_NUMBERS, help="games of this level [all]")
+    words.add_argument(
+        "--matrix", action="store_true", help="each effect on 25 and on 9 marks, not levels"
+    )
+    words.add_argument("--seed", metavar="S", type=int, default=1, help="other machines [1]")
+    words.add_argument("--games", metavar="N", type=count, default=4, help="of each row [4]")
+    words.add_argument("--jobs", metavar="N", type=count, default=1, help="games at once [1]")
+    words.add_argument("--keep", metavar="FILE", help="adds each game; plays only what it lacks")
+    words.add_argument("--write", metavar="FILE", help="write the page with the matrix")
+    words.add_argument("--mega", metavar="ELF", help="play on a simulated Mega: slow")
+    add_force(words)
+    return words
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Play, print the rates, and return the exit code."""
+    wanted = parser().parse_args(arguments)
+    return ended(lambda: _play(wanted), name="games.py")
+
+
+def _play(wanted: argparse.Namespace) -> int:
+    levels = [wanted.level] if wanted.level else list(LEVELS)
+    if wanted.matrix:
+        tasks = matrix_tasks(wanted.games, wanted.seed)
+    else:
+        tasks = level_tasks(levels, wanted.games, wanted.seed)
+    games, interrupted = list[Played](), False
+    with results_of(wanted):
+        refuse_early(wanted.write)
+        bar = Bar("games", patience=0.0)
+        try:
+            for game in played(
+                tasks, budget=Budget(), elf=wanted.mega, kept=wanted.keep, jobs=wanted.jobs
+            ):
+                games.append(game)
+                bar.show(len(games) / len(tasks), f"{len(games)} of {len(tasks)} games, {game.row}")
+        except KeyboardInterrupt:
+            interrupted = True
+        finally:
+            bar.clear()
+        if wanted.write:
+            write_outputs({wanted.write: page(games).encode()}, inputs=[])
+    if games:
+        print(as_text(games))
+    return INTERRUPTED if interrupted else 0
+
+
+def as_text(games: Sequence[Played]) -> str:
+    """The rates of many games for people."""
+    rows = [*rows_of(games), *([row_of("all", games)] if len(games) > 1 else [])]
+    note = (
+        "Solved: just what is hidden was added, or reported as not in the library; interval of "
+        "95 %. False: claims of what is not there, in all games. Before, after, best: error of the "
+        f"sled all over the sheet without noise, {unit()} RMS; best is a fit of the same marks by "
+        "somebody who knows what is hidden. Ratio: after to best."
+    )
+    return f"{table(HEADER, [cells(row) for row in rows], gap=1)}\n\n{sentences([note], mark='')}"
+
+
+def cells(row: Row) -> list[str]:
+    """A row of the table."""
+    share, low, high = row.solved
+    return [
+        row.name,
+        str(row.games),
+        f"{100 * share:.0f} % ({100 * low:.0f}-{100 * high:.0f})",
+        str(row.false),
+        f"{row.marks:.0f}",
+        f"{row.minutes:.0f}",
+        bare(row.before),
+        bare(row.after),
+        bare(row.known),
+        ratio_words(row.sled_ratio),
+    ]
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,144 @@
+"""The published sets of real machines in examples/, and what the lab finds in each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from plumb.cure.add import Addition, add
+from plumb.diagnosis import Diagnosis, diagnose
+from plumb.fit.compare import Comparison, compare
+from plumb.fit.fit import rms
+from plumb.fit.inputs import Inputs
+from plumb.marks.read import Measurements, join_measurements, read_marks
+from plumb.model.predict import FOUND, believed_lengths, known_effects, places
+from plumb.settings.files import read_settings
+from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError
+
+EXAMPLES = Path(__file__).resolve().parents[1] / "plumb/examples"
+HOLES = (
+    "madgrizzle-2018-08-30",
+    "madgrizzle-2018-09-01",
+    "madgrizzle-2018-09-02",
+    "madgrizzle-2018-09-04",
+)
+CUTS = "madgrizzle-2018-08-27"
+PAIRS = ((HOLES[0], HOLES[1]), (HOLES[2], HOLES[3]))  # before and after a fit of the owner
+BRACKETS = ("gero-2017-04-26", "blsteinhauer88-2017-06-18")
+HOLE_EFFECTS = ("chain_pitch",)
+
+
+@dataclass(frozen=True)
+class RealSet:
+    """A published set: settings said to be in force, and marks."""
+
+    name: str
+    settings: MachineSettings
+    marks: Measurements
+
+    @property
+    def raw(self) -> Comparison:
+        """Against the settings as they stand."""
+        return compare(self.settings, self.marks)
+
+    def diagnosed(self, *, sigma: float | None = None) -> Diagnosis:
+        """What `plumb diagnose` says; sigma is the reading error [mm]."""
+        return diagnose(Inputs(self.settings, self.marks, sigma=sigma))
+
+    def with_effects(self, *effects: str) -> Addition:
+        """What `plumb add` makes of it."""
+        return add(Inputs(self.settings, self.marks), effects=effects)
+
+
+@dataclass(frozen=True)
+class Pooled:
+    """All hole sets fitted together: a single machine, the settings of each set in force."""
+
+    fitted: Addition
+    errors: Mapping[str, np.ndarray]  # errors [mm] of each set's distances
+    scatter: float  # [mm] of a distance from set to set
+    scatter_degrees: int
+    steady: float  # [mm] RMS of what is the same in all sets
+
+    @property
+    def settings(self) -> MachineSettings:
+        """The machine of all sets."""
+        return self.fitted.settings
+
+
+def real_set(name: str, marks: str = "marks.toml", settings: str = "groundcontrol.ini") -> RealSet:
+    """A set of examples/ by its folder."""
+    folder, known = EXAMPLES / name, known_effects()
+    machine = read_settings(folder / settings, known=known)
+    return RealSet(name, machine, read_marks(folder / marks, sheet=machine.sheet, known=known))
+
+
+def refusal_of(name: str) -> str:
+    """What the lab says of the groundcontrol.ini of a set; empty if it takes it."""
+    path = EXAMPLES / name / "groundcontrol.ini"
+    try:
+        read_settings(path, known=known_effects())
+    except InputError as error:
+        return str(error).replace(str(path), f"{name}/groundcontrol.ini")
+    return ""
+
+
+def pooled(sets: Sequence[RealSet], effects: Sequence[str] = HOLE_EFFECTS) -> Pooled:
+    """Fit several hole sets at once."""
+    marks = join_measurements([holes.marks for holes in sets])
+    fitted = add(Inputs(sets[0].settings, marks), effects=effects)
+    errors, first = {}, 0
+    for holes in sets:
+        count = len(holes.marks.distances)
+        errors[holes.name] = fitted.after_fit.distance_errors[first : first + count]
+        first += count
+    groups = list(_by_span(sets, errors).values())
+    squares = sum(float(np.sum((repeats - repeats.mean()) ** 2)) for repeats in groups)
+    degrees = sum(len(repeats) - 1 for repeats in groups)
+    return Pooled(
+        fitted=fitted,
+        errors=errors,
+        scatter=float(np.sqrt(squares / degrees)),
+        scatter_degrees=degrees,
+        steady=rms(np.array([repeats.mean() for repeats in groups])),
+    )
+
+
+def predicted(settings: MachineSettings, other: RealSet) -> Comparison:
+    """How well a machine predicts a set that took no part in its fit."""
+    return compare(settings, other.marks)
+
+
+def mirrored(holes: RealSet, across: float, up: float) -> RealSet:
+    """The set with its holes named the other way round: across or up is -1."""
+    marks = tuple(
+        replace(mark, target=(across * mark.target[0], up * mark.target[1]))
+        for mark in holes.marks.marks
+    )
+    return replace(holes, marks=replace(holes.marks, marks=marks))
+
+
+def middle_shift(machine: MachineSettings) -> float:
+    """How far right [mm] of the middle the bit goes if the controller knows no chain pitch."""
+    effects = {
+        name: parameters for name, parameters in machine.effects.items() if name != "chain_pitch"
+    }
+    chains = believed_lengths(replace(machine, effects=effects), np.zeros((1, 2)))
+    where, outcome = places(machine, chains)
+    if outcome[0] != FOUND:
+        raise InputError("the sled cannot hang in the middle of the sheet")
+    return float(where[0, 0])
+
+
+def _by_span(
+    sets: Sequence[RealSet], errors_of: Mapping[str, np.ndarray]
+) -> dict[frozenset[str], np.ndarray]:
+    """Errors of each distance that several sets have [mm], in the order of the sets."""
+    groups: dict[frozenset[str], list[float]] = {}
+    for holes in sets:
+        for span, error in zip(holes.marks.distances, errors_of[holes.name], strict=True):
+            groups.setdefault(frozenset(span.between), []).append(float(error))
+    return {ends: np.array(errors) for ends, errors in groups.items() if len(errors) > 1}

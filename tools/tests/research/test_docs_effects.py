@@ -1,0 +1,112 @@
+"""docs_effects: the page and pictures of all effects, complete, repeatable, and checked."""
+
+import re
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from effects_page import PAGE, PICTURES, main, pages, picture_name
+from plumb.model.catalogue import every_effect
+from plumb.pictures.fingerprints import LONGEST, SCALE, Picture, drawing, factor_for
+
+TEXTS = pages()
+EFFECTS = {element["name"]: element for element in every_effect()}
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+@pytest.fixture
+def written(tmp_path):
+    """A folder in which the pages have been written."""
+    (tmp_path / "docs").mkdir()
+    assert main(["--folder", str(tmp_path)]) == 0
+    return tmp_path
+
+
+def section_of(name: str) -> str:
+    return re.search(rf"^## {name}\n(.*?)(?=^## |\Z)", TEXTS[PAGE], re.DOTALL | re.MULTILINE)[1]
+
+
+@pytest.mark.parametrize("name", EFFECTS)
+def test_every_effect_has_a_section_a_picture_and_a_remedy(name):
+    effect, text = EFFECTS[name], section_of(name)
+    for word in ("summary", "pattern", "look_alikes", "remedy"):
+        assert effect[word] in text
+    assert f"(pictures/effects/{name}.svg)" in text and picture_name(name) in TEXTS
+    for parameter in effect["parameters"]:
+        assert f"`{parameter['name']}` | {parameter['unit']} |" in text
+        assert parameter["setting"] is None or f"${parameter['setting']}" in text
+    assert ("no firmware can cure this" in text) == (effect["where"] == "lab")
+    assert len(re.findall(r"`\w+` -?\d\.\d\d", text)) == 3 or "it has no shape" in text
+
+
+@pytest.mark.parametrize("name", EFFECTS)
+def test_every_effect_has_a_row_in_the_table_on_top(name):
+    row = re.search(rf"^\| \[{name}\]\(#{name}\) \|(.*)$", TEXTS[PAGE], re.MULTILINE)[1]
+    settings, worst, shape, where = (cell.strip() for cell in row.strip(" |").split("|"))
+    assert where == EFFECTS[name]["where"]
+    assert (settings == "none") == (where == "lab")
+    assert float(worst) > 0 and float(shape) >= 0
+
+
+@pytest.mark.parametrize("name", EFFECTS)
+def test_every_picture_is_an_svg_with_its_scale_told(name):
+    root = ElementTree.fromstring(TEXTS[picture_name(name)])
+    assert root.tag == f"{SVG}svg" and name in root.find(f"{SVG}title").text
+    said = [element.text for element in root.iter(f"{SVG}text")]
+    sheets = len(list(root.iter(f"{SVG}rect"))) - 1
+    scales = [line for line in said if re.search(r"mm; arrows \d+ times life size", line)]
+    assert sheets == 2 * sum("as it is" in line for line in said)
+    assert len(scales) + sum("no shape" in line for line in said) == sheets
+    # Positions to a tenth of a pixel, so that the last bits of a sum never show.
+    assert not re.search(r"\d\.\d\d", "".join(element.get("d", "") for element in root.iter()))
+
+
+def test_the_same_registry_gives_the_same_bytes():
+    assert pages() == TEXTS
+
+
+def test_fresh_pages_pass(written, capsys):
+    assert main(["--check", "--folder", str(written)]) == 0
+    assert capsys.readouterr().out == ""
+
+
+@pytest.mark.parametrize("name", [PAGE, picture_name("chain_sag")])
+def test_a_changed_or_missing_file_is_told(written, capsys, name):
+    path = written / name
+    path.write_text(path.read_text().replace("mm", "cm", 1))
+    assert main(["--check", "--folder", str(written)]) == 1
+    assert capsys.readouterr().out.startswith(f"{name}: stale; run ")
+    path.unlink()
+    assert main(["--check", "--folder", str(written)]) == 1
+    assert main(["--folder", str(written)]) == 0
+    assert main(["--check", "--folder", str(written)]) == 0
+
+
+def test_the_picture_of_an_effect_that_is_no_more_is_told_and_taken_away(written, capsys):
+    old = written / PICTURES / "chain_rust.svg"
+    old.write_text("<svg/>")
+    assert main(["--check", "--folder", str(written)]) == 1
+    assert "chain_rust.svg: stale" in capsys.readouterr().out
+    assert main(["--folder", str(written)]) == 0 and not old.exists()
+
+
+def test_a_folder_that_cannot_be_written_is_refused(tmp_path, capsys):
+    (tmp_path / "docs").write_text("a file")
+    assert main(["--folder", str(tmp_path)]) == 2
+    assert capsys.readouterr().err.startswith("effects_page: ")
+
+
+def test_arrows_point_where_the_marks_went():
+    sent = np.zeros((1, 1, 2))
+    for error, sign in (((0.0, 1.0), -1), ((0.0, -1.0), 1)):
+        errors = np.array(error).reshape(1, 1, 2)
+        text = drawing("t", [("one", [Picture("h", sent, errors)])], sheet=(2438.4, 1219.2))
+        start, end = re.search(r'd="M\S+ (\S+?)L\S+ (\S+?)" fill="none" stroke="#c0', text).groups()
+        # Paper counts downwards: up is less.
+        assert np.sign(float(end) - float(start)) == sign
+        assert SCALE * factor_for(errors) <= LONGEST
+
+
+def test_words_are_escaped():
+    text = drawing("a < b", [("c & d", [Picture("", np.zeros((1, 1, 2)), None)])], sheet=(100, 50))
+    assert ElementTree.fromstring(text).find(f"{SVG}title").text == "a < b"

@@ -1,0 +1,121 @@
+"""The published sets of real machines: the numbers as published, and what the lab makes of them."""
+
+from pathlib import Path
+
+import pytest
+from plumb.fit.fit import rms
+from real_data_page import COMMAND, PAGE, pages
+from real_sets import (
+    BRACKETS,
+    CUTS,
+    EXAMPLES,
+    HOLES,
+    PAIRS,
+    pooled,
+    predicted,
+    real_set,
+    refusal_of,
+)
+from writer import write_pages
+
+SETS = {name: real_set(name) for name in HOLES}
+TEXTS = pages()
+TOGETHER = pooled(list(SETS.values()))
+RECORDS = {HOLES[1]: 0.80, HOLES[3]: 1.00}  # [mm RMS] measured less nominal, after the owner's fits
+
+
+@pytest.mark.parametrize(
+    ("name", "count", "total"),
+    [
+        (HOLES[0], 8, 9419.0),
+        (HOLES[1], 8, 9399.5),
+        (HOLES[2], 16, 13586.0),
+        (HOLES[3], 16, 13561.5),
+    ],
+)
+def test_the_distances_are_those_that_were_published(name, count, total):
+    lengths = SETS[name].marks.distance_lengths
+    assert len(lengths) == count and lengths.sum() == pytest.approx(total)
+
+
+@pytest.mark.parametrize("folder", sorted(path.name for path in EXAMPLES.iterdir()))
+def test_every_set_says_where_it_comes_from_and_what_is_not_known(folder):
+    text = (EXAMPLES / folder / "SOURCE.md").read_text()
+    assert "github.com" in text or "mibproj.info" in text
+    assert any(word in text for word in ("not known", "not certain", "UNKNOWN", "LIKELY"))
+
+
+@pytest.mark.parametrize(("before", "after"), PAIRS)
+def test_a_machine_fitted_to_one_set_predicts_the_next_better_than_its_owner_did(before, after):
+    fitted = SETS[before].with_effects("chain_pitch")
+    after_fit = predicted(fitted.settings, SETS[after])
+    assert after_fit.rms < SETS[after].raw.rms < RECORDS[after]
+    assert after_fit.rms < 0.85
+
+
+def test_one_machine_explains_all_four_sets_better_than_the_owners_fits():
+    assert all(rms(TOGETHER.errors[name]) < record for name, record in RECORDS.items())
+    assert TOGETHER.fitted.after.left_out_rms < 1.1
+    pitch = [each for each in TOGETHER.fitted.parameters if each.name.startswith("chain_pitch")]
+    assert all(0.001 < each.value < 0.0026 for each in pitch)  # the standard allows 0.26 %
+
+
+def test_it_predicts_a_cut_of_other_settings_that_took_no_part():
+    cuts = real_set(CUTS)
+    assert min(abs(each.error) for each in cuts.raw.distances) > 1.5
+    assert max(abs(each.error) for each in predicted(TOGETHER.settings, cuts).distances) < 0.5
+
+
+def test_the_same_distance_scatters_from_set_to_set_as_much_as_the_fit_leaves():
+    assert TOGETHER.scatter == pytest.approx(0.77, abs=0.05)
+    assert TOGETHER.fitted.after.fit_rms < 1.3 * TOGETHER.scatter
+
+
+@pytest.mark.parametrize("name", BRACKETS)
+def test_a_machine_on_two_brackets_is_refused_and_its_squares_are_not_in_the_library(name, run):
+    assert "a sled on two brackets" in refusal_of(name)
+    assert real_set(name, "squares.toml", "as-triangular.ini").diagnosed().verdict == (
+        "not_in_library"
+    )
+    folder = EXAMPLES / name
+    code, said, _ = run("diagnose", folder / "as-triangular.ini", folder / "squares.toml")
+    assert code == 1 and "is it such a machine?" in said and "quadrilateral" in said
+
+
+def test_two_widths_are_too_few_for_a_diagnosis_and_the_lab_says_so(run):
+    folder = EXAMPLES / CUTS
+    code, _, complained = run("diagnose", folder / "groundcontrol.ini", folder / "marks.toml")
+    assert code == 2 and "2 measured numbers are too few" in complained
+
+
+def test_all_hole_sets_go_into_one_command(ask):
+    paths = [EXAMPLES / name / "marks.toml" for name in HOLES]
+    code, answer = ask("diagnose", EXAMPLES / HOLES[0] / "groundcontrol.ini", *paths)
+    assert code == int(answer["verdict"] == "not_in_library") and answer["disagreements"] == []
+    assert {"sled_swing", "chain_stretch"} <= set(answer["suspects"])
+
+
+def test_the_page_shows_every_set():
+    for name in (*HOLES, *BRACKETS, "mibproj", "c0depr1sm"):
+        assert name in TEXTS[PAGE]
+
+
+def test_a_stale_page_is_told(tmp_path, capsys):
+    def ends(*options):
+        return write_pages([*options, "--folder", str(tmp_path)], lambda: TEXTS, command=COMMAND)
+
+    assert ends() == ends("--check") == 0
+    Path(tmp_path / PAGE).write_text(TEXTS[PAGE].replace("0.6", "0.5"))
+    assert ends("--check") == 1
+    assert f"{PAGE}: stale" in capsys.readouterr().out
+
+
+def test_both_signs_of_the_doubtful_set_are_tried():
+    assert "as published" in TEXTS[PAGE] and "y the other way" in TEXTS[PAGE]
+
+
+def test_eight_distances_carry_no_seven_parameters_and_hide_no_miles():
+    diagnosis = SETS[HOLES[0]].diagnosed()
+    for each in diagnosis.explanations:
+        assert sum(len(sizes) for sizes in each.sizes.values()) < 7
+    assert all(each.mm is None or each.mm < 30 for each in diagnosis.could_hide)
