@@ -3,6 +3,7 @@
 ; there: a product takes 105 cycles instead of 132, a sum 91 instead of 113. A quotient is worked out a
 ; byte at a time with the multiplier instead of a bit: 170 instead of 480. What is rare (zero, infinity,
 ; NaN, numbers below 2^-126 or above 2^126) goes to avr-libc's steps, operands as they came.
+; What it saves, how it is tested and how to drop it: docs/float.md.
 ;
 ; float __mulsf3(float a, float b), __addsf3(float a, float b), __subsf3(...), __divsf3(...)
 ; a in r25:r22 and back, b in r21:r18; r0, r26, r27, r30, r31 and T are free, r1 is zero.
