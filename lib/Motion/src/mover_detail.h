@@ -1,5 +1,16 @@
 // The function bodies of mover.h: segments between exact knots at even times, and single ticks
 // where moves meet.
+//
+// Invariants, after each set-point (test_invariants.cpp):
+//  1. The walk is on the first move: from 0 to its length, at a speed that is not negative. Without
+//     moves it is at 0 and rests.
+//  2. In the next tick the sled can brake by its acceleration, and go on braking to the speed that
+//     is allowed at the move's end. After a tick that crossed a corner half the acceleration of the
+//     move before may be missing. A feed that is lowered may break this until the next rest.
+//  3. No move ends faster than the next may go.
+//  4. A set-point is no farther from the set-point before it than its leg's way; the way is 1 to
+//     2^17 - 1 counts, the gain at least 1.
+//  5. The last set-point is the last move's end, to the count.
 #pragma once
 
 #include "mover.h"

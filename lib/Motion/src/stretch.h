@@ -1,4 +1,14 @@
 // Speed along a move: for how many ticks it may change by the same amount.
+//
+// Invariants of nextStretch(), for a speed from which the exit's speed can be reached; `a` is the
+// acceleration (test_invariants.cpp):
+//  1. A stretch has at least a tick, and no more than its limit; of several ticks the change is 0,
+//     a or -a.
+//  2. A stretch of several ticks never leads beyond the move's end.
+//  3. The speed is never above its top by more than 0.02 a; a higher speed only falls. It is never
+//     below zero by more than 0.02 a.
+//  4. It changes by at most 1.25 a in a tick, in the last ticks before an end by at most 2 a.
+//  5. At the end it is at most the exit's speed and 0.55 a, or a single short tick.
 #pragma once
 
 #include <math.h>
@@ -94,10 +104,10 @@ inline Stretch nextStretch(float speed, const Bounds& bounds) {
   if (next == bounds.top && change == 0)
     return {atMost(ticksOfCruise(speed, bounds), bounds.even_ticks), 0};
   if (change < kNear - a && change > -kNear - a) {
-    const uint8_t ticks = atMost((speed - exit) / a - 0.5f, bounds.uneven_ticks);
-    // Rounding may put the last of these ticks slightly beyond the end.
-    const bool fits = ticks == 1 || after({0, speed}, -a, ticks).done <= bounds.left;
-    return {fits ? ticks : uint8_t(ticks - 1), -a};
+    uint8_t ticks = atMost((speed - exit) / a - 0.5f, bounds.uneven_ticks);
+    // A speed that is slightly too high (kNear) would lead the last of them beyond the end.
+    while (ticks > 1 && after({0, speed}, -a, ticks).done > bounds.left) --ticks;
+    return {ticks, -a};
   }
   return {1, change};
 }
