@@ -159,7 +159,11 @@
       "", "Reference of this processor; right when the supply that B30 tells is what a voltmeter shows on its 5 V.", \
       "new") \
   ROW(kLeastSupply, 76, "least_supply, V", kReal, kAnyValue, 4.3f, 0, 5, kNothing, \
-      "", "Below this supply of the Mega it says so; 0: never.", "new")
+      "", "Below this supply of the Mega it says so; 0: never.", "new") \
+  ROW(kHoldingTorque, 77, "holding_torque, N m", kReal, kAnyValue, 1.4f, 0, 1000, kNothing, \
+      "", \
+      "What friction holds at the sprocket of a motor without power. Where the sled pulls harder, high on the sheet, " \
+      "the motors stay on at rest; 10: they never do.", "new")
 
 #define PLUMB_KEPT_SETTINGS(ROW) \
   ROW(kSimulatedMotors, 99, "simulated_motors", kBool, 1, 0, 0, 1, kNothing, \

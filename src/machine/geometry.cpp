@@ -29,6 +29,7 @@ void Geometry::prepare(const Values& values) {
   half_width_ = values.at(kSheetWidth) / 2;
   half_height_ = values.at(kSheetHeight) / 2;
   chain_length_ = values.at(kChainLength);
+  weight_torque_ = frame.sled_weight * frame.sprocket_radius;
   sprockets_.left = {frame.motor_center_x - frame.motor_gap / 2, frame.motor_height};
   sprockets_.right = {frame.motor_center_x + frame.motor_gap / 2, frame.motor_height};
   has_brackets_ = values.at(kKinematics) == 1;
@@ -97,6 +98,15 @@ motion::Lengths<float> Geometry::inverse(motion::Point<float> place) const {
   const bool reachable =
       found == Found::kYes && chains.left <= chain_length_ && chains.right <= chain_length_;
   return {chains.left, chains.right, reachable};
+}
+
+float Geometry::torqueAt(motion::Point<float> place) const {
+  const float up = sprockets_.left.y - place.y;
+  const float to_left = place.x - sprockets_.left.x, to_right = sprockets_.right.x - place.x;
+  // The level pulls of both chains are alike, and the upright pulls carry the sled.
+  const float left = to_right * float(sqrt(to_left * to_left + up * up));
+  const float right = to_left * float(sqrt(to_right * to_right + up * up));
+  return weight_torque_ * (left > right ? left : right) / (up * (to_left + to_right));
 }
 
 FoundPlace Geometry::forward(float left, float right, motion::Point<float> guess) const {

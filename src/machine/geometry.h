@@ -47,6 +47,10 @@ class Geometry {
     return sheet().holds(path) ? motion::Space::kSheet : motion::Space::kEdge;
   }
 
+  /// [N mm] How hard the sled turns the sprocket whose chain pulls more, at a place below the
+  /// motors. Its chains count as straight.
+  float torqueAt(motion::Point<float> place) const;
+
   /// What lib/Motion needs to know of the chains.
   const motion::Sprockets<float>& sprockets() const { return sprockets_; }
 
@@ -67,6 +71,7 @@ class Geometry {
   motion::Sprockets<float> sprockets_;
   float half_width_, half_height_;
   float chain_length_;
+  float weight_torque_;  ///< [N mm] of a sled that hangs straight below a single sprocket
   bool has_brackets_;
   bool is_sheet_reachable_;  ///< the sled can hang on the whole sheet
 };

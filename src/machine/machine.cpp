@@ -19,7 +19,7 @@ Machine::Machine(const Ports& ports, const BoardName& board)
       reports_(ports.clock, modal_, axes_, input_, out_),
       telemetry_(ports.drives, ports.aux, ports.clock, axes_, planner_, place_, memory_, values_,
                  out_, board.start),
-      motors_(axes_, keeper_, values_, place_, out_, *this),
+      motors_(axes_, keeper_, values_, place_, geometry_, out_, *this),
       spindle_(cutter_, ports.aux, out_, *this),
       z_(memory_, values_, axes_, place_, modal_, out_, answers_),
       new_values_(values_, geometry_, axes_, planner_, ports.drives, cutter_, place_, ports.clock,

@@ -29,8 +29,24 @@ void MotorPower::restWhenIdle(bool is_busy) {
   if (rest_ == Rest::kLetGo && place_.farthestOff() > kSlid) return holdAgain();
   if (is_busy || !axes_.isPowered() || rest_ == Rest::kStayOn) return;
   if (now - last_busy_ms_ < uint32_t(values_.at(kIdleTime))) return;
+  if (!doesFrictionHold()) return sayThatTheyStayOn();
   axes_.releaseAll();
   rest_ = Rest::kLetGo;
+}
+
+bool MotorPower::doesFrictionHold() const {
+  // Nobody knows what hangs on chains that nobody has set.
+  if (!place_.isKnown() || axes_.isSimulated()) return true;
+  const Place at = place_.now(false);
+  const float kPerMetre = 1000;  // [mm]
+  return geometry_.torqueAt({at.x, at.y}) < values_.at(kHoldingTorque) * kPerMetre;
+}
+
+void MotorPower::sayThatTheyStayOn() {
+  if (has_said_so_) return;
+  has_said_so_ = true;
+  out_.line(
+      FLASH("The motors stay on: so high on the sheet the sled would slide ($77). Park it lower."));
 }
 
 void MotorPower::holdAgain() {

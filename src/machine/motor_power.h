@@ -7,16 +7,18 @@
 namespace machine {
 
 /// Gives the motors power, but never before the EEPROM says that the machine moves. Lets them go
-/// after a rest of $9, and watches them then: friction may not hold a heavy sled high on the sheet.
-/// A sled that slides is held again where it was.
+/// after a rest of $9, where the friction of usual motors holds the sled: high on the sheet the
+/// chains are so flat that it does not. Watches them then, as the motors may be worn or the sled
+/// heavier than $62. A sled that slides is held again where it was.
 class MotorPower {
  public:
   MotorPower(Axes& axes, PositionKeeper& keeper, const settings::Values& values, SledPlace& place,
-             Printer& out, Waiting& waiting)
+             const Geometry& geometry, Printer& out, Waiting& waiting)
       : axes_(axes),
         keeper_(keeper),
         values_(values),
         place_(place),
+        geometry_(geometry),
         out_(out),
         waiting_(waiting) {}
 
@@ -39,14 +41,18 @@ class MotorPower {
   };
 
   void holdAgain();
+  bool doesFrictionHold() const;
+  void sayThatTheyStayOn();
 
   Axes& axes_;
   PositionKeeper& keeper_;
   const settings::Values& values_;
   SledPlace& place_;
+  const Geometry& geometry_;
   Printer& out_;
   Waiting& waiting_;
   Rest rest_ = Rest::kUnwatched;
+  bool has_said_so_ = false;  ///< that they stay on where the sled is high
   uint32_t last_busy_ms_ = 0;
 };
 

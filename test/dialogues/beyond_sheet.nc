@@ -1,5 +1,8 @@
 ; Beyond the sheet the sled waits at its edge, which is said once; the program goes on counting.
 ~~ include setup.inc
+; Gears that hold the sled there.
+-> $77=10
+<- ok
 ~~ hang X0 Y590
 ~~ declare
 <* ok

@@ -56,7 +56,7 @@ struct Parts : testing::Test, machine::Dispatch {
         cutter(board, values),
         answers(out, values),
         place(out, axes, geometry, planner, keeper, memory, modal, program),
-        motors(axes, keeper, values, place, out, waiting),
+        motors(axes, keeper, values, place, geometry, out, waiting),
         spindle(cutter, board, out, waiting),
         z(memory, values, axes, place, modal, out, answers),
         new_values(values, geometry, axes, planner, board, cutter, place, board, out),

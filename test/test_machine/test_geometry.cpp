@@ -49,6 +49,20 @@ TEST(FrameSettings, MotorCenterMovesTheSprocketsToTheRight) {
   }
 }
 
+TEST(SledsWeight, TurnsTheSprocketsByTheLawOfSines) {
+  const double weight = 110, gap = 3000, radius = 63.5 / 6.283185307;
+  const Shaped shaped({{7, 2}, {2, float(gap)}, {62, float(weight)}, {64, 50}});
+  const motion::Sprockets<float>& sprockets = shaped.geometry.sprockets();
+  for (const motion::Point<float>& place : kPlaces) {
+    const double up = double(sprockets.left.y - place.y);
+    const double left = std::atan2(up, double(place.x - sprockets.left.x));
+    const double right = std::atan2(up, double(sprockets.right.x - place.x));
+    const double pull = std::max(std::cos(left), std::cos(right)) / std::sin(left + right);
+    EXPECT_NEAR(weight * pull * radius, double(shaped.geometry.torqueAt(place)), 0.5)
+        << place.x << ", " << place.y;
+  }
+}
+
 TEST(FrameSettings, NoMoreChainIsPaidOutThanThereIs) {
   const Shaped usual({{7, 2}, {8, 139}, {10, 5000}});
   const motion::Point<float> corner = {-1000, -500};

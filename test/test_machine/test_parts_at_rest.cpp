@@ -107,6 +107,48 @@ TEST_F(MotorPowerAlone, GoesAfterARest) {
   EXPECT_FALSE(motors.areOn());
 }
 
+struct MotorPowerHighUp : MotorPowerAlone {
+  /// Whether the motors are on after a rest with the sled at 0,y.
+  bool areOnAfterARestAt(float y) {
+    hangAt(0, y);
+    EXPECT_TRUE(motors.wake());
+    board.now_ms += 2000;
+    motors.restWhenIdle(false);
+    return motors.areOn();
+  }
+};
+
+TEST_F(MotorPowerHighUp, StaysWhereTheSledPullsHarderThanFriction) {
+  keepRecord();
+  // 1.4 N m at a radius of 10.1 mm: the chains of a sled of 97.9 N pull that hard at y = 507.
+  EXPECT_FALSE(areOnAfterARestAt(500));
+  EXPECT_TRUE(areOnAfterARestAt(514));
+  values.setRow(kHoldingTorque, 1.45f);
+  motors.restWhenIdle(false);
+  EXPECT_FALSE(motors.areOn());
+}
+
+TEST_F(MotorPowerHighUp, SaysOnceThatItStays) {
+  keepRecord();
+  EXPECT_TRUE(areOnAfterARestAt(600));
+  expectSaid("The motors stay on: so high on the sheet the sled would slide ($77).");
+  board.said.clear();
+  EXPECT_TRUE(areOnAfterARestAt(590));
+  EXPECT_EQ("", board.said);
+}
+
+TEST_F(MotorPowerHighUp, GoesWhereNobodyKnowsWhatHangsOnTheChains) {
+  keepRecord();
+  hangAt(0, 600);
+  place.lose(settings::Doubt::kCounts);
+  EXPECT_TRUE(motors.wake());
+  board.now_ms += 2000;
+  motors.restWhenIdle(false);
+  EXPECT_FALSE(motors.areOn());
+}
+
+TEST_F(MotorPowerHighUp, GoesWhereMotorsAreSimulated) { EXPECT_FALSE(areOnAfterARestAt(600)); }
+
 struct ZAxisAlone : Parts {};
 
 TEST_F(ZAxisAlone, KeepsItsLimitsWithTheMachineWhenZIsDeclared) {
