@@ -80,10 +80,9 @@
       "Computed: KdVMain", "Chain motors, speed loop: derivative gain.", "") \
   ROW(kMainSpeedWeight, 28, "main_speed_weight", kReal, kAnyValue, 1, 0, 1, kLoops, \
       "", "Chain motors, speed loop: share of the proportional part that acts on the error.", "") \
-  ROW(kZPositionP, 29, "z_position_p", kReal, kAnyValue, 0, 0, 1e6f, kLoops, \
-      "Computed: KpPosZ", \
-      "Z motor, position loop: proportional gain. The published default of 0 keeps z still until a client sends " \
-      "its 1300.", "") \
+  ROW(kZPositionP, 29, "z_position_p", kReal, kAnyValue, 1300, 0, 1e6f, kLoops, \
+      "Computed: KpPosZ", "Z motor, position loop: proportional gain; with 0 z refuses to move.", \
+      "the published default is 0, and nothing watches z then") \
   ROW(kZPositionI, 30, "z_position_i", kReal, kAnyValue, 0, 0, 1e6f, kLoops, \
       "Computed: KiPosZ", "Z motor, position loop: integral gain.", "") \
   ROW(kZPositionD, 31, "z_position_d", kReal, kAnyValue, 34, 0, 1e6f, kLoops, \

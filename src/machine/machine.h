@@ -172,6 +172,7 @@ class Machine : private Waiting, private Dispatch {
   MotorPower motors_;
   Spindle spindle_;
   ZAxis z_;
+  MotionDoor door_;
   NewValues new_values_;
   SettingsLines settings_lines_;
   Coordinates coordinates_;

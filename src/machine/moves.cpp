@@ -159,13 +159,11 @@ bool Moves::queue(const motion::Path<float>& path, const Place& target, float fe
   const Place& aim = program_.aim();
   // An arrow key starts where the sled is.
   const bool is_jog = modal_.relative && modal_.motion == 0;
-  if (place_.movedBy() > 0 && !is_jog)
-    return answers_.refuseMotion(FLASH("the sled moved "), place_.movedBy(),
-                                 FLASH(" mm while its motors were off: bring it back, or begin "
-                                       "again from where it is"));
+  if (!is_jog && !door_.goesOnFromHere()) return false;
   const bool goes = path.drawn != motion::Drawn::kNoLength;
   if (!goes && target.z == aim.z) return true;
-  if (target.z != aim.z && !z_.mayMove()) return false;
+  if (target.z != aim.z && !door_.doesZFollow()) return false;
+  if (goes && !door_.doChainsFollow()) return false;
   if (feed < 0) feed = fittingFeed(path, target, -feed);
   // Nearly every path is on the sheet; to look for its cuts would cost a tenth of a short line.
   const bool queued = goes && geometry_.holds(path)

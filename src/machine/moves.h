@@ -4,6 +4,7 @@
 #include "coordinates.h"
 #include "cutter.h"
 #include "edge_cut.h"
+#include "motion_door.h"
 #include "motor_power.h"
 #include "pauses.h"
 #include "z_axis.h"
@@ -14,17 +15,17 @@ namespace machine {
 class Moves {
  public:
   Moves(const settings::Values& values, const Geometry& geometry, Planner& mover,
-        MotorPower& motors, Coordinates& coordinates, const SledPlace& place, ProgramPlace& program,
-        ZAxis& z, Cutter& cutter, Pauses& pauses, gcode::Modal& modal, Printer& out,
+        MotorPower& motors, Coordinates& coordinates, ProgramPlace& program, ZAxis& z,
+        MotionDoor& door, Cutter& cutter, Pauses& pauses, gcode::Modal& modal, Printer& out,
         Answers& answers, Waiting& waiting)
       : values_(values),
         geometry_(geometry),
         planner_(mover),
         motors_(motors),
         coordinates_(coordinates),
-        place_(place),
         program_(program),
         z_(z),
+        door_(door),
         cutter_(cutter),
         pauses_(pauses),
         modal_(modal),
@@ -70,9 +71,9 @@ class Moves {
   Planner& planner_;
   MotorPower& motors_;
   Coordinates& coordinates_;
-  const SledPlace& place_;
   ProgramPlace& program_;
   ZAxis& z_;
+  MotionDoor& door_;
   Cutter& cutter_;
   Pauses& pauses_;
   gcode::Modal& modal_;

@@ -123,7 +123,7 @@ bool OperatorLines::jogZ(const Words& words) {
   const float target =
       z_.within(modal_.targetOf(axes_.liftedTo(), words.value('Z'), coordinates_.begin(kZAxis)));
   if (!ZAxis::reaches(target)) return answers_.refuse(tooLongForZ());
-  if (!z_.mayMove() || (!motors_.areOn() && !motors_.wake())) return false;
+  if (!door_.doesZFollow() || (!motors_.areOn() && !motors_.wake())) return false;
   const float most = z_.mostFeed();
   const float asked = words.has('F') ? modal_.toMm(words.value('F')) : most;
   axes_.lift(target, (asked < most ? asked : most) / 60, z_.acceleration());

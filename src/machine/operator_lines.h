@@ -3,6 +3,7 @@
 
 #include "coordinates.h"
 #include "course.h"
+#include "motion_door.h"
 #include "motor_power.h"
 #include "z_axis.h"
 
@@ -29,14 +30,15 @@ class Dispatch {
 class OperatorLines {
  public:
   OperatorLines(Course& course, gcode::Input& input, gcode::Modal& modal, Axes& axes,
-                MotorPower& motors, ZAxis& z, const Coordinates& coordinates, Clock& clock,
-                Printer& out, Answers& answers, Dispatch& dispatch)
+                MotorPower& motors, ZAxis& z, MotionDoor& door, const Coordinates& coordinates,
+                Clock& clock, Printer& out, Answers& answers, Dispatch& dispatch)
       : course_(course),
         input_(input),
         modal_(modal),
         axes_(axes),
         motors_(motors),
         z_(z),
+        door_(door),
         coordinates_(coordinates),
         clock_(clock),
         out_(out),
@@ -78,6 +80,7 @@ class OperatorLines {
   Axes& axes_;
   MotorPower& motors_;
   ZAxis& z_;
+  MotionDoor& door_;
   const Coordinates& coordinates_;
   Clock& clock_;
   Printer& out_;

@@ -36,6 +36,7 @@ bool SingleAxis::move(Axis axis, float goal, float feed, bool until_probe) {
 bool SingleAxis::measureOut(Axis axis) {
   if (!isLength(values_.at(kExtendLength)))
     return answers_.refuseMotion(FLASH("no chain is that long ($11)"));
+  if (!door_.doChainsFollow()) return false;
   out_.line(axis == kLeftAxis ? FLASH("Measuring out left chain")
                               : FLASH("Measuring out right chain"));
   const bool completed = move(axis, values_.at(kExtendLength), 0.9f * values_.at(kGreatestFeed));
@@ -67,6 +68,7 @@ bool SingleAxis::setChainsToMarks() {
 }
 
 bool SingleAxis::moveChains(const gcode::Words& words) {
+  if (!door_.goesOnFromHere() || !door_.doChainsFollow()) return false;
   const float feed = words.value('F') > 0 ? words.value('F') : kAxisFeed;
   float goals[2];
   for (uint8_t i = 0; i < 2; ++i) {
@@ -84,6 +86,7 @@ bool SingleAxis::moveChains(const gcode::Words& words) {
 
 bool SingleAxis::goHome() {
   if (!place_.isKnown()) return answers_.refuseMotion(place_.whatIsLost());
+  if (!door_.goesOnFromHere() || !door_.doChainsFollow()) return false;
   const motion::Lengths<float> lengths = geometry_.inverse({0, 0});
   if (!lengths.reachable)
     return answers_.refuseMotion(FLASH("with these settings no sled can hang at 0,0"));
@@ -110,7 +113,7 @@ void SingleAxis::sayProbing(float target, float feed) {
 
 bool SingleAxis::probe(float target) {
   if (!z_.hasMotor()) return answers_.refuseMotion(FLASH("a probe needs a z motor ($16)"));
-  if (!z_.mayMove()) return false;
+  if (!door_.goesOnFromHere() || !door_.doesZFollow()) return false;
   if (!ZAxis::reaches(target)) return answers_.refuseMotion(tooLongForZ());
   if (!waiting_.drain()) return false;
   if (aux_.probeTouches())

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "answers.h"
+#include "motion_door.h"
 #include "motor_power.h"
 #include "sled_place.h"
 #include "waiting.h"
@@ -13,8 +14,8 @@ namespace machine {
 class SingleAxis {
  public:
   SingleAxis(const settings::Values& values, const Geometry& geometry, Axes& axes, Planner& mover,
-             MotorPower& motors, SledPlace& place, ZAxis& z, Aux& aux, const gcode::Modal& modal,
-             Printer& out, Answers& answers, Waiting& waiting)
+             MotorPower& motors, SledPlace& place, ZAxis& z, MotionDoor& door, Aux& aux,
+             const gcode::Modal& modal, Printer& out, Answers& answers, Waiting& waiting)
       : values_(values),
         geometry_(geometry),
         axes_(axes),
@@ -22,6 +23,7 @@ class SingleAxis {
         motors_(motors),
         place_(place),
         z_(z),
+        door_(door),
         aux_(aux),
         modal_(modal),
         out_(out),
@@ -57,6 +59,7 @@ class SingleAxis {
   MotorPower& motors_;
   SledPlace& place_;
   ZAxis& z_;
+  MotionDoor& door_;
   Aux& aux_;
   const gcode::Modal& modal_;
   Printer& out_;

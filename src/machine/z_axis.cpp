@@ -11,12 +11,6 @@ float ZAxis::within(float z) const {
   return z < low ? low : z;
 }
 
-bool ZAxis::mayMove() {
-  if (values_.at(kZPositionP) > 0 || axes_.isSimulated()) return true;
-  return answers_.refuseMotion(
-      FLASH("z does not follow while $29 is 0: connect your client, or send $29=1300"));
-}
-
 bool ZAxis::setLimit(bool upper) {
   const float z = axes_.length(kZAxis);
   const settings::Refusal refusal = memory_.setRow(upper ? kZUpperLimit : kZLowerLimit, z);

@@ -31,8 +31,6 @@ class ZAxis {
   float within(float z) const;
   /// Whether an axis reaches that z [mm].
   static bool reaches(float z) { return float(fabs(z)) <= kMostZ; }
-  /// Refuses to move z by a motor whose loop has no gain: it would lag without an alarm.
-  bool mayMove();
   bool setLimit(bool upper);
   bool clearLimits();
   bool showLimits();

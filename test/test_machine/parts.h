@@ -59,16 +59,17 @@ struct Parts : testing::Test, machine::Dispatch {
         motors(axes, keeper, values, place, geometry, out, waiting),
         spindle(cutter, board, out, waiting),
         z(memory, values, axes, place, modal, out, answers),
+        door(values, axes, place, answers),
         new_values(values, geometry, axes, planner, board, cutter, place, board, out),
         coordinates(memory, values, modal, place, program, out, answers),
-        operator_lines(waiting.course, input, modal, axes, motors, z, coordinates, board, out,
+        operator_lines(waiting.course, input, modal, axes, motors, z, door, coordinates, board, out,
                        answers, *this),
         pauses(operator_lines, input, modal, spindle, place, out, waiting),
-        moves(values, geometry, planner, motors, coordinates, place, program, z, cutter, pauses,
+        moves(values, geometry, planner, motors, coordinates, program, z, door, cutter, pauses,
               modal, out, answers, waiting),
         drilling(modal, coordinates, program, z, moves, answers, waiting),
-        single_axis(values, geometry, axes, planner, motors, place, z, board, modal, out, answers,
-                    waiting),
+        single_axis(values, geometry, axes, planner, motors, place, z, door, board, modal, out,
+                    answers, waiting),
         axis_tests(axes, values, out, motors, place, waiting) {
     memory.start();
     values.setRow(kKinematics, 2);
@@ -134,6 +135,7 @@ struct Parts : testing::Test, machine::Dispatch {
   machine::MotorPower motors;
   machine::Spindle spindle;
   machine::ZAxis z;
+  machine::MotionDoor door;
   machine::NewValues new_values;
   machine::Coordinates coordinates;
   machine::OperatorLines operator_lines;

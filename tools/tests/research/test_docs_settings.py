@@ -33,10 +33,15 @@ PUBLISHED = """
 30 float 0, 31 float 34, 32 float 1, 33 float 5, 34 float 0, 35 float 0.28, 36 float 1, 37 float 0,
 38 u8 1, 39 u8 3, 40 float 0, 41 float 0, 42 float 2
 """
+# With the published default nothing would watch z until a client sends its number.
+OTHER_DEFAULTS = {"29": "1300"}
 
 
 def test_published_numbers_types_and_defaults():
-    expected = [tuple(row.split()) for row in PUBLISHED.replace("\n", " ").split(",")]
+    published = [row.split() for row in PUBLISHED.replace("\n", " ").split(",")]
+    expected = [
+        (number, kind, OTHER_DEFAULTS.get(number, usual)) for number, kind, usual in published
+    ]
     listed = [
         setting
         for setting in SETTINGS.values()
