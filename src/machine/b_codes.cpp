@@ -145,7 +145,16 @@ bool Machine::simulateMotors(bool on) {
   axes_.simulate(on);
   greeting_.sayMotors(on);
   if (was_on && !on && axes_.isImagined()) place_.lose(settings::Doubt::kSimulated);
-  return true;
+  return awaitStored();
+}
+
+bool Machine::awaitStored() {
+  const uint32_t kMostMs = 4000;  // to write all settings takes 3 s
+  const uint32_t start = clock_.milliseconds();
+  return waitWhile([&] {
+    return !memory_.settingsStored() && !memory_.isWorn() &&
+           clock_.milliseconds() - start < kMostMs;
+  });
 }
 
 }  // namespace machine

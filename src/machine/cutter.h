@@ -23,6 +23,7 @@ class Cutter {
   SpindleKind kind() const { return SpindleKind(uint8_t(values_.at(kSpindle))); }
   /// Switches the spindle's pin on or off. The caller turns a servo.
   void setSpindle(bool on);
+  bool isSpindleOn() const { return is_turning_; }
   /// Whether an S word changes the speed of the turning spindle.
   bool changesSpeed(float s) const {
     return is_turning_ && kind() == SpindleKind::kPulsed && s != s_;

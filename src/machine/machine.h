@@ -147,6 +147,8 @@ class Machine : private Waiting, private Dispatch {
   /// B99: only the word ON simulates the motors.
   bool switchMotors(const char* word);
   bool simulateMotors(bool on);
+  /// Waits until the settings in force outlive a power cut; false after a stop.
+  bool awaitStored();
 
   // Each part knows the parts above it, never the parts below.
   Wire& wire_;

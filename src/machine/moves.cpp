@@ -79,7 +79,7 @@ bool Moves::moveStraight(Place target, bool across, float feed) {
   if (!z_.hasMotor() && target.z != z) {
     const float kSameDepth = 0.1f;  // [mm]
     const bool asks = float(fabs(target.z - z)) > kSameDepth;
-    if (asks && !pauses_.setZByHand(target.z)) return false;
+    if (asks && !pauses_.setZByHand(target.z, target.z < coordinates_.begin(kZAxis))) return false;
     target.z = program_.aim().z;
   }
   const Place from = program_.counted();

@@ -28,16 +28,18 @@ bool Pauses::changeTool(uint16_t tool) {
   return true;
 }
 
-bool Pauses::setZByHand(float z) {
+bool Pauses::setZByHand(float z, bool into_work) {
   const bool inches = modal_.inches;
-  if (!waiting_.drain() || !waiting_.untilRunning()) return false;
+  if (!waiting_.drain()) return false;
+  const bool stands_meanwhile = spindle_.isOn() && !into_work;
+  if ((stands_meanwhile && !spindle_.turn(false)) || !waiting_.untilRunning()) return false;
   const float shown = modal_.fromMm(z);
   out_ << FLASH("Message: Please adjust Z-Axis to a depth of ");
   if (shown > 0) out_ << '+';
   out_.fixed(shown, 2).line(inches ? FLASH(" in") : FLASH(" mm"));
   if (!pause()) return false;
   place_.declareZ(z);
-  return waiting_.waitFor(1000);
+  return stands_meanwhile ? spindle_.turn(true) : waiting_.waitFor(1000);
 }
 
 }  // namespace machine

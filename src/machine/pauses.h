@@ -24,8 +24,9 @@ class Pauses {
   bool pauseAfterMoves();
   /// M6.
   bool changeTool(uint16_t tool);
-  /// Asks the operator to bring z to a height [mm]; afterwards z counts as there.
-  bool setZByHand(float z);
+  /// Asks the operator to bring z to a height [mm]; afterwards z counts as there. The spindle
+  /// stands meanwhile, unless the bit goes into the work.
+  bool setZByHand(float z, bool into_work);
 
  private:
   bool pause();

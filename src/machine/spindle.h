@@ -17,6 +17,7 @@ class Spindle {
 
   /// Returns when the spindle has gained or lost its speed.
   bool turn(bool on);
+  bool isOn() const { return cutter_.isSpindleOn(); }
   /// Takes an S word; waits for queued moves where the speed of a turning spindle changes.
   bool takeS(const gcode::Words& words);
   /// M106 and M107.
