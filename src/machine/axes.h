@@ -83,6 +83,8 @@ class Axes {
   void driveOpen(Axis axis, int16_t duty);
   void turn(Axis axis, float rpm);
   bool isPowered() const;
+  /// Whether an axis is held to its set-points.
+  bool isFollowing(Axis axis) const { return axis_[axis].mode() == AxisMode::kFollow; }
   /// Whether an encoder counted more than an edge at the last tick.
   bool isTurning() const;
   /// Whether a motor runs without its position loop.

@@ -4,6 +4,11 @@
 #include <math.h>
 
 namespace machine {
+namespace {
+
+const uint32_t kNearPatience = 500;  // [ms] for a motor without gains, which never comes nearer
+
+}  // namespace
 
 bool Waiting::waitFor(uint32_t ms) {
   const uint32_t start = clock_.milliseconds();
@@ -25,21 +30,26 @@ bool Waiting::drain() {
 }
 
 void Waiting::settle() {
-  const float kNear = 0.012f;      // [mm]
-  const uint32_t kPatience = 500;  // [ms] for a motor without gains, which never comes nearer
   const uint32_t start = clock_.milliseconds();
-  waitWhile([&] {
-    if (clock_.milliseconds() - start >= kPatience) return false;
-    for (uint8_t i = 0; i < kAxisCount; ++i)
-      if (!(float(fabs(axes_.error(Axis(i)))) < kNear)) return true;
-    return false;
-  });
+  waitWhile([&] { return !areNear(true) && clock_.milliseconds() - start < kNearPatience; });
+}
+
+bool Waiting::areNear(bool all) const {
+  const float kNear = 0.012f;  // [mm]
+  for (uint8_t i = 0; i < kAxisCount; ++i) {
+    if (!all && !axes_.isFollowing(Axis(i))) continue;
+    if (!(float(fabs(axes_.error(Axis(i)))) < kNear)) return false;
+  }
+  return true;
 }
 
 void Waiting::awaitStandstill() {
   const uint32_t kPatience = 1000;  // [ms] somebody may turn a sprocket by hand
   const uint32_t start = clock_.milliseconds();
-  while (axes_.isTurning() && clock_.milliseconds() - start < kPatience) pass();
+  const auto hasPassed = [&](uint32_t ms) { return clock_.milliseconds() - start >= ms; };
+  while ((axes_.isTurning() && !hasPassed(kPatience)) ||
+         (!areNear(false) && !hasPassed(kNearPatience)))
+    pass();
 }
 
 }  // namespace machine

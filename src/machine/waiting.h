@@ -46,7 +46,8 @@ class Waiting {
   bool drain();
   /// Waits until all axes are near their set-points, but not for ever.
   void settle();
-  /// Until no motor turns, also without power; but not for ever.
+  /// Until no motor turns, also without power, and all axes that follow are near their set-points;
+  /// but not for ever. Also in a stop: an encoder that was lost on the way is noticed here.
   void awaitStandstill();
 
  protected:
@@ -57,6 +58,9 @@ class Waiting {
   bool dwelling_ = false;
 
  private:
+  /// Whether all axes, or those that follow, are near their set-points.
+  bool areNear(bool all) const;
+
   const Planner& planner_;
   const Course& course_;
 };
