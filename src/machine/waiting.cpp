@@ -7,6 +7,7 @@ namespace machine {
 namespace {
 
 const uint32_t kNearPatience = 500;  // [ms] for a motor without gains, which never comes nearer
+const uint32_t kStopPatience = 200;  // [ms] meanwhile a motor without its encoder may run
 
 }  // namespace
 
@@ -45,11 +46,16 @@ bool Waiting::areNear(bool all) const {
 
 void Waiting::awaitStandstill() {
   const uint32_t kPatience = 1000;  // [ms] somebody may turn a sprocket by hand
+  const uint32_t kStill = 20;       // [ms] a tick that came late is followed by one without counts
   const uint32_t start = clock_.milliseconds();
-  const auto hasPassed = [&](uint32_t ms) { return clock_.milliseconds() - start >= ms; };
-  while ((axes_.isTurning() && !hasPassed(kPatience)) ||
-         (!areNear(false) && !hasPassed(kNearPatience)))
+  uint32_t went = start, now = start;
+  while (now - went < kStill) {
     pass();
+    now = clock_.milliseconds();
+    const bool goes = (axes_.isTurning() && now - start < kPatience) ||
+                      (!areNear(false) && now - start < kStopPatience);
+    if (goes) went = now;
+  }
 }
 
 }  // namespace machine

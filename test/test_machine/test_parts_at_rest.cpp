@@ -56,6 +56,18 @@ TEST_F(WaitingAlone, HasPatienceOfHalfASecondForAnAxisThatNeverComes) {
   EXPECT_EQ(500, waiting.rounds);
 }
 
+TEST_F(WaitingAlone, StandsStillOnceAxesThatFollowAreNearTheirSetPointsAlsoInAStop) {
+  axes.simulate(false);
+  axes.jumpTo(kLeftAxis, axes.length(kLeftAxis) + 1);
+  waiting.stop();
+  waiting.awaitStandstill();
+  EXPECT_EQ(20, waiting.rounds) << "an axis without power goes nowhere";
+  axes.follow();
+  waiting.rounds = 0;
+  waiting.awaitStandstill();
+  EXPECT_EQ(219, waiting.rounds) << "its encoder shows nothing";
+}
+
 TEST_F(WaitingAlone, GoesOnAfterTheLastSetPointUntilTheMotorsAreThere) {
   axes.simulate(false);
   EXPECT_TRUE(moves.move(0, words("G0 Z-0.1")));
