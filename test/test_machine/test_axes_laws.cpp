@@ -97,6 +97,17 @@ TEST(AxesImagination, StaysKnownUntilMotorsRunForReal) {
   EXPECT_FALSE(driven.axes.isImagined()) << "begun again";
 }
 
+TEST(AxesImagination, BeginsWithMotionAndNotWithPower) {
+  Driven driven;
+  driven.axes.simulate(true);
+  driven.axes.follow();
+  driven.ticks(3);
+  EXPECT_FALSE(driven.axes.isImagined());
+  driven.axes.jumpTo(kLeftAxis, 1);
+  driven.ticks(1);
+  EXPECT_TRUE(driven.axes.isImagined());
+}
+
 TEST(AxesImagination, AHeightThatIsDeclaredMeanwhileIsNotThatOfTheRealZ) {
   Driven driven;
   driven.axes.simulate(true);

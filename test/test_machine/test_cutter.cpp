@@ -38,7 +38,7 @@ TEST(Laser, CutsInG1ToG3OfWhatItIsArmedFor) {
   EXPECT_EQ(0, bench.cutter.beamOf(1));
   bench.cutter.setFull();
   bench.cutter.arm(true);
-  EXPECT_EQ(0, bench.cutter.beamOf(0));
+  for (const uint8_t motion : {0, 4, 80, 81, 255}) EXPECT_EQ(0, bench.cutter.beamOf(motion));
   for (const uint8_t motion : {1, 2, 3}) EXPECT_EQ(255, bench.cutter.beamOf(motion));
   bench.cutter.takeS(100);
   EXPECT_EQ(100, bench.cutter.beamOf(1));
@@ -63,6 +63,8 @@ TEST(Laser, ShowsTheBeamOrAllOfIt) {
     EXPECT_EQ(bench == &plain ? 255 : 40, bench->laser());
     bench->cutter.show(0);
     EXPECT_EQ(0, bench->laser());
+    bench->cutter.show(1);
+    EXPECT_EQ(bench == &plain ? 255 : 1, bench->laser()) << "the weakest beam after none";
   }
 }
 

@@ -161,6 +161,16 @@ TEST_F(MotorPowerHighUp, GoesWhereNobodyKnowsWhatHangsOnTheChains) {
 
 TEST_F(MotorPowerHighUp, GoesWhereMotorsAreSimulated) { EXPECT_FALSE(areOnAfterARestAt(600)); }
 
+TEST_F(MotorPowerAlone, WaitsForTheRecordForASecondWheneverThatIs) {
+  board.now_ms = 5000;
+  keeper.declareChains();
+  axes.simulate(false);
+  motors.wake();
+  const int before = waiting.rounds;
+  EXPECT_TRUE(motors.awaitRecord()) << "it never comes, as motors have power";
+  EXPECT_NEAR(1000, waiting.rounds - before, 2);
+}
+
 struct ZAxisAlone : Parts {};
 
 TEST_F(ZAxisAlone, KeepsItsLimitsWithTheMachineWhenZIsDeclared) {
@@ -294,6 +304,15 @@ TEST_F(OperatorAlone, EndsAPauseThatItsResumeCameBefore) {
   EXPECT_TRUE(pauses.pauseAfterMoves());
   EXPECT_LT(waiting.rounds, 5);
   EXPECT_FALSE(pauses.pauseAfterMoves()) << "it counts once";
+}
+
+TEST_F(OperatorAlone, IsNotAskedForAHeightAfterAStop) {
+  EXPECT_TRUE(moves.move(0, words("G0 X30")));
+  waiting.in_each_round = [&] {
+    if (waiting.rounds == 50) waiting.stop();
+  };
+  EXPECT_FALSE(pauses.setZByHand(2));
+  EXPECT_EQ("", board.said);
 }
 
 TEST_F(OperatorAlone, SetsZByHandWhereThereIsNoMotor) {

@@ -77,6 +77,16 @@ TEST_F(PlaceAlone, IsLookedForWhereAChainWasPulledAtRest) {
   }
 }
 
+TEST_F(PlaceAlone, NothingIsOnItsWayOnceItIsLost) {
+  EXPECT_TRUE(moves.move(0, words("G0 X30")));
+  waiting.waitFor(300);
+  axes.simulate(false);
+  EXPECT_FALSE(axes.isEmpty());
+  place.lose(settings::Doubt::kSimulated);
+  EXPECT_TRUE(axes.isEmpty());
+  EXPECT_NEAR(0, place.farthestOff(), 0.001);
+}
+
 TEST_F(PlaceAlone, IsSaidWhereSomebodyAskedForItOrBroughtTheChainsThere) {
   const Search said[] = {Search::kStart, Search::kDeclared, Search::kCentred, Search::kStopped,
                          Search::kNewSettings};
@@ -131,6 +141,19 @@ TEST_F(PlaceAlone, BelongsWhereItIsSaidToBe) {
   EXPECT_FLOAT_EQ(moved, place.movedBy()) << "nobody has said that it belongs there";
   place.search(Search::kStopped);
   EXPECT_FLOAT_EQ(0, place.movedBy());
+}
+
+TEST_F(PlaceAlone, IsSaidToHaveMovedByTheWayFromWhereItWasLeft) {
+  hangAt(300, 200);
+  axes.simulate(false);
+  waiting.in_each_round = [&] { place.keepWhenAtRest(board.now_ms); };
+  waiting.waitFor(1000);
+  const Place left = program.aim();
+  board.counted[kLeftAxis] = uint16_t(board.counted[kLeftAxis] + 1280);
+  waiting.waitFor(1000);
+  const Place is = program.aim();
+  EXPECT_GT(place.movedBy(), 2);
+  EXPECT_NEAR(std::hypot(is.x - left.x, is.y - left.y), place.movedBy(), 0.01);
 }
 
 TEST_F(PlaceAlone, StandsWhereItWasFoundAtTheHeightOfNow) {
