@@ -5,7 +5,7 @@
 
 #include "mega/virtual_board.h"
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   if (argc != 2 && argc != 3) return 2;
   vm::VirtualBoard board(argv[1]);
   board.setPin(2, true);
@@ -17,4 +17,7 @@ int main(int argc, char** argv) {
   board.runMs(argc == 3 ? std::atoi(argv[2]) : 60);
   for (const std::string& line : board.lines) std::printf("%s\n", line.c_str());
   return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "check_board: %s\n", error.what());
+  return 2;
 }

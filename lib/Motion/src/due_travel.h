@@ -77,7 +77,8 @@ class DueTravel {
   int16_t& needed() { return needed_[forward_]; }
 
   int16_t threshold() {
-    const int16_t duty = needed() / kScale;
+    // Never below zero: then a division is a shift.
+    const uint16_t duty = uint16_t(needed()) / kScale;
     const int16_t with_margin = int16_t(duty + duty / 8 + kMargin);
     return with_margin < kMostNeeded ? with_margin : int16_t(kMostNeeded);
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdarg>
+#include <cstdio>
 #include <fstream>
 
 namespace vm {
@@ -80,6 +81,28 @@ avr_uart_t* serialLineOf(avr_t* avr) {
   throw std::runtime_error("simavr has no serial line");
 }
 
+/// Whether an instruction may skip the next: SBRC, SBRS, CPSE, SBIC or SBIS.
+bool isSkip(uint16_t code) {
+  const uint16_t top = code & 0xff00;
+  return (code & 0xfc08) == 0xfc00 || (code & 0xfc00) == 0x1000 || top == 0x9900 || top == 0x9b00;
+}
+
+/// simavr takes some ADIW and SBIW for a call of two words, and skips the word behind them too. A
+/// program that has such a place behind a skip would run otherwise than on a Mega.
+void refuseWhatIsSkippedTooFar(const avr_t* avr, uint32_t size) {
+  const auto word = [&](uint32_t at) { return uint16_t(avr->flash[at] | avr->flash[at + 1] << 8); };
+  const uint16_t kJump = 0x940c;
+  // Before the code that a reset jumps to there are vectors and tables.
+  for (uint32_t at = word(0) == kJump ? 2u * word(2) : 0; at + 4 <= size; at += 2) {
+    const uint16_t next = word(at + 2);
+    const bool adds = (next & 0xfe00) == 0x9600, taken_for_call = (next & 0x000c) == 0x000c;
+    if (!isSkip(word(at)) || !adds || !taken_for_call) continue;
+    char place[80];
+    std::snprintf(place, sizeof place, "simavr would skip two words at 0x%x: write that line", at);
+    throw std::runtime_error(std::string(place) + " so that no ADIW or SBIW is behind the skip");
+  }
+}
+
 /// simavr prints what it loads and what it lacks on standard output.
 void logNothing(avr_t*, const int, const char*, va_list) {}
 
@@ -100,6 +123,7 @@ VirtualBoard::VirtualBoard(const std::string& elf) {
   avr_->frequency = kClock;
   setSupply(5);
   avr_load_firmware(avr_, &firmware);
+  refuseWhatIsSkippedTooFar(avr_, firmware.flashsize);
   for (uint16_t mask = kFirstTimerMask; mask <= kLastTimerMask; ++mask)
     avr_register_io_write(avr_, mask, onTimerMask, this);
   avr_->custom.data = this;
