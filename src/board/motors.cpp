@@ -68,9 +68,13 @@ void Motors::begin(const Shield* shield) {
 void Motors::put(Axis axis, const Levels& levels) {
   const Channel& channel = channel_[axis];
   Levels& shown = shown_[axis];
-  if (hasEnable(channel) && levels.enable != shown.enable) putLevel(channel.enable, levels.enable);
+  // Less power comes before a new direction, more power after it: else the motor is driven the old
+  // way for a moment.
+  const bool has_enable = hasEnable(channel);
+  if (has_enable && levels.enable < shown.enable) putLevel(channel.enable, levels.enable);
   if (levels.input1 != shown.input1) putLevel(channel.input1, levels.input1);
   if (levels.input2 != shown.input2) putLevel(channel.input2, levels.input2);
+  if (has_enable && levels.enable > shown.enable) putLevel(channel.enable, levels.enable);
   shown = levels;
 }
 
