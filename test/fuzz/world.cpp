@@ -132,12 +132,13 @@ class World : public Wire, public Drives, public Aux, public Clock {
 
  private:
   /// Between two lines of the program, at rest, the next move begins at the height where z is. From
-  /// a height beyond all travel, which an EEPROM may claim, no move begins.
+  /// a height beyond all travel, which an EEPROM may claim, no move begins, nor before a stop ends.
   void checkRest() const {
     const float kHair = 0.01f;  // [mm]
     const Axes& axes = machine_->axes();
-    const float z = machine_->place().aim().z;
+    const float z = machine_->program().aim().z;
     if (!answers_.isIdle() || !machine_->planner().isIdle() || !axes.isEmpty()) return;
+    if (machine_->course().isStopping()) return;
     must(std::fabs(axes.target(kZAxis) - z) < kHair || std::fabs(z) > kMostTravel,
          "the next move of z begins elsewhere");
   }
