@@ -18,8 +18,8 @@ HEADER = (
 )
 INTRODUCTION = """# How often the closed loop finds what is hidden
 
-Written by `tools/research/games.py --matrix --keep games.jsonl --write docs/matrix.md`. Run it to see
-the same with other machines (`--seed`); a run that is stopped goes on where it was.
+Written by `tools/research/games.py --matrix --keep games.jsonl --write docs/matrix.md`. Run it to
+see the same with other machines (`--seed`); a run that is stopped goes on where it was.
 
 Each game hides something in [a virtual machine](commands/vm.md): firmware, motors, exact mechanics.
 Friction of 3 N, play in the gears, a frame and a sheet that are off by a few millimetres are on all

@@ -65,42 +65,46 @@ class Command(Protocol):
 
 
 # In the order of `plumb --help`. To add a command, write its two files and give it a line.
+GROUPS: Mapping[str, Mapping[str, Command]] = {
+    "first day": {"guide": guide, "lab": lab, "flash": flash, "reach": reach},
+    "calibrate": {
+        "grid": grid,
+        "preview": preview,
+        "calibrate": calibrate,
+        "compare": compare,
+        "diagnose": diagnose,
+        "next": next_measurement,
+        "add": add,
+        "settings": settings,
+        "report": report,
+    },
+    "job": {"check": check, "send": send, "resume": resume},
+    "trouble": {
+        "read": read,
+        "recheck": recheck,
+        "home": home,
+        "slip": slip,
+        "gap": gap,
+        "diary": diary,
+        "telemetry": telemetry,
+    },
+    "engineers": {
+        "vm": vm,
+        "practice": practice,
+        "effects": effects,
+        "inverse": inverse,
+        "forward": forward,
+        "bench": bench,
+    },
+}
 COMMANDS: Mapping[str, Command] = {
-    "guide": guide,
-    "lab": lab,
-    "grid": grid,
-    "preview": preview,
-    "calibrate": calibrate,
-    "compare": compare,
-    "diagnose": diagnose,
-    "next": next_measurement,
-    "add": add,
-    "report": report,
-    "check": check,
-    "send": send,
-    "resume": resume,
-    "read": read,
-    "gap": gap,
-    "home": home,
-    "slip": slip,
-    "diary": diary,
-    "recheck": recheck,
-    "flash": flash,
-    "vm": vm,
-    "practice": practice,
-    "effects": effects,
-    "telemetry": telemetry,
-    "bench": bench,
-    "inverse": inverse,
-    "forward": forward,
-    "settings": settings,
-    "reach": reach,
+    name: command for group in GROUPS.values() for name, command in group.items()
 }
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command and return its exit code."""
-    words = sys.argv[1:] if arguments is None else arguments
+    words = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
     return ended(lambda: _run(words), name="plumb", as_json="--json" in words)
 
 
@@ -118,13 +122,17 @@ def _run(arguments: Sequence[str]) -> int:
 
 def build_parser() -> Parser:
     """The parser of all commands."""
-    parser = Parser(prog="plumb", description=DESCRIPTION, epilog=EPILOG, allow_abbrev=False)
+    parser = Parser(
+        prog="plumb",
+        description=DESCRIPTION,
+        epilog=EPILOG,
+        allow_abbrev=False,
+        groups={title: list(group) for title, group in GROUPS.items()},
+    )
     parser.add_argument("--version", action=Version, help="show the version and exit")
     completion = "print what lets a shell complete commands; see docs/README.md"
     parser.add_argument("--completion", action=Completion, help=completion)
-    commands = parser.add_subparsers(
-        metavar="COMMAND", required=True, title="commands", dest="command"
-    )
+    commands = parser.add_subparsers(metavar="COMMAND", required=True, dest="command")
     for name, command in COMMANDS.items():
         subparser = commands.add_parser(
             name,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from difflib import get_close_matches
 from importlib import import_module
 from typing import Any, NoReturn
@@ -16,12 +16,39 @@ FILES = ("SETTINGS", "JOB", "MARKS", "PLAN", "FILE", "INI", "LOG")
 
 
 class Parser(argparse.ArgumentParser):
-    """Complains like every other refusal, and knows the nearest word for a wrong word."""
+    """Complains like every other refusal, and knows the nearest word for a wrong word.
 
-    def __init__(self, *arguments: Any, **named: Any) -> None:
+    groups: titles for the help, each with the names of its commands.
+    """
+
+    def __init__(
+        self, *arguments: Any, groups: Mapping[str, Sequence[str]] | None = None, **named: Any
+    ) -> None:
         super().__init__(*arguments, **named)
+        self.groups = groups or {}
         # No option begins with a digit, so what does is a value: -650,-7 as well as -650.
         self._negative_number_matcher = re.compile(r"-\.?\d")
+
+    def format_help(self) -> str:
+        """The help, with the commands in their groups."""
+        if not self.groups:
+            return super().format_help()
+        formatter = self._get_formatter()
+        formatter.add_usage(self.usage, self._actions, self._mutually_exclusive_groups)
+        formatter.add_text(self.description)
+        commands = next(a for a in self._actions if isinstance(a, argparse._SubParsersAction))
+        helps = {each.dest: each for each in commands._choices_actions}
+        known = {name for names in self.groups.values() for name in names}
+        others = [name for name in helps if name not in known]
+        for title, names in {**self.groups, "others": others}.items():
+            formatter.start_section(title)
+            formatter.add_arguments([helps[name] for name in names if name in helps])
+            formatter.end_section()
+        formatter.start_section("options")
+        formatter.add_arguments(action for action in self._actions if action is not commands)
+        formatter.end_section()
+        formatter.add_text(self.epilog)
+        return formatter.format_help()
 
     def error(self, message: str) -> NoReturn:
         """Refuse the command line."""

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from plumb.cli import main
-from plumb.cli.main import COMMANDS, build_parser
+from plumb.cli.main import COMMANDS, GROUPS, build_parser
 
 FOLDER = Path(main.__file__).parent
 # Files of the room that are no commands.
@@ -58,8 +58,16 @@ def test_a_command_has_its_two_files_and_its_four_names(name):
 
 def test_help_lists_the_commands_in_the_order_of_the_table():
     lines = build_parser().format_help().splitlines()
-    listed = [line.split()[0] for line in lines if line.startswith("    ") and line[4:5].isalpha()]
+    listed = [line.split()[0] for line in lines if line.startswith("  ") and line[2:3].isalpha()]
     assert listed == [*COMMANDS]
+    titles = [line[:-1] for line in lines if line.endswith(":") and not line.startswith("usage")]
+    assert titles == [*GROUPS, "options"]
+
+
+def test_plumb_alone_shows_the_help(run, capsys):
+    with pytest.raises(SystemExit) as end:
+        run()
+    assert end.value.code == 0 and "first day:" in capsys.readouterr().out
 
 
 def test_help_and_refusals_of_words_load_no_numerics():
