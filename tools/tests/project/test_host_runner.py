@@ -4,8 +4,9 @@ import importlib.util
 from pathlib import Path
 
 import pytest
+from platformio.test import result
 from platformio.test.exception import UnitTestError
-from platformio.test.result import TestCase, TestStatus, TestSuite
+from platformio.test.result import TestStatus
 from platformio.test.runners.googletest import GoogletestTestRunner
 
 RUNNER = Path(__file__).resolve().parents[3] / "test/test_custom_runner.py"
@@ -25,8 +26,8 @@ def suite_that(monkeypatch):
 
         monkeypatch.setattr(GoogletestTestRunner, "stage_testing", stage_testing)
         runner = module.CustomTestRunner.__new__(module.CustomTestRunner)
-        runner.test_suite = TestSuite("native", "test_gcode")
-        runner.test_suite.add_case(TestCase("Input.GivesLines", status))
+        runner.test_suite = result.TestSuite("native", "test_gcode")
+        runner.test_suite.add_case(result.TestCase("Input.GivesLines", status))
         runner.stage_testing()
 
     return end
