@@ -2,8 +2,11 @@
 ; written by tools/bench/run --deepest. What comes back does not matter here.
 ~~ include every_effect.inc
 ~~ stack
-~~ stream 40 0.3
--> G1 X2.1111111111 Y1.11111111111 F700
--> G54 G80
--> $42=2000
+~~ wait 0.1
+~~ stream 40 z 0.3
+~~ wait 0.02
+~~ wait 0
+~~ stream 40 round 0.3
+~~ stream 40 z 0.3
+~~ wait 0.1
 ~~ wait 1

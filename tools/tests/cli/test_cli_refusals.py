@@ -10,7 +10,6 @@ from synthetic import BELIEVED
 BOARD = [str(SETTINGS), str(MARKS)]
 EFFECTS = ["--effect", "chain_pitch", "chain_sag"]
 BAD = [
-    ("no command", [], "COMMAND"),
     ("unknown command", ["diagnoze"], "there is no command 'diagnoze'; did you mean diagnose?"),
     ("no marks", ["compare", SETTINGS], "MARKS"),
     ("unknown option", ["effects", "--colour"], "there is no option --colour"),

@@ -6,7 +6,6 @@ from pathlib import Path
 import pytest
 from platformio.test import result
 from platformio.test.exception import UnitTestError
-from platformio.test.result import TestStatus
 from platformio.test.runners.googletest import GoogletestTestRunner
 
 RUNNER = Path(__file__).resolve().parents[3] / "test/test_custom_runner.py"
@@ -34,14 +33,14 @@ def suite_that(monkeypatch):
 
 
 def test_exit_code_1_after_a_test_that_fell_is_no_signal(suite_that):
-    suite_that(TestStatus.FAILED, HANGUP)
+    suite_that(result.TestStatus.FAILED, HANGUP)
 
 
 @pytest.mark.parametrize(
     ("status", "error"),
     [
-        (TestStatus.PASSED, HANGUP),
-        (TestStatus.FAILED, "Program received signal SIGSEGV (Segmentation fault)"),
+        (result.TestStatus.PASSED, HANGUP),
+        (result.TestStatus.FAILED, "Program received signal SIGSEGV (Segmentation fault)"),
     ],
 )
 def test_any_other_end_is_an_error(suite_that, status, error):
