@@ -77,6 +77,13 @@ TEST_F(WaitingAlone, GoesOnAfterTheLastSetPointUntilTheMotorsAreThere) {
   EXPECT_NEAR(500, rounds_still, 2);
 }
 
+TEST_F(WaitingAlone, DoesNotDrainWhatDoesNotMove) {
+  axes.simulate(false);
+  axes.jumpTo(kLeftAxis, axes.length(kLeftAxis) + 1);
+  EXPECT_TRUE(waiting.drain());
+  EXPECT_EQ(0, waiting.rounds) << "a motor without power never comes nearer";
+}
+
 struct MotorPowerAlone : Parts {
   /// As after a rest: the EEPROM holds a record that motion makes invalid.
   void keepRecord() {
@@ -306,12 +313,21 @@ TEST_F(OperatorAlone, EndsAPauseThatItsResumeCameBefore) {
   EXPECT_FALSE(pauses.pauseAfterMoves()) << "it counts once";
 }
 
+TEST_F(OperatorAlone, MeetsNoPauseWhereAStopEndsTheMovesBeforeIt) {
+  EXPECT_TRUE(moves.move(0, words("G0 X30")));
+  waiting.in_each_round = [&] {
+    if (waiting.rounds == 50) waiting.stop();
+  };
+  EXPECT_FALSE(pauses.pauseAfterMoves());
+  EXPECT_EQ("", board.said);
+}
+
 TEST_F(OperatorAlone, IsNotAskedForAHeightAfterAStop) {
   EXPECT_TRUE(moves.move(0, words("G0 X30")));
   waiting.in_each_round = [&] {
     if (waiting.rounds == 50) waiting.stop();
   };
-  EXPECT_FALSE(pauses.setZByHand(2));
+  EXPECT_FALSE(pauses.setZByHand(2, false));
   EXPECT_EQ("", board.said);
 }
 
@@ -325,6 +341,19 @@ TEST_F(OperatorAlone, SetsZByHandWhereThereIsNoMotor) {
   expectSaid("Please adjust Z-Axis to a depth of -3.00 mm");
   EXPECT_NEAR(-3, axes.length(kZAxis), 1e-3);
   EXPECT_FALSE(waiting.isMoving());
+}
+
+TEST_F(OperatorAlone, IsAskedForAHeightWithItsSign) {
+  waiting.in_each_round = [&] {
+    operator_lines.serve();
+    if (waiting.course.is(State::kPaused)) operator_lines.resume();
+  };
+  for (const auto& [height, shown] :
+       {std::pair<float, const char*>{0.5f, "+0.50 mm"}, {-0.5f, "-0.50 mm"}, {0, " 0.00 mm"}}) {
+    board.said.clear();
+    EXPECT_TRUE(pauses.setZByHand(height, false));
+    expectSaid(shown);
+  }
 }
 
 TEST(YieldNotice, ComesOnceInAMotionThatYieldsForASecond) {
