@@ -1,6 +1,8 @@
 // What drives the motors, and what a declaration of a length leaves of it.
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "board_at_rest.h"
 #include "machine/axes.h"
 #include "settings_flash.h"
@@ -124,6 +126,28 @@ TEST(AxesLengths, ADeclaredHeightEndsALift) {
   EXPECT_FALSE(powered.axes.isLifted());
   powered.ticks(20);
   EXPECT_FLOAT_EQ(3, powered.axes.target(kZAxis));
+}
+
+TEST(AxesLengths, AWayThatIsForgottenEndsALift) {
+  const std::function<void(Axes&)> forgetters[] = {
+      [](Axes& axes) { axes.dropSetPoints(); },
+      [](Axes& axes) { axes.standStill(); },
+      [](Axes& axes) { axes.jumpTo(kLeftAxis, 1); },
+  };
+  for (const auto& forget : forgetters) {
+    Powered powered;
+    powered.axes.simulate(true);
+    powered.axes.follow();
+    powered.axes.lift(8, 5, 50);
+    powered.ticks(20);
+    const float height = powered.axes.target(kZAxis);
+    EXPECT_GT(height, 0.1f);
+    forget(powered.axes);
+    EXPECT_FALSE(powered.axes.isLifted());
+    EXPECT_NEAR(height, powered.axes.plannedZ(), 0.001) << "z is where it is planned to be";
+    powered.ticks(20);
+    EXPECT_NEAR(height, powered.axes.target(kZAxis), 0.001) << "it goes no farther";
+  }
 }
 
 TEST(AxesLengths, StepsThatTheEncodersMissedBeforeTheyWereArrangedDoNotCount) {
