@@ -1,4 +1,4 @@
-// Answers, waits, power, z, spindle, pauses and the operator, each without the rest of the
+// Answers, power, z, spindle, pauses and the operator, each without the rest of the
 // machine.
 #include "machine/reports.h"
 #include "machine/telemetry.h"
@@ -32,56 +32,6 @@ TEST_F(AnswersAlone, RefuseWithoutAHalt) {
   EXPECT_EQ("error: Invalid statement\r\n", board.said);
   EXPECT_TRUE(answers.isAnswered());
   EXPECT_FALSE(answers.mustHalt());
-}
-
-struct WaitingAlone : Parts {};
-
-TEST_F(WaitingAlone, LastsItsTimeAndEndsAtOnceAfterAStop) {
-  EXPECT_TRUE(waiting.waitFor(50));
-  EXPECT_EQ(50, waiting.rounds);
-  waiting.in_each_round = [&] {
-    if (waiting.rounds == 60) waiting.stop();
-  };
-  EXPECT_FALSE(waiting.waitFor(50));
-  EXPECT_EQ(60, waiting.rounds);
-  EXPECT_FALSE(waiting.drain());
-  EXPECT_FALSE(waiting.waitWhile([] { return true; }));
-  EXPECT_EQ(60, waiting.rounds);
-}
-
-TEST_F(WaitingAlone, HasPatienceOfHalfASecondForAnAxisThatNeverComes) {
-  axes.simulate(false);
-  axes.jumpTo(kLeftAxis, axes.length(kLeftAxis) + 1);
-  waiting.settle();
-  EXPECT_EQ(500, waiting.rounds);
-}
-
-TEST_F(WaitingAlone, StandsStillOnceAxesThatFollowAreNearTheirSetPointsAlsoInAStop) {
-  axes.simulate(false);
-  axes.jumpTo(kLeftAxis, axes.length(kLeftAxis) + 1);
-  waiting.stop();
-  waiting.awaitStandstill();
-  EXPECT_EQ(20, waiting.rounds) << "an axis without power goes nowhere";
-  axes.follow();
-  waiting.rounds = 0;
-  waiting.awaitStandstill();
-  EXPECT_EQ(219, waiting.rounds) << "its encoder shows nothing";
-}
-
-TEST_F(WaitingAlone, GoesOnAfterTheLastSetPointUntilTheMotorsAreThere) {
-  axes.simulate(false);
-  EXPECT_TRUE(moves.move(0, words("G0 Z-0.1")));
-  int rounds_still = 0;
-  waiting.in_each_round = [&] { rounds_still += !waiting.isMoving(); };
-  EXPECT_TRUE(waiting.drain());
-  EXPECT_NEAR(500, rounds_still, 2);
-}
-
-TEST_F(WaitingAlone, DoesNotDrainWhatDoesNotMove) {
-  axes.simulate(false);
-  axes.jumpTo(kLeftAxis, axes.length(kLeftAxis) + 1);
-  EXPECT_TRUE(waiting.drain());
-  EXPECT_EQ(0, waiting.rounds) << "a motor without power never comes nearer";
 }
 
 struct MotorPowerAlone : Parts {
