@@ -114,6 +114,9 @@ SCREENS = ("steps", "bench", "practice")
 LIST_OF_SCREENS = "tools/lab/src/shell/steps.ts"
 SCRIPT_IMPORT = re.compile(r"^\s*(?:import|export)\b[^;]*?[\"']([^\"']+)[\"']", re.MULTILINE)
 
+# Its scripts import the package, which is installed without them.
+RESEARCH = "tools/research"
+
 # What tools/calibration_grid.py runs without an installation.
 STANDARD_LIBRARY_ONLY = ("tools/plumb/grid", "tools/plumb/text/readers.py")
 # The judge shares nothing with the model, so only the bench may ask it; only the virtual machine's
@@ -123,6 +126,7 @@ ONLY = {"_dry_run": "jobs", "_judge": "bench", "_vm": "vm"}
 
 def violations(root: Path) -> Iterator[str]:
     """Each forbidden include and import, one line each."""
+    research = {"research", *(script.stem for script in (root / RESEARCH).glob("*.py"))}
     for path in tree.own_files(root):
         name = path.relative_to(root)
         part, rule = part_of(name)
@@ -135,6 +139,9 @@ def violations(root: Path) -> Iterator[str]:
             yield from (f"{name}:{line}: {why}" for line, why in across(path, name))
         elif name.is_relative_to(PACKAGE) and path.suffix == ".py":
             yield from (f"{name}:{line}: {why}" for line, why in upward(path, name))
+            for line, module in imports(path):
+                if module in research:
+                    yield f"{name}:{line}: imports {module} of {RESEARCH}, which nobody installs"
             if any(name.is_relative_to(place) for place in STANDARD_LIBRARY_ONLY):
                 yield from (f"{name}:{line}: {why}" for line, why in third_party(path))
                 yield from (f"{name}:{line}: {why}" for line, why in beyond_the_bare(path))

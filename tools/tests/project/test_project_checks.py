@@ -28,6 +28,7 @@ GOOD = {
     "tools/plumb/__init__.py": '"""The lab."""\n',
     "tools/plumb/model/__init__.py": '"""The model."""\n',
     "tools/plumb/model/predict.py": "from plumb import _core\nimport plumb.text.errors\n",
+    "tools/research/curves.py": "from plumb.model import predict\n",
     "tools/plumb/fit/problem.py": "from plumb.model import predict\nimport plumb.board.visits\n",
 }
 
@@ -83,6 +84,8 @@ def test_good_tree_passes(tmp_path, check):
         ("tools/plumb/model/predict.py", "import plumb.marks.read"),
         ("tools/plumb/model/predict.py", "import plumb"),
         ("tools/plumb/model/predict.py", "from . import reach"),
+        ("tools/plumb/model/predict.py", "import curves"),
+        ("tools/plumb/model/predict.py", "from research.curves import sag"),
         ("tools/plumb/attic/old.py", "import numpy"),
         ("tools/plumb/loose.py", "import numpy"),
     ],
