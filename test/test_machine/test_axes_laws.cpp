@@ -1,31 +1,13 @@
 // The axes' lengths, heights and simulated motion, and which axis makes them yield.
 #include <gtest/gtest.h>
 
-#include "board_at_rest.h"
-#include "machine/axes.h"
-#include "settings_flash.h"
+#include "prepared_axes.h"
 
 using namespace machine;
 
 namespace {
 
-/// Axes with gains, powered, on a board whose encoders stand still unless the test turns them.
-struct Driven {
-  Driven() : values(table, room) {
-    values.setRow(kZPositionP, 1300);
-    axes.prepare(values);
-    axes.forgetRawCounts();
-  }
-  void ticks(int count) {
-    for (int i = 0; i < count; ++i) axes.tick();
-  }
-
-  const FlashTable table;
-  float room[kSettingCount];
-  settings::Values values;
-  BoardAtRest board;
-  Axes axes{board, board};
-};
+typedef PreparedAxes<BoardAtRest> Driven;
 
 }  // namespace
 

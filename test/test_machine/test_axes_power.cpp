@@ -3,9 +3,7 @@
 
 #include <functional>
 
-#include "board_at_rest.h"
-#include "machine/axes.h"
-#include "settings_flash.h"
+#include "prepared_axes.h"
 
 using namespace machine;
 
@@ -17,23 +15,7 @@ struct NoisyBoard : BoardAtRest {
   uint16_t illegal = 0;
 };
 
-/// Axes with gains, on a board whose encoders stand still.
-struct Powered {
-  Powered() : values(table, room) {
-    values.setRow(kZPositionP, 1300);
-    axes.prepare(values);
-    axes.forgetRawCounts();
-  }
-  void ticks(int count) {
-    for (int i = 0; i < count; ++i) axes.tick();
-  }
-
-  const FlashTable table;
-  float room[kSettingCount];
-  settings::Values values;
-  NoisyBoard board;
-  Axes axes{board, board};
-};
+typedef PreparedAxes<NoisyBoard> Powered;
 
 }  // namespace
 

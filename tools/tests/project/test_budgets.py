@@ -46,6 +46,10 @@ def test_a_small_program_is_built_without_a_word(build, capsys):
     assert capsys.readouterr().out == ""
 
 
+def test_a_program_may_take_all_of_its_budget(build):
+    assert build(text=970, data=30, bss=70) == 0
+
+
 def test_a_build_over_90_percent_says_so_and_goes_on(build, capsys):
     assert build(text=880, data=30, bss=70) == 0
     assert "The flash takes 910 bytes, 91% of its budget of 1,000." in capsys.readouterr().out
