@@ -18,13 +18,13 @@ def misfit_chance(explanation: Explanation, noise: Noise) -> float:
     Chi-square for a known sigma. With repeats in sigma, F of what is left between places over
     sigma, and what is left within repeats does not count: sigma was made of it.
     """
-    left, spare = _left(explanation, explanation.basis, explanation.residual)
+    left, spare = _left_over(explanation, explanation.basis, explanation.residual)
     return _chance(explanation, left, spare, noise)
 
 
 def spare_numbers(explanation: Explanation) -> float:
     """How many measured numbers the fit left over."""
-    return _left(explanation, explanation.basis, explanation.residual)[1]
+    return _left_over(explanation, explanation.basis, explanation.residual)[1]
 
 
 def library_misfit_chance(explanation: Explanation, noise: Noise) -> float:
@@ -36,7 +36,7 @@ def beyond_library(explanation: Explanation) -> tuple[float, float]:
     """Chi-square that no combination of effects takes away, and its degrees of freedom."""
     basis = library_basis(explanation)
     rest = explanation.residual - basis @ (basis.T @ explanation.residual)
-    return _left(explanation, basis, rest)
+    return _left_over(explanation, basis, rest)
 
 
 def library_basis(explanation: Explanation) -> Array:
@@ -46,7 +46,7 @@ def library_basis(explanation: Explanation) -> Array:
     return np.hstack([fitted, span(raw - fitted @ (fitted.T @ raw), against=raw)])
 
 
-def _left(explanation: Explanation, basis: Array, residual: Array) -> tuple[float, float]:
+def _left_over(explanation: Explanation, basis: Array, residual: Array) -> tuple[float, float]:
     """Chi-square of the measured numbers alone, and the numbers less those that the fit took.
 
     The rows of the priors do not count: how near the frame is to what was stated says nothing of

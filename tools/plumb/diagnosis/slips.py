@@ -29,7 +29,7 @@ SURE = 0.7  # how likely a slip must be to be named; without one it is hardly ev
 SAME = 0.01  # share of sigma by which a change of it is no matter
 MANY = 15  # readings of which no single effect explains one that is off
 FEWEST = 4  # readings below which none can be distinguished from the others
-READINGS_PER_SLIP = 12  # with more slips than one in this many readings the slips are not the story
+SHARE_OF_SLIPS = 12  # with more slips than one in this many readings the slips are not the story
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ def clear_slips(board: Board, candidates: Sequence[str], *, stated: Stated | Non
     repeats = clear_repeats(board, stated)
     board = _with_noise(board, repeats.rows, stated)
     whole, indices = board, list(repeats.indices)
-    most = max(1, len(indices) // READINGS_PER_SLIP)
+    most = max(1, len(indices) // SHARE_OF_SLIPS)
     slips: list[Shift] = []
     while len(slips) <= most:
         reading = _slip_of(board, candidates, stated)

@@ -45,7 +45,7 @@ approach = [{:.1f}, {:.1f}]
 """
 
 
-def targets() -> dict[str, tuple[float, float]]:
+def benchmark_targets() -> dict[str, tuple[float, float]]:
     """Where each mark is [mm] by its name."""
     place_of = dict(ENDS)
     for name, (x, y) in CORNERS.items():
@@ -55,10 +55,10 @@ def targets() -> dict[str, tuple[float, float]]:
     return place_of
 
 
-def places() -> list[tuple[str, float, float]]:
+def benchmark_places() -> list[tuple[str, float, float]]:
     """Name, x and y [mm] of all marks, there and back in rows from the top left."""
     rows: dict[float, list[tuple[float, str]]] = {}
-    for name, (x, y) in targets().items():
+    for name, (x, y) in benchmark_targets().items():
         rows.setdefault(y, []).append((x, name))
     ordered = []
     for number, y in enumerate(sorted(rows, reverse=True)):
@@ -67,7 +67,7 @@ def places() -> list[tuple[str, float, float]]:
     return ordered
 
 
-def form(approach: tuple[float, float], cut_with: str = "") -> str:
+def benchmark_form(approach: tuple[float, float], cut_with: str = "") -> str:
     """The text of a marks file that waits for the readings; approach [mm] into every mark."""
     squares = [f"# {SQUARES[name]} = [ , ]" for name in CORNERS]
     return "\n".join([_FORM.format(cut_with, *approach) + squares[0], *squares[1:], ""])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from plumb.grid import benchmark_pattern
+from plumb.grid.benchmark_pattern import benchmark_form
 from plumb.grid.options import Grid, PlainMachine
 from plumb.grid.spans import spans_line
 from plumb.grid.touches import listed, touches_of
@@ -25,7 +25,7 @@ def marks_list(
     """
     cut_with = "\nnew_sheet = true" * new_sheet + cut_with
     if grid.pattern == "benchmark":
-        return benchmark_pattern.form(grid.approach, cut_with)
+        return benchmark_form(grid.approach, cut_with)
     lines = [
         "# Calibration marks, mm from the sheet's top left corner; x right, y down, approach too.",
         "# Fill in each measured line and take away its #; delete a [[mark]] that you cannot read.",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from plumb.grid import benchmark_pattern
+from plumb.grid.benchmark_pattern import benchmark_places
 from plumb.grid.limits import check_numbers
 from plumb.grid.options import Grid, PlainMachine
 
@@ -25,7 +25,7 @@ def touches_of(grid: Grid, machine: PlainMachine) -> list[Touch]:
     """Every touch in the order in which it is made; names count by rows from the top left."""
     check_numbers(grid, machine)
     if grid.pattern == "benchmark":
-        return [Touch(*place, 0) for place in benchmark_pattern.places()]
+        return [Touch(*place, 0) for place in benchmark_places()]
     if grid.places:
         return [Touch(str(i), x, y, 0) for i, (x, y) in enumerate(grid.places, start=1)]
     width = machine.sheet_width - 2 * grid.margin

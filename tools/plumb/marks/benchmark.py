@@ -5,7 +5,7 @@ from __future__ import annotations
 from os import PathLike
 from typing import Any
 
-from plumb.grid import benchmark_pattern
+from plumb.grid.benchmark_pattern import SPANS, benchmark_targets
 from plumb.marks.model import Distance, Mark, Point
 from plumb.text.errors import naming, refusal
 from plumb.text.lengths import length
@@ -20,14 +20,14 @@ def read_benchmark(
     if not isinstance(table, dict):
         raise refusal(path, "benchmark is not a table", remedy=f"write a line {place}")
     with naming(path, place):
-        refuse_unknown(table, ("approach", *benchmark_pattern.SPANS))
+        refuse_unknown(table, ("approach", *SPANS))
     approach = None
     if "approach" in table:
         with naming(path, f"{place} approach"):
             approach = pair(table["approach"])
     distances = [
         Distance(ends, length)
-        for name, spans in benchmark_pattern.SPANS.items()
+        for name, spans in SPANS.items()
         for ends, length in zip(spans, _readings(path, table, name, len(spans), unit), strict=False)
     ]
     if not distances:
@@ -35,7 +35,7 @@ def read_benchmark(
     needed = {name for distance in distances for name in distance.between}
     marks = tuple(
         Mark(name, target, approach=approach, sled_weight=weight)
-        for name, target in benchmark_pattern.targets().items()
+        for name, target in benchmark_targets().items()
         if name in needed
     )
     return marks, tuple(distances)
@@ -67,10 +67,10 @@ def _readings(
 
 
 def _kinds() -> dict[frozenset[Point], str]:
-    places = benchmark_pattern.targets()
+    places = benchmark_targets()
     return {
         frozenset(places[name] for name in ends): "long" if line in LONG_LINES else "small"
-        for line, spans in benchmark_pattern.SPANS.items()
+        for line, spans in SPANS.items()
         for ends in spans
     }
 

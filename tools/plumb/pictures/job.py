@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Array = np.ndarray
-TITLE, FOOT = 0.45, 0.5  # [inch]
+JOB_TITLE, JOB_FOOT = 0.45, 0.5  # [inch]
 AROUND = 0.08  # of the job's size, left free around it
 LEAST = 20.0  # [mm] of wood that is shown from near
 TALLEST = 1.0  # height of the near view over its width
@@ -45,13 +45,13 @@ def draw_job(job: Drawn, *, form: str = "png") -> bytes:
     upper = WIDTH * height * (1 + MARGIN) / across
     low, high = _near(job)
     lower = WIDTH * min(TALLEST, float((high[1] - low[1]) / (high[0] - low[0])))
-    tall = TITLE + upper + lower + FOOT
+    tall = JOB_TITLE + upper + lower + JOB_FOOT
     figure = Figure(figsize=(WIDTH, tall))
     FigureCanvasAgg(figure)
-    sheet = figure.add_axes((0, (FOOT + lower) / tall, 1, upper / tall))
+    sheet = figure.add_axes((0, (JOB_FOOT + lower) / tall, 1, upper / tall))
     sheet.set_xlim(-across / 2, across / 2)
     sheet.set_ylim(-height * (1 + MARGIN) / 2, height * (1 + MARGIN) / 2)
-    near = figure.add_axes((MARGIN, FOOT / tall, 1 - 2 * MARGIN, lower / tall))
+    near = figure.add_axes((MARGIN, JOB_FOOT / tall, 1 - 2 * MARGIN, lower / tall))
     near.set_xlim(low[0], high[0])
     near.set_ylim(low[1], high[1])
     near.set_aspect("equal")

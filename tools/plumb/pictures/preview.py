@@ -19,7 +19,7 @@ from plumb.plan.preview import PlanAddition, Preview
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-TITLE, LINE, FOOT = 0.5, 0.22, 0.2  # [inch] above the sheet, of a line below it, below the lines
+PREVIEW_TITLE, PREVIEW_LINE, PREVIEW_FOOT = 0.5, 0.22, 0.2  # [inch] above the sheet, of a line below it, below the lines
 PLACED, PLACELESS, CROWD = 3, 3, 12  # additions with places and without, and marks of each
 LETTERS = 108  # of a line
 NUMBER, WORDS = 12.0, 10.0  # [point]
@@ -33,9 +33,9 @@ def draw_preview(preview: Preview, *, sheet: tuple[float, float], form: str = "p
 
     inch = WIDTH / (sheet[0] * (1 + 2 * MARGIN))
     lines = [line for said in sentences_of(preview) for line in wrap(said, LETTERS)]
-    foot = FOOT + LINE * len(lines)
+    foot = PREVIEW_FOOT + PREVIEW_LINE * len(lines)
     low = inch * sheet[1] * 1.06
-    tall = TITLE + low + foot
+    tall = PREVIEW_TITLE + low + foot
     figure = Figure(figsize=(WIDTH, tall))
     FigureCanvasAgg(figure)
     axis = figure.add_axes((0, foot / tall, 1, low / tall))
@@ -48,7 +48,7 @@ def draw_preview(preview: Preview, *, sheet: tuple[float, float], form: str = "p
     size = fitting(title, WIDTH * (1 - 2 * left), 15)
     figure.text(left, 1 - 0.36 / tall, title, fontsize=size, fontweight="bold", color=INK)
     for i, line in enumerate(lines):
-        y = (foot - 0.1 - LINE * (i + 0.5)) / tall
+        y = (foot - 0.1 - PREVIEW_LINE * (i + 0.5)) / tall
         figure.text(left, y, line, fontsize=WORDS, color=INK, va="center")
     return saved(figure, form)
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 Box = tuple[float, float, float, float]
 WIDE = 3.0  # [inch] of a small sheet with what is around it
-HEADING, TITLE, BARS, FOOT, EDGE = 0.55, 0.5, 1.5, 0.5, 0.15  # [inch] from top to bottom, and left
+HEADING, TITLE, BARS, FOOT, LEFT = 0.55, 0.5, 1.5, 0.5, 0.15  # [inch] from top to bottom, and left
 ROW = 5  # sheets next to each other; more go below them
 TALLEST, BROAD = 1.15, 0.8  # [inch] height of the highest bar, width of each
 LETTERS = 22  # of a line above a sheet
@@ -44,8 +44,8 @@ def draw_staircase(
     plan = _layout(stairs, sheet)
     figure = Figure(figsize=(plan.wide, plan.tall))
     FigureCanvasAgg(figure)
-    size = fitting(heading, plan.wide - 2 * EDGE, 17)
-    left, y = EDGE / plan.wide, 1 - HEADING / 2 / plan.tall
+    size = fitting(heading, plan.wide - 2 * LEFT, 17)
+    left, y = LEFT / plan.wide, 1 - HEADING / 2 / plan.tall
     figure.text(left, y, heading, fontsize=size, fontweight="bold", color=INK, va="center")
     for i, stair in enumerate(stairs):
         _draw_stair(figure, plan, i, stair)
@@ -73,7 +73,7 @@ class _Layout:
     @property
     def inch(self) -> float:
         """Per mm of the sheet."""
-        return (WIDE - 2 * EDGE) / self.view.width
+        return (WIDE - 2 * LEFT) / self.view.width
 
     @property
     def step(self) -> float:
@@ -113,7 +113,7 @@ def _layout(stairs: Sequence[Stair], sheet: tuple[float, float]) -> _Layout:
 
 def _draw_stair(figure: Figure, plan: _Layout, i: int, stair: Stair) -> None:
     panel, colour = stair.panel, GOOD if stair.panel.good else BAD
-    axis = figure.add_axes(plan.box(i, BARS, plan.step - BARS - TITLE, EDGE))
+    axis = figure.add_axes(plan.box(i, BARS, plan.step - BARS - TITLE, LEFT))
     draw_errors(
         axis,
         plan.marks[i],
@@ -124,12 +124,12 @@ def _draw_stair(figure: Figure, plan: _Layout, i: int, stair: Stair) -> None:
         small=SMALL,
     )
     lines = wrap(panel.title, LETTERS)
-    left, bottom, width, height = plan.box(i, plan.step - TITLE, TITLE, EDGE)
+    left, bottom, width, height = plan.box(i, plan.step - TITLE, TITLE, LEFT)
     figure.text(
         left + width / 2,
         bottom + height / 2,
         "\n".join(lines),
-        fontsize=fitting(max(lines, key=len), WIDE - 2 * EDGE, 12),
+        fontsize=fitting(max(lines, key=len), WIDE - 2 * LEFT, 12),
         fontweight="bold",
         color=colour,
         ha="center",
@@ -161,11 +161,11 @@ def _draw_foot(axis: Axes, plan: _Layout) -> None:
     axis.set_ylim(0, FOOT)
     axis.set_axis_off()
     length = round_down(max(*(spots.longest for spots in plan.marks), 1e-6))
-    right = EDGE + length * plan.factor * plan.inch
-    axis.plot([EDGE, right], [FOOT / 2] * 2, color=INK, lw=4, solid_capstyle="butt")
+    right = LEFT + length * plan.factor * plan.inch
+    axis.plot([LEFT, right], [FOOT / 2] * 2, color=INK, lw=4, solid_capstyle="butt")
     said = (
         f"{length:g} mm of error; arrows, {plan.factor:g} times life size, go from where marks "
         "should be to where they were measured"
     )
-    size = fitting(said, plan.wide - right - 2 * EDGE, 11, letter=PLAIN)
+    size = fitting(said, plan.wide - right - 2 * LEFT, 11, letter=PLAIN)
     axis.text(right + 0.12, FOOT / 2, said, fontsize=size, color=INK, va="center")

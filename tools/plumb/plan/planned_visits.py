@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from plumb.board.observations import Observations
-from plumb.marks.read import Mark
+from plumb.marks.model import Mark
 from plumb.model.predict import believed_lengths
 from plumb.settings.machine import MachineSettings
 

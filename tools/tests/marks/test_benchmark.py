@@ -30,7 +30,7 @@ upwards = [899, 901, 900]
 def measured_on(machine):
     """The form as it would be filled in for a machine that believes BELIEVED."""
     where = {}
-    for name, target in pattern.targets().items():
+    for name, target in pattern.benchmark_targets().items():
         chains, _ = lengths(BELIEVED, np.array([target]))
         where[name] = places(machine, chains)[0][0]
     lines = ['frame = "machine"', "[benchmark]"]
@@ -41,7 +41,7 @@ def measured_on(machine):
 
 
 def test_the_pattern_is_the_published_one():
-    places_of = pattern.targets()
+    places_of = pattern.benchmark_targets()
     spans = [
         np.subtract(places_of[b], places_of[a])
         for spans_of in (pattern.ACROSS_SPANS, pattern.UPWARDS_SPANS)
@@ -67,7 +67,7 @@ def test_the_pattern_is_the_published_one():
 def test_the_program_touches_every_mark_once_in_the_usual_way():
     text = grids.program(GRID, grids.PlainMachine())
     assert text.count("G1 Z-0.5") == 19
-    for x, y in pattern.targets().values():
+    for x, y in pattern.benchmark_targets().values():
         assert f"at x {x:.1f} y {y:.1f})" in text
     with pytest.raises(grids.GridError, match="outside the sheet"):
         grids.program(GRID, grids.PlainMachine(sheet_width=1800.0))
