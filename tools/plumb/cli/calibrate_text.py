@@ -11,7 +11,7 @@ from plumb.cli.compare import conclusion, outside_sentence
 from plumb.cli.diagnose import explanation_table
 from plumb.cli.next import after, first_proposal
 from plumb.cli.screen import headline, sentences
-from plumb.cli.steps import add_auto, next_step, same_inputs, second_round
+from plumb.cli.steps import auto_words, next_step, same_inputs, second_round
 from plumb.cure.auto import AutoAddition
 from plumb.cure.machine_file import turn_sentences
 from plumb.diagnosis.sentence import verdict_sentence
@@ -121,5 +121,5 @@ def _first_measure(this: Round, arguments: argparse.Namespace) -> list[str]:
         return []
     parts = [first_proposal(best), after(best, arguments)]
     if this.result.chosen:
-        parts.append(next_step("Or take the most likely one untested:", add_auto(arguments)))
+        parts.append(next_step("Or take the most likely one untested:", auto_words(arguments)))
     return parts

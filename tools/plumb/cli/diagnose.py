@@ -9,7 +9,7 @@ from typing import Any
 from plumb.cli.checked import with_stated
 from plumb.cli.files import inputs_of
 from plumb.cli.screen import sentences, table
-from plumb.cli.steps import add_auto, add_named, next_step, same_inputs
+from plumb.cli.steps import auto_words, add_named, next_step, same_inputs
 from plumb.cli.text import print_json
 from plumb.diagnosis import Diagnosis, diagnose
 from plumb.diagnosis.answer import Ranked, Together
@@ -53,7 +53,7 @@ def _next(diagnosis: Diagnosis, arguments: argparse.Namespace) -> str:
     if diagnosis.left_open.is_too_much:
         return next_step("What to measure next:", ["next", *same_inputs(arguments)])
     if diagnosis.verdict == "nothing_provable":
-        return next_step("Fit the frame:", add_auto(arguments))
+        return next_step("Fit the frame:", auto_words(arguments))
     first = diagnosis.explanations[0] if diagnosis.explanations else None
     if diagnosis.verdict == "one_suspect" and first and first.possible:
         return next_step("Add it:", add_named(arguments, first.effects))

@@ -89,7 +89,7 @@ def add_named(arguments: argparse.Namespace, effects: Sequence[str]) -> list[str
     return ["add", *same, *named, *patch, *usual_client(arguments), "-o", machine]
 
 
-def add_auto(arguments: argparse.Namespace) -> list[str]:
+def auto_words(arguments: argparse.Namespace) -> list[str]:
     """The command that adds what is most likely and writes the files."""
     return add_named(arguments, [AUTO])
 

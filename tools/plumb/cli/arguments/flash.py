@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from plumb.cli.arguments.send import add_port
+from plumb.cli.arguments.shared import add_port
 
 HELP = "write the firmware to the Mega"
 EXIT = "Exit: 0 written; 2 no board, no firmware.hex, or avrdude refused."

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from plumb.cli.arguments.send import add_port
+from plumb.cli.arguments.shared import add_port
 
 HELP = "go through a machine's first day: wires, numbers, reach, chains, first mark"
 EXIT = "Exit: 0 all steps are done; 1 a step is open; 2 no machine answers."

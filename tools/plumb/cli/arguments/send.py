@@ -4,15 +4,10 @@ from __future__ import annotations
 
 import argparse
 
+from plumb.cli.arguments.shared import add_port
+
 HELP = "send a program, a line of G-code or a machine's numbers to the machine"
 EXIT = "Exit: 0 all was done; 1 stopped after Ctrl-C; 2 refused, or no machine."
-
-
-def add_port(parser: argparse.ArgumentParser) -> None:
-    """The option --port."""
-    parser.add_argument(
-        "--port", metavar="PATH", help="the machine's serial port [that of the only board on USB]"
-    )
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

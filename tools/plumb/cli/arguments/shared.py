@@ -150,3 +150,10 @@ def named_number(text: str) -> tuple[str, float | None]:
     except ValueError:
         return name, None
     return name, number if math.isfinite(number) else None
+
+
+def add_port(parser: argparse.ArgumentParser) -> None:
+    """The option --port."""
+    parser.add_argument(
+        "--port", metavar="PATH", help="the machine's serial port [that of the only board on USB]"
+    )
