@@ -14,7 +14,7 @@ from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import bar
 from plumb.cli.text import print_json
 from plumb.fit.read_inputs import settings_in
-from plumb.jobs.check import Checked, check
+from plumb.jobs.check import Checked, check_job
 from plumb.jobs.expected import Error, PartErrors
 from plumb.jobs.outline import outline_of
 from plumb.model.predict import USABLE
@@ -31,7 +31,7 @@ def run(arguments: argparse.Namespace) -> int:
     form = picture_form(arguments.picture) if arguments.picture else ""
     settings = settings_in(arguments.settings)
     arguments.controller = None
-    checked = check(
+    checked = check_job(
         settings,
         read_text(arguments.job).splitlines(),
         inputs=inputs_of(arguments) if arguments.marks else None,

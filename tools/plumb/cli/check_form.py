@@ -10,7 +10,7 @@ from plumb.cli.files import inputs_of
 from plumb.cli.output import say_failure
 from plumb.cli.screen import headline, table
 from plumb.cli.text import print_json
-from plumb.diagnosis.check_marks import Check, check
+from plumb.diagnosis.check_marks import Check, check_marks
 from plumb.diagnosis.check_sentence import check_sentence
 from plumb.diary.entries import RECHECK
 from plumb.diary.keeping import keep
@@ -34,7 +34,7 @@ def held_against_marks(arguments: argparse.Namespace) -> int:
     if inputs.settings.fitted is None:
         raise InputError(f"{arguments.settings} was fitted to no marks: give what plumb add wrote")
     marks = read_marks(arguments.check, sheet=inputs.settings.sheet, known=known_effects())
-    checked = check(inputs, marks)
+    checked = check_marks(inputs, marks)
     return report(arguments, _json(checked), _text(checked))
 
 

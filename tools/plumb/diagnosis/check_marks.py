@@ -62,7 +62,7 @@ class Check:
         return self.chi_square <= self.limit
 
 
-def check(inputs: Inputs, marks: Measurements) -> Check:
+def check_marks(inputs: Inputs, marks: Measurements) -> Check:
     """Hold check marks against the fit of these inputs, with the effects that its settings have.
 
     Raises InputError for too few marks, and for marks that cannot be reached.

@@ -39,7 +39,7 @@ class Checked:
         return not spoiled and not (self.hanging and self.hanging.bad)
 
 
-def check(
+def check_job(
     settings: MachineSettings,
     lines: Sequence[str],
     *,

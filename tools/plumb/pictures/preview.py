@@ -19,7 +19,11 @@ from plumb.plan.preview import PlanAddition, Preview
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-PREVIEW_TITLE, PREVIEW_LINE, PREVIEW_FOOT = 0.5, 0.22, 0.2  # [inch] above the sheet, of a line below it, below the lines
+PREVIEW_TITLE, PREVIEW_LINE, PREVIEW_FOOT = (
+    0.5,
+    0.22,
+    0.2,
+)  # [inch] above the sheet, of a line below it, below the lines
 PLACED, PLACELESS, CROWD = 3, 3, 12  # additions with places and without, and marks of each
 LETTERS = 108  # of a line
 NUMBER, WORDS = 12.0, 10.0  # [point]

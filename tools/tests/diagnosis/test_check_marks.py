@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from plumb import api
-from plumb.diagnosis.check_marks import check
+from plumb.diagnosis.check_marks import check_marks
 from plumb.marks.model import Mark, Measurements, Round
 from plumb.model.predict import lengths, places
 from plumb.plan.check_places import check_places
@@ -51,7 +51,7 @@ def test_a_new_place_is_chosen_when_the_first_are_taken(inputs, sent):
 
 
 def test_marks_where_they_should_be_hold(inputs, sent):
-    result = check(inputs, measured(inputs, sent, [[0.3, -0.2], [0.0, 0.4]]))
+    result = check_marks(inputs, measured(inputs, sent, [[0.3, -0.2], [0.0, 0.4]]))
     assert result.holds
     assert [mark.is_within for mark in result.marks] == [True, True]
     assert [mark.off for mark in result.marks] == pytest.approx([0.36, 0.4], abs=0.02)
@@ -59,8 +59,8 @@ def test_marks_where_they_should_be_hold(inputs, sent):
 
 def test_the_promise_is_no_better_than_the_tape_and_no_worse_than_it_needs_to_be(inputs, sent):
     fine = replace(inputs, sigma=0.1)
-    coarse = check(inputs, measured(inputs, sent, [[0, 0], [0, 0]])).marks
-    sharp = check(fine, measured(inputs, sent, [[0, 0], [0, 0]])).marks
+    coarse = check_marks(inputs, measured(inputs, sent, [[0, 0], [0, 0]])).marks
+    sharp = check_marks(fine, measured(inputs, sent, [[0, 0], [0, 0]])).marks
     # Twice ln 100 is the 99 % point of two squares.
     assert all(3.035 * TAPE < mark.promised < 3.035 * TAPE * 1.3 for mark in coarse)
     assert all(sharp[i].promised < coarse[i].promised / 3 for i in range(2))
@@ -68,25 +68,28 @@ def test_the_promise_is_no_better_than_the_tape_and_no_worse_than_it_needs_to_be
 
 @pytest.mark.parametrize("offset", [[3.0, 0.0], [0.0, -3.0]])
 def test_a_mark_far_off_is_named(inputs, sent, offset):
-    result = check(inputs, measured(inputs, sent, [[0, 0], offset]))
+    result = check_marks(inputs, measured(inputs, sent, [[0, 0], offset]))
     assert not result.holds
     assert [mark.is_within for mark in result.marks] == [True, False]
 
 
 def test_marks_that_are_both_a_little_off_the_same_way_count_together(inputs, sent):
-    apart = check(inputs, measured(inputs, sent, [[0.85, 0], [0.85, 0]]))
+    apart = check_marks(inputs, measured(inputs, sent, [[0.85, 0], [0.85, 0]]))
     assert all(mark.is_within for mark in apart.marks)
-    assert apart.chi_square > check(inputs, measured(inputs, sent, [[0.85, 0], [0, 0]])).chi_square
+    assert (
+        apart.chi_square
+        > check_marks(inputs, measured(inputs, sent, [[0.85, 0], [0, 0]])).chi_square
+    )
 
 
 def test_99_of_100_honest_checks_hold(inputs, sent):
     random = np.random.default_rng(7)
-    base = check(inputs, measured(inputs, sent, [[0, 0], [0, 0]]))
+    base = check_marks(inputs, measured(inputs, sent, [[0, 0], [0, 0]]))
     held = 0
     for _ in range(40):
         # What the fit leaves open is small here, so the tape makes nearly all of it.
         noise = TAPE * random.standard_normal((2, 2))
-        held += check(inputs, measured(inputs, sent, noise)).holds
+        held += check_marks(inputs, measured(inputs, sent, noise)).holds
     assert 38 <= held <= 40
     assert base.holds
 
@@ -95,5 +98,5 @@ def test_a_motor_that_moved_is_noticed(inputs, sent):
     moved = replace(inputs.settings, motor_gap=inputs.settings.motor_gap + 6.0)
     chains = lengths(inputs.settings, sent)[0]
     there = places(moved, chains)[0]
-    result = check(inputs, measured(inputs, sent, there - sent))
+    result = check_marks(inputs, measured(inputs, sent, there - sent))
     assert not result.holds

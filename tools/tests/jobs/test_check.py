@@ -10,7 +10,7 @@ import pytest
 from plumb import _judge
 from plumb.bench.causes import MAKER
 from plumb.fit.inputs import Inputs
-from plumb.jobs.check import check
+from plumb.jobs.check import check_job
 from plumb.jobs.expected import Believed, errors_of
 from plumb.jobs.findings import GOUGES, HALTS, IGNORED, LEAVES, WAITS
 from plumb.jobs.outline import hull_of, outline_of
@@ -40,12 +40,12 @@ def square(x, y, size, depth=1.0):
 
 
 def lines_and_kinds(lines):
-    return [(each.line, each.kind) for each in check(MAKER, lines).findings]
+    return [(each.line, each.kind) for each in check_job(MAKER, lines).findings]
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_nothing_is_wrong_with_the_programs(name):
-    checked = check(MAKER, lines_of(name))
+    checked = check_job(MAKER, lines_of(name))
     assert checked.is_good
     assert {each.kind for each in checked.findings} <= {WAITS, IGNORED}
     assert checked.parts
@@ -53,7 +53,7 @@ def test_nothing_is_wrong_with_the_programs(name):
 
 def test_each_wrong_line_has_its_number_and_the_machines_words():
     lines = ["G21", "G41 D1", "G0 Z5", "G1 X--5 F100", "M98 P1", "G1 X5 A9", "G0 X9"]
-    checked = check(MAKER, lines)
+    checked = check_job(MAKER, lines)
     said = {each.line: each.says for each in checked.findings}
     assert [each.kind for each in checked.findings] == [HALTS] * 4
     assert said[2] == "this machine does no G41"
@@ -73,7 +73,7 @@ def test_the_sheets_edge_a_gouge_a_pause_and_a_foreign_code_are_found():
 
 @pytest.mark.parametrize(("way", "is_gouge"), [(0.04, False), (0.06, True)])
 def test_a_rapid_in_the_wood_is_a_gouge_if_it_goes_across(way, is_gouge):
-    checked = check(MAKER, ["G1 Z-1 F60", f"G0 X{way}", "G0 Z4"])
+    checked = check_job(MAKER, ["G1 Z-1 F60", f"G0 X{way}", "G0 Z4"])
     assert (GOUGES in {each.kind for each in checked.findings}) is is_gouge
 
 
@@ -82,7 +82,7 @@ def test_a_rapid_down_and_across_is_a_single_gouge():
 
 
 def test_a_rapid_way_of_a_drilling_cycle_is_no_gouge():
-    assert check(MAKER, ["G0 Z2", "G83 X9 Z-6 R1 Q2 F50", "X20", "G80", "G0 X0"]).is_good
+    assert check_job(MAKER, ["G0 Z2", "G83 X9 Z-6 R1 Q2 F50", "X20", "G80", "G0 X0"]).is_good
 
 
 @pytest.mark.parametrize(
@@ -113,20 +113,20 @@ def test_a_rapid_way_of_a_drilling_cycle_is_no_gouge():
     ],
 )
 def test_a_rapid_into_wood_that_nothing_has_cut_is_a_gouge(lines, gouges):
-    findings = check(MAKER, [*lines, "G0 Z9"]).findings
+    findings = check_job(MAKER, [*lines, "G0 Z9"]).findings
     assert [(each.line, each.kind) for each in findings] == [(line, GOUGES) for line, _ in gouges]
     for finding, (_, deep) in zip(findings, gouges, strict=True):
         assert finding.says == f"G0 drives the bit {deep} mm down into wood that nothing has cut"
 
 
 def test_a_cut_in_a_corner_is_where_the_chains_cannot_hold_the_sled():
-    checked = check(MAKER, square(-1219, -609, 60))
+    checked = check_job(MAKER, square(-1219, -609, 60))
     assert not checked.is_good and checked.hanging is not None
     assert {bad.verdict for bad in checked.hanging.bad} == {"too vertical", "too slack"}
     assert min(bad.first for bad in checked.hanging.bad) == 3
     above = [line for line in square(-1219, -609, 60) if "Z-" not in line]
-    assert check(MAKER, above).is_good
-    assert not check(MAKER, square(0, 0, 60), limits={"most_tension": 50.0}).is_good
+    assert check_job(MAKER, above).is_good
+    assert not check_job(MAKER, square(0, 0, 60), limits={"most_tension": 50.0}).is_good
 
 
 @pytest.mark.parametrize(
@@ -140,7 +140,7 @@ def test_a_cut_in_a_corner_is_where_the_chains_cannot_hold_the_sled():
     ],
 )
 def test_a_limit_that_slows_the_sled_is_named(lines, cause, asked, feed):
-    slower = check(MAKER, lines, numbers={15: 900, 68: 700}).slower
+    slower = check_job(MAKER, lines, numbers={15: 900, 68: 700}).slower
     assert [each.because for each in slower] == [cause]
     assert slower[0].asked == pytest.approx(asked)
     assert slower[0].line == len(lines)
@@ -150,22 +150,24 @@ def test_a_limit_that_slows_the_sled_is_named(lines, cause, asked, feed):
 
 
 def test_no_limit_is_named_where_none_acts():
-    assert check(MAKER, ["G0 Z3", "G1 X50 F600", "G4 P10"]).slower == ()
+    assert check_job(MAKER, ["G0 Z3", "G1 X50 F600", "G4 P10"]).slower == ()
 
 
 def test_the_limit_that_acts_most_often_comes_first_with_its_slowest_line():
     lines = ["G0 Z3", "G1 Z-1 F300", "G1 X30 F1000", "G1 X60 F3000", "G1 X90 F2000"]
-    slower = check(MAKER, lines, numbers={15: 900}).slower
+    slower = check_job(MAKER, lines, numbers={15: 900}).slower
     assert [(each.because, each.moves, each.line) for each in slower] == [
         (GREATEST, 3, 3),
         (Z, 1, 2),
     ]
-    once = check(MAKER, [lines[0], "G1 Z-1 F300", "G1 Z1 F300", lines[2]], numbers={15: 900}).slower
+    once = check_job(
+        MAKER, [lines[0], "G1 Z-1 F300", "G1 Z1 F300", lines[2]], numbers={15: 900}
+    ).slower
     assert [(each.because, each.moves) for each in once] == [(Z, 2), (GREATEST, 1)]
 
 
 def test_times_are_those_of_the_ways():
-    times = check(MAKER, ["G0 Z3", "G0 X100", "G1 X200 F600", "G4 P2000"]).times
+    times = check_job(MAKER, ["G0 Z3", "G0 X100", "G1 X200 F600", "G4 P2000"]).times
     assert times.asked == pytest.approx(10.0)
     assert times.cutting == pytest.approx(10.0, abs=0.3)
     assert times.whole == pytest.approx(times.cutting + times.rapid + 2.0, abs=0.2)
@@ -173,7 +175,7 @@ def test_times_are_those_of_the_ways():
 
 def test_cuts_that_lie_apart_are_parts_in_the_order_of_the_program():
     lines = [*square(100, 50, 40), *square(-200, 0, 30, depth=2.5), *square(105, 55, 10)]
-    parts = check(MAKER, lines).parts
+    parts = check_job(MAKER, lines).parts
     assert [part.lines for part in parts] == [(3, 24), (11, 16)]
     assert parts[0].low == pytest.approx((100, 50)) and parts[0].size == pytest.approx((40, 40))
     assert parts[1].size == pytest.approx((30, 30)) and parts[1].deepest == pytest.approx(-2.5)
@@ -181,17 +183,19 @@ def test_cuts_that_lie_apart_are_parts_in_the_order_of_the_program():
 
 def test_cuts_that_meet_at_a_corner_are_one_part():
     lines = ["G1 Z-1 F60", "G1 X2 Y2 F500", "G0 Z3", "G0 X12 Y12", "G1 Z-1 F60", "G1 X14 Y14 F500"]
-    assert len(check(MAKER, lines).parts) == 1
+    assert len(check_job(MAKER, lines).parts) == 1
 
 
 def test_the_softest_cut_is_named():
-    hanging = check(MAKER, [*square(0, 300, 20), *square(900, -500, 20), *square(0, 0, 20)]).hanging
+    hanging = check_job(
+        MAKER, [*square(0, 300, 20), *square(900, -500, 20), *square(0, 0, 20)]
+    ).hanging
     assert hanging is not None and 11 <= hanging.give_line <= 16
     assert 0.05 < hanging.give < 0.2
 
 
 def test_an_arc_reaches_as_far_as_its_circle():
-    part = check(MAKER, ["G1 Z-1 F60", "G2 X40 I20 J0 F600"]).parts[0]
+    part = check_job(MAKER, ["G1 Z-1 F60", "G2 X40 I20 J0 F600"]).parts[0]
     assert part.high == pytest.approx((40, 20), abs=0.1)
     assert part.low == pytest.approx((0, 0), abs=0.1)
 
@@ -261,7 +265,7 @@ class Sheared:
 
 
 def test_a_turn_and_a_shift_are_no_errors_of_a_part():
-    part = check(MAKER, square(0, 0, 100)).parts
+    part = check_job(MAKER, square(0, 0, 100)).parts
     turned = errors_of(Sheared([[0, -0.01], [0.01, 0]]), MAKER, part)[0]
     for error in (turned.width, turned.height, turned.skew):
         assert error.mm == pytest.approx(0, abs=1e-9)
@@ -279,7 +283,7 @@ def test_more_marks_leave_less_open():
     few = replace(
         inputs, measurements=replace(inputs.measurements, marks=inputs.measurements.marks[:8])
     )
-    part = check(settings, square(0, 0, 300)).parts
+    part = check_job(settings, square(0, 0, 300)).parts
     within = [
         errors_of(Believed.of(each), settings, part)[0].width.within for each in (few, inputs)
     ]
@@ -288,16 +292,18 @@ def test_more_marks_leave_less_open():
 
 def test_a_part_that_is_too_small_says_nothing():
     settings = read_settings(SETTINGS)
-    parts = check(settings, [*square(0, 0, 10), "G0 X100 Y0", "G1 Z-1 F60", "G1 X190 F500"]).parts
+    parts = check_job(
+        settings, [*square(0, 0, 10), "G0 X100 Y0", "G1 Z-1 F60", "G1 X190 F500"]
+    ).parts
     small, line = errors_of(Believed.of(example_inputs(settings)), settings, parts)
     assert small.width is small.height is small.skew is None
     assert line.width is not None and line.height is None
 
 
 def test_the_outline_goes_round_everything_above_the_sheet():
-    checked = check(MAKER, ["G0 Z8", "G0 X10", *square(100, 50, 40), "G0 X0 Y0"])
+    checked = check_job(MAKER, ["G0 Z8", "G0 X10", *square(100, 50, 40), "G0 X0 Y0"])
     program = outline_of(checked.done.moves, checked.samples, name="a (b).nc").splitlines()
-    traced = check(MAKER, program)
+    traced = check_job(MAKER, program)
     assert traced.is_good and not traced.parts
     corners = hull_of(checked.done.moves, checked.samples)
     assert {tuple(corner) for corner in corners} == {(100, 50), (140, 50), (140, 90), (100, 90)}
@@ -309,9 +315,9 @@ def test_the_outline_goes_round_everything_above_the_sheet():
 
 
 def test_the_outline_of_a_line_and_of_nothing():
-    checked = check(MAKER, ["G1 Z-1 F60", "G1 X50 F500", "X20"])
+    checked = check_job(MAKER, ["G1 Z-1 F60", "G1 X50 F500", "X20"])
     assert len(hull_of(checked.done.moves, checked.samples)) == 2
-    checked = check(MAKER, ["G0 X5"])
+    checked = check_job(MAKER, ["G0 X5"])
     assert "cuts nothing" in outline_of(checked.done.moves, checked.samples, name="job")
 
 
@@ -323,7 +329,7 @@ def test_a_hundred_thousand_lines_take_less_than_five_seconds():
     ]
     shares = []
     begin = time.process_time()
-    checked = check(MAKER, lines, progress=shares.append)
+    checked = check_job(MAKER, lines, progress=shares.append)
     assert time.process_time() - begin < 5
     assert checked.is_good and len(checked.done.moves) > 99_000
     assert shares == sorted(shares) and len(shares) == 50 and shares[-1] == 1

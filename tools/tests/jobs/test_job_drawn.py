@@ -3,11 +3,11 @@
 import numpy as np
 from plumb.bench.causes import MAKER
 from plumb.cli.check import _drawn
-from plumb.jobs.check import check
+from plumb.jobs.check import check_job
 
 
 def drawn(*lines):
-    return _drawn(check(MAKER, lines), MAKER, "folder/job.nc")
+    return _drawn(check_job(MAKER, lines), MAKER, "folder/job.nc")
 
 
 def ends(ways):

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from plumb.bench.causes import MAKER
 from plumb.cli.main import main
-from plumb.jobs.check import check
+from plumb.jobs.check import check_job
 from plumb.jobs.findings import SINKS
 from plumb.line.sender import Sender
 from plumb.settings.files import machine_toml
@@ -19,7 +19,7 @@ LOW, HIGH = 200, 500  # [mm] y of rests that hold, and that may not
 
 def rests(lines, settings=MAKER):
     """Lines at which the sled may sink."""
-    checked = check(settings, lines)
+    checked = check_job(settings, lines)
     assert checked.is_good
     return [each.line for each in checked.findings if each.kind == SINKS]
 

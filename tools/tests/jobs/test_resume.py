@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from plumb.bench.causes import MAKER
-from plumb.jobs.check import check
+from plumb.jobs.check import check_job
 from plumb.jobs.findings import GOUGES, HALTS
 from plumb.jobs.moves import IN_WOOD
 from plumb.jobs.resume import Machine, resume_at_line, resume_at_place
@@ -41,7 +41,7 @@ def test_from_any_line_on_the_same_moves_follow(name):
         resumed = resume_at_line(MACHINE, lines, line)
         assert resumed.first <= line
         assert resumed.begins[2] >= IN_WOOD
-        checked = check(MAKER, resumed.lines)
+        checked = check_job(MAKER, resumed.lines)
         same_moves(checked.done.moves, moves.only(moves["line"] >= resumed.first))
         assert not {each.kind for each in checked.findings} & {GOUGES, HALTS}
         assert resumed.lines[1].split()[-1].startswith("Z") and "G0 Z" in resumed.lines[1]
@@ -59,7 +59,7 @@ def test_from_any_place_of_a_cut_on_the_same_moves_follow(name):
         entry = resumed.entry
         assert entry is not None
         assert np.hypot(*np.subtract(entry.place, place)) < 0.06
-        checked = check(MAKER, resumed.lines)
+        checked = check_job(MAKER, resumed.lines)
         after = checked.done.moves
         # The rest of the move that is cut in two ends where the move ended.
         later = moves.only(moves["line"] > entry.line)
@@ -198,7 +198,7 @@ def test_in_the_middle_of_a_cut_too(code, z):
     place = ((cut["from_x"][0] + cut["to_x"][0]) / 2, (cut["from_y"][0] + cut["to_y"][0]) / 2)
     resumed = resume_at_place(MACHINE, lines, place, 6)
     assert resumed.entry.share == pytest.approx(0.5, abs=0.01)
-    after = check(MAKER, resumed.lines).done.moves
+    after = check_job(MAKER, resumed.lines).done.moves
     same_moves(after, moves.only(moves["line"] > 6))
     rest = after.only(np.flatnonzero(after["asked"] == 500)[:1])
     for name in ("to_x", "to_y", "z_from", "z_to"):
@@ -209,7 +209,7 @@ def test_in_the_middle_of_a_cut_too(code, z):
 def test_the_end_of_an_arc_is_no_whole_circle():
     lines = ["G0 Z4", "G1 Z-1 F60", "G2 X40 I20 F500", "G1 X80", "G0 Z4"]
     resumed = resume_at_place(MACHINE, lines, (40, 0), 3)
-    cut = check(MAKER, resumed.lines).done.moves
+    cut = check_job(MAKER, resumed.lines).done.moves
     assert cut.only(cut.cut)["length"].sum() < 40 + 2 + 0.2, "the plunge and the line behind it"
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from fastapi import APIRouter
 from pydantic import BaseModel
 
-from plumb.diagnosis.check_marks import Check, check
+from plumb.diagnosis.check_marks import Check, check_marks
 from plumb.diagnosis.check_sentence import check_sentence
 from plumb.fit.inputs import Inputs
 from plumb.fit.read_inputs import settings_in
@@ -260,4 +260,4 @@ def _checked(project: Project, inputs: Inputs, form: str) -> Check | None:
     if waiting:
         return None
     marks = read_marks(project.path(form), sheet=inputs.settings.sheet, known=known_effects())
-    return check(inputs, marks)
+    return check_marks(inputs, marks)
