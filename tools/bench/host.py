@@ -11,10 +11,10 @@ from commands import compiled, output
 from plan_times import plan_times
 from plumb.bench.boards import cut, plan
 from plumb.bench.causes import MAKER, Hidden, causes_of
-from plumb.board.observations import observe
 from plumb.diagnosis import diagnose
 from plumb.fit.fit import fit
 from plumb.fit.inputs import Inputs
+from plumb.fit.observations import observe
 from plumb.marks.read import read_marks
 from plumb.model import predict
 from plumb.settings.files import read_settings

@@ -86,10 +86,10 @@ FLOORS = (
     ("api", "guide"),
     ("report", "vm"),
     ("bench", "diary", "pictures"),
-    ("cure", "jobs", "plan", "recovery"),
+    ("cure", "job", "plan"),
     ("diagnosis",),
-    ("fit", "line"),
-    ("board", "firmware"),
+    ("line",),
+    ("fit", "firmware"),
     ("marks", "model"),
     ("settings", "grid"),
     ("text",),
@@ -118,10 +118,10 @@ SCRIPT_IMPORT = re.compile(r"^\s*(?:import|export)\b[^;]*?[\"']([^\"']+)[\"']", 
 RESEARCH = "tools/research"
 
 # What tools/calibration_grid.py runs without an installation.
-STANDARD_LIBRARY_ONLY = ("tools/plumb/grid", "tools/plumb/text/readers.py")
+STANDARD_LIBRARY_ONLY = ("tools/plumb/grid", "tools/plumb/text/errors.py")
 # The judge shares nothing with the model, so only the bench may ask it; only the virtual machine's
 # room has the world that it hangs in.
-ONLY = {"_dry_run": "jobs", "_judge": "bench", "_vm": "vm"}
+ONLY = {"_dry_run": "job", "_judge": "bench", "_vm": "vm"}
 
 
 def violations(root: Path) -> Iterator[str]:

@@ -21,10 +21,9 @@ from plumb.bench.report import (
     run as run_bench,
 )
 from plumb.bench.scenarios import CURE, LOOP, SCENARIOS
-from plumb.cli.arguments.shared import add_force, count
+from plumb.cli.arguments import add_force, count
 from plumb.cli.bench import counted
-from plumb.cli.ending import INTERRUPTED, ended
-from plumb.cli.output import refuse_early, results_of, write_outputs
+from plumb.cli.output import INTERRUPTED, ended, refuse_early, results_of, write_outputs
 
 INTRODUCTION = """# How often the diagnosis is right
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from plumb.pictures.saved import saved
+from plumb.pictures.scale import saved
 from plumb.pictures.sheet import BAD, GOOD, INK
 from plumb.text.files import write_whole
 from scene import Scene

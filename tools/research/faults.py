@@ -8,9 +8,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from fault_stories import FAULTS, UNSEEN, Fault
-from plumb.cli.arguments.shared import add_force, count
-from plumb.cli.ending import ended
-from plumb.cli.output import refuse_early, results_of, write_outputs
+from plumb.cli.arguments import add_force, count
+from plumb.cli.output import ended, refuse_early, results_of, write_outputs
 from plumb.cli.screen import Bar, sentences, table
 from plumb.text.errors import InputError
 from trial import BELIEVED, Outcome, tried

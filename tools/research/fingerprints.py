@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from plumb.board.observations import observe
-from plumb.board.sighting import sighted
+from plumb.fit.compare import best_pose
 from plumb.fit.fit import rms
-from plumb.fit.shape import best_pose
+from plumb.fit.observations import observe
+from plumb.fit.sighting import sighted
 from plumb.marks.read import Mark, Measurements
 from plumb.model.catalogue import (
     EVERY_MACHINE,

@@ -17,16 +17,15 @@ import joblib  # type: ignore[import-untyped]  # it brings no types
 from game import Played, play
 from game_rates import Row, row_of, rows_of
 from matrix_page import page, ratio_words
-from plumb.cli.arguments.practice import LEVELS as LEVEL_NUMBERS
-from plumb.cli.arguments.shared import add_force, count
-from plumb.cli.ending import INTERRUPTED, ended
-from plumb.cli.output import refuse_early, results_of, write_outputs
+from plumb.cli.arguments import add_force, count
+from plumb.cli.output import INTERRUPTED, ended, refuse_early, results_of, write_outputs
 from plumb.cli.screen import Bar, sentences, table
 from plumb.grid.options import Grid
 from plumb.text.errors import refusal
-from plumb.text.shown import bare, unit
+from plumb.text.values import bare, unit
 from plumb.vm.budget import Budget
 from plumb.vm.secret import KINDS, LEVELS, of_kind, of_level
+from plumb.vm.secret import LEVELS as LEVEL_NUMBERS
 
 LARGE_GRID = Grid(columns=5, rows=5, repeats=0)
 SMALL_GRID = Grid(columns=3, rows=3, repeats=0)

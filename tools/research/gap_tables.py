@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from plumb.bench.causes import MAKER
-from plumb.model.gap import MotorGap, motor_gap
-from plumb.model.predict import judged
+from plumb.model.predict import MotorGap, judged, motor_gap
 from plumb.vm.garage import VirtualMachine
 
 MACHINES = 24

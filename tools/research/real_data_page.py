@@ -11,12 +11,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from plumb.cure.demo import MARKS, SETTINGS, with_y_errors_flipped
+from plumb.cure.machine_file import MARKS, SETTINGS, with_y_errors_flipped
 from plumb.diagnosis import Diagnosis
-from plumb.diagnosis.sentence import verdict_sentence
-from plumb.fit.compare import Comparison
+from plumb.diagnosis.answer import verdict_sentence
+from plumb.fit.compare import Comparison, best_pose
 from plumb.fit.fit import rms
-from plumb.fit.shape import best_pose
 from plumb.marks.read import read_marks
 from plumb.model.predict import known_effects
 from plumb.pictures.fingerprints import Picture, drawing

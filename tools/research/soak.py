@@ -13,8 +13,8 @@ from math import ceil
 
 import numpy as np
 from job import Job
-from plumb.cli.arguments.shared import length
-from plumb.cli.ending import ended
+from plumb.cli.arguments import length
+from plumb.cli.output import ended
 from plumb.cli.screen import Bar, sentences, table
 from plumb.firmware.telemetry import latest
 from plumb.line.sender import Sender

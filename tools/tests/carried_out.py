@@ -22,7 +22,7 @@ from hidden_boards import (
 )
 from plumb.diagnosis import Checked
 from plumb.marks.read import Measurements
-from plumb.plan.ahead import Check
+from plumb.plan.case import Check
 from plumb.plan.planned_visits import Visits
 
 # What an owner would find who measured the parameter itself, for this many typical sizes.

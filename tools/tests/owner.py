@@ -13,7 +13,7 @@ from plumb.diagnosis import Checked, Diagnosis, diagnose
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names
-from plumb.plan.ahead import Check
+from plumb.plan.case import Check
 from plumb.plan.options import Option
 from plumb.plan.planned_visits import Visits
 from plumb.plan.proposal import Proposal, propose

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from plumb.board.visits import loaded
+from plumb.fit.observations import loaded
 from plumb.marks.read import Distance, Mark, Measurements
 from plumb.model.predict import FOUND, lengths, places, settings_of, values_of
 from plumb.settings.machine import MachineSettings

@@ -16,11 +16,10 @@ from plumb.cure.add import add as add_effects
 from plumb.cure.auto import AutoAddition, add_auto
 from plumb.diagnosis import Checked, Diagnosis
 from plumb.diagnosis import diagnose as diagnosis_of
-from plumb.fit.absurd_checks import refuse_absurd
 from plumb.fit.compare import Comparison
 from plumb.fit.compare import compare as comparison_of
-from plumb.fit.inputs import Inputs
-from plumb.fit.read_inputs import read_inputs
+from plumb.fit.expected import refuse_absurd
+from plumb.fit.inputs import Inputs, read_inputs
 from plumb.plan import Next, propose
 from plumb.settings.toml import machine_toml
 from plumb.text.compiled import refuse_stale

@@ -9,8 +9,7 @@ import joblib  # type: ignore[import-untyped]  # it brings no types
 import numpy as np
 
 from plumb.bench.judged_board import JudgedBoard, judge_board
-from plumb.bench.outcome import Outcome
-from plumb.bench.rates import Line, Rate, rate_of
+from plumb.bench.outcome import Line, Outcome, Rate, rate_of
 from plumb.bench.scenarios import CURE, LOOP, SCENARIOS, Scenario
 
 Progress = Callable[[str, int], None]  # called with each scenario and how many more boards are done

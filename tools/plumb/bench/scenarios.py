@@ -21,7 +21,7 @@ from plumb.bench.hiding import (
     typical,
     usual_machine,
 )
-from plumb.bench.rates import Line
+from plumb.bench.outcome import Line
 from plumb.settings.machine import MachineSettings
 
 GRIDS = {9: (3, 3), 15: (5, 3), 25: (5, 5), 35: (7, 5)}

@@ -23,11 +23,11 @@ from plumb.bench.causes import MAKER, OUTSIDE
 from plumb.bench.hiding import usual_machine
 from plumb.fit.fit import fit
 from plumb.fit.inputs import Inputs
+from plumb.job.home import Touch
+from plumb.job.slip import CANNOT_TELL, LINK, MOST_LINKS, NO_LINKS, SLIP, Links, find_slip
 from plumb.model.predict import lengths, places
-from plumb.recovery.slip import CANNOT_TELL, LINK, MOST_LINKS, NO_LINKS, SLIP, Links, find_slip
-from plumb.recovery.touched import Touch
-from plumb.settings.fit_record import FitRecord
 from plumb.settings.machine import MachineSettings
+from plumb.settings.toml import FitRecord
 
 Array = np.ndarray
 FITTED = ("chain_pitch", "chain_stretch")

@@ -8,11 +8,22 @@ from pathlib import Path
 from typing import Any
 
 from plumb.cli.add_text import as_text, auto_text
-from plumb.cli.checked import refuse_unfitted, with_stated
-from plumb.cli.client import client_files_of, client_text, typed_json
+from plumb.cli.arguments import (
+    add_force,
+    add_json,
+    add_marks,
+    add_prior,
+    add_sigma,
+    add_units,
+    add_without,
+    named_number,
+)
+from plumb.cli.checked import add_checked, refuse_unfitted, with_stated
+from plumb.cli.client import add_client, add_firmware, client_files_of, client_text, typed_json
 from plumb.cli.compare import panel_of, score_json
 from plumb.cli.files import inputs_of, picture_form
 from plumb.cli.output import STDOUT, refuse_twins, say_failure, write_outputs
+from plumb.cli.screen import about, print_json
 from plumb.cli.steps import (
     AUTO,
     CLIENT_OF,
@@ -22,22 +33,19 @@ from plumb.cli.steps import (
     second_round,
     usual_client,
 )
-from plumb.cli.text import about, print_json
 from plumb.cure.add import Addition, Parameter, Quality, add
 from plumb.cure.auto import AutoAddition, add_auto, without_marks
-from plumb.cure.machine_file import toml_of
-from plumb.cure.origin import refuse_other_origin
-from plumb.cure.record import record_of
-from plumb.diary.entries import FIT, fit_entry
-from plumb.diary.keeping import keep
+from plumb.cure.live_board import refuse_other_origin
+from plumb.cure.machine_file import record_of, toml_of
+from plumb.diary.file import FIT, fit_entry, keep
 from plumb.firmware.client_files import ClientFiles
 from plumb.fit.compare import Comparison
+from plumb.fit.covariates import PATCH
 from plumb.fit.inputs import Inputs
-from plumb.fit.patch import PATCH
 from plumb.model.catalogue import is_sketch
 from plumb.model.plain import noun_of
-from plumb.pictures.panel import Panel
-from plumb.pictures.staircase import Stair, draw_staircase
+from plumb.pictures.fingerprints import Stair, draw_staircase
+from plumb.pictures.scale import Panel
 from plumb.text.errors import InputError
 
 NONE = "none"  # as an effect: the frame alone
@@ -301,3 +309,67 @@ def _parameter_json(parameter: Parameter) -> dict[str, Any]:
         "possible": parameter.plausible_range.limits,
         "plausible": parameter.plausible,
     }
+
+
+# The arguments of `plumb add`.
+
+EXAMPLES = (
+    "plumb add groundcontrol.ini marks.toml --effect auto -o machine.toml",
+    "plumb add groundcontrol.ini marks.toml --effect none -o machine.toml",
+)
+EXIT = (
+    "Exit: 0 done; 1 done, but marks left out of the fit are not predicted better than without the "
+    "effects, or auto cannot explain the marks (nothing is written for a slip); 2 an input cannot "
+    "be used, and nothing was written."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb add`."""
+    add_marks(parser)
+    parser.add_argument(
+        "--effect",
+        metavar="NAME",
+        nargs="+",
+        action="extend",
+        default=[],
+        help="effects to fit (plumb effects lists them); auto: what plumb diagnose proves; none: "
+        "the frame alone. Other effects of SETTINGS stay as they are",
+    )
+    parser.add_argument(
+        "--hold",
+        metavar="NAME=SIZE",
+        action="append",
+        type=held_size,
+        default=[],
+        help="keep a parameter of these effects at a size, like chain_pitch.left=0.001; the rest "
+        "is fitted",
+    )
+    parser.add_argument(
+        "--patch",
+        action="store_true",
+        help="also fit a smooth map of the errors that no effect explains; it is no physics",
+    )
+    add_without(parser)
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", help="write the fitted machine to this file"
+    )
+    add_client(parser)
+    add_firmware(parser)
+    add_prior(parser)
+    add_sigma(parser, usual="tape_sigma_mm of MARKS and repeats, else from the residuals")
+    add_checked(parser)
+    parser.add_argument(
+        "--picture", metavar="FILE", help="draw how the error falls: .png, .svg, .pdf"
+    )
+    add_force(parser)
+    add_units(parser)
+    add_json(parser)
+
+
+def held_size(text: str) -> tuple[str, float]:
+    """Reads NAME=SIZE."""
+    name, size = named_number(text)
+    if size is None:
+        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=SIZE, like chain_pitch.left=0.001")
+    return name, size

@@ -6,11 +6,13 @@ from plumb.cli.screen import sentences, table
 from plumb.cure.add import Addition
 from plumb.cure.auto import AutoAddition
 from plumb.cure.machine_file import PATCH_WARNING, turn_sentences
+from plumb.diagnosis.answer import verdict_sentence
 from plumb.diagnosis.noise import origin_words
-from plumb.diagnosis.sentence import verdict_sentence
-from plumb.fit.patch import PATCH
+from plumb.fit.covariates import PATCH
 from plumb.model.plain import noun_of, plain_before, plain_size
-from plumb.text.shown import bare, unit, worded
+from plumb.text.values import bare, unit, worded
+
+NONE = "none"  # as an effect: the frame alone
 
 
 def auto_text(result: AutoAddition) -> str:

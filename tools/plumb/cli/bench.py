@@ -17,14 +17,11 @@ from plumb.bench.report import (
     loop_cells,
     value_words,
 )
-from plumb.bench.report import (
-    run as run_bench,
-)
+from plumb.bench.report import run as run_bench
 from plumb.bench.scenarios import CURE, LOOP, NAMES, SCENARIOS, Scenario
-from plumb.cli.arguments.bench import BOARDS, FAST
-from plumb.cli.ending import INTERRUPTED
-from plumb.cli.screen import Bar, sentences, table
-from plumb.cli.text import print_json
+from plumb.cli.arguments import add_json, count
+from plumb.cli.output import INTERRUPTED
+from plumb.cli.screen import Bar, print_json, sentences, table
 from plumb.text.errors import InputError
 
 
@@ -168,3 +165,38 @@ def as_json(report: Report) -> dict[str, Any]:
         + ["error at the sled"] * (report.cure_judged == "missed")
         + ["error at the sled after two rounds"] * (report.loop_judged == "missed"),
     }
+
+
+# The arguments of `plumb bench`.
+
+BOARDS, FAST = 200, 10  # of each scenario
+EXAMPLES = (
+    "plumb bench --fast",
+    "plumb bench --scenario one-9 --boards 100",
+)
+EXIT = "Exit: 0 done, whatever the rates; 2 it cannot run; 130 interrupted, what is done is kept."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb bench`."""
+    parser.add_argument(
+        "--scenario",
+        metavar="NAME",
+        nargs="+",
+        action="extend",
+        default=[],
+        help="only scenarios whose names begin like this (docs/bench.md lists them)",
+    )
+    parser.add_argument(
+        "--boards", metavar="N", type=count, help=f"boards of each scenario [{BOARDS}]"
+    )
+    parser.add_argument("--fast", action="store_true", help=f"{FAST} boards of each scenario")
+    parser.add_argument(
+        "--seed",
+        metavar="S",
+        type=int,
+        default=1,
+        help="draws the boards; the same seed, the same boards [1]",
+    )
+    parser.add_argument("--jobs", metavar="N", type=count, default=1, help="processes at once [1]")
+    add_json(parser)

@@ -3,24 +3,46 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from plumb.cli import add as add_command
 from plumb.cli import compare as compare_command
 from plumb.cli import diagnose as diagnose_command
-from plumb.cli.calibrate_text import Round, as_text, sentence
-from plumb.cli.checked import with_stated
-from plumb.cli.client import typed_json
+from plumb.cli.add_text import COLUMNS, parameter_table, quality_table
+from plumb.cli.arguments import (
+    add_force,
+    add_json,
+    add_marks,
+    add_prior,
+    add_sigma,
+    add_units,
+    add_without,
+)
+from plumb.cli.checked import add_checked, with_stated
+from plumb.cli.client import add_client, add_firmware, client_text, typed_json
+from plumb.cli.compare import conclusion, outside_sentence
+from plumb.cli.diagnose import explanation_table
 from plumb.cli.files import inputs_of
-from plumb.cli.screen import bar
-from plumb.cli.steps import free_name, usual_client
-from plumb.cli.text import print_json
-from plumb.cure.auto import add_auto, without_marks
-from plumb.cure.origin import refuse_other_origin
+from plumb.cli.next import after, first_proposal
+from plumb.cli.screen import bar, headline, print_json, sentences
+from plumb.cli.steps import (
+    auto_words,
+    free_name,
+    next_step,
+    same_inputs,
+    second_round,
+    usual_client,
+)
+from plumb.cure.auto import AutoAddition, add_auto, without_marks
+from plumb.cure.live_board import refuse_other_origin
+from plumb.cure.machine_file import turn_sentences
+from plumb.diagnosis.answer import verdict_sentence
 from plumb.firmware.client_files import ClientFiles
-from plumb.fit.compare import compare
+from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
-from plumb.plan import propose
+from plumb.model.plain import nouns_of
+from plumb.plan import Next, Proposal, propose
+from plumb.text.values import bare, worded
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -92,3 +114,140 @@ def _written(
         "picture": None,
     }
     return add_command.written(argparse.Namespace(**asked), inputs, addition)
+
+
+# The arguments of `plumb calibrate`.
+
+EXAMPLES = (
+    "plumb calibrate groundcontrol.ini marks.toml",
+    "plumb calibrate groundcontrol.ini marks.toml --client groundcontrol -o machine.toml",
+)
+EXIT = (
+    "Exit: 0 done, the new settings are written; 1 a reading has to be looked at, or something "
+    "measured, first, and nothing was written; 2 an input cannot be used, and nothing was written."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb calibrate`."""
+    add_marks(parser)
+    add_without(parser)
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="the new machine.toml [machine.toml, or machine-2.toml and so on if that exists]",
+    )
+    add_client(parser)
+    add_firmware(parser)
+    add_prior(parser)
+    add_sigma(parser, usual="as plumb diagnose takes it")
+    add_checked(parser)
+    add_units(parser)
+    add_force(parser)
+    add_json(parser)
+
+
+# What `plumb calibrate` says to people: what the marks show, a sentence, and the next command.
+
+
+@dataclass(frozen=True)
+class Round:
+    """A round of measuring: what was compared, diagnosed, added, and proposed."""
+
+    comparison: Comparison
+    result: AutoAddition
+    advice: Next | None = None  # if something has to be measured first
+
+    @property
+    def done(self) -> bool:
+        """Whether new settings can be written: nothing is left that the marks could decide."""
+        return self.result.addition is not None and self.result.done and not self.result.rivals
+
+
+def as_text(
+    this: Round,
+    arguments: argparse.Namespace,
+    files: list[str],
+    client: ClientFiles | None,
+    inputs: Inputs,
+) -> str:
+    """The whole round for people: what is, what is missing, what was done, what comes next."""
+    diagnosis, addition = this.result.diagnosis, this.result.addition
+    parts = [conclusion(this.comparison, inputs.settings.sheet_width, inputs.measurements.typed)]
+    outside = outside_sentence(this.comparison.promised) if this.comparison.promised else ""
+    if outside:
+        parts.append(sentences([f"{outside} The diagnosis asks for that again."], mark=""))
+    parts.append(sentences([verdict_sentence(diagnosis)], mark=""))
+    if diagnosis.slips:
+        parts.append(sentences([slip.sentence for slip in diagnosis.slips]))
+    elif this.done and addition:
+        parts += [quality_table(addition), parameter_table(addition)]
+        parts.append(sentences([COLUMNS], mark=""))
+        said = [*turn_sentences(addition), *addition.cures, *addition.warnings]
+        parts += [sentences(said)] if said else []
+    elif diagnosis.explanations:
+        parts.append(explanation_table(diagnosis))
+    if addition is None and not diagnosis.slips:
+        parts.append(sentences([f"{this.result.reason.capitalize()}."], mark=""))
+    parts.append(headline(sentence(this)))
+    if this.done:
+        parts.append(_written_text(files, client))
+        parts.append(second_round(arguments, files))
+    else:
+        parts += _first_measure(this, arguments)
+    return "\n\n".join(parts)
+
+
+def sentence(this: Round) -> str:
+    """The end of the round in one sentence."""
+    diagnosis, addition = this.result.diagnosis, this.result.addition
+    if this.done and addition:
+        chosen = this.result.chosen
+        what = f"with {nouns_of(chosen)} added" if chosen else "with the frame fitted"
+        return (
+            f"Done: {what}, the error falls from {bare(addition.raw.rms)} to "
+            f"{worded(addition.after.fit_rms)} RMS, {worded(addition.after.left_out_rms)} checked "
+            "on marks not used."
+        )
+    if diagnosis.slips:
+        names = ", ".join(dict.fromkeys(slip.name for slip in diagnosis.slips))
+        return f"Not yet: read {names} again, and correct the file."
+    best = _best(this)
+    if best is None:
+        return "Not yet: nothing that can be proposed would tell more."
+    return (
+        f"Not yet: first measure {best.option.title}, about {best.option.minutes:.0f} minutes; "
+        "nothing was written."
+    )
+
+
+def _best(this: Round) -> Proposal | None:
+    """What to measure first; more marks where they are too few, or lie too close together."""
+    proposals = this.advice.proposals if this.advice else ()
+    if this.result.diagnosis.left_open.is_too_much:
+        proposals = tuple(each for each in proposals if each.option.is_cut) or proposals
+    return proposals[0] if proposals else None
+
+
+def _written_text(files: list[str], client: ClientFiles | None) -> str:
+    written = sentences([f"Written: {', '.join(files)}"], mark="")
+    return f"{written}\n{client_text(client)}" if client else written
+
+
+def _first_measure(this: Round, arguments: argparse.Namespace) -> list[str]:
+    """What has to be done before anything is written."""
+    same = same_inputs(arguments)
+    if this.result.diagnosis.slips:
+        names = dict.fromkeys(slip.name for slip in this.result.diagnosis.slips)
+        without = [word for name in names for word in ("--without", name)]
+        corrected = next_step("When the file is corrected:", ["calibrate", *same])
+        left = next_step("If it cannot be read again:", ["calibrate", *same, *without])
+        return [f"{corrected}\n{left}"]
+    best = _best(this)
+    if best is None:
+        return []
+    parts = [first_proposal(best), after(best, arguments)]
+    if this.result.chosen:
+        parts.append(next_step("Or take the most likely one untested:", auto_words(arguments)))
+    return parts

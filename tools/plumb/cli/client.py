@@ -6,9 +6,10 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
+from plumb.cli.arguments import file
 from plumb.cli.screen import sentences, table
 from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files
-from plumb.settings.machine import MachineSettings
+from plumb.settings.machine import CLIENTS, FIRMWARES, MachineSettings
 from plumb.text.errors import InputError
 
 
@@ -53,3 +54,33 @@ def typed_json(files: ClientFiles | None) -> dict[str, str]:
     """What the owner types into the client, by section and key."""
     typed = files.typed if files else {}
     return {f"{section}: {key}": value for (section, key), value in typed.items()}
+
+
+# The options that name the client and the firmware that files are for.
+
+
+def add_client(parser: argparse.ArgumentParser) -> None:
+    """The options --client and --original."""
+    parser.add_argument(
+        "--client",
+        choices=CLIENTS,
+        help="the program that sends G-code to the machine. It stores numbers too, and sends them "
+        "each time it connects. none: a sender that stores no numbers",
+    )
+    parser.add_argument(
+        "--original",
+        metavar="INI",
+        type=file,
+        help="the client's groundcontrol.ini or webcontrol.json; its other keys stay as they are",
+    )
+
+
+def add_firmware(parser: argparse.ArgumentParser) -> None:
+    """The option --firmware."""
+    parser.add_argument(
+        "--firmware",
+        choices=FIRMWARES,
+        default="plumb",
+        help="which firmware the machine runs; with the published firmware the client carries all "
+        "corrections [%(default)s]",
+    )

@@ -7,21 +7,20 @@ from typing import Any
 
 import numpy as np
 
+from plumb.cli.arguments import add_force, add_json, add_marks, add_units, length
 from plumb.cli.files import inputs_of, picture_form
 from plumb.cli.output import write_outputs
-from plumb.cli.screen import sentences, table
+from plumb.cli.screen import about, print_json, sentences, table
 from plumb.cli.steps import next_step, same_inputs
-from plumb.cli.text import about, print_json
 from plumb.fit.compare import Comparison, compare
+from plumb.marks.benchmark import Score
 from plumb.marks.model import Typed
-from plumb.marks.score import Score
-from plumb.model.plain import plain_size
-from plumb.model.ranks import ranked
-from plumb.pictures.panel import Panel
+from plumb.model.plain import plain_size, ranked
+from plumb.pictures.scale import Panel
 from plumb.pictures.sheet import draw
-from plumb.settings.fit_record import FitRecord
+from plumb.settings.toml import FitRecord
 from plumb.text.errors import InputError
-from plumb.text.shown import bare, signed, unit, worded
+from plumb.text.values import bare, signed, unit, worded
 
 MACHINE = Typed()  # places count from the middle of the sheet
 FRAMES = (
@@ -249,3 +248,27 @@ def _marks_table(comparison: Comparison, typed: Typed) -> str:
     ]
     header = ["mark", "target x", "y", "measured x", "y", "error x", "y", "length"]
     return table([*header, "left chain", "right"], rows)
+
+
+# The arguments of `plumb compare`.
+
+EXAMPLES = (
+    "plumb compare groundcontrol.ini marks.toml",
+    "plumb compare groundcontrol.ini marks.toml --picture errors.png --names",
+)
+EXIT = "Exit: 0 done; 1 the RMS is above --limit; 2 an input cannot be used."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb compare`."""
+    add_marks(parser)
+    parser.add_argument(
+        "--limit", metavar="MM", type=length, help="exit with code 1 if the RMS is above MM"
+    )
+    add_units(parser)
+    parser.add_argument("--picture", metavar="FILE", help="draw the errors: .png, .svg or .pdf")
+    parser.add_argument(
+        "--names", action="store_true", help="write the marks' names into the picture"
+    )
+    add_force(parser)
+    add_json(parser)

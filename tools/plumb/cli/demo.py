@@ -1,5 +1,6 @@
 """`tools/demo`: how the error of a machine falls; `--real`: of nine published marks, with all that
-is doubtful about them."""
+is doubtful about them.
+"""
 
 from __future__ import annotations
 
@@ -12,20 +13,25 @@ from pathlib import Path
 from plumb.cli import demo_loop
 from plumb.cli.add import fall_of
 from plumb.cli.add_text import COLUMNS
-from plumb.cli.calibrate import round_of
-from plumb.cli.calibrate_text import sentence
-from plumb.cli.ending import ended
-from plumb.cli.output import refuse_early, write_outputs
+from plumb.cli.calibrate import round_of, sentence
+from plumb.cli.output import ended, refuse_early, write_outputs
 from plumb.cli.parser import Parser
 from plumb.cli.screen import sentences, table
-from plumb.cure.demo import GOAL, MARKS, SETTINGS, Demonstration, demonstrate
-from plumb.cure.machine_file import toml_of, turn_sentences
-from plumb.cure.record import record_of
-from plumb.diagnosis.sentence import verdict_sentence
+from plumb.cure.machine_file import (
+    GOAL,
+    MARKS,
+    SETTINGS,
+    Demonstration,
+    demonstrate,
+    record_of,
+    toml_of,
+    turn_sentences,
+)
+from plumb.diagnosis.answer import verdict_sentence
 from plumb.firmware.client_files import client_files
 from plumb.fit.inputs import Inputs
 from plumb.text.errors import refusal
-from plumb.text.shown import bare
+from plumb.text.values import bare
 
 PICTURE = "error-falls"
 BUILT = str(Path(__file__).resolve().parents[3] / ".pio/build/megaatmega2560/firmware.elf")

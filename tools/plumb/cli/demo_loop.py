@@ -9,14 +9,14 @@ from plumb.cli.add import heading_of, stairs_of
 from plumb.cli.compare import panel_of
 from plumb.cli.screen import bar, headline, sentences, table
 from plumb.cure.machine_file import toml_of
-from plumb.diagnosis.sentence import verdict_sentence
+from plumb.diagnosis.answer import verdict_sentence
 from plumb.fit.compare import Comparison
 from plumb.grid.options import Grid
 from plumb.model.plain import nouns_of
+from plumb.pictures.fingerprints import Stair, draw_staircase
 from plumb.pictures.sheet import draw
-from plumb.pictures.staircase import Stair, draw_staircase
-from plumb.text.ours import DEMO_MARKS
-from plumb.text.shown import bare
+from plumb.text.files import DEMO_MARKS
+from plumb.text.values import bare
 from plumb.vm.garage import random_garage
 from plumb.vm.hiding import RANDOM, described, hide
 from plumb.vm.loop import Loop, closed_loop

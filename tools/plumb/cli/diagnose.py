@@ -6,20 +6,18 @@ import argparse
 from operator import itemgetter
 from typing import Any
 
-from plumb.cli.checked import with_stated
+from plumb.cli.arguments import add_json, add_marks, add_prior, add_sigma, add_units
+from plumb.cli.checked import add_checked, with_stated
 from plumb.cli.files import inputs_of
-from plumb.cli.screen import sentences, table
-from plumb.cli.steps import auto_words, add_named, next_step, same_inputs
-from plumb.cli.text import print_json
+from plumb.cli.screen import print_json, sentences, table
+from plumb.cli.steps import add_named, auto_words, next_step, same_inputs
 from plumb.diagnosis import Diagnosis, diagnose
-from plumb.diagnosis.answer import Ranked, Together
-from plumb.diagnosis.sentence import SHOWN, verdict_sentence
+from plumb.diagnosis.answer import SHOWN, Ranked, Together, verdict_sentence
 from plumb.diagnosis.sizes import Size
 from plumb.model.catalogue import every_effect, label, place_of
-from plumb.model.plain import named, noun_of, nouns_of, plain_size, plainly
-from plumb.model.ranks import ranked
+from plumb.model.plain import named, noun_of, nouns_of, plain_size, plainly, ranked
 from plumb.plan import Proposal, propose
-from plumb.text.shown import worded
+from plumb.text.values import worded
 
 BAD_NEWS = ("slip", "not_in_library")
 UNKNOWN_ADVICE = (
@@ -281,3 +279,25 @@ def _hiding(diagnosis: Diagnosis) -> str:
 def percent_of(share: float | None) -> str:
     """A share for people; a dash where there is none."""
     return "-" if share is None else f"{100 * share:.0f} %"
+
+
+# The arguments of `plumb diagnose`.
+
+EXAMPLES = (
+    "plumb diagnose groundcontrol.ini marks.toml",
+    "plumb diagnose groundcontrol.ini marks.toml --checked sled_weight=98+-2",
+)
+EXIT = (
+    "Exit: 0 done; 1 done, but a mark should be measured again or no effect of the library "
+    "explains the marks; 2 an input cannot be used."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb diagnose`."""
+    add_marks(parser)
+    add_prior(parser)
+    add_sigma(parser, usual="tape_sigma_mm of MARKS and repeats, else 0.5")
+    add_checked(parser)
+    add_units(parser)
+    add_json(parser)

@@ -5,17 +5,16 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
+from plumb.cli.arguments import add_force, add_json, add_units
 from plumb.cli.files import picture_form
 from plumb.cli.output import write_outputs
-from plumb.cli.screen import headline, sentences, table
-from plumb.cli.text import print_json
-from plumb.diary.file import Diary, Entry, has_diary, read_diary
+from plumb.cli.screen import headline, print_json, sentences, table
+from plumb.diary.file import Diary, Entry, has_diary, noted, read_diary
 from plumb.diary.history import Course, History, history_of
-from plumb.diary.noted import noted
 from plumb.model.plain import named, plain_name, plain_size
-from plumb.pictures.diary import Run, draw_diary
+from plumb.pictures.reach import Run, draw_diary
 from plumb.text.errors import refusal
-from plumb.text.shown import bare, unit, worded
+from plumb.text.values import bare, unit, worded
 
 LAST = 10  # other entries
 
@@ -144,3 +143,29 @@ def _json(diary: Diary, history: History, written: list[str]) -> dict[str, Any]:
         "spoilt_lines": diary.spoilt,
         "written": written,
     }
+
+
+# The arguments of `plumb diary`.
+
+EXAMPLES = (
+    "plumb diary my-maslow",
+    "plumb diary my-maslow --picture diary.png",
+)
+EXIT = "Exit: 0 done; 2 there is no diary, or a file cannot be written."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb diary`."""
+    parser.add_argument(
+        "folder",
+        metavar="FOLDER",
+        nargs="?",
+        default=".",
+        help="the machine's folder [this folder]",
+    )
+    parser.add_argument(
+        "--picture", metavar="FILE", help="draw errors and numbers over time: .png, .svg, .pdf"
+    )
+    add_force(parser)
+    add_units(parser)
+    add_json(parser)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 from collections import Counter
 
-from plumb.cli.screen import sentences, table
+from plumb.cli.arguments import add_json
+from plumb.cli.screen import number, print_json, sentences, table
 from plumb.cli.steps import next_step
-from plumb.cli.text import number, print_json
 from plumb.model.catalogue import NO_FIRMWARE, empirical_effects, every_effect, label
 
 
@@ -55,3 +55,17 @@ def run(arguments: argparse.Namespace) -> int:
     measured = ["calibrate", "groundcontrol.ini", "marks.toml"]
     print(f"\n{next_step('Which of them your machine has, by its marks:', measured)}")
     return 0
+
+
+# The arguments of `plumb effects`.
+
+EXAMPLES = (
+    "plumb effects",
+    "plumb effects --json",
+)
+EXIT = "Exit: 0 done."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb effects`."""
+    add_json(parser)

@@ -5,11 +5,10 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from plumb.fit.inputs import Inputs
-from plumb.fit.read_inputs import read_inputs
+from plumb.fit.inputs import Inputs, read_inputs
 from plumb.pictures.sheet import FORMATS
 from plumb.text.errors import InputError
-from plumb.text.shown import show_in
+from plumb.text.values import show_in
 
 
 def inputs_of(arguments: argparse.Namespace) -> Inputs:

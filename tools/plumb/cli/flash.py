@@ -7,7 +7,8 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from plumb.line.serial_port import port_for
+from plumb.cli.arguments import add_port
+from plumb.line.port import port_for
 from plumb.text.errors import InputError, refusal
 
 # The Mega's bootloader, as Arduino's programs address it.
@@ -41,3 +42,24 @@ def _avrdude() -> str:
     if not name:
         raise InputError("avrdude is missing: tools/setup installs it")
     return name
+
+
+# The arguments of `plumb flash`.
+
+EXAMPLES = (
+    "plumb flash",
+    "plumb flash --port /dev/ttyACM0",
+)
+EXIT = "Exit: 0 written; 2 no board, no firmware.hex, or avrdude refused."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb flash`."""
+    parser.add_argument(
+        "hex",
+        metavar="HEX",
+        nargs="?",
+        default=".pio/build/megaatmega2560/firmware.hex",
+        help="the file to write [%(default)s]",
+    )
+    add_port(parser)

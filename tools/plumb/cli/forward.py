@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import argparse
 
-from plumb.cli.places_text import answered, answers_table, count_sentence
-from plumb.cli.text import print_json
-from plumb.fit.read_inputs import settings_in
+from plumb.cli.arguments import add_json, add_settings, add_units, file
+from plumb.cli.inverse import answered, answers_table, count_sentence
+from plumb.cli.screen import print_json
+from plumb.fit.inputs import settings_in
 from plumb.model.predict import FOUND, places
 from plumb.text.points import read_pairs
-from plumb.text.shown import unit
+from plumb.text.values import unit
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -25,3 +26,26 @@ def run(arguments: argparse.Namespace) -> int:
         print(f"{said} Places from the middle of the sheet, y up; {unit()}.\n")
         print(answers_table(("left", "right"), chains, ("x", "y"), answers, words))
     return int(bool((outcome != FOUND).any()))
+
+
+# The arguments of `plumb forward`.
+
+EXAMPLES = (
+    "plumb forward machine.toml --lengths lengths.csv",
+    "plumb forward machine.toml --lengths lengths.csv --json",
+)
+EXIT = "Exit: 0 done; 1 some lengths lead nowhere; 2 an input cannot be used."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb forward`."""
+    add_settings(parser)
+    parser.add_argument(
+        "--lengths",
+        metavar="FILE",
+        type=file,
+        required=True,
+        help="CSV: left,right per line, mm paid out from 12 o'clock; a header is allowed",
+    )
+    add_units(parser)
+    add_json(parser)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from plumb.cli.screen import headline, sentences
-from plumb.cli.text import print_json
-from plumb.fit.read_inputs import settings_in
-from plumb.model.gap import BEYOND, MotorGap, motor_gap
+from plumb.cli.arguments import add_json, add_settings, add_units, length
+from plumb.cli.screen import headline, print_json, sentences
+from plumb.fit.inputs import settings_in
+from plumb.model.predict import BEYOND, MotorGap, motor_gap
 from plumb.text.errors import InputError
-from plumb.text.shown import brief, worded
+from plumb.text.values import brief, worded
 
 MOST_SPREAD = 0.5  # [mm]
 MISREAD = 5.0  # [mm] of spread: no two pulls of a machine differ so much
@@ -117,3 +117,41 @@ def _json(arguments: argparse.Namespace, measured: MotorGap) -> dict[str, Any]:
         "spread_mm": measured.spread,
         "pull_again": _differ(measured),
     }
+
+
+# The arguments of `plumb gap`.
+
+EXAMPLES = (
+    "plumb gap machine.toml --length 2989.29",
+    "plumb gap machine.toml --length 2989.29 2990.10 --flex 1 --drop 18.3",
+)
+EXIT = "Exit: 0 done; 2 an input cannot be used."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb gap`."""
+    add_settings(parser)
+    parser.add_argument(
+        "--length",
+        metavar="L",
+        type=length,
+        nargs="+",
+        required=True,
+        help="what the machine says to B10 after B11, once or several times",
+    )
+    parser.add_argument(
+        "--flex",
+        metavar="MM",
+        type=length,
+        help="by how much the motors come closer when 100 N pull on them (an untold flex counts "
+        "as 0.5 mm, give or take 0.5)",
+    )
+    parser.add_argument(
+        "--drop",
+        metavar="MM",
+        type=length,
+        help="how far the middle of the tight chain hangs below a string from end to end: it says "
+        "the pull better than the motor does",
+    )
+    add_units(parser)
+    add_json(parser)

@@ -7,16 +7,18 @@ import contextlib
 import io
 from collections.abc import Mapping
 from dataclasses import replace
+from pathlib import Path
 
 import plumb.grid as marks_grid
-from plumb.cli.measuring import content_of
+from plumb import _core
+from plumb.cli.arguments import limit
 from plumb.cli.output import refuse_twins, write_outputs
+from plumb.cli.screen import print_json
 from plumb.cli.steps import next_step
-from plumb.cli.text import print_json
-from plumb.fit.read_inputs import settings_in
-from plumb.model.reach import with_soft_chains
-from plumb.model.way import refuse_way
-from plumb.pictures.measuring_sheet import measuring_sheet
+from plumb.fit.inputs import settings_in
+from plumb.grid.pattern import ACROSS, SPANS, SQUARE, UPWARDS
+from plumb.model.reach import refuse_way, with_soft_chains
+from plumb.pictures.measuring_sheet import Hole, MeasuringSheet, Reading, measuring_sheet
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 
@@ -111,3 +113,98 @@ def _settings_of(path: str | None, machine: marks_grid.PlainMachine) -> MachineS
         sled_weight=plain.sled_weight,
     )
     return with_soft_chains(settings)[0]
+
+
+# The arguments of `plumb grid`.
+
+EXAMPLES = (
+    "plumb grid --settings groundcontrol.ini --output grid.nc --marks marks.toml",
+    "plumb grid --settings groundcontrol.ini --pattern benchmark --output benchmark.nc",
+)
+EXIT = "Exit: 0 done; 2 the grid cannot be made, and nothing was written."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb grid`: those of the tool, and --json."""
+    marks_grid.add_arguments(parser)
+    parser.add_argument(
+        "--most-give",
+        metavar="MM_PER_N",
+        type=limit,
+        default=_core.reach_limits()["most_give"],
+        help="how far a newton may move the sled; see plumb reach [%(default)g]",
+    )
+    parser.add_argument(
+        "--paper",
+        metavar="FILE.pdf",
+        help="also write a sheet to print: the holes with their numbers, and boxes to fill in",
+    )
+    parser.add_argument("--json", action="store_true", help="print a JSON object and nothing else")
+
+
+# What `plumb grid --paper` prints: the marks of a grid, or the spans of the benchmark.
+
+TAPE = "Read the tape in mm, to half a millimetre if you can."
+
+
+def content_of(
+    grid: marks_grid.Grid, machine: marks_grid.PlainMachine, *, settings: str | None, form: str
+) -> MeasuringSheet:
+    """The sheet for a grid that was made with these settings; `form` waits for the numbers."""
+    cut = f" These marks are cut with {Path(settings).name}." if settings else ""
+    then = f"Then type the numbers into {Path(form).name}.{cut}"
+    holes = _holes(grid, machine)
+    if grid.pattern == "benchmark":
+        return _benchmark(holes, machine, then)
+    return MeasuringSheet(
+        title=f"Measuring sheet: {len(holes)} marks",
+        how=(
+            "x: from the left edge of the wood to the middle of the mark. "
+            "y: from its top edge down to it.",
+            f"{TAPE} A white dot is its neighbour made again: read both." if grid.repeats else TAPE,
+            then,
+        ),
+        words=("mark", "planned x", "planned y", "x", "y"),
+        holes=holes,
+        readings=tuple(
+            Reading(hole.name, (f"{hole.x:.1f}", f"{hole.y:.1f}"), "again" if hole.again else "")
+            for hole in holes
+        ),
+        sheet=(machine.sheet_width, machine.sheet_height),
+        from_edges=True,
+    )
+
+
+def _holes(grid: marks_grid.Grid, machine: marks_grid.PlainMachine) -> tuple[Hole, ...]:
+    return tuple(
+        Hole(
+            mark.name,
+            machine.sheet_width / 2 + mark.x,
+            machine.sheet_height / 2 - mark.y,
+            again=mark.visit > 0,
+        )
+        for mark in marks_grid.listed(marks_grid.touches_of(grid, machine))
+    )
+
+
+def _benchmark(
+    holes: tuple[Hole, ...], machine: marks_grid.PlainMachine, then: str
+) -> MeasuringSheet:
+    planned = {"across": ACROSS, "upwards": UPWARDS}
+    return MeasuringSheet(
+        title="Calibration Benchmark Test",
+        how=(
+            "From mark to mark, or from a side of a cut to the same side of the other.",
+            TAPE,
+            then,
+        ),
+        words=("from - to", "planned", "measured"),
+        holes=holes,
+        readings=tuple(
+            Reading(f"{first} - {last}", (f"{planned.get(name, SQUARE):g}",))
+            for name, spans in SPANS.items()
+            for first, last in spans
+        ),
+        sheet=(machine.sheet_width, machine.sheet_height),
+        from_edges=False,
+    )

@@ -7,13 +7,12 @@ import sys
 from pathlib import Path
 from textwrap import wrap
 
+from plumb.cli.arguments import add_port
 from plumb.cli.steps import next_step
-from plumb.guide.progress import progress_in
-from plumb.guide.steps import SETTINGS, Visit
-from plumb.guide.talk import Talk
-from plumb.guide.walk import walk
+from plumb.guide.steps import SETTINGS, Visit, walk
+from plumb.guide.talk import Talk, progress_in
+from plumb.line.port import SerialPort, port_for
 from plumb.line.sender import Sender
-from plumb.line.serial_port import SerialPort, port_for
 from plumb.text.errors import refusal
 
 WIDTH = 79  # characters of a line
@@ -74,4 +73,28 @@ def _folded(text: str) -> str:
             for line in text.rstrip().split("\n")
         )
         + end
+    )
+
+
+# The arguments of `plumb guide`.
+
+EXAMPLES = (
+    "plumb guide my-maslow",
+    "plumb guide my-maslow --step numbers",
+)
+EXIT = "Exit: 0 all steps are done; 1 a step is open; 2 no machine answers."
+STEPS = ("read", "wires", "numbers", "reach", "chains", "mark")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb guide`."""
+    parser.add_argument(
+        "folder", metavar="FOLDER", nargs="?", default=".", help="where the answers are kept [.]"
+    )
+    add_port(parser)
+    parser.add_argument(
+        "--step", choices=STEPS, metavar="STEP", help=f"begin again at: {', '.join(STEPS)}"
+    )
+    parser.add_argument(
+        "--units", choices=("mm", "inch"), default="mm", help="of your tape [%(default)s]"
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from dataclasses import dataclass, field
 from datetime import date
 from math import dist
@@ -10,15 +11,15 @@ from typing import Any
 
 import numpy as np
 
+from plumb.cli.arguments import add_force, add_json, add_settings, add_units
 from plumb.cli.output import STDOUT, say_failure, write_outputs
-from plumb.cli.screen import headline, sentences, table
+from plumb.cli.screen import headline, print_json, sentences, table
 from plumb.cli.steps import next_step
-from plumb.cli.text import print_json
-from plumb.cli.touches import asked_signs, home_mark, touches_of
-from plumb.diary.entries import HOME
-from plumb.diary.keeping import keep
-from plumb.fit.read_inputs import settings_in
-from plumb.recovery.home import (
+from plumb.cli.touches import Point, add_touch, asked_signs, home_mark, point, touches_of
+from plumb.diary.file import HOME, keep
+from plumb.fit.inputs import settings_in
+from plumb.job.home import (
+    SAME,
     HomeFit,
     HomeMark,
     hole_program,
@@ -29,11 +30,10 @@ from plumb.recovery.home import (
     read_home_marks,
     write_home_marks,
 )
-from plumb.recovery.repair import repair_program
-from plumb.recovery.touched import SAME
+from plumb.job.slip import repair_program
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
-from plumb.text.shown import bare, signed, unit, worded
+from plumb.text.values import bare, signed, unit, worded
 
 
 @dataclass
@@ -206,3 +206,47 @@ def _json(settings: MachineSettings, answer: _Answer, written: list[str]) -> dic
         "fits": [_fit_json(fit) for fit in answer.fits],
         "written": written,
     }
+
+
+# The arguments of `plumb home`.
+
+EXAMPLES = (
+    "plumb home machine.toml --keep left=-900,250 -o hole.nc",
+    "plumb home machine.toml --at left --touch=right:903,-250",
+)
+EXIT = (
+    "Exit: 0 done; 1 a second home mark does not fit the first; 2 an input cannot be used, and "
+    "nothing was written."
+)
+WORD = re.compile(r"[A-Za-z0-9_-]+")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb home`."""
+    add_settings(parser)
+    parser.add_argument(
+        "--keep",
+        metavar="NAME=X,Y",
+        type=named_place,
+        help="keep the hole that the machine makes at this place [mm, from the middle of the "
+        "sheet, y up], with both chains there; -o writes the program that makes it",
+    )
+    parser.add_argument(
+        "--at",
+        metavar="NAME",
+        help="the bit is in this home mark: say how long the chains are; -o writes the program "
+        "that sets them",
+    )
+    add_touch(parser, meaning="another home mark, touched after that: say how well it fits")
+    parser.add_argument("-o", "--output", metavar="FILE", help="write the program to this file")
+    add_force(parser)
+    add_units(parser)
+    add_json(parser)
+
+
+def named_place(text: str) -> tuple[str, Point]:
+    """Reads NAME=X,Y."""
+    name, _, place = text.partition("=")
+    if not WORD.fullmatch(name):
+        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=X,Y, like left=-900,250")
+    return name, point(place)

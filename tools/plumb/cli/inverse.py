@@ -6,15 +6,23 @@ import argparse
 
 import numpy as np
 
-from plumb.cli.places_text import answered, answers_table, count_sentence
-from plumb.cli.text import print_json
-from plumb.fit.read_inputs import settings_in
-from plumb.model.controllers import chain_lengths, clamped
-from plumb.model.predict import FOUND, OUT_OF_REACH, Array, Codes, lengths
+from plumb.cli.arguments import add_controller, add_json, add_settings, add_units, file
+from plumb.cli.screen import print_json, table
+from plumb.fit.inputs import settings_in
+from plumb.model.predict import (
+    FOUND,
+    FOUND_WORDS,
+    OUT_OF_REACH,
+    Array,
+    Codes,
+    chain_lengths,
+    clamped,
+    lengths,
+)
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.text.points import read_pairs
-from plumb.text.shown import unit
+from plumb.text.values import bare, unit
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -56,3 +64,71 @@ def published_lengths(
         except ValueError:
             outcome[i] = OUT_OF_REACH
     return chains, outcome
+
+
+# The arguments of `plumb inverse`.
+
+EXAMPLES = (
+    "plumb inverse machine.toml --points places.csv",
+    "plumb inverse machine.toml --points places.csv --controller stock",
+)
+EXIT = "Exit: 0 done; 1 some place is out of reach; 2 an input cannot be used."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb inverse`."""
+    add_settings(parser)
+    parser.add_argument(
+        "--points",
+        metavar="FILE",
+        type=file,
+        required=True,
+        help="CSV: x,y per line, mm from the middle of the sheet, y up; a header is allowed",
+    )
+    parser.add_argument("--float32", action="store_true", help="compute as the board does")
+    add_controller(parser)
+    add_units(parser)
+    add_json(parser)
+
+
+# What `plumb inverse` and `plumb forward` say to people: counts and tables of places.
+
+Row = list[float] | None  # two numbers, or None where there is no answer
+
+
+def answered(answers: Array, outcome: Codes) -> tuple[list[Row], list[str]]:
+    """The answers (n, 2), None for those that may not be used, and the word of each outcome."""
+    rows: list[Row] = [
+        [float(number) for number in answer] if code == FOUND else None
+        for answer, code in zip(answers, outcome, strict=True)
+    ]
+    return rows, [FOUND_WORDS[code] for code in outcome]
+
+
+def count_sentence(words: list[str], noun: str) -> str:
+    """How many of them have an answer."""
+    good = words.count("yes")
+    if good == len(words):
+        return f"All {good} {noun}s found." if good > 1 else f"The {noun} was found."
+    return f"{good} of {len(words)} {noun}s found."
+
+
+def answers_table(
+    given_names: tuple[str, str],
+    given: np.ndarray,
+    names: tuple[str, str],
+    answers: list[Row],
+    words: list[str],
+) -> str:
+    """What was given, with its answer, or the word for why there is none."""
+    rows = []
+    for pair, answer, word in zip(given, answers, words, strict=True):
+        numbers: list[float | None] = [*answer] if answer else [None, None]
+        rows.append(
+            [
+                *(f"{number:g}" if unit() == "mm" else bare(number, 3) for number in pair),
+                *(bare(number, 4) for number in numbers),
+                "" if word == "yes" else word,
+            ]
+        )
+    return table([*given_names, *names, ""], rows, left=0)

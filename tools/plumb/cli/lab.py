@@ -18,3 +18,38 @@ def run(arguments: argparse.Namespace) -> int:
         say=lambda url: print(url, flush=True),
     )
     return 0
+
+
+# The arguments of `plumb lab`.
+
+EXAMPLES = (
+    "plumb lab my-maslow",
+    "plumb lab my-maslow --port 8080 --no-browser",
+)
+EXIT = "Exit: 0 ended with Ctrl-C; 2 it cannot be started."
+PORT = 8450
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb lab`."""
+    parser.add_argument(
+        "folder", metavar="FOLDER", nargs="?", default=".", help="where the work is kept [.]"
+    )
+    parser.add_argument(
+        "--port",
+        metavar="N",
+        type=port,
+        default=PORT,
+        help="listen on this port; 0: any [%(default)s]",
+    )
+    parser.add_argument(
+        "--no-browser", action="store_true", help="print the address, open no browser"
+    )
+
+
+def port(text: str) -> int:
+    """The number of a port."""
+    number = int(text)
+    if not 0 <= number <= 65535:
+        raise ValueError
+    return number

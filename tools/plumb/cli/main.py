@@ -1,7 +1,6 @@
 """The command line: `plumb COMMAND ...`; prints, and returns 0 done, 1 bad news, 2 refused.
 
-Help and refusals of words come from `arguments/` alone, which needs no numpy; the file of a command
-is loaded when it runs.
+The file of a command is loaded when that command is asked for, so help and refusals come at once.
 """
 
 from __future__ import annotations
@@ -11,94 +10,60 @@ import os
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module as loaded
-from typing import Protocol
+from textwrap import wrap
 
-from plumb.cli.arguments import (
-    add,
-    bench,
-    calibrate,
-    check,
-    compare,
-    diagnose,
-    diary,
-    effects,
-    flash,
-    forward,
-    gap,
-    grid,
-    guide,
-    home,
-    inverse,
-    lab,
-    practice,
-    preview,
-    reach,
-    read,
-    recheck,
-    report,
-    resume,
-    send,
-    settings,
-    slip,
-    telemetry,
-    vm,
-)
-from plumb.cli.arguments import next as next_measurement
-from plumb.cli.ending import ended
-from plumb.cli.output import results_of
+from plumb.cli.output import ended, results_of
 from plumb.cli.parser import Completion, Parser, Version
 from plumb.text.errors import InputError
-from plumb.text.shown import shown_in
+from plumb.text.values import shown_in
 
 DESCRIPTION = "Find and cure the errors of a hanging CNC: grid, cut, measure, then calibrate."
 EPILOG = "Lengths are mm, forces N, angles rad. plumb COMMAND --help explains each command."
 
-
-class Command(Protocol):
-    """What the file of a command in `arguments/` holds."""
-
-    HELP: str  # a sentence for `plumb --help`
-    EXIT: str  # what its exit codes mean
-
-    def add_arguments(self, parser: argparse.ArgumentParser) -> None:
-        """Tell the parser the arguments of this command."""
-
-
-# In the order of `plumb --help`. To add a command, write its two files and give it a line.
-GROUPS: Mapping[str, Mapping[str, Command]] = {
-    "first day": {"guide": guide, "lab": lab, "flash": flash, "reach": reach},
-    "calibrate": {
-        "grid": grid,
-        "preview": preview,
-        "calibrate": calibrate,
-        "compare": compare,
-        "diagnose": diagnose,
-        "next": next_measurement,
-        "add": add,
-        "settings": settings,
-        "report": report,
+# In the order of `plumb --help`. To add a command, write its file and give it a line.
+GROUPS: Mapping[str, Mapping[str, str]] = {
+    "first day": {
+        "guide": "go through a machine's first day: wires, numbers, reach, chains, first mark",
+        "lab": "open the lab in your browser: measure, see why the machine errs, and cure it",
+        "flash": "write the firmware to the Mega",
+        "reach": "which part of the sheet a machine can use",
     },
-    "job": {"check": check, "send": send, "resume": resume},
+    "calibrate": {
+        "grid": "the G-code for a grid of calibration marks",
+        "preview": "before any hole is drilled: which effects a plan of marks could tell apart",
+        "calibrate": "compare, diagnose, then add what is proved or say what to measure next",
+        "compare": "how far the marks lie from where the settings predict them",
+        "diagnose": "which effect the settings miss, as far as the marks can prove it",
+        "next": "what to measure next, its chance to settle the question, and the minutes it costs",
+        "add": "fit the frame and the named effects to the marks, and write the new settings",
+        "settings": "a fitted machine as $ lines, in its client's file, or as a table",
+        "report": "all that the marks say, as a page to read, print and keep",
+    },
+    "job": {
+        "check": "run a program dry: its faults, how long it takes, how well it will fit",
+        "send": "send a program, a line of G-code or a machine's numbers to the machine",
+        "resume": "write a program that goes on with a job after a halt",
+    },
     "trouble": {
-        "read": read,
-        "recheck": recheck,
-        "home": home,
-        "slip": slip,
-        "gap": gap,
-        "diary": diary,
-        "telemetry": telemetry,
+        "read": "read the machine's numbers and where its sled is",
+        "recheck": "say from two marks whether the machine is as it was fitted, or what changed",
+        "home": "keep a hole as home mark, and restore a lost position with the bit in it",
+        "slip": "say from touched marks whether a chain slipped, and how to repair it",
+        "gap": "work out the motor gap from a chain that B11 pulled tight",
+        "diary": "show how errors and numbers of a machine went over time",
+        "telemetry": "how the machine is doing, from a client's log with an answer to B30",
     },
     "engineers": {
-        "vm": vm,
-        "practice": practice,
-        "effects": effects,
-        "inverse": inverse,
-        "forward": forward,
-        "bench": bench,
+        "vm": "start a virtual machine with a serial port, as if a board were plugged in",
+        "practice": "find what is hidden in a virtual machine",
+        "effects": "the library of effects: what each does, its units, and what looks like it",
+        "inverse": "chain lengths for places, by the controller's formula or by our model",
+        "forward": "places for chain lengths, by our model",
+        "bench": "how often the diagnosis is right: rates over boards with hidden effects",
     },
 }
-COMMANDS: Mapping[str, Command] = {
-    name: command for group in GROUPS.values() for name, command in group.items()
+COMMANDS: Mapping[str, str] = {
+    name: said for group in GROUPS.values() for name, said in group.items()
 }
 
 
@@ -111,7 +76,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(arguments: Sequence[str]) -> int:
     # The lab's matrices are small: threads of the linear algebra only wait for each other.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    parsed = build_parser().parse_args(arguments)
+    parsed = build_parser(arguments).parse_args(arguments)
     run: Callable[[argparse.Namespace], int] = loaded(f"plumb.cli.{parsed.command}").run
     for line in loaded("plumb.model.sketches").BROKEN:
         raise InputError(f"sketch {line}")
@@ -120,8 +85,8 @@ def _run(arguments: Sequence[str]) -> int:
         return run(parsed)
 
 
-def build_parser() -> Parser:
-    """The parser of all commands."""
+def build_parser(arguments: Sequence[str] = ("--completion",)) -> Parser:
+    """The parser for these arguments: of the command that they name, or else of all commands."""
     parser = Parser(
         prog="plumb",
         description=DESCRIPTION,
@@ -133,15 +98,25 @@ def build_parser() -> Parser:
     completion = "print what lets a shell complete commands; see docs/README.md"
     parser.add_argument("--completion", action=Completion, help=completion)
     commands = parser.add_subparsers(metavar="COMMAND", required=True, dest="command")
-    for name, command in COMMANDS.items():
+    for name, said in COMMANDS.items():
         subparser = commands.add_parser(
             name,
-            help=command.HELP,
-            description=f"{command.HELP[0].upper()}{command.HELP[1:]}.",
-            epilog=command.EXIT,
+            help=said,
+            description=f"{said[0].upper()}{said[1:]}.",
             allow_abbrev=False,
+            formatter_class=argparse.RawDescriptionHelpFormatter,
         )
-        command.add_arguments(subparser)
+        if name in arguments or "--completion" in arguments:
+            command = loaded(f"plumb.cli.{name}")
+            subparser.epilog = "\n".join(
+                [
+                    "examples:",
+                    *(f"  {example}" for example in command.EXAMPLES),
+                    "",
+                    *wrap(command.EXIT, 79),
+                ]
+            )
+            command.add_arguments(subparser)
     return parser
 
 

@@ -7,23 +7,32 @@ from typing import Any
 
 import numpy as np
 
-from plumb.cli.checked import with_stated
+from plumb.cli.arguments import add_force, add_json, add_marks, add_prior, add_sigma, add_units
+from plumb.cli.checked import add_checked, with_stated
 from plumb.cli.diagnose import proposal_json
 from plumb.cli.files import inputs_of, picture_form
 from plumb.cli.output import refuse_twins, write_outputs
-from plumb.cli.screen import bar, sentences, table
+from plumb.cli.screen import bar, print_json, sentences, table
 from plumb.cli.steps import free_name, next_step, same_inputs
-from plumb.cli.text import print_json
 from plumb.diagnosis import Diagnosis, diagnose
-from plumb.diagnosis.sentence import verdict_sentence
-from plumb.fit.inputs import Inputs
-from plumb.fit.read_inputs import settings_in
+from plumb.diagnosis.answer import verdict_sentence
+from plumb.fit.inputs import Inputs, settings_in
 from plumb.pictures.plan import draw_plan
 from plumb.plan import Next, Proposal, propose
 from plumb.plan.case import Case
-from plumb.plan.proposal import AGAIN, CONFIRM, EXPLORE, FIND, REREAD, SETTLE
-from plumb.plan.proposal_files import form_of, program_of
-from plumb.plan.proposal_text import headline_of, promise_of, steps_of
+from plumb.plan.proposal import (
+    AGAIN,
+    CONFIRM,
+    EXPLORE,
+    FIND,
+    REREAD,
+    SETTLE,
+    form_of,
+    headline_of,
+    program_of,
+    promise_of,
+    steps_of,
+)
 from plumb.text.errors import InputError
 
 SHOWN, SPOKEN = 8, 3  # proposals in the table, and in whole sentences; --json has all
@@ -245,3 +254,45 @@ def _how(advice: Next) -> str:
         "or the upper and lower, half of the marks by themselves: where their numbers differ, "
         "something is local."
     )
+
+
+# The arguments of `plumb next`.
+
+EXAMPLES = (
+    "plumb next groundcontrol.ini marks.toml",
+    "plumb next groundcontrol.ini marks.toml --choose 2 --output next.nc --marks next.toml",
+)
+EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb next`."""
+    add_marks(parser)
+    add_prior(parser)
+    add_sigma(parser, usual="as plumb diagnose takes it")
+    add_checked(parser)
+    parser.add_argument(
+        "--choose",
+        metavar="N",
+        type=int,
+        help="the number of the proposal for --picture, --marks and --output [the best that has "
+        "them]",
+    )
+    parser.add_argument(
+        "--picture", metavar="FILE", help="draw the proposal on the sheet: .png, .svg, .pdf"
+    )
+    parser.add_argument(
+        "--marks", dest="template", metavar="FILE", help="write a marks.toml to fill in"
+    )
+    parser.add_argument(
+        "--output", metavar="FILE", help="write the G-code that cuts the proposed marks"
+    )
+    parser.add_argument(
+        "--cut-next-with",
+        metavar="SETTINGS",
+        help="the settings that the machine has now, if they are not those of MARKS; the form "
+        "names them",
+    )
+    add_force(parser)
+    add_units(parser)
+    add_json(parser)

@@ -9,11 +9,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from plumb.cli.arguments.practice import STEPS
+from plumb.cli.arguments import add_force, add_json, add_units
 from plumb.cli.practice_text import left_sentence, score_json, score_text
-from plumb.cli.screen import sentences
+from plumb.cli.screen import print_json, sentences
 from plumb.cli.steps import next_step
-from plumb.cli.text import print_json
 from plumb.marks.read import read_plan
 from plumb.model.predict import known_effects
 from plumb.settings.files import read_settings
@@ -175,3 +174,41 @@ def _done(
     if step:
         print(f"\n{step}")
     return 0
+
+
+# The arguments of `plumb practice`.
+
+STEPS = ("start", "measure", "read", "check", "hint", "solve")
+EXAMPLES = (
+    "plumb practice start game",
+    "plumb practice hint game",
+)
+EXIT = (
+    "Exit: 0 done; 1 solved, but something was missed or claimed that is not there; 2 it cannot be "
+    "done."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb practice`."""
+    parser.add_argument("step", metavar="STEP", nargs="?", choices=STEPS, help=", ".join(STEPS))
+    parser.add_argument("folder", metavar="FOLDER", nargs="?", help="where the game is")
+    parser.add_argument(
+        "what",
+        metavar="WHAT",
+        nargs="*",
+        help="measure: a form of plumb grid or plumb next, or a grid like 5x5; read: names of "
+        "marks; check: what to measure directly, like motor_gap; solve: the new machine.toml",
+    )
+    parser.add_argument(
+        "--level",
+        metavar="N",
+        type=int,
+        choices=tuple(LEVELS),
+        help="1 one large effect, 2 one with look-alikes, 3 two, 4 not in the library, 5 with a "
+        "wrong reading [1]",
+    )
+    parser.add_argument("--seed", metavar="S", type=int, help="another machine [drawn]")
+    add_units(parser)
+    add_force(parser)
+    add_json(parser)

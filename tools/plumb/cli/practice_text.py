@@ -6,7 +6,7 @@ from dataclasses import asdict
 from typing import Any
 
 from plumb.cli.screen import headline, sentences, table
-from plumb.text.shown import bare, unit, worded
+from plumb.text.values import bare, unit, worded
 from plumb.vm.practice import Practice, Score
 
 

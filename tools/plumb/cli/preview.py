@@ -6,22 +6,30 @@ import argparse
 from typing import Any
 
 import plumb.grid as marks_grid
-from plumb.cli.arguments.preview import COLUMNS, ROWS
+from plumb.cli.arguments import (
+    add_controller,
+    add_force,
+    add_json,
+    add_prior,
+    add_settings,
+    add_units,
+    file,
+    length,
+)
 from plumb.cli.files import picture_form
 from plumb.cli.output import write_outputs
-from plumb.cli.screen import sentences, table
+from plumb.cli.screen import print_json, sentences, table
 from plumb.cli.steps import next_step
-from plumb.cli.text import print_json
 from plumb.cure.add import priors_with
+from plumb.fit.inputs import settings_in
 from plumb.fit.problem import USUAL_SIGMA
-from plumb.fit.read_inputs import settings_in
 from plumb.marks.read import Mark, Measurements, read_plan
 from plumb.model.plain import noun_of, plain_before
-from plumb.pictures.preview import draw_preview
+from plumb.pictures.plan import draw_preview
 from plumb.plan.preview import APART, POWER, Outline, Preview, preview
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
-from plumb.text.shown import bare, unit, worded
+from plumb.text.values import bare, unit, worded
 
 SHOWN = 6  # additions that people are shown; --json has all
 ALIKE = 2  # look-alikes in the table
@@ -210,3 +218,47 @@ def _addition_table(outlook: Preview) -> str:
 def shown(value: float) -> str:
     """Sigmas for people: a decimal below ten, none above."""
     return f"{value:.1f}" if value < 9.95 else f"{value:.0f}" if value < 99.5 else "99+"
+
+
+# The arguments of `plumb preview`.
+
+COLUMNS, ROWS = 5, 3  # of the usual grid
+EXAMPLES = (
+    "plumb preview groundcontrol.ini --columns 5 --rows 5",
+    "plumb preview groundcontrol.ini marks.toml --picture plan.png",
+)
+EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb preview`."""
+    add_settings(parser)
+    parser.add_argument(
+        "plan",
+        metavar="PLAN",
+        type=file,
+        nargs="?",
+        help="a file of marks whose targets are the plan, like that of plumb grid --marks [a grid]",
+    )
+    for name, usual in (("columns", COLUMNS), ("rows", ROWS)):
+        parser.add_argument(f"--{name}", metavar="N", type=int, help=f"{name} of a grid [{usual}]")
+    parser.add_argument(
+        "--margin",
+        metavar="MM",
+        type=length,
+        help="distance of the outer marks from the sheet's edge [100]",
+    )
+    parser.add_argument(
+        "--sigma",
+        metavar="MM",
+        type=length,
+        help="reading error of a coordinate [tape_sigma_mm of PLAN, else 0.5]",
+    )
+    add_prior(parser)
+    add_controller(parser)
+    parser.add_argument(
+        "--picture", metavar="FILE", help="draw the plan and what to add to it: .png, .svg or .pdf"
+    )
+    add_force(parser)
+    add_units(parser)
+    add_json(parser)

@@ -5,20 +5,20 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from plumb.cli.arguments.reach import OPTIONS
+from plumb import _core
+from plumb.cli.arguments import add_force, add_json, add_prior, add_settings, add_units, limit
 from plumb.cli.files import picture_form
 from plumb.cli.output import write_outputs
-from plumb.cli.screen import sentences, table
+from plumb.cli.screen import print_json, sentences, table
 from plumb.cli.steps import next_step
-from plumb.cli.text import print_json
 from plumb.cure.add import priors_with
 from plumb.fit.expected import Expected, expected_anywhere, expected_priors, expected_sentence
-from plumb.fit.read_inputs import settings_in
+from plumb.fit.inputs import settings_in
 from plumb.model.predict import REACH_WORDS
 from plumb.model.reach import Extreme, Survey, conclusion_of, percent, survey_sheet
 from plumb.pictures.reach import draw_map
 from plumb.text.errors import InputError
-from plumb.text.shown import bare, unit, worded
+from plumb.text.values import bare, unit, worded
 
 SIGNS = ".TSV#"  # by verdict
 MEANING = (
@@ -126,3 +126,37 @@ def _worst(survey: Survey, tightest: Extreme, slackest: Extreme, softest: Extrem
         row += [f"{bare(extreme.place[0], 0)}, {bare(extreme.place[1], 0)}", extreme.side]
     rows[2][-1] = f"{CUT:g} N move it {worded(CUT * softest.value, 1)}"
     return table(["", "", "limit", f"at x, y [{unit()}]", ""], rows, words=[-1])
+
+
+# The arguments of `plumb reach`.
+
+OPTIONS = {
+    "most_tension": ("N", "largest tension of a chain at its sprocket; motors stall near 290 N"),
+    "least_tension": ("N", "least tension of a chain at its sprocket; the bungee pulls about 18 N"),
+    "least_free": ("MM", "least length of chain between ring and sprocket"),
+    "most_give": ("MM_PER_N", "largest move of the sled for each newton that pushes it"),
+}
+EXAMPLES = (
+    "plumb reach machine.toml",
+    "plumb reach machine.toml -o reach.png --most-tension 120",
+)
+EXIT = "Exit: 0 done; 2 an input cannot be used."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb reach`."""
+    usual = _core.reach_limits()
+    add_settings(parser)
+    parser.add_argument("-o", "--output", metavar="FILE", help="draw the map: .png, .svg or .pdf")
+    for name, (measure, meaning) in OPTIONS.items():
+        parser.add_argument(
+            "--" + name.replace("_", "-"),
+            metavar=measure,
+            type=limit,
+            default=usual[name],
+            help=f"{meaning} [%(default)g]",
+        )
+    add_prior(parser)
+    add_force(parser)
+    add_units(parser)
+    add_json(parser)

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import argparse
 
+from plumb.cli.arguments import add_force, add_json, add_port
 from plumb.cli.output import write_outputs
-from plumb.cli.screen import sentences, table
-from plumb.cli.text import print_json
-from plumb.firmware.read_back import machine_of_numbers
-from plumb.firmware.settings import every_setting
+from plumb.cli.screen import print_json, sentences, table
+from plumb.firmware.settings import every_setting, machine_of_numbers
 from plumb.firmware.telemetry import slip_suspicion, telemetry_in
-from plumb.line.lost_place import lost_place
 from plumb.line.memory import read_numbers
+from plumb.line.port import SerialPort, port_for
 from plumb.line.sender import Sender
-from plumb.line.serial_port import SerialPort, port_for
+from plumb.line.worker import lost_place
 from plumb.settings.files import machine_toml
 
 FIRST_EFFECT = 100  # from here on zero means that the machine does without
@@ -83,3 +82,22 @@ def _table(numbers: dict[int, float]) -> str:
         if value or number < FIRST_EFFECT
     ]
     return table(["number", "name", "value", "unit"], rows)
+
+
+# The arguments of `plumb read`.
+
+EXAMPLES = (
+    "plumb read",
+    "plumb read -o machine.toml",
+)
+EXIT = "Exit: 0 done; 2 no machine answers, or the file cannot be written."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb read`."""
+    add_port(parser)
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", help="write the numbers to this file, as a machine.toml"
+    )
+    add_force(parser)
+    add_json(parser)

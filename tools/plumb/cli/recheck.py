@@ -8,16 +8,26 @@ from typing import Any
 
 import numpy as np
 
-from plumb.cli.check_form import held_against_marks, report
+from plumb.cli.arguments import (
+    add_controller,
+    add_json,
+    add_prior,
+    add_settings,
+    add_sigma,
+    add_units,
+    file,
+)
+from plumb.cli.check import held_against_marks, report
+from plumb.cli.checked import add_checked
 from plumb.cli.screen import headline, sentences, table
-from plumb.cli.touches import asked_signs, touches_of
+from plumb.cli.touches import add_touch, asked_signs, touches_of
 from plumb.diary.file import read_diary
 from plumb.diary.recheck import LEFT, RIGHT, SHEET_X, SHEET_Y, Change, Recheck, recheck
-from plumb.fit.read_inputs import settings_in
+from plumb.fit.inputs import settings_in
+from plumb.job.home import FAR, are_apart
 from plumb.model.plain import plain_name, words_of
-from plumb.recovery.touched import FAR, are_apart
 from plumb.text.errors import InputError
-from plumb.text.shown import bare, signed, unit, worded
+from plumb.text.values import bare, signed, unit, worded
 
 FEWEST = 2
 SHOWN = 4  # changes
@@ -124,3 +134,43 @@ def _json(checked: Recheck) -> dict[str, Any]:
             for change in checked.changes
         ],
     }
+
+
+# The arguments of `plumb recheck`.
+
+EXAMPLES = (
+    "plumb recheck machine.toml --touch=-900,250:-899.5,250.2 --touch=900,-250:900,-250",
+    "plumb recheck machine.toml marks.toml --check check.toml",
+)
+EXIT = "Exit: 0 the marks lie within the interval; 1 something changed; 2 an input cannot be used."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb recheck`."""
+    add_settings(parser)
+    add_touch(parser, meaning="a mark: where it is, then where the machine was or is in it")
+    parser.add_argument(
+        "--check",
+        metavar="FORM",
+        type=file,
+        help="marks that a tape has read and no fit has seen: hold them against a fit of MARKS",
+    )
+    parser.add_argument(
+        "marks",
+        metavar="MARKS",
+        type=file,
+        nargs="*",
+        help="with --check: the marks to which SETTINGS were fitted",
+    )
+    parser.add_argument(
+        "--cut-with",
+        metavar="SETTINGS",
+        type=file,
+        help="the settings in force when MARKS were cut, if neither they nor SETTINGS say so",
+    )
+    add_controller(parser)
+    add_prior(parser)
+    add_checked(parser)
+    add_sigma(parser, usual="0.5; with --check what MARKS say")
+    add_units(parser)
+    add_json(parser)

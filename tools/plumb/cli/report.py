@@ -8,24 +8,30 @@ from pathlib import Path
 from typing import Any
 
 from plumb.cli.add import as_json as addition_json
-from plumb.cli.checked import with_stated
+from plumb.cli.arguments import (
+    add_force,
+    add_json,
+    add_marks,
+    add_prior,
+    add_sigma,
+    add_units,
+    add_without,
+)
+from plumb.cli.checked import add_checked, with_stated
 from plumb.cli.compare import as_json as comparison_json
 from plumb.cli.diagnose import as_json as diagnosis_json
 from plumb.cli.diagnose import proposal_json
 from plumb.cli.files import inputs_of
 from plumb.cli.output import STDOUT, write_outputs
-from plumb.cli.screen import bar, headline, sentences
+from plumb.cli.screen import bar, headline, print_json, sentences
 from plumb.cli.steps import command_text, same_inputs
-from plumb.cli.text import print_json
 from plumb.cure.auto import without_marks
-from plumb.diagnosis.sentence import verdict_sentence
-from plumb.diary.file import has_diary, read_diary
+from plumb.diagnosis.answer import verdict_sentence
+from plumb.diary.file import folder_of, has_diary, read_diary
 from plumb.diary.history import DiaryFit, history_of
-from plumb.diary.keeping import folder_of
-from plumb.fit.chain_view import ChainView
+from plumb.fit.compare import ChainView
 from plumb.fit.inputs import Inputs
-from plumb.report.findings import Findings, find
-from plumb.report.next_step import Command
+from plumb.report.findings import Command, Findings, find
 from plumb.report.page import report
 from plumb.text.errors import InputError
 
@@ -133,3 +139,31 @@ def _view_json(view: ChainView) -> list[dict[str, Any]]:
         {"name": name, "error": error, "left_chain": chains[0], "right_chain": chains[1]}
         for name, error, chains in zip(view.names, view.errors, view.chains, strict=True)
     ]
+
+
+# The arguments of `plumb report`.
+
+EXAMPLES = (
+    "plumb report groundcontrol.ini marks.toml -o report.html",
+    "plumb report groundcontrol.ini marks.toml first.toml -o report.html",
+)
+EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb report`."""
+    add_marks(parser)
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        required=True,
+        help="the page: .html, a single file that needs no network",
+    )
+    add_without(parser)
+    add_prior(parser)
+    add_sigma(parser, usual="as plumb diagnose takes it")
+    add_checked(parser)
+    add_units(parser)
+    add_force(parser)
+    add_json(parser)

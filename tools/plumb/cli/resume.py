@@ -5,15 +5,16 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from plumb.cli.arguments import add_force, add_machine, count, place
 from plumb.cli.output import STDOUT, write_outputs
 from plumb.cli.screen import sentences
 from plumb.cli.steps import next_step
-from plumb.fit.read_inputs import settings_in
-from plumb.jobs.outline import comment_of
-from plumb.jobs.resume import Machine, Resumed, resume_at_line, resume_at_place
+from plumb.fit.inputs import settings_in
+from plumb.job.dry_run import comment_of
+from plumb.job.resume import Machine, Resumed, resume_at_line, resume_at_place
 from plumb.text.errors import InputError
 from plumb.text.files import read_text
-from plumb.text.shown import bare, worded
+from plumb.text.values import bare, worded
 
 SHOWN = 8  # passes that are named
 
@@ -51,3 +52,38 @@ def _report(resumed: Resumed, name: str) -> list[str]:
         named = ", ".join(map(str, others[:SHOWN])) + (" and more" if others[SHOWN:] else "")
         said.append(f"It cuts there again at line {named}: --line picks that pass.")
     return said
+
+
+# The arguments of `plumb resume`.
+
+EXAMPLES = (
+    "plumb resume pocket.nc machine.toml -o rest.nc",
+    "plumb resume pocket.nc machine.toml --line 120 -o rest.nc",
+)
+EXIT = "Exit: 0 done; 2 an input cannot be used."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb resume`."""
+    add_machine(parser)
+    parser.add_argument(
+        "--line",
+        metavar="N",
+        type=count,
+        help="go on at this line, from the last place before it where the bit was out of the wood",
+    )
+    parser.add_argument(
+        "--at",
+        metavar="X,Y",
+        type=place,
+        help="go on in the middle of the cut that passes here, mm from mid sheet; of several "
+        "passes the first, or that of --line",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        default="-",
+        help="the program [the standard output]",
+    )
+    add_force(parser)

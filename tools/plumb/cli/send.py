@@ -3,28 +3,24 @@
 from __future__ import annotations
 
 import argparse
+import os
 import signal
 from collections.abc import Sequence
 from pathlib import Path
-from threading import Event
+from threading import Event, Thread
 
+from plumb.cli.arguments import add_port
 from plumb.cli.output import say_failure
-from plumb.cli.question import Question
 from plumb.cli.screen import Bar, sentences
 from plumb.cli.steps import free_name, next_step
-from plumb.diary.entries import PROGRAM, program_entry
-from plumb.diary.keeping import keep
-from plumb.diary.numbers_written import write_and_keep
-from plumb.firmware.in_force import refuse_other_numbers, refuse_other_origin
+from plumb.diary.file import PROGRAM, keep, program_entry, write_and_keep
+from plumb.firmware.settings import refuse_other_numbers, refuse_other_origin
 from plumb.grid.cut_with import form_of
-from plumb.jobs.program_file import refuse_other_files, refuse_what_is_no_program
-from plumb.line.machine_numbers import kept_before, lines_for
-from plumb.line.memory import Written, read_numbers
-from plumb.line.port import LostError
-from plumb.line.reached import Reached
-from plumb.line.sender import RefusedError, Sender, StoppedError, cleaned
-from plumb.line.serial_port import SerialPort, port_for
-from plumb.line.waits import PAUSED, waits_in
+from plumb.job.dry_run import refuse_other_files, refuse_what_is_no_program
+from plumb.line.memory import Written, kept_before, lines_for, read_numbers
+from plumb.line.port import LostError, SerialPort, port_for
+from plumb.line.progress import SAID_PAUSED, waits_in
+from plumb.line.sender import Reached, RefusedError, Sender, StoppedError, cleaned
 from plumb.marks.form import read_form
 from plumb.model.predict import known_effects
 from plumb.settings.files import read_settings
@@ -169,7 +165,7 @@ class _Attendant:
 
     def hear(self, line: str) -> None:
         """Print what the machine says, and note that it waits."""
-        if line == PAUSED:
+        if line == SAID_PAUSED:
             self._waits_now = True
         else:
             _say(line)
@@ -246,3 +242,60 @@ def _stream(sender: Sender, arguments: argparse.Namespace, text: Sequence[str]) 
     if len(lines) > 1:
         print(f"{len(lines)} lines were sent, and the machine took each.")
     return 0
+
+
+# The arguments of `plumb send`.
+
+EXAMPLES = (
+    "plumb send pocket.nc",
+    'plumb send "G0 X0 Y0"',
+)
+EXIT = "Exit: 0 all was done; 1 stopped after Ctrl-C; 2 refused, or no machine."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb send`."""
+    parser.add_argument(
+        "what",
+        metavar="FILE|LINE",
+        help="a program to run; a machine.toml, whose numbers are written and read back; or a "
+        "single line",
+    )
+    add_port(parser)
+    parser.add_argument(
+        "--undo",
+        action="store_true",
+        help="write back the numbers that the machine had before you sent FILE",
+    )
+    parser.add_argument(
+        "--force",
+        action="store_true",
+        help="send marks, or numbers, though the machine holds others than those that they were "
+        "made for",
+    )
+
+
+# A question in the terminal; whoever asks goes on working, and looks for the answer meanwhile.
+
+STDIN = 0  # not sys.stdin: its lock would be held at the end of the program
+
+
+class Question:
+    """A question whose answer is a line."""
+
+    def __init__(self, text: str) -> None:
+        self.answer: str | None = None  # None: not yet; empty: just Enter
+        self.is_unheard = False  # nobody can answer: the input has ended
+        print(text, end="", flush=True)
+        Thread(target=self._listen, daemon=True).start()
+
+    def _listen(self) -> None:
+        typed = b""
+        while not typed.endswith(b"\n"):
+            came = os.read(STDIN, 1)
+            if not came:
+                self.is_unheard = True
+                print()
+                break
+            typed += came
+        self.answer = typed.decode(errors="replace").strip()

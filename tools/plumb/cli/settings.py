@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import argparse
 
-from plumb.cli.client import client_files_of, client_text, typed_json
+from plumb.cli.arguments import add_force, add_json, add_settings
+from plumb.cli.client import add_client, client_files_of, client_text, typed_json
 from plumb.cli.output import write_outputs
-from plumb.cli.screen import table
+from plumb.cli.screen import print_json, table
 from plumb.cli.steps import next_step
-from plumb.cli.text import print_json
 from plumb.firmware.client_files import gcode
-from plumb.firmware.numbers import Number, firmware_numbers
-from plumb.fit.read_inputs import settings_in
+from plumb.firmware.settings import Number, firmware_numbers
+from plumb.fit.inputs import settings_in
 from plumb.text.errors import InputError, refusal
 
 
@@ -67,3 +67,25 @@ def _refuse_lines_alone(arguments: argparse.Namespace) -> None:
 def _table(numbers: tuple[Number, ...]) -> str:
     rows = [[f"${row.number}", row.name, row.text, row.unit] for row in numbers]
     return table(["number", "name", "value", "unit"], rows, left=2, words=[-1]) + "\n"
+
+
+# The arguments of `plumb settings`.
+
+FORMS = ("gcode", "table")
+EXAMPLES = (
+    "plumb settings machine.toml",
+    "plumb settings machine.toml --client groundcontrol --original groundcontrol.ini",
+)
+EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb settings`."""
+    add_settings(parser)
+    parser.add_argument("--to", choices=FORMS, default="table", help="what to write [%(default)s]")
+    add_client(parser)
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", help="write to this file, not to the screen"
+    )
+    add_force(parser)
+    add_json(parser)

@@ -8,17 +8,16 @@ from typing import Any
 
 import numpy as np
 
+from plumb.cli.arguments import add_force, add_json, add_settings, add_sigma, add_units
 from plumb.cli.output import STDOUT, say_failure, write_outputs
-from plumb.cli.screen import headline, sentences, table
+from plumb.cli.screen import headline, print_json, sentences, table
 from plumb.cli.steps import next_step
-from plumb.cli.text import print_json
-from plumb.cli.touches import asked_signs, touches_of
-from plumb.diary.entries import SLIP as SLIP_ENTRY
-from plumb.diary.keeping import keep
-from plumb.fit.read_inputs import settings_in
-from plumb.recovery.next_hole import next_hole
-from plumb.recovery.repair import repair_program
-from plumb.recovery.slip import (
+from plumb.cli.touches import add_touch, asked_signs, touches_of
+from plumb.diary.file import SLIP as SLIP_ENTRY
+from plumb.diary.file import keep
+from plumb.fit.inputs import settings_in
+from plumb.job.home import Point
+from plumb.job.slip import (
     CANNOT_TELL,
     LINK,
     NOTHING,
@@ -28,10 +27,11 @@ from plumb.recovery.slip import (
     Account,
     SlipFinding,
     find_slip,
+    next_hole,
+    repair_program,
 )
-from plumb.recovery.touched import Point
 from plumb.text.errors import InputError
-from plumb.text.shown import bare, signed, unit, worded
+from plumb.text.values import bare, signed, unit, worded
 
 SIDES = ("left", "right")
 SHOWN = 4  # accounts
@@ -214,3 +214,39 @@ def _json(finding: SlipFinding, lines: Sequence[str], written: Sequence[str]) ->
         "lines": list(lines),
         "written": list(written),
     }
+
+
+# The arguments of `plumb slip`.
+
+EXAMPLES = (
+    "plumb slip machine.toml --touch=-900,250:-895.4,253.7 --touch=900,-250:897.9,-246.5",
+    "plumb slip machine.toml --touch=0,0:5,5",
+)
+EXIT = (
+    "Exit: 0 no chain slipped; 1 a chain slipped, or the touches cannot tell, or no slip explains "
+    "them; 2 an input cannot be used."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb slip`."""
+    add_settings(parser)
+    add_touch(parser, meaning="a mark with the bit in it; give two or more")
+    parser.add_argument(
+        "--taped",
+        action="store_true",
+        help="the places of the holes were read with a tape [they are where the machine was sent "
+        "when it made them]",
+    )
+    parser.add_argument(
+        "--fixed",
+        action="store_true",
+        help="the holes are in the frame or its board, not in a sheet that can move",
+    )
+    add_sigma(parser, usual="0.5; with --taped what the fit of SETTINGS left, if that is more")
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", help="write the program that repairs the slip"
+    )
+    add_force(parser)
+    add_units(parser)
+    add_json(parser)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from dataclasses import asdict
 
-from plumb.cli.screen import sentences, table
-from plumb.cli.text import print_json
+from plumb.cli.arguments import add_json, file
+from plumb.cli.screen import print_json, sentences, table
 from plumb.firmware.telemetry import EVENTS, Telemetry, latest, warnings
 from plumb.text.files import read_text
 
@@ -57,3 +57,37 @@ def run(arguments: argparse.Namespace) -> int:
     print()
     print(sentences(said or ["All is well."]))
     return int(bool(said))
+
+
+# The arguments of `plumb telemetry`.
+
+EXAMPLES = (
+    "plumb telemetry client.log",
+    "plumb telemetry client.log --limit 1",
+)
+EXIT = "Exit: 0 done and all is well, 1 something to look at, 2 the log cannot be used."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `plumb telemetry`."""
+    parser.add_argument(
+        "log",
+        metavar="LOG",
+        type=file,
+        help="a text with a [Telemetry|...] line; the last such line counts",
+    )
+    parser.add_argument(
+        "--limit",
+        type=float,
+        default=2.0,
+        metavar="MM",
+        help="the machine's $42, the limit of the following error [2]",
+    )
+    parser.add_argument(
+        "--rate",
+        type=int,
+        default=100,
+        choices=(100, 200),
+        help="the machine's $69, the rate of the control tick [100]",
+    )
+    add_json(parser)

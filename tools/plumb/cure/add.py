@@ -7,18 +7,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.board.observations import Observations
-from plumb.board.rounds import notes_on, unit_of
-from plumb.board.sighting import SHEET_ROTATION
 from plumb.cure.live_board import Chosen, LiveBoard, refuse_unknown_effects
-from plumb.fit.compare import Comparison, compare
+from plumb.fit.compare import Comparison, best_pose, compare
+from plumb.fit.covariates import PATCH, best_patch
+from plumb.fit.expected import PlausibleRange, plausible_range
 from plumb.fit.fit import Estimate, Fit, rms
 from plumb.fit.inputs import Inputs
-from plumb.fit.patch import PATCH, best_patch
-from plumb.fit.plausible import PlausibleRange, plausible_range
+from plumb.fit.observations import Observations
 from plumb.fit.problem import PRIORS
-from plumb.fit.shape import best_pose
-from plumb.marks.score import Score, score_of
+from plumb.fit.rounds import notes_on, unit_of
+from plumb.fit.sighting import SHEET_ROTATION
+from plumb.marks.benchmark import Score, score_of
 from plumb.model.catalogue import (
     NO_FIRMWARE,
     is_sketch,
@@ -29,10 +28,8 @@ from plumb.model.plain import named, plain_name, plain_range, plain_size
 from plumb.model.predict import frame_words
 from plumb.model.sketches import SKETCHES
 from plumb.settings.machine import FRAME_FIELDS, MachineSettings
-from plumb.text.errors import InputError
-from plumb.text.readers import to_do
-from plumb.text.shown import bare, worded
-from plumb.text.values import refuse_unknown
+from plumb.text.errors import InputError, to_do
+from plumb.text.values import bare, refuse_unknown, worded
 
 FAR = 2.0  # [prior sigmas] a stated number that moved farther was probably measured wrongly
 

@@ -8,15 +8,13 @@ from dataclasses import dataclass, replace
 from plumb.cure.add import Addition, add, may_be_zero
 from plumb.cure.live_board import TooFewError
 from plumb.diagnosis import Diagnosis, diagnose
-from plumb.diagnosis.left_open import LeftOpen
+from plumb.diagnosis.expected_error import LeftOpen
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly
-from plumb.text.errors import InputError
-from plumb.text.readers import to_do
-from plumb.text.shown import worded
-from plumb.text.values import refuse_unknown
+from plumb.text.errors import InputError, to_do
+from plumb.text.values import refuse_unknown, worded
 
 
 @dataclass(frozen=True)

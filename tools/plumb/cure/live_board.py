@@ -8,22 +8,31 @@ counts.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from functools import partial
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
 from threading import Lock
 from typing import Protocol
 
-from plumb.board.observations import Observations, different_numbers
-from plumb.cure.noise import FitNoise, noise_of
+import numpy as np
+
+from plumb.diagnosis.clean import clear_repeats
+from plumb.diagnosis.explanation import Board, Explanation, explain
+from plumb.diagnosis.noise import known_noise, repeats_of
+from plumb.diagnosis.slip_cause import described
+from plumb.diagnosis.suspect_curves import SuspectCurves, seen_by, suspect_curves
+from plumb.firmware.settings import Difference, both_values, differences, numbers_in_force
+from plumb.fit.compare import chain_errors, hung_places
+from plumb.fit.covariates import PATCH, Covariate, covariates
 from plumb.fit.fit import Fit, fit
 from plumb.fit.inputs import Inputs
-from plumb.fit.patch import PATCH
+from plumb.fit.observations import Observations, different_numbers
+from plumb.fit.problem import USUAL_SIGMA
 from plumb.model.catalogue import effect_names, parameter_names
 from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.lab_effects.lab_effect import EDGES, SLED, TAPE
+from plumb.model.predict import Array
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError
-from plumb.text.readers import to_do
+from plumb.text.errors import InputError, refusal, to_do
 from plumb.text.values import refuse_unknown
 
 MOST_KEPT = 64  # fits
@@ -159,3 +168,122 @@ def refuse_unknown_effects(names: Sequence[str]) -> None:
             raise InputError(
                 f"{option}{name}: there is no effect of that name; known are {', '.join(known)}"
             )
+
+
+# The noise of the readings to which effects are fitted, by the rule of the diagnosis.
+
+
+@dataclass(frozen=True)
+class FitNoise:
+    """How good a reading is, as far as it is known before the fit."""
+
+    sigma: float | None  # [mm] None: from what the fit leaves
+    degrees: float  # of freedom with which sigma is known
+    source: str  # of noise_sources.py, or "residuals"
+    said: tuple[str, ...]  # a sentence for each thing that does not go together
+
+
+def noise_of(inputs: Inputs, model: MachineSettings, rows: Observations) -> FitNoise:
+    """What is known of the noise; readings that disagree with their repeats do not count."""
+    stated = inputs.stated
+    board = Board.of(model, rows, sigma=stated.sigma if stated else USUAL_SIGMA)
+    cleared = clear_repeats(board, stated)
+    said = tuple(
+        described(shift, inputs.measurements, inputs.settings.sheet).sentence
+        for shift in cleared.slips
+    )
+    noise = known_noise(repeats_of(cleared.rows), stated)
+    if noise is None:
+        return FitNoise(None, np.inf, "residuals", said)
+    return FitNoise(noise.sigma, noise.degrees, noise.source, (*said, *noise.notes))
+
+
+# What the bench of the lab draws of a board: its errors in chain, covariates, suspects.
+#
+# Marks hang where the frame's fit has them. A few mm more or less turn no chain, so dots only rise
+# and fall when an effect is added.
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """What an effect by itself adds to the frame's fit."""
+
+    moved: Array  # (k, 2) [mm] of the marks on the sheet
+    curves: SuspectCurves
+
+
+class BoardView:
+    """The view of a board."""
+
+    def __init__(self, board: LiveBoard) -> None:
+        rows = board.rows
+        self.board = board
+        self.model = board.fit(Chosen()).settings
+        self._places = hung_places(self.model, rows)[rows.mark_rows]
+
+    @cached_property
+    def covariates(self) -> tuple[Covariate, ...]:
+        """Those of the marks."""
+        marked = self.board.rows.mark_rows
+        return tuple(
+            replace(each, values=each.values[marked])
+            for each in covariates(self.model, self.board.rows)
+        )
+
+    def chains(self, errors: Array) -> Array:
+        """Errors of the marks (k, 2) [mm] as those of left and right chain; nan: out of reach."""
+        rows = self.board.rows
+        return chain_errors(self.model, self._places, errors, rows.sled_weights[rows.mark_rows])
+
+    def drawn(self, effect: str) -> Drawn:
+        """What an effect draws into the marks once the frame is refitted with it."""
+        frame, rows = self._frame, self.board.rows
+        explanation = explain(frame.board, (effect,), start=frame)
+        moved = seen_by(explanation, rows).read.where - seen_by(frame, rows).read.where
+        curves = suspect_curves(frame, explanation, rows)
+        return Drawn(np.asarray(moved[rows.mark_rows]), curves)
+
+    @cached_property
+    def _frame(self) -> Explanation:
+        inputs, noise = self.board.inputs, self.board.noise
+        board = Board.of(
+            self.board.model,
+            self.board.rows,
+            sigma=noise.sigma or USUAL_SIGMA,
+            priors=inputs.priors,
+            checked=inputs.checked,
+        )
+        return explain(board)
+
+
+# Whether the settings to be corrected are those of the machine that cut the marks.
+
+
+def refuse_other_origin(inputs: Inputs) -> None:
+    """InputError with both values if all marks say that another machine cut them than the settings
+    say, or any that the settings were fitted to."""
+    settings, record = inputs.settings, inputs.settings.fitted
+    rounds = inputs.measurements.rounds
+    named = [each.cut_with for each in rounds if each.cut_with]
+    if inputs.cut_with or len(named) < len(rounds) or not named:
+        return  # somebody said what was in force, or nobody did
+    boards = record.boards if record else ()
+    machines = [settings, *(board.cut_with for board in boards)]
+    if any(not _apart(machine, cut_with) for machine in machines for cut_with in named):
+        return
+    file, newest = settings.file, named[-1]
+    name, other = file.name if file else "the settings", newest.file
+    was = other.name if other else "what its marks name"
+    raise refusal(
+        rounds[-1].name,
+        f"was cut with another machine than {name}: "
+        + both_values(_apart(settings, newest), name, was),
+        remedy=to_do(
+            f"give {was} instead of {name}, or say with --cut-with what the machine held",
+            page=f"open {was}, or name in the form, as cut_with, what the machine held",
+        ),
+    )
+
+
+def _apart(settings: MachineSettings, cut_with: MachineSettings) -> tuple[Difference, ...]:
+    return differences(settings, numbers_in_force(cut_with))

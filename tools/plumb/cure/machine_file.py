@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 
-from plumb.cure.add import Addition
-from plumb.fit.patch import PATCH
-from plumb.settings.files import machine_toml, published_machine
-from plumb.settings.fit_record import FitRecord
-from plumb.text.shown import worded
+from plumb.cure.add import Addition, Parameter, Quality, add
+from plumb.fit.covariates import PATCH
+from plumb.fit.inputs import Inputs
+from plumb.fit.rounds import POSE_AXES, ZERO_AXES
+from plumb.marks.read import Measurements, Round, read_marks
+from plumb.model.catalogue import parameter_names, place_of
+from plumb.model.predict import known_effects
+from plumb.settings.files import machine_toml, published_machine, read_settings
+from plumb.settings.machine import FRAME_FIELDS
+from plumb.settings.toml import FitRecord, FittedBoard
+from plumb.text.values import worded
 
 PATCH_WARNING = (
     "It is no physics: a smooth map that holds for this machine, sled and sheet as they are, and "
@@ -48,3 +56,161 @@ def turn_sentences(result: Addition) -> list[str]:
         f"no setting holds the sheet's rotation: {which} its right end by {worded(abs(rise))} over "
         f"its width of {worded(result.settings.sheet_width, 0)}"
     ]
+
+
+# What a new machine.toml keeps of the fit that gave its numbers.
+
+
+def record_of(result: Addition, inputs: Inputs, *, without: Sequence[str] = ()) -> FitRecord:
+    """The fit as its machine.toml keeps it; `without` names the marks that took no part."""
+    fitted = result.after_fit
+    unknowns = {estimate.name: estimate.value for estimate in fitted.estimates}
+    return FitRecord(
+        start_rms=result.raw.rms,
+        rms=result.after.fit_rms,
+        priced_rms=result.after.priced_rms,
+        left_out_rms=result.after.left_out_rms,
+        sheet_rotation=fitted.sheet_rotation,
+        effects=result.effects_added,
+        without=tuple(without),
+        lab_effects=fitted.lab_effects,
+        boards=tuple(_board(each, unknowns, inputs) for each in inputs.measurements.rounds),
+    )
+
+
+def _board(file_round: Round, unknowns: dict[str, float], inputs: Inputs) -> FittedBoard:
+    sheet, zero = f"sheet{file_round.sheet_group + 1}", f"zero{file_round.zero_group + 1}"
+    x, y, rotation = (unknowns.get(f"{sheet}.{axis}", 0.0) for axis in POSE_AXES)
+    left, right = (unknowns.get(f"{zero}.{axis}", 0.0) for axis in ZERO_AXES)
+    in_force = file_round.cut_with or inputs.cut_with or inputs.settings
+    return FittedBoard(
+        marks=file_round.name or Path(inputs.measurements.source).name,
+        digest=file_round.digest,
+        cut_with=replace(in_force, fitted=None),
+        sheet=(x, y, rotation),
+        zeros=(left, right),
+    )
+
+
+# A correction number by number: what each would become, and the fit with those accepted alone.
+
+
+@dataclass(frozen=True)
+class Correction:
+    """All numbers fitted, and what is left when only the accepted are changed."""
+
+    whole: Addition
+    accepted: Addition | None  # None: nothing is accepted, so nothing changes
+    effects: tuple[str, ...] = ()  # fitted for what is accepted, if that is not all of it
+    held: Mapping[str, float] = field(default_factory=dict)  # parameters of these effects
+    fixed: tuple[str, ...] = ()  # numbers of the frame that stay
+
+    @property
+    def numbers(self) -> tuple[Parameter, ...]:
+        """The numbers that a setting holds."""
+        return tuple(number for number in self.whole.parameters if has_setting(number.name))
+
+
+def has_setting(name: str) -> bool:
+    """Whether a setting of the machine holds a number; sheets, tapes and zeros have none."""
+    effect, _, _ = name.rpartition(".")
+    if not effect:
+        return name in FRAME_FIELDS
+    return bool(parameter_names(effect)) and place_of(effect) == "firmware"
+
+
+def correct(inputs: Inputs, effects: Sequence[str], accepted: Collection[str]) -> Correction:
+    """Fit frame and effects; then again with every number that is not accepted held as it is.
+
+    Raises InputError as add() does.
+    """
+    whole = add(inputs, effects=effects)
+    names = [number.name for number in whole.parameters if has_setting(number.name)]
+    free = [name for name in names if name in accepted]
+    if not free:
+        return Correction(whole, None)
+    if len(free) == len(names):
+        return Correction(whole, whole)
+    held_frame = {name: 0.0 for name in FRAME_FIELDS if name in names and name not in free}
+    wanted = [effect for effect in effects if _is_wanted(effect, free)]
+    settings = inputs.model_and_observations()[0]
+    held = {
+        name: settings.effect(*name.split("."))
+        for effect in wanted
+        for name in parameter_names(effect)
+        if has_setting(name) and name not in free
+    }
+    some = replace(inputs, priors={**inputs.priors, **held_frame})
+    made = add(some, effects=wanted, held=held)
+    return Correction(whole, made, tuple(wanted), held, tuple(held_frame))
+
+
+def _is_wanted(effect: str, free: Sequence[str]) -> bool:
+    """Whether an effect has an accepted number, or belongs to no setting and is fitted anyhow."""
+    names = parameter_names(effect)
+    return any(name in free for name in names) or not any(map(has_setting, names))
+
+
+# The error of one real machine, step by step: which effects are kept, and what is doubtful.
+
+EXAMPLE = Path(__file__).resolve().parents[1] / "examples" / "mibproj"
+SETTINGS = EXAMPLE / "groundcontrol.ini"
+MARKS = EXAMPLE / "Calibration Measurements.ini"
+ORDER = ("chain_pitch", "chain_sag", "chain_stretch")
+GOAL = 0.9  # [mm] RMS below which the error has fallen far enough
+
+
+@dataclass(frozen=True)
+class DemoStep:
+    """One effect more, and whether it is kept."""
+
+    name: str
+    quality: Quality
+    kept: bool
+
+
+@dataclass(frozen=True)
+class Demonstration:
+    """What the demo shows."""
+
+    steps: tuple[DemoStep, ...]  # frame only, then one effect more each
+    chosen: Addition
+    flipped: Addition  # the same effects, the y errors with the other sign
+    inputs: Inputs
+
+    @property
+    def reached(self) -> bool:
+        """Whether the error fell below the goal."""
+        return self.chosen.after.fit_rms < GOAL
+
+
+def demonstrate(measurements: Measurements | None = None) -> Demonstration:
+    """Add one effect after the other; an effect stays if marks left out are predicted better."""
+    settings = read_settings(SETTINGS, known=known_effects())
+    marks = measurements or read_marks(MARKS, sheet=settings.sheet)
+    chosen = add(Inputs(settings, marks), effects=())
+    steps = [DemoStep("frame only", chosen.before, kept=True)]
+    names: tuple[str, ...] = ()
+    for effect in ORDER:
+        tried = add(Inputs(settings, marks), effects=(*names, effect))
+        kept = is_better(tried.after, chosen.after)
+        steps.append(DemoStep(f"+ {effect}", tried.after, kept))
+        if kept:
+            chosen, names = tried, (*names, effect)
+    other_sign = add(Inputs(settings, with_y_errors_flipped(marks)), effects=names)
+    return Demonstration(tuple(steps), chosen, other_sign, Inputs(settings, marks))
+
+
+def is_better(tried: Quality, known: Quality) -> bool:
+    """Whether an effect is worth its price: both honest errors fall."""
+    return tried.priced_rms < known.priced_rms and tried.left_out_rms < known.left_out_rms
+
+
+def with_y_errors_flipped(measurements: Measurements) -> Measurements:
+    """The same marks, each as far below its target as it was above it."""
+    flipped = []
+    for mark in measurements.marks:
+        x, y = mark.measured or mark.target
+        measured = (x, 2 * mark.target[1] - y) if mark.measured else None
+        flipped.append(replace(mark, measured=measured))
+    return replace(measurements, marks=tuple(flipped))

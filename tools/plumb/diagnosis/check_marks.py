@@ -11,15 +11,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy
 
-from plumb.board.observations import Observations, model_and_observations
-from plumb.board.sighting import sighted
-from plumb.diagnosis.explanation import Explanation, explain
-from plumb.diagnosis.measured import measured_board
-from plumb.diagnosis.noise_sources import noise_on
+from plumb.diagnosis.explanation import Explanation, explain, measured_board
+from plumb.diagnosis.noise import noise_on
 from plumb.fit.inputs import Inputs
+from plumb.fit.observations import Observations, model_and_observations
+from plumb.fit.sighting import sighted
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names
 from plumb.model.predict import Array
+from plumb.text.values import bare, worded
 
 LEVEL = 0.99  # of the checks of an unchanged machine hold; `plumb recheck` goes by it too
 
@@ -153,3 +153,21 @@ def _reach(covariance: Array) -> float:
 
 def _point(pair: Array) -> tuple[float, float]:
     return float(pair[0]), float(pair[1])
+
+
+# Whether check marks are where the settings promise them, in a sentence for people.
+
+
+def check_sentence(checked: Check) -> str:
+    """What was promised, what was measured, and what follows."""
+    off = ", ".join(bare(mark.off) for mark in checked.marks)
+    promised = worded(max(mark.promised for mark in checked.marks))
+    measured = f"Promised: within {promised}. Measured: off by {off}."
+    if checked.holds:
+        return f"{measured} The settings hold."
+    far = " and ".join(mark.name for mark in checked.marks if not mark.is_within)
+    which = f"mark {far}" if far else "both marks together"
+    return (
+        f"{measured} More than noise, at {which}: read it again. If it stays, the settings miss "
+        "something, or the machine has changed."
+    )

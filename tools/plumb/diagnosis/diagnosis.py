@@ -7,18 +7,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.diagnosis.answer import Diagnosis, Together
+from plumb.diagnosis.answer import Diagnosis, Ranked, Together
 from plumb.diagnosis.clean import CleanReadings, clean_readings
 from plumb.diagnosis.doubts import find_doubts
-from plumb.diagnosis.explanation import Explanation
+from plumb.diagnosis.expected_error import left_open
+from plumb.diagnosis.explanation import Explanation, measured_board
 from plumb.diagnosis.gain import search
-from plumb.diagnosis.judgement import Judgement, judge
-from plumb.diagnosis.left_open import left_open
-from plumb.diagnosis.measured import measured_board
+from plumb.diagnosis.judgement import Judgement, evidence, judge
 from plumb.diagnosis.noise import Noise
-from plumb.diagnosis.ranking import rank
-from plumb.diagnosis.sizes import sizes_of
+from plumb.diagnosis.sizes import hidden_share, sizes_of
 from plumb.fit.inputs import Inputs
+from plumb.model.plain import ranked
 
 
 @dataclass(frozen=True)
@@ -100,3 +99,23 @@ def _rms_between(explanation: Explanation, other: Explanation) -> float:
     apart = explanation.numbers - other.numbers
     counted = apart[: rows.measured.size] if len(rows.measured) else apart
     return float(np.sqrt(counted @ counted / (len(rows.measured) or len(counted))))
+
+
+# Every effect of the library by itself, what explains most first.
+
+
+def rank(readings: CleanReadings) -> tuple[Ranked, ...]:
+    """All effects, by how surprising it would be if noise alone gained as much."""
+    frame, noise = readings.frame, readings.noise
+    effects = [
+        Ranked(
+            effect=name,
+            gain=max(frame.cost - single.cost, 0.0),
+            surprise=evidence(single, frame, noise),
+            sizes=sizes_of(single, name, noise),
+            rms_after=single.rms,
+            hidden_share=hidden_share(frame, name),
+        )
+        for name, single in readings.singles.items()
+    ]
+    return tuple(ranked(effects, lambda effect: -effect.surprise))

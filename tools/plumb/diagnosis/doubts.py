@@ -3,23 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from plumb.diagnosis.answer import Ranked
-from plumb.diagnosis.clean import CleanReadings
-from plumb.diagnosis.explanation import Explanation, explain
+from plumb.diagnosis.clean import (
+    SURE,
+    CleanReadings,
+    clean_readings,
+    felt_effects,
+    shifts,
+    twins_that_agree,
+)
+from plumb.diagnosis.explanation import Board, Explanation, explain, span, tail
 from plumb.diagnosis.gain import Search
-from plumb.diagnosis.halves import half_warnings, round_warnings
 from plumb.diagnosis.judgement import Judgement
-from plumb.diagnosis.signs import sign_warning
-from plumb.diagnosis.sizes import Room, room_for
-from plumb.diagnosis.slips import shifts
-from plumb.diagnosis.slips_in_repeats import twins_that_agree
-from plumb.model.catalogue import effect_names
-from plumb.model.ranks import ranked
-from plumb.text.shown import worded
+from plumb.diagnosis.noise import Noise, library_basis, noise_on
+from plumb.diagnosis.sizes import Room, room_for, sign_warning
+from plumb.diagnosis.slip_cause import Reading, Slip, described, readings_of
+from plumb.diagnosis.weighing import weigh
+from plumb.fit.inputs import Inputs
+from plumb.fit.observations import model_and_observations
+from plumb.fit.problem import USUAL_SIGMA
+from plumb.fit.sighting import SHEET_ROTATION
+from plumb.marks.plausible import far_reading
+from plumb.marks.read import Measurements
+from plumb.model.catalogue import ZEROING_NAMES, effect_names
+from plumb.model.plain import greatest, ranked
+from plumb.text.values import worded
 
 _IMPOSSIBLE = (
     "every explanation needs sizes that no real machine has, so each takes the place of another "
@@ -111,3 +123,226 @@ def _disagreements(
     """Rounds that do not go together, else halves of the sheet."""
     by_round = round_warnings(best, readings.noise, rounds)
     return tuple(by_round or half_warnings(best, readings.noise))
+
+
+# Readings to look at again while the others are still being typed.
+#
+# A reading too far from its target for any machine is named at once. The others are weighed as a
+# diagnosis weighs them, however few they are: what is known of frames, effects and slips before any
+# mark says how far a reading may be off, and each further reading narrows it.
+
+FEWEST = 4  # marks and distances from which slips are sought as in a diagnosis
+
+
+@dataclass(frozen=True)
+class Doubted:
+    """A reading to look at again, by its index among the marks or the distances."""
+
+    index: int
+    is_mark: bool
+    off: float  # [mm]
+    sentence: str
+    corrected: tuple[float, ...] | None  # [mm] the reading that was meant, if that is likely
+
+
+def doubted_readings(inputs: Inputs) -> tuple[Doubted, ...]:
+    """The readings so far that no machine explains. Raises InputError for a bad target."""
+    far = _far_readings(inputs)
+    near = _without(inputs.measurements, {doubt.index for doubt in far})
+    if not near.measured_marks and not near.distances:
+        return far
+    slips = _slips(replace(inputs, measurements=near))
+    return (*far, *(_doubted(slip, inputs.measurements) for slip in slips))
+
+
+def _far_readings(inputs: Inputs) -> tuple[Doubted, ...]:
+    measurements = inputs.measurements
+    sheet = (measurements.rounds[0].cut_with or inputs.cut_with or inputs.settings).sheet
+    doubts = []
+    for index, mark in enumerate(measurements.marks):
+        far = far_reading(measurements, mark, sheet)
+        if far:
+            cause = f"; {far.mistake}" if far.mistake else ""
+            said = f"it reads {worded(far.error, 0)} from where the mark was sent{cause}"
+            doubts.append(Doubted(index, True, far.error, said, far.corrected))
+    return tuple(doubts)
+
+
+def _without(measurements: Measurements, indices: set[int]) -> Measurements:
+    """The measurements without the readings of some marks, and without marks that wait."""
+    ends = {name for distance in measurements.distances for name in distance.between}
+    marks = [
+        replace(mark, measured=None) if index in indices else mark
+        for index, mark in enumerate(measurements.marks)
+    ]
+    kept = (mark for mark in marks if mark.measured is not None or mark.name in ends)
+    return replace(measurements, marks=tuple(kept))
+
+
+def _slips(inputs: Inputs) -> tuple[Slip, ...]:
+    """Slips among readings that are near enough."""
+    model, rows = model_and_observations(
+        inputs.settings,
+        inputs.measurements,
+        cut_with=inputs.cut_with,
+        controller=inputs.controller,
+    )
+    sigma = inputs.stated.sigma if inputs.stated else USUAL_SIGMA
+    board = Board.of(model, rows, sigma=sigma, priors=inputs.priors, checked=inputs.checked)
+    if len(readings_of(rows)) >= FEWEST:
+        return clean_readings(board, inputs).slips
+    reading = _slip_of_few(board, inputs)
+    if reading is None:
+        return ()
+    shift = shifts(explain(board))[reading.place(rows)]
+    return (described(shift, inputs.measurements, inputs.settings.sheet),)
+
+
+def _slip_of_few(board: Board, inputs: Inputs) -> Reading | None:
+    """The reading that is surely off by what is known before any mark."""
+    frame = explain(board)
+    noise = noise_on(board, inputs.stated)
+    readings = readings_of(board.rows)
+    weighed = weigh(frame, felt_effects(frame), noise)
+    chances = weighed.slip_chances(np.ones(len(readings), dtype=bool))
+    worst = greatest(chances)
+    return readings[worst] if chances[worst] > SURE else None
+
+
+def _doubted(slip: Slip, measurements: Measurements) -> Doubted:
+    """A slip among all readings: the marks and distances are those of its name and number."""
+    is_mark = len(slip.read) == 2
+    places: list[tuple[str, tuple[float, ...] | None]]
+    if is_mark:
+        places = [(mark.name, mark.measured) for mark in measurements.marks]
+    else:
+        places = [(" - ".join(each.between), (each.length,)) for each in measurements.distances]
+    said = slip.sentence.partition(": ")[2]
+    index = places.index((slip.name, slip.read))
+    return Doubted(index, is_mark, slip.length, said, slip.corrected)
+
+
+# Parts of a board that want different numbers: halves of the sheet, and rounds of marks.
+#
+# If parameters move by more than 3 sigma from one part to the other, physics is missing even where
+# each part by itself fits well, or the rounds were not cut by the same machine.
+
+Array = np.ndarray
+CHANCE = 0.0027  # of a move beyond 3 sigma from noise alone
+FEWEST_IN_PART = 6  # measured numbers in a part: fewer tell nothing of it
+
+
+@dataclass(frozen=True)
+class Move:
+    """How a parameter differs between two parts of a board."""
+
+    parameter: str
+    deviations: float  # by how many sigma
+    chance: float  # that noise alone moves the parameters together as much
+
+
+def half_warnings(explanation: Explanation, noise: Noise) -> list[str]:
+    """A sentence for each pair of halves of the sheet that want different parameters."""
+    rows = explanation.board.rows
+    if not len(rows.targets):
+        return []
+    said = []
+    for axis, names in ((0, "left and right"), (1, "lower and upper")):
+        beyond = rows.targets[:, axis] > np.median(rows.targets[:, axis])
+        mask = np.zeros(rows.count, dtype=bool)
+        mask[: rows.measured.size] = np.repeat(beyond, 2)
+        move = _move(explanation, explanation.basis, mask, noise)
+        if move:
+            said.append(
+                f"the {names} half of the sheet want different numbers ({_words(move)}): physics "
+                "is missing even where each half fits, so do not trust a size to its interval"
+            )
+    return said
+
+
+def round_warnings(explanation: Explanation, noise: Noise, rounds: Sequence[str]) -> list[str]:
+    """A sentence for each round (by its name) that does not go with all others.
+
+    Judged beyond everything that the library can draw, so that no effect is blamed on a round.
+    """
+    if len(rounds) < 2:
+        return []
+    basis, said = library_basis(explanation), []
+    for number, name in enumerate(rounds):
+        mask = _numbers_of(explanation, number)
+        move = _move(explanation, basis, mask, noise)
+        if move:
+            said.append(
+                f"{name} does not go with the other rounds ({_words(move)}): do not pool them; "
+                f"{_way_out(explanation, basis, mask, noise, name)}"
+            )
+    # Of two rounds either may differ.
+    return said[-1:] if len(rounds) == 2 else said
+
+
+def _words(move: Move) -> str:
+    if move.deviations < 3:
+        return f"all fitted numbers together; {move.parameter} by {move.deviations:.1f} sigma"
+    return f"{move.parameter} by {move.deviations:.1f} sigma"
+
+
+def _way_out(explanation: Explanation, basis: Array, mask: Array, noise: Noise, name: str) -> str:
+    """What would explain the difference, as far as a marks file can say it."""
+    for flag, columns in (
+        ("chains_rezeroed", _columns(explanation, ZEROING_NAMES, mask)),
+        ("new_sheet", _pose(explanation, mask)),
+    ):
+        wider = np.hstack([basis, span(columns - basis @ (basis.T @ columns), against=columns)])
+        if not _move(explanation, wider, mask, noise):
+            return f"{flag} = true in {name} would explain it; if it is not so, use one at a time"
+    return "use one file at a time and compare what they say"
+
+
+def _numbers_of(explanation: Explanation, number: int) -> Array:
+    """Which measured numbers (n,) belong to a round."""
+    rows = explanation.board.rows
+    marks = np.repeat(rows.rounds[rows.mark_rows] == number, 2)
+    return np.concatenate([marks, rows.distance_rounds == number])
+
+
+def _move(explanation: Explanation, basis: Array, mask: Array, noise: Noise) -> Move | None:
+    """The parameter that moves most between the masked numbers and the rest, if any surely does."""
+    if min(mask.sum(), (~mask).sum()) < FEWEST_IN_PART or not np.isfinite(noise.sigma):
+        return None
+    names = explanation.board.problem.names
+    free = [i for i in explanation.free if np.any(explanation.slopes[: mask.size, i])]
+    masked = _columns(explanation, [names[i] for i in free], mask)
+    beyond = masked - basis @ (basis.T @ masked)
+    left = explanation.residual - basis @ (basis.T @ explanation.residual)
+    together = span(beyond, against=masked)
+    if not together.shape[1]:
+        return None
+    chance = float(tail(np.sum((together.T @ left) ** 2), together.shape[1], noise.degrees))
+    lengths = np.linalg.norm(beyond, axis=0)
+    felt = lengths > 1e-5 * np.linalg.norm(masked, axis=0)
+    pulls = np.where(felt, np.abs(beyond.T @ left) / np.where(felt, lengths, 1.0), 0.0)
+    most = greatest(pulls)
+    single = float(tail(pulls[most] ** 2, 1, noise.degrees)) * len(free)
+    if min(chance, single) > CHANCE:
+        return None
+    return Move(names[free[most]], float(pulls[most]), min(chance, single))
+
+
+def _columns(explanation: Explanation, names: Sequence[str], mask: Array) -> Array:
+    """Slopes by some unknowns, on the masked numbers only (rows of the priors are zero)."""
+    known = explanation.board.problem.names
+    masked = explanation.slopes[:, [known.index(name) for name in names]].copy()
+    masked[: mask.size][~mask] = 0.0
+    masked[mask.size :] = 0.0
+    return masked
+
+
+def _pose(explanation: Explanation, mask: Array) -> Array:
+    """Columns that shift and turn the masked marks on their sheet."""
+    marks = explanation.board.rows.measured.size
+    shifts = np.zeros((len(explanation.residual), 2))
+    for axis in (0, 1):
+        shifts[axis:marks:2, axis] = 1.0
+    shifts[: mask.size][~mask] = 0.0
+    turns = [SHEET_ROTATION] if SHEET_ROTATION in explanation.board.problem.names else []
+    return np.hstack([shifts, _columns(explanation, turns, mask)])

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
+import scipy
 
-from plumb.board.observations import Observations
-from plumb.fit.problem import PRIORS, Checked, Linearized, Problem
-from plumb.fit.solver import AT_REST, solve
+from plumb.fit.inputs import Inputs
+from plumb.fit.observations import Observations, different_numbers
+from plumb.fit.problem import AT_REST, PRIORS, USUAL_SIGMA, Checked, Linearized, Problem, solve
+from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names, parameter_names
 from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError
 
 Array = np.ndarray
 INVISIBLE = 1e-5  # share of a column's length below which its rest is rounding
@@ -152,3 +156,135 @@ def explain(
 def free_columns(board: Board, effects: Iterable[str]) -> Array:
     """Columns of the frame and of these effects."""
     return np.concatenate([board.frame, board.columns(effects)])
+
+
+# The measured board of a diagnosis: readings as numbers with weights, every effect an unknown.
+
+FEWEST_NUMBERS = 6  # three marks: below that the frame explains everything
+
+
+def measured_board(inputs: Inputs) -> Board:
+    """The board of these inputs; raises InputError for too few marks, and for bad targets."""
+    model, rows = inputs.model_and_observations()
+    _refuse_too_few(inputs.measurements, rows)
+    sigma = inputs.stated.sigma if inputs.stated else USUAL_SIGMA
+    return Board.of(model, rows, sigma=sigma, priors=inputs.priors, checked=inputs.checked)
+
+
+def _refuse_too_few(measurements: Measurements, rows: Observations) -> None:
+    count = different_numbers(measurements, rows)
+    if count < FEWEST_NUMBERS:
+        raise InputError(
+            f"{measurements.source}: {count} measured numbers are too few for a diagnosis; measure "
+            "at least three marks, better nine or more all over the sheet"
+        )
+
+
+# Smooth fields that no mechanics made, as they would be measured.
+
+
+def field_columns(frame: Explanation, widths: Sequence[float], least: float) -> Iterator[Array]:
+    """For each width what independent normals move of the measured numbers (n, c) [mm], together
+    as a field of 1 mm each way does.
+
+    widths: of a field's details, in halves of what the marks span. least [mm^2]: what the columns
+    may leave out of its variance at any place.
+    """
+    rows = frame.board.rows
+    sighting, _ = frame.board.problem.predict(frame.unknowns)
+    places = sighting.taped.where
+    half = np.maximum(np.ptp(places, axis=0) / 2, 1.0)
+    apart = np.sum(((places[:, np.newaxis] - places[np.newaxis]) / half) ** 2, axis=2)
+    for width in widths:
+        yield _measured(_root(np.exp(-apart / (2 * width**2)), least), places, rows)
+
+
+def _measured(moved: Array, places: Array, rows: Observations) -> Array:
+    """Columns (n, 2 c) of the measured numbers; each column of `moved` (visits, c) [mm] acts once
+    to the right and once upwards."""
+    along = places[rows.distance_rows]
+    along = along[:, 1] - along[:, 0]
+    along = along / np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-9)
+    stretched = moved[rows.distance_rows[:, 1]] - moved[rows.distance_rows[:, 0]]
+    columns = np.zeros((rows.count, 2, moved.shape[1]))
+    for axis in (0, 1):
+        columns[axis : rows.measured.size : 2, axis] = moved[rows.mark_rows]
+        columns[rows.measured.size :, axis] = along[:, [axis]] * stretched
+    return columns.reshape(rows.count, -1)
+
+
+def _root(covariance: Array, least: float) -> Array:
+    """Columns whose covariance it is, but for `least`: few where places lie close together."""
+    lower, pivots, rank, _ = scipy.linalg.lapack.dpstrf(covariance, tol=least, lower=1)
+    root = np.zeros((len(covariance), rank))
+    root[pivots - 1] = np.tril(lower)[:, :rank]
+    return root
+
+
+# A sum of squares with its degrees of freedom, which is what scatter comes as.
+
+
+@dataclass(frozen=True)
+class Spread:
+    """A sum of squares [mm^2] and its degrees of freedom."""
+
+    squares: float
+    degrees: float
+
+    @property
+    def sigma(self) -> float:
+        """Standard deviation [mm]."""
+        return float(np.sqrt(self.squares / self.degrees)) if self.degrees else float("nan")
+
+    def __add__(self, other: Spread) -> Spread:
+        """Both together."""
+        return Spread(self.squares + other.squares, self.degrees + other.degrees)
+
+
+NOTHING = Spread(0.0, 0.0)
+
+
+# How surprising a gain is: tail probabilities for a known noise and for one that was estimated.
+
+KNOWN = np.inf  # degrees of freedom of a noise that needs no estimate
+_FAR = 200.0  # a gain beyond which the tail is taken from its expansion, or it would be zero
+
+
+def tail(gain: Array | float, parameters: float, degrees: float) -> Array:
+    """Chance of a gain this large from noise alone, for an effect of some parameters.
+
+    gain = drop of the sum of squares over sigma squared; chi-square for a known sigma, F for one
+    that was estimated with `degrees` of freedom.
+    """
+    above = np.maximum(gain, 0.0)
+    if np.isinf(degrees):
+        return scipy.special.chdtrc(parameters, above)
+    return scipy.special.fdtrc(parameters, degrees, above / parameters)
+
+
+def surprise(gain: float, parameters: int, degrees: float) -> float:
+    """-log of `tail`, finite however large the gain: the scale on which effects are compared."""
+    if parameters < 1 or gain <= 0:
+        return 0.0
+    if not np.isinf(degrees):
+        return float(-np.log(max(float(tail(gain, parameters, degrees)), 1e-300)))
+    if gain < _FAR:
+        return float(-np.log(tail(gain, parameters, degrees)))
+    # Q(a, x) = x^(a - 1) exp(-x) / Gamma(a) * (1 + (a - 1) / x + ...)
+    a, x = parameters / 2, gain / 2
+    return float(x - (a - 1) * np.log(x) + scipy.special.gammaln(a) - np.log1p((a - 1) / x))
+
+
+def surprises(gains: Array, parameters: int, degrees: float) -> Array:
+    """`surprise` of many gains, from a table: right to about a thousandth, and fast."""
+    table = _table(parameters, degrees)
+    interpolated: Array = np.interp(gains, _GAINS, table)
+    return interpolated
+
+
+_GAINS = np.concatenate([[0.0], np.geomspace(1e-3, 1e5, 1500)])
+
+
+@lru_cache(maxsize=64)
+def _table(parameters: int, degrees: float) -> Array:
+    return np.array([surprise(float(gain), parameters, degrees) for gain in _GAINS])

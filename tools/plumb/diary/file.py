@@ -14,12 +14,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime
 from hashlib import sha256
+from importlib.metadata import version
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from plumb.text.errors import refusal
-from plumb.text.files import opened
+from plumb.cure.add import Addition, Parameter
+from plumb.fit.inputs import Inputs
+from plumb.line.memory import Written, as_lines, version_of, write_numbers
+from plumb.line.sender import Sender
+from plumb.text.errors import InputError, refusal
+from plumb.text.files import opened, write_whole
 
 NAME = "diary.jsonl"
 DIGITS = 16  # of a line's digest
@@ -160,3 +165,183 @@ def _keep_name(folder: Path) -> None:
         os.fsync(handle)
     finally:
         os.close(handle)
+
+
+# What goes into the diary: a fit with its marks and numbers, numbers sent, programs sent.
+
+FIT, NUMBERS, PROGRAM = "fit", "numbers", "program"
+RECHECK, SLIP, HOME = "recheck", "slip", "home"
+
+
+def fit_entry(
+    result: Addition, inputs: Inputs, *, machine: str, settings: str, firmware: str = "plumb"
+) -> dict[str, Any]:
+    """A fit: the new settings (text of the file `machine`), marks, errors, numbers and how well
+    they are known together. mm, N, rad."""
+    fitted = result.after_fit
+    return {
+        "plumb": version("plumb"),
+        "machine": machine,
+        "settings": settings,
+        "firmware": firmware,
+        "marks_files": [each.name for each in inputs.measurements.rounds],
+        "before_mm": result.raw.rms,
+        "rms_mm": result.after.fit_rms,
+        "priced_mm": result.after.priced_rms,
+        "left_out_mm": result.after.left_out_rms,
+        "worst_mm": result.after.worst,
+        "sigma_mm": fitted.sigma,
+        "marks": _marks(result, inputs),
+        "distances": _distances(result, inputs),
+        "numbers": [_number(parameter) for parameter in result.parameters],
+        "effects": list(result.effects_added),
+        # Of all unknowns, in the units of their numbers: what a later recheck has to allow for.
+        "unknowns": [estimate.name for estimate in fitted.estimates],
+        "covariance": fitted.covariance.tolist(),
+    }
+
+
+def numbers_entry(
+    machine: str,
+    lines: list[str],
+    *,
+    changed: Mapping[int, tuple[float, float]],
+    firmware: str,
+    kept: str,
+    back: bool = False,
+) -> dict[str, Any]:
+    """Numbers that a machine holds now: the `$` lines sent, and old and new value of each change;
+    `kept` is the file with all that were replaced; `back`: it had them before `machine`."""
+    return {
+        "plumb": version("plumb"),
+        "machine": machine,
+        "lines": lines,
+        "changed": {f"${number}": list(both) for number, both in changed.items()},
+        "firmware": firmware,
+        "kept": kept,
+        "back": back,
+    }
+
+
+def program_entry(name: str, lines: list[str], *, whole: bool) -> dict[str, Any]:
+    """A program that was sent; whole: False if it was stopped or refused."""
+    text = "\n".join(lines)
+    return {
+        "program": name,
+        "sha256": sha256(text.encode()).hexdigest(),
+        "lines": len(lines),
+        "whole": whole,
+    }
+
+
+def _marks(result: Addition, inputs: Inputs) -> list[dict[str, Any]]:
+    readings, fitted = inputs.measurements.readings, result.after_fit
+    return [
+        {
+            "name": mark.name,
+            "file": inputs.measurements.rounds[mark.round].name,
+            "target": list(mark.target),
+            "measured": list(measured),
+            "predicted": list(predicted),
+            "error": list(error),
+        }
+        for (mark, measured), predicted, error in zip(
+            readings, fitted.predicted.tolist(), fitted.errors.tolist(), strict=True
+        )
+    ]
+
+
+def _distances(result: Addition, inputs: Inputs) -> list[dict[str, Any]]:
+    return [
+        {"between": list(distance.between), "mm": distance.length, "error_mm": error}
+        for distance, error in zip(
+            inputs.measurements.distances, result.after_fit.distance_errors.tolist(), strict=True
+        )
+    ]
+
+
+def _number(parameter: Parameter) -> dict[str, Any]:
+    names = ("name", "value", "low", "high", "unit", "before")
+    return {name: getattr(parameter, name) for name in names}
+
+
+# What an entry of the diary says in a sentence, on a screen and in a terminal.
+
+
+def noted(entry: Entry) -> str:
+    """What was done, for people; fits have a table."""
+    content = entry.content
+    if entry.kind == NUMBERS:
+        count, machine = len(content["changed"]), content["machine"]
+        numbers = f"{count} number{'' if count == 1 else 's'}"
+        if content.get("back"):
+            return f"took {machine} back: {numbers} as before it"
+        return f"{numbers} changed by {machine}"
+    if entry.kind == PROGRAM:
+        end = "" if content["whole"] else ", not to its end"
+        return f"sent {content['program']}{end}"
+    if entry.kind == HOME:
+        return f"home mark {content['mark']} {'kept' if content['kept'] else 'used'}"
+    return str(content.get("sentence", entry.kind))
+
+
+# Keeping the diary for the commands and the lab: which folder it is in, and what if it fails.
+#
+# A result that is written already stays written, whether or not its entry could be added.
+
+
+def folder_of(path: str) -> Path | None:
+    """The machine's folder, or that of a file in it; None for a device and what is not there."""
+    place = Path(path)
+    if place.is_dir():
+        return place
+    return place.parent if place.is_file() else None
+
+
+def keep(path: str, kind: str, content: Mapping[str, Any], *, begin: bool = True) -> str:
+    """Add an entry to the diary of a folder, or next to a file; a sentence if that failed, else ''.
+
+    begin: whether to begin a diary where there is none.
+    """
+    folder = folder_of(path)
+    if folder is None or not (begin or has_diary(folder)):
+        return ""
+    try:
+        append(folder, kind, content)
+    except InputError as error:
+        return f"nothing was added to the diary: {error}"
+    return ""
+
+
+# Writes numbers to the machine; the old numbers go into a file, and the change into the diary.
+
+
+def write_and_keep(
+    sender: Sender, path: str, lines: list[str], *, back: bool = False
+) -> tuple[Written, str, str]:
+    """Write numbers and read them back; `back`: they are those from before `path` was sent.
+
+    Comes with the file of the numbers that were replaced, named after `path`, and a sentence if
+    the diary could not be kept. The file is there before a number is sent, so an InputError of a
+    machine that took only some leaves a way back.
+    """
+    # What is taken back is not what was before it was sent: it keeps another name.
+    when = "undone" if back else "before"
+    kept = f"{Path(path).with_suffix('')}-{when}-{datetime.now():%Y-%m-%d-%H%M%S}.nc"
+    try:
+        written = write_numbers(
+            sender, lines, keep=lambda before: write_whole(kept, as_lines(before).encode())
+        )
+    except InputError as error:
+        if not Path(kept).exists():
+            raise
+        raise InputError(f"{error}. The old numbers are in {kept}") from None
+    entry = numbers_entry(
+        Path(path).name,
+        lines,
+        changed=written.changed,
+        firmware=version_of(sender),
+        kept=Path(kept).name,
+        back=back,
+    )
+    return written, kept, keep(path, NUMBERS, entry)

@@ -6,8 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import datetime
 
-from plumb.diary.entries import FIT
-from plumb.diary.file import Diary, Entry
+from plumb.diary.file import FIT, Diary, Entry
 
 
 @dataclass(frozen=True)

@@ -13,17 +13,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy
 
-from plumb.board.sighting import SHEET_ROTATION
 from plumb.diagnosis.check_marks import LEVEL
-from plumb.diary.entries import FIT
-from plumb.diary.file import Diary, Entry
+from plumb.diary.file import FIT, Diary, Entry
+from plumb.fit.sighting import SHEET_ROTATION
+from plumb.job.home import TOUCH_SIGMA, Touch, believed_chains, turned_back
+from plumb.model.plain import ranked
 from plumb.model.predict import FOUND, NAMES, Array, places_with_slopes, values_of
-from plumb.model.ranks import ranked
-from plumb.recovery.touched import TOUCH_SIGMA, Touch, believed_chains, turned_back
 from plumb.settings.machine import MachineSettings
-from plumb.settings.machine_tables import MACHINE_KEYS, machine_in
-from plumb.text.errors import refusal
-from plumb.text.readers import to_do
+from plumb.settings.toml import MACHINE_KEYS, machine_in
+from plumb.text.errors import refusal, to_do
 
 STEP = 0.1  # [mm] of chain
 # Changes that need no new fit: how much longer a chain is than the machine believes, where the

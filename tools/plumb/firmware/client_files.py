@@ -14,15 +14,12 @@ from pathlib import Path
 import numpy as np
 
 from plumb import _core
-from plumb.firmware.numbers import WORST, Number, chains_apart, firmware_numbers
-from plumb.firmware.settings import every_setting
+from plumb.firmware.settings import WORST, Number, chains_apart, every_setting, firmware_numbers
 from plumb.settings.files import changed_client_file, groundcontrol_changes, parse_client_file
-from plumb.settings.groundcontrol import Key, number_for_firmware
-from plumb.settings.ini import SOURCES
+from plumb.settings.ini import SOURCES, Key, number_for_firmware
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError, naming, refusal
+from plumb.text.errors import InputError, naming, refusal, to_do
 from plumb.text.ini import IniEntry, IniText
-from plumb.text.readers import to_do
 from plumb.text.values import number_in
 
 # What clients work out before they send it.

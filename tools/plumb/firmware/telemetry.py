@@ -9,8 +9,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from plumb.text.errors import InputError
-from plumb.text.readers import to_do
+from plumb.text.errors import InputError, to_do
 
 LINE = re.compile(r"\[Telemetry\|([^\]\n]*)\]")
 LEAST_SUPPLY_V = 4.5

@@ -7,19 +7,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.board.observations import Observations, model_and_observations
-from plumb.board.sighting import Sighting, sighted
-from plumb.fit.chain_view import chain_errors
 from plumb.fit.fit import rms
-from plumb.fit.known_boards import known_outside
-from plumb.fit.shape import best_pose
+from plumb.fit.inputs import known_outside
+from plumb.fit.observations import Observations, chains_to, model_and_observations
+from plumb.fit.sighting import Sighting, sighted
+from plumb.marks.benchmark import Score, score_as_cut, score_of
 from plumb.marks.read import Measurements
-from plumb.marks.score import Score, score_as_cut, score_of
-from plumb.model.predict import FOUND, FOUND_WORDS, values_of
-from plumb.settings.fit_record import FitRecord
+from plumb.model.predict import FOUND, FOUND_WORDS, settings_of, values_of
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError
-from plumb.text.readers import to_do
+from plumb.settings.toml import FitRecord
+from plumb.text.errors import InputError, to_do
 
 Point = tuple[float, float]
 
@@ -236,3 +233,95 @@ def _warnings(
             page="name the groundcontrol.ini that was in force in their form, as cut_with",
         ),
     )
+
+
+# Errors on the sheet seen by the chains: how much more of each chain the measured place needs.
+
+
+@dataclass(frozen=True)
+class ChainView:
+    """The errors of marks as errors of the left and the right chain, by a model of the machine."""
+
+    model: MachineSettings
+    names: tuple[str, ...]  # (k,) of the marks
+    places: Array  # (k, 2) [mm] where the sled hangs for each mark, on the machine
+    errors: Array  # (k, 2) [mm] measured - predicted, x and y on the sheet
+    chains: Array  # (k, 2) [mm] the same, left and right chain; nan where no chain reaches
+
+
+def chain_view(
+    values: Array, outside: Mapping[str, float], rows: Observations, like: MachineSettings
+) -> ChainView:
+    """The marks of `rows` seen by a machine with `values`; `outside` as in sighting.py."""
+    model = settings_of(values, like=like)
+    predicted = sighted(
+        values,
+        outside,
+        rows,
+        over_top=like.feed == "top",
+        usual_weight=like.sled_weight,
+        names=(),
+    ).read.where[rows.mark_rows]
+    places = hung_places(model, rows)[rows.mark_rows]
+    errors = rows.measured - predicted
+    weights = rows.sled_weights[rows.mark_rows]
+    return ChainView(
+        model, rows.names, places, errors, chain_errors(model, places, errors, weights)
+    )
+
+
+def hung_places(model: MachineSettings, rows: Observations) -> Array:
+    """Where the sled hangs on each visit (r, 2) [mm], whatever the sheet and the tape do."""
+    hung = sighted(
+        values_of(model),
+        {},
+        rows,
+        over_top=model.feed == "top",
+        usual_weight=model.sled_weight,
+        names=(),
+    )
+    return hung.read.where
+
+
+def chain_errors(model: MachineSettings, places: Array, errors: Array, weights: Array) -> Array:
+    """How much more of each chain (n, 2) [mm] a sled needs at places + errors than at the places.
+
+    nan where no chain reaches.
+    """
+    there, reached = chains_to(model, places + errors, weights)
+    here, hanging = chains_to(model, places, weights)
+    good = (reached == FOUND) & (hanging == FOUND)
+    more: Array = np.where(good[:, np.newaxis], there - here, np.nan)
+    return more
+
+
+# The shape of errors: what no shift and no turn of the sheet takes away.
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class Pose:
+    """How the measured marks lie as a whole against the predicted marks."""
+
+    shift: tuple[float, float]  # [mm] of the middle of all marks
+    rotation: float  # [rad] counter-clockwise
+    errors: Array  # (n, 2) [mm] what is left
+
+
+def best_pose(predicted: Array, measured: Array) -> Pose | None:
+    """The rigid motion that brings predicted (n, 2) closest to measured (n, 2) [mm].
+
+    None for fewer than two different places: one place has no shape.
+    """
+    if len(predicted) < 2 or np.ptp(predicted, axis=0).max() == 0:
+        return None
+    middle, aim = predicted.mean(axis=0), measured.mean(axis=0)
+    before, after = predicted - middle, measured - aim
+    # tan(rotation) = sum of cross products / sum of dot products (Procrustes in the plane)
+    cross = np.sum(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0])
+    rotation = float(np.arctan2(cross, np.sum(before * after)))
+    cosine, sine = np.cos(rotation), np.sin(rotation)
+    turned = before @ np.array([[cosine, sine], [-sine, cosine]])
+    shift = aim - middle
+    return Pose((float(shift[0]), float(shift[1])), rotation, after - turned)

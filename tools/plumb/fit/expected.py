@@ -6,26 +6,31 @@ may be there in its typical size, all independent of each other.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
+from math import inf
+from typing import Any
 
 import numpy as np
 
-from plumb.board.sighting import SHEET_ROTATION
+from plumb.fit.compare import best_pose
 from plumb.fit.fit import rms
-from plumb.fit.problem import PRIORS
-from plumb.fit.shape import best_pose
+from plumb.fit.problem import PRIORS, Checked
+from plumb.fit.sighting import SHEET_ROTATION
 from plumb.model.catalogue import parameter_words
 from plumb.model.predict import (
     FOUND,
     NAMES,
     Array,
     believed_lengths,
+    frame_words,
     places_with_slopes,
     values_of,
 )
 from plumb.settings.machine import FRAME_FIELDS, MachineSettings
-from plumb.text.shown import worded
+from plumb.text.errors import InputError, to_do
+from plumb.text.values import worded
 
 # [mm, N] how far a number may be off that no fit moves, before the owner measured it.
 WIDE = {"rotation_radius": 5.0, "sled_weight": 15.0}
@@ -129,3 +134,96 @@ def _shape(where: Array, moved: Array) -> Array:
 def _together(several: list[Array]) -> float:
     """RMS of independent motions (n, 2), added up."""
     return float(np.sqrt(sum(rms(moved) ** 2 for moved in several)))
+
+
+# Which sizes a real machine can have: one rule for the fit, the diagnosis and the proposals.
+#
+# The catalogue's range is what was met in workshops. A value in it is plausible. What was met is no
+# wall, so an interval is refused only where all of it lies beyond MARGIN times the range: of 18
+# made-up boards with a size 1.25 times the largest, the range itself refused the truth in 11.
+
+OUTSIDE = 1.5
+
+
+@dataclass(frozen=True)
+class PlausibleRange:
+    """From the smallest to the largest value that was met; infinite where no limit is known."""
+
+    low: float = -np.inf
+    high: float = np.inf
+
+    @property
+    def limits(self) -> list[float | None]:
+        """Both ends; None where no limit is known."""
+        return [end if np.isfinite(end) else None for end in (self.low, self.high)]
+
+    def holds(self, value: float) -> bool:
+        """Whether a value is plausible."""
+        return bool(self.low <= value <= self.high)
+
+    def is_near(self, low: float | Array, high: float | Array) -> Any:
+        """Whether an interval (or each of many) reaches what a real machine may have."""
+        least = self.low * OUTSIDE if self.low < 0 else self.low / OUTSIDE
+        most = self.high / OUTSIDE if self.high < 0 else self.high * OUTSIDE
+        return (np.asarray(high) >= least) & (np.asarray(low) <= most)
+
+
+@cache
+def plausible_range(name: str) -> PlausibleRange:
+    """The range of a parameter, or of a number of the frame, by its full name."""
+    words = {frame["name"]: frame for frame in frame_words()} | parameter_words()
+    if name not in words:
+        return PlausibleRange()
+    return PlausibleRange(words[name]["low"], words[name]["high"])
+
+
+# Numbers that no real machine has: a slip of the pen, or another unit, and no measurement.
+
+FARTHEST = 3.0  # times the largest size that was met: a size beyond it is no measurement
+SURE = 2.0  # [sigmas] by which a poor measurement may lie beyond
+FRAME_SHARE, FRAME_SIGMAS = 0.1, 10.0  # a number of the frame may lie this far from the settings
+SMALLEST = 1 / 3  # of a length or a weight of the settings
+
+
+def refuse_absurd(checks: Sequence[Checked], settings: MachineSettings) -> None:
+    """Raise InputError for a number that cannot have been measured on such a machine."""
+    for check in checks:
+        if is_absurd(check, settings):
+            raise InputError(f"{_said(check)}: {_why(check, settings)}")
+
+
+def is_absurd(check: Checked, settings: MachineSettings) -> bool:
+    """Whether a number cannot have been measured on such a machine."""
+    low, high = _possible(check.name, settings)
+    surely = SURE * check.sigma
+    return not low <= check.value + surely or not check.value - surely <= high
+
+
+def _possible(name: str, settings: MachineSettings) -> tuple[float, float]:
+    """From the smallest to the largest value that a measurement may have."""
+    met = plausible_range(name)
+    if name in parameter_words():
+        # An effect's size against what was met in workshops.
+        largest = FARTHEST * max(abs(met.low), abs(met.high))
+        return -largest, largest
+    if name not in FRAME_FIELDS:
+        return -inf, inf
+    stated = dict(settings.frame)[name]
+    allowed = max(FRAME_SHARE * abs(stated), FRAME_SIGMAS * {**PRIORS, **WIDE}.get(name, 0.0))
+    smallest = SMALLEST * stated if met.low >= 0 else -inf
+    return max(stated - allowed, smallest), stated + allowed
+
+
+def _why(check: Checked, settings: MachineSettings) -> str:
+    if check.name in FRAME_FIELDS:
+        return (
+            f"that is far from the {dict(settings.frame)[check.name]:g} of the settings; check the "
+            "number, its unit (mm, N), and that the settings are those of this machine"
+        )
+    unit, met = parameter_words()[check.name]["unit"], plausible_range(check.name)
+    meant = "a share of the whole: 0.1 mm per metre is 0.0001" if unit == "1" else f"in {unit}"
+    return f"real machines have {met.low:g} to {met.high:g}; VALUE is {meant}"
+
+
+def _said(check: Checked) -> str:
+    return f"{to_do('--checked', page='known')} {check.name}={check.value:g}"

@@ -8,11 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from plumb.board.observations import Observations
-from plumb.board.rounds import last_turn_of
-from plumb.board.sighting import OUTSIDE_NAMES, SHEET_ROTATION
-from plumb.fit.problem import PRIORS, USUAL_SIGMA, Checked, Problem
-from plumb.fit.solver import Solution, solve
+from plumb.fit.observations import Observations
+from plumb.fit.problem import PRIORS, USUAL_SIGMA, Checked, Problem, Solution, solve
+from plumb.fit.rounds import last_turn_of
+from plumb.fit.sighting import OUTSIDE_NAMES, SHEET_ROTATION
 from plumb.model.catalogue import parameter_names
 from plumb.model.predict import Array, settings_of
 from plumb.settings.machine import MachineSettings

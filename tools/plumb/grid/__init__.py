@@ -1,13 +1,9 @@
 """The G-code for calibration marks; this room needs only the standard library of Python 3.9."""
 
 from plumb.grid.command import add_arguments, from_arguments, main, run
-from plumb.grid.form import marks_list
-from plumb.grid.gcode import program
 from plumb.grid.options import MIN_FREE_CHAIN, Grid, GridError, PlainMachine
-from plumb.grid.picture import preview
-from plumb.grid.spans import spans_in, spans_of
-from plumb.grid.touches import listed, touches_of
-from plumb.grid.way import check, inwards, tensions
+from plumb.grid.pattern import check, inwards, listed, spans_in, spans_of, tensions, touches_of
+from plumb.grid.program import marks_list, preview, program
 
 __all__ = [
     "MIN_FREE_CHAIN",

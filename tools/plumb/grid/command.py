@@ -14,21 +14,18 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NoReturn
 
 from plumb.grid.cut_with import cut_with_lines, with_form
-from plumb.grid.form import marks_list
-from plumb.grid.gcode import FIRST_LINE, program
-from plumb.grid.limits import demand
 from plumb.grid.options import (
     GRID_OPTIONS,
     MACHINE_OPTIONS,
     Grid,
     GridError,
     PlainMachine,
+    demand,
     pair,
     pairs,
 )
-from plumb.grid.picture import preview
-from plumb.grid.spans import spans_of
-from plumb.grid.webcontrol import as_ini, is_webcontrol
+from plumb.grid.pattern import spans_of
+from plumb.grid.program import FIRST_LINE, as_ini, is_webcontrol, marks_list, preview, program
 
 COMPLAINT = "calibration grid: {}; --help lists the options\n"
 

@@ -13,7 +13,7 @@ import json
 import os
 import re
 
-from plumb.grid.webcontrol import as_ini, is_webcontrol
+from plumb.grid.program import as_ini, is_webcontrol
 
 # Keys of a groundcontrol.ini, small, that say how long the chains are for a place.
 KEYS = (

@@ -3,36 +3,40 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
+from itertools import count
 from pathlib import Path
 
 import numpy as np
 
-from plumb.diary.numbers_written import write_and_keep
+from plumb.diary.file import write_and_keep
 from plumb.firmware.client_files import gcode
-from plumb.firmware.numbers import CLIENT_NUMBERS, firmware_numbers
-from plumb.firmware.read_back import machine_of_numbers
-from plumb.fit.expected import (
-    expected_anywhere,
-    expected_error,
-    expected_priors,
-    expected_sentence,
+from plumb.firmware.settings import CLIENT_NUMBERS, firmware_numbers, machine_of_numbers
+from plumb.fit.expected import expected_anywhere, expected_error, expected_priors, expected_sentence
+from plumb.fit.inputs import settings_in
+from plumb.guide.talk import (
+    HEAVIEST,
+    HEIGHT,
+    LENGTHS,
+    LIGHTEST,
+    Jog,
+    LeftError,
+    Progress,
+    Talk,
+    chain_jog,
+    height_jog,
+    ran_away,
+    remedy,
 )
-from plumb.fit.read_inputs import settings_in
-from plumb.guide.kept import keep_other
-from plumb.guide.numbers import HEAVIEST, LENGTHS, LIGHTEST
-from plumb.guide.progress import Progress
-from plumb.guide.talk import Talk
-from plumb.guide.wires import HEIGHT, Jog, chain_jog, height_jog, ran_away, remedy
 from plumb.line.memory import read_numbers
 from plumb.line.sender import RefusedError, Sender
 from plumb.model.reach import percent, survey_sheet
 from plumb.settings.machine import GRAVITY, MachineSettings, frame_of
 from plumb.settings.toml import machine_toml
-from plumb.text.files import write_whole
-from plumb.text.readers import to_do
-from plumb.text.shown import bare, brief, unit, worded
+from plumb.text.errors import to_do
+from plumb.text.files import read_bytes, write_whole
+from plumb.text.values import bare, brief, unit, worded
 
 SETTINGS = "machine.toml"
 SLEDS = {"r": "on a ring or a linkage: both chains point at the bit", "b": "on two brackets"}
@@ -306,3 +310,55 @@ STEPS = (
     Step("chains", "Chains at 12 o'clock", set_chains),
     Step("mark", "The first mark", first_mark),
 )
+
+
+# Walks through the steps: what is done is passed over, what is left is taken up again.
+
+
+def walk(visit: Visit, *, first: str = "") -> bool:
+    """Take the steps in order, from `first` or from the step that is open; whether all are done."""
+    names = [step.name for step in STEPS]
+    begin = names.index(first) if first else 0
+    try:
+        for step in STEPS[begin:]:
+            if step.name in visit.progress.done and step.name != first:
+                continue
+            number = names.index(step.name) + 1
+            visit.talk.say(f"\n{number} of {len(STEPS)}  {step.title}")
+            if not take(visit, step):
+                visit.talk.say(f"This step is still open: {step.title}")
+                return False
+    except LeftError:
+        visit.progress.save()
+        visit.talk.say("The guide stays where it is; run it again to go on.")
+        return False
+    return True
+
+
+def take(visit: Visit, step: Step) -> bool:
+    """Take a step, and keep that it is done. Raises LeftError if the owner leaves it."""
+    done = step.run(visit)
+    if done:
+        visit.progress.finish(step.name)
+    return done
+
+
+def open_step(done: Collection[str]) -> str:
+    """The name of the first step that is not done; empty if all are."""
+    return next((step.name for step in STEPS if step.name not in done), "")
+
+
+# A file that the guide replaces: what was in it stays in the folder under another name.
+
+
+def keep_other(path: Path, content: bytes) -> None:
+    """Keep what is in a file if it is not this content, as NAME-old, NAME-old-2 and so on."""
+    if not path.is_file() or path.stat().st_size == 0 or read_bytes(path) == content:
+        return
+    before = read_bytes(path)
+    names = (f"{path.stem}-old{'' if number == 1 else f'-{number}'}" for number in count(1))
+    for each in (path.with_name(f"{name}{path.suffix}") for name in names):
+        if not each.exists():
+            return write_whole(each, before)
+        if each.is_file() and read_bytes(each) == before:
+            return

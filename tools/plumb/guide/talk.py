@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import json
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 
-from plumb.text.lengths import UNITS, length_in
+from plumb.text.errors import refusal
+from plumb.text.files import read_text, write_whole
+from plumb.text.values import UNITS, brief, length_in, worded
 
 YES = ("y", "yes")
 LEAVE = ("q", "quit", "leave")
@@ -91,3 +95,201 @@ class Talk:
             if low <= mass <= high:
                 return mass
             self.say(f"A sled weighs from {low:g} to {high:g} kg.")
+
+
+# What a short jog says of an axis' wires: what moved, which way, and what the machine noticed.
+
+CHAIN, HEIGHT = 20.0, 1.0  # [mm] of a jog
+FOLLOWS = 0.3  # [mm] between what was asked for and what the machine counts, at most
+SPEED = 300  # [mm/min]
+SLED = "The sled, if it hangs, rises a little on that side and comes back."
+PLUGS = {"left": "MP3", "right": "MP1", "z": "MP2"}
+
+
+@dataclass(frozen=True)
+class Jog:
+    """A move of a single axis, there and back."""
+
+    axis: str
+    there: tuple[str, ...]
+    back: tuple[str, ...]
+    moves: str  # names what will move and how far
+    act: str  # the same in a few words
+    question: str
+    answers: dict[str, str]
+
+
+def chain_jog(side: str) -> Jog:
+    """Winds 20 mm of a chain in, and pays it out again."""
+    other = "right" if side == "left" else "left"
+    word = side[0].upper()
+    return Jog(
+        side,
+        ("G91", f"B09 {word}-{CHAIN:g} F{SPEED}", "G90"),
+        ("G91", f"B09 {word}{CHAIN:g} F{SPEED}", "G90"),
+        f"The {side.upper()} motor winds {brief(CHAIN)} of its chain in, slowly. {SLED}",
+        f"Wind {brief(CHAIN)} of the {side} chain in",
+        "What did you see?",
+        {
+            "s": f"the {side} chain got shorter",
+            "l": f"the {side} chain got longer",
+            "o": f"the {other} chain moved",
+            "z": "the z axis moved",
+            "n": "nothing moved",
+        },
+    )
+
+
+def height_jog() -> Jog:
+    """Raises the bit by 1 mm, and lowers it again."""
+    return Jog(
+        "z",
+        ("G91", f"G0 Z{HEIGHT:g}", "G90"),
+        ("G91", f"G0 Z-{HEIGHT:g}", "G90"),
+        f"The Z motor raises the router by {brief(HEIGHT)}, or lowers it if a wire is wrong: take "
+        "the bit out, or leave it room. Watch the screw that lifts the router.",
+        f"Raise the router by {brief(HEIGHT)}",
+        "Did the router go up? A turn of its screw by a few degrees counts.",
+        {
+            "s": "it went up",
+            "l": "it went down",
+            "o": "a chain moved",
+            "n": "nothing moved",
+        },
+    )
+
+
+def ran_away(asked: float, counted: float) -> str:
+    """What is wrong with a way [mm] that the machine counted; empty if it is as was asked."""
+    if abs(counted - asked) <= FOLLOWS:
+        return ""
+    return (
+        f"The machine was to move by {worded(asked)} and counts {worded(counted)}: the motor does "
+        "not follow. Check its power wires, its encoder, and its gains ($29 to $36)."
+    )
+
+
+def remedy(axis: str, seen: str, alarm: str) -> str:
+    """What to mend after a jog; empty if all is right.
+
+    `seen` is a letter of the jog's answers; `alarm` is what the machine said, empty for nothing.
+    """
+    motor = f"the {axis} motor" if axis != "z" else "the z motor"
+    if seen in ("o", "z"):
+        return (
+            f"The plug of {motor} is on the wrong socket. It belongs on {PLUGS[axis]}: its power "
+            "wires and its encoder together."
+        )
+    if "wired in reverse" in alarm:
+        if seen == "l":
+            return f"The power wires of {motor} are swapped: exchange the two."
+        if seen == "n":
+            return (
+                f"The power wires of {motor} are swapped, or its encoder counts backwards; it "
+                "stopped too soon to tell. Exchange its two power wires: if it was the encoder, "
+                "this step then says what is left to do."
+            )
+        return f"The encoder of {motor} counts backwards: exchange its wires A and B."
+    if "stands still" in alarm:
+        if seen == "n":
+            return (
+                f"{motor.capitalize()} gets no power, or something blocks it. Check the 12 V "
+                f"supply, then its power wires on {PLUGS[axis]}."
+            )
+        return f"{motor.capitalize()} turns, but its encoder is silent: push its plug in."
+    if alarm:
+        return f"The machine stopped: {alarm}"
+    if seen == "n":
+        return (
+            "The machine counts a move that you do not see. Are its motors simulated? Send B99 OFF."
+        )
+    if seen == "s":
+        return ""
+    if axis == "z":
+        return (
+            "Z runs upside down: give $19 (its travel for one turn) the other sign, and in your "
+            "client too, which sends its own zDistPerRot."
+        )
+    return (
+        f"{motor.capitalize()} runs the wrong way. If the chains leave the bottom of the "
+        "sprockets, set $38 to 2. If not, exchange its two power wires, and its encoder's A and B."
+    )
+
+
+# How far the owner came, in `guide.json`: each step can be left and taken up again.
+
+FILE = "guide.json"
+
+
+@dataclass
+class Progress:
+    """What is done, and what the owner said of the machine."""
+
+    folder: Path
+    done: list[str] = field(default_factory=list)
+    sigmas: dict[str, float] = field(default_factory=dict)  # how far a number may be wrong
+
+    def finish(self, step: str) -> None:
+        """Keep that a step is done."""
+        if step not in self.done:
+            self.done.append(step)
+        self.save()
+
+    def save(self) -> None:
+        """Write the file."""
+        kept = {"done": self.done, "sigmas": self.sigmas}
+        write_whole(self.folder / FILE, f"{json.dumps(kept, indent=2)}\n".encode())
+
+
+def progress_in(folder: Path) -> Progress:
+    """The progress in a folder; an empty progress where nothing was begun. Raises InputError."""
+    path = folder / FILE
+    if not path.exists():
+        return Progress(folder)
+    try:
+        kept = json.loads(read_text(path))
+        done = [str(step) for step in kept["done"]]
+        sigmas: Mapping[str, float] = kept["sigmas"]
+        return Progress(folder, done, {name: float(size) for name, size in sigmas.items()})
+    except (ValueError, KeyError, TypeError, AttributeError):
+        raise refusal(path, "is damaged", remedy="delete it, and begin again") from None
+
+
+# What the owner knows of the machine, and how far each number may be wrong.
+
+
+@dataclass(frozen=True)
+class Known:
+    """A number that a tape or a scale gives."""
+
+    name: str  # of the frame
+    question: str
+    sigma: float  # [mm] how far it is usually wrong
+    low: float  # [mm]
+    high: float
+
+
+LENGTHS = (
+    Known(
+        "motor_gap",
+        "From the middle of the left motor's shaft to the middle of the right one's",
+        3.0,
+        1500.0,
+        5000.0,
+    ),
+    Known(
+        "motor_height",
+        "From the sheet's top edge up to the line between the shafts",
+        20.0,
+        0.0,
+        2000.0,
+    ),
+    Known(
+        "rotation_radius",
+        "From the bit to the end of a chain, along the chain's line (the ring's radius)",
+        3.0,
+        50.0,
+        400.0,
+    ),
+)
+LIGHTEST, HEAVIEST = 3.0, 40.0  # [kg] of a sled with its router

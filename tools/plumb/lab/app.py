@@ -39,9 +39,8 @@ from plumb.lab.routes import (
     readings,
     verdict,
 )
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, read_on_page
 from plumb.text.files import links_refused
-from plumb.text.readers import read_on_page
 
 PAGE = Path(__file__).parent / "page"
 

@@ -14,14 +14,12 @@ from pathlib import Path
 from threading import Lock
 from typing import Literal
 
-from plumb.guide.progress import progress_in
-from plumb.guide.steps import Step, Visit
-from plumb.guide.talk import LeftError, Talk
-from plumb.guide.walk import take
+from plumb.guide.steps import Step, Visit, take
+from plumb.guide.talk import LeftError, Talk, progress_in
 from plumb.lab.machine_line import MachineLine
 from plumb.line.sender import Sender, StoppedError
 from plumb.text.errors import InputError
-from plumb.text.shown import shown_in
+from plumb.text.values import shown_in
 
 Kind = Literal["go", "yes", "choice", "length", "turn", "mass"]
 MOMENT = 0.05  # [s] between two looks for an answer

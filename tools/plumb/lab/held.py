@@ -3,7 +3,7 @@ fit."""
 
 from __future__ import annotations
 
-from plumb.firmware.in_force import (
+from plumb.firmware.settings import (
     MACHINE,
     Difference,
     both_values,
@@ -12,7 +12,7 @@ from plumb.firmware.in_force import (
     refuse_other_numbers,
     refuse_other_origin,
 )
-from plumb.fit.read_inputs import settings_in
+from plumb.fit.inputs import settings_in
 from plumb.lab.choices import read_choices
 from plumb.lab.machine_line import MachineLine
 from plumb.lab.project import Project

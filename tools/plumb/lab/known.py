@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 from plumb.cure.add import priors_with
 from plumb.diagnosis import Checked
-from plumb.fit.absurd_checks import is_absurd
-from plumb.fit.expected import WIDE
+from plumb.fit.expected import WIDE, is_absurd
 from plumb.lab.choices import Choices
 from plumb.settings.machine import MachineSettings
 

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from pydantic import BaseModel
 
-from plumb.fit.absurd_checks import is_absurd, refuse_absurd
-from plumb.fit.plausible import plausible_range
+from plumb.fit.expected import is_absurd, plausible_range, refuse_absurd
 from plumb.lab.by_hand import CURVES, Curve, Reading, Unit, readings
 from plumb.lab.choices import Choices
 from plumb.lab.known import stated
-from plumb.plan.direct_checks import FRAME_CHECKS, effect_checks
+from plumb.plan.separation import FRAME_CHECKS, effect_checks
 from plumb.settings.machine import GRAVITY, MachineSettings
 from plumb.text.errors import InputError
-from plumb.text.shown import shown_in, worded
+from plumb.text.values import shown_in, worded
 
 WEIGHT = "sled_weight"
 WEIGHED = 0.2  # [kg] to which a sled is weighed

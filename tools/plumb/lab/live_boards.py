@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from threading import Lock
 
 from plumb.cure.add import raw_comparison
-from plumb.cure.board_view import BoardView
-from plumb.cure.live_board import LiveBoard
+from plumb.cure.live_board import BoardView, LiveBoard
 from plumb.fit.compare import Comparison
 from plumb.fit.inputs import Inputs
 from plumb.lab.choices import read_choices

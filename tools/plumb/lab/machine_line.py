@@ -15,8 +15,8 @@ from fastapi import Depends
 from serial.tools import list_ports
 from starlette.requests import HTTPConnection
 
+from plumb.line.port import SerialPort
 from plumb.line.sender import Sender, StoppedError
-from plumb.line.serial_port import SerialPort
 from plumb.line.worker import LineState, LineWorker
 from plumb.text.errors import InputError
 from plumb.vm.garage import set_up

@@ -9,11 +9,10 @@ from dataclasses import dataclass, replace
 from plumb import _core
 from plumb.grid import Grid, PlainMachine, marks_list, spans_of, touches_of
 from plumb.grid.cut_with import cut_with_lines
-from plumb.grid.touches import Touch
+from plumb.grid.pattern import Touch
 from plumb.lab.choices import Layout
 from plumb.marks.read import Distance, Mark, Measurements
-from plumb.model.reach import with_soft_chains
-from plumb.model.way import refuse_way
+from plumb.model.reach import refuse_way, with_soft_chains
 from plumb.plan.options import MARK, READING, ROUND
 from plumb.settings.machine import MachineSettings
 from plumb.vm.owner import plain_machine

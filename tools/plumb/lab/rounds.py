@@ -12,7 +12,7 @@ from plumb.lab.project import Project
 from plumb.marks.form import read_form
 from plumb.model.predict import known_effects
 from plumb.text.errors import InputError
-from plumb.text.ours import is_ours
+from plumb.text.files import is_ours
 
 FORM, PROGRAM = "marks{}.toml", "grid{}.nc"
 

@@ -6,11 +6,11 @@ import re
 from dataclasses import dataclass
 from pathlib import PurePath
 
-from plumb.fit.read_inputs import settings_in
+from plumb.fit.inputs import settings_in
 from plumb.lab.choices import Choices
 from plumb.lab.project import Project
 from plumb.lab.rounds import has_readings
-from plumb.line.waits import Wait, waits_in
+from plumb.line.progress import Wait, waits_in
 from plumb.marks.form import read_form
 from plumb.marks.model import Mark
 from plumb.model.predict import known_effects

@@ -5,10 +5,15 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
 
-from plumb.firmware.settings import every_setting
+from plumb.firmware.client_files import gcode
+from plumb.firmware.settings import every_setting, firmware_numbers
 from plumb.line.sender import REPORTS, STANDS, Sender, Watch
-from plumb.text.errors import InputError
+from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError, refusal, to_do
+from plumb.text.files import read_text
 
 ROW = re.compile(r"\$(\d+)=([-+\d.eE]+)")
 SETTING = re.compile(r"\$(\d+)\s*=\s*(\S+)")
@@ -96,3 +101,24 @@ def as_lines(numbers: Mapping[int, float]) -> str:
     return "".join(
         f"${number}={value:.9g}\n" for number, value in numbers.items() if number in settable
     )
+
+
+# Lines with numbers for the machine: those of a machine.toml, and those that it had before.
+
+
+def lines_for(settings: MachineSettings, source: str) -> list[str]:
+    """The lines that write a machine's numbers; InputError for the published numbers."""
+    if settings.controller != "plumb":
+        why = "holds the published numbers, which a client sends"
+        remedy = to_do("give a machine.toml that plumb add wrote", page="write a correction first")
+        raise refusal(source, why, remedy=remedy)
+    return gcode(firmware_numbers(settings)).decode().splitlines()
+
+
+def kept_before(path: str | PathLike[str]) -> list[str]:
+    """The lines of the newest file that kept the machine's numbers before `path` was sent."""
+    stem = Path(path).with_suffix("")
+    kept = sorted(stem.parent.glob(f"{stem.name}-before-*.nc"))
+    if not kept:
+        raise refusal(path, "nothing was kept when it was sent", remedy="send it first")
+    return read_text(kept[-1]).splitlines()

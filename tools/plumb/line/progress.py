@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
-from plumb.line.waits import Wait
+from plumb.line.sender import COMMENT, plain
 
 
 @dataclass(frozen=True)
@@ -25,3 +27,29 @@ class Progress:
         if self.outcome != "running" or self.paused_at != self.done:
             return None
         return next((wait for wait in self.waits if wait.lines == self.done), None)
+
+
+# Where a program waits for somebody (M0, M1), and what its comments say is to be done then.
+
+SAID_PAUSED = "Maslow Paused"  # said when a program comes to a pause; a hold says nothing
+PAUSE = re.compile(r"M0?[01]", re.IGNORECASE)
+
+
+class Wait(NamedTuple):
+    """A pause of a program."""
+
+    lines: int  # that the machine takes before it
+    do: str  # the comment before it, or in its line; empty if there is none
+
+
+def waits_in(lines: Iterable[str]) -> Iterator[Wait]:
+    """The pauses of a program, in their order."""
+    count, said = 0, ""
+    for line in lines:
+        comment, text = COMMENT.search(line), plain(line)
+        said = comment[0][1:-1].strip() if comment else said
+        if not text:
+            continue
+        if PAUSE.fullmatch(text):
+            yield Wait(count, said)
+        count, said = count + 1, ""

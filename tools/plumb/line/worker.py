@@ -6,7 +6,7 @@ Hold, go on and stop do not wait for the work that is being done.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -16,21 +16,10 @@ from threading import Event, Lock, Thread
 from time import monotonic
 from typing import Any, Literal, TypeVar
 
-from plumb.line.lost_place import lost_place
 from plumb.line.memory import read_numbers
 from plumb.line.port import LostError, Port
-from plumb.line.progress import Progress
-from plumb.line.sender import (
-    HALTED,
-    REPORTS,
-    STANDS,
-    Sender,
-    Status,
-    StoppedError,
-    Watch,
-    cleaned,
-)
-from plumb.line.waits import PAUSED, waits_in
+from plumb.line.progress import SAID_PAUSED, Progress, waits_in
+from plumb.line.sender import HALTED, REPORTS, STANDS, Sender, Status, StoppedError, Watch, cleaned
 from plumb.text.errors import InputError
 
 Result = TypeVar("Result")
@@ -350,7 +339,7 @@ class LineWorker:
         self._said.append(line)
         changes: dict[str, Any] = {"said": tuple(self._said)}
         program = self._state.program
-        if line == PAUSED and program and program.outcome == "running":
+        if line == SAID_PAUSED and program and program.outcome == "running":
             changes["program"] = replace(program, paused_at=program.done)
             self._paused(program.done)
         if lost_place([line]):
@@ -386,3 +375,14 @@ def _busy(phase: Phase) -> str:
         "connecting": "the machine is not ready yet: wait a moment",
         "lost": "the line to the machine was lost: connect it again",
     }.get(phase, "the machine is busy: wait, or press Stop")
+
+
+# Whether a machine knows where its sled is: its greeting alone says so, its reports do not.
+
+# What a machine says at its start, or to a line that would move it.
+LOST_PLACE = ("Position Lost", "Chain lengths are not known", "Unable to find valid machine")
+
+
+def lost_place(said: Iterable[str]) -> str:
+    """The machine's words for a place that it does not know; empty if there are none."""
+    return next((line for line in said if any(words in line for words in LOST_PLACE)), "")

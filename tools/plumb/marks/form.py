@@ -17,7 +17,7 @@ from plumb.marks.model import Mark, Measurements, Point
 from plumb.marks.plausible import Sheet
 from plumb.marks.toml import read_marks_toml
 from plumb.text.files import read_text
-from plumb.text.lengths import UNITS
+from plumb.text.values import UNITS
 
 BLANK = "# measured = [ , ]"  # what a form has where a reading is yet to come
 DIGITS = {"mm": 4, "inch": 5}  # a 1/128 inch stays what it is

@@ -5,11 +5,16 @@ Machine frame: origin in the middle of the sheet, x right, y up, mm.
 
 from __future__ import annotations
 
+import json
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from hashlib import sha256
 
 import numpy as np
 
 from plumb.settings.machine import MachineSettings
+from plumb.text.errors import refusal
 
 Point = tuple[float, float]
 
@@ -59,7 +64,7 @@ class Typed:
     """How the places of a file were typed."""
 
     sheet: Point | None = None  # from its top left corner, y down; None: from its middle, y up
-    unit: str = "mm"  # of UNITS in text/lengths.py
+    unit: str = "mm"  # of UNITS in text/values.py
 
     def place(self, point: Point) -> Point:
         """A place of the machine frame [mm], counted from where it was typed [mm]."""
@@ -148,3 +153,61 @@ class Measurements:
 
 def _rows(points: list[Point]) -> np.ndarray:
     return np.array(points, dtype=float).reshape(-1, 2)
+
+
+# What a file of marks says, as a short text: equal readings have equal texts.
+
+
+def digest_of(measurements: Measurements) -> str:
+    """The SHA-256 of all marks and distances with their readings."""
+    marks = [
+        (mark.name, mark.target, mark.measured, mark.approach, mark.sled_weight, mark.chains)
+        for mark in measurements.marks
+    ]
+    distances = [(distance.between, distance.length) for distance in measurements.distances]
+    return sha256(json.dumps([marks, distances]).encode()).hexdigest()
+
+
+# How well somebody reads a tape, by how fine its lines are.
+
+# What the hand adds, whatever the tape: hook, parallax, the middle of a hole. A tape with
+# millimetre lines then gives the usual 0.5 mm (USUAL_SIGMA of the fit).
+HAND = 0.4  # [mm]
+
+
+def tape_sigma(finest: float) -> float:
+    """Standard deviation of a coordinate [mm] by the finest division of the tape [mm]."""
+    return round(math.hypot(HAND, finest / math.sqrt(12)), 2)
+
+
+# Targets and readings in each other's columns: then the readings lie on a lattice, and the targets
+# do not.
+
+FEWEST = 6  # different places, below which chance may line up readings
+MUCH = 2  # this many times as many numbers in the targets as in the readings
+ALIKE = 0.005  # [mm] numbers nearer than this are the same
+
+
+def refuse_exchanged_columns(measurements: Measurements) -> None:
+    """Ask about targets that look read and readings that look planned.
+
+    Who plans marks uses few numbers, over and over: rows and columns share theirs. Readings differ
+    by their errors. A machine that was steered to drawn points turns this round.
+    """
+    sent = [mark.target for mark, _ in measurements.readings]
+    read = [place for _, place in measurements.readings]
+    if measurements.steered or min(len(set(sent)), len(set(read))) < FEWEST:
+        return
+    if MUCH * _numbers_in(read) <= _numbers_in(sent):
+        raise refusal(
+            measurements.source,
+            "the measured positions lie in rows and columns and the targets do not: are target "
+            "and measured exchanged?",
+            remedy="exchange the two, or write steered = true at the top of a marks.toml if you "
+            "steered the sled to drawn points",
+        )
+
+
+def _numbers_in(points: Sequence[Point]) -> int:
+    """How many different numbers their coordinates are made of."""
+    return sum(len({round(point[axis] / ALIKE) for point in points}) for axis in (0, 1))

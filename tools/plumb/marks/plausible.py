@@ -6,10 +6,9 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from plumb.marks.exchanged import refuse_exchanged_columns
-from plumb.marks.model import Mark, Measurements, Point
+from plumb.marks.model import Mark, Measurements, Point, refuse_exchanged_columns
 from plumb.text.errors import refusal
-from plumb.text.lengths import INCH
+from plumb.text.values import INCH
 
 MOST_ERROR = 500.0  # [mm] farther from its target a mark is a slip of the pen
 FARTHEST_REPEAT = 100.0  # [mm] a repeat may lie this far from the first mark, whose hole is used up
@@ -213,3 +212,31 @@ def _refuse_odd_distances(measurements: Measurements) -> None:
             place=f"distance {distance.between[0]}-{distance.between[1]}",
             remedy=_INCH_HINT if inches else "check the names and the number",
         )
+
+
+# Places counted from two edges of the sheet, as a tape measures them [mm].
+
+CORNERS = ("top-left", "top-right", "bottom-left", "bottom-right")
+
+
+def from_edges(place: Point, *, sheet: Sheet, corner: str) -> Point:
+    """A place of the machine frame, counted from the two edges that meet in a corner."""
+    right, top = _is_right(corner), _is_top(corner)
+    x = sheet[0] / 2 - place[0] if right else sheet[0] / 2 + place[0]
+    y = sheet[1] / 2 - place[1] if top else sheet[1] / 2 + place[1]
+    return x, y
+
+
+def in_machine(read: Point, *, sheet: Sheet, corner: str) -> Point:
+    """The place in the machine frame that was read from the edges of a corner."""
+    x = sheet[0] / 2 - read[0] if _is_right(corner) else read[0] - sheet[0] / 2
+    y = sheet[1] / 2 - read[1] if _is_top(corner) else read[1] - sheet[1] / 2
+    return x, y
+
+
+def _is_right(corner: str) -> bool:
+    return corner.endswith("right")
+
+
+def _is_top(corner: str) -> bool:
+    return corner.startswith("top")

@@ -13,12 +13,21 @@ from plumb.grid.cut_with import settings_as_they_were
 from plumb.marks.benchmark import read_benchmark
 from plumb.marks.model import Distance, Mark, Measurements, Point, Round, Typed
 from plumb.marks.plausible import Sheet, to_machine
-from plumb.settings.controllers import CONTROLLERS
 from plumb.settings.files import read_settings
+from plumb.settings.machine import CONTROLLERS
 from plumb.text.errors import naming, refusal
 from plumb.text.files import read_text
-from plumb.text.lengths import UNITS, length, point
-from plumb.text.values import number, one_of, pair, refuse_unknown, text_of, within
+from plumb.text.values import (
+    UNITS,
+    length,
+    number,
+    one_of,
+    pair,
+    point,
+    refuse_unknown,
+    text_of,
+    within,
+)
 
 FRAMES = ("sheet-top-left", "machine")
 ROUND_FLAGS = ("chains_rezeroed", "new_sheet", "frame_moved")

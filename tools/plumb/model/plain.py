@@ -6,16 +6,20 @@ The words of an effect are in its file (`plain`); here they become sentences.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from plumb.model.catalogue import every_effect, parameter_words
 from plumb.model.predict import frame_words
-from plumb.text.readers import to_do
-from plumb.text.shown import in_unit, unit
+from plumb.text.errors import to_do
+from plumb.text.values import in_unit, unit
 
 if TYPE_CHECKING:
     from plumb._core import PlainWords
+
 
 # What the marks are measured from is no number of the machine, so its words are here.
 SHEET: dict[str, PlainWords] = {
@@ -159,3 +163,43 @@ def plain_change(name: str, before: float, value: float, low: float, high: float
     noun = " ".join(words["more"].replace("#", "").split())
     margin = _rounded(abs(ends[1] - ends[0]) / 2, digits)
     return PlainChange(noun, _rounded(was, digits), _rounded(now, digits), margin, _unit(words))
+
+
+# The order of computed numbers, the same on every processor.
+#
+# Rounding differs between processors. So numbers that are equal but for rounding tie, and what ties
+# keeps the order in which it came: give it in an order that means something.
+
+Item = TypeVar("Item")
+# Of chi-squares, logarithms, mm or shares: above the rounding of a fit, and nothing to anybody.
+TIE = 1e-7  # as a difference, and as a share of numbers above 1
+
+
+def ranked(items: Iterable[Item], key: Callable[[Item], float]) -> list[Item]:
+    """The items, that with the least number first."""
+    each = list(items)
+    return [each[i] for i in ascending([key(item) for item in each])]
+
+
+def ascending(numbers: ArrayLike) -> NDArray[np.int_]:
+    """The places of the numbers, the least first."""
+    flat = np.asarray(numbers, dtype=float).ravel()
+    order = np.argsort(flat, kind="stable")
+    low, high = flat[order][:-1], flat[order][1:]
+    with np.errstate(invalid="ignore"):  # infinite numbers tie
+        apart = high - low > TIE * np.maximum(1.0, np.minimum(np.abs(low), np.abs(high)))
+    if apart.all():
+        return order
+    ties = np.zeros(len(flat), dtype=int)
+    np.cumsum(apart, out=ties[1:])
+    return order[np.lexsort((order, ties))]
+
+
+def least(numbers: ArrayLike) -> int:
+    """The place of the least number, counted through the rows of a table."""
+    return int(ascending(numbers)[0])
+
+
+def greatest(numbers: ArrayLike) -> int:
+    """The place of the greatest number, counted likewise."""
+    return least(-np.asarray(numbers, dtype=float))

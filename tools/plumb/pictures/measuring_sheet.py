@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plumb.pictures.saved import pages_saved
+from plumb.pictures.scale import pages_saved
 from plumb.pictures.sheet import EDGE, INK, WOOD
 
 if TYPE_CHECKING:

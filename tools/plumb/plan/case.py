@@ -7,21 +7,23 @@ far: a mean and a covariance of the frame and its parameters, by the slopes at i
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
 from plumb.diagnosis.answer import Diagnosis
 from plumb.diagnosis.clean import felt_effects
 from plumb.diagnosis.explanation import Board, Explanation, explain
-from plumb.diagnosis.likeliest import listing
-from plumb.diagnosis.linear_board import SHARES, largest_met
+from plumb.diagnosis.judgement import listing
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.sizes import Size
-from plumb.diagnosis.weighing import weigh
+from plumb.diagnosis.weighing import SHARES, LinearBoard, Metric, accounts, largest_met, weigh
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import effect_names
-from plumb.model.ranks import ascending, ranked
+from plumb.model.plain import ascending, ranked
+from plumb.model.predict import FOUND
+from plumb.plan.planned_visits import Visits
 from plumb.settings.machine import MachineSettings
 
 Array = np.ndarray
@@ -247,3 +249,125 @@ def _root(slopes: Array) -> Array:
     felt = sizes > 1e-6 * sizes[0]
     root: Array = turned[felt].T / sizes[felt] @ turned[felt]
     return root
+
+
+# The accounts that the diagnosis would list after a planned measurement.
+#
+# The diagnosis weighs them by the slopes at the fit of the frame, whatever is true; so the
+# readings that a hypothesis predicts are written as what is left of that fit. How likely a field
+# of no effect is stays as it is: the hypotheses know of none.
+
+Effects = tuple[str, ...]
+
+
+def accounts_then(
+    case: Case, planned: Planned, noise: Noise, trials: Sequence[tuple[Hypothesis, Array]]
+) -> list[list[tuple[Effects, ...]]]:
+    """The accounts listed on each board of each trial: a hypothesis, and boards (rows, count) drawn
+    from it, relative to what it predicts of the frame alone."""
+    rows, board = planned.ahead(case.frame), case.board
+    felt = [name for name in board.effect_columns if rows.slopes[:, board.columns([name])].any()]
+    new = [
+        boards[rows.so_far :] + _apart(case, planned, hypothesis)[:, np.newaxis]
+        for hypothesis, boards in trials
+    ]
+    linear = LinearBoard.of(case.frame, felt, noise).with_more(
+        board, rows.slopes[rows.so_far :], np.hstack(new), noise
+    )
+    sets, before = accounts(case.frame, felt)
+    evidences = before[:, np.newaxis] + Metric.of(linear).evidences(linear.parts(sets))
+    listed = [tuple(each.effects for each in listing(sets, column)) for column in evidences.T]
+    ends = np.cumsum([0, *(boards.shape[1] for _, boards in trials)])
+    return [listed[start:end] for start, end in pairwise(ends)]
+
+
+def _apart(case: Case, planned: Planned, hypothesis: Hypothesis) -> Array:
+    """What planned readings (rows,) have beyond those of a hypothesis's boards when they are
+    counted from the start of the frame's fit, as slopes have it."""
+    board, truth, frame = case.board, planned.ahead(hypothesis.at), planned.ahead(case.frame)
+    unknowns, of_effects = hypothesis.at.unknowns, board.columns(hypothesis.at.effects)
+    apart: Array = truth.slopes[truth.so_far :, board.frame] @ unknowns[board.frame]
+    between = truth.where - frame.where
+    by_effects = truth.slopes[truth.so_far :, of_effects] @ unknowns[of_effects]
+    by_frame = frame.slopes[frame.so_far :, board.frame] @ case.frame.unknowns[board.frame]
+    seen = np.flatnonzero(np.isfinite(between))
+    apart[seen] = between[seen] - by_effects[seen] + by_frame[seen]
+    return apart
+
+
+# What a planned measurement would add: rows of slopes below those of the marks so far.
+
+
+@dataclass(frozen=True)
+class Check:
+    """A number of the machine that would be measured directly."""
+
+    name: str  # of a parameter or of the frame
+    sigma: float  # [its unit]
+
+
+@dataclass(frozen=True)
+class Ahead:
+    """All rows there would be, whitened: those so far, planned marks, planned checks."""
+
+    slopes: Array  # (rows, u)
+    so_far: int  # rows there are already
+    marks: Array  # (rows,) True for what is read of marks and distances, false for priors, checks
+    where: Array  # (planned marks * 2,) [sigmas] predicted; NaN where the sled could not hang
+
+
+class Planned:
+    """A planned measurement; what it adds by an explanation is worked out once."""
+
+    def __init__(self, visits: Visits, checks: Sequence[Check] = ()) -> None:
+        self.visits, self.checks = visits, tuple(checks)
+        self._known: dict[int, tuple[Explanation, Ahead]] = {}
+
+    def ahead(self, at: Explanation) -> Ahead:
+        """The rows after the measurement, by the slopes of an explanation."""
+        if id(at) not in self._known:
+            self._known[id(at)] = at, ahead(at, self.visits, self.checks)
+        return self._known[id(at)][1]
+
+
+def ahead(at: Explanation, visits: Visits, checks: Sequence[Check] = ()) -> Ahead:
+    """The rows after a planned measurement, by the slopes of an explanation."""
+    where, marks = _seen(at, visits)
+    checked = check_slopes(at, checks)
+    read = np.zeros(len(at.slopes), dtype=bool)
+    read[: at.board.rows.count] = True
+    return Ahead(
+        slopes=np.vstack([at.slopes, marks.reshape(-1, at.slopes.shape[1]), checked]),
+        so_far=len(at.slopes),
+        marks=np.concatenate([read, np.full(2 * len(visits), True), np.full(len(checks), False)]),
+        where=where,
+    )
+
+
+def visit_slopes(at: Explanation, visits: Visits) -> Array:
+    """Whitened slopes (n, 2, u) of visits at an explanation; zero, so that nothing is expected of
+    it, for a visit where the explanation's sled could not hang."""
+    return _seen(at, visits)[1]
+
+
+def _seen(at: Explanation, visits: Visits) -> tuple[Array, Array]:
+    """Where visits would be read (n * 2,), and the slopes of that (n, 2, u), both whitened."""
+    problem = replace(at.board.problem, observations=visits.rows())
+    width = len(problem.names)
+    if not len(visits):
+        return np.zeros(0), np.zeros((0, 2, width))
+    sighting, _ = problem.predict(at.unknowns)
+    slopes = (problem.data_slopes(sighting) / problem.sigma).reshape(-1, 2, width)
+    hangs = sighting.outcome == FOUND
+    where = np.where(hangs[:, np.newaxis], sighting.read.where / problem.sigma, np.nan)
+    return where.ravel(), np.where(hangs[:, np.newaxis, np.newaxis], slopes, 0.0)
+
+
+def check_slopes(at: Explanation, checks: Sequence[Check]) -> Array:
+    """Whitened slopes (c, u) of numbers that are measured directly."""
+    problem = at.board.problem
+    rows = np.zeros((len(checks), len(problem.names)))
+    for i, check in enumerate(checks):
+        column = problem.names.index(check.name)
+        rows[i, column] = problem.scale[column] / check.sigma
+    return rows

@@ -8,15 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from plumb.model.catalogue import is_felt_by_approach, is_of_chain
-from plumb.model.ranks import least, ranked
-from plumb.plan.ahead import Check
-from plumb.plan.case import Case
-from plumb.plan.direct_checks import FRAME_CHECKS, NumberCheck, effect_checks
-from plumb.plan.planned_visits import Visits, joined, nowhere, sent
-from plumb.plan.separation import Chooser
-from plumb.plan.sites import grid, new_places, usable
+from plumb.model.plain import least, ranked
+from plumb.plan.case import Case, Check
+from plumb.plan.planned_visits import Visits, grid, joined, new_places, nowhere, sent, usable
+from plumb.plan.separation import FRAME_CHECKS, Chooser, NumberCheck, effect_checks
 from plumb.settings.machine import GRAVITY
-from plumb.text.shown import bare
+from plumb.text.values import bare
 
 Array = np.ndarray
 EXTRA_KILOGRAMS = (2.5, 5.0, 10.0)  # what a maker finds to hang on a sled

@@ -14,18 +14,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.diagnosis.explanation import span
+from plumb.diagnosis.explanation import Spread, span, surprises, tail
 from plumb.diagnosis.gain import limit_of_noise
-from plumb.diagnosis.misfit import LEVEL as MISFIT_LEVEL
-from plumb.diagnosis.noise import Noise
-from plumb.diagnosis.noise_sources import FEW_REPEATS, STATEMENT, repeats_of
-from plumb.diagnosis.significance import surprises, tail
+from plumb.diagnosis.noise import FEW_REPEATS, STATEMENT, Noise, repeats_of
+from plumb.diagnosis.noise import LEVEL as MISFIT_LEVEL
 from plumb.diagnosis.sizes import possible_sizes
-from plumb.diagnosis.spread import Spread
 from plumb.diagnosis.weighing import left_out
-from plumb.plan.accounts_then import Effects, accounts_then
-from plumb.plan.ahead import Ahead, Planned
-from plumb.plan.case import Case, Hypothesis
+from plumb.plan.case import Ahead, Case, Effects, Hypothesis, Planned, accounts_then
 from plumb.plan.planned_visits import Visits
 
 Array = np.ndarray

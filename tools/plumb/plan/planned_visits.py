@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, fields
+import math
+import textwrap
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from plumb.board.observations import Observations
+from plumb.fit.observations import Observations, loaded
+from plumb.grid.options import DEPTH, Grid
+from plumb.grid.pattern import WAY_STEP
 from plumb.marks.model import Mark
-from plumb.model.predict import believed_lengths
-from plumb.settings.machine import MachineSettings
+from plumb.model.plain import greatest
+from plumb.model.predict import USABLE, believed_lengths, reach, settings_of, values_of
+from plumb.model.reach import with_soft_chains
+from plumb.settings.machine import GRAVITY, MachineSettings
+from plumb.text.errors import InputError
 
 Array = np.ndarray
 
@@ -112,3 +119,222 @@ def sent(
 def place_name(target: Array) -> str:
     """A name for a new mark: where it is sent [mm]."""
     return f"{target[0] + 0.0:.0f}/{target[1] + 0.0:.0f}"
+
+
+# The G-code for planned visits: a touch of the bit at each, come to from the prescribed side.
+
+USUAL = Grid()  # heights, feeds and the way into a mark, as a grid has them
+
+
+FIRST_LINE = "(Plumb: the best marks to measure next)"
+LEAST = 1e-6  # [N] a smaller change of the weight is none
+COMMENT = 70  # characters: a client sends no line that is longer than the machine's buffer
+
+
+def program(visits: Visits, *, usual_weight: float, do: Sequence[str] = ()) -> str:
+    """The G-code for planned visits.
+
+    It waits (M0) where another weight is to hang on the sled or the chains change places, and at
+    the end until all is as it was; `usual_weight` [N] is that of the sled by itself. `do`: what to
+    do first, as comments.
+    """
+    lines = [FIRST_LINE, "(X0 Y0 middle of sheet, Z0 surface; leave the router off)"]
+    for sentence in do:
+        bare = sentence.replace("(", "").replace(")", "")
+        lines += [f"({line})" for line in textwrap.wrap(bare, COMMENT)]
+    lines += ["G21", "G90", f"G0 Z{USUAL.safe_height:g}"]
+    weight, swapped = usual_weight, False
+    each = zip(visits.names, visits.sled_weights, visits.swapped, visit_lines(visits), strict=True)
+    for name, next_weight, next_swapped, touched in each:
+        lines += _chains_change(swapped, next_swapped)
+        lines += _weight_changes(weight, float(next_weight), usual_weight)
+        weight, swapped = float(next_weight), bool(next_swapped)
+        lines += [f"(mark {name.replace('(', '').replace(')', '')})", *touched]
+    lines += ["(back to the middle)", "G0 X0 Y0"]
+    lines += _weight_changes(weight, usual_weight, usual_weight)
+    return "\n".join([*lines, *_chains_change(swapped, False), ""])
+
+
+def _weight_changes(weight: float, next_weight: float, usual: float) -> list[str]:
+    """The pause in which another weight [N] is hung on the sled; no line for the same."""
+    if abs(next_weight - weight) <= LEAST:
+        return []
+    kilograms = (next_weight - usual) / GRAVITY
+    if abs(next_weight - usual) <= LEAST:
+        return ["(take off what hangs on the sled)", "M0"]
+    return [f"(let {kilograms:.1f} kg more hang on the sled, low and in the middle)", "M0"]
+
+
+def _chains_change(swapped: bool, next_swapped: bool) -> list[str]:
+    """The pause in which the chains change places; no line if they stay."""
+    if swapped == next_swapped:
+        return []
+    return [
+        "(hang each chain on the other's sprocket, the same link at 12 o'clock)"
+        if next_swapped
+        else "(hang each chain on its sprocket again, the same link at 12 o'clock)",
+        "M0",
+    ]
+
+
+def visit_lines(visits: Visits) -> Iterator[list[str]]:
+    """The lines for each visit; between two of them somebody may hang a weight on the sled."""
+    for target, side in zip(visits.targets, visits.approaches, strict=True):
+        yield touch(target, _lead_in(side))
+
+
+def touch(target: Array, lead_in: Array) -> list[str]:
+    """The lines for a mark at a target [mm], entered along a vector [mm]."""
+    x, y = target - lead_in
+    return [
+        f"G0 Z{USUAL.safe_height:g}",
+        f"G0 X{x:.3f} Y{y:.3f}",
+        f"G1 X{target[0]:.3f} Y{target[1]:.3f} F{USUAL.feed:g}",
+        f"G1 Z{-DEPTH[USUAL.mode]:g} F{USUAL.plunge_feed:g}",
+        f"G0 Z{USUAL.safe_height:g}",
+    ]
+
+
+def way_into(mark: Mark) -> tuple[float, float]:
+    """Where [mm] the sled goes straight into a mark from."""
+    lead_in = _lead_in(np.array(mark.approach or (0.0, 0.0)))
+    return mark.target[0] - float(lead_in[0]), mark.target[1] - float(lead_in[1])
+
+
+def _lead_in(side: Array) -> Array:
+    """The way into a mark [mm] for a unit vector; the usual way if the side does not matter."""
+    usual = np.array(USUAL.approach)
+    return np.asarray(side * np.hypot(*usual)) if side.any() else usual
+
+
+# Whether the sled can take the way to planned marks, as heavy as it is on each part of it.
+
+Place = tuple[float, float]
+
+
+def refuse_way(settings: MachineSettings, marks: Sequence[Mark]) -> None:
+    """Raise InputError for the first mark whose way leaves the sheet or what the sled can reach."""
+    here: Place = (0.0, 0.0)
+    half = settings.sheet_width / 2, settings.sheet_height / 2
+    for mark in marks:
+        weight = mark.sled_weight or settings.sled_weight
+        for end in (way_into(mark), mark.target):
+            passed = np.array(list(_between(here, end)))
+            is_off = bool((np.abs(passed) > np.array(half) + 1e-6).any())
+            if is_off or not usable(settings, passed, weight).all():
+                where = "leaves the sheet" if is_off else "passes where the sled cannot hang well"
+                raise InputError(
+                    f"the way to mark {mark.name} {where}: take another measurement of the verdict"
+                )
+            here = end
+
+
+def _between(start: Place, end: Place) -> Iterator[Place]:
+    """Places on a straight way, with its end."""
+    steps = max(math.ceil(math.dist(start, end) / WAY_STEP), 1)
+    for step in range(1, steps + 1):
+        share = step / steps
+        yield (
+            start[0] + share * (end[0] - start[0]),
+            start[1] + share * (end[1] - start[1]),
+        )
+
+
+# Places on the sheet that are worth a mark, as far as the machine reaches them.
+
+COLUMNS, ROWS = 7, 5  # of the grid of new places
+MARGIN = (
+    0.05,
+    0.09,
+)  # of the sheet's width and height: closer to the edge the sled would tip over the edge
+NEAR = 60.0  # [mm] nearer than this a new mark counts as the old mark
+
+
+def grid(
+    sheet: tuple[float, float],
+    columns: int = COLUMNS,
+    rows: int = ROWS,
+    *,
+    margin: tuple[float, float] = MARGIN,
+) -> Array:
+    """Places (n, 2) [mm] spread over the sheet, from the top left, in whole 10 mm."""
+    reach_x, reach_y = ((0.5 - share) * side for share, side in zip(margin, sheet, strict=True))
+    across = np.linspace(-reach_x, reach_x, columns) if columns > 1 else np.zeros(1)
+    up = np.linspace(reach_y, -reach_y, rows) if rows > 1 else np.zeros(1)
+    return np.round(np.array([(x, y) for y in up for x in across]), -1)
+
+
+def new_places(sheet: tuple[float, float], known: Array) -> Array:
+    """Places of the grid that are not near one of the known targets (n, 2) [mm]."""
+    places = grid(sheet)
+    if not len(known):
+        return places
+    gaps = np.linalg.norm(places[:, np.newaxis] - known[np.newaxis], axis=2).min(axis=1)
+    far: Array = places[gaps > NEAR]
+    return far
+
+
+def usable(settings: MachineSettings, places: Array, sled_weight: float) -> Array:
+    """Whether a sled of that weight [N] may be sent to each place (n,): neither too tight nor too
+    slack nor too soft by our model."""
+    machine = with_soft_chains(settings.as_plumb_model())[0]
+    loaded_values, _ = loaded(values_of(machine), sled_weight, machine.sled_weight)
+    heavy = settings_of(loaded_values, like=replace(machine, sled_weight=sled_weight))
+    is_usable: Array = reach(heavy, places).verdict == USABLE
+    return is_usable
+
+
+# Where to cut check marks: reachable places, as far as can be from marks that were fitted.
+
+FINE = (15, 9)  # places across and up that are considered
+COUNT = 2
+BELOW = 40.0  # [mm] that a sled comes from below, so this far down it must hang too
+
+
+def check_places(settings: MachineSettings, known: Array, count: int = COUNT) -> Array:
+    """The places (count, 2) [mm], given the targets (n, 2) of the marks there are."""
+    places = grid(settings.sheet, *FINE)
+    for shift in (0.0, BELOW):
+        places = places[usable(settings, places - [0.0, shift], settings.sled_weight)]
+    taken = np.asarray(known, dtype=float).reshape(-1, 2)
+    chosen: list[Array] = []
+    while len(chosen) < count and len(places):
+        gaps = np.linalg.norm(places[:, np.newaxis] - np.vstack([taken, *chosen]), axis=2)
+        best = places[greatest(gaps.min(axis=1, initial=np.inf))]
+        chosen.append(best)
+    return np.array(chosen).reshape(-1, 2)
+
+
+# A marks.toml of planned visits that waits for the tape's readings.
+
+
+def marks_file(
+    visits: Visits,
+    *,
+    sheet: tuple[float, float],
+    controller: str,
+    said: tuple[str, ...],
+    cut_with: str = "",
+) -> str:
+    """The text of the file: places count from the sheet's top left corner, y down [mm]; `cut_with`
+    are lines that name the settings in force."""
+    lines = [
+        "# Measured from the sheet's left and top edges, in mm: take away the # before `measured`",
+        "# and write what the tape says. Give this file to plumb after the marks you have.",
+        *(f"# {sentence}" for sentence in said),
+        f'frame = "sheet-top-left"{cut_with}',
+        f'controller = "{controller}"',
+    ]
+    for i, name in enumerate(visits.names):
+        x, y = visits.targets[i, 0] + sheet[0] / 2, sheet[1] / 2 - visits.targets[i, 1]
+        lines += ["", "[[mark]]", f'name = "{name}"', f"target = [{x:.3f}, {y:.3f}]"]
+        lines.append(f"sled_weight_n = {visits.sled_weights[i]:.1f}")
+        side = visits.approaches[i]
+        if side.any():
+            lines.append(
+                f"approach = [{side[0] + 0.0:.3f}, {-side[1] + 0.0:.3f}]  # y down here too"
+            )
+        if visits.swapped[i]:
+            lines.append("chains_swapped = true")
+        lines.append("# measured = [ , ]")
+    return "\n".join(lines) + "\n"

@@ -13,20 +13,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy
 
-from plumb.board.observations import different_numbers, model_and_observations
 from plumb.diagnosis.clean import felt_effects
-from plumb.diagnosis.explanation import Board, Explanation, explain
+from plumb.diagnosis.explanation import FEWEST_NUMBERS, KNOWN, Board, Explanation, explain
 from plumb.diagnosis.gain import search
-from plumb.diagnosis.measured import FEWEST_NUMBERS
 from plumb.diagnosis.noise import Noise
-from plumb.diagnosis.significance import KNOWN
 from plumb.diagnosis.sizes import hidden_share
+from plumb.fit.observations import different_numbers, model_and_observations
 from plumb.fit.problem import PRIORS
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names, parameter_words
-from plumb.model.ranks import ranked
-from plumb.plan.ahead import ahead
-from plumb.plan.case import Case, hidden_hypotheses
+from plumb.model.plain import ranked
+from plumb.plan.case import Case, ahead, hidden_hypotheses
 from plumb.plan.options import Option, many_marks, options
 from plumb.plan.proposal import AGAIN
 from plumb.plan.separation import ENOUGH, apart

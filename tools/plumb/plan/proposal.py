@@ -4,20 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from math import erf, sqrt
 
 import numpy as np
 
 from plumb.diagnosis.answer import Diagnosis
-from plumb.diagnosis.explanation import span
+from plumb.diagnosis.explanation import Explanation, span
 from plumb.diagnosis.sizes import Room
+from plumb.diagnosis.slip_cause import Slip
 from plumb.fit.inputs import Inputs
-from plumb.model.ranks import ranked
-from plumb.plan.ahead import Planned
-from plumb.plan.case import Case, case_of
-from plumb.plan.options import Option, many_marks, options
+from plumb.grid.cut_with import cut_with_lines, with_form
+from plumb.model.plain import ascending, noun_of, plainly, ranked
+from plumb.plan.case import Case, Planned, case_of
+from plumb.plan.options import MARK, READING, ROUND, Option, many_marks, options, spots
 from plumb.plan.outlook import outlook
+from plumb.plan.planned_visits import Visits, joined, marks_file, nowhere, program, sent, usable
 from plumb.plan.separation import ENOUGH, apart, drawn_by
-from plumb.plan.strangers import for_slips, near_the_worst
+from plumb.text.values import bare, worded
 
 Array = np.ndarray
 # A question: what the chance is the chance of.
@@ -204,3 +207,194 @@ def _readings(case: Case) -> list[Array]:
     marks = [np.flatnonzero(names == name) for name in dict.fromkeys(rows.names)]
     groups = [np.concatenate([2 * repeats, 2 * repeats + 1]) for repeats in marks]
     return groups + [np.array([rows.measured.size + i]) for i in range(len(rows.distances))]
+
+
+# The files of a proposal: the form that waits for its readings, and the program that cuts it.
+
+
+def form_of(
+    advice: Next, place: int, path: str, *, settings: str | None, sheet: tuple[float, float]
+) -> bytes:
+    """The form at that path for the proposal with this number, from 1.
+
+    `settings` is the file of the settings that the new marks are cut with, which the form then
+    names; `sheet` is theirs.
+    """
+    option = advice.proposals[place - 1].option
+    assert advice.case, "what is proposed is proposed for a case"
+    return marks_file(
+        option.visits,
+        sheet=sheet,
+        controller=advice.case.controller,
+        said=(f"Proposal {place}: {option.title}.", *option.do),
+        cut_with=cut_with_lines(settings, path),
+    ).encode()
+
+
+def program_of(advice: Next, place: int, path: str, *, form: str | None) -> bytes:
+    """The program at that path that cuts the proposal with this number, from 1; it names the form
+    for its readings."""
+    option = advice.proposals[place - 1].option
+    assert advice.case, "what is proposed is proposed for a case"
+    text = program(option.visits, usual_weight=advice.case.usual_weight, do=option.do)
+    return (with_form(text, form, path) if form else text).encode()
+
+
+# Proposals in sentences, for every command and page that shows them.
+
+VERBS = {SETTLE: "settle it", CONFIRM: "confirm it", REREAD: "show it"}
+
+
+def headline_of(best: Proposal) -> str:
+    """What to measure, how long it takes and what to hope of it; without the full stop."""
+    return f"{best.option.title}; about {best.option.minutes:.0f} minutes{_hope(best)}"
+
+
+def steps_of(best: Proposal, *, is_converted: bool = False) -> list[str]:
+    """What to do, and what it tells, in sentences; how a number follows from what is measured,
+    unless `is_converted`: whoever asks works it out."""
+    said = [*best.option.do]
+    if best.parts:
+        pairs = [f"{_nouns(a)} from {_nouns(b)}" for a, b in best.parts]
+        said.append(f"It tells {'; '.join(pairs)}.")
+    if best.option.checks and not is_converted:
+        said.append(f"VALUE: {best.option.value}.")
+    return said
+
+
+def promise_of(proposal: Proposal) -> str:
+    """What to hope of a proposal, for a table."""
+    if proposal.question == FIND and proposal.rooms:
+        promise = ", ".join(
+            f"{noun_of(room.effect)} {bare(room.now, 1)} -> {worded(room.then, 1)}"
+            for room in proposal.rooms[:2]
+            if room.then < 0.9 * room.now
+        )
+        return promise or "no change"
+    return percent(proposal.chance)
+
+
+def percent(chance: float | None) -> str:
+    """A chance in steps of five in a hundred: it is not known better."""
+    if chance is None:
+        return "-"
+    near = 5 * round(20 * chance)
+    return "below 5 %" if near < 5 else "above 95 %" if near > 95 else f"{near:.0f} %"
+
+
+def _hope(best: Proposal) -> str:
+    if best.question == FIND and best.rooms:
+        first = best.rooms[0]
+        noun = noun_of(first.effect)
+        now, then = (worded(size, 1) for size in (first.now, first.then))
+        return f". {noun[0].upper()}{noun[1:]} could hide {now} now, {then} then"
+    if best.chance is None:
+        return ""
+    verb = VERBS.get(best.question, "")
+    return f", chance to {verb} {percent(best.chance)}" if verb else ""
+
+
+def _nouns(explanation: str) -> str:
+    """An explanation, `effect + effect`, in a maker's words."""
+    return plainly(filter(None, explanation.split(" + ")))
+
+
+# What to measure where no effect is in question: readings that disagree, marks nobody explains.
+
+SURE = 3.0  # deviations by which a second reading shows that the first was wrong
+WORST = 2  # places around which marks are proposed
+BESIDE = 200.0  # [mm] from such a place
+READ_AGAIN = 3
+
+
+def for_slips(case: Case, slips: Sequence[Slip]) -> list[tuple[Option, float]]:
+    """Reading those marks or distances again, with the chance that it shows the slip."""
+    offered = []
+    for slip in slips:
+        # Two readings with the same noise differ by its square root of two.
+        chance = 0.5 * (1 + erf((slip.length / (sqrt(2) * case.noise.sigma) - SURE) / sqrt(2)))
+        what = slip.name if slip.name in case.board.rows.names else f"the distance {slip.name}"
+        do = f"Read {what} again with a newly laid tape, before anything else."
+        offered.append(
+            (Option("reread", f"{slip.name} again", (do,), 2.0, _old(case, slip.name)), chance)
+        )
+    return offered
+
+
+def near_the_worst(case: Case) -> list[Option]:
+    """Marks around the places that are explained worst, then readings of these once more."""
+    rows = case.board.rows
+    best = ranked(
+        [case.frame, *case.singles.values()],
+        lambda explanation: explanation.cost + 2 * len(case.board.columns(explanation.effects)),
+    )[0]
+    if not len(rows.measured):
+        return [_worst_distances(case, best)]
+    errors = best.numbers[: rows.measured.size].reshape(-1, 2)
+    worst = ascending(-np.linalg.norm(errors, axis=1))
+    places: dict[str, Array] = {}
+    for i in worst:
+        places.setdefault(rows.names[i], rows.targets[i])
+        if len(places) == WORST:
+            break
+    near = _around(case, list(places.values()))
+    names = ", ".join(places)
+    again = joined(*[_old(case, name) for name in places for _ in range(READ_AGAIN)])
+    offered = [
+        Option(
+            "repeats",
+            "the worst marks read again",
+            (f"Read {names} {READ_AGAIN} more times: this tells a slip from something real.",),
+            ROUND + READING * len(again),
+            again,
+        )
+    ]
+    if len(near):
+        do = (
+            f"Cut and read marks around {names}, where the error is worst, at {spots(near)}: what "
+            "is local (a bent frame, a bump in the sheet, a sticking chain) shows itself here."
+        )
+        minutes = ROUND + MARK * len(near)
+        offered.append(Option("near", "marks around the worst places", (do,), minutes, near))
+    return offered
+
+
+def _worst_distances(case: Case, best: Explanation) -> Option:
+    """The distances that are explained worst, to be measured again."""
+    worst = ascending(-np.abs(best.numbers))[: 2 * WORST]
+    said = ", ".join(case.spans[i] for i in worst)
+    do = f"Measure the distances {said} {READ_AGAIN} more times: this tells a slip from more."
+    minutes = ROUND + READING * READ_AGAIN * len(worst)
+    return Option("repeats", "the worst distances again", (do,), minutes, nowhere())
+
+
+def _around(case: Case, places: Sequence[Array]) -> Visits:
+    """Two new marks near each place, on the sheet."""
+    half = np.array(case.settings.sheet) / 2 - 50.0
+    wanted = [
+        np.round(np.clip(at + side, -half, half), -1)
+        for at in places
+        for side in ((-np.sign(at[0] or 1) * BESIDE, 0.0), (0.0, -np.sign(at[1] or 1) * BESIDE))
+    ]
+    targets = np.array(wanted).reshape(-1, 2)
+    targets = targets[usable(case.settings, targets, case.usual_weight)]
+    if not len(targets):
+        return nowhere()
+    return sent(case.settings, targets, controller=case.controller, sled_weight=case.usual_weight)
+
+
+def _old(case: Case, name: str) -> Visits:
+    """One visit of a mark that is there; nothing for a distance."""
+    rows = case.board.rows
+    if name not in rows.names:
+        return nowhere()
+    i = rows.names.index(name)
+    row = [int(rows.mark_rows[i])]
+    return Visits(
+        (name,),
+        rows.targets[[i]],
+        rows.chains[row],
+        rows.sled_weights[row],
+        rows.approaches[row],
+        rows.swapped[row],
+    )

@@ -10,16 +10,15 @@ import numpy as np
 
 from plumb.diagnosis.answer import Ranked
 from plumb.diagnosis.explanation import Explanation
-from plumb.diagnosis.fingerprint import fingerprint_of
 from plumb.diagnosis.sizes import Size
-from plumb.fit.plausible import plausible_range
+from plumb.diagnosis.suspect_curves import fingerprint_of
+from plumb.fit.expected import plausible_range
 from plumb.model.catalogue import every_effect, place_of
-from plumb.model.plain import plain_range, plain_size, plainly
+from plumb.model.plain import plain_range, plain_size, plainly, ranked
 from plumb.model.predict import frame_words
-from plumb.model.ranks import ranked
 from plumb.report.findings import Findings
 from plumb.report.maps import fingerprint_map
-from plumb.text.shown import worded
+from plumb.text.values import worded
 
 if TYPE_CHECKING:
     from plumb._core import CheckWords

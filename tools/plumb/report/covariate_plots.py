@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from plumb.diagnosis.suspect_curves import SuspectCurves
-from plumb.fit.chain_view import ChainView
+from plumb.fit.compare import ChainView
 from plumb.fit.covariates import Covariate
 from plumb.pictures.sheet import MANY
-from plumb.report.inline_svg import drawing, inline
-from plumb.report.palette import DASHES, SUSPECTS, light
-from plumb.text.shown import in_unit, unit
+from plumb.report.maps import DASHES, SUSPECTS, drawing, inline, light
+from plumb.text.values import in_unit, unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -2,24 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from plumb.board.observations import Observations
+import numpy as np
+
+from plumb.cure.add import Addition, Quality
 from plumb.cure.auto import AutoAddition, add_auto
 from plumb.diagnosis.answer import Diagnosis
 from plumb.diagnosis.diagnosis import Examined, examine
 from plumb.diagnosis.expected_error import ExpectedError, expected_error
-from plumb.diagnosis.explanation import Explanation, explain
-from plumb.diagnosis.measured import measured_board
+from plumb.diagnosis.explanation import Explanation, explain, measured_board
 from plumb.diagnosis.suspect_curves import SuspectCurves, suspect_curves, view_by
 from plumb.diary.history import DiaryFit
-from plumb.fit.chain_view import ChainView
-from plumb.fit.compare import Comparison, compare
-from plumb.fit.covariates import Covariate, covariates
+from plumb.fit.compare import ChainView, Comparison, compare
+from plumb.fit.covariates import PATCH, Covariate, covariates
+from plumb.fit.fit import Fit
 from plumb.fit.inputs import Inputs
+from plumb.fit.observations import Observations
+from plumb.model.plain import noun_of, plainly
 from plumb.model.reach import Survey, survey_sheet
-from plumb.plan import Next, propose
+from plumb.pictures.scale import Panel
+from plumb.plan import Next, Proposal, propose
+from plumb.plan.planned_visits import Visits
+from plumb.plan.proposal import headline_of, promise_of, steps_of
+from plumb.report.maps import Scale, arrow_map, plan_map, small_map
+from plumb.text.values import worded
 
 MOST_CURVES = 3  # suspects whose curves are drawn
 
@@ -122,3 +130,192 @@ def _rivals(examined: Examined, used: Explanation) -> list[tuple[Explanation, fl
         for (fitted, _), weight in zip(possible, weighed, strict=True)
         if fitted is not used
     ]
+
+
+# The report's next step: what follows from the verdict, or what to measure.
+
+MOST_OTHERS = 5
+
+
+@dataclass(frozen=True)
+class Command:
+    """A command with what it is for."""
+
+    words: str
+    command: str
+
+
+@dataclass(frozen=True)
+class Other:
+    """Another measurement that would help."""
+
+    title: str
+    minutes: str
+    promise: str
+
+
+@dataclass(frozen=True)
+class NextStep:
+    """What to do now, and what to measure if more is to be known."""
+
+    headline: str
+    measure: str
+    steps: tuple[str, ...]
+    picture: str  # of new marks; empty: none
+    commands: tuple[Command, ...]
+    others: tuple[Other, ...]
+
+
+def next_step_of(findings: Findings, commands: Sequence[Command]) -> NextStep:
+    """What the verdict asks for first."""
+    best = findings.advice.proposals[0] if findings.advice.proposals else None
+    return NextStep(
+        headline=_headline(findings, best),
+        measure=headline_of(best) if best else "",
+        steps=tuple(steps_of(best)) if best else (),
+        picture=_picture(findings, best.option.visits) if best else "",
+        commands=tuple(commands),
+        others=tuple(
+            Other(each.option.title, f"{each.option.minutes:.0f}", promise_of(each))
+            for each in findings.advice.proposals[1 : MOST_OTHERS + 1]
+        ),
+    )
+
+
+def _headline(findings: Findings, best: Proposal | None) -> str:
+    diagnosis, chosen = findings.diagnosis, findings.auto.chosen
+    if diagnosis.verdict == "slip":
+        names = ", ".join(dict.fromkeys(slip.name for slip in diagnosis.slips))
+        return f"read {names} again, and correct the file."
+    if diagnosis.verdict == "one_suspect" and chosen:
+        return f"add {plainly(chosen)}, then cut new marks to see that it holds."
+    if diagnosis.verdict == "nothing_provable" and findings.auto.addition:
+        return "use the fitted frame, then cut new marks to see that it holds."
+    if best is None:
+        return "nothing that can be proposed would tell more."
+    return f"{headline_of(best)}."
+
+
+def _picture(findings: Findings, visits: Visits) -> str:
+    if not len(visits):
+        return ""
+    sheet = findings.inputs.settings.sheet
+    return plan_map(visits.targets, np.asarray(findings.rows.targets), sheet=sheet, name="plan")
+
+
+# How the error falls: the stairs, and the sheet before and after at a single scale.
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class Stair:
+    """A stage of the fall."""
+
+    title: str
+    rms: str
+    percent: float  # of the highest
+    checked: str  # RMS on marks not used; empty for the settings as they were
+    picture: str  # empty: there are no marks
+    good: bool
+
+
+@dataclass(frozen=True)
+class Pair:
+    """The sheet before and after."""
+
+    titles: tuple[str, str]
+    pictures: tuple[str, str]
+    factor: str
+
+
+@dataclass(frozen=True)
+class _Stage:
+    title: str
+    rms: float  # [mm]
+    panel: Panel
+    checked: float | None = None  # [mm]
+
+
+def stairs_of(findings: Findings) -> tuple[Stair, ...]:
+    """From the settings as they are to all that was added; two stairs where nothing was fitted."""
+    stages = _stages(findings)
+    scale = _scale(findings, [stage.panel for stage in stages])
+    highest = max(max(stage.rms for stage in stages), 1e-9)
+    return tuple(
+        Stair(
+            title=stage.title,
+            rms=worded(stage.rms),
+            percent=100 * stage.rms / highest,
+            checked=worded(stage.checked) if stage.checked is not None else "",
+            picture=small_map(stage.panel, scale, name=f"stair {i}", says=stage.title)
+            if scale
+            else "",
+            good=stage.panel.good,
+        )
+        for i, stage in enumerate(stages)
+    )
+
+
+def pair_of(findings: Findings) -> Pair | None:
+    """The first and the last stage in full size; None without marks."""
+    first, *_, last = _stages(findings)
+    scale = _scale(findings, [first.panel, last.panel])
+    if scale is None:
+        return None
+    sigma = findings.diagnosis.noise.sigma
+    pictures = [
+        arrow_map(stage.panel, scale, sigma=sigma, name=name, says=says)
+        for stage, name, says in (
+            (first, "before", "errors of the settings as they are"),
+            (last, "after", f"errors left: {last.title}"),
+        )
+    ]
+    chosen = findings.auto.chosen
+    done = f"With {plainly(chosen)}" if chosen else last.title
+    titles = [
+        f"{title}: {worded(stage.rms)} RMS" for title, stage in ((first.title, first), (done, last))
+    ]
+    return Pair((titles[0], titles[1]), (pictures[0], pictures[1]), f"{scale.factor:g}")
+
+
+def _scale(findings: Findings, panels: Sequence[Panel]) -> Scale | None:
+    return Scale.of(panels, findings.inputs.settings.sheet) if len(panels[0].errors) else None
+
+
+def _stages(findings: Findings) -> list[_Stage]:
+    as_set = _Stage("As set", findings.comparison.rms, _compared(findings.comparison))
+    if findings.auto.addition is None:
+        view = findings.framed
+        slips = {slip.name for slip in findings.diagnosis.slips}
+        panel = Panel("", view.places, view.errors, good=True, names=view.names)
+        left = findings.frame.rms
+        return [as_set, _Stage(f"Frame fitted without {_listed(slips)}", left, panel)]
+    return [as_set, *_fitted(findings.auto.addition)]
+
+
+def _listed(names: set[str]) -> str:
+    return ", ".join(sorted(names))
+
+
+def _fitted(addition: Addition) -> list[_Stage]:
+    names = tuple(mark.name for mark in addition.raw.marks)
+
+    def stage(title: str, fit: Fit, quality: Quality) -> _Stage:
+        panel = Panel(title, fit.predicted, fit.errors, good=True, names=names)
+        return _Stage(title, quality.fit_rms, panel, quality.left_out_rms)
+
+    steps = [
+        stage(
+            f"+ {'patch' if step.effect == PATCH else noun_of(step.effect)}", step.fit, step.quality
+        )
+        for step in addition.steps
+    ]
+    return [stage("Frame fitted", addition.before_fit, addition.before), *steps]
+
+
+def _compared(comparison: Comparison) -> Panel:
+    predicted = np.array([mark.predicted for mark in comparison.marks]).reshape(-1, 2)
+    errors = np.array([mark.error for mark in comparison.marks]).reshape(-1, 2)
+    names = tuple(mark.name for mark in comparison.marks)
+    return Panel("As set", predicted, errors, names=names)

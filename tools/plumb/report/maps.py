@@ -2,28 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import io
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from html import escape
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from plumb.diagnosis.expected_error import ExpectedError
-from plumb.fit.chain_view import ChainView
+from plumb.fit.compare import ChainView
 from plumb.model.reach import Survey
-from plumb.pictures.labels import label_boxes
-from plumb.pictures.panel import Panel, Spots, spots_of
 from plumb.pictures.reach import draw_give, draw_pulls, draw_zones
-from plumb.pictures.scale import View, exaggeration, pitch_of, round_down, view_of
-from plumb.pictures.sheet import MANY, draw_errors
-from plumb.report.inline_svg import drawing, inline
-from plumb.report.palette import light
-from plumb.text.lengths import UNITS
-from plumb.text.shown import bare, in_unit, unit
+from plumb.pictures.scale import (
+    Panel,
+    Spots,
+    View,
+    exaggeration,
+    pitch_of,
+    read_as_written,
+    round_down,
+    spots_of,
+    view_of,
+)
+from plumb.pictures.sheet import BAD, EDGE, GOOD, INK, MANY, WOOD, draw_errors, label_boxes
+from plumb.text.values import UNITS, bare, in_unit, unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
 
 Array = np.ndarray
 WIDE, SMALL = 4.4, 2.5  # [inch] of a large map, and of a small map
@@ -255,3 +265,111 @@ def plan_map(new: Array, old: Array, *, sheet: tuple[float, float], name: str) -
         axis.plot(*old.T, "o", color="none", markeredgecolor=soft, markersize=5, zorder=3)
         axis.plot(*new.T, "D", color=colour, markersize=7, zorder=4)
     return inline(figure, says=f"{len(new)} places to measure", name=name)
+
+
+# A drawn figure as SVG inside a page: no address of anything outside, no name twice.
+
+GROWS = 1.25 * 4 / 3  # [pixel per point] as far as a picture grows with its place
+_HEAD = re.compile(r"\A.*?<svg[^>]*?viewBox=\"([^\"]*)\"[^>]*>", re.DOTALL)
+_METADATA = re.compile(r"<metadata>.*?</metadata>", re.DOTALL)
+_STYLE = re.compile(r"<style[^>]*>.*?</style>", re.DOTALL)
+_TAG = re.compile(r"<[^>]*>")
+_GROUP = re.compile(r"\A<g id=\"[^\"]*\"")
+_FONT = re.compile(r"font-family: [^;\"]*(; )?|font: (\d+ )?([\d.]+px) [^;\"]*(;|(?=\"))")
+# More decimals than a printer shows: two below ten points, and one above.
+_DECIMALS = re.compile(r"(?<![\d.])(\d\.\d{2}|\d{2,}\.\d)\d+")
+
+
+@contextmanager
+def drawing(name: str) -> Iterator[Any]:
+    """While figures are made: letters stay letters, and `name` tells their parts from those of
+    other figures."""
+    import matplotlib as mpl
+
+    with mpl.rc_context({"svg.hashsalt": f"plumb {name}", "svg.fonttype": "none"}):
+        yield
+
+
+def inline(figure: Figure, *, says: str, name: str) -> str:
+    """The figure as an element of a page; `says` is read to who cannot see it."""
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+
+    FigureCanvasSVG(figure)
+    read_as_written(figure)
+    file = io.StringIO()
+    with drawing(name):
+        figure.savefig(file, format="svg", transparent=True, metadata={"Date": None})
+    drawn = file.getvalue()
+    head = _HEAD.match(drawn)
+    assert head, "matplotlib writes a viewBox"
+    body = drawn[head.end() :]
+    for pattern in (_METADATA, _STYLE):
+        body = pattern.sub("", body)
+    body = _TAG.sub(lambda tag: _plain(tag[0]), body)
+    width = float(head[1].split()[2])
+    return (
+        f'<svg viewBox="{head[1]}" role="img" aria-label="{escape(says)}" '
+        f'style="max-width:{GROWS * width:.0f}px">{body.strip()}'
+    )
+
+
+def _plain(tag: str) -> str:
+    """A tag as the page needs it: its fonts are the page's, its colours have names."""
+    tag = _GROUP.sub("<g", tag).replace("xlink:href", "href")
+    tag = _FONT.sub(lambda font: f"font-size: {font[3]};" if font[3] else "", tag)
+    return _DECIMALS.sub(r"\1", named(tag))
+
+
+# The colours of the report, on light and on dark paper; apart for every eye.
+#
+# Pictures are drawn in the light colours; the page knows each by its name, so that the same picture
+# goes with both kinds of paper.
+
+# By name: on light paper, on dark paper.
+COLOURS: dict[str, tuple[str, str]] = {
+    "paper": ("#ffffff", "#15171a"),
+    "panel": ("#f7f5f1", "#1f2226"),
+    "ink": (INK, "#ebe9e4"),
+    "soft": ("#57534c", "#b9b5ac"),
+    "rule": ("#d6d2c8", "#43474d"),
+    "band": ("#e6e3db", "#33373d"),
+    "wood": (WOOD, "#2d2721"),
+    "edge": (EDGE, "#b08f5b"),
+    "bad": (BAD, "#ff9f61"),
+    "good": (GOOD, "#79bcf3"),
+    "alarm": ("#a83f00", "#ffa66b"),  # words
+    # Explanations: green, purple and brown, each with its stroke.
+    "first": ("#00795a", "#4fd0a8"),
+    "second": ("#96387a", "#f0a0d4"),
+    "third": ("#7a5c00", "#e0c25c"),
+    # The zones of the reach.
+    "tight": ("#8e2c22", "#f08a7e"),
+    "slack": ("#1f5f8b", "#74bdea"),
+    "upright": ("#6b3fa0", "#bd9cf0"),
+    "nothing": ("#444444", "#9a9a9a"),
+}
+SUSPECTS = ("first", "second", "third")
+DASHES = ("solid", (0, (3.5, 3)), (0, (1, 2)))  # of their curves, for who sees no colours
+
+
+def light(name: str) -> str:
+    """The colour in which a picture is drawn."""
+    return COLOURS[name][0]
+
+
+def named(svg: str) -> str:
+    """The text of a picture with the names of its colours, which the page gives their values."""
+    for name, (colour, _) in COLOURS.items():
+        svg = svg.replace(f": {colour}", f": var(--{name})")
+    return svg
+
+
+def style() -> str:
+    """The names and values for the page's style: light, then dark on screens that ask for it."""
+    bright, dark = (
+        "".join(f"--{name}:{both[i]};" for name, both in COLOURS.items()) for i in (0, 1)
+    )
+    return (
+        f":root{{color-scheme:light dark;{bright}}}\n"
+        f"@media screen and (prefers-color-scheme:dark){{:root{{{dark}}}}}"
+    )

@@ -10,18 +10,24 @@ from pathlib import Path
 import jinja2
 import numpy as np
 
-from plumb.diagnosis.sentence import odds_words, verdict_sentence
+from plumb.diagnosis.answer import odds_words, verdict_sentence
 from plumb.diagnosis.slip_cause import Slip
 from plumb.model.plain import plainly
 from plumb.model.predict import REACH_WORDS, USABLE
 from plumb.model.reach import percent
 from plumb.report.cards import Card, cards_of
 from plumb.report.covariate_plots import CovariateSheet, covariate_sheet
-from plumb.report.fall import Pair, Stair, pair_of, stairs_of
-from plumb.report.findings import Findings
-from plumb.report.maps import chain_map, expected_map, reach_maps
-from plumb.report.next_step import Command, NextStep, next_step_of
-from plumb.report.palette import SUSPECTS, style
+from plumb.report.findings import (
+    Command,
+    Findings,
+    NextStep,
+    Pair,
+    Stair,
+    next_step_of,
+    pair_of,
+    stairs_of,
+)
+from plumb.report.maps import SUSPECTS, chain_map, expected_map, reach_maps, style
 from plumb.report.tables import (
     Hiding,
     Readings,
@@ -36,7 +42,7 @@ from plumb.report.tables import (
     sources_of,
     versions,
 )
-from plumb.text.shown import unit, worded
+from plumb.text.values import unit, worded
 
 SIDES = ("Left chain", "Right chain")
 # By verdict: a sign, and what it means in few words.

@@ -12,12 +12,11 @@ import numpy as np
 from plumb.diary.history import DiaryFit
 from plumb.fit.compare import Comparison
 from plumb.model.catalogue import parameter_words
-from plumb.model.plain import noun_of, plain_before, plain_size
-from plumb.model.ranks import ranked
+from plumb.model.plain import noun_of, plain_before, plain_size, ranked
 from plumb.report.cards import hidden_words
 from plumb.report.findings import Findings
-from plumb.settings.fit_record import FitRecord
-from plumb.text.shown import bare, signed, worded
+from plumb.settings.toml import FitRecord
+from plumb.text.values import bare, signed, worded
 
 MOST_READINGS = 60  # rows; of more, those that are farthest off
 MOST_HIDING = 10

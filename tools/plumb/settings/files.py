@@ -13,16 +13,17 @@ from hashlib import sha256
 from os import PathLike
 from pathlib import Path
 
-from plumb.settings.groundcontrol import (
+from plumb.settings.ini import (
     GroundControlChanges,
     Key,
     Unsaid,
     changed_ini,
     groundcontrol_changes,
     published_machine,
+    published_settings,
+    read_settings_ini,
     write_groundcontrol_ini,
 )
-from plumb.settings.ini import published_settings, read_settings_ini
 from plumb.settings.machine import MachineSettings, PublishedSettings, SettingsFile
 from plumb.settings.toml import machine_toml, read_machine_toml, write_machine_toml
 from plumb.settings.webcontrol import changed_webcontrol, parse_webcontrol, read_webcontrol

@@ -6,21 +6,19 @@ Lengths in mm, forces in N, in the machine frame (origin in the middle of the sh
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NamedTuple, TypedDict
 
-from plumb.settings.published import (
-    ELASTICITY,
-    TUNED,
-    effects_said_by,
-    present,
-    usual_effects,
-)
-from plumb.text.errors import InputError
+import numpy as np
+
+from plumb import _core
+from plumb.text.errors import InputError, refusal
+from plumb.text.values import refuse_unknown
 
 if TYPE_CHECKING:
-    from plumb.settings.fit_record import FitRecord
+    from plumb.settings.toml import FitRecord
+
 
 GRAVITY = 9.81  # [N/kg]
 SLED_WEIGHT = 97.9  # [N] 22 pounds, the published default
@@ -174,3 +172,169 @@ def radius_in_published(left: float, right: float) -> float:
     share a single R', so the mean remains; each is off by half of R times the strains' difference.
     """
     return (1 / (1 + left) + 1 / (1 + right)) / 2
+
+
+# What numbers of the published programs say of our effects, and back, by the effects' headers.
+
+Effects = dict[str, dict[str, float]]
+
+# The $-numbers by which published settings describe chains, and what we call them.
+TUNED = {37: "chain_sag_correction", 40: "left_tolerance", 41: "right_tolerance"}
+ELASTICITY = 45  # of the catenary release [1/N]
+
+# By effect and parameter: the published number and by how much it is larger than ours.
+_SAID: dict[tuple[str, str], tuple[int, float]] = {
+    (effect["name"], parameter["name"]): parameter["published"]
+    for effect in _core.effects()
+    for parameter in effect["parameters"]
+    if parameter["published"]
+}
+
+
+def effects_said_by(numbers: Mapping[int, float]) -> Effects:
+    """The parameters that published numbers set, even if they are zero."""
+    effects: Effects = {}
+    for (effect, parameter), (number, factor) in _SAID.items():
+        if number in numbers:
+            effects.setdefault(effect, {})[parameter] = numbers[number] / factor
+    return effects
+
+
+def usual_effects(frame: Mapping[str, float]) -> Effects:
+    """What every machine with this frame has: the sizes to expect."""
+    values = np.array([frame.get(name, 0.0) for name in _core.settings()], dtype=float)
+    effects: Effects = {}
+    for name, size in _core.usual(values, True).items():
+        effect, _, parameter = name.partition(".")
+        effects.setdefault(effect, {})[parameter] = size
+    return effects
+
+
+def present(effects: Mapping[str, Mapping[str, float]]) -> Effects:
+    """Those effects of which some parameter is not zero."""
+    return {name: dict(sizes) for name, sizes in effects.items() if any(sizes.values())}
+
+
+def tuned_numbers(effects: Mapping[str, Mapping[str, float]]) -> dict[str, float]:
+    """The published settings, by our name for each, that say what these effects are."""
+    return {
+        TUNED[number]: factor * effects.get(effect, {}).get(parameter, 0.0)
+        for (effect, parameter), (number, factor) in _SAID.items()
+        if number in TUNED
+    }
+
+
+def is_tuned(effect: str, parameter: str) -> bool:
+    """Whether a setting of every published firmware says this parameter."""
+    return _SAID.get((effect, parameter), (0, 0.0))[0] in TUNED
+
+
+# The published controllers and ours, by the names that files and options use.
+
+CONTROLLERS = ("stock", "holey", "plumb")  # whose formulas paid the chains out
+CLIENTS = ("groundcontrol", "webcontrol", "none")  # what sends G-code; none keeps no numbers
+FIRMWARES = ("plumb", "published")  # what the machine runs
+
+
+# What a setting can sensibly be, and the sentence for a value that it cannot be.
+
+_INCH = "looks like inches; write millimetres (1 inch = 25.4 mm)"
+_NEWTON = "looks like kilograms or pounds; newtons are 9.81 times kilograms, 4.448 times pounds"
+
+
+@dataclass(frozen=True)
+class Limit:
+    """The range of a setting, and what a value beyond it looks like."""
+
+    low: float
+    high: float
+    unit: str
+    below: str = ""
+    above: str = ""
+    zero: bool = False  # exactly zero is allowed too
+
+    def fault(self, value: float) -> str | None:
+        """The sentence for a value out of range, or None."""
+        if not math.isfinite(value):
+            return f"{value} is not a usable number"
+        if self.low <= value <= self.high or (self.zero and value == 0):
+            return None
+        looks = self.below if 0 < value < self.low else self.above if value > self.high else ""
+        hint = looks or f"{self.low:g} to {self.high:g} {self.unit} is possible".rstrip()
+        return f"{value:g} {self.unit} is out of range; {hint}"
+
+
+FRAME_LIMITS = {
+    "sheet_width": Limit(200, 20000, "mm", below=_INCH),
+    "sheet_height": Limit(100, 20000, "mm", below=_INCH),
+    "motor_gap": Limit(400, 20000, "mm", below=_INCH),
+    "motor_offset": Limit(50, 20000, "mm above the sheet's top edge", below=_INCH),
+    "motor_center_x": Limit(-5000, 5000, "mm"),
+    "rotation_radius": Limit(20, 1000, "mm", below=_INCH, zero=True),
+    "sprocket_radius": Limit(2, 100, "mm", below=_INCH),
+    "sled_weight": Limit(30, 1000, "N", below=_NEWTON),
+    "chain_weight": Limit(
+        1e-5,
+        0.02,
+        "N/mm",
+        above="newtons for each millimetre are needed, 0.00981 times kg/m",
+        zero=True,
+    ),
+}
+PUBLISHED_LIMITS = {
+    "chain_sag_correction": Limit(-1e5, 1e5, ""),
+    "left_tolerance": Limit(-5, 5, "percent"),
+    "right_tolerance": Limit(-5, 5, "percent"),
+    "chain_elasticity": Limit(0, 1e-3, "1/N"),
+    "holey_sled_weight": Limit(30, 1000, "N", below=_NEWTON),
+    "chain_length": Limit(500, 65535, "mm", below=_INCH),
+    "top_beam_tilt": Limit(-45, 45, "degrees"),
+}
+
+
+def find_fault(settings: MachineSettings) -> tuple[str, str] | None:
+    """The name of the first impossible setting and a sentence about it, or None."""
+    for name, limit in FRAME_LIMITS.items():
+        fault = limit.fault(getattr(settings, name))
+        if fault:
+            return name, fault
+    for name, limit in PUBLISHED_LIMITS.items():
+        value = getattr(settings.published, name)
+        # The published firmware takes a sled weight of zero or less as a switch.
+        if value is None or (name == "holey_sled_weight" and value <= 0):
+            continue
+        fault = limit.fault(value)
+        if fault:
+            return name, fault
+    for name, value, allowed in (
+        ("feed", settings.feed, FEEDS),
+        ("controller", settings.controller, CONTROLLERS),
+    ):
+        if value not in allowed:
+            return name, f"'{value}' is not known; write one of {', '.join(allowed)}"
+    return None
+
+
+def check_effects(
+    source: str,
+    effects: Mapping[str, Mapping[str, float]],
+    *,
+    known: Mapping[str, Sequence[str]] | None,
+) -> None:
+    """Refuse effects and parameters that are not in the list of those known (None: no list)."""
+    for name, parameters in effects.items():
+        place = f"[effects.{name}]"
+        try:
+            if known is not None:
+                refuse_unknown([name], known)
+                refuse_unknown(parameters, known[name])
+        except ValueError as error:
+            raise refusal(source, str(error), place=place) from None
+        for parameter, value in parameters.items():
+            if not math.isfinite(value):
+                raise refusal(
+                    source,
+                    f"{value} is not a usable number",
+                    place=f"{place} {parameter}",
+                    remedy="write a finite number",
+                )

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from os import PathLike
 from typing import Any
 
-from plumb.settings.groundcontrol import Key, number_for_firmware, same_number
+from plumb.settings.ini import Key, number_for_firmware, same_number
 from plumb.text.errors import refusal
 from plumb.text.files import read_text
 from plumb.text.ini import IniEntry, IniText

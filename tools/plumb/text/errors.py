@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import importlib.util
 from collections.abc import Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from os import PathLike
+from pathlib import Path
+from types import ModuleType
 
 
 class InputError(Exception):
@@ -29,3 +33,40 @@ def naming(source: str | PathLike[str], place: str) -> Iterator[None]:
         yield
     except ValueError as error:
         raise refusal(source, str(error), place=place) from None
+
+
+# Who reads a message: somebody at a command line, or somebody at the lab's page.
+#
+# An option of the command line means nothing on the page. So what to do about a fault is written
+# for both, and each reader gets what he can do. A test holds every message of the lab's rooms to
+# it.
+
+_on_page: ContextVar[bool] = ContextVar("on_page", default=False)
+
+
+@contextmanager
+def read_on_page() -> Iterator[None]:
+    """Until the end, messages are read on the lab's page."""
+    token = _on_page.set(True)
+    try:
+        yield
+    finally:
+        _on_page.reset(token)
+
+
+def to_do(line: str, *, page: str) -> str:
+    """What its reader can do: with options on a command line, or on the page."""
+    return page if _on_page.get() else line
+
+
+# Python files outside the package: the scripts in tools/ and the sketches of users.
+
+
+def load_script(path: Path, *, name: str) -> ModuleType:
+    """The module that a Python file makes when it runs; `name` is the module's."""
+    specification = importlib.util.spec_from_file_location(name, path)
+    if specification is None or specification.loader is None:
+        raise ImportError(f"{path} is not a Python file")
+    module = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    return module

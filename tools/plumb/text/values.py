@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from difflib import get_close_matches
 
 _DECIMAL = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
@@ -98,3 +100,103 @@ def _finite(value: float) -> float:
 def _short(value: object) -> str:
     text = " ".join(str(value).split())
     return text if len(text) <= 40 else text[:37] + "..."
+
+
+# Lengths as people are shown them: in mm, or in inches where they ask for or type those.
+#
+# Files, JSON and pictures stay in mm. An inch gets a decimal more, so a size stays as fine as it
+# was.
+
+_FINER = {"mm": 0, "inch": 1}  # decimals more than in mm
+_unit: ContextVar[str] = ContextVar("unit", default="mm")
+
+
+@contextmanager
+def shown_in(name: str) -> Iterator[None]:
+    """Lengths are shown in a unit, until the end or until show_in names another."""
+    token = _unit.set(name)
+    try:
+        yield
+    finally:
+        _unit.reset(token)
+
+
+def show_in(name: str) -> None:
+    """From now on lengths are shown in this unit."""
+    _unit.set(name)
+
+
+def unit() -> str:
+    """The unit in which lengths are shown, of UNITS."""
+    return _unit.get()
+
+
+def in_unit(length: float) -> float:
+    """A length [mm] in the unit in which lengths are shown."""
+    return length / UNITS[unit()]
+
+
+def bare(length: float | None, digits: int = 2) -> str:
+    """A length [mm] without its unit, with this many decimals if it is in mm; a dash for none."""
+    if length is None or not math.isfinite(length):
+        return "-"
+    # No zero has a sign: that of a rounded number is chance.
+    return f"{in_unit(length):z.{digits + _FINER[unit()]}f}"
+
+
+def signed(length: float | None, digits: int = 2) -> str:
+    """The same with its sign."""
+    if length is None:
+        return "-"
+    return f"{in_unit(length):+z.{digits + _FINER[unit()]}f}"
+
+
+def worded(length: float | None, digits: int = 2) -> str:
+    """A length [mm] with its unit."""
+    return f"{bare(length, digits)} {unit()}"
+
+
+def brief(length: float) -> str:
+    """A length [mm] that somebody chose, with its unit and no more decimals than it needs."""
+    return f"{round(in_unit(length), 2):g} {unit()}"
+
+
+# Lengths as people type them: millimetres or inches, decimals or fractions like 47 7/8.
+
+INCH = 25.4  # [mm]
+UNITS = {"mm": 1.0, "inch": INCH}  # [mm] of each
+# A whole number and a fraction, or either: 47 7/8, 47-7/8, 7/8; an inch sign may follow.
+_FRACTION = re.compile(r"(?P<sign>[+-]?)(?:(?P<whole>\d+)[ -]+)?(?P<top>\d+)\s*/\s*(?P<below>\d+)")
+
+
+def length_in(text: str, *, unit: float = 1.0) -> float:
+    """The length [mm] that a piece of text writes out, in units of this many mm."""
+    stripped = text.strip()
+    if unit != 1.0:
+        stripped = stripped.removesuffix("in").removesuffix('"').strip()
+    match = _FRACTION.fullmatch(stripped)
+    if not match:
+        return unit * number_in(stripped)
+    below = int(match["below"])
+    if not below:
+        raise ValueError(f"'{stripped}' divides by zero")
+    size = int(match["whole"] or 0) + int(match["top"]) / below
+    return unit * (-size if match["sign"] == "-" else size)
+
+
+def length(value: object, *, unit: float = 1.0) -> float:
+    """The length [mm] that a TOML value is: a number, or a fraction in quotes."""
+    if isinstance(value, str) and "/" in value:
+        return length_in(value, unit=unit)
+    return unit * number(value)
+
+
+def point(value: object, *, unit: float = 1.0) -> tuple[float, float]:
+    """The two lengths [mm] of a TOML array `[x, y]`."""
+    if isinstance(value, list) and len(value) in (3, 4):
+        raise ValueError(
+            "two numbers are needed, as [x, y]; is a comma a decimal point? Write [12.5, 3]"
+        )
+    if not isinstance(value, list) or len(value) != 2:
+        raise ValueError("two numbers are needed, as [x, y]")
+    return length(value[0], unit=unit), length(value[1], unit=unit)

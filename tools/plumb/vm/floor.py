@@ -8,11 +8,11 @@ import numpy as np
 
 from plumb.bench import judge
 from plumb.bench.causes import SLED
-from plumb.bench.cure import sheet
+from plumb.bench.judged_board import sheet
 from plumb.cure.add import Addition, add
+from plumb.fit.compare import best_pose
 from plumb.fit.fit import rms
 from plumb.fit.inputs import Inputs
-from plumb.fit.shape import best_pose
 from plumb.model.predict import FOUND, lengths
 from plumb.settings.machine import MachineSettings
 from plumb.vm.garage import Garage

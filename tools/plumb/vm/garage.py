@@ -10,7 +10,7 @@ import numpy as np
 from plumb._vm import VirtualMachine
 from plumb.bench.causes import MAKER, Hidden
 from plumb.firmware.client_files import gcode
-from plumb.firmware.numbers import CLIENT_NUMBERS, firmware_numbers
+from plumb.firmware.settings import CLIENT_NUMBERS, firmware_numbers
 from plumb.line.sender import Sender
 from plumb.model.predict import judged
 from plumb.settings.machine import MachineSettings

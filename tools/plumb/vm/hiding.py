@@ -9,8 +9,7 @@ import numpy as np
 from plumb.bench.boards import plan, size_for
 from plumb.bench.causes import OUTSIDE, Cause, Hidden, causes_of
 from plumb.bench.hiding import REAL
-from plumb.text.errors import InputError
-from plumb.text.readers import to_do
+from plumb.text.errors import InputError, to_do
 from plumb.text.values import refuse_unknown
 
 Array = np.ndarray

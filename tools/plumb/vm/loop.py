@@ -17,8 +17,7 @@ from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
 from plumb.grid.options import Grid
 from plumb.line.sender import RefusedError, cleaned
-from plumb.marks.join import join_measurements
-from plumb.marks.read import Mark, Measurements, read_marks
+from plumb.marks.read import Mark, Measurements, join_measurements, read_marks
 from plumb.plan import Proposal, propose
 from plumb.settings.machine import MachineSettings
 from plumb.vm.budget import Budget, Spent, cutting, reading

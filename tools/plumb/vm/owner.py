@@ -14,16 +14,13 @@ from plumb._vm import VirtualMachine
 from plumb.bench.causes import CHAIN
 from plumb.diagnosis import Checked
 from plumb.firmware.client_files import gcode
-from plumb.firmware.numbers import firmware_numbers
-from plumb.grid.form import marks_list
-from plumb.grid.gcode import program
+from plumb.firmware.settings import firmware_numbers
 from plumb.grid.options import Grid, PlainMachine
+from plumb.grid.program import marks_list, program
 from plumb.line.sender import Sender
 from plumb.model.lab_effects import LAB_EFFECTS
-from plumb.plan.ahead import Check
-from plumb.plan.plan_marks import marks_file
-from plumb.plan.planned_visits import Visits
-from plumb.plan.visits_program import visit_lines
+from plumb.plan.case import Check
+from plumb.plan.planned_visits import Visits, marks_file, visit_lines
 from plumb.settings.machine import MachineSettings
 from plumb.vm.garage import Garage, set_up, with_new_sheet
 from plumb.vm.in_process import InProcessPort

@@ -20,9 +20,9 @@ from plumb.grid.options import Grid
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import empirical_effects
 from plumb.model.plain import plainly
-from plumb.plan.ahead import Check
-from plumb.plan.direct_checks import FRAME_CHECKS, NumberCheck, effect_checks
+from plumb.plan.case import Check
 from plumb.plan.planned_visits import Visits, joined, sent
+from plumb.plan.separation import FRAME_CHECKS, NumberCheck, effect_checks
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.text.values import refuse_unknown

@@ -6,9 +6,8 @@ import json
 from dataclasses import asdict
 from pathlib import Path
 
-from plumb.text.errors import refusal
+from plumb.text.errors import refusal, to_do
 from plumb.text.files import read_text
-from plumb.text.readers import to_do
 from plumb.vm.budget import Spent
 from plumb.vm.floor import SledError
 from plumb.vm.practice import Practice, Score

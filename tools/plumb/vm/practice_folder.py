@@ -12,14 +12,13 @@ from pathlib import Path
 from plumb.fit.inputs import Inputs
 from plumb.grid.cut_with import cut_with_lines
 from plumb.grid.options import Grid, GridError
-from plumb.grid.touches import touches_of
+from plumb.grid.pattern import touches_of
 from plumb.marks.read import Mark, Measurements, read_marks
 from plumb.model.predict import known_effects
 from plumb.settings.files import machine_toml
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
-from plumb.text.files import read_text
-from plumb.text.ours import PRACTICE_MARKS
+from plumb.text.files import PRACTICE_MARKS, read_text
 from plumb.vm import practice
 from plumb.vm.owner import plain_machine
 from plumb.vm.practice import Practice, Score

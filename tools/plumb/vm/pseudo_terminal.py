@@ -12,7 +12,7 @@ from pathlib import Path
 
 import plumb._vm
 from plumb._vm import VirtualMachine
-from plumb.line.line_lock import PSEUDO, LineLock, TakenError
+from plumb.line.port import PSEUDO, LineLock, TakenError
 from plumb.text.errors import refusal
 from plumb.vm.opening import OpeningWatch
 from plumb.vm.whole_lines import WholeLines

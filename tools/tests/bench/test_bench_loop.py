@@ -7,11 +7,10 @@ import pytest
 from bench_page import page
 from plumb.bench.boards import cut, plan
 from plumb.bench.causes import MAKER, SLED, Hidden, causes_of
-from plumb.bench.loop import followed
-from plumb.bench.owner import BoardOwner
+from plumb.bench.judged_board import BoardOwner, followed
 from plumb.bench.report import loop_cells, run
 from plumb.bench.scenarios import SCENARIOS
-from plumb.plan.ahead import Check
+from plumb.plan.case import Check
 from plumb.plan.planned_visits import sent
 
 PITCH = causes_of("chain_pitch")[1]  # the left chain more than the right

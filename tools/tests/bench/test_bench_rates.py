@@ -14,11 +14,9 @@ from bench_page import page
 from plumb.bench import judge
 from plumb.bench.boards import chains_for, cut, plan, raw_field, size_for
 from plumb.bench.causes import CAUSES, MAKER, OUTSIDE, Hidden, causes_of
-from plumb.bench.cure import shape_error
 from plumb.bench.hiding import REAL, SLIP_MM, Slip, nothing, raw, several, slip
-from plumb.bench.judged_board import judge_board
-from plumb.bench.outcome import Outcome, look_alikes
-from plumb.bench.rates import Line, Rate, rate_of
+from plumb.bench.judged_board import judge_board, shape_error
+from plumb.bench.outcome import Line, Outcome, Rate, look_alikes, rate_of
 from plumb.bench.report import run as run_bench
 from plumb.bench.scenarios import NAMES, SCENARIOS, Scenario
 from plumb.diagnosis import diagnose

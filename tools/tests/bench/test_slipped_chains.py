@@ -12,7 +12,7 @@ from plumb.bench.slipped_chains import (
     main,
     touched,
 )
-from plumb.recovery.slip import LINK, NO_LINKS
+from plumb.job.slip import LINK, NO_LINKS
 
 BOARDS = range(1, 9)
 PURE = [mishap for mishap in MISHAPS if mishap.links != NO_LINKS and not mishap.shift]

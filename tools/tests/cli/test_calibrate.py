@@ -13,9 +13,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from plumb.cli.calibrate_text import Round, sentence
+from plumb.cli.calibrate import Round, sentence
 from plumb.cli.main import build_parser
-from plumb.diagnosis.left_open import LeftOpen
+from plumb.diagnosis.expected_error import LeftOpen
 from plumb.settings.files import read_settings, write_machine_toml
 from synthetic import BELIEVED, EFFECTS, TRUE, grid, marks_on
 

@@ -10,9 +10,8 @@ import numpy as np
 import plumb.grid as grids
 import pytest
 from plumb.cli.main import main
-from plumb.cli.screen import table
-from plumb.cli.text import plain
-from plumb.cure.demo import MARKS, SETTINGS
+from plumb.cli.screen import plain, table
+from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.marks.read import read_marks
 from plumb.model.catalogue import effect_names
 from plumb.model.predict import lengths

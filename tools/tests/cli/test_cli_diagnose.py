@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from plumb.cure.demo import MARKS, SETTINGS
+from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.diagnosis import VERDICTS
 from plumb.model.catalogue import effect_names
 from plumb.settings.files import write_machine_toml

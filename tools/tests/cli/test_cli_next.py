@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 import pytest
-from plumb.cure.demo import MARKS, SETTINGS
+from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.grid.cut_with import digest_of
 from plumb.model.catalogue import effect_names
 from plumb.settings.files import write_machine_toml

@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from plumb.cure.demo import MARKS, SETTINGS
+from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.settings.files import write_machine_toml
 from synthetic import BELIEVED
 

@@ -6,9 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plumb.cli.main import main
-from plumb.cure.demo import SETTINGS
-from plumb.firmware.numbers import firmware_numbers
-from plumb.firmware.settings import machine_of
+from plumb.cure.machine_file import SETTINGS
+from plumb.firmware.settings import firmware_numbers, machine_of
 from plumb.model.predict import lengths, library
 from plumb.settings.files import machine_toml
 from plumb.text.errors import InputError

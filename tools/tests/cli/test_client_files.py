@@ -12,10 +12,8 @@ import numpy as np
 import pytest
 from plumb import _core
 from plumb.firmware.client_files import refuse_what_disturbs
-from plumb.firmware.numbers import firmware_numbers
-from plumb.firmware.settings import every_setting, machine_of
-from plumb.model.controllers import chain_lengths
-from plumb.model.predict import lengths
+from plumb.firmware.settings import every_setting, firmware_numbers, machine_of
+from plumb.model.predict import chain_lengths, lengths
 from plumb.settings.files import read_settings
 from plumb.text.errors import InputError
 from project.page_commands import commands_on, run_in

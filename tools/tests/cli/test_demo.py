@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from plumb.cli.demo import as_text, main
 from plumb.cure.add import Quality
-from plumb.cure.demo import GOAL, demonstrate, is_better, with_y_errors_flipped
+from plumb.cure.machine_file import GOAL, demonstrate, is_better, with_y_errors_flipped
 from plumb.marks.read import Mark, Measurements
 from plumb.model.predict import known_effects
 from plumb.settings.files import read_settings

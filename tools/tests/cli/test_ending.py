@@ -10,8 +10,8 @@ import sys
 from importlib.metadata import version
 
 import pytest
-from plumb.cli.ending import INTERRUPTED, ended
-from plumb.cure.demo import MARKS, SETTINGS
+from plumb.cli.output import INTERRUPTED, ended
+from plumb.cure.machine_file import MARKS, SETTINGS
 
 PLUMB = [sys.executable, "-m", "plumb.cli.main"]
 COMPARE = [*PLUMB, "compare", str(SETTINGS), str(MARKS)]

@@ -8,9 +8,8 @@ import plumb.cli.send as send_command
 import pytest
 from numbers_machine import NumbersMachine
 from plumb import api
-from plumb.cure.machine_file import toml_of
-from plumb.cure.record import record_of
-from plumb.firmware.in_force import numbers_in_force
+from plumb.cure.machine_file import record_of, toml_of
+from plumb.firmware.settings import numbers_in_force
 from plumb.grid.cut_with import form_of, with_form
 from plumb.settings.files import read_settings, write_machine_toml
 from synthetic import BELIEVED, TRUE, grid, marks_on

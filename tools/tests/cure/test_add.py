@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import pytest
 from plumb.cure.add import add, priors_with
-from plumb.cure.demo import MARKS, SETTINGS
-from plumb.cure.machine_file import turn_sentences
+from plumb.cure.machine_file import MARKS, SETTINGS, turn_sentences
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import PRIORS, Checked
 from plumb.marks.read import Measurements, read_marks

@@ -11,7 +11,7 @@ from hidden_boards import MAKER, board, plan, size_for
 from plumb.cli.main import main
 from plumb.cure import auto
 from plumb.cure.auto import add_auto, without_marks
-from plumb.cure.demo import MARKS, SETTINGS
+from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.diagnosis import diagnose
 from plumb.diagnosis.answer import Together
 from plumb.fit.inputs import Inputs

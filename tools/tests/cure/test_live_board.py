@@ -5,8 +5,8 @@ import pytest
 from plumb import api
 from plumb.cli.main import main
 from plumb.cure.add import add
-from plumb.cure.demo import MARKS, SETTINGS
 from plumb.cure.live_board import MOST_KEPT, Chosen, LiveBoard
+from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.text.errors import InputError
 
 

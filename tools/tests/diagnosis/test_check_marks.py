@@ -9,7 +9,7 @@ from plumb import api
 from plumb.diagnosis.check_marks import check_marks
 from plumb.marks.model import Mark, Measurements, Round
 from plumb.model.predict import lengths, places
-from plumb.plan.check_places import check_places
+from plumb.plan.planned_visits import check_places
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs" / "example"
 TAPE = 0.5  # [mm]

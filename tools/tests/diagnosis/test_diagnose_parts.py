@@ -4,19 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.board.observations import observe
-from plumb.diagnosis.explanation import Board, explain
+from plumb.diagnosis.clean import shifts
+from plumb.diagnosis.explanation import KNOWN, Board, Spread, explain, surprise, surprises, tail
 from plumb.diagnosis.gain import LEVEL, bases_beyond_fit, limit_of_noise, search
-from plumb.diagnosis.misfit import misfit_chance
-from plumb.diagnosis.noise import Noise
-from plumb.diagnosis.noise_sources import guessed_noise, known_noise, repeats_of
-from plumb.diagnosis.readings import readings_of, without
-from plumb.diagnosis.significance import KNOWN, surprise, surprises, tail
+from plumb.diagnosis.noise import Noise, guessed_noise, known_noise, misfit_chance, repeats_of
 from plumb.diagnosis.sizes import hidden_share, room_for, sizes_of
-from plumb.diagnosis.slips import shifts
-from plumb.diagnosis.spread import Spread
+from plumb.diagnosis.slip_cause import readings_of, without
 from plumb.fit.fit import fit
 from plumb.fit.inputs import Stated
+from plumb.fit.observations import observe
 from plumb.marks.read import Measurements, Round
 from plumb.model.catalogue import effect_names
 from scipy import stats

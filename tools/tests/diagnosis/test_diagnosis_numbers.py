@@ -4,19 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.board.observations import observe
 from plumb.diagnosis.answer import Together
 from plumb.diagnosis.clean import clean_readings
-from plumb.diagnosis.explanation import Board, explain
-from plumb.diagnosis.imitation import DRAWS, WIDTHS, _fields
-from plumb.diagnosis.linear_board import largest_met
-from plumb.diagnosis.misfit import misfit_chance, spare_numbers
-from plumb.diagnosis.noise import Noise
-from plumb.diagnosis.significance import tail
-from plumb.diagnosis.spread import Spread
+from plumb.diagnosis.explanation import Board, Spread, explain, tail
+from plumb.diagnosis.gain import FIELDS, WIDTHS, _fields
+from plumb.diagnosis.judgement import _log_cauchy
+from plumb.diagnosis.noise import Noise, misfit_chance, spare_numbers
 from plumb.diagnosis.suspect_curves import visits_all_over
-from plumb.diagnosis.suspects import _log_cauchy
+from plumb.diagnosis.weighing import largest_met
 from plumb.fit.inputs import Inputs
+from plumb.fit.observations import observe
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names, parameter_words
 from scipy import integrate
@@ -67,13 +64,13 @@ def test_a_field_moves_a_distance_by_what_its_ends_move_apart():
     frame = explain(board_of(distances_between(NINE.marks)))
     rows = frame.board.rows
     fields = _fields(frame)[: rows.count] * SIGMA
-    assert fields.shape == (36, DRAWS * len(WIDTHS))
+    assert fields.shape == (36, FIELDS * len(WIDTHS))
     places = grid(3, 3)
     ends = places[rows.distance_rows] / (1100.0, 500.0)
     squares = np.sum((ends[:, 1] - ends[:, 0]) ** 2, axis=1)
     for i, width in enumerate(WIDTHS):
         wanted = 2 - 2 * np.exp(-squares / (2 * width**2))
-        drawn = fields[:, i * DRAWS : (i + 1) * DRAWS]
+        drawn = fields[:, i * FIELDS : (i + 1) * FIELDS]
         assert np.mean(drawn**2, axis=1).sum() == pytest.approx(wanted.sum(), rel=0.15)
 
 

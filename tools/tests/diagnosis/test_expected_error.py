@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from plumb.board.observations import observe
 from plumb.diagnosis.expected_error import expected_error
 from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.suspect_curves import model_by
+from plumb.fit.observations import observe
 from plumb.marks.read import Measurements
 from plumb.model.predict import lengths, places
 from synthetic import BELIEVED, TRUE, grid, marks_on

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from plumb.board.observations import observe
 from plumb.diagnosis.explanation import Board, explain
-from plumb.diagnosis.fingerprint import fingerprint_of
 from plumb.diagnosis.sizes import hidden_share
+from plumb.diagnosis.suspect_curves import fingerprint_of
+from plumb.fit.observations import observe
 from plumb.fit.problem import PRIORS
 from plumb.marks.read import Measurements
 from synthetic import BELIEVED, TRUE, grid, marks_on

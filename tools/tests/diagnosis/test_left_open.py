@@ -9,7 +9,7 @@ from plumb.bench.boards import cut
 from plumb.bench.causes import Hidden
 from plumb.cure.auto import add_auto
 from plumb.diagnosis import diagnose
-from plumb.diagnosis.left_open import LeftOpen
+from plumb.diagnosis.expected_error import LeftOpen
 from plumb.fit.expected import expected_error
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import PRIORS, Checked

@@ -5,17 +5,16 @@ import pytest
 from plumb.bench.boards import cut, plan
 from plumb.bench.causes import MAKER, PUBLISHED, Hidden
 from plumb.bench.hiding import usual_machine
-from plumb.board.observations import observe
 from plumb.cure.auto import add_auto
 from plumb.diagnosis import diagnose, judgement
+from plumb.diagnosis.answer import verdict_sentence
 from plumb.diagnosis.clean import felt_effects
-from plumb.diagnosis.explanation import Board, explain
-from plumb.diagnosis.likeliest import Likeliest, Likely, listing
+from plumb.diagnosis.explanation import KNOWN, Board, explain
+from plumb.diagnosis.judgement import Likeliest, Likely, listing
 from plumb.diagnosis.noise import Noise
-from plumb.diagnosis.sentence import verdict_sentence
-from plumb.diagnosis.significance import KNOWN
 from plumb.diagnosis.weighing import accounts, left_out, weigh
 from plumb.fit.inputs import Inputs
+from plumb.fit.observations import observe
 
 WIDE = plan(5, 5, repeats=True)
 

@@ -4,18 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.board.observations import observe
 from plumb.cure.add import add
 from plumb.diagnosis import diagnose
-from plumb.diagnosis.explanation import Board, explain
-from plumb.diagnosis.halves import half_warnings
-from plumb.diagnosis.misfit import misfit_chance
-from plumb.diagnosis.noise import Noise
-from plumb.diagnosis.repeats import mark_spread
-from plumb.diagnosis.significance import KNOWN
+from plumb.diagnosis.doubts import half_warnings
+from plumb.diagnosis.explanation import KNOWN, Board, Spread, explain
+from plumb.diagnosis.noise import Noise, mark_spread, misfit_chance
 from plumb.diagnosis.sizes import room_for
-from plumb.diagnosis.spread import Spread
 from plumb.fit.inputs import Inputs
+from plumb.fit.observations import observe
 from plumb.fit.problem import PRIORS
 from plumb.marks.read import Distance, Measurements, Round, join_measurements
 from plumb.text.errors import InputError

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.board.observations import observe
 from plumb.diagnosis import diagnose
-from plumb.diagnosis.noise_sources import repeats_of
+from plumb.diagnosis.noise import repeats_of
 from plumb.fit.inputs import Inputs
+from plumb.fit.observations import observe
 from plumb.marks.read import Mark, Measurements, read_marks
 from plumb.settings.files import machine_toml
 from plumb.text.errors import InputError

@@ -4,18 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.board.observations import model_and_observations
 from plumb.diagnosis import diagnose
-from plumb.diagnosis.explanation import Board, explain
-from plumb.diagnosis.halves import round_warnings
-from plumb.diagnosis.mixed_up import MixedPair, find_mixed_up
-from plumb.diagnosis.moved_rounds import rounds_columns
-from plumb.diagnosis.noise import Noise
-from plumb.diagnosis.readings import Reading, without
-from plumb.diagnosis.repeats import distance_spread, repeated_distances
-from plumb.diagnosis.significance import KNOWN
-from plumb.diagnosis.slips_in_repeats import clear_repeats, twins_that_agree
+from plumb.diagnosis.clean import clear_repeats, twins_that_agree
+from plumb.diagnosis.doubts import round_warnings
+from plumb.diagnosis.explanation import KNOWN, Board, explain
+from plumb.diagnosis.noise import Noise, distance_spread, repeated_distances
+from plumb.diagnosis.slip_cause import MixedPair, Reading, find_mixed_up, without
+from plumb.diagnosis.weighing import rounds_columns
 from plumb.fit.inputs import Inputs, Stated
+from plumb.fit.observations import model_and_observations
 from plumb.marks.read import join_measurements
 from synthetic import BELIEVED, distances_between, grid, marks_on
 

@@ -4,14 +4,13 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from plumb.board.observations import observe
-from plumb.diagnosis.explanation import Board, explain, span
+from plumb.diagnosis.answer import verdict_sentence
+from plumb.diagnosis.clean import Reading, Shift
+from plumb.diagnosis.explanation import KNOWN, Board, explain, span
 from plumb.diagnosis.noise import Noise
-from plumb.diagnosis.sentence import verdict_sentence
-from plumb.diagnosis.significance import KNOWN
 from plumb.diagnosis.sizes import sizes_of
 from plumb.diagnosis.slip_cause import described
-from plumb.diagnosis.slips import Reading, Shift
+from plumb.fit.observations import observe
 from plumb.marks.read import Distance, Mark, Measurements
 from synthetic import BELIEVED, SHEET, TRUE, grid, marks_on
 

@@ -6,15 +6,13 @@ import numpy as np
 import pytest
 from plumb.bench.boards import cut, plan
 from plumb.bench.causes import MAKER, Hidden, causes_of
-from plumb.board.observations import observe
 from plumb.diagnosis import diagnose
 from plumb.diagnosis.clean import felt_effects
-from plumb.diagnosis.explanation import Board, explain
-from plumb.diagnosis.linear_board import LinearBoard, Metric
+from plumb.diagnosis.explanation import KNOWN, Board, explain
 from plumb.diagnosis.noise import Noise
-from plumb.diagnosis.significance import KNOWN
-from plumb.diagnosis.weighing import weigh
+from plumb.diagnosis.weighing import LinearBoard, Metric, weigh
 from plumb.fit.inputs import Inputs
+from plumb.fit.observations import observe
 from plumb.marks.read import Measurements, Round
 
 PITCH, STRETCH = causes_of("chain_pitch")[1], causes_of("chain_stretch")[0]

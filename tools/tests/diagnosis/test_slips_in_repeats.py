@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from plumb.bench.boards import cut, plan
 from plumb.bench.causes import MAKER, Hidden, causes_of
-from plumb.board.observations import observe
 from plumb.cure.add import add
 from plumb.cure.auto import add_auto
 from plumb.diagnosis import diagnose
+from plumb.diagnosis.answer import verdict_sentence
+from plumb.diagnosis.clean import clear_repeats
 from plumb.diagnosis.explanation import Board
-from plumb.diagnosis.sentence import verdict_sentence
-from plumb.diagnosis.slips_in_repeats import clear_repeats
 from plumb.fit.inputs import Inputs, Stated
+from plumb.fit.observations import observe
 from plumb.marks.read import Distance, Mark, Measurements
 from scipy import stats
 

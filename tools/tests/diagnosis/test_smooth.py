@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 from plumb.bench.boards import cut, plan
 from plumb.bench.causes import MAKER, Hidden
-from plumb.board.observations import observe
-from plumb.diagnosis.explanation import Board, explain
-from plumb.diagnosis.smooth import field_columns
+from plumb.diagnosis.explanation import Board, explain, field_columns
+from plumb.fit.observations import observe
 
 HALF = np.array([1100.0, 500.0])  # [mm] that the marks span
 

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.board.observations import observe
 from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.suspect_curves import (
     BINS,
@@ -15,8 +14,9 @@ from plumb.diagnosis.suspect_curves import (
     visits_all_over,
 )
 from plumb.fit.covariates import covariates
+from plumb.fit.observations import observe
 from plumb.marks.read import Mark, Measurements
-from plumb.model.ranks import ascending
+from plumb.model.plain import ascending
 from synthetic import BELIEVED, TRUE, grid, marks_on
 
 RUNOUT = {"left_sine": 0.4, "left_cosine": 0.0, "right_sine": 0.0, "right_cosine": 0.0}

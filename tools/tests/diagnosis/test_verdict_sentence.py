@@ -5,8 +5,8 @@ from contextlib import nullcontext
 from types import SimpleNamespace
 
 import pytest
-from plumb.diagnosis.sentence import verdict_sentence
-from plumb.text.readers import read_on_page
+from plumb.diagnosis.answer import verdict_sentence
+from plumb.text.errors import read_on_page
 
 
 def account(*effects, possible=True, share=None):

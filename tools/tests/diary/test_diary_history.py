@@ -6,10 +6,17 @@ from datetime import UTC, datetime
 import numpy as np
 import pytest
 from plumb.cure.add import add
-from plumb.diary.entries import FIT, fit_entry, numbers_entry, program_entry
-from plumb.diary.file import NAME, append, read_diary
+from plumb.diary.file import (
+    FIT,
+    NAME,
+    append,
+    fit_entry,
+    keep,
+    numbers_entry,
+    program_entry,
+    read_diary,
+)
 from plumb.diary.history import history_of
-from plumb.diary.keeping import keep
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements
 from plumb.settings.toml import machine_toml, read_machine_toml

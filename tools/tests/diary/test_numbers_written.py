@@ -2,8 +2,8 @@
 
 import pytest
 from numbers_machine import NumbersMachine
-from plumb.diary.numbers_written import write_and_keep
-from plumb.line.machine_numbers import kept_before
+from plumb.diary.file import write_and_keep
+from plumb.line.memory import kept_before
 from plumb.line.sender import Sender
 from plumb.text.errors import InputError
 

@@ -5,14 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plumb.cure.add import add
-from plumb.cure.record import record_of
-from plumb.diary.entries import FIT, fit_entry
-from plumb.diary.file import append, read_diary
+from plumb.cure.machine_file import record_of
+from plumb.diary.file import FIT, append, fit_entry, read_diary
 from plumb.diary.recheck import LEFT, RIGHT, SHEET_X, recheck
 from plumb.fit.inputs import Inputs
+from plumb.job.home import Touch
 from plumb.marks.read import Measurements
 from plumb.model.predict import lengths, places
-from plumb.recovery.touched import Touch
 from plumb.settings.toml import machine_toml
 from plumb.text.errors import InputError
 from synthetic import BELIEVED, TRUE, grid, marks_on

@@ -5,11 +5,10 @@ import math
 import numpy as np
 import pytest
 from plumb.bench.causes import MAKER
-from plumb.diary.entries import FIT
-from plumb.diary.file import append, read_diary
+from plumb.diary.file import FIT, append, read_diary
 from plumb.diary.recheck import LEFT, RIGHT, SHEET_X, SHEET_Y, recheck
+from plumb.job.home import Touch
 from plumb.model.predict import lengths, places
-from plumb.recovery.touched import Touch
 from plumb.settings.toml import machine_toml
 
 AT = np.array([(-900.0, 250.0), (900.0, -250.0)])

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from plumb import _core
 from plumb.firmware.settings import machine_of
-from plumb.model.controllers import chain_lengths
-from plumb.model.predict import FOUND, lengths
+from plumb.model.predict import FOUND, chain_lengths, lengths
 from plumb.settings.machine import MachineSettings, PublishedSettings
 from synthetic import BELIEVED
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 from plumb.bench.causes import MAKER
-from plumb.fit.absurd_checks import refuse_absurd
+from plumb.fit.expected import refuse_absurd
 from plumb.fit.problem import Checked
 from plumb.text.errors import InputError
 

@@ -4,11 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.board.observations import observe
-from plumb.board.visits import loaded
-from plumb.fit.chain_view import chain_errors, chain_view
-from plumb.fit.compare import compare
+from plumb.fit.compare import chain_errors, chain_view, compare
 from plumb.fit.covariates import covariates
+from plumb.fit.observations import loaded, observe
 from plumb.marks.read import Distance, Mark, Measurements
 from plumb.model.predict import lengths, places, reach, settings_of, values_of
 from synthetic import BELIEVED, TRUE, grid, marks_on

@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 import pytest
-from plumb.board.observations import observe
 from plumb.fit.fit import fit
+from plumb.fit.observations import observe
 from plumb.fit.problem import PRIORS, Checked, Problem
 from plumb.marks.read import Measurements
 from synthetic import BELIEVED, TRUE, grid, marks_on

@@ -5,9 +5,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from plumb.cure.demo import MARKS, SETTINGS
-from plumb.fit.compare import compare
-from plumb.fit.shape import best_pose
+from plumb.cure.machine_file import MARKS, SETTINGS
+from plumb.fit.compare import best_pose, compare
 from plumb.marks.read import Mark, Measurements, read_marks
 from plumb.settings.files import groundcontrol_changes, read_settings, write_groundcontrol_ini
 from plumb.text.errors import InputError

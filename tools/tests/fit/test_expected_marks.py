@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.board.sighting import SHEET_ROTATION
+from plumb.fit.compare import best_pose
 from plumb.fit.expected import (
     COLUMNS,
     MARGIN,
@@ -19,7 +19,7 @@ from plumb.fit.expected import (
 )
 from plumb.fit.fit import rms
 from plumb.fit.problem import PRIORS
-from plumb.fit.shape import best_pose
+from plumb.fit.sighting import SHEET_ROTATION
 from plumb.model.catalogue import parameter_words
 from plumb.model.predict import FOUND, NAMES, lengths, places
 from synthetic import BELIEVED, grid

@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 from plumb.cli.main import main
-from plumb.cure.demo import SETTINGS
+from plumb.cure.machine_file import SETTINGS
 
 
 @pytest.mark.parametrize("extra", [[], ["--columns", "5"], ["--repeats", "2"]])

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.board.observations import observe
-from plumb.board.sighting import SHEET_ROTATION
 from plumb.fit.fit import fit, rms
+from plumb.fit.observations import observe
 from plumb.fit.problem import PRIORS, Problem
+from plumb.fit.sighting import SHEET_ROTATION
 from plumb.marks.read import Measurements
 from plumb.text.errors import InputError
 from synthetic import BELIEVED, EFFECTS, TRUE, distances_between, grid, marks_on

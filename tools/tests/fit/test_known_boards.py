@@ -3,10 +3,10 @@
 from dataclasses import replace
 
 import pytest
-from plumb.fit.known_boards import known_outside, with_settings_in_force
+from plumb.fit.inputs import known_outside, with_settings_in_force
 from plumb.marks.read import Mark, Measurements, Round
-from plumb.settings.fit_record import FitRecord, FittedBoard
 from plumb.settings.machine import SettingsFile
+from plumb.settings.toml import FitRecord, FittedBoard
 from plumb.text.errors import InputError
 from synthetic import BELIEVED, TRUE
 

@@ -5,13 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.board.observations import observe
-from plumb.board.sighting import sighted
-from plumb.cli.add import as_json, as_text
+from plumb.cli.add import as_json
+from plumb.cli.add_text import as_text
 from plumb.cure.add import add
 from plumb.cure.machine_file import toml_of
 from plumb.fit.fit import fit
 from plumb.fit.inputs import Inputs
+from plumb.fit.observations import observe
+from plumb.fit.sighting import sighted
 from plumb.marks.read import Measurements
 from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.predict import FOUND, known_effects, values_of

@@ -8,11 +8,10 @@ from hidden_boards import MAKER, board, plan
 from plumb.cli.main import main
 from plumb.cure.add import add
 from plumb.cure.auto import add_auto
-from plumb.cure.demo import MARKS, SETTINGS
-from plumb.cure.machine_file import toml_of
+from plumb.cure.machine_file import MARKS, SETTINGS, toml_of
 from plumb.fit.compare import compare
+from plumb.fit.covariates import PATCH, SIZES
 from plumb.fit.inputs import Inputs
-from plumb.fit.patch import PATCH, SIZES
 from plumb.model.catalogue import effect_names, parameter_names
 from plumb.settings.files import machine_toml, read_settings
 from plumb.text.errors import InputError

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from plumb.fit.plausible import PlausibleRange, plausible_range
+from plumb.fit.expected import PlausibleRange, plausible_range
 
 
 def test_a_range_holds_its_ends_and_is_near_half_as_far_again():

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from plumb.board.observations import model_and_observations, observe
-from plumb.board.sighting import SHEET_ROTATION
 from plumb.fit.fit import fit
+from plumb.fit.observations import model_and_observations, observe
 from plumb.fit.problem import PRIORS
+from plumb.fit.sighting import SHEET_ROTATION
 from plumb.marks.read import Measurements, Round, join_measurements
 from synthetic import BELIEVED, distances_between, grid, marks_on
 

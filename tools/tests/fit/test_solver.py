@@ -5,9 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from plumb.board.observations import observe
-from plumb.fit.problem import PRIORS, Checked, Linearized, Problem
-from plumb.fit.solver import MOST_STEPS, solve
+from plumb.fit.observations import observe
+from plumb.fit.problem import MOST_STEPS, PRIORS, Checked, Linearized, Problem, solve
 from plumb.marks.read import Measurements
 from plumb.text.errors import InputError
 from scipy.optimize import least_squares

@@ -4,9 +4,8 @@ from dataclasses import replace
 
 import pytest
 from plumb.fit.expected import expected_anywhere, expected_priors, expected_sentence
-from plumb.guide.progress import Progress, progress_in
 from plumb.guide.steps import Visit, _judge_mark, show_reach
-from plumb.guide.talk import Talk
+from plumb.guide.talk import Progress, Talk, progress_in
 from plumb.settings.toml import machine_toml
 from synthetic import BELIEVED
 

@@ -2,8 +2,8 @@
 
 import plumb.cli.guide
 from plumb.cli.main import main
-from plumb.guide.progress import Progress
 from plumb.guide.steps import STEPS
+from plumb.guide.talk import Progress
 
 
 def test_at_the_end_it_names_the_grid_and_what_is_known(tmp_path, monkeypatch, capsys):

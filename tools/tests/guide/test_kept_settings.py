@@ -1,7 +1,7 @@
 """The guide replaces its settings' file; what was in it stays."""
 
 import pytest
-from plumb.guide.kept import keep_other
+from plumb.guide.steps import keep_other
 
 
 @pytest.fixture

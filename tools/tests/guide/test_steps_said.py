@@ -4,9 +4,8 @@ from types import SimpleNamespace
 
 import pytest
 from plumb.guide import steps
-from plumb.guide.progress import Progress
 from plumb.guide.steps import Visit, check_wires, first_mark, set_chains, show_reach
-from plumb.guide.talk import Talk
+from plumb.guide.talk import Progress, Talk
 from plumb.settings.toml import machine_toml
 from synthetic import BELIEVED
 

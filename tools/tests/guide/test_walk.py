@@ -7,17 +7,14 @@ import pytest
 from first_day import OWNER
 from plumb.bench.causes import Hidden
 from plumb.diary.file import read_diary
-from plumb.firmware.numbers import CLIENT_NUMBERS
-from plumb.fit.read_inputs import settings_in
-from plumb.guide.progress import progress_in
-from plumb.guide.steps import STEPS, Visit
-from plumb.guide.talk import Talk
-from plumb.guide.walk import walk
-from plumb.line.machine_numbers import kept_before
-from plumb.line.memory import read_numbers
+from plumb.firmware.settings import CLIENT_NUMBERS
+from plumb.fit.inputs import settings_in
+from plumb.guide.steps import STEPS, Visit, walk
+from plumb.guide.talk import Talk, progress_in
+from plumb.line.memory import kept_before, read_numbers
 from plumb.line.sender import Sender
 from plumb.text.errors import InputError
-from plumb.text.shown import shown_in
+from plumb.text.values import shown_in
 from plumb.vm.garage import EXTENDED, Garage
 from plumb.vm.in_process import InProcessPort
 

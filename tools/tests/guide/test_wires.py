@@ -2,10 +2,8 @@
 
 import pytest
 from plumb.bench.causes import Hidden
-from plumb.guide.progress import Progress
 from plumb.guide.steps import Visit, check_wires
-from plumb.guide.talk import Talk
-from plumb.guide.wires import chain_jog, ran_away, remedy
+from plumb.guide.talk import Progress, Talk, chain_jog, ran_away, remedy
 from plumb.line.memory import read_numbers
 from plumb.line.sender import Sender
 from plumb.vm.garage import Garage

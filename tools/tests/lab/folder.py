@@ -3,8 +3,7 @@
 from pathlib import Path
 
 from fastapi.testclient import TestClient
-from plumb.diary.entries import FIT
-from plumb.diary.file import append
+from plumb.diary.file import FIT, append
 from plumb.lab.app import lab_app
 from plumb.lab.guard import Address
 

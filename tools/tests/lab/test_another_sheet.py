@@ -10,12 +10,11 @@ import pytest
 from folder import EXAMPLE, asked
 from plumb import api
 from plumb.cure.add import add
-from plumb.cure.machine_file import turn_sentences
-from plumb.cure.record import record_of
+from plumb.cure.machine_file import record_of, turn_sentences
 from plumb.marks.form import read_form
 from plumb.model.predict import known_effects
 from plumb.settings.files import read_settings
-from plumb.settings.fit_record import FitRecord, FittedBoard
+from plumb.settings.toml import FitRecord, FittedBoard
 
 TURN = 9.996939502150416e-06  # [rad] of the example's sheet, as its machine.toml says
 WIDTH = 2438.4  # [mm]

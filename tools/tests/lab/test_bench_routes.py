@@ -10,10 +10,9 @@ from fingerprints import default_machine
 from folder import EXAMPLE, asked, with_settings
 from plumb import api
 from plumb.cli.main import main
-from plumb.cure.board_view import BoardView
-from plumb.cure.live_board import Chosen, LiveBoard
+from plumb.cure.live_board import BoardView, Chosen, LiveBoard
 from plumb.diagnosis.suspect_curves import view_by
-from plumb.fit.chain_view import chain_view
+from plumb.fit.compare import chain_view
 from plumb.fit.fit import rms
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import Problem

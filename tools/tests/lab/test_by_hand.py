@@ -6,7 +6,7 @@ import pytest
 from folder import with_settings
 from plumb.bench.causes import MAKER
 from plumb.lab.by_hand import readings
-from plumb.plan.direct_checks import FRAME_CHECKS, effect_checks
+from plumb.plan.separation import FRAME_CHECKS, effect_checks
 from plumb.vm.owner import true_value
 
 WEIGHT = 98.1  # [N]

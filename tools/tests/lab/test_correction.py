@@ -7,7 +7,7 @@ from itertools import pairwise
 import pytest
 from folder import EXAMPLE, with_settings
 from plumb import api
-from plumb.cure.correction import correct, has_setting
+from plumb.cure.machine_file import correct, has_setting
 from plumb.diary.file import read_diary
 from plumb.settings.files import read_settings
 

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from folder import with_settings
-from plumb.fit.read_inputs import settings_in
+from plumb.fit.inputs import settings_in
 from plumb.grid import spans_in
 from plumb.lab.routes.grid import _as_asked
 from plumb.vm.tape import Tape

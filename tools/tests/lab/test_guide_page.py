@@ -2,7 +2,7 @@
 
 import pytest
 from playwright.sync_api import expect
-from plumb.guide.progress import progress_in
+from plumb.guide.talk import progress_in
 from screens import drawn
 
 WIDE, PHONE = {"width": 1280, "height": 900}, {"width": 375, "height": 812}

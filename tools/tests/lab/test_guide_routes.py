@@ -7,8 +7,8 @@ from threading import Event
 import pytest
 from first_day import OWNER
 from folder import asked
-from plumb.guide.progress import progress_in
 from plumb.guide.steps import STEPS
+from plumb.guide.talk import progress_in
 
 PATIENCE = 120  # [s] of a busy computer
 

@@ -6,7 +6,7 @@ import shutil
 import pytest
 from folder import EXAMPLE, example_form
 from playwright.sync_api import expect
-from plumb.grid.spans import spans_line
+from plumb.grid.pattern import spans_line
 from plumb.marks.form import read_form
 
 SHEET = (2438.4, 1219.2)

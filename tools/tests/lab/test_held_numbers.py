@@ -5,7 +5,7 @@ import tomllib
 
 import pytest
 from folder import EXAMPLE, asked, example_form
-from plumb.firmware.in_force import differences, digest_of_numbers, numbers_in_force
+from plumb.firmware.settings import differences, digest_of_numbers, numbers_in_force
 from plumb.settings.files import read_settings
 
 PATIENCE = 120  # [s] of a busy computer

@@ -12,7 +12,7 @@ import pytest
 from folder import EXAMPLE, with_settings
 from plumb.cli.main import COMMANDS, main
 from plumb.lab.machine_line import MachineLine
-from plumb.text.readers import read_on_page, to_do
+from plumb.text.errors import read_on_page, to_do
 
 PACKAGE = Path(plumb.__file__).parent
 OTHERS = "|".join(name for name in COMMANDS if name != "lab")

@@ -4,9 +4,7 @@ import os
 
 import pytest
 from folder import EXAMPLE, asked, with_settings
-from plumb.diary.entries import NUMBERS
-from plumb.diary.file import append, read_diary
-from plumb.diary.keeping import keep
+from plumb.diary.file import NUMBERS, append, keep, read_diary
 from plumb.grid.cut_with import digest_of, settings_as_they_were
 from plumb.text.errors import InputError
 from plumb.text.files import links_refused, read_bytes, read_text, write_all, write_whole

@@ -1,6 +1,6 @@
 """The page in a real browser."""
 
-from plumb.cure.demo import SETTINGS
+from plumb.cure.machine_file import SETTINGS
 
 
 def test_a_settings_file_opens_the_next_steps(lab, page):

@@ -9,10 +9,10 @@ import pytest
 from folder import EXAMPLE, asked, with_settings
 from plumb.bench.causes import MAKER
 from plumb.cli.main import main
+from plumb.fit.compare import best_pose
 from plumb.fit.expected import expected_error
 from plumb.fit.fit import rms
 from plumb.fit.problem import PRIORS
-from plumb.fit.shape import best_pose
 from plumb.grid import Grid, GridError, PlainMachine, program
 from plumb.lab.choices import Choices, Number
 from plumb.lab.known import stated

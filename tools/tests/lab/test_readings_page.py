@@ -7,7 +7,7 @@ import pytest
 from folder import EXAMPLE, example_form
 from playwright.sync_api import expect
 from plumb.cli.main import main
-from plumb.grid.spans import spans_line
+from plumb.grid.pattern import spans_line
 from plumb.marks.read import read_marks
 
 SHEET = (2438.4, 1219.2)

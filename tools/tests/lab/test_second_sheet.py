@@ -6,8 +6,7 @@ import tomllib
 
 import pytest
 from folder import EXAMPLE, asked
-from plumb.diary.entries import FIT
-from plumb.diary.file import append
+from plumb.diary.file import FIT, append
 
 
 @pytest.fixture

@@ -5,8 +5,8 @@ import time
 import pytest
 from folder import EXAMPLE, example_form, with_settings
 from plumb import api
-from plumb.diagnosis.sentence import verdict_sentence
-from plumb.text.readers import read_on_page
+from plumb.diagnosis.answer import verdict_sentence
+from plumb.text.errors import read_on_page
 
 PATIENCE = 60  # [s]
 

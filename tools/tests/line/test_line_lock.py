@@ -8,14 +8,13 @@ from types import SimpleNamespace
 
 import pytest
 import serial
-from plumb.line import line_lock, serial_port
-from plumb.line.line_lock import LineLock, TakenError, refuse_others
-from plumb.line.serial_port import SerialPort
+from plumb.line import port
+from plumb.line.port import LineLock, SerialPort, TakenError, refuse_others
 from plumb.text.errors import InputError
 
 HAS_LINE = """
 import sys
-from plumb.line.line_lock import LineLock
+from plumb.line.port import LineLock
 lock = LineLock(sys.argv[1])
 print("taken", flush=True)
 sys.stdin.read()
@@ -25,7 +24,7 @@ sys.stdin.read()
 @pytest.fixture(autouse=True)
 def locks(tmp_path, monkeypatch):
     """Locks in a folder of the test."""
-    monkeypatch.setattr(line_lock.tempfile, "gettempdir", lambda: str(tmp_path))
+    monkeypatch.setattr(port.tempfile, "gettempdir", lambda: str(tmp_path))
 
 
 @pytest.fixture
@@ -37,8 +36,8 @@ def openings(monkeypatch):
         seen.paths.append(path)
         return SimpleNamespace(fileno=lambda: 77, close=lambda: None)
 
-    monkeypatch.setattr(serial_port.serial, "Serial", opened)
-    monkeypatch.setattr(line_lock.fcntl, "ioctl", lambda *words: seen.asked.append(words))
+    monkeypatch.setattr(port.serial, "Serial", opened)
+    monkeypatch.setattr(port.fcntl, "ioctl", lambda *words: seen.asked.append(words))
     return seen
 
 
@@ -65,7 +64,7 @@ def test_a_line_that_could_not_be_opened_is_left_to_others(monkeypatch):
     def refuse(*_, **__):
         raise serial.SerialException("no such file")
 
-    monkeypatch.setattr(serial_port.serial, "Serial", refuse)
+    monkeypatch.setattr(port.serial, "Serial", refuse)
     with pytest.raises(InputError, match="cannot be opened"):
         SerialPort("/dev/ttyACM7")
     LineLock("/dev/ttyACM7").release()
@@ -88,7 +87,7 @@ def test_a_lock_that_another_user_made_and_cannot_be_read_stands_in_nobodys_way(
     def refuse(*_):
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(line_lock, "_opened", refuse)
+    monkeypatch.setattr(port, "_opened", refuse)
     LineLock("/dev/ttyACM7").release()
 
 
@@ -101,7 +100,7 @@ def test_a_lock_that_another_user_made_serves_where_it_can_be_read(monkeypatch):
         return open_file(path, flags, *mode)
 
     first = LineLock("/dev/ttyACM7")
-    monkeypatch.setattr(line_lock.os, "open", opened)
+    monkeypatch.setattr(port.os, "open", opened)
     with pytest.raises(TakenError):
         LineLock("/dev/ttyACM7")
     first.release()

@@ -1,7 +1,7 @@
 """Lines with numbers for the machine: the right file's, and those that it had before."""
 
 import pytest
-from plumb.line.machine_numbers import kept_before, lines_for
+from plumb.line.memory import kept_before, lines_for
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 

@@ -4,8 +4,8 @@ from types import SimpleNamespace
 
 import pytest
 import serial
-from plumb.line import serial_port
-from plumb.line.serial_port import SerialPort, port_for
+from plumb.line import port
+from plumb.line.port import SerialPort, port_for
 from plumb.text.errors import InputError
 
 BOARD = SimpleNamespace(device="/dev/ttyACM0", vid=0x2341)
@@ -16,7 +16,7 @@ BUILT_IN = SimpleNamespace(device="/dev/ttyS0", vid=None)  # of the computer, no
 @pytest.fixture
 def plug(monkeypatch):
     def plugged(*ports):
-        monkeypatch.setattr(serial_port.list_ports, "comports", lambda: list(ports))
+        monkeypatch.setattr(port.list_ports, "comports", lambda: list(ports))
 
     return plugged
 
@@ -55,6 +55,6 @@ def test_why_a_line_cannot_be_opened_decides_what_to_do(monkeypatch, error, reme
     def refuse(*_, **__):
         raise serial.SerialException(error)
 
-    monkeypatch.setattr(serial_port.serial, "Serial", refuse)
+    monkeypatch.setattr(port.serial, "Serial", refuse)
     with pytest.raises(InputError, match=f"^COM3: cannot be opened; {remedy}$"):
         SerialPort("COM3")

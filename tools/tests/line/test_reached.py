@@ -1,8 +1,7 @@
 """Which lines are surely done: those that were answered long enough ago on a machine that works."""
 
 import pytest
-from plumb.line.reached import LATE, Reached
-from plumb.line.sender import PAUSED, PER_SECOND, Sender
+from plumb.line.sender import LATE, PAUSED, PER_SECOND, Reached, Sender
 
 LINES = ["(a job)", "G21", "", "G0 X1", "G1 X2 F100 (cut)", "; end", "G0 X3"]
 

@@ -1,8 +1,7 @@
 """Where a program waits for somebody, and what the line knows of it."""
 
 import pytest
-from plumb.line.progress import Progress
-from plumb.line.waits import Wait, waits_in
+from plumb.line.progress import Progress, Wait, waits_in
 from plumb.line.worker import LineState
 
 

@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 import plumb.grid as grids
 import pytest
-from plumb.cure.demo import MARKS, SETTINGS
-from plumb.grid import benchmark_pattern as pattern
+from plumb.cure.machine_file import MARKS, SETTINGS
+from plumb.grid import pattern
+from plumb.marks.benchmark import score_as_cut, score_of
 from plumb.marks.read import read_marks
-from plumb.marks.score import score_as_cut, score_of
 from plumb.model.predict import lengths, places
 from plumb.settings.files import machine_toml
 from plumb.text.errors import InputError

@@ -1,7 +1,7 @@
 """Places counted from the edges of a sheet of 2440 by 1220 mm."""
 
 import pytest
-from plumb.marks.edges import CORNERS, from_edges, in_machine
+from plumb.marks.plausible import CORNERS, from_edges, in_machine
 
 SHEET = (2440.0, 1220.0)
 # A place 300 mm right of the middle and 110 mm above it, as a tape reads it.

@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.model.compliance import compliance
-from plumb.model.predict import values_of
+from plumb.model.predict import compliance, values_of
 from synthetic import BELIEVED
 
 CHAIN_WEIGHT = 0.00137293

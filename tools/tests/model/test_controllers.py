@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.model.controllers import chain_lengths, clamped
+from plumb.model.predict import chain_lengths, clamped
 from plumb.settings.machine import MachineSettings, PublishedSettings
 
 RADIUS = 63.5 / (2 * math.pi)

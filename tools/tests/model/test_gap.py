@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from gap_tables import frames, row, tables, trial
 from plumb.cli.main import main
-from plumb.model.gap import BEYOND, PULL, motor_gap
+from plumb.model.predict import BEYOND, PULL, motor_gap
 
 ROOT = Path(__file__).resolve().parents[3]
 WEIGHT = 0.00137293  # [N/mm]

@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.board.observations import observe
-from plumb.board.sighting import LAB_NAMES, SHEET_ROTATION, sighted
+from plumb.fit.observations import observe
+from plumb.fit.sighting import LAB_NAMES, SHEET_ROTATION, sighted
 from plumb.marks.read import Distance, Measurements
 from plumb.model.catalogue import parameter_names, parameter_words
 from plumb.model.lab_effects import LAB_EFFECTS

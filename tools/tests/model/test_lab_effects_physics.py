@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.board.observations import observe
-from plumb.board.sighting import SHEET_ROTATION, sighted
+from plumb.fit.observations import observe
+from plumb.fit.sighting import SHEET_ROTATION, sighted
 from plumb.marks.read import Distance, Mark, Measurements
 from plumb.model.predict import values_of
 from synthetic import BELIEVED

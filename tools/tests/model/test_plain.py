@@ -13,7 +13,7 @@ from plumb.model.plain import (
     plain_size,
     plainly,
 )
-from plumb.text.shown import shown_in
+from plumb.text.values import shown_in
 
 
 @pytest.mark.parametrize(

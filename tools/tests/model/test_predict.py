@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.board.observations import observe
-from plumb.board.visits import chains_to, loaded, visited
+from plumb.fit.observations import chains_to, loaded, observe, visited
 from plumb.marks.read import Measurements
 from plumb.model.predict import (
     FOUND,

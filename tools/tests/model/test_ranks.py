@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import plumb
 import pytest
-from plumb.model.ranks import TIE, ascending, greatest, least, ranked
+from plumb.model.plain import TIE, ascending, greatest, least, ranked
 
 
 def rounded_otherwise(numbers, seed):
@@ -46,10 +46,10 @@ def test_items_come_by_their_numbers():
 
 def test_nothing_that_users_get_is_ranked_by_the_last_bit():
     """These alone may: they rank yes and no, whole numbers, or places that nobody is shown."""
-    allowed = {"model/ranks.py", "diagnosis/likeliest.py", "jobs/parts.py", "pictures/panel.py"}
+    allowed = {"model/plain.py", "diagnosis/judgement.py", "job/check.py", "pictures/scale.py"}
     root, ranks = Path(plumb.__file__).parent, re.compile(r"arg(?:min|max|sort)\(")
     users = [path for path in root.rglob("*.py") if path.parent.name not in ("bench", "vm")]
     ranking = [
         path.relative_to(root).as_posix() for path in users if ranks.search(path.read_text())
     ]
-    assert {*ranking} <= allowed and "model/ranks.py" in ranking
+    assert {*ranking} <= allowed and "model/plain.py" in ranking

@@ -7,7 +7,7 @@ import numpy as np
 import plumb.grid as grids
 import pytest
 from plumb.cli.reach import SIGNS, map_of
-from plumb.cure.demo import SETTINGS
+from plumb.cure.machine_file import SETTINGS
 from plumb.model.predict import (
     CANNOT_HANG,
     REACH_LIMITS,

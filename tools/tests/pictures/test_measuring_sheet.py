@@ -7,8 +7,8 @@ import tomllib
 import plumb.grid as marks_grid
 import pytest
 from matplotlib.patches import Rectangle
-from plumb.cli.measuring import content_of
-from plumb.grid.benchmark_pattern import SPANS
+from plumb.cli.grid import content_of
+from plumb.grid.pattern import SPANS
 from plumb.pictures.measuring_sheet import PAPER, measuring_sheet, pages_of
 
 MACHINE = marks_grid.PlainMachine()

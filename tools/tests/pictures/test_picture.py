@@ -5,7 +5,7 @@ import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import pytest
-from plumb.pictures.panel import Panel
+from plumb.pictures.scale import Panel
 from plumb.pictures.sheet import FORMATS, draw
 
 SHEET = (2438.4, 1219.2)

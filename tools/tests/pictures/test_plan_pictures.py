@@ -5,8 +5,14 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from plumb.pictures.plan import draw_plan, place_sentences, rows_for
-from plumb.pictures.preview import numbered_places, sentences_of, with_places
+from plumb.pictures.plan import (
+    draw_plan,
+    numbered_places,
+    place_sentences,
+    rows_for,
+    sentences_of,
+    with_places,
+)
 from plumb.plan.planned_visits import Visits
 
 SHEET = (2400.0, 1200.0)

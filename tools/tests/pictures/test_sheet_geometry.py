@@ -2,9 +2,8 @@
 
 import numpy as np
 import pytest
-from plumb.pictures.labels import label_boxes
-from plumb.pictures.panel import Panel, spots_of
-from plumb.pictures.scale import HEAD, View, exaggeration, round_down, view_of
+from plumb.pictures.scale import HEAD, Panel, View, exaggeration, round_down, spots_of, view_of
+from plumb.pictures.sheet import label_boxes
 
 SHEET = (2438.4, 1219.2)
 

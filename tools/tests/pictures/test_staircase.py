@@ -4,8 +4,15 @@ import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import pytest
-from plumb.pictures.panel import Panel
-from plumb.pictures.staircase import BARS, TALLEST, Stair, bar_height, columns_for, draw_staircase
+from plumb.pictures.fingerprints import (
+    BARS,
+    TALLEST,
+    Stair,
+    bar_height,
+    columns_for,
+    draw_staircase,
+)
+from plumb.pictures.scale import Panel
 
 SHEET = (2438.4, 1219.2)
 PLACES = np.array([[-1000.0, 500.0], [0.0, 500.0], [1000.0, -500.0]])

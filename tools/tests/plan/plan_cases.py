@@ -2,11 +2,10 @@
 
 from dataclasses import replace
 
-from plumb.board.observations import model_and_observations
 from plumb.diagnosis.clean import felt_effects
-from plumb.diagnosis.explanation import Board, explain
+from plumb.diagnosis.explanation import KNOWN, Board, explain
 from plumb.diagnosis.noise import Noise
-from plumb.diagnosis.significance import KNOWN
+from plumb.fit.observations import model_and_observations
 from plumb.marks.read import Measurements
 from plumb.plan.case import Case, _as_fitted, hidden_hypotheses
 from synthetic import BELIEVED, EFFECTS, grid, marks_on

@@ -4,16 +4,14 @@ import numpy as np
 import pytest
 from plumb.bench.boards import cut, plan
 from plumb.bench.causes import PUBLISHED, Hidden, causes_of
-from plumb.bench.owner import BoardOwner
+from plumb.bench.judged_board import BoardOwner
 from plumb.diagnosis import diagnose
 from plumb.diagnosis.clean import felt_effects
-from plumb.diagnosis.likeliest import listing
+from plumb.diagnosis.judgement import listing
 from plumb.diagnosis.weighing import weigh
 from plumb.fit.inputs import Inputs
 from plumb.plan import propose
-from plumb.plan.accounts_then import accounts_then
-from plumb.plan.ahead import Planned
-from plumb.plan.case import LIKELY, MOST_TRUTHS, case_of
+from plumb.plan.case import LIKELY, MOST_TRUTHS, Planned, accounts_then, case_of
 from plumb.plan.options import many_marks
 from plumb.plan.outlook import Rediagnosis
 from plumb.plan.planned_visits import nowhere

@@ -6,11 +6,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from plan_cases import SIGMA, case_on, nine
-from plumb.diagnosis.noise import Noise
-from plumb.diagnosis.noise_sources import FEW_REPEATS, STATEMENT
-from plumb.diagnosis.spread import Spread
+from plumb.diagnosis.explanation import Spread
+from plumb.diagnosis.noise import FEW_REPEATS, STATEMENT, Noise
 from plumb.marks.read import Measurements
-from plumb.plan.ahead import ahead
+from plumb.plan.case import ahead
 from plumb.plan.options import _Shop, many_marks
 from plumb.plan.outlook import Rediagnosis, _drop, noise_after
 from plumb.plan.planned_visits import joined, nowhere

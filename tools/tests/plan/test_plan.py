@@ -14,14 +14,11 @@ from plumb.fit.problem import PRIORS
 from plumb.model.catalogue import effect_names, parameter_words
 from plumb.model.predict import FOUND, lengths
 from plumb.plan import propose
-from plumb.plan.ahead import Check, Planned, ahead
-from plumb.plan.case import case_of
-from plumb.plan.direct_checks import FRAME_CHECKS, effect_checks
+from plumb.plan.case import Check, Planned, ahead, case_of
 from plumb.plan.options import ROOM_FOR_A_SECOND, _Shop, many_marks, options
 from plumb.plan.outlook import Rediagnosis, outlook
-from plumb.plan.planned_visits import nowhere, sent
-from plumb.plan.separation import ENOUGH, Chooser, apart, drawn_by
-from plumb.plan.sites import usable
+from plumb.plan.planned_visits import nowhere, sent, usable
+from plumb.plan.separation import ENOUGH, FRAME_CHECKS, Chooser, apart, drawn_by, effect_checks
 from synthetic import BELIEVED, distances_between, grid, marks_on
 
 NINE = plan(3, 3)

@@ -7,7 +7,6 @@ import pytest
 from plan_cases import MACHINE, case_on, nine
 from plumb.fit.problem import Checked
 from plumb.marks.read import Measurements
-from plumb.plan.direct_checks import FRAME_CHECKS, effect_checks
 from plumb.plan.options import (
     FEW,
     HANGING,
@@ -24,6 +23,7 @@ from plumb.plan.options import (
     spots,
 )
 from plumb.plan.planned_visits import sent
+from plumb.plan.separation import FRAME_CHECKS, effect_checks
 from plumb.settings.machine import GRAVITY
 from synthetic import distances_between, grid, marks_on
 

@@ -9,8 +9,7 @@ from plan_cases import MACHINE, case_on, nine
 from plumb.diagnosis.explanation import explain
 from plumb.diagnosis.sizes import Room
 from plumb.marks.read import Measurements
-from plumb.plan.ahead import Check, Planned
-from plumb.plan.case import _root
+from plumb.plan.case import Check, Planned, _root
 from plumb.plan.options import many_marks
 from plumb.plan.planned_visits import nowhere
 from plumb.plan.proposal import DISTINGUISHED, _parted, _readings, _rooms, _smallest, _stability

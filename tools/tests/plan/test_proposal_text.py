@@ -7,7 +7,7 @@ import pytest
 from plumb.cli.next import _table as table_of
 from plumb.model.plain import noun_of
 from plumb.plan import Next
-from plumb.plan.ahead import Check
+from plumb.plan.case import Check
 from plumb.plan.options import Option
 from plumb.plan.planned_visits import nowhere
 from plumb.plan.proposal import (
@@ -20,8 +20,11 @@ from plumb.plan.proposal import (
     Proposal,
     RoomThen,
     _best_first,
+    headline_of,
+    percent,
+    promise_of,
+    steps_of,
 )
-from plumb.plan.proposal_text import headline_of, percent, promise_of, steps_of
 
 CUT = Option("marks", "4 more marks", ("Cut four.",), 9.4, nowhere())
 ROOMS = (RoomThen("chain_sag", 5.0, 1.24), RoomThen("chain_pitch", 2.0, 1.9))

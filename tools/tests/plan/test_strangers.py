@@ -8,10 +8,9 @@ import pytest
 from plan_cases import MACHINE, SIGMA, case_on, nine
 from plumb.diagnosis.slip_cause import Slip
 from plumb.marks.read import Measurements
-from plumb.plan.check_places import BELOW, check_places
 from plumb.plan.options import MARK, READING, ROUND
-from plumb.plan.sites import NEAR, grid, new_places, usable
-from plumb.plan.strangers import BESIDE, READ_AGAIN, SURE, for_slips, near_the_worst
+from plumb.plan.planned_visits import BELOW, NEAR, check_places, grid, new_places, usable
+from plumb.plan.proposal import BESIDE, READ_AGAIN, SURE, for_slips, near_the_worst
 from synthetic import distances_between, marks_on
 from synthetic import grid as targets_of
 

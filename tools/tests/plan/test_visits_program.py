@@ -6,9 +6,15 @@ import numpy as np
 import pytest
 from plumb.marks.model import Mark
 from plumb.marks.read import read_plan
-from plumb.plan.plan_marks import marks_file
-from plumb.plan.planned_visits import joined, nowhere, place_name, sent
-from plumb.plan.visits_program import program, way_into
+from plumb.plan.planned_visits import (
+    joined,
+    marks_file,
+    nowhere,
+    place_name,
+    program,
+    sent,
+    way_into,
+)
 from synthetic import BELIEVED
 
 

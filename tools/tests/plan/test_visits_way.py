@@ -4,7 +4,7 @@ import dataclasses
 
 import pytest
 from plumb.marks.model import Mark
-from plumb.plan.visits_way import refuse_way
+from plumb.plan.planned_visits import refuse_way
 from plumb.text.errors import InputError
 from synthetic import BELIEVED
 

@@ -88,14 +88,14 @@ def test_every_file_that_a_page_names_exists() -> None:
 
 
 @pytest.mark.parametrize("command", commands())
-def test_every_command_has_a_page_that_shows_it_and_its_options(command: str) -> None:
+def test_every_command_has_a_page_that_shows_it_and_names_its_help(command: str) -> None:
     contents = (ROOT / "docs/README.md").read_text(encoding="utf-8")
     listed = re.search(rf"\[plumb [^]]*\b{command}\b[^]]*\]\((commands/[\w-]+\.md)\)", contents)
     assert listed, f"docs/README.md lists no page of plumb {command}"
     page = (ROOT / "docs" / listed[1]).read_text(encoding="utf-8")
     blocks = "".join(re.findall(r"```console\n(.*?)```", page, re.DOTALL))
     assert re.search(rf"^\$ .*\bplumb {command} (?!--help)", blocks, re.MULTILINE)
-    assert f"$ plumb {command} --help\nusage: plumb {command}" in blocks
+    assert f"`plumb {command} --help`" in page
 
 
 @pytest.mark.parametrize(

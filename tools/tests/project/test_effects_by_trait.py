@@ -14,14 +14,14 @@ STORIES = {
     "bench/causes.py",
     "bench/hiding.py",
     # The example of an option, whose help must not wait for the catalogue.
-    "cli/arguments/add.py",
-    "cli/arguments/checked.py",
+    "cli/add.py",
+    "cli/checked.py",
     # Machines on which chains slip, and a question to the owner about the links of a chain.
     "bench/slipped_chains.py",
     "lab/known_numbers.py",
     # What a rule or a scale reads for a number: the page asks for no number without such words.
     "lab/by_hand.py",
-    "cure/demo.py",
+    "cure/machine_file.py",
     "cli/demo.py",
 }
 REMEDY = "give the effect a trait (lib/Kinematics/src/effect.h) and ask plumb.model.catalogue"

@@ -14,7 +14,7 @@ from pathlib import Path
 from urllib.request import urlopen
 
 import pytest
-from plumb.cure.demo import MARKS, SETTINGS
+from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.settings.files import read_settings
 from plumb.settings.toml import machine_toml
 

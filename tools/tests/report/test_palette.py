@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from plumb.report.palette import COLOURS
+from plumb.report.maps import COLOURS
 
 
 def luminance(colour):

@@ -9,7 +9,8 @@ import pytest
 from plumb.cli.main import main
 from plumb.diagnosis.expected_error import expected_error
 from plumb.model.plain import plain_size
-from plumb.report import fall, maps
+from plumb.report import findings as fall
+from plumb.report import maps
 from plumb.report.findings import find
 from plumb.settings.files import write_machine_toml
 from reports import EXAMPLE, Page, asked, board, nine, reported, spans, strange

@@ -6,10 +6,8 @@ import re
 import pytest
 from plumb.firmware.settings import every_setting, format_value
 from plumb.model.predict import frame_words, library
-from plumb.settings.groundcontrol import groundcontrol_changes
-from plumb.settings.ini import SOURCES
-from plumb.settings.limits import FRAME_LIMITS, PUBLISHED_LIMITS
-from plumb.settings.machine import MachineSettings
+from plumb.settings.ini import SOURCES, groundcontrol_changes
+from plumb.settings.machine import FRAME_LIMITS, PUBLISHED_LIMITS, MachineSettings
 from settings_page import PAGE, main, page
 
 SETTINGS = {setting.number: setting for setting in every_setting()}

@@ -11,7 +11,7 @@ from plumb.settings.files import (
     read_settings,
     write_groundcontrol_ini,
 )
-from plumb.settings.groundcontrol import number_for_firmware
+from plumb.settings.ini import number_for_firmware
 from plumb.settings.machine import PublishedSettings
 from plumb.text.errors import InputError
 

@@ -4,7 +4,7 @@ from dataclasses import FrozenInstanceError, replace
 
 import numpy as np
 import pytest
-from plumb.model.controllers import chain_lengths
+from plumb.model.predict import chain_lengths
 from plumb.settings.machine import MachineSettings, PublishedSettings, radius_in_published
 from plumb.text.errors import InputError
 

@@ -3,8 +3,13 @@
 from dataclasses import fields, replace
 
 import pytest
-from plumb.settings.limits import FRAME_LIMITS, PUBLISHED_LIMITS, find_fault
-from plumb.settings.machine import MachineSettings, PublishedSettings
+from plumb.settings.machine import (
+    FRAME_LIMITS,
+    PUBLISHED_LIMITS,
+    MachineSettings,
+    PublishedSettings,
+    find_fault,
+)
 
 GOOD = MachineSettings(2978.4, 1072.6, 139.1, 2438.4, 1219.2, "top")
 

@@ -1,7 +1,7 @@
 """Lengths as people type them: fractions, inches, and hints for decimal commas."""
 
 import pytest
-from plumb.text.lengths import INCH, length, length_in, point
+from plumb.text.values import INCH, length, length_in, point
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,7 @@
 """Single checks on values that people type."""
 
 import pytest
-from plumb.text.shown import bare, signed
-from plumb.text.values import number, number_in, one_of, pair, refuse_unknown, within
+from plumb.text.values import bare, number, number_in, one_of, pair, refuse_unknown, signed, within
 
 
 @pytest.mark.parametrize(

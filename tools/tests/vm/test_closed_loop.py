@@ -9,7 +9,7 @@ from plumb.bench.boards import plan, size_for
 from plumb.bench.causes import MAKER, Hidden, causes_of
 from plumb.grid.options import Grid
 from plumb.marks.read import read_marks
-from plumb.plan.ahead import Check
+from plumb.plan.case import Check
 from plumb.vm.garage import Garage, random_garage
 from plumb.vm.loop import closed_loop
 from plumb.vm.owner import VirtualOwner, true_value

@@ -3,7 +3,7 @@
 import os
 
 import pytest
-from plumb.line import line_lock
+from plumb.line import port
 from plumb.text.errors import InputError
 from plumb.vm.pseudo_terminal import PseudoTerminal
 
@@ -12,7 +12,7 @@ from plumb.vm.pseudo_terminal import PseudoTerminal
 def locks(tmp_path, monkeypatch):
     """Locks in a folder of the test."""
     (tmp_path / "locks").mkdir()
-    monkeypatch.setattr(line_lock.tempfile, "gettempdir", lambda: str(tmp_path / "locks"))
+    monkeypatch.setattr(port.tempfile, "gettempdir", lambda: str(tmp_path / "locks"))
 
 
 @pytest.fixture

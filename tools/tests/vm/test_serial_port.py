@@ -9,7 +9,7 @@ import pytest
 import serial
 from plumb.cli.main import main
 from plumb.diary.file import append, read_diary
-from plumb.line.serial_port import port_for
+from plumb.line.port import port_for
 from plumb.text.errors import InputError
 from served_machine import INTERRUPTIBLE, PLUMB, START, plumb
 
@@ -224,7 +224,7 @@ def test_no_board_or_several_are_named(monkeypatch):
             self.device, self.vid = device, vid
 
     boards = [Board("/dev/ttyS0", None)]
-    monkeypatch.setattr("plumb.line.serial_port.list_ports.comports", lambda: boards)
+    monkeypatch.setattr("plumb.line.port.list_ports.comports", lambda: boards)
     with pytest.raises(InputError, match="no board on USB: connect the Mega"):
         port_for(None)
     boards.append(Board("/dev/ttyACM0", 0x2341))

@@ -11,12 +11,11 @@ from pydantic import BaseModel, Field, FiniteFloat
 
 from plumb.cure.add import add, add_to
 from plumb.cure.live_board import Chosen
-from plumb.cure.machine_file import toml_of
-from plumb.cure.record import record_of
+from plumb.cure.machine_file import record_of, toml_of
 from plumb.diagnosis.suspect_curves import Curve
 from plumb.fit.covariates import Covariate
+from plumb.fit.expected import plausible_range
 from plumb.fit.fit import Fit
-from plumb.fit.plausible import plausible_range
 from plumb.lab.choices import read_choices
 from plumb.lab.commands import command, known_words, unit_words
 from plumb.lab.live_boards import LiveBoards, WarmBoard
@@ -27,7 +26,7 @@ from plumb.model.catalogue import every_effect, is_sketch, parameter_words
 from plumb.model.plain import noun_of, plain_size
 from plumb.model.predict import Array
 from plumb.text.errors import InputError
-from plumb.text.shown import shown_in
+from plumb.text.values import shown_in
 
 router = APIRouter(tags=["bench"])
 NEW_MACHINE = "new.toml"

@@ -8,10 +8,8 @@ import numpy as np
 from fastapi import APIRouter
 from pydantic import BaseModel
 
-from plumb.diagnosis.check_marks import Check, check_marks
-from plumb.diagnosis.check_sentence import check_sentence
-from plumb.fit.inputs import Inputs
-from plumb.fit.read_inputs import settings_in
+from plumb.diagnosis.check_marks import Check, check_marks, check_sentence
+from plumb.fit.inputs import Inputs, settings_in
 from plumb.grid import program
 from plumb.grid.cut_with import with_form
 from plumb.lab.choices import Choices, read_choices, save_choices
@@ -26,12 +24,12 @@ from plumb.lab.routes.machine import MachineAnswer, machine
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.readings import CHECK, ENDING, form_of
 from plumb.line.sender import cleaned
-from plumb.marks.edges import from_edges
+from plumb.marks.plausible import from_edges
 from plumb.marks.read import read_marks
 from plumb.model.predict import known_effects
-from plumb.plan.check_places import check_places
+from plumb.plan.planned_visits import check_places
 from plumb.text.errors import InputError
-from plumb.text.shown import shown_in
+from plumb.text.values import shown_in
 
 router = APIRouter(tags=["check"])
 

@@ -10,7 +10,7 @@ from fastapi import APIRouter
 from pydantic import BaseModel
 
 from plumb import api
-from plumb.fit.read_inputs import settings_in
+from plumb.fit.inputs import settings_in
 from plumb.lab.choices import Choices, read_choices
 from plumb.lab.commands import command, unit_words
 from plumb.lab.known import stated

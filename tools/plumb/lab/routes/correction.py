@@ -9,12 +9,16 @@ from pydantic import BaseModel
 
 from plumb.cure.add import Addition, Parameter
 from plumb.cure.auto import add_auto
-from plumb.cure.correction import Correction, correct, has_setting
-from plumb.cure.machine_file import toml_of, turn_sentences
-from plumb.cure.origin import refuse_other_origin
-from plumb.cure.record import record_of
-from plumb.diary.entries import FIT, fit_entry
-from plumb.diary.keeping import keep
+from plumb.cure.live_board import refuse_other_origin
+from plumb.cure.machine_file import (
+    Correction,
+    correct,
+    has_setting,
+    record_of,
+    toml_of,
+    turn_sentences,
+)
+from plumb.diary.file import FIT, fit_entry, keep
 from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files
 from plumb.fit.inputs import Inputs
 from plumb.lab.background import Progress
@@ -29,7 +33,7 @@ from plumb.lab.routes.project import TheProject
 from plumb.lab.routes.verdict import TheBackground
 from plumb.model.plain import plain_change, plain_range
 from plumb.text.errors import InputError
-from plumb.text.shown import shown_in
+from plumb.text.values import shown_in
 
 router = APIRouter(tags=["correction"])
 CLIENT_OF = {Path(file).suffix: client for client, file in CLIENT_FILES.items()}

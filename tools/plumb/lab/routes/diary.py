@@ -7,15 +7,13 @@ from datetime import datetime
 from fastapi import APIRouter
 from pydantic import BaseModel
 
-from plumb.diary.entries import FIT
-from plumb.diary.file import Diary, read_diary
+from plumb.diary.file import FIT, Diary, noted, read_diary
 from plumb.diary.history import Course, history_of
-from plumb.diary.noted import noted
 from plumb.lab.choices import read_choices
 from plumb.lab.commands import command, unit_words
 from plumb.lab.routes.project import TheProject
 from plumb.model.plain import plain_change, plainly
-from plumb.text.shown import shown_in
+from plumb.text.values import shown_in
 
 router = APIRouter(tags=["diary"])
 MOST = 50  # other entries that are shown

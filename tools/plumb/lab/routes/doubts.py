@@ -5,17 +5,16 @@ from __future__ import annotations
 from fastapi import APIRouter
 from pydantic import BaseModel
 
-from plumb.diagnosis.doubted import Doubted, doubted_readings
-from plumb.fit.inputs import Inputs
-from plumb.fit.read_inputs import settings_in
+from plumb.diagnosis.doubts import Doubted, doubted_readings
+from plumb.fit.inputs import Inputs, settings_in
 from plumb.lab.choices import read_choices
 from plumb.lab.known import stated
 from plumb.lab.known_numbers import refuse_absurd_known
 from plumb.lab.routes.project import TheProject
-from plumb.marks.edges import from_edges
 from plumb.marks.form import read_form
+from plumb.marks.plausible import from_edges
 from plumb.model.predict import known_effects
-from plumb.text.shown import shown_in
+from plumb.text.values import shown_in
 
 router = APIRouter(tags=["doubts"])
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from fastapi import APIRouter
 from pydantic import BaseModel
 
-from plumb.fit.read_inputs import settings_in
+from plumb.fit.inputs import settings_in
 from plumb.grid import program, spans_in, touches_of
 from plumb.grid.cut_with import with_form
 from plumb.lab.choices import FILE, Choices, read_choices, save_choices, with_marks
@@ -35,7 +35,7 @@ from plumb.line.sender import cleaned
 from plumb.marks.form import BLANK, read_form, toml_text, with_distances
 from plumb.model.predict import known_effects
 from plumb.plan.options import HANGING, MARK, ROUND
-from plumb.plan.visits_way import refuse_way
+from plumb.plan.planned_visits import refuse_way
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.vm.owner import VirtualOwner

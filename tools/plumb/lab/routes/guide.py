@@ -7,11 +7,10 @@ from typing import Annotated, Literal
 from fastapi import APIRouter, Depends, Request
 from pydantic import BaseModel, Field
 
-from plumb.firmware.read_back import machine_of_numbers
-from plumb.fit.read_inputs import settings_in
-from plumb.guide.progress import progress_in
-from plumb.guide.steps import SETTINGS, STEPS, Visit
-from plumb.guide.walk import open_step
+from plumb.firmware.settings import machine_of_numbers
+from plumb.fit.inputs import settings_in
+from plumb.guide.steps import SETTINGS, STEPS, Visit, open_step
+from plumb.guide.talk import progress_in
 from plumb.lab.choices import Choices, Number, read_choices, save_choices
 from plumb.lab.commands import command
 from plumb.lab.guide_desk import GuideDesk, Kind

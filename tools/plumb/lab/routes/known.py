@@ -11,8 +11,8 @@ from plumb.lab.known_numbers import WEIGHED, WEIGHT, KnownNumber, known_numbers
 from plumb.lab.machine_line import TheLine
 from plumb.lab.routes.plan import opened
 from plumb.lab.routes.project import TheProject
-from plumb.plan.ahead import Check
-from plumb.plan.direct_checks import FRAME_CHECKS, effect_checks
+from plumb.plan.case import Check
+from plumb.plan.separation import FRAME_CHECKS, effect_checks
 from plumb.settings.machine import GRAVITY
 from plumb.text.errors import InputError
 from plumb.text.values import refuse_unknown

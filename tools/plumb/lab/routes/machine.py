@@ -9,18 +9,15 @@ from typing import Annotated, Literal
 from fastapi import APIRouter
 from pydantic import BaseModel, Field
 
-from plumb.diary.numbers_written import write_and_keep
-from plumb.firmware.in_force import digest_of_numbers
-from plumb.firmware.read_back import machine_of_numbers
-from plumb.firmware.settings import every_setting
-from plumb.jobs.program_file import refuse_what_is_no_program
+from plumb.diary.file import write_and_keep
+from plumb.firmware.settings import digest_of_numbers, every_setting, machine_of_numbers
+from plumb.job.dry_run import refuse_what_is_no_program
 from plumb.lab.choices import save_choices
 from plumb.lab.held import refuse_foreign_fit
 from plumb.lab.machine_line import MachineLine, TheLine, ports
 from plumb.lab.project import Project
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
-from plumb.line.machine_numbers import kept_before, lines_for
-from plumb.line.memory import Written
+from plumb.line.memory import Written, kept_before, lines_for
 from plumb.line.sender import Sender
 from plumb.settings.files import machine_toml, read_settings
 from plumb.text.errors import InputError

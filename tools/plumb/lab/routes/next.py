@@ -9,7 +9,7 @@ from fastapi import APIRouter
 from pydantic import BaseModel
 
 from plumb import api
-from plumb.fit.read_inputs import settings_in
+from plumb.fit.inputs import settings_in
 from plumb.lab.background import Answer, Background, Progress
 from plumb.lab.choices import read_choices, save_choices
 from plumb.lab.commands import command
@@ -20,11 +20,18 @@ from plumb.lab.routes.comparison import inputs_of
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.verdict import Arrow, TheBackground, board_and_known
 from plumb.lab.taken import FORM, STEM, program_name
-from plumb.plan.proposal import Next, Proposal, propose
-from plumb.plan.proposal_files import form_of, program_of
-from plumb.plan.proposal_text import headline_of, promise_of, steps_of
+from plumb.plan.proposal import (
+    Next,
+    Proposal,
+    form_of,
+    headline_of,
+    program_of,
+    promise_of,
+    propose,
+    steps_of,
+)
 from plumb.text.errors import InputError
-from plumb.text.shown import shown_in
+from plumb.text.values import shown_in
 
 router = APIRouter(tags=["next"])
 MOST_OTHERS = 7

@@ -11,7 +11,7 @@ from fastapi import APIRouter
 from pydantic import BaseModel, Field
 
 from plumb.fit.expected import expected_anywhere, expected_priors, expected_sentence
-from plumb.fit.read_inputs import settings_in
+from plumb.fit.inputs import settings_in
 from plumb.lab.choices import Choices, Layout, read_choices
 from plumb.lab.commands import command, prior_words, unit_words
 from plumb.lab.known import measured_to, planned_priors, possible
@@ -19,14 +19,14 @@ from plumb.lab.planned import KINDS, Place, Planned, planned, refuse_unreachable
 from plumb.lab.project import Project
 from plumb.lab.rounds import FORM, PROGRAM, grid_command, next_number
 from plumb.lab.routes.project import TheProject
-from plumb.marks.tape_sigma import tape_sigma
+from plumb.marks.model import tape_sigma
 from plumb.model.plain import noun_of
 from plumb.model.predict import REACH_WORDS
 from plumb.model.reach import Extreme, Survey, conclusion_of, percent, survey_sheet
 from plumb.plan.preview import APART, Preview, preview
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
-from plumb.text.shown import shown_in
+from plumb.text.values import shown_in
 
 router = APIRouter(tags=["plan"])
 MOST_MARKS = 400

@@ -11,7 +11,7 @@ from typing import Annotated
 from fastapi import APIRouter, Depends, Request
 from pydantic import BaseModel, Field
 
-from plumb.fit.read_inputs import settings_in
+from plumb.fit.inputs import settings_in
 from plumb.lab.choices import Bench, Number, read_choices, save_choices
 from plumb.lab.practice_desk import PracticeDesk
 from plumb.lab.project import Project
@@ -19,8 +19,8 @@ from plumb.lab.routes.bench import NEW_MACHINE
 from plumb.lab.routes.project import TheProject
 from plumb.marks.read import Mark, Measurements
 from plumb.model.predict import values_of
-from plumb.plan.direct_checks import FRAME_CHECKS, effect_checks
 from plumb.plan.options import READING
+from plumb.plan.separation import FRAME_CHECKS, effect_checks
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.vm import practice, practice_folder

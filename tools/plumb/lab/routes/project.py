@@ -9,7 +9,7 @@ from typing import Annotated
 from fastapi import APIRouter, Depends, Request, UploadFile
 from pydantic import BaseModel
 
-from plumb.fit.read_inputs import settings_in
+from plumb.fit.inputs import settings_in
 from plumb.lab.choices import FILE, Choices, choices_text, read_choices, save_choices
 from plumb.lab.project import Project, digest_of
 from plumb.settings.machine import MachineSettings

@@ -10,14 +10,13 @@ from typing import Any
 from fastapi import APIRouter, UploadFile
 from pydantic import BaseModel
 
-from plumb.fit.read_inputs import settings_in
+from plumb.fit.inputs import settings_in
 from plumb.grid import spans_in
 from plumb.lab.choices import Choices, Edges, read_choices, save_choices, with_marks
 from plumb.lab.commands import command, known_words, unit_words
 from plumb.lab.project import Project
 from plumb.lab.routes.project import TheProject
 from plumb.lab.taken import is_read_again
-from plumb.marks.edges import from_edges, in_machine
 from plumb.marks.form import (
     Form,
     head_of,
@@ -26,9 +25,9 @@ from plumb.marks.form import (
     with_distances,
     with_readings,
 )
-from plumb.marks.model import Measurements
+from plumb.marks.model import Measurements, tape_sigma
+from plumb.marks.plausible import from_edges, in_machine
 from plumb.marks.read import read_marks
-from plumb.marks.tape_sigma import tape_sigma
 from plumb.model.predict import known_effects
 from plumb.text.errors import InputError
 

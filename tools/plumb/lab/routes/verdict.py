@@ -12,13 +12,12 @@ from pydantic import BaseModel
 from plumb import api
 from plumb.cure.add import Addition
 from plumb.cure.auto import AutoAddition, add_auto
-from plumb.diagnosis.answer import Diagnosis, Together
+from plumb.diagnosis.answer import SHOWN, Diagnosis, Together, odds_words, verdict_sentence
 from plumb.diagnosis.diagnosis import Examined, examine
 from plumb.diagnosis.explanation import Explanation
-from plumb.diagnosis.fingerprint import fingerprint_of
-from plumb.diagnosis.sentence import SHOWN, odds_words, verdict_sentence
 from plumb.diagnosis.sizes import Size
-from plumb.fit.plausible import plausible_range
+from plumb.diagnosis.suspect_curves import fingerprint_of
+from plumb.fit.expected import plausible_range
 from plumb.lab.background import Background, Progress
 from plumb.lab.choices import read_choices
 from plumb.lab.commands import command, known_words, unit_words
@@ -27,9 +26,8 @@ from plumb.lab.project import Project
 from plumb.lab.routes.comparison import board_words, inputs_of
 from plumb.lab.routes.project import TheProject
 from plumb.model.catalogue import every_effect, label
-from plumb.model.plain import noun_of, nouns_of, plain_range, plain_size, plainly
-from plumb.model.ranks import ranked
-from plumb.text.shown import shown_in, worded
+from plumb.model.plain import noun_of, nouns_of, plain_range, plain_size, plainly, ranked
+from plumb.text.values import shown_in, worded
 
 router = APIRouter(tags=["verdict"])
 MOST_CARDS = 6

@@ -12,7 +12,7 @@ import numpy as np
 from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.predict import known_effects
 from plumb.model.sketches.sketch import Sketch, Strands
-from plumb.text.scripts import load_script
+from plumb.text.errors import load_script
 
 VARIABLE = "PLUMB_SKETCHES"  # names a folder of the user
 OWN_FILES = ("loader.py", "sketch.py")

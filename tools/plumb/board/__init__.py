@@ -1,1 +1,0 @@
-"""A measured board as the fit sees it: each reading, and where the sled went for it."""

@@ -1,0 +1,255 @@
+"""The distances that are taped between the marks of a grid."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+from plumb.grid.options import MIN_FREE_CHAIN, Grid, PlainMachine, check_numbers, demand
+from plumb.text.errors import to_do
+
+Cell = tuple[int, int]  # row and column
+ASKED = "# Lay the tape between these marks, in this order: "
+
+
+def spans_of(grid: Grid) -> list[tuple[str, str]]:
+    """Names of marks: the sides and diagonals of the grid, and from its middle what halves them."""
+    plain = grid.pattern == "grid" and not grid.places
+    option = to_do("--distances is", page="distances are")
+    demand(plain, f"{option} for marks in columns and rows: leave that out")
+    end, bottom = grid.columns - 1, grid.rows - 1
+    top_left, top_right, bottom_right, bottom_left = (0, 0), (0, end), (bottom, end), (bottom, 0)
+    spans = [(top_left, top_right), (top_right, bottom_right), (bottom_right, bottom_left)]
+    spans += [(bottom_left, top_left), (top_left, bottom_right), (top_right, bottom_left)]
+    if end % 2 == 0 and bottom % 2 == 0:
+        across, down = end // 2, bottom // 2
+        top, middle, left, right = (0, across), (down, across), (down, 0), (down, end)
+        spans += [(top, (bottom, across)), (left, right), (top_left, top)]
+        spans += [(left, middle), (middle, right), (top, middle)]
+
+    def name(cell: Cell) -> str:
+        return str(cell[0] * grid.columns + cell[1] + 1)
+
+    return [(name(first), name(second)) for first, second in spans]
+
+
+def spans_line(spans: Sequence[tuple[str, str]]) -> str:
+    """The line of a form's head that says between which marks a tape is laid."""
+    return ASKED + ", ".join(f"{first} - {second}" for first, second in spans)
+
+
+def spans_in(head: Sequence[str]) -> list[tuple[str, str]]:
+    """The spans that the lines of a form's head ask for, in their order."""
+    pairs = [
+        pair.split(" - ")
+        for line in head
+        if line.startswith(ASKED)
+        for pair in line[len(ASKED) :].split(", ")
+    ]
+    return [(pair[0], pair[1]) for pair in pairs if len(pair) == 2]
+
+
+# The marks of a grid in the order in which they are made, and the stops on the way to them.
+
+
+class Touch(NamedTuple):
+    """A touch of the bit at x, y [mm]; the same name with visit 1, 2, ... is a repeat."""
+
+    name: str
+    x: float
+    y: float
+    visit: int
+
+    def __str__(self) -> str:
+        return f"mark {self.name}{' again' if self.visit else ''}"
+
+
+def touches_of(grid: Grid, machine: PlainMachine) -> list[Touch]:
+    """Every touch in the order in which it is made; names count by rows from the top left."""
+    check_numbers(grid, machine)
+    if grid.pattern == "benchmark":
+        return [Touch(*place, 0) for place in benchmark_places()]
+    if grid.places:
+        return [Touch(str(i), x, y, 0) for i, (x, y) in enumerate(grid.places, start=1)]
+    width = machine.sheet_width - 2 * grid.margin
+    height = machine.sheet_height - 2 * grid.margin
+    places = _places(grid)
+    first = {}
+    for row, column in places:
+        # Whole tenths: program, comment and list say the same number. Adding 0 turns -0 into 0.
+        x = round(width * (column / (grid.columns - 1) - 0.5), 1) + 0.0
+        y = round(height * (0.5 - row / (grid.rows - 1)), 1) + 0.0
+        first[row, column] = Touch(str(row * grid.columns + column + 1), x, y, 0)
+    touches = list(first.values())
+    for visit in range(1, grid.repeats + 1):
+        # Backwards every other time: what the lead-in fails to forget then shows as noise.
+        for row, column in places[::-1] if visit % 2 else places:
+            mark = first[row, column]
+            shift = visit * grid.repeat_spacing * (-1 if mark.x > 0 else 1)
+            if _is_extreme(grid, row, column):
+                touches.append(mark._replace(x=round(mark.x + shift, 1), visit=visit))
+    return touches
+
+
+def listed(touches: list[Touch]) -> list[Touch]:
+    """The touches as an owner looks for them: by their names, a repeat after its mark."""
+    if not all(touch.name.isdigit() for touch in touches):
+        return touches
+    return sorted(touches, key=lambda touch: (int(touch.name), touch.visit))
+
+
+def _places(grid: Grid) -> list[tuple[int, int]]:
+    """Pairs of row and column in the order of the visit."""
+    rows, columns = range(grid.rows), range(grid.columns)
+    if grid.order == "columns":
+        return [(row, column) for column in columns for row in rows]
+    turned = grid.order == "snake"
+    return [(row, column) for row in rows for column in columns[:: -1 if turned and row % 2 else 1]]
+
+
+def _is_extreme(grid: Grid, row: int, column: int) -> bool:
+    """True for corners and for the middle of an edge that has a mark there (1; ends: 0, 2)."""
+    across, down = 2 * column / (grid.columns - 1), 2 * row / (grid.rows - 1)
+    return across in (0, 1, 2) and down in (0, 1, 2) and (across, down) != (1, 1)
+
+
+def lead_in(grid: Grid, mark: Touch) -> tuple[float, float]:
+    """x, y [mm] from which the sled travels straight into the mark."""
+    return mark.x - grid.approach[0], mark.y - grid.approach[1]
+
+
+def stops_of(grid: Grid, machine: PlainMachine) -> list[tuple[str, tuple[float, float]]]:
+    """Names and places [mm] of all ends of sideways moves."""
+    stops: list[tuple[str, tuple[float, float]]] = []
+    for mark in touches_of(grid, machine):
+        stops += [(f"the lead-in of {mark}", lead_in(grid, mark)), (str(mark), (mark.x, mark.y))]
+    return [("the start", (0.0, 0.0)), *stops, ("the end", (0.0, 0.0))]
+
+
+# The community's Calibration Benchmark Test: its places, its spans, and the form for its readings.
+#
+# GroundControl's "Calibration Benchmark Test.nc" (January 2018) cuts ticks 1905 mm apart across the
+# sheet and 900 mm apart upwards, and a square of 100 mm in each corner of that rectangle; the score
+# that its simulator prints (pull requests 576 and 580) counts a fifth square in the middle too.
+# Here each end is a mark. Like the rest of this room it needs only Python 3.9.
+
+ACROSS, UPWARDS, SQUARE = 1905.0, 900.0, 100.0  # [mm]
+RIGHT, TOP = ACROSS / 2, UPWARDS / 2
+# Where a square begins; two of its sides end 100 mm further in, at TLx and TLy and so on.
+CORNERS = {
+    "TL": (-RIGHT, TOP),
+    "TR": (RIGHT, TOP),
+    "BL": (-RIGHT, -TOP),
+    "BR": (RIGHT, -TOP),
+    "C": (-SQUARE / 2, SQUARE / 2),
+}
+ENDS = {"L": (-RIGHT, 0.0), "R": (RIGHT, 0.0), "T": (0.0, TOP), "B": (0.0, -TOP)}
+# Readings by their name in the form: the marks at both ends of each.
+ACROSS_SPANS = (("TL", "TR"), ("L", "R"), ("BL", "BR"))
+UPWARDS_SPANS = (("TL", "BL"), ("T", "B"), ("TR", "BR"))
+SPANS: dict[str, tuple[tuple[str, str], ...]] = {"across": ACROSS_SPANS, "upwards": UPWARDS_SPANS}
+SQUARES = {"TL": "top_left", "TR": "top_right", "BL": "bottom_left", "BR": "bottom_right"}
+SQUARES |= {"C": "center"}
+SPANS |= {SQUARES[name]: ((name, f"{name}x"), (name, f"{name}y")) for name in CORNERS}
+
+_FORM = """\
+# Readings of the Calibration Benchmark Test, mm. Fill in what you read and take away its #.
+# From mark to mark, or from one side of a cut to the same side of the other. T and B, L and R are
+# the middles of top and bottom, left and right; TL the outer corner of the top left square.
+frame = "machine"{}
+
+[benchmark]
+approach = [{:.1f}, {:.1f}]
+# 1905 mm across the sheet: TL to TR, L to R, BL to BR
+# across = [ , , ]
+# 900 mm upwards: TL to BL, T to B, TR to BR
+# upwards = [ , , ]
+# 100 mm squares: width (TL to TLx), height (TL to TLy)
+"""
+
+
+def benchmark_targets() -> dict[str, tuple[float, float]]:
+    """Where each mark is [mm] by its name."""
+    place_of = dict(ENDS)
+    for name, (x, y) in CORNERS.items():
+        place_of[name] = (x, y)
+        place_of[f"{name}x"] = (x - math.copysign(SQUARE, x), y)
+        place_of[f"{name}y"] = (x, y - math.copysign(SQUARE, y))
+    return place_of
+
+
+def benchmark_places() -> list[tuple[str, float, float]]:
+    """Name, x and y [mm] of all marks, there and back in rows from the top left."""
+    rows: dict[float, list[tuple[float, str]]] = {}
+    for name, (x, y) in benchmark_targets().items():
+        rows.setdefault(y, []).append((x, name))
+    ordered = []
+    for number, y in enumerate(sorted(rows, reverse=True)):
+        row = sorted(rows[y], reverse=bool(number % 2))
+        ordered += [(name, x, y) for x, name in row]
+    return ordered
+
+
+def benchmark_form(approach: tuple[float, float], cut_with: str = "") -> str:
+    """The text of a marks file that waits for the readings; approach [mm] into every mark."""
+    squares = [f"# {SQUARES[name]} = [ , ]" for name in CORNERS]
+    return "\n".join([_FORM.format(cut_with, *approach) + squares[0], *squares[1:], ""])
+
+
+# The way of the sled over the sheet: each place is checked before anything is written.
+
+# What moves marks where the sled can go, on the page of the lab.
+INWARDS = "place your choice of marks farther from the sheet's edges"
+WAY_STEP = 25.0  # [mm] between the places on the way at which the chains are checked
+Question = Callable[[Grid, PlainMachine, str, float, float], object]
+
+
+def tensions(machine: PlainMachine, x: float, y: float) -> tuple[float, float]:
+    """Left and right chain tension [N] at x, y [mm]: weight * cos(other) / sin(left + right)."""
+    height = machine.sheet_height / 2 + machine.motor_offset - y
+    left = math.atan2(height, machine.motor_spacing / 2 + x)
+    right = math.atan2(height, machine.motor_spacing / 2 - x)
+    share = machine.sled_weight_n / math.sin(left + right)
+    return share * math.cos(right), share * math.cos(left)
+
+
+def _check_place(grid: Grid, machine: PlainMachine, what: str, x: float, y: float) -> None:
+    """Refuses a place [mm] that the sled must not go to."""
+    what = f"{what} at x {x:.1f} y {y:.1f}"
+    half_width, half_height = machine.sheet_width / 2, machine.sheet_height / 2
+    inside = max(abs(x) - half_width, abs(y) - half_height) < 1e-6  # room for rounding
+    move = inwards(grid)
+    approach = to_do(" or change --approach", page="")
+    demand(inside, f"{what} is outside the sheet: {move}{approach}")
+    sprocket = (machine.motor_spacing / 2, half_height + machine.motor_offset)
+    free = math.dist(sprocket, (abs(x), y)) - machine.rotation_radius
+    close = f"{what} brings ring and sprocket within {free:.0f} mm of each other: {move}"
+    demand(free >= MIN_FREE_CHAIN, close)
+    pulls = tensions(machine, x, y)
+    most = to_do("--max-tension ", page="")
+    tight = f"{what} puts {max(pulls):.0f} N on a chain, more than {most}"
+    tight += f"{grid.max_tension:g}: {move}, or lighten the sled"
+    demand(max(pulls) <= grid.max_tension, tight)
+    side = "left" if pulls[0] < pulls[1] else "right"
+    least = to_do("--min-tension ", page="")
+    slack = f"{what} leaves {min(pulls):.1f} N on the {side} chain, less than {least}"
+    slack += f"{grid.min_tension:g}: {move}, or move the motors apart"
+    demand(min(pulls) >= grid.min_tension, slack)
+
+
+def inwards(grid: Grid) -> str:
+    """What to do about a mark where the sled cannot go."""
+    return to_do("move that place" if grid.places else "raise --margin", page=INWARDS)
+
+
+def check(grid: Grid, machine: PlainMachine, ask: Question = _check_place) -> None:
+    """Asks about all places that the sled passes; refuses what leaves the sheet or its limits."""
+    stops = stops_of(grid, machine)
+    for what, place in stops:
+        ask(grid, machine, what, *place)
+    x, y = stops[0][1]  # the way between two top corners passes the tightest place of all
+    for what, end in stops[1:]:
+        for steps in range(math.ceil(math.dist((x, y), end) / WAY_STEP), 0, -1):
+            x, y = x + (end[0] - x) / steps, y + (end[1] - y) / steps
+            ask(grid, machine, f"the way to {what}", x, y)

@@ -1,0 +1,3 @@
+"""Jobs: programs of G-code, as the firmware would do them, before and after a halt."""
+
+from __future__ import annotations

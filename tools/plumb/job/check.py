@@ -1,0 +1,245 @@
+"""Everything about a program before it is cut, in one value."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+
+from plumb.diagnosis.clean import clean_readings
+from plumb.diagnosis.explanation import measured_board
+from plumb.diagnosis.weighing import largest_met
+from plumb.fit.inputs import Inputs
+from plumb.fit.problem import Problem
+from plumb.job.dry_run import Done, Moves, Run, Samples
+from plumb.job.findings import (
+    Finding,
+    Hanging,
+    Slower,
+    Times,
+    ends_too_high,
+    findings_of,
+    hanging_along,
+    slower_moves,
+    times_of,
+)
+from plumb.model.predict import FOUND, NAMES, Array, lengths, places_with_slopes
+from plumb.settings.machine import MachineSettings
+
+STEP = 5.0  # [mm] between places that are looked at
+
+
+@dataclass(frozen=True)
+class Checked:
+    """A program, run dry."""
+
+    done: Done
+    samples: Samples
+    findings: tuple[Finding, ...]
+    hanging: Hanging | None  # None where nothing is cut
+    slower: tuple[Slower, ...]
+    times: Times
+    parts: tuple[Part, ...]
+    errors: tuple[PartErrors, ...] | None  # of each part; None without marks
+
+    @property
+    def is_good(self) -> bool:
+        """Whether nothing spoils a part or stops the machine."""
+        spoiled = any(finding.is_wrong for finding in self.findings)
+        return not spoiled and not (self.hanging and self.hanging.bad)
+
+
+def check_job(
+    settings: MachineSettings,
+    lines: Sequence[str],
+    *,
+    inputs: Inputs | None = None,
+    limits: Mapping[str, float] | None = None,
+    numbers: Mapping[int, float] | None = None,
+    start: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    progress: Callable[[float], None] | None = None,
+) -> Checked:
+    """Run a program dry; `inputs` are marks that tell which errors to expect."""
+    run = Run(settings, start=start, numbers=numbers)
+    run.send(lines, progress=progress)
+    done = run.finish()
+    over_sheet = done.moves.only(done.moves.over_sheet)
+    samples = over_sheet.sampled(STEP)
+    parts = parts_of(over_sheet, samples)
+    findings = findings_of(done)
+    findings += ends_too_high(settings, done)
+    errors = errors_of(Believed.of(inputs), settings, parts) if inputs else None
+    return Checked(
+        done=done,
+        samples=samples,
+        findings=tuple(sorted(findings, key=lambda finding: finding.line)),
+        hanging=hanging_along(settings, over_sheet, samples, limits or {}),
+        slower=slower_moves(over_sheet),
+        times=times_of(done),
+        parts=parts,
+        errors=errors,
+    )
+
+
+# The error to expect of each part, from measured marks: how much too wide, high or askew.
+#
+# The machine is taken as the marks leave it: the frame within its priors, and every effect of the
+# library at a size that real machines have. So the spread holds what the fit leaves open and what
+# could still hide. A part is compared with the program by the straight map that takes one to the
+# other; its shift and its turn say where it lies, not how it fits.
+
+SPREAD = 0.3  # of an effect's size, as a share of the largest that was met
+NARROW = 20.0  # [mm] below this a part is too small for its errors to be seen
+MOST = 400  # places of a part that are asked for
+TWO_SIDED = 1.96  # sigmas of 95 %
+
+
+@dataclass(frozen=True)
+class Error:
+    """An error of a part, and how far it may be off [mm]."""
+
+    mm: float
+    within: float  # 95 %
+
+
+@dataclass(frozen=True)
+class PartErrors:
+    """How a part will differ from its program."""
+
+    width: Error | None  # positive: too wide; None: too narrow to be seen
+    height: Error | None
+    skew: Error | None  # how far the top lies too far to the right of the bottom
+
+
+@dataclass(frozen=True)
+class Believed:
+    """The machine as the marks leave it: a normal about a linearized problem."""
+
+    problem: Problem
+    about: Array  # (u,) unknowns of the linearization
+    mean: Array  # (u,) to add to them
+    root: Array  # (u, u) root @ root.T is the covariance
+
+    @staticmethod
+    def of(inputs: Inputs) -> Believed:
+        """Refit the frame, then let every effect act within what real machines have."""
+        board = measured_board(inputs)
+        frame = clean_readings(board, inputs).frame
+        board = frame.board
+        held = np.asarray(board.problem.held, dtype=bool)
+        kept = np.ones(len(frame.residual), dtype=bool)
+        count = board.rows.count
+        kept[count : count + int(held.sum())] = False
+        effects = np.flatnonzero(~held)
+        precision = np.ones(len(held))
+        precision[effects] = 1 / (SPREAD * largest_met(board, effects)) ** 2
+        slopes = frame.slopes[kept]
+        information = slopes.T @ slopes + np.diag(precision)
+        pull = slopes.T @ frame.residual[kept] - precision * frame.unknowns
+        lower = scipy.linalg.cholesky(information, lower=True)
+        mean = scipy.linalg.cho_solve((lower, True), pull)
+        root = scipy.linalg.solve_triangular(lower.T, np.eye(len(held)))
+        return Believed(board.problem, frame.unknowns, mean, root)
+
+    def seen(self, settings: MachineSettings, places: Array) -> tuple[Array, Array]:
+        """Errors (n, 2) [mm] of places that a machine with these settings is sent to, and how they
+        change with the unknowns (n, 2, u)."""
+        chains, outcome = lengths(settings.as_plumb_model(), places)
+        values, _ = self.problem.values(self.about)
+        over_top = self.problem.settings.feed == "top"
+        where, by_value, reached = places_with_slopes(values, over_top=over_top, chains=chains)
+        by_name = np.zeros((*where.shape, len(self.problem.names)))
+        for column, name in enumerate(self.problem.names):
+            if name in NAMES:
+                by_name[:, :, column] = by_value[:, :, NAMES.index(name)]
+        by_name *= self.problem.scale
+        hangs = (outcome == FOUND) & (reached == FOUND)
+        errors = where - places + by_name @ self.mean
+        return errors[hangs], by_name[hangs]
+
+
+def errors_of(
+    believed: Believed, settings: MachineSettings, parts: Sequence[Part]
+) -> tuple[PartErrors, ...]:
+    """The error to expect of each part, cut with these settings."""
+    return tuple(_errors_of(believed, settings, part) for part in parts)
+
+
+def _errors_of(believed: Believed, settings: MachineSettings, part: Part) -> PartErrors:
+    places = part.places[:: max(1, len(part.places) // MOST)]
+    width, height = part.size
+    errors, slopes = believed.seen(settings, places)
+    if len(errors) < len(places) or max(width, height) < NARROW:
+        return PartErrors(None, None, None)
+    # error = shift + matrix @ (place - middle), by least squares: a row for each number of it.
+    middle = places - places.mean(axis=0)
+    fit = np.linalg.pinv(np.column_stack([np.ones(len(places)), middle]))
+    stretch = np.einsum("jn,nk->jk", fit[1:], errors)  # [by place, of error]
+    by_unknown = np.einsum("jn,nku->jku", fit[1:], slopes) @ believed.root
+    wide, high = width >= NARROW, height >= NARROW
+    return PartErrors(
+        width=_error(width * stretch[0, 0], width * by_unknown[0, 0]) if wide else None,
+        height=_error(height * stretch[1, 1], height * by_unknown[1, 1]) if high else None,
+        skew=_error(
+            height * (stretch[0, 1] + stretch[1, 0]), height * (by_unknown[0, 1] + by_unknown[1, 0])
+        )
+        if wide and high
+        else None,
+    )
+
+
+def _error(mm: float, spread: Array) -> Error:
+    return Error(float(mm), TWO_SIDED * float(np.linalg.norm(spread)))
+
+
+# The parts of a job: what is cut in one neighbourhood.
+
+CELL = 10.0  # [mm] cuts in the same cell or in neighbours belong to one part
+ALL_EIGHT = np.ones((3, 3))
+
+
+@dataclass(frozen=True)
+class Part:
+    """Cuts that lie together."""
+
+    lines: tuple[int, int]  # the first and the last
+    low: tuple[float, float]  # [mm] lower left corner
+    high: tuple[float, float]  # [mm] upper right corner
+    deepest: float  # [mm] z
+    places: Array  # (k, 2) [mm]
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height [mm], by the middle of the bit."""
+        return self.high[0] - self.low[0], self.high[1] - self.low[1]
+
+
+def parts_of(moves: Moves, samples: Samples) -> tuple[Part, ...]:
+    """The parts of a job in the order in which they are begun; `samples` of all its moves."""
+    cut = moves.cut[samples.move]
+    if not cut.any():
+        return ()
+    places, rows, z = samples.places[cut], samples.move[cut], samples.z[cut]
+    cells = np.floor((places - places.min(axis=0)) / CELL).astype(int)
+    grid = np.zeros(cells.max(axis=0) + 1, dtype=bool)
+    grid[tuple(cells.T)] = True
+    numbers, _ = scipy.ndimage.label(grid, structure=ALL_EIGHT)
+    part_of = numbers[tuple(cells.T)]
+    lines = moves["line"][rows]
+    order = np.argsort(part_of, kind="stable")
+    ends = np.flatnonzero(np.diff(part_of[order])) + 1
+    parts = [_part(places[each], lines[each], z[each]) for each in np.split(order, ends)]
+    return tuple(sorted(parts, key=lambda part: part.lines))
+
+
+def _part(places: Array, lines: Array, z: Array) -> Part:
+    (left, low), (right, high) = places.min(axis=0), places.max(axis=0)
+    return Part(
+        lines=(int(lines.min()), int(lines.max())),
+        low=(float(left), float(low)),
+        high=(float(right), float(high)),
+        deepest=float(z.min()),
+        places=places,
+    )

@@ -1,0 +1,221 @@
+"""Home marks: holes whose chains are kept. With the bit in such a hole a lost position is restored.
+
+A hole that the machine made at a place was made with the chains that its settings pay out there.
+Whatever these settings do not know was in the hole too, so the same chains are right when the bit
+is back in it, also after the settings have become better.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from math import dist
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+
+from plumb.grid.options import Grid
+from plumb.model.predict import FOUND, Array, believed_lengths, places
+from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError, refusal
+from plumb.text.files import read_text, write_whole
+
+NAME = "home.toml"
+HEAD = "# Home marks of a machine, for plumb: holes, and the chains with the bit in them. mm."
+HOLE_DEPTH = 2.0  # [mm] so that a bit finds its place in the hole
+USUAL = Grid()  # heights, feeds and the way into a mark, as a grid has them
+SURE = 3.03  # sigmas of a coordinate: beyond this length 1 % of the errors in a plane lie
+
+
+@dataclass(frozen=True)
+class HomeMark:
+    """A hole. mm, from the middle of the sheet, y up."""
+
+    name: str
+    place: Point  # where the machine was when it made the hole
+    chains: Point  # left and right paid out there
+    date: str = ""
+    settings: str = ""  # name of the settings' file then
+
+
+@dataclass(frozen=True)
+class HomeFit:
+    """How well a second home mark agrees with the first, by which the position was restored."""
+
+    name: str
+    error: Point  # [mm] of the hole, against what the machine shows with the bit in it
+    chains: Point  # [mm] by which each chain is longer than the machine believes
+    limit: float  # [mm] within which two touches by hand agree, 99 of 100 times
+
+    @property
+    def fits(self) -> bool:
+        """Whether touching two holes by hand explains the error."""
+        return float(np.hypot(*self.error)) <= self.limit
+
+
+def home_file(settings: str | PathLike[str]) -> Path:
+    """Where the home marks of a machine are: next to its settings."""
+    return Path(settings).parent / NAME
+
+
+def new_home_mark(
+    settings: MachineSettings, name: str, place: Point, *, date: str = ""
+) -> HomeMark:
+    """A hole that the machine makes at a place by these settings. Raises InputError."""
+    try:
+        left, right = believed_lengths(settings, np.array([place], dtype=float))[0].tolist()
+    except ValueError as error:
+        raise InputError(f"home mark {name}: {error}") from None
+    return HomeMark(name, place, (left, right), date, settings.file.name if settings.file else "")
+
+
+def hole_program(mark: HomeMark) -> list[str]:
+    """The lines of a program that makes the hole of a home mark, come to as a grid comes to its
+    marks."""
+    x, y = mark.place
+    return [
+        f"(Plumb: the hole of home mark {mark.name})",
+        "G21",
+        "G90",
+        f"G0 Z{USUAL.safe_height:g}",
+        f"G0 X{x - USUAL.approach[0]:.3f} Y{y - USUAL.approach[1]:.3f}",
+        f"G1 X{x:.3f} Y{y:.3f} F{USUAL.feed:g}",
+        f"G1 Z{-HOLE_DEPTH:g} F{USUAL.plunge_feed:g}",
+        f"G0 Z{USUAL.safe_height:g}",
+    ]
+
+
+def place_of(settings: MachineSettings, mark: HomeMark) -> Array:
+    """Where the machine shows the bit in a home mark (2,) [mm], by the settings of today."""
+    where: Array = places_with(settings, np.array([mark.chains], dtype=float))[0]
+    if not np.isfinite(where).all():
+        raise InputError(f"home mark {mark.name}: with these settings its chains lead nowhere")
+    return where
+
+
+def home_fit(settings: MachineSettings, mark: HomeMark, shown: Point) -> HomeFit:
+    """How well a home mark agrees with what the machine shows of the bit in it."""
+    x, y = (place_of(settings, mark) - np.array(shown)).tolist()
+    believed = believed_chains(settings, [Touch(mark.name, mark.place, shown)])[0]
+    left, right = (np.array(mark.chains) - believed).tolist()
+    # Both holes are touched, and each was made with the bit once.
+    return HomeFit(mark.name, (x, y), (left, right), limit=SURE * 2**0.5 * TOUCH_SIGMA)
+
+
+def read_home_marks(path: str | PathLike[str]) -> dict[str, HomeMark]:
+    """The home marks of a file by name; none if there is no file. Raises InputError."""
+    if not Path(path).exists():
+        return {}
+    try:
+        tables = tomllib.loads(read_text(path)).get("mark", {})
+        return {name: _mark(name, each) for name, each in tables.items()}
+    except (tomllib.TOMLDecodeError, AttributeError, KeyError, TypeError, ValueError) as error:
+        raise refusal(path, f"holds no home marks ({error})", remedy="mend it") from None
+
+
+def write_home_marks(path: str | PathLike[str], marks: Mapping[str, HomeMark]) -> None:
+    """Replace the file in one step; every number comes back bit for bit."""
+    lines = [HEAD]
+    for mark in marks.values():
+        lines += [
+            "",
+            f"[mark.{mark.name}]",
+            f"place = [{mark.place[0]!r}, {mark.place[1]!r}]",
+            f"chains = [{mark.chains[0]!r}, {mark.chains[1]!r}]  # left and right paid out",
+            f'date = "{mark.date}"',
+            f'settings = "{mark.settings}"',
+        ]
+    write_whole(path, ("\n".join(lines) + "\n").encode())
+
+
+def _mark(name: str, table: Mapping[str, object]) -> HomeMark:
+    place, chains = _pair(table["place"]), _pair(table["chains"])
+    return HomeMark(name, place, chains, str(table.get("date", "")), str(table.get("settings", "")))
+
+
+def _pair(value: object) -> Point:
+    if not isinstance(value, list):
+        raise TypeError("a pair of numbers is missing")
+    first, second = map(float, value)
+    return first, second
+
+
+# Marks touched with the bit: where the hole is, and where the machine shows the bit in it.
+
+Point = tuple[float, float]
+TOUCH_SIGMA = 0.5  # [mm] of a coordinate: the bit in its hole, and the hole's place
+MISREAD = 100.0  # [mm] of a touch: a slip of two links shows less
+SAME = 3.0  # [mm] between two holes: a bit is wider
+FAR = 50.0  # [mm] between holes from which on they are two places; nearer, they err alike
+
+
+@dataclass(frozen=True)
+class Touch:
+    """A mark with the bit in it. mm, from the middle of the sheet, y up."""
+
+    name: str
+    hole: Point  # where the mark is known to be
+    shown: Point  # what the machine says of the bit in it
+
+
+def refuse_repeated(touches: Sequence[Touch]) -> None:
+    """Raise InputError for a hole that is given twice: what it says counts once."""
+    for (first, earlier), (second, later) in combinations(enumerate(touches, 1), 2):
+        if dist(earlier.hole, later.hole) < SAME:
+            raise InputError(
+                f"touch {second} is touch {first} again; touch another hole far from it"
+            )
+
+
+def are_apart(touches: Sequence[Touch]) -> bool:
+    """Whether two of the holes are far enough apart to be two places."""
+    return any(dist(left.hole, right.hole) >= FAR for left, right in combinations(touches, 2))
+
+
+def lost_sign(touch: Touch) -> str:
+    """The coordinate, x or y, whose sign was lost: the other sign shows the bit near the hole."""
+    (x, y), (shown_x, shown_y) = touch.hole, touch.shown
+    if dist(touch.hole, touch.shown) <= MISREAD:
+        return ""
+    flipped = {"x": (-shown_x, shown_y), "y": (shown_x, -shown_y)}
+    near = [name for name, place in flipped.items() if dist((x, y), place) <= MISREAD]
+    return near[0] if near else ""
+
+
+def believed_chains(settings: MachineSettings, touches: Sequence[Touch]) -> Array:
+    """The chains (n, 2) [mm] that the machine believes at each touch. Raises InputError."""
+    shown = np.array([touch.shown for touch in touches], dtype=float).reshape(-1, 2)
+    try:
+        return believed_lengths(settings, shown)
+    except ValueError as error:
+        raise InputError(f"what the machine shows cannot be: {error}") from None
+
+
+def places_with(settings: MachineSettings, chains: Array) -> Array:
+    """Places (..., 2) [mm] for chains (..., 2) [mm]; NaN where no sled hangs."""
+    where, outcome = places(settings.as_plumb_model(), chains.reshape(-1, 2))
+    where = np.where((outcome == FOUND)[:, None], where, np.nan)
+    return where.reshape(chains.shape)
+
+
+def sigma_of(settings: MachineSettings, *, taped: bool) -> float:
+    """How good a coordinate of a touch is [mm], if nobody says.
+
+    A hole that the machine made by these settings is as good as a touch: what the settings do not
+    know moves hole and bit alike. A hole that was measured with a tape is no better than what the
+    fit left at marks that it did not see.
+    """
+    if not taped or settings.fitted is None:
+        return TOUCH_SIGMA
+    return max(TOUCH_SIGMA, settings.fitted.left_out_rms / 2**0.5)
+
+
+def turned_back(holes: Array, turn: float) -> Array:
+    """Holes (n, 2) [mm] that a tape read from the edges of a sheet, as the machine has them, if the
+    sheet is turned [rad] counter-clockwise about its middle."""
+    cosine, sine = np.cos(turn), np.sin(turn)
+    back: Array = holes.reshape(-1, 2) @ np.array([[cosine, -sine], [sine, cosine]])
+    return back

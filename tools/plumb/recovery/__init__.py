@@ -1,1 +1,0 @@
-"""When chains or sheet are no longer where the machine believes: whole links, home marks."""

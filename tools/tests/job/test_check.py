@@ -1,0 +1,373 @@
+"""plumb check: what is wrong with a program, its times, its parts and their errors."""
+
+import re
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from plumb import _judge
+from plumb.bench.causes import MAKER
+from plumb.fit.inputs import Inputs
+from plumb.job.check import Believed, Part, check_job, errors_of
+from plumb.job.dry_run import hull_of, outline_of
+from plumb.job.findings import ARC, CHAINS, GOUGES, GREATEST, HALTS, IGNORED, LEAVES, WAITS, Z
+from plumb.marks.read import read_marks
+from plumb.model.predict import judged, lengths
+from plumb.settings.files import read_settings
+from workshop import NAMES, PROGRAMS, lines_of
+
+EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
+SETTINGS, POCKET, MARKS = (
+    EXAMPLE / name for name in ("groundcontrol.ini", "pocket.nc", "marks.toml")
+)
+
+
+def square(x, y, size, depth=1.0):
+    """Lines that cut a square with its lower left corner there."""
+    corners = [(x + size, y), (x + size, y + size), (x, y + size), (x, y)]
+    return [
+        "G0 Z3",
+        f"G0 X{x} Y{y}",
+        f"G1 Z{-depth} F60",
+        *(f"G1 X{x} Y{y} F600" for x, y in corners),
+        "G0 Z3",
+    ]
+
+
+def lines_and_kinds(lines):
+    return [(each.line, each.kind) for each in check_job(MAKER, lines).findings]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_nothing_is_wrong_with_the_programs(name):
+    checked = check_job(MAKER, lines_of(name))
+    assert checked.is_good
+    assert {each.kind for each in checked.findings} <= {WAITS, IGNORED}
+    assert checked.parts
+
+
+def test_each_wrong_line_has_its_number_and_the_machines_words():
+    lines = ["G21", "G41 D1", "G0 Z5", "G1 X--5 F100", "M98 P1", "G1 X5 A9", "G0 X9"]
+    checked = check_job(MAKER, lines)
+    said = {each.line: each.says for each in checked.findings}
+    assert [each.kind for each in checked.findings] == [HALTS] * 4
+    assert said[2] == "this machine does no G41"
+    assert said[4] == "what follows is no number: X"
+    assert said[6] == "there is no axis A"
+    assert not checked.is_good
+
+
+def test_the_sheets_edge_a_gouge_a_pause_and_a_foreign_code_are_found():
+    assert lines_and_kinds(["G0 Z2", "G0 X1300", "G0 X0"]) == [(2, LEAVES)]
+    assert lines_and_kinds(["G1 Z-2 F60", "G0 X40", "G1 X50 F500", "G0 Z-1", "G0 Z2", "G0 X0"]) == [
+        (2, GOUGES)
+    ]
+    assert lines_and_kinds(["M8", "G0 Z2", "T3 M6", "M0"]) == [(1, IGNORED), (3, WAITS), (4, WAITS)]
+    assert lines_and_kinds(["G0 X0 Y-2500"])[0][1] in (HALTS, LEAVES)
+
+
+@pytest.mark.parametrize(("way", "is_gouge"), [(0.04, False), (0.06, True)])
+def test_a_rapid_in_the_wood_is_a_gouge_if_it_goes_across(way, is_gouge):
+    checked = check_job(MAKER, ["G1 Z-1 F60", f"G0 X{way}", "G0 Z4"])
+    assert (GOUGES in {each.kind for each in checked.findings}) is is_gouge
+
+
+def test_a_rapid_down_and_across_is_a_single_gouge():
+    assert lines_and_kinds(["G0 Z5", "G0 X9 Z-5", "G0 Z9"]) == [(2, GOUGES)]
+
+
+def test_a_rapid_way_of_a_drilling_cycle_is_no_gouge():
+    assert check_job(MAKER, ["G0 Z2", "G83 X9 Z-6 R1 Q2 F50", "X20", "G80", "G0 X0"]).is_good
+
+
+@pytest.mark.parametrize(
+    ("lines", "gouges"),
+    [
+        (["G0 Z5", "G0 X10 Y10", "G0 Z-12"], [(3, "12.00")]),
+        (["G0 Z5", "G53 G0 Z-5"], [(2, "5.00")]),
+        (["G20", "G0 Z.2", "G0 Z-.5"], [(3, "12.70")]),
+        (["G0 Z5", "G0 Z-0.009"], []),
+        (["G0 Z5", "G0 Z-0.02"], [(2, "0.02")]),
+        # A hole that is there gives room, as far as it goes, and where it is.
+        (["G1 Z-3 F60", "G0 Z5", "G0 Z-2.5", "G1 Z-5"], []),
+        (["G1 Z-3 F60", "G0 Z5", "G0 Z-4", "G0 Z5"], [(3, "1.00")]),
+        (["G1 Z-3 F60", "G0 Z5", "G0 X1", "G0 Z-3", "G0 Z5"], [(4, "3.00")]),
+        (["G1 Z-3 F60", "G1 X40 F500", "G0 Z5", "G0 X21.3", "G0 Z-3", "G1 Z-4"], []),
+        (["G1 Z-3 F60", "G2 X40 I20 F500", "G0 Z5", "G0 X20 Y20", "G0 Z-3", "G0 Z4"], []),
+        (
+            ["G1 Z-3 F60", "G2 X40 I20 F500", "G0 Z5", "G0 X20 Y19", "G0 Z-3", "G0 Z4"],
+            [(5, "3.00")],
+        ),
+        (["G1 Z-3 F60", "G1 X40 F500", "G0 Z5", "G0 Z-3", "G1 Z-4"], []),
+        # The way up gouges nothing.
+        (["G0 Z-5", "G0 Z-3"], [(1, "5.00")]),
+        # A rapid makes no room, and neither does what is cut later.
+        (["G0 Z-3", "G0 Z5", "G0 Z-3", "G1 Z-4 F60"], [(1, "3.00"), (3, "3.00")]),
+        (["G0 Z2", "G83 X9 Z-6 R1 Q2 F50", "G80"], []),
+        (["G0 Z2", "G81 X9 Z-6 R-1 F50", "G80"], [(2, "1.00")]),
+    ],
+)
+def test_a_rapid_into_wood_that_nothing_has_cut_is_a_gouge(lines, gouges):
+    findings = check_job(MAKER, [*lines, "G0 Z9"]).findings
+    assert [(each.line, each.kind) for each in findings] == [(line, GOUGES) for line, _ in gouges]
+    for finding, (_, deep) in zip(findings, gouges, strict=True):
+        assert finding.says == f"G0 drives the bit {deep} mm down into wood that nothing has cut"
+
+
+def test_a_cut_in_a_corner_is_where_the_chains_cannot_hold_the_sled():
+    checked = check_job(MAKER, square(-1219, -609, 60))
+    assert not checked.is_good and checked.hanging is not None
+    assert {bad.verdict for bad in checked.hanging.bad} == {"too vertical", "too slack"}
+    assert min(bad.first for bad in checked.hanging.bad) == 3
+    above = [line for line in square(-1219, -609, 60) if "Z-" not in line]
+    assert check_job(MAKER, above).is_good
+    assert not check_job(MAKER, square(0, 0, 60), limits={"most_tension": 50.0}).is_good
+
+
+@pytest.mark.parametrize(
+    ("lines", "cause", "asked", "feed"),
+    [
+        (["G1 Y-30 F3000"], GREATEST, 3000, 900),
+        (["G1 Z-2 F300"], Z, 300, 18 * 3.17),
+        (["G1 X30 Z-4 F640"], Z, 640, 18 * 3.17 * np.hypot(30, 4) / 4),
+        (["G2 X2 I1 J0 F650"], ARC, 650, 60 * np.sqrt(100 * 1)),
+        (["G0 Y400", "G0 X-1000", "G1 X-1100 Y440 F900"], CHAINS, 900, None),
+    ],
+)
+def test_a_limit_that_slows_the_sled_is_named(lines, cause, asked, feed):
+    slower = check_job(MAKER, lines, numbers={15: 900, 68: 700}).slower
+    assert [each.because for each in slower] == [cause]
+    assert slower[0].asked == pytest.approx(asked)
+    assert slower[0].line == len(lines)
+    assert slower[0].feed < asked
+    if feed is not None:
+        assert slower[0].feed == pytest.approx(feed, rel=0.02)
+
+
+def test_no_limit_is_named_where_none_acts():
+    assert check_job(MAKER, ["G0 Z3", "G1 X50 F600", "G4 P10"]).slower == ()
+
+
+def test_the_limit_that_acts_most_often_comes_first_with_its_slowest_line():
+    lines = ["G0 Z3", "G1 Z-1 F300", "G1 X30 F1000", "G1 X60 F3000", "G1 X90 F2000"]
+    slower = check_job(MAKER, lines, numbers={15: 900}).slower
+    assert [(each.because, each.moves, each.line) for each in slower] == [
+        (GREATEST, 3, 3),
+        (Z, 1, 2),
+    ]
+    once = check_job(
+        MAKER, [lines[0], "G1 Z-1 F300", "G1 Z1 F300", lines[2]], numbers={15: 900}
+    ).slower
+    assert [(each.because, each.moves) for each in once] == [(Z, 2), (GREATEST, 1)]
+
+
+def test_times_are_those_of_the_ways():
+    times = check_job(MAKER, ["G0 Z3", "G0 X100", "G1 X200 F600", "G4 P2000"]).times
+    assert times.asked == pytest.approx(10.0)
+    assert times.cutting == pytest.approx(10.0, abs=0.3)
+    assert times.whole == pytest.approx(times.cutting + times.rapid + 2.0, abs=0.2)
+
+
+def test_cuts_that_lie_apart_are_parts_in_the_order_of_the_program():
+    lines = [*square(100, 50, 40), *square(-200, 0, 30, depth=2.5), *square(105, 55, 10)]
+    parts = check_job(MAKER, lines).parts
+    assert [part.lines for part in parts] == [(3, 24), (11, 16)]
+    assert parts[0].low == pytest.approx((100, 50)) and parts[0].size == pytest.approx((40, 40))
+    assert parts[1].size == pytest.approx((30, 30)) and parts[1].deepest == pytest.approx(-2.5)
+
+
+def test_cuts_that_meet_at_a_corner_are_one_part():
+    lines = ["G1 Z-1 F60", "G1 X2 Y2 F500", "G0 Z3", "G0 X12 Y12", "G1 Z-1 F60", "G1 X14 Y14 F500"]
+    assert len(check_job(MAKER, lines).parts) == 1
+
+
+def test_the_softest_cut_is_named():
+    hanging = check_job(
+        MAKER, [*square(0, 300, 20), *square(900, -500, 20), *square(0, 0, 20)]
+    ).hanging
+    assert hanging is not None and 11 <= hanging.give_line <= 16
+    assert 0.05 < hanging.give < 0.2
+
+
+def test_an_arc_reaches_as_far_as_its_circle():
+    part = check_job(MAKER, ["G1 Z-1 F60", "G2 X40 I20 J0 F600"]).parts[0]
+    assert part.high == pytest.approx((40, 20), abs=0.1)
+    assert part.low == pytest.approx((0, 0), abs=0.1)
+
+
+TRUE = replace(
+    MAKER,
+    motor_gap=MAKER.motor_gap + 2,
+    motor_height=MAKER.motor_height - 3,
+    motor_center_x=2.0,
+    effects={
+        "chain_sag": {"weight_ratio_squared": 8.2e-12},
+        "chain_stretch": {"compliance": 5.17e-6},
+        "chain_pitch": {"left": 0.002, "right": 0.002},
+    },
+)
+
+
+def example_inputs(settings):
+    cut_with = read_settings(SETTINGS)
+    return Inputs(settings, read_marks(MARKS, sheet=settings.sheet), cut_with=cut_with)
+
+
+def true_errors(settings, places):
+    """Where the judge hangs the example's true machine, less where it was sent."""
+    chains, _ = lengths(settings.as_plumb_model(), places)
+    weights = np.full(len(places), TRUE.sled_weight)
+    return _judge.places(judged(TRUE), chains, pushes=0 * chains, weights=weights) - places
+
+
+@pytest.mark.parametrize("file", ["groundcontrol.ini", "machine.toml"])
+@pytest.mark.parametrize("corner", [(-400.0, -200.0), (200.0, -450.0), (-1000.0, 100.0)])
+def test_a_part_comes_out_as_expected(file, corner):
+    settings = read_settings(EXAMPLE / file)
+    size = np.array([700.0, 300.0])
+    steps = np.linspace(0, 1, 12)
+    places = np.array([(x, y) for x in steps for y in steps]) * size + corner
+    high = (corner[0] + size[0], corner[1] + size[1])
+    part = Part((1, 2), corner, high, -3.0, places)
+    errors = errors_of(Believed.of(example_inputs(settings)), settings, [part])[0]
+    true = true_errors(settings, places)
+    design = np.column_stack([np.ones(len(places)), places - places.mean(axis=0)])
+    stretch = np.linalg.lstsq(design, true, rcond=None)[0][1:]
+    wanted = (
+        size[0] * stretch[0, 0],
+        size[1] * stretch[1, 1],
+        size[1] * (stretch[0, 1] + stretch[1, 0]),
+    )
+    for error, truth in zip((errors.width, errors.height, errors.skew), wanted, strict=True):
+        assert abs(error.mm - truth) < error.within < 1.5
+    if file == "groundcontrol.ini":
+        assert wanted[0] > 1 and errors.width.mm == pytest.approx(wanted[0], abs=0.5)
+    else:
+        assert abs(errors.width.mm) < 0.35
+
+
+class Sheared:
+    """A machine whose errors grow evenly over the sheet."""
+
+    root = 0.001 * np.eye(2)
+
+    def __init__(self, matrix):
+        self.matrix = np.array(matrix)
+
+    def seen(self, settings, places):
+        slopes = np.einsum("nj,jku->nku", places, np.ones((2, 2, 2)))
+        return places @ self.matrix.T + [3, 4], slopes
+
+
+def test_a_turn_and_a_shift_are_no_errors_of_a_part():
+    part = check_job(MAKER, square(0, 0, 100)).parts
+    turned = errors_of(Sheared([[0, -0.01], [0.01, 0]]), MAKER, part)[0]
+    for error in (turned.width, turned.height, turned.skew):
+        assert error.mm == pytest.approx(0, abs=1e-9)
+    sheared = errors_of(Sheared([[0.002, 0.01], [0.005, -0.003]]), MAKER, part)[0]
+    errors = [error.mm for error in (sheared.width, sheared.height, sheared.skew)]
+    assert errors == pytest.approx([0.2, -0.3, 1.5])
+    within = 1.96 * 100 * 0.001 * np.sqrt(2)
+    assert sheared.width.within == pytest.approx(within)
+    assert sheared.skew.within == pytest.approx(2 * within)
+
+
+def test_more_marks_leave_less_open():
+    settings = read_settings(SETTINGS)
+    inputs = example_inputs(settings)
+    few = replace(
+        inputs, measurements=replace(inputs.measurements, marks=inputs.measurements.marks[:8])
+    )
+    part = check_job(settings, square(0, 0, 300)).parts
+    within = [
+        errors_of(Believed.of(each), settings, part)[0].width.within for each in (few, inputs)
+    ]
+    assert within[1] < within[0]
+
+
+def test_a_part_that_is_too_small_says_nothing():
+    settings = read_settings(SETTINGS)
+    parts = check_job(
+        settings, [*square(0, 0, 10), "G0 X100 Y0", "G1 Z-1 F60", "G1 X190 F500"]
+    ).parts
+    small, line = errors_of(Believed.of(example_inputs(settings)), settings, parts)
+    assert small.width is small.height is small.skew is None
+    assert line.width is not None and line.height is None
+
+
+def test_the_outline_goes_round_everything_above_the_sheet():
+    checked = check_job(MAKER, ["G0 Z8", "G0 X10", *square(100, 50, 40), "G0 X0 Y0"])
+    program = outline_of(checked.done.moves, checked.samples, name="a (b).nc").splitlines()
+    traced = check_job(MAKER, program)
+    assert traced.is_good and not traced.parts
+    corners = hull_of(checked.done.moves, checked.samples)
+    assert {tuple(corner) for corner in corners} == {(100, 50), (140, 50), (140, 90), (100, 90)}
+    moves = traced.done.moves
+    slow = moves.only(~moves.rapid)
+    assert slow["length"].sum() == pytest.approx(160) and (slow["z_to"] == 8).all()
+    assert slow["asked"] == pytest.approx(500)
+    assert (slow["to_x"][-1], slow["to_y"][-1]) == tuple(corners[0])
+
+
+def test_the_outline_of_a_line_and_of_nothing():
+    checked = check_job(MAKER, ["G1 Z-1 F60", "G1 X50 F500", "X20"])
+    assert len(hull_of(checked.done.moves, checked.samples)) == 2
+    checked = check_job(MAKER, ["G0 X5"])
+    assert "cuts nothing" in outline_of(checked.done.moves, checked.samples, name="job")
+
+
+def test_a_hundred_thousand_lines_take_less_than_five_seconds():
+    angles = np.arange(100_000) * 0.002
+    lines = [
+        f"G1 X{400 * np.cos(t):.3f} Y{300 * np.sin(1.01 * t):.3f} Z{np.sin(9 * t) - 2:.3f} F900"
+        for t in angles
+    ]
+    shares = []
+    begin = time.process_time()
+    checked = check_job(MAKER, lines, progress=shares.append)
+    assert time.process_time() - begin < 5
+    assert checked.is_good and len(checked.done.moves) > 99_000
+    assert shares == sorted(shares) and len(shares) == 50 and shares[-1] == 1
+
+
+def test_the_command_says_all_of_it(ask, run, tmp_path):
+    picture, outline = tmp_path / "job.svg", tmp_path / "outline.nc"
+    code, answer = ask(
+        "check", POCKET, SETTINGS, "--marks", MARKS, "--picture", picture, "--outline", outline
+    )
+    assert code == 0 and answer["good"] and answer["written"] == [str(picture), str(outline)]
+    assert answer["parts"][0]["width_error"]["within"] > 0
+    assert b"pocket.nc: nothing is wrong" in picture.read_bytes()
+    assert "G0 Z5.000" in outline.read_text()
+    code, said, _ = run("check", POCKET, SETTINGS, "--set", "18=6")
+    slow = re.search(r"gets (\d+)$", said.replace("\n  ", " "), re.MULTILINE)
+    assert code == 0 and slow and "gets 19" in said.replace("\n  ", " ")
+
+
+def test_the_command_ends_with_1_where_something_is_wrong(ask, run, tmp_path):
+    job = tmp_path / "job.nc"
+    job.write_text("G0 Z2\nG41 D1\nG1 X1500 F600\n")
+    code, answer = ask("check", job, SETTINGS, "--picture", tmp_path / "job.png")
+    assert code == 1 and not answer["good"] and answer["hanging"] is None
+    assert [each["line"] for each in answer["findings"] if each["wrong"]] == [2, 3]
+    run("check", job, SETTINGS, "--picture", tmp_path / "job.svg")
+    assert b"job.nc: something is wrong" in (tmp_path / "job.svg").read_bytes()
+    code, said, _ = run("check", job, SETTINGS)
+    assert code == 1 and "2 lines of job.nc are wrong." in said
+    assert "- line 2: the machine halts: this machine does no G41" in said
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["--start", "5"], "is not X,Y"),
+        (["--set", "15"], "is not N=VALUE"),
+        (["--set", "15=-4"], "refuses '$15=-4'"),
+        (["--picture", "job.gif"], "end the name with"),
+    ],
+)
+def test_bad_words_are_refused(run, words, says):
+    code, _, complaint = run("check", PROGRAMS / "easel_tabs.nc", SETTINGS, *words)
+    assert code == 2 and says in complaint

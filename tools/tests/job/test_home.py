@@ -1,0 +1,191 @@
+"""Home marks: kept, read again, and a position that was lost is back with the bit in the hole."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plumb.bench.causes import MAKER, Hidden, causes_of
+from plumb.job.home import (
+    hole_program,
+    home_fit,
+    new_home_mark,
+    place_of,
+    read_home_marks,
+    write_home_marks,
+)
+from plumb.job.slip import chains_line, repair_program
+from plumb.line.sender import Sender
+from plumb.model.predict import lengths
+from plumb.settings.machine import SettingsFile
+from plumb.text.errors import InputError
+from plumb.vm.garage import random_garage, set_up
+from plumb.vm.in_process import InProcessPort
+from plumb.vm.tape import marks_on
+
+LEFT, RIGHT = (-900.0, 250.0), (900.0, -250.0)
+EVENING = 6000  # [ms] at rest, after which the position is in the memory
+HAND = 0.3  # [mm] of a coordinate: how well a bit sits in its hole
+BETTER = replace(MAKER, motor_gap=2981.0, motor_height=1069.0)
+
+
+def test_a_mark_comes_back_from_its_file_bit_for_bit(tmp_path):
+    settings = replace(MAKER, file=SettingsFile("machine.toml", ""))
+    marks = {
+        "left": new_home_mark(settings, "left", LEFT, date="2026-05-01"),
+        "far-right_2": new_home_mark(settings, "far-right_2", (900.1, -250 / 3)),
+    }
+    write_home_marks(tmp_path / "home.toml", marks)
+    assert read_home_marks(tmp_path / "home.toml") == marks
+    assert marks["left"].settings == "machine.toml"
+
+
+def test_a_machine_without_home_marks_has_none(tmp_path):
+    assert read_home_marks(tmp_path / "home.toml") == {}
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["[mark.left]\nplace = [1, 2]\n", "[mark.left]\nplace = [1]\nchains = [1, 2]\n", "mark = 5\n"],
+)
+def test_a_spoilt_file_is_refused(text, tmp_path):
+    (tmp_path / "home.toml").write_text(text)
+    with pytest.raises(InputError, match=r"home\.toml: holds no home marks"):
+        read_home_marks(tmp_path / "home.toml")
+
+
+def test_the_chains_are_those_that_the_machine_pays_out_there():
+    mark = new_home_mark(MAKER, "left", LEFT)
+    assert mark.chains == pytest.approx(lengths(MAKER, np.array([LEFT]))[0][0])
+    assert place_of(MAKER, mark) == pytest.approx(LEFT)
+    assert chains_line(np.array(mark.chains)) == f"B06 L{mark.chains[0]:.3f} R{mark.chains[1]:.3f}"
+    with pytest.raises(InputError, match="home mark up"):
+        new_home_mark(MAKER, "up", (0.0, 5000.0))
+
+
+def test_the_hole_is_come_to_as_a_grid_comes_to_its_marks():
+    program = hole_program(new_home_mark(MAKER, "left", LEFT))
+    assert program[0] == "(Plumb: the hole of home mark left)"
+    assert program[4:7] == ["G0 X-900.000 Y210.000", "G1 X-900.000 Y250.000 F700", "G1 Z-2 F40"]
+    assert program[3] == program[-1] == "G0 Z5"
+
+
+def test_better_settings_show_the_hole_elsewhere_by_the_same_chains():
+    mark = new_home_mark(MAKER, "left", LEFT)
+    assert np.abs(place_of(BETTER, mark) - LEFT).max() > 1
+    # The chains are what they were, so the second hole fits as it did.
+    other = new_home_mark(MAKER, "right", RIGHT)
+    shown = tuple(place_of(BETTER, other))
+    assert home_fit(BETTER, other, shown).fits
+
+
+def test_a_second_mark_says_how_well_it_fits():
+    mark = new_home_mark(MAKER, "right", RIGHT)
+    good = home_fit(MAKER, mark, (RIGHT[0] + 0.5, RIGHT[1] - 0.5))
+    assert good.fits and good.error == pytest.approx((-0.5, 0.5))
+    shown = (RIGHT[0] + 3.0, RIGHT[1])
+    bad = home_fit(MAKER, mark, shown)
+    more = lengths(MAKER, np.array([RIGHT]))[0][0] - lengths(MAKER, np.array([shown]))[0][0]
+    assert not bad.fits and bad.chains == pytest.approx(more)
+    # A bit to the right needs more of the left chain and less of the right.
+    assert bad.chains[0] < 0 < bad.chains[1]
+
+
+def test_two_good_touches_fit_ninety_nine_times_of_a_hundred():
+    source = np.random.default_rng(3)
+    mark = new_home_mark(MAKER, "right", RIGHT)
+    fits = []
+    for _ in range(500):
+        first, second = 0.5 * source.standard_normal((2, 2))
+        fits.append(home_fit(MAKER, mark, tuple(np.array(RIGHT) + first - second)).fits)
+    assert 0.975 < np.mean(fits) < 1
+
+
+class Workshop:
+    """A virtual machine with its owner, who puts the bit into holes by hand."""
+
+    def __init__(self, seed):
+        hidden = Hidden(((causes_of("chain_pitch")[0], 1.0),))
+        self.garage = random_garage(hidden, seed)
+        self.machine = self.garage.machine()
+        self.sender = Sender(InProcessPort(self.machine))
+        self.machine.start()
+        self.sender.await_start()
+        set_up(self.sender, self.garage.settings)
+        self.machine.advance(EVENING)
+
+    def send(self, *lines):
+        self.sender.stream([*lines, "G4 P2000"])
+
+    def place_at(self, x, y):
+        """Where the sled truly is [mm] when the machine has gone to a place."""
+        self.send(f"G0 X{x - 40} Y{y}", f"G1 X{x} Y{y} F700")
+        return np.array(self.machine.sled)
+
+    def lose_position(self):
+        """The power goes while the sled moves."""
+        self.machine.send(b"G1 X900 F700\n")
+        self.machine.advance(3000)
+        self.machine.cut_power()
+        self.machine.start()
+        self.sender = Sender(InProcessPort(self.machine))
+        heard = []
+        self.sender.said = heard.append
+        self.sender.await_start()
+        return heard
+
+    def put_bit_at(self, place):
+        """Motors without power; the owner holds the bit in the hole until the gears rest."""
+        for _ in range(12):
+            self.machine.hang_at(*place)
+            self.machine.advance(200)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_lost_position_is_back_with_the_bit_in_the_hole(seed):
+    workshop, source = Workshop(seed), np.random.default_rng(seed)
+    marks = {
+        name: new_home_mark(MAKER, name, place)
+        for name, place in (("left", LEFT), ("right", RIGHT))
+    }
+    for mark in marks.values():
+        workshop.send(*hole_program(mark))
+    holes = dict(zip(marks, marks_on(workshop.machine.cuts()), strict=True))
+    sites = [(0.0, 0.0), (-600.0, -300.0), (700.0, 300.0)]
+    before = [workshop.place_at(*site) for site in sites]
+
+    heard = workshop.lose_position()
+    assert any("Position Lost" in line for line in heard)
+    workshop.put_bit_at(holes["left"] + HAND * source.standard_normal(2))
+    workshop.send(*repair_program(np.array(marks["left"].chains), where="home mark left"))
+    workshop.send("G10 Z0")  # which may have been on its way too
+    after = [workshop.place_at(*site) for site in sites]
+    # As good as a touch, larger where the same chains move the sled more.
+    assert np.abs(np.subtract(after, before)).max() < 4 * HAND
+
+    # The second hole: the bit is put into it, and the machine shows where it believes to be.
+    workshop.place_at(*RIGHT)
+    workshop.send("G0 Z5")
+    missed = np.array(workshop.machine.sled) - holes["right"]
+    status = workshop.sender.status
+    shown = np.array(status.place[:2]) - missed
+    assert home_fit(MAKER, marks["right"], tuple(shown)).fits
+
+
+def test_until_the_chains_are_set_the_machine_goes_nowhere():
+    workshop = Workshop(4)
+    workshop.lose_position()
+    with pytest.raises(InputError, match="Position Lost"):
+        workshop.send("G0 X0 Y0")
+
+
+def test_a_chain_that_slipped_after_that_does_not_fit():
+    workshop = Workshop(5)
+    mark = new_home_mark(MAKER, "right", RIGHT)
+    workshop.send(*hole_program(mark))
+    hole = marks_on(workshop.machine.cuts())[0]
+    workshop.machine.slip("left", 6.35)
+    missed = workshop.place_at(*RIGHT) - hole
+    fit = home_fit(MAKER, mark, tuple(np.array(RIGHT) - missed))
+    assert not fit.fits
+    # The machine believes in a link less of the left chain than there is.
+    assert fit.chains == pytest.approx((6.35, 0.0), abs=0.7)

@@ -1,0 +1,42 @@
+"""The picture of a checked program: its cuts, its ways above the sheet, and what is wrong."""
+
+import numpy as np
+from plumb.bench.causes import MAKER
+from plumb.cli.check import _drawn
+from plumb.job.check import check_job
+
+
+def drawn(*lines):
+    return _drawn(check_job(MAKER, lines), MAKER, "folder/job.nc")
+
+
+def ends(ways):
+    """The last place of each way [mm]."""
+    return [tuple(np.round(way[-1], 3).tolist()) for way in ways]
+
+
+SLOT = ("G0 Z3", "G0 X100 Y50", "G1 Z-1 F60", "G1 X140 F600", "G0 Z3")
+
+
+def test_each_way_is_of_its_kind():
+    job = drawn(*SLOT, "G0 X0 Y0")
+    assert job.title == "job.nc: nothing is wrong" and job.is_good
+    assert ends(job.ways["cut"])[-1] == (140.0, 50.0)
+    assert ends(job.ways["rapid"])[-1] == (0.0, 0.0)
+    assert (100.0, 50.0) in ends(job.ways["rapid"]) and job.ways["bad"] == []
+    assert job.labels == [(120.0, 50.0, "1")] and job.sheet == MAKER.sheet
+
+
+def test_what_is_wrong_is_drawn_so():
+    job = drawn(*SLOT, "G0 Z-1", "G0 X160", "G0 Z3")
+    assert job.title == "job.nc: something is wrong" and not job.is_good
+    assert ends(job.ways["bad"]) == [(160.0, 50.0)]
+
+
+def test_a_cut_where_the_sled_hangs_badly_is_wrong_and_a_way_above_it_is_not():
+    corner = ("G0 X-1215 Y-600", "G1 Z-1 F60", "G1 X-1200 F600", "G0 Z3")
+    job = drawn(*SLOT, *corner)
+    assert not job.is_good and ends(job.ways["bad"])[-1] == (-1200.0, -600.0)
+    assert ends(job.ways["cut"])[-1] == (140.0, 50.0)
+    above = drawn(*SLOT, "G0 X-1215 Y-600", "G0 X0 Y0")
+    assert above.is_good and above.ways["bad"] == []

@@ -1,0 +1,89 @@
+"""Files that hold no program are refused before any line is sent, each with a fitting line."""
+
+import json
+from pathlib import Path
+
+import plumb.cli.send as send_command
+import pytest
+from plumb.cli.main import main
+from plumb.job.dry_run import refuse_what_is_no_program
+from plumb.text.errors import InputError
+
+ROOT = Path(__file__).parents[3]
+EXAMPLE = ROOT / "docs/example"
+WEBCONTROL = json.dumps({"Maslow Settings": [{"key": "bedWidth", "value": 2438.4}]}, indent=1)
+NUMBERS = "numbers are sent from a machine.toml"
+CODE = "give a program of G-code"
+
+
+class ReachedError(Exception):
+    """A line was about to be opened."""
+
+
+@pytest.fixture(autouse=True)
+def line(monkeypatch):
+    def opened(_path):
+        raise ReachedError
+
+    monkeypatch.setattr(send_command, "SerialPort", opened)
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("groundcontrol.ini", f"holds settings of GroundControl, not a program; {NUMBERS}"),
+        ("marks.toml", f"holds marks, not a program; {CODE}"),
+        ("lengths.csv", f"holds a table, not a program; {CODE}"),
+        ("places.csv", f"holds a table, not a program; {CODE}"),
+        (".", "is a folder; name the file inside it"),
+        ("nothing.nc", "there is no such file; check the name"),
+    ],
+)
+def test_what_holds_no_program_is_refused_before_the_line_is_opened(name, said, capsys):
+    path = EXAMPLE / name
+    assert main(["send", "--port", "USB", str(path)]) == 2
+    assert capsys.readouterr().err == f"plumb: {path}: {said}\n"
+
+
+def test_a_folder_in_the_working_folder_is_no_line_of_code(tmp_path, monkeypatch, capsys):
+    (tmp_path / "jobs").mkdir()
+    monkeypatch.chdir(tmp_path)
+    assert main(["send", "--port", "USB", "jobs"]) == 2
+    assert "jobs: is a folder" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (WEBCONTROL, f"holds settings of WebControl, not a program; {NUMBERS}"),
+        ('{"a": 1}', "holds JSON, not a program"),
+        ("; marks\n[global]\nnumpositions = 9\n", "holds marks, not a program"),
+        ("(a list)\n# Jobs\n", r"line 2: is no G-code \(this begins no word: #\)"),
+        ("\nhello world\n", r"line 2: is no G-code \(a number is missing behind H\)"),
+        ("comport = COM3\n", r"line 1: is no G-code \(there is no such code: O\)"),
+    ],
+)
+def test_a_text_that_is_no_program_says_what_it_is(text, said):
+    with pytest.raises(InputError, match=f"^job: .*{said}|^job, {said}"):
+        refuse_what_is_no_program("job", text)
+
+
+def test_every_program_is_taken():
+    programs = [each for each in (ROOT / "test/programs").iterdir() if each.suffix != ".places"]
+    programs = [each for each in programs if each.suffix != ".md"]
+    assert len(programs) > 10
+    for path in [EXAMPLE / "pocket.nc", *programs]:
+        refuse_what_is_no_program(path, path.read_text())
+
+
+@pytest.mark.parametrize("text", ["%\nG21\n", "G5 X1\n", "G1 X1\n", "B05\n", "$$\n", "; nothing\n"])
+def test_what_the_machine_may_refuse_for_another_reason_is_left_to_it(text):
+    refuse_what_is_no_program("job", text)
+
+
+def test_a_line_and_a_machine_toml_go_on_to_the_line(tmp_path):
+    text = (EXAMPLE / "machine.toml").read_text()
+    (tmp_path / "machine.toml").write_text(f"# Säge\n{text}")  # which is not sent as it is
+    for what in ("hello", str(tmp_path / "machine.toml"), str(EXAMPLE / "pocket.nc")):
+        with pytest.raises(ReachedError):
+            main(["send", "--port", "USB", what])

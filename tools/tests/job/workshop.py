@@ -1,0 +1,56 @@
+"""A virtual machine that cuts programs, and the dry run with the same numbers."""
+
+from pathlib import Path
+
+import numpy as np
+from plumb.bench.causes import MAKER
+from plumb.job.dry_run import Done, Run
+from plumb.line.sender import Sender
+from plumb.model.predict import judged, lengths
+from plumb.vm.garage import VirtualMachine, set_up
+from plumb.vm.in_process import InProcessPort
+
+PROGRAMS = Path(__file__).resolve().parents[3] / "test/programs"
+NAMES = sorted(path.name for path in PROGRAMS.iterdir() if path.suffix not in (".places", ".md"))
+
+
+def lines_of(name: str) -> list[str]:
+    """The lines of a program of test/programs."""
+    return (PROGRAMS / name).read_text().splitlines()
+
+
+def run_dry(lines: list[str]) -> Done:
+    """A program in a dry run."""
+    run = Run(MAKER)
+    run.send(lines)
+    return run.finish()
+
+
+class Workshop:
+    """A machine without errors at the middle of its sheet, z at the face."""
+
+    def __init__(self) -> None:
+        chains, _ = lengths(MAKER, np.zeros((1, 2)))
+        self.machine = VirtualMachine(judged(MAKER), paid_out=float(chains[0, 0]))
+        self.machine.start()
+        self.sender = Sender(InProcessPort(self.machine), said=self._hear)
+        self.sender.await_start()
+        set_up(self.sender, MAKER)
+        left, right = self.machine.chains
+        self.sender.stream([f"B06 L{left:.4f} R{right:.4f}"])
+
+    def _hear(self, line: str) -> None:
+        if line == "Maslow Paused":
+            self.sender.go_on()
+
+    def cut(self, lines: list[str]) -> float:
+        """Cut a program; the machine's time for it [s]."""
+        begin = self.machine.seconds
+        self.sender.stream([*lines, "G4 P0"])
+        return self.machine.seconds - begin
+
+    def stop(self) -> None:
+        """Stop where the sled is, and wait until it stands."""
+        self.machine.send(b"!\n")
+        self.machine.advance(3000)
+        self.machine.take_said()
