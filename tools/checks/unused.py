@@ -1,4 +1,7 @@
-"""No function of lib/ and src/ is there for tests alone: something outside test/ uses each."""
+"""No function of lib/, src/ and the lab is there for tests alone: something else uses each.
+
+Vulture says it of Python.
+"""
 
 import re
 from collections.abc import Iterator
@@ -7,14 +10,19 @@ from pathlib import Path
 import tree
 import tree_sitter
 import tree_sitter_cpp
+import vulture
 
 DECLARED_IN = ("lib", "src")
 USED_IN = (*DECLARED_IN, "include", "tools")
 WORD = re.compile(r"[A-Za-z_]\w*")
 # Called by the compiler, Arduino or avr-libc; the last is in a section that runs before main().
 BY_OTHERS = {"main", "setup", "loop", "init", "serialEvent", "keepResetFlags"}
-# What a test may look at although nothing else does, each with its reason.
-FOR_TESTS: dict[str, str] = {}
+# The lab and the research, which may be all that uses a function of it.
+PYTHON = ("tools/plumb", "tools/research")
+# Called by Python, argparse, FastAPI and pydantic.
+PYTHON_BY_OTHERS = ["__getattr__", "__dir__", "_check_value"]
+DECORATORS = ["@*.get", "@*.post", "@*.put", "@*.delete", "@*.websocket", "@*_validator"]
+FUNCTIONS = {"function", "method", "property", "class"}
 NAMES = {"identifier", "field_identifier", "type_identifier", "namespace_identifier"}
 RAW = {"preproc_arg", "preproc_call"}
 
@@ -37,11 +45,19 @@ def violations(root: Path) -> Iterator[str]:
             else:
                 declarations.setdefault(word, f"{name}:{line}")
     for word, place in declared.items():
-        if word not in used and word not in BY_OTHERS and word not in FOR_TESTS:
+        if word not in used and word not in BY_OTHERS:
             yield f"{place}: only tests use {word}(): use it, or remove it with its test"
-    for word in FOR_TESTS:
-        if word in used:
-            yield f"tools/checks/unused.py: {word} needs no exception any more"
+    yield from unused_python(root)
+
+
+def unused_python(root: Path) -> Iterator[str]:
+    """Each function and class of Python that nothing but tests uses, a line each."""
+    reader = vulture.Vulture(ignore_names=PYTHON_BY_OTHERS, ignore_decorators=DECORATORS)
+    reader.scavenge([root / room for room in PYTHON if (root / room).is_dir()])
+    for item in reader.get_unused_code():
+        if item.typ in FUNCTIONS:
+            place = f"{item.filename.relative_to(root)}:{item.first_lineno}"
+            yield f"{place}: only tests use {item.name}(): use it, or remove it with its test"
 
 
 def words_of(top: tree_sitter.Node) -> Iterator[tuple[str, str, int]]:
@@ -91,4 +107,4 @@ def is_declared(node: tree_sitter.Node) -> bool:
 
 
 if __name__ == "__main__":
-    tree.run(violations, "unused: no function of lib/ and src/ is there for tests alone")
+    tree.run(violations, "unused: no function of lib/, src/ and the lab is there for tests alone")
