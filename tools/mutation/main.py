@@ -5,15 +5,28 @@ import sys
 import time
 from pathlib import Path
 
+import cxx
+import python
 from mutants import SURVIVED, Mutant, mutant_of, reasons, recalled, sampled, save, summary
-from rooms import FOLDER, ROOMS, ROOT, Room
+
+ROOT = Path(__file__).resolve().parents[2]
+FOLDER = ROOT / ".build/mutation"
+# What judges a room, the nearest first; a room of the lab that is not here has its room of tests.
+TESTS = {
+    "lib/Kinematics": ("test_kinematics", "test_effects"),
+    "lib/Motion": ("test_motion", "test_control"),
+    "lib/GCode": ("test_gcode",),
+    "lib/Settings": ("test_settings",),
+    "src/machine": ("test_machine", "test_control", "test_dialogues"),
+    "tools/plumb/diary": ("tools/tests/diary", "tools/tests/cli/test_diary_and_recheck.py"),
+    "tools/plumb/recovery": ("tools/tests/recovery", "tools/tests/cli/test_slip_and_home.py"),
+}
 
 
 def options() -> argparse.Namespace:
     """The command line."""
     parser = argparse.ArgumentParser(prog="tools/mutation/run", description=__doc__)
-    parser.add_argument("room", choices=[room.name for room in ROOMS], metavar="ROOM",
-                        help=f"one of {', '.join(room.name for room in ROOMS)}")  # fmt: skip
+    parser.add_argument("room", help="a folder or a file, like lib/Motion or tools/plumb/fit")
     parser.add_argument("--sample", type=int, metavar="N", help="so many mutants, not all")
     parser.add_argument("--seed", type=int, default=1, metavar="S", help="another sample")
     parser.add_argument("--at", default="", metavar="PART", help="only places like file:line:")
@@ -27,33 +40,48 @@ def options() -> argparse.Namespace:
 def main() -> None:
     """Judges mutants of a room and prints its score; exit 1 if one survives without a reason."""
     asked = options()
-    room = next(room for room in ROOMS if room.name == asked.room)
+    room = asked.room.rstrip("/")
     mutants = mutants_of(room, asked)
-    if asked.list:
-        print(*mutants, sep="\n")
-        return
-    *survivors, score = summary(
-        room.name, judged(room, mutants, asked.save), reasons(ROOT / "tools/mutation/reasons")
-    )
+    if asked.list or not mutants:
+        print(*mutants or [f"{room} has no such mutant"], sep="\n")
+        sys.exit(not mutants)
+    outcomes = judged(room, mutants, asked.save)
+    *survivors, score = summary(room, outcomes, reasons(ROOT / "tools/mutation/reasons"))
     print(*survivors, score, sep="\n")
     sys.exit(bool(survivors))
 
 
-def mutants_of(room: Room, asked: argparse.Namespace) -> list[Mutant]:
+def files_of(room: str) -> list[Path]:
+    """The sources of a room, from the root."""
+    place = ROOT / room
+    files = [path for path in place.rglob("*") if path.suffix in (".py", ".h", ".cpp")]
+    return sorted(path.relative_to(ROOT) for path in files or [place])
+
+
+def tests_of(room: str) -> tuple[str, ...]:
+    """The suites or tests that judge a room."""
+    named = [tests for name, tests in TESTS.items() if Path(room).is_relative_to(name)]
+    return named[0] if named else (f"tools/tests/{Path(room).parts[2]}",)
+
+
+def mutants_of(room: str, asked: argparse.Namespace) -> list[Mutant]:
     """The mutants that are asked for."""
-    sites = [site for file in room.files() for site in room.language.sites(ROOT, file)]
-    sites = [site for site in sites if asked.at in f"{site.file}:{site.line}:"]
+    sites = [
+        site
+        for file in files_of(room)
+        for site in (python if file.suffix == ".py" else cxx).sites(ROOT, file)
+        if asked.at in f"{file}:{site.line}:"
+    ]
     if asked.again:
         return list(recalled(sites, asked.again, ROOT, SURVIVED if asked.survivors else ""))
     return [mutant_of(site, ROOT) for site in sampled(sites, asked.sample, asked.seed)]
 
 
-def judged(room: Room, mutants: list[Mutant], kept: Path | None) -> dict[Mutant, str]:
+def judged(room: str, mutants: list[Mutant], kept: Path | None) -> dict[Mutant, str]:
     """The outcome of each mutant, printed and kept as it comes."""
     begun, outcomes = time.monotonic(), {}
-    if mutants:
-        folder = FOLDER / room.name.replace("/", "_")
-        judge = room.language.Judge(ROOT, folder, room.tests, mutants[0].site.file)
+    file, folder = mutants[0].site.file, FOLDER / room.replace("/", "_")
+    judge = (python if file.suffix == ".py" else cxx).Judge(ROOT, folder, tests_of(room), file)
     for number, mutant in enumerate(mutants, 1):
         outcomes[mutant] = judge.outcome(mutant)
         seconds = time.monotonic() - begun

@@ -10,6 +10,7 @@ ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tools/mutation"))
 
 import cxx  # noqa: E402
+import main  # noqa: E402
 import python  # noqa: E402
 from mutants import (  # noqa: E402
     KILLED,
@@ -24,7 +25,6 @@ from mutants import (  # noqa: E402
     save,
     summary,
 )
-from rooms import ROOMS  # noqa: E402
 
 
 @pytest.mark.parametrize(
@@ -189,12 +189,12 @@ def test_survivors_at_lines_with_a_reason_do_not_count(thing):
     assert score.endswith("1 make the same program, 1 do not compile")
 
 
-def test_rooms_have_files_and_their_tests_exist():
-    for room in ROOMS:
-        assert room.files(), room.name
-        for test in room.tests:
-            place = ROOT / ("test" if room.language is cxx else "") / test
-            assert place.exists(), f"{room.name}: {test}"
+@pytest.mark.parametrize("room", [*main.TESTS, "tools/plumb/fit", "lib/Motion/src/corner.h"])
+def test_rooms_have_files_and_tests(room):
+    files = main.files_of(room)
+    assert files and all((ROOT / file).is_file() for file in files)
+    for test in main.tests_of(room):
+        assert (ROOT / ("test" if files[0].suffix != ".py" else "") / test).exists(), test
 
 
 def test_every_reason_names_a_line_that_the_tree_has():
