@@ -167,7 +167,7 @@ def test_a_saved_sample_is_the_same_after_a_move_to_another_file(thing):
     outcomes = dict(zip(sample, (SURVIVED, KILLED, KILLED, KILLED), strict=True))
     save(thing / "sample.json", outcomes)
     other = Path("tools/toy/merged.py")
-    (thing / other).write_text(f"import math\n\n{THING}")
+    (thing / other).write_text(f"import math\n\n{THING}\n\n{THING}")  # each line twice
     moved = list(python.sites(thing, other))
     again = list(recalled(moved, thing / "sample.json", thing, ""))
     assert [each.key for each in again] == [each.key for each in sample]
