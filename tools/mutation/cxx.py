@@ -4,15 +4,13 @@ import contextlib
 import hashlib
 import io
 import os
-import resource
 import shutil
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from mutants import KILLED, SAME, STILLBORN, SURVIVED, Mutant, Site, code_of
+from mutants import KILLED, SAME, STILLBORN, SURVIVED, Mutant, Site, code_of, tested
 from universalmutator.mutator import mutants_regexp
 
 RULES = Path(__file__).with_name("plumb.rules")
@@ -24,8 +22,6 @@ PIO = Path(sys.executable).with_name("pio")
 # No mutant falls by a warning. Each function by itself, or a test's constants would hide what a
 # mutant does with other numbers. No lines for debuggers: programs are compared.
 FLAGS = {"-Werror": "-w -Wno-narrowing -fno-inline", "-O2 -g1": "-O1 -g0"}
-LEAST_LIMIT = 3.0  # [s]
-HANGS = 10  # times the usual time, after which a mutant counts as fallen
 
 
 def sites(root: Path, file: Path) -> Iterator[Site]:
@@ -51,15 +47,14 @@ class Judge:
         self.program = folder / ".pio/build/native/program"
         self.copy()
         self.digests: dict[str, str] = {}
-        self.limits: dict[str, float] = {}
+        self.usual: dict[str, float] = {}
         for suite in suites:
             if not self.builds(suite):
                 sys.exit(f"{suite} does not build without any mutant.")
-            begun = time.monotonic()
-            if not self.passes(None):
+            passes, self.usual[suite] = self.run(None)
+            if not passes:
                 sys.exit(f"{suite} fails without any mutant.")
             self.digests[suite] = self.digest()
-            self.limits[suite] = LEAST_LIMIT + HANGS * (time.monotonic() - begun)
 
     def outcome(self, mutant: Mutant) -> str:
         """What becomes of a mutant."""
@@ -72,7 +67,7 @@ class Judge:
                     return STILLBORN
                 if self.digest() == self.digests[suite]:
                     continue
-                if not self.passes(self.limits[suite]):
+                if not self.run(self.usual[suite])[0]:
                     return KILLED
                 outcome = SURVIVED
             return outcome
@@ -104,27 +99,10 @@ class Judge:
         )
         return self.program.is_file()
 
-    def passes(self, limit: float | None) -> bool:
-        """Whether the program's tests pass in time, in bounded memory and without a core file."""
-        try:
-            done = subprocess.run(
-                [self.program],
-                cwd=self.tree,
-                env={**os.environ, "GTEST_FAIL_FAST": "1"},
-                preexec_fn=bound_memory,
-                capture_output=True,
-                timeout=limit,
-            )
-        except subprocess.TimeoutExpired:
-            return False
-        return done.returncode == 0
+    def run(self, usual: float | None) -> tuple[bool, float]:
+        """Whether the program's tests pass, and their time."""
+        return tested([self.program], self.tree, {**os.environ, "GTEST_FAIL_FAST": "1"}, usual)
 
     def digest(self) -> str:
         """A number for the program's bytes."""
         return hashlib.sha256(self.program.read_bytes()).hexdigest()
-
-
-def bound_memory() -> None:
-    """Bounds a process to 4 GB and no core file."""
-    resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))

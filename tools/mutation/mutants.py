@@ -2,12 +2,18 @@
 
 import json
 import random
+import resource
+import subprocess
 import tomllib
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+HANGS = 10  # times the usual time of a processor, after which tests count as fallen
+LEAST = 3  # [s]
+PATIENCE = 4  # times that on the clock: other work may have the processor, or nothing happens
+MEMORY = 8 << 30  # [B] of the tests
 KILLED, SURVIVED, SAME, STILLBORN = "killed", "survived", "same program", "does not compile"
 
 
@@ -106,3 +112,25 @@ def summary(room: str, judged: dict[Mutant, str], why: dict[tuple[str, str], str
         f"{len(survivors) - len(open_ones)} more at lines with a reason; "
         f"{counts[SAME]} make the same program, {counts[STILLBORN]} do not compile",
     ]
+
+
+def tested(
+    command: list, folder: Path, environment: dict[str, str], usual: float | None
+) -> tuple[bool, float]:
+    """Whether tests pass, and their time of a processor [s]; a usual time bounds it."""
+    most = int(HANGS * usual) + LEAST if usual else resource.RLIM_INFINITY
+    patience = PATIENCE * most if usual else None
+
+    def bound() -> None:
+        resource.setrlimit(resource.RLIMIT_CPU, (most, most))
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+    options = {"cwd": folder, "env": environment, "timeout": patience, "capture_output": True}
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    try:
+        done = subprocess.run(command, preexec_fn=bound, **options)
+    except subprocess.TimeoutExpired:
+        return False, 0.0
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return done.returncode == 0, after.ru_utime - before.ru_utime

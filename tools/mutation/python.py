@@ -2,10 +2,8 @@
 
 import ast
 import os
-import subprocess
 import sys
 import tempfile
-import time
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
@@ -13,11 +11,10 @@ from pathlib import Path
 from cosmic_ray.ast import ast_nodes, get_ast
 from cosmic_ray.mutating import mutate_code
 from cosmic_ray.plugins import get_operator
-from mutants import KILLED, SAME, STILLBORN, SURVIVED, Mutant, Site, code_of
+from mutants import KILLED, SAME, STILLBORN, SURVIVED, Mutant, Site, code_of, tested
 
 PYTEST = (sys.executable, "-m", "pytest", "-q", "-x", "--tb=no", "--rootdir=.")
 PLUGINS = ("-m", "not slow", "-p", "no:cacheprovider", "-p", "swapped_module")
-HANGS = 10  # times the usual time, after which a mutant counts as fallen
 # Those that make plausible slips; the others, like << for +, fall by their types alone.
 PLAIN = (
     "AddNot NumberReplacer ReplaceAndWithOr ReplaceOrWithAnd ReplaceTrueWithFalse "
@@ -72,11 +69,10 @@ class Judge:
     """The tests of a room. They must pass with the text of a file as it stands."""
 
     def __init__(self, root: Path, folder: Path, tests: tuple[str, ...], file: Path):
-        self.root, self.tests, self.limit = root, tests, None
-        begun = time.monotonic()
-        if not self.passes(file, (root / file).read_text()):
+        self.root, self.tests = root, tests
+        passes, self.usual = self.run(file, (root / file).read_text(), None)
+        if not passes:
             sys.exit(f"The tests of {file} fail without any mutant.")
-        self.limit = HANGS * (time.monotonic() - begun)
 
     def outcome(self, mutant: Mutant) -> str:
         """What becomes of a mutant."""
@@ -89,10 +85,10 @@ class Judge:
             return STILLBORN
         if is_same:
             return SAME
-        return SURVIVED if self.passes(file, mutant.text) else KILLED
+        return SURVIVED if self.run(file, mutant.text, self.usual)[0] else KILLED
 
-    def passes(self, file: Path, text: str) -> bool:
-        """Whether all tests pass, in time, with this text for a file."""
+    def run(self, file: Path, text: str, usual: float | None) -> tuple[bool, float]:
+        """Whether all tests pass with this text for a file, and their time."""
         with tempfile.NamedTemporaryFile("w", suffix=".py") as mutated:
             mutated.write(text)
             mutated.flush()
@@ -107,14 +103,4 @@ class Judge:
                 # They would take as long to load as most tests take.
                 "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",
             }
-            try:
-                done = subprocess.run(
-                    [*PYTEST, *PLUGINS, *self.tests],
-                    cwd=self.root,
-                    env=environment,
-                    capture_output=True,
-                    timeout=self.limit,
-                )
-            except subprocess.TimeoutExpired:
-                return False
-        return done.returncode == 0
+            return tested([*PYTEST, *PLUGINS, *self.tests], self.root, environment, usual)

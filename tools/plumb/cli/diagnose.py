@@ -9,7 +9,7 @@ from typing import Any
 from plumb.cli.checked import with_stated
 from plumb.cli.files import inputs_of
 from plumb.cli.screen import sentences, table
-from plumb.cli.steps import auto_words, add_named, next_step, same_inputs
+from plumb.cli.steps import add_named, auto_words, next_step, same_inputs
 from plumb.cli.text import print_json
 from plumb.diagnosis import Diagnosis, diagnose
 from plumb.diagnosis.answer import Ranked, Together

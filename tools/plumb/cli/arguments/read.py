@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from plumb.cli.arguments.shared import add_port, add_force, add_json
+from plumb.cli.arguments.shared import add_force, add_json, add_port
 
 HELP = "read the machine's numbers and where its sled is"
 EXIT = "Exit: 0 done; 2 no machine answers, or the file cannot be written."
