@@ -11,6 +11,7 @@ sys.path.insert(0, str(ROOT / "tools/mutation"))
 
 import cxx  # noqa: E402
 import main  # noqa: E402
+import mutants as shared  # noqa: E402
 import python  # noqa: E402
 from mutants import (  # noqa: E402
     KILLED,
@@ -151,6 +152,17 @@ def test_mutants_of_a_python_toy_have_the_outcomes_that_their_tests_deserve(thin
     named = {(mutant.site.scope, mutant.changed): mutant for mutant in mutants}
     assert {key: judge.outcome(named[key]) for key in EXPECTED} == EXPECTED
     assert (thing / FILE).read_text() == THING
+
+
+@pytest.mark.parametrize(
+    ("code", "passes"), [("while True: pass", False), ("import time; time.sleep(1.5)", True)]
+)
+def test_what_takes_a_processor_too_long_falls_and_what_waits_does_not(
+    monkeypatch, tmp_path, code, passes
+):
+    monkeypatch.setattr(shared, "LEAST", 1)
+    monkeypatch.setattr(shared, "PATIENCE", 60)
+    assert shared.tested([sys.executable, "-S", "-c", code], tmp_path, {}, 0.01)[0] is passes
 
 
 def test_tests_that_fail_by_themselves_judge_nothing(thing):
