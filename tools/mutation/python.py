@@ -57,8 +57,9 @@ def scopes_of(text: str) -> dict[int, str]:
             inside = around
             if isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
                 inside = f"{around}.{child.name}".lstrip(".")
+                first = min(each.lineno for each in (child, *child.decorator_list))
                 last = child.end_lineno or child.lineno
-                scopes.update(dict.fromkeys(range(child.lineno, last + 1), inside))
+                scopes.update(dict.fromkeys(range(first, last + 1), inside))
             walk(child, inside)
 
     walk(ast.parse(text), "")

@@ -165,6 +165,11 @@ def test_what_takes_a_processor_too_long_falls_and_what_waits_does_not(
     assert shared.tested([sys.executable, "-S", "-c", code], tmp_path, {}, 0.01)[0] is passes
 
 
+def test_a_decorator_belongs_to_what_it_decorates():
+    text = "@cut(2)\nclass A:\n    @cut(3)\n    def b(self):\n        return 1\n"
+    assert python.scopes_of(text) == {1: "A", 2: "A", 3: "A.b", 4: "A.b", 5: "A.b"}
+
+
 def test_tests_that_fail_by_themselves_judge_nothing(thing):
     (thing / FILE).write_text("")
     with pytest.raises(SystemExit, match="fail without any mutant"):
