@@ -79,6 +79,7 @@ SEARCHED = [
 ]
 
 # The rooms of the package, floor by floor from the top: a room may import those on floors below.
+# import-linter cannot hold this: it takes an import of a compiled module for one of all of plumb.
 PACKAGE = "tools/plumb"
 FLOORS = (
     ("cli",),
@@ -138,13 +139,8 @@ def violations(root: Path) -> Iterator[str]:
         elif name.is_relative_to(PAGE) and path.suffix in tree.SCRIPT:
             yield from (f"{name}:{line}: {why}" for line, why in across(path, name))
         elif name.is_relative_to(PACKAGE) and path.suffix == ".py":
-            yield from (f"{name}:{line}: {why}" for line, why in upward(path, name))
-            for line, module in imports(path):
-                if module in research:
-                    yield f"{name}:{line}: imports {module} of {RESEARCH}, which nobody installs"
-            if any(name.is_relative_to(place) for place in STANDARD_LIBRARY_ONLY):
-                yield from (f"{name}:{line}: {why}" for line, why in third_party(path))
-                yield from (f"{name}:{line}: {why}" for line, why in beyond_the_bare(path))
+            refused = in_package(path, name, research)
+            yield from (f"{name}:{line}: {why}" for line, why in refused)
 
 
 def part_of(name: Path) -> tuple[str, str | None]:
@@ -164,54 +160,47 @@ def includes(path: Path) -> Iterator[tuple[int, str]]:
         yield text.count("\n", 0, match.start(1)) + 1, match[1]
 
 
-def third_party(path: Path) -> Iterator[tuple[int, str]]:
-    """Line number and reason for each import of what Python itself does not bring."""
-    for line, module in imports(path):
-        if module not in sys.stdlib_module_names and module not in ("plumb", "."):
-            yield line, f"imports {module}, not of the standard library"
-
-
-def beyond_the_bare(path: Path) -> Iterator[tuple[int, str]]:
-    """Line number and reason for each import from the package that needs an installation."""
-    bare = tuple(
-        place.removeprefix("tools/").removesuffix(".py") for place in STANDARD_LIBRARY_ONLY
-    )
-    for node in ast.walk(ast.parse(tree.text_of(path))):
-        if isinstance(node, ast.Import):
-            modules = [alias.name for alias in node.names]
-        else:
-            modules = [node.module or ""] if isinstance(node, ast.ImportFrom) else []
-        for module in modules:
-            place = module.replace(".", "/")
-            if place.startswith("plumb") and not f"{place}/".startswith(
-                tuple(f"{b}/" for b in bare)
-            ):
-                yield node.lineno, f"imports {module}, which runs only where plumb is installed"
-
-
 def imports(path: Path) -> Iterator[tuple[int, str]]:
-    """Line number and top-level name of each module that a Python file imports."""
+    """Line number and full name of each module that a Python file imports."""
     for node in ast.walk(ast.parse(tree.text_of(path))):
         if isinstance(node, ast.Import):
-            yield from ((node.lineno, alias.name.partition(".")[0]) for alias in node.names)
+            yield from ((node.lineno, alias.name) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module == "plumb":
+            yield from ((node.lineno, f"plumb.{alias.name}") for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
-            yield node.lineno, (node.module or ".").partition(".")[0] if not node.level else "."
+            yield node.lineno, "." * node.level + (node.module or "")
 
 
-def upward(path: Path, name: Path) -> Iterator[tuple[int, str]]:
-    """Line number and reason for each import that a room of the package may not make."""
+def in_package(path: Path, name: Path, research: set[str]) -> Iterator[tuple[int, str]]:
+    """Line number and reason for each import that a file of the package may not make."""
     floor_of = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
     room = name.relative_to(PACKAGE).parts[0]
-    if room == "__init__.py":
-        return
-    if room not in floor_of:
+    if room not in (*floor_of, "__init__.py"):
         yield 1, f"{room} is on no floor: add it to FLOORS in tools/checks/arrows.py"
-        return
-    for line, to in rooms_imported(path):
-        if to != room and floor_of.get(to, -1) <= floor_of[room]:
+    is_bare = any(name.is_relative_to(place) for place in STANDARD_LIBRARY_ONLY)
+    for line, module in imports(path):
+        top, _, rest = module.partition(".")
+        to = rest.partition(".")[0]
+        if top in research:
+            yield line, f"imports {top} of {RESEARCH}, which nobody installs"
+        elif is_bare and top not in (*sys.stdlib_module_names, "plumb"):
+            yield line, f"imports {module}, not of the standard library"
+        elif is_bare and top == "plumb" and not runs_bare(module):
+            yield line, f"imports {module}, which runs only where plumb is installed"
+        elif room not in floor_of or top not in ("plumb", ""):
+            continue
+        elif not top or not to:
+            yield line, f"{room} may not import {module} (name the room: plumb.ROOM.MODULE)"
+        elif to != room and floor_of.get(to, -1) <= floor_of[room]:
             yield line, f"{room} may not import {to}: imports only go down the floors"
         elif room != ONLY.get(to, room):
             yield line, f"{room} may not import {to}: only {ONLY[to]} may"
+
+
+def runs_bare(module: str) -> bool:
+    """Whether a module of the package runs without an installation."""
+    place = f"tools/{module.replace('.', '/')}/"
+    return any(place.startswith(f"{bare.removesuffix('.py')}/") for bare in STANDARD_LIBRARY_ONLY)
 
 
 def across(path: Path, name: Path) -> Iterator[tuple[int, str]]:
@@ -237,24 +226,6 @@ def across(path: Path, name: Path) -> Iterator[tuple[int, str]]:
             yield line, f"{folder} may not import {to or match[1]}"
         elif folder == "shell" and to in SCREENS and name.as_posix() != LIST_OF_SCREENS:
             yield line, f"only {LIST_OF_SCREENS} may import {to}"
-
-
-def rooms_imported(path: Path) -> Iterator[tuple[int, str]]:
-    """Line number and room for each import of a part of the package."""
-    for node in ast.walk(ast.parse(tree.text_of(path))):
-        if isinstance(node, ast.Import):
-            modules = [alias.name for alias in node.names]
-        elif isinstance(node, ast.ImportFrom) and node.module == "plumb":
-            modules = [f"plumb.{alias.name}" for alias in node.names]
-        elif isinstance(node, ast.ImportFrom):
-            modules = ["." * node.level + (node.module or "")]
-        else:
-            continue
-        for module in modules:
-            if module == "plumb" or module.startswith("."):
-                yield node.lineno, f"{module} (name the room: plumb.ROOM.MODULE)"
-            elif module.startswith("plumb."):
-                yield node.lineno, module.split(".")[1]
 
 
 def refusal(root: Path, path: Path, part: str, rule: str, header: str) -> str | None:

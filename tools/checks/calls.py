@@ -115,57 +115,32 @@ def in_makefile(text: str) -> Iterator[tuple[int, str]]:
 def in_python(text: str) -> Iterator[tuple[int, str]]:
     """Programs that a module hands to subprocess, by itself or through a function in its file."""
     module = ast.parse(text)
-    commands = commands_in(module)
+    lists: dict[str, list[ast.expr]] = {}
     for node in ast.walk(module):
-        if isinstance(node, ast.Call):
-            yield from in_call(node, commands)
-
-
-def in_call(
-    node: ast.Call, commands: dict[str, list[tuple[int, str]]]
-) -> Iterator[tuple[int, str]]:
-    """Programs of one call."""
-    function = node.func
-    name = function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
-    first = node.args[0] if node.args else None
-    if name in SUBPROCESS and isinstance(function, ast.Attribute):
-        yield from programs_of(first, commands)
-    elif name in ("which", "output"):
-        yield from program_of(first)
-    elif name == "VerboseAction":
-        for line, command in program_of(first):
-            yield line, command.split()[0]
-    elif name == "Replace":
-        for keyword in node.keywords:
-            if keyword.arg in SCONS_TOOLS:
-                yield from program_of(keyword.value)
-
-
-def programs_of(
-    argument: ast.expr | None, commands: dict[str, list[tuple[int, str]]]
-) -> Iterator[tuple[int, str]]:
-    """Programs of what subprocess gets: a list, or a name that stands for a list."""
-    if isinstance(argument, ast.Name):
-        yield from commands.get(argument.id, [])
-    elif isinstance(argument, ast.List) and argument.elts:
-        head = argument.elts[0]
-        if isinstance(head, ast.Starred) and isinstance(head.value, ast.Name):
-            yield from commands.get(head.value.id, [])
-        yield from program_of(head)
-
-
-def commands_in(module: ast.Module) -> dict[str, list[tuple[int, str]]]:
-    """Programs at the head of each list that a name is given."""
-    commands: dict[str, list[tuple[int, str]]] = {}
-    for node in ast.walk(module):
-        if isinstance(node, ast.Assign) and isinstance(node.value, ast.List) and node.value.elts:
+        if isinstance(node, ast.Assign) and isinstance(node.value, ast.List):
             for target in node.targets:
                 if isinstance(target, ast.Name):
-                    commands.setdefault(target.id, []).extend(program_of(node.value.elts[0]))
-    return commands
+                    lists.setdefault(target.id, []).append(node.value)
+    for node in ast.walk(module):
+        if not isinstance(node, ast.Call):
+            continue
+        function = node.func
+        name = function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
+        is_run = name in SUBPROCESS and isinstance(function, ast.Attribute)
+        if is_run or name in ("which", "output", "VerboseAction"):
+            yield from (head for each in node.args[:1] for head in heads(each, lists))
+        elif name == "Replace":
+            tools = (each.value for each in node.keywords if each.arg in SCONS_TOOLS)
+            yield from (head for each in tools for head in heads(each, lists))
 
 
-def program_of(node: ast.expr | None) -> Iterator[tuple[int, str]]:
-    """A program that is written as plain text."""
+def heads(node: ast.expr, lists: dict[str, list[ast.expr]]) -> Iterator[tuple[int, str]]:
+    """Line and program of a command: a text, a list, or a name that stands for a list."""
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
-        yield node.lineno, node.value
+        yield node.lineno, node.value.partition(" ")[0]
+    elif isinstance(node, ast.Starred):
+        yield from heads(node.value, lists)
+    elif isinstance(node, ast.Name):
+        yield from (head for each in lists.get(node.id, ()) for head in heads(each, {}))
+    elif isinstance(node, ast.List) and node.elts:
+        yield from heads(node.elts[0], lists)

@@ -1,7 +1,6 @@
 """Names that may not be given: Arduino's macros in lib/, crutches in Python and C++.
 
-Two files of tests in Python never have the same name, as pytest takes them for one module. Two
-files of a suite in C++ never define the same name, as the compiler may read them as one file.
+Two files of a suite in C++ never define the same name, as the compiler may read them as one file.
 lib/ avoids the names of Arduino's macros, so that both compile in either order. A name is a noun
 that says what it holds: `plan`, `effect`, `mark`.
 """
@@ -39,19 +38,7 @@ def violations(root: Path) -> Iterator[str]:
     """Each such name, a line for each."""
     yield from names_in_cxx(root)
     yield from crutches(root)
-    yield from twins(root)
     yield from defined_twice(root)
-
-
-def twins(root: Path) -> Iterator[str]:
-    """Each file of tests that has the name of another."""
-    seen: dict[str, Path] = {}
-    for path in tree.own_files(root):
-        name = path.relative_to(root)
-        if path.suffix == ".py" and path.name.startswith("test_"):
-            first = seen.setdefault(path.name, name)
-            if first != name:
-                yield f"{name}: {first} has the same name"
 
 
 def defined_twice(root: Path) -> Iterator[str]:

@@ -1,7 +1,13 @@
-"""Crutches in prose: comments, docstrings and pages say the noun instead of `one` or `own`."""
+"""Prose: comments, docstrings and pages say the noun instead of `one` or `own`, spelled rightly.
+
+codespell knows misspellings; it knows single words only, so the crutches, which depend on the words
+around them, are found here.
+"""
 
 import ast
 import re
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -21,20 +27,36 @@ SCRIPT_COMMENT = re.compile(r"(?<![:\"'`\w])//[^\n]*|/\*.*?\*/", re.DOTALL)
 PYTHON_COMMENT = re.compile(r"^\s*#.*|(?<=  )# .*", re.MULTILINE)
 # What a page quotes is not its prose: blocks of a screen, code, words and addresses of others.
 QUOTED = re.compile(r"^```.*?^```$|^ {4}.*?$|`[^`\n]*`|\"[^\"\n]*\"|\]\([^)]*\)", re.DOTALL | re.M)
+# Words that codespell takes for misspelled others.
+SPELLED_RIGHTLY = "statics,fro,positionOf"
 # History, and words of others.
 LEFT_ALONE = {"CHANGELOG.md", "LICENSE"}
 
 
 def violations(root: Path) -> Iterator[str]:
-    """Each crutch, a line for each."""
+    """Each crutch and each misspelling, a line for each."""
+    places, lines = [], []
     for path in tree.own_files(root):
         name = path.relative_to(root)
         if str(name) in LEFT_ALONE:
             continue
         for line, text in prose_of(path):
-            for match in CRUTCHES.finditer(unquoted(text)):
+            prose = unquoted(text)
+            lines += prose.splitlines()
+            places += [f"{name}:{line + more}" for more in range(len(prose.splitlines()))]
+            for match in CRUTCHES.finditer(prose):
                 place = line + text[: match.start()].count("\n")
                 yield f"{name}:{place}: {' '.join(match[0].split())}: say what is meant"
+
+    yield from (f"{places[number]}: {why}" for number, why in misspelled(lines))
+
+
+def misspelled(lines: list[str]) -> Iterator[tuple[int, str]]:
+    """The place in the list, and what codespell says, of each line with a misspelling."""
+    command = [Path(sys.executable).with_name("codespell"), "-L", SPELLED_RIGHTLY, "-"]
+    done = subprocess.run(command, input="\n".join(lines), capture_output=True, text=True)
+    for number, why in re.findall(r"^(\d+): .*\n\t(.*)$", done.stdout, re.MULTILINE):
+        yield int(number) - 1, why
 
 
 def prose_of(path: Path) -> Iterator[tuple[int, str]]:

@@ -1,150 +1,108 @@
-"""Mutants of C++, judged by the host's suites."""
+"""C++: mutants by universalmutator, each judged by the host's suites in a copy of the tree."""
 
-import dataclasses
-import math
-from collections import Counter
-from collections.abc import Callable, Iterable
+import contextlib
+import hashlib
+import io
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
 from pathlib import Path
 
-import cxx_sites
-from cxx_build import Build
-from cxx_schema import mutated, shown, with_switches
-from cxx_sites import Site
-from cxx_trials import Suite
-from mutants import EQUIVALENT, KILLED, STILLBORN, SURVIVED, Mutant, Verdict
+from mutants import KILLED, SAME, STILLBORN, SURVIVED, Mutant, Site, code_of, tested
+from universalmutator.mutator import mutants_regexp
 
-QUICK_TEST = 0.3  # [s]
-UNREACHED = "no test reaches it"
-MOST_ROUNDS = 12  # of builds until all that is left compiles
+RULES = Path(__file__).with_name("plumb.rules")
+# Lines of the preprocessor or of the compiler alone, and rows with words, which are data.
+LEFT_ALONE = (r"^\s*#", r"static_assert|^\s*template |\boperator\b", r'[{(]\s*".*",|, ".*"\s*[,)}]')
+COPIED = ("include", "lib", "src", "test", "tools/judge", "tools/core", "tools/vm")
+LINKED = (".platformio", ".pio/libdeps")
+PIO = Path(sys.executable).with_name("pio")
+# No mutant falls by a warning. Each function by itself, or a test's constants would hide what a
+# mutant does with other numbers. No lines for debuggers: programs are compared.
+FLAGS = {"-Werror": "-w -Wno-narrowing -fno-inline", "-O2 -g1": "-O1 -g0"}
 
 
-class CxxRoom:
-    """The mutants of some files, and the suites that judge them, the nearest first."""
+def sites(root: Path, file: Path) -> Iterator[Site]:
+    """Each change of a file by each rule, in the file's order."""
+    lines = (root / file).read_text().splitlines(keepends=True)
+    with contextlib.redirect_stdout(io.StringIO()):
+        changes = mutants_regexp(
+            lines, [str(RULES)], ignorePatterns=LEFT_ALONE, ignoreStringOnly=True
+        )
+    for number, changed, *_ in changes:
 
-    def __init__(
-        self, root: Path, files: list[Path], make_build: Callable[[], Build], is_quick: bool
-    ):
-        self.root, self.files, self.make_build = root, files, make_build
-        self.is_quick = is_quick
-        self.patience = QUICK_TEST if is_quick else math.inf
-        self.texts = {path: (root / path).read_bytes() for path in files}
-        self.words = {}
-        self.sites: dict[Mutant, tuple[Path, Site]] = {}
-        for path in files:
-            sites, self.words[path] = cxx_sites.read(self.texts[path])
-            self._name(path, sites)
+        def change(number: int = number, changed: str = changed) -> str:
+            return "".join([*lines[: number - 1], changed, *lines[number:]])
 
-    def mutants(self) -> list[Mutant]:
-        """All of them, in the files' order."""
-        return list(self.sites)
+        yield Site(file, number, str(file), code_of(lines[number - 1]), change)
 
-    def judge(self, mutants: Iterable[Mutant], tell: Callable[[Mutant, Verdict], None]) -> None:
-        """Tries each mutant and tells what became of it."""
-        self.build = self.make_build()
-        self.users: dict[Path, list[Path]] = {}
-        self.digests: dict[Path, str] = {}
-        self.suites = [Suite(name, self.build.program(name)) for name in self.build.layout.suites]
-        numbers = {number: mutant for number, mutant in enumerate(mutants, 1)}
-        chosen, alone = self._switched(numbers)
-        for suite in self.suites:
-            suite.record(self.build.tree)
-        for number, mutant in chosen.items():
-            tell(mutant, self._checked(mutant, self._by_switch(number), number))
-        for mutant in [] if self.is_quick else alone:
-            tell(mutant, self._checked(mutant, self._by_build(mutant)))
 
-    def _name(self, path: Path, sites: list[Site]) -> None:
-        seen: Counter = Counter()
-        for site in sites:
-            original, changed = shown(self.texts[path], site)
-            twin = seen[original, changed]
-            seen[original, changed] += 1
-            self.sites[Mutant(str(path), site.line, original, changed, twin)] = (path, site)
+class Judge:
+    """The suites of a room, the nearest first, built by PlatformIO in a copy of the tree."""
 
-    def _switched(self, numbers: dict[int, Mutant]) -> tuple[dict[int, Mutant], list[Mutant]]:
-        """Builds the suites with all mutants that one build can hold; those, and the others."""
-        chosen = {n: m for n, m in numbers.items() if not self.sites[m][1].is_constant}
-        for _ in range(MOST_ROUNDS):
-            self._put(chosen)
-            output = self.build.make(list(self.build.layout.suites))
-            if not output:
-                break
-            places = self.build.errors(output)
-            refused = self._at(chosen, places["error"]) or self._at(chosen, places["note"])
-            if not refused:
-                raise RuntimeError(f"The suites do not build:\n{output[-3000:]}")
-            chosen = {n: m for n, m in chosen.items() if n not in refused}
-        else:
-            raise RuntimeError(
-                f"The suites do not build after {MOST_ROUNDS} rounds:\n{output[-3000:]}"
-            )
-        return chosen, [mutant for number, mutant in numbers.items() if number not in chosen]
+    def __init__(self, root: Path, folder: Path, suites: tuple[str, ...], file: Path):
+        self.root, self.tree, self.suites = root, folder, suites
+        self.program = folder / ".pio/build/native/program"
+        self.copy()
+        self.digests: dict[str, str] = {}
+        self.usual: dict[str, float] = {}
+        for suite in suites:
+            if not self.builds(suite):
+                sys.exit(f"{suite} does not build without any mutant.")
+            passes, self.usual[suite] = self.run(None)
+            if not passes:
+                sys.exit(f"{suite} fails without any mutant.")
+            self.digests[suite] = self.digest()
 
-    def _put(self, chosen: dict[int, Mutant]) -> None:
-        for path, text in self.texts.items():
-            sites = {n: self.sites[m][1] for n, m in chosen.items() if self.sites[m][0] == path}
-            self.build.put(path, with_switches(text, sites, self.words[path]))
+    def outcome(self, mutant: Mutant) -> str:
+        """What becomes of a mutant."""
+        file = self.tree / mutant.site.file
+        outcome = SAME
+        file.write_text(mutant.text)
+        try:
+            for suite in self.suites:
+                if not self.builds(suite):
+                    return STILLBORN
+                if self.digest() == self.digests[suite]:
+                    continue
+                if not self.run(self.usual[suite])[0]:
+                    return KILLED
+                outcome = SURVIVED
+            return outcome
+        finally:
+            shutil.copyfile(self.root / mutant.site.file, file)
 
-    def _at(self, chosen: dict[int, Mutant], places: list[tuple[Path, int]]) -> set[int]:
-        """Mutants at some lines."""
-        at = set(places)
-        return {
-            number
-            for number, mutant in chosen.items()
-            for path, site in [self.sites[mutant]]
-            if any(
-                (path, line) in at
-                for line in range(self._first_line(path, site), site.last_line + 1)
-            )
-        }
+    def copy(self) -> None:
+        """Copies what the suites are built from, with other flags."""
+        for part in COPIED:
+            shutil.rmtree(self.tree / part, ignore_errors=True)
+            shutil.copytree(self.root / part, self.tree / part)
+        shutil.copy(self.root / "tools/own_flags.py", self.tree / "tools")
+        for part in LINKED:
+            (self.tree / part).parent.mkdir(exist_ok=True)
+            if not (self.tree / part).is_symlink():
+                (self.tree / part).symlink_to(self.root / part)
+        options = (self.root / "platformio.ini").read_text()
+        for before, after in FLAGS.items():
+            options = options.replace(before, after)
+        (self.tree / "platformio.ini").write_text(options)
 
-    def _first_line(self, path: Path, site: Site) -> int:
-        return self.texts[path].count(b"\n", 0, site.start) + 1
+    def builds(self, suite: str) -> bool:
+        """Whether the program of a suite builds."""
+        self.program.unlink(missing_ok=True)
+        command = [PIO, "test", "-e", "native", "--filter", suite, "--without-testing"]
+        path = f"/usr/lib/ccache{os.pathsep}{os.environ.get('PATH', '')}"
+        subprocess.run(
+            command, cwd=self.tree, env={**os.environ, "PATH": path}, capture_output=True
+        )
+        return self.program.is_file()
 
-    def _by_switch(self, number: int) -> Verdict:
-        """The verdict of the tests that reach a mutant."""
-        reached = False
-        for suite in self.suites:
-            tests = suite.tests_of(number, self.patience)
-            reached = reached or bool(tests)
-            fallen = suite.fallen(self.build.tree, tests, number)
-            if fallen:
-                return Verdict(KILLED, f"{suite.name} {fallen}")
-        return Verdict(SURVIVED, "" if reached else UNREACHED)
+    def run(self, usual: float | None) -> tuple[bool, float]:
+        """Whether the program's tests pass, and their time."""
+        return tested([self.program], self.tree, {**os.environ, "GTEST_FAIL_FAST": "1"}, usual)
 
-    def _by_build(self, mutant: Mutant) -> Verdict:
-        """The verdict on a mutant that needs a separate build: constants of the compiler."""
-        path, site = self.sites[mutant]
-        changed = mutated(self.texts[path], site)
-        for suite in self.suites:
-            self.build.put(path, changed)
-            output = self.build.make([suite.name])
-            if output:
-                return Verdict(STILLBORN)
-            fallen = suite.fallen(self.build.tree, suite.tests(self.patience))
-            if fallen:
-                return Verdict(KILLED, f"{suite.name} {fallen}")
-        return Verdict(SURVIVED)
-
-    def _checked(self, mutant: Mutant, verdict: Verdict, number: int = 0) -> Verdict:
-        """A survivor of which every object is that of the original is none.
-
-        A template that no test reaches is in no object, which says nothing about its mutants.
-        """
-        if verdict.outcome != SURVIVED or verdict.by == UNREACHED or self.is_quick:
-            return verdict
-        path, site = self.sites[mutant]
-        changed = mutated(self.texts[path], site)
-        for source in self._users(path, number):
-            if source not in self.digests:
-                self.digests[source] = self.build.digest(source)
-            if self.build.digest(source, (path, changed)) != self.digests[source]:
-                return verdict
-        return dataclasses.replace(verdict, outcome=EQUIVALENT)
-
-    def _users(self, path: Path, number: int) -> list[Path]:
-        """Sources that read a file, those first of which a test reaches the mutant."""
-        if path not in self.users:
-            self.users[path] = self.build.users(path)
-        near = {file for suite in self.suites for file in suite.files_of(number)}
-        return sorted(self.users[path], key=lambda source: source not in near)
+    def digest(self) -> str:
+        """A number for the program's bytes."""
+        return hashlib.sha256(self.program.read_bytes()).hexdigest()

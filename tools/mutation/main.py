@@ -1,119 +1,95 @@
 """Mutation testing: changes the code, one place at a time, and sees whether a test falls."""
 
 import argparse
-import random
 import sys
 import time
+from pathlib import Path
 
-from ledger import Ledger, reasons, score, state_of
-from mutants import SURVIVED, Mutant, Verdict
-from rooms import FOLDER, ROOMS, ROOT, Room
+import cxx
+import python
+from mutants import SURVIVED, Mutant, mutant_of, reasons, recalled, sampled, save, summary
+
+ROOT = Path(__file__).resolve().parents[2]
+FOLDER = ROOT / ".build/mutation"
+# What judges a room, the nearest first; a room of the lab that is not here has its room of tests.
+TESTS = {
+    "lib/Kinematics": ("test_kinematics", "test_effects"),
+    "lib/Motion": ("test_motion", "test_control"),
+    "lib/GCode": ("test_gcode",),
+    "lib/Settings": ("test_settings",),
+    "src/machine": ("test_machine", "test_control", "test_dialogues"),
+    "tools/plumb/diary": ("tools/tests/diary", "tools/tests/cli/test_diary_and_recheck.py"),
+    "tools/plumb/recovery": ("tools/tests/recovery", "tools/tests/cli/test_slip_and_home.py"),
+}
 
 
 def options() -> argparse.Namespace:
     """The command line."""
     parser = argparse.ArgumentParser(prog="tools/mutation/run", description=__doc__)
-    parser.add_argument(
-        "room", nargs="*", help=f"of {', '.join(each.name for each in ROOMS)}; all if none is named"
-    )
-    parser.add_argument(
-        "--sample", type=int, metavar="N", help="so many mutants of each room, not all"
-    )
-    parser.add_argument(
-        "--seed", type=int, default=1, metavar="S", help="another sample (default 1)"
-    )
-    parser.add_argument(
-        "--at", default="", metavar="PART", help="only places (file:line:) with this in their name"
-    )
-    parser.add_argument(
-        "--survivors",
-        action="store_true",
-        help="only those that survived the last run, with tests of now",
-    )
-    parser.add_argument(
-        "--quick",
-        action="store_true",
-        help="only mutants that one build can hold, only quick tests, equivalents stay in",
-    )
+    parser.add_argument("room", help="a folder or a file, like lib/Motion or tools/plumb/fit")
+    parser.add_argument("--sample", type=int, metavar="N", help="so many mutants, not all")
+    parser.add_argument("--seed", type=int, default=1, metavar="S", help="another sample")
+    parser.add_argument("--at", default="", metavar="PART", help="only places like file:line:")
+    parser.add_argument("--save", type=Path, metavar="FILE", help="write mutants and outcomes")
+    parser.add_argument("--again", type=Path, metavar="FILE", help="judge a saved sample again")
+    parser.add_argument("--survivors", action="store_true", help="of those only the survivors")
     parser.add_argument("--list", action="store_true", help="print the mutants, try none")
     return parser.parse_args()
 
 
 def main() -> None:
-    """Rooms one by one; exit 1 if a mutant survives without a reason."""
+    """Judges mutants of a room and prints its score; exit 1 if one survives without a reason."""
     asked = options()
-    unknown = set(asked.room) - {room.name for room in ROOMS}
-    if unknown:
-        sys.exit(f"No room is called {', '.join(sorted(unknown))}; see --help for their names.")
-    chosen = [room for room in ROOMS if not asked.room or room.name in asked.room]
-    survivors = sum(run(room, asked) for room in chosen)
-    sys.exit(survivors > 0)
+    room = asked.room.rstrip("/")
+    mutants = mutants_of(room, asked)
+    if asked.list or not mutants:
+        print(*mutants or [f"{room} has no such mutant"], sep="\n")
+        sys.exit(not mutants)
+    outcomes = judged(room, mutants, asked.save)
+    *survivors, score = summary(room, outcomes, reasons(ROOT / "tools/mutation/reasons"))
+    print(*survivors, score, sep="\n")
+    sys.exit(bool(survivors))
 
 
-def run(room: Room, asked: argparse.Namespace) -> int:
-    """Judges the mutants of a room that have no verdict yet, prints its score; the survivors."""
-    judge = room.open(asked.quick)
-    mutants = sample(judge.mutants(), asked)
-    if asked.list:
-        print(*mutants, sep="\n")
-        return 0
-    state = state_of(ROOT, room.watched)
-    ledger = Ledger(FOLDER / f"{room.name.replace('/', '_')}.json", state)
-    waiting = waiting_in(ledger, mutants, asked.survivors)
-    progress = Progress(room.name, len(waiting))
-
-    def tell(mutant: Mutant, verdict: Verdict) -> None:
-        ledger.note(mutant, verdict)
-        progress.step(mutant, verdict)
-
-    if waiting:
-        judge.judge(waiting, tell)
-    judged = {each: ledger.verdicts[each.key] for each in mutants if each.key in ledger.verdicts}
-    result = score(room.name, judged, reasons(ROOT / "tools/mutation/reasons"))
-    print(*result.survivors, result, sep="\n", flush=True)
-    return len(result.survivors)
+def files_of(room: str) -> list[Path]:
+    """The sources of a room, from the root."""
+    place = ROOT / room
+    files = [path for path in place.rglob("*") if path.suffix in (".py", ".h", ".cpp")]
+    return sorted(path.relative_to(ROOT) for path in files or [place])
 
 
-def waiting_in(ledger: Ledger, mutants: list[Mutant], only_survivors: bool) -> list[Mutant]:
-    """The mutants to try now; verdicts on another state of the tree are void."""
-    if only_survivors:
-        return [each for each in mutants if is_survivor(ledger, each)]
-    if not ledger.is_same:
-        ledger.start_anew()
-    return [each for each in mutants if each.key not in ledger.verdicts]
+def tests_of(room: str) -> tuple[str, ...]:
+    """The suites or tests that judge a room."""
+    named = [tests for name, tests in TESTS.items() if Path(room).is_relative_to(name)]
+    return named[0] if named else (f"tools/tests/{Path(room).parts[2]}",)
 
 
-def is_survivor(ledger: Ledger, mutant: Mutant) -> bool:
-    """Whether the last run let a mutant live."""
-    verdict = ledger.verdicts.get(mutant.key)
-    return verdict is not None and verdict.outcome == SURVIVED
+def mutants_of(room: str, asked: argparse.Namespace) -> list[Mutant]:
+    """The mutants that are asked for."""
+    sites = [
+        site
+        for file in files_of(room)
+        for site in (python if file.suffix == ".py" else cxx).sites(ROOT, file)
+        if asked.at in f"{file}:{site.line}:"
+    ]
+    if asked.again:
+        return list(recalled(sites, asked.again, ROOT, SURVIVED if asked.survivors else ""))
+    return [mutant_of(site, ROOT) for site in sampled(sites, asked.sample, asked.seed)]
 
 
-def sample(mutants: list[Mutant], asked: argparse.Namespace) -> list[Mutant]:
-    """All mutants that are asked for, or as many of them, by the seed."""
-    wanted = [each for each in mutants if asked.at in f"{each.file}:{each.line}:"]
-    if asked.sample is None or asked.sample >= len(wanted):
-        return wanted
-    taken = set(random.Random(asked.seed).sample(range(len(wanted)), asked.sample))
-    return [each for index, each in enumerate(wanted) if index in taken]
-
-
-class Progress:
-    """One line for each mutant, with how many are left and how long it took so far."""
-
-    def __init__(self, room: str, number: int):
-        self.room, self.number, self.done, self.begun = room, number, 0, time.monotonic()
-        print(f"{room}: {number} mutants to try", flush=True)
-
-    def step(self, mutant: Mutant, verdict: Verdict) -> None:
-        """One more is judged."""
-        self.done += 1
-        seconds = time.monotonic() - self.begun
-        print(
-            f"[{self.done}/{self.number} {seconds:.0f} s] {verdict.outcome} {mutant}",
-            file=sys.stderr,
-            flush=True,
-        )
+def judged(room: str, mutants: list[Mutant], kept: Path | None) -> dict[Mutant, str]:
+    """The outcome of each mutant, printed and kept as it comes."""
+    begun, outcomes = time.monotonic(), {}
+    file, folder = mutants[0].site.file, FOLDER / room.replace("/", "_")
+    judge = (python if file.suffix == ".py" else cxx).Judge(ROOT, folder, tests_of(room), file)
+    for number, mutant in enumerate(mutants, 1):
+        outcomes[mutant] = judge.outcome(mutant)
+        seconds = time.monotonic() - begun
+        progress = f"[{number}/{len(mutants)} {seconds:.0f} s] {outcomes[mutant]} {mutant}"
+        print(progress, file=sys.stderr, flush=True)
+        if kept:
+            save(kept, outcomes)
+    return outcomes
 
 
 if __name__ == "__main__":

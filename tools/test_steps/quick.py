@@ -38,7 +38,7 @@ ROWS: tuple[tuple[str, tuple[str, ...], tuple[str, ...]], ...] = (
     (
         "tools/checks/*",
         (),
-        (f"{PROJECT}/test_project_checks.py", f"{PROJECT}/test_cxx_checks.py"),
+        (f"{PROJECT}/test_project_checks.py",),
     ),
     ("tools/mutation/*", (), (f"{PROJECT}/test_mutation.py",)),
     ("tools/setup*", (), (f"{PROJECT}/test_setup.py",)),
