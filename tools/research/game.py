@@ -5,18 +5,31 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from plumb.bench.causes import Hidden
+from plumb.cure.add import Addition, add
 from plumb.cure.auto import AutoAddition
 from plumb.fit.compare import Comparison, compare
+from plumb.fit.inputs import Inputs
 from plumb.grid.options import Grid
+from plumb.settings.machine import MachineSettings
 from plumb.vm.budget import Budget
-from plumb.vm.floor import sled_errors, with_truth
-from plumb.vm.garage import random_garage
+from plumb.vm.floor import sled_error
+from plumb.vm.garage import Garage, random_garage
 from plumb.vm.hiding import described
 from plumb.vm.loop import Loop, closed_loop, lay_next_sheet, read, shape
 from plumb.vm.owner import FRICTION_NAME, VirtualOwner
-from plumb.vm.secret import Secret
 
 ALWAYS = (FRICTION_NAME.partition(".")[0],)  # effects that every virtual machine has
+
+
+@dataclass(frozen=True)
+class SledError:
+    """RMS [mm] of the sled's error all over the sheet, the sheet laid at its best."""
+
+    before: float  # by the settings as they were
+    frame: float  # by a fit of the frame alone
+    after: float  # by the settings that were chosen
+    known: float  # by a fit with what is hidden
 
 
 @dataclass(frozen=True)
@@ -44,7 +57,7 @@ class Played:
 
 def play(
     row: str,
-    secret: Secret,
+    hidden: Hidden,
     *,
     seed: int,
     grid: Grid,
@@ -53,7 +66,7 @@ def play(
     progress: Callable[[float], None] = lambda share: None,
 ) -> Played:
     """Play by the lab's advice, then look at the truth."""
-    owner = VirtualOwner(random_garage(secret.hidden, seed), slip=secret.slip, elf=elf)
+    owner = VirtualOwner(random_garage(hidden, seed), elf=elf)
     garage = owner.garage
     loop = closed_loop(owner, grid=grid, budget=budget, progress=progress)
     chosen, claimed = chosen_in(loop.auto), claimed_in(loop.auto)
@@ -62,12 +75,12 @@ def play(
     return Played(
         row,
         seed,
-        described(secret.hidden),
+        described(hidden),
         loop.auto.diagnosis.verdict,
         claimed,
         chosen,
-        is_solved(secret, loop.auto),
-        len({*claimed} - {*secret.hidden.effects}),
+        is_solved(hidden, loop.auto),
+        len({*claimed} - {*hidden.effects}),
         loop.spent.marks,
         loop.spent.minutes,
         errors.before,
@@ -91,11 +104,11 @@ def claimed_in(auto: AutoAddition) -> tuple[str, ...]:
     return () if unsure else chosen_in(auto)
 
 
-def is_solved(secret: Secret, auto: AutoAddition) -> bool:
+def is_solved(hidden: Hidden, auto: AutoAddition) -> bool:
     """Whether the right thing was said: for what no effect explains, that it is such a thing."""
-    if secret.hidden.outside:
+    if hidden.outside:
         return auto.diagnosis.verdict == "not_in_library"
-    return {*chosen_in(auto)} == {*secret.hidden.effects} and auto.addition is not None
+    return {*chosen_in(auto)} == {*hidden.effects} and auto.addition is not None
 
 
 def _cut_with_truth(loop: Loop, grid: Grid) -> Comparison:
@@ -110,3 +123,15 @@ def _cut_with_truth(loop: Loop, grid: Grid) -> Comparison:
     fresh = owner.again()
     lay_next_sheet(fresh, known.settings, raised=known.sheet_rise)
     return compare(fresh.settings, read(fresh, fresh.cut_grid(grid)))
+
+
+def with_truth(inputs: Inputs, garage: Garage) -> Addition:
+    """The fit of somebody who knows what is hidden."""
+    return add(inputs, effects=garage.hidden.effects)
+
+
+def sled_errors(inputs: Inputs, garage: Garage, settings: MachineSettings) -> SledError:
+    """What settings are worth, against what the same marks allow."""
+    frame, known = add(inputs, effects=()).settings, with_truth(inputs, garage).settings
+    each = (inputs.settings, frame, settings, known)
+    return SledError(*(sled_error(garage, machine) for machine in each))

@@ -1,7 +1,7 @@
-"""Lets the lab's advice play `plumb practice`, and prints how often it finds what is hidden.
+"""Lets the lab's advice calibrate virtual machines, and prints how often it finds what they hide.
 
 Each game is kept when it ends: a run that was stopped goes on where it was. docs/matrix.md is
-written by --matrix --write.
+written by --write.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from pathlib import Path
 import joblib  # type: ignore[import-untyped]  # it brings no types
 from game import Played, play
 from game_rates import Row, row_of, rows_of
+from kinds import KINDS, of_kind
 from matrix_page import page, ratio_words
 from plumb.cli.arguments import add_force, count
 from plumb.cli.output import INTERRUPTED, ended, refuse_early, results_of, write_outputs
@@ -24,12 +25,11 @@ from plumb.grid.options import Grid
 from plumb.text.errors import refusal
 from plumb.text.values import bare, unit
 from plumb.vm.budget import Budget
-from plumb.vm.secret import KINDS, LEVELS, of_kind, of_level
-from plumb.vm.secret import LEVELS as LEVEL_NUMBERS
 
-LARGE_GRID = Grid(columns=5, rows=5, repeats=0)
-SMALL_GRID = Grid(columns=3, rows=3, repeats=0)
-GRIDS = {"25": LARGE_GRID, "9": SMALL_GRID}
+GRIDS = {
+    "25": Grid(columns=5, rows=5, repeats=0),
+    "9": Grid(columns=3, rows=3, repeats=0),
+}
 HEADER = (
     "hidden",
     "games",
@@ -48,23 +48,14 @@ HEADER = (
 class Task:
     """A game to play: a row of the table, and which game of it."""
 
-    row: str  # "level 3", or "chain_sag 25"
+    row: str  # "chain_sag 25"
     seed: int
 
     def play(self, budget: Budget, elf: str | None) -> Played:
         """Play it."""
-        what, _, which = self.row.rpartition(" ")
-        if what == "level":
-            secret, grid = of_level(int(which), self.seed), LARGE_GRID
-        else:
-            secret, grid = of_kind(what, self.seed), GRIDS[which]
-        return play(self.row, secret, seed=self.seed, grid=grid, budget=budget, elf=elf)
-
-
-def level_tasks(levels: Sequence[int], games: int, seed: int) -> list[Task]:
-    """A number of games of each level, in turns."""
-    rows = [f"level {level}" for level in levels]
-    return [Task(row, seed + game) for game in range(games) for row in rows]
+        kind, _, marks = self.row.rpartition(" ")
+        hidden, grid = of_kind(kind, self.seed), GRIDS[marks]
+        return play(self.row, hidden, seed=self.seed, grid=grid, budget=budget, elf=elf)
 
 
 def matrix_tasks(games: int, seed: int) -> list[Task]:
@@ -128,10 +119,6 @@ def parser() -> argparse.ArgumentParser:
         description=__doc__,
         epilog="Exit: 0 done; 2 it cannot run; 130 interrupted, what is done is kept.",
     )
-    words.add_argument("--level", type=int, choices=LEVEL_NUMBERS, help="games of this level [all]")
-    words.add_argument(
-        "--matrix", action="store_true", help="each effect on 25 and on 9 marks, not levels"
-    )
     words.add_argument("--seed", metavar="S", type=int, default=1, help="other machines [1]")
     words.add_argument("--games", metavar="N", type=count, default=4, help="of each row [4]")
     words.add_argument("--jobs", metavar="N", type=count, default=1, help="games at once [1]")
@@ -149,11 +136,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _play(wanted: argparse.Namespace) -> int:
-    levels = [wanted.level] if wanted.level else list(LEVELS)
-    if wanted.matrix:
-        tasks = matrix_tasks(wanted.games, wanted.seed)
-    else:
-        tasks = level_tasks(levels, wanted.games, wanted.seed)
+    tasks = matrix_tasks(wanted.games, wanted.seed)
     games, interrupted = list[Played](), False
     with results_of(wanted):
         refuse_early(wanted.write)

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from bench_page import markdown
 from game import Played
 from game_rates import Row, row_of, rows_of
-from plumb.vm.secret import CURABLE, FIRMWARE, KINDS
+from kinds import CURABLE, FIRMWARE, KINDS
 
 MARKS = ("25", "9")  # of the first sheet
 SECOND_LINE = 1.3  # times what the truth allows: the most that a second sheet should be off
@@ -18,7 +18,7 @@ HEADER = (
 )
 INTRODUCTION = """# How often the closed loop finds what is hidden
 
-Written by `tools/research/games.py --matrix --keep games.jsonl --write docs/matrix.md`. Run it to
+Written by `tools/research/games.py --keep games.jsonl --write docs/matrix.md`. Run it to
 see the same with other machines (`--seed`); a run that is stopped goes on where it was.
 
 Each game hides something in [a virtual machine](commands/vm.md): firmware, motors, exact mechanics.

@@ -16,7 +16,7 @@ from plumb.line.sender import Sender
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError, refusal
 from plumb.text.files import read_bytes, read_text, write_whole
-from plumb.vm.garage import VirtualMachine, random_garage, set_up
+from plumb.vm.garage import Garage, VirtualMachine, random_garage, set_up
 from plumb.vm.hiding import described, hide
 from plumb.vm.in_process import InProcessPort
 from plumb.vm.picture import VmPicture
@@ -35,23 +35,32 @@ def run(arguments: argparse.Namespace) -> int:
     tape_form = _form(arguments)
     hidden = hide(arguments.hide, millimetres=arguments.size, seed=arguments.seed)
     garage = random_garage(hidden, arguments.seed, feed=arguments.feed)
-    machine = garage.machine(elf=arguments.mega)
-    _wake(machine, garage.settings, arguments)
     tape = Tape(garage, np.random.default_rng([arguments.seed, 5]), noise=arguments.noise)
     if tape_form:
         tape.get_ready(tape_form)
+    serve(garage, arguments, lambda vm: _fill(tape, vm, tape_form, arguments.readings))
+    if arguments.reveal:
+        print(f"Hidden was: {described(hidden)}.")
+    return 0
+
+
+def serve(
+    garage: Garage, arguments: argparse.Namespace, look: Callable[[VirtualMachine], None]
+) -> int:
+    """Serve the machine of a garage until Ctrl-C, and return the exit code; `look` is called all
+    the time."""
+    machine = garage.machine(elf=arguments.mega)
+    _wake(machine, garage.settings, arguments)
     terminal = _terminal(machine, arguments.link)
     try:
         print(f"The machine is at {terminal.link or terminal.path}. Ctrl-C ends it.", flush=True)
-        _serve(terminal, arguments, lambda: _fill(tape, machine, tape_form, arguments.readings))
+        _serve(terminal, arguments, lambda: look(machine))
     except KeyboardInterrupt:
         pass
     finally:
         terminal.close()
         machine.stop()
         _save(machine.eeprom, arguments.eeprom)
-    if arguments.reveal:
-        print(f"Hidden was: {described(hidden)}.")
     return 0
 
 

@@ -17,7 +17,6 @@ from plumb.lab.guard import Address, Guard
 from plumb.lab.guide_desk import GuideDesk
 from plumb.lab.live_boards import LiveBoards
 from plumb.lab.machine_line import MachineLine
-from plumb.lab.practice_desk import PracticeDesk
 from plumb.lab.project import ChangedError, Project
 from plumb.lab.routes import (
     bench,
@@ -82,7 +81,6 @@ def lab_app(folder: Path, *, address: Address, token: str) -> ASGIApp:
     app.state.line = line
     app.state.project = Project(folder)
     app.state.live_boards = LiveBoards()
-    app.state.practice_desk = PracticeDesk()
     app.state.guide_desk = GuideDesk()
     for router in ROUTERS:
         app.include_router(router, prefix="/api")

@@ -43,19 +43,17 @@ class VirtualOwner:
         *,
         noise: float = 0.4,
         slip: float = 0.0,
-        visit: int = 0,
         elf: str | None = None,
     ) -> None:
         """noise [mm] of the tape; slip [mm] by which it reads one mark of the first sheet wrongly;
-        visit: which one this is, as each draws other noise; elf: the flashed program, else the
-        firmware for the host."""
+        elf: the flashed program, else the firmware for the host."""
         self.garage = garage
         self._first_garage, self._noise, self._elf = garage, noise, elf
         self.settings = garage.settings
         self._sheets = 1  # that lay on this machine so far
         self.machine: VirtualMachine = garage.machine(elf=elf)
         self.sender = Sender(InProcessPort(self.machine))
-        self._source = np.random.default_rng([garage.seed, 5, *([visit] if visit else [])])
+        self._source = np.random.default_rng([garage.seed, 5])
         self.tape = Tape(garage, self._source, noise=noise, slip=slip)
 
     def again(self) -> VirtualOwner:
@@ -89,15 +87,11 @@ class VirtualOwner:
         self.sender.stream(lines, answered=answered)
         return self.tape.fill(form, self.machine)
 
-    def carry_out(self, visits: Visits, done: Callable[[int], None] | None = None) -> str:
-        """Cut what `plumb next` proposes on the same sheet and read it: the filled form. `done`
-        counts the marks."""
-        each = zip(visit_lines(visits), visits.sled_weights, strict=True)
-        for count, (lines, weight) in enumerate(each, start=1):
+    def carry_out(self, visits: Visits) -> str:
+        """Cut what `plumb next` proposes on the same sheet and read it: the filled form."""
+        for lines, weight in zip(visit_lines(visits), visits.sled_weights, strict=True):
             self.weigh_down(weight)
             self.sender.stream([*lines, "G4 P1"])
-            if done:
-                done(count)
         self.weigh_down(self.settings.sled_weight)
         form = marks_file(visits, sheet=self.settings.sheet, controller="plumb", said=())
         return self.tape.fill(form, self.machine)

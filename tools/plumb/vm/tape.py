@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 import scipy
@@ -93,10 +93,6 @@ class Tape:
         return {
             name: [(float(x), float(y)) for x, y in places] for name, places in self._places.items()
         }
-
-    def find(self, places: Mapping[str, Sequence[tuple[float, float]]]) -> None:
-        """Marks that were cut on this sheet before [mm from its middle], by their names."""
-        self._places = {name: [np.array(place) for place in each] for name, each in places.items()}
 
     def lengths(self, spans: Sequence[tuple[str, str]]) -> list[float]:
         """The tape's readings [mm] of distances between marks that were read on this sheet."""

@@ -9,6 +9,7 @@ import pytest
 from jsonschema import Draft202012Validator as Validator
 from plumb.cli.main import COMMANDS, build_parser, main
 from plumb.diary.file import append
+from plumb.vm.practice import Secret
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 SCHEMA = json.loads(resources.files("plumb.cli").joinpath("answers.schema.json").read_text("utf-8"))
@@ -49,7 +50,7 @@ QUESTIONS = (
     ("next", *BOARD, *TAPE),
     ("next", *SLIPPED),
     ("next", *BOARD, "--sigma", "5", "--marks", "form.toml"),
-    ("practice", "start", "game", "--seed", "3"),
+    ("practice", "reveal", ".", TOML),
     ("preview", INI, *GRID),
     ("reach", INI),
     ("read",),
@@ -61,14 +62,6 @@ QUESTIONS = (
     ("slip", TOML, "--touch=-900,250:-895.4,253.7", "--touch=900,-250:897.9,-246.5"),
     ("slip", TOML, "--touch=0,0:5,5"),
     ("telemetry", EXAMPLE / "client.log"),
-)
-
-# A game of level 1 with seed 1, as --keep has it.
-GAME = (
-    '{"row": "level 1", "seed": 1, "hidden": "sled_swing (right)", "verdict": "one_suspect", '
-    '"claimed": ["sled_swing"], "chosen": ["sled_swing"], "solved": true, "false": 0, '
-    '"marks": 25, "minutes": 40.5, "sled_before": 5.0, "sled_frame": 3.0, "sled_after": 0.1, '
-    '"sled_known": 0.1, "cut_before": 5.1, "cut_after": 0.5, "cut_known": 0.5}\n'
 )
 
 HOME = (
@@ -128,7 +121,7 @@ def folder(tmp_path, monkeypatch):
         'frame = "machine"\n[[mark]]\nname = "a"\ntarget = [0, 0]\n[[mark]]\nname = "b"\n'
         'target = [500, 0]\n[[distance]]\nbetween = ["a", "b"]\nmm = 501.5\n'
     )
-    (tmp_path / "games.jsonl").write_text(GAME)
+    (tmp_path / "practice.json").write_text(Secret(3).text)
     (tmp_path / "kept.toml").write_text(TOML.read_text())
     (tmp_path / "home.toml").write_text(HOME)
     (tmp_path / "kept").mkdir()

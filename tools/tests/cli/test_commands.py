@@ -17,7 +17,7 @@ EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 # Files of the room that are no commands.
 SHARED = {
     *("__init__", "add_text", "arguments", "checked", "client", "demo", "demo_loop", "files"),
-    *("main", "output", "parser", "practice_text", "screen", "steps", "touches"),
+    *("main", "output", "parser", "screen", "steps", "touches"),
 }
 # What takes longer to load than the help of all commands may take.
 HEAVY = ("numpy", "scipy", "matplotlib")

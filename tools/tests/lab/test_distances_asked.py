@@ -98,7 +98,8 @@ def test_a_line_of_the_head_says_what_is_asked(client, tmp_path):
 
 def test_a_tape_reads_a_length_between_the_newest_marks_of_a_name():
     tape = Tape(SimpleNamespace(), np.random.default_rng(3), noise=0.5)
-    tape.find({"1": [(0.0, 0.0), (0.0, 400.0)], "2": [(300.0, 0.0)]})
+    places = {"1": [(0.0, 0.0), (0.0, 400.0)], "2": [(300.0, 0.0)]}
+    tape._places = {name: [*map(np.array, each)] for name, each in places.items()}
     read = tape.lengths([("1", "2")] * 400)
     assert np.mean(read) == pytest.approx(math.hypot(300, 400), abs=0.1)
     assert np.std(read) == pytest.approx(0.5, rel=0.15)

@@ -4,6 +4,7 @@ import re
 
 import pytest
 from folder import example_form
+from lab_machine import start_virtual
 from playwright.sync_api import expect
 from screens import drawn, fitted_machine
 
@@ -75,14 +76,14 @@ def test_readings_count_from_the_edges_that_are_named_with_them(open_machine, pa
 def test_a_question_that_nobody_answers_is_said_and_asked_again(lab, page):
     never = []
     page.clock.install()
-    page.route("**/api/practice", lambda route: never.append(route))
-    page.goto(f"{lab.url}#/practice")
+    start_virtual(page, lab)
+    page.get_by_role("heading", name="Its first day").wait_for(timeout=PATIENCE)
+    page.route("**/api/guide", lambda route: never.append(route))
     wait_for(page, lambda: never)
     said = page.get_by_text("The lab does not answer, so this may be old")
     assert said.count() == 0
     page.clock.fast_forward(10_000)
     said.wait_for(timeout=PATIENCE)
-    page.unroute("**/api/practice")
+    page.unroute("**/api/guide")
     page.clock.fast_forward(3_000)
-    page.get_by_role("button", name="Begin").first.wait_for(timeout=PATIENCE)
-    assert said.count() == 0
+    expect(said).to_have_count(0, timeout=PATIENCE)

@@ -95,7 +95,7 @@ COMMANDS = {
     "slip": ("machine.toml", "--touch=-900,250:-895,253"),
     "gap": ("machine.toml", "--length", "2989.3", "--drop", "18.3"),
     "vm": ("--seconds", "1"),
-    "practice": ("start", "game", "--seed", "1"),
+    "practice": ("start", "game", "--seconds", "1"),
 }
 # What needs a file or a board that an empty folder lacks, and what its refusal names.
 LACKING = {

@@ -10,7 +10,10 @@ from plumb.bench.causes import MAKER, Hidden, causes_of
 from plumb.grid.options import Grid
 from plumb.marks.read import read_marks
 from plumb.plan.case import Check
+from plumb.plan.planned_visits import sent
+from plumb.vm.budget import Budget, Spent, cutting, reading
 from plumb.vm.garage import Garage, random_garage
+from plumb.vm.hiding import astray
 from plumb.vm.loop import closed_loop
 from plumb.vm.owner import VirtualOwner, true_value
 from plumb.vm.tape import filled_form, marks_on
@@ -102,3 +105,44 @@ def test_a_turned_sheet_reads_turned():
     garage = Garage(Hidden(), sheet_center=(2.0, 1.0), sheet_turn=0.01)
     x, y = garage.on_sheet(np.array([[1002.0, 1.0]]))[0]
     assert (x, y) == pytest.approx((999.95, -10.0), abs=0.001)
+
+
+@pytest.mark.slow
+def test_a_slip_is_read_again_and_then_the_effect_is_named():
+    owner = VirtualOwner(random_garage(hiding("sled_swing", 6.0), 1), slip=10.0)
+    loop = closed_loop(owner, grid=Grid(columns=5, rows=5, repeats=0))
+    assert loop.auto.diagnosis.verdict == "one_suspect" and loop.auto.chosen == ("sled_swing",)
+    # A reading costs no hole.
+    assert loop.spent == Spent(25, 3 + 25 * 1.5 + 0.75)
+
+
+def test_a_budget_allows_what_it_has_and_no_more():
+    assert Budget(4, 9.0).allows(Spent(4, 9.0))
+    assert not Budget(4, 9.0).allows(Spent(5, 9.0))
+    assert not Budget(4, 9.0).allows(Spent(4, 9.1))
+    assert cutting([98.0, 98.0], 98.0) == Spent(2, 6.0) and reading(2) == Spent(0, 1.5)
+
+
+def test_what_no_effect_explains_moves_marks_by_its_size_and_alike_everywhere():
+    hidden = Hidden(outside="bump", outside_mm=3.0)
+    across, up = np.meshgrid(np.linspace(-1100, 1100, 5), np.linspace(-500, 500, 5))
+    places = np.stack([across.ravel(), up.ravel()], axis=1)
+    moved = astray(hidden, places, 4)
+    assert np.sqrt(np.mean(np.sum(moved**2, axis=1))) == pytest.approx(3.0)
+    # A place is moved alike whatever else is asked about.
+    assert astray(hidden, places[7:8], 4) == pytest.approx(moved[7:8])
+    assert not astray(Hidden(), places, 4).any()
+    garage = Garage(hidden, seed=4)
+    assert garage.read(places) == pytest.approx(places + moved)
+
+
+def test_a_machine_that_halts_is_begun_anew_and_its_sheet_stays():
+    owner = VirtualOwner(random_garage(Hidden(), 3))
+    owner.switch_on()
+    owner.cut_grid(Grid(columns=2, rows=2, repeats=0))
+    places = owner.tape.places
+    owner.restart()
+    assert owner.tape.places == places
+    visits = sent(MAKER, np.array([(0.0, 0.0)]), controller="plumb", sled_weight=MAKER.sled_weight)
+    form = owner.carry_out(visits)
+    assert form.count("\nmeasured = ") == 1 and len(owner.tape.places) == 5

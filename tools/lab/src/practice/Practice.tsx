@@ -1,132 +1,60 @@
-// Practice: a virtual machine with something hidden, a budget, and a score.
+// Practice: what a virtual machine hid, once you have calibrated it like a real machine.
 import { useState } from "preact/hooks";
-import type { Schemas } from "../api/client";
+import { type Schemas, send } from "../api/client";
+import { namedLength } from "../controls/lengths";
+import { useDo } from "../shell/doing";
+import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
-import { Silence } from "../shell/Silence";
-import { Bars } from "./Bars";
-import { CutMarks } from "./CutMarks";
-import { MoreToDo } from "./MoreToDo";
-import { PracticeSheet } from "./PracticeSheet";
-import { commands, type Picking, type Picks } from "./picks";
-import { Score } from "./Score";
-import { Solve } from "./Solve";
-import { Start } from "./Start";
-import { type Play, usePractice } from "./state";
-import "./practice.css";
+
+const SECRET = "practice.json";
 
 export function Practice() {
-  const play = usePractice();
-  const { practice } = play;
-  const picking = usePicks(practice?.game);
-  if (!practice) {
-    return (
-      <Screen title="Practice" say="The game is being looked for." busy={!play.silent}>
-        <Silence silent={play.silent} />
-      </Screen>
-    );
-  }
-  if (!practice.game) {
-    return (
-      <Screen
-        title="Practice"
-        say="A virtual machine hides what is wrong with it. You cut marks, read them, and find out what it is. Nothing real moves."
-        command={commands(picking.picks, null, false)}
-        why={<Rules />}
-      >
-        <Silence silent={play.silent} />
-        {practice.taken ? (
-          <p class="missing">{practice.taken}</p>
-        ) : (
-          <Start play={play} {...picking} />
-        )}
-      </Screen>
-    );
-  }
-  return <Playing play={play} game={practice.game} picking={picking} />;
-}
-
-/** What is picked; the level and the grid begin as the game suggests. */
-function usePicks(game: Schemas["Game"] | null | undefined): Picking {
-  const [picked, setPicked] = useState<Partial<Picks>>({});
-  const usual: Picks = {
-    level: game?.level ?? 1,
-    seed: "",
-    grid: game && game.names.length > 0 ? "3x3" : "5x5",
-    mark: "",
-    check: "",
-    machine: "",
-  };
-  const pick = (change: Partial<Picks>) => setPicked((before) => ({ ...before, ...change }));
-  return { picks: { ...usual, ...picked }, pick };
-}
-
-interface PlayingParts {
-  play: Play;
-  game: Schemas["Game"];
-  picking: Picking;
-}
-
-function Playing({ play, game, picking }: PlayingParts) {
-  const [places, setPlaces] = useState<[number, number][]>([]);
-  const [placing, setPlacing] = useState(false);
-  const doing = play.practice?.doing;
+  const { project } = useProject();
+  const [revealed, setRevealed] = useState<Schemas["Revealed"]>();
+  const [busy, run] = useDo();
+  const hides = SECRET in project.files;
+  const reveal = async () => setRevealed(await send("POST", "practice/reveal"));
   return (
     <Screen
-      title={game.score ? "Practice: solved" : `Practice, level ${game.level}`}
-      say={
-        game.score
-          ? game.score.sentence
-          : `Hidden is ${game.words}. Cut marks, think on the screens Verdict and Effects bench, then send new numbers. Nothing real moves.`
+      title="Practice"
+      say="A virtual machine hides what is wrong with it. Calibrate it like a real machine, then look at what was hidden. Nothing real moves."
+      command={
+        hides
+          ? `plumb practice reveal . ${project.choices.settings ?? ""}`.trim()
+          : "plumb practice start ."
       }
-      command={commands(picking.picks, game, placing)}
-      why={<Rules />}
+      why={
+        <p>
+          The score is the error that the opened settings leave all over the sheet, without the
+          noise of a tape, and what you added that is not there.
+        </p>
+      }
     >
-      <Silence silent={play.silent} />
-      {game.score ? <Score score={game.score} /> : <Bars game={game} />}
-      {play.practice?.trouble && (
-        <p class="trouble" role="alert">
-          {play.practice.trouble}
-        </p>
-      )}
-      {doing && (
-        <p class="doing" role="status">
-          <label for="doing">{doing.words}</label>
-          <progress id="doing" max={doing.of} value={doing.done} />
-          {doing.done} of {doing.of}
-        </p>
-      )}
-      <PracticeSheet
-        places={places}
-        place={placing && !game.score ? (at) => setPlaces([...places, at]) : undefined}
-      />
-      {game.score ? (
-        <Start play={play} {...picking} />
+      {hides ? (
+        <button type="button" disabled={busy || !project.machine} onClick={() => run(reveal)}>
+          Reveal what was hidden
+        </button>
       ) : (
-        <>
-          <CutMarks
-            play={play}
-            game={game}
-            placing={placing}
-            setPlacing={setPlacing}
-            places={places}
-            setPlaces={setPlaces}
-            {...picking}
-          />
-          {game.names.length > 0 && <Solve play={play} game={game} {...picking} />}
-          <MoreToDo play={play} game={game} {...picking} />
-        </>
+        <p class="missing">
+          No virtual machine was started in this folder: <a href="#/open">start it</a>.
+        </p>
       )}
+      {revealed && <Score {...revealed} />}
     </Screen>
   );
 }
 
-function Rules() {
+function Score({ hidden, sentence, before_mm, after_mm }: Schemas["Revealed"]) {
+  const units = useProject().project.choices.units ?? "mm";
   return (
-    <p>
-      Each visit to the machine and each mark takes minutes; holes in the sheet are few. The score
-      is the error that your numbers leave all over the sheet, next to that of somebody who knows
-      the truth and has the same marks; and what you claimed that is not there. All files lie in
-      this folder, and plumb practice plays the same game.
-    </p>
+    <section aria-label="Score">
+      <p>
+        Hidden was <strong>{hidden}</strong>. {sentence}
+      </p>
+      <p>
+        Error all over the sheet: {namedLength(before_mm, units, 2)} as the settings were,{" "}
+        {after_mm == null ? "out of reach" : namedLength(after_mm, units, 2)} with yours.
+      </p>
+    </section>
   );
 }

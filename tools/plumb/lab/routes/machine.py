@@ -21,9 +21,9 @@ from plumb.line.memory import Written, kept_before, lines_for
 from plumb.line.sender import Sender
 from plumb.settings.files import machine_toml, read_settings
 from plumb.text.errors import InputError
-from plumb.vm.garage import random_garage
-from plumb.vm.hiding import RANDOM, hide
+from plumb.vm.hiding import RANDOM
 from plumb.vm.owner import VirtualOwner
+from plumb.vm.practice import SECRET, Secret
 
 router = APIRouter(tags=["machine"])
 MACHINE = "machine.toml"
@@ -162,11 +162,12 @@ def connect_board(request: BoardRequest, line: TheLine) -> MachineAnswer:
 
 
 @router.post("/machine/virtual")
-def connect_virtual(request: VirtualRequest, line: TheLine) -> MachineAnswer:
-    """Switch on a virtual machine."""
-    names = [RANDOM] if request.hides == "random" else []
-    hidden = hide(names, millimetres=request.millimetres, seed=request.seed)
-    owner = VirtualOwner(random_garage(hidden, request.seed), noise=request.noise)
+def connect_virtual(request: VirtualRequest, project: TheProject, line: TheLine) -> MachineAnswer:
+    """Switch on a virtual machine; the folder keeps its secret."""
+    hides = (RANDOM,) if request.hides == "random" else ()
+    secret = Secret(request.seed, request.millimetres, hides)
+    owner = VirtualOwner(secret.garage, noise=request.noise)
+    project.save({SECRET: secret.text.encode()}, read={})
     line.connect_virtual(owner, speed=request.speed)
     return machine(line)
 
