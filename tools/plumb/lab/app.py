@@ -6,13 +6,14 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
 
-from fastapi import FastAPI, Request
+from fastapi import Depends, FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from fastapi.staticfiles import StaticFiles
 from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Receive, Scope, Send
 
+from plumb.lab.editor import Editor, OtherTabError, may_change
 from plumb.lab.guard import Address, Guard
 from plumb.lab.guide_desk import GuideDesk
 from plumb.lab.live_boards import LiveBoards
@@ -25,6 +26,7 @@ from plumb.lab.routes import (
     correction,
     diary,
     doubts,
+    editor,
     grid,
     guide,
     held,
@@ -46,6 +48,7 @@ PAGE = Path(__file__).parent / "page"
 # To add a route, write its file and give it a place here.
 ROUTERS = (
     project.router,
+    editor.router,
     machine.router,
     held.router,
     live.router,
@@ -82,11 +85,13 @@ def lab_app(folder: Path, *, address: Address, token: str) -> ASGIApp:
     app.state.project = Project(folder)
     app.state.live_boards = LiveBoards()
     app.state.guide_desk = GuideDesk()
+    app.state.editor = Editor()
     for router in ROUTERS:
-        app.include_router(router, prefix="/api")
+        app.include_router(router, prefix="/api", dependencies=[Depends(may_change)])
     app.add_exception_handler(InputError, _refusal)
     app.add_exception_handler(ValueError, _refusal)
     app.add_exception_handler(ChangedError, _changed)
+    app.add_exception_handler(OtherTabError, _other_tab)
     app.add_exception_handler(RequestValidationError, _misunderstood)
     app.add_exception_handler(OSError, _unable)
     app.add_exception_handler(HTTPException, _unknown)
@@ -113,8 +118,13 @@ async def _refusal(request: Request, error: Exception) -> JSONResponse:
 
 
 async def _changed(request: Request, error: Exception) -> JSONResponse:
-    """A file that another tab or program changed."""
+    """A file that another program changed."""
     return JSONResponse({"error": str(error)}, 409)
+
+
+async def _other_tab(request: Request, error: Exception) -> JSONResponse:
+    """A change by a tab that does not edit."""
+    return JSONResponse({"error": str(error)}, 423)
 
 
 async def _misunderstood(request: Request, error: Exception) -> JSONResponse:

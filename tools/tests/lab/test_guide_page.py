@@ -92,6 +92,7 @@ def test_a_second_tab_sees_the_question_that_the_first_asked_for(first_day, lab)
     first_day.get_by_role("button", name="Begin: Read the machine's numbers").click()
     first_day.get_by_role("button", name="Begin: Does each motor").click()
     second.get_by_role("button", name="Wind 20 mm of the left chain in").wait_for()
+    second.get_by_role("button", name="Take over").click()
     second.get_by_role("button", name="Not now").click()
     first_day.get_by_role("button", name="Begin: Does each motor").wait_for()
 

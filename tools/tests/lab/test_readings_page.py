@@ -180,37 +180,6 @@ def test_columns_of_a_spreadsheet_can_be_pasted(lab, page):
 
 
 @pytest.fixture
-def second(browser):
-    """Another tab."""
-    context = browser.new_context(viewport={"width": 1280, "height": 900})
-    yield context.new_page()
-    context.close()
-
-
-def test_two_tabs_lose_nothing(lab, page, second):
-    with_form(lab, example_form())
-    open_readings(lab, page)
-    open_readings(lab, second)
-    # The second tab sees nothing new and cannot save until both have typed.
-    second.route("**/api/project", lambda route: route.abort())
-    second.route("**/api/readings*", lambda route: route.abort())
-    type_in(second, 1, "99", "107")
-    type_in(second, 2, "660", "111")
-    type_in(page, 1, "98", "106")
-    await_saved(lab, page, {"1": (98, 106)})
-    second.unroute("**/api/readings*")
-    second.unroute("**/api/project")
-    # What nobody else typed waits with it; what both typed is asked.
-    second.get_by_text("another tab saved 98.0 mm, 106.0 mm").wait_for(timeout=PATIENCE)
-    assert saved(lab) == {"1": (98, 106)}
-    assert second.get_by_label(LEFT.format(1), exact=True).input_value() == "99"
-    second.get_by_role("button", name="Use 99.0 mm, 107.0 mm").click()
-    await_saved(lab, second, {"1": (99, 107), "2": (660, 111)})
-    field = page.get_by_label(LEFT.format(1), exact=True)
-    page.wait_for_function("field => field.value === '99'", arg=field.element_handle())
-
-
-@pytest.fixture
 def phone(browser):
     """A page as wide as a phone."""
     context = browser.new_context(viewport={"width": 375, "height": 740})

@@ -1,6 +1,7 @@
 // Asks the server, with the types of its schema. A refusal becomes an error whose message is its line.
 import { inTime, READ_MS, SAVE_MS, WORK_MS } from "./patience";
 import type { components } from "./schema";
+import { tab } from "./tab";
 import { token } from "./token";
 
 export type Schemas = components["schemas"];
@@ -36,7 +37,7 @@ async function asked<Answer>(path: string, { patienceMs, ...request }: Asking): 
       const answer = await fetch(`api/${path}`, {
         ...request,
         signal,
-        headers: { ...request.headers, "X-Plumb-Token": token() },
+        headers: { ...request.headers, "X-Plumb-Token": token(), "X-Plumb-Tab": tab() },
       });
       return [answer, await answer.text()];
     });

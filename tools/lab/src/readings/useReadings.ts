@@ -1,10 +1,9 @@
 // The form of readings: loaded, kept while it is typed, and saved reading by reading.
 import { useCallback, useEffect, useRef, useState } from "preact/hooks";
 import { get, isSilence, type Schemas, send } from "../api/client";
-import { namedLength } from "../controls/lengths";
 import { type Kept, useKept } from "../shell/kept";
-import { same } from "../shell/merge";
 import { useProject } from "../shell/project";
+import { same } from "../shell/rebase";
 import { Turns } from "../shell/turns";
 import { type Form, savesOf } from "./saves";
 
@@ -19,8 +18,6 @@ export interface TypedForm {
   /** Shows what a save left, unless another form is open by now. */
   take: (form: Form) => void;
   chooseFile: (name: string) => void;
-  /** A reading in words. */
-  shown: (place: unknown) => string;
 }
 
 const NOTHING: Typed = {};
@@ -92,11 +89,9 @@ export function useReadings(first = ""): TypedForm {
       return answer.edges === edges ? typedIn(answer) : value;
     },
     reload: load,
+    asks: true,
   });
-  const units = project.choices.units ?? "mm";
-  const shown = (place: unknown) =>
-    Array.isArray(place) ? place.map((mm) => namedLength(mm, units)).join(", ") : "nothing";
-  return { form, kept, take, chooseFile: setFile, shown };
+  return { form, kept, take, chooseFile: setFile };
 }
 
 /** The readings that a form has. */

@@ -1,4 +1,5 @@
 // The line on top: the folder, what waits to be saved, and the unit in which lengths are shown and typed.
+import { useReadOnly } from "./editor";
 import { useOutbox } from "./kept";
 import { waitingPlaces } from "./outbox";
 import { SILENT, useProject } from "./project";
@@ -23,7 +24,7 @@ export function Header() {
       <span class="waits" role="status">
         {waits && "What you typed is kept in this browser until the lab answers."}
       </span>
-      <fieldset class="units">
+      <fieldset class="units" disabled={useReadOnly()}>
         <legend>Lengths in</legend>
         {(["mm", "inch"] as const).map((unit) => (
           <label key={unit}>

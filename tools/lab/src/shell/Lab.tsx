@@ -1,10 +1,11 @@
 // The lab: the way at the side, the screen in the middle, trouble on top.
 import { useEffect, useRef, useState } from "preact/hooks";
-import { Clashes } from "./Clashes";
+import { useReadOnly } from "./editor";
 import { Header } from "./Header";
 import { Held } from "./Held";
 import { MachineBar } from "./MachineBar";
 import { MachineContext, useLiveMachine } from "./machine";
+import { OtherTab } from "./OtherTab";
 import { type Loaded, ProjectContext, type Shared, useSharedProject } from "./project";
 import { ROOMS, STEPS, type Step } from "./steps";
 import { Way, WayOn } from "./Way";
@@ -49,6 +50,7 @@ function Main({ step, shared, loaded }: { step: Step; shared: Shared; loaded: Lo
   const { project } = shared;
   const trouble = loaded.trouble || project.trouble;
   const missing = step.needs(project);
+  const readOnly = useReadOnly();
   const place = useRef<HTMLElement>(null);
   const first = useRef(true);
   useEffect(() => {
@@ -66,16 +68,18 @@ function Main({ step, shared, loaded }: { step: Step; shared: Shared; loaded: Lo
           {trouble}
         </p>
       )}
-      <Clashes kept={loaded.choices} />
-      <Held />
-      {missing ? (
-        <section class="screen">
-          <h1>{step.title}</h1>
-          <p class="missing">This screen opens later: {missing}.</p>
-        </section>
-      ) : (
-        <Screen key={step.id} />
-      )}
+      <OtherTab />
+      <fieldset class="editing" disabled={readOnly}>
+        <Held />
+        {missing ? (
+          <section class="screen">
+            <h1>{step.title}</h1>
+            <p class="missing">This screen opens later: {missing}.</p>
+          </section>
+        ) : (
+          <Screen key={step.id} />
+        )}
+      </fieldset>
       <WayOn project={project} here={step.id} />
     </main>
   );

@@ -1,8 +1,9 @@
 // A value that somebody edits and the server keeps: shown at once, kept in this browser until the server has it, sent
-// again when the server was away, and brought together with what another tab saved in the meantime.
+// again when the server was away, and laid on what the file holds by now.
 import { useEffect, useReducer, useRef, useState } from "preact/hooks";
-import { type Clash, type Merged, merge, same, withPlace } from "./merge";
+import { useReadOnly } from "./editor";
 import { editOf, forget, isUnderWay, keep, listen } from "./outbox";
+import { type Edited, rebased, same } from "./rebase";
 import { type Sending, useSending } from "./sending";
 
 /** Where a value stands between the person and the disk. */
@@ -11,8 +12,8 @@ export interface Kept<Value> {
   put: (next: Value | ((value: Value) => Value)) => void;
   waiting: boolean; // the server does not have it yet
   refused: string; // why the server does not take it; the value stays for mending
-  clashes: Clash[]; // what another tab changed too; nothing is sent before they are settled
-  settle: (clash: Clash, mine: boolean) => void;
+  changed: boolean; // the file is another by now; nothing is sent before that is settled
+  settle: (mine: boolean) => void;
 }
 
 export interface KeptParts<Value> {
@@ -22,21 +23,24 @@ export interface KeptParts<Value> {
   save: (value: Value) => Promise<Value>;
   /** Asks for what is on disk now, so that `saved` becomes that. */
   reload: () => Promise<unknown>;
+  /** Whether somebody is asked when the file changes while he types; else what he typed holds. */
+  asks?: boolean;
   /** How long to wait after the last change [ms]; a quarter of a second for what is typed. */
   pause?: number;
 }
 
 export function useKept<Value>(parts: KeptParts<Value>): Kept<Value> {
   useOutbox();
-  const { place, saved } = parts;
-  const edit = editOf(place) as { value: Value; was: Value } | undefined;
+  const readOnly = useReadOnly();
+  const { place, saved, asks } = parts;
+  const edit = editOf(place) as Edited<Value> | undefined;
   const underWay = isUnderWay(place);
-  const merged = edit && !underWay ? merge(edit.was, edit.value, saved) : unmerged(edit, saved);
-  const { value, clashes } = merged;
+  const value = shownValue(edit, saved, underWay);
   const [refusal, setRefusal] = useState<{ value: Value; line: string }>();
   const refused = refusal && same(refusal.value, value) ? refusal.line : "";
   // What was typed and taken back while a save is under way has to be sent after it.
-  const done = edit !== undefined && !underWay && clashes.length === 0 && same(value, saved);
+  const done = edit !== undefined && !underWay && same(value, saved);
+  const changed = !!asks && edit !== undefined && !underWay && !done && !same(edit.was, saved);
   useEffect(() => {
     if (done) forget(place);
   }, [done, place]);
@@ -44,39 +48,36 @@ export function useKept<Value>(parts: KeptParts<Value>): Kept<Value> {
   const sending: Sending<Value> = {
     ...parts,
     value,
-    ready: edit !== undefined && !done && clashes.length === 0 && !refused,
+    ready: edit !== undefined && !done && !changed && !refused && !readOnly,
     refuse: (value, line) => setRefusal({ value, line }),
   };
   useSending(sending);
   // Somebody may type twice before the next picture, so the second edit builds on the first.
-  const newest = useRef({ value, saved, clashes });
-  newest.current = { value, saved, clashes };
+  const newest = useRef({ value, saved, changed });
+  newest.current = { value, saved, changed };
   return {
     value,
     put: (next) => {
-      const { value, saved, clashes } = newest.current;
-      const changed = next instanceof Function ? next(value) : next;
-      newest.current.value = changed;
+      const { value, saved, changed } = newest.current;
+      const typed = next instanceof Function ? next(value) : next;
+      newest.current.value = typed;
       setRefusal(undefined);
       const before = editOf(place);
       // What is saved is not in the value yet.
-      const isBehind = clashes.length > 0 || isUnderWay(place);
-      keep(place, { value: changed, was: isBehind && before ? before.was : saved });
+      const isBehind = changed || isUnderWay(place);
+      keep(place, { value: typed, was: isBehind && before ? before.was : saved });
     },
     waiting: edit !== undefined && !done,
     refused,
-    clashes,
-    settle: ({ path, theirs }, mine) => {
-      if (!edit) return;
-      if (mine) keep(place, { value, was: withPlace(edit.was, path, theirs) });
-      else keep(place, { value: withPlace(value, path, theirs), was: edit.was });
-    },
+    changed,
+    settle: (mine) => (mine ? keep(place, { value, was: saved }) : forget(place)),
   };
 }
 
-/** What to show while nobody knows what is saved: the edit, or else what was saved last. */
-function unmerged<Value>(edit: { value: Value } | undefined, saved: Value): Merged<Value> {
-  return { value: edit ? edit.value : saved, clashes: [] };
+/** What to show: while a save is on its way nobody knows what is saved. */
+function shownValue<Value>(edit: Edited<Value> | undefined, saved: Value, underWay: boolean) {
+  if (!edit) return saved;
+  return underWay ? edit.value : rebased(edit, saved);
 }
 
 /** Whether choices are on their way: what goes by them has to wait. */

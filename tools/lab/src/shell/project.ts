@@ -4,8 +4,8 @@ import { useCallback, useContext, useEffect, useRef, useState } from "preact/hoo
 import { type Choices, get, type Project, send } from "../api/client";
 import { LOOK_MS } from "../api/patience";
 import { type Kept, useKept } from "./kept";
-import { same } from "./merge";
 import { editOf, openOutbox } from "./outbox";
+import { same } from "./rebase";
 import { Turns } from "./turns";
 
 /** What a screen sees of the project, and what it may do with it. */
@@ -120,8 +120,7 @@ function useChoose(choices: Kept<Choices>): Shared["choose"] {
   newest.current = choices;
   const callers = useRef<(() => void)[]>([]);
   useEffect(() => {
-    const { refused, clashes } = newest.current;
-    if (editOf("choices") && !refused && clashes.length === 0) return;
+    if (editOf("choices") && !newest.current.refused) return;
     for (const done of callers.current.splice(0)) done();
   });
   return useCallback((change) => {

@@ -3,12 +3,13 @@
 import { useEffect, useReducer, useRef } from "preact/hooks";
 import { Refusal } from "../api/client";
 import type { KeptParts } from "./kept";
-import { merge, same } from "./merge";
 import { editOf, forget, isUnderWay, keep, setUnderWay } from "./outbox";
+import { rebased, same } from "./rebase";
 
 const PAUSE_MS = 250; // after the last key
 const AGAIN_MS = 3000; // after a server that did not answer
 const CHANGED = 409;
+const OTHER_TAB = 423;
 
 export interface Sending<Value> extends KeptParts<Value> {
   value: Value;
@@ -77,12 +78,12 @@ async function answered<Value>(sending: Sending<Value>): Promise<boolean> {
     const now = editOf(place);
     // Who typed on in the meantime goes on from what is saved now, which may be more than what was sent.
     if (now && !same(now.value, value))
-      keep(place, { value: merge(value, now.value as Value, saved).value, was: saved });
+      keep(place, { value: rebased({ was: value, value: now.value as Value }, saved), was: saved });
     else forget(place);
   } catch (error) {
     setUnderWay(place, false);
     const status = error instanceof Refusal ? error.status : 0;
-    if (status === CHANGED) await reload();
+    if (status === CHANGED || status === OTHER_TAB) await reload();
     else if (status >= 400 && status < 500) refuse(value, (error as Refusal).message);
     else return false;
   }

@@ -12,7 +12,7 @@ import { Spans } from "../readings/Spans";
 import { Tape } from "../readings/Tape";
 import { useDoubts } from "../readings/useDoubts";
 import { useReadings } from "../readings/useReadings";
-import { Clashes } from "../shell/Clashes";
+import { Changed } from "../shell/Changed";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
 import "../readings/readings.css";
@@ -54,11 +54,7 @@ export function Readings() {
             {off !== null && ` They are off by ${namedLength(off, units, 2)} (RMS).`}
             {looking && " Looking for readings that disagree …"}
           </p>
-          <Clashes
-            kept={kept}
-            name={(path) => `Mark ${form.marks[Number(path[0])]?.name ?? path.join(" ")}`}
-            show={readings.shown}
-          />
+          <Changed kept={kept} />
           {kept.refused && (
             <p class="trouble" role="alert">
               {kept.refused}

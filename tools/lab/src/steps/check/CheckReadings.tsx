@@ -1,6 +1,7 @@
 // The readings of the check marks, typed as all others are.
 import { Grid } from "../../readings/Grid";
 import { useReadings } from "../../readings/useReadings";
+import { Changed } from "../../shell/Changed";
 import "../../readings/readings.css";
 
 const NOBODY: ReadonlySet<number> = new Set();
@@ -12,6 +13,7 @@ export function CheckReadings({ file }: { file: string }) {
     <section aria-label="Readings of the check marks">
       <h2>What does the tape say?</h2>
       <Grid form={readings.form} readings={readings} doubted={NOBODY} />
+      <Changed kept={readings.kept} />
       {readings.kept.refused && (
         <p class="trouble" role="alert">
           {readings.kept.refused}

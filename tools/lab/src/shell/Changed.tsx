@@ -1,0 +1,17 @@
+// Says that a file changed on disk while somebody typed, and asks what holds.
+import type { Kept } from "./kept";
+
+export function Changed<Value>({ kept }: { kept: Kept<Value> }) {
+  if (!kept.changed) return null;
+  return (
+    <p class="trouble" role="alert">
+      The file has changed on disk, and what you typed is not saved.{" "}
+      <button type="button" onClick={() => kept.settle(true)}>
+        Keep mine
+      </button>{" "}
+      <button type="button" onClick={() => kept.settle(false)}>
+        Take the file's
+      </button>
+    </p>
+  );
+}
