@@ -12,11 +12,8 @@ from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
 from plumb.grid.options import Grid
 from plumb.settings.machine import MachineSettings
-from plumb.vm.budget import Budget
-from plumb.vm.floor import sled_error
-from plumb.vm.garage import Garage, random_garage
-from plumb.vm.hiding import described
-from plumb.vm.loop import Loop, closed_loop, lay_next_sheet, read, shape
+from plumb.vm.garage import Garage, described, random_garage, sled_error
+from plumb.vm.loop import Budget, Loop, closed_loop, lay_next_sheet, read, shape
 from plumb.vm.owner import FRICTION_NAME, VirtualOwner
 
 ALWAYS = (FRICTION_NAME.partition(".")[0],)  # effects that every virtual machine has

@@ -24,7 +24,7 @@ from plumb.cli.screen import Bar, sentences, table
 from plumb.grid.options import Grid
 from plumb.text.errors import refusal
 from plumb.text.values import bare, unit
-from plumb.vm.budget import Budget
+from plumb.vm.loop import Budget
 
 GRIDS = {
     "25": Grid(columns=5, rows=5, repeats=0),

@@ -9,7 +9,7 @@ from plumb.bench.boards import size_for
 from plumb.bench.causes import CAUSES, OUTSIDE, Cause, Hidden
 from plumb.bench.hiding import LARGE, REAL, by_effect
 from plumb.model.catalogue import every_effect
-from plumb.vm.hiding import BOARD
+from plumb.vm.garage import BOARD
 
 FIRMWARE = tuple(effect["name"] for effect in every_effect() if effect["where"] == "firmware")
 CURABLE = tuple(cause for cause in REAL if cause.effect in FIRMWARE)

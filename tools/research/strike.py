@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from math import ceil
 
 from plumb.vm.garage import VirtualMachine
-from plumb.vm.in_process import MOMENT, InProcessPort
+from plumb.vm.owner import MOMENT, InProcessPort
 
 WAITING = 1  # [ms] between two looks of a story that waits for its moment
 

@@ -17,8 +17,7 @@ from plumb.pictures.fingerprints import Stair, draw_staircase
 from plumb.pictures.sheet import draw
 from plumb.text.files import DEMO_MARKS
 from plumb.text.values import bare
-from plumb.vm.garage import random_garage
-from plumb.vm.hiding import RANDOM, described, hide
+from plumb.vm.garage import RANDOM, described, hide, random_garage
 from plumb.vm.loop import Loop, closed_loop
 from plumb.vm.owner import VirtualOwner
 

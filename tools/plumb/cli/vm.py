@@ -16,10 +16,16 @@ from plumb.line.sender import Sender
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError, refusal
 from plumb.text.files import read_bytes, read_text, write_whole
-from plumb.vm.garage import Garage, VirtualMachine, random_garage, set_up
-from plumb.vm.hiding import described, hide
-from plumb.vm.in_process import InProcessPort
-from plumb.vm.picture import VmPicture
+from plumb.vm.garage import (
+    Garage,
+    VirtualMachine,
+    VmPicture,
+    described,
+    hide,
+    random_garage,
+    set_up,
+)
+from plumb.vm.owner import InProcessPort
 from plumb.vm.pseudo_terminal import Pace, PseudoTerminal, preload
 from plumb.vm.tape import BLANK, Tape
 

@@ -13,10 +13,10 @@ from fastapi.staticfiles import StaticFiles
 from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Receive, Scope, Send
 
+from plumb.lab.background import LiveBoards
 from plumb.lab.editor import Editor, OtherTabError, may_change
 from plumb.lab.guard import Address, Guard
 from plumb.lab.guide_desk import GuideDesk
-from plumb.lab.live_boards import LiveBoards
 from plumb.lab.machine_line import MachineLine
 from plumb.lab.project import ChangedError, Project
 from plumb.lab.routes import (
@@ -25,17 +25,12 @@ from plumb.lab.routes import (
     comparison,
     correction,
     diary,
-    doubts,
-    editor,
     grid,
     guide,
-    held,
     known,
-    live,
     machine,
     next,
     plan,
-    practice,
     project,
     readings,
     verdict,
@@ -46,26 +41,24 @@ from plumb.text.files import links_refused
 PAGE = Path(__file__).parent / "page"
 
 # To add a route, write its file and give it a place here.
-ROUTERS = (
-    project.router,
-    editor.router,
-    machine.router,
-    held.router,
-    live.router,
-    guide.router,
-    known.router,
-    plan.router,
-    grid.router,
-    comparison.router,
-    readings.router,
-    doubts.router,
-    verdict.router,
-    next.router,
-    correction.router,
-    check.router,
-    diary.router,
-    bench.router,
-    practice.router,
+ROUTERS = tuple(
+    room.router
+    for room in (
+        project,
+        machine,
+        guide,
+        known,
+        plan,
+        grid,
+        comparison,
+        readings,
+        verdict,
+        next,
+        correction,
+        check,
+        diary,
+        bench,
+    )
 )
 
 

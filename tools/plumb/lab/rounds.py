@@ -2,17 +2,31 @@
 
 from __future__ import annotations
 
+import math
+import re
+import shlex
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import PurePath
 
-from plumb.grid.cut_with import digest_of
-from plumb.lab.choices import Choices
-from plumb.lab.commands import command
-from plumb.lab.planned import Planned
-from plumb.lab.project import Project
+from plumb import _core
+from plumb.fit.inputs import settings_in
+from plumb.fit.problem import PRIORS
+from plumb.grid import Grid, PlainMachine, marks_list, spans_of, touches_of
+from plumb.grid.cut_with import cut_with_lines, digest_of
+from plumb.grid.pattern import Touch
+from plumb.lab.known import stated
+from plumb.lab.project import Choices, Layout, Project
+from plumb.line.progress import Wait, waits_in
 from plumb.marks.form import read_form
+from plumb.marks.read import Distance, Mark, Measurements
 from plumb.model.predict import known_effects
+from plumb.model.reach import refuse_way, with_soft_chains
+from plumb.plan.options import MARK, READING, ROUND
+from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.text.files import is_ours
+from plumb.vm.owner import plain_machine
 
 FORM, PROGRAM = "marks{}.toml", "grid{}.nc"
 
@@ -72,3 +86,190 @@ def has_readings(project: Project, name: str) -> bool:
     except InputError:
         return True  # whatever it is, somebody wrote it
     return bool(form.measurements.measured_marks or form.measurements.distances)
+
+
+# The marks of a layout that somebody chose, as a grid that can be cut and as a plan to look at.
+
+BAND = 150.0  # [mm] marks that lie so near in height are cut side by side
+Place = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A way to measure."""
+
+    title: str
+    columns: int
+    rows: int
+    is_taped: bool = False  # distances between marks instead of places on the sheet
+
+
+KINDS: dict[Layout, Kind] = {
+    "nine": Kind("Nine marks", 3, 3),
+    "fifteen": Kind("Fifteen marks", 5, 3),
+    "twenty-five": Kind("Twenty-five marks", 5, 5),
+    "distances": Kind("Distances between nine marks", 3, 3, is_taped=True),
+}
+
+
+@dataclass(frozen=True)
+class Planned:
+    """The marks of a layout on a machine's sheet."""
+
+    grid: Grid
+    machine: PlainMachine
+    touches: tuple[Touch, ...]
+    spans: tuple[tuple[str, str], ...]  # names of marks between which a tape is laid
+
+    @property
+    def minutes(self) -> float:
+        """How long it takes to cut and read them."""
+        read = READING * len(self.spans)
+        return ROUND + MARK * len(self.touches) + read
+
+    def form(self, path: str, *, settings: str, new_sheet: bool = False) -> str:
+        """The form at that path that waits for readings of marks cut with these settings."""
+        named = cut_with_lines(settings, path)
+        return marks_list(self.grid, self.machine, named, new_sheet=new_sheet, spans=self.spans)
+
+    def words(self) -> list[str]:
+        """What `plumb grid` is given for these marks."""
+        if self.grid.places:
+            places = " ".join(f"{x:.12g},{y:.12g}" for x, y in self.grid.places)
+            return [f"--places={places}"]
+        size = ["--columns", f"{self.grid.columns}", "--rows", f"{self.grid.rows}"]
+        return [*size, "--repeats", "0", *["--distances"] * bool(self.spans)]
+
+    def as_measured(self) -> Measurements:
+        """The plan as if all were read just where it was sent."""
+        side = self.grid.approach
+        sent = {touch.name: (touch.x, touch.y) for touch in self.touches}
+        marks = tuple(
+            Mark(name, place, None if self.spans else place, approach=side)
+            for name, place in sent.items()
+        )
+        distances = tuple(
+            Distance((first, second), math.dist(sent[first], sent[second]))
+            for first, second in self.spans
+        )
+        return Measurements(marks, distances=distances, source="the plan")
+
+
+def planned(settings: MachineSettings, layout: Layout, places: Sequence[Place]) -> Planned:
+    """The marks of a layout; `places` [mm] are those of the layout "own". Raises GridError."""
+    machine = plain_machine(settings)
+    kind = KINDS.get(layout)
+    if kind:
+        grid = Grid(columns=kind.columns, rows=kind.rows, repeats=0)
+    else:
+        grid = Grid(repeats=0, places=tuple(in_turn(places)))
+    touches = tuple(sorted(touches_of(grid, machine), key=lambda touch: int(touch.name)))
+    is_taped = kind is not None and kind.is_taped
+    return Planned(grid, machine, touches, tuple(spans_of(grid)) if is_taped else ())
+
+
+def refuse_unreachable(plan: Planned, settings: MachineSettings) -> None:
+    """Raise GridError or InputError if the sled cannot take the way to all marks."""
+    soft = with_soft_chains(replace(settings.as_plumb_model()))[0]
+    refuse_way(plan.grid, plan.machine, soft, most_give=_core.reach_limits()["most_give"])
+
+
+def in_turn(places: Sequence[Place]) -> list[Place]:
+    """Places in an order that makes the way short: in bands from the top, there and back."""
+    rows: list[list[Place]] = []
+    for place in sorted(places, key=lambda place: -place[1]):
+        if rows and rows[-1][0][1] - place[1] < BAND:
+            rows[-1].append(place)
+        else:
+            rows.append([place])
+    return [
+        place
+        for index, row in enumerate(rows)
+        for place in sorted(row, key=lambda place: place[0] * (-1 if index % 2 else 1))
+    ]
+
+
+# A proposal that somebody took into the folder: its form, and the program that cuts it.
+
+STEM = "more"  # as plumb next calls them
+FORM_NAME = re.compile(rf"{STEM}(-\d+)?\.toml")
+
+
+@dataclass(frozen=True)
+class Taken:
+    """Marks that are to be cut because the verdict proposed them."""
+
+    form: str
+    program: str
+    text: str  # the G-code
+    marks: tuple[Mark, ...]  # in the order in which they are cut
+    cut_with: MachineSettings | None = None  # that the form names
+
+    @property
+    def waits(self) -> tuple[Wait, ...]:
+        """The pauses of the program."""
+        return tuple(waits_in(self.text.splitlines()))
+
+    @property
+    def swaps_chains(self) -> bool:
+        """Whether it has chains on each other's sprockets."""
+        return any(mark.chains_swapped for mark in self.marks)
+
+
+def program_name(form: str) -> str:
+    """The file of the program whose marks a form waits for."""
+    return f"{PurePath(form).stem}.nc"
+
+
+def is_read_again(project: Project, form: str) -> bool:
+    """Whether the marks of a form are on the sheet already: somebody took it, nothing cuts it."""
+    return bool(FORM_NAME.fullmatch(form)) and project.read(program_name(form)) is None
+
+
+def taken_marks(project: Project, choices: Choices) -> Taken | None:
+    """What was taken and is to be cut; None once it has readings, and where nothing is cut."""
+    form = choices.proposed
+    if not FORM_NAME.fullmatch(form) or project.read(form) is None or has_readings(project, form):
+        return None
+    text = project.read(program_name(form))
+    if text is None:
+        return None
+    sheet = settings_in(project.path(choices.settings)).sheet if choices.settings else (0.0, 0.0)
+    measured = read_form(project.path(form), sheet=sheet, known=known_effects()).measurements
+    cut_with = measured.rounds[0].cut_with
+    return Taken(form, program_name(form), text.decode(), measured.marks, cut_with)
+
+
+# The `plumb` command that does the same as a screen, with every choice that counts there.
+
+
+def command(*words: str) -> str:
+    """A command as a shell reads it."""
+    return shlex.join(["plumb", *words])
+
+
+def known_words(
+    choices: Choices, *, effects: Collection[str] | None = None, held: Collection[str] = ()
+) -> list[str]:
+    """What the owner knows, as far as a fit of these effects takes it; None: any effect."""
+    known = stated(choices)
+    words = []
+    for check in known.checked:
+        effect = check.name.rpartition(".")[0]
+        if (effects is None or not effect or effect in effects) and check.name not in held:
+            words += ["--checked", f"{check.name}={check.value:.12g}+-{check.sigma:.12g}"]
+    return [*prior_words(known.priors), *words]
+
+
+def prior_words(priors: Mapping[str, float], usual: Mapping[str, float] = PRIORS) -> list[str]:
+    """How far numbers of the frame may be wrong, where it is not as usual."""
+    words = []
+    for name, sigma in priors.items():
+        if usual.get(name) != sigma:
+            words += ["--prior", f"{name}={sigma:.12g}"]
+    return words
+
+
+def unit_words(choices: Choices, typed: str = "mm") -> list[str]:
+    """The chosen unit, unless the command shows it by itself: the unit in which it was typed."""
+    return ["--units", choices.units] if choices.units != typed else []

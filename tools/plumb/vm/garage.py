@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from math import cos, sin
 
 import numpy as np
+from rich.text import Text
 
 from plumb._vm import VirtualMachine
-from plumb.bench.causes import MAKER, Hidden
+from plumb.bench import judge
+from plumb.bench.boards import plan, size_for
+from plumb.bench.causes import MAKER, OUTSIDE, SLED, Cause, Hidden, causes_of
+from plumb.bench.hiding import REAL
+from plumb.bench.judged_board import sheet
 from plumb.firmware.client_files import gcode
 from plumb.firmware.settings import CLIENT_NUMBERS, firmware_numbers
+from plumb.fit.compare import best_pose
+from plumb.fit.fit import rms
 from plumb.line.sender import Sender
-from plumb.model.predict import judged
+from plumb.model.predict import FOUND, judged, lengths
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError
-from plumb.vm.hiding import astray
+from plumb.text.errors import InputError, to_do
+from plumb.text.values import refuse_unknown
 
 __all__ = ["Garage", "VirtualMachine", "random_garage", "set_up", "with_new_sheet"]
 
@@ -116,3 +124,109 @@ def set_up(sender: Sender, settings: MachineSettings) -> None:
     lines = gcode(firmware_numbers(settings)).decode().splitlines()
     client = [f"${number}={value:g}" for number, value in CLIENT_NUMBERS.items()]
     sender.stream([*client, *lines, f"B06 L{EXTENDED:g} R{EXTENDED:g}", "G10 Z0"])
+
+
+# What is hidden in a virtual machine: effects by name, or one that is drawn.
+
+RANDOM = "random"
+BOARD = plan(5, 5)  # on which an effect moves marks by this many millimetres RMS
+
+
+def hide(names: Sequence[str], *, millimetres: float, seed: int) -> Hidden:
+    """Effects that move marks by so much RMS each, before a frame is refitted.
+
+    The name `random` draws one that real machines have. Raises InputError for an unknown name.
+    """
+    known = sorted({cause.effect for cause in REAL})
+    try:
+        refuse_unknown([name for name in names if name != RANDOM], known)
+    except ValueError as error:
+        raise InputError(f"{to_do('--hide', page='hidden:')} {error}") from None
+    source = np.random.default_rng([seed, 11])
+    causes = [_drawn(source) if name == RANDOM else _one_of(name, source) for name in names]
+    return Hidden(tuple((cause, size_for(cause, BOARD, millimetres)) for cause in causes))
+
+
+def astray(hidden: Hidden, places: Array, seed: int) -> Array:
+    """How far (n, 2) [mm] the sled is off at places by what the library has no word for."""
+    if not hidden.outside:
+        return np.zeros_like(places)
+
+    def field(at: Array) -> Array:
+        return OUTSIDE[hidden.outside](at, np.random.default_rng([seed, 13]))
+
+    length = np.sqrt(np.mean(np.sum(field(BOARD.targets) ** 2, axis=1)))
+    moved: Array = field(places) * hidden.outside_mm / max(float(length), 1e-9)
+    return moved
+
+
+def described(hidden: Hidden) -> str:
+    """What is hidden, in a few words."""
+    said = [f"{cause.effect} ({cause.label})" for cause, _ in hidden.causes]
+    said += [f"a {hidden.outside}, which no effect explains"] if hidden.outside else []
+    return " and ".join(said) or "nothing"
+
+
+def _drawn(source: np.random.Generator) -> Cause:
+    """One that the firmware can correct; a wrong tape would stay wrong on the next sheet."""
+    effects = sorted({cause.effect for cause in REAL if not (cause.skew or cause.strain)})
+    return _one_of(effects[source.integers(len(effects))], source)
+
+
+def _one_of(effect: str, source: np.random.Generator) -> Cause:
+    """One of the directions that an effect has."""
+    several = [cause for cause in causes_of(effect) if cause in REAL]
+    return several[source.integers(len(several))]
+
+
+# What settings leave at the sled all over the sheet.
+
+
+def sled_error(garage: Garage, settings: MachineSettings) -> float:
+    """The error of a garage's machine with these settings. Nothing rubs: no setting knows of it."""
+    wanted = sheet()
+    chains, outcome = lengths(settings, wanted)
+    if not (outcome == FOUND).all():
+        return float("inf")
+    weights = np.full(len(wanted), garage.numbers.get("sled_weight", SLED))
+    still = np.zeros_like(wanted)
+    places = judge.places(garage.numbers, chains, pushes=still, weights=weights)
+    pose = best_pose(wanted, garage.read(places))
+    return rms(pose.errors) if pose else 0.0
+
+
+# The virtual machine on a screen of characters: the sheet, its marks and the sled.
+
+WIDTH, HEIGHT = 2438.4, 1219.2  # [mm] of the sheet
+COLUMNS, ROWS = 72, 18  # characters are twice as high as wide
+
+
+class VmPicture:
+    """What rich draws, drawn again each time."""
+
+    def __init__(self, machine: VirtualMachine) -> None:
+        self._machine = machine
+
+    def __rich__(self) -> Text:
+        """The picture as it is now."""
+        machine = self._machine
+        grid = [[" "] * COLUMNS for _ in range(ROWS)]
+        for _, _, x, y, _ in machine.cuts():
+            _put(grid, x, y, ".")
+        _put(grid, *machine.sled, "O" if machine.height > 0 else "X")
+        left, right = machine.tensions
+        lines = [
+            "+" + "-" * COLUMNS + "+",
+            *("|" + "".join(row) + "|" for row in grid),
+            "+" + "-" * COLUMNS + "+",
+            f"x {machine.sled[0]:8.1f}  y {machine.sled[1]:8.1f}  z {machine.height:6.2f} mm   "
+            f"pull {left:4.0f} and {right:4.0f} N   {machine.seconds:7.0f} s",
+        ]
+        return Text("\n".join(lines))
+
+
+def _put(grid: list[list[str]], x: float, y: float, sign: str) -> None:
+    column = int((x / WIDTH + 0.5) * COLUMNS)
+    row = int((0.5 - y / HEIGHT) * ROWS)
+    if 0 <= column < COLUMNS and 0 <= row < ROWS:
+        grid[row][column] = sign

@@ -6,7 +6,7 @@ The owner follows the lab's advice and nothing else.
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -19,8 +19,8 @@ from plumb.grid.options import Grid
 from plumb.line.sender import RefusedError, cleaned
 from plumb.marks.read import Mark, Measurements, join_measurements, read_marks
 from plumb.plan import Proposal, propose
+from plumb.plan.options import HANGING, MARK, READING, ROUND
 from plumb.settings.machine import MachineSettings
-from plumb.vm.budget import Budget, Spent, cutting, reading
 from plumb.vm.owner import VirtualOwner
 
 ROUNDS = 2  # times that the owner measures what is proposed
@@ -215,3 +215,42 @@ def read(owner: VirtualOwner, form: str) -> Measurements:
         path = Path(folder, "marks.toml")
         path.write_text(form)
         return read_marks(path, sheet=owner.settings.sheet)
+
+
+# What measuring costs the owner of a machine: holes in a sheet, and minutes.
+
+
+@dataclass(frozen=True)
+class Spent:
+    """What was spent so far."""
+
+    marks: int = 0  # cut
+    minutes: float = 0.0
+
+    def __add__(self, other: Spent) -> Spent:
+        """Both together."""
+        return Spent(self.marks + other.marks, self.minutes + other.minutes)
+
+
+@dataclass(frozen=True)
+class Budget:
+    """How much an owner has the patience for."""
+
+    marks: int = 45
+    minutes: float = 150.0
+
+    def allows(self, spent: Spent) -> bool:
+        """Whether so much may be spent."""
+        return spent.marks <= self.marks and spent.minutes <= self.minutes
+
+
+def cutting(sled_weights: Sequence[float], usual: float) -> Spent:
+    """A round of marks cut and read, each under a sled of some weight [N]."""
+    hangs = any(abs(weight - usual) > 1e-6 for weight in sled_weights)
+    count = len(sled_weights)
+    return Spent(count, ROUND + MARK * count + HANGING * hangs)
+
+
+def reading(count: int) -> Spent:
+    """Marks that are there, read once more with a newly laid tape."""
+    return Spent(0, READING * count)

@@ -6,6 +6,7 @@ of the machine is the garage's.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -23,7 +24,6 @@ from plumb.plan.case import Check
 from plumb.plan.planned_visits import Visits, marks_file, visit_lines
 from plumb.settings.machine import MachineSettings
 from plumb.vm.garage import Garage, set_up, with_new_sheet
-from plumb.vm.in_process import InProcessPort
 from plumb.vm.tape import Tape
 
 # The number by which the lab knows friction: of the effect that drags a sled.
@@ -155,3 +155,57 @@ def true_value(garage: Garage, name: str) -> float:
     }
     always = garage.friction if name == FRICTION_NAME else 0.0
     return float(hidden.get(name, CHAIN.get(name, 0.0))) + always
+
+
+# A line to a virtual machine in the same program: no waiting, its time runs as fast as it can.
+
+MOMENT = 50  # [ms] that pass while somebody listens
+
+
+class InProcessPort:
+    """The serial line of a virtual machine that runs."""
+
+    def __init__(self, machine: VirtualMachine) -> None:
+        self.machine = machine
+
+    def write(self, characters: bytes) -> None:
+        """Put characters on the line."""
+        self.machine.send(characters)
+
+    def read(self) -> bytes:
+        """What came in a moment of the machine's time."""
+        self.machine.advance(MOMENT)
+        return self.machine.take_said()
+
+    def seconds(self) -> float:
+        """The machine's time."""
+        return self.machine.seconds
+
+    def close(self) -> None:
+        """Nothing to let go of."""
+
+
+# A line to a virtual machine in the same program, whose time runs with this computer's.
+
+SLEEP = 0.002  # [s] shorter waits are saved up
+
+
+class PacedPort(InProcessPort):
+    """The serial line of a virtual machine: real time at rest, `speed` times as fast at work."""
+
+    def __init__(self, machine: VirtualMachine, *, speed: float) -> None:
+        super().__init__(machine)
+        self.speed = speed
+        self.works = False
+        self._due = time.monotonic()
+
+    def read(self) -> bytes:
+        """What came in a moment of the machine's time."""
+        said = super().read()
+        self._due += MOMENT / 1000 / (self.speed if self.works else 1.0)
+        now = time.monotonic()
+        if self._due - now > SLEEP:
+            time.sleep(self._due - now)
+        # A computer that is too slow falls behind; it never hurries afterwards.
+        self._due = max(self._due, now)
+        return said

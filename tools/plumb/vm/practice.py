@@ -15,9 +15,7 @@ from plumb.model.plain import plainly
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import refusal, to_do
 from plumb.text.files import read_text
-from plumb.vm.floor import sled_error
-from plumb.vm.garage import Garage, random_garage
-from plumb.vm.hiding import RANDOM, described, hide
+from plumb.vm.garage import RANDOM, Garage, described, hide, random_garage, sled_error
 
 SECRET = "practice.json"
 MACHINES = 1_000_000  # that can be drawn

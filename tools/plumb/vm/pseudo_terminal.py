@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import os
 import pty
 import select
+import struct
 import time
 import tty
 from pathlib import Path
@@ -14,8 +16,6 @@ import plumb._vm
 from plumb._vm import VirtualMachine
 from plumb.line.port import PSEUDO, LineLock, TakenError
 from plumb.text.errors import refusal
-from plumb.vm.opening import OpeningWatch
-from plumb.vm.whole_lines import WholeLines
 
 BOOTLOADER = 1000  # [ms] in which a board that was reset swallows what comes
 MOST_AT_ONCE = 20  # [ms] of the machine's time between two looks at the line
@@ -179,3 +179,72 @@ class Pace:
                 self._owed = min(self._owed - whole, 1.0)
                 return whole
             time.sleep(0.002)
+
+
+# Notices each time that a program opens a file, however soon it closes it again.
+
+OPENED = 0x20  # IN_OPEN of Linux's inotify
+HEAD = struct.Struct("iIII")  # watch, mask, cookie, length of the name
+
+
+class OpeningWatch:
+    """Counts openings by Linux's inotify; Python itself has no door to it."""
+
+    def __init__(self, path: str) -> None:
+        """Raises OSError where the system has no inotify."""
+        self._libc = ctypes.CDLL(None, use_errno=True)
+        try:
+            self._handle = self._libc.inotify_init1(os.O_NONBLOCK | os.O_CLOEXEC)
+        except AttributeError:
+            raise OSError("this system has no inotify") from None
+        if (
+            self._handle < 0
+            or self._libc.inotify_add_watch(self._handle, os.fsencode(path), OPENED) < 0
+        ):
+            raise OSError(ctypes.get_errno(), f"{path} cannot be watched")
+
+    def count(self) -> int:
+        """How often it was opened since the last call."""
+        opened = 0
+        with contextlib.suppress(BlockingIOError):
+            while True:
+                events, at = os.read(self._handle, 4096), 0
+                while at < len(events):
+                    _, mask, _, length = HEAD.unpack_from(events, at)
+                    opened += bool(mask & OPENED)
+                    at += HEAD.size + length
+        return opened
+
+    def close(self) -> None:
+        """Look away."""
+        os.close(self._handle)
+
+
+# What a virtual machine says, handed over in whole lines.
+#
+# A serial client takes what it read within a quarter of a second for a line. A board's bytes
+# follow each other by fractions of a millisecond. A computer that is busy can stop a program for
+# longer, in the middle of a line, and a client would take the half for the whole.
+
+LONGEST_PAUSE = 20  # [ms] of the machine's time; then what it said was no line
+
+
+class WholeLines:
+    """Holds the begin of a line until its end has come."""
+
+    def __init__(self) -> None:
+        self._begun = b""
+        self._since = 0  # [ms] since its last byte
+
+    def take(self, said: bytes, milliseconds: int) -> bytes:
+        """What can go to the client.
+
+        `said`: what the machine said in the `milliseconds` of its time that just passed.
+        """
+        whole, end, begun = (self._begun + said).rpartition(b"\n")
+        self._since = 0 if said else self._since + milliseconds
+        if self._since >= LONGEST_PAUSE:
+            self._begun, self._since = b"", 0
+            return whole + end + begun
+        self._begun = begun
+        return whole + end

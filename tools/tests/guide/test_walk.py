@@ -16,7 +16,7 @@ from plumb.line.sender import Sender
 from plumb.text.errors import InputError
 from plumb.text.values import shown_in
 from plumb.vm.garage import EXTENDED, Garage
-from plumb.vm.in_process import InProcessPort
+from plumb.vm.owner import InProcessPort
 
 
 @pytest.fixture

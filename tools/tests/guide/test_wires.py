@@ -7,7 +7,7 @@ from plumb.guide.talk import Progress, Talk, chain_jog, ran_away, remedy
 from plumb.line.memory import read_numbers
 from plumb.line.sender import Sender
 from plumb.vm.garage import Garage
-from plumb.vm.in_process import InProcessPort
+from plumb.vm.owner import InProcessPort
 
 SIDES = ("left", "right")
 MOVED = 0.5  # [mm] that an owner sees

@@ -19,7 +19,7 @@ from plumb.model.predict import lengths
 from plumb.settings.machine import SettingsFile
 from plumb.text.errors import InputError
 from plumb.vm.garage import random_garage, set_up
-from plumb.vm.in_process import InProcessPort
+from plumb.vm.owner import InProcessPort
 from plumb.vm.tape import marks_on
 
 LEFT, RIGHT = (-900.0, 250.0), (900.0, -250.0)

@@ -9,9 +9,8 @@ from plumb.job.check import check_job
 from plumb.job.findings import SINKS
 from plumb.line.sender import Sender
 from plumb.settings.files import machine_toml
-from plumb.vm.garage import random_garage, set_up
-from plumb.vm.hiding import hide
-from plumb.vm.in_process import InProcessPort
+from plumb.vm.garage import hide, random_garage, set_up
+from plumb.vm.owner import InProcessPort
 
 WEAK = 2  # the seed of a machine whose gears hold little
 LOW, HIGH = 200, 500  # [mm] y of rests that hold, and that may not

@@ -8,7 +8,7 @@ from plumb.job.dry_run import Done, Run
 from plumb.line.sender import Sender
 from plumb.model.predict import judged, lengths
 from plumb.vm.garage import VirtualMachine, set_up
-from plumb.vm.in_process import InProcessPort
+from plumb.vm.owner import InProcessPort
 
 PROGRAMS = Path(__file__).resolve().parents[3] / "test/programs"
 NAMES = sorted(path.name for path in PROGRAMS.iterdir() if path.suffix not in (".places", ".md"))

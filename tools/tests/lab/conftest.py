@@ -5,8 +5,7 @@ import threading
 
 import pytest
 from playwright.sync_api import expect, sync_playwright
-from plumb.vm.garage import random_garage, set_up
-from plumb.vm.hiding import hide
+from plumb.vm.garage import hide, random_garage, set_up
 from plumb.vm.owner import VirtualOwner
 from plumb.vm.pseudo_terminal import Pace, PseudoTerminal
 from served_lab import SharedLab

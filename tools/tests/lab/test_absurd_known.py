@@ -2,7 +2,7 @@
 
 import pytest
 from folder import EXAMPLE, with_settings
-from plumb.lab.by_hand import readings
+from plumb.lab.known import readings
 from plumb.settings.machine import GRAVITY
 from synthetic import BELIEVED
 

@@ -3,10 +3,9 @@
 import pytest
 from folder import asked, example_form, with_settings
 from playwright.sync_api import expect
-from test_readings_page import LEFT, SHEET, await_saved, open_readings, saved, type_in, with_form
-
 from plumb.lab.editor import Editor, OtherTabError
 from plumb.marks.form import read_form
+from test_readings_page import LEFT, SHEET, await_saved, open_readings, saved, type_in, with_form
 
 SAID = "This folder is open in another tab."
 MINE, THEIRS = (98, 106), (660, 111)

@@ -14,10 +14,9 @@ from plumb.fit.expected import expected_error
 from plumb.fit.fit import rms
 from plumb.fit.problem import PRIORS
 from plumb.grid import Grid, GridError, PlainMachine, program
-from plumb.lab.choices import Choices, Number
 from plumb.lab.known import stated
-from plumb.lab.planned import in_turn, planned
-from plumb.lab.project import Project
+from plumb.lab.project import Choices, Number, Project
+from plumb.lab.rounds import in_turn, planned
 from plumb.lab.routes.comparison import inputs_of
 from plumb.line.sender import cleaned
 from plumb.model.predict import lengths, places

@@ -11,7 +11,7 @@ from playwright.sync_api import expect
 from plumb.marks.read import read_marks
 from plumb.model.plain import noun_of
 from plumb.settings.files import read_settings
-from plumb.vm.hiding import RANDOM, hide
+from plumb.vm.garage import RANDOM, hide
 
 PATIENCE = 300_000  # [ms] of a busy computer
 MACHINE = 9  # the number of a virtual machine whose sheet lies turned

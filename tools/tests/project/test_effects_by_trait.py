@@ -18,9 +18,8 @@ STORIES = {
     "cli/checked.py",
     # Machines on which chains slip, and a question to the owner about the links of a chain.
     "bench/slipped_chains.py",
-    "lab/known_numbers.py",
+    "lab/known.py",
     # What a rule or a scale reads for a number: the page asks for no number without such words.
-    "lab/by_hand.py",
     "cure/machine_file.py",
     "cli/demo.py",
 }

@@ -12,8 +12,8 @@ from matrix_page import page
 from plumb.bench.boards import size_for
 from plumb.bench.causes import Hidden, causes_of
 from plumb.text.errors import InputError
-from plumb.vm.budget import Budget
-from plumb.vm.hiding import BOARD
+from plumb.vm.garage import BOARD
+from plumb.vm.loop import Budget
 
 # One hidden effect, and two.
 CAUSES_OF = (causes_of("chain_sag"), (*causes_of("chain_sag"), causes_of("chain_pitch")[0]))

@@ -9,7 +9,7 @@ from plumb.bench.causes import MAKER, Hidden
 from plumb.line.sender import Sender
 from plumb.model.predict import lengths
 from plumb.vm.garage import EXTENDED, Garage, set_up
-from plumb.vm.in_process import InProcessPort
+from plumb.vm.owner import InProcessPort
 
 MOVES = ("G0 X20 Y10", "G1 X0 Y-20 F600", "G1 X5 Y-20 Z1 F300", "G0 X0 Y0 Z0")
 COUNT = 63.5 / 8113.73  # [mm] of chain for an encoder count

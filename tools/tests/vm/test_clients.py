@@ -10,8 +10,7 @@ import re
 
 import pytest
 import serial
-from plumb.vm.garage import random_garage
-from plumb.vm.hiding import hide
+from plumb.vm.garage import hide, random_garage
 from plumb.vm.owner import VirtualOwner
 from plumb.vm.pseudo_terminal import PseudoTerminal
 

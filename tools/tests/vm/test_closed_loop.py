@@ -11,10 +11,8 @@ from plumb.grid.options import Grid
 from plumb.marks.read import read_marks
 from plumb.plan.case import Check
 from plumb.plan.planned_visits import sent
-from plumb.vm.budget import Budget, Spent, cutting, reading
-from plumb.vm.garage import Garage, random_garage
-from plumb.vm.hiding import astray
-from plumb.vm.loop import closed_loop
+from plumb.vm.garage import Garage, astray, random_garage
+from plumb.vm.loop import Budget, Spent, closed_loop, cutting, reading
 from plumb.vm.owner import VirtualOwner, true_value
 from plumb.vm.tape import filled_form, marks_on
 

@@ -6,7 +6,7 @@ from plumb.bench.causes import MAKER
 from plumb.line.sender import Sender
 from plumb.model.predict import judged, lengths
 from plumb.vm.garage import VirtualMachine, set_up
-from plumb.vm.in_process import InProcessPort
+from plumb.vm.owner import InProcessPort
 from scipy.spatial import cKDTree
 
 HOLD, GO_ON = b"\x84", b"~"

@@ -8,7 +8,7 @@ from plumb.bench.causes import MAKER
 from plumb.line.sender import Sender
 from plumb.model.predict import judged, lengths
 from plumb.vm.garage import VirtualMachine, set_up
-from plumb.vm.in_process import InProcessPort
+from plumb.vm.owner import InProcessPort
 
 MOST = 3.0  # [mm] of a chain, beyond what a power cut lets it run
 ALARM = b"ALARM: The sled is not keeping up"

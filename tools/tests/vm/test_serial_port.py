@@ -35,7 +35,7 @@ READING = """
 import sys
 import numpy as np
 from plumb.vm.garage import random_garage
-from plumb.vm.hiding import hide
+from plumb.vm.garage import hide
 from plumb.vm.tape import Tape
 from types import SimpleNamespace as Machine
 form = "[[mark]]\\nname = '1'\\ntarget = [100.0, 200.0]\\n# measured = [ , ]\\n"

@@ -6,7 +6,7 @@ from plumb.bench.causes import MAKER
 from plumb.line.sender import Sender
 from plumb.model.predict import judged, lengths
 from plumb.vm.garage import VirtualMachine, set_up
-from plumb.vm.in_process import InProcessPort
+from plumb.vm.owner import InProcessPort
 
 STAYS = "The motors stay on: so high on the sheet the sled would slide ($77). Park it lower."
 SLIDES = "The sled slid with its motors off: they hold it until after its next move."

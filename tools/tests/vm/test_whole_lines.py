@@ -2,8 +2,7 @@
 however busy the computer is."""
 
 import serial
-from plumb.vm.pseudo_terminal import PseudoTerminal
-from plumb.vm.whole_lines import LONGEST_PAUSE, WholeLines
+from plumb.vm.pseudo_terminal import LONGEST_PAUSE, PseudoTerminal, WholeLines
 
 
 def test_the_begin_of_a_line_waits_for_its_end():

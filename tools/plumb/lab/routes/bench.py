@@ -16,10 +16,9 @@ from plumb.diagnosis.suspect_curves import Curve
 from plumb.fit.covariates import Covariate
 from plumb.fit.expected import plausible_range
 from plumb.fit.fit import Fit
-from plumb.lab.choices import read_choices
-from plumb.lab.commands import command, known_words, unit_words
-from plumb.lab.live_boards import LiveBoards, WarmBoard
-from plumb.lab.project import Project
+from plumb.lab.background import LiveBoards, WarmBoard
+from plumb.lab.project import Project, read_choices
+from plumb.lab.rounds import command, known_words, unit_words
 from plumb.lab.routes.comparison import board_words, inputs_of
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.model.catalogue import every_effect, is_sketch, parameter_words

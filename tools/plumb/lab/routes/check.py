@@ -12,13 +12,19 @@ from plumb.diagnosis.check_marks import Check, check_marks, check_sentence
 from plumb.fit.inputs import Inputs, settings_in
 from plumb.grid import program
 from plumb.grid.cut_with import with_form
-from plumb.lab.choices import Choices, read_choices, save_choices
-from plumb.lab.commands import command, known_words, unit_words
-from plumb.lab.held import refuse_other_machine
-from plumb.lab.machine_line import TheLine
-from plumb.lab.planned import Planned, planned, refuse_unreachable
-from plumb.lab.project import Project
-from plumb.lab.rounds import form_text, grid_command, kept_settings
+from plumb.lab.machine_line import TheLine, refuse_other_machine
+from plumb.lab.project import Choices, Project, read_choices, save_choices
+from plumb.lab.rounds import (
+    Planned,
+    command,
+    form_text,
+    grid_command,
+    kept_settings,
+    known_words,
+    planned,
+    refuse_unreachable,
+    unit_words,
+)
 from plumb.lab.routes.comparison import inputs_of, read_names
 from plumb.lab.routes.machine import MachineAnswer, machine
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show

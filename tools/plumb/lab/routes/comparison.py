@@ -11,11 +11,9 @@ from pydantic import BaseModel
 
 from plumb import api
 from plumb.fit.inputs import settings_in
-from plumb.lab.choices import Choices, read_choices
-from plumb.lab.commands import command, unit_words
-from plumb.lab.known import stated
-from plumb.lab.known_numbers import refuse_absurd_known
-from plumb.lab.project import Project
+from plumb.lab.known import refuse_absurd_known, stated
+from plumb.lab.project import Choices, Project, read_choices
+from plumb.lab.rounds import command, unit_words
 from plumb.lab.routes.project import TheProject
 from plumb.marks.form import read_form
 from plumb.model.predict import known_effects

@@ -21,13 +21,10 @@ from plumb.cure.machine_file import (
 from plumb.diary.file import FIT, fit_entry, keep
 from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files
 from plumb.fit.inputs import Inputs
-from plumb.lab.background import Progress
-from plumb.lab.choices import FILE, Choices, choices_text, read_choices
-from plumb.lab.commands import command, known_words, unit_words
-from plumb.lab.held import refuse_unanswered
-from plumb.lab.live_boards import key_of
-from plumb.lab.machine_line import TheLine
-from plumb.lab.project import Project
+from plumb.lab.background import Progress, key_of
+from plumb.lab.machine_line import TheLine, refuse_unanswered
+from plumb.lab.project import FILE, Choices, Project, choices_text, read_choices
+from plumb.lab.rounds import command, known_words, unit_words
 from plumb.lab.routes.comparison import board_words, inputs_of
 from plumb.lab.routes.project import TheProject
 from plumb.lab.routes.verdict import TheBackground

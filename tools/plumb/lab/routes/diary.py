@@ -9,8 +9,8 @@ from pydantic import BaseModel
 
 from plumb.diary.file import FIT, Diary, noted, read_diary
 from plumb.diary.history import Course, history_of
-from plumb.lab.choices import read_choices
-from plumb.lab.commands import command, unit_words
+from plumb.lab.project import read_choices
+from plumb.lab.rounds import command, unit_words
 from plumb.lab.routes.project import TheProject
 from plumb.model.plain import plain_change, plainly
 from plumb.text.values import shown_in

@@ -11,26 +11,28 @@ from pydantic import BaseModel
 from plumb.fit.inputs import settings_in
 from plumb.grid import program, spans_in, touches_of
 from plumb.grid.cut_with import with_form
-from plumb.lab.choices import FILE, Choices, read_choices, save_choices, with_marks
-from plumb.lab.commands import command
-from plumb.lab.held import refuse_other_machine
-from plumb.lab.machine_line import MachineLine, TheLine
-from plumb.lab.planned import Planned, planned, refuse_unreachable
-from plumb.lab.project import Project
+from plumb.lab.machine_line import MachineLine, TheLine, refuse_other_machine
+from plumb.lab.project import FILE, Choices, Project, read_choices, save_choices, with_marks
 from plumb.lab.rounds import (
     FORM,
     PROGRAM,
+    Planned,
+    Taken,
+    command,
     form_text,
     grid_command,
+    is_read_again,
     kept_settings,
     next_number,
     on_new_sheet,
+    planned,
+    refuse_unreachable,
+    taken_marks,
 )
 from plumb.lab.routes.machine import MachineAnswer, machine
 from plumb.lab.routes.plan import opened
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.readings import CHECK
-from plumb.lab.taken import Taken, is_read_again, taken_marks
 from plumb.line.sender import cleaned
 from plumb.marks.form import BLANK, read_form, toml_text, with_distances
 from plumb.model.predict import known_effects

@@ -11,11 +11,10 @@ from plumb.firmware.settings import machine_of_numbers
 from plumb.fit.inputs import settings_in
 from plumb.guide.steps import SETTINGS, STEPS, Visit, open_step
 from plumb.guide.talk import progress_in
-from plumb.lab.choices import Choices, Number, read_choices, save_choices
-from plumb.lab.commands import command
 from plumb.lab.guide_desk import GuideDesk, Kind
 from plumb.lab.machine_line import MachineLine, TheLine
-from plumb.lab.project import Project
+from plumb.lab.project import Choices, Number, Project, read_choices, save_choices
+from plumb.lab.rounds import command
 from plumb.lab.routes.project import TheProject
 from plumb.text.errors import InputError
 

@@ -10,16 +10,12 @@ from pydantic import BaseModel
 
 from plumb import api
 from plumb.fit.inputs import settings_in
-from plumb.lab.background import Answer, Background, Progress
-from plumb.lab.choices import read_choices, save_choices
-from plumb.lab.commands import command
-from plumb.lab.live_boards import key_of
-from plumb.lab.project import ChangedError, Project, digest_of
-from plumb.lab.rounds import has_readings, kept_settings
+from plumb.lab.background import Answer, Background, Progress, key_of
+from plumb.lab.project import ChangedError, Project, digest_of, read_choices, save_choices
+from plumb.lab.rounds import STEM, FORM_NAME, command, has_readings, kept_settings, program_name
 from plumb.lab.routes.comparison import inputs_of
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.verdict import Arrow, TheBackground, board_and_known
-from plumb.lab.taken import FORM, STEM, program_name
 from plumb.plan.proposal import (
     Next,
     Proposal,
@@ -136,7 +132,7 @@ def put_back(project: TheProject) -> ProjectAnswer:
     """Take the files of a proposal out of the folder again; readings stay."""
     choices, _ = read_choices(project)
     form = choices.proposed
-    if not FORM.fullmatch(form):
+    if not FORM_NAME.fullmatch(form):
         raise InputError("no proposal was taken")
     names = [form, program_name(form)]
     known = {name: project.digest(name) for name in names}

@@ -12,12 +12,22 @@ from pydantic import BaseModel, Field
 
 from plumb.fit.expected import expected_anywhere, expected_priors, expected_sentence
 from plumb.fit.inputs import settings_in
-from plumb.lab.choices import Choices, Layout, read_choices
-from plumb.lab.commands import command, prior_words, unit_words
 from plumb.lab.known import measured_to, planned_priors, possible
-from plumb.lab.planned import KINDS, Place, Planned, planned, refuse_unreachable
-from plumb.lab.project import Project
-from plumb.lab.rounds import FORM, PROGRAM, grid_command, next_number
+from plumb.lab.project import Choices, Layout, Project, read_choices
+from plumb.lab.rounds import (
+    FORM,
+    KINDS,
+    PROGRAM,
+    Place,
+    Planned,
+    command,
+    grid_command,
+    next_number,
+    planned,
+    prior_words,
+    refuse_unreachable,
+    unit_words,
+)
 from plumb.lab.routes.project import TheProject
 from plumb.marks.model import tape_sigma
 from plumb.model.plain import noun_of

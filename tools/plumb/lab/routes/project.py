@@ -6,13 +6,29 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated
 
-from fastapi import APIRouter, Depends, Request, UploadFile
+from fastapi import APIRouter, Depends, Header, Request, UploadFile
 from pydantic import BaseModel
 
-from plumb.fit.inputs import settings_in
-from plumb.lab.choices import FILE, Choices, choices_text, read_choices, save_choices
-from plumb.lab.project import Project, digest_of
+from plumb.diagnosis.doubts import Doubted, doubted_readings
+from plumb.fit.inputs import Inputs, settings_in
+from plumb.lab.editor import TheEditor
+from plumb.lab.known import refuse_absurd_known, stated
+from plumb.lab.project import (
+    FILE,
+    Choices,
+    Project,
+    choices_text,
+    digest_of,
+    read_choices,
+    save_choices,
+)
+from plumb.marks.form import read_form
+from plumb.marks.plausible import from_edges
+from plumb.model.predict import known_effects
 from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError
+from plumb.text.values import shown_in
+from plumb.vm.practice import score, secret_in
 
 router = APIRouter(tags=["project"])
 # A settings' file gets a name of ours, whatever its owner calls it.
@@ -114,4 +130,110 @@ def machine_of(settings: MachineSettings, file: str) -> Machine:
         sheet=settings.sheet,
         frame=dict(settings.frame),
         effects={name: dict(numbers) for name, numbers in settings.effects.items()},
+    )
+
+
+# The right to edit the folder goes from tab to tab.
+
+
+class EditorAnswer(BaseModel):
+    """The tab that edits; the live line says it, too."""
+
+    editor: str
+
+
+@router.post("/editor")
+def take_over(
+    editor: TheEditor, x_plumb_tab: Annotated[str, Header(max_length=64)]
+) -> EditorAnswer:
+    """Let the tab that asks edit; the tab that did so far only shows."""
+    editor.take_over(x_plumb_tab)
+    return EditorAnswer(editor=editor.tab)
+
+
+# Readings that disagree, asked for after each that is typed.
+
+
+class DoubtAnswer(BaseModel):
+    """A reading to look at again."""
+
+    index: int  # among the marks, or among the distances
+    is_mark: bool
+    off: float  # [mm]
+    sentence: str
+    corrected: list[float] | None  # [mm from the chosen edges] what was meant, if that is likely
+
+
+class DoubtsAnswer(BaseModel):
+    """All doubts about a form."""
+
+    file: str
+    digest: str  # of the form as it was read
+    doubts: list[DoubtAnswer]
+
+
+@router.get("/doubts")
+def show_doubts(project: TheProject, file: str) -> DoubtsAnswer:
+    """Which readings of a form no machine explains, by what is known of this machine."""
+    choices, _ = read_choices(project)
+    settings = settings_in(project.path(choices.settings))
+    refuse_absurd_known(settings, choices)
+    digest = project.digest(file)
+    form = read_form(project.path(file), sheet=settings.sheet, known=known_effects())
+    in_force = form.measurements.rounds[0].cut_with
+    sheet = in_force.sheet if in_force else settings.sheet
+    known = stated(choices)
+    inputs = Inputs(
+        settings,
+        form.measurements,
+        cut_with=in_force,
+        priors=known.priors,
+        checked=known.checked,
+    )
+    with shown_in(choices.units):
+        doubts = doubted_readings(inputs)
+    return DoubtsAnswer(
+        file=file,
+        digest=digest,
+        doubts=[_answer(doubt, sheet, choices.edges) for doubt in doubts],
+    )
+
+
+def _answer(doubt: Doubted, sheet: tuple[float, float], corner: str) -> DoubtAnswer:
+    corrected = list(doubt.corrected) if doubt.corrected else None
+    if corrected and doubt.is_mark:
+        corrected = list(from_edges((corrected[0], corrected[1]), sheet=sheet, corner=corner))
+    return DoubtAnswer(
+        index=doubt.index,
+        is_mark=doubt.is_mark,
+        off=doubt.off,
+        sentence=doubt.sentence,
+        corrected=corrected,
+    )
+
+
+# Practice: what the folder's virtual machine hides, and what the opened settings are worth.
+
+
+class Revealed(BaseModel):
+    """What was hidden; error of the sled all over the sheet [mm RMS]."""
+
+    hidden: str
+    sentence: str
+    before_mm: float
+    after_mm: float | None  # by the opened settings; None where a place is out of their reach
+
+
+@router.post("/practice/reveal")
+def reveal(project: TheProject) -> Revealed:
+    """Reveal the secret of the folder."""
+    secret, (choices, _) = secret_in(project.folder), read_choices(project)
+    if not choices.settings:
+        raise InputError("no settings are open; open the settings of the machine first")
+    result = score(secret, settings_in(project.path(choices.settings)))
+    return Revealed(
+        hidden=result.hidden,
+        sentence=result.sentence,
+        before_mm=result.before_mm,
+        after_mm=result.after_mm,
     )

@@ -12,11 +12,9 @@ from pydantic import BaseModel
 
 from plumb.fit.inputs import settings_in
 from plumb.grid import spans_in
-from plumb.lab.choices import Choices, Edges, read_choices, save_choices, with_marks
-from plumb.lab.commands import command, known_words, unit_words
-from plumb.lab.project import Project
+from plumb.lab.project import Choices, Edges, Project, read_choices, save_choices, with_marks
+from plumb.lab.rounds import command, is_read_again, known_words, unit_words
 from plumb.lab.routes.project import TheProject
-from plumb.lab.taken import is_read_again
 from plumb.marks.form import (
     Form,
     head_of,

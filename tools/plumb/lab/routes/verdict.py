@@ -18,11 +18,9 @@ from plumb.diagnosis.explanation import Explanation
 from plumb.diagnosis.sizes import Size
 from plumb.diagnosis.suspect_curves import fingerprint_of
 from plumb.fit.expected import plausible_range
-from plumb.lab.background import Background, Progress
-from plumb.lab.choices import read_choices
-from plumb.lab.commands import command, known_words, unit_words
-from plumb.lab.live_boards import key_of
-from plumb.lab.project import Project
+from plumb.lab.background import Background, Progress, key_of
+from plumb.lab.project import Project, read_choices
+from plumb.lab.rounds import command, known_words, unit_words
 from plumb.lab.routes.comparison import board_words, inputs_of
 from plumb.lab.routes.project import TheProject
 from plumb.model.catalogue import every_effect, label
