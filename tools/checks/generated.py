@@ -12,6 +12,7 @@ GENERATORS = [
     ["tools/research/effects_page.py"],
     ["tools/research/real_data_page.py"],
     ["tools/research/settings_page.py"],
+    ["-m", "plumb.cli.answers"],
 ]
 
 

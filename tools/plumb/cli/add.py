@@ -20,7 +20,7 @@ from plumb.cli.arguments import (
 )
 from plumb.cli.checked import add_checked, refuse_unfitted, with_stated
 from plumb.cli.client import add_client, add_firmware, client_files_of, client_text, typed_json
-from plumb.cli.compare import panel_of, score_json
+from plumb.cli.compare import panel_of
 from plumb.cli.files import inputs_of, picture_form
 from plumb.cli.output import STDOUT, refuse_twins, say_failure, write_outputs
 from plumb.cli.screen import about, print_json
@@ -46,6 +46,7 @@ from plumb.model.catalogue import is_sketch
 from plumb.model.plain import noun_of
 from plumb.pictures.fingerprints import Stair, draw_staircase
 from plumb.pictures.scale import Panel
+from plumb.text.answers import json_of
 from plumb.text.errors import InputError
 
 NONE = "none"  # as an effect: the frame alone
@@ -267,8 +268,8 @@ def as_json(addition: Addition) -> dict[str, Any]:
         "sigma_mm": addition.after_fit.sigma,
         "sigma_from": addition.sigma_from,
         "benchmark": {
-            "before": score_json(addition.raw.benchmark),
-            "after": score_json(addition.benchmark_after),
+            "before": json_of(addition.raw.benchmark),
+            "after": json_of(addition.benchmark_after),
         },
         "warnings": addition.warnings,
     }

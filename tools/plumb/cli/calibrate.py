@@ -6,7 +6,6 @@ import argparse
 from dataclasses import dataclass, replace
 
 from plumb.cli import add as add_command
-from plumb.cli import compare as compare_command
 from plumb.cli import diagnose as diagnose_command
 from plumb.cli.add_text import COLUMNS, parameter_table, quality_table
 from plumb.cli.arguments import (
@@ -42,6 +41,7 @@ from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
 from plumb.model.plain import nouns_of
 from plumb.plan import Next, Proposal, propose
+from plumb.text.answers import json_of
 from plumb.text.values import bare, worded
 
 
@@ -56,7 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
             {
                 "sentence": sentence(this),
                 "done": this.done,
-                "comparison": compare_command.as_json(this.comparison),
+                "comparison": json_of(this.comparison),
                 "diagnosis": diagnose_command.as_json(this.result.diagnosis),
                 "addition": add_command.as_json(this.result.addition)
                 if this.result.addition

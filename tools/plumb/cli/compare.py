@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
 
 import numpy as np
 
@@ -47,7 +46,7 @@ def run(arguments: argparse.Namespace) -> int:
         )
         write_outputs({arguments.picture: drawn}, inputs=[arguments.settings, *arguments.marks])
     if arguments.json:
-        print_json(as_json(comparison))
+        print_json(comparison)
     else:
         sheet_width, typed = inputs.settings.sheet_width, inputs.measurements.typed
         print(as_text(comparison, sheet_width=sheet_width, typed=typed))
@@ -68,65 +67,6 @@ def panel_of(
         good=good,
         names=tuple(mark.name for mark in comparison.marks),
     )
-
-
-def as_json(comparison: Comparison) -> dict[str, Any]:
-    """The comparison by the names of the interface."""
-    return {
-        "rms_mm": comparison.rms,
-        "worst_mm": comparison.worst,
-        "shape_rms_mm": comparison.shape_rms,
-        "distance_rms_mm": comparison.distance_rms,
-        "shift": comparison.shift,
-        "rotation": comparison.rotation,
-        "marks": [
-            {
-                "name": mark.name,
-                "target": mark.target,
-                "predicted": mark.predicted,
-                "measured": mark.measured,
-                "error": mark.error,
-                "left_chain_residual": mark.left_chain_residual,
-                "right_chain_residual": mark.right_chain_residual,
-            }
-            for mark in comparison.marks
-        ],
-        "distances": [
-            {
-                "between": distance.between,
-                "predicted": distance.predicted,
-                "measured": distance.measured,
-                "error": distance.error,
-            }
-            for distance in comparison.distances
-        ],
-        "rounds": [
-            {
-                "name": cut.name,
-                "date": cut.date,
-                "count": cut.count,
-                "rms_mm": cut.rms,
-                "distance_rms_mm": cut.distance_rms,
-            }
-            for cut in comparison.rounds
-        ],
-        "promised_rms_mm": comparison.promised.rms if comparison.promised else None,
-        "benchmark": score_json(comparison.benchmark),
-        "benchmark_left": score_json(comparison.benchmark_left),
-        "warnings": comparison.warnings,
-    }
-
-
-def score_json(score: Score | None) -> dict[str, Any] | None:
-    """A benchmark score by the names of the interface."""
-    if score is None:
-        return None
-    return {
-        "long_mm": score.long,
-        "small_mm": score.small,
-        "long_count": score.long_count,
-        "small_count": score.small_count,
-    }
 
 
 def as_text(comparison: Comparison, *, sheet_width: float, typed: Typed = MACHINE) -> str:

@@ -18,7 +18,6 @@ from plumb.cli.arguments import (
     add_without,
 )
 from plumb.cli.checked import add_checked, with_stated
-from plumb.cli.compare import as_json as comparison_json
 from plumb.cli.diagnose import as_json as diagnosis_json
 from plumb.cli.diagnose import proposal_json
 from plumb.cli.files import inputs_of
@@ -33,6 +32,7 @@ from plumb.fit.compare import ChainView
 from plumb.fit.inputs import Inputs
 from plumb.report.findings import Command, Findings, find
 from plumb.report.page import report
+from plumb.text.answers import json_of
 from plumb.text.errors import InputError
 
 ENDINGS = (".html", ".htm")
@@ -113,7 +113,7 @@ def as_json(findings: Findings) -> dict[str, Any]:
     """What the page says, by the names of the interface."""
     addition, expected = findings.auto.addition, findings.expected
     return {
-        "comparison": comparison_json(findings.comparison),
+        "comparison": json_of(findings.comparison),
         "diagnosis": diagnosis_json(findings.diagnosis),
         "addition": addition_json(addition) if addition else None,
         "next": [proposal_json(proposal) for proposal in findings.advice.proposals],

@@ -12,14 +12,15 @@ import re
 import sys
 import textwrap
 import time
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Literal
+from collections.abc import Callable, Sequence
+from typing import Literal
 
-import numpy as np
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskID, TaskProgressColumn, TextColumn
 from rich.table import Table
 from rich.text import Text
+
+from plumb.text.answers import json_of
 
 WIDEST = 80  # [characters]
 PATIENCE = 2.0  # [s] before a bar shows how far the work is
@@ -127,24 +128,9 @@ def bar(what: str) -> Callable[[float], None]:
 # What the commands print: a JSON object, and numbers for people.
 
 
-def print_json(answer: Mapping[str, Any]) -> None:
-    """Print a single JSON object; what is not a finite number is null."""
-    print(json.dumps(plain(answer), indent=2, allow_nan=False))
-
-
-def plain(value: Any) -> Any:
-    """The value in the types of JSON."""
-    if isinstance(value, Mapping):
-        return {str(key): plain(item) for key, item in value.items()}
-    if isinstance(value, np.ndarray):
-        return plain(value.tolist())
-    if isinstance(value, (list, tuple)):
-        return [plain(item) for item in value]
-    if isinstance(value, np.generic):
-        return plain(value.item())
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
+def print_json(answer: object) -> None:
+    """Print an answer as a single JSON object."""
+    print(json.dumps(json_of(answer), indent=2, allow_nan=False))
 
 
 def about(millimetres: float) -> str:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
+from pydantic import computed_field
 
 from plumb.fit.fit import rms
 from plumb.fit.inputs import known_outside
@@ -16,6 +18,7 @@ from plumb.marks.read import Measurements
 from plumb.model.predict import FOUND, FOUND_WORDS, settings_of, values_of
 from plumb.settings.machine import MachineSettings
 from plumb.settings.toml import FitRecord
+from plumb.text.answers import Internal, key
 from plumb.text.errors import InputError, to_do
 
 Point = tuple[float, float]
@@ -56,8 +59,8 @@ class ComparedRound:
     name: str
     date: str
     count: int  # of marks, or of distances if it has no marks
-    rms: float | None
-    distance_rms: float | None
+    rms: Annotated[float | None, key("rms_mm")]
+    distance_rms: Annotated[float | None, key("distance_rms_mm")]
 
 
 @dataclass(frozen=True)
@@ -66,17 +69,26 @@ class Comparison:
 
     marks: tuple[ComparedMark, ...]
     distances: tuple[ComparedDistance, ...]
-    rms: float  # [mm] of the marks as vectors, or of the distances if there are no marks
-    worst: float  # [mm] the same choice
-    distance_rms: float | None  # [mm]
-    shape_rms: float | None  # [mm] of the marks after the best shift and rotation
+    # [mm] of the marks as vectors, or of the distances if there are no marks
+    rms: Annotated[float, key("rms_mm")]
+    worst: Annotated[float, key("worst_mm")]  # [mm] the same choice
+    distance_rms: Annotated[float | None, key("distance_rms_mm")]  # [mm]
+    # [mm] of the marks after the best shift and rotation
+    shape_rms: Annotated[float | None, key("shape_rms_mm")]
     shift: Point | None  # [mm] that best shift
     rotation: float | None  # [rad] and rotation, counter-clockwise
-    promised: FitRecord | None = None  # of the fit that gave the settings, if these are its marks
+    # of the fit that gave the settings, if these are its marks
+    promised: Internal[FitRecord | None] = None
     warnings: tuple[str, ...] = ()
     rounds: tuple[ComparedRound, ...] = ()  # if there are several files
     benchmark: Score | None = None  # of the community's test, as cut
     benchmark_left: Score | None = None  # and what these settings do not explain of it
+
+    @computed_field
+    @property
+    def promised_rms_mm(self) -> float | None:
+        """What that fit left of these marks [mm]."""
+        return self.promised.rms if self.promised else None
 
 
 def compare(

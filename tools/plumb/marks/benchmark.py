@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from os import PathLike
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
 from plumb.grid.pattern import SPANS, benchmark_targets
 from plumb.marks.model import Distance, Mark, Measurements, Point
+from plumb.text.answers import key
 from plumb.text.errors import naming, refusal
 from plumb.text.values import length, pair, refuse_unknown
 
@@ -94,8 +95,8 @@ FULL_LONG, FULL_SMALL = 6, 8  # readings of the published cut; a square in the m
 class Score:
     """How far the spans of the test are off [mm]; None where none was measured."""
 
-    long: float | None
-    small: float | None
+    long: Annotated[float | None, key("long_mm")]
+    small: Annotated[float | None, key("small_mm")]
     long_count: int
     small_count: int
 

@@ -10,12 +10,13 @@ import numpy as np
 import plumb.grid as grids
 import pytest
 from plumb.cli.main import main
-from plumb.cli.screen import plain, table
+from plumb.cli.screen import table
 from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.marks.read import read_marks
 from plumb.model.catalogue import effect_names
 from plumb.model.predict import lengths
 from plumb.settings.files import read_settings, write_machine_toml
+from plumb.text.answers import plain
 from synthetic import BELIEVED, SHEET, TRUE, grid, marks_on
 
 COMMANDS = (

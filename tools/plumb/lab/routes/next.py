@@ -12,7 +12,7 @@ from plumb import api
 from plumb.fit.inputs import settings_in
 from plumb.lab.background import Answer, Background, Progress, key_of
 from plumb.lab.project import ChangedError, Project, digest_of, read_choices, save_choices
-from plumb.lab.rounds import STEM, FORM_NAME, command, has_readings, kept_settings, program_name
+from plumb.lab.rounds import FORM_NAME, STEM, command, has_readings, kept_settings, program_name
 from plumb.lab.routes.comparison import inputs_of
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.verdict import Arrow, TheBackground, board_and_known

@@ -1,0 +1,50 @@
+"""What each command prints with --json, and the schema of it: `python -m plumb.cli.answers`.
+
+The schema is written from the types of the answers; with --check it is only compared.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from plumb.fit.compare import Comparison
+from plumb.text.answers import schema_of
+
+FILE = Path(__file__).with_name("answers.schema.json")
+
+
+@dataclass(frozen=True)
+class Refusal:
+    """Exit code 2; the same line is on standard error."""
+
+    error: str
+
+
+# The answer of each command.
+ANSWERS: dict[str, type] = {
+    "refusal": Refusal,
+    "compare": Comparison,
+}
+
+
+def schema() -> dict[str, Any]:
+    """The JSON schema: $defs has the answer of each command by its name."""
+    head = json.loads(FILE.read_text("utf-8"))
+    return {**head, "$defs": {**head["$defs"], **schema_of(ANSWERS)}}
+
+
+def main(words: list[str]) -> int:
+    """Write the schema, or say whether it is what the types say."""
+    text = json.dumps(schema(), indent=2, ensure_ascii=False) + "\n"
+    if words == ["--check"]:
+        return int(text != FILE.read_text("utf-8"))
+    FILE.write_text(text, "utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

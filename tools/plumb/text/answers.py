@@ -1,0 +1,82 @@
+"""What a command answers: a dataclass, from which its JSON and the schema follow.
+
+A field has its own name in the JSON, or the one that `key` gives it. `Internal` fields and plain
+properties stay out of it; a property under `computed_field` is in it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal, TypeVar
+
+import numpy as np
+from pydantic import Field, GetPydanticSchema, PlainSerializer, TypeAdapter
+from pydantic.fields import FieldInfo
+from pydantic.json_schema import GenerateJsonSchema
+from pydantic_core import core_schema
+
+T = TypeVar("T")
+Internal = Annotated[
+    T, Field(exclude=True), GetPydanticSchema(lambda _type, _handler: core_schema.any_schema())
+]
+# An array of numbers of any shape, as nested lists.
+Numbers = Annotated[
+    np.ndarray,
+    GetPydanticSchema(lambda _type, _handler: core_schema.any_schema()),
+    PlainSerializer(lambda array: array.tolist(), return_type=list[Any]),
+]
+
+
+def key(name: str, said: str | None = None) -> Any:
+    """The name of a field in the JSON, and what the schema says of it."""
+    info: FieldInfo = Field(serialization_alias=name, description=said)
+    return info
+
+
+def json_of(answer: object) -> Any:
+    """The answer in the types of JSON, by the names of the interface."""
+    return plain(
+        answer
+        if isinstance(answer, Mapping)
+        else TypeAdapter(type(answer)).dump_python(answer, by_alias=True)
+    )
+
+
+def plain(value: Any) -> Any:
+    """The value in the types of JSON; what is not a finite number is null."""
+    if isinstance(value, Mapping):
+        return {str(name): plain(item) for name, item in value.items()}
+    if isinstance(value, np.ndarray):
+        return plain(value.tolist())
+    if isinstance(value, (list, tuple)):
+        return [plain(item) for item in value]
+    if isinstance(value, np.generic):
+        return plain(value.item())
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value
+
+
+def schema_of(types: Mapping[str, type]) -> dict[str, Any]:
+    """The JSON schema of these answers by the names of their commands: all keys are there always."""
+    wanted: list[tuple[str, Literal["serialization"], TypeAdapter[Any]]] = [
+        (name, "serialization", TypeAdapter(kind)) for name, kind in types.items()
+    ]
+    tops, shared = TypeAdapter.json_schemas(
+        wanted, by_alias=True, ref_template="#/$defs/{model}", schema_generator=_WithoutTitles
+    )
+    parts = dict(shared.get("$defs", {}))
+    parts |= {name: tops[name, "serialization"] for name in types}
+    for part in parts.values():
+        if "properties" in part:
+            part |= {"required": list(part["properties"]), "additionalProperties": False}
+    return parts
+
+
+class _WithoutTitles(GenerateJsonSchema):
+    """A title repeats the name that a field or an answer has already."""
+
+    def field_title_should_be_set(self, schema: Any) -> bool:
+        """Never."""
+        return False
