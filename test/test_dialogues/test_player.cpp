@@ -42,18 +42,16 @@ TEST(APlayer, FailsAtTheLineThatCameOtherwise) {
 }
 
 TEST(APlayer, FailsWhereTheMachineIsOtherwise) {
-  EXPECT_EQ("", wrongBehindSetup("~~ off left\n~~ sled X0 Y0 within 0.01\n"));
+  const std::string in_motion = "-> G1 X50 F600\n<- ok\n~~ wait 1\n~~ ";
+  EXPECT_EQ("", wrongBehindSetup(in_motion + "on left at once\n~~ laser low\n~~ quiet\n"));
   for (const char* question :
-       {"on left", "off left at once", "sled X1 Y0 within 0.5", "chains L1651 R1651 0.1", "z 1 0.5",
-        "laser high", "spindle 40 2", "servo 30", "status <Hold* within 0.1", "errors [PE:9*",
-        "halts 1", "answers 3", "wound left", "hold 0.001 mm", "undriven"}) {
-    // In motion, with an answer that nobody waited for.
-    const std::string lines =
-        "-> G1 X50 F600\n<- ok\n~~ wait 1\n~~ " + std::string(question) + "\n";
-    const bool is_of_rest = std::string(question) == "on left";
-    EXPECT_NE("", wrongBehindSetup(is_of_rest ? "~~ wait 0.5\n~~ on left\n" : lines)) << question;
-  }
-  EXPECT_NE("", wrongBehindSetup("-> B05\n~~ wait 0.2\n~~ quiet\n"));
+       {"off left", "off left at once", "sled X1 Y0 within 0.5", "chains L1651 R1651 0.1",
+        "z 1 0.5", "laser high", "spindle 40 2", "servo 30", "status <Hold* within 0.1",
+        "errors [PE:9*", "halts 1", "answers 3", "wound left", "hold 0.001 mm", "undriven"})
+    EXPECT_NE("", wrongBehindSetup(in_motion + question)) << question;
+  EXPECT_EQ("", wrongBehindSetup("~~ wait 0.5\n~~ off left at once\n~~ undriven"));
+  EXPECT_NE("", wrongBehindSetup("~~ wait 0.5\n~~ on left"));
+  EXPECT_NE("", wrongBehindSetup("-> B05\n~~ wait 0.2\n~~ quiet"));
 }
 
 TEST(APlayer, RefusesWhatItDoesNotUnderstand) {
