@@ -1,5 +1,11 @@
 ; Beyond the sheet the sled waits at its edge, which is said once; the program goes on counting.
+; At the top edge the usual sled pulls usual motors round when they have no power: it sinks.
 ~~ include setup.inc
+~~ weigh 80
+-> $62=80
+<- ok
+-> $160=1.227e-11
+<- ok
 ; Gears that hold the sled there.
 -> $77=10
 <- ok

@@ -1,4 +1,5 @@
 ; A driver reports an error on its pin, as those of shields v1.3 and v1.4 can.
+~~ shield 3
 ~~ include setup.inc
 ; A driver's complaint halts a machine whose motors are on, not one at rest.
 ~~ wait 3

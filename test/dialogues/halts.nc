@@ -1,4 +1,6 @@
 ; A line whose motion is not done halts the machine: what follows would start from a wrong place.
+; On a shield whose motors hang on other pins.
+~~ shield 3
 ~~ include setup.inc
 ; The moves before it are good and come to their end; those behind it are dropped, without an answer.
 -> G1 X20 Y0 F800

@@ -1,4 +1,4 @@
-; A move of a minute, a dwell of ten seconds: reports go on (the stage watches for gaps).
+; A move of a minute, a dwell of ten seconds: reports go on (the player watches for gaps).
 ~~ include setup.inc
 -> G1 X60 F60
 <- ok

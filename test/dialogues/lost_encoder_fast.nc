@@ -1,6 +1,5 @@
 ; A sled on its fast way: a motor that is let go would run on for 4 mm.
 ~~ include setup.inc
-~~ coast left 0.3
 -> G1 X40 F1000
 <- ok
 -> G1 X0

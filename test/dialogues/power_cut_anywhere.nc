@@ -1,5 +1,7 @@
 ; Everything that declares, moves or drives an axis, one after the other, mostly while motors are still on.
 ; test_power_cut_anywhere.cpp plays it again and asks at every millisecond what a power cut would leave behind.
+; On a shield whose motors hang on other pins.
+~~ shield 3
 ~~ include setup.inc
 -> $42=100
 <- ok

@@ -1,4 +1,6 @@
 ; The probe makes z zero where it touches; GroundControl puts other words on the line.
+; On a shield with another pin for the probe.
+~~ shield 3
 ~~ include setup.inc
 -> $70=1
 <- ok

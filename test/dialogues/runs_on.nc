@@ -1,6 +1,5 @@
 ; A motor that is let go runs on. The place is looked for when it stands, so that the next move begins where the sled is.
 ~~ include setup.inc
-~~ coast left 0.3
 -> B11 L S-255 T0.5
 <* B11*
 <- ok

@@ -97,18 +97,14 @@ class World : public Wire, public Drives, public Aux, public Clock {
     must(duty == 0 || !answers_.isSimulated(), "a motor is driven though all are simulated");
     motor_[axis].duty = duty;
     motor_[axis].powered = true;
-    motor_[axis].shorted = false;
   }
 
   void release(Axis axis) override {
     motor_[axis].duty = 0;
-    motor_[axis].powered = motor_[axis].shorted = false;
+    motor_[axis].powered = false;
   }
 
-  void brake(Axis axis) override {
-    release(axis);
-    motor_[axis].shorted = true;
-  }
+  void brake(Axis axis) override { release(axis); }
 
   uint16_t count(Axis axis) override { return motor_[axis].count(); }
   uint16_t illegalSteps(Axis) override { return 0; }

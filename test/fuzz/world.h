@@ -8,7 +8,7 @@
 #include "brain/simulated_eeprom.h"
 #include "machine/machine.h"
 #include "settings_flash.h"
-#include "test_dialogues/simulated_motor.h"
+#include "simulated_motor.h"
 
 /// Thrown out of the main program wherever it waits.
 struct PowerCut {};

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "life.h"
+#include "host_machine.h"
 
 namespace {
 
@@ -107,23 +107,14 @@ class AnyLine : public testing::TestWithParam<unsigned> {};
 }  // namespace
 
 TEST_P(AnyLine, IsAnsweredOnce) {
-  Stage stage(conversation(GetParam(), {Step::kSend, "$70=1", "errors only"}));
-  try {
-    live(stage);
-  } catch (const Failure& failure) {
-    FAIL() << failure.what();
-  }
+  HostMachine machine(conversation(GetParam(), {Step::kSend, "$70=1", "errors only"}));
+  EXPECT_EQ("", machine.play());
 }
 
 TEST_P(AnyLine, IsAnsweredOnceOrHaltsUntilStop) {
   std::vector<Step> steps = conversation(GetParam(), {Step::kAsk, "stop-when-halted", "halts"});
   steps.push_back({Step::kAsk, "halts 1", "end"});
-  Stage stage(steps);
-  try {
-    live(stage);
-  } catch (const Failure& failure) {
-    FAIL() << failure.what();
-  }
+  EXPECT_EQ("", HostMachine(steps).play());
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, AnyLine, testing::Range(1u, conversations() + 1));
@@ -135,12 +126,7 @@ TEST(AnUnknownBoard, RaisesAnAlarmAndStillAnswers) {
     steps.push_back({Step::kSkipTo, text, text});
     if (steps.size() == 1) steps.push_back({Step::kSend, "B05", "B05"});
   }
-  Stage stage(steps);
-  try {
-    live(stage, {0, nullptr});
-  } catch (const Failure& failure) {
-    FAIL() << failure.what();
-  }
+  EXPECT_EQ("", HostMachine(steps, 1651, {0, nullptr}).play());
 }
 
 TEST(Settings, ComeBackAsTheyWereSentInWhateverForm) {
@@ -162,10 +148,5 @@ TEST(Settings, ComeBackAsTheyWereSentInWhateverForm) {
   }
   steps.push_back({Step::kAsk, "wait 2", "end"});
   steps.push_back({Step::kAsk, "answers from now", "end"});
-  Stage stage(steps);
-  try {
-    live(stage);
-  } catch (const Failure& failure) {
-    FAIL() << failure.what();
-  }
+  EXPECT_EQ("", HostMachine(steps).play());
 }

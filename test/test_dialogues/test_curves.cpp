@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "curves/curve.h"
-#include "life.h"
+#include "host_machine.h"
 
 namespace {
 
@@ -61,12 +61,7 @@ TEST_P(Curves, AreCutLineByLine) {
   std::snprintf(place, sizeof place, "sled X%f Y%f within %f", last.to.x, last.to.y,
                 0.06 + text.unit * std::pow(10, -text.decimals));
   steps.push_back({Step::kAsk, place, "end"});
-  Stage stage(steps);
-  try {
-    live(stage);
-  } catch (const Failure& failure) {
-    FAIL() << failure.what();
-  }
+  EXPECT_EQ("", HostMachine(steps).play());
 }
 
 INSTANTIATE_TEST_SUITE_P(Arcs, Curves,

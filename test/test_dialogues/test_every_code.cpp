@@ -5,7 +5,7 @@
 #include <regex>
 #include <set>
 
-#include "life.h"
+#include "host_machine.h"
 
 namespace {
 
@@ -62,15 +62,6 @@ std::string wordsFor(int tenths) {
 /// Codes that do not affect the next line.
 const char* const kTidyUp = "G0 G17 G21 G40 G54 G90 G91.1 G94 G98";
 
-void play(const std::vector<Step>& steps) {
-  Stage stage(steps);
-  try {
-    live(stage);
-  } catch (const Failure& failure) {
-    FAIL() << failure.what();
-  }
-}
-
 /// A step; a failure names the line that was sent last.
 void push(std::vector<Step>& steps, Step::Kind kind, const std::string& text) {
   steps.push_back({kind, text, kind == Step::kSend ? text : steps.back().place});
@@ -93,7 +84,7 @@ TEST(EveryGCode, OutsideTheTableIsRefusedWithItsPlace) {
   push(steps, Step::kAsk, "wait 0.5");
   push(steps, Step::kAsk, "sled X0 Y0 within 0.05");
   EXPECT_GT(steps.size(), 3000u);
-  play(steps);
+  EXPECT_EQ("", HostMachine(steps).play());
 }
 
 TEST(EveryGCode, OfTheTableIsDone) {
@@ -113,7 +104,7 @@ TEST(EveryGCode, OfTheTableIsDone) {
   }
   push(steps, Step::kAsk, "wait 1");
   push(steps, Step::kAsk, "answers from now");
-  play(steps);
+  EXPECT_EQ("", HostMachine(steps).play());
 }
 
 TEST(EveryModeCode, LeavesAPlaceOnItsLineToTheMotionInForce) {
@@ -139,5 +130,5 @@ TEST(EveryModeCode, LeavesAPlaceOnItsLineToTheMotionInForce) {
              ".00,0.00,0.00,WPos:0.000,0.000,0.000> within 0.02");
   }
   EXPECT_GT(steps.size(), 200u);
-  play(steps);
+  EXPECT_EQ("", HostMachine(steps).play());
 }

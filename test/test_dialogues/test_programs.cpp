@@ -5,7 +5,7 @@
 #include <map>
 #include <sstream>
 
-#include "life.h"
+#include "host_machine.h"
 
 namespace {
 
@@ -69,14 +69,7 @@ class Program : public testing::TestWithParam<std::string> {};
 
 }  // namespace
 
-TEST_P(Program, GoesWhereItSays) {
-  try {
-    Stage stage(stepsOf(GetParam()));
-    live(stage);
-  } catch (const Failure& failure) {
-    FAIL() << failure.what();
-  }
-}
+TEST_P(Program, GoesWhereItSays) { EXPECT_EQ("", HostMachine(stepsOf(GetParam())).play()); }
 
 INSTANTIATE_TEST_SUITE_P(All, Program, testing::ValuesIn(programs()), [](const auto& info) {
   return std::filesystem::path(info.param).stem().string();

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "awakened.h"
-#include "life.h"
+#include "host_machine.h"
 #include "settings_flash.h"
 
 namespace {
@@ -11,9 +11,9 @@ namespace {
 SimulatedEeprom restingAtZero() {
   std::vector<Step> steps = readScript("test/dialogues", "setup.inc");
   steps.push_back({Step::kAsk, "wait 8", "end"});
-  Stage stage(steps);
-  live(stage);
-  return stage.eeprom;
+  HostMachine machine(steps);
+  EXPECT_EQ("", machine.play());
+  return machine.brain.memory();
 }
 
 /// Sets a setting in the EEPROM alone, as a start does that finds a value beyond its limits.

@@ -1,8 +1,8 @@
 // Any two events at once, on the host's build of the firmware.
 #include <gtest/gtest.h>
 
+#include "host_machine.h"
 #include "machine/machine.h"
-#include "settings_flash.h"
 #include "two_events.h"
 
 using namespace machine;
@@ -10,58 +10,28 @@ using namespace two_events;
 
 namespace {
 
-/// A machine on a stage, watched at every millisecond.
-class Watched {
- public:
-  Watched(std::vector<Step> steps, uint32_t seed) : stage_(std::move(steps)), law_(stage_) {
-    stage_.letTicksFallAnywhere(seed);
-    stage_.look = [this] {
-      if (machine_ != nullptr) law_.look(seen());
-    };
+/// What the law looks at.
+Seen seenOf(const Machine& machine) {
+  const Axes& axes = machine.axes();
+  Seen seen = {machine.course().state(), axes.isPowered(), machine.place().isTrusted(), {}, {}};
+  for (const Axis axis : {kLeftAxis, kRightAxis, kZAxis}) {
+    seen.targets[axis] = axes.target(axis);
+    seen.lengths[axis] = axes.length(axis);
   }
+  return seen;
+}
 
-  /// Plays to the end; what broke the law, or nothing.
-  std::string play() {
-    for (;;) {
-      try {
-        live();
-      } catch (const PowerGone&) {
-        machine_ = nullptr;
-        stage_.tick = [] {};
-        stage_.restart();
-      } catch (const TheEnd&) {
-        return law_.broken();
-      } catch (const Failure& failure) {
-        return failure.what();
-      }
-    }
-  }
-
- private:
-  void live() {
-    const FlashTable table;
-    Machine machine({stage_, stage_, stage_, stage_, stage_.eeprom, table}, {2, ""});
-    machine_ = &machine;
-    stage_.tick = [&] { machine.tick(); };
-    machine.begin();
-    for (;;) machine.loop();
-  }
-
-  Seen seen() const {
-    const Axes& axes = machine_->axes();
-    Seen seen = {
-        machine_->course().state(), axes.isPowered(), machine_->place().isTrusted(), {}, {}};
-    for (const Axis axis : {kLeftAxis, kRightAxis, kZAxis}) {
-      seen.targets[axis] = axes.target(axis);
-      seen.lengths[axis] = axes.length(axis);
-    }
-    return seen;
-  }
-
-  Stage stage_;
-  Law law_;
-  Machine* machine_ = nullptr;
-};
+/// Plays to the end, watched at every millisecond; what broke the law, or nothing.
+std::string play(std::vector<Step> steps, uint32_t seed) {
+  HostMachine host(std::move(steps));
+  host.brain.letTicksFallAnywhere(seed);
+  Law law(host.player, host.world);
+  host.player.look = [&] {
+    if (host.brain.machine() != nullptr) law.look(seenOf(*host.brain.machine()));
+  };
+  const std::string failure = host.play();
+  return failure.empty() ? law.broken() : failure;
+}
 
 class TwoEvents : public testing::TestWithParam<int> {};
 
@@ -72,8 +42,8 @@ TEST_P(TwoEvents, MoveNothingThatTheTableDoesNotSay) {
   std::mt19937 random(17 + unsigned(first));
   for (int second = 0; second < kEventCount; ++second)
     for (int scene = 0; scene < kSceneCount; ++scene) {
-      Watched watched(stepsOf(scene, first, second, random), random());
-      EXPECT_EQ("", watched.play())
+      const std::vector<Step> steps = stepsOf(scene, first, second, random);
+      EXPECT_EQ("", play(steps, random()))
           << "scene " << scene << ": " << nameOf(first) << " then " << nameOf(second);
     }
 }

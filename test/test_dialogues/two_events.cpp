@@ -78,11 +78,11 @@ std::vector<Step> stepsOf(int scene, int first, int second, std::mt19937& random
 
 void Law::look(const Seen& seen) {
   const State state = seen.state;
-  const std::string step = stage_.whereInTheScript();
+  const std::string step = player_.whereInTheScript();
   if (state != state_ || step != step_) unchanged_ms_ = 0;
   if (state == State::kLowering || state == State::kResuming) has_jogged_ = false;
   if (step != step_) has_jogged_ = step.find(kHoldStep) != std::string::npos ? false : true;
-  if (stage_.motor(kLeftAxis).unplugged) is_encoder_lost_ = true;
+  if (world_.wires(world::kLeft).encoder_unplugged) is_encoder_lost_ = true;
   state_ = state;
   step_ = step;
   if (++unchanged_ms_ > kBrakingMs) checkStill(seen);
@@ -107,7 +107,7 @@ void Law::checkPlace(const Seen& seen) {
   ++times_place_;
   const double most = is_encoder_lost_ ? kMostUnseen : kMostOff;
   for (const Axis axis : {kLeftAxis, kRightAxis, kZAxis}) {
-    const double off = double(seen.lengths[axis]) - stage_.motor(axis).travel;
+    const double off = double(seen.lengths[axis]) - world_.travel(world::Axis(axis));
     if (!(std::fabs(off) <= most))
       breaks("axis " + std::to_string(axis) + " is elsewhere by " + std::to_string(off));
   }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "machine/course.h"
-#include "stage.h"
+#include "player.h"
 
 namespace two_events {
 
@@ -28,10 +28,10 @@ struct Seen {
   float targets[machine::kAxisCount], lengths[machine::kAxisCount];  ///< [mm]
 };
 
-/// Watches a machine on a stage, at every millisecond.
+/// Watches a machine while a dialogue is played, at every millisecond.
 class Law {
  public:
-  explicit Law(Stage& stage) : stage_(stage) {}
+  Law(const Player& player, world::World& world) : player_(player), world_(world) {}
 
   void look(const Seen& seen);
   /// What broke the law first, or nothing.
@@ -45,7 +45,8 @@ class Law {
   void checkPlace(const Seen& seen);
   void breaks(const std::string& what);
 
-  Stage& stage_;
+  const Player& player_;
+  world::World& world_;
   machine::State state_ = machine::State::kRunning;
   std::string step_, broken_;
   long unchanged_ms_ = 0, powered_ms_ = 0;

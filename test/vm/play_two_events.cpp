@@ -6,7 +6,7 @@
 #include <cstring>
 #include <random>
 
-#include "mega_stage.h"
+#include "mega_player.h"
 #include "test_dialogues/two_events.h"
 
 using namespace two_events;
@@ -22,7 +22,7 @@ struct Places {
 /// The machine in the RAM of the simulated Mega.
 class Ram {
  public:
-  Ram(const vm::MegaStage& mega, const Places& places) : mega_(mega), places_(places) {}
+  Ram(brain::MegaBrain& mega, const Places& places) : mega_(mega), places_(places) {}
 
   /// Whether setup() has built the machine.
   bool isBuilt() const { return read<uint8_t>(places_.built) != 0; }
@@ -48,27 +48,28 @@ class Ram {
   template <class Value>
   Value read(uint16_t address) const {
     Value value;
-    std::memcpy(&value, mega_.ram() + address, sizeof value);
+    std::memcpy(&value, mega_.board().avr()->data + address, sizeof value);
     return value;
   }
 
-  const vm::MegaStage& mega_;
+  brain::MegaBrain& mega_;
   const Places& places_;
 };
 
 /// Plays a pair in a scene; whether the law held.
 bool play(const char* elf, const Places& places, int scene, int first, int second,
           std::mt19937& random, int& times_still, int& times_place) {
-  Stage stage(stepsOf(scene, first, second, random));
-  vm::MegaStage mega(elf, stage);
+  world::World world(partsOfDialogues(), 1651);
+  brain::MegaBrain mega(world, elf);
+  vm::MegaPlayer player(stepsOf(scene, first, second, random), world, mega);
   const Ram ram(mega, places);
-  Law law(stage);
-  stage.look = [&] {
+  Law law(player, world);
+  player.look = [&] {
     if (ram.isBuilt()) law.look(ram.seen());
   };
   std::string wrong;
   try {
-    mega.live();
+    player.play();
     wrong = law.broken();
   } catch (const Failure& failure) {
     wrong = failure.what();

@@ -17,18 +17,9 @@ BOARD = "tools/vm/mega/virtual_board.cpp"
 
 
 def player() -> Path:
-    """The program that plays dialogues of test/vm and measures the firmware, which is built too."""
+    """The program that plays dialogues and measures the firmware, which is built too."""
     built_firmware()
-    return _built("play_firmware", ["test/vm/play_firmware.cpp", BOARD])
-
-
-def stage_player() -> Path:
-    """The program that plays dialogues of test/dialogues, on the stage that the host has too.
-
-    The firmware is built as well.
-    """
-    built_firmware()
-    return _stage_program("play_dialogues", "test/vm/play_dialogues.cpp")
+    return _player_program("play_dialogue", "test/vm/play_dialogue.cpp")
 
 
 def pair_player() -> Path:
@@ -40,7 +31,7 @@ def pair_player() -> Path:
     parts = ("axes", "axes_lengths", "axes_power", "course", "ticked_axis")
     machine = [f"src/machine/{part}.cpp" for part in parts]
     law = "test/test_dialogues/two_events.cpp"
-    return _stage_program("play_two_events", "test/vm/play_two_events.cpp", law, *machine)
+    return _player_program("play_two_events", "test/vm/play_two_events.cpp", law, *machine)
 
 
 def ram_places() -> list[int]:
@@ -61,18 +52,20 @@ def ram_places() -> list[int]:
     return [built, machine + state, machine + lost, size, *(machine + place for place in of_axis)]
 
 
-def _stage_program(name: str, *sources: str) -> Path:
-    """A program around the stage of the dialogues and the simulated Mega."""
-    stage = [
-        "test/vm/mega_stage.cpp",
+def _player_program(name: str, *sources: str) -> Path:
+    """A program around the player of dialogues, the world and the simulated Mega."""
+    player = [
+        "test/vm/mega_player.cpp",
+        "test/test_dialogues/player.cpp",
+        "test/test_dialogues/player_questions.cpp",
+        "tools/vm/brain/mega_brain.cpp",
+        "tools/vm/world/world.cpp",
         BOARD,
-        "test/test_dialogues/stage.cpp",
-        "test/test_dialogues/stage_questions.cpp",
         *(_from_root(path) for path in sorted(ROOT.glob("tools/judge/reference/*.cpp"))),
     ]
     folders = ["src", "test", "tools/vm/host_avr", "tools/judge", *_libraries()]
     includes = [f"-I{folder}" for folder in folders]
-    return _built(name, [*sources, *stage], [*includes, "-isystem", "/usr/include/eigen3"])
+    return _built(name, [*sources, *player], [*includes, "-isystem", "/usr/include/eigen3"])
 
 
 def _libraries() -> list[str]:

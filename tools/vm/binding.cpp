@@ -28,7 +28,9 @@ std::unique_ptr<brain::Brain> brainFor(world::World& world, const std::optional<
   if (shield != 2 && shield != 3) throw nb::value_error("a shield is 2 or 3");
   if (!elf) return std::make_unique<brain::HostBrain>(world);
 #ifdef PLUMB_HAS_SIMAVR
-  return std::make_unique<brain::MegaBrain>(world, *elf, shield == 2 ? vm::kShield2 : vm::kShield3);
+  auto mega = std::make_unique<brain::MegaBrain>(world, *elf);
+  mega->setShield(shield);
+  return mega;
 #else
   throw std::runtime_error(
       "the lab was built without the simulated Mega; run tools/setup, or install libsimavr-dev and "
@@ -89,7 +91,6 @@ class VirtualMachine {
   Pair tensions() const { return {world_.sled().leftTension(), world_.sled().rightTension()}; }
   Pair across() const { return {world_.across().pull(), world_.across().drop()}; }
   double height() const { return world_.travel(world::kZ); }
-  bool hangs() const { return world_.hangs(); }
   int count(const std::string& axis) { return world_.count(axisNamed(axis)); }
   int duty(const std::string& axis) const { return world_.duty(axisNamed(axis)); }
 
@@ -102,7 +103,6 @@ class VirtualMachine {
   void replaceSheet() { world_.sheet().replace(); }
 
   void hangAt(double x, double y) { world_.hangAt({x, y}); }
-  void setHeight(double z) { world_.setHeight(z); }
   void hookAcross(const std::string& axis, double slack, double beyond) {
     world_.hookAcross(axisNamed(axis), slack, beyond);
   }
@@ -111,7 +111,6 @@ class VirtualMachine {
   void climb(const std::string& axis) { world_.climb(axisNamed(axis)); }
   void set(const std::string& number, double value) { world_.set(number, value); }
   void creep(const std::string& number, double per_second) { world_.creep(number, per_second); }
-  void setProbeHeight(double z) { world_.setProbeHeight(z); }
   void setWire(const std::string& axis, const std::string& fault, bool is_so) {
     world::Wires& wires = world_.wires(axisNamed(axis));
     const std::map<std::string, bool*> faults = {{"motor_reversed", &wires.motor_reversed},
@@ -131,15 +130,9 @@ class VirtualMachine {
   void delayProgram(int milliseconds) { running().delayProgram(milliseconds); }
   void setMotorSupply(double volts) { world_.weakenSupply(world::MotorConstants().supply - volts); }
   void setBoardSupply(double volts) { brain_->setSupply(volts); }
-  int spindle() { return brain_->spindle(); }
-  int laser() { return brain_->laser(); }
-  int servo() { return brain_->servo(); }
-  void pull(const std::string& axis, double mm_per_second) {
-    world_.pull(axisNamed(axis), mm_per_second);
-  }
   std::vector<int> eepromWrites() const {
     const auto* const host = dynamic_cast<const brain::HostBrain*>(brain_.get());
-    return host ? host->eepromWrites() : std::vector<int>();
+    return host ? host->memory().writes_of : std::vector<int>();
   }
 
  private:
@@ -158,7 +151,6 @@ void bindFaults(nb::class_<VirtualMachine>& machine) {
   machine
       .def("hang_at", &VirtualMachine::hangAt, arg("x"), arg("y"),
            "Lays the chains so that the bit is there [mm].")
-      .def("set_height", &VirtualMachine::setHeight, arg("z"), "Turns the screw of z by hand.")
       .def("hook_across", &VirtualMachine::hookAcross, arg("axis"), arg("slack"),
            arg("beyond") = 12.7,
            "Takes the sled off and hooks a chain on the other sprocket, so many mm of links past "
@@ -172,7 +164,6 @@ void bindFaults(nb::class_<VirtualMachine>& machine) {
            "Gives a number of the judge's machine a new value.")
       .def("creep", &VirtualMachine::creep, arg("number"), arg("per_second"),
            "Lets a number of the judge's machine change with time.")
-      .def("set_probe_height", &VirtualMachine::setProbeHeight, arg("z"))
       .def("set_wire", &VirtualMachine::setWire, arg("axis"), arg("fault"), arg("is_so"),
            "A fault: motor_reversed, motor_unplugged, encoder_reversed, encoder_unplugged, "
            "channel_lost, blocked, driver_complains.")
@@ -183,11 +174,6 @@ void bindFaults(nb::class_<VirtualMachine>& machine) {
            "The main program does nothing for so long; interrupts go on.")
       .def("set_motor_supply", &VirtualMachine::setMotorSupply, arg("volts"), "12 if all is well.")
       .def("set_board_supply", &VirtualMachine::setBoardSupply, arg("volts"), "5 if all is well.")
-      .def_prop_ro("spindle", &VirtualMachine::spindle, "255ths of the time that its pin is high.")
-      .def_prop_ro("laser", &VirtualMachine::laser, "255ths of the time that its pin is high.")
-      .def_prop_ro("servo", &VirtualMachine::servo, "Degrees of the spindle's servo; 255: loose.")
-      .def("pull", &VirtualMachine::pull, arg("axis"), arg("mm_per_second"),
-           "Somebody pays out chain while its motor has no power.")
       .def_prop_ro("eeprom_writes", &VirtualMachine::eepromWrites,
                    "How often each byte was written since the world began; none for the ELF.");
 }
@@ -229,7 +215,6 @@ NB_MODULE(_vm, module) {
       .def_prop_ro("across", &VirtualMachine::across,
                    "Of a chain hooked across: pull on its motor [N], drop of its middle [mm].")
       .def_prop_ro("height", &VirtualMachine::height, "[mm] of the bit above the sheet's face.")
-      .def_prop_ro("hangs", &VirtualMachine::hangs, "Whether a sled can hang from these chains.")
       .def("count", &VirtualMachine::count, arg("axis"), "Encoder counts since the world began.")
       .def("duty", &VirtualMachine::duty, arg("axis"), "-255 to 255; positive winds in.")
       .def("cuts", &VirtualMachine::cuts,

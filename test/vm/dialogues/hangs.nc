@@ -13,14 +13,17 @@
 <* ok
 -> G1 X500 Y0 F600
 ~~ wait 2
-~~ on
-~~ laser high
-~~ hang report
+~~ on left at once
+~~ on right at once
+~~ laser high at once
+~~ freeze report
 ~~ wait 1.2
-~~ off
-~~ laser low
+~~ off left at once
+~~ off right at once
+~~ laser low at once
 ~~ wait 2
-~~ off
+~~ off left at once
+~~ off right at once
 ~~ resets 0
 ~~ undriven from now
 ~~ wake 6

@@ -10,13 +10,15 @@
 <* ok
 -> G1 X500 Y0 F600
 ~~ wait 2
-~~ on
-~~ hold interrupts
+~~ on left at once
+~~ on right at once
+~~ mask interrupts
 ~~ wait 0.1
-~~ allow interrupts
-~~ wait 0.0005
+~~ unmask interrupts
+~~ wait 0.001
 ~~ undriven from now
 ~~ wait 1
 ~~ undriven
 ~~ resets 0
 <- ALARM: The firmware was busy for too long*
+<- The sled moves while its motors are off.

@@ -21,6 +21,8 @@
 ~~ power cut
 <* ok
 <- ALARM: Position Lost. Power was lost before the position was kept.*
+; The motors run on for a moment.
+~~ wait 1
 -> B06 L1711 R1709
 <* position loaded at:
 <* ok

@@ -13,13 +13,15 @@
 <* ok
 -> G1 X500 Y0 F600
 ~~ wait 2
-~~ on
-~~ laser high
-~~ hang report
+~~ on left at once
+~~ on right at once
+~~ laser high at once
+~~ freeze report
 ~~ overrun stack
 ~~ wait 0.05
-~~ off
-~~ laser low
+~~ off left at once
+~~ off right at once
+~~ laser low at once
 ~~ wake 6
 <- ALARM: The firmware's stack ran into its data. Switch the Mega off and on*
 ; Stop does not help, and nothing is believed.
@@ -28,7 +30,8 @@
 <- ALARM: The firmware's stack ran into its data*
 -> G1 X0 Y0
 ~~ wait 1
-~~ off
+~~ off left at once
+~~ off right at once
 ~~ power
 <* ALARM: Position Lost. The firmware's stack had run into its data.*
 ; At rest as well, with the position kept.

@@ -13,12 +13,14 @@
 <* ok
 -> G1 X500 Y0 F600
 ~~ wait 2
-~~ on
-~~ laser high
+~~ on left at once
+~~ on right at once
+~~ laser high at once
 ~~ stop timer
 ~~ wait 0.07
-~~ off
-~~ laser low
+~~ off left at once
+~~ off right at once
+~~ laser low at once
 <- ALARM: The firmware was busy for too long*
 >> !
 <* ok
@@ -32,16 +34,19 @@
 <* ok
 -> G1 X500 Y0 F600
 ~~ wait 2
-~~ on
+~~ on left at once
+~~ on right at once
 ; It never ends: nobody is left, so after a last word comes a reset.
-~~ hang tick
+~~ freeze tick
 ~~ wait 0.07
-~~ off
-~~ laser low
+~~ off left at once
+~~ off right at once
+~~ laser low at once
 ~~ resets 0
 ~~ wait 0.06
 ~~ resets 1
-~~ off
+~~ off left at once
+~~ off right at once
 ; The reset cuts a report short, and the first line of the greeting may hang on to it.
 <* FAKE_SERVO off
 <* The firmware hung and the watchdog started it again*
@@ -56,12 +61,14 @@
 ~~ wait 6
 -> G1 X500 Y0 F600
 ~~ wait 2
-~~ on
+~~ on left at once
+~~ on right at once
 ; Interrupts are held: only the reset is left.
-~~ hold interrupts
+~~ mask interrupts
 ~~ wait 0.13
 ~~ resets 2
-~~ off
+~~ off left at once
+~~ off right at once
 <- PCB v1.2 Detected
 <* The firmware hung and the watchdog started it again*
 <* ALARM: Position Lost*

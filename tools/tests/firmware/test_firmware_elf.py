@@ -173,7 +173,14 @@ def test_places_are_those_of_the_lab(player, tmp_path):
 
 
 def test_the_player_notices_what_is_wrong(player, tmp_path):
-    wrong = ["<- PCB v1.3 Detected", "<* never said", "<* ok\n~~ paid left"]
+    wrong = [
+        "<- PCB v1.3 Detected",
+        "<* never said",
+        *(
+            f"<* ok\n~~ wait 1\n~~ {each}"
+            for each in ("paid left", "on left", "laser high", "resets 1")
+        ),
+    ]
     for i, text in enumerate(wrong):
         (tmp_path / f"{i}.nc").write_text(text)
         assert play(player, tmp_path, f"{i}.nc").returncode == 1

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,13 +13,20 @@ class Brain {
  public:
   virtual ~Brain() = default;
 
-  /// Lets time pass, for the firmware and for the world that it drives.
-  virtual void advance(int milliseconds) = 0;
+  /// Lets time pass, for the firmware and for the world that it drives. `is_enough` is asked after
+  /// each millisecond; it may look at all and send, but not stop the firmware.
+  virtual void advance(int milliseconds, const std::function<bool()>& is_enough) = 0;
+  void advance(int milliseconds) {
+    advance(milliseconds, [] { return false; });
+  }
   /// Switches power on, or releases the reset button.
   virtual void start() = 0;
   /// Switches power off at once, also that of the motors. The EEPROM keeps its bytes.
   virtual void stop() = 0;
   virtual bool isRunning() const = 0;
+
+  /// Has the board on another motor shield from the next start on: 2 for v1.2, 3 for v1.3.
+  virtual void setShield(int version) = 0;
 
   /// Sends characters to the firmware; they arrive at 57,600 baud.
   virtual void send(const std::string& characters) = 0;

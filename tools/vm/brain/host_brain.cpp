@@ -11,18 +11,17 @@
 namespace brain {
 namespace {
 
-const double kBytesPerMs = 5.88;             // 58,824 baud, ten bits each
-const int kRoom = 255;                       // [characters] that wait on either way
-const int kMostSilent = 1000;                // [ms] of a main program, then the motors are let go
-const machine::BoardName kShield = {2, ""};  // an L298
+const double kBytesPerMs = 5.88;  // 58,824 baud, ten bits each
+const int kRoom = 255;            // [characters] that wait on either way
+const int kMostSilent = 1000;     // [ms] of a main program, then the motors are let go
 
 }  // namespace
 
 void HostBrain::start() {
   stop();
   now_ms_ = 0;
-  byte_credit_ = out_queue_ = lost_ = late_ms_ = silent_ticks_ = 0;
-  is_cut_off_ = has_hung_ = false;
+  byte_credit_ = out_queue_ = lost_ = late_ms_ = silent_ticks_ = holds_ = 0;
+  is_cut_off_ = has_hung_ = is_tick_due_ = is_ticking_ = false;
   over_top_ = true;
   failure_ = nullptr;
   for (int axis = 0; axis < machine::kAxisCount; ++axis) {
@@ -55,12 +54,14 @@ void HostBrain::cutPower(unsigned draw) {
   eeprom_.tear(uint8_t(draw));
 }
 
-void HostBrain::advance(int milliseconds) {
+void HostBrain::advance(int milliseconds, const std::function<bool()>& is_enough) {
   if (!isRunning()) {
-    for (int i = 0; i < milliseconds; ++i) world_.advance(0.001);
+    for (; milliseconds > 0; milliseconds = is_enough() ? 0 : milliseconds - 1)
+      world_.advance(0.001);
     return;
   }
   std::unique_lock<std::mutex> lock(mutex_);
+  is_enough_ = is_enough;
   left_ms_ = milliseconds;
   turn_.notify_all();
   turn_.wait(lock, [this] { return left_ms_ == 0; });
@@ -79,7 +80,7 @@ void HostBrain::live() {
   try {
     awaitTurn();
     const FlashTable table;
-    machine::Machine machine({*this, *this, *this, *this, eeprom_, table}, kShield);
+    machine::Machine machine({*this, *this, *this, *this, eeprom_, table}, board_);
     machine.begin();
     tick_every_ms_ = 1000 / machine.ticksPerSecond();
     ticked_ = &machine;
@@ -110,7 +111,7 @@ void HostBrain::idle() {
   noteAlive();
   do {
     passMillisecond();
-    if (--left_ms_ <= 0) {
+    if (is_enough_() || --left_ms_ <= 0) {
       handBack();
       awaitTurn();
     }
@@ -125,6 +126,8 @@ void HostBrain::noteAlive() {
 }
 
 void HostBrain::passMillisecond() {
+  gaps_to_pass_ = 0;  // no tick waits for a millisecond
+  passGap();
   ++now_ms_;
   out_queue_ = std::max(0, out_queue_ - int(now_ms_ % 8 == 0 ? 5 : 6));
   receive();
@@ -147,7 +150,23 @@ void HostBrain::receive() {
 void HostBrain::callTick() {
   if (silent_ticks_ * tick_every_ms_ >= kMostSilent) return letGo();
   ++silent_ticks_;
+  if (chance_ == 0) return runTick();
+  const uint32_t kMostGaps = 256;  // roughly as many as fit into a tick's time
+  is_tick_due_ = true;
+  chance_ = chance_ * 1664525 + 1013904223;
+  gaps_to_pass_ = int(chance_ >> 16) % int(kMostGaps);
+}
+
+void HostBrain::runTick() {
+  is_tick_due_ = false;
+  is_ticking_ = true;
   ticked_->tick();
+  is_ticking_ = false;
+}
+
+void HostBrain::passGap() {
+  if (!is_tick_due_ || is_ticking_ || holds_ != 0) return;
+  if (gaps_to_pass_-- <= 0) runTick();
 }
 
 void HostBrain::letGo() {
@@ -156,6 +175,7 @@ void HostBrain::letGo() {
 }
 
 int16_t HostBrain::read() {
+  passGap();
   if (received_.empty()) return -1;
   const char character = received_.front();
   received_.erase(0, 1);
@@ -174,6 +194,7 @@ uint16_t HostBrain::bandGap() {
 }
 
 void HostBrain::write(char character) {
+  passGap();
   while (out_queue_ >= kRoom) idle();
   ++out_queue_;
   said_ += character;

@@ -9,6 +9,7 @@
 
 #include "brain/brain.h"
 #include "brain/simulated_eeprom.h"
+#include "machine/greeting.h"
 #include "machine/ports.h"
 #include "world/world.h"
 
@@ -26,16 +27,20 @@ class HostBrain : public Brain,
                   private machine::Aux,
                   private machine::Clock {
  public:
-  /// `world` must live as long as this object.
-  explicit HostBrain(world::World& world) : world_(world) {}
+  /// `world` must live as long as this object; an L298 drives its motors.
+  explicit HostBrain(world::World& world, const machine::BoardName& board = {2, ""})
+      : world_(world), board_(board) {}
   ~HostBrain() override { stop(); }
   HostBrain(const HostBrain&) = delete;
   HostBrain& operator=(const HostBrain&) = delete;
 
-  void advance(int milliseconds) override;
+  using Brain::advance;
+  void advance(int milliseconds, const std::function<bool()>& is_enough) override;
   void start() override;
   void stop() override;
   bool isRunning() const override { return program_.joinable(); }
+  /// Its pins and wires are the same on every shield.
+  void setShield(int) override {}
   void send(const std::string& characters) override;
   std::string takeSaid() override;
   std::vector<uint8_t> eeprom() const override { return eeprom_.bytes; }
@@ -47,8 +52,13 @@ class HostBrain : public Brain,
   int spindle() override { return levels_[int(machine::Output::kSpindle)]; }
   int servo() override { return servo_; }
   int laser() override { return levels_[int(machine::Output::kLaser)]; }
-  /// How often each byte of the EEPROM was written.
-  const std::vector<int>& eepromWrites() const { return eeprom_.writes_of; }
+
+  /// From now on a due tick falls into any gap of the main program: where it allows ticks again or
+  /// asks the board for something. Without this, ticks fall only where the main program waits.
+  void letTicksFallAnywhere(uint32_t seed) { chance_ = seed | 1; }
+  /// The firmware's machine, between its start and the end of its power.
+  const machine::Machine* machine() const { return ticked_; }
+  const SimulatedEeprom& memory() const { return eeprom_; }
 
  private:
   struct PowerGone {};
@@ -74,17 +84,26 @@ class HostBrain : public Brain,
   uint16_t illegalSteps(machine::Axis axis) override { return encoders_[axis].illegal; }
   void arrange(bool over_top, uint8_t) override { over_top_ = over_top; }
   void set(machine::Output output, bool high) override { pulse(output, high ? 255 : 0); }
-  void pulse(machine::Output output, uint8_t level) override { levels_[int(output)] = level; }
+  void pulse(machine::Output output, uint8_t level) override {
+    passGap();
+    levels_[int(output)] = level;
+  }
   void turnServo(uint8_t degrees) override { servo_ = degrees; }
   bool probeTouches() override { return world_.probeTouches(); }
   bool driverFails(machine::Axis axis) override {
     return world_.wires(world::Axis(axis)).driver_complains;
   }
   uint16_t bandGap() override;
-  uint32_t milliseconds() override { return now_ms_; }
+  uint32_t milliseconds() override {
+    passGap();
+    return now_ms_;
+  }
   void idle() override;
-  void holdTicks() override {}
-  void releaseTicks() override {}
+  void holdTicks() override { ++holds_; }
+  void releaseTicks() override {
+    --holds_;
+    passGap();
+  }
 
   /// The wires of a chain off the bottom are taken the other way.
   int senseOf(machine::Axis axis) const { return over_top_ || axis == machine::kZAxis ? 1 : -1; }
@@ -95,9 +114,12 @@ class HostBrain : public Brain,
   void passMillisecond();
   void receive();
   void callTick();
+  void runTick();
+  void passGap();
   void letGo();
 
   world::World& world_;
+  machine::BoardName board_;
   SimulatedEeprom eeprom_;
   std::string input_, received_, said_;
   double byte_credit_ = 0, supply_ = 5;
@@ -108,6 +130,9 @@ class HostBrain : public Brain,
   machine::Machine* ticked_ = nullptr;
   bool over_top_ = true;  ///< as the firmware has arranged the wires
   int tick_every_ms_ = 10;
+  uint32_t chance_ = 0;  ///< 0: ticks fall only where the main program waits
+  int holds_ = 0, gaps_to_pass_ = 0;
+  bool is_tick_due_ = false, is_ticking_ = false;
   int silent_ticks_ = 0;   ///< since the main program last called idle()
   bool has_hung_ = false;  ///< the main program is back from a hang; its next idle() counts
 
@@ -116,7 +141,8 @@ class HostBrain : public Brain,
   std::mutex mutex_;
   std::condition_variable turn_;
   std::atomic<int> left_ms_{0};  // milliseconds until the program hands back
-  bool is_cut_off_ = false;      // the program shall end at its next wait
+  std::function<bool()> is_enough_;
+  bool is_cut_off_ = false;  // the program shall end at its next wait
   std::exception_ptr failure_;
 };
 

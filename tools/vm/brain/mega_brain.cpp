@@ -5,11 +5,11 @@ namespace brain {
 namespace {
 
 const int kSlicesPerMs = 4;  // no motor makes more edges in a millisecond
+const int kFineSlices = 20;  // in each of them at most a character comes
 
 }  // namespace
 
-MegaBrain::MegaBrain(world::World& world, std::string elf, const vm::ShieldPins& shield)
-    : world_(world), shield_(shield), elf_(std::move(elf)) {
+MegaBrain::MegaBrain(world::World& world, std::string elf) : world_(world), elf_(std::move(elf)) {
   // Loads the file once, so that an unreadable file is refused here.
   vm::VirtualBoard try_it(elf_);
 }
@@ -19,10 +19,11 @@ void MegaBrain::start() {
   board_ = std::make_unique<vm::VirtualBoard>(elf_);
   board_->setEeprom(eeprom_);
   board_->setSupply(supply_);
-  board_->strap(uint8_t(shield_.straps));
-  spindle_ = std::make_unique<vm::PulseMeter>(*board_, shield_.spindle);
-  laser_ = std::make_unique<vm::PulseMeter>(*board_, shield_.laser);
+  board_->strap(uint8_t(shield_->straps));
+  spindle_ = std::make_unique<vm::PulseMeter>(*board_, shield_->spindle);
+  laser_ = std::make_unique<vm::PulseMeter>(*board_, shield_->laser);
   late_ms_ = 0;
+  hangs_in_report_ = false;
   for (int axis = 0; axis < world::kAxisCount; ++axis)
     encoders_.of[axis].restart(*board_, uint16_t(world_.count(world::Axis(axis))));
 }
@@ -35,11 +36,16 @@ void MegaBrain::stop() {
   for (const world::Axis axis : {world::kLeft, world::kRight, world::kZ}) world_.drive(axis, 0);
 }
 
-void MegaBrain::advance(int milliseconds) {
-  for (int i = 0; i < milliseconds; ++i) {
+void MegaBrain::advance(int milliseconds, const std::function<bool()>& is_enough) {
+  for (; milliseconds > 0; milliseconds = is_enough() ? 0 : milliseconds - 1) {
     if (board_) passMillisecond();
     world_.advance(0.001);
   }
+}
+
+void MegaBrain::setShield(int version) {
+  if (version != 2 && version != 3) throw std::invalid_argument("a shield is 2 or 3");
+  shield_ = version == 2 ? &vm::kShield2 : &vm::kShield3;
 }
 
 void MegaBrain::delayProgram(int milliseconds) {
@@ -55,19 +61,23 @@ void MegaBrain::setSupply(double volts) {
 void MegaBrain::passMillisecond() {
   const double kAfterTick = 3;  // [ms]
   if (late_ms_ > 0 && --late_ms_ == 0) board_->wake(kAfterTick);
-  for (int slice = 0; slice < kSlicesPerMs; ++slice) {
+  const int slices = hangs_in_report_ ? kFineSlices : kSlicesPerMs;
+  for (int slice = 0; slice < slices; ++slice) {
     turnEncoders();
-    board_->runMs(1.0 / kSlicesPerMs);
+    board_->runMs(1.0 / slices);
+    if (!hangs_in_report_ || !board_->reports()) continue;
+    hangs_in_report_ = false;
+    board_->hang(false);
   }
   for (int axis = 0; axis < world::kAxisCount; ++axis) {
-    const vm::DriverPins& driver = shield_.drivers[axis];
+    const vm::DriverPins& driver = shield_->drivers[axis];
     if (driver.shorts(*board_))
       world_.brake(world::Axis(axis));
     else
       world_.drive(world::Axis(axis), driver.duty(*board_));
     driver.complain(*board_, world_.wires(world::Axis(axis)).driver_complains);
   }
-  board_->setPin(shield_.probe, !world_.probeTouches());
+  board_->setPin(shield_->probe, !world_.probeTouches());
 }
 
 void MegaBrain::turnEncoders() {

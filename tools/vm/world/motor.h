@@ -28,6 +28,7 @@ struct MotorConstants {
   double play = 0.011;             ///< [rad] of the sprocket between the flanks of the gear
   double sprocket_friction = 0.2;  ///< [Nm] share of `coulomb` behind the play
   double counts_per_turn = 8113.73;
+  double step = 1e-4;        ///< [s] of the computation, well below the mechanical time constant
   double count_noise = 0.4;  ///< [counts] standard deviation of edges that come early or late
 };
 
@@ -56,7 +57,6 @@ class Motor {
 
   /// Lets `seconds` pass with a duty of -255 to 255.
   void run(int duty, double seconds) {
-    const double kStep = 1e-4;  // [s] well below the mechanical time constant
     const double sign = wires.motor_reversed ? -1 : 1;
     const double share = sign * duty / 255.0;
     const double given = std::fabs(share) * (c_.supply - weaker) - c_.bridge_drop;
@@ -65,24 +65,37 @@ class Motor {
     // Without a supply the bridge conducts nothing, so it brakes nothing.
     const bool is_cut_off = wires.motor_unplugged || wires.driver_complains;
     const bool is_fed = is_powered && !is_cut_off && c_.supply - weaker > c_.bridge_drop;
-    for (double t = 0; t < seconds - kStep / 2; t += kStep) {
-      if (!is_fed) rotor_ += by_hand * kStep;
+    for (double t = 0; t < seconds - c_.step / 2; t += c_.step) {
+      if (!is_fed) rotor_ += by_hand * c_.step;
       current_ = is_fed ? (volts - c_.torque_constant * speed_) / whole : shortCurrent();
-      step(c_.torque_constant * current_, kStep);
+      step(c_.torque_constant * current_, c_.step);
     }
   }
 
   /// [V] by which the motor's current makes the supply of all motors sag.
   double sag() const { return std::fabs(current_) * c_.supply_resistance; }
 
+  /// Turns that it would still run on if its power went now.
+  double turnsToRest() const {
+    Motor motor = *this;
+    motor.is_powered = motor.is_shorted = false;
+    const int kLongest = 2000;  // [ms] beyond which the sled sinks
+    for (int ms = 0; motor.speed_ != 0 && ms < kLongest; ++ms) motor.run(0, 0.001);
+    return motor.turns() - turns();
+  }
+
   /// Turns of the sprocket since the start.
   double turns() const { return sprocket_ / kTurn; }
 
   /// Counts as the board sees them.
   int32_t counts() {
-    if (wires.encoder_unplugged) return reported_;
     const double sign = wires.encoder_reversed ? -1 : 1;
-    const double seen = sign * rotor_ / kTurn * c_.counts_per_turn + earliness();
+    const double passed = sign * rotor_ / kTurn * c_.counts_per_turn - missed_;
+    if (wires.encoder_unplugged) {
+      missed_ += passed - reported_;
+      return reported_;
+    }
+    const double seen = passed + earliness();
     if (wires.channel_lost)
       reported_ = kept_ + (int64_t(std::floor(seen)) / 2) % 2;
     else
@@ -137,6 +150,7 @@ class Motor {
   std::mt19937 source_;
   double rotor_ = 0, sprocket_ = 0, speed_ = 0;  // [rad], [rad/s], at the sprocket's side
   double current_ = 0;                           // [A]
+  double missed_ = 0;                            // [counts] that passed an unplugged encoder
   int32_t reported_ = 0, kept_ = 0;  ///< [counts] last reported; last with both channels
 };
 

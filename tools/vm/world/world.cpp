@@ -4,22 +4,22 @@
 namespace world {
 namespace {
 
-const double kHangEvery = 0.01;  // [s] a chain moves at most 0.3 mm in this time
-const double kStillFor = 0.1;    // [s] after this time the sled is hung even if it hardly moved
-const double kMoved = 0.5;       // [mm] after a chain moved this far the sled is hung
-const double kNearSheet = 0.5;   // [mm] height of the bit below which each place counts
+const double kStillFor = 0.1;   // [s] after this time the sled is hung even if it hardly moved
+const double kMoved = 0.5;      // [mm] after a chain moved this far the sled is hung
+const double kNearSheet = 0.5;  // [mm] height of the bit below which each place counts
 
 /// A motor of a chain. The sled's pull is added at each hang. The encoder is exact.
-MotorConstants chainMotor(unsigned seed) {
-  MotorConstants constants = seed ? anyMotor(seed) : MotorConstants();
+MotorConstants chainMotor(const Parts& parts, Axis axis) {
+  MotorConstants constants = parts.seed ? anyMotor(3 * parts.seed + axis) : MotorConstants();
+  constants.step = parts.motor_step;
   constants.load = 0;
   constants.count_noise = 0;
   return constants;
 }
 
 /// The motor of the z axis: the same motor on a screw that carries the router.
-MotorConstants zMotor(unsigned seed) {
-  MotorConstants constants = chainMotor(seed);
+MotorConstants zMotor(const Parts& parts) {
+  MotorConstants constants = chainMotor(parts, kZ);
   constants.counts_per_turn = 7560;
   constants.load = -0.02;
   return constants;
@@ -31,18 +31,17 @@ reference::Hand handOf(Axis axis) {
 
 Axis otherOf(Axis axis) { return axis == kLeft ? kRight : kLeft; }
 
-unsigned seedOf(const Parts& parts, Axis axis) { return parts.seed ? 3 * parts.seed + axis : 0; }
-
 }  // namespace
 
 World::World(const Parts& parts, double paid_out)
     : sled_(parts.numbers, parts.friction, parts.over_top),
-      motors_{{{chainMotor(seedOf(parts, kLeft)), parts.seed},
-               {chainMotor(seedOf(parts, kRight)), parts.seed + 1},
-               {zMotor(seedOf(parts, kZ)), parts.seed + 2}}},
+      motors_{{{chainMotor(parts, kLeft), parts.seed},
+               {chainMotor(parts, kRight), parts.seed + 1},
+               {zMotor(parts), parts.seed + 2}}},
       per_turn_{{parts.chain_per_turn, parts.chain_per_turn, parts.z_per_turn}},
       senses_{{parts.over_top ? 1 : -1, parts.over_top ? 1 : -1, 1}},
       laid_{{paid_out, paid_out, 0}},
+      hang_every_(parts.hang_every),
       is_over_top_(parts.over_top) {
   for (Motor& motor : motors_) motor.is_powered = false;
   hang();
@@ -111,7 +110,7 @@ void World::advance(double seconds) {
 }
 
 bool World::isDue(double step) {
-  const double looked = kHangEvery - step / 2;
+  const double looked = hang_every_ - step / 2;
   if (seconds_ - looked_ < looked) return false;
   looked_ = seconds_;
   if (travel(kZ) < kNearSheet || seconds_ - hung_ >= kStillFor - step / 2) return true;

@@ -26,6 +26,8 @@ struct Parts {
   unsigned seed = 0;                      ///< for random motors; 0: nominal motors
   double chain_per_turn = 63.5;           ///< [mm] of nominal links that a sprocket pays out
   double z_per_turn = 3.17;               ///< [mm] of the z axis' screw
+  double motor_step = 1e-4;               ///< [s] of the motors' computation
+  double hang_every = 0.01;               ///< [s] in which a chain moves at most 0.3 mm
   bool over_top = true;  ///< the chains leave over the top of the sprockets, else below
 };
 
@@ -51,11 +53,13 @@ class World {
   double seconds() const { return seconds_; }
   /// [mm] Nominal links that a motor has paid out; for z the height of the bit.
   double travel(Axis axis) const;
+  /// [mm] The same where the motor stands after its power has gone now.
+  double travelAtRest(Axis axis) const {
+    return travel(axis) + motors_[axis].turnsToRest() * per_turn_[axis];
+  }
   int duty(Axis axis) const { return duties_[axis]; }
   const Sled& sled() const { return sled_; }
   Sheet& sheet() { return sheet_; }
-  /// Whether a sled can hang from these chains.
-  bool hangs() const { return hangs_; }
   bool probeTouches() const { return travel(kZ) <= probe_height_; }
 
   // Changes by hand, and faults.
@@ -72,8 +76,6 @@ class World {
   /// Hangs the sled on its chains again.
   void unhook();
   const ChainAcross& across() const { return across_; }
-  /// Turns the screw by hand until the bit is at a height [mm].
-  void setHeight(double z) { laid_[kZ] += z - travel(kZ); }
   /// Gives a number of the judge's machine a new value, or lets it creep by an amount each second.
   void set(const std::string& number, double value) { sled_.set(number, value); }
   void creep(const std::string& number, double per_second) { creeps_[number] = per_second; }
@@ -110,6 +112,7 @@ class World {
   Eigen::Vector2d hung_on_ = Eigen::Vector2d::Zero();  // [mm] both chains when the sled was hung
   double seconds_ = 0, hung_ = 0, looked_ = 0, probe_height_ = -1e9;
   double lacking_ = 0;  // [V] of the motors' supply
+  double hang_every_;   // [s]
   double held_at_ = 0;  // [mm] travel of the motor that held the chain's end, when hooked
   bool is_over_top_ = true;
   bool hangs_ = false;

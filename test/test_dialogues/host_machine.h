@@ -1,0 +1,38 @@
+// The host's build of the firmware in its garage, and a dialogue that is played with it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "brain/host_brain.h"
+#include "player.h"
+
+/// A machine with chains of `paid_out` [mm].
+struct HostMachine {
+  explicit HostMachine(std::vector<Step> steps, double paid_out = 1651,
+                       const machine::BoardName& board = {2, ""})
+      : world(partsOfDialogues(), paid_out),
+        brain(world, board),
+        player(std::move(steps), world, brain) {}
+
+  /// Plays the dialogue to its end; what went wrong, or nothing.
+  std::string play() {
+    try {
+      player.play();
+    } catch (const Failure& failure) {
+      return failure.what();
+    }
+    return "";
+  }
+
+  /// Begins with the bytes of another memory.
+  void copyMemory(const settings::Bytes& memory) {
+    std::vector<uint8_t> bytes;
+    for (uint16_t at = 0; at < 4096; ++at) bytes.push_back(memory.read(at));
+    brain.setEeprom(bytes);
+  }
+
+  world::World world;
+  brain::HostBrain brain;
+  Player player;
+};
