@@ -24,8 +24,16 @@ BY_OTHERS = {"main", "setup", "loop", "init", "serialEvent", "keepResetFlags"}
 # The lab and the research, which may be all that uses a function of it.
 PYTHON = ("tools/plumb", "tools/research")
 # Called by Python and argparse; by FastAPI and pydantic.
-PYTHON_BY_OTHERS = ["__getattr__", "__dir__", "_check_value"]
-DECORATORS = ["@*.get", "@*.post", "@*.put", "@*.delete", "@*.websocket", "@*_validator"]
+PYTHON_BY_OTHERS = ["__getattr__", "__dir__", "_check_value", "field_title_should_be_set"]
+DECORATORS = [
+    "@*.get",
+    "@*.post",
+    "@*.put",
+    "@*.delete",
+    "@*.websocket",
+    "@*_validator",
+    "@computed_field",
+]
 FUNCTIONS = {"function", "method", "property", "class"}
 
 

@@ -1,7 +1,7 @@
 """What a command answers: a dataclass, from which its JSON and the schema follow.
 
-A field has its own name in the JSON, or the one that `key` gives it. `Internal` fields and plain
-properties stay out of it; a property under `computed_field` is in it.
+`key` names a field for the JSON where another name says more there. An `Internal` field stays out
+of it, and so does a property without `computed_field`.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ def plain(value: Any) -> Any:
 
 
 def schema_of(types: Mapping[str, type]) -> dict[str, Any]:
-    """The JSON schema of these answers by the names of their commands: all keys are there always."""
+    """The JSON schema of these answers by the names of their commands; no key is ever missing."""
     wanted: list[tuple[str, Literal["serialization"], TypeAdapter[Any]]] = [
         (name, "serialization", TypeAdapter(kind)) for name, kind in types.items()
     ]
