@@ -231,7 +231,7 @@ SCENARIOS: tuple[Scenario, ...] = (
     *(
         Scenario(
             f"loop-{name}",
-            f"{what}; two rounds of what plumb next proposes",
+            f"{what}; two rounds of what is proposed",
             hide,
             marks=marks,
             shown=("right class first", "named"),

@@ -2,6 +2,7 @@
 
 import re
 import shutil
+import time
 
 import pytest
 from folder import EXAMPLE, example_form
@@ -41,6 +42,15 @@ def read_on_disk(lab):
     return len(form.measurements.measured_marks)
 
 
+def until_read_on_disk(lab, count):
+    """Wait until a save of the page has written so many readings."""
+    for _ in range(600):
+        if read_on_disk(lab) == count:
+            return
+        time.sleep(0.1)
+    raise AssertionError(f"{read_on_disk(lab)} readings on the disk, not {count}")
+
+
 @pytest.mark.parametrize(
     ("typed", "said"),
     [("", "not read: from the left?"), ("11l.9", "“11l.9” is no length: type it like 11.9")],
@@ -77,6 +87,7 @@ def test_what_another_program_read_meanwhile_is_no_half_any_more(lab, readings):
     whole = (lab.folder / "marks.toml").read_text()
     field(page, LEFT).fill("")
     expect(page.locator(".count")).to_contain_text("22 of 23 marks are read")
+    until_read_on_disk(lab, 22)
     (lab.folder / "marks.toml").write_text(whole)
     expect(page.locator(".count")).to_contain_text("23 of 23 marks are read")
     expect(field(page, LEFT)).not_to_have_value("")

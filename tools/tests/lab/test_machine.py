@@ -127,7 +127,7 @@ def test_the_live_line_says_that_the_sled_moves_holds_and_stops(lab, ask):
         def next_state(true):
             for _ in range(400):
                 seen.append(json.loads(line.recv(timeout=60)))
-                if true(seen[-1]):
+                if "kind" in seen[-1] and true(seen[-1]):
                     return seen[-1]
             raise AssertionError(seen[-1])
 

@@ -14,7 +14,7 @@ from websockets.sync.client import connect
 # The same server with deadlines that a test can wait for.
 HASTE = """
 import sys
-import plumb.lab.connections as connections, plumb.lab.guard as guard
+import plumb.lab.server as connections, plumb.lab.guard as guard
 connections.HEADERS_S, guard.BODY_S = 1.0, 1.0
 from plumb.cli.main import main
 sys.exit(main(sys.argv[1:]))
