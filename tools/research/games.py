@@ -22,7 +22,7 @@ from plumb.cli.arguments import add_force, count
 from plumb.cli.output import INTERRUPTED, ended, refuse_early, results_of, write_outputs
 from plumb.cli.screen import Bar, sentences, table
 from plumb.grid.options import Grid
-from plumb.text.errors import refusal
+from plumb.text.errors import InputError
 from plumb.text.values import bare, unit
 from plumb.vm.loop import Budget
 
@@ -107,7 +107,7 @@ def _kept(path: str | None) -> list[Played]:
             said |= {name: tuple(said[name]) for name in ("claimed", "chosen")}
             games.append(Played(**said))
         except (ValueError, TypeError, KeyError):
-            raise refusal(
+            raise InputError(
                 path, "is no game", place=f"line {number}", remedy="name another file"
             ) from None
     return games

@@ -30,7 +30,7 @@ from plumb.cure.machine_file import (
 from plumb.diagnosis.answer import verdict_sentence
 from plumb.firmware.client_files import client_files
 from plumb.fit.inputs import Inputs
-from plumb.text.errors import refusal
+from plumb.text.errors import InputError
 from plumb.text.values import bare
 
 PICTURE = "error-falls"
@@ -68,7 +68,7 @@ def _make(folder: str) -> None:
     try:
         Path(folder).mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise refusal(folder, f"cannot be made ({error.strerror})") from None
+        raise InputError(folder, f"cannot be made ({error.strerror})") from None
 
 
 def _say_written(files: Iterable[str]) -> None:

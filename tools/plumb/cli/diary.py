@@ -13,7 +13,7 @@ from plumb.diary.file import Diary, Entry, has_diary, noted, read_diary
 from plumb.diary.history import Course, History, history_of
 from plumb.model.plain import named, plain_name, plain_size
 from plumb.pictures.reach import Run, draw_diary
-from plumb.text.errors import refusal
+from plumb.text.errors import InputError
 from plumb.text.values import bare, unit, worded
 
 LAST = 10  # other entries
@@ -24,7 +24,7 @@ def run(arguments: argparse.Namespace) -> int:
     diary = read_diary(arguments.folder)
     if not has_diary(arguments.folder):
         remedy = "plumb add -o machine.toml begins it in the folder of that file"
-        raise refusal(diary.path, "there is no diary", remedy=remedy)
+        raise InputError(diary.path, "there is no diary", remedy=remedy)
     history, written = history_of(diary), []
     if arguments.picture:
         form = picture_form(arguments.picture)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from plumb.cli.arguments import add_port
 from plumb.line.port import port_for
-from plumb.text.errors import InputError, refusal
+from plumb.text.errors import InputError
 
 # The Mega's bootloader, as Arduino's programs address it.
 BOARD = ("-p", "atmega2560", "-c", "wiring", "-b", "115200", "-D")
@@ -20,10 +20,12 @@ def run(arguments: argparse.Namespace) -> int:
     """Write it, and return the exit code."""
     port = port_for(arguments.port)
     if not Path(port).exists():
-        raise refusal(port, "there is no such line", remedy="connect the Mega and check the name")
+        raise InputError(
+            port, "there is no such line", remedy="connect the Mega and check the name"
+        )
     if not Path(arguments.hex).is_file():
         remedy = "build it with .venv/bin/pio run -e megaatmega2560"
-        raise refusal(arguments.hex, "there is no such file", remedy=remedy)
+        raise InputError(arguments.hex, "there is no such file", remedy=remedy)
     command = [_avrdude(), *BOARD, "-P", port, "-U", f"flash:w:{arguments.hex}:i"]
     done = subprocess.run(command)
     if done.returncode:

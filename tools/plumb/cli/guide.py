@@ -13,7 +13,7 @@ from plumb.guide.steps import SETTINGS, Visit, walk
 from plumb.guide.talk import Talk, progress_in
 from plumb.line.port import SerialPort, port_for
 from plumb.line.sender import Sender
-from plumb.text.errors import refusal
+from plumb.text.errors import InputError
 
 WIDTH = 79  # characters of a line
 
@@ -22,7 +22,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Walk, and return the exit code."""
     folder = Path(arguments.folder)
     if not folder.is_dir():
-        raise refusal(folder, "there is no such folder", remedy="make it, or name another")
+        raise InputError(folder, "there is no such folder", remedy="make it, or name another")
     progress = progress_in(folder)
     _say("Nothing moves before you say yes to it. Keep a hand on the power switch all the same.")
     port = SerialPort(port_for(arguments.port))

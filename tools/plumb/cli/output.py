@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TextIO
 
 from plumb.text.compiled import refuse_stale
-from plumb.text.errors import InputError, refusal
+from plumb.text.errors import InputError
 from plumb.text.files import is_ours, write_all
 
 STDOUT = "-"
@@ -56,7 +56,7 @@ def refuse_early(*paths: str | None) -> None:
         if not path or path == STDOUT:
             continue
         if not Path(os.path.realpath(path)).parent.is_dir():
-            raise refusal(path, "cannot be written (its folder does not exist)")
+            raise InputError(path, "cannot be written (its folder does not exist)")
         if not way.force:
             _refuse_foreign(path)
 
@@ -67,7 +67,7 @@ def write_outputs(files: Mapping[str, bytes], *, inputs: Sequence[str]) -> None:
     taken = {os.path.realpath(path) for path in inputs}
     for path in files:
         if path != STDOUT and os.path.realpath(path) in taken:
-            raise refusal(path, "is read here and kept", remedy="give the result another name")
+            raise InputError(path, "is read here and kept", remedy="give the result another name")
         if path != STDOUT and not way.force:
             _refuse_foreign(path)
     write_all({path: content for path, content in files.items() if path != STDOUT})
@@ -80,7 +80,7 @@ def refuse_twins(*paths: str | None) -> None:
     named = [os.path.realpath(path) for path in paths if path]
     for path in paths:
         if path and named.count(os.path.realpath(path)) > 1:
-            raise refusal(path, "is the name of two results", remedy="give each another name")
+            raise InputError(path, "is the name of two results", remedy="give each another name")
 
 
 def say_failure(sentence: str) -> None:
@@ -94,9 +94,9 @@ def _refuse_foreign(path: str) -> None:
     try:
         foreign = place.is_file() and not is_ours(place)
     except OSError as error:
-        raise refusal(path, f"cannot be looked into ({error.strerror})") from None
+        raise InputError(path, f"cannot be looked into ({error.strerror})") from None
     if foreign:
-        raise refusal(
+        raise InputError(
             path,
             "exists, and plumb did not write it",
             remedy="give the result another name, or --force to replace the file",

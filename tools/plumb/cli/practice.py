@@ -15,7 +15,7 @@ from plumb.cli.screen import headline, print_json, sentences, table
 from plumb.cli.vm import serve
 from plumb.model.predict import known_effects
 from plumb.settings.files import machine_toml, read_settings
-from plumb.text.errors import InputError, refusal
+from plumb.text.errors import InputError
 from plumb.text.files import write_all, write_whole
 from plumb.text.values import bare, unit
 from plumb.vm.garage import VirtualMachine
@@ -38,7 +38,9 @@ def _start(folder: Path, arguments: argparse.Namespace) -> int:
     """Serve the folder's machine until Ctrl-C; a tape fills in the forms of the folder."""
     if (folder / SECRET).exists():
         if arguments.seed is not None:
-            raise refusal(folder, "holds a secret already", remedy="name a new folder, or no seed")
+            raise InputError(
+                folder, "holds a secret already", remedy="name a new folder, or no seed"
+            )
         secret = secret_in(folder)
     else:
         drawn = secrets.randbelow(MACHINES) if arguments.seed is None else arguments.seed
@@ -63,11 +65,11 @@ def _start(folder: Path, arguments: argparse.Namespace) -> int:
 def _begun(folder: Path, secret: Secret) -> Secret:
     """Write the secret and what the owner believes into a folder that has neither."""
     if (folder / SETTINGS).exists():
-        raise refusal(folder, f"holds a {SETTINGS}", remedy="name a new folder")
+        raise InputError(folder, f"holds a {SETTINGS}", remedy="name a new folder")
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise refusal(folder, f"cannot be made ({error.strerror})") from None
+        raise InputError(folder, f"cannot be made ({error.strerror})") from None
     said = "What the owner of the virtual machine believes."
     believed = machine_toml(secret.garage.settings, comment=said)
     write_all(

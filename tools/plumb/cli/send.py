@@ -25,7 +25,7 @@ from plumb.marks.form import read_form
 from plumb.model.predict import known_effects
 from plumb.settings.files import read_settings
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import refusal
+from plumb.text.errors import InputError
 from plumb.text.files import read_text
 
 NUMBERS = "$$"  # tells the sender how long the motors hold, and how far ahead answers come
@@ -95,7 +95,7 @@ def _cut_with(what: str, text: Sequence[str]) -> MachineSettings | None:
     file_round = measurements.rounds[0]
     if file_round.changed:
         why = f"was made for {file_round.changed}, which has changed since"
-        raise refusal(form, why, remedy="make form and program again, or send with --force")
+        raise InputError(form, why, remedy="make form and program again, or send with --force")
     return file_round.cut_with
 
 

@@ -12,14 +12,14 @@ from plumb.cli.steps import next_step
 from plumb.firmware.client_files import gcode
 from plumb.firmware.settings import Number, firmware_numbers
 from plumb.fit.inputs import settings_in
-from plumb.text.errors import InputError, refusal
+from plumb.text.errors import InputError
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Convert, write or print, and return the exit code."""
     settings = settings_in(arguments.settings)
     if settings.controller != "plumb":
-        raise refusal(
+        raise InputError(
             arguments.settings,
             "holds the published numbers, which GroundControl or WebControl sends",
             remedy="give a machine.toml that plumb add wrote for our firmware",

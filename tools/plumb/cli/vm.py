@@ -14,7 +14,7 @@ from plumb.cli.arguments import length
 from plumb.cli.screen import console
 from plumb.line.sender import Sender
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError, refusal
+from plumb.text.errors import InputError
 from plumb.text.files import read_bytes, read_text, write_whole
 from plumb.vm.garage import (
     Garage,
@@ -87,7 +87,7 @@ def _form(arguments: argparse.Namespace) -> str:
         raise InputError("--form and --readings go together: which form, and where it goes filled")
     text = read_text(arguments.form) if arguments.form else ""
     if arguments.form and BLANK not in text:
-        raise refusal(arguments.form, "waits for no reading", remedy="give a form of plumb grid")
+        raise InputError(arguments.form, "waits for no reading", remedy="give a form of plumb grid")
     return text
 
 
@@ -98,7 +98,7 @@ def _wake(
     if arguments.eeprom and Path(arguments.eeprom).exists():
         content = read_bytes(arguments.eeprom)
         if len(content) != EEPROM_BYTES:
-            raise refusal(arguments.eeprom, f"is no memory of {EEPROM_BYTES} bytes")
+            raise InputError(arguments.eeprom, f"is no memory of {EEPROM_BYTES} bytes")
         machine.eeprom = content
     elif not arguments.fresh:
         machine.start()

@@ -32,7 +32,7 @@ from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.lab_effects.lab_effect import EDGES, SLED, TAPE
 from plumb.model.predict import Array
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError, refusal, to_do
+from plumb.text.errors import InputError, to_do
 from plumb.text.values import refuse_unknown
 
 MOST_KEPT = 64  # fits
@@ -274,7 +274,7 @@ def refuse_other_origin(inputs: Inputs) -> None:
     file, newest = settings.file, named[-1]
     name, other = file.name if file else "the settings", newest.file
     was = other.name if other else "what its marks name"
-    raise refusal(
+    raise InputError(
         rounds[-1].name,
         f"was cut with another machine than {name}: "
         + both_values(_apart(settings, newest), name, was),

@@ -23,7 +23,7 @@ from plumb.cure.add import Addition, Parameter
 from plumb.fit.inputs import Inputs
 from plumb.line.memory import Written, as_lines, version_of, write_numbers
 from plumb.line.sender import Sender
-from plumb.text.errors import InputError, refusal
+from plumb.text.errors import InputError
 from plumb.text.files import opened, write_whole
 
 NAME = "diary.jsonl"
@@ -78,7 +78,9 @@ def append(
         _add_line(path, _line(entry).encode())
     except OSError as error:
         why = f"cannot be written ({error.strerror})"
-        raise refusal(path, why, remedy="check the rights of the folder, and its space") from None
+        raise InputError(
+            path, why, remedy="check the rights of the folder, and its space"
+        ) from None
     return entry
 
 
@@ -91,7 +93,7 @@ def read_diary(folder: Folder) -> Diary:
     except FileNotFoundError:
         return Diary(path, ())
     except OSError as error:
-        raise refusal(
+        raise InputError(
             path, f"cannot be read ({error.strerror})", remedy="check its rights"
         ) from None
     entries, spoilt = list[Entry](), list[int]()

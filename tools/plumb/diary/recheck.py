@@ -21,7 +21,7 @@ from plumb.model.plain import ranked
 from plumb.model.predict import FOUND, NAMES, Array, places_with_slopes, values_of
 from plumb.settings.machine import MachineSettings
 from plumb.settings.toml import MACHINE_KEYS, machine_in
-from plumb.text.errors import refusal, to_do
+from plumb.text.errors import InputError, to_do
 
 STEP = 0.1  # [mm] of chain
 # Changes that need no new fit: how much longer a chain is than the machine believes, where the
@@ -118,7 +118,7 @@ def _fit_of(diary: Diary, settings: MachineSettings) -> Entry:
         "give the machine.toml that plumb add wrote next to this diary",
         page="open a machine.toml that Correct wrote into this folder",
     )
-    raise refusal(diary.path, "knows no fit that gave these settings", remedy=remedy)
+    raise InputError(diary.path, "knows no fit that gave these settings", remedy=remedy)
 
 
 def _places(settings: MachineSettings, chains: Array) -> tuple[Array, Array]:

@@ -18,7 +18,7 @@ from plumb.firmware.settings import WORST, Number, chains_apart, every_setting, 
 from plumb.settings.files import changed_client_file, groundcontrol_changes, parse_client_file
 from plumb.settings.ini import SOURCES, Key, number_for_firmware
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError, naming, refusal, to_do
+from plumb.text.errors import InputError, naming, to_do
 from plumb.text.ini import IniEntry, IniText
 from plumb.text.values import number_in
 
@@ -126,7 +126,7 @@ def refuse_what_disturbs(
         return
     other = [n for n, value in sent.items() if n in lines and not np.isclose(value, lines[n])]
     said = ", ".join(f"${n} = {sent[n]:g} instead of {lines[n]:g}" for n in other)
-    raise refusal(
+    raise InputError(
         source,
         f"the client would send {said}, which is another machine",
         remedy="correct the file, or give the file of this machine",
@@ -159,7 +159,7 @@ def _client_file(
         )
     if Path(original).suffix.lower() != Path(file).suffix:
         needs = to_do(f"--client {client} needs that file", page=f"open your {file}")
-        raise refusal(original, f"is no {file}", remedy=needs)
+        raise InputError(original, f"is no {file}", remedy=needs)
     name = Path(lines).with_name(f"{Path(lines).stem}-{file}")
     return str(name), changed_client_file(original, values)
 
@@ -174,7 +174,7 @@ def _said(ini: IniText, name: str) -> IniEntry:
     section, key = SOURCES[name]
     entry = ini.find(key, section=section)
     if entry is None:
-        raise refusal(ini.source, f"{key} is missing in [{section}]")
+        raise InputError(ini.source, f"{key} is missing in [{section}]")
     return entry
 
 

@@ -16,7 +16,7 @@ from plumb.model.predict import known_effects
 from plumb.settings.files import read_settings
 from plumb.settings.machine import MachineSettings
 from plumb.settings.toml import FitRecord
-from plumb.text.errors import refusal, to_do
+from plumb.text.errors import InputError, to_do
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,7 @@ def refuse_the_same_twice(paths: Sequence[AnyPath]) -> None:
     for path in paths:
         real = os.path.realpath(path)
         if real in seen:
-            raise refusal(path, "is given twice", remedy="name each file of marks once")
+            raise InputError(path, "is given twice", remedy="name each file of marks once")
         seen.add(real)
 
 
@@ -120,7 +120,7 @@ def with_settings_in_force(
     if board:
         return replace(part, rounds=(replace(file_round, cut_with=board.cut_with),))
     if file_round.changed:
-        raise refusal(
+        raise InputError(
             part.source,
             f"was cut with {file_round.changed}, which has changed since",
             place="cut_with",
@@ -131,7 +131,7 @@ def with_settings_in_force(
         )
     if record and record.knows_other_settings(settings) and not _reports_chains(part):
         name = settings.file.name if settings.file else "these settings"
-        raise refusal(
+        raise InputError(
             part.source,
             f"does not say which settings it was cut with, and {name} was fitted to marks that "
             f"were cut with {_others(record)}",

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from plumb.text.errors import refusal
+from plumb.text.errors import InputError
 from plumb.text.files import read_text, write_whole
 from plumb.text.values import UNITS, brief, length_in, worded
 
@@ -252,7 +252,7 @@ def progress_in(folder: Path) -> Progress:
         sigmas: Mapping[str, float] = kept["sigmas"]
         return Progress(folder, done, {name: float(size) for name, size in sigmas.items()})
     except (ValueError, KeyError, TypeError, AttributeError):
-        raise refusal(path, "is damaged", remedy="delete it, and begin again") from None
+        raise InputError(path, "is damaged", remedy="delete it, and begin again") from None
 
 
 # What the owner knows of the machine, and how far each number may be wrong.

@@ -16,7 +16,7 @@ from plumb.firmware.settings import CLIENT_NUMBERS, firmware_numbers
 from plumb.line.sender import PlainError, plain
 from plumb.model.predict import FOUND, Array, lengths
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError, refusal
+from plumb.text.errors import InputError
 
 __all__ = ["COLUMNS", "Done", "Refused", "Run", "pieces"]
 
@@ -246,7 +246,7 @@ def refuse_other_files(source: str | PathLike[str], text: str) -> None:
     """InputError for a client's settings, marks, tables and JSON."""
     for pattern, what, remedy in OTHERS:
         if re.search(pattern, text, re.IGNORECASE | re.MULTILINE | re.DOTALL):
-            raise refusal(source, f"{what}, not a program", remedy=remedy)
+            raise InputError(source, f"{what}, not a program", remedy=remedy)
 
 
 def refuse_what_is_no_program(source: str | PathLike[str], text: str) -> None:
@@ -262,7 +262,7 @@ def refuse_what_is_no_program(source: str | PathLike[str], text: str) -> None:
         fault = NO_CODE.search(said)
         if fault and said.startswith(("ALARM", "error")):
             why = f"is no G-code ({fault[0].removesuffix(' Press Stop.').rstrip('.')})"
-            raise refusal(source, why, place=f"line {number}", remedy=PROGRAM)
+            raise InputError(source, why, place=f"line {number}", remedy=PROGRAM)
 
 
 def _first(lines: Sequence[str]) -> tuple[int, str]:

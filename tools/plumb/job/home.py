@@ -20,7 +20,7 @@ import numpy as np
 from plumb.grid.options import Grid
 from plumb.model.predict import FOUND, Array, believed_lengths, places
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError, refusal
+from plumb.text.errors import InputError
 from plumb.text.files import read_text, write_whole
 
 NAME = "home.toml"
@@ -113,7 +113,7 @@ def read_home_marks(path: str | PathLike[str]) -> dict[str, HomeMark]:
         tables = tomllib.loads(read_text(path)).get("mark", {})
         return {name: _mark(name, each) for name, each in tables.items()}
     except (tomllib.TOMLDecodeError, AttributeError, KeyError, TypeError, ValueError) as error:
-        raise refusal(path, f"holds no home marks ({error})", remedy="mend it") from None
+        raise InputError(path, f"holds no home marks ({error})", remedy="mend it") from None
 
 
 def write_home_marks(path: str | PathLike[str], marks: Mapping[str, HomeMark]) -> None:

@@ -18,7 +18,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from plumb.text.errors import InputError, refusal
+from plumb.text.errors import InputError
 from plumb.text.files import links_refused, opened, write_all
 
 # A name is a single word without a folder, so no name from outside leads out of the project.
@@ -200,7 +200,7 @@ def read_choices(project: Project) -> tuple[Choices, str]:
     except ValidationError as error:
         first = error.errors()[0]
         place = ".".join(str(part) for part in first["loc"])
-        raise refusal(FILE, first["msg"], place=place, remedy="mend or delete it") from None
+        raise InputError(FILE, first["msg"], place=place, remedy="mend or delete it") from None
 
 
 def choices_text(choices: Choices) -> bytes:

@@ -21,7 +21,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from plumb.lab.app import lab_app
 from plumb.lab.guard import Address
-from plumb.text.errors import InputError, refusal
+from plumb.text.errors import InputError
 
 HOST = "127.0.0.1"
 TOKEN_FILE = ".lab.token"  # keeps the token, so that an open page survives a restart
@@ -100,7 +100,7 @@ def _token(folder: Path) -> str:
         with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as file:
             file.write(f"{token}\n")
     except OSError as error:
-        raise refusal(
+        raise InputError(
             folder, f"cannot be written ({error.strerror})", remedy="name a folder of yours"
         ) from None
     return token

@@ -12,7 +12,7 @@ from plumb.firmware.client_files import gcode
 from plumb.firmware.settings import every_setting, firmware_numbers
 from plumb.line.sender import REPORTS, STANDS, Sender, Watch
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError, refusal, to_do
+from plumb.text.errors import InputError, to_do
 from plumb.text.files import read_text
 
 ROW = re.compile(r"\$(\d+)=([-+\d.eE]+)")
@@ -111,7 +111,7 @@ def lines_for(settings: MachineSettings, source: str) -> list[str]:
     if settings.controller != "plumb":
         why = "holds the published numbers, which a client sends"
         remedy = to_do("give a machine.toml that plumb add wrote", page="write a correction first")
-        raise refusal(source, why, remedy=remedy)
+        raise InputError(source, why, remedy=remedy)
     return gcode(firmware_numbers(settings)).decode().splitlines()
 
 
@@ -120,5 +120,5 @@ def kept_before(path: str | PathLike[str]) -> list[str]:
     stem = Path(path).with_suffix("")
     kept = sorted(stem.parent.glob(f"{stem.name}-before-*.nc"))
     if not kept:
-        raise refusal(path, "nothing was kept when it was sent", remedy="send it first")
+        raise InputError(path, "nothing was kept when it was sent", remedy="send it first")
     return read_text(kept[-1]).splitlines()

@@ -15,7 +15,7 @@ from typing import Protocol
 import serial
 from serial.tools import list_ports
 
-from plumb.text.errors import InputError, refusal, to_do
+from plumb.text.errors import InputError, to_do
 
 
 class LostError(InputError):
@@ -54,14 +54,14 @@ class SerialPort:
             self._lock = LineLock(path)
         except TakenError:
             why, remedy = "another plumb has the line", "wait until it is done, or end it"
-            raise refusal(path, why, remedy=remedy) from None
+            raise InputError(path, why, remedy=remedy) from None
         try:
             self._line = serial.Serial(path, BAUD, timeout=PATIENCE, exclusive=True)
         except serial.SerialException as error:
             self._lock.release()
             busy = "busy" in str(error).lower() or "lock" in str(error).lower()
             remedy = "close the program that has it" if busy else "check the cable and the name"
-            raise refusal(path, "cannot be opened", remedy=remedy) from None
+            raise InputError(path, "cannot be opened", remedy=remedy) from None
         refuse_others(path, self._line.fileno())
 
     def write(self, characters: bytes) -> None:
@@ -89,7 +89,7 @@ class SerialPort:
         self._lock.release()
 
     def _lost(self) -> LostError:
-        return LostError(str(refusal(self.path, "the line was lost", remedy="check the cable")))
+        return LostError(str(InputError(self.path, "the line was lost", remedy="check the cable")))
 
 
 def port_for(path: str | None) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 from plumb.grid.pattern import SPANS, benchmark_targets
 from plumb.marks.model import Distance, Mark, Measurements, Point
 from plumb.text.answers import key
-from plumb.text.errors import naming, refusal
+from plumb.text.errors import InputError, naming
 from plumb.text.values import length, pair, refuse_unknown
 
 
@@ -22,7 +22,7 @@ def read_benchmark(
     """Marks and distances of a table [benchmark]; readings that were not taken are left out."""
     place = "[benchmark]"
     if not isinstance(table, dict):
-        raise refusal(path, "benchmark is not a table", remedy=f"write a line {place}")
+        raise InputError(path, "benchmark is not a table", remedy=f"write a line {place}")
     with naming(path, place):
         refuse_unknown(table, ("approach", *SPANS))
     approach = None
@@ -35,7 +35,7 @@ def read_benchmark(
         for ends, length in zip(spans, _readings(path, table, name, len(spans), unit), strict=False)
     ]
     if not distances:
-        raise refusal(path, "has no reading", place=place, remedy="fill in what you measured")
+        raise InputError(path, "has no reading", place=place, remedy="fill in what you measured")
     needed = {name for distance in distances for name in distance.between}
     marks = tuple(
         Mark(name, target, approach=approach, sled_weight=weight)

@@ -10,7 +10,7 @@ from os import PathLike
 from plumb.marks.model import Mark, Measurements, Point
 from plumb.marks.plausible import Sheet, to_machine
 from plumb.marks.toml import CHAIN_RANGE, sled_weight_in_newtons
-from plumb.text.errors import naming, refusal
+from plumb.text.errors import InputError, naming
 from plumb.text.files import read_text
 from plumb.text.ini import IniText, read_ini
 from plumb.text.values import INCH, length_in, number_in, refuse_unknown, within
@@ -31,19 +31,19 @@ def read_marks_csv(path: str | PathLike[str]) -> Measurements:
     """The marks of a comma-separated table; lines that begin with # are comments."""
     rows = _rows(path)
     if not rows:
-        raise refusal(path, "has comments only", remedy=f"begin with a line {','.join(NEEDED)}")
+        raise InputError(path, "has comments only", remedy=f"begin with a line {','.join(NEEDED)}")
     line, header = rows[0]
     titles = [cell.lower() for cell in header]
     columns = [_in_millimetres(title) for title in titles]
     units = {column: INCH for column, title in zip(columns, titles, strict=True) if column != title}
     _check_header(path, line, columns)
     if len(rows) == 1:
-        raise refusal(path, "has no marks below its header", remedy="add one line for each mark")
+        raise InputError(path, "has no marks below its header", remedy="add one line for each mark")
     names: dict[Point, str] = {}
     marks = []
     for index, (line, cells) in enumerate(rows[1:], 1):
         if len(cells) != len(columns):
-            raise refusal(
+            raise InputError(
                 path,
                 f"{len(cells)} values where the header has {len(columns)}",
                 place=f"line {line}",
@@ -71,7 +71,7 @@ def _rows(path: str | PathLike[str]) -> list[tuple[int, list[str]]]:
         try:
             cells = next(csv.reader([text], skipinitialspace=True, strict=True))
         except csv.Error as error:
-            raise refusal(
+            raise InputError(
                 path,
                 f"cannot be split into columns ({error})",
                 place=f"line {line}",
@@ -84,7 +84,7 @@ def _rows(path: str | PathLike[str]) -> list[tuple[int, list[str]]]:
 def _check_header(path: str | PathLike[str], line: int, columns: list[str]) -> None:
     place = f"line {line}"
     if len(columns) == 1 and (";" in columns[0] or "\t" in columns[0]):
-        raise refusal(
+        raise InputError(
             path,
             "the columns are not separated by commas",
             place=place,
@@ -92,9 +92,9 @@ def _check_header(path: str | PathLike[str], line: int, columns: list[str]) -> N
         )
     if len(set(columns)) < len(columns):
         twin = next(column for column in columns if columns.count(column) > 1)
-        raise refusal(path, f"column {twin} stands twice", place=place, remedy="remove a column")
+        raise InputError(path, f"column {twin} stands twice", place=place, remedy="remove a column")
     if not set(columns) & set(NEEDED):
-        raise refusal(
+        raise InputError(
             path,
             "the first line does not name the columns",
             place=place,
@@ -123,7 +123,7 @@ def _mark(
                 values[column] = length_in(text, unit=units.get(column, 1.0))
     for first, second in PAIRS:
         if (first in values) != (second in values):
-            raise refusal(
+            raise InputError(
                 path,
                 f"{first} and {second} go together",
                 place=f"line {line}",
@@ -177,13 +177,13 @@ def _count(ini: IniText) -> int:
     """How many positions the file says it has, if it has exactly those."""
     entry = ini.find("numpositions", section="global")
     if entry is None:
-        raise refusal(
+        raise InputError(
             ini.source,
             "numpositions is missing",
             remedy="add [global] numpositions = how many marks there are",
         )
     if not entry.value.isascii() or not entry.value.isdigit() or int(entry.value) == 0:
-        raise refusal(
+        raise InputError(
             ini.source,
             f"'{entry.value}' is not a count",
             place=entry.place,
@@ -193,7 +193,7 @@ def _count(ini: IniText) -> int:
     for other in ini.entries:
         numbered = _NUMBERED.fullmatch(other.key)
         if numbered and int(numbered[1]) >= count:
-            raise refusal(
+            raise InputError(
                 ini.source,
                 f"is beyond numpositions = {count}",
                 place=other.place,
@@ -209,7 +209,7 @@ def _point(ini: IniText, section: str, prefix: str, index: int) -> Point:
         key = f"{prefix}{axis}{index}"
         entry = ini.find(key, section=section)
         if entry is None:
-            raise refusal(
+            raise InputError(
                 ini.source,
                 f"{key} is missing in [{section}]",
                 remedy="add it, or correct numpositions",

@@ -14,7 +14,7 @@ from hashlib import sha256
 import numpy as np
 
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import refusal
+from plumb.text.errors import InputError
 
 Point = tuple[float, float]
 
@@ -199,7 +199,7 @@ def refuse_exchanged_columns(measurements: Measurements) -> None:
     if measurements.steered or min(len(set(sent)), len(set(read))) < FEWEST:
         return
     if MUCH * _numbers_in(read) <= _numbers_in(sent):
-        raise refusal(
+        raise InputError(
             measurements.source,
             "the measured positions lie in rows and columns and the targets do not: are target "
             "and measured exchanged?",

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from plumb.marks.model import Mark, Measurements, Point, refuse_exchanged_columns
-from plumb.text.errors import refusal
+from plumb.text.errors import InputError
 from plumb.text.values import INCH
 
 MOST_ERROR = 500.0  # [mm] farther from its target a mark is a slip of the pen
@@ -41,12 +41,14 @@ def checked(measurements: Measurements, *, sheet: Sheet) -> Measurements:
 
 def _refuse_empty(measurements: Measurements) -> None:
     if not measurements.measured_marks and not measurements.distances:
-        raise refusal(measurements.source, "has no measured mark", remedy="add measured positions")
+        raise InputError(
+            measurements.source, "has no measured mark", remedy="add measured positions"
+        )
     first = {mark.name: mark for mark in reversed(measurements.marks)}
     for distance in measurements.distances:
         for name in distance.between:
             if name not in first:
-                raise refusal(
+                raise InputError(
                     measurements.source,
                     f"there is no mark named '{name}'",
                     place=f"distance {distance.between[0]}-{distance.between[1]}",
@@ -55,21 +57,21 @@ def _refuse_empty(measurements: Measurements) -> None:
     ends = {name for distance in measurements.distances for name in distance.between}
     for mark in measurements.marks:
         if mark.measured is None and mark.name not in ends:
-            raise refusal(
+            raise InputError(
                 measurements.source,
                 "has no measured position and no distance uses it",
                 place=f"mark {mark.name}",
                 remedy="add measured = [x, y], or remove the mark",
             )
         if math.dist(mark.target, first[mark.name].target) > FARTHEST_REPEAT:
-            raise refusal(
+            raise InputError(
                 measurements.source,
                 "the same name stands twice with targets far apart",
                 place=f"mark {mark.name}",
                 remedy=f"give another name, or for a repeat a target within {FARTHEST_REPEAT:g} mm",
             )
         if mark.name in ends and mark.target != first[mark.name].target:
-            raise refusal(
+            raise InputError(
                 measurements.source,
                 "a distance goes to this name, but it has two places",
                 place=f"mark {mark.name}",
@@ -93,7 +95,7 @@ def _refuse_inches(measurements: Measurements, sheet: Sheet) -> None:
             for axis in (0, 1)
         )
         if spread < TOO_CLOSE:
-            raise refusal(
+            raise InputError(
                 measurements.source,
                 f"all {what} lie within {spread:.0f} mm of each other "
                 f"on a sheet {sheet[0]:.0f} mm wide",
@@ -104,7 +106,7 @@ def _refuse_inches(measurements: Measurements, sheet: Sheet) -> None:
 def _refuse_outside(measurements: Measurements, mark: Mark, sheet: Sheet) -> None:
     x, y = mark.target
     if abs(x) > sheet[0] / 2 + OUTSIDE or abs(y) > sheet[1] / 2 + OUTSIDE:
-        raise refusal(
+        raise InputError(
             measurements.source,
             f"target ({x:.1f}, {y:.1f}), counted from the middle of the sheet with y up, "
             f"is off the {sheet[0]:.0f} x {sheet[1]:.0f} mm sheet",
@@ -117,7 +119,7 @@ def _refuse_outside(measurements: Measurements, mark: Mark, sheet: Sheet) -> Non
 def _refuse_far(measurements: Measurements, mark: Mark, sheet: Sheet) -> None:
     far = far_reading(measurements, mark, sheet)
     if far:
-        raise refusal(
+        raise InputError(
             measurements.source,
             f"measured {far.error:.0f} mm away from its target",
             place=f"mark {mark.name}",
@@ -206,7 +208,7 @@ def _refuse_odd_distances(measurements: Measurements) -> None:
         if abs(meant - distance.length) <= MOST_DISTANCE_ERROR:
             continue
         inches = abs(meant - INCH * distance.length) < TOO_CLOSE
-        raise refusal(
+        raise InputError(
             measurements.source,
             f"measured {distance.length:g} mm, but the targets are {meant:.0f} mm apart",
             place=f"distance {distance.between[0]}-{distance.between[1]}",

@@ -15,7 +15,7 @@ from plumb.marks.model import Distance, Mark, Measurements, Point, Round, Typed,
 from plumb.marks.plausible import Sheet, checked
 from plumb.marks.toml import read_marks_toml
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import refusal
+from plumb.text.errors import InputError
 from plumb.text.files import read_bytes
 
 __all__ = [
@@ -111,9 +111,13 @@ def _form_of(path: str | PathLike[str]) -> str:
     lines = [line.strip() for line in text.splitlines()]
     lines = [line for line in lines if line and line[0] not in "#;"]
     if any(line.startswith("[maslow settings]") for line in lines):
-        raise refusal(path, "holds settings, not marks", remedy="give SETTINGS first, then MARKS")
+        raise InputError(
+            path, "holds settings, not marks", remedy="give SETTINGS first, then MARKS"
+        )
     if any(re.match(r"\[(sheet|effects\..*)\]", line) for line in lines):
-        raise refusal(path, "holds settings, not marks", remedy="give SETTINGS first, then MARKS")
+        raise InputError(
+            path, "holds settings, not marks", remedy="give SETTINGS first, then MARKS"
+        )
     if any(re.match(r"numpositions\s*[=:]", line) for line in lines):
         return "ini"
     if any(re.match(r"\[\[(mark|distance)\]\]|frame\s*=", line) for line in lines):
@@ -123,7 +127,7 @@ def _form_of(path: str | PathLike[str]) -> str:
     ending = Path(path).suffix.lower().lstrip(".")
     if ending in READERS:
         return ending
-    raise refusal(
+    raise InputError(
         path,
         "is none of the known forms of marks",
         remedy="give a Calibration Measurements.ini, a marks.toml or a marks.csv",
@@ -195,7 +199,7 @@ def _refuse_a_copy(part: Measurements, before: tuple[Measurements, ...]) -> None
         same = _readings(part).items() & _readings(other).items()
         common = _readings(part).keys() & _readings(other).keys()
         if len(same) == len(common) >= FEWEST_COPIED:
-            raise refusal(
+            raise InputError(
                 part.source,
                 f"its {len(same)} readings are those of {other.source} to the last digit",
                 remedy="a copy is no repeat: leave the copy out",
@@ -237,7 +241,7 @@ def _next_round(part: Measurements, name: str, before: list[Round]) -> Round:
     if not before:
         return replace(file_round, name=name)
     if file_round.frame_moved:
-        raise refusal(
+        raise InputError(
             part.source,
             "frame_moved is true, so it cannot share a frame with the files before it",
             remedy="give it alone",
@@ -273,7 +277,7 @@ def _agreed(values: list[tuple[Measurements, Value | None]], key: str) -> Value 
     said = [(part, value) for part, value in values if value is not None]
     for part, value in said[1:]:
         if value != said[0][1]:
-            raise refusal(
+            raise InputError(
                 part.source,
                 f"{key} is {value} here and {said[0][1]} in {said[0][0].source}",
                 remedy="make them equal, or use each file alone",

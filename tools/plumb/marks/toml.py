@@ -15,7 +15,7 @@ from plumb.marks.model import Distance, Mark, Measurements, Point, Round, Typed
 from plumb.marks.plausible import Sheet, to_machine
 from plumb.settings.files import read_settings
 from plumb.settings.machine import CONTROLLERS
-from plumb.text.errors import naming, refusal
+from plumb.text.errors import InputError, naming
 from plumb.text.files import read_text
 from plumb.text.values import (
     UNITS,
@@ -82,11 +82,11 @@ def read_marks_toml(
     try:
         head = tomllib.loads(read_text(path))
     except tomllib.TOMLDecodeError as error:
-        raise refusal(path, f"is not valid TOML: {error}", remedy="mend that line") from None
+        raise InputError(path, f"is not valid TOML: {error}", remedy="mend that line") from None
     with naming(path, "at the top"):
         refuse_unknown(head, HEAD_KEYS)
     if "frame" not in head:
-        raise refusal(
+        raise InputError(
             path, "frame is missing", remedy='write frame = "sheet-top-left" or frame = "machine"'
         )
     with naming(path, "frame"):
@@ -144,7 +144,7 @@ def _flag(path: str | PathLike[str], head: dict[str, Any], name: str) -> bool:
     """A value that is true or false; false if it is missing."""
     value = head.get(name, False)
     if not isinstance(value, bool):
-        raise refusal(path, f"{name} is neither true nor false", remedy="write true or false")
+        raise InputError(path, f"{name} is neither true nor false", remedy="write true or false")
     return value
 
 
@@ -185,7 +185,7 @@ def _tables(path: str | PathLike[str], head: dict[str, Any], key: str) -> list[d
     """All tables [[key]] of the file."""
     tables = head.get(key, [])
     if not isinstance(tables, list) or not all(isinstance(table, dict) for table in tables):
-        raise refusal(path, f"[{key}] needs double brackets", remedy=f"write [[{key}]]")
+        raise InputError(path, f"[{key}] needs double brackets", remedy=f"write [[{key}]]")
     return tables
 
 

@@ -27,7 +27,7 @@ from plumb.settings.ini import (
 from plumb.settings.machine import MachineSettings, PublishedSettings, SettingsFile
 from plumb.settings.toml import machine_toml, read_machine_toml, write_machine_toml
 from plumb.settings.webcontrol import changed_webcontrol, parse_webcontrol, read_webcontrol
-from plumb.text.errors import refusal
+from plumb.text.errors import InputError
 from plumb.text.files import read_bytes
 from plumb.text.ini import IniText, parse_ini
 
@@ -69,7 +69,7 @@ def _read(path: str | PathLike[str], known: Mapping[str, Sequence[str]] | None) 
         return read_machine_toml(path, known=known)
     if Path(path).suffix.lower() == ".ini":
         return read_settings_ini(path)
-    raise refusal(
+    raise InputError(
         path,
         "is none of the known forms of settings",
         remedy="give a groundcontrol.ini, a webcontrol.json or a machine.toml",

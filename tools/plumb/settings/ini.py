@@ -20,7 +20,7 @@ from plumb.settings.machine import (
     radius_in_published,
     tuned_numbers,
 )
-from plumb.text.errors import naming, refusal
+from plumb.text.errors import InputError, naming
 from plumb.text.files import write_whole
 from plumb.text.ini import IniText, parse_ini, read_ini, with_values
 from plumb.text.values import number_in
@@ -91,7 +91,7 @@ def published_settings(ini: IniText) -> MachineSettings:
     )
     fault = find_fault(settings)
     if fault:
-        raise refusal(ini.source, fault[1], place=_place_of(ini, fault[0]))
+        raise InputError(ini.source, fault[1], place=_place_of(ini, fault[0]))
     return settings
 
 
@@ -99,10 +99,12 @@ def _settings_text(path: str | PathLike[str]) -> IniText:
     """The ini file, if it holds settings."""
     ini = read_ini(path)
     if ini.find("numpositions", section="global"):
-        raise refusal(path, "holds marks, not settings", remedy="give SETTINGS first, then MARKS")
+        raise InputError(
+            path, "holds marks, not settings", remedy="give SETTINGS first, then MARKS"
+        )
     sections = {section.lower() for section in ini.sections}
     if not sections & {MASLOW.lower(), ADVANCED.lower()}:
-        raise refusal(
+        raise InputError(
             path,
             f"has no section [{MASLOW}]",
             remedy="give the groundcontrol.ini from your home folder or a machine.toml",
@@ -113,7 +115,7 @@ def _settings_text(path: str | PathLike[str]) -> IniText:
 def _refuse_other_kinematics(ini: IniText) -> None:
     kind = _word(ini, "kinematics", {"triangular": "triangular", "quadrilateral": "quadrilateral"})
     if kind == "quadrilateral":
-        raise refusal(
+        raise InputError(
             ini.source,
             "Quadrilateral means a sled on two brackets, which the lab does not know",
             place=_place_of(ini, "kinematics"),
@@ -133,7 +135,7 @@ def _word(ini: IniText, name: str, meaning: dict[str, str]) -> str:
         raise _missing(ini, name)
     if entry.value.lower() not in meaning:
         words = " or ".join(word.capitalize() for word in meaning)
-        raise refusal(
+        raise InputError(
             ini.source, f"'{entry.value}' is not known", place=entry.place, remedy=f"write {words}"
         )
     return meaning[entry.value.lower()]
@@ -160,7 +162,7 @@ def _optional(ini: IniText, name: str) -> float | None:
         return value
     near = _misspelt(ini, SOURCES[name][1])
     if near:
-        raise refusal(
+        raise InputError(
             ini.source,
             f"unknown key; did you mean {SOURCES[name][1]}?",
             place=near,
@@ -182,7 +184,7 @@ def _missing(ini: IniText, name: str) -> Exception:
     section, key = SOURCES[name]
     near = _misspelt(ini, key)
     hint = f" (is {near} misspelt?)" if near else ""
-    return refusal(
+    return InputError(
         ini.source,
         f"{key} is missing in [{section}]{hint}",
         remedy=f"add {key} = ... below [{section}]",
@@ -303,7 +305,7 @@ def changed_ini(original_path: str | PathLike[str], changes: Mapping[Key, float 
         entry = ini.find(key, section=section)
         if isinstance(value, str):
             if any(sign in value for sign in "\r\n"):
-                raise refusal(
+                raise InputError(
                     original_path,
                     "the new value has a line break",
                     place=place,
@@ -312,7 +314,7 @@ def changed_ini(original_path: str | PathLike[str], changes: Mapping[Key, float 
             new = value
         else:
             if not math.isfinite(value):
-                raise refusal(original_path, f"{value} is not a usable number", place=place)
+                raise InputError(original_path, f"{value} is not a usable number", place=place)
             new = number_for_firmware(value)
         if entry is None or not same_number(entry.value, value):
             needed[section, key] = new

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypedDict
 import numpy as np
 
 from plumb import _core
-from plumb.text.errors import InputError, refusal
+from plumb.text.errors import InputError
 from plumb.text.values import refuse_unknown
 
 if TYPE_CHECKING:
@@ -329,10 +329,10 @@ def check_effects(
                 refuse_unknown([name], known)
                 refuse_unknown(parameters, known[name])
         except ValueError as error:
-            raise refusal(source, str(error), place=place) from None
+            raise InputError(source, str(error), place=place) from None
         for parameter, value in parameters.items():
             if not math.isfinite(value):
-                raise refusal(
+                raise InputError(
                     source,
                     f"{value} is not a usable number",
                     place=f"{place} {parameter}",

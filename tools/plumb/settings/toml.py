@@ -25,7 +25,7 @@ from plumb.settings.machine import (
     find_fault,
     frame_of,
 )
-from plumb.text.errors import InputError, naming, refusal, to_do
+from plumb.text.errors import InputError, naming, to_do
 from plumb.text.files import read_text, write_whole
 from plumb.text.values import number, numbers, one_of, refuse_unknown, text_of, texts
 
@@ -37,9 +37,11 @@ def read_machine_toml(
     try:
         head = tomllib.loads(read_text(path))
     except tomllib.TOMLDecodeError as error:
-        raise refusal(path, f"is not valid TOML: {error}", remedy="mend that line") from None
+        raise InputError(path, f"is not valid TOML: {error}", remedy="mend that line") from None
     if "mark" in head or "distance" in head:
-        raise refusal(path, "holds marks, not settings", remedy="give SETTINGS first, then MARKS")
+        raise InputError(
+            path, "holds marks, not settings", remedy="give SETTINGS first, then MARKS"
+        )
     with naming(path, "at the top"):
         refuse_unknown(head, (*MACHINE_KEYS, *FIT_KEYS))
     machine = machine_in(path, head, place="", known=known)
@@ -115,7 +117,7 @@ def machine_in(
     effects = source.effects()
     check_effects(str(path), effects, known=known)
     if "feed" not in head:
-        raise refusal(
+        raise InputError(
             path, f"{place}feed is missing", remedy='write feed = "top" or feed = "bottom"'
         )
     with naming(path, f"{place}feed"):
@@ -134,7 +136,7 @@ def machine_in(
     )
     fault = find_fault(settings)
     if fault:
-        raise refusal(path, fault[1], place=_place_of(fault[0], place))
+        raise InputError(path, fault[1], place=_place_of(fault[0], place))
     return settings
 
 
@@ -194,7 +196,7 @@ class Tables:
         effects: dict[str, dict[str, float]] = {}
         for name, parameters in self.table("effects", "write [effects.NAME]").items():
             if not isinstance(parameters, dict):
-                raise refusal(
+                raise InputError(
                     self.path,
                     f"{name} is not an effect",
                     place=f"[{self.place}effects]",
@@ -207,7 +209,7 @@ class Tables:
         """A table that may be missing."""
         table = self.head.get(name, {})
         if not isinstance(table, dict):
-            raise refusal(self.path, f"{self.place}{name} is not a table", remedy=remedy)
+            raise InputError(self.path, f"{self.place}{name} is not a table", remedy=remedy)
         return table
 
     def numbers_in(self, table: dict[str, Any], where: str) -> dict[str, float]:
@@ -253,7 +255,7 @@ def read_fit_record(
     fit = tables.table("fit", "write a line [fit]")
     boards = head.get("board", [])
     if not isinstance(boards, list) or not all(isinstance(board, dict) for board in boards):
-        raise refusal(path, "board is not a list of tables", remedy="write a line [[board]]")
+        raise InputError(path, "board is not a list of tables", remedy="write a line [[board]]")
     with naming(path, "[fit]"):
         refuse_unknown(fit, (*NUMBER_KEYS, *WORD_KEYS, "lab_effects"))
         words = {key: texts(fit.get(key, [])) for key in WORD_KEYS}

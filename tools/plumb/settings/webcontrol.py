@@ -12,7 +12,7 @@ from os import PathLike
 from typing import Any
 
 from plumb.settings.ini import Key, number_for_firmware, same_number
-from plumb.text.errors import refusal
+from plumb.text.errors import InputError
 from plumb.text.files import read_text
 from plumb.text.ini import IniEntry, IniText
 
@@ -40,7 +40,7 @@ def changed_webcontrol(
     document = _loaded(text, str(original_path))
     for (section, key), value in changes.items():
         if not isinstance(value, str) and not math.isfinite(value):
-            raise refusal(
+            raise InputError(
                 original_path, f"{value} is not a usable number", place=f"{section}, {key}"
             )
         same = [
@@ -51,7 +51,7 @@ def changed_webcontrol(
         new = value if isinstance(value, str) else number_for_firmware(value)
         if not same:
             if section not in document:
-                raise refusal(original_path, f"has no section {section}")
+                raise InputError(original_path, f"has no section {section}")
             document[section].append({"key": key, "type": "string", "value": new})
         for option in same:
             if not same_number(str(option["value"]), value):
@@ -64,10 +64,10 @@ def _loaded(text: str, source: str) -> dict[str, Any]:
     try:
         document = json.loads(text)
     except ValueError as error:
-        raise refusal(source, f"is not valid JSON: {error}", remedy="mend that line") from None
+        raise InputError(source, f"is not valid JSON: {error}", remedy="mend that line") from None
     sections = document.values() if isinstance(document, dict) else ()
     if not any(isinstance(section, list) for section in sections):
-        raise refusal(
+        raise InputError(
             source,
             "is a JSON file, but not one of WebControl",
             remedy="give a webcontrol.json, a groundcontrol.ini or a machine.toml",

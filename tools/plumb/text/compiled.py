@@ -16,7 +16,7 @@ from collections.abc import Mapping
 from importlib.util import find_spec
 from pathlib import Path
 
-from plumb.text.errors import refusal
+from plumb.text.errors import InputError
 
 ROOT = Path(__file__).resolve().parents[3]
 # What tools/CMakeLists.txt compiles.
@@ -36,7 +36,7 @@ NOTE = "built_from.json"
 def refuse_stale() -> None:
     """Refuse to answer with modules that were compiled from other sources than those here."""
     if source := stale_source():
-        raise refusal(source, "the lab was built without this change", remedy="run tools/setup")
+        raise InputError(source, "the lab was built without this change", remedy="run tools/setup")
 
 
 def stale_source(root: Path = ROOT, built_from: Mapping[str, str] | None = None) -> str | None:

@@ -12,18 +12,25 @@ from types import ModuleType
 
 
 class InputError(Exception):
-    """A file or value that cannot be used: the message names file, place and remedy on a line."""
+    """A file or value that cannot be used: `source, place: problem; remedy` on a line.
 
+    Where no file is at fault, the first argument is the whole sentence.
+    """
 
-def refusal(
-    source: str | PathLike[str], problem: str, *, place: str = "", remedy: str = ""
-) -> InputError:
-    """The InputError `source, place: problem; remedy`, on a single line."""
-    where = f"{source}, {place}" if place else f"{source}"
-    text = f"{where}: {problem}; {remedy}" if remedy else f"{where}: {problem}"
-    # File names and old ini files may hold bytes that cannot be printed as they are.
-    printable = text.encode("utf-8", "backslashreplace").decode("utf-8")
-    return InputError(" ".join(printable.splitlines()))
+    def __init__(
+        self,
+        source: str | PathLike[str],
+        problem: str = "",
+        *,
+        place: str = "",
+        remedy: str = "",
+    ) -> None:
+        where = f"{source}, {place}" if place else f"{source}"
+        text = f"{where}: {problem}" if problem else where
+        text = f"{text}; {remedy}" if remedy else text
+        # File names and old ini files may hold bytes that cannot be printed as they are.
+        printable = text.encode("utf-8", "backslashreplace").decode("utf-8")
+        super().__init__(" ".join(printable.splitlines()))
 
 
 @contextmanager
@@ -32,7 +39,7 @@ def naming(source: str | PathLike[str], place: str) -> Iterator[None]:
     try:
         yield
     except ValueError as error:
-        raise refusal(source, str(error), place=place) from None
+        raise InputError(source, str(error), place=place) from None
 
 
 # Who reads a message: somebody at a command line, or somebody at the lab's page.

@@ -17,7 +17,7 @@ from contextvars import ContextVar
 from os import PathLike
 from pathlib import Path
 
-from plumb.text.errors import refusal
+from plumb.text.errors import InputError
 
 # A file of marks or settings has a few kilobytes; more is some other file picked by mistake.
 LARGEST_FILE_BYTES = 5_000_000
@@ -43,7 +43,7 @@ def opened(path: str | PathLike[str], flags: int, *, follows: bool | None = None
     except OSError as error:
         if error.errno == errno.ELOOP:
             remedy = "put the file itself into the folder"
-            raise refusal(path, "is a link", remedy=remedy) from None
+            raise InputError(path, "is a link", remedy=remedy) from None
         raise
 
 
@@ -52,19 +52,19 @@ def read_bytes(path: str | PathLike[str]) -> bytes:
     place = Path(path)
     try:
         if place.is_dir():
-            raise refusal(path, "is a folder", remedy="name the file inside it")
+            raise InputError(path, "is a folder", remedy="name the file inside it")
         if place.stat().st_size > LARGEST_FILE_BYTES:
-            raise refusal(path, "is larger than 5 MB", remedy="check that it is the right file")
+            raise InputError(path, "is larger than 5 MB", remedy="check that it is the right file")
         content = _PIPED.get(str(path)) or _content(path)
         if not place.is_file():
             _PIPED[str(path)] = content
     except FileNotFoundError:
-        raise refusal(path, "there is no such file", remedy="check the name") from None
+        raise InputError(path, "there is no such file", remedy="check the name") from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise refusal(path, f"cannot be read ({reason})", remedy="check its rights") from None
+        raise InputError(path, f"cannot be read ({reason})", remedy="check its rights") from None
     if not content.strip():
-        raise refusal(path, "the file is empty", remedy="check that it was saved")
+        raise InputError(path, "the file is empty", remedy="check that it was saved")
     return content
 
 
@@ -77,19 +77,19 @@ def read_text(path: str | PathLike[str]) -> str:
     """The text of a UTF-8 file, without a byte-order mark."""
     content = read_bytes(path)
     if b"\0" in content:
-        raise refusal(path, "is not a text file", remedy="save it as plain text, UTF-8")
+        raise InputError(path, "is not a text file", remedy="save it as plain text, UTF-8")
     try:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = content[: error.start].count(b"\n") + 1
-        raise refusal(
+        raise InputError(
             path,
             "has a character that is not UTF-8",
             place=f"line {line}",
             remedy="save the file as UTF-8",
         ) from None
     if not text.strip():
-        raise refusal(path, "the file is empty", remedy="check that it was saved")
+        raise InputError(path, "the file is empty", remedy="check that it was saved")
     return text
 
 
@@ -117,7 +117,7 @@ def write_all(files: Mapping[str, bytes]) -> None:
         for path in staged:
             os.replace(*staged[path])
     except OSError as error:
-        raise refusal(path, f"cannot be written ({error.strerror})") from None
+        raise InputError(path, f"cannot be written ({error.strerror})") from None
     finally:
         for name, _ in staged.values():
             Path(name).unlink(missing_ok=True)
@@ -132,11 +132,11 @@ def _is_poured_into(path: str | PathLike[str]) -> bool:
         return False
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise refusal(path, f"cannot be written ({reason})") from None
+        raise InputError(path, f"cannot be written ({reason})") from None
     if stat.S_ISDIR(mode):
-        raise refusal(path, "is a folder", remedy="name a file inside it")
+        raise InputError(path, "is a folder", remedy="name a file inside it")
     if stat.S_ISBLK(mode) or stat.S_ISSOCK(mode):
-        raise refusal(path, "is a disk or a socket, not a file", remedy="name a file")
+        raise InputError(path, "is a disk or a socket, not a file", remedy="name a file")
     return stat.S_ISFIFO(mode) or stat.S_ISCHR(mode)
 
 

@@ -10,7 +10,7 @@ import re
 from dataclasses import dataclass
 from os import PathLike
 
-from plumb.text.errors import refusal
+from plumb.text.errors import InputError
 from plumb.text.files import read_bytes
 
 _ENTRY = re.compile(r"(?P<head>\s*(?P<key>[^=:\s][^=:]*?)\s*[=:][ \t]*)(?P<value>.*?)(?P<tail>\s*)")
@@ -55,7 +55,7 @@ class IniText:
             return here[0]
         if len(same) > 1:
             names = " and ".join(f"[{entry.section}]" for entry in same)
-            raise refusal(
+            raise InputError(
                 self.source,
                 f"{key} appears in {names}",
                 place=same[0].place,
@@ -68,7 +68,7 @@ def read_ini(path: str | PathLike[str]) -> IniText:
     """The ini file at a path; bytes that are not UTF-8 survive as surrogates."""
     content = read_bytes(path)
     if b"\0" in content:
-        raise refusal(path, "is not a text file", remedy="save it as plain text")
+        raise InputError(path, "is not a text file", remedy="save it as plain text")
     return parse_ini(content.decode("utf-8", "surrogateescape"), source=str(path))
 
 
@@ -93,7 +93,7 @@ def parse_ini(text: str, *, source: str) -> IniText:
             indent = depth
         else:
             what = "a value comes before the first [section]" if entry else "is not key = value"
-            raise refusal(source, what, place=f"line {line_number}", remedy="mend or remove it")
+            raise InputError(source, what, place=f"line {line_number}", remedy="mend or remove it")
     _refuse_twins(entries, source)
     return IniText(source, lines, tuple(entries))
 
@@ -108,7 +108,7 @@ def with_values(ini: IniText, changes: dict[tuple[str, str], str]) -> str:
         if entry is None:
             new.append((section, key, value))
         elif entry.runs_on:
-            raise refusal(
+            raise InputError(
                 ini.source,
                 "runs on over several lines",
                 place=entry.place,
@@ -162,7 +162,7 @@ def _refuse_twins(entries: list[IniEntry], source: str) -> None:
     for entry in entries:
         name = (entry.section.lower(), entry.key.lower())
         if name in seen:
-            raise refusal(
+            raise InputError(
                 source,
                 f"the same key is already on line {seen[name]}",
                 place=entry.place,

@@ -6,7 +6,7 @@ from os import PathLike
 
 import numpy as np
 
-from plumb.text.errors import naming, refusal
+from plumb.text.errors import InputError, naming
 from plumb.text.files import read_text
 from plumb.text.values import number_in
 
@@ -22,7 +22,7 @@ def read_pairs(path: str | PathLike[str], *, names: tuple[str, str]) -> np.ndarr
         cells = [cell.strip().strip('"') for cell in text.split(",")]
         if len(cells) != 2:
             many = "1 value" if len(cells) == 1 else f"{len(cells)} values"
-            raise refusal(path, f"has {many} instead of 2", place=f"line {line}", remedy=form)
+            raise InputError(path, f"has {many} instead of 2", place=f"line {line}", remedy=form)
         if not pairs and not headers and _is_header(cells):
             headers += 1
             _check_header(path, line, cells, names, form)
@@ -33,7 +33,7 @@ def read_pairs(path: str | PathLike[str], *, names: tuple[str, str]) -> np.ndarr
                 values.append(number_in(cell))
         pairs.append((values[0], values[1]))
     if not pairs:
-        raise refusal(path, "has no numbers", remedy=form)
+        raise InputError(path, "has no numbers", remedy=form)
     return np.array(pairs)
 
 
@@ -47,4 +47,6 @@ def _check_header(
     """Refuse columns that are exchanged, or in another unit."""
     allowed = [{name, f"{name}_mm", f"{name} mm", f"{name} [mm]", f"{name} (mm)"} for name in names]
     if any(cell.lower() not in spellings for cell, spellings in zip(cells, allowed, strict=True)):
-        raise refusal(path, f"the header is '{','.join(cells)}'", place=f"line {line}", remedy=form)
+        raise InputError(
+            path, f"the header is '{','.join(cells)}'", place=f"line {line}", remedy=form
+        )

@@ -13,7 +13,7 @@ from pathlib import Path
 from plumb.model.catalogue import empirical_effects
 from plumb.model.plain import plainly
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import refusal, to_do
+from plumb.text.errors import InputError, to_do
 from plumb.text.files import read_text
 from plumb.vm.garage import RANDOM, Garage, described, hide, random_garage, sled_error
 
@@ -46,12 +46,12 @@ def secret_in(folder: Path) -> Secret:
     path = folder / SECRET
     if not path.exists():
         begin = to_do(f"begin: plumb practice start {folder}", page="start a virtual machine")
-        raise refusal(folder, "holds no secret", remedy=begin)
+        raise InputError(folder, "holds no secret", remedy=begin)
     try:
         said = json.loads(read_text(path))
         return Secret(int(said["seed"]), float(said["millimetres"]), tuple(said["hides"]))
     except (ValueError, TypeError, KeyError):
-        raise refusal(path, "is no secret", remedy="begin in a new folder") from None
+        raise InputError(path, "is no secret", remedy="begin in a new folder") from None
 
 
 @dataclass(frozen=True)

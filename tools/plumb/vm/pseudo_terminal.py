@@ -15,7 +15,7 @@ from pathlib import Path
 import plumb._vm
 from plumb._vm import VirtualMachine
 from plumb.line.port import PSEUDO, LineLock, TakenError
-from plumb.text.errors import refusal
+from plumb.text.errors import InputError
 
 BOOTLOADER = 1000  # [ms] in which a board that was reset swallows what comes
 MOST_AT_ONCE = 20  # [ms] of the machine's time between two looks at the line
@@ -29,7 +29,7 @@ def preload() -> str:
     """
     library = Path(plumb._vm.__file__).with_name("serial_port.so")
     if not library.exists():
-        raise refusal(str(library), "was not built", remedy="it is for Linux only")
+        raise InputError(str(library), "was not built", remedy="it is for Linux only")
     return str(library)
 
 
@@ -93,7 +93,7 @@ class PseudoTerminal:
             path.symlink_to(self.path)
         except OSError as error:
             why = f"cannot be the name of the port ({error.strerror})"
-            raise refusal(link, why, remedy="give another --link") from None
+            raise InputError(link, why, remedy="give another --link") from None
         self.link = path
 
     def _boot(self, step: int) -> None:
@@ -150,13 +150,13 @@ def _refuse_if_used(link: Path) -> None:
     there = _leads_to(link)
     if not there.startswith(PSEUDO):
         if link.exists():
-            raise refusal(link, "is the name of something else", remedy="give another --link")
+            raise InputError(link, "is the name of something else", remedy="give another --link")
         return
     try:
         LineLock(_served(there)).release()
     except TakenError:
         why = "a virtual machine is at it already"
-        raise refusal(link, why, remedy="end it or give another --link") from None
+        raise InputError(link, why, remedy="end it or give another --link") from None
 
 
 class Pace:

@@ -43,7 +43,7 @@ def read_on_disk(lab):
 
 
 def until_read_on_disk(lab, count):
-    """Wait until a save of the page has written so many readings."""
+    """Wait until a save of the page has written that number of readings."""
     for _ in range(600):
         if read_on_disk(lab) == count:
             return

@@ -1,17 +1,18 @@
 """The error for files."""
 
 import pytest
-from plumb.text.errors import InputError, naming, refusal
+from plumb.text.errors import InputError, naming
 
 
 def test_one_line_with_file_place_problem_and_remedy():
-    error = refusal("a.csv", "is\nbroken", place="line 3", remedy="mend it")
+    error = InputError("a.csv", "is\nbroken", place="line 3", remedy="mend it")
     assert str(error) == "a.csv, line 3: is broken; mend it"
-    assert str(refusal("a.csv", "is empty")) == "a.csv: is empty"
+    assert str(InputError("a.csv", "is empty")) == "a.csv: is empty"
+    assert str(InputError("no sled hangs there")) == "no sled hangs there"
 
 
 def test_bytes_that_cannot_be_printed_are_written_out():
-    str(refusal("a\udcfc.ini", "is empty")).encode("utf-8")
+    str(InputError("a\udcfc.ini", "is empty")).encode("utf-8")
 
 
 def test_naming_turns_value_errors_only():
