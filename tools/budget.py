@@ -16,7 +16,7 @@ BUDGETS = (
 
 
 def hold_budgets(target, source, env):
-    """Compares the sizes of the program's sections with the budgets; 1 if one is exceeded."""
+    """Compare the sizes of the program's sections with the budgets; 1 if one is exceeded."""
     listed = subprocess.run(
         [env.subst("$SIZETOOL"), "-A", str(source[0])], capture_output=True, text=True, check=True
     )

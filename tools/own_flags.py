@@ -24,8 +24,10 @@ LIBRARIES = ROOT / "lib"  # PlatformIO compiles these by itself
 
 
 def with_own_flags(build_env, node):
-    """The object of a source file, with our flags when the file is ours; None for a file that is
-    compiled with the first of its group."""
+    """Return the object of a source file, with our flags when the file is ours.
+
+    None for a file that is compiled with the first of its group.
+    """
     source = Path(node.srcnode().get_abspath())
     if source.suffix != ".cpp" or not any(folder in source.parents for folder in OWN):
         return node
@@ -42,7 +44,7 @@ def with_own_flags(build_env, node):
 
 
 def joined_file(build_env, files):
-    """A file that includes these, by their names below the project."""
+    """Return a file that includes these, by their names below the project."""
     names = [file.relative_to(ROOT).as_posix() for file in files]
     folder = Path(build_env.subst("$BUILD_DIR")) / "joined"
     joined = folder / names[0].replace("/", "-")

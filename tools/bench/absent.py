@@ -23,7 +23,7 @@ def cost(full: Cycles) -> Cycles:
 
 
 def shortened(text: str) -> tuple[str, int]:
-    """The registry with only the effects of CASE, and how many were left out."""
+    """Return the registry with only the effects of CASE, and how many were left out."""
     entries = re.findall(r"At<\d+, \w+>", text)
     kept = [entry for entry in entries if any(f" {name}>" in entry for name in KEPT)]
     if len(kept) != len(KEPT) or len(entries) == len(kept):

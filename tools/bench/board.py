@@ -43,13 +43,13 @@ PARTS = {
 
 
 def budget(name: str) -> int:
-    """A limit of the board in platformio.ini [bytes]."""
+    """Return a limit of the board in platformio.ini [bytes]."""
     written = (ROOT / "platformio.ini").read_text(encoding="utf-8")
     return int(re.findall(rf"^board_upload\.{name} = (\d+)$", written, re.MULTILINE)[0])
 
 
 def measure() -> Costs:
-    """Builds every program and measures it."""
+    """Build every program and measures it."""
     BUILD.mkdir(parents=True, exist_ok=True)
     compiler = output("avr-gcc", "-dumpversion")
     cycles, stack = simulated()
@@ -95,7 +95,7 @@ def motion() -> dict[str, Cycles]:
 
 
 def counted(elf: Path, simulator: Path, *cases: str) -> dict:
-    """What the simulator, built for these cases, says of a program."""
+    """Return what the simulator, built for these cases, says of a program."""
     options, libraries = ["-O2", *INCLUDES, *cases], ["-lsimavr", "-lelf"]
     compiled(simulator, ["tools/bench/count_cycles.cpp"], options=options, libraries=libraries)
     done = kept([simulator, elf], [elf], elf.name)
@@ -105,7 +105,7 @@ def counted(elf: Path, simulator: Path, *cases: str) -> dict:
 
 
 def parts(stack: dict[str, int]) -> dict[str, Bytes]:
-    """What each part adds to a program that already has the four operations and the root."""
+    """Return what each part adds to a program that already has the four operations and the root."""
     base = linked(0)
     sections = {}
     for name, number in PARTS.items():
@@ -126,7 +126,7 @@ def linked(number: int) -> tuple[int, int]:
 
 
 def firmware(compiler: str) -> dict[str, Bytes]:
-    """The whole firmware as it is flashed; left out if another compiler built it."""
+    """Return the whole firmware as it is flashed; left out if another compiler built it."""
     built_firmware()
     if compiler not in output("avr-readelf", "-p", ".comment", FIRMWARE):
         return {}
@@ -134,7 +134,7 @@ def firmware(compiler: str) -> dict[str, Bytes]:
 
 
 def built_firmware() -> Path:
-    """The firmware, built by PlatformIO."""
+    """Return the firmware, built by PlatformIO."""
     pio = ROOT / ".venv/bin/pio"
     # The tests, which may run at the same time, build it too.
     alone = ["flock", ROOT / ".pio"]
@@ -149,5 +149,5 @@ def sizes(elf: Path) -> tuple[int, int]:
 
 
 def sources(program: str) -> list[Path]:
-    """One program of this folder and the kinematics, for any computer."""
+    """Return one program of this folder and the kinematics, for any computer."""
     return [BENCH / program, KINEMATICS / "Kinematics.cpp", KINEMATICS / "reach.cpp"]

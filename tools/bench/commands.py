@@ -14,7 +14,9 @@ class ToolError(Exception):
 
 
 def output(*command: str | Path, folder: Path = ROOT) -> str:
-    """What a command prints, run in a folder; a ToolError with its first complaint if it fails."""
+    """Return what a command prints, run in a folder; a ToolError with its first complaint if it
+    fails.
+    """
     environment = {**os.environ, "PLATFORMIO_DISABLE_UPGRADE_CHECK": "true"}
     try:
         done = subprocess.run(command, capture_output=True, text=True, env=environment, cwd=folder)

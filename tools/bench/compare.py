@@ -8,7 +8,8 @@ MOST_RISE = 0.02
 
 
 def risen(now: Costs, recorded: Costs | None) -> list[str]:
-    """One line for each figure that rose too far above its record, vanished or was never recorded.
+    """Return one line for each figure that rose too far above its record, vanished or was never
+    recorded.
 
     Figures of different compilers are not compared.
     """
@@ -30,12 +31,12 @@ def risen(now: Costs, recorded: Costs | None) -> list[str]:
 
 
 def percent(old: Mapping[str, int], new: Mapping[str, int], name: str) -> str:
-    """The rise in per cent, where there is something to divide by."""
+    """Return the rise in per cent, where there is something to divide by."""
     return f" ({new[name] / old[name] - 1:+.1%})" if old[name] else ""
 
 
 def over_budget(now: Costs, budgets: Mapping[str, int]) -> list[str]:
-    """One line for each case whose median is over its budget, or that does not exist."""
+    """Return one line for each case whose median is over its budget, or that does not exist."""
     lines = []
     for name, most in budgets.items():
         if name not in now.cycles:

@@ -29,7 +29,7 @@ class Costs:
     bytes: dict[str, Bytes]
 
     def figures(self) -> dict[str, int]:
-        """Every figure under a name that says what it is."""
+        """Return every figure under a name that says what it is."""
         rows = [
             (name, row, unit)
             for table, unit in ((self.cycles, "cycles"), (self.bytes, "bytes"))

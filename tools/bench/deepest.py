@@ -32,7 +32,7 @@ Steps = list[str]
 
 
 def search() -> int:
-    """Writes the deepest dialogue; returns 0."""
+    """Write the deepest dialogue; returns 0."""
     program, lines, drawn = player(), known_lines(), random.Random(SEED)
     best: list[tuple[int, Steps]] = []
     with ThreadPoolExecutor(AT_ONCE) as pool:
@@ -50,7 +50,7 @@ def search() -> int:
 
 
 def known_lines() -> Steps:
-    """Every step that a dialogue in the tree sends, once each."""
+    """Return every step that a dialogue in the tree sends, once each."""
     sent: set[str] = set()
     for folder in ("test/dialogues", "test/vm/dialogues"):
         for path in sorted((board.ROOT / folder).glob("*.nc")):
@@ -60,7 +60,7 @@ def known_lines() -> Steps:
 
 
 def one_more(drawn: random.Random, lines: Steps, best: list[tuple[int, Steps]]) -> Steps:
-    """A candidate: drawn freely, or one of the best with a step more, less or other."""
+    """Return a candidate: drawn freely, or one of the best with a step more, less or other."""
     if not best:
         return [a_step(drawn, lines) for _ in range(drawn.randint(1, MOST_STEPS))]
     steps = list(drawn.choice(best)[1])
@@ -76,7 +76,7 @@ def one_more(drawn: random.Random, lines: Steps, best: list[tuple[int, Steps]]) 
 
 
 def a_step(drawn: random.Random, lines: Steps) -> str:
-    """A line, a quick character, a pause, or moves that come faster than they are made."""
+    """Return a line, a quick character, a pause, or moves that come faster than they are made."""
     kind = drawn.choices(("line", "quick", "pause", "moves"), (6, 2, 2, 2))[0]
     if kind == "line":
         return drawn.choice(lines)
@@ -86,7 +86,9 @@ def a_step(drawn: random.Random, lines: Steps) -> str:
 
 
 def text_of(steps: Steps) -> str:
-    """The dialogue of a candidate: its steps, on a machine with every effect at a known place."""
+    """Return the dialogue of a candidate: its steps, on a machine with every effect at a known
+    place.
+    """
     return "\n".join(["~~ include every_effect.inc", "~~ stack", *steps, "~~ wait 1", ""])
 
 

@@ -15,7 +15,7 @@ EIGEN = board.ROOT / ".pio/libdeps/native/ArduinoEigen/ArduinoEigen"
 
 
 def table(costs: Costs) -> str:
-    """The table of all effects, in the registry's order."""
+    """Return the table of all effects, in the registry's order."""
     errors = judge_errors()
     head = (
         "| effect | cycles when present | flash | chain error against the judge | without it "
@@ -52,7 +52,7 @@ def flash(name: str) -> int:
 
 
 def without(text: str, name: str) -> str:
-    """The registry without one effect."""
+    """Return the registry without one effect."""
     camel = "".join(word.capitalize() for word in name.split("_"))
     text = re.sub(rf"\s*At<\d+, {camel}>(,|(?=>;))", "", text)
     return text.replace(",>;", ">;")

@@ -30,7 +30,7 @@ AT_LEAST = {
 
 
 def measure() -> dict[str, float]:
-    """The figures of the firmware as built by PlatformIO, by playing dialogues on simavr."""
+    """Return the figures of the firmware as built by PlatformIO, by playing dialogues on simavr."""
     sizes = output("avr-size", "-A", board.FIRMWARE)
     size = {name: int(value) for name, value in re.findall(r"^(\.\w+)\s+(\d+)", sizes, re.M)}
     program = player()
@@ -55,12 +55,12 @@ def measure() -> dict[str, float]:
 
 
 def most(figures: dict[str, float], name: str) -> float:
-    """The worse of one long move and short moves."""
+    """Return the worse of one long move and short moves."""
     return max(figures[f"{name}_moving"], figures[f"{name}_streaming"])
 
 
 def figures_of(program: Path, dialogue: str) -> dict[str, float]:
-    """What the player measures in a dialogue."""
+    """Return what the player measures in a dialogue."""
     done = played(program, VM / "dialogues", dialogue)
     if done.returncode:
         raise ToolError(f"{dialogue}: {done.stderr.strip()}")
@@ -69,7 +69,7 @@ def figures_of(program: Path, dialogue: str) -> dict[str, float]:
 
 
 def table(figures: dict[str, float]) -> str:
-    """The figures next to their budgets."""
+    """Return the figures next to their budgets."""
     rows = [
         f"| {name} | {shown(value)} | {shown(BUDGETS[name]) if name in BUDGETS else '–'} |"
         for name, value in figures.items()
@@ -87,7 +87,7 @@ def shown(value: float) -> str:
 
 
 def over_budget(figures: dict[str, float]) -> list[str]:
-    """One line for each budget that is not kept."""
+    """Return one line for each budget that is not kept."""
     refused = []
     for name, budget in BUDGETS.items():
         value = figures[name]
@@ -97,7 +97,7 @@ def over_budget(figures: dict[str, float]) -> list[str]:
 
 
 def replaced(text: str, written: str) -> str:
-    """The text of CHANGELOG.md with the table renewed."""
+    """Return the text of CHANGELOG.md with the table renewed."""
     before, _, rest = text.partition(BEGIN)
     _, end, after = rest.partition(END)
     if not end:

@@ -24,8 +24,9 @@ ROUNDS = 7  # the best of these counts in a record
 
 
 def measure(rounds: int) -> tuple[dict[str, float], float]:
-    """Times [ns] by name, the best of some rounds, and the time of one multiply-add [ns] on the
-    same computer."""
+    """Return times [ns] by name, the best of some rounds, and the time of one multiply-add [ns] on
+    the same computer.
+    """
     program = BUILD / "host_times"
     options = ["-O2", "-ffp-contract=off", *INCLUDES]
     compiled(program, sources("host_times.cpp"), options=options)
@@ -35,7 +36,7 @@ def measure(rounds: int) -> tuple[dict[str, float], float]:
 
 
 def lab_times(rounds: int) -> dict[str, float]:
-    """The lab's work, on the example of nine marks and on a hundred places [ns]."""
+    """Return the lab's work, on the example of nine marks and on a hundred places [ns]."""
     settings = read_settings(EXAMPLE / "groundcontrol.ini", known=predict.known_effects())
     sheet = (settings.sheet_width, settings.sheet_height)
     marks = read_marks(EXAMPLE / "Calibration Measurements.ini", sheet=sheet)

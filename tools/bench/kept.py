@@ -22,8 +22,9 @@ Done = subprocess.CompletedProcess[str]
 
 
 def kept(command: Sequence[str | Path], files: Sequence[Path], name: str) -> Done:
-    """What a simulation says. One that went well says it again without being run, while its
-    program, its arguments and these files are the same."""
+    """Return what a simulation says. One that went well says it again without being run, while its
+    program, its arguments and these files are the same.
+    """
     program, *arguments = command
     KEPT.mkdir(parents=True, exist_ok=True)
     note = KEPT / f"{Path(program).name}.{name}.json"
@@ -41,12 +42,12 @@ def kept(command: Sequence[str | Path], files: Sequence[Path], name: str) -> Don
 
 
 def run(command: Sequence[str | Path]) -> Done:
-    """What a simulation says."""
+    """Return what a simulation says."""
     return subprocess.run(command, capture_output=True, text=True, timeout=LONGEST)
 
 
 def _key(files: Sequence[Path], arguments: Sequence[str]) -> str:
-    """One number for the contents of all that a simulation depends on."""
+    """Return one number for the contents of all that a simulation depends on."""
     whole = hashlib.sha256(json.dumps(arguments).encode())
     for file in files:
         whole.update(f"{file.name}\n".encode())
@@ -55,7 +56,9 @@ def _key(files: Sequence[Path], arguments: Sequence[str]) -> str:
 
 
 def _content(file: Path) -> bytes:
-    """What counts of a file: of what is flashed, no symbols, which the linker names by chance."""
+    """Return what counts of a file: of what is flashed, no symbols, which the linker names by
+    chance.
+    """
     if file.suffix != ".elf":
         return file.read_bytes()
     with tempfile.NamedTemporaryFile(suffix=".elf") as bare:

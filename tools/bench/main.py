@@ -37,7 +37,7 @@ def main() -> int:
 
 
 def measure(*, write: bool) -> int:
-    """Prints the table; records it or compares it. 0 if it may stand."""
+    """Print the table; records it or compares it. 0 if it may stand."""
     text = CHANGELOG.read_text(encoding="utf-8")
     costs = board.measure()
     costs.cycles[absent.ROW] = absent.cost(costs.cycles[absent.CASE])
@@ -59,7 +59,7 @@ def measure(*, write: bool) -> int:
 
 
 def against_record(costs: Costs, recorded: Costs | None) -> list[str]:
-    """What rose, in one line; says so where nothing can be compared."""
+    """Return what rose, in one line; says so where nothing can be compared."""
     if recorded and recorded.compiler != costs.compiler:
         print(f"bench: {costs.compiler} here, {recorded.compiler} in CHANGELOG.md: not compared")
     elif recorded and "whole firmware" not in costs.bytes:
@@ -73,7 +73,7 @@ def against_record(costs: Costs, recorded: Costs | None) -> list[str]:
 
 
 def load(name: str) -> dict:
-    """A table of this folder."""
+    """Return a table of this folder."""
     return tomllib.loads((board.BENCH / name).read_text(encoding="utf-8"))
 
 

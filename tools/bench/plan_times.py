@@ -19,7 +19,7 @@ SIGMA, SEED = 0.5, 1
 
 
 def plan_times(best: Callable[[Callable[[], object]], float]) -> dict[str, float]:
-    """Times [ns] by name; `best` takes the time of some work."""
+    """Return times [ns] by name; `best` takes the time of some work."""
     times = {}
     for side, gives in GIVES.items():
         marks = board(side, gives)
@@ -33,7 +33,7 @@ def plan_times(best: Callable[[Callable[[], object]], float]) -> dict[str, float
 
 
 def board(side: int, gives: float) -> Measurements:
-    """Marks of a square grid, read with noise, on a frame whose arms give [mm/N]."""
+    """Return marks of a square grid, read with noise, on a frame whose arms give [mm/N]."""
     x, y = np.meshgrid(np.linspace(-1100, 1100, side), np.linspace(500, -500, side))
     targets = np.stack([x.ravel(), y.ravel()], axis=1)
     true = replace(BARE, effects={"frame_flex": {"inward": gives, "downward": gives}})

@@ -17,13 +17,13 @@ BOARD = "tools/vm/mega/virtual_board.cpp"
 
 
 def player() -> Path:
-    """The program that plays dialogues and measures the firmware, which is built too."""
+    """Return the program that plays dialogues and measures the firmware, which is built too."""
     built_firmware()
     return _player_program("play_dialogue", "test/vm/play_dialogue.cpp")
 
 
 def pair_player() -> Path:
-    """The program that plays any two events at once with the flashed program.
+    """Return the program that plays any two events at once with the flashed program.
 
     It looks at the machine in the Mega's RAM: see ram_places().
     """
@@ -53,7 +53,7 @@ def ram_places() -> list[int]:
 
 
 def _player_program(name: str, *sources: str) -> Path:
-    """A program around the player of dialogues, the world and the simulated Mega."""
+    """Return a program around the player of dialogues, the world and the simulated Mega."""
     player = [
         "test/vm/mega_player.cpp",
         "test/test_dialogues/player.cpp",
@@ -73,24 +73,24 @@ def _libraries() -> list[str]:
 
 
 def check_board() -> Path:
-    """The program that runs an ELF file for a while and prints what it says."""
+    """Return the program that runs an ELF file for a while and prints what it says."""
     return _built("check_board", ["test/vm/check_board.cpp", BOARD])
 
 
 def play(program: Path, folder: Path, name: str) -> Done:
-    """What the player of a dialogue says of the flashed program."""
+    """Return what the player of a dialogue says of the flashed program."""
     return run([program, FIRMWARE, folder, name])
 
 
 def played(program: Path, folder: Path, name: str) -> Done:
-    """The same; a play that went well is not played again."""
+    """Return the same; a play that went well is not played again."""
     # Any dialogue may include any of these.
     files = [FIRMWARE, folder / name, *sorted(folder.glob("*.inc"))]
     return kept([program, FIRMWARE, folder, name], files, name)
 
 
 def ran(program: Path, elf: Path, *arguments: str) -> Done:
-    """What a program of ours, flashed in place of the firmware, says; kept likewise."""
+    """Return what a program of ours, flashed in place of the firmware, says; kept likewise."""
     return kept([program, elf, *arguments], [elf], elf.name)
 
 

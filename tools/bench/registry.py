@@ -14,12 +14,12 @@ STEPS = {
 
 
 def text() -> str:
-    """The header."""
+    """Return the header."""
     return HEADER.read_text(encoding="utf-8")
 
 
 def numbers() -> dict[str, int]:
-    """The first setting of every effect, by the name that files use."""
+    """Return the first setting of every effect, by the name that files use."""
     return {
         re.sub(r"(?<!^)(?=[A-Z])", "_", name).lower(): int(number)
         for number, name in ENTRY.findall(text())
@@ -27,12 +27,12 @@ def numbers() -> dict[str, int]:
 
 
 def case_of(name: str) -> str:
-    """The case that times an effect together with sag, stretch and pitch."""
+    """Return the case that times an effect together with sag, stretch and pitch."""
     return f"inverse, the same and {name}"
 
 
 def cases() -> str:
-    """Lines of a table of cases (see cases.h): each effect that no step times."""
+    """Return lines of a table of cases (see cases.h): each effect that no step times."""
     lines = [
         f'{{"{case_of(name)}", kInverse, kSagStretchPitch, kUsual, {number}}},\n'
         for name, number in numbers().items()

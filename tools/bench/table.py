@@ -18,7 +18,7 @@ class TableError(Exception):
 
 
 def exact_part(costs: Costs, published: Published) -> str:
-    """The figures of the board as two tables, the published firmware's comparison them."""
+    """Return the figures of the board as two tables, the published firmware's comparison them."""
     cycles = [
         f"On the Mega at 16 MHz, {costs.compiler}, flags of platformio.ini: least / median / most.",
         "",
@@ -42,7 +42,7 @@ def exact_part(costs: Costs, published: Published) -> str:
 
 
 def host_part(times: Mapping[str, float], unit: float) -> str:
-    """Times on the computer [ns], also in multiply-adds [ns] of the same computer."""
+    """Return times on the computer [ns], also in multiply-adds [ns] of the same computer."""
     lines = [
         f"On the computer that wrote this, never compared; {unit:.2f} ns is a multiply-add there,",
         "each waiting for the one before it.",
@@ -55,23 +55,23 @@ def host_part(times: Mapping[str, float], unit: float) -> str:
 
 
 def theirs_of(published: Published, name: str) -> str:
-    """The published firmware's bytes in words."""
+    """Return the published firmware's bytes in words."""
     theirs = published["bytes"].get(name, {})
     return ", ".join(f"{kind} {number(theirs[kind])}" for kind in theirs) or NOTHING
 
 
 def several(row: Cycles | list[int]) -> str:
-    """Numbers in one cell."""
+    """Return numbers in one cell."""
     return " / ".join(map(number, row))
 
 
 def number(value: int | None) -> str:
-    """A number with its thousands apart, or a dash."""
+    """Return a number with its thousands apart, or a dash."""
     return NOTHING if value is None else f"{value:,}"
 
 
 def duration(ns: float) -> str:
-    """A time in the unit in which it has one to three digits before the point."""
+    """Return a time in the unit in which it has one to three digits before the point."""
     for size, unit in ((1e6, "ms"), (1e3, "us")):
         if ns >= size:
             return f"{ns / size:.3g} {unit}"
@@ -79,13 +79,13 @@ def duration(ns: float) -> str:
 
 
 def replaced(text: str, table: str) -> str:
-    """The text with another table between its marks."""
+    """Return the text with another table between its marks."""
     before, _, after = cut(text)
     return f"{before}{BEGIN}\n{table}\n{END}{after}"
 
 
 def recorded(text: str) -> Costs | None:
-    """The exact figures in the table; None if it holds none yet."""
+    """Return the exact figures in the table; None if it holds none yet."""
     _, table, _ = cut(text)
     compiler = re.search(r"avr-gcc \d+(\.\d+)*", table)
     if not compiler:
@@ -105,14 +105,14 @@ def recorded(text: str) -> Costs | None:
 
 
 def three(cells: list[str], line: str) -> list[int | None]:
-    """The numbers of a row, which has three of them."""
+    """Return the numbers of a row, which has three of them."""
     if len(cells) != 3:
         raise TableError(f"CHANGELOG.md: a row has 3 numbers, in: {line}")
     return [read(cell, line) for cell in cells]
 
 
 def read(cell: str, line: str) -> int | None:
-    """A number of the table."""
+    """Return a number of the table."""
     plain = cell.strip().replace(",", "")
     if plain == NOTHING:
         return None
@@ -122,7 +122,7 @@ def read(cell: str, line: str) -> int | None:
 
 
 def cut(text: str) -> tuple[str, str, str]:
-    """The text before the marks, between them and after them."""
+    """Return the text before the marks, between them and after them."""
     if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(BEGIN) > text.index(END):
         raise TableError(f"CHANGELOG.md must hold once, each on its own line: {BEGIN} and {END}")
     before, _, rest = text.partition(BEGIN)

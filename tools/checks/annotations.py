@@ -19,13 +19,13 @@ IGNORE = re.compile(r"#\s*type:\s*ignore(?!\[[\w, -]+\]\s*#\s*\w)")
 
 
 def violations(root: Path) -> Iterator[str]:
-    """Each error and each `type: ignore` without a reason, one line each."""
+    """Yield each error and each `type: ignore` without a reason, one line each."""
     yield from ignored_without_reason(root)
     yield from (f"tools/{line}" for line in errors_of_mypy(root))
 
 
 def ignored_without_reason(root: Path) -> Iterator[str]:
-    """Lines that keep mypy quiet and do not say about what and why."""
+    """Yield lines that keep mypy quiet and do not say about what and why."""
     for path in tree.own_files(root):
         name = path.relative_to(root)
         if name.parts[0] != "tools" or name.parts[1] not in ROOMS:
@@ -36,7 +36,7 @@ def ignored_without_reason(root: Path) -> Iterator[str]:
 
 
 def errors_of_mypy(root: Path) -> list[str]:
-    """The errors as mypy prints them; its last words where it could not run."""
+    """Return the errors as mypy prints them; its last words where it could not run."""
     config, cache = tree.ROOT / "tools/mypy.ini", root / ".build/mypy"
     rooms = [name for name in ROOMS if (root / "tools" / name).is_dir()]
     command = [sys.executable, "-m", "mypy", "--config-file", config, "--cache-dir", cache, *rooms]

@@ -126,7 +126,7 @@ ONLY = {"_dry_run": "job", "_judge": "bench", "_vm": "vm"}
 
 
 def violations(root: Path) -> Iterator[str]:
-    """Each forbidden include and import, one line each."""
+    """Yield each forbidden include and import, one line each."""
     research = {"research", *(script.stem for script in (root / RESEARCH).glob("*.py"))}
     for path in tree.own_files(root):
         name = path.relative_to(root)
@@ -144,7 +144,7 @@ def violations(root: Path) -> Iterator[str]:
 
 
 def part_of(name: Path) -> tuple[str, str | None]:
-    """The part in which a file lies (`lib/Motion`) and the row of the table for it."""
+    """Return the part in which a file lies (`lib/Motion`) and the row of the table for it."""
     for rule in ARROWS:
         depth = rule.count("/") + 1
         part = Path(*name.parts[:depth])
@@ -198,7 +198,7 @@ def in_package(path: Path, name: Path, research: set[str]) -> Iterator[tuple[int
 
 
 def runs_bare(module: str) -> bool:
-    """Whether a module of the package runs without an installation."""
+    """Return whether a module of the package runs without an installation."""
     place = f"tools/{module.replace('.', '/')}/"
     return any(place.startswith(f"{bare.removesuffix('.py')}/") for bare in STANDARD_LIBRARY_ONLY)
 
@@ -240,7 +240,7 @@ def refusal(root: Path, path: Path, part: str, rule: str, header: str) -> str | 
 
 
 def candidates(root: Path, path: Path, header: str) -> list[Path]:
-    """What an include may mean: the file in its folder, else any in the searched folders."""
+    """Return what an include may mean: the file in its folder, else any in the searched folders."""
     neighbour = (path.parent / header).resolve()
     if neighbour.is_file() and neighbour.is_relative_to(root):
         return [neighbour]

@@ -51,7 +51,7 @@ def programs_in(
 
 
 def functions_of(text: str) -> frozenset[str]:
-    """The functions that a bash script defines."""
+    """Return the functions that a bash script defines."""
     return frozenset(
         child.text.decode()
         for node in below(_bash.parse(text.encode()).root_node)
@@ -73,13 +73,15 @@ def in_shell(text: str, functions: frozenset[str]) -> Iterator[tuple[int, str]]:
 
 @functools.cache
 def builtins() -> frozenset[str]:
-    """The commands of bash itself."""
+    """Return the commands of bash itself."""
     done = subprocess.run(["bash", "-c", "compgen -b"], capture_output=True, text=True, check=True)
     return frozenset(done.stdout.split())
 
 
 def in_command(node: tree_sitter.Node) -> Iterator[tuple[int, str]]:
-    """The words of one command that stand where a program does, as in `nice -n 5 make all`."""
+    """Yield the words of one command that stand where a program does, as in `nice -n 5 make
+    all`.
+    """
     words = [child.text.decode() for child in node.children if child.type not in REDIRECTIONS]
     line = node.start_point[0] + 1
     while words:
@@ -93,7 +95,7 @@ def in_command(node: tree_sitter.Node) -> Iterator[tuple[int, str]]:
 
 
 def below(node: tree_sitter.Node) -> Iterator[tree_sitter.Node]:
-    """A node and all nodes below it."""
+    """Yield a node and all nodes below it."""
     yield node
     for child in node.children:
         yield from below(child)

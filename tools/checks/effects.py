@@ -11,7 +11,7 @@ DECLARED = re.compile(r"^struct (\w+) : Effect<Real>", re.MULTILINE)
 
 
 def violations(root: Path) -> Iterator[str]:
-    """Each header without its line or its include, a line each."""
+    """Yield each header without its line or its include, a line each."""
     registry = tree.text_of(root / REGISTRY)
     for path in sorted((root / REGISTRY).with_suffix("").glob("*.h")):
         name = path.relative_to(root)

@@ -13,7 +13,7 @@ CONCISE = ["--output-format", "concise"]
 
 
 def violations(root: Path) -> Iterator[str]:
-    """The first place in each file that the formatters or the linter would change."""
+    """Yield the first place in each file that the formatters or the linter would change."""
     cxx, python = both_kinds(root)
     if cxx:
         yield from first_in_each_file([*clang_format(), "--dry-run", "--Werror", *cxx], root)
@@ -33,23 +33,23 @@ def fix(root: Path) -> None:
 
 
 def both_kinds(root: Path) -> tuple[list[Path], list[Path]]:
-    """The project's C++ files and its Python files."""
+    """Return the project's C++ files and its Python files."""
     files = tree.own_files(root)
     return [f for f in files if f.suffix in tree.CXX], [f for f in files if tree.is_python(f)]
 
 
 def clang_format() -> list:
-    """The formatter of the .venv with the project's style."""
+    """Return the formatter of the .venv with the project's style."""
     return [TOOLS / "clang-format", f"--style=file:{tree.ROOT / '.clang-format'}"]
 
 
 def ruff(verb: str) -> list:
-    """The linter (`check`) or the formatter (`format`) of the .venv."""
+    """Return the linter (`check`) or the formatter (`format`) of the .venv."""
     return [TOOLS / "ruff", verb, "--no-cache", "--config", tree.ROOT / "tools/ruff.toml"]
 
 
 def first_in_each_file(command: list, root: Path) -> Iterator[str]:
-    """The first line about each file that a failing command prints, else its last words."""
+    """Yield the first line about each file that a failing command prints, else its last words."""
     done = subprocess.run(command, cwd=root, capture_output=True, text=True)
     if not done.returncode:
         return

@@ -17,7 +17,7 @@ GENERATORS = [
 
 
 def violations(root: Path, generators: Sequence[list[str]] = tuple(GENERATORS)) -> Iterator[str]:
-    """One line for each generator whose page is stale."""
+    """Yield one line for each generator whose page is stale."""
     for command in generators:
         done = subprocess.run(
             [sys.executable, *command, "--check"], cwd=root, capture_output=True, text=True

@@ -35,14 +35,14 @@ CXX_CRUTCH = re.compile(r"(?<!\w)_?(?:one|own|told|beside|anew|so_many|stands_in
 
 
 def violations(root: Path) -> Iterator[str]:
-    """Each such name, a line for each."""
+    """Yield each such name, a line for each."""
     yield from names_in_cxx(root)
     yield from crutches(root)
     yield from defined_twice(root)
 
 
 def defined_twice(root: Path) -> Iterator[str]:
-    """Each name that two files of a suite define: see custom_together in platformio.ini."""
+    """Yield each name that two files of a suite define: see custom_together in platformio.ini."""
     seen: dict[tuple[Path, str], Path] = {}
     for path in tree.own_files(root):
         name = path.relative_to(root)
@@ -56,7 +56,7 @@ def defined_twice(root: Path) -> Iterator[str]:
 
 
 def names_in_cxx(root: Path) -> Iterator[str]:
-    """Each use of a macro's name in lib/, and each crutch in C++."""
+    """Yield each use of a macro's name in lib/, and each crutch in C++."""
     for path in tree.own_files(root):
         if path.suffix not in tree.CXX:
             continue
@@ -70,7 +70,7 @@ def names_in_cxx(root: Path) -> Iterator[str]:
 
 
 def crutches(root: Path) -> Iterator[str]:
-    """Each crutch in Python."""
+    """Yield each crutch in Python."""
     for path in tree.own_files(root):
         if tree.is_python(path):
             for line, word in crutches_in(tree.text_of(path)):
@@ -93,7 +93,7 @@ def crutches_in(text: str) -> Iterator[tuple[int, str]]:
 
 
 def blank(match: re.Match) -> str:
-    """As many lines as the comment or string had, without its words."""
+    """Return as many lines as the comment or string had, without its words."""
     return "\n" * match[0].count("\n")
 
 

@@ -25,7 +25,7 @@ class Package:
 
 
 def violations(root: Path) -> Iterator[str]:
-    """Each program without a package, each row that is wrong or useless, one line each."""
+    """Yield each program without a package, each row that is wrong or useless, one line each."""
     packages, mistakes = read_packages(root)
     yield from mistakes
     brought = {program for package in packages for program in package.programs}
@@ -41,7 +41,7 @@ def violations(root: Path) -> Iterator[str]:
 
 
 def called_programs(root: Path) -> dict[str, str]:
-    """Each program that the project calls, with the first place that does."""
+    """Return each program that the project calls, with the first place that does."""
     files = tree.own_files(root)
     functions = frozenset().union(
         *(calls.functions_of(tree.text_of(path)) for path in files if tree.is_shell(path))
@@ -54,7 +54,7 @@ def called_programs(root: Path) -> dict[str, str]:
 
 
 def read_packages(root: Path) -> tuple[list[Package], list[str]]:
-    """The rows of the list, and one line for each row that cannot be read."""
+    """Return the rows of the list, and one line for each row that cannot be read."""
     packages, mistakes = [], []
     for number, text in enumerate(tree.text_of(root / PACKAGES).splitlines(), 1):
         if not text.strip() or text.startswith("#"):
@@ -71,7 +71,7 @@ def read_packages(root: Path) -> tuple[list[Package], list[str]]:
 
 
 def wrong_programs(package: Package) -> Iterator[str]:
-    """The programs of a row that its package, where it is installed, does not bring."""
+    """Yield the programs of a row that its package, where it is installed, does not bring."""
     files = files_of(package.name)
     for program in package.programs if files else ():
         # A link that Debian keeps for several versions, like g++ or awk, belongs to no package.
@@ -81,7 +81,9 @@ def wrong_programs(package: Package) -> Iterator[str]:
 
 
 def files_of(package: str) -> set[str]:
-    """The files of an installed package and of those it stands for; empty where that is unknown."""
+    """Return the files of an installed package and of those it stands for; empty where that is
+    unknown.
+    """
     if not shutil.which("dpkg-query"):
         return set()
     done = subprocess.run(["dpkg-query", "-L", package], capture_output=True, text=True)

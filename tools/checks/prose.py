@@ -34,7 +34,7 @@ LEFT_ALONE = {"CHANGELOG.md", "LICENSE"}
 
 
 def violations(root: Path) -> Iterator[str]:
-    """Each crutch and each misspelling, a line for each."""
+    """Yield each crutch and each misspelling, a line for each."""
     places, lines = [], []
     for path in tree.own_files(root):
         name = path.relative_to(root)
@@ -52,7 +52,7 @@ def violations(root: Path) -> Iterator[str]:
 
 
 def misspelled(lines: list[str]) -> Iterator[tuple[int, str]]:
-    """The place in the list, and what codespell says, of each line with a misspelling."""
+    """Yield the place in the list, and what codespell says, of each line with a misspelling."""
     command = [Path(sys.executable).with_name("codespell"), "-L", SPELLED_RIGHTLY, "-"]
     done = subprocess.run(command, input="\n".join(lines), capture_output=True, text=True)
     for number, why in re.findall(r"^(\d+): .*\n\t(.*)$", done.stdout, re.MULTILINE):
@@ -87,12 +87,12 @@ def docstrings(text: str) -> Iterator[tuple[int, str]]:
 
 
 def unquoted(text: str) -> str:
-    """The text with blanks in place of what it quotes, so that places stay."""
+    """Return the text with blanks in place of what it quotes, so that places stay."""
     return QUOTED.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), text)
 
 
 def line_of(text: str, place: int) -> int:
-    """The number of the line at a place of a text, from 1."""
+    """Return the number of the line at a place of a text, from 1."""
     return text.count("\n", 0, place) + 1
 
 

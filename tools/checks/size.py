@@ -19,7 +19,7 @@ GENERATED = {"docs/effects.md", "docs/real-data.md", "docs/settings.md", "docs/b
 
 
 def violations(root: Path) -> Iterator[str]:
-    """Each file, line and function that is too long, a line for each."""
+    """Yield each file, line and function that is too long, a line for each."""
     functions = []
     for path in tree.own_files(root):
         name = path.relative_to(root)
@@ -39,7 +39,7 @@ def violations(root: Path) -> Iterator[str]:
 
 
 def long_lines(name: Path, text: str) -> Iterator[str]:
-    """Lines over the limit that can be broken.
+    """Yield lines over the limit that can be broken.
 
     Rows and pictures of a Markdown page cannot, nor what a program printed, nor a single word.
     """
@@ -55,7 +55,7 @@ def long_lines(name: Path, text: str) -> Iterator[str]:
 
 
 def functions_of(path: Path) -> list:
-    """The functions in a file of C++, Python, TypeScript or JavaScript."""
+    """Return the functions in a file of C++, Python, TypeScript or JavaScript."""
     # lizard goes by the name's ending, and a command has none.
     name = str(path) if path.suffix else f"{path}.py"
     return lizard.analyze_file.analyze_source_code(name, tree.text_of(path)).function_list

@@ -44,7 +44,7 @@ def own_files(root: Path) -> list[Path]:
 
 
 def text_of(path: Path) -> str:
-    """The text of a file; empty if it is none."""
+    """Return the text of a file; empty if it is none."""
     try:
         return path.read_text(encoding="utf-8")
     except UnicodeDecodeError:
@@ -52,23 +52,23 @@ def text_of(path: Path) -> str:
 
 
 def is_python(path: Path) -> bool:
-    """Whether a file is Python, by its name or its first line."""
+    """Return whether a file is Python, by its name or its first line."""
     return path.suffix == ".py" or first_line(path).endswith("python3")
 
 
 def is_shell(path: Path) -> bool:
-    """Whether a file is a shell script, by its name or its first line."""
+    """Return whether a file is a shell script, by its name or its first line."""
     return path.suffix == ".sh" or first_line(path).endswith("bash")
 
 
 def first_line(path: Path) -> str:
-    """The line that names the interpreter, or nothing."""
+    """Return the line that names the interpreter, or nothing."""
     line = text_of(path).partition("\n")[0] if not path.suffix else ""
     return line if line.startswith("#!") else ""
 
 
 def run(find: Callable[[Path], Iterable[str]], good: str) -> None:
-    """Prints what `find` finds in the project and exits 1, or prints `good`.
+    """Print what `find` finds in the project and exits 1, or prints `good`.
 
     An argument on the command line names another folder.
     """

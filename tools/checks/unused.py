@@ -38,7 +38,7 @@ FUNCTIONS = {"function", "method", "property", "class"}
 
 
 def violations(root: Path) -> Iterator[str]:
-    """Each function that nothing but tests uses, a line each."""
+    """Yield each function that nothing but tests uses, a line each."""
     declared: dict[str, str] = {}
     used: set[str] = set()
     for path in tree.own_files(root):
@@ -57,7 +57,7 @@ def violations(root: Path) -> Iterator[str]:
 
 
 def unused_python(root: Path) -> Iterator[str]:
-    """Each function and class of Python that nothing but tests uses, a line each."""
+    """Yield each function and class of Python that nothing but tests uses, a line each."""
     reader = vulture.Vulture(ignore_names=PYTHON_BY_OTHERS, ignore_decorators=DECORATORS)
     reader.scavenge([root / room for room in PYTHON if (root / room).is_dir()])
     for item in reader.get_unused_code():

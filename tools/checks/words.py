@@ -18,7 +18,7 @@ IN_TEXT_OF_OTHERS = {"LICENSE"}
 
 
 def violations(root: Path) -> Iterator[str]:
-    """Each such word, one line each."""
+    """Yield each such word, one line each."""
     for path in tree.own_files(root):
         name = path.relative_to(root)
         if str(name) in IN_TEXT_OF_OTHERS:

@@ -25,7 +25,7 @@ FLAGS = {"-Werror": "-w -Wno-narrowing -fno-inline", "-O2 -g1": "-O1 -g0"}
 
 
 def sites(root: Path, file: Path) -> Iterator[Site]:
-    """Each change of a file by each rule, in the file's order."""
+    """Yield each change of a file by each rule, in the file's order."""
     lines = (root / file).read_text().splitlines(keepends=True)
     with contextlib.redirect_stdout(io.StringIO()):
         changes = mutants_regexp(
@@ -57,7 +57,7 @@ class Judge:
             self.digests[suite] = self.digest()
 
     def outcome(self, mutant: Mutant) -> str:
-        """What becomes of a mutant."""
+        """Return what becomes of a mutant."""
         file = self.tree / mutant.site.file
         outcome = SAME
         file.write_text(mutant.text)
@@ -75,7 +75,7 @@ class Judge:
             shutil.copyfile(self.root / mutant.site.file, file)
 
     def copy(self) -> None:
-        """Copies what the suites are built from, with other flags."""
+        """Copy what the suites are built from, with other flags."""
         for part in COPIED:
             shutil.rmtree(self.tree / part, ignore_errors=True)
             shutil.copytree(self.root / part, self.tree / part)
@@ -90,7 +90,7 @@ class Judge:
         (self.tree / "platformio.ini").write_text(options)
 
     def builds(self, suite: str) -> bool:
-        """Whether the program of a suite builds."""
+        """Return whether the program of a suite builds."""
         self.program.unlink(missing_ok=True)
         command = [PIO, "test", "-e", "native", "--filter", suite, "--without-testing"]
         path = f"/usr/lib/ccache{os.pathsep}{os.environ.get('PATH', '')}"
@@ -100,9 +100,9 @@ class Judge:
         return self.program.is_file()
 
     def run(self, usual: float | None) -> tuple[bool, float]:
-        """Whether the program's tests pass, and their time."""
+        """Return whether the program's tests pass, and their time."""
         return tested([self.program], self.tree, {**os.environ, "GTEST_FAIL_FAST": "1"}, usual)
 
     def digest(self) -> str:
-        """A number for the program's bytes."""
+        """Return a number for the program's bytes."""
         return hashlib.sha256(self.program.read_bytes()).hexdigest()

@@ -24,7 +24,7 @@ TESTS = {
 
 
 def options() -> argparse.Namespace:
-    """The command line."""
+    """Return the command line."""
     parser = argparse.ArgumentParser(prog="tools/mutation/run", description=__doc__)
     parser.add_argument("room", help="a folder or a file, like lib/Motion or tools/plumb/fit")
     parser.add_argument("--sample", type=int, metavar="N", help="so many mutants, not all")
@@ -52,20 +52,20 @@ def main() -> None:
 
 
 def files_of(room: str) -> list[Path]:
-    """The sources of a room, from the root."""
+    """Return the sources of a room, from the root."""
     place = ROOT / room
     files = [path for path in place.rglob("*") if path.suffix in (".py", ".h", ".cpp")]
     return sorted(path.relative_to(ROOT) for path in files or [place])
 
 
 def tests_of(room: str) -> tuple[str, ...]:
-    """The suites or tests that judge a room."""
+    """Return the suites or tests that judge a room."""
     named = [tests for name, tests in TESTS.items() if Path(room).is_relative_to(name)]
     return named[0] if named else (f"tools/tests/{Path(room).parts[2]}",)
 
 
 def mutants_of(room: str, asked: argparse.Namespace) -> list[Mutant]:
-    """The mutants that are asked for."""
+    """Return the mutants that are asked for."""
     sites = [
         site
         for file in files_of(room)
@@ -78,7 +78,7 @@ def mutants_of(room: str, asked: argparse.Namespace) -> list[Mutant]:
 
 
 def judged(room: str, mutants: list[Mutant], kept: Path | None) -> dict[Mutant, str]:
-    """The outcome of each mutant, printed and kept as it comes."""
+    """Return the outcome of each mutant, printed and kept as it comes."""
     begun, outcomes = time.monotonic(), {}
     file, folder = mutants[0].site.file, FOLDER / room.replace("/", "_")
     judge = (python if file.suffix == ".py" else cxx).Judge(ROOT, folder, tests_of(room), file)

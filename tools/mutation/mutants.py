@@ -47,12 +47,12 @@ class Mutant:
 
 
 def code_of(line: str) -> str:
-    """A line without the comment of C++ at its end."""
+    """Return a line without the comment of C++ at its end."""
     return line.partition("  //")[0].strip()
 
 
 def mutant_of(site: Site, root: Path) -> Mutant:
-    """The mutant at a site."""
+    """Return the mutant at a site."""
     text, before = site.change(), (root / site.file).read_text().splitlines()
     pairs = zip(before, text.splitlines(), strict=False)
     changed = next((code_of(after) for line, after in pairs if line != after), site.original)
@@ -60,7 +60,7 @@ def mutant_of(site: Site, root: Path) -> Mutant:
 
 
 def sampled(sites: list[Site], number: int | None, seed: int) -> list[Site]:
-    """As many sites as asked for, by the seed and in their order; all without a number."""
+    """Return as many sites as asked for, by the seed and in their order; all without a number."""
     if number is None or number >= len(sites):
         return sites
     taken = sorted(random.Random(seed).sample(range(len(sites)), number))
@@ -68,7 +68,9 @@ def sampled(sites: list[Site], number: int | None, seed: int) -> list[Site]:
 
 
 def recalled(sites: list[Site], saved: Path, root: Path, outcome: str) -> Iterator[Mutant]:
-    """The mutants of a saved sample that the tree still has; with an outcome, only those of it."""
+    """Yield the mutants of a saved sample that the tree still has; with an outcome, only those of
+    it.
+    """
     rows = json.loads(saved.read_text())
     wanted = Counter(tuple(row["key"]) for row in rows if outcome in (row["outcome"], ""))
     lines = {key[:2] for key in wanted}
@@ -81,7 +83,7 @@ def recalled(sites: list[Site], saved: Path, root: Path, outcome: str) -> Iterat
 
 
 def save(path: Path, judged: dict[Mutant, str]) -> None:
-    """Writes the mutants and their outcomes."""
+    """Write the mutants and their outcomes."""
     rows = [
         {"key": mutant.key, "place": str(mutant), "outcome": outcome}
         for mutant, outcome in judged.items()
@@ -100,7 +102,7 @@ def reasons(folder: Path) -> dict[tuple[str, str], str]:
 
 
 def summary(room: str, judged: dict[Mutant, str], why: dict[tuple[str, str], str]) -> list[str]:
-    """A line for each survivor without a reason, and the share of mutants that fall."""
+    """Return a line for each survivor without a reason, and the share of mutants that fall."""
     counts = Counter(judged.values())
     survivors = [mutant for mutant, outcome in judged.items() if outcome == SURVIVED]
     open_ones = [each for each in survivors if (str(each.site.file), each.site.original) not in why]
@@ -117,7 +119,7 @@ def summary(room: str, judged: dict[Mutant, str], why: dict[tuple[str, str], str
 def tested(
     command: list, folder: Path, environment: dict[str, str], usual: float | None
 ) -> tuple[bool, float]:
-    """Whether tests pass, and their time of a processor [s]; a usual time bounds it."""
+    """Return whether tests pass, and their time of a processor [s]; a usual time bounds it."""
     most = int(HANGS * usual) + LEAST if usual else resource.RLIM_INFINITY
     patience = PATIENCE * most if usual else None
 

@@ -33,7 +33,7 @@ OPERATORS = (
 
 
 def sites(root: Path, file: Path) -> Iterator[Site]:
-    """Each change of a file by each operator, in the file's order."""
+    """Yield each change of a file by each operator, in the file's order."""
     text = (root / file).read_text()
     lines, nodes = text.splitlines(), list(ast_nodes(get_ast(text)))
     scopes = scopes_of(text)
@@ -49,7 +49,7 @@ def sites(root: Path, file: Path) -> Iterator[Site]:
 
 
 def scopes_of(text: str) -> dict[int, str]:
-    """The innermost function or class of each line, with those around it."""
+    """Return the innermost function or class of each line, with those around it."""
     scopes: dict[int, str] = {}
 
     def walk(node: ast.AST, around: str) -> None:
@@ -76,7 +76,7 @@ class Judge:
             sys.exit(f"The tests of {file} fail without any mutant.")
 
     def outcome(self, mutant: Mutant) -> str:
-        """What becomes of a mutant."""
+        """Return what becomes of a mutant."""
         file = mutant.site.file
         try:
             is_same = ast.dump(ast.parse(mutant.text)) == ast.dump(
@@ -89,7 +89,7 @@ class Judge:
         return SURVIVED if self.run(file, mutant.text, self.usual)[0] else KILLED
 
     def run(self, file: Path, text: str, usual: float | None) -> tuple[bool, float]:
-        """Whether all tests pass with this text for a file, and their time."""
+        """Return whether all tests pass with this text for a file, and their time."""
         with tempfile.NamedTemporaryFile("w", suffix=".py") as mutated:
             mutated.write(text)
             mutated.flush()

@@ -13,17 +13,17 @@ class OtherText(importlib.abc.MetaPathFinder, importlib.abc.SourceLoader):
         self.module, self.path = module, path
 
     def find_spec(self, fullname, path, target=None):
-        """The module, as if it were where its package is."""
+        """Find the module as if it were where its package is."""
         if fullname != self.module:
             return None
         return importlib.util.spec_from_loader(fullname, self)
 
     def get_filename(self, fullname):
-        """Where the text is."""
+        """Return where the text is."""
         return self.path
 
     def get_data(self, path):
-        """The text."""
+        """Return the text."""
         with open(path, "rb") as file:
             return file.read()
 

@@ -26,7 +26,7 @@ BORROWED = [
 
 
 def install(root: Path) -> None:
-    """All packages below `root`, each with the note by which PlatformIO recognises it."""
+    """Install all packages below `root`, each with the note by which PlatformIO recognises it."""
     for kind, owner, name, folder in PACKAGES:
         target = root / folder / name
         shutil.rmtree(target, ignore_errors=True)
@@ -39,7 +39,7 @@ def install(root: Path) -> None:
 
 
 def note(kind: str, owner: str, name: str) -> dict:
-    """The contents of `.piopm` for one package; the version is in its manifest."""
+    """Return the contents of `.piopm` for one package; the version is in its manifest."""
     manifest = {"tool": "package.json", "platform": "platform.json", "library": "library.json"}
     version = json.loads((HERE / name / manifest[kind]).read_text())["version"]
     spec = {"owner": owner, "id": None, "name": name, "requirements": None, "uri": None}

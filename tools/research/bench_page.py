@@ -81,7 +81,7 @@ the lab then asks for a reading again and adds nothing.
 
 
 def page(report: Report) -> str:
-    """The whole page."""
+    """Return the whole page."""
     parts = [INTRODUCTION, _boards(report)]
     parts.append(markdown(HEADER, cells(report)))
     if report.cures:
@@ -100,14 +100,14 @@ def page(report: Report) -> str:
 
 
 def _boards(report: Report) -> str:
-    """How many boards there are, and which."""
+    """Return how many boards there are, and which."""
     fewer = sorted({loop.boards for loop in report.loops[:-1] or report.loops} - {report.boards})
     loops = f" ({' or '.join(map(str, fewer))} of each loop)" if fewer else ""
     return f"{report.boards} boards of each scenario{loops}, seed {report.seed}.\n"
 
 
 def markdown(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """A table."""
+    """Return a table."""
     lines = [header, ["---"] * len(header), *rows]
     return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
 

@@ -58,7 +58,7 @@ def curves() -> Curves:
 
 
 def drawn(seen: Curves) -> bytes:
-    """The picture, a panel for each stage between the program and the bit."""
+    """Return the picture, a panel for each stage between the program and the bit."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 

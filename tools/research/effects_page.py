@@ -41,7 +41,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def pages() -> dict[str, str]:
-    """The page and each picture by its name below the project's root."""
+    """Return the page and each picture by its name below the project's root."""
     effects, fields = every_effect(), every_field()
     texts = {PAGE: page(effects, fields)}
     for effect in effects:
@@ -50,12 +50,12 @@ def pages() -> dict[str, str]:
 
 
 def picture_name(effect: str) -> str:
-    """Where an effect's picture lies below the project's root."""
+    """Return where an effect's picture lies below the project's root."""
     return f"{PICTURES}/{effect}.svg"
 
 
 def picture(effect: str, cases: Sequence[tuple[Showing, Field]]) -> str:
-    """The fingerprint: for each case what marks do, and the shape that is left of it."""
+    """Return the fingerprint: for each case what marks do, and the shape that is left of it."""
     rows = []
     for case, whole in cases:
         drawn = field_of(case, columns=DRAWN_COLUMNS, rows=DRAWN_ROWS)
@@ -70,7 +70,7 @@ def picture(effect: str, cases: Sequence[tuple[Showing, Field]]) -> str:
 
 
 def page(effects: Sequence[Mapping[str, Any]], fields: Fields) -> str:
-    """The text of docs/effects.md."""
+    """Return the text of docs/effects.md."""
     parts = [HEAD, table_of_all(effects, fields), "## How to read this page", READING]
     parts += [section(effect, fields) for effect in effects]
     parts += [no_cause(patch) for patch in empirical_effects()]
@@ -108,7 +108,7 @@ at their typical sizes. A single effect has its typical size, and the settings d
 
 
 def table_of_all(effects: Sequence[Mapping[str, Any]], fields: Fields) -> str:
-    """All effects with their settings and largest typical error."""
+    """Return all effects with their settings and largest typical error."""
     lines = ["| effect | settings | worst, mm | worst of its shape, mm | firmware or lab |"]
     lines.append("|---|---|---|---|---|")
     for effect in effects:
@@ -125,7 +125,7 @@ def table_of_all(effects: Sequence[Mapping[str, Any]], fields: Fields) -> str:
 
 
 def section(effect: Mapping[str, Any], fields: Fields) -> str:
-    """Everything about an effect."""
+    """Return everything about an effect."""
     name = effect["name"]
     lab = f" ({effect['where']}: {NO_FIRMWARE})" if effect["where"] == "lab" else ""
     return "\n\n".join(
@@ -143,7 +143,7 @@ def section(effect: Mapping[str, Any], fields: Fields) -> str:
 
 
 def no_cause(patch: Mapping[str, Any]) -> str:
-    """What the firmware can apply though it is no effect."""
+    """Return what the firmware can apply though it is no effect."""
     parameters = patch["parameters"]
     return "\n\n".join(
         [
@@ -189,7 +189,7 @@ def _size_table(cases: Sequence[tuple[Showing, Field]]) -> str:
 
 
 def _alike(name: str, fields: Fields) -> str:
-    """The computed look-alikes in words."""
+    """Return the computed look-alikes in words."""
     nearest = look_alikes(name, fields)
     if nearest:
         return ", ".join(f"`{alike.name}` {alike.cosine + 0.0:.2f}" for alike in nearest)

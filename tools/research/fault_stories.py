@@ -16,12 +16,14 @@ MOVES = 8
 
 
 def any_job(scene: Scene) -> list[str]:
-    """Moves of every kind."""
+    """Return moves of every kind."""
     return Job(scene.source).lines(MOVES)
 
 
 def writing_job(scene: Scene) -> list[str]:
-    """Settings are written, and positions are kept while a relay's spindle starts and stops."""
+    """Return lines that write settings, and keep positions while a relay's spindle starts and
+    stops.
+    """
     lines = ["$17=2"]
     for value in scene.source.integers(400, 1199, size=3):
         x = scene.source.uniform(-40, 40)
@@ -30,13 +32,13 @@ def writing_job(scene: Scene) -> list[str]:
 
 
 def drilling_job(scene: Scene) -> list[str]:
-    """The bit goes up and down."""
+    """Return the bit goes up and down."""
     depths = scene.source.uniform(-6, 3, size=6)
     return [f"G1 Z{depth:.2f} F{scene.source.uniform(15, 55):.0f}" for depth in depths]
 
 
 def slow_job(scene: Scene) -> list[str]:
-    """Feeds from a crawl to the fastest."""
+    """Return moves at feeds from a crawl to the fastest."""
     return Job(scene.source, slowest=15).lines(4)
 
 
@@ -55,7 +57,7 @@ class Fault:
 
 
 def power_cut(scene: Scene) -> Iterator[float | None]:
-    """The plug is pulled."""
+    """Yield the plug is pulled."""
     scene.cut_power()
     yield 500
 
@@ -71,28 +73,28 @@ def cut_at_a_byte(scene: Scene) -> Iterator[float | None]:
 
 
 def motors_cut(scene: Scene) -> Iterator[float | None]:
-    """The motors' supply goes; the processor lives on USB."""
+    """Yield the motors' supply goes; the processor lives on USB."""
     scene.machine.set_motor_supply(0)
     yield 3000
     scene.machine.set_motor_supply(12)
 
 
 def sag(scene: Scene) -> Iterator[float | None]:
-    """The motors' supply sags for a while."""
+    """Yield the motors' supply sags for a while."""
     scene.machine.set_motor_supply(scene.source.uniform(5, 10))
     yield scene.source.uniform(300, 5000)
     scene.machine.set_motor_supply(12)
 
 
 def board_sag(scene: Scene) -> Iterator[float | None]:
-    """The processor's supply sags for a while, not so far that it stops."""
+    """Yield the processor's supply sags for a while, not so far that it stops."""
     scene.machine.set_board_supply(scene.source.uniform(4.0, 4.25))
     yield scene.source.uniform(1000, 4000)
     scene.machine.set_board_supply(5)
 
 
 def wire_fault(fault: str, *, axes: tuple[str, ...] = AXES[:2]) -> Story:
-    """A wire of an axis comes off, and stays off."""
+    """Return a wire of an axis comes off, and stays off."""
 
     def story(scene: Scene) -> Iterator[float | None]:
         axis = axes[scene.source.integers(len(axes))]
@@ -103,7 +105,7 @@ def wire_fault(fault: str, *, axes: tuple[str, ...] = AXES[:2]) -> Story:
 
 
 def nothing(scene: Scene) -> Iterator[float | None]:
-    """All is well."""
+    """Yield all is well."""
     yield 0
 
 
@@ -124,7 +126,7 @@ def edges_lost(scene: Scene) -> Iterator[float | None]:
 
 
 def wired_wrong(fault: str) -> Callable[[Scene], None]:
-    """A wire is wrong when the job begins."""
+    """Return a wire is wrong when the job begins."""
     return lambda scene: scene.machine.set_wire(scene.axis, fault, True)
 
 
@@ -136,7 +138,7 @@ def blocked_for_a_while(scene: Scene) -> Iterator[float | None]:
 
 
 def late(scene: Scene) -> Iterator[float | None]:
-    """The main program is late."""
+    """Yield the main program is late."""
     scene.machine.delay_program(int(scene.source.integers(50, 3000)))
     yield 4000
 
@@ -148,7 +150,7 @@ def line_reset(scene: Scene) -> Iterator[float | None]:
 
 
 def given_up(characters: bytes) -> Story:
-    """The client ends the job in the middle."""
+    """Return the client ends the job in the middle."""
 
     def story(scene: Scene) -> Iterator[float | None]:
         scene.machine.send(characters)
@@ -159,7 +161,7 @@ def given_up(characters: bytes) -> Story:
 
 
 def character_becomes(others: Callable[[Scene, bytes], bytes]) -> Story:
-    """A character of the next line arrives as others."""
+    """Return a character of the next line arrives as others."""
 
     def story(scene: Scene) -> Iterator[float | None]:
         def spoil(line: bytes) -> bytes:
@@ -173,13 +175,13 @@ def character_becomes(others: Callable[[Scene, bytes], bytes]) -> Story:
 
 
 def noise(scene: Scene) -> Iterator[float | None]:
-    """A burst of noise between two characters."""
+    """Yield a burst of noise between two characters."""
     scene.machine.send(scene.source.bytes(int(scene.source.integers(1, 40))))
     yield 0
 
 
 def tooth(scene: Scene) -> Iterator[float | None]:
-    """A chain climbs over a tooth of its sprocket as that turns."""
+    """Yield a chain climbs over a tooth of its sprocket as that turns."""
     scene.machine.climb(scene.axis)
     yield 0
 
@@ -193,13 +195,13 @@ def pulled_without_power(scene: Scene) -> None:
 
 
 def bracket(scene: Scene) -> Iterator[float | None]:
-    """A motor's bracket slips on the beam."""
+    """Yield a motor's bracket slips on the beam."""
     scene.machine.set("motor_gap", 2978.4 - scene.source.uniform(2, 10))
     yield 0
 
 
 def beam(scene: Scene) -> Iterator[float | None]:
-    """The beam settles for the rest of the job."""
+    """Yield the beam settles for the rest of the job."""
     scene.machine.creep("motor_height", -0.2)
     yield 0
 

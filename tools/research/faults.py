@@ -49,12 +49,14 @@ class FaultRow:
         return sum(not outcome.settings_kept for outcome in self.outcomes)
 
     def most(self, name: str) -> float:
-        """The largest figure of that name; of ways after the fault, only where the job stopped."""
+        """Return the largest figure of that name; of ways after the fault, only where the job
+        stopped.
+        """
         stopped = [each for each in self.outcomes if each.stopped or name != "went_on"]
         return max((getattr(outcome, name) for outcome in stopped), default=0.0)
 
     def cells(self) -> list[str]:
-        """The row of the table."""
+        """Return the row of the table."""
         stops = any(outcome.stopped for outcome in self.outcomes)
         return [
             self.fault.name,
@@ -67,7 +69,7 @@ class FaultRow:
         ]
 
     def unseen_cells(self) -> list[str]:
-        """The row of a fault that no encoder sees."""
+        """Return the row of a fault that no encoder sees."""
         return [*self.cells()[:3], self.cells()[5], self.fault.caught_by]
 
 
@@ -86,7 +88,7 @@ class FaultReport:
         return not any(row.false_beliefs or row.settings_lost for row in self.rows)
 
     def last_line(self) -> str:
-        """What all of it came to."""
+        """Return what all of it came to."""
         tries = sum(len(row.outcomes) for row in self.rows)
         false = sum(row.false_beliefs for row in self.rows)
         lost = sum(row.settings_lost for row in self.rows)
@@ -98,7 +100,9 @@ class FaultReport:
 
 
 def faults_named(beginnings: Sequence[str]) -> tuple[Fault, ...]:
-    """The faults whose names begin so; all if there are none. ValueError for an unknown name."""
+    """Return the faults whose names begin so; all if there are none. ValueError for an unknown
+    name.
+    """
     for beginning in beginnings:
         if not any(fault.name.startswith(beginning) for fault in FAULTS + UNSEEN):
             names = ", ".join(fault.name for fault in FAULTS + UNSEEN)
@@ -168,7 +172,7 @@ says nothing, but [B30](telemetry.md#a-chain-that-may-have-slipped) counts a sus
 
 
 def page(report: FaultReport) -> str:
-    """The page docs/faults.md."""
+    """Return the page docs/faults.md."""
     tries = min(len(row.outcomes) for row in (*report.rows, *report.unseen))
     parts = [INTRODUCTION.format(tries=tries)]
     parts.append(markdown(HEADER, [row.cells() for row in report.rows]))
@@ -180,13 +184,13 @@ def page(report: FaultReport) -> str:
 
 
 def markdown(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """A table."""
+    """Return a table."""
     lines = [header, ["---"] * len(header), *rows]
     return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
 
 
 def parser() -> argparse.ArgumentParser:
-    """The words that the script understands."""
+    """Return the words that the script understands."""
     words = argparse.ArgumentParser(
         description=__doc__,
         epilog="Exit: 0 no machine was sure of a wrong place and no setting was lost; 1 otherwise; "
@@ -229,7 +233,7 @@ def _run(wanted: argparse.Namespace) -> int:
 
 
 def as_text(report: FaultReport) -> str:
-    """The tables for people, then what all of it came to."""
+    """Return the tables for people, then what all of it came to."""
     parts = []
     if report.rows:
         parts.append(table(HEADER, [row.cells() for row in report.rows]))

@@ -67,7 +67,7 @@ class LookAlike:
 
 
 def default_machine() -> MachineSettings:
-    """The published default machine, with the sag and stretch that every machine has."""
+    """Return the published default machine, with the sag and stretch that every machine has."""
     width, height = SHEET
     plain = MachineSettings(
         sheet_width=width,
@@ -84,7 +84,9 @@ def default_machine() -> MachineSettings:
 
 
 def cases_of(effect: Mapping[str, Any]) -> list[Showing]:
-    """The ways in which an effect is shown: each parameter, both sides alike, both approaches."""
+    """Return the ways in which an effect is shown: each parameter, both sides alike, both
+    approaches.
+    """
     typical = {f"{effect['name']}.{each['name']}": each["typical"] for each in effect["parameters"]}
     cases = [Showing(name.rpartition(".")[2], {name: value}) for name, value in typical.items()]
     if [case.label for case in cases] == ["left", "right"]:
@@ -96,7 +98,7 @@ def cases_of(effect: Mapping[str, Any]) -> list[Showing]:
 
 
 def field_of(case: Showing, *, columns: int = COLUMNS, rows: int = ROWS) -> Field:
-    """The field of a case on a grid of marks over the sheet."""
+    """Return the field of a case on a grid of marks over the sheet."""
     across, up = np.linspace(-EDGE[0], EDGE[0], columns), np.linspace(EDGE[1], -EDGE[1], rows)
     sent = np.array([(x, y) for y in up for x in across])
     true, believed, outside = _machines(case)
@@ -120,7 +122,7 @@ def field_of(case: Showing, *, columns: int = COLUMNS, rows: int = ROWS) -> Fiel
 
 
 def _machines(case: Showing) -> tuple[MachineSettings, MachineSettings, dict[str, float]]:
-    """The true machine, the machine by the settings, and what lies outside of both."""
+    """Return the true machine, the machine by the settings, and what lies outside of both."""
     true = believed = default_machine()
     outside = {}
     for name, value in case.parameters.items():
@@ -139,7 +141,7 @@ def _machines(case: Showing) -> tuple[MachineSettings, MachineSettings, dict[str
 
 
 def every_field() -> dict[str, list[tuple[Showing, Field]]]:
-    """The fields of all cases of all effects, and of the frame's numbers that marks feel."""
+    """Return the fields of all cases of all effects, and of the frame's numbers that marks feel."""
     cases = {effect["name"]: cases_of(effect) for effect in every_effect()}
     cases |= {name: [Showing(name, {name: step})] for name, step in FRAME_STEPS.items()}
     return {
@@ -149,7 +151,9 @@ def every_field() -> dict[str, list[tuple[Showing, Field]]]:
 
 
 def look_alikes(name: str, fields: Fields, *, most: int = 3) -> list[LookAlike]:
-    """The other causes whose shape comes nearest to any shape of this effect, nearest first."""
+    """Return the other causes whose shape comes nearest to any shape of this effect,
+    nearest first.
+    """
     mine = [field for _, field in fields[name] if field.has_shape]
     alikes = []
     for other, cases in fields.items():
@@ -166,7 +170,7 @@ def look_alikes(name: str, fields: Fields, *, most: int = 3) -> list[LookAlike]:
 
 
 def cosine(first: Array, second: Array) -> float:
-    """Of the angle between two fields (n, 2), each taken as a long vector."""
+    """Return the cosine of the angle between two fields (n, 2), each taken as a long vector."""
     return float(np.sum(first * second) / (np.linalg.norm(first) * np.linalg.norm(second)))
 
 
@@ -176,7 +180,7 @@ def worst(errors: Array) -> float:
 
 
 def label_with_size(case: Showing) -> str:
-    """The case with the sizes of its parameters, like `left = 2 mm`."""
+    """Return the case with the sizes of its parameters, like `left = 2 mm`."""
     words = parameter_words()
     sizes = dict.fromkeys(
         f"{value:g} {words[name]['unit']}".removesuffix(" 1")

@@ -91,25 +91,29 @@ def play(
 
 
 def chosen_in(auto: AutoAddition) -> tuple[str, ...]:
-    """The effects that were added, but for those that every machine has."""
+    """Return the effects that were added, but for those that every machine has."""
     return tuple(name for name in auto.chosen if name not in ALWAYS)
 
 
 def claimed_in(auto: AutoAddition) -> tuple[str, ...]:
-    """Those of them that nothing speaks against: no rival, and nothing left that is unknown."""
+    """Return those of them that nothing speaks against: no rival, and nothing left that is
+    unknown.
+    """
     unsure = auto.rivals or auto.diagnosis.verdict in ("not_in_library", "slip")
     return () if unsure else chosen_in(auto)
 
 
 def is_solved(hidden: Hidden, auto: AutoAddition) -> bool:
-    """Whether the right thing was said: for what no effect explains, that it is such a thing."""
+    """Return whether the right thing was said: for what no effect explains, that it is such a
+    thing.
+    """
     if hidden.outside:
         return auto.diagnosis.verdict == "not_in_library"
     return {*chosen_in(auto)} == {*hidden.effects} and auto.addition is not None
 
 
 def _cut_with_truth(loop: Loop, grid: Grid) -> Comparison:
-    """The second sheet as it is cut by somebody who knows what is hidden.
+    """Return the second sheet as it is cut by somebody who knows what is hidden.
 
     Where the lab added just that, it is the sheet that was cut.
     """
@@ -123,12 +127,12 @@ def _cut_with_truth(loop: Loop, grid: Grid) -> Comparison:
 
 
 def with_truth(inputs: Inputs, garage: Garage) -> Addition:
-    """The fit of somebody who knows what is hidden."""
+    """Return the fit of somebody who knows what is hidden."""
     return add(inputs, effects=garage.hidden.effects)
 
 
 def sled_errors(inputs: Inputs, garage: Garage, settings: MachineSettings) -> SledError:
-    """What settings are worth, against what the same marks allow."""
+    """Return what settings are worth, against what the same marks allow."""
     frame, known = add(inputs, effects=()).settings, with_truth(inputs, garage).settings
     each = (inputs.settings, frame, settings, known)
     return SledError(*(sled_error(garage, machine) for machine in each))

@@ -30,7 +30,7 @@ class Row:
 
 
 def row_of(name: str, games: Sequence[Played]) -> Row:
-    """The rates of some games."""
+    """Return the rates of some games."""
     solved = sum(game.solved for game in games)
     return Row(
         name,
@@ -48,13 +48,13 @@ def row_of(name: str, games: Sequence[Played]) -> Row:
 
 
 def rows_of(games: Sequence[Played]) -> list[Row]:
-    """A row for each level or cell, in the order in which they came first."""
+    """Return a row for each level or cell, in the order in which they came first."""
     names = dict.fromkeys(game.row for game in games)
     return [row_of(name, [game for game in games if game.row == name]) for name in names]
 
 
 def _interval(good: int, count: int) -> tuple[float, float]:
-    """The interval of a share that holds whatever the share is."""
+    """Return the interval of a share that holds whatever the share is."""
     tail = (1 - SURE) / 2
     low = scipy.special.betaincinv(good, count - good + 1, tail) if good else 0.0
     high = scipy.special.betaincinv(good + 1, count - good, 1 - tail) if good < count else 1.0
@@ -66,7 +66,9 @@ def _mean_square(errors: Sequence[float]) -> float:
 
 
 def _ratio(errors: Sequence[float], floors: Sequence[float]) -> tuple[float, float]:
-    """The ratio of both means, and its standard deviation as another draw of games would show."""
+    """Return the ratio of both means, and its standard deviation as another draw of games would
+    show.
+    """
     after, known = np.array(errors), np.array(floors)
     value = float(after.sum() / known.sum())
     if len(after) < 2:

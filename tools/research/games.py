@@ -59,7 +59,7 @@ class Task:
 
 
 def matrix_tasks(games: int, seed: int) -> list[Task]:
-    """A number of games of each cell of the matrix, in turns, so that none is far behind."""
+    """Return a number of games of each cell of the matrix, in turns, so that none is far behind."""
     rows = [f"{kind} {marks}" for marks in GRIDS for kind in KINDS]
     return [Task(row, seed + game) for game in range(games) for row in rows]
 
@@ -72,7 +72,9 @@ def played(
     kept: str | None,
     jobs: int,
 ) -> Iterator[Played]:
-    """The games that the file `kept` has, then those that it lacks; each is added as it ends."""
+    """Yield the games that the file `kept` has, then those that it lacks; each is added as
+    it ends.
+    """
     done = {(game.row, game.seed): game for game in _kept(kept)}
     waiting = []
     for task in tasks:
@@ -97,7 +99,7 @@ def _run(tasks: Sequence[Task], budget: Budget, elf: str | None, jobs: int) -> I
 
 
 def _kept(path: str | None) -> list[Played]:
-    """The games of a file; InputError for a file of something else."""
+    """Return the games of a file; InputError for a file of something else."""
     if path is None or not Path(path).exists():
         return []
     games = []
@@ -114,7 +116,7 @@ def _kept(path: str | None) -> list[Played]:
 
 
 def parser() -> argparse.ArgumentParser:
-    """The words that the script understands."""
+    """Return the words that the script understands."""
     words = argparse.ArgumentParser(
         description=__doc__,
         epilog="Exit: 0 done; 2 it cannot run; 130 interrupted, what is done is kept.",
@@ -159,7 +161,7 @@ def _play(wanted: argparse.Namespace) -> int:
 
 
 def as_text(games: Sequence[Played]) -> str:
-    """The rates of many games for people."""
+    """Return the rates of many games for people."""
     rows = [*rows_of(games), *([row_of("all", games)] if len(games) > 1 else [])]
     note = (
         "Solved: just what is hidden was added, or reported as not in the library; interval of "
@@ -171,7 +173,7 @@ def as_text(games: Sequence[Played]) -> str:
 
 
 def cells(row: Row) -> list[str]:
-    """A row of the table."""
+    """Return a row of the table."""
     share, low, high = row.solved
     return [
         row.name,

@@ -69,7 +69,7 @@ def frames(count: int = MACHINES) -> list[Frame]:
 
 
 def trial(frame: Frame, drop_error: float, *, seconds: float = LONG) -> Trial:
-    """Hook the chain, pull it with B11, read its length, and take its drop with a ruler.
+    """Try it: hook the chain, pull it with B11, read its length, and take its drop with a ruler.
 
     seconds: the T of B11.
     """
@@ -103,13 +103,13 @@ def trial(frame: Frame, drop_error: float, *, seconds: float = LONG) -> Trial:
 
 
 def trials(chosen: Sequence[Frame], *, seconds: float = LONG) -> list[Trial]:
-    """All these frames, each drop read to a millimetre."""
+    """Return all these frames, each drop read to a millimetre."""
     source = np.random.default_rng(6)
     return [trial(frame, float(source.uniform(-1, 1)), seconds=seconds) for frame in chosen]
 
 
 def row(each: Trial) -> str:
-    """A machine's line of the table."""
+    """Return a machine's line of the table."""
     frame, force, drop = each.frame, each.by_force, each.by_drop
     motors = f"seed {frame.seed}" if frame.seed else "nominal"
     return (
@@ -120,7 +120,7 @@ def row(each: Trial) -> str:
 
 
 def machines_table(done: Sequence[Trial]) -> str:
-    """A line for each machine."""
+    """Return a line for each machine."""
     heads = "| gap | flex | motors | supply | pull | error by force | found by drop | error |"
     return "\n".join([heads, "|---|---|---|---|---|---|---|---|", *map(row, done)])
 
@@ -134,12 +134,12 @@ def sizes(errors: Sequence[float]) -> str:
 def within(
     done: Sequence[Trial], error: Callable[[Trial], float], half: Callable[[Trial], float]
 ) -> int:
-    """How many errors lie within their interval."""
+    """Return how many errors lie within their interval."""
     return sum(abs(error(each)) <= half(each) for each in done)
 
 
 def kinds_table(kinds: Mapping[str, Sequence[Trial]]) -> str:
-    """A line for each kind of motors."""
+    """Return a line for each kind of motors."""
     lines = [
         "| motors | pull | by force: RMS | worst | in interval "
         "| by drop: RMS | worst | in interval |",
@@ -158,7 +158,7 @@ def kinds_table(kinds: Mapping[str, Sequence[Trial]]) -> str:
 
 
 def pulls_table(done: Mapping[float, Sequence[Trial]]) -> str:
-    """A line for each T and each number of pulls that fitted into it."""
+    """Return a line for each T and each number of pulls that fitted into it."""
     lines = [
         "| T | pulls | machines | slack | largest spread | by force: RMS | worst |",
         "|---|---|---|---|---|---|---|",
@@ -177,7 +177,7 @@ def pulls_table(done: Mapping[float, Sequence[Trial]]) -> str:
 
 
 def tables() -> tuple[str, str, str]:
-    """What docs/commands/gap.md shows: each machine, each kind of motors, each T."""
+    """Return what docs/commands/gap.md shows: each machine, each kind of motors, each T."""
     usual = frames()
     done = trials(usual)
     kinds = {

@@ -29,7 +29,7 @@ class Job:
         self._at = middle
 
     def lines(self, moves: int) -> list[str]:
-        """As many moves, from where the last ended; the first begin in the middle."""
+        """Return as many moves, from where the last ended; the first begin in the middle."""
         kinds = (self._line, self._line, self._jog, self._arc, self._curve, self._drill, self._rest)
         drawn = ["G21 G90", self._to("G0", *self._at)]
         for _ in range(moves):
@@ -51,7 +51,7 @@ class Job:
         return f"{code} X{x:.3f} Y{y:.3f}{rest}"
 
     def _near(self, most: float) -> tuple[float, float]:
-        """A place on the way to another, `most` [mm] away."""
+        """Return a place on the way to another, `most` [mm] away."""
         goal = self._place()
         dx, dy = goal[0] - self._at[0], goal[1] - self._at[1]
         share = min(1.0, most / max(1e-6, float(np.hypot(dx, dy))))
@@ -64,7 +64,7 @@ class Job:
         yield self._to("G0", *self._near(80))
 
     def _arc(self) -> Iterator[str]:
-        """A part of a circle or all of it, back towards the middle."""
+        """Yield a part of a circle or all of it, back towards the middle."""
         radius, turn = self._draw(3, 30), self._draw(0.3, 2 * pi)
         from_middle = np.subtract(self._at, self._middle)
         start = float(np.arctan2(from_middle[1], from_middle[0]))

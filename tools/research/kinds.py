@@ -21,7 +21,7 @@ LARGEST = 4.0  # typical sizes; a machine with more of it would be seen to be br
 def _drawn(
     source: np.random.Generator, causes: tuple[Cause, ...], count: int, millimetres: float
 ) -> Hidden:
-    """Some different effects, each with the same RMS."""
+    """Return some different effects, each with the same RMS."""
     effects = by_effect(causes)
     chosen = [effects[i] for i in source.choice(len(effects), count, replace=False)]
     each = [of_effect[source.integers(len(of_effect))] for of_effect in chosen]
@@ -29,12 +29,14 @@ def _drawn(
 
 
 def _unknown(source: np.random.Generator) -> Hidden:
-    """What the library has no word for."""
+    """Return what the library has no word for."""
     return Hidden(outside=list(OUTSIDE)[source.integers(len(OUTSIDE))], outside_mm=USUAL_MM)
 
 
 def _of_effect(name: str) -> Callable[[np.random.Generator], Hidden]:
-    """An effect in one of its directions, by as much as usual or as real machines have it."""
+    """Return an effect in one of its directions, by as much as usual or as real machines
+    have it.
+    """
 
     def hidden(source: np.random.Generator) -> Hidden:
         causes = [cause for cause in CAUSES if cause.effect == name]
@@ -55,5 +57,5 @@ KINDS: Mapping[str, Callable[[np.random.Generator], Hidden]] = {
 
 
 def of_kind(kind: str, seed: int) -> Hidden:
-    """What a game of a row of the matrix hides."""
+    """Return what a game of a row of the matrix hides."""
     return KINDS[kind](np.random.default_rng([seed, list(KINDS).index(kind), 19]))

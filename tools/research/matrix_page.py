@@ -42,7 +42,7 @@ cut the grid again on a new sheet.
 
 
 def page(games: Sequence[Played]) -> str:
-    """The whole page."""
+    """Return the whole page."""
     rows = [_cells(row) for row in rows_of(_sorted(games))]
     summary = [
         _cells(row_of(f"{name} {marks}", chosen))
@@ -57,7 +57,7 @@ _CURABLE = tuple(name for name in FIRMWARE if any(cause.effect == name for cause
 
 
 def _of(games: Sequence[Played], kinds: Sequence[str], marks: str) -> list[Played]:
-    """The games of some kinds with this many marks on the first sheet."""
+    """Return the games of some kinds with this many marks on the first sheet."""
     rows = {f"{kind} {marks}" for kind in kinds}
     return [game for game in games if game.row in rows]
 
@@ -85,13 +85,13 @@ def _cells(row: Row) -> list[str]:
 
 
 def ratio_words(ratio: tuple[float, float]) -> str:
-    """A ratio with its standard deviation, if there are games enough to tell."""
+    """Return a ratio with its standard deviation, if there are games enough to tell."""
     value, error = ratio
     return f"{value:.2f}" + (f" +- {error:.2f}" if math.isfinite(error) else "")
 
 
 def _second(games: Sequence[Played]) -> str:
-    """The line for the second sheet, and whether it is reached."""
+    """Return the line for the second sheet, and whether it is reached."""
     chosen = _of(games, _CURABLE, "25")
     if not chosen:
         return ""

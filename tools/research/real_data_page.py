@@ -60,7 +60,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def pages() -> dict[str, str]:
-    """The page and each picture by its name below the project's root."""
+    """Return the page and each picture by its name below the project's root."""
     settings = read_settings(SETTINGS, known=known_effects())
     nine = RealSet("mibproj", settings, read_marks(MARKS, sheet=settings.sheet))
     fifteen = real_set("c0depr1sm-2019-01-03", "marks.csv", "machine.toml")
@@ -82,7 +82,7 @@ def pages() -> dict[str, str]:
 
 
 def verdict_line(diagnosis: Diagnosis) -> str:
-    """The verdict and the sentence of the lab."""
+    """Return the verdict and the sentence of the lab."""
     return f"`{diagnosis.verdict}`: {verdict_sentence(diagnosis)}"
 
 
@@ -215,7 +215,7 @@ def _independent_section(fifteen: RealSet) -> str:
 
 
 def largest_tip_give(diagnosis: Diagnosis) -> float:
-    """How far a beam's tips could give downwards [mm/N] without showing in the marks."""
+    """Return how far a beam's tips could give downwards [mm/N] without showing in the marks."""
     limits = next(each.limits for each in diagnosis.could_hide if each.effect == "frame_flex")
     sizes = {name: size for name, size, _ in limits}
     return sizes["downward"] or 0.0

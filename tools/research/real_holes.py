@@ -21,7 +21,7 @@ from tables import markdown_table, mm, percent
 
 
 def holes_section() -> str:
-    """Everything about the four hole sets and the two widths cut before them."""
+    """Return everything about the four hole sets and the two widths cut before them."""
     sets = {name: real_set(name) for name in HOLES}
     together = pooled(list(sets.values()))
     return "\n\n".join(
@@ -193,7 +193,7 @@ def _what_is_left(sets: dict[str, RealSet], together: Pooled) -> str:
 
 
 def _records(sets: dict[str, RealSet]) -> dict[str, float]:
-    """What the owner's fits left in the sets that he cut with them [mm RMS]."""
+    """Return what the owner's fits left in the sets that he cut with them [mm RMS]."""
     left = {}
     for _, after in PAIRS:
         marks = sets[after].marks

@@ -45,11 +45,11 @@ class RealSet:
         return compare(self.settings, self.marks)
 
     def diagnosed(self, *, sigma: float | None = None) -> Diagnosis:
-        """What `plumb diagnose` says; sigma is the reading error [mm]."""
+        """Return what `plumb diagnose` says; sigma is the reading error [mm]."""
         return diagnose(Inputs(self.settings, self.marks, sigma=sigma))
 
     def with_effects(self, *effects: str) -> Addition:
-        """What `plumb add` makes of it."""
+        """Return what `plumb add` makes of it."""
         return add(Inputs(self.settings, self.marks), effects=effects)
 
 
@@ -70,14 +70,14 @@ class Pooled:
 
 
 def real_set(name: str, marks: str = "marks.toml", settings: str = "groundcontrol.ini") -> RealSet:
-    """A set of examples/ by its folder."""
+    """Return a set of examples/ by its folder."""
     folder, known = EXAMPLES / name, known_effects()
     machine = read_settings(folder / settings, known=known)
     return RealSet(name, machine, read_marks(folder / marks, sheet=machine.sheet, known=known))
 
 
 def refusal_of(name: str) -> str:
-    """What the lab says of the groundcontrol.ini of a set; empty if it takes it."""
+    """Return what the lab says of the groundcontrol.ini of a set; empty if it takes it."""
     path = EXAMPLES / name / "groundcontrol.ini"
     try:
         read_settings(path, known=known_effects())
@@ -108,12 +108,12 @@ def pooled(sets: Sequence[RealSet], effects: Sequence[str] = HOLE_EFFECTS) -> Po
 
 
 def predicted(settings: MachineSettings, other: RealSet) -> Comparison:
-    """How well a machine predicts a set that took no part in its fit."""
+    """Return how well a machine predicts a set that took no part in its fit."""
     return compare(settings, other.marks)
 
 
 def mirrored(holes: RealSet, across: float, up: float) -> RealSet:
-    """The set with its holes named the other way round: across or up is -1."""
+    """Return the set with its holes named the other way round: across or up is -1."""
     marks = tuple(
         replace(mark, target=(across * mark.target[0], up * mark.target[1]))
         for mark in holes.marks.marks
@@ -122,7 +122,9 @@ def mirrored(holes: RealSet, across: float, up: float) -> RealSet:
 
 
 def middle_shift(machine: MachineSettings) -> float:
-    """How far right [mm] of the middle the bit goes if the controller knows no chain pitch."""
+    """Return how far right [mm] of the middle the bit goes if the controller knows no chain
+    pitch.
+    """
     effects = {
         name: parameters for name, parameters in machine.effects.items() if name != "chain_pitch"
     }

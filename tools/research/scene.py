@@ -49,7 +49,7 @@ class Scene:
         self.machine.cut_power(int(self.source.integers(256)))
 
     def give_up(self) -> None:
-        """The client sends no more of its job."""
+        """Stop sending the client's job."""
         self.wire.patience = 0.0
 
     def send(self, lines: Sequence[str], strike: Strike | None = None) -> bool:
@@ -79,7 +79,7 @@ class Scene:
                 return
 
     def listen(self, milliseconds: int) -> list[str]:
-        """What the machine says meanwhile that is no report and no answer."""
+        """Return what the machine says meanwhile that is no report and no answer."""
         since = len(self.heard)
         for _ in range(milliseconds // 20):
             try:
@@ -89,14 +89,14 @@ class Scene:
         return self.heard[since:]
 
     def is_sure_when_stopped(self) -> bool:
-        """Whether the machine, asked to stop, says nothing against its place."""
+        """Return whether the machine, asked to stop, says nothing against its place."""
         if not self.machine.is_running:
             return False
         self.machine.send(b"!\n")
         return not any(LOST.search(line) for line in self.listen(ANSWER))
 
     def is_sure_after_restart(self) -> bool:
-        """The same when the power goes at rest, and comes again."""
+        """Return the same when the power goes at rest, and comes again."""
         self.machine.stop()
         self.sender = Sender(self.wire, said=self.heard.append)
         self.machine.start()
@@ -111,18 +111,20 @@ class Scene:
         return float(np.max(np.abs(np.subtract(status.place, true))))
 
     def settings(self) -> dict[str, str]:
-        """What the machine answers to `$$`."""
+        """Return what the machine answers to `$$`."""
         return dict(SETTING.findall("\n".join(self.sender.ask("$$"))))
 
 
 def garage_of(seed: int, *, friction: float = 0.0) -> Garage:
-    """A frame as the settings say, and a sled that does not rub: only the fault is wrong."""
+    """Return a frame as the settings say, and a sled that does not rub: only the fault is wrong."""
     return Garage(Hidden(), friction=friction, seed=seed)
 
 
 @cache
 def memory_of_the_evening() -> bytes:
-    """The EEPROM of a machine that knows its settings, and chains that have not moved since."""
+    """Return the EEPROM of a machine that knows its settings, and chains that have not
+    moved since.
+    """
     garage = garage_of(0)
     machine = garage.machine()
     machine.start()

@@ -23,12 +23,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def pages() -> dict[str, str]:
-    """The page by its name below the project's root."""
+    """Return the page by its name below the project's root."""
     return {PAGE: page(every_setting())}
 
 
 def page(settings: Sequence[Setting]) -> str:
-    """The text of docs/settings.md."""
+    """Return the text of docs/settings.md."""
     listed = [setting for setting in settings if setting.access == "listed"]
     published = [setting for setting in listed if setting.number <= LAST_PUBLISHED]
     ours = [setting for setting in listed if FIRST_OF_OURS <= setting.number < FIRST_EFFECT]
@@ -58,7 +58,7 @@ def page(settings: Sequence[Setting]) -> str:
 
 
 def table(settings: Iterable[Setting], *, keys: bool = False) -> str:
-    """The rows of some settings."""
+    """Return the rows of some settings."""
     head = "| $ | name | unit | type | default | limits | takes effect |"
     head += " in the programs |" if keys else ""
     lines = [head + " what it is |", "|---" * (8 + keys) + "|"]
@@ -80,7 +80,7 @@ def table(settings: Iterable[Setting], *, keys: bool = False) -> str:
 
 
 def limits(setting: Setting) -> str:
-    """The allowed values in words."""
+    """Return the allowed values in words."""
     low, high = format_value(setting.low), format_value(setting.high)
     if setting.step == ANY_BUT_ZERO:
         return f"{low} to {high}, not 0"
@@ -99,7 +99,7 @@ def takes_effect(setting: Setting) -> str:
 
 
 def sentence(setting: Setting) -> str:
-    """What a setting is, and what is not as published."""
+    """Return what a setting is, and what is not as published."""
     said = setting.sentence
     if setting.number >= FIRST_EFFECT:
         said = said[0].upper() + said[1:] + "."

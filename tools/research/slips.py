@@ -40,7 +40,7 @@ class SlipTry:
 
 
 def lines_along(chain: str, place: tuple[float, float], winds_in: bool) -> tuple[str, str]:
-    """Places where a line through `place` along a chain begins and ends."""
+    """Return places where a line through `place` along a chain begins and ends."""
     motor = np.array([(-0.5 if chain == "left" else 0.5) * MAKER.motor_gap, MAKER.motor_height])
     way = motor - place
     half = 0.5 * WAY * way / np.hypot(*way) * (1 if winds_in else -1)
@@ -73,14 +73,14 @@ def tried(
 
 
 def telemetry_of(scene: Scene) -> Telemetry:
-    """What the machine answers to B30."""
+    """Return what the machine answers to B30."""
     return latest("\n".join(scene.sender.ask("B30")), "B30")
 
 
 def tries(
     seeds: Sequence[int], *, feeds: Sequence[float] = FEEDS, elf: str | None = None
 ) -> Iterator[SlipTry]:
-    """Each chain, place, feed and direction on machines with these numbers."""
+    """Yield each chain, place, feed and direction on machines with these numbers."""
     for seed in seeds:
         scene = Scene(seed, elf=elf, friction=FRICTION)
         for chain in CHAINS:
@@ -91,7 +91,7 @@ def tries(
 
 
 def table(done: Sequence[SlipTry]) -> str:
-    """How often the slipping chain was suspected, by tension and feed."""
+    """Return how often the slipping chain was suspected, by tension and feed."""
     head = ["tension, N", *(f"{feed:g} mm/min" for feed in FEEDS), "the other chain"]
     rows = [head, ["---"] * len(head)]
     for low, high in pairwise(TENSIONS):

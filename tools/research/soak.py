@@ -99,7 +99,7 @@ class Operator:
         self._next = now + source.exponential(EVENTS_EACH)
 
     def go_away(self) -> None:
-        """The machine is left alone, at the feeds of its program."""
+        """Leave the machine alone, at the feeds of its program."""
         if self._is_holding:
             self._scene.sender.go_on()
             self._is_holding = False
@@ -150,7 +150,7 @@ def soak(
 
 
 def due_writes(rests: int) -> int:
-    """How often a byte of the EEPROM may have been written after `rests` rests.
+    """Return how often a byte of the EEPROM may have been written after `rests` rests.
 
     A position takes the next of 65 slots; its byte of motion is written with it and when it is
     left.
@@ -180,7 +180,7 @@ def _run(wanted: argparse.Namespace) -> int:
 
 
 def as_text(worked: Soak) -> str:
-    """A line for each figure, then what all of it came to."""
+    """Return a line for each figure, then what all of it came to."""
     rows = [
         ["time of the machine", f"{60 * worked.hours:.1f} min"],
         ["lines, rests", f"{worked.lines}, {worked.rests}"],

@@ -61,7 +61,7 @@ class Wire(InProcessPort):
         super().write(characters)
 
     def read(self) -> bytes:
-        """What came in a moment; raises LineLostError if the machine does not run."""
+        """Return what came in a moment; raises LineLostError if the machine does not run."""
         self.pass_time(MOMENT)
         if not self.machine.is_running or self.machine.seconds > self.patience:
             raise LineLostError

@@ -73,7 +73,8 @@ def tried(fault: Fault, seed: int, *, elf: str | None = None) -> Outcome:
 
 
 def asked(scene: Scene) -> tuple[bool, float]:
-    """Whether the machine is sure of its place, now and after a restart, and how far that is off.
+    """Return whether the machine is sure of its place, now and after a restart, and how far that is
+    off.
 
     Wires and supplies are put right first, as somebody would before going on.
     """
@@ -107,7 +108,7 @@ def farthest_from(way: Array, went: Array) -> float:
 
 
 def are_kept(before: dict[str, str], after: dict[str, str], lines: Sequence[str]) -> bool:
-    """Whether each setting has its value, or the value that a line of the job gave it."""
+    """Return whether each setting has its value, or the value that a line of the job gave it."""
     written = {line for line in lines if line.startswith("$")}
     return before.keys() == after.keys() and all(
         value == before[number] or f"${number}={value}" in written

@@ -12,7 +12,7 @@ FAILED = {"failure", "error", "skipped"}
 
 
 def count(path: Path, status: int) -> tuple[int, int]:
-    """Tests that passed, tests that failed; status: the exit code of the command that wrote it."""
+    """Count tests that passed and failed; status: the exit code of the command that wrote it."""
     try:
         suites = list(ElementTree.parse(path).iter("testsuite"))
     except (OSError, ElementTree.ParseError):
@@ -25,7 +25,7 @@ def count(path: Path, status: int) -> tuple[int, int]:
 
 
 def count_suite(suite: ElementTree.Element) -> tuple[int, int]:
-    """The same for one suite."""
+    """Return the same for one suite."""
     cases = list(suite.iter("testcase"))
     if not cases:
         # Only a suite that ran has a time stamp; PlatformIO also lists those of other environments.

@@ -120,7 +120,7 @@ class Part:
 
 
 def host_tests(suites: Sequence[str] = ()) -> Part:
-    """The suites of the host, or those named."""
+    """Return the suites of the host, or those named."""
     junit = RESULTS / "native.xml"
     chosen = [word for suite in suites for word in ("--filter", suite)]
     pio = ROOT / ".venv/bin/pio"
@@ -132,7 +132,8 @@ def host_tests(suites: Sequence[str] = ()) -> Part:
 
 
 def python_tests(rooms: Sequence[str] = ("tools/tests",), *, slow: bool = False) -> Part:
-    """The tests of the lab and the project; without those that are slow by nature unless asked.
+    """Return the tests of the lab and the project; without those that are slow by nature unless
+    asked.
 
     More workers than cores, since some tests wait for a server or a browser; a worker without work
     takes some of another's.
@@ -145,15 +146,15 @@ def python_tests(rooms: Sequence[str] = ("tools/tests",), *, slow: bool = False)
 
 
 def checks(names: Sequence[str]) -> Part:
-    """Checks of tools/checks, each of which counts as a test."""
+    """Run the checks of tools/checks, each of which counts as a test."""
     return Part("checks", [[sys.executable, ROOT / f"tools/checks/{name}.py"] for name in names])
 
 
 def firmware() -> Part:
-    """The program for the Mega, which some tests of the lab flash."""
+    """Return the program for the Mega, which some tests of the lab flash."""
     return Part("firmware", [[ROOT / ".venv/bin/pio", "run", "-e", "megaatmega2560"]])
 
 
 def setup() -> Part:
-    """What the other parts need; it does nothing where all is there."""
+    """Return what the other parts need; it does nothing where all is there."""
     return Part("setup", [[ROOT / "tools/setup"]])

@@ -76,14 +76,14 @@ class Touched:
         self.rooms.update(room for room in rooms if (ROOT / room).exists())
 
     def parts(self) -> tuple[list[Part], list[list[Part]]]:
-        """What comes first, and then the lanes that run side by side."""
+        """Return what comes first, and then the lanes that run side by side."""
         cxx = [firmware()] if self.builds_firmware else []
         cxx += [host_tests(sorted(self.suites))] if self.suites else []
         python = [setup(), python_tests(sorted(self.rooms))] if self.rooms else []
         return [], [[checks(self.checks)], cxx + python]
 
     def left_out(self) -> str:
-        """What a whole run does that this run does not."""
+        """Return what a whole run does that this run does not."""
         skipped = ["fuzz", "bench"] + [
             f"check {name}" for name in SLOW_CHECKS if name not in self.checks
         ]
@@ -120,7 +120,7 @@ def edited() -> list[str]:
 
 
 def touched() -> Touched:
-    """What the files ask for that differ from the last commit."""
+    """Return what the files ask for that differ from the last commit."""
     asked = Touched()
     for file in edited():
         asked.add(file)

@@ -64,7 +64,7 @@ def main() -> int:
 
 
 def everything(*, slow: bool) -> tuple[list[Part], list[list[Part]]]:
-    """What comes first, and then the lanes that run side by side."""
+    """Return what comes first, and then the lanes that run side by side."""
     cxx = [
         host_tests(),
         Part("fuzz", [["nice", ROOT / "test/fuzz/run"]]),
@@ -133,7 +133,7 @@ def show_failures(parts: Sequence[Part], console: Console) -> None:
 
 
 def rows(parts: Sequence[Part]) -> Iterator[str]:
-    """A line for each part that has begun: its time, its counts, and how much is done."""
+    """Yield a line for each part that has begun: its time, its counts, and how much is done."""
     for part in parts:
         if part.began is None:
             continue
@@ -168,7 +168,7 @@ def sum_up(parts: Sequence[Part], note: str = "") -> int:
 
 
 def _slowest(parts: Sequence[Part]) -> str:
-    """The groups of tests that took the longest, added up over the workers."""
+    """Return the groups of tests that took the longest, added up over the workers."""
     seconds: Counter[str] = Counter()
     for part in parts:
         if part.junit is None:

@@ -57,7 +57,7 @@ def read(
     priors: Mapping[str, float] | None = None,
     checked: Mapping[str, tuple[float, float]] | None = None,
 ) -> Inputs:
-    """The machine and its marks, from files; several files of marks make one board.
+    """Return the machine and its marks, from files; several files of marks make one board.
 
     `sigma` is the reading error of a coordinate [mm]. `priors` says how far (one sigma) a number of
     the frame may be wrong. `checked` holds numbers that were measured directly, with their sigmas.
@@ -71,7 +71,7 @@ def read(
 
 
 def compare(inputs: Inputs) -> Comparison:
-    """How far the marks lie from where the settings predict them."""
+    """Return how far the marks lie from where the settings predict them."""
     return comparison_of(
         inputs.settings,
         inputs.measurements,
@@ -81,22 +81,22 @@ def compare(inputs: Inputs) -> Comparison:
 
 
 def diagnose(inputs: Inputs) -> Diagnosis:
-    """Which effect the settings miss, as far as the marks can prove it."""
+    """Return which effect the settings miss, as far as the marks can prove it."""
     return diagnosis_of(inputs)
 
 
 def next(inputs: Inputs, diagnosis: Diagnosis | None = None) -> Next:
-    """What to measure next, best first."""
+    """Return what to measure next, best first."""
     return propose(diagnosis or diagnose(inputs), inputs)
 
 
 def add(inputs: Inputs, effects: Sequence[str] = (), *, patch: bool = False) -> Addition:
-    """The machine with its frame and these effects fitted to the marks."""
+    """Return the machine with its frame and these effects fitted to the marks."""
     return add_effects(inputs, effects=effects, patch=patch)
 
 
 def auto(inputs: Inputs) -> AutoAddition:
-    """The machine with what the marks prove."""
+    """Return the machine with what the marks prove."""
     return add_auto(inputs)
 
 

@@ -33,7 +33,9 @@ def plan(
     repeats: bool = False,
     spans: bool = False,
 ) -> Plan:
-    """A grid over the sheet, cut `times`; with `repeats` three marks are read three times."""
+    """Return a grid over the sheet, cut `times`; with `repeats` three marks are read three
+    times.
+    """
     across = np.linspace(-WIDTH / 2, WIDTH / 2, columns)
     up = np.linspace(HEIGHT / 2, -HEIGHT / 2, rows)
     once = np.array([(x, y) for y in up for x in across])
@@ -71,7 +73,9 @@ class TrueMachine:
     swapped: bool = False  # whether the chains hang on each other's sprockets
 
     def read(self, chains: Array, *, approaches: Array, weights: Array) -> Array:
-        """Where marks would be read (n, 2) [mm] without noise; NaN where the sled cannot hang."""
+        """Return where marks would be read (n, 2) [mm] without noise; NaN where the sled cannot
+        hang.
+        """
         where = self.sleds(chains, approaches=approaches, weights=weights)
         where = where - self.hidden.backlash * approaches
         turned = where @ np.array([[cos(self.turn), self.turn], [-self.turn, cos(self.turn)]])
@@ -80,7 +84,7 @@ class TrueMachine:
     def sleds(
         self, chains: Array, *, approaches: Array | None = None, weights: Array | None = None
     ) -> Array:
-        """Where the sled comes to rest (n, 2) [mm]; without approaches nothing rubs."""
+        """Return where the sled comes to rest (n, 2) [mm]; without approaches nothing rubs."""
         numbers = {
             **judged(MAKER),
             "motor_gap": self.motor_gap,
@@ -98,7 +102,7 @@ class TrueMachine:
         )
 
     def _hidden_numbers(self) -> Numbers:
-        """The judge's; what goes with a chain is where the chain is."""
+        """Return the judge's; what goes with a chain is where the chain is."""
         numbers = self.hidden.numbers
         if not self.swapped:
             return numbers
@@ -122,7 +126,7 @@ def cut(
     tape_sigma: float | None = 0.5,
     settings: MachineSettings = MAKER,
 ) -> BoardCut:
-    """A board as measured; frame and sheet lie off by chance. noise, tape_sigma [mm].
+    """Return a board as measured; frame and sheet lie off by chance. noise, tape_sigma [mm].
 
     The settings are those in force; the machine's chain is the maker's, whatever they say.
     """
@@ -141,7 +145,7 @@ def cut(
 
 
 def _read(machine: TrueMachine, plan: Plan, settings: MachineSettings = MAKER) -> Array:
-    """Where marks would be read (n, 2) [mm] without noise."""
+    """Return where marks would be read (n, 2) [mm] without noise."""
     where = machine.read(
         chains_for(plan, settings), approaches=plan.approaches, weights=plan.sled_weights
     )
@@ -153,7 +157,7 @@ def _read(machine: TrueMachine, plan: Plan, settings: MachineSettings = MAKER) -
 def _measured(
     where: Array, plan: Plan, source: np.random.Generator, noise: float, tape_sigma: float | None
 ) -> Measurements:
-    """What is written down of places (n, 2) [mm]."""
+    """Return what is written down of places (n, 2) [mm]."""
     marks = [
         Mark(
             name=f"{target[0]:.0f}/{target[1]:.0f}",
@@ -192,12 +196,12 @@ def _measured(
 
 
 def _unit(moved: Array) -> Array:
-    """A field of unit RMS."""
+    """Return a field of unit RMS."""
     return moved / max(float(np.sqrt(np.mean(np.sum(moved**2, axis=1)))), 1e-9)
 
 
 def chains_for(plan: Plan, settings: MachineSettings = MAKER) -> Array:
-    """What a machine of these settings pays out (n, 2) [mm]."""
+    """Return what a machine of these settings pays out (n, 2) [mm]."""
     chains, outcome = lengths(settings, plan.targets)
     if not (outcome == FOUND).all():
         raise ValueError("a plan reaches beyond the machine")
@@ -205,7 +209,7 @@ def chains_for(plan: Plan, settings: MachineSettings = MAKER) -> Array:
 
 
 def raw_field(cause: Cause, size: float, plan: Plan) -> Array:
-    """How far marks (n, 2) [mm] move by a cause of some typical sizes, nothing refitted."""
+    """Return how far marks (n, 2) [mm] move by a cause of some typical sizes, nothing refitted."""
     there = _read(TrueMachine(Hidden(((cause, size),))), plan)
     moved: Array = there - _read(TrueMachine(Hidden()), plan)
     return moved
@@ -215,7 +219,7 @@ _SIZES: dict[tuple[Any, ...], float] = {}
 
 
 def size_for(cause: Cause, plan: Plan, millimetres: float) -> float:
-    """How many typical sizes move the marks by so much RMS, before anything is refitted."""
+    """Return how many typical sizes move the marks by so much RMS, before anything is refitted."""
     key = (
         cause.effect,
         cause.label,

@@ -59,7 +59,7 @@ class Cause:
 
 
 def _cause(effect: Mapping[str, Any], example: Mapping[str, Any], **board: Any) -> Cause:
-    """A cause by an effect's words; what the maker's chain has already comes on top."""
+    """Return a cause by an effect's words; what the maker's chain has already comes on top."""
     name, typical = effect["name"], example["sizes"]
     believed = {parameter: CHAIN.get(f"{name}.{parameter}", 0.0) for parameter in typical}
     return Cause(
@@ -88,7 +88,7 @@ CAUSES: tuple[Cause, ...] = tuple(_causes())
 
 
 def causes_of(effect: str) -> tuple[Cause, ...]:
-    """All causes of an effect, the usual cause first."""
+    """Return all causes of an effect, the usual cause first."""
     return tuple(cause for cause in CAUSES if cause.effect == effect)
 
 
@@ -133,7 +133,7 @@ class Hidden:
         return sum(cause.drag * size for cause, size in (*self.usual, *self.causes))
 
     def read(self, places: Array) -> Array:
-        """Places (n, 2) [mm] as edges that are not square and a wrong tape give them."""
+        """Return places (n, 2) [mm] as edges that are not square and a wrong tape give them."""
         for cause, size in self.causes:
             skewed = cause.skew * size * places[:, 1]
             places = (places + np.stack([skewed, 0 * skewed], axis=1)) * (1 + cause.strain * size)
@@ -141,7 +141,9 @@ class Hidden:
 
 
 def _bump(targets: Array, source: np.random.Generator) -> Array:
-    """A bump as wide as 0.35 half sheets each way, somewhere on the sheet, in some direction."""
+    """Return a bump as wide as 0.35 half sheets each way, somewhere on the sheet, in some
+    direction.
+    """
     middle = source.uniform(-0.8, 0.8, 2)
     shape = np.exp(-np.sum((targets / HALF - middle) ** 2, axis=1) / (2 * 0.35**2))
     turn = source.uniform(0, 2 * np.pi)
@@ -150,7 +152,7 @@ def _bump(targets: Array, source: np.random.Generator) -> Array:
 
 
 def _cubic(targets: Array, source: np.random.Generator) -> Array:
-    """A polynomial of second and third degree in x and y, with coefficients of equal size.
+    """Return a polynomial of second and third degree in x and y, with coefficients of equal size.
 
     Shifts, turns, scales and skews are left out: the frame and the library have those.
     """
@@ -160,7 +162,7 @@ def _cubic(targets: Array, source: np.random.Generator) -> Array:
 
 
 def _tipping(targets: Array, source: np.random.Generator) -> Array:
-    """A sled that hangs over one edge of the sheet, where nothing holds it, and tips.
+    """Return a sled that hangs over one edge of the sheet, where nothing holds it, and tips.
 
     Its bit then leans outward or inward, and up or down, by how far the sled of 230 mm stands out.
     """

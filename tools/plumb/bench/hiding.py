@@ -31,7 +31,7 @@ def nothing(index: int, plan: Plan) -> Hidden:
 
 
 def by_effect(causes: tuple[Cause, ...]) -> tuple[tuple[Cause, ...], ...]:
-    """The causes of each effect."""
+    """Return the causes of each effect."""
     return tuple(
         tuple(cause for cause in causes if cause.effect == effect)
         for effect in dict.fromkeys(cause.effect for cause in causes)
@@ -46,7 +46,7 @@ def _turns(causes: tuple[Cause, ...], index: int) -> Cause:
 
 
 def raw(millimetres: float, causes: tuple[Cause, ...]) -> Hide:
-    """One cause after the other, as large as moves marks by so much RMS before any refit."""
+    """Return one cause after the other, as large as moves marks by so much RMS before any refit."""
 
     def hide(index: int, plan: Plan) -> Hidden:
         cause = _turns(causes, index)
@@ -56,7 +56,7 @@ def raw(millimetres: float, causes: tuple[Cause, ...]) -> Hide:
 
 
 def typical(low: float, high: float, causes: tuple[Cause, ...]) -> Hide:
-    """One cause after the other, of some typical sizes."""
+    """Return one cause after the other, of some typical sizes."""
 
     def hide(index: int, plan: Plan) -> Hidden:
         cause = _turns(causes, index)
@@ -98,9 +98,10 @@ def several(count: int, low: float, high: float, causes: tuple[Cause, ...]) -> H
 
 
 def usual_machine(index: int, plan: Plan) -> Hidden:
-    """What every machine has: a chain that stretches more or less than usual, which published
-    settings leave out, a chain a bit heavier or lighter, friction and backlash; and next to that
-    one or two effects of usual size."""
+    """Return what every machine has: a chain that stretches more or less than usual, which
+    published settings leave out, a chain a bit heavier or lighter, friction and backlash; and next
+    to that one or two effects of usual size.
+    """
     source = np.random.default_rng(5000 + index)
     (stretch,), (sag,) = causes_of("chain_stretch"), causes_of("chain_sag")
     friction = causes_of("sled_friction")[0]
@@ -115,7 +116,7 @@ def usual_machine(index: int, plan: Plan) -> Hidden:
 
 
 def outside(millimetres: float) -> Hide:
-    """What the library has no word for."""
+    """Return what the library has no word for."""
 
     def hide(index: int, plan: Plan) -> Hidden:
         return Hidden(outside=list(OUTSIDE)[index % len(OUTSIDE)], outside_mm=millimetres)
@@ -135,7 +136,7 @@ class Slip:
 def slip(
     board: BoardCut, kind: Slip, source: np.random.Generator
 ) -> tuple[BoardCut, tuple[str, ...]]:
-    """The board with one reading written down wrongly, and the mark's name."""
+    """Return the board with one reading written down wrongly, and the mark's name."""
     marks = list(board.measurements.marks)
     index = _slipped(board, kind.where, source)
     x, y = marks[index].measured or marks[index].target
@@ -153,7 +154,7 @@ def slip(
 
 
 def _slipped(board: BoardCut, where: str, source: np.random.Generator) -> int:
-    """The mark whose reading is wrong."""
+    """Return the mark whose reading is wrong."""
     names = [mark.name for mark in board.measurements.marks]
     if not where:
         return int(source.integers(len(names)))

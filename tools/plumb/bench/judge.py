@@ -17,7 +17,8 @@ Numbers = Mapping[str, float]
 
 
 def places(numbers: Numbers, chains: Array, *, pushes: Array, weights: Array) -> Array:
-    """Places (n, 2) [mm] of the sled of a machine with these numbers; NaN where it cannot hang.
+    """Return places (n, 2) [mm] of the sled of a machine with these numbers; NaN where it cannot
+    hang.
 
     chains (n, 2) [mm] paid out, pushes (n, 2) [N] on the sled, weights (n,) [N] of it. A number
     that is not named is the judge's default. KeyError for a name that the judge does not know.

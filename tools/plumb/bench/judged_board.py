@@ -84,7 +84,7 @@ class BoardOwner:
     noise: float  # [mm] of a coordinate
 
     def with_marks(self, board: BoardCut, visits: Visits) -> BoardCut:
-        """The board with the marks of these visits as well, on the same sheet.
+        """Return the board with the marks of these visits as well, on the same sheet.
 
         Raises ValueError where the sled cannot hang.
         """
@@ -106,7 +106,7 @@ class BoardOwner:
         )
 
     def checked(self, board: BoardCut, checks: Sequence[Check]) -> list[Checked]:
-        """What direct measurements find, each with its error."""
+        """Return what direct measurements find, each with its error."""
         return [
             Checked(
                 check.name,
@@ -118,7 +118,7 @@ class BoardOwner:
 
 
 def true_value(board: BoardCut, name: str) -> float:
-    """What a perfect measurement of a number of the frame or of an effect would find."""
+    """Return what a perfect measurement of a number of the frame or of an effect would find."""
     if "." in name:
         return float(board.machine.hidden.parameters.get(name, CHAIN.get(name, 0.0)))
     return float(getattr(board.machine, name, getattr(MAKER, name, 0.0)))
@@ -141,7 +141,7 @@ class Cure:
 
 
 def sheet() -> np.ndarray:
-    """Places (n, 2) [mm] all over the sheet."""
+    """Return places (n, 2) [mm] all over the sheet."""
     across = np.linspace(-HALF[0] + MARGIN, HALF[0] - MARGIN, COLUMNS)
     up = np.linspace(-HALF[1] + MARGIN, HALF[1] - MARGIN, ROWS)
     return np.array([(x, y) for y in up for x in across])
@@ -159,13 +159,13 @@ def shape_error(machine: TrueMachine, settings: MachineSettings) -> float:
 
 
 def refitted(inputs: Inputs, effects: Sequence[str], sigma: float) -> MachineSettings:
-    """The settings with the frame and these effects fitted, as `plumb add` does it."""
+    """Return the settings with the frame and these effects fitted, as `plumb add` does it."""
     model, rows = inputs.model_and_observations()
     return fit(model, rows, effects=effects, sigma=sigma, checked=inputs.checked).settings
 
 
 def cure_of(machine: TrueMachine, inputs: Inputs, effects: Sequence[str], *, sigma: float) -> Cure:
-    """What naming these effects is worth on a board; sigma [mm] as the diagnosis took it."""
+    """Return what naming these effects is worth on a board; sigma [mm] as the diagnosis took it."""
     truth = machine.hidden.effects
     fits = {
         named: shape_error(machine, refitted(inputs, named, sigma))
@@ -189,14 +189,14 @@ class Followed:
     readings: int = 0  # of marks, beyond those of the first board
 
     def inputs(self, settings: MachineSettings) -> Inputs:
-        """What the lab knows of a machine with these settings."""
+        """Return what the lab knows of a machine with these settings."""
         return Inputs(settings, self.board.measurements, checked=self.checked)
 
 
 def followed(
     board: BoardCut, settings: MachineSettings, owner: BoardOwner, *, rounds: int
 ) -> Followed:
-    """The board after some rounds, in each of which the best proposal is carried out."""
+    """Return the board after some rounds, in each of which the best proposal is carried out."""
     loop = Followed(board, diagnose(Inputs(settings, board.measurements)))
     for _ in range(rounds):
         for proposal in propose(loop.diagnosis, loop.inputs(settings)).proposals:
@@ -208,8 +208,9 @@ def followed(
 
 
 def _carried_out(loop: Followed, proposal: Proposal, owner: BoardOwner) -> Followed | None:
-    """The board with a proposal measured, not yet diagnosed; None for what was done before, and
-    for what this owner's sled cannot reach."""
+    """Return the board with a proposal measured, not yet diagnosed; None for what was done before,
+    and for what this owner's sled cannot reach.
+    """
     option = proposal.option
     if option.title in loop.done or not (len(option.visits) or option.checks):
         return None

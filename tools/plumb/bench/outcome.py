@@ -78,17 +78,17 @@ def outcome_of(
 
 
 def _in_all(diagnosis: Diagnosis) -> set[str]:
-    """The effects of which the lab is sure: those in every explanation."""
+    """Return the effects of which the lab is sure: those in every explanation."""
     return set.intersection(*(set(explanation.effects) for explanation in diagnosis.explanations))
 
 
 def _background(hidden: Hidden) -> set[str]:
-    """What is there on every machine."""
+    """Return what is there on every machine."""
     return {cause.effect for cause, _ in hidden.usual}
 
 
 def _is_covered(diagnosis: Diagnosis, hidden: Hidden, allowed: set[str]) -> bool:
-    """Whether an explanation of nothing else leaves only what could hide."""
+    """Return whether an explanation of nothing else leaves only what could hide."""
     allowed = allowed | _background(hidden)
     small = {effect for effect, good in _limits(diagnosis, hidden) if good}
     explanations = [set(explanation.effects) for explanation in diagnosis.explanations]
@@ -111,7 +111,7 @@ def _words(hidden: Hidden) -> str:
 
 
 def _truths(hidden: Hidden) -> dict[str, float]:
-    """The true value of each parameter of the library by its full name."""
+    """Return the true value of each parameter of the library by its full name."""
     diagnosis = {
         name: MAKER.effects.get(name.partition(".")[0], {}).get(name.partition(".")[2], 0.0)
         for name in parameter_words()
@@ -123,7 +123,9 @@ def _truths(hidden: Hidden) -> dict[str, float]:
 
 
 def _intervals(diagnosis: Diagnosis, hidden: Hidden) -> tuple[int, int]:
-    """Of the explanation that is the truth, wherever it is in the list."""
+    """Return how many intervals hold, and how many there are, of the explanation that is
+    the truth.
+    """
     truths, good, count = _truths(hidden), 0, 0
     for explanation in diagnosis.explanations:
         if set(explanation.effects) != set(hidden.effects):
@@ -137,7 +139,9 @@ def _intervals(diagnosis: Diagnosis, hidden: Hidden) -> tuple[int, int]:
 
 
 def _limits(diagnosis: Diagnosis, hidden: Hidden) -> list[tuple[str, bool]]:
-    """For each effect that the marks feel: whether its true size is below what could hide."""
+    """Return each effect that the marks feel, and whether its true size is below what could
+    hide.
+    """
     truths, judged = _truths(hidden), []
     if hidden.outside or diagnosis.verdict in ("slip", "not_in_library"):
         return []
@@ -184,7 +188,9 @@ def _numbers(rows: Observations) -> Array:
 
 
 def _cosine(frame: Explanation, effect: str, left: Array) -> float:
-    """Of the angle between what a cause leaves beyond the frame and the nearest of an effect."""
+    """Return the cosine of the angle between what a cause leaves beyond the frame and the nearest
+    of an effect.
+    """
     raw = frame.slopes[:, frame.board.columns([effect])]
     if not np.any(raw):
         return 0.0
@@ -274,7 +280,9 @@ MEASURES: Mapping[str, Counted] = {
 
 
 def rate_of(name: str, outcomes: Sequence[Outcome]) -> Rate:
-    """One rate over boards; a share that was 0 or 1 throughout is given the error of one board."""
+    """Return one rate over boards; a share that was 0 or 1 throughout is given the error of one
+    board.
+    """
     counted = np.array([MEASURES[name](outcome) for outcome in outcomes], dtype=float).reshape(
         -1, 2
     )

@@ -105,7 +105,7 @@ def run(
 
 
 def _some(task: tuple[str, tuple[int, ...], int]) -> list[JudgedBoard]:
-    """Some boards of the scenario of a name."""
+    """Return some boards of the scenario of a name."""
     name, indices, seed = task
     scenario = next(scenario for scenario in SCENARIOS if scenario.name == name)
     return [judge_board(scenario, index, seed=seed) for index in indices]
@@ -138,7 +138,7 @@ def _report(
 
 
 def rows_of(scenario: Scenario, outcomes: Sequence[Outcome]) -> list[Row]:
-    """The rates of a scenario, those with a line first."""
+    """Return the rates of a scenario, those with a line first."""
     rows = []
     for line in scenario.lines:
         rate = rate_of(line.name, outcomes)
@@ -147,7 +147,7 @@ def rows_of(scenario: Scenario, outcomes: Sequence[Outcome]) -> list[Row]:
 
 
 def _by_kind(scenario: Scenario, outcomes: Sequence[Outcome]) -> list[tuple[str, str, Rate]]:
-    """The first rate with a line, by what was hidden."""
+    """Return the first rate with a line, by what was hidden."""
     causes = dict.fromkeys(outcome.cause.partition(",")[0] for outcome in outcomes)
     if not scenario.lines or len(causes) < 2 or scenario.name.startswith("pairs"):
         return []
@@ -167,7 +167,9 @@ def _by_kind(scenario: Scenario, outcomes: Sequence[Outcome]) -> list[tuple[str,
 def _all_cured(
     scenarios: Sequence[Scenario], trials: Mapping[str, Sequence[JudgedBoard]]
 ) -> tuple[Cured, ...]:
-    """The errors at the sled of each scenario, and of all together where there are several."""
+    """Return the errors at the sled of each scenario, and of all together where there are
+    several.
+    """
     each = [(scenario.name, trials[scenario.name]) for scenario in scenarios]
     if len(each) > 1:
         each.append(("all of these", [trial for _, of_scenario in each for trial in of_scenario]))
@@ -185,7 +187,7 @@ def _cured(name: str, trials: Sequence[JudgedBoard]) -> Cured:
 
 
 def value_words(rate: Rate) -> str:
-    """A rate with its uncertainty."""
+    """Return a rate with its uncertainty."""
     if not rate.count:
         return "-"
     if rate.name in ("suspects", CURE.name):
@@ -194,7 +196,7 @@ def value_words(rate: Rate) -> str:
 
 
 def line_words(line: Line | None) -> str:
-    """A line to be reached."""
+    """Return a line to be reached."""
     if line is None:
         return ""
     if line.name in ("suspects", CURE.name):
@@ -210,7 +212,7 @@ LOOP_HEADER = (*CURE_HEADER, "marks more", "checks")
 
 
 def cells(report: Report) -> list[list[str]]:
-    """The rows of the table."""
+    """Return the rows of the table."""
     return [
         [
             row.scenario.name,
@@ -227,7 +229,7 @@ def cells(report: Report) -> list[list[str]]:
 
 
 def cure_cells(cures: Sequence[Cured]) -> list[list[str]]:
-    """The rows of the table of errors at the sled."""
+    """Return the rows of the table of errors at the sled."""
     return [
         [
             cured.scenario,
@@ -240,7 +242,7 @@ def cure_cells(cures: Sequence[Cured]) -> list[list[str]]:
 
 
 def loop_cells(loops: Sequence[Cured]) -> list[list[str]]:
-    """The same after rounds of proposals, with what was measured for it."""
+    """Return the same after rounds of proposals, with what was measured for it."""
     rows = cure_cells(loops)
     return [
         [*row, f"{cured.readings:.1f}", f"{cured.checks:.1f}"]

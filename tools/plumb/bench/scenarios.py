@@ -103,7 +103,7 @@ def _slips(count: int, marks: int) -> Scenario:
 
 
 def _no_slips(count: int) -> Scenario:
-    """The same without a slip."""
+    """Return the same without a slip."""
     return Scenario(
         f"no-slips-{count}",
         f"{_COUNTS[count]} of 1 to 3 usual sizes",

@@ -117,7 +117,8 @@ def touched(
     marks: Array = MARKS,
     taped: float | None = None,
 ) -> tuple[Touch, ...]:
-    """What an owner writes down who puts the bit into holes that the machine made at `marks`.
+    """Return what an owner writes down who puts the bit into holes that the machine made at
+    `marks`.
 
     taped: the places of the holes are read with a tape of this noise [mm]; else they are where the
     machine was sent.
@@ -140,7 +141,7 @@ def touched(
 
 
 def _chains_to(true: TrueMachine, settings: MachineSettings, sleds: Array) -> Array:
-    """The chains (n, 2) [mm] on which the judge's sled hangs at places (n, 2) [mm]."""
+    """Return the chains (n, 2) [mm] on which the judge's sled hangs at places (n, 2) [mm]."""
     chains = aimed = lengths(settings, sleds)[0]
     for _ in range(TRIES):
         chains = chains + aimed - lengths(settings, true.sleds(chains))[0]
@@ -158,7 +159,7 @@ def count_slips(
     marks: Array = MARKS,
     outside: float = 0.0,
 ) -> SlipCount:
-    """What is said of a mishap on machines with these numbers."""
+    """Return what is said of a mishap on machines with these numbers."""
     said = [
         find_slip(
             machine.settings,

@@ -80,7 +80,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _named(effects: list[str]) -> list[str]:
-    """The effects that were named; none: the frame alone is fitted."""
+    """Return the effects that were named; none: the frame alone is fitted."""
     if NONE not in effects:
         return effects
     if len(effects) > 1:
@@ -111,7 +111,7 @@ def _run_auto(arguments: argparse.Namespace, inputs: Inputs) -> int:
 
 
 def _first(result: AutoAddition, arguments: argparse.Namespace) -> str:
-    """What comes before anything can be added."""
+    """Return what comes before anything can be added."""
     same = same_inputs(arguments)
     if result.diagnosis.slips:
         return next_step("When the file is corrected:", ["add", *same, "--effect", AUTO])
@@ -180,7 +180,7 @@ def _print_written(
 
 
 def _original(arguments: argparse.Namespace) -> list[str]:
-    """Where the client's other keys are, if the settings came from a client."""
+    """Return where the client's other keys are, if the settings came from a client."""
     is_client = Path(arguments.settings).suffix.lower() in CLIENT_OF
     return ["--original", arguments.settings] if is_client else []
 
@@ -195,7 +195,7 @@ def _written_json(files: list[str], client: ClientFiles | None) -> dict[str, Any
 
 
 def _files(arguments: argparse.Namespace, inputs: Inputs, result: Addition) -> dict[str, bytes]:
-    """The machine and its picture, complete before the first is written."""
+    """Return the machine and its picture, complete before the first is written."""
     files: dict[str, bytes] = {}
     if arguments.output:
         files[arguments.output] = toml_of(
@@ -211,7 +211,7 @@ def _files(arguments: argparse.Namespace, inputs: Inputs, result: Addition) -> d
 
 
 def fall_of(result: Addition, *, form: str = "png") -> bytes:
-    """The picture of how the error falls, effect by effect."""
+    """Return the picture of how the error falls, effect by effect."""
     heading = heading_of(result, result.raw.rms, result.after.fit_rms)
     return draw_staircase(
         stairs_of(result), heading=heading, sheet=result.settings.sheet, form=form
@@ -219,14 +219,16 @@ def fall_of(result: Addition, *, form: str = "png") -> bytes:
 
 
 def heading_of(result: Addition, before: float, after: float) -> str:
-    """Which effects were added, and from which RMS error [mm] to which."""
+    """Return which effects were added, and from which RMS error [mm] to which."""
     added = " and ".join(_noun(step.effect) for step in result.steps)
     done = f"Added: {added}" if added else "Frame fitted, nothing added"
     return f"{done}. From {about(before)} to {about(after)} mm RMS"
 
 
 def stairs_of(result: Addition, *, raw: Comparison | None = None) -> list[Stair]:
-    """As set, frame fitted, and a stair for each effect; raw: the marks as set, if not all."""
+    """Return the stairs: as set, frame fitted, and a stair for each effect; raw: the marks as set,
+    if not all.
+    """
     as_set = raw or result.raw
     fits = [("Frame fitted", result.before_fit)]
     fits += [(f"+ {_noun(step.effect)}", step.fit) for step in result.steps]
@@ -243,7 +245,7 @@ def _noun(effect: str) -> str:
 
 
 def as_json(addition: Addition) -> dict[str, Any]:
-    """The addition by the names of the interface."""
+    """Return the addition by the names of the interface."""
     turned = addition.after_fit.shows_sheet_rotation
     return {
         "raw": {
@@ -276,7 +278,7 @@ def as_json(addition: Addition) -> dict[str, Any]:
 
 
 def auto_json(result: AutoAddition) -> dict[str, Any]:
-    """How the effects were chosen."""
+    """Return how the effects were chosen."""
     return {
         "verdict": result.diagnosis.verdict,
         "chosen": result.chosen,
@@ -326,7 +328,7 @@ EXIT = (
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb add`."""
+    """Add the arguments of `plumb add`."""
     add_marks(parser)
     parser.add_argument(
         "--effect",
@@ -369,7 +371,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def held_size(text: str) -> tuple[str, float]:
-    """Reads NAME=SIZE."""
+    """Read NAME=SIZE."""
     name, size = named_number(text)
     if size is None:
         raise argparse.ArgumentTypeError(f"'{text}' is not NAME=SIZE, like chain_pitch.left=0.001")

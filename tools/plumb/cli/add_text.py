@@ -16,7 +16,7 @@ NONE = "none"  # as an effect: the frame alone
 
 
 def auto_text(result: AutoAddition) -> str:
-    """The diagnosis and the choice for people, then the addition."""
+    """Return the diagnosis and the choice for people, then the addition."""
     said = [sentences([verdict_sentence(result.diagnosis)], mark="")]
     said += (
         [sentences([slip.sentence for slip in result.diagnosis.slips])]
@@ -36,7 +36,7 @@ def auto_text(result: AutoAddition) -> str:
 
 
 def _offer_sentence(without: float, with_patch: float, *, added: bool) -> str:
-    """What a residual patch would buy, or has bought."""
+    """Return what a residual patch would buy, or has bought."""
     if with_patch >= without:
         return f"A residual patch would buy nothing ({worded(without)} on marks not used)."
     bought = f"{bare(without)} to {worded(with_patch)} on marks not used"
@@ -53,7 +53,7 @@ COLUMNS = (
 
 
 def as_text(result: Addition, *, asked_patch: bool = False) -> str:
-    """The addition for people, its conclusion first."""
+    """Return the addition for people, its conclusion first."""
     raw, before, after = result.raw, result.before, result.after
     verdict = "better" if result.pays else "NOT better"
     first = f"From {bare(raw.rms)} to {worded(after.fit_rms)} RMS"
@@ -81,7 +81,7 @@ def as_text(result: Addition, *, asked_patch: bool = False) -> str:
 
 
 def _benchmark_sentence(result: Addition) -> str:
-    """The community's score before, and what to expect of the next cut."""
+    """Return the community's score before, and what to expect of the next cut."""
     said = (
         f"Calibration Benchmark Score: {result.raw.benchmark} as cut; {result.benchmark_after} to "
         "expect when it is cut again with the new settings, if nothing else changes."

@@ -32,7 +32,7 @@ ANSWERS: dict[str, type] = {
 
 
 def schema() -> dict[str, Any]:
-    """The JSON schema: $defs has the answer of each command by its name."""
+    """Return the JSON schema: $defs has the answer of each command by its name."""
     head = json.loads(FILE.read_text("utf-8"))
     return {**head, "$defs": {**head["$defs"], **schema_of(ANSWERS)}}
 

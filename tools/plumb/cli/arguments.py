@@ -12,7 +12,7 @@ from plumb.text.files import read_bytes
 
 
 def add_settings(parser: argparse.ArgumentParser) -> None:
-    """The argument SETTINGS."""
+    """Add the argument SETTINGS."""
     parser.add_argument(
         "settings",
         metavar="SETTINGS",
@@ -22,7 +22,7 @@ def add_settings(parser: argparse.ArgumentParser) -> None:
 
 
 def add_marks(parser: argparse.ArgumentParser) -> None:
-    """SETTINGS, MARKS and how the marks were cut."""
+    """Add the arguments SETTINGS and MARKS, and how the marks were cut."""
     add_settings(parser)
     parser.add_argument(
         "marks",
@@ -41,7 +41,7 @@ def add_marks(parser: argparse.ArgumentParser) -> None:
 
 
 def add_controller(parser: argparse.ArgumentParser) -> None:
-    """The option --controller."""
+    """Add the option --controller."""
     parser.add_argument(
         "--controller",
         choices=CONTROLLERS,
@@ -51,7 +51,7 @@ def add_controller(parser: argparse.ArgumentParser) -> None:
 
 
 def add_prior(parser: argparse.ArgumentParser) -> None:
-    """The option --prior."""
+    """Add the option --prior."""
     parser.add_argument(
         "--prior",
         metavar="NAME=SIGMA",
@@ -63,7 +63,7 @@ def add_prior(parser: argparse.ArgumentParser) -> None:
 
 
 def add_sigma(parser: argparse.ArgumentParser, *, usual: str) -> None:
-    """The option --sigma; `usual` says what holds without it."""
+    """Add the option --sigma; `usual` says what holds without it."""
     parser.add_argument(
         "--sigma",
         metavar="MM",
@@ -73,7 +73,7 @@ def add_sigma(parser: argparse.ArgumentParser, *, usual: str) -> None:
 
 
 def add_without(parser: argparse.ArgumentParser) -> None:
-    """The option --without."""
+    """Add the option --without."""
     parser.add_argument(
         "--without",
         metavar="MARK",
@@ -84,7 +84,7 @@ def add_without(parser: argparse.ArgumentParser) -> None:
 
 
 def add_units(parser: argparse.ArgumentParser) -> None:
-    """The option --units."""
+    """Add the option --units."""
     parser.add_argument(
         "--units",
         choices=("mm", "inch"),
@@ -93,26 +93,26 @@ def add_units(parser: argparse.ArgumentParser) -> None:
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:
-    """The option --json."""
+    """Add the option --json."""
     parser.add_argument("--json", action="store_true", help="print a JSON object and nothing else")
 
 
 def add_force(parser: argparse.ArgumentParser) -> None:
-    """The option --force."""
+    """Add the option --force."""
     parser.add_argument(
         "--force", action="store_true", help="replace files that plumb did not write"
     )
 
 
 def file(path: str) -> str:
-    """The name of a file that exists; another is refused before the model is loaded."""
+    """Return the name of a file that exists; another is refused before the model is loaded."""
     if not Path(path).exists() or Path(path).is_dir():
         read_bytes(path)  # refuses it; what comes through a pipe is read only once, and later
     return path
 
 
 def length(text: str) -> float:
-    """A length above zero [mm]."""
+    """Return a length above zero [mm]."""
     value = float(text)
     if not (math.isfinite(value) and value > 0):
         raise argparse.ArgumentTypeError(f"'{text}' is not a number above zero")
@@ -120,7 +120,7 @@ def length(text: str) -> float:
 
 
 def count(text: str) -> int:
-    """A whole number above zero."""
+    """Return a whole number above zero."""
     number = int(text) if text.isdecimal() else 0
     if number < 1:
         raise argparse.ArgumentTypeError(f"'{text}' is not a whole number, like 100")
@@ -128,7 +128,7 @@ def count(text: str) -> int:
 
 
 def limit(text: str) -> float:
-    """A limit of zero or more."""
+    """Return a limit of zero or more."""
     value = float(text)
     if not (math.isfinite(value) and value >= 0):
         raise argparse.ArgumentTypeError(f"'{text}' is not a number of zero or more")
@@ -136,7 +136,7 @@ def limit(text: str) -> float:
 
 
 def prior(text: str) -> tuple[str, float]:
-    """Reads NAME=SIGMA."""
+    """Read NAME=SIGMA."""
     name, sigma = named_number(text)
     if sigma is None or sigma < 0:
         raise argparse.ArgumentTypeError(f"'{text}' is not NAME=SIGMA, like motor_gap=1.5")
@@ -144,7 +144,7 @@ def prior(text: str) -> tuple[str, float]:
 
 
 def named_number(text: str) -> tuple[str, float | None]:
-    """A name and the number behind its =; None if there is no such number."""
+    """Return a name and the number behind its =; None if there is no such number."""
     name, _, value = text.partition("=")
     try:
         number = float(value)
@@ -154,7 +154,7 @@ def named_number(text: str) -> tuple[str, float | None]:
 
 
 def add_port(parser: argparse.ArgumentParser) -> None:
-    """The option --port."""
+    """Add the option --port."""
     parser.add_argument(
         "--port", metavar="PATH", help="the machine's serial port [that of the only board on USB]"
     )
@@ -187,7 +187,7 @@ def add_machine(parser: argparse.ArgumentParser) -> None:
 
 
 def place(text: str) -> tuple[float, float]:
-    """Reads X,Y [mm]."""
+    """Read X,Y [mm]."""
     match = PLACE.fullmatch(text)
     try:
         x, y = (float(part) for part in match.groups()) if match else (math.nan, math.nan)
@@ -199,7 +199,7 @@ def place(text: str) -> tuple[float, float]:
 
 
 def number(text: str) -> tuple[int, float]:
-    """Reads N=VALUE."""
+    """Read N=VALUE."""
     name, _, value = text.lstrip("$").partition("=")
     try:
         pair = int(name), float(value)

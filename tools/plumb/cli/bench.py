@@ -44,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def chosen_of(names: Sequence[str]) -> tuple[Scenario, ...]:
-    """The scenarios of these names or beginnings of names; all if there are none."""
+    """Return the scenarios of these names or beginnings of names; all if there are none."""
     for name in names:
         if not any(known.startswith(name) for known in NAMES):
             raise InputError(
@@ -59,7 +59,7 @@ def chosen_of(names: Sequence[str]) -> tuple[Scenario, ...]:
 
 
 def counted(total: int) -> Callable[[str, int], None]:
-    """A bar that is moved on by a number of boards of a scenario."""
+    """Return a bar that is moved on by a number of boards of a scenario."""
     bar, done = Bar("boards", patience=0.0), 0
 
     def step(name: str, boards: int) -> None:
@@ -71,7 +71,7 @@ def counted(total: int) -> Callable[[str, int], None]:
 
 
 def as_text(report: Report) -> str:
-    """The tables for people, what is missed last."""
+    """Return the tables for people, what is missed last."""
     parts = [_rates_of(name, report) for name in dict.fromkeys(row[0] for row in cells(report))]
     if report.cures:
         parts.append(table(CURE_HEADER, cure_cells(report.cures)))
@@ -105,7 +105,7 @@ def as_text(report: Report) -> str:
 
 
 def _rates_of(name: str, report: Report) -> str:
-    """The rates of a scenario, below what it hides."""
+    """Return the rates of a scenario, below what it hides."""
     rows = [row for row in cells(report) if row[0] == name]
     _, hidden, marks, noise, *_ = rows[0]
     said = f"{name}: {hidden}, {marks} marks, noise {noise}"
@@ -113,7 +113,7 @@ def _rates_of(name: str, report: Report) -> str:
 
 
 def as_json(report: Report) -> dict[str, Any]:
-    """The rates by the names of the table."""
+    """Return the rates by the names of the table."""
     return {
         "boards": report.boards,
         "counted": report.counted,
@@ -178,7 +178,7 @@ EXIT = "Exit: 0 done, whatever the rates; 2 it cannot run; 130 interrupted, what
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb bench`."""
+    """Add the arguments of `plumb bench`."""
     parser.add_argument(
         "--scenario",
         metavar="NAME",

@@ -84,7 +84,7 @@ def _inputs(arguments: argparse.Namespace) -> Inputs:
 
 
 def round_of(inputs: Inputs) -> Round:
-    """What the marks say, what was added by it, and what to measure first if it is open."""
+    """Return what the marks say, what was added by it, and what to measure first if it is open."""
     comparison = compare(
         inputs.settings,
         inputs.measurements,
@@ -129,7 +129,7 @@ EXIT = (
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb calibrate`."""
+    """Add the arguments of `plumb calibrate`."""
     add_marks(parser)
     add_without(parser)
     parser.add_argument(
@@ -172,7 +172,9 @@ def as_text(
     client: ClientFiles | None,
     inputs: Inputs,
 ) -> str:
-    """The whole round for people: what is, what is missing, what was done, what comes next."""
+    """Return the whole round for people: what is, what is missing, what was done, what
+    comes next.
+    """
     diagnosis, addition = this.result.diagnosis, this.result.addition
     parts = [conclusion(this.comparison, inputs.settings.sheet_width, inputs.measurements.typed)]
     outside = outside_sentence(this.comparison.promised) if this.comparison.promised else ""
@@ -200,7 +202,7 @@ def as_text(
 
 
 def sentence(this: Round) -> str:
-    """The end of the round in one sentence."""
+    """Return the end of the round in one sentence."""
     diagnosis, addition = this.result.diagnosis, this.result.addition
     if this.done and addition:
         chosen = this.result.chosen
@@ -223,7 +225,9 @@ def sentence(this: Round) -> str:
 
 
 def _best(this: Round) -> Proposal | None:
-    """What to measure first; more marks where they are too few, or lie too close together."""
+    """Return what to measure first; more marks where they are too few, or lie too close
+    together.
+    """
     proposals = this.advice.proposals if this.advice else ()
     if this.result.diagnosis.left_open.is_too_much:
         proposals = tuple(each for each in proposals if each.option.is_cut) or proposals
@@ -236,7 +240,7 @@ def _written_text(files: list[str], client: ClientFiles | None) -> str:
 
 
 def _first_measure(this: Round, arguments: argparse.Namespace) -> list[str]:
-    """What has to be done before anything is written."""
+    """Return what has to be done before anything is written."""
     same = same_inputs(arguments)
     if this.result.diagnosis.slips:
         names = dict.fromkeys(slip.name for slip in this.result.diagnosis.slips)

@@ -62,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def as_json(checked: Checked, *, written: list[str]) -> dict[str, Any]:
-    """The check by the names of the interface."""
+    """Return the check by the names of the interface."""
     times, hanging = checked.times, checked.hanging
     return {
         "good": checked.is_good,
@@ -166,7 +166,7 @@ EXIT = "Exit: 0 nothing is wrong; 1 something is; 2 an input cannot be used."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb check`."""
+    """Add the arguments of `plumb check`."""
     add_machine(parser)
     parser.add_argument(
         "--marks",
@@ -269,7 +269,7 @@ CUT = 10.0  # [N] the side force of a light cut
 
 
 def as_text(checked: Checked, arguments: argparse.Namespace) -> str:
-    """The check for people: what is wrong, the job, its parts, what to do next."""
+    """Return the check for people: what is wrong, the job, its parts, what to do next."""
     paragraphs = [headline(_verdict(checked, Path(arguments.job).name))]
     wrong = _wrong(checked)
     if wrong:
@@ -296,7 +296,7 @@ def _verdict(checked: Checked, name: str) -> str:
 
 
 def _wrong(checked: Checked) -> list[str]:
-    """Each wrong line, and where no sled should cut."""
+    """Return each wrong line, and where no sled should cut."""
     wrong = [finding for finding in checked.findings if finding.is_wrong]
     halts = {HALTS: "the machine halts: "}
     said = [f"line {each.line}: {halts.get(each.kind, '')}{each.says}" for each in wrong[:SHOWN]]
@@ -391,7 +391,7 @@ def _count(number: int, noun: str) -> str:
 
 
 def time_text(seconds: float) -> str:
-    """A time for people."""
+    """Return a time for people."""
     whole = round(seconds)
     hours, minutes = whole // 3600, whole // 60 % 60
     if hours:

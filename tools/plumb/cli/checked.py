@@ -19,7 +19,7 @@ from plumb.text.errors import InputError
 
 
 def with_stated(inputs: Inputs, arguments: argparse.Namespace) -> Inputs:
-    """The inputs with all numbers that the command line states."""
+    """Return the inputs with all numbers that the command line states."""
     priors = priors_with(arguments.prior)
     checks = usable_checks(arguments.checked, priors)
     refuse_absurd(checks, inputs.settings)
@@ -27,7 +27,7 @@ def with_stated(inputs: Inputs, arguments: argparse.Namespace) -> Inputs:
 
 
 def usable_checks(said: Sequence[Measured], priors: Mapping[str, float]) -> list[Checked]:
-    """The checks, if each is of a number that is fitted here."""
+    """Return the checks, if each is of a number that is fitted here."""
     known = [*parameter_words(), *(name for name, sigma in priors.items() if sigma > 0)]
     for check in said:
         if check.name not in known:
@@ -72,7 +72,7 @@ class Measured(NamedTuple):
 
 
 def add_checked(parser: argparse.ArgumentParser) -> None:
-    """The option --checked."""
+    """Add the option --checked."""
     parser.add_argument(
         "--checked",
         metavar="NAME=VALUE+-SIGMA",
@@ -85,7 +85,7 @@ def add_checked(parser: argparse.ArgumentParser) -> None:
 
 
 def checked(text: str) -> Measured:
-    """Reads NAME=VALUE+-SIGMA."""
+    """Read NAME=VALUE+-SIGMA."""
     name, _, numbers = text.partition("=")
     value, _, sigma = re.sub("±", "+-", numbers).partition("+-")
     if "VALUE" in numbers:

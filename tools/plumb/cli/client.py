@@ -21,7 +21,9 @@ def client_files_of(
     firmware: str = "plumb",
     originals: Sequence[str | None] = (),
 ) -> ClientFiles | None:
-    """The lines for the machine, and what belongs to the client; None if no client was named."""
+    """Return the lines for the machine, and what belongs to the client; None if no client was
+    named.
+    """
     if arguments.original and arguments.client not in CLIENT_FILES:
         raise InputError("--original is the file of a client; name the client too, with --client")
     if arguments.client is None:
@@ -40,7 +42,7 @@ def client_files_of(
 
 
 def client_text(files: ClientFiles) -> str:
-    """What the owner does with the files, for people."""
+    """Return what the owner does with the files, for people."""
     parts = [sentences([f"{step[0].upper()}{step[1:]}." for step in files.steps])]
     if files.typed:
         rows = [[section, key, value] for (section, key), value in files.typed.items()]
@@ -51,7 +53,7 @@ def client_text(files: ClientFiles) -> str:
 
 
 def typed_json(files: ClientFiles | None) -> dict[str, str]:
-    """What the owner types into the client, by section and key."""
+    """Return what the owner types into the client, by section and key."""
     typed = files.typed if files else {}
     return {f"{section}: {key}": value for (section, key), value in typed.items()}
 
@@ -60,7 +62,7 @@ def typed_json(files: ClientFiles | None) -> dict[str, str]:
 
 
 def add_client(parser: argparse.ArgumentParser) -> None:
-    """The options --client and --original."""
+    """Add the options --client and --original."""
     parser.add_argument(
         "--client",
         choices=CLIENTS,
@@ -76,7 +78,7 @@ def add_client(parser: argparse.ArgumentParser) -> None:
 
 
 def add_firmware(parser: argparse.ArgumentParser) -> None:
-    """The option --firmware."""
+    """Add the option --firmware."""
     parser.add_argument(
         "--firmware",
         choices=FIRMWARES,

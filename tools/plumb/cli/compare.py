@@ -57,7 +57,7 @@ def run(arguments: argparse.Namespace) -> int:
 def panel_of(
     comparison: Comparison, *, when: str = "As the settings are", good: bool = False
 ) -> Panel:
-    """The comparison as a panel of a picture."""
+    """Return the comparison as a panel of a picture."""
     if not comparison.marks:
         raise InputError("--picture: there are distances only, so no errors to draw on a sheet")
     return Panel(
@@ -70,7 +70,7 @@ def panel_of(
 
 
 def as_text(comparison: Comparison, *, sheet_width: float, typed: Typed = MACHINE) -> str:
-    """The comparison for people, its conclusion first."""
+    """Return the comparison for people, its conclusion first."""
     parts = [conclusion(comparison, sheet_width, typed)]
     if comparison.promised:
         parts.append(sentences([promised_sentence(comparison.promised, sheet_width)], mark=""))
@@ -103,7 +103,7 @@ def as_text(comparison: Comparison, *, sheet_width: float, typed: Typed = MACHIN
 
 
 def promised_sentence(record: FitRecord, sheet_width: float) -> str:
-    """What the settings' file knows of these marks."""
+    """Return what the settings' file knows of these marks."""
     names = [board.cut_with.file.name for board in record.boards if board.cut_with.file]
     cut = f", cut with {' and '.join(dict.fromkeys(names))}" if names else ""
     rise = np.tan(record.sheet_rotation) * sheet_width
@@ -122,7 +122,9 @@ def promised_sentence(record: FitRecord, sheet_width: float) -> str:
 
 
 def outside_sentence(record: FitRecord) -> str:
-    """What the fit found outside of the machine, which an error as set counts; "" for nothing."""
+    """Return what the fit found outside of the machine, which an error as set counts; "" for
+    nothing.
+    """
     sizes = [
         plain_size(f"{effect}.{name}", size)
         for effect, parameters in record.lab_effects.items()
@@ -132,7 +134,7 @@ def outside_sentence(record: FitRecord) -> str:
 
 
 def benchmark_sentence(score: Score, left: Score | None) -> str:
-    """The community's score for people."""
+    """Return the community's score for people."""
     part = "" if score.complete else " (of a part of its readings)"
     return (
         f"Calibration Benchmark Score{part}: {score} as cut (mean error of the long "
@@ -200,7 +202,7 @@ EXIT = "Exit: 0 done; 1 the RMS is above --limit; 2 an input cannot be used."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb compare`."""
+    """Add the arguments of `plumb compare`."""
     add_marks(parser)
     parser.add_argument(
         "--limit", metavar="MM", type=length, help="exit with code 1 if the RMS is above MM"

@@ -125,7 +125,7 @@ def _files(demonstration: Demonstration, folder: str, picture: str | None) -> di
 
 
 def as_text(demonstration: Demonstration) -> str:
-    """Everything but the last line."""
+    """Return everything but the last line."""
     chosen = demonstration.chosen
     effects = ", ".join(chosen.effects_added)
     return "\n\n".join(
@@ -186,7 +186,7 @@ def _parameters(demonstration: Demonstration) -> str:
 
 
 def _doubts(demonstration: Demonstration) -> list[str]:
-    """What a reader must know before believing the fall."""
+    """Return what a reader must know before believing the fall."""
     chosen, flipped = demonstration.chosen, demonstration.flipped
     doubts = [
         "The settings are assumed. The source does not say which were in force, so the published "
@@ -216,7 +216,7 @@ def _doubts(demonstration: Demonstration) -> list[str]:
 
 
 def _impossible_pitch(demonstration: Demonstration) -> str:
-    """What the other sign of y would say of the chains."""
+    """Return what the other sign of y would say of the chains."""
     strains = [p for p in demonstration.flipped.parameters if p.name.startswith("chain_pitch.")]
     if not strains or any(strain.plausible for strain in strains):
         return "and the numbers do not decide between the two."
@@ -228,7 +228,7 @@ def _impossible_pitch(demonstration: Demonstration) -> str:
 
 
 def calibrated(inputs: Inputs) -> str:
-    """What plumb calibrate says of these marks, which knows nothing of the steps above."""
+    """Return what plumb calibrate says of these marks, which knows nothing of the steps above."""
     this = round_of(inputs)
     said = f"plumb calibrate says of them: {verdict_sentence(this.result.diagnosis)}"
     return sentences([said, sentence(this)], mark="")

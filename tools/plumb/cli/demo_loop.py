@@ -77,7 +77,7 @@ def as_text(loop: Loop) -> str:
 
 
 def _cure(loop: Loop) -> list[str]:
-    """What was added, and what the owner did with it."""
+    """Return what was added, and what the owner did with it."""
     if loop.auto.addition is None:
         return [f"plumb add: nothing was added: {loop.auto.reason}."]
     rise = loop.addition.sheet_rise
@@ -90,7 +90,7 @@ def _cure(loop: Loop) -> list[str]:
 
 
 def _numbers(loop: Loop) -> str:
-    """The three numbers: before, promised, and measured at marks that took no part."""
+    """Return the three numbers: before, promised, and measured at marks that took no part."""
     rows = [_row("before", loop.before)]
     if loop.after:
         rows += [
@@ -106,7 +106,7 @@ def _row(name: str, comparison: Comparison) -> list[str]:
 
 
 def reveal(loop: Loop) -> str:
-    """The last line: what it was, and whether the lab was right."""
+    """Return the last line: what it was, and whether the lab was right."""
     hidden = loop.owner.garage.hidden
     right = set(loop.auto.chosen) == set(hidden.effects)
     verdict = "The lab named it" if right else "The lab named something else"
@@ -125,7 +125,7 @@ def _picture(loop: Loop) -> bytes:
 
 
 def _signed(form: str) -> bytes:
-    """A form that nobody's hand filled in: the next demo may replace it."""
+    """Return a form that nobody's hand filled in: the next demo may replace it."""
     return DEMO_MARKS + form.encode()
 
 

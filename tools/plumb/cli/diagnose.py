@@ -44,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _next(diagnosis: Diagnosis, arguments: argparse.Namespace) -> str:
-    """The command that follows from the verdict."""
+    """Return the command that follows from the verdict."""
     if diagnosis.verdict == "slip":
         corrected = ["diagnose", *same_inputs(arguments)]
         return next_step("When the file is corrected:", corrected)
@@ -59,7 +59,7 @@ def _next(diagnosis: Diagnosis, arguments: argparse.Namespace) -> str:
 
 
 def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
-    """The diagnosis by the names of the interface."""
+    """Return the diagnosis by the names of the interface."""
     return {
         "verdict": diagnosis.verdict,
         "sentence": verdict_sentence(diagnosis),
@@ -137,7 +137,7 @@ def _size_json(size: Size) -> dict[str, Any]:
 
 
 def proposal_json(proposal: Proposal) -> dict[str, Any]:
-    """A proposal for the next measurement by the names of the interface."""
+    """Return a proposal for the next measurement by the names of the interface."""
     visits = proposal.option.visits
     return {
         "kind": proposal.option.kind,
@@ -167,7 +167,7 @@ def proposal_json(proposal: Proposal) -> dict[str, Any]:
 
 
 def as_text(diagnosis: Diagnosis) -> str:
-    """The diagnosis for people, its verdict first."""
+    """Return the diagnosis for people, its verdict first."""
     parts = [sentences([verdict_sentence(diagnosis)], mark="")]
     if diagnosis.slips:
         parts.append(sentences([slip.sentence for slip in diagnosis.slips]))
@@ -188,7 +188,7 @@ def as_text(diagnosis: Diagnosis) -> str:
 
 
 def _unknown_advice(diagnosis: Diagnosis) -> list[str]:
-    """What to look at when nothing in the library fits."""
+    """Return what to look at when nothing in the library fits."""
     if diagnosis.noise.source != "default":
         return list(UNKNOWN_ADVICE)
     doubt = (
@@ -251,7 +251,7 @@ def _noise_sentence(diagnosis: Diagnosis) -> str:
 
 
 def _hiding(diagnosis: Diagnosis) -> str:
-    """How large effects that are not proved could still be."""
+    """Return how large effects that are not proved could still be."""
     unproved = [
         hidden for hidden in diagnosis.could_hide if hidden.effect not in diagnosis.suspects
     ]
@@ -277,7 +277,7 @@ def _hiding(diagnosis: Diagnosis) -> str:
 
 
 def percent_of(share: float | None) -> str:
-    """A share for people; a dash where there is none."""
+    """Return a share for people; a dash where there is none."""
     return "-" if share is None else f"{100 * share:.0f} %"
 
 
@@ -294,7 +294,7 @@ EXIT = (
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb diagnose`."""
+    """Add the arguments of `plumb diagnose`."""
     add_marks(parser)
     add_prior(parser)
     add_sigma(parser, usual="tape_sigma_mm of MARKS and repeats, else 0.5")

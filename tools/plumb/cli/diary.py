@@ -155,7 +155,7 @@ EXIT = "Exit: 0 done; 2 there is no diary, or a file cannot be written."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb diary`."""
+    """Add the arguments of `plumb diary`."""
     parser.add_argument(
         "folder",
         metavar="FOLDER",

@@ -67,5 +67,5 @@ EXIT = "Exit: 0 done."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb effects`."""
+    """Add the arguments of `plumb effects`."""
     add_json(parser)

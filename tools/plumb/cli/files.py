@@ -12,7 +12,9 @@ from plumb.text.values import show_in
 
 
 def inputs_of(arguments: argparse.Namespace) -> Inputs:
-    """Everything that a command with marks reads; lengths are shown as the marks were typed."""
+    """Return everything that a command with marks reads; lengths are shown as the marks
+    were typed.
+    """
     inputs = read_inputs(
         arguments.settings,
         arguments.marks,
@@ -25,7 +27,7 @@ def inputs_of(arguments: argparse.Namespace) -> Inputs:
 
 
 def picture_form(path: str, *, option: str = "--picture") -> str:
-    """The form of a picture by its name's ending."""
+    """Return the form of a picture by its name's ending."""
     form = Path(path).suffix.lower().lstrip(".")
     if form not in FORMATS:
         raise InputError(f"{option} {path}: end the name with .{', .'.join(FORMATS)}")

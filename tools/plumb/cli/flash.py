@@ -38,7 +38,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _avrdude() -> str:
-    """The program, from the system or PlatformIO's store."""
+    """Return the program, from the system or PlatformIO's store."""
     stored = next(STORE.rglob("avrdude"), None) if STORE.is_dir() else None
     name = shutil.which("avrdude") or (str(stored) if stored else None)
     if not name:
@@ -56,7 +56,7 @@ EXIT = "Exit: 0 written; 2 no board, no firmware.hex, or avrdude refused."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb flash`."""
+    """Add the arguments of `plumb flash`."""
     parser.add_argument(
         "hex",
         metavar="HEX",

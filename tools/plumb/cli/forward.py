@@ -38,7 +38,7 @@ EXIT = "Exit: 0 done; 1 some lengths lead nowhere; 2 an input cannot be used."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb forward`."""
+    """Add the arguments of `plumb forward`."""
     add_settings(parser)
     parser.add_argument(
         "--lengths",

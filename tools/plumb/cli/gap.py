@@ -71,12 +71,12 @@ def _refuse_misread(arguments: argparse.Namespace, measured: MotorGap) -> None:
 
 
 def _is_in(pull: float, limits: tuple[float, float]) -> bool:
-    """Whether a pull [N] is within limits."""
+    """Return whether a pull [N] is within limits."""
     return limits[0] <= pull <= limits[1]
 
 
 def _number(length: float) -> str:
-    """A length [mm] as it was typed, without its unit."""
+    """Return a length [mm] as it was typed, without its unit."""
     return brief(length).partition(" ")[0]
 
 
@@ -100,7 +100,7 @@ def _reasons(arguments: argparse.Namespace, measured: MotorGap) -> list[str]:
 
 
 def _differ(measured: MotorGap) -> bool:
-    """Whether the lengths differ by more than pulls of a sound machine do."""
+    """Return whether the lengths differ by more than pulls of a sound machine do."""
     return measured.spread > MOST_SPREAD
 
 
@@ -129,7 +129,7 @@ EXIT = "Exit: 0 done; 2 an input cannot be used."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb gap`."""
+    """Add the arguments of `plumb gap`."""
     add_settings(parser)
     parser.add_argument(
         "--length",

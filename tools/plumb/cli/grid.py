@@ -60,7 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _made(arguments: argparse.Namespace) -> int:
-    """The grid as the tool makes it, written as all results of the lab are."""
+    """Return the grid as the tool makes it, written as all results of the lab are."""
     read = [arguments.settings] if arguments.settings else []
     refuse_twins(arguments.output, arguments.marks, arguments.paper)
     if arguments.paper and not arguments.paper.lower().endswith(".pdf"):
@@ -74,7 +74,7 @@ def _made(arguments: argparse.Namespace) -> int:
 
 
 def _paper(arguments: argparse.Namespace) -> bytes:
-    """The sheet of paper for the readings."""
+    """Return the sheet of paper for the readings."""
     grid, machine = marks_grid.from_arguments(arguments)
     form = arguments.marks or "marks.toml"
     return measuring_sheet(content_of(grid, machine, settings=arguments.settings, form=form))
@@ -91,7 +91,7 @@ def refuse_out_of_reach(arguments: argparse.Namespace) -> None:
 
 
 def _settings_of(path: str | None, machine: marks_grid.PlainMachine) -> MachineSettings:
-    """The machine of the settings file, with the numbers that the tool goes by."""
+    """Return the machine of the settings file, with the numbers that the tool goes by."""
     plain = MachineSettings(
         motor_gap=machine.motor_spacing,
         motor_height=machine.sheet_height / 2 + machine.motor_offset,
@@ -125,7 +125,7 @@ EXIT = "Exit: 0 done; 2 the grid cannot be made, and nothing was written."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb grid`: those of the tool, and --json."""
+    """Add the arguments of `plumb grid`: those of the tool, and --json."""
     marks_grid.add_arguments(parser)
     parser.add_argument(
         "--most-give",
@@ -150,7 +150,9 @@ TAPE = "Read the tape in mm, to half a millimetre if you can."
 def content_of(
     grid: marks_grid.Grid, machine: marks_grid.PlainMachine, *, settings: str | None, form: str
 ) -> MeasuringSheet:
-    """The sheet for a grid that was made with these settings; `form` waits for the numbers."""
+    """Return the sheet for a grid that was made with these settings; `form` waits for the
+    numbers.
+    """
     cut = f" These marks are cut with {Path(settings).name}." if settings else ""
     then = f"Then type the numbers into {Path(form).name}.{cut}"
     holes = _holes(grid, machine)

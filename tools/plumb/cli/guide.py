@@ -50,7 +50,9 @@ def _say(text: str) -> None:
 
 
 def _answer(question: str) -> str:
-    """What the owner types; from a pipe it is printed too, so that it can be read afterwards."""
+    """Return what the owner types; from a pipe it is printed too, so that it can be read
+    afterwards.
+    """
     text = input(_folded(question))
     if not sys.stdin.isatty():
         print(text)
@@ -87,7 +89,7 @@ STEPS = ("read", "wires", "numbers", "reach", "chains", "mark")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb guide`."""
+    """Add the arguments of `plumb guide`."""
     parser.add_argument(
         "folder", metavar="FOLDER", nargs="?", default=".", help="where the answers are kept [.]"
     )

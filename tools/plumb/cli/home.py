@@ -81,7 +81,7 @@ def _keep(arguments: argparse.Namespace, settings: MachineSettings, answer: _Ans
 
 
 def _restore(arguments: argparse.Namespace, settings: MachineSettings, answer: _Answer) -> None:
-    """The chains with the bit in a home mark, and how well others fit."""
+    """Say the chains with the bit in a home mark, and how well others fit."""
     mark = home_mark(arguments.settings, arguments.at)
     shown = place_of(settings, mark).tolist()
     where = f"home mark {mark.name}"
@@ -141,7 +141,7 @@ def _text(arguments: argparse.Namespace, settings: MachineSettings, answer: _Ans
 
 
 def _listed(arguments: argparse.Namespace, settings: MachineSettings, answer: _Answer) -> str:
-    """All home marks, or how to begin."""
+    """Return all home marks, or how to begin."""
     if not answer.marks:
         keeping = ["home", arguments.settings, "--keep=left=-900,250", "-o", "left.nc"]
         return f"There is no home mark yet.\n\n{next_step('Keep a hole:', keeping)}"
@@ -176,7 +176,7 @@ def _place(place: Any) -> str:
 
 
 def _chains(mark: HomeMark) -> str:
-    """Both chains as the machine takes them, in mm whatever lengths are shown in."""
+    """Return both chains as the machine takes them, in mm whatever lengths are shown in."""
     return f"L{mark.chains[0]:.3f} R{mark.chains[1]:.3f}"
 
 
@@ -222,7 +222,7 @@ WORD = re.compile(r"[A-Za-z0-9_-]+")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb home`."""
+    """Add the arguments of `plumb home`."""
     add_settings(parser)
     parser.add_argument(
         "--keep",
@@ -245,7 +245,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def named_place(text: str) -> tuple[str, Point]:
-    """Reads NAME=X,Y."""
+    """Read NAME=X,Y."""
     name, _, place = text.partition("=")
     if not WORD.fullmatch(name):
         raise argparse.ArgumentTypeError(f"'{text}' is not NAME=X,Y, like left=-900,250")

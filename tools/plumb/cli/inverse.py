@@ -76,7 +76,7 @@ EXIT = "Exit: 0 done; 1 some place is out of reach; 2 an input cannot be used."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb inverse`."""
+    """Add the arguments of `plumb inverse`."""
     add_settings(parser)
     parser.add_argument(
         "--points",
@@ -97,7 +97,9 @@ Row = list[float] | None  # two numbers, or None where there is no answer
 
 
 def answered(answers: Array, outcome: Codes) -> tuple[list[Row], list[str]]:
-    """The answers (n, 2), None for those that may not be used, and the word of each outcome."""
+    """Return the answers (n, 2), None for those that may not be used, and the word of each
+    outcome.
+    """
     rows: list[Row] = [
         [float(number) for number in answer] if code == FOUND else None
         for answer, code in zip(answers, outcome, strict=True)
@@ -106,7 +108,7 @@ def answered(answers: Array, outcome: Codes) -> tuple[list[Row], list[str]]:
 
 
 def count_sentence(words: list[str], noun: str) -> str:
-    """How many of them have an answer."""
+    """Return how many of them have an answer."""
     good = words.count("yes")
     if good == len(words):
         return f"All {good} {noun}s found." if good > 1 else f"The {noun} was found."
@@ -120,7 +122,7 @@ def answers_table(
     answers: list[Row],
     words: list[str],
 ) -> str:
-    """What was given, with its answer, or the word for why there is none."""
+    """Return what was given, with its answer, or the word for why there is none."""
     rows = []
     for pair, answer, word in zip(given, answers, words, strict=True):
         numbers: list[float | None] = [*answer] if answer else [None, None]

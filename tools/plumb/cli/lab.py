@@ -31,7 +31,7 @@ PORT = 8450
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb lab`."""
+    """Add the arguments of `plumb lab`."""
     parser.add_argument(
         "folder", metavar="FOLDER", nargs="?", default=".", help="where the work is kept [.]"
     )
@@ -48,7 +48,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def port(text: str) -> int:
-    """The number of a port."""
+    """Return the number of a port."""
     number = int(text)
     if not 0 <= number <= 65535:
         raise ValueError

@@ -86,7 +86,9 @@ def _run(arguments: Sequence[str]) -> int:
 
 
 def build_parser(arguments: Sequence[str] = ("--completion",)) -> Parser:
-    """The parser for these arguments: of the command that they name, or else of all commands."""
+    """Return the parser for these arguments: of the command that they name, or else of all
+    commands.
+    """
     parser = Parser(
         prog="plumb",
         description=DESCRIPTION,

@@ -68,7 +68,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _files(
     arguments: argparse.Namespace, advice: Next, inputs: Inputs, form: str
 ) -> dict[str, bytes]:
-    """The files that were asked for."""
+    """Return the files that were asked for."""
     if not (arguments.picture or arguments.template or arguments.output):
         if arguments.choose is not None:
             raise InputError("--choose is for --picture, --marks and --output: add what you want")
@@ -101,7 +101,7 @@ def _files(
 
 
 def _in_force(arguments: argparse.Namespace, case: Case) -> str | None:
-    """The file of the settings that the marks there are were cut with, if it was given.
+    """Return the file of the settings that the marks there are were cut with, if it was given.
 
     New marks are cut before anything is changed, unless somebody says otherwise.
     """
@@ -112,7 +112,7 @@ def _in_force(arguments: argparse.Namespace, case: Case) -> str | None:
 
 
 def _chosen(advice: Next, wanted: int | None, *, is_cut: bool) -> tuple[int, Proposal]:
-    """The proposal to draw or to cut, with its place."""
+    """Return the proposal to draw or to cut, with its place."""
     having = [
         i
         for i, proposal in enumerate(advice.proposals, 1)
@@ -132,7 +132,7 @@ def _chosen(advice: Next, wanted: int | None, *, is_cut: bool) -> tuple[int, Pro
 
 
 def as_json(diagnosis: Diagnosis, advice: Next) -> dict[str, Any]:
-    """The proposals by the names of the interface."""
+    """Return the proposals by the names of the interface."""
     return {
         "verdict": diagnosis.verdict,
         "sentence": verdict_sentence(diagnosis),
@@ -146,7 +146,7 @@ def as_json(diagnosis: Diagnosis, advice: Next) -> dict[str, Any]:
 
 
 def as_text(diagnosis: Diagnosis, advice: Next) -> str:
-    """The proposals for people, the best first."""
+    """Return the proposals for people, the best first."""
     parts = [sentences([verdict_sentence(diagnosis)], mark="")]
     if not advice.proposals:
         parts.append("Nothing that can be proposed would tell more.")
@@ -168,7 +168,7 @@ def as_text(diagnosis: Diagnosis, advice: Next) -> str:
 
 
 def after(best: Proposal, arguments: argparse.Namespace) -> str:
-    """The commands after the measurement."""
+    """Return the commands after the measurement."""
     if best.option.checks or not len(best.option.visits):
         checks = [
             word
@@ -189,7 +189,7 @@ def after(best: Proposal, arguments: argparse.Namespace) -> str:
 
 
 def first_proposal(best: Proposal) -> str:
-    """The best proposal in sentences."""
+    """Return the best proposal in sentences."""
     first = sentences([f"Next: {headline_of(best)}."], mark="")
     return f"{first}\n{sentences(steps_of(best), mark='  ')}"
 
@@ -266,7 +266,7 @@ EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb next`."""
+    """Add the arguments of `plumb next`."""
     add_marks(parser)
     add_prior(parser)
     add_sigma(parser, usual="as plumb diagnose takes it")

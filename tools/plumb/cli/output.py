@@ -35,7 +35,7 @@ _way: ContextVar[_Way | None] = ContextVar("way", default=None)
 
 @contextmanager
 def results_of(arguments: argparse.Namespace) -> Iterator[None]:
-    """Runs a command: while a result goes to the standard output, its report goes to the other."""
+    """Run a command: while a result goes to the standard output, its report goes to the other."""
     named = [name for name in RESULTS if getattr(arguments, name, None) == STDOUT]
     if len(named) > 1:
         raise InputError("two results are to go to the standard output (-); name a file for one")
@@ -117,8 +117,9 @@ READER_GONE = 141  # what a shell shows after a closed pipe
 
 
 def ended(run: Callable[[], int], *, name: str, as_json: bool = False) -> int:
-    """The exit code of `run`; what went wrong is a single line on standard error, and with --json
-    an object {"error": ...} on the standard output too."""
+    """Return the exit code of `run`; what went wrong is a single line on standard error, and with
+    --json an object {"error": ...} on the standard output too.
+    """
     try:
         refuse_stale()
         code = run()

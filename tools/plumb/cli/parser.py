@@ -30,7 +30,7 @@ class Parser(argparse.ArgumentParser):
         self._negative_number_matcher = re.compile(r"-\.?\d")
 
     def format_help(self) -> str:
-        """The help, with the commands in their groups."""
+        """Return the help, with the commands in their groups."""
         if not self.groups:
             return super().format_help()
         formatter = self._get_formatter()

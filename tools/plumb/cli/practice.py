@@ -120,7 +120,7 @@ def _reveal(folder: Path, arguments: argparse.Namespace) -> int:
 
 
 def _as_text(result: Score) -> str:
-    """The score for people."""
+    """Return the score for people."""
     after = "out of reach" if result.after_mm is None else bare(result.after_mm)
     rows = [["as the settings were", bare(result.before_mm)], ["yours", after]]
     return "\n\n".join(
@@ -146,7 +146,7 @@ EXIT = (
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb practice`."""
+    """Add the arguments of `plumb practice`."""
     parser.add_argument("step", metavar="STEP", choices=STEPS, help=", ".join(STEPS))
     parser.add_argument("folder", metavar="FOLDER", help="where you practise")
     parser.add_argument(

@@ -61,7 +61,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _cut(arguments: argparse.Namespace) -> list[str]:
-    """The command that makes this grid."""
+    """Return the command that makes this grid."""
     words = ["grid", "--settings", arguments.settings]
     for name in ("columns", "rows", "margin"):
         if getattr(arguments, name) is not None:
@@ -70,7 +70,7 @@ def _cut(arguments: argparse.Namespace) -> list[str]:
 
 
 def _plan(arguments: argparse.Namespace, settings: MachineSettings) -> Measurements:
-    """The marks of PLAN, or of a grid as plumb grid makes it."""
+    """Return the marks of PLAN, or of a grid as plumb grid makes it."""
     given = {name: getattr(arguments, name) for name in ("columns", "rows", "margin")}
     asked = {name: value for name, value in given.items() if value is not None}
     if arguments.plan:
@@ -96,7 +96,7 @@ def _plan(arguments: argparse.Namespace, settings: MachineSettings) -> Measureme
 
 
 def as_json(outlook: Preview, *, written: str | None = None) -> dict[str, Any]:
-    """The preview by the names of the interface."""
+    """Return the preview by the names of the interface."""
     return {
         "sigma_mm": outlook.sigma,
         "marks": outlook.marks,
@@ -134,7 +134,7 @@ def as_json(outlook: Preview, *, written: str | None = None) -> dict[str, Any]:
 
 
 def as_text(outlook: Preview) -> str:
-    """The preview for people."""
+    """Return the preview for people."""
     smallest = [outline.smallest for outline in outlook.outlines]
     good = [size for size in smallest if size is not None and size <= 1]
     what = f"{outlook.marks} marks"
@@ -231,7 +231,7 @@ EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb preview`."""
+    """Add the arguments of `plumb preview`."""
     add_settings(parser)
     parser.add_argument(
         "plan",

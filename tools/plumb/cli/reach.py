@@ -60,7 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def map_of(survey: Survey) -> list[str]:
-    """The sheet in characters, from the top down; edges included."""
+    """Return the sheet in characters, from the top down; edges included."""
     verdicts = survey.reached.verdict.reshape(len(survey.y), len(survey.x))
     return ["".join(SIGNS[verdict] for verdict in row) for row in verdicts[::MAP_ROWS, ::MAP_STEP]]
 
@@ -68,7 +68,7 @@ def map_of(survey: Survey) -> list[str]:
 def as_json(
     survey: Survey, expected: Expected | None, *, written: str | None = None
 ) -> dict[str, Any]:
-    """The survey by the names of the interface."""
+    """Return the survey by the names of the interface."""
     return {
         "usable_share": survey.shares[REACH_WORDS[0]],
         "shares": {word.replace(" ", "_"): share for word, share in survey.shares.items()},
@@ -93,7 +93,7 @@ def _extreme_json(extreme: Extreme | None, unit: str) -> dict[str, Any] | None:
 
 
 def as_text(survey: Survey, expected: Expected | None) -> str:
-    """The survey for people: conclusion, what is normal, map, worst places."""
+    """Return the survey for people: conclusion, what is normal, map, worst places."""
     lines = map_of(survey)
     edge = "+" + "-" * len(lines[0]) + "+"
     shares = survey.shares.values()
@@ -144,7 +144,7 @@ EXIT = "Exit: 0 done; 2 an input cannot be used."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb reach`."""
+    """Add the arguments of `plumb reach`."""
     usual = _core.reach_limits()
     add_settings(parser)
     parser.add_argument("-o", "--output", metavar="FILE", help="draw the map: .png, .svg or .pdf")

@@ -61,7 +61,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _way_back(lost: str) -> list[str]:
-    """That the machine does not know its place, in its words, and what brings it back."""
+    """Return that the machine does not know its place, in its words, and what brings it back."""
     return [
         f"The machine does not know where its sled is. It says: {lost}",
         "The way back: put the bit into a home mark and ask plumb home --at for the line to send; "
@@ -94,7 +94,7 @@ EXIT = "Exit: 0 done; 2 no machine answers, or the file cannot be written."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb read`."""
+    """Add the arguments of `plumb read`."""
     add_port(parser)
     parser.add_argument(
         "-o", "--output", metavar="FILE", help="write the numbers to this file, as a machine.toml"

@@ -55,7 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def sentence(checked: Recheck) -> str:
-    """The verdict in a sentence."""
+    """Return the verdict in a sentence."""
     worst = worded(float(np.hypot(*checked.errors.T).max()))
     of_date = f"the fit of {checked.fit.at:%Y-%m-%d}"
     if checked.holds:
@@ -95,7 +95,7 @@ def _text(checked: Recheck) -> str:
 
 
 def _change(change: Change) -> str:
-    """A change with its size."""
+    """Return a change with its size."""
     if change.name in (LEFT, RIGHT):
         return f"the {change.name} is {_size(change)} longer than the machine believes"
     if change.name in (SHEET_X, SHEET_Y):
@@ -146,7 +146,7 @@ EXIT = "Exit: 0 the marks lie within the interval; 1 something changed; 2 an inp
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb recheck`."""
+    """Add the arguments of `plumb recheck`."""
     add_settings(parser)
     add_touch(parser, meaning="a mark: where it is, then where the machine was or is in it")
     parser.add_argument(

@@ -57,7 +57,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _fits(settings: str) -> tuple[DiaryFit, ...]:
-    """The fits in the diary next to the settings."""
+    """Return the fits in the diary next to the settings."""
     folder = folder_of(settings)
     return history_of(read_diary(folder)).fits if folder and has_diary(folder) else ()
 
@@ -71,14 +71,14 @@ def _inputs(arguments: argparse.Namespace) -> Inputs:
 
 
 def _again(arguments: argparse.Namespace) -> str:
-    """The command that makes the same report."""
+    """Return the command that makes the same report."""
     units = ["--units", arguments.units] if arguments.units else []
     words = ["plumb", "report", *same_inputs(arguments), *units, "-o", arguments.output]
     return _unindented(words)
 
 
 def _commands(arguments: argparse.Namespace, findings: Findings) -> list[Command]:
-    """What the verdict asks for."""
+    """Return what the verdict asks for."""
     same = same_inputs(arguments)
     calibrate = _unindented(["plumb", "calibrate", *same])
     verdict = findings.diagnosis.verdict
@@ -110,7 +110,7 @@ def _unindented(words: list[str]) -> str:
 
 
 def as_json(findings: Findings) -> dict[str, Any]:
-    """What the page says, by the names of the interface."""
+    """Return what the page says, by the names of the interface."""
     addition, expected = findings.auto.addition, findings.expected
     return {
         "comparison": json_of(findings.comparison),
@@ -134,7 +134,7 @@ def as_json(findings: Findings) -> dict[str, Any]:
 
 
 def _view_json(view: ChainView) -> list[dict[str, Any]]:
-    """Each mark with its error and that of its chains [mm]."""
+    """Return each mark with its error and that of its chains [mm]."""
     return [
         {"name": name, "error": error, "left_chain": chains[0], "right_chain": chains[1]}
         for name, error, chains in zip(view.names, view.errors, view.chains, strict=True)
@@ -151,7 +151,7 @@ EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb report`."""
+    """Add the arguments of `plumb report`."""
     add_marks(parser)
     parser.add_argument(
         "-o",

@@ -64,7 +64,7 @@ EXIT = "Exit: 0 done; 2 an input cannot be used."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb resume`."""
+    """Add the arguments of `plumb resume`."""
     add_machine(parser)
     parser.add_argument(
         "--line",

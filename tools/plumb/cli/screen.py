@@ -29,7 +29,7 @@ BAD = ("impossible", "NOT ", "missed")  # how cells begin that nobody should ove
 
 
 def console() -> Console:
-    """The screen, or what takes its place."""
+    """Return the screen, or what takes its place."""
     plain = Console(highlight=False, markup=False, emoji=False)
     piped = not plain.is_terminal and "COLUMNS" not in os.environ
     width = WIDEST if piped else min(plain.width, WIDEST)
@@ -79,7 +79,7 @@ def sentences(lines: Sequence[str], *, mark: str = "- ") -> str:
 
 
 def headline(sentence: str) -> str:
-    """The sentence that matters most, which comes first."""
+    """Return the sentence that matters most, which comes first."""
     screen = console()
     with screen.capture() as captured:
         for line in sentences([sentence], mark="").splitlines():
@@ -98,7 +98,7 @@ class Bar:
         self._task = TaskID(0)
 
     def show(self, share: float, what: str = "") -> None:
-        """How much of the work is done, 0 to 1, and on what it is."""
+        """Show how much of the work is done, 0 to 1, and on what it is."""
         waited = time.monotonic() - self._start
         if not self._shown and waited >= self._patience and sys.stderr.isatty():
             columns = TextColumn("{task.description}"), BarColumn(), TaskProgressColumn()
@@ -120,7 +120,7 @@ class Bar:
 
 
 def bar(what: str) -> Callable[[float], None]:
-    """Shows how far the work is, by the share that is done."""
+    """Show how far the work is, by the share that is done."""
     shown = Bar(what)
     return lambda share: shown.show(share)
 
@@ -134,12 +134,12 @@ def print_json(answer: object) -> None:
 
 
 def about(millimetres: float) -> str:
-    """A length for the title of a picture: a decimal, two below a millimetre."""
+    """Return a length for the title of a picture: a decimal, two below a millimetre."""
     return f"{millimetres:.1f}" if millimetres >= 0.95 else f"{millimetres:.2f}"
 
 
 def number(value: float | None) -> str:
-    """A parameter for people: four figures, six for what is measured in metres."""
+    """Return a parameter for people: four figures, six for what is measured in metres."""
     if value is None or not math.isfinite(value):
         return "-"
     return f"{value:.6g}" if abs(value) >= 100 else f"{value:.4g}"

@@ -63,7 +63,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _numbers(what: str, *, back: bool) -> list[str] | None:
-    """The numbers of a machine.toml, or those before it was sent; None for a program."""
+    """Return the numbers of a machine.toml, or those before it was sent; None for a program."""
     if back:
         return kept_before(what)
     if not what.endswith(".toml"):
@@ -73,8 +73,9 @@ def _numbers(what: str, *, back: bool) -> list[str] | None:
 
 
 def _program(what: str) -> list[str]:
-    """The lines of a program, or a single line; all is read before the line is opened, which resets
-    the board. InputError for what cannot be sent."""
+    """Return the lines of a program, or a single line; all is read before the line is opened, which
+    resets the board. InputError for what cannot be sent.
+    """
     looks_like_file = what.endswith((".nc", ".gcode", ".ngc")) or "/" in what
     if not looks_like_file and not Path(what).exists():
         lines = [what]
@@ -87,7 +88,9 @@ def _program(what: str) -> list[str]:
 
 
 def _cut_with(what: str, text: Sequence[str]) -> MachineSettings | None:
-    """What the marks of a program are to be cut with, as their form says; None if nothing does."""
+    """Return what the marks of a program are to be cut with, as their form says; None if nothing
+    does.
+    """
     form = form_of("\n".join(text), what)
     if form is None or not Path(form).is_file():
         return None
@@ -158,7 +161,7 @@ class _Attendant:
         self._question: Question | None = None
 
     def answered(self, done: int) -> None:
-        """The machine took this many lines."""
+        """Note that the machine took this many lines."""
         self._done = done
         self._reached.note(done)
         self._bar.show(done / self._total)
@@ -254,7 +257,7 @@ EXIT = "Exit: 0 all was done; 1 stopped after Ctrl-C; 2 refused, or no machine."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb send`."""
+    """Add the arguments of `plumb send`."""
     parser.add_argument(
         "what",
         metavar="FILE|LINE",

@@ -53,7 +53,9 @@ def _to_gcode(machine: str) -> list[str]:
 
 
 def _refuse_lines_alone(arguments: argparse.Namespace) -> None:
-    """Lines carry all corrections; a client that carries some too would double them."""
+    """Refuse lines without a client: a client that carries some corrections too would
+    double them.
+    """
     if arguments.to == "gcode" and arguments.client is None:
         raise InputError(
             "--to gcode needs --client: GroundControl and WebControl send their own corrections "
@@ -80,7 +82,7 @@ EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb settings`."""
+    """Add the arguments of `plumb settings`."""
     add_settings(parser)
     parser.add_argument("--to", choices=FORMS, default="table", help="what to write [%(default)s]")
     add_client(parser)

@@ -66,7 +66,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _lines(finding: SlipFinding) -> list[str]:
-    """The repair, if there is something to repair."""
+    """Return the repair, if there is something to repair."""
     if finding.verdict != SLIP:
         return []
     where = f"the hole of touch {finding.touches[-1].name}"
@@ -112,7 +112,7 @@ def _text(
 
 
 def sentence(finding: SlipFinding) -> str:
-    """The verdict in a sentence."""
+    """Return the verdict in a sentence."""
     if finding.verdict == SLIP:
         both = 0 not in finding.best.links
         slipped = "both slipped on their sprockets" if both else "it slipped on its sprocket"
@@ -129,7 +129,7 @@ def sentence(finding: SlipFinding) -> str:
 
 
 def _longer(account: Account) -> str:
-    """Which chain is how much longer or shorter."""
+    """Return which chain is how much longer or shorter."""
     said = [
         f"the {side} chain is {abs(count)} link{'s' if abs(count) > 1 else ''} "
         f"({worded(abs(count) * LINK)}) {'longer' if count > 0 else 'shorter'}"
@@ -141,7 +141,7 @@ def _longer(account: Account) -> str:
 
 
 def _account(account: Account) -> str:
-    """An account in a few words."""
+    """Return an account in a few words."""
     if account.kind == SLIP:
         said = [
             f"{side} {count:+d}" for side, count in zip(SIDES, account.links, strict=True) if count
@@ -229,7 +229,7 @@ EXIT = (
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb slip`."""
+    """Add the arguments of `plumb slip`."""
     add_settings(parser)
     add_touch(parser, meaning="a mark with the bit in it; give two or more")
     parser.add_argument(

@@ -23,12 +23,14 @@ REPEATED = {
 
 
 def next_step(words: str, command: Sequence[str]) -> str:
-    """What to do next, and its command below; a long command goes on after a backslash."""
+    """Return what to do next, and its command below; a long command goes on after a backslash."""
     return f"{words}\n{command_text(['plumb', *command])}"
 
 
 def command_text(words: Iterable[str]) -> str:
-    """A command that a shell reads, on lines that fit the screen; an option keeps its value."""
+    """Return a command that a shell reads, on lines that fit the screen; an option keeps
+    its value.
+    """
     parts: list[str] = []
     for word in map(shlex.quote, words):
         value_of_last = parts and parts[-1].startswith("-") and " " not in parts[-1]
@@ -49,7 +51,8 @@ def command_text(words: Iterable[str]) -> str:
 def same_inputs(
     arguments: argparse.Namespace, *more: str, effects: Sequence[str] = (AUTO,)
 ) -> list[str]:
-    """The settings, the marks (with `more` of them) and how they are read, as they were given.
+    """Return the settings, the marks (with `more` of them) and how they are read, as they were
+    given.
 
     Checks of effects that are not fitted are left out; with "auto" any may be.
     """
@@ -69,7 +72,7 @@ def same_inputs(
 
 
 def usual_client(arguments: argparse.Namespace) -> list[str]:
-    """The client as it was named, or as the name of the settings file tells it."""
+    """Return the client as it was named, or as the name of the settings file tells it."""
     client = getattr(arguments, "client", None)
     if client is None:
         client = CLIENT_OF.get(Path(arguments.settings).suffix.lower())
@@ -79,7 +82,7 @@ def usual_client(arguments: argparse.Namespace) -> list[str]:
 
 
 def add_named(arguments: argparse.Namespace, effects: Sequence[str]) -> list[str]:
-    """The command that adds these effects and writes the files."""
+    """Return the command that adds these effects and writes the files."""
     same = same_inputs(arguments, effects=effects)
     machine = free_name("machine", ".toml")
     named = ["--effect", *effects] if effects else []
@@ -90,12 +93,12 @@ def add_named(arguments: argparse.Namespace, effects: Sequence[str]) -> list[str
 
 
 def auto_words(arguments: argparse.Namespace) -> list[str]:
-    """The command that adds what is most likely and writes the files."""
+    """Return the command that adds what is most likely and writes the files."""
     return add_named(arguments, [AUTO])
 
 
 def second_round(arguments: argparse.Namespace, files: Sequence[str]) -> str:
-    """How to see on new marks that the new settings hold; the machine leads the files."""
+    """Return how to see on new marks that the new settings hold; the machine leads the files."""
     machine = files[0]
     marks, program = free_name("marks", ".toml"), free_name("grid", ".nc")
     grid = ["grid", "--settings", machine, "--marks", marks, "--output", program]
@@ -109,7 +112,7 @@ def second_round(arguments: argparse.Namespace, files: Sequence[str]) -> str:
 
 
 def free_name(stem: str, ending: str) -> str:
-    """The first of `machine.toml`, `machine-2.toml` ... that no file has."""
+    """Return the first of `machine.toml`, `machine-2.toml` ... that no file has."""
     number = 1
     while True:
         name = f"{stem}{ending}" if number == 1 else f"{stem}-{number}{ending}"

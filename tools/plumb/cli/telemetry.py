@@ -12,7 +12,7 @@ from plumb.text.files import read_text
 
 
 def history(telemetry: Telemetry) -> str:
-    """How often each kind of event has happened since the board was new."""
+    """Return how often each kind of event has happened since the board was new."""
     if telemetry.total_events == 0:
         return "never any"
     counts = zip(telemetry.events, EVENTS.values(), strict=True)
@@ -20,7 +20,7 @@ def history(telemetry: Telemetry) -> str:
 
 
 def last_event(telemetry: Telemetry) -> str:
-    """The last event and its place in the order."""
+    """Return the last event and its place in the order."""
     if telemetry.total_events == 0:
         return "none"
     return f"{EVENTS[telemetry.last_event]}, number {telemetry.total_events}"
@@ -69,7 +69,7 @@ EXIT = "Exit: 0 done and all is well, 1 something to look at, 2 the log cannot b
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb telemetry`."""
+    """Add the arguments of `plumb telemetry`."""
     parser.add_argument(
         "log",
         metavar="LOG",

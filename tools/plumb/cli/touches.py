@@ -11,7 +11,9 @@ from plumb.text.errors import InputError
 
 
 def touches_of(arguments: argparse.Namespace) -> tuple[Touch, ...]:
-    """The touches, numbered, those of home marks by name. Raises InputError for a hole twice."""
+    """Return the touches, numbered, those of home marks by name. Raises InputError for a hole
+    twice.
+    """
     touches = []
     for number, (hole, shown) in enumerate(arguments.touch, 1):
         if isinstance(hole, str):
@@ -24,7 +26,7 @@ def touches_of(arguments: argparse.Namespace) -> tuple[Touch, ...]:
 
 
 def home_mark(settings: str, name: str) -> HomeMark:
-    """The home mark of that name, kept next to the settings. Raises InputError."""
+    """Return the home mark of that name, kept next to the settings. Raises InputError."""
     path = home_file(settings)
     marks = read_home_marks(path)
     if name not in marks:
@@ -34,7 +36,7 @@ def home_mark(settings: str, name: str) -> HomeMark:
 
 
 def asked_signs(touches: Sequence[Touch]) -> list[str]:
-    """A question about each touch that seems to have lost a minus sign."""
+    """Return a question about each touch that seems to have lost a minus sign."""
     return [
         f"Touch {touch.name}: has {name} lost its sign? The other sign lies near the hole."
         for touch in touches
@@ -48,7 +50,7 @@ Point = tuple[float, float]
 
 
 def add_touch(parser: argparse.ArgumentParser, *, meaning: str) -> None:
-    """The option --touch."""
+    """Add the option --touch."""
     parser.add_argument(
         "--touch",
         metavar="HOLE:SHOWN",
@@ -61,7 +63,7 @@ def add_touch(parser: argparse.ArgumentParser, *, meaning: str) -> None:
 
 
 def touch(text: str) -> tuple[str | Point, Point]:
-    """Reads HOLE:SHOWN; a hole is a place or a name."""
+    """Read HOLE:SHOWN; a hole is a place or a name."""
     hole, separator, shown = text.rpartition(":")
     if not (separator and hole):
         raise argparse.ArgumentTypeError(f"'{text}' is not HOLE:SHOWN, like -900,250:-896.2,253.1")
@@ -69,7 +71,7 @@ def touch(text: str) -> tuple[str | Point, Point]:
 
 
 def point(text: str) -> Point:
-    """Reads x,y [mm, from the middle of the sheet, y up]."""
+    """Read x,y [mm, from the middle of the sheet, y up]."""
     try:
         x, y = map(float, text.split(","))
     except ValueError:

@@ -71,7 +71,7 @@ def serve(
 
 
 def _terminal(machine: VirtualMachine, link: str | None) -> PseudoTerminal:
-    """The machine's port, under its name. A machine whose name is taken leaves no trace."""
+    """Return the machine's port, under its name. A machine whose name is taken leaves no trace."""
     terminal = PseudoTerminal(machine)
     if link:
         try:
@@ -159,7 +159,7 @@ EXIT = "Exit: 0 ended with Ctrl-C or after --seconds; 2 it cannot be started."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `plumb vm`."""
+    """Add the arguments of `plumb vm`."""
     parser.add_argument("--link", metavar="PATH", help="a name for the port, say ./maslow")
     parser.add_argument(
         "--hide",
@@ -214,7 +214,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_brain(parser: argparse.ArgumentParser) -> None:
-    """What runs, how fast, and what clients need for its port."""
+    """Add the options for what runs, how fast, and what clients need for its port."""
     parser.add_argument(
         "--mega",
         metavar="ELF",

@@ -147,7 +147,7 @@ def add(
 
 
 def raw_comparison(inputs: Inputs) -> Comparison:
-    """The marks against the settings as they stand."""
+    """Return the marks against the settings as they stand."""
     return compare(
         inputs.settings,
         inputs.measurements,
@@ -157,7 +157,7 @@ def raw_comparison(inputs: Inputs) -> Comparison:
 
 
 def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = False) -> Addition:
-    """The same on a board that is at hand, for a choice that it does not refuse."""
+    """Return the same on a board that is at hand, for a choice that it does not refuse."""
     rows, noise = board.rows, board.noise
     names = chosen.effects
     before_fit = board.fit(Chosen())
@@ -200,7 +200,9 @@ def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = F
 
 
 def priors_with(changes: Iterable[tuple[str, float]]) -> dict[str, float]:
-    """The usual priors with some standard deviations changed; 0 holds a number where it is."""
+    """Return the usual priors with some standard deviations changed; 0 holds a number where
+    it is.
+    """
     priors = dict(PRIORS)
     for name, sigma in changes:
         try:
@@ -212,7 +214,7 @@ def priors_with(changes: Iterable[tuple[str, float]]) -> dict[str, float]:
 
 
 def quality_of(fitted: Fit, rows: Observations) -> Quality:
-    """How good a fit is."""
+    """Return how good a fit is."""
     marks = len(fitted.errors) > 0
     lengths = (
         np.hypot(fitted.errors[:, 0], fitted.errors[:, 1])
@@ -230,7 +232,7 @@ def quality_of(fitted: Fit, rows: Observations) -> Quality:
 
 
 def _cure(name: str, parameters: Mapping[str, float]) -> str:
-    """What to do about a lab effect or sketch that was fitted."""
+    """Return what to do about a lab effect or sketch that was fitted."""
     effect = next(each for each in (*LAB_EFFECTS, *SKETCHES) if each.name == name)
     sizes = ", ".join(
         plain_size(f"{name}.{parameter.name}", parameters[parameter.name])
@@ -257,7 +259,7 @@ def _parameter(estimate: Estimate) -> Parameter:
 
 
 def _unfelt(fitted: Fit) -> list[str]:
-    """A sentence on what the measured numbers cannot tell at all."""
+    """Return a sentence on what the measured numbers cannot tell at all."""
     names = [each.name for each in fitted.estimates if not each.felt]
     if not names:
         return []
@@ -293,12 +295,12 @@ def _surprises(parameters: Sequence[Parameter]) -> list[str]:
 
 
 def _finely(size: float, of_unit: str) -> str:
-    """A size of the frame with its unit; a length in the unit in which lengths are shown."""
+    """Return a size of the frame with its unit; a length in the unit in which lengths are shown."""
     return worded(size) if of_unit == "mm" else f"{size:.3g} {of_unit}"
 
 
 def may_be_zero(parameter: Parameter) -> bool:
-    """Whether a free parameter that was absent before may be absent still."""
+    """Return whether a free parameter that was absent before may be absent still."""
     free = parameter.prior_sigma is None and parameter.before == 0
     return free and parameter.low < 0 < parameter.high
 

@@ -88,8 +88,9 @@ def add_auto(
 
 
 def _added(inputs: Inputs, chosen: tuple[str, ...]) -> tuple[tuple[str, ...], Addition]:
-    """These effects and their fit, without those that it gives an impossible size which may as well
-    be zero."""
+    """Return these effects and their fit, without those that it gives an impossible size which may
+    as well be zero.
+    """
     addition = add(inputs, effects=chosen)
     useful = tuple(name for name in chosen if not _is_needless(name, addition))
     return (chosen, addition) if useful == chosen else _added(inputs, useful)
@@ -101,7 +102,8 @@ def _is_needless(effect: str, addition: Addition) -> bool:
 
 
 def _helps(addition: Addition) -> bool:
-    """Whether effects that do not explain all are of use: no mere fit, and of plausible sizes.
+    """Return whether effects that do not explain all are of use: no mere fit, and of plausible
+    sizes.
 
     The values themselves must be plausible: where physics is missing, no interval is to be trusted.
     """
@@ -109,7 +111,7 @@ def _helps(addition: Addition) -> bool:
 
 
 def _settled_by(chosen: tuple[str, ...], rivals: tuple[tuple[str, ...], ...]) -> tuple[str, ...]:
-    """How to look directly at each effect that is in some explanations only."""
+    """Return how to look directly at each effect that is in some explanations only."""
     if not rivals:
         return ()
     explanations = (chosen, *rivals)
@@ -122,7 +124,8 @@ def _settled_by(chosen: tuple[str, ...], rivals: tuple[tuple[str, ...], ...]) ->
 
 
 def without_marks(measurements: Measurements, names: Iterable[str]) -> Measurements:
-    """The measurements without the readings of some marks, and without distances from or to them.
+    """Return the measurements without the readings of some marks, and without distances from or to
+    them.
 
     Raises InputError for a name that is not there.
     """

@@ -61,7 +61,7 @@ class Chosen:
         return tuple(name for effect in self.effects for name in parameter_names(effect))
 
     def first(self, count: int) -> Chosen:
-        """The first effects alone."""
+        """Return the first effects alone."""
         effects = self.effects[:count]
         mine = {
             name: size for name, size in self.held.items() if name.rpartition(".")[0] in effects
@@ -109,7 +109,7 @@ class LiveBoard:
         )
 
     def fit(self, chosen: Chosen) -> Fit:
-        """The frame with the chosen effects; from what is kept, if it was fitted before."""
+        """Return the frame with the chosen effects; from what is kept, if it was fitted before."""
         key = (chosen.effects, tuple(sorted(chosen.held.items())))
         with self._fitting:
             if key not in self._fits:
@@ -184,7 +184,7 @@ class FitNoise:
 
 
 def noise_of(inputs: Inputs, model: MachineSettings, rows: Observations) -> FitNoise:
-    """What is known of the noise; readings that disagree with their repeats do not count."""
+    """Return what is known of the noise; readings that disagree with their repeats do not count."""
     stated = inputs.stated
     board = Board.of(model, rows, sigma=stated.sigma if stated else USUAL_SIGMA)
     cleared = clear_repeats(board, stated)
@@ -236,7 +236,7 @@ class BoardView:
         return chain_errors(self.model, self._places, errors, rows.sled_weights[rows.mark_rows])
 
     def drawn(self, effect: str) -> Drawn:
-        """What an effect draws into the marks once the frame is refitted with it."""
+        """Return what an effect draws into the marks once the frame is refitted with it."""
         frame, rows = self._frame, self.board.rows
         explanation = explain(frame.board, (effect,), start=frame)
         moved = seen_by(explanation, rows).read.where - seen_by(frame, rows).read.where

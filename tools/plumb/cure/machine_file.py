@@ -31,7 +31,7 @@ def toml_of(
     firmware: str = "plumb",
     record: FitRecord | None = None,
 ) -> bytes:
-    """The new machine as the bytes of a machine.toml, with the formula of its firmware."""
+    """Return the new machine as the bytes of a machine.toml, with the formula of its firmware."""
     ours = replace(result.settings, fitted=record)
     settings = published_machine(ours) if firmware == "published" else ours
     lines = [
@@ -47,7 +47,7 @@ def toml_of(
 
 
 def turn_sentences(result: Addition) -> list[str]:
-    """What to do about the sheet's rotation, if the marks prove it."""
+    """Return what to do about the sheet's rotation, if the marks prove it."""
     if not result.after_fit.proves_sheet_rotation:
         return []
     rise = result.sheet_rise
@@ -62,7 +62,7 @@ def turn_sentences(result: Addition) -> list[str]:
 
 
 def record_of(result: Addition, inputs: Inputs, *, without: Sequence[str] = ()) -> FitRecord:
-    """The fit as its machine.toml keeps it; `without` names the marks that took no part."""
+    """Return the fit as its machine.toml keeps it; `without` names the marks that took no part."""
     fitted = result.after_fit
     unknowns = {estimate.name: estimate.value for estimate in fitted.estimates}
     return FitRecord(
@@ -112,7 +112,7 @@ class Correction:
 
 
 def has_setting(name: str) -> bool:
-    """Whether a setting of the machine holds a number; sheets, tapes and zeros have none."""
+    """Return whether a setting of the machine holds a number; sheets, tapes and zeros have none."""
     effect, _, _ = name.rpartition(".")
     if not effect:
         return name in FRAME_FIELDS
@@ -146,7 +146,9 @@ def correct(inputs: Inputs, effects: Sequence[str], accepted: Collection[str]) -
 
 
 def _is_wanted(effect: str, free: Sequence[str]) -> bool:
-    """Whether an effect has an accepted number, or belongs to no setting and is fitted anyhow."""
+    """Return whether an effect has an accepted number, or belongs to no setting and is fitted
+    anyhow.
+    """
     names = parameter_names(effect)
     return any(name in free for name in names) or not any(map(has_setting, names))
 
@@ -202,12 +204,12 @@ def demonstrate(measurements: Measurements | None = None) -> Demonstration:
 
 
 def is_better(tried: Quality, known: Quality) -> bool:
-    """Whether an effect is worth its price: both honest errors fall."""
+    """Return whether an effect is worth its price: both honest errors fall."""
     return tried.priced_rms < known.priced_rms and tried.left_out_rms < known.left_out_rms
 
 
 def with_y_errors_flipped(measurements: Measurements) -> Measurements:
-    """The same marks, each as far below its target as it was above it."""
+    """Return the same marks, each as far below its target as it was above it."""
     flipped = []
     for mark in measurements.marks:
         x, y = mark.measured or mark.target

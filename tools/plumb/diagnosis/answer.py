@@ -86,7 +86,9 @@ Nouns = Callable[[tuple[str, ...]], str]
 
 
 def verdict_sentence(diagnosis: Diagnosis) -> str:
-    """The verdict in a sentence or two, which name as many explanations as there is room for."""
+    """Return the verdict in a sentence or two, which name as many explanations as there is room
+    for.
+    """
     say = _SENTENCES[diagnosis.verdict]
     rooms = (n for n in range(SHOWN, 0, -1) if _count(say(diagnosis, plainly, n)) <= MOST_WORDS)
     return say(diagnosis, nouns_of, next(rooms, 0))
@@ -151,7 +153,9 @@ def _cannot_tell(diagnosis: Diagnosis, nouns: Nouns, shown: int) -> str:
 
 
 def _most_likely(diagnosis: Diagnosis, nouns: Nouns, shown: int) -> str:
-    """The likeliest account with its odds against all others, and the next if there is room."""
+    """Return the likeliest account with its odds against all others, and the next if there
+    is room.
+    """
     first, *others = diagnosis.explanations
     said = f"{_named(first.effects, nouns, shown)} (odds {odds_words(first.share)})"
     if shown > 1 and others:
@@ -163,7 +167,7 @@ def _most_likely(diagnosis: Diagnosis, nouns: Nouns, shown: int) -> str:
 
 
 def odds_words(share: float | None) -> str:
-    """How likely something is, as odds against all else."""
+    """Return how likely something is, as odds against all else."""
     if share is None:
         return "not weighed"
     odds = share / max(1 - share, 1e-3)
@@ -186,7 +190,7 @@ def _error_left(diagnosis: Diagnosis) -> str:
 
 
 def _suspects(diagnosis: Diagnosis, nouns: Nouns, shown: int) -> str:
-    """The best explanations, and how many more there are."""
+    """Return the best explanations, and how many more there are."""
     best = diagnosis.explanations[: max(shown, 1)]
     names = [_named(explanation.effects, nouns, shown) for explanation in best]
     more = len(diagnosis.explanations) - len(best)

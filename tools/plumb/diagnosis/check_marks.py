@@ -98,7 +98,9 @@ def check_marks(inputs: Inputs, marks: Measurements) -> Check:
 
 
 def _predicted(fitted: Explanation, rows: Observations) -> tuple[Array, Array]:
-    """Where the marks are (n, 2) [mm], and the covariance (n, 2, 2) [mm²] of a reading there."""
+    """Return where the marks are (n, 2) [mm], and the covariance (n, 2, 2) [mm²] of a reading
+    there.
+    """
     where, moved = _sighting(fitted, rows)
     inside = _covariance(fitted)
     noise = fitted.board.sigma**2 * np.eye(2)
@@ -107,7 +109,7 @@ def _predicted(fitted: Explanation, rows: Observations) -> tuple[Array, Array]:
 
 
 def _chi_square(fitted: Explanation, rows: Observations, missed: Array) -> float:
-    """How far off the marks are together; what they share of the fit is counted."""
+    """Return how far off the marks are together; what they share of the fit is counted."""
     _, moved = _sighting(fitted, rows)
     flat = moved.reshape(-1, moved.shape[2])
     whole = flat @ _covariance(fitted) @ flat.T + fitted.board.sigma**2 * np.eye(len(flat))
@@ -115,7 +117,9 @@ def _chi_square(fitted: Explanation, rows: Observations, missed: Array) -> float
 
 
 def _sighting(fitted: Explanation, rows: Observations) -> tuple[Array, Array]:
-    """Where the fit has the marks (n, 2) [mm], and by how much its numbers move them (n, 2, f)."""
+    """Return where the fit has the marks (n, 2) [mm], and by how much its numbers move them (n, 2,
+    f).
+    """
     problem, free = fitted.board.problem, fitted.free
     values, outside = problem.values(fitted.unknowns)
     names = tuple(problem.names[column] for column in free)
@@ -136,7 +140,7 @@ def _covariance(fitted: Explanation) -> Array:
 
 
 def _on_last_sheet(rows: Observations, fitted: Observations) -> Observations:
-    """The check marks on the sheet and with the zeros of the last round that was fitted."""
+    """Return the check marks on the sheet and with the zeros of the last round that was fitted."""
     sheet, zero = int(fitted.sheet_groups.max()), int(fitted.zero_groups.max())
     return replace(
         rows,
@@ -146,7 +150,7 @@ def _on_last_sheet(rows: Observations, fitted: Observations) -> Observations:
 
 
 def _reach(covariance: Array) -> float:
-    """The radius that holds at least 99 of 100 readings [mm]."""
+    """Return the radius that holds at least 99 of 100 readings [mm]."""
     longest = float(np.linalg.eigvalsh(covariance)[-1])
     return float(np.sqrt(scipy.special.chdtri(2, 1 - LEVEL) * longest))
 
@@ -159,7 +163,7 @@ def _point(pair: Array) -> tuple[float, float]:
 
 
 def check_sentence(checked: Check) -> str:
-    """What was promised, what was measured, and what follows."""
+    """Return what was promised, what was measured, and what follows."""
     off = ", ".join(bare(mark.off) for mark in checked.marks)
     promised = worded(max(mark.promised for mark in checked.marks))
     measured = f"Promised: within {promised}. Measured: off by {off}."

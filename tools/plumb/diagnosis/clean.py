@@ -99,7 +99,7 @@ class Cleared:
 
 
 def shifts(explanation: Explanation) -> list[Shift]:
-    """What each reading is off by when it takes no part in the fit.
+    """Return what each reading is off by when it takes no part in the fit.
 
     With P = 1 - basis basis^T and r = P y, setting the numbers b free lowers chi-square by
     r_b^T (P_bb)^-1 r_b and moves them by (P_bb)^-1 r_b.
@@ -142,13 +142,13 @@ def clear_slips(board: Board, candidates: Sequence[str], *, stated: Stated | Non
 
 
 def _with_noise(board: Board, rows: Observations, stated: Stated | None) -> Board:
-    """The board with these rows, whitened by their noise."""
+    """Return the board with these rows, whitened by their noise."""
     noise = noise_on(board.with_rows(rows), stated)
     return board.with_rows(rows, sigma=noise.sigma)
 
 
 def _slip_of(board: Board, candidates: Sequence[str], stated: Stated | None) -> Reading | None:
-    """The reading that is surely off; None if there is none.
+    """Return the reading that is surely off; None if there is none.
 
     The noise is that of all others: a slip must not hide in what it makes of the noise.
     """
@@ -172,7 +172,7 @@ def _slip_of(board: Board, candidates: Sequence[str], stated: Stated | None) -> 
 
 
 def _is_explained(board: Board, candidates: Sequence[str], stated: Stated | None) -> bool:
-    """Whether a single effect, refitted in full, explains all of many readings.
+    """Return whether a single effect, refitted in full, explains all of many readings.
 
     Accounts are weighed by slopes, which an effect beyond all sizes that were met outruns.
     """
@@ -187,7 +187,7 @@ def _is_explained(board: Board, candidates: Sequence[str], stated: Stated | None
 def _chances(
     board: Board, candidates: Sequence[str], stated: Stated | None, allowed: Array
 ) -> Array:
-    """How likely each reading is off."""
+    """Return how likely each reading is off."""
     noise = noise_on(board, stated)
     return weigh(explain(board), candidates, replace(noise, sigma=board.sigma)).slip_chances(
         allowed
@@ -201,7 +201,7 @@ def _shift_of(
     candidates: Sequence[str],
     stated: Stated | None,
 ) -> Shift:
-    """How far a reading is off by the likeliest account of all others."""
+    """Return how far a reading is off by the likeliest account of all others."""
     effects = weigh(explain(rest), candidates, noise_on(rest, stated), with_slips=False).best
     by_rest = explain(board.with_rows(board.rows, sigma=rest.sigma), effects)
     return shifts(by_rest)[reading.place(board.rows)]
@@ -269,7 +269,7 @@ def clear_repeats(board: Board, stated: Stated | None) -> RepeatsCleared:
 
 
 def twins_that_agree(rows: Observations, sigma: float) -> frozenset[Reading]:
-    """Readings that repeats confirm, of another round too; sigma [mm].
+    """Return readings that repeats confirm, of another round too; sigma [mm].
 
     What stood out among the repeats of a round has been set aside before.
     """
@@ -281,7 +281,7 @@ def twins_that_agree(rows: Observations, sigma: float) -> frozenset[Reading]:
 
 
 def _all_apart(rows: Observations, *, in_a_round: bool = True) -> list[_Apart]:
-    """Every reading that was repeated, in its round or in any."""
+    """Return every reading that was repeated, in its round or in any."""
     readings: list[_Apart] = []
     repeats = repeated_marks(rows, in_a_round=in_a_round)
     if repeats:
@@ -302,7 +302,7 @@ def _all_apart(rows: Observations, *, in_a_round: bool = True) -> list[_Apart]:
 
 
 def _worse_of_two(board: Board, worst: _Apart, apart: list[_Apart]) -> _Apart:
-    """Of two readings of a mark, that which is farther from the fit of the frame."""
+    """Return that of two readings of a mark which is farther from the fit of the frame."""
     frame = explain(board)
 
     def error(reading: Reading) -> float:
@@ -317,7 +317,7 @@ def _worse_of_two(board: Board, worst: _Apart, apart: list[_Apart]) -> _Apart:
 
 
 def _sigma(rows: Observations, stated: Stated | None) -> tuple[float, float]:
-    """The noise [mm] by what was said and by the repeats that are left, and its degrees."""
+    """Return the noise [mm] by what was said and by the repeats that are left, and its degrees."""
     said = (
         Spread(STATEMENT * stated.sigma**2, STATEMENT)
         if stated

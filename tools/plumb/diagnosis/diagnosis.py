@@ -38,7 +38,7 @@ def diagnose(inputs: Inputs) -> Diagnosis:
 
 
 def examine(inputs: Inputs) -> Examined:
-    """The same with its fits, for pictures of them."""
+    """Return the same with its fits, for pictures of them."""
     board = measured_board(inputs)
     readings = clean_readings(board, inputs)
     gate = search(readings.frame, readings.felt, readings.noise)
@@ -105,7 +105,7 @@ def _rms_between(explanation: Explanation, other: Explanation) -> float:
 
 
 def rank(readings: CleanReadings) -> tuple[Ranked, ...]:
-    """All effects, by how surprising it would be if noise alone gained as much."""
+    """Return all effects, by how surprising it would be if noise alone gained as much."""
     frame, noise = readings.frame, readings.noise
     effects = [
         Ranked(

@@ -56,7 +56,7 @@ def find_doubts(
     ranking: Sequence[Ranked],
     rounds: Sequence[str],
 ) -> Doubts:
-    """All doubts about a judgement; `rounds` are the names of the files of marks."""
+    """Return all doubts about a judgement; `rounds` are the names of the files of marks."""
     accepted = judgement.explanations or (readings.frame,)
     return Doubts(
         could_hide=tuple(room_for(name, accepted, readings.noise) for name in effect_names()),
@@ -73,7 +73,7 @@ def find_doubts(
 
 
 def _order_warnings(gate: Search, ranking: Sequence[Ranked]) -> list[str]:
-    """Where a full refit ranks effects otherwise than the slopes did."""
+    """Return where a full refit ranks effects otherwise than the slopes did."""
     first = gate.gains[0].effect if gate.proved else None
     if first in (None, ranking[0].effect):
         return []
@@ -84,7 +84,7 @@ def _order_warnings(gate: Search, ranking: Sequence[Ranked]) -> list[str]:
 
 
 def _place_warnings(readings: CleanReadings, judgement: Judgement) -> list[str]:
-    """Where to look first if nothing in the library explains the marks."""
+    """Return where to look first if nothing in the library explains the marks."""
     board = readings.frame.board
     if judgement.verdict != "not_in_library" or not len(board.rows.measured):
         return []
@@ -109,7 +109,7 @@ def _unsettled_warnings(explanations: Sequence[Explanation]) -> list[str]:
 
 
 def _sign_warnings(readings: CleanReadings, judgement: Judgement) -> list[str]:
-    """What the other sign of y would change, where the verdict leaves doubts."""
+    """Return what the other sign of y would change, where the verdict leaves doubts."""
     if judgement.verdict in ("slip", "nothing_provable") or judgement.shares:
         return []
     board = readings.frame.board
@@ -120,7 +120,7 @@ def _sign_warnings(readings: CleanReadings, judgement: Judgement) -> list[str]:
 def _disagreements(
     readings: CleanReadings, best: Explanation, rounds: Sequence[str]
 ) -> tuple[str, ...]:
-    """Rounds that do not go together, else halves of the sheet."""
+    """Return rounds that do not go together, else halves of the sheet."""
     by_round = round_warnings(best, readings.noise, rounds)
     return tuple(by_round or half_warnings(best, readings.noise))
 
@@ -146,7 +146,7 @@ class Doubted:
 
 
 def doubted_readings(inputs: Inputs) -> tuple[Doubted, ...]:
-    """The readings so far that no machine explains. Raises InputError for a bad target."""
+    """Return the readings so far that no machine explains. Raises InputError for a bad target."""
     far = _far_readings(inputs)
     near = _without(inputs.measurements, {doubt.index for doubt in far})
     if not near.measured_marks and not near.distances:
@@ -169,7 +169,7 @@ def _far_readings(inputs: Inputs) -> tuple[Doubted, ...]:
 
 
 def _without(measurements: Measurements, indices: set[int]) -> Measurements:
-    """The measurements without the readings of some marks, and without marks that wait."""
+    """Return the measurements without the readings of some marks, and without marks that wait."""
     ends = {name for distance in measurements.distances for name in distance.between}
     marks = [
         replace(mark, measured=None) if index in indices else mark
@@ -199,7 +199,7 @@ def _slips(inputs: Inputs) -> tuple[Slip, ...]:
 
 
 def _slip_of_few(board: Board, inputs: Inputs) -> Reading | None:
-    """The reading that is surely off by what is known before any mark."""
+    """Return the reading that is surely off by what is known before any mark."""
     frame = explain(board)
     noise = noise_on(board, inputs.stated)
     readings = readings_of(board.rows)
@@ -210,7 +210,9 @@ def _slip_of_few(board: Board, inputs: Inputs) -> Reading | None:
 
 
 def _doubted(slip: Slip, measurements: Measurements) -> Doubted:
-    """A slip among all readings: the marks and distances are those of its name and number."""
+    """Return a slip among all readings: the marks and distances are those of its name and
+    number.
+    """
     is_mark = len(slip.read) == 2
     places: list[tuple[str, tuple[float, ...] | None]]
     if is_mark:
@@ -242,7 +244,7 @@ class Move:
 
 
 def half_warnings(explanation: Explanation, noise: Noise) -> list[str]:
-    """A sentence for each pair of halves of the sheet that want different parameters."""
+    """Return a sentence for each pair of halves of the sheet that want different parameters."""
     rows = explanation.board.rows
     if not len(rows.targets):
         return []
@@ -261,7 +263,7 @@ def half_warnings(explanation: Explanation, noise: Noise) -> list[str]:
 
 
 def round_warnings(explanation: Explanation, noise: Noise, rounds: Sequence[str]) -> list[str]:
-    """A sentence for each round (by its name) that does not go with all others.
+    """Return a sentence for each round (by its name) that does not go with all others.
 
     Judged beyond everything that the library can draw, so that no effect is blamed on a round.
     """
@@ -287,7 +289,7 @@ def _words(move: Move) -> str:
 
 
 def _way_out(explanation: Explanation, basis: Array, mask: Array, noise: Noise, name: str) -> str:
-    """What would explain the difference, as far as a marks file can say it."""
+    """Return what would explain the difference, as far as a marks file can say it."""
     for flag, columns in (
         ("chains_rezeroed", _columns(explanation, ZEROING_NAMES, mask)),
         ("new_sheet", _pose(explanation, mask)),
@@ -299,14 +301,16 @@ def _way_out(explanation: Explanation, basis: Array, mask: Array, noise: Noise, 
 
 
 def _numbers_of(explanation: Explanation, number: int) -> Array:
-    """Which measured numbers (n,) belong to a round."""
+    """Return which measured numbers (n,) belong to a round."""
     rows = explanation.board.rows
     marks = np.repeat(rows.rounds[rows.mark_rows] == number, 2)
     return np.concatenate([marks, rows.distance_rounds == number])
 
 
 def _move(explanation: Explanation, basis: Array, mask: Array, noise: Noise) -> Move | None:
-    """The parameter that moves most between the masked numbers and the rest, if any surely does."""
+    """Return the parameter that moves most between the masked numbers and the rest, if any surely
+    does.
+    """
     if min(mask.sum(), (~mask).sum()) < FEWEST_IN_PART or not np.isfinite(noise.sigma):
         return None
     names = explanation.board.problem.names

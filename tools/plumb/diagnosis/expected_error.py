@@ -43,8 +43,9 @@ class ExpectedError:
 def expected_error(
     used: Explanation, rivals: Sequence[tuple[Explanation, float]] = ()
 ) -> ExpectedError:
-    """The error to expect of a machine set as `used` says; rivals with their shares of what is
-    likely, the rest being the share of `used`."""
+    """Return the error to expect of a machine set as `used` says; rivals with their shares of what
+    is likely, the rest being the share of `used`.
+    """
     width, height = model_by(used).sheet
     x = np.linspace(-width / 2, width / 2, COLUMNS)
     y = np.linspace(height / 2, -height / 2, ROWS)
@@ -62,7 +63,9 @@ def expected_error(
 
 
 def hung(explanation: Explanation, chains: Array) -> tuple[Array, Array, Array]:
-    """Where the sled hangs (n, 2) [mm] with these chains, slopes by NAMES (n, 2, v), and FOUND."""
+    """Return where the sled hangs (n, 2) [mm] with these chains, slopes by NAMES (n, 2, v), and
+    FOUND.
+    """
     problem = explanation.board.problem
     values, _ = problem.values(explanation.unknowns)
     usual = problem.settings.sled_weight
@@ -75,7 +78,9 @@ def hung(explanation: Explanation, chains: Array) -> tuple[Array, Array, Array]:
 
 
 def _variance(explanation: Explanation, slopes: Array) -> Array:
-    """Of a place (n,) [mm²] by the machine's numbers as the explanation settles them."""
+    """Return the variance of places (n,) [mm²] by the machine's numbers as the explanation settles
+    them.
+    """
     problem, free = explanation.board.problem, explanation.free
     columns = explanation.slopes[:, free]
     covariance = np.linalg.pinv(columns.T @ columns, rcond=1e-12, hermitian=True)
@@ -136,7 +141,7 @@ class LeftOpen:
 
 
 def left_open(explanation: Explanation) -> LeftOpen:
-    """What the marks of an explanation leave open, by its slopes."""
+    """Return what the marks of an explanation leave open, by its slopes."""
     board = explanation.board
     machine = [i for i, name in enumerate(board.problem.names) if name in NAMES]
     moved = _among_each_other(explanation, machine)
@@ -154,7 +159,9 @@ def left_open(explanation: Explanation) -> LeftOpen:
 
 
 def _among_each_other(explanation: Explanation, columns: list[int]) -> Array:
-    """How places (n, 2, u) [mm] move by these unknowns, the sheet shifted and turned back."""
+    """Return how places (n, 2, u) [mm] move by these unknowns, the sheet shifted and turned
+    back.
+    """
     problem = explanation.board.problem
     targets = places_over(model_by(explanation).sheet)
     chains, outcome = lengths(model_by(explanation), targets)

@@ -37,7 +37,7 @@ class Board:
         priors: Mapping[str, float] = PRIORS,
         checked: Sequence[Checked] = (),
     ) -> Board:
-        """The board of a model that starts from these settings; sigma [mm] whitens it."""
+        """Return the board of a model that starts from these settings; sigma [mm] whitens it."""
         problem = Problem.of(settings, rows, effect_names(), priors, sigma, checked)
         effect_columns = {
             effect: tuple(problem.names.index(name) for name in parameter_names(effect))
@@ -65,7 +65,9 @@ class Board:
         return np.array([i for effect in effects for i in self.effect_columns[effect]], dtype=int)
 
     def with_rows(self, rows: Observations, *, sigma: float | None = None) -> Board:
-        """The same machine with other observations, and another sigma [mm] if it is given."""
+        """Return the same machine with other observations, and another sigma [mm] if it is
+        given.
+        """
         sigma = self.sigma if sigma is None else sigma
         return replace(self, problem=replace(self.problem, observations=rows, sigma=sigma))
 
@@ -164,7 +166,9 @@ FEWEST_NUMBERS = 6  # three marks: below that the frame explains everything
 
 
 def measured_board(inputs: Inputs) -> Board:
-    """The board of these inputs; raises InputError for too few marks, and for bad targets."""
+    """Return the board of these inputs; raises InputError for too few marks, and for bad
+    targets.
+    """
     model, rows = inputs.model_and_observations()
     _refuse_too_few(inputs.measurements, rows)
     sigma = inputs.stated.sigma if inputs.stated else USUAL_SIGMA
@@ -184,8 +188,8 @@ def _refuse_too_few(measurements: Measurements, rows: Observations) -> None:
 
 
 def field_columns(frame: Explanation, widths: Sequence[float], least: float) -> Iterator[Array]:
-    """For each width what independent normals move of the measured numbers (n, c) [mm], together
-    as a field of 1 mm each way does.
+    """Yield for each width what independent normals move of the measured numbers (n, c) [mm],
+    together as a field of 1 mm each way does.
 
     widths: of a field's details, in halves of what the marks span. least [mm^2]: what the columns
     may leave out of its variance at any place.
@@ -237,7 +241,7 @@ class Spread:
         return float(np.sqrt(self.squares / self.degrees)) if self.degrees else float("nan")
 
     def __add__(self, other: Spread) -> Spread:
-        """Both together."""
+        """Return both together."""
         return Spread(self.squares + other.squares, self.degrees + other.degrees)
 
 

@@ -53,18 +53,18 @@ class Search:
         return bool(self.gains) and self.gains[0].surprise > self.limit
 
     def of(self, effect: str) -> Gain:
-        """The gain of an effect."""
+        """Return the gain of an effect."""
         return next(gain for gain in self.gains if gain.effect == effect)
 
 
 def search(explanation: Explanation, candidates: Sequence[str], noise: Noise) -> Search:
-    """What each candidate outside the explanation would add to it."""
+    """Return what each candidate outside the explanation would add to it."""
     bases = bases_beyond_fit(explanation, candidates)
     return Search(gains_of(explanation, bases, noise), limit_of_noise(bases, noise))
 
 
 def complete(explanation: Explanation, candidates: Sequence[str], noise: Noise) -> bool:
-    """Whether nothing adds more than noise would: not `search(...).proved`, and faster.
+    """Return whether nothing adds more than noise would: not `search(...).proved`, and faster.
 
     The limit lies between that of a single candidate and Bonferroni's, so that noise need only be
     drawn for what falls between the two.
@@ -81,7 +81,7 @@ def complete(explanation: Explanation, candidates: Sequence[str], noise: Noise) 
 def gains_of(
     explanation: Explanation, bases: Mapping[str, Array], noise: Noise
 ) -> tuple[Gain, ...]:
-    """What each effect with a basis adds, largest surprise first."""
+    """Return what each effect with a basis adds, largest surprise first."""
     gains = []
     for effect, basis in bases.items():
         drop = float(np.sum((basis.T @ explanation.residual) ** 2))
@@ -104,7 +104,7 @@ def bases_beyond_fit(explanation: Explanation, candidates: Sequence[str]) -> dic
 
 
 def limit_of_noise(bases: Mapping[str, Array], noise: Noise) -> float:
-    """The surprise that the best effect reaches on noise alone in LEVEL of all cases.
+    """Return the surprise that the best effect reaches on noise alone in LEVEL of all cases.
 
     Noise is drawn in the space of all bases together: outside of it no effect feels it.
     """
@@ -161,7 +161,7 @@ def chance_of_imitation(
 def _explained(
     frame: Explanation, effects: tuple[str, ...], seen: Array, noise: Noise, *, real: bool
 ) -> Array:
-    """Which columns these effects explain."""
+    """Return which columns these effects explain."""
     board = frame.board
     columns = board.columns(effects)
     drawn = frame.beyond_fit(effects)

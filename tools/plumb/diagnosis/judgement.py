@@ -51,7 +51,7 @@ class Judgement:
 
 
 def judge(readings: CleanReadings, gate: Search) -> Judgement:
-    """A slip comes first, then the gate, then the suspects."""
+    """Return a slip comes first, then the gate, then the suspects."""
     if readings.slips:
         return Judgement("slip", Suspects((), True), ())
     if not gate.proved:
@@ -71,8 +71,9 @@ def judge(readings: CleanReadings, gate: Search) -> Judgement:
 
 
 def _likely(readings: CleanReadings, most: float) -> Judgement | None:
-    """The likeliest accounts; None if none fits, or if a field of no effect is likelier than
-    `most`."""
+    """Return the likeliest accounts; None if none fits, or if a field of no effect is likelier than
+    `most`.
+    """
     answer = likeliest(readings.frame, readings.felt, readings.noise)
     if not answer.accounts or answer.field_chance > most:
         return None
@@ -97,7 +98,7 @@ def _without_proof(readings: CleanReadings) -> Judgement:
 
 
 def _to_add(readings: CleanReadings, suspects: Suspects) -> tuple[str, ...]:
-    """The best explanation, or the effects that come nearest where none stands."""
+    """Return the best explanation, or the effects that come nearest where none stands."""
     if suspects.survivors:
         return suspects.survivors[0].explanation.effects
     return best_at_hand(readings.frame, readings.felt)
@@ -231,7 +232,7 @@ def _log_cauchy(sizes: np.ndarray) -> float:
 def _promising(
     frame: Explanation, felt: Sequence[str], size: int, noise: Noise
 ) -> list[tuple[str, ...]]:
-    """Combinations that might stand, by the slopes at the frame's fit; best first.
+    """Return combinations that might stand, by the slopes at the frame's fit; best first.
 
     Their limit is Bonferroni's, which is wider than the simulated one that decides later.
     """
@@ -257,7 +258,7 @@ def _promising(
 
 
 def evidence(single: Explanation, frame: Explanation, noise: Noise) -> float:
-    """How surprising the effect's gain over the frame is after its full refit."""
+    """Return how surprising the effect's gain over the frame is after its full refit."""
     visible = single.basis.shape[1] - frame.basis.shape[1]
     return surprise(frame.cost - single.cost, visible, noise.degrees)
 
@@ -290,7 +291,7 @@ class Likeliest:
 
 
 def likeliest(frame: Explanation, felt: Sequence[str], noise: Noise) -> Likeliest:
-    """The accounts that leave no misfit, refitted in full."""
+    """Return the accounts that leave no misfit, refitted in full."""
     weighed = weigh(frame, felt, noise, with_slips=False)
     accounts = []
     for listed in listing(weighed.effects, weighed.clean):
@@ -310,8 +311,8 @@ class Listed:
 
 
 def listing(effects: tuple[tuple[str, ...], ...], evidences: Array) -> list[Listed]:
-    """Sets of a few effects, likeliest first, as far as LISTED; by the logarithms of the weights of
-    all sets.
+    """Return sets of a few effects, likeliest first, as far as LISTED; by the logarithms of the
+    weights of all sets.
 
     A set with more effects than a likelier set adds nothing that the marks ask for: it counts with
     that one.
@@ -341,7 +342,7 @@ def listing(effects: tuple[tuple[str, ...], ...], evidences: Array) -> list[List
 
 @cache
 def _within(effects: tuple[tuple[str, ...], ...]) -> Array:
-    """Whether each set (rows) is part of each (columns)."""
+    """Return whether each set (rows) is part of each (columns)."""
     names = sorted({name for each in effects for name in each})
     has = np.array([[name in each for name in names] for each in effects], dtype=int)
     part: Array = has @ (1 - has).T == 0

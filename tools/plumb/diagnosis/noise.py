@@ -67,7 +67,7 @@ class Noise:
 
 
 def origin_words(source: str) -> str:
-    """Where a sigma of this source comes from, for people."""
+    """Return where a sigma of this source comes from, for people."""
     return _ORIGINS[source]
 
 
@@ -91,7 +91,7 @@ DISAGREE = 0.01  # chance at which two numbers for the noise are said to disagre
 
 
 def noise_on(board: Board, stated: Stated | None) -> Noise:
-    """The noise of what was measured on a board."""
+    """Return the noise of what was measured on a board."""
     repeats = repeats_of(board.rows)
     known = known_noise(repeats, stated)
     if known is not None:
@@ -101,14 +101,14 @@ def noise_on(board: Board, stated: Stated | None) -> Noise:
 
 
 def repeats_of(rows: Observations) -> Spread:
-    """The spread of readings that were taken of the same mark or distance in the same way."""
+    """Return the spread of readings of the same mark or distance, taken in the same way."""
     spread = mark_spread(rows) + distance_spread(rows)
     least = rounding_sigma(rows) ** 2 * spread.degrees if spread.degrees else 0.0
     return Spread(max(spread.squares, least), spread.degrees)
 
 
 def known_noise(repeats: Spread, stated: Stated | None) -> Noise | None:
-    """What statements and repeats say of the noise; None if there are neither."""
+    """Return what statements and repeats say of the noise; None if there are neither."""
     if stated is not None and (stated.is_final or repeats.degrees < 1):
         return Noise(stated.sigma, KNOWN, "stated", _contradiction(repeats, stated))
     if stated is not None:
@@ -117,7 +117,7 @@ def known_noise(repeats: Spread, stated: Stated | None) -> Noise | None:
 
 
 def guessed_noise(scatter: Spread) -> Noise:
-    """The noise where nothing was stated or repeated.
+    """Return the noise where nothing was stated or repeated.
 
     What is beyond LARGEST_SIGMA is not believed to be noise.
     """
@@ -128,7 +128,7 @@ def guessed_noise(scatter: Spread) -> Noise:
 
 
 def _together(repeats: Spread, stated: Stated) -> Noise:
-    """A statement that may be wrong, and repeats that are few."""
+    """Return a statement that may be wrong, and repeats that are few."""
     notes = _contradiction(repeats, stated)
     if notes and repeats.degrees >= FEW_REPEATS:
         return _from_repeats(repeats, notes)
@@ -148,7 +148,7 @@ def _from_repeats(repeats: Spread, notes: tuple[str, ...] = ()) -> Noise:
 
 
 def _contradiction(repeats: Spread, stated: Stated) -> tuple[str, ...]:
-    """A sentence if repeats and a statement differ by more than chance."""
+    """Return a sentence if repeats and a statement differ by more than chance."""
     more = repeats.degrees > 0 and _exceeds(repeats, stated.sigma)
     less = repeats.degrees > 0 and _falls_below(repeats, stated.sigma)
     if not (more or less):
@@ -170,12 +170,12 @@ def _contradiction(repeats: Spread, stated: Stated) -> tuple[str, ...]:
 
 
 def _exceeds(spread: Spread, sigma: float) -> bool:
-    """Whether readings of this sigma hardly ever spread as much."""
+    """Return whether readings of this sigma hardly ever spread as much."""
     return bool(scipy.special.chdtrc(spread.degrees, spread.squares / sigma**2) < DISAGREE)
 
 
 def _falls_below(spread: Spread, sigma: float) -> bool:
-    """Whether readings of this sigma hardly ever spread as little."""
+    """Return whether readings of this sigma hardly ever spread as little."""
     return bool(scipy.special.chdtr(spread.degrees, spread.squares / sigma**2) < DISAGREE)
 
 
@@ -219,20 +219,20 @@ class Repeats:
         return _left(self.columns, self.off)
 
     def apart(self) -> tuple[Array, Array]:
-        """What is left of each reading (n, 2) [mm], and the share (n,) that it keeps of a slip."""
+        """Return what is left of each reading (n, 2) [mm], and its share (n,) of a slip."""
         basis, sizes, _ = np.linalg.svd(self.columns, full_matrices=False)
         basis = basis[:, sizes > 1e-9 * sizes[0]]
         return self.off - basis @ (basis.T @ self.off), 1 - np.sum(basis**2, axis=1)
 
 
 def mark_spread(rows: Observations) -> Spread:
-    """The spread of marks made and read in the same way."""
+    """Return the spread of marks made and read in the same way."""
     repeats = repeated_marks(rows)
     return repeats.spread if repeats else NOTHING
 
 
 def repeated_marks(rows: Observations, *, in_a_round: bool = False) -> Repeats | None:
-    """The marks that were read more than once, or more than once in a round; None without any."""
+    """Return the marks that were read more than once, or more than once in a round, or None."""
     alike = _alike(rows)
     if in_a_round:
         alike = [part for repeats in alike for part in _by_round(rows, repeats)]
@@ -253,7 +253,7 @@ def repeated_marks(rows: Observations, *, in_a_round: bool = False) -> Repeats |
 
 
 def _by_round(rows: Observations, repeats: list[int]) -> list[list[int]]:
-    """These readings, those of a round together."""
+    """Return these readings, those of a round together."""
     rounds = rows.rounds[rows.mark_rows[repeats]].tolist()
     return [
         [index for index, number in zip(repeats, rounds, strict=True) if number == each]
@@ -262,7 +262,7 @@ def _by_round(rows: Observations, repeats: list[int]) -> list[list[int]]:
 
 
 def repeated_distances(rows: Observations, *, in_a_round: bool = False) -> list[list[int]]:
-    """Indices of distances between the same two marks, where there are several (in a round)."""
+    """Return indices of distances between the same two marks, where there are several."""
     spans: dict[tuple[frozenset[int], int], list[int]] = {}
     rounds = rows.distance_rounds if in_a_round else np.zeros(len(rows.distances), dtype=int)
     for i, ends in enumerate(rows.distance_rows.tolist()):
@@ -271,7 +271,7 @@ def repeated_distances(rows: Observations, *, in_a_round: bool = False) -> list[
 
 
 def _alike(rows: Observations) -> list[list[int]]:
-    """Marks of a name that were made alike: by the same chains, or close by in the same round."""
+    """Return marks of a name made by the same chains, or close by in the same round."""
     made: dict[tuple[Any, ...], dict[tuple[float, ...], list[int]]] = {}
     for i, row in enumerate(rows.mark_rows):
         side = (*rows.approaches[row], rows.swapped[row])
@@ -294,7 +294,7 @@ def _alike(rows: Observations) -> list[list[int]]:
 
 
 def distance_spread(rows: Observations) -> Spread:
-    """The same of distances between the same two marks."""
+    """Return the same of distances between the same two marks."""
     squares, degrees = 0.0, 0.0
     for repeats in repeated_distances(rows):
         squares += float(np.sum((rows.distances[repeats] - rows.distances[repeats].mean()) ** 2))
@@ -303,7 +303,7 @@ def distance_spread(rows: Observations) -> Spread:
 
 
 def rounding_sigma(rows: Observations) -> float:
-    """Standard deviation [mm] of rounding to the step in which all numbers were written.
+    """Return standard deviation [mm] of rounding to the step in which all numbers were written.
 
     Readings to whole millimetres that agree exactly say no more than that.
     """
@@ -327,14 +327,14 @@ def _round_columns(rows: Observations, picked: Array) -> Array:
 
 
 def _left(columns: Array, readings: Array) -> Spread:
-    """What columns leave of both coordinates, and its degrees of freedom."""
+    """Return what columns leave of both coordinates, and its degrees of freedom."""
     fitted, _, rank, _ = np.linalg.lstsq(columns, readings, rcond=1e-9)
     squares = float(np.sum((readings - columns @ fitted) ** 2))
     return Spread(squares, 2.0 * (len(readings) - rank))
 
 
 def _is_sure(plain: Spread, moved: Spread) -> bool:
-    """Whether rounds moved as a whole, by the F-test."""
+    """Return whether rounds moved as a whole, by the F-test."""
     more = plain.degrees - moved.degrees
     if more <= 0 or moved.squares <= 0:
         return more > 0 and plain.squares > 0
@@ -358,12 +358,12 @@ def misfit_chance(explanation: Explanation, noise: Noise) -> float:
 
 
 def spare_numbers(explanation: Explanation) -> float:
-    """How many measured numbers the fit left over."""
+    """Return how many measured numbers the fit left over."""
     return _left_over(explanation, explanation.basis, explanation.residual)[1]
 
 
 def library_misfit_chance(explanation: Explanation, noise: Noise) -> float:
-    """The same beyond everything that all effects of the library could draw at once."""
+    """Return the same beyond everything that all effects of the library could draw at once."""
     return _chance(explanation, *beyond_library(explanation), noise)
 
 

@@ -40,7 +40,7 @@ class Room:
 
 
 def sizes_of(explanation: Explanation, effect: str, noise: Noise) -> tuple[Size, ...]:
-    """The fitted parameters of an effect of an explanation."""
+    """Return the fitted parameters of an effect of an explanation."""
     problem, words = explanation.board.problem, parameter_words()
     free = explanation.free
     covariance = _covariance(explanation.slopes[:, free])
@@ -67,15 +67,16 @@ def sizes_of(explanation: Explanation, effect: str, noise: Noise) -> tuple[Size,
 
 
 def possible(explanation: Explanation, noise: Noise) -> bool:
-    """Whether a real machine can have such sizes, as far as their intervals reach."""
+    """Return whether a real machine can have such sizes, as far as their intervals reach."""
     return all(
         size.possible for name in explanation.effects for size in sizes_of(explanation, name, noise)
     )
 
 
 def possible_sizes(board: Board, columns: Array, sizes: Array, half: Array) -> Array:
-    """Whether a real machine can have the sizes (k, boards) of these columns, in typical sizes,
-    as far as their intervals of half-widths (k,) reach (boards,)."""
+    """Return whether a real machine can have the sizes (k, boards) of these columns, in typical
+    sizes, as far as their intervals of half-widths (k,) reach (boards,).
+    """
     reachable = np.ones(sizes.shape[1], dtype=bool)
     for column, size, width in zip(columns, sizes, half, strict=True):
         scale = board.problem.scale[column]
@@ -96,8 +97,8 @@ def hidden_share(frame: Explanation, effect: str) -> float | None:
 
 
 def room_for(effect: str, explanations: Sequence[Explanation], noise: Noise) -> Room:
-    """The largest size that any of these explanations leaves to an effect (95 % upper limit), or
-    what a real machine can have if that is less.
+    """Return the largest size that any of these explanations leaves to an effect (95 % upper
+    limit), or what a real machine can have if that is less.
 
     Where the effect is part of the explanation its fitted size counts, else what could be added.
     """
@@ -110,7 +111,7 @@ def room_for(effect: str, explanations: Sequence[Explanation], noise: Noise) -> 
 
 
 def _largest_of(sizes: Iterable[float | None]) -> float | None:
-    """The largest; None if an explanation says nothing of it."""
+    """Return the largest; None if an explanation says nothing of it."""
     known = list(sizes)
     return None if None in known else max(size for size in known if size is not None)
 
@@ -178,7 +179,7 @@ def _per_reading(explanation: Explanation, whitened: Array) -> float:
 
 
 def _covariance(columns: Array) -> Array:
-    """Of unknowns with these whitened columns."""
+    """Return the covariance of unknowns with these whitened columns."""
     return np.linalg.pinv(columns.T @ columns, rcond=1e-12, hermitian=True)
 
 
@@ -188,7 +189,9 @@ def _covariance(columns: Array) -> Array:
 def sign_warning(
     board: Board, felt: Sequence[str], noise: Noise, kept: Sequence[Explanation]
 ) -> str | None:
-    """A sentence on the other sign of y, if nothing simple explains the marks as they stand."""
+    """Return a sentence on the other sign of y, if nothing simple explains the marks as
+    they stand.
+    """
     if not len(board.rows.measured) or any(_is_simple(explanation, noise) for explanation in kept):
         return None
     turned = with_y_errors_turned(board)
@@ -212,7 +215,7 @@ def sign_warning(
 
 
 def with_y_errors_turned(board: Board) -> Board:
-    """The board with each mark as far above its target as it was below it."""
+    """Return the board with each mark as far above its target as it was below it."""
     rows = board.rows
     measured = rows.measured.copy()
     measured[:, 1] = 2 * rows.targets[:, 1] - measured[:, 1]
@@ -220,5 +223,7 @@ def with_y_errors_turned(board: Board) -> Board:
 
 
 def _is_simple(explanation: Explanation, noise: Noise) -> bool:
-    """Whether at most one effect explains the marks, with sizes that a real machine can have."""
+    """Return whether at most one effect explains the marks, with sizes that a real machine can
+    have.
+    """
     return len(explanation.effects) < 2 and possible(explanation, noise)

@@ -32,13 +32,13 @@ class Reading:
         return 2 if self.is_mark else 1
 
     def numbers(self, rows: Observations) -> Array:
-        """Its entries among all measured numbers."""
+        """Return its entries among all measured numbers."""
         if self.is_mark:
             return np.array([2 * self.index, 2 * self.index + 1])
         return np.array([rows.measured.size + self.index])
 
     def place(self, rows: Observations) -> int:
-        """Its place among all readings."""
+        """Return its place among all readings."""
         return self.index if self.is_mark else len(rows.measured) + self.index
 
 
@@ -55,13 +55,13 @@ class Shift:
 
 
 def readings_of(rows: Observations) -> list[Reading]:
-    """All readings."""
+    """Return all readings."""
     marks = [Reading(i, True) for i in range(len(rows.measured))]
     return marks + [Reading(i, False) for i in range(len(rows.distances))]
 
 
 def without(rows: Observations, reading: Reading) -> Observations:
-    """The observations without a reading; the visit itself stays."""
+    """Return the observations without a reading; the visit itself stays."""
     if not reading.is_mark:
         return replace(
             rows,
@@ -134,7 +134,7 @@ class Slip:
 
 
 def described(shift: Shift, measurements: Measurements, sheet: tuple[float, float]) -> Slip:
-    """The slip for people; sheet is its width and height [mm]."""
+    """Return the slip for people; sheet is its width and height [mm]."""
     index = shift.reading.index
     offset = tuple(float(value) for value in shift.offset)
     sigma = tuple(float(value) for value in shift.sigma)
@@ -163,7 +163,7 @@ def _guess(
     sigma: tuple[float, ...],
     sheet: tuple[float, float],
 ) -> Guess:
-    """The first usual mistake that agrees with the shift in every coordinate."""
+    """Return the first usual mistake that agrees with the shift in every coordinate."""
     expected = np.subtract(read, offset)
     for frame in _as_read(np.array(read), sheet):
         meant = frame.back(frame.numbers[::-1])
@@ -195,13 +195,13 @@ class _Frame:
     sign: np.ndarray
 
     def back(self, numbers: np.ndarray) -> np.ndarray:
-        """In the machine frame."""
+        """Return the places in the machine frame."""
         places: np.ndarray = self.sign * (numbers - self.middle)
         return places
 
 
 def _as_read(read: np.ndarray, sheet: tuple[float, float]) -> list[_Frame]:
-    """The reading as counted from the middle of the sheet, and from its top-left corner."""
+    """Return the reading as counted from the middle of the sheet, and from its top-left corner."""
     if len(read) == 1:
         return [_Frame(read, np.zeros(1), np.ones(1))]
     sign, middle = np.array([1.0, -1.0]), np.array(sheet) / 2
@@ -212,7 +212,7 @@ def _as_read(read: np.ndarray, sheet: tuple[float, float]) -> list[_Frame]:
 
 
 def _transposed(number: float) -> list[float]:
-    """The number with two neighbouring digits transposed, whole millimetres and tenths."""
+    """Return the number with two neighbouring digits transposed, whole millimetres and tenths."""
     text = _shown(abs(number))
     numbers = []
     for i in range(len(text) - 1):
@@ -239,7 +239,7 @@ def _agree(guess: np.ndarray, expected: np.ndarray, sigma: tuple[float, ...]) ->
 def _round_number(
     read: tuple[float, ...], offset: tuple[float, ...], sigma: tuple[float, ...]
 ) -> Guess:
-    """A single coordinate off by what a tape or a ruler is misread by."""
+    """Return a single coordinate off by what a tape or a ruler is misread by."""
     wrong = [i for i in range(len(offset)) if abs(offset[i]) > SURELY * sigma[i]]
     if len(wrong) != 1:
         return Guess()
@@ -295,7 +295,7 @@ def find_mixed_up(board: Board) -> MixedUp:
 
 
 def mixed_up_slips(mixed_up: MixedUp, measurements: Measurements) -> list[Slip]:
-    """Both readings of every exchange, each to be looked at again."""
+    """Return both readings of every exchange, each to be looked at again."""
     slips = []
     for pair in mixed_up.pairs:
         for index, other in ((pair.first, pair.second), (pair.second, pair.first)):
@@ -327,7 +327,7 @@ def _slip(
 
 
 def _best(board: Board) -> MixedPair | None:
-    """The pair whose mix-up explains most of what the library cannot draw."""
+    """Return the pair whose mix-up explains most of what the library cannot draw."""
     frame, rows = explain(board), board.rows
     basis = library_basis(frame)
     left = frame.residual - basis @ (basis.T @ frame.residual)
@@ -369,7 +369,8 @@ def _drops(basis: Array, left: Array, numbers: Array, readings: Array) -> Array:
 
 
 def _needed(basis: Array, left: Array, pair: Array) -> float:
-    """The drop from which on two readings were mixed up, and neither both nor one of them misread.
+    """Return the drop from which on two readings were mixed up, and neither both nor one of them
+    misread.
 
     The library can bend much of the board to two neighbours that are off alike. So a misread repeat
     of a mark gains by an exchange too, but less than by setting it alone free.

@@ -46,7 +46,9 @@ class SuspectCurves:
 
 
 def view_by(explanation: Explanation, rows: Observations | None = None) -> ChainView:
-    """What an explanation leaves of the marks in chain; rows: of other marks than its board's."""
+    """Return what an explanation leaves of the marks in chain; rows: of other marks than its
+    board's.
+    """
     problem = explanation.board.problem
     values, outside = problem.values(explanation.unknowns)
     return chain_view(values, outside, rows or problem.observations, problem.settings)
@@ -55,7 +57,9 @@ def view_by(explanation: Explanation, rows: Observations | None = None) -> Chain
 def suspect_curves(
     frame: Explanation, explanation: Explanation, rows: Observations
 ) -> SuspectCurves:
-    """What an explanation adds to the frame's fit at the marks of `rows`, and over the sheet."""
+    """Return what an explanation adds to the frame's fit at the marks of `rows`, and over the
+    sheet.
+    """
     model = model_by(frame)
     sheet = visits_all_over(model, rows)
     by_place = covariates(model, sheet)
@@ -72,14 +76,16 @@ def suspect_curves(
 
 
 def added_chains(frame: Explanation, explanation: Explanation, rows: Observations) -> Array:
-    """What an explanation says more than the frame's fit (r, 2) [mm] on each visit, in chain."""
+    """Return what an explanation says more than the frame's fit (r, 2) [mm] on each visit, in
+    chain.
+    """
     model = model_by(frame)
     moved = seen_by(explanation, rows).read.where - seen_by(frame, rows).read.where
     return chain_errors(model, hung_places(model, rows), moved, rows.sled_weights)
 
 
 def model_by(explanation: Explanation) -> MachineSettings:
-    """The machine as an explanation has it."""
+    """Return the machine as an explanation has it."""
     problem = explanation.board.problem
     values, _ = problem.values(explanation.unknowns)
     return settings_of(values, like=problem.settings)
@@ -88,7 +94,7 @@ def model_by(explanation: Explanation) -> MachineSettings:
 def seen_by(
     explanation: Explanation, rows: Observations, *, unknowns: Array | None = None
 ) -> Sighting:
-    """What an explanation says is measured on each visit; with other unknowns, if given."""
+    """Return what an explanation says is measured on each visit; with other unknowns, if given."""
     problem = explanation.board.problem
     values, outside = problem.values(explanation.unknowns if unknowns is None else unknowns)
     return sighted(
@@ -140,7 +146,7 @@ def visits_all_over(
 
 
 def _nearest(visited: Array, places: Array) -> Array:
-    """The visit (n,) nearest to each place; visits of the same place take turns."""
+    """Return the visit (n,) nearest to each place; visits of the same place take turns."""
     gaps = np.linalg.norm(places[:, np.newaxis] - visited, axis=2)
     near = gaps <= gaps.min(axis=1, keepdims=True) + SAME_PLACE
     chosen = [np.flatnonzero(row)[i % int(row.sum())] for i, row in enumerate(near)]
@@ -184,8 +190,9 @@ class Fingerprint:
 
 
 def fingerprint_of(explanation: Explanation, effect: str, rows: Observations) -> Fingerprint:
-    """The fingerprint of one of the explanation's effects; the sled goes to each place in the way
-    of the nearest visit in `rows`."""
+    """Return the fingerprint of one of the explanation's effects; the sled goes to each place in
+    the way of the nearest visit in `rows`.
+    """
     sheet = visits_all_over(model_by(explanation), rows, counts=COUNTS, share=SHARE)
     columns, frame = explanation.board.columns([effect]), explanation.board.frame
     whole = _sizes(explanation, columns)
@@ -206,7 +213,7 @@ def fingerprint_of(explanation: Explanation, effect: str, rows: Observations) ->
 
 
 def _sizes(explanation: Explanation, columns: Array) -> Array:
-    """How large the parameters are in all, in typical sizes: what the settings have, too."""
+    """Return how large the parameters are in all, in typical sizes: what the settings have, too."""
     problem = explanation.board.problem
     whole: Array = problem.start[columns] / problem.scale[columns] + explanation.unknowns[columns]
     return whole

@@ -58,7 +58,7 @@ class Weighed:
         return float(np.exp(self.field - np.logaddexp.reduce([*self.clean, self.field])))
 
     def slip_chances(self, allowed: Array) -> Array:
-        """How likely each reading is off (readings,), if only those allowed may be."""
+        """Return how likely each reading is off (readings,), if only those allowed may be."""
         weights = np.where(allowed, self.slips, -np.inf)
         whole = np.logaddexp.reduce([*self.clean, self.field, *weights])
         chances: Array = np.exp(weights - whole)
@@ -92,7 +92,7 @@ def weigh(
 
 
 def accounts(frame: Explanation, felt: Sequence[str]) -> tuple[tuple[tuple[str, ...], ...], Array]:
-    """Sets of effects, and the logarithms of their weights before the marks; last all at once."""
+    """Return sets of effects, last all at once, and the logarithms of their prior weights."""
     most = TOGETHER if frame.board.rows.count <= FEWER else 2
     sets = [names for size in range(most + 1) for names in combinations(felt, size)]
     chances = {name: EFFECT for name in felt} | dict.fromkeys(left_out(frame), EVERYWHERE)
@@ -102,7 +102,7 @@ def accounts(frame: Explanation, felt: Sequence[str]) -> tuple[tuple[tuple[str, 
 
 
 def left_out(frame: Explanation) -> tuple[str, ...]:
-    """What every machine has, and what the settings do not know of."""
+    """Return what every machine has, and what the settings do not know of."""
     board = frame.board
     return tuple(
         name for name in EVERY_MACHINE if not np.any(board.problem.start[board.columns([name])])
@@ -169,7 +169,7 @@ class LinearBoard:
         )
 
     def parts(self, sets: Sequence[tuple[str, ...]]) -> tuple[Part, ...]:
-        """Sets of effects, those with as many parameters together."""
+        """Return sets of effects, those with as many parameters together."""
         members = [np.concatenate([[], *(self.columns[name] for name in names)]) for names in sets]
         sizes = np.array([len(member) for member in members])
         return tuple(
@@ -205,13 +205,12 @@ class Metric:
 
     @staticmethod
     def of(board: LinearBoard) -> Metric:
-        """With nothing but noise and the frame."""
+        """Return the metric of nothing but noise and the frame."""
         return Metric._of(board, board.frame, board.frame.T @ board.frame)
 
     @staticmethod
     def with_other(board: LinearBoard, other: Array, sizes: Sequence[float]) -> list[Metric]:
-        """With something else that moves the measured numbers by columns (numbers, c) [mm] of
-        these sizes."""
+        """Return the metrics with something else of these sizes; columns (numbers, c) [mm]."""
         columns = np.zeros((len(board.frame), other.shape[1]))
         columns[: len(other)] = other / board.sigma
         both = np.hstack([board.frame, columns])
@@ -245,8 +244,9 @@ class Metric:
     def slip_evidences(
         self, parts: Iterable[Part], before: Array, spreads: Sequence[float]
     ) -> Array:
-        """The same of the first board for each reading being off by one of these spreads [mm], all
-        sets together, each with the logarithm of its weight before the marks."""
+        """Return the same of the first board for each reading being off by one of these spreads
+        [mm], all sets together, each with the logarithm of its weight before the marks.
+        """
         summed = []
         for part in parts:
             slips = self._slips(_Fitted.of(self, part), spreads)
@@ -262,7 +262,7 @@ class Metric:
         return whole
 
     def _slips(self, fitted: _Fitted, spreads: Sequence[float]) -> Array:
-        """For each spread and set the evidence (spreads, sets, readings) with a reading off."""
+        """Return the evidence (spreads, sets, readings) with a reading off."""
         # What a reading set free may take, and what pulls at it; a third row stands for none.
         turned, by_effects, by_read = (
             np.vstack([rows, np.zeros((1, rows.shape[1]))])[self.board.numbers]
@@ -291,8 +291,9 @@ class Metric:
     def _off(
         self, left: Array, spread: Array, kept: Sequence[Array], pull: Array, length: float
     ) -> Array:
-        """The evidence (sets, readings) with each off by a length [sigmas]; `kept` has the entries
-        of a symmetric matrix of two by two."""
+        """Return the evidence (sets, readings) with each off by a length [sigmas]; `kept` has the
+        entries of a symmetric matrix of two by two.
+        """
         first, both, second = kept[0] + length**-2, kept[1], kept[2] + length**-2
         size = first * second - both**2
         x, y = pull[..., 0], pull[..., 1]
@@ -356,7 +357,7 @@ def _in_largest(board: Board, names: Sequence[str], slopes: Array) -> Array:
 
 
 def largest_met(board: Board, columns: Array) -> Array:
-    """The largest sizes (k,) that were met of these columns' parameters, in typical sizes."""
+    """Return the largest sizes (k,) met of these columns' parameters, in typical sizes."""
     met = [plausible_range(board.problem.names[i]) for i in columns]
     largest = np.array([max(abs(known.low), abs(known.high)) for known in met])
     in_typical: Array = largest / board.problem.scale[columns]
@@ -383,8 +384,7 @@ MOVED = 6.0  # [mm] spread of a sheet laid elsewhere, and of a chain's zero
 
 
 def rounds_columns(frame: Explanation) -> Array | None:
-    """What independent normals move of the measured numbers (n, c) [mm], together as what may have
-    changed between rounds does; None if there is a single round."""
+    """Return what rounds may move (n, c) [mm] as independent normals; None in a single round."""
     board, rows = frame.board, frame.board.rows
     number = np.concatenate([np.repeat(rows.rounds[rows.mark_rows], 2), rows.distance_rounds])
     later = np.unique(number)[1:]

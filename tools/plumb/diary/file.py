@@ -51,17 +51,17 @@ class Diary:
     spoilt: tuple[int, ...] = ()  # lines that cannot be read, counted from 1
 
     def of_kind(self, *kinds: str) -> tuple[Entry, ...]:
-        """The entries of these kinds."""
+        """Return the entries of these kinds."""
         return tuple(entry for entry in self.entries if entry.kind in kinds)
 
 
 def diary_path(folder: Folder) -> Path:
-    """Where the diary of a folder is, or would be."""
+    """Return where the diary of a folder is, or would be."""
     return Path(folder) / NAME
 
 
 def has_diary(folder: Folder) -> bool:
-    """Whether somebody has begun a diary in this folder."""
+    """Return whether somebody has begun a diary in this folder."""
     return diary_path(folder).is_file()
 
 
@@ -85,7 +85,7 @@ def append(
 
 
 def read_diary(folder: Folder) -> Diary:
-    """The diary of a folder; empty if nobody has begun it. Raises InputError."""
+    """Return the diary of a folder; empty if nobody has begun it. Raises InputError."""
     path = diary_path(folder)
     try:
         with os.fdopen(opened(path, os.O_RDONLY, follows=False), "rb") as file:
@@ -107,7 +107,7 @@ def read_diary(folder: Folder) -> Diary:
 
 
 def plain(value: Any) -> Any:
-    """A value in the types of JSON; what is not a finite number is None."""
+    """Return a value in the types of JSON; what is not a finite number is None."""
     if isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
@@ -130,7 +130,7 @@ def _digest(rest: bytes) -> str:
 
 
 def _entry(line: bytes) -> Entry | None:
-    """What a line says; None if it is cut or changed."""
+    """Return what a line says; None if it is cut or changed."""
     length = len(HEAD % ("0" * DIGITS))
     head, rest = line[:length], line[length:]
     if head != (HEAD % _digest(rest)).encode():
@@ -178,8 +178,9 @@ RECHECK, SLIP, HOME = "recheck", "slip", "home"
 def fit_entry(
     result: Addition, inputs: Inputs, *, machine: str, settings: str, firmware: str = "plumb"
 ) -> dict[str, Any]:
-    """A fit: the new settings (text of the file `machine`), marks, errors, numbers and how well
-    they are known together. mm, N, rad."""
+    """Return a fit: the new settings (text of the file `machine`), marks, errors, numbers and how
+    well they are known together. mm, N, rad.
+    """
     fitted = result.after_fit
     return {
         "plumb": version("plumb"),
@@ -212,8 +213,9 @@ def numbers_entry(
     kept: str,
     back: bool = False,
 ) -> dict[str, Any]:
-    """Numbers that a machine holds now: the `$` lines sent, and old and new value of each change;
-    `kept` is the file with all that were replaced; `back`: it had them before `machine`."""
+    """Return numbers that a machine holds now: the `$` lines sent, and old and new value of each
+    change; `kept` is the file with all that were replaced; `back`: it had them before `machine`.
+    """
     return {
         "plumb": version("plumb"),
         "machine": machine,
@@ -226,7 +228,7 @@ def numbers_entry(
 
 
 def program_entry(name: str, lines: list[str], *, whole: bool) -> dict[str, Any]:
-    """A program that was sent; whole: False if it was stopped or refused."""
+    """Return a program that was sent; whole: False if it was stopped or refused."""
     text = "\n".join(lines)
     return {
         "program": name,
@@ -271,7 +273,7 @@ def _number(parameter: Parameter) -> dict[str, Any]:
 
 
 def noted(entry: Entry) -> str:
-    """What was done, for people; fits have a table."""
+    """Return what was done, for people; fits have a table."""
     content = entry.content
     if entry.kind == NUMBERS:
         count, machine = len(content["changed"]), content["machine"]
@@ -293,7 +295,9 @@ def noted(entry: Entry) -> str:
 
 
 def folder_of(path: str) -> Path | None:
-    """The machine's folder, or that of a file in it; None for a device and what is not there."""
+    """Return the machine's folder, or that of a file in it; None for a device and what is not
+    there.
+    """
     place = Path(path)
     if place.is_dir():
         return place

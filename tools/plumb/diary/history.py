@@ -63,7 +63,7 @@ class History:
 
 
 def history_of(diary: Diary) -> History:
-    """What the fits of a diary show over time."""
+    """Return what the fits of a diary show over time."""
     fits = diary.of_kind(FIT)
     return History(tuple(map(_fit, fits)), tuple(_courses(fits)))
 
@@ -94,5 +94,5 @@ def _courses(fits: Iterable[Entry]) -> Iterable[Course]:
 
 
 def _number(value: float | None) -> float:
-    """A number of an entry; where there was none it is NaN."""
+    """Return a number of an entry; where there was none it is NaN."""
     return float("nan") if value is None else float(value)

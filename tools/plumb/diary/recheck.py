@@ -108,7 +108,7 @@ def _recheck(
 
 
 def _fit_of(diary: Diary, settings: MachineSettings) -> Entry:
-    """The newest fit of the diary that gave these settings."""
+    """Return the newest fit of the diary that gave these settings."""
     for entry in reversed(diary.of_kind(FIT)):
         tables = tomllib.loads(entry.content["settings"])
         head = {key: value for key, value in tables.items() if key in MACHINE_KEYS}
@@ -122,7 +122,7 @@ def _fit_of(diary: Diary, settings: MachineSettings) -> Entry:
 
 
 def _places(settings: MachineSettings, chains: Array) -> tuple[Array, Array]:
-    """Places (n, 2) [mm] and their slopes by every value (n, 2, len(NAMES))."""
+    """Return places (n, 2) [mm] and their slopes by every value (n, 2, len(NAMES))."""
     model = settings.as_plumb_model()
     over_top = model.feed == "top"
     where, slopes, outcome = places_with_slopes(values_of(model), over_top=over_top, chains=chains)
@@ -139,7 +139,9 @@ def _known(fit: Entry, where: Array, slopes: Array) -> Array:
 
 
 def _slope_of(name: str, where: Array, slopes: Array) -> Array:
-    """How predicted coordinates (2n,) follow a number; zero for what belongs to another board."""
+    """Return how predicted coordinates (2n,) follow a number; zero for what belongs to another
+    board.
+    """
     if name in NAMES:
         column: Array = slopes[:, :, NAMES.index(name)].ravel()
         return column
@@ -151,7 +153,7 @@ def _slope_of(name: str, where: Array, slopes: Array) -> Array:
 def _changes(
     settings: MachineSettings, fit: Entry, chains: Array, errors: Array, covariance: Array
 ) -> tuple[Change, ...]:
-    """Each single change, sized to explain the errors best, the best first.
+    """Return each single change, sized to explain the errors best, the best first.
 
     Of changes that explain them alike, first what moves most easily: a chain, the sheet, the frame.
     """

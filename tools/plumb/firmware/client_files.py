@@ -43,7 +43,8 @@ class ClientFiles:
 def client_files(
     settings: MachineSettings, *, client: str, firmware: str, original: str | None, lines: str
 ) -> ClientFiles:
-    """The files that make this machine out of the owner's: its lines, and the client's next to it.
+    """Return the files that make this machine out of the owner's: its lines, and the client's next
+    to it.
 
     `lines` is the name of the first; `original` is the groundcontrol.ini whose other keys are kept.
     Raises InputError if it is missing, or if what the client sends would change the machine.
@@ -56,7 +57,7 @@ def client_files(
 def _for_plumb(
     settings: MachineSettings, client: str, original: str | None, lines: str
 ) -> ClientFiles:
-    """Lines that carry all corrections, and a client that carries none."""
+    """Return lines that carry all corrections, and a client that carries none."""
     numbers = firmware_numbers(settings)
     files = {lines: gcode(numbers)}
     send = f"open {lines} in your sender like a program and run it: it sets the machine"
@@ -74,7 +75,7 @@ def _for_plumb(
 def _for_published(
     settings: MachineSettings, client: str, original: str | None, lines: str
 ) -> ClientFiles:
-    """A client that carries all corrections, and no lines."""
+    """Return a client that carries all corrections, and no lines."""
     changes = groundcontrol_changes(settings)
     unsaid = tuple(loss.sentence for loss in changes.unsaid)
     if client == "none":
@@ -93,12 +94,12 @@ def _for_published(
 
 
 def gcode(numbers: tuple[Number, ...]) -> bytes:
-    """The numbers as lines for the machine."""
+    """Return the numbers as lines for the machine."""
     return "".join(f"{row.line}\n" for row in numbers).encode()
 
 
 def client_numbers(ini: IniText) -> dict[int, float]:
-    """What a client sends of this file that says where the sled hangs, by $-number."""
+    """Return what a client sends of this file that says where the sled hangs, by $-number."""
     numbers = {
         KINEMATICS: 1.0 if _said(ini, "kinematics").value.lower() == "quadrilateral" else 2.0,
         CHAIN_PER_TURN: _number(_said(ini, "gear_teeth"), ini)
@@ -134,7 +135,7 @@ def refuse_what_disturbs(
 
 
 def _kept_by_client(settings: MachineSettings) -> dict[Key, float]:
-    """What a client must keep so that it disturbs none of the lines."""
+    """Return what a client must keep so that it disturbs none of the lines."""
     said = {
         "motor_gap": settings.motor_gap,
         "motor_offset": settings.motor_offset,

@@ -35,12 +35,13 @@ class Setting:
 
 
 def every_setting() -> list[Setting]:
-    """All settings in the order of the firmware's dump."""
+    """Return all settings in the order of the firmware's dump."""
     return [Setting(**row) for row in _core.settings_table()]
 
 
 def machine_of(numbers: Mapping[int, float], *, sheet: tuple[float, float]) -> MachineSettings:
-    """The machine with which the firmware computes when these settings are not at their defaults.
+    """Return the machine with which the firmware computes when these settings are not at their
+    defaults.
 
     Raises ValueError in the firmware's words for a setting that it refuses.
     """
@@ -60,12 +61,12 @@ def machine_of(numbers: Mapping[int, float], *, sheet: tuple[float, float]) -> M
 
 
 def _plain(value: float) -> float:
-    """A number with the seven digits that the firmware's float holds."""
+    """Return a number with the seven digits that the firmware's float holds."""
     return float(f"{value:.7g}")
 
 
 def format_value(value: float) -> str:
-    """A value as the firmware's dump writes it."""
+    """Return a value as the firmware's dump writes it."""
     return _core.format_value(value)
 
 
@@ -93,7 +94,7 @@ class Number:
 
 
 def firmware_numbers(settings: MachineSettings) -> tuple[Number, ...]:
-    """Every number that says where the sled of this machine hangs, in the order of the dump.
+    """Return every number that says where the sled of this machine hangs, in the order of the dump.
 
     The published corrections are zero, as the effects hold all there is. Raises InputError if the
     firmware would refuse a number, or would compute chains that differ by more than WORST.
@@ -166,7 +167,7 @@ WIDTH, HEIGHT = 0, 1  # $-numbers of the sheet
 
 
 def machine_of_numbers(numbers: Mapping[int, float]) -> MachineSettings:
-    """The machine of all the numbers that a board lists. Raises InputError."""
+    """Return the machine of all the numbers that a board lists. Raises InputError."""
     known = {row.number for row in every_setting() if row.access == "listed"}
     listed = {number: value for number, value in numbers.items() if number in known}
     try:
@@ -199,8 +200,9 @@ class Difference:
 
 
 def differences(settings: MachineSettings, held: Mapping[int, float]) -> tuple[Difference, ...]:
-    """The numbers of the file that a machine does not hold; none if its chains are those of the
-    file. `held`: all that the machine lists. Raises InputError."""
+    """Return the numbers of the file that a machine does not hold; none if its chains are those of
+    the file. `held`: all that the machine lists. Raises InputError.
+    """
     rows = {row.number: row for row in every_setting() if row.access == "listed"}
     listed = {number: value for number, value in held.items() if number in rows}
     said = numbers_in_force(settings)
@@ -219,7 +221,7 @@ def differences(settings: MachineSettings, held: Mapping[int, float]) -> tuple[D
 
 
 def numbers_in_force(settings: MachineSettings) -> dict[int, float]:
-    """What a machine holds of the chains while these settings are in force."""
+    """Return what a machine holds of the chains while these settings are in force."""
     values = values_of(settings)
     if settings.controller == "plumb":
         return values
@@ -235,7 +237,7 @@ def numbers_in_force(settings: MachineSettings) -> dict[int, float]:
 
 
 def digest_of_numbers(held: Mapping[int, float]) -> str:
-    """A name for what a machine holds."""
+    """Return a name for what a machine holds."""
     return sha256(repr(sorted(held.items())).encode()).hexdigest()[:16]
 
 
@@ -262,7 +264,7 @@ def refuse_other_origin(settings: MachineSettings, held: Mapping[int, float], *,
 
 
 def both_values(others: tuple[Difference, ...], file: str, machine: str) -> str:
-    """Numbers with their two values, in words."""
+    """Return numbers with their two values, in words."""
     said = ", ".join(
         f"{each.name} (${each.number}) is {each.in_file:.7g} in {file} and {each.in_machine:.7g} "
         f"in {machine}"

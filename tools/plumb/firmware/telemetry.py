@@ -53,7 +53,7 @@ class Telemetry:
 
 
 def latest(text: str, path: str) -> Telemetry:
-    """The last telemetry line of a log; an InputError that names `path` if there is none."""
+    """Return the last telemetry line of a log; an InputError that names `path` if there is none."""
     lines = LINE.findall(text)
     if not lines:
         raise InputError(f"{path}: no [Telemetry|...] line; send B30 and save the client's log")
@@ -66,7 +66,7 @@ def latest(text: str, path: str) -> Telemetry:
 
 
 def telemetry_in(text: str) -> Telemetry | None:
-    """The last telemetry line of a text; None if it has none or the last is damaged."""
+    """Return the last telemetry line of a text; None if it has none or the last is damaged."""
     lines = LINE.findall(text)
     try:
         return _read(dict(field.split(":", 1) for field in lines[-1].split("|")))
@@ -75,7 +75,7 @@ def telemetry_in(text: str) -> Telemetry | None:
 
 
 def _read(fields: dict[str, str]) -> Telemetry:
-    """The fields of a line; a KeyError or ValueError if one is missing or no number."""
+    """Return the fields of a line; a KeyError or ValueError if one is missing or no number."""
     left, right, z = (float(number) for number in fields["error"].split(","))
     left_illegal, right_illegal, z_illegal = (int(n) for n in fields["illegal"].split(","))
     supply, least = (float(number) for number in fields["supply"].split(","))
@@ -104,7 +104,7 @@ def _read(fields: dict[str, str]) -> Telemetry:
 
 
 def _slips(fields: dict[str, str]) -> tuple[tuple[int, int], Slip | None]:
-    """How often each chain may have slipped, and the last time."""
+    """Return how often each chain may have slipped, and the last time."""
     if "slips" not in fields:
         return (0, 0), None
     left, right = (int(number) for number in fields["slips"].split(","))
@@ -116,7 +116,9 @@ def _slips(fields: dict[str, str]) -> tuple[tuple[int, int], Slip | None]:
 
 
 def slip_suspicion(telemetry: Telemetry) -> str | None:
-    """Which chain an owner should look at because it may have slipped, and where; or None."""
+    """Return which chain an owner should look at because it may have slipped, and where; or
+    None.
+    """
     last = telemetry.last_slip
     if last is None:
         return None
@@ -134,7 +136,7 @@ def slip_suspicion(telemetry: Telemetry) -> str | None:
 
 
 def ago(seconds: int) -> str:
-    """A time in its largest unit."""
+    """Return a time in its largest unit."""
     for name, length in (("hour", 3600), ("minute", 60)):
         if seconds >= length:
             count = seconds // length
@@ -143,7 +145,7 @@ def ago(seconds: int) -> str:
 
 
 def warnings(telemetry: Telemetry, *, limit_mm: float, rate_hz: int) -> Iterator[str]:
-    """What an owner should look at, a sentence each; `limit_mm` is $42, `rate_hz` is $69."""
+    """Yield what an owner should look at, a sentence each; `limit_mm` is $42, `rate_hz` is $69."""
     axes = ("left chain", "right chain", "z axis")
     for axis, error in zip(axes, telemetry.error_mm, strict=True):
         if error > limit_mm / 2:

@@ -134,7 +134,7 @@ def compare(
 def _promised(
     settings: MachineSettings, measurements: Measurements, outside: Mapping[str, float]
 ) -> FitRecord | None:
-    """The record of the fit, if all its boards are here, cut as it took them."""
+    """Return the record of the fit, if all its boards are here, cut as it took them."""
     digests = {file_round.digest for file_round in measurements.rounds}
     record = settings.fitted
     whole = record and {board.digest for board in record.boards} == digests
@@ -144,7 +144,7 @@ def _promised(
 def _rounds(
     measurements: Measurements, errors: np.ndarray, spans: np.ndarray
 ) -> tuple[ComparedRound, ...]:
-    """Each file by itself, if there are several."""
+    """Return each file by itself, if there are several."""
     if len(measurements.rounds) < 2:
         return ()
     marks = np.array([mark.round for mark in measurements.measured_marks], dtype=int)
@@ -170,7 +170,9 @@ def predicted_sighting(
     measurements: Measurements,
     outside: Mapping[str, float],
 ) -> Sighting:
-    """What our model says is measured on every visit; InputError where the sled cannot hang."""
+    """Return what our model says is measured on every visit; InputError where the sled
+    cannot hang.
+    """
     sighting = sighted(
         values_of(model),
         outside,
@@ -194,7 +196,7 @@ def predicted_sighting(
 def _marks(
     model: MachineSettings, rows: Observations, seen: Sighting, hung: Sighting
 ) -> tuple[ComparedMark, ...]:
-    """Each mark as it is seen; `hung` is where the sled was, whatever the sheet did."""
+    """Return each mark as it is seen; `hung` is where the sled was, whatever the sheet did."""
     where, measured = seen.read.where[rows.mark_rows], rows.measured
     places, weights = hung.read.where[rows.mark_rows], rows.sled_weights[rows.mark_rows]
     chains = chain_errors(model, places, measured - where, weights)
@@ -264,7 +266,7 @@ class ChainView:
 def chain_view(
     values: Array, outside: Mapping[str, float], rows: Observations, like: MachineSettings
 ) -> ChainView:
-    """The marks of `rows` seen by a machine with `values`; `outside` as in sighting.py."""
+    """Return the marks of `rows` seen by a machine with `values`; `outside` as in sighting.py."""
     model = settings_of(values, like=like)
     predicted = sighted(
         values,
@@ -283,7 +285,7 @@ def chain_view(
 
 
 def hung_places(model: MachineSettings, rows: Observations) -> Array:
-    """Where the sled hangs on each visit (r, 2) [mm], whatever the sheet and the tape do."""
+    """Return where the sled hangs on each visit (r, 2) [mm], whatever the sheet and the tape do."""
     hung = sighted(
         values_of(model),
         {},
@@ -296,7 +298,8 @@ def hung_places(model: MachineSettings, rows: Observations) -> Array:
 
 
 def chain_errors(model: MachineSettings, places: Array, errors: Array, weights: Array) -> Array:
-    """How much more of each chain (n, 2) [mm] a sled needs at places + errors than at the places.
+    """Return how much more of each chain (n, 2) [mm] a sled needs at places + errors than at the
+    places.
 
     nan where no chain reaches.
     """
@@ -322,7 +325,7 @@ class Pose:
 
 
 def best_pose(predicted: Array, measured: Array) -> Pose | None:
-    """The rigid motion that brings predicted (n, 2) closest to measured (n, 2) [mm].
+    """Return the rigid motion that brings predicted (n, 2) closest to measured (n, 2) [mm].
 
     None for fewer than two different places: one place has no shape.
     """

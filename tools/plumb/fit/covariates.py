@@ -31,7 +31,7 @@ class Covariate:
 
 
 def covariates(model: MachineSettings, rows: Observations) -> tuple[Covariate, ...]:
-    """All covariates of every visit of `rows` (r,), by our model of the machine.
+    """Return all covariates of every visit of `rows` (r,), by our model of the machine.
 
     The phase counts as the effect sprocket_runout does: free length over the sprocket's radius.
     The order is that of the file. An approach is the direction of the last move.
@@ -65,7 +65,7 @@ def _headings(approaches: Array) -> Array:
 
 
 def _both(values: Array) -> Array:
-    """The same number for both chains (r, 2)."""
+    """Return the same number for both chains (r, 2)."""
     return np.stack([values, values], axis=1)
 
 
@@ -94,7 +94,7 @@ def best_patch(
     priors: Mapping[str, float],
     without: Fit,
 ) -> Patched | None:
-    """The patch with the frame and these effects; None if it buys nothing.
+    """Return the patch with the frame and these effects; None if it buys nothing.
 
     `weighted` is fit() with all but effects and priors; `without` is the fit without a patch.
     """

@@ -57,13 +57,15 @@ class Expected:
 
 
 def expected_priors(known: Mapping[str, float]) -> dict[str, float]:
-    """How far each number of the frame may be off, with those that the owner knows better."""
+    """Return how far each number of the frame may be off, with those that the owner knows
+    better.
+    """
     frame = {name: sigma for name, sigma in known.items() if "." not in name}
     return {**PRIORS, **WIDE, **frame}
 
 
 def expected_sentence(expected: Expected | None) -> str:
-    """What is normal, for people; empty if no mark can be made."""
+    """Return what is normal, for people; empty if no mark can be made."""
     if expected is None:
         return ""
     return (
@@ -76,7 +78,7 @@ def expected_sentence(expected: Expected | None) -> str:
 def expected_error(
     settings: MachineSettings, priors: Mapping[str, float], *, at: Array | None = None
 ) -> Expected:
-    """How far marks will be off, all over the sheet or at places (n, 2) [mm].
+    """Return how far marks will be off, all over the sheet or at places (n, 2) [mm].
 
     Raises ValueError where the controller cannot go.
     """
@@ -108,7 +110,7 @@ def expected_error(
 
 
 def expected_anywhere(settings: MachineSettings, priors: Mapping[str, float]) -> Expected | None:
-    """How far marks will be off all over the sheet; None where no sled hangs there."""
+    """Return how far marks will be off all over the sheet; None where no sled hangs there."""
     try:
         expected = expected_error(settings, priors)
     except ValueError:
@@ -117,7 +119,7 @@ def expected_anywhere(settings: MachineSettings, priors: Mapping[str, float]) ->
 
 
 def places_over(sheet: tuple[float, float]) -> Array:
-    """Places (n, 2) [mm] all over a sheet."""
+    """Return places (n, 2) [mm] all over a sheet."""
     width, height = sheet
     x = np.linspace(-width / 2 + MARGIN, width / 2 - MARGIN, COLUMNS)
     y = np.linspace(height / 2 - MARGIN, -height / 2 + MARGIN, ROWS)
@@ -126,7 +128,7 @@ def places_over(sheet: tuple[float, float]) -> Array:
 
 
 def _shape(where: Array, moved: Array) -> Array:
-    """What is left of a motion (n, 2) when the sheet is shifted and turned back."""
+    """Return what is left of a motion (n, 2) when the sheet is shifted and turned back."""
     pose = best_pose(where, where + moved)
     return pose.errors if pose else np.zeros_like(moved)
 
@@ -158,11 +160,11 @@ class PlausibleRange:
         return [end if np.isfinite(end) else None for end in (self.low, self.high)]
 
     def holds(self, value: float) -> bool:
-        """Whether a value is plausible."""
+        """Return whether a value is plausible."""
         return bool(self.low <= value <= self.high)
 
     def is_near(self, low: float | Array, high: float | Array) -> Any:
-        """Whether an interval (or each of many) reaches what a real machine may have."""
+        """Return whether an interval (or each of many) reaches what a real machine may have."""
         least = self.low * OUTSIDE if self.low < 0 else self.low / OUTSIDE
         most = self.high / OUTSIDE if self.high < 0 else self.high * OUTSIDE
         return (np.asarray(high) >= least) & (np.asarray(low) <= most)
@@ -170,7 +172,7 @@ class PlausibleRange:
 
 @cache
 def plausible_range(name: str) -> PlausibleRange:
-    """The range of a parameter, or of a number of the frame, by its full name."""
+    """Return the range of a parameter, or of a number of the frame, by its full name."""
     words = {frame["name"]: frame for frame in frame_words()} | parameter_words()
     if name not in words:
         return PlausibleRange()
@@ -193,7 +195,7 @@ def refuse_absurd(checks: Sequence[Checked], settings: MachineSettings) -> None:
 
 
 def is_absurd(check: Checked, settings: MachineSettings) -> bool:
-    """Whether a number cannot have been measured on such a machine."""
+    """Return whether a number cannot have been measured on such a machine."""
     low, high = _possible(check.name, settings)
     surely = SURE * check.sigma
     return not low <= check.value + surely or not check.value - surely <= high

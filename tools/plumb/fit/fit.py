@@ -134,7 +134,9 @@ def fit(
 
 
 def _solved(problem: Problem, near: Fit | None) -> Solution:
-    """The least chi-square, searched from the numbers of another fit if the sled hangs there."""
+    """Return the least chi-square, searched from the numbers of another fit if the sled hangs
+    there.
+    """
     if near is None:
         return solve(problem)
     known = {estimate.name: estimate.value for estimate in near.estimates}
@@ -145,7 +147,9 @@ def _solved(problem: Problem, near: Fit | None) -> Solution:
 
 
 def _fit_of(problem: Problem, solution: Solution, stated: float | None, degrees: float) -> Fit:
-    """The fit with its intervals and left-out errors; `stated` is the sigma, if it is known."""
+    """Return the fit with its intervals and left-out errors; `stated` is the sigma, if it
+    is known.
+    """
     rows, here = problem.observations, solution.at
     slopes, errors = here.slopes[: rows.count], here.residual[: rows.count] * problem.sigma
     held = here.slopes[rows.count :]  # by priors and direct checks
@@ -187,7 +191,7 @@ def _fit_of(problem: Problem, solution: Solution, stated: float | None, degrees:
 def _estimates(
     problem: Problem, unknowns: Array, half_widths: Array, felt: Array
 ) -> tuple[Estimate, ...]:
-    """Each unknown with its interval of these half-widths, in its unit."""
+    """Return each unknown with its interval of these half-widths, in its unit."""
     values = problem.start + problem.scale * unknowns
     reach = problem.scale * half_widths
     return tuple(

@@ -65,7 +65,7 @@ AnyPath = str | PathLike[str]
 
 
 def settings_in(path: AnyPath) -> MachineSettings:
-    """The settings of a file, with effects of our library only."""
+    """Return the settings of a file, with effects of our library only."""
     return read_settings(path, known=known_effects())
 
 
@@ -76,7 +76,7 @@ def read_inputs(
     cut_with: AnyPath | None = None,
     controller: str | None = None,
 ) -> Inputs:
-    """A machine and its marks; several files of marks make one board. Raises InputError."""
+    """Return a machine and its marks; several files of marks make one board. Raises InputError."""
     machine = settings_in(settings)
     in_force = settings_in(cut_with) if cut_with else None
     # Marks count from the edges of the sheet on which they were cut.
@@ -90,7 +90,9 @@ def read_inputs(
 
 
 def refuse_the_same_twice(paths: Sequence[AnyPath]) -> None:
-    """A file given twice would pass for readings that repeat without any noise."""
+    """Refuse a file that is given twice: it would pass for readings that repeat without any
+    noise.
+    """
     seen: set[str] = set()
     for path in paths:
         real = os.path.realpath(path)
@@ -108,7 +110,8 @@ def refuse_the_same_twice(paths: Sequence[AnyPath]) -> None:
 def with_settings_in_force(
     settings: MachineSettings, part: Measurements, *, cut_with: MachineSettings | None
 ) -> Measurements:
-    """A file of marks with the settings that it was cut with, if the fit's record knows them.
+    """Return a file of marks with the settings that it was cut with, if the fit's record knows
+    them.
 
     What the marks or `cut_with` say goes first. Raises InputError where nobody says it and the
     settings were fitted to marks of others: the settings after a fit are not those before.
@@ -148,8 +151,9 @@ def with_settings_in_force(
 def known_outside(
     settings: MachineSettings, measurements: Measurements, *, cut_with: MachineSettings | None
 ) -> dict[str, float]:
-    """What the fit found outside of the machine, by the names of the fit's unknowns: how the sheet
-    of each known board lay, how its chains were zeroed, and effects that no setting holds."""
+    """Return what the fit found outside of the machine, by the names of the fit's unknowns: how the
+    sheet of each known board lay, how its chains were zeroed, and effects that no setting holds.
+    """
     record = settings.fitted
     outside: dict[str, float] = {}
     if record is None:
@@ -177,7 +181,9 @@ def _of_record(record: FitRecord) -> dict[str, float]:
 
 
 def _reports_chains(part: Measurements) -> bool:
-    """Whether the machine reported the chains of every mark, so that no settings are needed."""
+    """Return whether the machine reported the chains of every mark, so that no settings are
+    needed.
+    """
     return all(mark.chains is not None for mark in part.marks)
 
 

@@ -58,7 +58,8 @@ def observe(
     controller: str | None = None,
     sled_weight: float | None = None,
 ) -> Observations:
-    """The observations of a board cut with these settings; raises InputError for a bad target.
+    """Return the observations of a board cut with these settings; raises InputError for a bad
+    target.
 
     sled_weight [N] is that of marks whose file does not say it: by default what the settings say.
     """
@@ -93,7 +94,7 @@ def observe(
 
 
 def different_numbers(measurements: Measurements, rows: Observations) -> int:
-    """How many numbers tell of different places: repeats tell of the noise alone."""
+    """Return how many numbers tell of different places: repeats tell of the noise alone."""
     spans = {frozenset(distance.between) for distance in measurements.distances}
     return 2 * len(set(rows.names)) + len(spans)
 
@@ -118,12 +119,12 @@ def _paid_out(
 
 
 def _rounds(measurements: Measurements) -> Array:
-    """The round of each visit (r,)."""
+    """Return the round of each visit (r,)."""
     return np.array([mark.round for mark in measurements.marks], dtype=int)
 
 
 def _of_rounds(measurements: Measurements, name: str) -> Array:
-    """A number of each visit's round (r,)."""
+    """Return a number of each visit's round (r,)."""
     by_round = np.array(
         [getattr(file_round, name) for file_round in measurements.rounds], dtype=int
     )
@@ -132,7 +133,7 @@ def _of_rounds(measurements: Measurements, name: str) -> Array:
 
 
 def _directions(moves: list[tuple[float, float]]) -> Array:
-    """Unit vectors (r, 2) of moves of any length; zero stays zero."""
+    """Return unit vectors (r, 2) of moves of any length; zero stays zero."""
     rows = np.array(moves, dtype=float).reshape(-1, 2)
     lengths = np.hypot(rows[:, 0], rows[:, 1])[:, np.newaxis]
     return rows / np.where(lengths > 0, lengths, 1.0)
@@ -167,7 +168,8 @@ SWAPPED = np.array([NAMES.index(OTHER_CHAIN.get(name, name)) for name in NAMES])
 
 
 def loaded(values: Array, weight: float, usual: float) -> tuple[Array, Array]:
-    """The values for a sled of another weight [N], and each value's slope by the usual weight's.
+    """Return the values for a sled of another weight [N], and each value's slope by the usual
+    weight's.
 
     Some parameters are ratios to the sled's weight, so they follow a power of it.
     """
@@ -191,7 +193,8 @@ def visited(
     usual_weight: float,
     zeros: Array | None = None,
 ) -> tuple[Array, Array, Array]:
-    """Places (r, 2) [mm] of all visits, their slopes by the values (r, 2, v), and FOUND (r,).
+    """Return places (r, 2) [mm] of all visits, their slopes by the values (r, 2, v), and FOUND
+    (r,).
 
     zeros (groups, 2) [mm] is what each zero group adds to ZEROING_NAMES, left and right.
     """

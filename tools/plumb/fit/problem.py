@@ -85,7 +85,7 @@ class Problem:
         checked: Sequence[Checked] = (),
         held: Mapping[str, float] | None = None,
     ) -> Problem:
-        """The problem of a board for a model that starts from these settings.
+        """Return the problem of a board for a model that starts from these settings.
 
         `held` are parameters of effects, by full name, that keep these sizes.
         """
@@ -112,7 +112,9 @@ class Problem:
         )
 
     def at(self, unknowns: Array) -> Linearized | None:
-        """What is left at these unknowns, with exact slopes; None where the sled cannot hang."""
+        """Return what is left at these unknowns, with exact slopes; None where the sled cannot
+        hang.
+        """
         sighting, reached = self.predict(unknowns)
         if not reached:
             return None
@@ -136,7 +138,7 @@ class Problem:
         )
 
     def values(self, unknowns: Array) -> tuple[Array, dict[str, float]]:
-        """The model's values array, and what lies outside of the machine by name."""
+        """Return the model's values array, and what lies outside of the machine by name."""
         values = values_of(self.settings)
         outside = dict(self.outside)
         for name, value in zip(self.names, self.start + self.scale * unknowns, strict=True):
@@ -147,7 +149,9 @@ class Problem:
         return values, outside
 
     def predict(self, unknowns: Array) -> tuple[Sighting, bool]:
-        """What should have been measured, with slopes by the values of `names`, and success."""
+        """Return what should have been measured, with slopes by the values of `names`, and
+        success.
+        """
         values, outside = self.values(unknowns)
         sighting = sighted(
             values,
@@ -170,7 +174,7 @@ class Problem:
         return np.vstack([marks, spans]) * self.scale
 
     def _checks(self, unknowns: Array) -> tuple[Array, Array]:
-        """What is left of the direct checks (c,), and their slopes (c, u), both whitened."""
+        """Return what is left of the direct checks (c,), and their slopes (c, u), both whitened."""
         left = np.zeros(len(self.checked))
         slopes = np.zeros((len(self.checked), len(self.names)))
         for row, check in enumerate(self.checked):
@@ -207,7 +211,7 @@ def solve(
     at_start: Linearized | None = None,
     close_enough: float = CLOSE_ENOUGH,
 ) -> Solution:
-    """The least chi-square over the unknowns in the columns `free` (None: all of them).
+    """Return the least chi-square over the unknowns in the columns `free` (None: all of them).
 
     at_start: the problem at the start, if it is known. Raises InputError where the sled of the
     start cannot hang.
@@ -230,7 +234,9 @@ def solve(
 
 
 def _step(here: Linearized, columns: Columns) -> tuple[Array, float]:
-    """The step to the least of the linearized problem, and by how much it lowers chi-square."""
+    """Return the step to the least of the linearized problem, and by how much it lowers
+    chi-square.
+    """
     slopes = here.slopes[:, columns]
     step = np.linalg.lstsq(slopes, here.residual, rcond=1e-10)[0]
     promised = 2 * step @ (slopes.T @ here.residual) - np.sum((slopes @ step) ** 2)
@@ -238,7 +244,7 @@ def _step(here: Linearized, columns: Columns) -> tuple[Array, float]:
 
 
 def _lower(problem: Problem, here: Linearized, columns: Columns, step: Array) -> Linearized | None:
-    """The first of ever shorter steps that lowers chi-square; None if none does."""
+    """Return the first of ever shorter steps that lowers chi-square; None if none does."""
     for halvings in range(MOST_HALVINGS):
         unknowns = here.unknowns.copy()
         unknowns[columns] += step / 2**halvings

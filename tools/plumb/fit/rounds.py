@@ -36,7 +36,7 @@ class RoundUnknown(NamedTuple):
 
 
 def round_priors(rows: Observations) -> dict[str, float]:
-    """Standard deviations [mm, rad] of all unknowns that later rounds have, by name."""
+    """Return standard deviations [mm, rad] of all unknowns that later rounds have, by name."""
     priors: dict[str, float] = {}
     for group in range(1, _groups(rows.zero_groups)):
         priors |= {f"zero{group + 1}.{axis}": ZERO_SIGMA for axis in ZERO_AXES}
@@ -50,7 +50,7 @@ def round_priors(rows: Observations) -> dict[str, float]:
 
 
 def unit_of(name: str) -> str | None:
-    """The unit of an unknown of a round; None if it is none."""
+    """Return the unit of an unknown of a round; None if it is none."""
     unknown = zero_of(name) or pose_of(name)
     if unknown is None:
         return None
@@ -58,7 +58,7 @@ def unit_of(name: str) -> str | None:
 
 
 def notes_on(names: Iterable[str]) -> list[str]:
-    """A sentence for each group of round unknowns among these names."""
+    """Return a sentence for each group of round unknowns among these names."""
     groups = sorted({name.partition(".")[0] for name in names if unit_of(name)})
     meaning = {
         "zero": "how much more chain is out at 12 o'clock since the chains were zeroed again",
@@ -70,22 +70,22 @@ def notes_on(names: Iterable[str]) -> list[str]:
 
 
 def zero_of(name: str) -> RoundUnknown | None:
-    """The chain zero that a name stands for."""
+    """Return the chain zero that a name stands for."""
     return _parsed(_ZERO, ZERO_AXES, name)
 
 
 def pose_of(name: str) -> RoundUnknown | None:
-    """The part of a sheet's pose that a name stands for."""
+    """Return the part of a sheet's pose that a name stands for."""
     return _parsed(_POSE, POSE_AXES, name)
 
 
 def zeros_of(outside: Mapping[str, float], rows: Observations) -> Array:
-    """What each zero group adds to left and right chain zero, (groups, 2) [mm]."""
+    """Return what each zero group adds to left and right chain zero, (groups, 2) [mm]."""
     return _filled(outside, _groups(rows.zero_groups), 2, zero_of)
 
 
 def poses_of(outside: Mapping[str, float], rows: Observations) -> Array:
-    """How each sheet lies against the first, (groups, 3): x, y [mm], rotation [rad]."""
+    """Return how each sheet lies against the first, (groups, 3): x, y [mm], rotation [rad]."""
     return _filled(outside, _groups(rows.sheet_groups), 3, pose_of)
 
 
@@ -94,7 +94,9 @@ def _groups(numbers: Array) -> int:
 
 
 def last_turn_of(names: Iterable[str]) -> str:
-    """The number that says how the last sheet is turned against the first; empty if none does."""
+    """Return the number that says how the last sheet is turned against the first; empty if none
+    does.
+    """
     turns = {
         unknown.group: name
         for name in names
@@ -157,7 +159,7 @@ def with_sketches(
     usual_weight: float,
     names: Sequence[str],
 ) -> Sketched:
-    """Places of a machine with `values` and the sketches' parameters in `outside`.
+    """Return places of a machine with `values` and the sketches' parameters in `outside`.
 
     How an extra itself changes with the machine's values is left out of the slopes: it is a small
     part of a small part, and a fit comes to rest all the same.
@@ -267,7 +269,7 @@ def _pushed(
 def strands_at(
     values: Array, rows: Observations, where: Array, *, over_top: bool, usual_weight: float
 ) -> Strands:
-    """Both strands of a sled at `where` (r, 2) [mm], as heavy as on each visit."""
+    """Return both strands of a sled at `where` (r, 2) [mm], as heavy as on each visit."""
     count = len(where)
     shown = {name: np.zeros((count, 2)) for name in ("free", "cosine", "sine", "pull", "length")}
     for weight in np.unique(rows.sled_weights):

@@ -37,7 +37,7 @@ class Sighting:
     outcome: Array  # (r,) FOUND where the sled can hang
 
     def taped_spans(self, ends: Array) -> Array:
-        """What a tape reads (m,) [mm] between the visits in each row of `ends` (m, 2)."""
+        """Return what a tape reads (m,) [mm] between the visits in each row of `ends` (m, 2)."""
         where = self.taped.where[ends]
         spans: Array = np.linalg.norm(where[:, 1] - where[:, 0], axis=1)
         return spans
@@ -52,9 +52,10 @@ def sighted(
     usual_weight: float,
     names: Sequence[str],
 ) -> Sighting:
-    """What is measured of a machine with `values` on a board with `outside`: SHEET_ROTATION and
-    parameters of lab effects and sketches, zero if not named. Slopes are by `names` of any kind,
-    exact as long as no sketch is present."""
+    """Return what is measured of a machine with `values` on a board with `outside`: SHEET_ROTATION
+    and parameters of lab effects and sketches, zero if not named. Slopes are by `names` of any
+    kind, exact as long as no sketch is present.
+    """
     view = _View(values, outside, rows, over_top, usual_weight, tuple(names))
     zeros = zeros_of(outside, rows)
 
@@ -98,7 +99,7 @@ class _View:
     names: tuple[str, ...]
 
     def turned(self, places: Places) -> Places:
-        """Turned with the sheet, and moved where a later sheet lies elsewhere."""
+        """Return the places turned with the sheet, and moved where a later sheet lies elsewhere."""
         moved = poses_of(self.outside, self.rows)[self.rows.sheet_groups]
         rotation = self.outside.get(SHEET_ROTATION, 0.0) + moved[:, 2]
         cosine, sine = np.cos(rotation), np.sin(rotation)
@@ -129,7 +130,7 @@ class _View:
         )
 
     def on_sled(self, effect: LabEffect, places: Places) -> Places:
-        """The sled at rest elsewhere."""
+        """Return the sled at rest elsewhere."""
         if not self.asks_for(effect) or not self.rows.approaches.any():
             return places
         parameters = self.parameters(effect)
@@ -160,7 +161,7 @@ class _View:
         return (ends[0] - ends[1]) / (2 * step)
 
     def seen(self, values: Array, where: Array) -> Seen:
-        """Places with the compliance of the sled of each visit."""
+        """Return places with the compliance of the sled of each visit."""
         giving = np.zeros((len(where), 2, 2))
         for weight in np.unique(self.rows.sled_weights):
             mine = self.rows.sled_weights == weight
@@ -169,16 +170,16 @@ class _View:
         return Seen(where, self.rows.approaches, giving)
 
     def parameters(self, effect: LabEffect) -> Array:
-        """The effect's parameters (p,)."""
+        """Return the effect's parameters (p,)."""
         return np.array([self.outside.get(name, 0.0) for name in effect.parameter_names])
 
     def asks_for(self, effect: LabEffect) -> bool:
-        """Whether the effect is there, or its slopes are wanted."""
+        """Return whether the effect is there, or its slopes are wanted."""
         wanted = any(name in self.names for name in effect.parameter_names)
         return wanted or bool(self.parameters(effect).any())
 
     def with_parameters(self, effect: LabEffect, by_parameter: Array, slopes: Array) -> Array:
-        """The slopes with those by the effect's parameters added."""
+        """Return the slopes with those by the effect's parameters added."""
         for i, name in enumerate(effect.parameter_names):
             if name in self.names:
                 slopes[:, :, self.names.index(name)] += by_parameter[:, :, i]
@@ -186,7 +187,7 @@ class _View:
 
 
 def _sizes() -> dict[str, float]:
-    """The usual size of every value of the core."""
+    """Return the usual size of every value of the core."""
     sizes = {frame["name"]: abs(frame["usual"]) or 10.0 for frame in frame_words()}
     return sizes | {
         f"{effect['name']}.{parameter['name']}": abs(parameter["typical"])

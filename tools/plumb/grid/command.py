@@ -38,7 +38,7 @@ class _Parser(argparse.ArgumentParser):
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Gives the parser every option of this tool; None stands for what was not given."""
+    """Give the parser every option of this tool; None stands for what was not given."""
     group = parser.add_argument_group("grid")
     for name, kind, meaning in GRID_OPTIONS:
         usual = Grid._field_defaults[name]
@@ -68,7 +68,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def read_settings(path: str) -> dict[str, float]:
-    """The numbers [mm, N] in a file of settings, by their names in PlainMachine."""
+    """Return the numbers [mm, N] in a file of settings, by their names in PlainMachine."""
     if path.lower().endswith(".toml"):
         return _numbers_in_toml(path)
     parser = configparser.RawConfigParser(strict=False)
@@ -98,7 +98,7 @@ def read_settings(path: str) -> dict[str, float]:
 
 
 def _numbers_in_toml(path: str) -> dict[str, float]:
-    """The numbers [mm, N] in a machine.toml."""
+    """Return the numbers [mm, N] in a machine.toml."""
     try:
         loaded = importlib.import_module("tomllib").loads
     except ImportError:
@@ -147,7 +147,7 @@ def run(
     name: str = "calibration grid",
     write: Callable[[Mapping[str, bytes]], None] | None = None,
 ) -> int:
-    """Does what the parsed options ask; 0 done, 2 refused with one line of that name on stderr."""
+    """Do what the parsed options ask; 0 done, 2 refused with one line of that name on stderr."""
     try:
         grid, machine = from_arguments(arguments)
         text = program(grid, machine)
@@ -181,7 +181,7 @@ def run(
 
 
 def _write(files: Mapping[str, bytes], force: bool) -> None:
-    """Writes all texts or none: each goes next to its place first and is moved there last.
+    """Write all texts or none: each goes next to its place first and is moved there last.
 
     Devices and pipes stay what they are and get the bytes; `-` is the standard output.
     """
@@ -209,7 +209,7 @@ def _write(files: Mapping[str, bytes], force: bool) -> None:
 
 
 def _is_free(path: str) -> bool:
-    """Whether there is no file of that name, or an empty file, or a program of this tool."""
+    """Return whether there is no file of that name, or an empty file, or a program of this tool."""
     if not os.path.isfile(path):
         return True
     with open(path, "rb") as file:
@@ -218,12 +218,12 @@ def _is_free(path: str) -> bool:
 
 
 def _is_poured_into(path: str) -> bool:
-    """Whether it is the standard output, a device or a pipe."""
+    """Return whether it is the standard output, a device or a pipe."""
     return path == "-" or (os.path.exists(path) and not os.path.isfile(path))
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """The command line; returns the exit code."""
+    """Return the command line; returns the exit code."""
     parser = _Parser(description=__doc__.splitlines()[0])
     add_arguments(parser)
     return run(parser.parse_args(arguments))

@@ -40,7 +40,7 @@ FORM = re.compile(r"^\(form: (.+)\)$", re.MULTILINE)
 
 
 def cut_with_lines(settings: str | None, form: str) -> str:
-    """The lines of a form at that path that name the settings' file and keep its digest."""
+    """Return the lines of a form at that path that name the settings' file and keep its digest."""
     if settings is None:
         return ""
     near = os.path.relpath(settings, os.path.dirname(os.path.abspath(form)))
@@ -49,8 +49,9 @@ def cut_with_lines(settings: str | None, form: str) -> str:
 
 
 def with_form(program: str, form: str, path: str) -> str:
-    """A program at that path with a comment that names the form for its readings, so that whoever
-    sends it knows what it is to be cut with; without, where no comment can hold the name."""
+    """Return a program at that path with a comment that names the form for its readings, so that
+    whoever sends it knows what it is to be cut with; without, where no comment can hold the name.
+    """
     near = os.path.relpath(form, os.path.dirname(os.path.abspath(path))).replace(os.sep, "/")
     if not near.isascii() or not near.isprintable() or set(near) & set("()") or len(near) > LONGEST:
         return program
@@ -59,13 +60,13 @@ def with_form(program: str, form: str, path: str) -> str:
 
 
 def form_of(program: str, path: str) -> str | None:
-    """The form for the readings of a program at that path; None if it names none."""
+    """Return the form for the readings of a program at that path; None if it names none."""
     named = FORM.search(program)
     return os.path.join(os.path.dirname(path), named[1]) if named else None
 
 
 def digest_of(settings: str | os.PathLike[str]) -> str:
-    """The SHA-256 of what a client's file says of the chains, or of a whole machine.toml."""
+    """Return the SHA-256 of what a client's file says of the chains, or of a whole machine.toml."""
     with open(settings, "rb") as file:
         content = file.read()
     parser = configparser.RawConfigParser(strict=False)
@@ -89,8 +90,9 @@ def digest_of(settings: str | os.PathLike[str]) -> str:
 
 
 def settings_as_they_were(named: str | os.PathLike[str], digest: str) -> str | None:
-    """The file with the settings that a form names: the named, or if that says something else by
-    now, a file next to it that says what it said. None if nobody kept them."""
+    """Return the file with the settings that a form names: the named, or if that says something
+    else by now, a file next to it that says what it said. None if nobody kept them.
+    """
     path = os.fspath(named)
     if not digest or (os.path.isfile(path) and digest_of(path) == digest):
         return path
@@ -104,7 +106,7 @@ def settings_as_they_were(named: str | os.PathLike[str], digest: str) -> str | N
 
 
 def _plain(value: str) -> str:
-    """A value by its meaning: 463 is 463.0, and Top is top."""
+    """Return a value by its meaning: 463 is 463.0, and Top is top."""
     try:
         return repr(float(value))
     except ValueError:

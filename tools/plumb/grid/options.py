@@ -128,7 +128,7 @@ MACHINE_OPTIONS = (
 
 
 def demand(holds: bool, sentence: str) -> None:
-    """Raises the sentence unless the condition holds."""
+    """Raise the sentence unless the condition holds."""
     if not holds:
         raise GridError(sentence)
 

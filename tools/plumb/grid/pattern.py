@@ -14,7 +14,9 @@ ASKED = "# Lay the tape between these marks, in this order: "
 
 
 def spans_of(grid: Grid) -> list[tuple[str, str]]:
-    """Names of marks: the sides and diagonals of the grid, and from its middle what halves them."""
+    """Return names of marks: the sides and diagonals of the grid, and from its middle what halves
+    them.
+    """
     plain = grid.pattern == "grid" and not grid.places
     option = to_do("--distances is", page="distances are")
     demand(plain, f"{option} for marks in columns and rows: leave that out")
@@ -35,12 +37,12 @@ def spans_of(grid: Grid) -> list[tuple[str, str]]:
 
 
 def spans_line(spans: Sequence[tuple[str, str]]) -> str:
-    """The line of a form's head that says between which marks a tape is laid."""
+    """Return the line of a form's head that says between which marks a tape is laid."""
     return ASKED + ", ".join(f"{first} - {second}" for first, second in spans)
 
 
 def spans_in(head: Sequence[str]) -> list[tuple[str, str]]:
-    """The spans that the lines of a form's head ask for, in their order."""
+    """Return the spans that the lines of a form's head ask for, in their order."""
     pairs = [
         pair.split(" - ")
         for line in head
@@ -66,7 +68,9 @@ class Touch(NamedTuple):
 
 
 def touches_of(grid: Grid, machine: PlainMachine) -> list[Touch]:
-    """Every touch in the order in which it is made; names count by rows from the top left."""
+    """Return every touch in the order in which it is made; names count by rows from the top
+    left.
+    """
     check_numbers(grid, machine)
     if grid.pattern == "benchmark":
         return [Touch(*place, 0) for place in benchmark_places()]
@@ -93,7 +97,7 @@ def touches_of(grid: Grid, machine: PlainMachine) -> list[Touch]:
 
 
 def listed(touches: list[Touch]) -> list[Touch]:
-    """The touches as an owner looks for them: by their names, a repeat after its mark."""
+    """Return the touches as an owner looks for them: by their names, a repeat after its mark."""
     if not all(touch.name.isdigit() for touch in touches):
         return touches
     return sorted(touches, key=lambda touch: (int(touch.name), touch.visit))
@@ -109,7 +113,9 @@ def _places(grid: Grid) -> list[tuple[int, int]]:
 
 
 def _is_extreme(grid: Grid, row: int, column: int) -> bool:
-    """True for corners and for the middle of an edge that has a mark there (1; ends: 0, 2)."""
+    """Return whether it is a corner, or the middle of an edge that has a mark there (1; ends: 0,
+    2).
+    """
     across, down = 2 * column / (grid.columns - 1), 2 * row / (grid.rows - 1)
     return across in (0, 1, 2) and down in (0, 1, 2) and (across, down) != (1, 1)
 
@@ -120,7 +126,7 @@ def lead_in(grid: Grid, mark: Touch) -> tuple[float, float]:
 
 
 def stops_of(grid: Grid, machine: PlainMachine) -> list[tuple[str, tuple[float, float]]]:
-    """Names and places [mm] of all ends of sideways moves."""
+    """Return names and places [mm] of all ends of sideways moves."""
     stops: list[tuple[str, tuple[float, float]]] = []
     for mark in touches_of(grid, machine):
         stops += [(f"the lead-in of {mark}", lead_in(grid, mark)), (str(mark), (mark.x, mark.y))]
@@ -170,7 +176,7 @@ approach = [{:.1f}, {:.1f}]
 
 
 def benchmark_targets() -> dict[str, tuple[float, float]]:
-    """Where each mark is [mm] by its name."""
+    """Return where each mark is [mm] by its name."""
     place_of = dict(ENDS)
     for name, (x, y) in CORNERS.items():
         place_of[name] = (x, y)
@@ -192,7 +198,9 @@ def benchmark_places() -> list[tuple[str, float, float]]:
 
 
 def benchmark_form(approach: tuple[float, float], cut_with: str = "") -> str:
-    """The text of a marks file that waits for the readings; approach [mm] into every mark."""
+    """Return the text of a marks file that waits for the readings; approach [mm] into every
+    mark.
+    """
     squares = [f"# {SQUARES[name]} = [ , ]" for name in CORNERS]
     return "\n".join([_FORM.format(cut_with, *approach) + squares[0], *squares[1:], ""])
 
@@ -239,12 +247,12 @@ def _check_place(grid: Grid, machine: PlainMachine, what: str, x: float, y: floa
 
 
 def inwards(grid: Grid) -> str:
-    """What to do about a mark where the sled cannot go."""
+    """Return what to do about a mark where the sled cannot go."""
     return to_do("move that place" if grid.places else "raise --margin", page=INWARDS)
 
 
 def check(grid: Grid, machine: PlainMachine, ask: Question = _check_place) -> None:
-    """Asks about all places that the sled passes; refuses what leaves the sheet or its limits."""
+    """Ask about all places that the sled passes; refuses what leaves the sheet or its limits."""
     stops = stops_of(grid, machine)
     for what, place in stops:
         ask(grid, machine, what, *place)

@@ -24,7 +24,7 @@ FIRST_LINE = "(Plumb calibration grid)"
 
 
 def program(grid: Grid, machine: PlainMachine) -> str:
-    """The G-code as text; raises GridError if the grid cannot be made."""
+    """Return the G-code as text; raises GridError if the grid cannot be made."""
     check(grid, machine)
 
     def word(letter: str, length: float) -> str:
@@ -68,7 +68,7 @@ def marks_list(
     new_sheet: bool = False,
     spans: Sequence[tuple[str, str]] = (),
 ) -> str:
-    """The text of a marks.toml that waits for the tape's readings.
+    """Return the text of a marks.toml that waits for the tape's readings.
 
     `cut_with` are lines that name the settings in force, `new_sheet` says that the marks are on
     another sheet than those before, and `spans` are marks between which a tape is laid.
@@ -100,7 +100,7 @@ PICTURE_WIDTH = 77  # [characters] odd, so that the middle of the sheet has a co
 
 
 def preview(grid: Grid, machine: PlainMachine) -> str:
-    """A picture of the sheet, and the marks in the order in which they are made."""
+    """Return a picture of the sheet, and the marks in the order in which they are made."""
     touches = touches_of(grid, machine)
     places = [place for _, place in stops_of(grid, machine)]
     minutes = sum(map(math.dist, places, places[1:])) / grid.feed
@@ -123,7 +123,7 @@ def preview(grid: Grid, machine: PlainMachine) -> str:
 
 
 def _picture(machine: PlainMachine, touches: Sequence[Touch]) -> list[str]:
-    """The sheet in characters, which are twice as high as wide."""
+    """Return the sheet in characters, which are twice as high as wide."""
     height = max(3, round(PICTURE_WIDTH * machine.sheet_height / machine.sheet_width / 2))
     canvas = [[" "] * PICTURE_WIDTH for _ in range(height)]
     repeated = {mark.name for mark in touches if mark.visit}
@@ -142,12 +142,12 @@ def _picture(machine: PlainMachine, touches: Sequence[Touch]) -> list[str]:
 
 
 def is_webcontrol(text: str) -> bool:
-    """Whether this may be a webcontrol.json."""
+    """Return whether this may be a webcontrol.json."""
     return text.lstrip().startswith("{")
 
 
 def as_ini(text: str) -> configparser.RawConfigParser:
-    """The values of a webcontrol.json; a ValueError if it is none."""
+    """Return the values of a webcontrol.json; a ValueError if it is none."""
     parser = configparser.RawConfigParser(strict=False)
     document = json.loads(text)
     for section, options in document.items():

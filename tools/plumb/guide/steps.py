@@ -68,7 +68,7 @@ class Visit:
         return self.sender.status.place[2] if self.sender.status else np.nan
 
     def settings(self) -> MachineSettings:
-        """The machine as the folder knows it."""
+        """Return the machine as the folder knows it."""
         return settings_in(self.path)
 
     def write(self, text: str) -> None:
@@ -109,7 +109,9 @@ def check_wires(visit: Visit) -> bool:
 
 
 def _has_z(visit: Visit) -> bool:
-    """Whether z has a motor; it gets the gain that a client sends, without which it drifts."""
+    """Return whether z has a motor; it gets the gain that a client sends, without which it
+    drifts.
+    """
     numbers = read_numbers(visit.sender)
     if not numbers.get(Z_ATTACHED):
         return False
@@ -175,7 +177,7 @@ def tell_numbers(visit: Visit) -> bool:
 
 
 def _file(visit: Visit) -> str:
-    """The settings' file, as a shell takes it where the guide was started."""
+    """Return the settings' file, as a shell takes it where the guide was started."""
     return shlex.quote(str(visit.path))
 
 
@@ -193,7 +195,7 @@ def show_reach(visit: Visit) -> bool:
 
 
 def set_chains(visit: Visit) -> bool:
-    """Both sprockets to 12 o'clock, chains on their top teeth, chains paid out."""
+    """Return both sprockets to 12 o'clock, chains on their top teeth, chains paid out."""
     talk = visit.talk
     talk.say("Take both chains off their sprockets.")
     for side in ("left", "right"):
@@ -344,7 +346,7 @@ def take(visit: Visit, step: Step) -> bool:
 
 
 def open_step(done: Collection[str]) -> str:
-    """The name of the first step that is not done; empty if all are."""
+    """Return the name of the first step that is not done; empty if all are."""
     return next((step.name for step in STEPS if step.name not in done), "")
 
 

@@ -29,7 +29,7 @@ class Talk:
     asked: list[str] = field(default_factory=list)
 
     def ask(self, question: str) -> str:
-        """What the owner types. Raises LeftError for q, and where nobody answers."""
+        """Return what the owner types. Raises LeftError for q, and where nobody answers."""
         self.asked.append(question)
         try:
             text = self.answer(question).strip()
@@ -40,18 +40,18 @@ class Talk:
         return text
 
     def agrees(self, what: str, act: str) -> bool:
-        """Whether the owner says yes to what will move; anything else is no.
+        """Return whether the owner says yes to what will move; anything else is no.
 
         `act` says it in a few words, for a button.
         """
         return self.ask(f"{what}\nGo? [y/n, q leaves] ").lower() in YES
 
     def says_yes(self, question: str) -> bool:
-        """Whether the owner says yes to what moves nothing."""
+        """Return whether the owner says yes to what moves nothing."""
         return self.ask(f"{question} [y/n] ").lower() in YES
 
     def choice(self, question: str, answers: dict[str, str]) -> str:
-        """The letter of one of the answers."""
+        """Return the letter of one of the answers."""
         listed = "".join(f"\n  {letter}  {words}" for letter, words in answers.items())
         while True:
             letter = self.ask(f"{question}{listed}\nType a letter: ").lower()
@@ -60,7 +60,7 @@ class Talk:
             self.say(f"{letter!r} is none of {', '.join(answers)}.")
 
     def length(self, question: str, usual: float | None, low: float, high: float) -> float:
-        """A length [mm] from low to high, typed in the owner's unit; Enter: the usual."""
+        """Return a length [mm] from low to high, typed in the owner's unit; Enter: the usual."""
         scale = UNITS[self.unit]
         hint = "" if usual is None else f" [{usual / scale:.{1 if scale == 1 else 3}f}]"
         while True:
@@ -77,7 +77,9 @@ class Talk:
             self.say(f"That is not from {low / scale:g} to {high / scale:g} {self.unit}.")
 
     def turn(self, side: str, most: float) -> float:
-        """How far the owner lets a sprocket turn [mm of chain]; 0: a tooth points straight up."""
+        """Return how far the owner lets a sprocket turn [mm of chain]; 0: a tooth points straight
+        up.
+        """
         question = (
             f"The {side.upper()} sprocket turns as far as you type ({self.unit} of chain; minus "
             "turns back). Type 0 when a tooth points straight up"
@@ -85,7 +87,7 @@ class Talk:
         return self.length(question, None, -most, most)
 
     def mass(self, question: str, usual: float, low: float, high: float) -> float:
-        """A mass [kg] from low to high; Enter: the usual."""
+        """Return a mass [kg] from low to high; Enter: the usual."""
         while True:
             text = self.ask(f"{question}, kg [{usual:.1f}]: ")
             try:
@@ -141,7 +143,7 @@ def chain_jog(side: str) -> Jog:
 
 
 def height_jog() -> Jog:
-    """Raises the bit by 1 mm, and lowers it again."""
+    """Raise the bit by 1 mm, and lowers it again."""
     return Jog(
         "z",
         ("G91", f"G0 Z{HEIGHT:g}", "G90"),
@@ -160,7 +162,9 @@ def height_jog() -> Jog:
 
 
 def ran_away(asked: float, counted: float) -> str:
-    """What is wrong with a way [mm] that the machine counted; empty if it is as was asked."""
+    """Return what is wrong with a way [mm] that the machine counted; empty if it is as was
+    asked.
+    """
     if abs(counted - asked) <= FOLLOWS:
         return ""
     return (
@@ -170,7 +174,7 @@ def ran_away(asked: float, counted: float) -> str:
 
 
 def remedy(axis: str, seen: str, alarm: str) -> str:
-    """What to mend after a jog; empty if all is right.
+    """Return what to mend after a jog; empty if all is right.
 
     `seen` is a letter of the jog's answers; `alarm` is what the machine said, empty for nothing.
     """
@@ -242,7 +246,9 @@ class Progress:
 
 
 def progress_in(folder: Path) -> Progress:
-    """The progress in a folder; an empty progress where nothing was begun. Raises InputError."""
+    """Return the progress in a folder; an empty progress where nothing was begun. Raises
+    InputError.
+    """
     path = folder / FILE
     if not path.exists():
         return Progress(folder)

@@ -163,7 +163,7 @@ class Believed:
 def errors_of(
     believed: Believed, settings: MachineSettings, parts: Sequence[Part]
 ) -> tuple[PartErrors, ...]:
-    """The error to expect of each part, cut with these settings."""
+    """Return the error to expect of each part, cut with these settings."""
     return tuple(_errors_of(believed, settings, part) for part in parts)
 
 
@@ -217,7 +217,9 @@ class Part:
 
 
 def parts_of(moves: Moves, samples: Samples) -> tuple[Part, ...]:
-    """The parts of a job in the order in which they are begun; `samples` of all its moves."""
+    """Return the parts of a job in the order in which they are begun; `samples` of all its
+    moves.
+    """
     cut = moves.cut[samples.move]
     if not cut.any():
         return ()

@@ -163,12 +163,12 @@ class Moves:
         return len(self.rows)
 
     def __getitem__(self, name: str) -> Array:
-        """A number of all moves (n,) by its name."""
+        """Return a number of all moves (n,) by its name."""
         column: Array = self.rows[:, COLUMNS.index(name)]
         return column
 
     def only(self, those: Flags | Rows) -> Moves:
-        """Some of the moves."""
+        """Return some of the moves."""
         return Moves(self.rows[those])
 
     @property
@@ -193,7 +193,7 @@ class Moves:
         return np.hypot(self["length"], self["z_to"] - self["z_from"])
 
     def sampled(self, step: float) -> Samples:
-        """Places along the moves, both ends included, at most `step` [mm] apart."""
+        """Return places along the moves, both ends included, at most `step` [mm] apart."""
         turns = np.abs(self["sweep"]) / TURN
         counts = np.ceil(np.maximum(self.way / step, turns)).astype(int) + 1
         counts = np.maximum(counts, 2)
@@ -207,7 +207,7 @@ class Moves:
         return np.asarray(low + share * (high - low))
 
     def places_at(self, move: Rows, share: Array) -> Array:
-        """Places (k, 2) [mm] at shares of some moves."""
+        """Return places (k, 2) [mm] at shares of some moves."""
         start = np.stack([self["from_x"], self["from_y"]], axis=1)[move]
         end = np.stack([self["to_x"], self["to_y"]], axis=1)[move]
         across = self["length"][move] > 0
@@ -222,7 +222,7 @@ class Moves:
 
 
 def safe_height(moves: Moves) -> float:
-    """The z [mm] at which a job crosses the sheet, or a little above the sheet."""
+    """Return the z [mm] at which a job crosses the sheet, or a little above the sheet."""
     across = moves.over_sheet & (moves["length"] > 0)
     return max(CLEAR, float(moves["z_to"][across].max(initial=0.0)))
 
@@ -266,7 +266,9 @@ def refuse_what_is_no_program(source: str | PathLike[str], text: str) -> None:
 
 
 def _first(lines: Sequence[str]) -> tuple[int, str]:
-    """The first line that the machine would get, and its number; an empty line if none can be."""
+    """Return the first line that the machine would get, and its number; an empty line if none can
+    be.
+    """
     for number, line in enumerate(lines, start=1):
         try:
             text = plain(line)
@@ -283,7 +285,7 @@ FEED = 500.0  # [mm/min]
 
 
 def hull_of(moves: Moves, samples: Samples) -> Array:
-    """The corners (k, 2) [mm] of the smallest convex shape that holds all cuts."""
+    """Return the corners (k, 2) [mm] of the smallest convex shape that holds all cuts."""
     places = samples.places[moves.cut[samples.move]]
     places = np.unique(np.round(places, 3), axis=0)
     spread = places - places.mean(axis=0) if len(places) else places
@@ -293,7 +295,7 @@ def hull_of(moves: Moves, samples: Samples) -> Array:
 
 
 def outline_of(moves: Moves, samples: Samples, *, name: str) -> str:
-    """A program that traces the hull, back to its first corner."""
+    """Return a program that traces the hull, back to its first corner."""
     corners = hull_of(moves, samples)
     if not len(corners):
         return f"(plumb: {comment_of(name)} cuts nothing)\n"
@@ -310,6 +312,6 @@ def outline_of(moves: Moves, samples: Samples, *, name: str) -> str:
 
 
 def comment_of(name: str) -> str:
-    """A file's name as a comment can hold it."""
+    """Return a file's name as a comment can hold it."""
     kept = [c if c.isascii() and c.isprintable() and c not in "()" else "_" for c in name]
     return "".join(kept)[:60]

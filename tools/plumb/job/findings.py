@@ -35,7 +35,7 @@ class Finding:
 
 
 def findings_of(done: Done) -> tuple[Finding, ...]:
-    """Everything to say about lines, in their order."""
+    """Return everything to say about lines, in their order."""
     refused = "plumb send refuses it: it"
     findings = [Finding(each.line, HALTS, f"{refused} {each.why}") for each in done.refused]
     findings += [finding for line, text in done.said for finding in _said(line, text)]
@@ -83,7 +83,9 @@ def _plunges(moves: Moves) -> Iterator[Finding]:
 
 
 def _depth_of_hole(moves: Moves, row: int) -> float:
-    """The z [mm] down to which earlier cuts have freed the place of a move; 0: nothing did."""
+    """Return the z [mm] down to which earlier cuts have freed the place of a move; 0:
+    nothing did.
+    """
     x, y = moves["to_x"][row], moves["to_y"][row]
     middle = np.stack([moves["from_x"] + moves["to_x"], moves["from_y"] + moves["to_y"]]) / 2
     # No place of a move is farther from its middle than the way along it.
@@ -102,7 +104,7 @@ WEAK_GEARS = 104.0  # [N]
 
 
 def ends_too_high(settings: MachineSettings, done: Done) -> tuple[Finding, ...]:
-    """The end of a program, if a chain pulls there more than weak gears hold.
+    """Return the end of a program, if a chain pulls there more than weak gears hold.
 
     In a pause and in a dwell the motors keep their power.
     """
@@ -179,7 +181,7 @@ def _z_speed(moves: Moves, those: Flags, rises: Array) -> float:
 
 
 def times_of(done: Done) -> Times:
-    """How long it takes, and what the cutting would take at the program's feeds."""
+    """Return how long it takes, and what the cutting would take at the program's feeds."""
     moves = done.moves
     took = np.diff(np.concatenate([[0.0], moves["ends"]]))
     works = ~moves.rapid
@@ -222,7 +224,7 @@ class Hanging:
 def hanging_along(
     settings: MachineSettings, moves: Moves, samples: Samples, limits: Mapping[str, float]
 ) -> Hanging | None:
-    """What hangs along the cuts; None where nothing is cut."""
+    """Return what hangs along the cuts; None where nothing is cut."""
     cut = moves.cut[samples.move]
     if not cut.any():
         return None

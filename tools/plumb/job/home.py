@@ -57,14 +57,14 @@ class HomeFit:
 
 
 def home_file(settings: str | PathLike[str]) -> Path:
-    """Where the home marks of a machine are: next to its settings."""
+    """Return where the home marks of a machine are: next to its settings."""
     return Path(settings).parent / NAME
 
 
 def new_home_mark(
     settings: MachineSettings, name: str, place: Point, *, date: str = ""
 ) -> HomeMark:
-    """A hole that the machine makes at a place by these settings. Raises InputError."""
+    """Return a hole that the machine makes at a place by these settings. Raises InputError."""
     try:
         left, right = believed_lengths(settings, np.array([place], dtype=float))[0].tolist()
     except ValueError as error:
@@ -73,8 +73,9 @@ def new_home_mark(
 
 
 def hole_program(mark: HomeMark) -> list[str]:
-    """The lines of a program that makes the hole of a home mark, come to as a grid comes to its
-    marks."""
+    """Return the lines of a program that makes the hole of a home mark, come to as a grid comes to
+    its marks.
+    """
     x, y = mark.place
     return [
         f"(Plumb: the hole of home mark {mark.name})",
@@ -89,7 +90,7 @@ def hole_program(mark: HomeMark) -> list[str]:
 
 
 def place_of(settings: MachineSettings, mark: HomeMark) -> Array:
-    """Where the machine shows the bit in a home mark (2,) [mm], by the settings of today."""
+    """Return where the machine shows the bit in a home mark (2,) [mm], by the settings of today."""
     where: Array = places_with(settings, np.array([mark.chains], dtype=float))[0]
     if not np.isfinite(where).all():
         raise InputError(f"home mark {mark.name}: with these settings its chains lead nowhere")
@@ -97,7 +98,7 @@ def place_of(settings: MachineSettings, mark: HomeMark) -> Array:
 
 
 def home_fit(settings: MachineSettings, mark: HomeMark, shown: Point) -> HomeFit:
-    """How well a home mark agrees with what the machine shows of the bit in it."""
+    """Return how well a home mark agrees with what the machine shows of the bit in it."""
     x, y = (place_of(settings, mark) - np.array(shown)).tolist()
     believed = believed_chains(settings, [Touch(mark.name, mark.place, shown)])[0]
     left, right = (np.array(mark.chains) - believed).tolist()
@@ -106,7 +107,7 @@ def home_fit(settings: MachineSettings, mark: HomeMark, shown: Point) -> HomeFit
 
 
 def read_home_marks(path: str | PathLike[str]) -> dict[str, HomeMark]:
-    """The home marks of a file by name; none if there is no file. Raises InputError."""
+    """Return the home marks of a file by name; none if there is no file. Raises InputError."""
     if not Path(path).exists():
         return {}
     try:
@@ -171,12 +172,14 @@ def refuse_repeated(touches: Sequence[Touch]) -> None:
 
 
 def are_apart(touches: Sequence[Touch]) -> bool:
-    """Whether two of the holes are far enough apart to be two places."""
+    """Return whether two of the holes are far enough apart to be two places."""
     return any(dist(left.hole, right.hole) >= FAR for left, right in combinations(touches, 2))
 
 
 def lost_sign(touch: Touch) -> str:
-    """The coordinate, x or y, whose sign was lost: the other sign shows the bit near the hole."""
+    """Return the coordinate, x or y, whose sign was lost: the other sign shows the bit near the
+    hole.
+    """
     (x, y), (shown_x, shown_y) = touch.hole, touch.shown
     if dist(touch.hole, touch.shown) <= MISREAD:
         return ""
@@ -186,7 +189,7 @@ def lost_sign(touch: Touch) -> str:
 
 
 def believed_chains(settings: MachineSettings, touches: Sequence[Touch]) -> Array:
-    """The chains (n, 2) [mm] that the machine believes at each touch. Raises InputError."""
+    """Return the chains (n, 2) [mm] that the machine believes at each touch. Raises InputError."""
     shown = np.array([touch.shown for touch in touches], dtype=float).reshape(-1, 2)
     try:
         return believed_lengths(settings, shown)
@@ -195,14 +198,14 @@ def believed_chains(settings: MachineSettings, touches: Sequence[Touch]) -> Arra
 
 
 def places_with(settings: MachineSettings, chains: Array) -> Array:
-    """Places (..., 2) [mm] for chains (..., 2) [mm]; NaN where no sled hangs."""
+    """Return places (..., 2) [mm] for chains (..., 2) [mm]; NaN where no sled hangs."""
     where, outcome = places(settings.as_plumb_model(), chains.reshape(-1, 2))
     where = np.where((outcome == FOUND)[:, None], where, np.nan)
     return where.reshape(chains.shape)
 
 
 def sigma_of(settings: MachineSettings, *, taped: bool) -> float:
-    """How good a coordinate of a touch is [mm], if nobody says.
+    """Return how good a coordinate of a touch is [mm], if nobody says.
 
     A hole that the machine made by these settings is as good as a touch: what the settings do not
     know moves hole and bit alike. A hole that was measured with a tape is no better than what the

@@ -37,7 +37,7 @@ class Machine:
     numbers: Mapping[int, float]
 
     def after(self, lines: Sequence[str]) -> Run:
-        """A dry run of lines."""
+        """Return a dry run of lines."""
         run = Run(self.settings, start=self.start, numbers=self.numbers)
         run.send(lines)
         return run
@@ -78,7 +78,7 @@ def resume_at_place(
 
 
 def _last_free(machine: Machine, lines: Sequence[str], moves: Moves, before: int) -> int:
-    """How many lines were done when the bit was last out of the wood, outside of a cycle."""
+    """Return how many lines were done when the bit was last out of the wood, outside of a cycle."""
     z = np.full(len(lines) + 1, np.nan)
     z[0] = machine.start[2]
     # The last move of a line counts.
@@ -95,7 +95,7 @@ class _Head:
     """What a resumed program says before the job goes on."""
 
     def __init__(self, machine: Machine, done: Sequence[str], run: Run, safe: float) -> None:
-        """The run is that of the lines done, and is used up."""
+        """Take the run of the lines done, and use it up."""
         self.safe = safe
         self._begin, self._modes = run.origin, run.modes
         self._tools: ToolsInUse = tools_after(done)
@@ -124,7 +124,7 @@ class _Head:
         return (0.0, 0.0, 0.0) if self._tools.declares else self._begin
 
     def modes(self) -> list[str]:
-        """The modes with which the job's next line is read."""
+        """Return the modes with which the job's next line is read."""
         modes = self._modes
         inches = bool(modes["inches"])
         feed = modes["feed"] / (25.4 if inches else 1.0)
@@ -188,7 +188,9 @@ class Entry:
 
 
 def entry_at(moves: Moves, place: tuple[float, float], *, line: int | None) -> Entry:
-    """Where a cut passes nearest to a place; of several passes the first, or that near `line`."""
+    """Return where a cut passes nearest to a place; of several passes the first, or that near
+    `line`.
+    """
     cut = np.flatnonzero(moves.cut & ~moves.rapid)
     if line is not None:
         cut = cut[_same_run(moves, cut, line)]
@@ -225,7 +227,7 @@ def entry_at(moves: Moves, place: tuple[float, float], *, line: int | None) -> E
 
 
 def _near(moves: Moves, place: tuple[float, float]) -> Rows:
-    """The moves that may pass a place as near as the nearest."""
+    """Return the moves that may pass a place as near as the nearest."""
     samples = moves.sampled(COARSE)
     away = np.hypot(*(samples.places - place).T)
     return np.unique(samples.move[away <= away.min() + COARSE + ALIKE])
@@ -241,7 +243,7 @@ def _same_run(moves: Moves, cut: Rows, line: int) -> Flags:
 
 
 def _plunge(moves: Moves, row: int) -> float:
-    """The feed with which the program last went straight down."""
+    """Return the feed with which the program last went straight down."""
     down = (moves["z_to"] < moves["z_from"]) & (moves["length"] == 0) & ~moves.rapid
     before = np.flatnonzero(down[: row + 1])
     return float(moves["asked"][before[-1]]) if len(before) else SLOW
@@ -273,7 +275,7 @@ class Coordinates:
         return x, y, z + self.tool
 
     def lines_at(self, place: Place, before: Coordinates) -> list[str]:
-        """The lines that set them while the bit is at `place` [mm] of the machine.
+        """Return the lines that set them while the bit is at `place` [mm] of the machine.
 
         Systems that are as they were `before` the program are left alone.
         """
@@ -291,7 +293,7 @@ class Coordinates:
 
 
 def coordinates_of(run: Run) -> Coordinates:
-    """The coordinates after a run, whose modes and coordinates this uses up."""
+    """Return the coordinates after a run, whose modes and coordinates this uses up."""
     in_force = int(run.modes["system"])
     begin = run.origin
     with_shift = _after(run, "G92.3")
@@ -355,7 +357,7 @@ class ToolsInUse:
 
 
 def tools_after(lines: Sequence[str]) -> ToolsInUse:
-    """What is on after these lines."""
+    """Return what is on after these lines."""
     spindle, laser, speed, declares = "", False, None, False
     for line in lines:
         for letter, code, words in pieces(line):
@@ -373,7 +375,7 @@ def tools_after(lines: Sequence[str]) -> ToolsInUse:
 
 
 def cycles_after(lines: Sequence[str]) -> list[bool]:
-    """Whether a drilling cycle is in force after each line."""
+    """Return whether a drilling cycle is in force after each line."""
     in_force, result = False, []
     for line in lines:
         for letter, code, _ in pieces(line):

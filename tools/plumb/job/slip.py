@@ -109,7 +109,7 @@ def find_slip(
 def _finding(
     settings: MachineSettings, touches: Sequence[Touch], turn: float, used: float, fixed: bool
 ) -> SlipFinding:
-    """What may have happened, if the sheet is turned [rad] counter-clockwise."""
+    """Return what may have happened, if the sheet is turned [rad] counter-clockwise."""
     believed = believed_chains(settings, touches)
     holes = turned_back(np.array([touch.hole for touch in touches], dtype=float), turn)
     counts = [(left, right) for left in COUNTS for right in COUNTS]
@@ -136,7 +136,7 @@ def _finding(
 def _weighed(
     errors: dict[Links, Array], holes: Array, sigma: float, fixed: bool
 ) -> tuple[tuple[Account, ...], float]:
-    """All accounts with their odds, the likeliest first, and how likely the touches are."""
+    """Return all accounts with their odds, the likeliest first, and how likely the touches are."""
     poses = () if fixed else POSES
     logs: dict[tuple[str, Links], list[float]] = {}
 
@@ -163,7 +163,7 @@ def _weighed(
 
 
 def _slip_shares() -> Iterator[tuple[Links, float]]:
-    """Each slip, and its share of all slips."""
+    """Yield each slip, and its share of all slips."""
     for links in ((left, right) for left in COUNTS for right in COUNTS):
         shares = [BY_COUNT[abs(count)] / 2 for count in links if count]
         if len(shares) == 1:
@@ -173,7 +173,9 @@ def _slip_shares() -> Iterator[tuple[Links, float]]:
 
 
 def pose_slopes(holes: Array) -> Array:
-    """How coordinates (2n,) of holes (n, 2) follow a sheet's x, y [mm] and rotation [rad]."""
+    """Return how coordinates (2n,) of holes (n, 2) follow a sheet's x, y [mm] and rotation
+    [rad].
+    """
     slopes = np.zeros((*holes.shape, 3))
     slopes[:, 0, 0] = slopes[:, 1, 1] = 1
     slopes[:, 0, 2], slopes[:, 1, 2] = -holes[:, 1], holes[:, 0]
@@ -181,20 +183,20 @@ def pose_slopes(holes: Array) -> Array:
 
 
 def pose_covariance(holes: Array, shift: float, turn: float) -> Array:
-    """Of coordinates (2n, 2n) [mm^2] on a sheet that lies off by so much by chance."""
+    """Return the covariance of coordinates (2n, 2n) [mm^2] on a sheet that lies off by chance."""
     slopes = pose_slopes(holes) * (shift, shift, turn)
     covariance: Array = slopes @ slopes.T
     return covariance
 
 
 def _log_density(error: Array, covariance: Array) -> float:
-    """Of a vector of this covariance."""
+    """Return the normal log-density of a vector of this covariance."""
     _, size = np.linalg.slogdet(2 * np.pi * covariance)
     return float(-0.5 * (size + error @ np.linalg.solve(covariance, error)))
 
 
 def _verdict(accounts: Sequence[Account], *, apart: bool, fixed: bool) -> str:
-    """What may be said of it."""
+    """Return what may be said of it."""
     best = accounts[0]
     if best.odds < GATE:
         return CANNOT_TELL
@@ -219,12 +221,12 @@ def _left(errors: Array, holes: Array, kind: str, sigma: float) -> Array:
 
 
 def chains_line(chains: Array) -> str:
-    """The line that tells the machine how long its chains are, left and right [mm]."""
+    """Return the line that tells the machine how long its chains are, left and right [mm]."""
     return f"B06 L{chains[0]:.3f} R{chains[1]:.3f}"
 
 
 def repair_program(chains: Array, *, where: str) -> list[str]:
-    """The lines of a program that declares chains with the bit at a place, said in words."""
+    """Return the lines of a program that declares chains with the bit at a place, said in words."""
     return [f"(Plumb: only with the bit in {where}, and nothing moved since)", chains_line(chains)]
 
 
@@ -247,7 +249,7 @@ class _Expected:
 
 
 def next_hole(settings: MachineSettings, finding: SlipFinding) -> Point | None:
-    """The place [mm] where a hole would tell most; None where no sled hangs."""
+    """Return the place [mm] where a hole would tell most; None where no sled hangs."""
     spots = _spots(settings)
     best, *rivals = [_expected(settings, finding, each, spots) for each in _open(finding)]
     tells = np.zeros(len(spots))
@@ -261,13 +263,13 @@ def next_hole(settings: MachineSettings, finding: SlipFinding) -> Point | None:
 
 
 def _open(finding: SlipFinding) -> list[Account]:
-    """The likeliest accounts that expect something; the likeliest first."""
+    """Return the likeliest accounts that expect something; the likeliest first."""
     kinds = [each for each in finding.accounts if each.kind != OTHER]
     return kinds[: RIVALS + 1]
 
 
 def _spots(settings: MachineSettings) -> Array:
-    """Places (m, 2) [mm] over the sheet where the sled can hang."""
+    """Return places (m, 2) [mm] over the sheet where the sled can hang."""
     across, up = settings.sheet_width / 2 - EDGE, settings.sheet_height / 2 - EDGE
     spots = np.array(
         [(x, y) for y in np.linspace(up, -up, ROWS) for x in np.linspace(-across, across, COLUMNS)]
@@ -280,7 +282,7 @@ def _spots(settings: MachineSettings) -> Array:
 def _expected(
     settings: MachineSettings, finding: SlipFinding, account: Account, spots: Array
 ) -> _Expected:
-    """What an account expects at places, after these touches."""
+    """Return what an account expects at places, after these touches."""
     slip = LINK * np.array(account.links, dtype=float)
     chains, _ = lengths(settings.as_plumb_model(), spots)
     jump = spots - places_with(settings, chains - slip)

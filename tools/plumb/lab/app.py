@@ -63,7 +63,7 @@ ROUTERS = tuple(
 
 
 def lab_app(folder: Path, *, address: Address, token: str) -> ASGIApp:
-    """The lab of a folder, for a server on this address whose page knows the token."""
+    """Return the lab of a folder, for a server on this address whose page knows the token."""
     line = MachineLine()
 
     @asynccontextmanager
@@ -106,22 +106,22 @@ class _ForPage:
 
 
 async def _refusal(request: Request, error: Exception) -> JSONResponse:
-    """What cannot be used, in a line."""
+    """Return what cannot be used, in a line."""
     return JSONResponse({"error": str(error)}, 422)
 
 
 async def _changed(request: Request, error: Exception) -> JSONResponse:
-    """A file that another program changed."""
+    """Return a file that another program changed."""
     return JSONResponse({"error": str(error)}, 409)
 
 
 async def _other_tab(request: Request, error: Exception) -> JSONResponse:
-    """A change by a tab that does not edit."""
+    """Return a change by a tab that does not edit."""
     return JSONResponse({"error": str(error)}, 423)
 
 
 async def _misunderstood(request: Request, error: Exception) -> JSONResponse:
-    """A request that does not have the form of the schema."""
+    """Return a request that does not have the form of the schema."""
     assert isinstance(error, RequestValidationError)
     first = error.errors()[0]
     place = ".".join(str(part) for part in first["loc"][1:])
@@ -129,19 +129,19 @@ async def _misunderstood(request: Request, error: Exception) -> JSONResponse:
 
 
 async def _unable(request: Request, error: Exception) -> JSONResponse:
-    """A disk that is full, a folder that is gone: the page tries again later."""
+    """Return a disk that is full, a folder that is gone: the page tries again later."""
     assert isinstance(error, OSError)
     place = f"{Path(error.filename).name}: " if isinstance(error.filename, str) else ""
     return JSONResponse({"error": f"{place}{error.strerror or error}"}, 507)
 
 
 async def _unknown(request: Request, error: Exception) -> JSONResponse:
-    """A route or a file that is not there, or a body that is none."""
+    """Return a route or a file that is not there, or a body that is none."""
     assert isinstance(error, HTTPException)
     return JSONResponse({"error": str(error.detail)}, error.status_code, error.headers)
 
 
 async def _failed(request: Request, error: Exception) -> JSONResponse:
-    """A fault of the lab itself; the terminal shows where."""
+    """Return a fault of the lab itself; the terminal shows where."""
     line = f"the lab has a fault ({type(error).__name__}); its terminal shows where"
     return JSONResponse({"error": line}, 500)

@@ -36,7 +36,7 @@ class Task:
     is_overtaken: bool = False
 
     def progress(self, share: float) -> None:
-        """Called by the work now and then."""
+        """Note how far the work is; the work calls it now and then."""
         if self.is_overtaken:
             raise OvertakenError
         self.share = share
@@ -59,7 +59,9 @@ class Background:
         self._lock = Lock()
 
     def ask(self, kind: str, key: str, work: Callable[[Progress], Result]) -> Answer[Result]:
-        """The answer of this kind for this state, or how far it is. Raises what the work raised."""
+        """Return the answer of this kind for this state, or how far it is. Raises what the work
+        raised.
+        """
         with self._lock:
             task = self._tasks.get(kind)
             if task is None or task.key != key:
@@ -109,7 +111,7 @@ class LiveBoards:
         self._making = Lock()
 
     def of(self, project: Project, inputs_of: Callable[[Project], Inputs]) -> WarmBoard:
-        """The board of a project as it is on disk now. Raises InputError."""
+        """Return the board of a project as it is on disk now. Raises InputError."""
         with self._making:
             key = key_of(project)
             if self._kept is None or self._kept.key != key:

@@ -55,7 +55,7 @@ class Editor:
 
 
 def editor_of(connection: HTTPConnection) -> Editor:
-    """The editor of this server's folder."""
+    """Return the editor of this server's folder."""
     editor = connection.app.state.editor
     assert isinstance(editor, Editor)
     return editor

@@ -78,7 +78,7 @@ class Guard:
             self.live -= live
 
     def _refusal(self, scope: Scope) -> Refusal | None:
-        """The answer to a request that is not for us."""
+        """Return the answer to a request that is not for us."""
         headers = Headers(scope=scope)
         hosts = self.address.hosts
         if sum(len(name) + len(value) for name, value in headers.raw) > LARGEST_HEADER:
@@ -112,7 +112,7 @@ class Guard:
         return hmac.compare_digest(given.encode(), self.token.encode())
 
     def _bound(self, send: Send) -> Send:
-        """Sends each answer with the headers that keep other sites and foreign scripts out."""
+        """Send each answer with the headers that keep other sites and foreign scripts out."""
         sockets = " ".join(f"ws://{host}" for host in self.address.hosts)
         policy = (
             "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
@@ -139,7 +139,9 @@ def _too_large() -> Refusal:
 
 
 async def _received(receive: Receive) -> tuple[Receive, Refusal | None]:
-    """The whole body, to be received at once, if it has the size and the haste of our page's."""
+    """Return the whole body, to be received at once, if it has the size and the haste of our
+    page's.
+    """
     body = bytearray()
     try:
         async with asyncio.timeout(BODY_S):

@@ -102,7 +102,7 @@ class GuideDesk:
             self._left, self.question = True, None
 
     def _end(self, work: Future[None]) -> None:
-        """The line is free again, or lost: the next step may begin."""
+        """Note that the line is free again, or lost: the next step may begin."""
         if error := work.exception():
             self.trouble = _why(error)
         self.step = ""
@@ -182,7 +182,7 @@ def _why(error: BaseException) -> str:
 
 
 def _fits(question: Question, reply: str) -> bool:
-    """Whether a reply answers a question."""
+    """Return whether a reply answers a question."""
     if question.kind in ("go", "yes"):
         return reply in (YES, NO)
     if question.kind == "choice":

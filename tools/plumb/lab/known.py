@@ -28,7 +28,7 @@ class Statements:
 
 
 def stated(choices: Choices) -> Statements:
-    """What the owner states, in the terms of the fit."""
+    """Return what the owner states, in the terms of the fit."""
     known = {name: number for name, number in choices.known.items() if number.sigma > 0}
     wide = [(name, WIDE[name]) for name in known if name in WIDE]
     checked = tuple(Checked(name, number.value, number.sigma) for name, number in known.items())
@@ -36,14 +36,16 @@ def stated(choices: Choices) -> Statements:
 
 
 def possible(choices: Choices, settings: MachineSettings) -> Choices:
-    """The choices without numbers that cannot have been measured on this machine."""
+    """Return the choices without numbers that cannot have been measured on this machine."""
     absurd = {check.name for check in stated(choices).checked if is_absurd(check, settings)}
     known = {name: number for name, number in choices.known.items() if name not in absurd}
     return choices.model_copy(update={"known": known})
 
 
 def planned_priors(choices: Choices) -> dict[str, float]:
-    """How far numbers of the frame that a fit moves may be off, with what is known of them."""
+    """Return how far numbers of the frame that a fit moves may be off, with what is known
+    of them.
+    """
     known = stated(choices)
     narrow = {
         check.name: 1 / math.hypot(1 / check.sigma, 1 / known.priors[check.name])
@@ -54,7 +56,7 @@ def planned_priors(choices: Choices) -> dict[str, float]:
 
 
 def measured_to(choices: Choices) -> dict[str, float]:
-    """How far each number may be off that the owner measured."""
+    """Return how far each number may be off that the owner measured."""
     return {name: number.sigma for name, number in choices.known.items() if number.sigma > 0}
 
 
@@ -87,16 +89,16 @@ class Reading:
     marked: str = ""  # on the drawing
 
     def value(self, read: float) -> float:
-        """The number that a reading says."""
+        """Return the number that a reading says."""
         return self.scale * CURVES[self.curve][0](read - self.zero)
 
     def read(self, value: float) -> float:
-        """What would be read for a number."""
+        """Return what would be read for a number."""
         return self.zero + CURVES[self.curve][1](value / self.scale)
 
 
 def readings(settings: MachineSettings, sled_weight: float) -> Mapping[str, Reading]:
-    """The readings by the names of their numbers, for this sheet and this weight [N]."""
+    """Return the readings by the names of their numbers, for this sheet and this weight [N]."""
     return {**_of_chains(sled_weight), **_of_frame_and_sled(), **_of_sheet_and_tape(settings)}
 
 
@@ -202,11 +204,11 @@ class KnownNumber(BaseModel):
     refused: str = ""  # why what is stated cannot have been measured; empty if it can
 
     def read(self, value: float) -> float:
-        """What is read for a value of the number."""
+        """Return what is read for a value of the number."""
         return self.zero + CURVES[self.curve][1](value / self.scale)
 
     def said(self, value: float) -> str:
-        """The same with its unit, a length in the unit in which lengths are shown."""
+        """Return the same with its unit, a length in the unit in which lengths are shown."""
         read = self.read(value)
         if self.unit == "mm":
             return worded(read, self.digits)
@@ -214,7 +216,7 @@ class KnownNumber(BaseModel):
 
 
 def known_numbers(settings: MachineSettings, choices: Choices) -> list[KnownNumber]:
-    """Everything that can be measured by hand: first what everybody measures."""
+    """Return everything that can be measured by hand: first what everybody measures."""
     numbers = [*_frame(settings), *_effects(settings, choices)]
     lines = _refused(numbers, settings, choices)
     numbers = [each.model_copy(update={"refused": lines.get(each.name, "")}) for each in numbers]
@@ -259,7 +261,7 @@ def _why(number: KnownNumber, value: float) -> str:
 
 
 def _frame(settings: MachineSettings) -> list[KnownNumber]:
-    """Numbers of the frame."""
+    """Return numbers of the frame."""
     edge = settings.sheet_height / 2
     return [
         _of_frame("motor_gap", settings.motor_gap, zero=0.0),
@@ -305,7 +307,9 @@ def _of_frame(name: str, value: float, *, zero: float) -> KnownNumber:
 
 
 def _effects(settings: MachineSettings, choices: Choices) -> list[KnownNumber]:
-    """Numbers of effects, as far as they can be measured directly and the page has words for it."""
+    """Return numbers of effects, as far as they can be measured directly and the page has words for
+    it.
+    """
     stated = choices.known.get(WEIGHT)
     by_hand = readings(settings, stated.value if stated else settings.sled_weight)
     return [

@@ -51,7 +51,7 @@ class Port:
 
 
 def ports() -> list[Port]:
-    """The serial ports, those on USB first."""
+    """Return the serial ports, those on USB first."""
     each = [
         Port(port.device, port.description or port.device, port.vid is not None)
         for port in list_ports.comports()
@@ -120,7 +120,7 @@ class MachineLine:
             self._worker = LineWorker(opened, working=lambda works: setattr(port, "works", works))
 
     def set_speed(self, speed: float) -> None:
-        """How many times as fast as real time the virtual machine works."""
+        """Set how many times as fast as real time the virtual machine works."""
         if self._port:
             self._port.speed = speed
 
@@ -131,7 +131,9 @@ class MachineLine:
             self._worker, self.virtual, self._port, self.name = None, None, None, ""
 
     def do(self, work: Callable[[Sender], Result]) -> Result:
-        """What a piece of work with the machine brings. Raises InputError if it cannot be done."""
+        """Return what a piece of work with the machine brings. Raises InputError if it cannot be
+        done.
+        """
         try:
             return self._working().do(_as_here(work)).result(PATIENCE)
         except StoppedError:
@@ -140,12 +142,12 @@ class MachineLine:
             raise InputError(f"the machine did not do it in {PATIENCE:.0f} s: look at it") from None
 
     def read_numbers(self) -> Mapping[int, float]:
-        """All numbers that the machine lists now. Raises InputError."""
+        """Return all numbers that the machine lists now. Raises InputError."""
         self.do(self.note_numbers)
         return self.state.numbers
 
     def note_numbers(self, sender: Sender) -> None:
-        """In the middle of work: read the machine's numbers into the state."""
+        """Read the machine's numbers into the state in the middle of work."""
         self._working().read_numbers(sender)
 
     def begin(self, work: Callable[[Sender], None]) -> Future[None]:
@@ -157,7 +159,7 @@ class MachineLine:
 
     @contextmanager
     def resting(self) -> Iterator[None]:
-        """In the middle of work: a virtual machine need not hurry while a person thinks."""
+        """Let a virtual machine rest in the middle of work while a person thinks."""
         port = self._port
         if port:
             port.works = False
@@ -216,14 +218,14 @@ def _as_here(work: Callable[[Sender], Result]) -> Callable[[Sender], Result]:
 
 
 def line_of(connection: HTTPConnection) -> MachineLine:
-    """The line of this server."""
+    """Return the line of this server."""
     line = connection.app.state.line
     assert isinstance(line, MachineLine)
     return line
 
 
 async def _line(connection: HTTPConnection) -> MachineLine:
-    """The same without a thread: Stop waits for nobody's."""
+    """Return the same without a thread: Stop waits for nobody's."""
     return line_of(connection)
 
 
@@ -235,7 +237,9 @@ TheLine = Annotated[MachineLine, Depends(_line)]
 
 
 def held_otherwise(project: Project, line: MachineLine) -> tuple[Difference, ...]:
-    """What the open settings and the connected machine say otherwise, as far as both are known."""
+    """Return what the open settings and the connected machine say otherwise, as far as both are
+    known.
+    """
     choices, _ = read_choices(project)
     if not choices.settings or not line.state.numbers:
         return ()
@@ -243,8 +247,9 @@ def held_otherwise(project: Project, line: MachineLine) -> tuple[Difference, ...
 
 
 def is_fit_of_machine(project: Project, line: MachineLine) -> bool:
-    """Whether the open settings were fitted to marks of the machine as it is: they go into it
-    next."""
+    """Return whether the open settings were fitted to marks of the machine as it is: they go into
+    it next.
+    """
     choices, _ = read_choices(project)
     if not choices.settings:
         return False

@@ -12,7 +12,7 @@ from plumb.lab.app import ROUTERS
 
 
 def schema() -> str:
-    """The OpenAPI schema as JSON."""
+    """Return the OpenAPI schema as JSON."""
     app = FastAPI(title="plumb lab")
     for router in ROUTERS:
         app.include_router(router, prefix="/api")

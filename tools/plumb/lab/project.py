@@ -44,8 +44,9 @@ class Project:
         self.folder = folder
 
     def path(self, name: str) -> Path:
-        """Where a file of this name lies. Raises ValueError for what is no plain name, and for a
-        link: it may lead out of the folder."""
+        """Return where a file of this name lies. Raises ValueError for what is no plain name, and
+        for a link: it may lead out of the folder.
+        """
         if not NAME.fullmatch(name) and not KEPT.fullmatch(name):
             raise ValueError(f"{name!r} is no plain file name")
         path = self.folder / name
@@ -54,7 +55,7 @@ class Project:
         return path
 
     def names(self) -> list[str]:
-        """The names of its files, sorted."""
+        """Return the names of its files, sorted."""
         return sorted(
             path.name
             for path in self.folder.iterdir()
@@ -62,7 +63,7 @@ class Project:
         )
 
     def read(self, name: str) -> bytes | None:
-        """What is in a file; None if there is none."""
+        """Return what is in a file; None if there is none."""
         path = self.path(name)
         if not path.is_file():
             return None
@@ -70,12 +71,13 @@ class Project:
             return file.read()
 
     def digest(self, name: str) -> str:
-        """A number for what is in a file; MISSING if there is none."""
+        """Return a number for what is in a file; MISSING if there is none."""
         return digest_of(self.read(name))
 
     def free_name(self, stem: str, *endings: str) -> str:
-        """The first of `stem`, `stem-2` ... that no file has with any of these endings; with the
-        first of them."""
+        """Return the first of `stem`, `stem-2` ... that no file has with any of these endings; with
+        the first of them.
+        """
         return next(
             f"{each}{endings[0]}"
             for each in _numbered(stem)
@@ -83,7 +85,7 @@ class Project:
         )
 
     def place_for(self, content: bytes, stem: str, ending: str) -> str:
-        """The first of these names that no file has, or a file with just this content."""
+        """Return the first of these names that no file has, or a file with just this content."""
         return next(
             f"{each}{ending}"
             for each in _numbered(stem)
@@ -131,13 +133,13 @@ class Project:
 
 
 def _numbered(stem: str) -> Iterator[str]:
-    """A name and its followers, as `machine`, `machine-2` ..."""
+    """Yield a name and its followers, as `machine`, `machine-2` ..."""
     yield stem
     yield from (f"{stem}-{number}" for number in count(2))
 
 
 def digest_of(content: bytes | None) -> str:
-    """A number for what a file holds; MISSING for None."""
+    """Return a number for what a file holds; MISSING for None."""
     return MISSING if content is None else sha256(content).hexdigest()
 
 
@@ -191,7 +193,7 @@ class Choices(BaseModel):
 
 
 def read_choices(project: Project) -> tuple[Choices, str]:
-    """The choices and the digest of their file. Raises InputError if the file is damaged."""
+    """Return the choices and the digest of their file. Raises InputError if the file is damaged."""
     content = project.read(FILE)
     if content is None:
         return Choices(), digest_of(None)
@@ -204,7 +206,7 @@ def read_choices(project: Project) -> tuple[Choices, str]:
 
 
 def choices_text(choices: Choices) -> bytes:
-    """The file of the choices."""
+    """Return the file of the choices."""
     return f"{choices.model_dump_json(indent=2)}\n".encode()
 
 
@@ -231,7 +233,9 @@ def save_choices(
 
 
 def with_marks(choices: Choices, name: str) -> Choices:
-    """The choices with a file of marks as the last that is used; as they are if it is used."""
+    """Return the choices with a file of marks as the last that is used; as they are if it
+    is used.
+    """
     if name in choices.marks:
         return choices
     return choices.model_copy(update={"marks": [*choices.marks, name]})

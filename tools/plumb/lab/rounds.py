@@ -32,18 +32,18 @@ FORM, PROGRAM = "marks{}.toml", "grid{}.nc"
 
 
 def on_new_sheet(choices: Choices) -> bool:
-    """Whether the next round is cut on another sheet; the first is on no other."""
+    """Return whether the next round is cut on another sheet; the first is on no other."""
     return choices.new_sheet and bool(choices.marks)
 
 
 def form_text(project: Project, choices: Choices, plan: Planned, form: str) -> bytes:
-    """The form of the next round: a file of this name in the folder."""
+    """Return the form of the next round: a file of this name in the folder."""
     settings, path = str(project.path(choices.settings)), str(project.path(form))
     return plan.form(path, settings=settings, new_sheet=on_new_sheet(choices)).encode()
 
 
 def kept_settings(project: Project, choices: Choices) -> dict[str, bytes]:
-    """The open settings as a file that nobody replaces, by the digest that a form names."""
+    """Return the open settings as a file that nobody replaces, by the digest that a form names."""
     name = choices.settings
     content = project.read(name)
     if content is None:
@@ -55,7 +55,7 @@ def kept_settings(project: Project, choices: Choices) -> dict[str, bytes]:
 def grid_command(
     project: Project, choices: Choices, plan: Planned, *, form: str, program: str
 ) -> str:
-    """The command that writes a form and its program as the lab does."""
+    """Return the command that writes a form and its program as the lab does."""
     sheet = ["--new-sheet"] * on_new_sheet(choices)
     force = ["--force"] * (project.read(form) is not None)  # the lab replaces it too
     files = ["--marks", form, "--output", program]
@@ -63,7 +63,7 @@ def grid_command(
 
 
 def next_number(project: Project) -> str:
-    """What the next round has in the names of its files: nothing, or -2, -3 ..."""
+    """Return what the next round has in the names of its files: nothing, or -2, -3 ..."""
     number, count = "", 1
     while has_readings(project, FORM.format(number)) or _is_foreign(project, number):
         count += 1
@@ -72,13 +72,13 @@ def next_number(project: Project) -> str:
 
 
 def _is_foreign(project: Project, number: str) -> bool:
-    """Whether the program of a round would replace one that the lab did not write."""
+    """Return whether the program of a round would replace one that the lab did not write."""
     name = PROGRAM.format(number)
     return project.read(name) is not None and not is_ours(project.path(name))
 
 
 def has_readings(project: Project, name: str) -> bool:
-    """Whether a form has any reading, or is no form at all."""
+    """Return whether a form has any reading, or is no form at all."""
     if project.read(name) is None:
         return False
     try:
@@ -128,12 +128,12 @@ class Planned:
         return ROUND + MARK * len(self.touches) + read
 
     def form(self, path: str, *, settings: str, new_sheet: bool = False) -> str:
-        """The form at that path that waits for readings of marks cut with these settings."""
+        """Return the form at that path that waits for readings of marks cut with these settings."""
         named = cut_with_lines(settings, path)
         return marks_list(self.grid, self.machine, named, new_sheet=new_sheet, spans=self.spans)
 
     def words(self) -> list[str]:
-        """What `plumb grid` is given for these marks."""
+        """Return what `plumb grid` is given for these marks."""
         if self.grid.places:
             places = " ".join(f"{x:.12g},{y:.12g}" for x, y in self.grid.places)
             return [f"--places={places}"]
@@ -141,7 +141,7 @@ class Planned:
         return [*size, "--repeats", "0", *["--distances"] * bool(self.spans)]
 
     def as_measured(self) -> Measurements:
-        """The plan as if all were read just where it was sent."""
+        """Return the plan as if all were read just where it was sent."""
         side = self.grid.approach
         sent = {touch.name: (touch.x, touch.y) for touch in self.touches}
         marks = tuple(
@@ -156,7 +156,9 @@ class Planned:
 
 
 def planned(settings: MachineSettings, layout: Layout, places: Sequence[Place]) -> Planned:
-    """The marks of a layout; `places` [mm] are those of the layout "own". Raises GridError."""
+    """Return the marks of a layout; `places` [mm] are those of the layout "own". Raises
+    GridError.
+    """
     machine = plain_machine(settings)
     kind = KINDS.get(layout)
     if kind:
@@ -175,7 +177,7 @@ def refuse_unreachable(plan: Planned, settings: MachineSettings) -> None:
 
 
 def in_turn(places: Sequence[Place]) -> list[Place]:
-    """Places in an order that makes the way short: in bands from the top, there and back."""
+    """Return places in an order that makes the way short: in bands from the top, there and back."""
     rows: list[list[Place]] = []
     for place in sorted(places, key=lambda place: -place[1]):
         if rows and rows[-1][0][1] - place[1] < BAND:
@@ -217,17 +219,21 @@ class Taken:
 
 
 def program_name(form: str) -> str:
-    """The file of the program whose marks a form waits for."""
+    """Return the file of the program whose marks a form waits for."""
     return f"{PurePath(form).stem}.nc"
 
 
 def is_read_again(project: Project, form: str) -> bool:
-    """Whether the marks of a form are on the sheet already: somebody took it, nothing cuts it."""
+    """Return whether the marks of a form are on the sheet already: somebody took it, nothing cuts
+    it.
+    """
     return bool(FORM_NAME.fullmatch(form)) and project.read(program_name(form)) is None
 
 
 def taken_marks(project: Project, choices: Choices) -> Taken | None:
-    """What was taken and is to be cut; None once it has readings, and where nothing is cut."""
+    """Return what was taken and is to be cut; None once it has readings, and where nothing
+    is cut.
+    """
     form = choices.proposed
     if not FORM_NAME.fullmatch(form) or project.read(form) is None or has_readings(project, form):
         return None
@@ -244,14 +250,14 @@ def taken_marks(project: Project, choices: Choices) -> Taken | None:
 
 
 def command(*words: str) -> str:
-    """A command as a shell reads it."""
+    """Return a command as a shell reads it."""
     return shlex.join(["plumb", *words])
 
 
 def known_words(
     choices: Choices, *, effects: Collection[str] | None = None, held: Collection[str] = ()
 ) -> list[str]:
-    """What the owner knows, as far as a fit of these effects takes it; None: any effect."""
+    """Return what the owner knows, as far as a fit of these effects takes it; None: any effect."""
     known = stated(choices)
     words = []
     for check in known.checked:
@@ -262,7 +268,7 @@ def known_words(
 
 
 def prior_words(priors: Mapping[str, float], usual: Mapping[str, float] = PRIORS) -> list[str]:
-    """How far numbers of the frame may be wrong, where it is not as usual."""
+    """Return how far numbers of the frame may be wrong, where it is not as usual."""
     words = []
     for name, sigma in priors.items():
         if usual.get(name) != sigma:
@@ -271,5 +277,7 @@ def prior_words(priors: Mapping[str, float], usual: Mapping[str, float] = PRIORS
 
 
 def unit_words(choices: Choices, typed: str = "mm") -> list[str]:
-    """The chosen unit, unless the command shows it by itself: the unit in which it was typed."""
+    """Return the chosen unit, unless the command shows it by itself: the unit in which it was
+    typed.
+    """
     return ["--units", choices.units] if choices.units != typed else []

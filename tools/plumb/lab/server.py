@@ -48,7 +48,7 @@ def serve(folder: Path, *, port: int, browser: bool, say: Callable[[str], None])
 
 
 def _settings(app: ASGIApp) -> uvicorn.Config:
-    """How patient the server is; connections.py says with how many."""
+    """Return how patient the server is; connections.py says with how many."""
     return uvicorn.Config(
         app,
         http=Connection,
@@ -73,7 +73,7 @@ def _open(url: str, say: Callable[[str], None]) -> None:
 
 
 def _listening(port: int) -> socket.socket:
-    """A socket on the port, of this computer alone."""
+    """Return a socket on the port, of this computer alone."""
     listener = socket.socket()
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
@@ -89,8 +89,9 @@ def _listening(port: int) -> socket.socket:
 
 
 def _token(folder: Path) -> str:
-    """The token of this folder; only its owner can read the file. Raises InputError for a folder in
-    which nothing can be written."""
+    """Return the token of this folder; only its owner can read the file. Raises InputError for a
+    folder in which nothing can be written.
+    """
     path = folder / TOKEN_FILE
     if kept := _kept_token(path):
         return kept
@@ -107,7 +108,7 @@ def _token(folder: Path) -> str:
 
 
 def _kept_token(path: Path) -> str:
-    """The token that an earlier server wrote; empty if others can read or wrote it."""
+    """Return the token that an earlier server wrote; empty if others can read or wrote it."""
     with suppress(OSError):
         kept = path.lstat()
         private = stat.S_ISREG(kept.st_mode) and not kept.st_mode & 0o077
@@ -194,7 +195,7 @@ class Connection(H11Protocol):
         self._deadline: Any = self.loop.call_later(HEADERS_S, self._end)
 
     def _answered(self) -> None:
-        """It asked, or it is gone."""
+        """Note that it asked, or is gone."""
         if self in self.silent:
             del self.silent[self]
             self._deadline.cancel()

@@ -29,7 +29,7 @@ class Written:
 
 
 def read_numbers(sender: Sender) -> dict[int, float]:
-    """All numbers that the machine lists, by their $-number."""
+    """Return all numbers that the machine lists, by their $-number."""
     rows = (ROW.match(line) for line in sender.ask("$$"))
     numbers = {int(row[1]): float(row[2]) for row in rows if row}
     if not numbers:
@@ -38,7 +38,9 @@ def read_numbers(sender: Sender) -> dict[int, float]:
 
 
 def version_of(sender: Sender) -> str:
-    """What the machine says of its firmware, like `Firmware Version 1.28`; empty if nothing."""
+    """Return what the machine says of its firmware, like `Firmware Version 1.28`; empty if
+    nothing.
+    """
     return next((line for line in sender.ask("B05") if line.startswith("Firmware")), "")
 
 
@@ -80,7 +82,7 @@ def write_numbers(
 
 
 def _same(printed: float, value: float) -> bool:
-    """Whether two numbers are the same as far as the machine prints them."""
+    """Return whether two numbers are the same as far as the machine prints them."""
     return abs(printed - value) <= SAME * abs(value)
 
 
@@ -96,7 +98,7 @@ def refuse_while_moving(sender: Sender) -> None:
 
 
 def as_lines(numbers: Mapping[int, float]) -> str:
-    """Numbers as lines that can be sent again; those that no line may set are left out."""
+    """Return numbers as lines that can be sent again; those that no line may set are left out."""
     settable = {row.number for row in every_setting() if row.access == "listed"}
     return "".join(
         f"${number}={value:.9g}\n" for number, value in numbers.items() if number in settable
@@ -107,7 +109,7 @@ def as_lines(numbers: Mapping[int, float]) -> str:
 
 
 def lines_for(settings: MachineSettings, source: str) -> list[str]:
-    """The lines that write a machine's numbers; InputError for the published numbers."""
+    """Return the lines that write a machine's numbers; InputError for the published numbers."""
     if settings.controller != "plumb":
         why = "holds the published numbers, which a client sends"
         remedy = to_do("give a machine.toml that plumb add wrote", page="write a correction first")
@@ -116,7 +118,9 @@ def lines_for(settings: MachineSettings, source: str) -> list[str]:
 
 
 def kept_before(path: str | PathLike[str]) -> list[str]:
-    """The lines of the newest file that kept the machine's numbers before `path` was sent."""
+    """Return the lines of the newest file that kept the machine's numbers before `path` was
+    sent.
+    """
     stem = Path(path).with_suffix("")
     kept = sorted(stem.parent.glob(f"{stem.name}-before-*.nc"))
     if not kept:

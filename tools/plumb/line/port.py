@@ -29,10 +29,10 @@ class Port(Protocol):
         """Put characters on the line."""
 
     def read(self) -> bytes:
-        """What came since the last call; a moment passes first if that is nothing."""
+        """Return what came since the last call; a moment passes first if that is nothing."""
 
     def seconds(self) -> float:
-        """The time at the machine; only differences count."""
+        """Return the time at the machine; only differences count."""
 
     def close(self) -> None:
         """Let go of the line."""
@@ -48,7 +48,7 @@ class SerialPort:
     """An open line. Opening it resets the Mega."""
 
     def __init__(self, path: str) -> None:
-        """Raises InputError if the line cannot be opened, or if another program has it."""
+        """Raise InputError if the line cannot be opened, or if another program has it."""
         self.path = path
         try:
             self._lock = LineLock(path)
@@ -72,7 +72,7 @@ class SerialPort:
             raise self._lost() from None
 
     def read(self) -> bytes:
-        """What came; waits a moment if nothing did."""
+        """Return what came; waits a moment if nothing did."""
         try:
             came: bytes = self._line.read(max(1, self._line.in_waiting))
         except (serial.SerialException, OSError):
@@ -80,7 +80,7 @@ class SerialPort:
         return came
 
     def seconds(self) -> float:
-        """The time of this computer."""
+        """Return the time of this computer."""
         return time.monotonic()
 
     def close(self) -> None:
@@ -93,7 +93,9 @@ class SerialPort:
 
 
 def port_for(path: str | None) -> str:
-    """The line that was named, else that of the only board on USB; InputError if there is none."""
+    """Return the line that was named, else that of the only board on USB; InputError if there is
+    none.
+    """
     if path:
         return path
     boards = [port for port in list_ports.comports() if port.vid is not None]
@@ -122,7 +124,7 @@ class LineLock:
     """A lock on a file named after the line. The kernel releases it when its program ends."""
 
     def __init__(self, path: str) -> None:
-        """Raises TakenError if another program of the lab has the line."""
+        """Raise TakenError if another program of the lab has the line."""
         self._handle: int | None = None
         with suppress(OSError):
             self._handle = _opened(_lock_file(path))
@@ -151,13 +153,13 @@ def refuse_others(path: str, handle: int) -> None:
 
 
 def _lock_file(path: str) -> Path:
-    """The file that stands for the line, by whichever name it is opened."""
+    """Return the file that stands for the line, by whichever name it is opened."""
     name = re.sub(r"\W+", "-", os.path.realpath(path)).strip("-")
     return Path(tempfile.gettempdir()) / f"plumb-line-{name}.lock"
 
 
 def _opened(file: Path) -> int:
-    """A handle of the file, made if it is not there; a lock needs no right to write."""
+    """Return a handle of the file, made if it is not there; a lock needs no right to write."""
     try:
         return os.open(file, os.O_RDONLY | os.O_CREAT | os.O_NOFOLLOW, 0o644)
     except PermissionError:

@@ -43,7 +43,7 @@ class Wait(NamedTuple):
 
 
 def waits_in(lines: Iterable[str]) -> Iterator[Wait]:
-    """The pauses of a program, in their order."""
+    """Yield the pauses of a program, in their order."""
     count, said = 0, ""
     for line in lines:
         comment, text = COMMENT.search(line), plain(line)

@@ -114,7 +114,7 @@ class Sender:
         return done
 
     def ask(self, line: str) -> list[str]:
-        """What the machine says to a line before its `ok`."""
+        """Return what the machine says to a line before its `ok`."""
         heard: list[str] = []
         said, self.said = self.said, heard.append
         try:
@@ -241,7 +241,7 @@ class Sender:
             raise RefusedError(f"{line!r}: the machine has halted; press Stop first")
 
     def _is_left_over(self, line: str) -> bool:
-        """Whether it answers a line that was on its way behind a refused line."""
+        """Return whether it answers a line that was on its way behind a refused line."""
         if not self._left or not line.startswith(ANSWERS):
             return False
         self._left -= 1
@@ -265,7 +265,7 @@ class Sender:
         yield from (line.strip("\r") for line in lines)
 
     def _note_status(self, line: str) -> bool:
-        """Whether a line is a report."""
+        """Return whether a line is a report."""
         match = STATUS.match(line)
         if match:
             x, y, z = map(float, match.groups()[1:])
@@ -299,7 +299,7 @@ class Watch:
         self._since, self._reports = sender.port.seconds(), sender.reports
 
     def has_lasted(self, seconds: float) -> bool:
-        """Whether so long has passed, and nearly all its reports came."""
+        """Return whether so long has passed, and nearly all its reports came."""
         came = self._sender.reports - self._reports
         passed = self.speed * (self._sender.port.seconds() - self._since)
         return passed >= seconds and came >= int(seconds * PER_SECOND) - 1
@@ -310,7 +310,7 @@ class PlainError(ValueError):
 
 
 def plain(line: str) -> str:
-    """A line without comments and blanks around it; raises PlainError."""
+    """Return a line without comments and blanks around it; raises PlainError."""
     if "(" in line:
         line = COMMENT.sub("", line)
     text = line.partition(";")[0].strip()
@@ -322,7 +322,7 @@ def plain(line: str) -> str:
 
 
 def cleaned(lines: Iterable[str]) -> Iterator[str]:
-    """Lines without comments and blanks around them; empty lines are left out.
+    """Yield lines without comments and blanks around them; empty lines are left out.
 
     Raises InputError for a line that the machine's buffer cannot hold, or that is no ASCII text.
     """
@@ -361,7 +361,7 @@ class Reached:
         self._forget()
 
     def end(self) -> None:
-        """The machine stops now: from here on nothing more is done."""
+        """Note that the machine stops now: from here on nothing more is done."""
         self._ended = self._sender.worked
 
     @property

@@ -78,7 +78,9 @@ class LineWorker:
         knows_place: bool = True,
         working: Callable[[bool], None] = lambda works: None,
     ) -> None:
-        """`opened` opens the line; `working` hears when work begins and ends."""
+        """Take `opened`, which opens the line, and `working`, which hears when work begins and
+        ends.
+        """
         self._opened, self._working = opened, working
         self._state = LineState("connecting", knows_place=knows_place)
         self._lock = Lock()
@@ -159,7 +161,7 @@ class LineWorker:
         self._begin(_Task(sending), program=progress)
 
     def read_numbers(self, sender: Sender) -> None:
-        """In the middle of work: read the machine's numbers into the state."""
+        """Read the machine's numbers into the state in the middle of work."""
         self._note(numbers=read_numbers(sender))
 
     def hold(self) -> None:
@@ -384,5 +386,5 @@ LOST_PLACE = ("Position Lost", "Chain lengths are not known", "Unable to find va
 
 
 def lost_place(said: Iterable[str]) -> str:
-    """The machine's words for a place that it does not know; empty if there are none."""
+    """Return the machine's words for a place that it does not know; empty if there are none."""
     return next((line for line in said if any(words in line for words in LOST_PLACE)), "")

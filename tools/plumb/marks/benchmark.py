@@ -19,7 +19,9 @@ from plumb.text.values import length, pair, refuse_unknown
 def read_benchmark(
     path: str | PathLike[str], table: object, *, weight: float | None, unit: float = 1.0
 ) -> tuple[tuple[Mark, ...], tuple[Distance, ...]]:
-    """Marks and distances of a table [benchmark]; readings that were not taken are left out."""
+    """Return marks and distances of a table [benchmark]; readings that were not taken are
+    left out.
+    """
     place = "[benchmark]"
     if not isinstance(table, dict):
         raise InputError(path, "benchmark is not a table", remedy=f"write a line {place}")
@@ -53,7 +55,7 @@ def span_kind(ends: tuple[Point, Point]) -> str | None:
 def _readings(
     path: str | PathLike[str], table: dict[str, Any], name: str, count: int, unit: float
 ) -> list[float]:
-    """The numbers of a line of the form [mm]; none if the line is not there."""
+    """Return the numbers of a line of the form [mm]; none if the line is not there."""
     if name not in table:
         return []
     given = table[name]
@@ -101,7 +103,7 @@ class Score:
     small_count: int
 
     def __str__(self) -> str:
-        """As people post it: 1.23-0.45."""
+        """Return the score as people post it: 1.23-0.45."""
         return "-".join("?" if mean is None else f"{mean:.2f}" for mean in (self.long, self.small))
 
     @property
@@ -111,7 +113,9 @@ class Score:
 
 
 def score_of(measurements: Measurements, errors: Sequence[float]) -> Score | None:
-    """The score of errors (m,) [mm] of the distances; None if no span of the test is among them."""
+    """Return the score of errors (m,) [mm] of the distances; None if no span of the test is among
+    them.
+    """
     errors_of: dict[str, list[float]] = {"long": [], "small": []}
     for ends, error in zip(measurements.distance_targets, errors, strict=True):
         kind = span_kind((_point(ends[0]), _point(ends[1])))
@@ -128,7 +132,7 @@ def _point(place: np.ndarray) -> Point:
 
 
 def score_as_cut(measurements: Measurements) -> Score | None:
-    """The score of what was cut: readings less what they should have been."""
+    """Return the score of what was cut: readings less what they should have been."""
     ends = measurements.distance_targets
     nominal = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     return score_of(measurements, measurements.distance_lengths - nominal)

@@ -28,7 +28,7 @@ PAIRS = (("approach_x", "approach_y"), ("chain_left_mm", "chain_right_mm"))
 
 
 def read_marks_csv(path: str | PathLike[str]) -> Measurements:
-    """The marks of a comma-separated table; lines that begin with # are comments."""
+    """Return the marks of a comma-separated table; lines that begin with # are comments."""
     rows = _rows(path)
     if not rows:
         raise InputError(path, "has comments only", remedy=f"begin with a line {','.join(NEEDED)}")
@@ -55,7 +55,7 @@ def read_marks_csv(path: str | PathLike[str]) -> Measurements:
 
 
 def _in_millimetres(title: str) -> str:
-    """The column of a title; one in inches, like target_x_inch, is the same column in mm."""
+    """Return the column of a title; one in inches, like target_x_inch, is the same column in mm."""
     for ending in ("_inches", "_inch", "_in"):
         if title.endswith(ending) and f"{title.removesuffix(ending)}_mm" in NEEDED + OPTIONAL:
             return f"{title.removesuffix(ending)}_mm"
@@ -115,7 +115,7 @@ def _mark(
     names: dict[Point, str],
     units: Mapping[str, float],
 ) -> Mark:
-    """The mark of a line; without a name, an equal target makes it a repeat."""
+    """Return the mark of a line; without a name, an equal target makes it a repeat."""
     values: dict[str, float] = {}
     for column, text in row.items():
         if column != "name" and (text or column in NEEDED):
@@ -160,7 +160,7 @@ _NUMBERED = re.compile(r"t?[xy](\d+)", re.IGNORECASE)
 
 
 def read_marks_ini(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
-    """The marks of a published measurement file, moved to the machine frame."""
+    """Return the marks of a published measurement file, moved to the machine frame."""
     ini = read_ini(path)
     count = _count(ini)
     marks: list[Mark] = []
@@ -174,7 +174,7 @@ def read_marks_ini(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
 
 
 def _count(ini: IniText) -> int:
-    """How many positions the file says it has, if it has exactly those."""
+    """Return how many positions the file says it has, if it has exactly those."""
     entry = ini.find("numpositions", section="global")
     if entry is None:
         raise InputError(
@@ -203,7 +203,7 @@ def _count(ini: IniText) -> int:
 
 
 def _point(ini: IniText, section: str, prefix: str, index: int) -> Point:
-    """A point of the file, as written [mm]."""
+    """Return a point of the file, as written [mm]."""
     values = []
     for axis in ("x", "y"):
         key = f"{prefix}{axis}{index}"

@@ -38,14 +38,14 @@ def read_form(
     sheet: Sheet,
     known: Mapping[str, Sequence[str]] | None = None,
 ) -> Form:
-    """The form in a file. Raises InputError for what is no marks.toml."""
+    """Return the form in a file. Raises InputError for what is no marks.toml."""
     measurements = read_marks_toml(path, sheet=sheet, known=known)
     text = read_text(path)
     return Form(tomllib.loads(text), _comment_of(text), measurements)
 
 
 def with_readings(form: Form, places: Mapping[int, Point | None]) -> dict[str, Any]:
-    """The head with other readings, by the marks' indices; None takes a reading out."""
+    """Return the head with other readings, by the marks' indices; None takes a reading out."""
     marks = [dict(mark) for mark in form.head.get("mark", [])]
     for index, place in places.items():
         if not 0 <= index < len(marks):
@@ -63,8 +63,7 @@ def with_readings(form: Form, places: Mapping[int, Point | None]) -> dict[str, A
 def with_distances(
     form: Form, distances: Sequence[tuple[tuple[str, str], float]]
 ) -> dict[str, Any]:
-    """The head with other distances [mm]; a distance that stays is not
-    touched."""
+    """Return the head with other distances [mm]; a distance that stays is not touched."""
     before = form.head.get("distance", [])
     known = {
         (distance.between, distance.length): table
@@ -79,7 +78,7 @@ def with_distances(
 
 
 def head_of(measurements: Measurements) -> dict[str, Any]:
-    """What a marks.toml says of measurements that came in another form."""
+    """Return what a marks.toml says of measurements that came in another form."""
     said = {
         "controller": measurements.controller,
         "tape_sigma_mm": measurements.tape_sigma,
@@ -110,7 +109,7 @@ def _mark_table(mark: Mark) -> dict[str, Any]:
 
 
 def toml_text(head: Mapping[str, Any], comment: Sequence[str] = ()) -> str:
-    """The text of a marks.toml."""
+    """Return the text of a marks.toml."""
     lines = [*comment]
     for key, value in head.items():
         if not _is_table(value):
@@ -134,7 +133,7 @@ def _lines(table: Mapping[str, Any]) -> list[str]:
 
 
 def _value(value: object) -> str:
-    """A value as TOML writes it; its texts are those of JSON."""
+    """Return a value as TOML writes it; its texts are those of JSON."""
     if isinstance(value, list):
         return f"[{', '.join(map(_value, value))}]"
     if isinstance(value, date):
@@ -143,7 +142,7 @@ def _value(value: object) -> str:
 
 
 def _typed(form: Form, place: Point) -> list[float]:
-    """A place as the file counts: its corner, its unit."""
+    """Return a place as the file counts: its corner, its unit."""
     typed = form.measurements.typed
     return [
         round(number / UNITS[typed.unit], DIGITS[typed.unit]) + 0.0 for number in typed.place(place)

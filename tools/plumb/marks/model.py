@@ -67,14 +67,14 @@ class Typed:
     unit: str = "mm"  # of UNITS in text/values.py
 
     def place(self, point: Point) -> Point:
-        """A place of the machine frame [mm], counted from where it was typed [mm]."""
+        """Return a place of the machine frame [mm], counted from where it was typed [mm]."""
         x, y = point
         if self.sheet:
             x, y = x + self.sheet[0] / 2, self.sheet[1] / 2 - y
         return x, y
 
     def shift(self, shift: Point) -> Point:
-        """A shift in the machine frame [mm], in the axes that were typed."""
+        """Return a shift in the machine frame [mm], in the axes that were typed."""
         return shift[0], -shift[1] if self.sheet else shift[1]
 
 
@@ -147,7 +147,7 @@ class Measurements:
         return {name: tuple(numbers) for name, numbers in rows.items() if len(numbers) > 1}
 
     def target_of(self, name: str) -> Point:
-        """Where the mark of that name was sent [mm]."""
+        """Return where the mark of that name was sent [mm]."""
         return self._by_name[name].target
 
 
@@ -159,7 +159,7 @@ def _rows(points: list[Point]) -> np.ndarray:
 
 
 def digest_of(measurements: Measurements) -> str:
-    """The SHA-256 of all marks and distances with their readings."""
+    """Return the SHA-256 of all marks and distances with their readings."""
     marks = [
         (mark.name, mark.target, mark.measured, mark.approach, mark.sled_weight, mark.chains)
         for mark in measurements.marks
@@ -176,7 +176,7 @@ HAND = 0.4  # [mm]
 
 
 def tape_sigma(finest: float) -> float:
-    """Standard deviation of a coordinate [mm] by the finest division of the tape [mm]."""
+    """Return standard deviation of a coordinate [mm] by the finest division of the tape [mm]."""
     return round(math.hypot(HAND, finest / math.sqrt(12)), 2)
 
 
@@ -209,5 +209,5 @@ def refuse_exchanged_columns(measurements: Measurements) -> None:
 
 
 def _numbers_in(points: Sequence[Point]) -> int:
-    """How many different numbers their coordinates are made of."""
+    """Return how many different numbers their coordinates are made of."""
     return sum(len({round(point[axis] / ALIKE) for point in points}) for axis in (0, 1))

@@ -23,12 +23,16 @@ _INCH_HINT = 'looks like inches; write units = "inch" at the top, or millimetres
 
 
 def to_machine(point: Point, *, sheet: Sheet) -> Point:
-    """A point counted from the sheet's top-left corner, y down [mm], in the machine frame."""
+    """Return a point counted from the sheet's top-left corner, y down [mm], in the machine
+    frame.
+    """
     return point[0] - sheet[0] / 2, sheet[1] / 2 - point[1]
 
 
 def checked(measurements: Measurements, *, sheet: Sheet) -> Measurements:
-    """The same measurements, if they can be what they say on a sheet of that width and height."""
+    """Return the same measurements, if they can be what they say on a sheet of that width and
+    height.
+    """
     _refuse_empty(measurements)
     _refuse_inches(measurements, sheet)
     for mark in measurements.marks:
@@ -138,7 +142,7 @@ class FarReading:
 
 
 def far_reading(measurements: Measurements, mark: Mark, sheet: Sheet) -> FarReading | None:
-    """Whether a mark's reading is too far from its target to be true."""
+    """Return whether a mark's reading is too far from its target to be true."""
     if mark.measured is None:
         return None
     error = math.dist(mark.target, mark.measured)
@@ -155,7 +159,7 @@ def far_reading(measurements: Measurements, mark: Mark, sheet: Sheet) -> FarRead
 
 
 def _exchanged(measurements: Measurements, mark: Mark, measured: Point) -> Mark | None:
-    """The mark that was read where this mark should be, and the other way round."""
+    """Return the mark that was read where this mark should be, and the other way round."""
     near = math.dist(mark.target, measured) / 5
     readings = measurements.readings
     far = [place for sent, place in readings if math.dist(sent.target, place) > SUSPICIOUS]
@@ -169,7 +173,7 @@ def _exchanged(measurements: Measurements, mark: Mark, measured: Point) -> Mark 
 
 
 def _likely_mistake(target: Point, measured: Point, sheet: Sheet) -> tuple[str, Point | None]:
-    """The usual slip that would explain a mark far from its target, and what was meant."""
+    """Return the usual slip that would explain a mark far from its target, and what was meant."""
     meant = {
         sentence: undo(*measured) for sentence, undo in _slips(sheet[0] / 2, sheet[1] / 2).items()
     }
@@ -180,7 +184,9 @@ def _likely_mistake(target: Point, measured: Point, sheet: Sheet) -> tuple[str, 
 
 
 def _slips(right: float, top: float) -> dict[str, Callable[[float, float], Point]]:
-    """The usual slips of the pen and what undoes each; the sheet ends at right and top [mm]."""
+    """Return the usual slips of the pen and what undoes each; the sheet ends at right and
+    top [mm].
+    """
     corner_inches = f"measured, from the top-left corner, {_INCH_HINT}"
     from_middle = "measured counts from the middle, target from the top-left corner; use one frame"
     from_corner = "measured counts from the top-left corner, target from the middle; use one frame"
@@ -222,7 +228,7 @@ CORNERS = ("top-left", "top-right", "bottom-left", "bottom-right")
 
 
 def from_edges(place: Point, *, sheet: Sheet, corner: str) -> Point:
-    """A place of the machine frame, counted from the two edges that meet in a corner."""
+    """Return a place of the machine frame, counted from the two edges that meet in a corner."""
     right, top = _is_right(corner), _is_top(corner)
     x = sheet[0] / 2 - place[0] if right else sheet[0] / 2 + place[0]
     y = sheet[1] / 2 - place[1] if top else sheet[1] / 2 + place[1]
@@ -230,7 +236,7 @@ def from_edges(place: Point, *, sheet: Sheet, corner: str) -> Point:
 
 
 def in_machine(read: Point, *, sheet: Sheet, corner: str) -> Point:
-    """The place in the machine frame that was read from the edges of a corner."""
+    """Return the place in the machine frame that was read from the edges of a corner."""
     x = sheet[0] / 2 - read[0] if _is_right(corner) else read[0] - sheet[0] / 2
     y = sheet[1] / 2 - read[1] if _is_top(corner) else read[1] - sheet[1] / 2
     return x, y

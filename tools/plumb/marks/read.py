@@ -35,7 +35,7 @@ def read_marks(
     sheet: Sheet,
     known: Mapping[str, Sequence[str]] | None = None,
 ) -> Measurements:
-    """The marks of a file, in the machine frame [mm]; sheet is its width and height [mm].
+    """Return the marks of a file, in the machine frame [mm]; sheet is its width and height [mm].
 
     Marks that wait for their reading (`unread = true`) take no part. A file that names the settings
     it was cut with lies on the sheet of these; `known` lists each effect's parameters for them.
@@ -47,7 +47,8 @@ def read_marks(
 
 
 def read_plan(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
-    """The marks of a file as they are planned: each as if it were measured where it was sent.
+    """Return the marks of a file as they are planned: each as if it were measured where it was
+    sent.
 
     A mark without reading that is the end of a distance stays without. A repeat with
     another target, as plumb grid places it, is another mark here.
@@ -100,7 +101,7 @@ def _read(
 
 
 def _sheet_of(measurements: Measurements, sheet: Sheet) -> Sheet:
-    """The sheet of the settings that a file names, else the usual sheet."""
+    """Return the sheet of the settings that a file names, else the usual sheet."""
     cut_with = measurements.rounds[0].cut_with if measurements.rounds else None
     return cut_with.sheet if cut_with else sheet
 
@@ -179,7 +180,7 @@ def join_measurements(parts: Iterable[Measurements]) -> Measurements:
 
 
 def _numbered(part: Measurements, number: int) -> Measurements:
-    """A file whose marks and distances belong to the round with this number."""
+    """Return a file whose marks and distances belong to the round with this number."""
     return replace(
         part,
         marks=tuple(replace(mark, round=number) for mark in part.marks),
@@ -188,7 +189,7 @@ def _numbered(part: Measurements, number: int) -> Measurements:
 
 
 def _typed(parts: tuple[Measurements, ...]) -> Typed:
-    """How the places were typed, if it was alike in all files."""
+    """Return how the places were typed, if it was alike in all files."""
     first, *others = [part.typed for part in parts]
     return first if all(other == first for other in others) else Typed()
 
@@ -207,7 +208,7 @@ def _refuse_a_copy(part: Measurements, before: tuple[Measurements, ...]) -> None
 
 
 def _readings(part: Measurements) -> dict[ReadingKey, tuple[float, ...]]:
-    """What was read, by targets and sled weight: the first reading of each."""
+    """Return what was read, by targets and sled weight: the first reading of each."""
     readings: dict[ReadingKey, tuple[float, ...]] = {}
     for mark, measured in part.readings:
         read = tuple(round(number, 6) for number in measured)
@@ -223,7 +224,7 @@ def _rounded(point: tuple[float, float]) -> tuple[float, float]:
 
 
 def _labels(parts: tuple[Measurements, ...]) -> list[str]:
-    """A short name of each file, no two alike."""
+    """Return a short name of each file, no two alike."""
     paths = [Path(part.source) for part in parts]
     labels = [path.stem for path in paths]
     if len(set(labels)) == 1:
@@ -236,7 +237,7 @@ def _labels(parts: tuple[Measurements, ...]) -> list[str]:
 
 
 def _next_round(part: Measurements, name: str, before: list[Round]) -> Round:
-    """The round of a file after others; refuses a file whose frame moved."""
+    """Return the round of a file after others; refuses a file whose frame moved."""
     file_round = part.rounds[0]
     if not before:
         return replace(file_round, name=name)
@@ -256,7 +257,7 @@ def _next_round(part: Measurements, name: str, before: list[Round]) -> Round:
 
 
 def _made(mark: Mark, file_round: Round) -> MadeBy:
-    """Everything that must be equal for two readings with the same name to be repeats."""
+    """Return everything that must be equal for two readings with the same name to be repeats."""
     made = (mark.target, mark.sled_weight, mark.chains, mark.approach)
     return (*made, file_round.cut_with, file_round.zero_group, file_round.sheet_group)
 
@@ -273,7 +274,7 @@ def _renamed(part: Measurements, prefix: str) -> Measurements:
 
 
 def _agreed(values: list[tuple[Measurements, Value | None]], key: str) -> Value | None:
-    """The value of all files that give it."""
+    """Return the value of all files that give it."""
     said = [(part, value) for part, value in values if value is not None]
     for part, value in said[1:]:
         if value != said[0][1]:
@@ -286,6 +287,8 @@ def _agreed(values: list[tuple[Measurements, Value | None]], key: str) -> Value 
 
 
 def _shared_weight(parts: tuple[Measurements, ...]) -> float | None:
-    """The sled weight [N] of the files if they all share it; each mark carries its weight."""
+    """Return the sled weight [N] of the files if they all share it; each mark carries its
+    weight.
+    """
     weights = {part.sled_weight for part in parts}
     return weights.pop() if len(weights) == 1 else None

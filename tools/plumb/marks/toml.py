@@ -78,7 +78,9 @@ def read_marks_toml(
     sheet: Sheet,
     known: Mapping[str, Sequence[str]] | None = None,
 ) -> Measurements:
-    """The marks and distances of a marks.toml, moved to the machine frame; unread marks too."""
+    """Return the marks and distances of a marks.toml, moved to the machine frame; unread
+    marks too.
+    """
     try:
         head = tomllib.loads(read_text(path))
     except tomllib.TOMLDecodeError as error:
@@ -118,7 +120,7 @@ def read_marks_toml(
 def _round(
     path: str | PathLike[str], head: dict[str, Any], known: Mapping[str, Sequence[str]] | None
 ) -> Round:
-    """How the file's marks were cut; the path in cut_with starts at the file's folder."""
+    """Return how the file's marks were cut; the path in cut_with starts at the file's folder."""
     cut_with, changed = None, ""
     if "cut_with" in head:
         with naming(path, "cut_with_digest"):
@@ -141,7 +143,7 @@ def _round(
 
 
 def _flag(path: str | PathLike[str], head: dict[str, Any], name: str) -> bool:
-    """A value that is true or false; false if it is missing."""
+    """Return a value that is true or false; false if it is missing."""
     value = head.get(name, False)
     if not isinstance(value, bool):
         raise InputError(path, f"{name} is neither true nor false", remedy="write true or false")
@@ -163,7 +165,7 @@ def _tape_sigma(path: str | PathLike[str], head: dict[str, Any]) -> float | None
 
 
 def _optional_weight(path: str | PathLike[str], place: str, table: dict[str, Any]) -> float | None:
-    """The sled weight [N] a table gives."""
+    """Return the sled weight [N] a table gives."""
     if "sled_weight_n" not in table:
         return None
     with naming(path, place):
@@ -171,7 +173,7 @@ def _optional_weight(path: str | PathLike[str], place: str, table: dict[str, Any
 
 
 def sled_weight_in_newtons(weight: float) -> float:
-    """The weight [N], if a sled can weigh that much."""
+    """Return the weight [N], if a sled can weigh that much."""
     low, high = SLED_WEIGHT_RANGE
     if not low <= weight <= high:
         raise ValueError(
@@ -182,7 +184,7 @@ def sled_weight_in_newtons(weight: float) -> float:
 
 
 def _tables(path: str | PathLike[str], head: dict[str, Any], key: str) -> list[dict[str, Any]]:
-    """All tables [[key]] of the file."""
+    """Return all tables [[key]] of the file."""
     tables = head.get(key, [])
     if not isinstance(tables, list) or not all(isinstance(table, dict) for table in tables):
         raise InputError(path, f"[{key}] needs double brackets", remedy=f"write [[{key}]]")
@@ -192,7 +194,7 @@ def _tables(path: str | PathLike[str], head: dict[str, Any], key: str) -> list[d
 def _marks(
     path: str | PathLike[str], head: dict[str, Any], *, frame: Frame, weight: float | None
 ) -> tuple[Mark, ...]:
-    """All marks, moved to the machine frame."""
+    """Return all marks, moved to the machine frame."""
     marks: list[Mark] = []
     names: dict[Point, str] = {}
     for index, table in enumerate(_tables(path, head, "mark"), 1):
@@ -222,7 +224,7 @@ def _marks(
 
 
 def _name(value: object) -> str:
-    """A mark's name; a whole number will do."""
+    """Return a mark's name; a whole number will do."""
     name = str(value) if isinstance(value, int) and not isinstance(value, bool) else text_of(value)
     if not name.strip():
         raise ValueError("the name is empty; leave it out or fill it in")
@@ -244,7 +246,7 @@ def _point(path: str | PathLike[str], place: str, value: object, key: str, frame
 def _approach(
     path: str | PathLike[str], place: str, table: dict[str, Any], frame: Frame
 ) -> Point | None:
-    """The direction of the last move; in the top-left frame y runs down here as well."""
+    """Return the direction of the last move; in the top-left frame y runs down here as well."""
     if "approach" not in table:
         return None
     with naming(path, f"{place} approach"):
@@ -271,7 +273,7 @@ def _yes_or_no(path: str | PathLike[str], place: str, table: dict[str, Any], key
 
 
 def _distances(path: str | PathLike[str], head: dict[str, Any]) -> tuple[Distance, ...]:
-    """All distances, as read."""
+    """Return all distances, as read."""
     distances: list[Distance] = []
     for index, table in enumerate(_tables(path, head, "distance"), 1):
         with naming(path, f"[[distance]] number {index}"):

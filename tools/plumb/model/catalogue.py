@@ -19,7 +19,7 @@ NO_FIRMWARE = "no firmware can cure this"
 
 
 def _on_every_machine() -> tuple[str, ...]:
-    """The effects that no real machine is without."""
+    """Return the effects that no real machine is without."""
     frame = [parameter["usual"] for parameter in frame_words()]
     values = np.array(frame + [0.0] * (len(NAMES) - len(frame)))
     return tuple(dict.fromkeys(name.partition(".")[0] for name in _core.usual(values, True)))
@@ -39,7 +39,7 @@ def _names_of(owner: str) -> list[str]:
 
 
 def _other_chain() -> dict[str, str]:
-    """Each parameter of a chain, and the same of the other chain."""
+    """Return each parameter of a chain, and the same of the other chain."""
     pairs: dict[str, str] = {}
     for effect in library():
         names = [f"{effect['name']}.{parameter['name']}" for parameter in effect["parameters"]]
@@ -61,58 +61,62 @@ WEIGHT_POWERS = {
 
 
 def every_effect() -> list[EffectWords]:
-    """The words of every effect that may be a cause; `where` is "firmware", "lab" or "sketch"."""
+    """Return the words of every effect that may be a cause; `where` is "firmware", "lab" or
+    "sketch".
+    """
     firmware = [words for words in library() if not words["empirical"]]
     lab = [effect.words for effect in LAB_EFFECTS]
     return firmware + lab + [sketch.words for sketch in SKETCHES]
 
 
 def empirical_effects() -> list[EffectWords]:
-    """The words of what the firmware can apply that is a mere fit and never a suspect."""
+    """Return the words of what the firmware can apply that is a mere fit and never a suspect."""
     return [words for words in library() if words["empirical"]]
 
 
 def effect_names() -> tuple[str, ...]:
-    """The names of all effects."""
+    """Return the names of all effects."""
     return tuple(words["name"] for words in every_effect())
 
 
 def is_lab(effect: str) -> bool:
-    """Whether the effect acts on what is measured only."""
+    """Return whether the effect acts on what is measured only."""
     return any(known.name == effect for known in LAB_EFFECTS)
 
 
 def is_sketch(effect: str) -> bool:
-    """Whether the effect is on trial in Python, so that no firmware has it."""
+    """Return whether the effect is on trial in Python, so that no firmware has it."""
     return any(known.name == effect for known in SKETCHES)
 
 
 def is_of_chain(effect: str) -> bool:
-    """Whether the effect goes with its chain to the other sprocket."""
+    """Return whether the effect goes with its chain to the other sprocket."""
     return any(name.startswith(f"{effect}.") for name in OTHER_CHAIN)
 
 
 def is_felt_by_approach(effect: str) -> bool:
-    """Whether marks from opposite sides tell the effect: it moves the sled that comes to rest."""
+    """Return whether marks from opposite sides tell the effect: it moves the sled that comes to
+    rest.
+    """
     return any(known.name == effect and known.acts_on == SLED for known in LAB_EFFECTS)
 
 
 def place_of(effect: str) -> str:
-    """Where the effect is written: "firmware", "lab" or "sketch"."""
+    """Return where the effect is written: "firmware", "lab" or "sketch"."""
     if is_sketch(effect):
         return "sketch"
     return "lab" if is_lab(effect) else "firmware"
 
 
 def label(effect: str) -> str:
-    """The effect's name, marked where no firmware has it."""
+    """Return the effect's name, marked where no firmware has it."""
     if is_sketch(effect):
         return f"{effect} (sketch, not in the firmware)"
     return f"{effect} (lab)" if is_lab(effect) else effect
 
 
 def parameter_words() -> dict[str, ParameterWords]:
-    """The words of each parameter by its full name, `effect.parameter`."""
+    """Return the words of each parameter by its full name, `effect.parameter`."""
     return {
         f"{effect['name']}.{parameter['name']}": parameter
         for effect in (*every_effect(), *empirical_effects())
@@ -121,5 +125,5 @@ def parameter_words() -> dict[str, ParameterWords]:
 
 
 def parameter_names(effect: str) -> tuple[str, ...]:
-    """The full names of an effect's parameters."""
+    """Return the full names of an effect's parameters."""
     return tuple(name for name in parameter_words() if name.startswith(f"{effect}."))

@@ -34,17 +34,17 @@ SHEET: dict[str, PlainWords] = {
 
 
 def plain_name(name: str) -> str:
-    """A number of the frame in a maker's words; `effect.parameter` stays as it is."""
+    """Return a number of the frame in a maker's words; `effect.parameter` stays as it is."""
     return next((words["noun"] for words in frame_words() if words["name"] == name), name)
 
 
 def noun_of(effect: str) -> str:
-    """The effect in a maker's words, like `chain sag`."""
+    """Return the effect in a maker's words, like `chain sag`."""
     return next((words["noun"] for words in every_effect() if words["name"] == effect), effect)
 
 
 def named(effect: str) -> str:
-    """The effect in a maker's words; on a command line with the name that commands take."""
+    """Return the effect in a maker's words; on a command line with the name that commands take."""
     noun = noun_of(effect)
     return noun if noun == effect else to_do(f"{noun} ({effect})", page=noun)
 
@@ -66,7 +66,7 @@ def _listed(nouns: Iterable[str]) -> str:
 
 
 def plain_size(name: str, value: float, low: float | None = None, high: float | None = None) -> str:
-    """A parameter of an effect with its size and, in brackets, its interval."""
+    """Return a parameter of an effect with its size and, in brackets, its interval."""
     words = words_of(name)
     below = value < 0 and bool(words["less"])
     sign = -1.0 if below else 1.0
@@ -87,8 +87,9 @@ def plain_size(name: str, value: float, low: float | None = None, high: float | 
 def plain_before(
     name: str, value: float, low: float | None = None, high: float | None = None
 ) -> str:
-    """A size as it was before, in the unit of its words; as fine as the interval that it has now,
-    or nobody could tell how far it moved."""
+    """Return a size as it was before, in the unit of its words; as fine as the interval that it has
+    now, or nobody could tell how far it moved.
+    """
     words = words_of(name)
     shown = shown_size(words, value)
     ends = [shown_size(words, end) for end in (low, high) if end is not None]
@@ -104,7 +105,7 @@ def plain_range(name: str, low: float, high: float) -> str:
 
 
 def words_of(name: str) -> PlainWords:
-    """The words of `effect.parameter`; its name where it has none."""
+    """Return the words of `effect.parameter`; its name where it has none."""
     if name in SHEET:
         return SHEET[name]
     parameter = parameter_words().get(name)
@@ -119,7 +120,7 @@ def words_of(name: str) -> PlainWords:
 
 
 def shown_size(words: PlainWords, value: float) -> float:
-    """The size as it is shown, in the unit of its words; the sign stays."""
+    """Return the size as it is shown, in the unit of its words; the sign stays."""
     size = value * words["times"]
     if words["shown"] != "as is":
         size = math.copysign(math.sqrt(abs(size)), size)
@@ -129,7 +130,7 @@ def shown_size(words: PlainWords, value: float) -> float:
 
 
 def _unit(words: PlainWords) -> str:
-    """The unit of the words; a length has the unit in which lengths are shown."""
+    """Return the unit of the words; a length has the unit in which lengths are shown."""
     return unit() if words["unit"] == "mm" else words["unit"]
 
 
@@ -156,7 +157,7 @@ class PlainChange(NamedTuple):
 
 
 def plain_change(name: str, before: float, value: float, low: float, high: float) -> PlainChange:
-    """How a number changes, in a maker's words."""
+    """Return how a number changes, in a maker's words."""
     words = words_of(name)
     was, now, *ends = (shown_size(words, number) for number in (before, value, low, high))
     digits = digits_for(now, ends)
@@ -176,13 +177,13 @@ TIE = 1e-7  # as a difference, and as a share of numbers above 1
 
 
 def ranked(items: Iterable[Item], key: Callable[[Item], float]) -> list[Item]:
-    """The items, that with the least number first."""
+    """Return the items, that with the least number first."""
     each = list(items)
     return [each[i] for i in ascending([key(item) for item in each])]
 
 
 def ascending(numbers: ArrayLike) -> NDArray[np.int_]:
-    """The places of the numbers, the least first."""
+    """Return the places of the numbers, the least first."""
     flat = np.asarray(numbers, dtype=float).ravel()
     order = np.argsort(flat, kind="stable")
     low, high = flat[order][:-1], flat[order][1:]
@@ -196,10 +197,10 @@ def ascending(numbers: ArrayLike) -> NDArray[np.int_]:
 
 
 def least(numbers: ArrayLike) -> int:
-    """The place of the least number, counted through the rows of a table."""
+    """Return the place of the least number, counted through the rows of a table."""
     return int(ascending(numbers)[0])
 
 
 def greatest(numbers: ArrayLike) -> int:
-    """The place of the greatest number, counted likewise."""
+    """Return the place of the greatest number, counted likewise."""
     return least(-np.asarray(numbers, dtype=float))

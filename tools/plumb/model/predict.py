@@ -42,17 +42,17 @@ class Reached:
 
 
 def library() -> list[EffectWords]:
-    """Every effect of the firmware, in the order applied: words, parameters and units."""
+    """Return every effect of the firmware, in the order applied: words, parameters and units."""
     return _core.effects()
 
 
 def frame_words() -> list[FrameWords]:
-    """The frame's numbers: name, unit, usual, low, high, summary."""
+    """Return the frame's numbers: name, unit, usual, low, high, summary."""
     return _core.frame()
 
 
 def known_effects() -> dict[str, list[str]]:
-    """The names of each effect's parameters."""
+    """Return the names of each effect's parameters."""
     return {
         effect["name"]: [parameter["name"] for parameter in effect["parameters"]]
         for effect in library()
@@ -60,7 +60,7 @@ def known_effects() -> dict[str, list[str]]:
 
 
 def parameter_names(effect: str) -> tuple[str, ...]:
-    """The entries of NAMES that belong to an effect."""
+    """Return the entries of NAMES that belong to an effect."""
     return tuple(name for name in NAMES if name.startswith(f"{effect}."))
 
 
@@ -70,7 +70,7 @@ def values_of(settings: MachineSettings) -> Array:
 
 
 def settings_of(values: Array, *, like: MachineSettings) -> MachineSettings:
-    """The machine with these values; effects that are all zero are left out."""
+    """Return the machine with these values; effects that are all zero are left out."""
     by_name = dict(zip(NAMES, (float(value) for value in values), strict=True))
     effects: dict[str, Mapping[str, float]] = {}
     for effect, parameters in known_effects().items():
@@ -81,7 +81,7 @@ def settings_of(values: Array, *, like: MachineSettings) -> MachineSettings:
 
 
 def with_parameters(settings: MachineSettings, parameters: Mapping[str, float]) -> MachineSettings:
-    """The machine with some parameters set, by full name `effect.parameter`."""
+    """Return the machine with some parameters set, by full name `effect.parameter`."""
     effects = {name: dict(sizes) for name, sizes in settings.effects.items()}
     for name, value in parameters.items():
         effect, _, parameter = name.rpartition(".")
@@ -95,7 +95,7 @@ def judged(settings: MachineSettings) -> dict[str, float]:
 
 
 def usual_parameters(settings: MachineSettings) -> dict[str, float]:
-    """What every machine with this frame has, by full name: the size to expect."""
+    """Return what every machine with this frame has, by full name: the size to expect."""
     return _core.usual(values_of(settings), settings.feed == "top")
 
 
@@ -109,12 +109,12 @@ def lengths(
 
 
 def places(settings: MachineSettings, chains: Array) -> tuple[Array, Codes]:
-    """Places (n, 2) [mm] for chains paid out (n, 2) [mm] by our model, and FOUND (n,)."""
+    """Return places (n, 2) [mm] for chains paid out (n, 2) [mm] by our model, and FOUND (n,)."""
     return _core.places(values_of(settings), settings.feed == "top", _pairs(chains))
 
 
 def reach(settings: MachineSettings, points: Array, **limits: float) -> Reached:
-    """Whether places (n, 2) [mm] are usable, by our model; limits as in REACH_LIMITS."""
+    """Return whether places (n, 2) [mm] are usable, by our model; limits as in REACH_LIMITS."""
     reached = _core.reach(values_of(settings), settings.feed == "top", _pairs(points), **limits)
     return Reached(**reached)
 
@@ -122,7 +122,7 @@ def reach(settings: MachineSettings, points: Array, **limits: float) -> Reached:
 def places_with_slopes(
     values: Array, *, over_top: bool, chains: Array
 ) -> tuple[Array, Array, Codes]:
-    """Places (n, 2), their slopes by every value (n, 2, len(NAMES)), and FOUND (n,).
+    """Return places (n, 2), their slopes by every value (n, 2, len(NAMES)), and FOUND (n,).
 
     The chains are given, so place and values balance in lengths(place, values) = chains; hence
     d place = -(d lengths / d place)^-1 (d lengths / d values): the slopes are exact.
@@ -206,7 +206,7 @@ def chain_lengths(
 
 
 def clamped(settings: MachineSettings, points: Array) -> Array:
-    """The points (n, 2) [mm], those off the sheet moved to its edge."""
+    """Return the points (n, 2) [mm], those off the sheet moved to its edge."""
     edge = np.array(settings.sheet) / 2
     return np.clip(points, -edge, edge)
 
@@ -218,7 +218,7 @@ def _refuse_points(points: Array, bad: NDArray[np.bool_], why: str) -> None:
 
 
 def _strands(settings: MachineSettings, points: Array) -> StraightStrands:
-    """The straight chains from their tangent points to the bit.
+    """Return the straight chains from their tangent points to the bit.
 
     angle = asin(below / distance) + asin(radius / distance) over the top, minus below it.
     """
@@ -242,7 +242,7 @@ def _strands(settings: MachineSettings, points: Array) -> StraightStrands:
 
 
 def _stock(settings: MachineSettings, strands: StraightStrands) -> Array:
-    """The published triangular formula: sag as a share of the straight part, then tolerance.
+    """Return the published triangular formula: sag as a share of the straight part, then tolerance.
 
     sag share = correction * 1e-12 * cos(a)^2 * straight^2 * (tan(other) cos(a) + sin(a))^2
     """
@@ -255,7 +255,7 @@ def _stock(settings: MachineSettings, strands: StraightStrands) -> Array:
 
 
 def _holey(settings: MachineSettings, strands: StraightStrands) -> Array:
-    """The catenary release: a catenary under the static tension, then tolerance and stretch.
+    """Return the catenary release: a catenary under the static tension, then tolerance and stretch.
 
     hanging^2 = (2 a sinh(across / (2 a)))^2 + drop^2 with a = horizontal tension / chain weight
     """
@@ -315,7 +315,7 @@ def motor_gap(
     drop: float | None = None,
     flex: float | None = None,
 ) -> MotorGap:
-    """The gap [mm] from lengths of the chain [mm] as B10 says them.
+    """Return the gap [mm] from lengths of the chain [mm] as B10 says them.
 
     `chain_weight` [N/mm]; `drop` [mm] of the chain's middle below a string between its ends, which
     says the pull; `flex` [mm] by which the motors come closer for 100 N.

@@ -65,7 +65,8 @@ class Survey:
 
 
 def with_soft_chains(settings: MachineSettings) -> tuple[MachineSettings, tuple[str, ...]]:
-    """The machine with chains that give, whether or not its settings know it, and what was assumed.
+    """Return the machine with chains that give, whether or not its settings know it, and what was
+    assumed.
 
     Real chains sag and stretch, also where a fit left that out or made it negative.
     """
@@ -89,14 +90,14 @@ def with_soft_chains(settings: MachineSettings) -> tuple[MachineSettings, tuple[
 
 
 def _too_little(settings: MachineSettings, name: str) -> str:
-    """What settings say of a parameter that no chain has so small."""
+    """Return what settings say of a parameter that no chain has so small."""
     effect, _, parameter = name.partition(".")
     noun = noun_of(effect)
     return f"a {noun} that no chain has" if settings.effect(effect, parameter) else f"no {noun}"
 
 
 def survey_sheet(settings: MachineSettings, **limits: float) -> Survey:
-    """Every place of the sheet by our model of the machine; limits as in REACH_LIMITS."""
+    """Return every place of the sheet by our model of the machine; limits as in REACH_LIMITS."""
     machine, assumed = with_soft_chains(settings.as_plumb_model())
     width, height = machine.sheet
     x = np.linspace(-width / 2, width / 2, COLUMNS)
@@ -125,13 +126,13 @@ def survey_sheet(settings: MachineSettings, **limits: float) -> Survey:
 
 
 def percent(share: float) -> str:
-    """A share for people; what is not quite all or nothing does not look it."""
+    """Return a share for people; what is not quite all or nothing does not look it."""
     near = min(share, 1 - share)
     return f"{100 * share:.{2 if 0 < near < 0.001 else 1}f} %"
 
 
 def conclusion_of(survey: Survey) -> str:
-    """How much of the sheet is usable, in a sentence."""
+    """Return how much of the sheet is usable, in a sentence."""
     if survey.all_usable:
         return "The whole sheet is usable."
     if not survey.shares[REACH_WORDS[0]]:
@@ -142,7 +143,7 @@ def conclusion_of(survey: Survey) -> str:
 
 
 def _extreme(places: Array, tension: Array) -> Extreme:
-    """The largest of all chains' tensions (n, 2)."""
+    """Return the largest of all chains' tensions (n, 2)."""
     i, side = np.unravel_index(greatest(tension), tension.shape)
     return Extreme(_place(places, int(i)), float(tension[i, side]), ("left", "right")[side])
 
@@ -197,7 +198,7 @@ def _reason(verdict: int, tension: Array, give: float) -> str:
 
 
 def _remedy(verdict: int) -> str:
-    """What else would help than another place."""
+    """Return what else would help than another place."""
     if verdict == CANNOT_HANG:
         return ""
     if verdict == TOO_TIGHT:

@@ -50,7 +50,7 @@ class Picture:
 def drawing(
     title: str, rows: Sequence[tuple[str, Sequence[Picture]]], *, sheet: tuple[float, float]
 ) -> str:
-    """The text of an SVG: labelled rows of sheets [mm], each to its scale."""
+    """Return the text of an SVG: labelled rows of sheets [mm], each to its scale."""
     wide, tall = SCALE * sheet[0] + 2 * BESIDE, SCALE * sheet[1] + ABOVE + BELOW
     width = wide * max(len(pictures) for _, pictures in rows)
     height = tall * len(rows)
@@ -69,12 +69,12 @@ def drawing(
 
 
 def factor_for(errors: Array) -> float:
-    """How much longer than life the arrows of these errors [mm] are drawn."""
+    """Return how much longer than life the arrows of these errors [mm] are drawn."""
     return round_down(LONGEST / (SCALE * float(np.linalg.norm(errors, axis=-1).max())))
 
 
 def _sheet(picture: Picture, sheet: tuple[float, float], middle: tuple[float, float]) -> list[str]:
-    """One sheet around a middle [px]."""
+    """Return one sheet around a middle [px]."""
     width, height = SCALE * sheet[0], SCALE * sheet[1]
     left, top = middle[0] - width / 2, middle[1] - height / 2
     lines = [
@@ -99,7 +99,7 @@ def _sheet(picture: Picture, sheet: tuple[float, float], middle: tuple[float, fl
 
 
 def _scale_bar(errors: Array, factor: float, left: float, height: float) -> list[str]:
-    """A bar of a round length, and the exaggeration."""
+    """Return a bar of a round length, and the exaggeration."""
     bar = round_down(float(np.linalg.norm(errors, axis=-1).max()))
     right = left + SCALE * factor * bar
     line = (
@@ -141,7 +141,7 @@ def _arrows(starts: Array, ends: Array) -> list[str]:
 
 
 def _on_paper(places: Array, middle: tuple[float, float]) -> Array:
-    """Places [mm], y up, on paper [px], y down."""
+    """Return places [mm], y up, on paper [px], y down."""
     flipped: Array = places * np.array([1.0, -1.0])
     return np.array(middle) + SCALE * flipped
 
@@ -162,7 +162,7 @@ def _pair(place: Array) -> str:
 
 
 def _n(value: float) -> str:
-    """A coordinate to a tenth of a pixel, without a needless sign or point."""
+    """Return a coordinate to a tenth of a pixel, without a needless sign or point."""
     return f"{round(float(value), 1) + 0.0:g}"
 
 
@@ -188,7 +188,7 @@ class Stair:
 def draw_staircase(
     stairs: Sequence[Stair], *, heading: str, sheet: tuple[float, float], form: str = "png"
 ) -> bytes:
-    """The picture of a fall, all arrows and bars to the same scale."""
+    """Return the picture of a fall, all arrows and bars to the same scale."""
     # Loading matplotlib takes longer than most commands: only a drawing waits for it.
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -206,7 +206,7 @@ def draw_staircase(
 
 
 def columns_for(count: int) -> int:
-    """How many sheets stand next to each other, so that rows are about as long."""
+    """Return how many sheets stand next to each other, so that rows are about as long."""
     rows = -(-count // ROW)
     return -(-count // rows)
 
@@ -244,7 +244,7 @@ class _Layout:
         return HEADING + rows * self.step + FOOT
 
     def box(self, i: int, low: float, height: float, edge: float) -> Box:
-        """A part of a stair as shares of the picture: left, bottom, width, height."""
+        """Return a part of a stair as shares of the picture: left, bottom, width, height."""
         left = WIDE * (i % self.columns) + edge
         bottom = self.tall - HEADING - self.step * (i // self.columns + 1) + low
         return (
@@ -291,7 +291,7 @@ def _draw_stair(figure: Figure, plan: _Layout, i: int, stair: Stair) -> None:
 
 
 def _draw_bar(axis: Axes, rms: float, highest: float, colour: str) -> None:
-    """A bar on the ground, its number above it."""
+    """Draw a bar on the ground, its number above it."""
     axis.set_xlim(0, WIDE)
     axis.set_ylim(0, BARS)
     axis.set_axis_off()
@@ -308,7 +308,7 @@ def bar_height(rms: float, highest: float) -> float:
 
 
 def _draw_foot(axis: Axes, plan: _Layout) -> None:
-    """A bar of a round length, and what the arrows mean."""
+    """Draw a bar of a round length, and say what the arrows mean."""
     axis.set_xlim(0, plan.wide)
     axis.set_ylim(0, FOOT)
     axis.set_axis_off()

@@ -61,12 +61,12 @@ class MeasuringSheet:
 
 
 def measuring_sheet(content: MeasuringSheet) -> bytes:
-    """The pages as a pdf."""
+    """Return the pages as a pdf."""
     return pages_saved(pages_of(content))
 
 
 def pages_of(content: MeasuringSheet) -> list[Figure]:
-    """The pages, as many as the boxes need."""
+    """Return the pages, as many as the boxes need."""
     figure, axis = _page()
     low = _draw_head(axis, content)
     low = _draw_wood(axis, content, low)
@@ -115,7 +115,7 @@ def _draw_head(axis: Axes, content: MeasuringSheet) -> float:
 
 
 def _draw_wood(axis: Axes, content: MeasuringSheet, top: float) -> float:
-    """The sheet of wood with its holes; returns where it ends [mm]."""
+    """Return the sheet of wood with its holes; returns where it ends [mm]."""
     from matplotlib.patches import Rectangle
 
     width, height = content.sheet
@@ -138,7 +138,7 @@ def _draw_wood(axis: Axes, content: MeasuringSheet, top: float) -> float:
 def _draw_names(
     axis: Axes, content: MeasuringSheet, left: float, upper: float, scale: float
 ) -> None:
-    """The names of the holes below them; of many only those at the ends of the rows."""
+    """Write the names of the holes below them; of many only those at the ends of the rows."""
     names = {hole.name: hole for hole in reversed(content.holes)}.values()
     step = _least_step(list(names), scale)
     size = max(4.5, min(9.0, 0.55 * step / POINT))
@@ -170,7 +170,7 @@ def _least_step(holes: Sequence[Hole], scale: float) -> float:
 def _draw_tape(
     axis: Axes, content: MeasuringSheet, left: float, upper: float, scale: float
 ) -> None:
-    """The edges from which the tape is read, and both numbers of a hole."""
+    """Draw the edges from which the tape is read, and both numbers of a hole."""
     width, height = (scale * size for size in content.sheet)
     axis.plot([left, left, left + width], [upper + height, upper, upper], color=INK, lw=2.2)
     _write(axis, left, upper - 1.8, "top edge: y counts down from here", size=8)
@@ -253,6 +253,6 @@ def _write(
     left: bool = True,
     colour: str = INK,
 ) -> None:
-    """A line of text that begins, or ends, at x; y is its base line [mm]."""
+    """Write a line of text that begins, or ends, at x; y is its base line [mm]."""
     side = "left" if left else "right"
     axis.text(x, y, words, size=size, weight=weight, ha=side, va="baseline", color=colour)

@@ -46,7 +46,7 @@ def draw_plan(
     sheet: tuple[float, float],
     form: str = "png",
 ) -> bytes:
-    """The sheet with old marks (n, 2) [mm] and planned visits, numbered in their order."""
+    """Return the sheet with old marks (n, 2) [mm] and planned visits, numbered in their order."""
     # Loading matplotlib takes longer than most commands: only a drawing waits for it.
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -128,7 +128,7 @@ def _draw_visit(
 def place_sentences(
     visits: Visits, *, usual_weight: float, sheet: tuple[float, float]
 ) -> list[str]:
-    """What to do at each numbered place; none for more places than a page has room for."""
+    """Return what to do at each numbered place; none for more places than a page has room for."""
     groups = _by_place(visits)
     if len(groups) > MOST:
         return []
@@ -152,7 +152,7 @@ def _sentence(
 
 
 def _direction(side: np.ndarray) -> str:
-    """The direction of the last move in a word; none if it is not prescribed."""
+    """Return the direction of the last move in a word; none if it is not prescribed."""
     if not side.any():
         return ""
     across, up = side
@@ -167,7 +167,7 @@ def rows_for(count: int) -> int:
 
 
 def _draw_sentences(axis: Axes, said: Sequence[str], top: float) -> None:
-    """The sentences in columns, read downwards; top [inch]."""
+    """Write the sentences in columns, read downwards; top [inch]."""
     rows = rows_for(len(said))
     left = WIDTH * MARGIN / (1 + 2 * MARGIN)
     wide = (WIDTH - 2 * left) / (1 if len(said) <= LINES else 2)
@@ -235,7 +235,7 @@ NUMBER, WORDS = 12.0, 10.0  # [point]
 
 
 def draw_preview(preview: Preview, *, sheet: tuple[float, float], form: str = "png") -> bytes:
-    """The sheet with the plan and its best additions, and below it what they tell."""
+    """Return the sheet with the plan and its best additions, and below it what they tell."""
     # Loading matplotlib takes longer than most commands: only a drawing waits for it.
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -263,7 +263,7 @@ def draw_preview(preview: Preview, *, sheet: tuple[float, float], form: str = "p
 
 
 def sentences_of(preview: Preview) -> list[str]:
-    """What the plan finds, what it misses, and a sentence for each numbered addition."""
+    """Return what the plan finds, what it misses, and a sentence for each numbered addition."""
     seen = [outline for outline in preview.outlines if _is_seen(outline.smallest)]
     missed = [outline for outline in preview.outlines if not _is_seen(outline.smallest)]
     said = [
@@ -285,13 +285,13 @@ def sentences_of(preview: Preview) -> list[str]:
 
 
 def with_places(preview: Preview) -> list[PlanAddition]:
-    """The best additions whose marks are few enough to be shown: they get numbers."""
+    """Return the best additions whose marks are few enough to be shown: they get numbers."""
     placed = [each for each in preview.additions if 0 < len(each.option.visits) <= CROWD]
     return placed[:PLACED]
 
 
 def numbered_places(preview: Preview) -> list[tuple[str, np.ndarray]]:
-    """The numbers of the additions that go to a place, and the place [mm]."""
+    """Return the numbers of the additions that go to a place, and the place [mm]."""
     numbers: dict[tuple[float, ...], list[int]] = {}
     for number, addition in enumerate(with_places(preview), 1):
         for target in np.unique(np.round(addition.option.visits.targets), axis=0):

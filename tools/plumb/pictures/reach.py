@@ -36,7 +36,7 @@ ZONES = {
 
 
 def draw_map(survey: Survey, *, form: str = "png") -> bytes:
-    """The map as a file: sideways give above, tensions below, limits as heavy lines."""
+    """Return the map as a file: sideways give above, tensions below, limits as heavy lines."""
     # Loading matplotlib takes longer than most commands: only a drawing waits for it.
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -74,7 +74,7 @@ def _grid(survey: Survey, values: NDArray[Number]) -> NDArray[Number]:
 
 
 def draw_zones(axis: Axes, survey: Survey) -> None:
-    """The sheet, with what is not usable shaded by its reason."""
+    """Draw the sheet, with what is not usable shaded by its reason."""
     from matplotlib.colors import to_rgba
     from matplotlib.patches import Rectangle
 
@@ -108,7 +108,7 @@ def _lines(
 
 
 def _limit(axis: Axes, survey: Survey, values: Array, limit: float, colour: str) -> None:
-    """Where a limit is reached, as a heavy line."""
+    """Draw where a limit is reached, as a heavy line."""
     field = _field(survey, values)
     if field.min() < limit < field.max():
         axis.contour(
@@ -123,14 +123,14 @@ def _field(survey: Survey, values: Array) -> np.ma.MaskedArray:
 
 
 def draw_give(axis: Axes, survey: Survey) -> None:
-    """How far the bit gives sideways: lines of equal give [mm/N]."""
+    """Draw how far the bit gives sideways: lines of equal give [mm/N]."""
     most = survey.limits["most_give"]
     _lines(axis, survey, survey.reached.compliance[:, 0, 0], list(GIVES), most, SOFT)
     _limit(axis, survey, survey.reached.give, most, SOFT)
 
 
 def draw_pulls(axis: Axes, survey: Survey) -> None:
-    """How hard the chains pull: lines of equal tension [N]."""
+    """Draw how hard the chains pull: lines of equal tension [N]."""
     tighter, slacker = survey.reached.tension.max(axis=1), survey.reached.tension.min(axis=1)
     most, least = survey.limits["most_tension"], survey.limits["least_tension"]
     _lines(
@@ -149,7 +149,7 @@ def draw_pulls(axis: Axes, survey: Survey) -> None:
 
 
 def _draw_legend(axis: Axes, survey: Survey) -> None:
-    """What the colours mean, and how much of the sheet is shaded in each."""
+    """Say what the colours mean, and how much of the sheet is shaded in each."""
     from matplotlib.patches import Rectangle
 
     axis.set_xlim(0, WIDTH)
@@ -204,7 +204,7 @@ class Drawn:
 
 
 def draw_job(job: Drawn, *, form: str = "png") -> bytes:
-    """The picture as a file: the whole sheet above, the job from near below."""
+    """Return the picture as a file: the whole sheet above, the job from near below."""
     # Loading matplotlib takes longer than most commands: only a drawing waits for it.
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -267,7 +267,7 @@ def _draw_ways(axis: Axes, job: Drawn, scale: float) -> None:
 
 
 def _draw_frame(axis: Axes, low: Array, high: Array) -> None:
-    """What of the sheet is shown from near."""
+    """Show a part of the sheet from near."""
     from matplotlib.patches import Rectangle
 
     width, height = high - low
@@ -292,7 +292,7 @@ class Run:
 
 
 def draw_diary(errors: Sequence[Run], numbers: Sequence[Run], *, form: str = "png") -> bytes:
-    """The errors together, then every number by itself, fit by fit."""
+    """Return the errors together, then every number by itself, fit by fit."""
     # Loading matplotlib takes longer than most commands: only a drawing waits for it.
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -321,7 +321,7 @@ def draw_diary(errors: Sequence[Run], numbers: Sequence[Run], *, form: str = "pn
 
 
 def _draw(axis: Axes, run: Run, dates: Sequence[datetime], colour: str) -> None:
-    """A run with its intervals."""
+    """Draw a run with its intervals."""
     turns = [dates.index(at) for at, _, _ in run.points]
     values = [value for _, value, _ in run.points]
     axis.plot(turns, values, "o-", color=colour, label=run.name)

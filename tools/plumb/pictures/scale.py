@@ -44,7 +44,7 @@ class View:
         return self.top - self.bottom
 
     def holds(self, places: Array, margin: float | Array = 0.0) -> bool:
-        """Whether places (n, 2) lie inside, so far from the edges [mm]."""
+        """Return whether places (n, 2) lie inside, so far from the edges [mm]."""
         x, y = places.T
         return bool(
             (x - margin >= self.left).all()
@@ -55,18 +55,19 @@ class View:
 
 
 def round_down(value: float) -> float:
-    """The largest 1, 2, 3 or 5 times a power of ten that is no larger than the value."""
+    """Return the largest 1, 2, 3 or 5 times a power of ten that is no larger than the value."""
     power = 10.0 ** np.floor(np.log10(value))
     return float(max(step * power for step in STEPS if step * power <= value * (1 + 1e-9)))
 
 
 def pitch_of(count: int, sheet: tuple[float, float]) -> float:
-    """The usual distance between marks [mm], if they are spread over the sheet."""
+    """Return the usual distance between marks [mm], if they are spread over the sheet."""
     return float(np.sqrt(sheet[0] * sheet[1] / max(count, 1)))
 
 
 def exaggeration(panels: Sequence[Spots], sheet: tuple[float, float]) -> float:
-    """How much longer than life arrows are drawn: as long as fits, and as their neighbours allow.
+    """Return how much longer than life arrows are drawn: as long as fits, and as their neighbours
+    allow.
 
     Arrows may leave the sheet a little. Below life size they are never drawn for that.
     """
@@ -82,7 +83,7 @@ def exaggeration(panels: Sequence[Spots], sheet: tuple[float, float]) -> float:
 
 
 def view_of(panels: Sequence[Spots], sheet: tuple[float, float], factor: float) -> View:
-    """The sheet with all that is drawn on it and around it."""
+    """Return the sheet with all that is drawn on it and around it."""
     low, high = [], []
     for spots in panels:
         around = (factor * spots.spreads + HEAD)[:, None]
@@ -128,7 +129,7 @@ class Spots:
     counts: Array  # (k,) how many readings
 
     def __len__(self) -> int:
-        """How many marks."""
+        """Return how many marks."""
         return len(self.names)
 
     @property
@@ -137,13 +138,13 @@ class Spots:
         return float(np.hypot(*self.errors.T).max())
 
     def tips(self, factor: float) -> Array:
-        """Where the arrows end (k, 2) [mm], drawn this many times life size."""
+        """Return where the arrows end (k, 2) [mm], drawn this many times life size."""
         tips: Array = self.places + factor * self.errors
         return tips
 
 
 def spots_of(panel: Panel) -> Spots:
-    """The marks of a panel, repeats as their mean."""
+    """Return the marks of a panel, repeats as their mean."""
     names = panel.names or ("",) * len(panel.predicted)
     groups = _groups(names, panel.predicted)
     errors = np.array([panel.errors[rows].mean(axis=0) for rows in groups])
@@ -161,7 +162,7 @@ def spots_of(panel: Panel) -> Spots:
 
 
 def _groups(names: tuple[str, ...], places: Array) -> list[list[int]]:
-    """The rows of each mark: those near its first, or with its name and not far."""
+    """Return the rows of each mark: those near its first, or with its name and not far."""
     groups: list[list[int]] = []
     firsts = np.zeros((0, 2))
     for i, place in enumerate(places):
@@ -180,7 +181,7 @@ def _groups(names: tuple[str, ...], places: Array) -> list[list[int]]:
 
 
 def saved(figure: Figure, form: str) -> bytes:
-    """The figure as png, svg or pdf; the same data give the same bytes."""
+    """Return the figure as png, svg or pdf; the same data give the same bytes."""
     import matplotlib as mpl
 
     read_as_written(figure)

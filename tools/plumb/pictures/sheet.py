@@ -47,7 +47,7 @@ def draw(
     form: str = "png",
     names: bool = False,
 ) -> bytes:
-    """The picture of sheets, each below the last, all arrows to the same scale."""
+    """Return the picture of sheets, each below the last, all arrows to the same scale."""
     # Loading matplotlib takes longer than most commands: only a drawing waits for it.
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -81,7 +81,7 @@ def draw(
 
 
 def fitting(words: str, width: float, size: float, *, letter: float = BOLD) -> float:
-    """The size of type [point], this large or smaller, in which words fit a width [inch]."""
+    """Return the size of type [point], this large or smaller, in which words fit a width [inch]."""
     return min(size, width / (letter * POINT * max(len(words), 1)))
 
 
@@ -96,8 +96,9 @@ def draw_errors(
     small: float = 1.0,
     rings: Array | None = None,
 ) -> None:
-    """A sheet with its marks and arrows; small: of the size of a single picture; rings (k,) [mm]
-    around their tips: if not given, how far repeats spread."""
+    """Draw a sheet with its marks and arrows; small: of the size of a single picture; rings (k,)
+    [mm] around their tips: if not given, how far repeats spread.
+    """
     from matplotlib.patches import Rectangle
 
     axis.set_xlim(view.left, view.right)
@@ -137,7 +138,7 @@ def draw_errors(
 
 
 def _draw_rings(axis: Axes, tips: Array, radii: Array, line: float) -> None:
-    """A ring around each tip that has a radius."""
+    """Draw a ring around each tip that has a radius."""
     from matplotlib.patches import Circle
 
     for tip, radius in zip(tips, radii, strict=True):
@@ -148,7 +149,7 @@ def _draw_rings(axis: Axes, tips: Array, radii: Array, line: float) -> None:
 def _draw_words(
     axis: Axes, spots: Spots, view: View, *, factor: float, inch: float, names: bool
 ) -> None:
-    """The length of each error next to its mark, and its name if that was asked for."""
+    """Write the length of each error next to its mark, and its name if that was asked for."""
     many = len(spots) > MANY
     if many and not names:
         return
@@ -167,7 +168,7 @@ def _draw_words(
 
 
 def _meaning(numbered: bool, repeated: bool) -> str:
-    """What the signs of the picture mean."""
+    """Return what the signs of the picture mean."""
     said = ["circle: where the mark should be", "arrow: to where it was measured"]
     said += ["number: mm"] if numbered else []
     said += ["ring: how far repeats spread"] if repeated else []
@@ -185,7 +186,7 @@ class _Scale:
 
 
 def _draw_scale(axis: Axes, scale: _Scale, meaning: str) -> None:
-    """A bar of a round length below the last sheet, and what the arrows mean."""
+    """Draw a bar of a round length below the last sheet, and say what the arrows mean."""
     axis.set_xlim(0, WIDTH)
     axis.set_ylim(0, FOOT)
     axis.set_axis_off()

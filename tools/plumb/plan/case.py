@@ -47,7 +47,7 @@ class Hypothesis:
     counts_with: tuple[str, ...] = ()  # effects of the account that has it, where it is another
 
     def drawn(self, source: np.random.Generator, count: int) -> Array:
-        """A number of possible sets of the unknowns (f, count)."""
+        """Return a number of possible sets of the unknowns (f, count)."""
         noise = source.standard_normal((self.root.shape[1], count))
         return self.mean[:, np.newaxis] + self.root @ noise
 
@@ -85,7 +85,7 @@ def case_of(
     diagnosis: Diagnosis,
     inputs: Inputs,
 ) -> Case:
-    """The case of a diagnosis, with the inputs it was made of."""
+    """Return the case of a diagnosis, with the inputs it was made of."""
     model, rows = inputs.model_and_observations()
     sigma = diagnosis.noise.sigma
     board = Board.of(model, rows, sigma=sigma, priors=inputs.priors, checked=inputs.checked)
@@ -128,7 +128,7 @@ def case_of(
 
 
 def _possible(diagnosis: Diagnosis) -> set[tuple[str, ...]]:
-    """The explanations whose sizes a real machine can have, or nearly so."""
+    """Return the explanations whose sizes a real machine can have, or nearly so."""
     sizes: dict[tuple[str, ...], tuple[Size, ...]] = {
         (ranked.effect,): ranked.sizes for ranked in diagnosis.ranking
     }
@@ -183,7 +183,7 @@ def _as_fitted(explanation: Explanation, weight: float) -> Hypothesis:
 def _with_small_ones(
     hypotheses: Sequence[Hypothesis], frame: Explanation, felt: Sequence[str], noise: Noise
 ) -> tuple[Hypothesis, ...]:
-    """Each account by itself and with the effects that may act too, the likeliest of all.
+    """Return each account by itself and with the effects that may act too, the likeliest of all.
 
     Sizes are as far open as the marks and what is met in workshops leave them.
     """
@@ -206,7 +206,7 @@ def _with_small_ones(
 
 
 def _with_sizes(known: Hypothesis, effects: tuple[str, ...], weight: float) -> Hypothesis:
-    """Some effects by the slopes of an account that holds a part of them."""
+    """Return some effects by the slopes of an account that holds a part of them."""
     board = known.at.board
     of_effects = board.columns(effects)
     columns = np.concatenate([board.frame, of_effects])
@@ -220,7 +220,8 @@ def _with_sizes(known: Hypothesis, effects: tuple[str, ...], weight: float) -> H
 
 
 def hidden_hypotheses(frame: Explanation) -> tuple[Hypothesis, ...]:
-    """Where nothing is proved: each effect there with about its typical size, all as probable.
+    """Return where nothing is proved: each effect there with about its typical size, all as
+    probable.
 
     A standard normal of each parameter in typical sizes, and then what the marks say of it.
     """
@@ -240,8 +241,8 @@ def hidden_hypotheses(frame: Explanation) -> tuple[Hypothesis, ...]:
 
 
 def _root(slopes: Array) -> Array:
-    """The symmetric root of the covariance of unknowns with these whitened slopes; what is not felt
-    is not drawn.
+    """Return the symmetric root of the covariance of unknowns with these whitened slopes; what is
+    not felt is not drawn.
 
     Any other root has the signs of singular vectors, and with them what is drawn, from rounding.
     """
@@ -263,8 +264,9 @@ Effects = tuple[str, ...]
 def accounts_then(
     case: Case, planned: Planned, noise: Noise, trials: Sequence[tuple[Hypothesis, Array]]
 ) -> list[list[tuple[Effects, ...]]]:
-    """The accounts listed on each board of each trial: a hypothesis, and boards (rows, count) drawn
-    from it, relative to what it predicts of the frame alone."""
+    """Return the accounts listed on each board of each trial: a hypothesis, and boards (rows,
+    count) drawn from it, relative to what it predicts of the frame alone.
+    """
     rows, board = planned.ahead(case.frame), case.board
     felt = [name for name in board.effect_columns if rows.slopes[:, board.columns([name])].any()]
     new = [
@@ -282,8 +284,9 @@ def accounts_then(
 
 
 def _apart(case: Case, planned: Planned, hypothesis: Hypothesis) -> Array:
-    """What planned readings (rows,) have beyond those of a hypothesis's boards when they are
-    counted from the start of the frame's fit, as slopes have it."""
+    """Return what planned readings (rows,) have beyond those of a hypothesis's boards when they are
+    counted from the start of the frame's fit, as slopes have it.
+    """
     board, truth, frame = case.board, planned.ahead(hypothesis.at), planned.ahead(case.frame)
     unknowns, of_effects = hypothesis.at.unknowns, board.columns(hypothesis.at.effects)
     apart: Array = truth.slopes[truth.so_far :, board.frame] @ unknowns[board.frame]
@@ -324,14 +327,14 @@ class Planned:
         self._known: dict[int, tuple[Explanation, Ahead]] = {}
 
     def ahead(self, at: Explanation) -> Ahead:
-        """The rows after the measurement, by the slopes of an explanation."""
+        """Return the rows after the measurement, by the slopes of an explanation."""
         if id(at) not in self._known:
             self._known[id(at)] = at, ahead(at, self.visits, self.checks)
         return self._known[id(at)][1]
 
 
 def ahead(at: Explanation, visits: Visits, checks: Sequence[Check] = ()) -> Ahead:
-    """The rows after a planned measurement, by the slopes of an explanation."""
+    """Return the rows after a planned measurement, by the slopes of an explanation."""
     where, marks = _seen(at, visits)
     checked = check_slopes(at, checks)
     read = np.zeros(len(at.slopes), dtype=bool)
@@ -351,7 +354,9 @@ def visit_slopes(at: Explanation, visits: Visits) -> Array:
 
 
 def _seen(at: Explanation, visits: Visits) -> tuple[Array, Array]:
-    """Where visits would be read (n * 2,), and the slopes of that (n, 2, u), both whitened."""
+    """Return where visits would be read (n * 2,), and the slopes of that (n, 2, u), both
+    whitened.
+    """
     problem = replace(at.board.problem, observations=visits.rows())
     width = len(problem.names)
     if not len(visits):

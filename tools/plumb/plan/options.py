@@ -52,7 +52,7 @@ class Option:
 
 
 def options(case: Case) -> list[Option]:
-    """Everything worth a thought for this case."""
+    """Return everything worth a thought for this case."""
     shop = _Shop(case)
     if case.verdict == "one_suspect":
         # Repeats share every systematic error with what they repeat: they confirm nothing.
@@ -63,7 +63,7 @@ def options(case: Case) -> list[Option]:
 
 
 def many_marks(case: Case) -> Option | None:
-    """What blind diligence would do: a fine grid of ordinary marks."""
+    """Return what blind diligence would do: a fine grid of ordinary marks."""
     return _Shop(case).many()
 
 
@@ -88,7 +88,7 @@ def checks_for(case: Case) -> list[Option]:
 
 
 def _sharper(check: Check, known: Mapping[str, float]) -> bool:
-    """Whether it says more than what is known already."""
+    """Return whether it says more than what is known already."""
     return known.get(check.name, np.inf) > SHARPER * check.sigma
 
 
@@ -113,7 +113,7 @@ class _Shop:
         self.new_targets = new_places(case.settings.sheet, self.old_targets)
 
     def ordinary(self) -> list[Option]:
-        """A few more marks with the sled as it is."""
+        """Return a few more marks with the sled as it is."""
         pool = self.pool(self.case.usual_weight)
         if len(pool) < FEW:
             return []
@@ -131,7 +131,7 @@ class _Shop:
         return _marks("many", f"{len(places)} more marks", do, visits)
 
     def repeats(self) -> Option | None:
-        """All marks read again."""
+        """Return all marks read again."""
         if not self.known:
             return None
         old = joined(*[self.old()] * READ_AGAIN)
@@ -140,7 +140,9 @@ class _Shop:
         return Option("repeats", "every mark read again", (do,), ROUND + READING * len(old), old)
 
     def heavier(self) -> list[Option]:
-        """Marks under a sled on which more hangs: as chosen best, in fixed patterns, and all."""
+        """Return marks under a sled on which more hangs: as chosen best, in fixed patterns, and
+        all.
+        """
         offered = []
         for kilograms in EXTRA_KILOGRAMS:
             weight = self.case.usual_weight + kilograms * GRAVITY
@@ -157,7 +159,9 @@ class _Shop:
         return offered
 
     def spread(self, pool: Visits) -> list[int]:
-        """The best few of a pool: as chosen one by one, or one of the patterns that often do."""
+        """Return the best few of a pool: as chosen one by one, or one of the patterns that often
+        do.
+        """
         chooser = Chooser(self.case, pool)
         tries = [chooser.best(range(len(pool)), FEW)]
         width, height = self.case.settings.sheet
@@ -195,7 +199,7 @@ class _Shop:
         return [_marks("approach", "marks from opposite sides", do, visits)]
 
     def swapped(self) -> list[Option]:
-        """Marks with each chain on the other's sprocket."""
+        """Return marks with each chain on the other's sprocket."""
         if not any(map(is_of_chain, self.case.effects)):
             return []
         pool = self.pool(self.case.usual_weight, swapped=True)
@@ -209,7 +213,9 @@ class _Shop:
         return [_marks("swap", f"chains swapped, {FEW} marks", do, visits, more=SWAPPING)]
 
     def pool(self, weight: float, *, swapped: bool = False) -> Visits:
-        """Places near the marks there are, and new places, as far as they are usable so loaded."""
+        """Return places near the marks there are, and new places, as far as they are usable so
+        loaded.
+        """
         near = self.inwards(ROOM_FOR_A_SECOND)
         if len(near) > MOST_NEAR:
             # Of marks that lie close together a few do as well as all.
@@ -220,11 +226,11 @@ class _Shop:
         return self.visits(places, weight, swapped=swapped)
 
     def inwards(self, millimetres: float) -> Array:
-        """Places (n, 2) so far inwards of the marks there are."""
+        """Return places (n, 2) so far inwards of the marks there are."""
         return self.old_targets - millimetres * np.where(self.old_targets > 0, 1.0, -1.0)
 
     def old(self) -> Visits:
-        """The marks there are, as they were visited."""
+        """Return the marks there are, as they were visited."""
         rows, first_rows = self.rows, list(self.known.values())
         first = [rows.names.index(name) for name in self.known]
         return Visits(
@@ -288,7 +294,7 @@ def _heavier(which: str, kilograms: float, visits: Visits) -> Option:
 
 
 def spots(visits: Visits) -> str:
-    """The places for people, each once; a mark that is there already by its name."""
+    """Return the places for people, each once; a mark that is there already by its name."""
     named = zip(visits.names, visits.targets, strict=True)
     return ", ".join(dict.fromkeys(_spot(name, at) for name, at in named))
 

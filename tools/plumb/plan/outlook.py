@@ -40,7 +40,7 @@ class Outlook:
 
 
 def outlook(case: Case, planned: Planned, *, draws: int = DRAWS) -> Outlook:
-    """What to expect of a planned measurement.
+    """Return what to expect of a planned measurement.
 
     Suspects: the chance that the true one is left alone. Nothing provable: that an effect of its
     usual size would be proved, if one is there.
@@ -68,7 +68,7 @@ def outlook(case: Case, planned: Planned, *, draws: int = DRAWS) -> Outlook:
 
 
 def _tests(case: Case, planned: Planned, noise: Noise) -> dict[int, Rediagnosis]:
-    """The diagnosis to come, by the slopes of each hypothesis."""
+    """Return the diagnosis to come, by the slopes of each hypothesis."""
     tests: dict[int, Rediagnosis] = {}
     for hypothesis in case.truths:
         if id(hypothesis.at) not in tests:
@@ -129,7 +129,7 @@ class Rediagnosis:
         self.limit: float = twin.limit if twin else self._limit()
 
     def _limit(self) -> float:
-        """The surprise that noise hardly exceeds beyond the frame."""
+        """Return the surprise that noise hardly exceeds beyond the frame."""
         bases = {}
         for name in self.felt:
             raw = self.slopes[:, self.board.columns([name])]
@@ -159,8 +159,9 @@ class Rediagnosis:
     def weighed(
         self, truth: Hypothesis, drawn: Array, listed: Sequence[tuple[Effects, ...]]
     ) -> tuple[float, float]:
-        """The same where accounts are weighed: those listed on each board count if they fit. An
-        account that leaves out a small effect of the truth is right too."""
+        """Return the same where accounts are weighed: those listed on each board count if they fit.
+        An account that leaves out a small effect of the truth is right too.
+        """
         boards = self._turned(drawn)
         proved = self._gains(self.frame, (), boards.few)[0] > self.limit
         counts, right = np.zeros(len(listed), dtype=int), np.zeros(len(listed), dtype=bool)
@@ -185,11 +186,13 @@ class Rediagnosis:
         return _Boards(np.vstack([few, drawn[~self.rows.marks]]), np.maximum(beyond, 0.0))
 
     def _spare(self, fitted: Array) -> float:
-        """How many measured numbers orthonormal columns of what is fitted leave over."""
+        """Return how many measured numbers orthonormal columns of what is fitted leave over."""
         return float(self.rows.marks.sum() - np.sum(fitted[self.marks] ** 2))
 
     def _fits(self, effects: Effects, boards: _Boards) -> Array:
-        """Whether an account leaves no misfit and has sizes that a machine can have (count,)."""
+        """Return whether an account leaves no misfit and has sizes that a machine can have
+        (count,).
+        """
         slopes, columns = self.slopes, self.board.columns(effects)
         drawn = slopes[:, columns] - self.frame @ (self.frame.T @ slopes[:, columns])
         inverse = np.linalg.pinv(drawn, rcond=1e-6)
@@ -202,7 +205,7 @@ class Rediagnosis:
         return fits
 
     def _stands(self, effects: Effects, boards: _Boards) -> Array:
-        """Whether nothing is to be added to an explanation, and it fits (count,)."""
+        """Return whether nothing is to be added to an explanation, and it fits (count,)."""
         columns = np.concatenate([self.board.frame, self.board.columns(effects)])
         fitted, count = span(self.slopes[:, columns]), boards.few.shape[1]
         sample = boards.few[:, :: max(1, count // FEWEST)]
@@ -213,7 +216,9 @@ class Rediagnosis:
         return (best <= self.limit) & (misfit > MISFIT_LEVEL)
 
     def _misfit(self, left: Array, beyond: Array, spare: float) -> Array:
-        """The chance of as much misfit (count,) by what a fit leaves in the rows and beyond."""
+        """Return the chance of as much misfit (count,) by what a fit leaves in the rows and
+        beyond.
+        """
         squares = beyond + np.sum(left[self.marks] ** 2, axis=0)
         within = self.noise.within
         spare, squares = spare - within.degrees, squares - within.squares / self.noise.sigma**2
@@ -223,7 +228,7 @@ class Rediagnosis:
         return chances
 
     def _gains(self, fitted: Array, effects: Effects, readings: Array) -> tuple[Array, Array]:
-        """The largest surprise of any other effect (count,), and what the fit leaves."""
+        """Return the largest surprise of any other effect (count,), and what the fit leaves."""
         left = readings - fitted @ (fitted.T @ readings)
         slopes = self.slopes
         beyond = slopes - fitted @ (fitted.T @ slopes)
@@ -243,7 +248,7 @@ class Rediagnosis:
         return best, left
 
     def _single_drop(self, gram: Array, along: Array, effects: Effects) -> Array:
-        """The largest drop of chi-square (count,) by an effect of a single parameter."""
+        """Return the largest drop of chi-square (count,) by an effect of a single parameter."""
         columns = np.array([self.single[name] for name in self.single if name not in effects], int)
         seen = columns[np.diag(gram)[columns] > _TINY * self.lengths[columns] ** 2]
         drops = along[seen] ** 2 / np.diag(gram)[seen, np.newaxis]
@@ -252,8 +257,9 @@ class Rediagnosis:
 
 
 def _drop(gram: Array, along: Array, lengths: Array) -> tuple[int, Array | float]:
-    """How many parameters of an effect are seen beyond what is fitted, and the drop of chi-square
-    (count,) that they bring."""
+    """Return how many parameters of an effect are seen beyond what is fitted, and the drop of
+    chi-square (count,) that they bring.
+    """
     values, turned = np.linalg.eigh(gram / np.outer(lengths, lengths))
     seen = values > _TINY
     parts = turned[:, seen].T @ (along / lengths[:, np.newaxis])
@@ -261,7 +267,9 @@ def _drop(gram: Array, along: Array, lengths: Array) -> tuple[int, Array | float
 
 
 def noise_after(case: Case, visits: Visits) -> Noise:
-    """The noise as it will be known: marks that are visited again in the same way tell of it."""
+    """Return the noise as it will be known: marks that are visited again in the same way tell of
+    it.
+    """
     rows, noise = case.board.rows, case.noise
     known = {
         (name, *rows.chains[row], rows.sled_weights[row], rows.swapped[row])

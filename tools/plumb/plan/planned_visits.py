@@ -34,17 +34,17 @@ class Visits:
     swapped: Array  # (n,) whether the chains hang on each other's sprockets
 
     def __len__(self) -> int:
-        """How many visits."""
+        """Return how many visits."""
         return len(self.names)
 
     def taken(self, indices: Sequence[int]) -> Visits:
-        """Some of them, in that order."""
+        """Return some of them, in that order."""
         chosen = np.array(indices, dtype=int)
         names = tuple(self.names[i] for i in chosen)
         return Visits(names, *(getattr(self, field.name)[chosen] for field in fields(self)[1:]))
 
     def marks(self, places: Array) -> list[Mark]:
-        """The visits as marks that were read at places (n, 2) [mm]."""
+        """Return the visits as marks that were read at places (n, 2) [mm]."""
         return [
             Mark(
                 name=name,
@@ -58,7 +58,7 @@ class Visits:
         ]
 
     def rows(self) -> Observations:
-        """The visits as observations whose readings are still zero."""
+        """Return the visits as observations whose readings are still zero."""
         count = len(self)
         return Observations(
             chains=self.chains,
@@ -117,7 +117,7 @@ def sent(
 
 
 def place_name(target: Array) -> str:
-    """A name for a new mark: where it is sent [mm]."""
+    """Return a name for a new mark: where it is sent [mm]."""
     return f"{target[0] + 0.0:.0f}/{target[1] + 0.0:.0f}"
 
 
@@ -132,7 +132,7 @@ COMMENT = 70  # characters: a client sends no line that is longer than the machi
 
 
 def program(visits: Visits, *, usual_weight: float, do: Sequence[str] = ()) -> str:
-    """The G-code for planned visits.
+    """Return the G-code for planned visits.
 
     It waits (M0) where another weight is to hang on the sled or the chains change places, and at
     the end until all is as it was; `usual_weight` [N] is that of the sled by itself. `do`: what to
@@ -156,7 +156,7 @@ def program(visits: Visits, *, usual_weight: float, do: Sequence[str] = ()) -> s
 
 
 def _weight_changes(weight: float, next_weight: float, usual: float) -> list[str]:
-    """The pause in which another weight [N] is hung on the sled; no line for the same."""
+    """Return the pause in which another weight [N] is hung on the sled; no line for the same."""
     if abs(next_weight - weight) <= LEAST:
         return []
     kilograms = (next_weight - usual) / GRAVITY
@@ -166,7 +166,7 @@ def _weight_changes(weight: float, next_weight: float, usual: float) -> list[str
 
 
 def _chains_change(swapped: bool, next_swapped: bool) -> list[str]:
-    """The pause in which the chains change places; no line if they stay."""
+    """Return the pause in which the chains change places; no line if they stay."""
     if swapped == next_swapped:
         return []
     return [
@@ -178,13 +178,15 @@ def _chains_change(swapped: bool, next_swapped: bool) -> list[str]:
 
 
 def visit_lines(visits: Visits) -> Iterator[list[str]]:
-    """The lines for each visit; between two of them somebody may hang a weight on the sled."""
+    """Yield the lines for each visit; between two of them somebody may hang a weight on the
+    sled.
+    """
     for target, side in zip(visits.targets, visits.approaches, strict=True):
         yield touch(target, _lead_in(side))
 
 
 def touch(target: Array, lead_in: Array) -> list[str]:
-    """The lines for a mark at a target [mm], entered along a vector [mm]."""
+    """Return the lines for a mark at a target [mm], entered along a vector [mm]."""
     x, y = target - lead_in
     return [
         f"G0 Z{USUAL.safe_height:g}",
@@ -196,13 +198,15 @@ def touch(target: Array, lead_in: Array) -> list[str]:
 
 
 def way_into(mark: Mark) -> tuple[float, float]:
-    """Where [mm] the sled goes straight into a mark from."""
+    """Return where [mm] the sled goes straight into a mark from."""
     lead_in = _lead_in(np.array(mark.approach or (0.0, 0.0)))
     return mark.target[0] - float(lead_in[0]), mark.target[1] - float(lead_in[1])
 
 
 def _lead_in(side: Array) -> Array:
-    """The way into a mark [mm] for a unit vector; the usual way if the side does not matter."""
+    """Return the way into a mark [mm] for a unit vector; the usual way if the side does not
+    matter.
+    """
     usual = np.array(USUAL.approach)
     return np.asarray(side * np.hypot(*usual)) if side.any() else usual
 
@@ -230,7 +234,7 @@ def refuse_way(settings: MachineSettings, marks: Sequence[Mark]) -> None:
 
 
 def _between(start: Place, end: Place) -> Iterator[Place]:
-    """Places on a straight way, with its end."""
+    """Yield places on a straight way, with its end."""
     steps = max(math.ceil(math.dist(start, end) / WAY_STEP), 1)
     for step in range(1, steps + 1):
         share = step / steps
@@ -257,7 +261,7 @@ def grid(
     *,
     margin: tuple[float, float] = MARGIN,
 ) -> Array:
-    """Places (n, 2) [mm] spread over the sheet, from the top left, in whole 10 mm."""
+    """Return places (n, 2) [mm] spread over the sheet, from the top left, in whole 10 mm."""
     reach_x, reach_y = ((0.5 - share) * side for share, side in zip(margin, sheet, strict=True))
     across = np.linspace(-reach_x, reach_x, columns) if columns > 1 else np.zeros(1)
     up = np.linspace(reach_y, -reach_y, rows) if rows > 1 else np.zeros(1)
@@ -265,7 +269,7 @@ def grid(
 
 
 def new_places(sheet: tuple[float, float], known: Array) -> Array:
-    """Places of the grid that are not near one of the known targets (n, 2) [mm]."""
+    """Return places of the grid that are not near one of the known targets (n, 2) [mm]."""
     places = grid(sheet)
     if not len(known):
         return places
@@ -275,8 +279,9 @@ def new_places(sheet: tuple[float, float], known: Array) -> Array:
 
 
 def usable(settings: MachineSettings, places: Array, sled_weight: float) -> Array:
-    """Whether a sled of that weight [N] may be sent to each place (n,): neither too tight nor too
-    slack nor too soft by our model."""
+    """Return whether a sled of that weight [N] may be sent to each place (n,): neither too tight
+    nor too slack nor too soft by our model.
+    """
     machine = with_soft_chains(settings.as_plumb_model())[0]
     loaded_values, _ = loaded(values_of(machine), sled_weight, machine.sled_weight)
     heavy = settings_of(loaded_values, like=replace(machine, sled_weight=sled_weight))
@@ -292,7 +297,7 @@ BELOW = 40.0  # [mm] that a sled comes from below, so this far down it must hang
 
 
 def check_places(settings: MachineSettings, known: Array, count: int = COUNT) -> Array:
-    """The places (count, 2) [mm], given the targets (n, 2) of the marks there are."""
+    """Return the places (count, 2) [mm], given the targets (n, 2) of the marks there are."""
     places = grid(settings.sheet, *FINE)
     for shift in (0.0, BELOW):
         places = places[usable(settings, places - [0.0, shift], settings.sled_weight)]
@@ -316,8 +321,9 @@ def marks_file(
     said: tuple[str, ...],
     cut_with: str = "",
 ) -> str:
-    """The text of the file: places count from the sheet's top left corner, y down [mm]; `cut_with`
-    are lines that name the settings in force."""
+    """Return the text of the file: places count from the sheet's top left corner, y down [mm];
+    `cut_with` are lines that name the settings in force.
+    """
     lines = [
         "# Measured from the sheet's left and top edges, in mm: take away the # before `measured`",
         "# and write what the tape says. Give this file to plumb after the marks you have.",

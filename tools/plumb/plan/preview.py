@@ -90,7 +90,8 @@ def preview(
     priors: Mapping[str, float] = PRIORS,
     is_quick: bool = False,
 ) -> Preview:
-    """What marks at the targets of a plan could tell; sigma [mm] of one coordinate or distance.
+    """Return what marks at the targets of a plan could tell; sigma [mm] of one coordinate or
+    distance.
 
     is_quick: without the additions, which take most of the time.
     """
@@ -131,7 +132,7 @@ def _as_planned(
     controller: str | None,
     priors: Mapping[str, float],
 ) -> Explanation:
-    """The frame's explanation of readings that are just what the model says."""
+    """Return the frame's explanation of readings that are just what the model says."""
     model, rows = model_and_observations(settings, plan, controller=controller)
     if different_numbers(plan, rows) < FEWEST_NUMBERS:
         raise InputError(f"{plan.source}: too few marks for a diagnosis; plan at least three")
@@ -196,7 +197,7 @@ def _needed(parameters: int, limit: float) -> float:
 
 
 def _additions(case: Case, matrix: Array) -> tuple[PlanAddition, ...]:
-    """Everything that could be added, by what it does for all cells."""
+    """Return everything that could be added, by what it does for all cells."""
     blind = many_marks(case)
     additions = []
     for option in [*options(case), *([blind] if blind else [])]:

@@ -80,7 +80,7 @@ def propose(
     *,
     progress: Callable[[float], None] = lambda share: None,
 ) -> Next:
-    """The next measurements for a diagnosis, given the inputs it was made of.
+    """Return the next measurements for a diagnosis, given the inputs it was made of.
 
     `progress` is called with the share of the work that is done.
     """
@@ -107,7 +107,7 @@ def propose(
 
 
 def _best_first(proposals: Sequence[Proposal]) -> tuple[Proposal, ...]:
-    """One suspect is confirmed best by what measures the cause itself."""
+    """Return one suspect is confirmed best by what measures the cause itself."""
     by_rate = ranked(proposals, lambda proposal: -proposal.rate)
     return tuple(
         sorted(by_rate, key=lambda each: each.question == CONFIRM and each.option.kind != "check")
@@ -115,7 +115,7 @@ def _best_first(proposals: Sequence[Proposal]) -> tuple[Proposal, ...]:
 
 
 def _weighed(case: Case, option: Option, rooms: Sequence[Room]) -> Proposal:
-    """An option with what to expect of it."""
+    """Return an option with what to expect of it."""
     planned = Planned(option.visits, option.checks)
     expected = outlook(case, planned)
     question = QUESTIONS[case.verdict]
@@ -154,7 +154,7 @@ def _name(effects: Sequence[str]) -> str:
 
 
 def _rooms(case: Case, planned: Planned, rooms: Sequence[Room]) -> tuple[RoomThen, ...]:
-    """What could hide afterwards, the largest change first.
+    """Return what could hide afterwards, the largest change first.
 
     About: the interval of an effect's least visible direction shrinks by so much, and with it what
     the diagnosis says could hide.
@@ -181,7 +181,7 @@ def _smallest(slopes: Array, columns: Array, frame: Array) -> float:
 
 
 def _stability(case: Case) -> tuple[int, int]:
-    """In how many of all deletions of a reading the suspect remains the best single effect."""
+    """Return in how many deletions of a reading the suspect remains the best single effect."""
     suspect = case.hypotheses[0]
     if len(suspect.effects) > 1:
         return 0, 0
@@ -201,7 +201,7 @@ def _stability(case: Case) -> tuple[int, int]:
 
 
 def _readings(case: Case) -> list[Array]:
-    """The rows of each mark (its repeats with it) and of each distance."""
+    """Return the rows of each mark (its repeats with it) and of each distance."""
     rows = case.board.rows
     names = np.array(rows.names)
     marks = [np.flatnonzero(names == name) for name in dict.fromkeys(rows.names)]
@@ -215,7 +215,7 @@ def _readings(case: Case) -> list[Array]:
 def form_of(
     advice: Next, place: int, path: str, *, settings: str | None, sheet: tuple[float, float]
 ) -> bytes:
-    """The form at that path for the proposal with this number, from 1.
+    """Return the form at that path for the proposal with this number, from 1.
 
     `settings` is the file of the settings that the new marks are cut with, which the form then
     names; `sheet` is theirs.
@@ -232,8 +232,7 @@ def form_of(
 
 
 def program_of(advice: Next, place: int, path: str, *, form: str | None) -> bytes:
-    """The program at that path that cuts the proposal with this number, from 1; it names the form
-    for its readings."""
+    """Return the program for the proposal at `place`, from 1; it names the form."""
     option = advice.proposals[place - 1].option
     assert advice.case, "what is proposed is proposed for a case"
     text = program(option.visits, usual_weight=advice.case.usual_weight, do=option.do)
@@ -246,13 +245,14 @@ VERBS = {SETTLE: "settle it", CONFIRM: "confirm it", REREAD: "show it"}
 
 
 def headline_of(best: Proposal) -> str:
-    """What to measure, how long it takes and what to hope of it; without the full stop."""
+    """Return what to measure, how long it takes and what to hope of it; without the full stop."""
     return f"{best.option.title}; about {best.option.minutes:.0f} minutes{_hope(best)}"
 
 
 def steps_of(best: Proposal, *, is_converted: bool = False) -> list[str]:
-    """What to do, and what it tells, in sentences; how a number follows from what is measured,
-    unless `is_converted`: whoever asks works it out."""
+    """Return what to do, and what it tells, in sentences; how a number follows from what is
+    measured, unless `is_converted`: whoever asks works it out.
+    """
     said = [*best.option.do]
     if best.parts:
         pairs = [f"{_nouns(a)} from {_nouns(b)}" for a, b in best.parts]
@@ -263,7 +263,7 @@ def steps_of(best: Proposal, *, is_converted: bool = False) -> list[str]:
 
 
 def promise_of(proposal: Proposal) -> str:
-    """What to hope of a proposal, for a table."""
+    """Return what to hope of a proposal, for a table."""
     if proposal.question == FIND and proposal.rooms:
         promise = ", ".join(
             f"{noun_of(room.effect)} {bare(room.now, 1)} -> {worded(room.then, 1)}"
@@ -275,7 +275,7 @@ def promise_of(proposal: Proposal) -> str:
 
 
 def percent(chance: float | None) -> str:
-    """A chance in steps of five in a hundred: it is not known better."""
+    """Return a chance in steps of five in a hundred: it is not known better."""
     if chance is None:
         return "-"
     near = 5 * round(20 * chance)
@@ -295,7 +295,7 @@ def _hope(best: Proposal) -> str:
 
 
 def _nouns(explanation: str) -> str:
-    """An explanation, `effect + effect`, in a maker's words."""
+    """Return an explanation, `effect + effect`, in a maker's words."""
     return plainly(filter(None, explanation.split(" + ")))
 
 
@@ -308,7 +308,7 @@ READ_AGAIN = 3
 
 
 def for_slips(case: Case, slips: Sequence[Slip]) -> list[tuple[Option, float]]:
-    """Reading those marks or distances again, with the chance that it shows the slip."""
+    """Return the option to read them again, with the chance that it shows the slip."""
     offered = []
     for slip in slips:
         # Two readings with the same noise differ by its square root of two.
@@ -322,7 +322,7 @@ def for_slips(case: Case, slips: Sequence[Slip]) -> list[tuple[Option, float]]:
 
 
 def near_the_worst(case: Case) -> list[Option]:
-    """Marks around the places that are explained worst, then readings of these once more."""
+    """Return marks around the places that are explained worst, then readings of these once more."""
     rows = case.board.rows
     best = ranked(
         [case.frame, *case.singles.values()],
@@ -360,7 +360,7 @@ def near_the_worst(case: Case) -> list[Option]:
 
 
 def _worst_distances(case: Case, best: Explanation) -> Option:
-    """The distances that are explained worst, to be measured again."""
+    """Return the distances that are explained worst, to be measured again."""
     worst = ascending(-np.abs(best.numbers))[: 2 * WORST]
     said = ", ".join(case.spans[i] for i in worst)
     do = f"Measure the distances {said} {READ_AGAIN} more times: this tells a slip from more."
@@ -384,7 +384,7 @@ def _around(case: Case, places: Sequence[Array]) -> Visits:
 
 
 def _old(case: Case, name: str) -> Visits:
-    """One visit of a mark that is there; nothing for a distance."""
+    """Return one visit of a mark that is there; nothing for a distance."""
     rows = case.board.rows
     if name not in rows.names:
         return nowhere()

@@ -36,8 +36,9 @@ class Pair:
 
 
 def pairs_of(case: Case) -> list[Pair]:
-    """Every suspect against every other; where nothing is proved, every effect against the frame
-    alone."""
+    """Return every suspect against every other; where nothing is proved, every effect against the
+    frame alone.
+    """
     board, truths = case.board, case.hypotheses[:MOST_TRUTHS]
     if case.verdict == "nothing_provable":
         return [
@@ -57,7 +58,7 @@ def pairs_of(case: Case) -> list[Pair]:
 
 
 def drawn_by(hypothesis: Hypothesis) -> Array:
-    """What a hypothesis draws (u, d): as it fits, or each parameter at its typical size."""
+    """Return what a hypothesis draws (u, d): as it fits, or each parameter at its typical size."""
     columns = hypothesis.at.board.columns(hypothesis.effects)
     width = len(hypothesis.at.unknowns)
     if not hypothesis.at.effects:
@@ -109,8 +110,9 @@ class Chooser:
         return float(self._worths(list(chosen), none)[0])
 
     def best(self, allowed: Sequence[int], count: int) -> list[int]:
-        """A number of visits of those allowed, none twice: one after the other, then each replaced
-        once."""
+        """Return a number of visits of those allowed, none twice: one after the other, then each
+        replaced once.
+        """
         options = np.array(allowed, dtype=int)
         chosen: list[int] = []
         for _ in range(count):
@@ -127,7 +129,7 @@ class Chooser:
         return int(left[greatest(self._worths(chosen, left))])
 
     def _worths(self, chosen: list[int], options: Array) -> Array:
-        """The worth of the chosen visits with each of the options, or without any."""
+        """Return the worth of the chosen visits with each of the options, or without any."""
         total = np.zeros(max(len(options), 1))
         for pair, start, each in zip(self._pairs, self._start, self._each, strict=True):
             gram = start + each[chosen].sum(axis=0)
@@ -151,7 +153,7 @@ class NumberCheck:
 
 
 def effect_checks() -> dict[str, NumberCheck]:
-    """The checks of all effects that have any."""
+    """Return the checks of all effects that have any."""
     return {
         effect["name"]: NumberCheck(
             DirectCheck(**effect["check"]),

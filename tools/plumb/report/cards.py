@@ -74,7 +74,7 @@ class Card:
 
 
 def cards_of(findings: Findings) -> tuple[Card, ...]:
-    """A card for each effect of the explanations; of what is added where none stands."""
+    """Return a card for each effect of the explanations; of what is added where none stands."""
     names = findings.diagnosis.suspects or findings.used.effects
     return tuple(_card(findings, name) for name in names[:MOST_CARDS])
 
@@ -106,18 +106,18 @@ def _check_words(check: CheckWords | None) -> str:
 
 
 def hidden_words(share: float | None) -> str:
-    """How much of an effect the frame takes, for people."""
+    """Return how much of an effect the frame takes, for people."""
     return "not felt by these marks" if share is None else f"{100 * share:.0f} %"
 
 
 def _explanation_with(findings: Findings, effect: str) -> Explanation:
-    """The best explanation that has the effect."""
+    """Return the best explanation that has the effect."""
     known = (*findings.examined.explanations, findings.used)
     return next(each for each in known if effect in each.effects)
 
 
 def _sizes(findings: Findings, ranked: Ranked) -> tuple[Size, ...]:
-    """As in the best explanation with the effect; by itself where none has it."""
+    """Return the sizes in the best explanation with the effect; alone where none has it."""
     for explanation in findings.diagnosis.explanations:
         if ranked.effect in explanation.sizes:
             return explanation.sizes[ranked.effect]
@@ -153,8 +153,9 @@ def _size_bar(effect: str, size: Size) -> SizeBar:
 
 
 def _look_alikes(findings: Findings, effect: str, said: str) -> str:
-    """The explanations without this effect that draw nearly the same arrows here, with how far
-    they are apart; what the catalogue says where there is none."""
+    """Return the explanations without this effect that draw nearly the same arrows here, with how
+    far they are apart; what the catalogue says where there is none.
+    """
     explanations = findings.diagnosis.explanations
     near = [
         (apart, other)
@@ -173,13 +174,13 @@ def _look_alikes(findings: Findings, effect: str, said: str) -> str:
 
 
 def _with_nouns(said: str) -> str:
-    """The sentence with the nouns of effects and of the frame's numbers, for their names."""
+    """Return the sentence with the nouns of effects and of the frame's numbers, for their names."""
     nouns = {words["name"]: words["noun"] for words in (*every_effect(), *frame_words())}
     return NAME.sub(lambda name: nouns.get(name[0], name[0]), said)
 
 
 def _drawn(findings: Findings, explanation: Explanation, effect: str) -> Drawn:
-    """Both fingerprints of an effect in the size that the explanation gives it."""
+    """Return both fingerprints of an effect in the size that the explanation gives it."""
     sheet = findings.framed.model.sheet
     print_of = fingerprint_of(explanation, effect, findings.rows)
     pictures = [

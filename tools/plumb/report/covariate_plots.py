@@ -61,8 +61,9 @@ def covariate_sheet(
     *,
     sigma: float,
 ) -> CovariateSheet:
-    """The errors of `view`, whose marks are the visits in `rows`; the curves of the suspects over
-    them, and a band of two sigmas [mm] around zero."""
+    """Return the errors of `view`, whose marks are the visits in `rows`; the curves of the suspects
+    over them, and a band of two sigmas [mm] around zero.
+    """
     plots, left_out = [], []
     most = _most(view, curves, sigma)
     for covariate in by_visit:
@@ -133,7 +134,9 @@ def _plot(
 
 
 def shown_values(covariate: Covariate, rows: Array, side: int) -> tuple[Array, float]:
-    """The covariate of the marks as it is drawn, and how many times its house unit that is."""
+    """Return the covariate of the marks as it is drawn, and how many times its house unit
+    that is.
+    """
     factor = {"rad": 180 / np.pi, "mm": in_unit(1.0)}.get(covariate.unit, 1.0)
     return factor * covariate.values[rows, side], factor
 
@@ -146,7 +149,9 @@ def _draw_curves(
     side: int,
     curves: Sequence[SuspectCurves],
 ) -> None:
-    """Each suspect's curve with its spread; where places have none, its points at the marks."""
+    """Draw each suspect's curve with its spread; where places have none, its points at the
+    marks.
+    """
     scale = in_unit(1.0)
     drawn = zip(curves, SUSPECTS, DASHES, strict=False)
     for i, (suspect, colour, dash) in enumerate(drawn):
@@ -183,7 +188,7 @@ def _draw_curves(
 
 
 def _dress(axis: Axes, covariate: Covariate, title: str) -> None:
-    """Words and ticks."""
+    """Write the words and ticks of a plot."""
     ink, soft = light("ink"), light("soft")
     axis.set_title(title, fontsize=8.5, color=ink, loc="left", pad=5)
     shown_unit = {"rad": "degrees", "mm": unit(), "N": "N"}.get(covariate.unit, "")

@@ -100,7 +100,9 @@ def find(
 
 
 def _explanation(examined: Examined, effects: tuple[str, ...]) -> Explanation:
-    """The explanation by these effects, in any order; fitted if it is none of the diagnosis."""
+    """Return the explanation by these effects, in any order; fitted if it is none of the
+    diagnosis.
+    """
     for explanation in examined.explanations:
         if set(explanation.effects) == set(effects):
             return explanation
@@ -109,7 +111,7 @@ def _explanation(examined: Examined, effects: tuple[str, ...]) -> Explanation:
 
 
 def _curves(examined: Examined, used: Explanation, rows: Observations) -> tuple[SuspectCurves, ...]:
-    """Those of the explanations, best first; of what is added where none stands."""
+    """Return those of the explanations, best first; of what is added where none stands."""
     if not len(rows.measured):
         return ()
     # The frame alone draws nothing beyond the frame.
@@ -120,8 +122,9 @@ def _curves(examined: Examined, used: Explanation, rows: Observations) -> tuple[
 
 
 def _rivals(examined: Examined, used: Explanation) -> list[tuple[Explanation, float]]:
-    """The other explanations that a real machine can have, with their shares; where they were not
-    weighed, all count alike."""
+    """Return the other explanations that a real machine can have, with their shares; where they
+    were not weighed, all count alike.
+    """
     both = zip(examined.explanations, examined.diagnosis.explanations, strict=True)
     possible = [(fitted, together.share) for fitted, together in both if together.possible]
     weighed = [1.0 if share is None else share for _, share in possible]
@@ -167,7 +170,7 @@ class NextStep:
 
 
 def next_step_of(findings: Findings, commands: Sequence[Command]) -> NextStep:
-    """What the verdict asks for first."""
+    """Return what the verdict asks for first."""
     best = findings.advice.proposals[0] if findings.advice.proposals else None
     return NextStep(
         headline=_headline(findings, best),
@@ -258,7 +261,7 @@ def stairs_of(findings: Findings) -> tuple[Stair, ...]:
 
 
 def pair_of(findings: Findings) -> Pair | None:
-    """The first and the last stage in full size; None without marks."""
+    """Return the first and the last stage in full size; None without marks."""
     first, *_, last = _stages(findings)
     scale = _scale(findings, [first.panel, last.panel])
     if scale is None:

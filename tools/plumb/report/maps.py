@@ -56,7 +56,7 @@ class Scale:
 
     @staticmethod
     def of(panels: Sequence[Panel], sheet: tuple[float, float]) -> Scale:
-        """The scale at which all panels fit."""
+        """Return the scale at which all panels fit."""
         marks = [spots_of(panel) for panel in panels]
         factor = exaggeration(marks, sheet)
         longest = max(spots.longest for spots in marks)
@@ -64,7 +64,9 @@ class Scale:
 
 
 def arrow_map(panel: Panel, scale: Scale, *, sigma: float, name: str, says: str) -> str:
-    """A sheet with arrows, each with the ring in which 95 % of readings without error would lie."""
+    """Return a sheet with arrows, each with the ring in which 95 % of readings without error would
+    lie.
+    """
     spots = spots_of(panel)
     rings = INSIDE * sigma / np.sqrt(spots.counts)
     with drawing(name):
@@ -85,7 +87,7 @@ def arrow_map(panel: Panel, scale: Scale, *, sigma: float, name: str, says: str)
 
 
 def small_map(panel: Panel, scale: Scale, *, name: str, says: str) -> str:
-    """The same without words, for a place among others."""
+    """Return the same without words, for a place among others."""
     with drawing(name):
         figure, axis = _sheet(scale.view, wide=SMALL, foot=0.0)
         draw_errors(
@@ -103,8 +105,9 @@ def small_map(panel: Panel, scale: Scale, *, name: str, says: str) -> str:
 def chain_map(
     view: ChainView, side: int, *, sheet: tuple[float, float], largest: float, name: str, says: str
 ) -> str:
-    """How much longer or shorter a chain is at each mark than the model says: circles whose area is
-    the size; repeats count as their mean."""
+    """Return how much longer or shorter a chain is at each mark than the model says: circles whose
+    area is the size; repeats count as their mean.
+    """
     known = np.flatnonzero(np.isfinite(view.chains).all(axis=1))
     names = tuple(view.names[i] for i in known)
     spots = spots_of(Panel("", view.places[known], view.chains[known], names=names))
@@ -125,7 +128,7 @@ def chain_map(
 
 
 def fingerprint_map(places: Array, errors: Array, *, sheet: tuple[float, float], name: str) -> str:
-    """What an effect does to places all over the sheet, each at the scale that fits."""
+    """Return what an effect does to places all over the sheet, each at the scale that fits."""
     panel = Panel("", places, errors)
     scale = Scale.of([panel], sheet)
     with drawing(name):
@@ -139,7 +142,7 @@ def fingerprint_map(places: Array, errors: Array, *, sheet: tuple[float, float],
 
 
 def expected_map(expected: ExpectedError, *, sheet: tuple[float, float], name: str) -> str:
-    """The error to expect, in steps of a round number, darker where it is larger."""
+    """Return the error to expect, in steps of a round number, darker where it is larger."""
     whole, height = _whole(sheet), FOOT + 0.25
     shown = np.ma.masked_invalid(in_unit(1.0) * expected.sigma)
     with drawing(name):
@@ -162,7 +165,7 @@ def expected_map(expected: ExpectedError, *, sheet: tuple[float, float], name: s
 
 
 def reach_maps(survey: Survey, *, name: str) -> tuple[str, str]:
-    """How far the bit gives, and how hard the chains pull."""
+    """Return how far the bit gives, and how hard the chains pull."""
     drawn = []
     for part, draw in (("give", draw_give), ("pulls", draw_pulls)):
         with drawing(f"{name} {part}"):
@@ -175,7 +178,7 @@ def reach_maps(survey: Survey, *, name: str) -> tuple[str, str]:
 
 
 def _sheet(view: View, *, wide: float, foot: float = FOOT) -> tuple[Figure, Axes]:
-    """A figure with an axis in mm of the sheet, and a strip below."""
+    """Return a figure with an axis in mm of the sheet, and a strip below."""
     from matplotlib.figure import Figure
 
     high = wide * view.height / view.width
@@ -188,7 +191,7 @@ def _sheet(view: View, *, wide: float, foot: float = FOOT) -> tuple[Figure, Axes
 
 
 def _whole(sheet: tuple[float, float]) -> View:
-    """The sheet with a little around it."""
+    """Return the sheet with a little around it."""
     across, up = 0.52 * sheet[0], 0.54 * sheet[1]
     return View(-across, across, -up, up)
 
@@ -202,7 +205,9 @@ def _draw_wood(axis: Axes, sheet: tuple[float, float]) -> None:
 
 
 def _draw_circle(axis: Axes, place: Array, radius: float, *, longer: bool) -> None:
-    """Filled where the chain is longer than the model says, hollow where it is shorter."""
+    """Draw a circle: filled where the chain is longer than the model says, hollow where it is
+    shorter.
+    """
     from matplotlib.patches import Circle
 
     colour = light("bad") if longer else light("good")
@@ -211,7 +216,7 @@ def _draw_circle(axis: Axes, place: Array, radius: float, *, longer: bool) -> No
 
 
 def _write_lengths(axis: Axes, spots: Spots, scale: Scale) -> None:
-    """The length of each error next to its mark, after its name where there is room."""
+    """Write the length of each error next to its mark, after its name where there is room."""
     if len(spots) > MANY:
         return
     lengths = [bare(float(length), 1) for length in np.hypot(*spots.errors.T)]
@@ -238,7 +243,7 @@ def _write_lengths(axis: Axes, spots: Spots, scale: Scale) -> None:
 
 
 def _draw_scale(figure: Figure, scale: Scale, *, brief: bool = False) -> None:
-    """A bar of a round length below the sheet, and how much longer than life it is."""
+    """Draw a bar of a round length below the sheet, and say how much longer than life it is."""
     wide, tall = figure.get_size_inches()
     axis = figure.add_axes((0, 0, 1, FOOT / tall))
     axis.set_xlim(0, wide)
@@ -257,7 +262,7 @@ def _draw_scale(figure: Figure, scale: Scale, *, brief: bool = False) -> None:
 
 
 def plan_map(new: Array, old: Array, *, sheet: tuple[float, float], name: str) -> str:
-    """Where marks are proposed (n, 2) [mm], among the marks there are."""
+    """Return where marks are proposed (n, 2) [mm], among the marks there are."""
     with drawing(name):
         figure, axis = _sheet(_whole(sheet), wide=WIDE, foot=0.0)
         _draw_wood(axis, sheet)
@@ -291,7 +296,7 @@ def drawing(name: str) -> Iterator[Any]:
 
 
 def inline(figure: Figure, *, says: str, name: str) -> str:
-    """The figure as an element of a page; `says` is read to who cannot see it."""
+    """Return the figure as an element of a page; `says` is read to who cannot see it."""
     from matplotlib.backends.backend_svg import FigureCanvasSVG
 
     FigureCanvasSVG(figure)
@@ -314,7 +319,7 @@ def inline(figure: Figure, *, says: str, name: str) -> str:
 
 
 def _plain(tag: str) -> str:
-    """A tag as the page needs it: its fonts are the page's, its colours have names."""
+    """Return a tag as the page needs it: its fonts are the page's, its colours have names."""
     tag = _GROUP.sub("<g", tag).replace("xlink:href", "href")
     tag = _FONT.sub(lambda font: f"font-size: {font[3]};" if font[3] else "", tag)
     return _DECIMALS.sub(r"\1", named(tag))
@@ -353,19 +358,23 @@ DASHES = ("solid", (0, (3.5, 3)), (0, (1, 2)))  # of their curves, for who sees 
 
 
 def light(name: str) -> str:
-    """The colour in which a picture is drawn."""
+    """Return the colour in which a picture is drawn."""
     return COLOURS[name][0]
 
 
 def named(svg: str) -> str:
-    """The text of a picture with the names of its colours, which the page gives their values."""
+    """Return the text of a picture with the names of its colours, which the page gives their
+    values.
+    """
     for name, (colour, _) in COLOURS.items():
         svg = svg.replace(f": {colour}", f": var(--{name})")
     return svg
 
 
 def style() -> str:
-    """The names and values for the page's style: light, then dark on screens that ask for it."""
+    """Return the names and values for the page's style: light, then dark on screens that ask for
+    it.
+    """
     bright, dark = (
         "".join(f"--{name}:{both[i]};" for name, both in COLOURS.items()) for i in (0, 1)
     )

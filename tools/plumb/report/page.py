@@ -145,7 +145,7 @@ class Page:
 
 
 def report(findings: Findings, *, commands: Sequence[Command], again: str) -> bytes:
-    """The page as a file; `commands` go on from here, `again` makes the same report."""
+    """Return the page as a file; `commands` go on from here, `again` makes the same report."""
     here = resources.files("plumb.report")
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
     environment.filters["sentence"] = _sentence
@@ -156,12 +156,12 @@ def report(findings: Findings, *, commands: Sequence[Command], again: str) -> by
 
 
 def _sentence(words: str) -> str:
-    """With a capital letter and a full stop."""
+    """Return the words with a capital letter and a full stop."""
     return f"{words[:1].upper()}{words[1:]}{'' if words.endswith('.') else '.'}"
 
 
 def page_of(findings: Findings, *, commands: Sequence[Command], again: str) -> Page:
-    """The words and pictures of a board."""
+    """Return the words and pictures of a board."""
     diagnosis, auto = findings.diagnosis, findings.auto
     explained = bool(diagnosis.explanations)
     return Page(
@@ -286,7 +286,7 @@ def _covariates(findings: Findings) -> CovariateSheet | None:
 
 
 def _accounts(findings: Findings) -> tuple[Account, ...]:
-    """The explanations, if there are several."""
+    """Return the explanations, if there are several."""
     explanations = findings.diagnosis.explanations
     if len(explanations) < 2:
         return ()

@@ -81,7 +81,7 @@ class Source:
 
 
 def settings_of(findings: Findings) -> tuple[Setting, ...]:
-    """Each fitted number; none if nothing was fitted."""
+    """Return each fitted number; none if nothing was fitted."""
     addition = findings.auto.addition
     if addition is None:
         return ()
@@ -105,7 +105,7 @@ def _number(words: Mapping[str, object] | None) -> str:
 
 
 def hiding_in(findings: Findings) -> tuple[Hiding, ...]:
-    """What could still hide, the largest first."""
+    """Return what could still hide, the largest first."""
     diagnosis = findings.diagnosis
     shares = {ranked.effect: ranked.hidden_share for ranked in diagnosis.ranking}
     known = [
@@ -120,7 +120,7 @@ def hiding_in(findings: Findings) -> tuple[Hiding, ...]:
 
 
 def rounds_of(findings: Findings) -> tuple[Round, ...]:
-    """The fits of the diary, or what the settings know of the last; then this round."""
+    """Return the fits of the diary, or what the settings know of the last; then this round."""
     comparison = findings.comparison
     stages = _before_this(findings)
     stages += [
@@ -139,7 +139,7 @@ def rounds_of(findings: Findings) -> tuple[Round, ...]:
 
 
 def _before_this(findings: Findings) -> list[tuple[str, float]]:
-    """The rounds that led to the settings."""
+    """Return the rounds that led to the settings."""
     record, promised = findings.inputs.settings.fitted, findings.comparison.promised
     earlier = findings.fits[:-1] if promised else findings.fits
     stages = [stage for fit in earlier for stage in _kept(fit)]
@@ -150,7 +150,7 @@ def _before_this(findings: Findings) -> list[tuple[str, float]]:
 
 
 def history_sentence(findings: Findings) -> str:
-    """What the settings remember, and whether a promise was kept."""
+    """Return what the settings remember, and whether a promise was kept."""
     record, comparison = findings.inputs.settings.fitted, findings.comparison
     if record is None:
         return "The settings carry no record of an earlier fit: this is the first round."
@@ -175,7 +175,7 @@ def _earlier(record: FitRecord) -> list[tuple[str, float]]:
 
 
 def _kept(fit: DiaryFit) -> list[tuple[str, float]]:
-    """A fit of the diary."""
+    """Return a fit of the diary."""
     readings = f"{fit.at:%Y-%m-%d}, {fit.count} readings"
     return [
         (f"{readings}, as set then", fit.before),
@@ -189,7 +189,9 @@ def _boards(record: FitRecord) -> str:
 
 
 def readings_of(findings: Findings) -> Readings:
-    """The marks with their errors as set and as fitted; the distances where there are no marks."""
+    """Return the marks with their errors as set and as fitted; the distances where there are no
+    marks.
+    """
     if not findings.comparison.marks:
         return _distances(findings.comparison)
     typed, slips = findings.inputs.measurements.typed, _slips(findings)
@@ -237,7 +239,9 @@ def _slips(findings: Findings) -> set[str]:
 
 
 def sources_of(findings: Findings) -> tuple[Source, ...]:
-    """The files with their fingerprints: of the settings' bytes, and of each file's readings."""
+    """Return the files with their fingerprints: of the settings' bytes, and of each file's
+    readings.
+    """
     inputs = findings.inputs
     files = [("settings", inputs.settings.file)]
     if inputs.cut_with:
@@ -251,5 +255,5 @@ def sources_of(findings: Findings) -> tuple[Source, ...]:
 
 
 def versions() -> str:
-    """The programs that made the numbers."""
+    """Return the programs that made the numbers."""
     return ", ".join(f"{name} {version(name)}" for name in PACKAGES)

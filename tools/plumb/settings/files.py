@@ -53,7 +53,7 @@ __all__ = [
 def read_settings(
     path: str | PathLike[str], *, known: Mapping[str, Sequence[str]] | None = None
 ) -> MachineSettings:
-    """The settings in a file of a client or ours; known lists each effect's parameters."""
+    """Return the settings in a file of a client or ours; known lists each effect's parameters."""
     file = SettingsFile(Path(path).name, sha256(read_bytes(path)).hexdigest())
     return replace(_read(path, known), file=file)
 
@@ -77,14 +77,14 @@ def _read(path: str | PathLike[str], known: Mapping[str, Sequence[str]] | None) 
 
 
 def changed_client_file(original_path: str, changes: Mapping[Key, float | str]) -> bytes:
-    """The bytes of a client's file with some values replaced and all else as it was."""
+    """Return the bytes of a client's file with some values replaced and all else as it was."""
     if original_path.lower().endswith(WEBCONTROL_ENDING):
         return changed_webcontrol(original_path, changes)
     return changed_ini(original_path, changes)
 
 
 def parse_client_file(content: bytes, *, source: str) -> IniText:
-    """The entries of a client's file."""
+    """Return the entries of a client's file."""
     if source.lower().endswith(WEBCONTROL_ENDING):
         return parse_webcontrol(content.decode("utf-8"), source=source)
     return parse_ini(content.decode("utf-8", "surrogateescape"), source=source)

@@ -60,12 +60,12 @@ NEIGHBOURS = (
 
 
 def read_settings_ini(path: str | PathLike[str]) -> MachineSettings:
-    """The settings of a groundcontrol.ini; it belongs to the stock controller."""
+    """Return the settings of a groundcontrol.ini; it belongs to the stock controller."""
     return published_settings(_settings_text(path))
 
 
 def published_settings(ini: IniText) -> MachineSettings:
-    """The settings that the entries of a client's file hold."""
+    """Return the settings that the entries of a client's file hold."""
     _refuse_other_kinematics(ini)
     height = _needed(ini, "sheet_height")
     weight = _optional(ini, "holey_sled_weight")
@@ -96,7 +96,7 @@ def published_settings(ini: IniText) -> MachineSettings:
 
 
 def _settings_text(path: str | PathLike[str]) -> IniText:
-    """The ini file, if it holds settings."""
+    """Return the ini file, if it holds settings."""
     ini = read_ini(path)
     if ini.find("numpositions", section="global"):
         raise InputError(
@@ -128,7 +128,7 @@ def _feed(ini: IniText) -> str:
 
 
 def _word(ini: IniText, name: str, meaning: dict[str, str]) -> str:
-    """A word out of a few, case ignored."""
+    """Return a word out of a few, case ignored."""
     section, key = SOURCES[name]
     entry = ini.find(key, section=section)
     if entry is None:
@@ -142,7 +142,7 @@ def _word(ini: IniText, name: str, meaning: dict[str, str]) -> str:
 
 
 def _needed(ini: IniText, name: str) -> float:
-    """A number that the file must have."""
+    """Return a number that the file must have."""
     value = _number(ini, name)
     if value is None:
         raise _missing(ini, name)
@@ -150,13 +150,13 @@ def _needed(ini: IniText, name: str) -> float:
 
 
 def _with_default(ini: IniText, name: str, default: float) -> float:
-    """A number that the file may lack, and then is the default."""
+    """Return a number that the file may lack, and then is the default."""
     value = _optional(ini, name)
     return default if value is None else value
 
 
 def _optional(ini: IniText, name: str) -> float | None:
-    """A number that the file may lack; a misspelt key is not a missing key."""
+    """Return a number that the file may lack; a misspelt key is not a missing key."""
     value = _number(ini, name)
     if value is not None:
         return value
@@ -192,7 +192,7 @@ def _missing(ini: IniText, name: str) -> Exception:
 
 
 def _misspelt(ini: IniText, key: str) -> str | None:
-    """The place of an entry whose key is unknown and nearly this key."""
+    """Return the place of an entry whose key is unknown and nearly this key."""
     taken = {known.lower() for _, known in SOURCES.values()}
     taken |= {known.lower() for known in NEIGHBOURS}
     others = {entry.key.lower(): entry for entry in ini.entries if entry.key.lower() not in taken}
@@ -201,7 +201,7 @@ def _misspelt(ini: IniText, key: str) -> str | None:
 
 
 def _place_of(ini: IniText, name: str) -> str:
-    """The line and key a setting came from."""
+    """Return the line and key a setting came from."""
     if name == "sled_weight":
         name = "holey_sled_weight"
     if name == "sprocket_radius":
@@ -238,7 +238,7 @@ class GroundControlChanges:
 
 
 def groundcontrol_changes(settings: MachineSettings) -> GroundControlChanges:
-    """The keys that express these settings for the published firmware, in its units."""
+    """Return the keys that express these settings for the published firmware, in its units."""
     ours = settings.as_plumb_model()
     published = published_machine(ours)
     said = {
@@ -253,7 +253,9 @@ def groundcontrol_changes(settings: MachineSettings) -> GroundControlChanges:
 
 
 def published_machine(settings: MachineSettings) -> MachineSettings:
-    """This machine with the published firmware, which gets of it what its numbers can say."""
+    """Return this machine with the published firmware, which gets of it what its numbers
+    can say.
+    """
     ours = settings.as_plumb_model()
     chains = tuned_numbers(ours.effects)
     left, right = chains["left_tolerance"] / 100, chains["right_tolerance"] / 100
@@ -266,7 +268,7 @@ def published_machine(settings: MachineSettings) -> MachineSettings:
 
 
 def _unsaid(ours: MachineSettings) -> tuple[Unsaid, ...]:
-    """Everything in our model that no key of the published firmware can hold."""
+    """Return everything in our model that no key of the published firmware can hold."""
     lost = []
     if ours.motor_center_x:
         lost.append(
@@ -297,7 +299,9 @@ def write_groundcontrol_ini(
 
 
 def changed_ini(original_path: str | PathLike[str], changes: Mapping[Key, float | str]) -> bytes:
-    """The bytes of an ini file with some values replaced; equal numbers leave their line alone."""
+    """Return the bytes of an ini file with some values replaced; equal numbers leave their line
+    alone.
+    """
     ini = read_ini(original_path)
     needed: dict[Key, str] = {}
     for (section, key), value in changes.items():
@@ -324,7 +328,7 @@ def changed_ini(original_path: str | PathLike[str], changes: Mapping[Key, float 
 
 
 def number_for_firmware(value: float) -> str:
-    """A number as the published firmware can read it: no exponent, at most nine digits."""
+    """Return a number as the published firmware can read it: no exponent, at most nine digits."""
     if abs(value) >= 10**MOST_DIGITS:
         raise ValueError(f"{value:g} has more digits than the published firmware can read")
     if abs(value) < NOTHING:
@@ -334,7 +338,7 @@ def number_for_firmware(value: float) -> str:
 
 
 def same_number(old: str, new: float | str) -> bool:
-    """Whether a value of the file says the same already."""
+    """Return whether a value of the file says the same already."""
     if isinstance(new, str):
         return old == new
     try:

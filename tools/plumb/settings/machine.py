@@ -121,12 +121,13 @@ class MachineSettings:
         return {name: getattr(self, name) for name in FRAME_FIELDS}
 
     def effect(self, name: str, parameter: str) -> float:
-        """A parameter of an effect; an effect that is not named is absent, so zero."""
+        """Return a parameter of an effect; an effect that is not named is absent, so zero."""
         return self.effects.get(name, {}).get(parameter, 0.0)
 
     def as_plumb_model(self, *, controller: str | None = None) -> MachineSettings:
-        """The machine on which the controller would be right, in our frame and effects;
-        effects that are named already stay as they are."""
+        """Return the machine on which the controller would be right, in our frame and effects;
+        effects that are named already stay as they are.
+        """
         whose = controller or self.controller
         if whose == "plumb":
             return self if self.controller == "plumb" else replace(self, controller="plumb")
@@ -152,7 +153,7 @@ class MachineSettings:
 
 
 def frame_of(values: Mapping[str, float]) -> Frame:
-    """The frame among numbers by name; what else there is does not matter."""
+    """Return the frame among numbers by name; what else there is does not matter."""
     return Frame(
         motor_gap=values["motor_gap"],
         motor_height=values["motor_height"],
@@ -165,7 +166,7 @@ def frame_of(values: Mapping[str, float]) -> Frame:
 
 
 def radius_in_published(left: float, right: float) -> float:
-    """The published rotation radius over the true radius, for two chain pitch strains.
+    """Return the published rotation radius over the true radius, for two chain pitch strains.
 
     The published formula divides the whole straight part L by (1 + e), although its last piece, the
     radius R, is no chain: L/(1+e) - R' equals (L-R)/(1+e) if R' = R/(1+e). Both sides
@@ -192,7 +193,7 @@ _SAID: dict[tuple[str, str], tuple[int, float]] = {
 
 
 def effects_said_by(numbers: Mapping[int, float]) -> Effects:
-    """The parameters that published numbers set, even if they are zero."""
+    """Return the parameters that published numbers set, even if they are zero."""
     effects: Effects = {}
     for (effect, parameter), (number, factor) in _SAID.items():
         if number in numbers:
@@ -201,7 +202,7 @@ def effects_said_by(numbers: Mapping[int, float]) -> Effects:
 
 
 def usual_effects(frame: Mapping[str, float]) -> Effects:
-    """What every machine with this frame has: the sizes to expect."""
+    """Return what every machine with this frame has: the sizes to expect."""
     values = np.array([frame.get(name, 0.0) for name in _core.settings()], dtype=float)
     effects: Effects = {}
     for name, size in _core.usual(values, True).items():
@@ -211,12 +212,12 @@ def usual_effects(frame: Mapping[str, float]) -> Effects:
 
 
 def present(effects: Mapping[str, Mapping[str, float]]) -> Effects:
-    """Those effects of which some parameter is not zero."""
+    """Return those effects of which some parameter is not zero."""
     return {name: dict(sizes) for name, sizes in effects.items() if any(sizes.values())}
 
 
 def tuned_numbers(effects: Mapping[str, Mapping[str, float]]) -> dict[str, float]:
-    """The published settings, by our name for each, that say what these effects are."""
+    """Return the published settings, by our name for each, that say what these effects are."""
     return {
         TUNED[number]: factor * effects.get(effect, {}).get(parameter, 0.0)
         for (effect, parameter), (number, factor) in _SAID.items()
@@ -225,7 +226,7 @@ def tuned_numbers(effects: Mapping[str, Mapping[str, float]]) -> dict[str, float
 
 
 def is_tuned(effect: str, parameter: str) -> bool:
-    """Whether a setting of every published firmware says this parameter."""
+    """Return whether a setting of every published firmware says this parameter."""
     return _SAID.get((effect, parameter), (0, 0.0))[0] in TUNED
 
 
@@ -254,7 +255,7 @@ class Limit:
     zero: bool = False  # exactly zero is allowed too
 
     def fault(self, value: float) -> str | None:
-        """The sentence for a value out of range, or None."""
+        """Return the sentence for a value out of range, or None."""
         if not math.isfinite(value):
             return f"{value} is not a usable number"
         if self.low <= value <= self.high or (self.zero and value == 0):
@@ -293,7 +294,7 @@ PUBLISHED_LIMITS = {
 
 
 def find_fault(settings: MachineSettings) -> tuple[str, str] | None:
-    """The name of the first impossible setting and a sentence about it, or None."""
+    """Return the name of the first impossible setting and a sentence about it, or None."""
     for name, limit in FRAME_LIMITS.items():
         fault = limit.fault(getattr(settings, name))
         if fault:

@@ -33,7 +33,7 @@ from plumb.text.values import number, numbers, one_of, refuse_unknown, text_of, 
 def read_machine_toml(
     path: str | PathLike[str], *, known: Mapping[str, Sequence[str]] | None = None
 ) -> MachineSettings:
-    """The settings of a machine.toml; known lists the parameters of each effect."""
+    """Return the settings of a machine.toml; known lists the parameters of each effect."""
     try:
         head = tomllib.loads(read_text(path))
     except tomllib.TOMLDecodeError as error:
@@ -57,7 +57,7 @@ def write_machine_toml(
 
 
 def machine_toml(settings: MachineSettings, *, comment: str = "") -> str:
-    """The text of a machine.toml; each line of the comment gets its #."""
+    """Return the text of a machine.toml; each line of the comment gets its #."""
     fault = find_fault(settings)
     if fault:
         raise InputError(f"these settings cannot be written: {fault[0]}: {fault[1]}")
@@ -109,7 +109,9 @@ def machine_in(
     known: Mapping[str, Sequence[str]] | None,
     file: SettingsFile | None = None,
 ) -> MachineSettings:
-    """The machine in a table; `place` goes before the names of its tables, as in `board.`."""
+    """Return the machine in a table; `place` goes before the names of its tables, as in
+    `board.`.
+    """
     source = Tables(path, head, place)
     sheet = source.numbers("sheet", allowed=("width", "height"), needed=("width", "height"))
     frame = source.numbers("frame", allowed=FRAME_FIELDS, needed=NEEDED_FRAME)
@@ -141,7 +143,7 @@ def machine_in(
 
 
 def machine_lines(settings: MachineSettings, *, place: str) -> list[str]:
-    """A machine in a table; `place` goes before the names of its tables."""
+    """Return a machine in a table; `place` goes before the names of its tables."""
     lines = [f'controller = "{settings.controller}"', f'feed = "{settings.feed}"']
     sheet = {"width": settings.sheet_width, "height": settings.sheet_height}
     lines += table_lines(f"{place}sheet", sheet)
@@ -165,7 +167,7 @@ def table_lines(name: str, values: Mapping[str, float]) -> list[str]:
 
 
 def key_text(name: str) -> str:
-    """A name as TOML writes it; ours need no quotes."""
+    """Return a name as TOML writes it; ours need no quotes."""
     if not re.fullmatch(r"[A-Za-z0-9_-]+", name):
         raise InputError(f"'{name}' cannot be the name of an effect; use letters, digits and _")
     return name
@@ -182,7 +184,7 @@ class Tables:
     def numbers(
         self, name: str, *, allowed: Sequence[str], needed: Sequence[str]
     ) -> dict[str, float]:
-        """The numbers of a table, none unknown and none missing."""
+        """Return the numbers of a table, none unknown and none missing."""
         table = self.table(name, f"write a line [{self.place}{name}]")
         with naming(self.path, f"[{self.place}{name}]"):
             refuse_unknown(table, allowed)
@@ -192,7 +194,7 @@ class Tables:
         return self.numbers_in(table, f"[{self.place}{name}]")
 
     def effects(self) -> dict[str, dict[str, float]]:
-        """All tables [effects.name]."""
+        """Return all tables [effects.name]."""
         effects: dict[str, dict[str, float]] = {}
         for name, parameters in self.table("effects", "write [effects.NAME]").items():
             if not isinstance(parameters, dict):
@@ -206,14 +208,14 @@ class Tables:
         return effects
 
     def table(self, name: str, remedy: str) -> dict[str, Any]:
-        """A table that may be missing."""
+        """Return a table that may be missing."""
         table = self.head.get(name, {})
         if not isinstance(table, dict):
             raise InputError(self.path, f"{self.place}{name} is not a table", remedy=remedy)
         return table
 
     def numbers_in(self, table: dict[str, Any], where: str) -> dict[str, float]:
-        """The values of a table as numbers."""
+        """Return the values of a table as numbers."""
         numbers = {}
         for key, value in table.items():
             with naming(self.path, f"{where} {key}"):
@@ -248,7 +250,7 @@ def read_fit_record(
     *,
     known: Mapping[str, Sequence[str]] | None,
 ) -> FitRecord | None:
-    """What the file says of its fit; None if it says nothing."""
+    """Return what the file says of its fit; None if it says nothing."""
     if "fit" not in head and "board" not in head:
         return None
     tables = Tables(path, head, "")
@@ -301,7 +303,7 @@ def _board(
 
 
 def fit_record_lines(record: FitRecord) -> list[str]:
-    """The lines of a record, which reading gives back bit for bit."""
+    """Return the lines of a record, which reading gives back bit for bit."""
     lines = [INTRODUCTION, *table_lines("fit", {key: getattr(record, key) for key in NUMBER_KEYS})]
     lines += [f"{key} = {json.dumps(getattr(record, key))}" for key in WORD_KEYS]
     for name, sizes in record.lab_effects.items():
@@ -358,7 +360,9 @@ class FitRecord:
     boards: tuple[FittedBoard, ...] = ()
 
     def sheet_rise(self, sheet_width: float) -> float:
-        """How far [mm] to raise the right end of the last sheet [mm wide] to undo its rotation."""
+        """Return how far [mm] to raise the right end of the last sheet [mm wide] to undo its
+        rotation.
+        """
         return math.tan(self.last_sheet_rotation) * sheet_width
 
     @property
@@ -367,9 +371,9 @@ class FitRecord:
         return self.sheet_rotation + (self.boards[-1].sheet[2] if self.boards else 0.0)
 
     def board(self, digest: str) -> FittedBoard | None:
-        """The board with these readings."""
+        """Return the board with these readings."""
         return next((board for board in self.boards if board.digest == digest), None)
 
     def knows_other_settings(self, settings: MachineSettings) -> bool:
-        """Whether some board was cut with other settings than these."""
+        """Return whether some board was cut with other settings than these."""
         return any(board.cut_with != settings for board in self.boards)

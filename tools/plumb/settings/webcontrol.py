@@ -18,12 +18,12 @@ from plumb.text.ini import IniEntry, IniText
 
 
 def read_webcontrol(path: str | PathLike[str]) -> IniText:
-    """The settings of a webcontrol.json as entries of an ini file."""
+    """Return the settings of a webcontrol.json as entries of an ini file."""
     return parse_webcontrol(read_text(path), source=str(path))
 
 
 def parse_webcontrol(text: str, *, source: str) -> IniText:
-    """The entries of the text of a webcontrol.json."""
+    """Return the entries of the text of a webcontrol.json."""
     lines = tuple(text.splitlines(keepends=True))
     entries = [
         IniEntry(section, str(option["key"]), str(option["value"]), _line_of(option, lines))
@@ -35,7 +35,9 @@ def parse_webcontrol(text: str, *, source: str) -> IniText:
 def changed_webcontrol(
     original_path: str | PathLike[str], changes: Mapping[Key, float | str]
 ) -> bytes:
-    """The bytes of a webcontrol.json with some values replaced; equal numbers stay as they are."""
+    """Return the bytes of a webcontrol.json with some values replaced; equal numbers stay as they
+    are.
+    """
     text = read_text(original_path)
     document = _loaded(text, str(original_path))
     for (section, key), value in changes.items():
@@ -60,7 +62,7 @@ def changed_webcontrol(
 
 
 def _loaded(text: str, source: str) -> dict[str, Any]:
-    """The document, if it is one of WebControl."""
+    """Return the document, if it is one of WebControl."""
     try:
         document = json.loads(text)
     except ValueError as error:
@@ -84,6 +86,6 @@ def _options(document: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
 
 
 def _line_of(option: dict[str, Any], lines: tuple[str, ...]) -> int:
-    """The line with the key of an option; the first line if it is written in another way."""
+    """Return the line with the key of an option; the first line if it is written in another way."""
     wanted = f'"key": {json.dumps(option["key"])}'
     return next((number for number, line in enumerate(lines, 1) if wanted in line), 1)

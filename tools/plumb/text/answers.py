@@ -29,13 +29,13 @@ Numbers = Annotated[
 
 
 def key(name: str, said: str | None = None) -> Any:
-    """The name of a field in the JSON, and what the schema says of it."""
+    """Return the name of a field in the JSON, and what the schema says of it."""
     info: FieldInfo = Field(serialization_alias=name, description=said)
     return info
 
 
 def json_of(answer: object) -> Any:
-    """The answer in the types of JSON, by the names of the interface."""
+    """Return the answer in the types of JSON, by the names of the interface."""
     return plain(
         answer
         if isinstance(answer, Mapping)
@@ -44,7 +44,7 @@ def json_of(answer: object) -> Any:
 
 
 def plain(value: Any) -> Any:
-    """The value in the types of JSON; what is not a finite number is null."""
+    """Return the value in the types of JSON; what is not a finite number is null."""
     if isinstance(value, Mapping):
         return {str(name): plain(item) for name, item in value.items()}
     if isinstance(value, np.ndarray):
@@ -59,7 +59,9 @@ def plain(value: Any) -> Any:
 
 
 def schema_of(types: Mapping[str, type]) -> dict[str, Any]:
-    """The JSON schema of these answers by the names of their commands; no key is ever missing."""
+    """Return the JSON schema of these answers by the names of their commands; no key is ever
+    missing.
+    """
     wanted: list[tuple[str, Literal["serialization"], TypeAdapter[Any]]] = [
         (name, "serialization", TypeAdapter(kind)) for name, kind in types.items()
     ]

@@ -40,7 +40,7 @@ def refuse_stale() -> None:
 
 
 def stale_source(root: Path = ROOT, built_from: Mapping[str, str] | None = None) -> str | None:
-    """The first source that is not as it was built; None if all are, or if none is here."""
+    """Return the first source that is not as it was built; None if all are, or if none is here."""
     sources = digests(root)
     if not sources:
         return None
@@ -50,7 +50,9 @@ def stale_source(root: Path = ROOT, built_from: Mapping[str, str] | None = None)
 
 
 def digests(root: Path = ROOT) -> dict[str, str]:
-    """A digest of each source below a folder, by its name there; none without the lab's C++."""
+    """Return a digest of each source below a folder, by its name there; none without the
+    lab's C++.
+    """
     if not (root / "tools/core").is_dir():
         return {}
     files = {path for pattern in SOURCES for path in root.glob(pattern) if path.suffix in CXX}
@@ -61,7 +63,7 @@ def digests(root: Path = ROOT) -> dict[str, str]:
 
 
 def _note() -> dict[str, str]:
-    """What the build noted; nothing where it noted nothing, or where nothing is built."""
+    """Return what the build noted; nothing where it noted nothing, or where nothing is built."""
     spec = find_spec("plumb._core")
     if spec is None or spec.origin is None:
         return {}

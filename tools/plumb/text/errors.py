@@ -62,7 +62,7 @@ def read_on_page() -> Iterator[None]:
 
 
 def to_do(line: str, *, page: str) -> str:
-    """What its reader can do: with options on a command line, or on the page."""
+    """Return what its reader can do: with options on a command line, or on the page."""
     return page if _on_page.get() else line
 
 
@@ -70,7 +70,7 @@ def to_do(line: str, *, page: str) -> str:
 
 
 def load_script(path: Path, *, name: str) -> ModuleType:
-    """The module that a Python file makes when it runs; `name` is the module's."""
+    """Return the module that a Python file makes when it runs; `name` is the module's."""
     specification = importlib.util.spec_from_file_location(name, path)
     if specification is None or specification.loader is None:
         raise ImportError(f"{path} is not a Python file")

@@ -36,7 +36,9 @@ def links_refused() -> Iterator[None]:
 
 
 def opened(path: str | PathLike[str], flags: int, *, follows: bool | None = None) -> int:
-    """A handle of a file. Raises InputError for a link where none is followed, and OSError."""
+    """Return a handle of a file. Raises InputError for a link where none is followed, and
+    OSError.
+    """
     is_followed = _follows.get() if follows is None else follows
     try:
         return os.open(path, flags if is_followed else flags | os.O_NOFOLLOW, 0o644)
@@ -48,7 +50,7 @@ def opened(path: str | PathLike[str], flags: int, *, follows: bool | None = None
 
 
 def read_bytes(path: str | PathLike[str]) -> bytes:
-    """The bytes of a file that exists, is not empty and is not absurdly large."""
+    """Return the bytes of a file that exists, is not empty and is not absurdly large."""
     place = Path(path)
     try:
         if place.is_dir():
@@ -74,7 +76,7 @@ def _content(path: str | PathLike[str]) -> bytes:
 
 
 def read_text(path: str | PathLike[str]) -> str:
-    """The text of a UTF-8 file, without a byte-order mark."""
+    """Return the text of a UTF-8 file, without a byte-order mark."""
     content = read_bytes(path)
     if b"\0" in content:
         raise InputError(path, "is not a text file", remedy="save it as plain text, UTF-8")
@@ -124,8 +126,9 @@ def write_all(files: Mapping[str, bytes]) -> None:
 
 
 def _is_poured_into(path: str | PathLike[str]) -> bool:
-    """Whether it is a device or a pipe, which takes bytes and cannot be replaced; InputError for
-    what takes no result at all."""
+    """Return whether it is a device or a pipe, which takes bytes and cannot be replaced; InputError
+    for what takes no result at all.
+    """
     try:
         mode = os.stat(path, follow_symlinks=_follows.get()).st_mode
     except FileNotFoundError:
@@ -141,7 +144,7 @@ def _is_poured_into(path: str | PathLike[str]) -> bool:
 
 
 def _staged(target: Path, content: bytes) -> tuple[str, Path]:
-    """The content in a new file next to the target, whose place it takes later."""
+    """Return the content in a new file next to the target, whose place it takes later."""
     handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
     try:
         with os.fdopen(handle, "wb") as file:
@@ -156,7 +159,7 @@ def _staged(target: Path, content: bytes) -> tuple[str, Path]:
 
 
 def _mode_for(target: Path) -> int:
-    """The permission bits of the file to be replaced, or those of any new file."""
+    """Return the permission bits of the file to be replaced, or those of any new file."""
     if target.exists():
         return stat.S_IMODE(target.stat().st_mode)
     mask = os.umask(0)
@@ -191,7 +194,7 @@ CLIENT_FILES = ("-groundcontrol.ini", "-webcontrol.json")  # how the names of cl
 
 
 def picture_metadata(form: str) -> dict[str, str | None]:
-    """What a picture says of itself; no date, so that the same data give the same bytes."""
+    """Return what a picture says of itself; no date, so that the same data give the same bytes."""
     words: dict[str, dict[str, str | None]] = {
         "png": {"Software": MAKER},
         "svg": {"Creator": MAKER, "Date": None},
@@ -201,7 +204,7 @@ def picture_metadata(form: str) -> dict[str, str | None]:
 
 
 def is_ours(path: Path) -> bool:
-    """Whether the lab wrote this file, or nobody wrote anything into it."""
+    """Return whether the lab wrote this file, or nobody wrote anything into it."""
     content = path.read_bytes()
     if not content or content.startswith(BEGINNINGS) or LINES.fullmatch(content):
         return True

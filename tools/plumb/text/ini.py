@@ -48,7 +48,9 @@ class IniText:
         return tuple(dict.fromkeys(match["name"] for match in headers if match))
 
     def find(self, key: str, *, section: str) -> IniEntry | None:
-        """The entry of that key, case ignored; a single entry in another section is accepted."""
+        """Return the entry of that key, case ignored; a single entry in another section is
+        accepted.
+        """
         same = [entry for entry in self.entries if entry.key.lower() == key.lower()]
         here = [entry for entry in same if entry.section.lower() == section.lower()]
         if here:
@@ -65,7 +67,7 @@ class IniText:
 
 
 def read_ini(path: str | PathLike[str]) -> IniText:
-    """The ini file at a path; bytes that are not UTF-8 survive as surrogates."""
+    """Return the ini file at a path; bytes that are not UTF-8 survive as surrogates."""
     content = read_bytes(path)
     if b"\0" in content:
         raise InputError(path, "is not a text file", remedy="save it as plain text")
@@ -73,7 +75,7 @@ def read_ini(path: str | PathLike[str]) -> IniText:
 
 
 def parse_ini(text: str, *, source: str) -> IniText:
-    """The entries of an ini text; duplicates, and lines that are nothing, are refused."""
+    """Return the entries of an ini text; duplicates, and lines that are nothing, are refused."""
     lines = tuple(re.findall(r"[^\r\n]*(?:\r\n|\n|\r)|[^\r\n]+$", text))
     entries: list[IniEntry] = []
     section, indent = "", -1
@@ -99,8 +101,9 @@ def parse_ini(text: str, *, source: str) -> IniText:
 
 
 def with_values(ini: IniText, changes: dict[tuple[str, str], str]) -> str:
-    """The text of the file with some values replaced and nothing else touched; new keys are added
-    at the end of their section."""
+    """Return the text of the file with some values replaced and nothing else touched; new keys are
+    added at the end of their section.
+    """
     lines = list(ini.lines)
     new: list[tuple[str, str, str]] = []
     for (section, key), value in changes.items():
@@ -128,7 +131,7 @@ def with_values(ini: IniText, changes: dict[tuple[str, str], str]) -> str:
 
 
 def _with_new_key(lines: list[str], ini: IniText, section: str, key: str, value: str) -> list[str]:
-    """The lines with a new entry after the last entry of its section."""
+    """Return the lines with a new entry after the last entry of its section."""
     ending = "\r\n" if any(line.endswith("\r\n") for line in ini.lines) else "\n"
     small = all(entry.key == entry.key.lower() for entry in ini.entries)
     added = f"{key.lower() if small else key} = {value}{ending}"

@@ -12,7 +12,9 @@ from plumb.text.values import number_in
 
 
 def read_pairs(path: str | PathLike[str], *, names: tuple[str, str]) -> np.ndarray:
-    """The pairs (n, 2) [mm]; a header of the two names and lines that begin with # are allowed."""
+    """Return the pairs (n, 2) [mm]; a header of the two names and lines that begin with # are
+    allowed.
+    """
     form = f"write {','.join(names)} on each line, in mm"
     pairs: list[tuple[float, float]] = []
     headers = 0

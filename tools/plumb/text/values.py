@@ -13,7 +13,7 @@ _DECIMAL = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
 
 def number_in(text: str) -> float:
-    """The finite number that a piece of text writes out, and nothing else."""
+    """Return the finite number that a piece of text writes out, and nothing else."""
     stripped = text.strip()
     if not stripped:
         raise ValueError("a number is missing")
@@ -27,7 +27,7 @@ def number_in(text: str) -> float:
 
 
 def number(value: object) -> float:
-    """The finite number that a TOML value is; text and true/false are refused."""
+    """Return the finite number that a TOML value is; text and true/false are refused."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         shown = f"'{_short(value)}'" if isinstance(value, str) else type(value).__name__
         raise ValueError(f"a number is needed, not {shown}; write it without quotes")
@@ -38,35 +38,35 @@ def number(value: object) -> float:
 
 
 def pair(value: object) -> tuple[float, float]:
-    """The two finite numbers of a TOML array `[a, b]`."""
+    """Return the two finite numbers of a TOML array `[a, b]`."""
     if not isinstance(value, list) or len(value) != 2:
         raise ValueError("two numbers are needed, as [x, y]")
     return number(value[0]), number(value[1])
 
 
 def numbers(value: object, count: int) -> tuple[float, ...]:
-    """The finite numbers of a TOML array of that length."""
+    """Return the finite numbers of a TOML array of that length."""
     if not isinstance(value, list) or len(value) != count:
         raise ValueError(f"an array of {count} numbers is needed")
     return tuple(number(each) for each in value)
 
 
 def texts(value: object) -> tuple[str, ...]:
-    """The texts of a TOML array."""
+    """Return the texts of a TOML array."""
     if not isinstance(value, list):
         raise ValueError("an array of texts in quotes is needed")
     return tuple(text_of(each) for each in value)
 
 
 def text_of(value: object) -> str:
-    """The text of a TOML string."""
+    """Return the text of a TOML string."""
     if not isinstance(value, str):
         raise ValueError("text in quotes is needed")
     return value
 
 
 def one_of(value: object, allowed: Iterable[str]) -> str:
-    """The value, if it is an allowed word."""
+    """Return the value, if it is an allowed word."""
     words = tuple(allowed)
     if not isinstance(value, str) or value not in words:
         raise ValueError(f"'{_short(value)}' is not known; write one of {', '.join(words)}")
@@ -85,7 +85,7 @@ def refuse_unknown(keys: Iterable[str], allowed: Iterable[str]) -> None:
 
 
 def within(value: float, low: float, high: float) -> float:
-    """The value, if it lies between the two limits."""
+    """Return the value, if it lies between the two limits."""
     if not low <= value <= high:
         raise ValueError(f"{value:g} is out of range; {low:g} to {high:g} is possible")
     return value
@@ -127,17 +127,19 @@ def show_in(name: str) -> None:
 
 
 def unit() -> str:
-    """The unit in which lengths are shown, of UNITS."""
+    """Return the unit in which lengths are shown, of UNITS."""
     return _unit.get()
 
 
 def in_unit(length: float) -> float:
-    """A length [mm] in the unit in which lengths are shown."""
+    """Return a length [mm] in the unit in which lengths are shown."""
     return length / UNITS[unit()]
 
 
 def bare(length: float | None, digits: int = 2) -> str:
-    """A length [mm] without its unit, with this many decimals if it is in mm; a dash for none."""
+    """Return a length [mm] without its unit, with this many decimals if it is in mm; a dash for
+    none.
+    """
     if length is None or not math.isfinite(length):
         return "-"
     # No zero has a sign: that of a rounded number is chance.
@@ -145,19 +147,21 @@ def bare(length: float | None, digits: int = 2) -> str:
 
 
 def signed(length: float | None, digits: int = 2) -> str:
-    """The same with its sign."""
+    """Return the same with its sign."""
     if length is None:
         return "-"
     return f"{in_unit(length):+z.{digits + _FINER[unit()]}f}"
 
 
 def worded(length: float | None, digits: int = 2) -> str:
-    """A length [mm] with its unit."""
+    """Return a length [mm] with its unit."""
     return f"{bare(length, digits)} {unit()}"
 
 
 def brief(length: float) -> str:
-    """A length [mm] that somebody chose, with its unit and no more decimals than it needs."""
+    """Return a length [mm] that somebody chose, with its unit and no more decimals than it
+    needs.
+    """
     return f"{round(in_unit(length), 2):g} {unit()}"
 
 
@@ -170,7 +174,7 @@ _FRACTION = re.compile(r"(?P<sign>[+-]?)(?:(?P<whole>\d+)[ -]+)?(?P<top>\d+)\s*/
 
 
 def length_in(text: str, *, unit: float = 1.0) -> float:
-    """The length [mm] that a piece of text writes out, in units of this many mm."""
+    """Return the length [mm] that a piece of text writes out, in units of this many mm."""
     stripped = text.strip()
     if unit != 1.0:
         stripped = stripped.removesuffix("in").removesuffix('"').strip()
@@ -185,14 +189,14 @@ def length_in(text: str, *, unit: float = 1.0) -> float:
 
 
 def length(value: object, *, unit: float = 1.0) -> float:
-    """The length [mm] that a TOML value is: a number, or a fraction in quotes."""
+    """Return the length [mm] that a TOML value is: a number, or a fraction in quotes."""
     if isinstance(value, str) and "/" in value:
         return length_in(value, unit=unit)
     return unit * number(value)
 
 
 def point(value: object, *, unit: float = 1.0) -> tuple[float, float]:
-    """The two lengths [mm] of a TOML array `[x, y]`."""
+    """Return the two lengths [mm] of a TOML array `[x, y]`."""
     if isinstance(value, list) and len(value) in (3, 4):
         raise ValueError(
             "two numbers are needed, as [x, y]; is a comma a decimal point? Write [12.5, 3]"

@@ -62,7 +62,8 @@ class Garage:
         return float(self.on_sheet(middle)[0, 1])
 
     def machine(self, *, elf: str | None = None, shield: int = SHIELD) -> VirtualMachine:
-        """The machine with an empty memory, its chains laid, without power; `shield`: N of v1.N.
+        """Return the machine with an empty memory, its chains laid, without power; `shield`: N of
+        v1.N.
 
         InputError where the simulated Mega cannot run `elf`, or was not there when the lab was
         built.
@@ -81,20 +82,22 @@ class Garage:
             raise InputError(str(error)) from None
 
     def on_sheet(self, places: Array) -> Array:
-        """Places (n, 2) [mm] of the sled as the sheet has them, from its middle."""
+        """Return places (n, 2) [mm] of the sled as the sheet has them, from its middle."""
         turn = self.sheet_turn
         back = np.array([[cos(turn), sin(turn)], [-sin(turn), cos(turn)]])
         turned: Array = (places - np.array(self.sheet_center)) @ back.T
         return turned
 
     def read(self, places: Array) -> Array:
-        """What a perfect tape reads (n, 2) [mm] of marks that were cut with the sled at places."""
+        """Return what a perfect tape reads (n, 2) [mm] of marks that were cut with the sled at
+        places.
+        """
         moved = places + astray(self.hidden, places, self.seed)
         return self.hidden.read(self.on_sheet(moved))
 
 
 def random_garage(hidden: Hidden, seed: int, *, feed: str = "top") -> Garage:
-    """A garage whose frame and sheet lie off by chance; `feed` as in MachineSettings."""
+    """Return a garage whose frame and sheet lie off by chance; `feed` as in MachineSettings."""
     source = np.random.default_rng(seed)
     gap, height, x, y, turn = source.standard_normal(5)
     return Garage(
@@ -109,7 +112,7 @@ def random_garage(hidden: Hidden, seed: int, *, feed: str = "top") -> Garage:
 
 
 def with_new_sheet(garage: Garage, seed: int, *, raised: float = 0.0) -> Garage:
-    """The same machine with another sheet on the same stops, its right end `raised` [mm]."""
+    """Return the same machine with another sheet on the same stops, its right end `raised` [mm]."""
     x, y, turn = np.random.default_rng(seed).standard_normal(3)
     was_x, was_y = garage.sheet_center
     return replace(
@@ -148,7 +151,7 @@ def hide(names: Sequence[str], *, millimetres: float, seed: int) -> Hidden:
 
 
 def astray(hidden: Hidden, places: Array, seed: int) -> Array:
-    """How far (n, 2) [mm] the sled is off at places by what the library has no word for."""
+    """Return how far (n, 2) [mm] the sled is off at places by what the library has no word for."""
     if not hidden.outside:
         return np.zeros_like(places)
 
@@ -161,20 +164,20 @@ def astray(hidden: Hidden, places: Array, seed: int) -> Array:
 
 
 def described(hidden: Hidden) -> str:
-    """What is hidden, in a few words."""
+    """Return what is hidden, in a few words."""
     said = [f"{cause.effect} ({cause.label})" for cause, _ in hidden.causes]
     said += [f"a {hidden.outside}, which no effect explains"] if hidden.outside else []
     return " and ".join(said) or "nothing"
 
 
 def _drawn(source: np.random.Generator) -> Cause:
-    """One that the firmware can correct; a wrong tape would stay wrong on the next sheet."""
+    """Return one that the firmware can correct; a wrong tape would stay wrong on the next sheet."""
     effects = sorted({cause.effect for cause in REAL if not (cause.skew or cause.strain)})
     return _one_of(effects[source.integers(len(effects))], source)
 
 
 def _one_of(effect: str, source: np.random.Generator) -> Cause:
-    """One of the directions that an effect has."""
+    """Return one of the directions that an effect has."""
     several = [cause for cause in causes_of(effect) if cause in REAL]
     return several[source.integers(len(several))]
 
@@ -183,7 +186,9 @@ def _one_of(effect: str, source: np.random.Generator) -> Cause:
 
 
 def sled_error(garage: Garage, settings: MachineSettings) -> float:
-    """The error of a garage's machine with these settings. Nothing rubs: no setting knows of it."""
+    """Return the error of a garage's machine with these settings. Nothing rubs: no setting knows of
+    it.
+    """
     wanted = sheet()
     chains, outcome = lengths(settings, wanted)
     if not (outcome == FOUND).all():
@@ -208,7 +213,7 @@ class VmPicture:
         self._machine = machine
 
     def __rich__(self) -> Text:
-        """The picture as it is now."""
+        """Return the picture as it is now."""
         machine = self._machine
         grid = [[" "] * COLUMNS for _ in range(ROWS)]
         for _, _, x, y, _ in machine.cuts():

@@ -130,7 +130,7 @@ def _measured_more(
     budget: Budget,
     said: Callable[[str], None],
 ) -> _Measured:
-    """The inputs with what was proposed, as long as the marks leave a question open."""
+    """Return the inputs with what was proposed, as long as the marks leave a question open."""
     diagnosis, usual = first, owner.settings.sled_weight
     done: tuple[Proposal, ...] = ()
     spent = cutting([usual] * len(inputs.measurements.marks), usual)
@@ -146,7 +146,7 @@ def _measured_more(
 
 
 def cost_of(proposal: Proposal, usual_weight: float) -> Spent:
-    """What following a proposal costs."""
+    """Return what following a proposal costs."""
     option = proposal.option
     if option.kind == "reread":
         return reading(len(option.visits))
@@ -158,7 +158,7 @@ def cost_of(proposal: Proposal, usual_weight: float) -> Spent:
 def _best(
     proposals: tuple[Proposal, ...], done: tuple[Proposal, ...], usual_weight: float
 ) -> Proposal | None:
-    """The best proposal that this owner can carry out and has not yet."""
+    """Return the best proposal that this owner can carry out and has not yet."""
     titles = {proposal.option.title for proposal in done}
     for proposal in proposals:
         if proposal.option.title not in titles and _is_doable(proposal, usual_weight):
@@ -167,14 +167,14 @@ def _best(
 
 
 def _is_doable(proposal: Proposal, usual_weight: float) -> bool:
-    """Whether this owner can carry it out."""
+    """Return whether this owner can carry it out."""
     visits = proposal.option.visits
     is_light = not len(visits) or visits.sled_weights.max() < usual_weight + MOST_HUNG
     return proposal.option.kind in DOABLE and is_light and not visits.swapped.any()
 
 
 def _with(owner: VirtualOwner, inputs: Inputs, proposal: Proposal) -> Inputs:
-    """The inputs with what a proposal brought."""
+    """Return the inputs with what a proposal brought."""
     option, checked = proposal.option, tuple[Checked, ...]()
     if option.kind == "reread":
         marks = inputs.measurements
@@ -195,7 +195,7 @@ def _with(owner: VirtualOwner, inputs: Inputs, proposal: Proposal) -> Inputs:
 
 
 def _read_again(owner: VirtualOwner, measurements: Measurements, name: str) -> Measurements:
-    """The measurements with new readings of a mark in the place of the old."""
+    """Return the measurements with new readings of a mark in the place of the old."""
     new = iter(owner.tape.read_again(name))
     marks: list[Mark] = [
         replace(mark, measured=next(new)) if mark.name == name else mark
@@ -210,7 +210,7 @@ def shape(comparison: Comparison) -> float:
 
 
 def read(owner: VirtualOwner, form: str) -> Measurements:
-    """The filled form as the lab reads it."""
+    """Return the filled form as the lab reads it."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "marks.toml")
         path.write_text(form)
@@ -228,7 +228,7 @@ class Spent:
     minutes: float = 0.0
 
     def __add__(self, other: Spent) -> Spent:
-        """Both together."""
+        """Return both together."""
         return Spent(self.marks + other.marks, self.minutes + other.minutes)
 
 
@@ -240,17 +240,17 @@ class Budget:
     minutes: float = 150.0
 
     def allows(self, spent: Spent) -> bool:
-        """Whether so much may be spent."""
+        """Return whether so much may be spent."""
         return spent.marks <= self.marks and spent.minutes <= self.minutes
 
 
 def cutting(sled_weights: Sequence[float], usual: float) -> Spent:
-    """A round of marks cut and read, each under a sled of some weight [N]."""
+    """Return a round of marks cut and read, each under a sled of some weight [N]."""
     hangs = any(abs(weight - usual) > 1e-6 for weight in sled_weights)
     count = len(sled_weights)
     return Spent(count, ROUND + MARK * count + HANGING * hangs)
 
 
 def reading(count: int) -> Spent:
-    """Marks that are there, read once more with a newly laid tape."""
+    """Read marks that are there once more with a newly laid tape."""
     return Spent(0, READING * count)

@@ -57,7 +57,7 @@ class VirtualOwner:
         self.tape = Tape(garage, self._source, noise=noise, slip=slip)
 
     def again(self) -> VirtualOwner:
-        """The same machine on its first day, switched on."""
+        """Return the same machine on its first day, switched on."""
         same = VirtualOwner(self._first_garage, noise=self._noise, elf=self._elf)
         same.switch_on()
         return same
@@ -77,7 +77,7 @@ class VirtualOwner:
         self.switch_on()
 
     def grid_program(self, grid: Grid) -> tuple[list[str], str]:
-        """The G-code of a grid for this sheet, and the form for its marks."""
+        """Return the G-code of a grid for this sheet, and the form for its marks."""
         machine = plain_machine(self.settings)
         return program(grid, machine).splitlines(), marks_list(grid, machine)
 
@@ -102,7 +102,7 @@ class VirtualOwner:
         self.machine.set("sled_weight", usual * weight / self.settings.sled_weight)
 
     def check(self, checks: Sequence[Check]) -> list[Checked]:
-        """Numbers measured directly, each with its error."""
+        """Return numbers measured directly, each with its error."""
         return [
             Checked(
                 check.name,
@@ -126,12 +126,12 @@ class VirtualOwner:
         self._sheets += 1
 
     def lay_next_sheet(self, *, raised: float) -> None:
-        """The same; each sheet lies a little otherwise than those before."""
+        """Lay the next sheet; each lies a little otherwise than those before."""
         self.lay_new_sheet(self.garage.seed + self._sheets, raised=raised)
 
 
 def plain_machine(settings: MachineSettings) -> PlainMachine:
-    """The machine as a grid sees it."""
+    """Return the machine as a grid sees it."""
     return PlainMachine(
         sheet_width=settings.sheet_width,
         sheet_height=settings.sheet_height,
@@ -143,7 +143,7 @@ def plain_machine(settings: MachineSettings) -> PlainMachine:
 
 
 def true_value(garage: Garage, name: str) -> float:
-    """What a perfect measurement of a number of the frame or of an effect would find."""
+    """Return what a perfect measurement of a number of the frame or of an effect would find."""
     if name == "motor_height":
         return garage.motors_above_sheet
     if "." not in name:
@@ -173,16 +173,16 @@ class InProcessPort:
         self.machine.send(characters)
 
     def read(self) -> bytes:
-        """What came in a moment of the machine's time."""
+        """Return what came in a moment of the machine's time."""
         self.machine.advance(MOMENT)
         return self.machine.take_said()
 
     def seconds(self) -> float:
-        """The machine's time."""
+        """Return the machine's time."""
         return self.machine.seconds
 
     def close(self) -> None:
-        """Nothing to let go of."""
+        """Do nothing: there is nothing to let go of."""
 
 
 # A line to a virtual machine in the same program, whose time runs with this computer's.
@@ -200,7 +200,7 @@ class PacedPort(InProcessPort):
         self._due = time.monotonic()
 
     def read(self) -> bytes:
-        """What came in a moment of the machine's time."""
+        """Return what came in a moment of the machine's time."""
         said = super().read()
         self._due += MOMENT / 1000 / (self.speed if self.works else 1.0)
         now = time.monotonic()

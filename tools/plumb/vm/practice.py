@@ -94,7 +94,7 @@ def score(secret: Secret, answer: MachineSettings) -> Score:
 
 
 def claims_of(believed: MachineSettings, answer: MachineSettings) -> tuple[str, ...]:
-    """The effects whose numbers are not what they were, patches aside."""
+    """Return the effects whose numbers are not what they were, patches aside."""
     patches = {effect["name"] for effect in empirical_effects()}
     named = [
         name

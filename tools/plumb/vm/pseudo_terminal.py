@@ -23,7 +23,7 @@ CHUNK = 4096
 
 
 def preload() -> str:
-    """The library that lets a client treat a pseudo terminal as a serial port.
+    """Return the library that lets a client treat a pseudo terminal as a serial port.
 
     InputError where it was not built.
     """
@@ -136,12 +136,12 @@ class PseudoTerminal:
 
 
 def _served(path: str) -> str:
-    """What a machine holds as long as it serves the pseudo terminal at `path`."""
+    """Return what a machine holds as long as it serves the pseudo terminal at `path`."""
     return f"{path}-machine"
 
 
 def _leads_to(link: Path) -> str:
-    """Where a link leads; empty if it is none."""
+    """Return where a link leads; empty if it is none."""
     return os.readlink(link) if link.is_symlink() else ""
 
 
@@ -191,7 +191,7 @@ class OpeningWatch:
     """Counts openings by Linux's inotify; Python itself has no door to it."""
 
     def __init__(self, path: str) -> None:
-        """Raises OSError where the system has no inotify."""
+        """Raise OSError where the system has no inotify."""
         self._libc = ctypes.CDLL(None, use_errno=True)
         try:
             self._handle = self._libc.inotify_init1(os.O_NONBLOCK | os.O_CLOEXEC)
@@ -204,7 +204,7 @@ class OpeningWatch:
             raise OSError(ctypes.get_errno(), f"{path} cannot be watched")
 
     def count(self) -> int:
-        """How often it was opened since the last call."""
+        """Return how often it was opened since the last call."""
         opened = 0
         with contextlib.suppress(BlockingIOError):
             while True:
@@ -237,7 +237,7 @@ class WholeLines:
         self._since = 0  # [ms] since its last byte
 
     def take(self, said: bytes, milliseconds: int) -> bytes:
-        """What can go to the client.
+        """Return what can go to the client.
 
         `said`: what the machine said in the `milliseconds` of its time that just passed.
         """

@@ -20,7 +20,7 @@ DIMPLE = 3.0  # [mm] a plunge that went farther sideways is a line, not a mark
 
 
 def marks_on(cuts: Sequence[Cut]) -> Array:
-    """Where the bit went deepest at each plunge (n, 2) [mm], in the order of the plunges.
+    """Return where the bit went deepest at each plunge (n, 2) [mm], in the order of the plunges.
 
     Plunges that went on sideways are no marks.
     """
@@ -58,7 +58,7 @@ class Tape:
         order_of(form, self.garage.read(places), sheet=self.garage.settings.sheet)
 
     def begin(self) -> None:
-        """The machine counts its cuts from here on; what was read stays read."""
+        """Count cuts from here on; what was read stays read."""
         self._read = 0
 
     def pass_over(self, machine: VirtualMachine) -> None:
@@ -66,8 +66,9 @@ class Tape:
         self._read = len(marks_on(machine.cuts()))
 
     def fill(self, form: str, machine: VirtualMachine) -> str:
-        """A form with the marks that were cut since the last form; ValueError if it waits for more
-        or fewer."""
+        """Return a form with the marks that were cut since the last form; ValueError if it waits
+        for more or fewer.
+        """
         places = marks_on(machine.cuts())
         new, self._read = places[self._read :], len(places)
         sheet = self.garage.settings.sheet
@@ -95,7 +96,9 @@ class Tape:
         }
 
     def lengths(self, spans: Sequence[tuple[str, str]]) -> list[float]:
-        """The tape's readings [mm] of distances between marks that were read on this sheet."""
+        """Return the tape's readings [mm] of distances between marks that were read on this
+        sheet.
+        """
         noise = self._noise
         return [
             float(np.linalg.norm(self._places[second][-1] - self._places[first][-1]))
@@ -104,7 +107,9 @@ class Tape:
         ]
 
     def read_again(self, name: str) -> list[tuple[float, float]]:
-        """New readings of a name's marks on this sheet, in their order [mm from its middle]."""
+        """Return new readings of a name's marks on this sheet, in their order [mm from its
+        middle].
+        """
         noise = self._noise
         return [
             (x + noise * self._source.standard_normal(), y + noise * self._source.standard_normal())
@@ -112,7 +117,8 @@ class Tape:
         ]
 
     def fill_again(self, form: str) -> str:
-        """A form whose marks are on this sheet already and were read before: each is read again.
+        """Return a form whose marks are on this sheet already and were read before: each is read
+        again.
 
         A target that was cut in several rounds has a name in each, in their order. Raises
         ValueError for a mark that this tape has not read.
@@ -137,7 +143,9 @@ class Tape:
         return form
 
     def fill_when_cut(self, form: str, machine: VirtualMachine) -> str | None:
-        """The same, once the sheet has all the marks of the form and the bit is out of it."""
+        """Return the same, once the sheet has all the marks of the form and the bit is out
+        of it.
+        """
         waiting = len(marks_on(machine.cuts())) - self._read
         if waiting < form.count(BLANK) or machine.height <= 0:
             return None
@@ -145,7 +153,8 @@ class Tape:
 
 
 def filled_form(form: str, readings: Array, *, sheet: tuple[float, float]) -> str:
-    """The form that `plumb grid` or `plumb next` wrote, with readings (n, 2) [mm from mid sheet].
+    """Return the form that `plumb grid` or `plumb next` wrote, with readings (n, 2) [mm from mid
+    sheet].
 
     The form counts from the sheet's top left corner, y down. Each reading goes to the mark that it
     belongs to. Raises ValueError unless there is a reading for each mark.
@@ -156,7 +165,9 @@ def filled_form(form: str, readings: Array, *, sheet: tuple[float, float]) -> st
 
 
 def order_of(form: str, readings: Array, *, sheet: tuple[float, float]) -> Array:
-    """Which reading belongs to each mark of a form, so that all together lie as near as can be."""
+    """Return which reading belongs to each mark of a form, so that all together lie as near as can
+    be.
+    """
     targets = _waiting_targets(form)
     if len(targets) != len(readings):
         raise ValueError(
@@ -174,12 +185,12 @@ def _from_corner(readings: Array, sheet: tuple[float, float]) -> Array:
 
 
 def _as_key(target: Array) -> Target:
-    """A target as all forms write it: `plumb grid` to 0.01 mm, `plumb next` to 0.001 mm."""
+    """Return a target as all forms write it: `plumb grid` to 0.01 mm, `plumb next` to 0.001 mm."""
     return round(float(target[0]), 1) + 0.0, round(float(target[1]), 1) + 0.0
 
 
 def _waiting_names(form: str) -> list[str]:
-    """The names of the marks that wait for a reading."""
+    """Return the names of the marks that wait for a reading."""
     name, waiting = "", []
     for line in form.splitlines():
         if line.startswith("name = "):

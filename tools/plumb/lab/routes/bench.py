@@ -175,7 +175,7 @@ Warm = Annotated[WarmBoard, Depends(_warm)]
 
 @router.get("/bench")
 def open_bench(project: TheProject, warm: Warm) -> BenchAnswer:
-    """The marks, the effects, and what errors may depend on."""
+    """Return the marks, the effects, and what errors may depend on."""
     rows = warm.live.rows
     marks = zip(rows.names, rows.targets, rows.measured, strict=True)
     return BenchAnswer(
@@ -220,7 +220,7 @@ def refit(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchFit:
 
 @router.post("/bench/stairs")
 def climb(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchStairs:
-    """How the error falls with each effect more. Nothing is written."""
+    """Return how the error falls with each effect more. Nothing is written."""
     chosen = choice.chosen
     warm.live.refuse(chosen)
     choices, _ = read_choices(project)
@@ -252,7 +252,7 @@ def climb(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchStairs:
 
 @router.get("/bench/drawn")
 def draw(effect: str, warm: Warm) -> BenchDrawn:
-    """What an effect by itself would draw."""
+    """Return what an effect by itself would draw."""
     warm.live.refuse(Chosen((effect,)))
     drawn = warm.view.drawn(effect)
     return BenchDrawn(

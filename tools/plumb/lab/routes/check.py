@@ -79,7 +79,7 @@ class CheckAnswer(BaseModel):
 
 @router.get("/check")
 def show_check(project: TheProject) -> CheckAnswer:
-    """The newest check round, or a plan for the first."""
+    """Return the newest check round, or a plan for the first."""
     choices, _ = read_choices(project)
     inputs = _of_promise(project)
     trouble = "" if inputs.settings.fitted else "write a correction first: it makes the promise"
@@ -144,7 +144,7 @@ def use_check(project: TheProject) -> ProjectAnswer:
 
 
 def _command(project: Project, inputs: Inputs, form: str) -> str:
-    """The same in a terminal: what the fit promises of the check marks that were read."""
+    """Return the same in a terminal: what the fit promises of the check marks that were read."""
     choices, _ = read_choices(project)
     unit = unit_words(choices, inputs.measurements.typed.unit)
     board = [choices.settings, *read_names(project, _promising(project), choices)]
@@ -152,7 +152,7 @@ def _command(project: Project, inputs: Inputs, form: str) -> str:
 
 
 def _made(project: Project, number: str, plan: Planned | None) -> str:
-    """The command that writes the form and the program; empty if there is no plan."""
+    """Return the command that writes the form and the program; empty if there is no plan."""
     if plan is None:
         return ""
     choices, _ = read_choices(project)
@@ -167,13 +167,14 @@ def _same_sheet(choices: Choices) -> Choices:
 
 
 def _of_promise(project: Project) -> Inputs:
-    """The readings that the promise goes by."""
+    """Return the readings that the promise goes by."""
     return inputs_of(project, among=_promising(project))
 
 
 def _promising(project: Project) -> list[str]:
-    """The files of these readings: check marks take no part, nor does a sheet that was laid after
-    the correction, for check marks are on the sheet before it."""
+    """Return the files of these readings: check marks take no part, nor does a sheet that was laid
+    after the correction, for check marks are on the sheet before it.
+    """
     choices, _ = read_choices(project)
     names = [name for name in choices.marks if not name.startswith(CHECK)]
     fitted = settings_in(project.path(choices.settings)).fitted if choices.settings else None
@@ -187,7 +188,7 @@ def _promising(project: Project) -> list[str]:
 
 
 def _rounds(project: Project, choices: Choices, check_form: str) -> list[RoundError]:
-    """How far off the marks of each round are."""
+    """Return how far off the marks of each round are."""
     names = [*(name for name in choices.marks if not name.startswith(CHECK)), check_form]
     forms = {name: form_of(project, choices, name).measurements for name in names}
     return [
@@ -198,7 +199,7 @@ def _rounds(project: Project, choices: Choices, check_form: str) -> list[RoundEr
 
 
 def _newest(project: Project) -> str:
-    """The number of the newest check round, as in the names of its files."""
+    """Return the number of the newest check round, as in the names of its files."""
     number, count = "", 1
     while project.read(f"{CHECK}-{count + 1}{ENDING}") is not None:
         count += 1
@@ -240,7 +241,7 @@ def _save(project: Project) -> tuple[str, str]:
 
 
 def _cut_before(project: Project, choices: Choices, form: str) -> list[tuple[float, float]]:
-    """Where check marks were cut in the rounds before that of a form."""
+    """Return where check marks were cut in the rounds before that of a form."""
     names = [f"{CHECK}{ENDING}"]
     while names[-1] != form:
         names.append(f"{CHECK}-{len(names) + 1}{ENDING}")
@@ -256,7 +257,7 @@ def _places(project: Project, choices: Choices, form: str) -> list[tuple[float, 
 
 
 def _checked(project: Project, inputs: Inputs, form: str) -> Check | None:
-    """The check marks against the fit; None before all are read."""
+    """Return the check marks against the fit; None before all are read."""
     choices, _ = read_choices(project)
     waiting = [
         mark for mark in form_of(project, choices, form).measurements.marks if not mark.measured

@@ -72,7 +72,7 @@ def compare(project: TheProject) -> ComparisonAnswer:
 
 
 def inputs_of(project: Project, *, among: Sequence[str] | None = None) -> api.Inputs:
-    """The opened settings with all readings, or with those in files of these names.
+    """Return the opened settings with all readings, or with those in files of these names.
 
     Raises InputError if something is missing, or cannot have been measured.
     """
@@ -93,19 +93,19 @@ def inputs_of(project: Project, *, among: Sequence[str] | None = None) -> api.In
 
 
 def board_words(project: Project) -> list[str]:
-    """The opened settings and the files that have readings, as a command names them."""
+    """Return the opened settings and the files that have readings, as a command names them."""
     choices, _ = read_choices(project)
     return [choices.settings, *read_names(project, choices.marks, choices)]
 
 
 def read_names(project: Project, among: Sequence[str], choices: Choices) -> list[str]:
-    """Those of these files of marks that have readings."""
+    """Return those of these files of marks that have readings."""
     settings = project.path(choices.settings)
     return [name for name in among if _has_readings(project.path(name), settings)]
 
 
 def _has_readings(path: Path, settings: Path) -> bool:
-    """Whether any mark of a form is read; other files have nothing else."""
+    """Return whether any mark of a form is read; other files have nothing else."""
     if path.suffix != ".toml":
         return True
     sheet = settings_in(settings).sheet

@@ -102,7 +102,7 @@ class Undone(BaseModel):
 
 @router.get("/correction")
 def show_correction(project: TheProject, background: TheBackground) -> CorrectionAnswer:
-    """What the marks would change."""
+    """Return what the marks would change."""
     choices, _ = read_choices(project)
     key = "\n".join([key_of(project), choices.units, *sorted(choices.accepted)])
     inputs = inputs_of(project)
@@ -222,7 +222,9 @@ def _parts(made: Correction, reason: str, choices: Choices) -> CorrectionParts:
 
 
 def _add_words(made: Correction, choices: Choices) -> list[str]:
-    """What plumb add is given to change the accepted numbers alone; all of them if none is."""
+    """Return what plumb add is given to change the accepted numbers alone; all of them if
+    none is.
+    """
     if not (made.effects or made.fixed):
         return [*known_words(choices), "--effect", "auto"]
     gone = {*made.held, *made.fixed}
@@ -250,7 +252,9 @@ def _number(number: Parameter, choices: Choices) -> ChangedNumber:
 
 
 def _client_files(project: Project, choices: Choices, made: Addition, name: str) -> ClientFiles:
-    """The lines for the machine, and the client's file if its settings came from a client."""
+    """Return the lines for the machine, and the client's file if its settings came from a
+    client.
+    """
     original = _original(choices)
     return client_files(
         made.settings,
@@ -262,13 +266,13 @@ def _client_files(project: Project, choices: Choices, made: Addition, name: str)
 
 
 def _original(choices: Choices) -> str | None:
-    """The client's file that was opened last."""
+    """Return the client's file that was opened last."""
     opened = [choices.settings, *reversed(choices.settings_before)]
     return next((each for each in opened if Path(each).suffix in CLIENT_OF), None)
 
 
 def _client_words(choices: Choices) -> list[str]:
-    """The client, and its file if that is not the settings' file."""
+    """Return the client, and its file if that is not the settings' file."""
     original = _original(choices)
     if original is None:
         return [NO_CLIENT]

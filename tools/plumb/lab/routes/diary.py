@@ -69,7 +69,7 @@ class DiaryAnswer(BaseModel):
 
 @router.get("/diary")
 def show_diary(project: TheProject) -> DiaryAnswer:
-    """The diary of the folder."""
+    """Return the diary of the folder."""
     choices, _ = read_choices(project)
     diary = read_diary(project.folder)
     history = history_of(diary)
@@ -122,6 +122,6 @@ def _course(course: Course) -> NumberCourse:
 
 
 def _others(diary: Diary) -> list[Noted]:
-    """The newest first."""
+    """Return the newest first."""
     others = [entry for entry in diary.entries if entry.kind != FIT][-MOST:]
     return [Noted(at=entry.at, said=noted(entry)) for entry in reversed(others)]

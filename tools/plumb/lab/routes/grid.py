@@ -87,7 +87,7 @@ class FormRequest(BaseModel):
 
 @router.get("/grid")
 def show_grid(project: TheProject) -> GridAnswer:
-    """The program for the chosen marks, as it would be written now."""
+    """Return the program for the chosen marks, as it would be written now."""
     choices, _ = read_choices(project)
     settings, trouble = opened(project), ""
     taken = taken_marks(project, choices)
@@ -119,7 +119,7 @@ def show_grid(project: TheProject) -> GridAnswer:
 
 
 def _shown_taken(taken: Taken, settings: MachineSettings, choices: Choices) -> GridAnswer:
-    """The marks that the verdict proposed and somebody took."""
+    """Return the marks that the verdict proposed and somebody took."""
     trouble = ""
     try:
         refuse_way(settings, taken.marks)
@@ -195,7 +195,9 @@ def _cut_taken(taken: Taken, project: Project, line: MachineLine) -> MachineAnsw
 
 
 def _weights_after_pauses(taken: Taken, usual: float) -> dict[int, float]:
-    """What the sled weighs [N] after each pause, by the lines before it: as its next mark asks."""
+    """Return what the sled weighs [N] after each pause, by the lines before it: as its next mark
+    asks.
+    """
     cut = list(zip(_lines_of_marks(taken.text), taken.marks, strict=True))
     return {
         wait.lines: next(
@@ -231,7 +233,7 @@ def read_with_tape(request: FormRequest, project: TheProject, line: TheLine) -> 
 
 
 def _as_asked(filled: str, form: Path, settings: MachineSettings, owner: VirtualOwner) -> bytes:
-    """What the tape filled in; where distances are asked, these instead of places."""
+    """Return what the tape filled in; where distances are asked, these instead of places."""
     blank = read_form(form, sheet=settings.sheet, known=known_effects())
     spans = spans_in(blank.comment)
     if not spans:
@@ -253,7 +255,9 @@ def _lay(owner: VirtualOwner, raised: float, *, new_sheet: bool) -> None:
 
 
 def _sheet_rise(settings: MachineSettings, choices: Choices) -> float:
-    """How far to raise the next sheet [mm]: the last that was cut still lies as the fit saw it."""
+    """Return how far to raise the next sheet [mm]: the last that was cut still lies as the fit saw
+    it.
+    """
     fitted = settings.fitted
     if fitted is None or not fitted.boards or fitted.boards[-1].marks not in choices.marks[-1:]:
         return 0.0
@@ -261,7 +265,7 @@ def _sheet_rise(settings: MachineSettings, choices: Choices) -> float:
 
 
 def _marks(plan: Planned, text: str) -> list[GridMark]:
-    """The marks in the order in which the program cuts them."""
+    """Return the marks in the order in which the program cuts them."""
     touches = touches_of(plan.grid, plan.machine)
     lifts = _lines_of_marks(text) or [0] * len(touches)
     return [
@@ -271,7 +275,7 @@ def _marks(plan: Planned, text: str) -> list[GridMark]:
 
 
 def _lines_of_marks(text: str) -> list[int]:
-    """How many lines of a program the machine has taken when each mark is cut."""
+    """Return how many lines of a program the machine has taken when each mark is cut."""
     lines = cleaned(text.splitlines())
     # The line after the plunge lifts the bit: when it is taken, the mark is cut.
     return [number + 1 for number, line in enumerate(lines, start=1) if PLUNGE.match(line)]
@@ -293,7 +297,9 @@ def _save(project: Project) -> tuple[str, str]:
 def _files(
     project: Project, choices: Choices, plan: Planned, text: str
 ) -> tuple[str, dict[str, bytes]]:
-    """The number of the next round, and its files: a form with readings is never replaced."""
+    """Return the number of the next round, and its files: a form with readings is never
+    replaced.
+    """
     number = next_number(project)
     form, file = FORM.format(number), PROGRAM.format(number)
     filled = form_text(project, choices, plan, form)

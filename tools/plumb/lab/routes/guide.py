@@ -78,7 +78,7 @@ Desk = Annotated[GuideDesk, Depends(_desk)]
 
 @router.get("/guide")
 def show_guide(project: TheProject, desk: Desk) -> GuideAnswer:
-    """How far the guide is, and what it asks now."""
+    """Return how far the guide is, and what it asks now."""
     done, question = progress_in(project.folder).done, desk.question
     choices, _ = read_choices(project)
     units = ["--units", choices.units] if choices.units != "mm" else []

@@ -35,7 +35,7 @@ class Measuring(BaseModel):
 
 @router.get("/known")
 def show_known(project: TheProject) -> KnownAnswer:
-    """What the owner may know, and the command that goes by what is known now."""
+    """Return what the owner may know, and the command that goes by what is known now."""
     settings = opened(project)
     choices, _ = read_choices(project)
     marks = choices.marks or ["marks.toml"]

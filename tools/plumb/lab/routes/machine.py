@@ -136,7 +136,7 @@ class NumbersAnswer(BaseModel):
 
 @router.get("/machine")
 def machine(line: TheLine) -> MachineAnswer:
-    """How the machine is now; the live line says it all the time."""
+    """Return how the machine is now; the live line says it all the time."""
     state = line.state
     kind: Literal["none", "board", "virtual"] = "virtual" if line.virtual else "board"
     return MachineAnswer.model_validate(
@@ -154,7 +154,7 @@ def machine(line: TheLine) -> MachineAnswer:
 
 @router.get("/machine/ports")
 def list_ports() -> list[PortAnswer]:
-    """The serial ports of this computer."""
+    """Return the serial ports of this computer."""
     return [PortAnswer(**vars(port)) for port in ports()]
 
 
@@ -279,7 +279,7 @@ def _written(
 
 
 def _changes(written: Written) -> list[NumberChange]:
-    """What was changed, by the names of the machine's table."""
+    """Return what was changed, by the names of the machine's table."""
     rows = {row.number: row for row in every_setting()}
     return [
         NumberChange(
@@ -345,7 +345,7 @@ def _taken(answers: list[str]) -> list[str]:
 
 
 async def _heard(websocket: WebSocket, line: MachineLine, answers: list[str]) -> None:
-    """Does what is pressed; ends when the page has left. Whatever else it sends is ignored."""
+    """Do what is pressed; ends when the page has left. Whatever else it sends is ignored."""
     try:
         while True:
             press = PRESS.fullmatch(await websocket.receive_text())

@@ -84,7 +84,7 @@ class Wanted(BaseModel):
 
 @router.get("/next")
 def show_next(project: TheProject, background: TheBackground) -> NextAnswer:
-    """What to measure next."""
+    """Return what to measure next."""
     choices, _ = read_choices(project)
     inputs = inputs_of(project)
     answer = _proposed(project, background, inputs)
@@ -144,7 +144,7 @@ def put_back(project: TheProject) -> ProjectAnswer:
 
 
 def _proposed(project: Project, background: Background, inputs: api.Inputs) -> Answer[Next]:
-    """What to measure next, or how far that is."""
+    """Return what to measure next, or how far that is."""
     choices, _ = read_choices(project)
 
     def work(progress: Progress) -> Next:
@@ -217,7 +217,7 @@ def _taking(project: Project, inputs: api.Inputs, advice: Next, place: int) -> T
 
 
 def _written(project: Project, advice: Next, place: int) -> _Written | None:
-    """What taking a proposal writes; None for a proposal without marks."""
+    """Return what taking a proposal writes; None for a proposal without marks."""
     option = advice.proposals[place - 1].option
     if not len(option.visits):
         return None
@@ -246,7 +246,7 @@ def _written(project: Project, advice: Next, place: int) -> _Written | None:
 def _command(
     project: Project, inputs: api.Inputs, advice: Next, written: _Written, place: int
 ) -> str:
-    """The command that writes the same files."""
+    """Return the command that writes the same files."""
     choices, _ = read_choices(project)
     output = ["--output", written.program] if written.program else []
     # New marks are cut with what is open now, which may be other than what those there were.

@@ -131,7 +131,7 @@ class ExtremeAnswer(BaseModel):
 
 @router.get("/layouts")
 def layouts(project: TheProject) -> list[LayoutAnswer]:
-    """The ways to measure on this machine's sheet."""
+    """Return the ways to measure on this machine's sheet."""
     settings = opened(project)
     return [_layout(settings, layout) for layout in KINDS]
 
@@ -159,7 +159,9 @@ class Desk:
     def look(
         self, settings: MachineSettings, choices: Choices, request: PlanRequest, *, is_quick: bool
     ) -> Preview:
-        """What a plan could tell. Raises InputError for a plan that a newer plan has overtaken."""
+        """Return what a plan could tell. Raises InputError for a plan that a newer plan has
+        overtaken.
+        """
         self._newest += 1
         mine = self._newest
         with self._lock:
@@ -204,7 +206,7 @@ DESK, SLOW_DESK = Desk(), Desk()  # what takes seconds holds up nobody who drags
 
 @router.post("/preview")
 def preview_plan(request: PlanRequest, project: TheProject) -> PlanAnswer:
-    """What marks could tell before a hole is cut."""
+    """Return what marks could tell before a hole is cut."""
     settings = opened(project)
     choices, _ = read_choices(project)
     plan = planned(settings, request.layout, request.places)
@@ -223,7 +225,7 @@ def preview_plan(request: PlanRequest, project: TheProject) -> PlanAnswer:
 
 
 def _command(project: Project, choices: Choices, plan: Planned, sigma: float) -> str:
-    """The form, and what its marks could tell."""
+    """Return the form, and what its marks could tell."""
     number = next_number(project)
     form = FORM.format(number)
     made = grid_command(project, choices, plan, form=form, program=PROGRAM.format(number))
@@ -236,7 +238,7 @@ def _command(project: Project, choices: Choices, plan: Planned, sigma: float) ->
 
 @router.post("/preview/additions")
 def additions(request: PlanRequest, project: TheProject) -> list[AdditionAnswer]:
-    """What could be measured in addition; takes some seconds."""
+    """Return what could be measured in addition; takes some seconds."""
     choices, _ = read_choices(project)
     outlook = SLOW_DESK.look(opened(project), choices, request, is_quick=False)
     return [
@@ -252,7 +254,7 @@ def additions(request: PlanRequest, project: TheProject) -> list[AdditionAnswer]
 
 @router.get("/reach")
 def reach(project: TheProject) -> ReachAnswer:
-    """Where on the sheet the machine is usable."""
+    """Return where on the sheet the machine is usable."""
     choices, _ = read_choices(project)
     settings = opened(project)
     survey = survey_sheet(settings)
@@ -287,7 +289,7 @@ def reach(project: TheProject) -> ReachAnswer:
 
 
 def opened(project: Project) -> MachineSettings:
-    """The opened settings. Raises InputError if none are open."""
+    """Return the opened settings. Raises InputError if none are open."""
     choices, _ = read_choices(project)
     if not choices.settings:
         raise InputError("no settings are open; open the settings of the machine first")

@@ -65,7 +65,7 @@ class ChoicesChange(BaseModel):
 
 
 def project_of(request: Request) -> Project:
-    """The project that this server serves."""
+    """Return the project that this server serves."""
     project = request.app.state.project
     assert isinstance(project, Project)
     return project
@@ -76,7 +76,7 @@ TheProject = Annotated[Project, Depends(project_of)]
 
 @router.get("/project")
 def show(project: TheProject) -> ProjectAnswer:
-    """The project as it is on disk now."""
+    """Return the project as it is on disk now."""
     choices, digest = read_choices(project)
     machine, trouble = None, ""
     if choices.settings:
@@ -123,7 +123,7 @@ def open_settings(file: UploadFile, project: TheProject) -> ProjectAnswer:
 
 
 def machine_of(settings: MachineSettings, file: str) -> Machine:
-    """A machine as the page shows it."""
+    """Return a machine as the page shows it."""
     return Machine(
         file=file,
         controller=settings.controller,
@@ -174,7 +174,7 @@ class DoubtsAnswer(BaseModel):
 
 @router.get("/doubts")
 def show_doubts(project: TheProject, file: str) -> DoubtsAnswer:
-    """Which readings of a form no machine explains, by what is known of this machine."""
+    """Return which readings of a form no machine explains, by what is known of this machine."""
     choices, _ = read_choices(project)
     settings = settings_in(project.path(choices.settings))
     refuse_absurd_known(settings, choices)

@@ -115,7 +115,7 @@ class Fineness(BaseModel):
 
 @router.get("/readings")
 def show_readings(project: TheProject, file: str = "") -> ReadingsAnswer:
-    """A form of the folder: the named, else the newest that is used."""
+    """Return a form of the folder: the named, else the newest that is used."""
     choices, _ = read_choices(project)
     # Before the form is read: who saves it meanwhile is not taken for known.
     digests = {each: project.digest(each) for each in project.names()}
@@ -209,7 +209,7 @@ def open_marks(file: UploadFile, project: TheProject) -> ReadingsAnswer:
 
 
 def _command(choices: Choices, name: str, measurements: Measurements) -> str:
-    """The arrows of a form, and the readings that disagree."""
+    """Return the arrows of a form, and the readings that disagree."""
     unit = unit_words(choices, measurements.typed.unit)
     arrows = command("compare", choices.settings, name, *unit)
     doubts = command("diagnose", choices.settings, name, *known_words(choices), *unit)
@@ -217,7 +217,7 @@ def _command(choices: Choices, name: str, measurements: Measurements) -> str:
 
 
 def _as_toml(path: Path, content: bytes, sheet: tuple[float, float]) -> bytes:
-    """A file of marks as a marks.toml; InputError if it is none."""
+    """Return a file of marks as a marks.toml; InputError if it is none."""
     if path.suffix == ENDING:
         try:
             read_form(path, sheet=sheet, known=known_effects())
@@ -249,7 +249,7 @@ def _refuse_two_places(form: Form, ends: Sequence[str]) -> None:
 
 
 def _forms(project: Project, choices: Choices) -> dict[str, Form]:
-    """Every form in the folder by its name."""
+    """Return every form in the folder by its name."""
     forms = {}
     for name in project.names():
         if not name.endswith(ENDING) or name == choices.settings:
@@ -265,14 +265,14 @@ def _forms(project: Project, choices: Choices) -> dict[str, Form]:
 
 
 def form_of(project: Project, choices: Choices, name: str) -> Form:
-    """A form of the folder. Raises InputError."""
+    """Return a form of the folder. Raises InputError."""
     machine = settings_in(project.path(choices.settings)) if choices.settings else None
     sheet = machine.sheet if machine else (0.0, 0.0)
     return read_form(project.path(name), sheet=sheet, known=known_effects())
 
 
 def _by_use(forms: Mapping[str, Form], choices: Choices) -> list[str]:
-    """Names of forms: what waits for readings first, then what is used, the newest first.
+    """Return names of forms: what waits for readings first, then what is used, the newest first.
 
     Of those that wait, the marks that somebody took from the verdict come first.
     """
@@ -288,7 +288,9 @@ def _waits(form: Form) -> bool:
 
 
 def _waiting(form: Form) -> int:
-    """How many marks of a form wait for a reading; where distances are asked, how many of those."""
+    """Return how many marks of a form wait for a reading; where distances are asked, how many of
+    those.
+    """
     if spans := _lengths_asked(form):
         taped = {frozenset(distance.between) for distance in form.measurements.distances}
         return sum(frozenset(span) not in taped for span in spans)
@@ -296,7 +298,7 @@ def _waiting(form: Form) -> int:
 
 
 def _lengths_asked(form: Form) -> list[tuple[str, str]]:
-    """The spans of a form that waits for distances and for no places."""
+    """Return the spans of a form that waits for distances and for no places."""
     return [] if form.measurements.measured_marks else spans_in(form.comment)
 
 
@@ -314,7 +316,7 @@ def _form_file(name: str, form: Form, choices: Choices) -> FormFile:
 
 
 def _sheet_of(project: Project, choices: Choices, form: Form | None) -> tuple[float, float]:
-    """The sheet on which the marks were cut [mm]."""
+    """Return the sheet on which the marks were cut [mm]."""
     in_force = form and form.measurements.rounds[0].cut_with
     if in_force:
         return in_force.sheet
@@ -340,6 +342,6 @@ def _marks(measurements: Measurements, sheet: tuple[float, float], corner: str) 
 def _shown(
     place: tuple[float, float], sheet: tuple[float, float], corner: str
 ) -> tuple[float, float]:
-    """A place from the edges, without the noise of a computer's arithmetic."""
+    """Return a place from the edges, without the noise of a computer's arithmetic."""
     x, y = from_edges(place, sheet=sheet, corner=corner)
     return round(x, 6) + 0.0, round(y, 6) + 0.0

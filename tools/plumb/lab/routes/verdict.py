@@ -117,7 +117,7 @@ class VerdictAnswer(BaseModel):
 
 
 def background_of(request: Request) -> Background:
-    """The thread of this server for long work."""
+    """Return the thread of this server for long work."""
     known = getattr(request.app.state, "background", None)
     if known is None:
         known = request.app.state.background = Background()
@@ -130,7 +130,7 @@ TheBackground = Annotated[Background, Depends(background_of)]
 
 @router.get("/verdict")
 def show_verdict(project: TheProject, background: TheBackground) -> VerdictAnswer:
-    """The verdict on the readings so far."""
+    """Return the verdict on the readings so far."""
     choices, _ = read_choices(project)
     key = key_of(project)  # before the files are read: what changes meanwhile is asked for again
     inputs = inputs_of(project)
@@ -153,14 +153,14 @@ def show_verdict(project: TheProject, background: TheBackground) -> VerdictAnswe
 
 
 def board_and_known(project: Project, inputs: api.Inputs) -> list[str]:
-    """The board, what is known and the unit, as a command takes them."""
+    """Return the board, what is known and the unit, as a command takes them."""
     choices, _ = read_choices(project)
     unit = unit_words(choices, inputs.measurements.typed.unit)
     return [*board_words(project), *known_words(choices), *unit]
 
 
 def verdict_of(inputs: api.Inputs, examined: Examined, auto: AutoAddition) -> Verdict:
-    """A diagnosis as the page shows it."""
+    """Return a diagnosis as the page shows it."""
     diagnosis = examined.diagnosis
     raw = api.compare(inputs)
     addition = auto.addition
@@ -221,7 +221,7 @@ def _card(examined: Examined, index: int, together: Together, fitted: Explanatio
 
 
 def _looks_like(diagnosis: Diagnosis, index: int) -> list[str]:
-    """The explanations that draw nearly the same arrows here, the nearest first."""
+    """Return the explanations that draw nearly the same arrows here, the nearest first."""
     near = [
         (apart, j if i == index else i)
         for (i, j), apart in diagnosis.differences.items()

@@ -9,7 +9,7 @@ from plumb.model.python_effect import DirectCheck, Example, Plain
 
 
 def change(parameters: Array, seen: Seen) -> Change:
-    """The reading x grows by angle * y: a positive angle reads too far right at the top.
+    """Return the reading x grows by angle * y: a positive angle reads too far right at the top.
 
     That is a left edge whose top leans out to the left. Distances between marks do not feel it.
     """

@@ -8,7 +8,9 @@ from plumb.model.sketches.sketch import Array
 
 
 def extra(parameters: Array, strands: Strands) -> Array:
-    """Added chain (n, 2) [mm]: mounts that yield by give * tension need less chain by as much."""
+    """Return the added chain (n, 2) [mm]: mounts that yield by give * tension need less chain by as
+    much.
+    """
     return -float(parameters[0]) * strands.tension
 
 

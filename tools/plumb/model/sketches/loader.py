@@ -27,7 +27,7 @@ class Loaded:
 
 
 def load_all() -> Loaded:
-    """The sketches of this folder and of the user's."""
+    """Return the sketches of this folder and of the user's."""
     folders = [Path(__file__).parent]
     if os.environ.get(VARIABLE):
         folders.append(Path(os.environ[VARIABLE]))
@@ -35,7 +35,7 @@ def load_all() -> Loaded:
 
 
 def load(folders: list[Path]) -> Loaded:
-    """The sketches of these folders, in the order of their files' names."""
+    """Return the sketches of these folders, in the order of their files' names."""
     sketches: dict[str, Sketch] = {}
     broken = []
     for folder in folders:
@@ -56,7 +56,7 @@ def load(folders: list[Path]) -> Loaded:
 
 
 def _read(path: Path) -> Sketch:
-    """The SKETCH of a file, tried on two strands."""
+    """Return the SKETCH of a file, tried on two strands."""
     module = load_script(path, name=f"plumb_sketch_{path.stem}")
     sketch = getattr(module, "SKETCH", None)
     if not isinstance(sketch, Sketch):
