@@ -19,7 +19,7 @@ TESTS = {
     "lib/Settings": ("test_settings",),
     "src/machine": ("test_machine", "test_control", "test_dialogues"),
     "tools/plumb/diary": ("tools/tests/diary", "tools/tests/cli/test_diary_and_recheck.py"),
-    "tools/plumb/recovery": ("tools/tests/recovery", "tools/tests/cli/test_slip_and_home.py"),
+    "tools/plumb/job": ("tools/tests/job", "tools/tests/cli/test_slip_and_home.py"),
 }
 
 

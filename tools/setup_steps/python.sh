@@ -3,7 +3,7 @@
 # setup_python SET: SET is "lab" or "all".
 setup_python() {
   local wanted note=.venv/requirements.note list=tools/requirements.txt
-  wanted=$(fingerprint tools/requirements.txt tools/requirements_lab.txt)
+  wanted=$(fingerprint tools/requirements*.txt)
   if same_as "$note" "$wanted all" || same_as "$note" "$wanted $1"; then return; fi
 
   [ "$1" = all ] || list=tools/requirements_lab.txt
@@ -15,7 +15,12 @@ setup_python() {
       stop "cannot make .venv: $(tail -n 1 "$log")"
   fi
   say "installs the Python packages of $list"
-  .venv/bin/pip install --disable-pip-version-check -r "$list" >"$log" 2>&1 ||
-    stop "pip failed: $(grep -i '^error' "$log" | tail -n 1) (all of it in .setup.log)"
+  install_packages -r "$list"
+  [ "$1" != all ] || install_packages --no-deps -r tools/requirements_mutation.txt
   printf '%s %s\n' "$wanted" "$1" >"$note"
+}
+
+install_packages() {
+  .venv/bin/pip install --disable-pip-version-check "$@" >"$log" 2>&1 ||
+    stop "pip failed: $(grep -i '^error' "$log" | tail -n 1) (all of it in .setup.log)"
 }

@@ -35,7 +35,7 @@ def returns_of(file, function):
 
 
 def test_the_walk_is_there():
-    assert len(STEPS) >= 15 and len(HANDED_ON) >= 12
+    assert len(STEPS) == 8 and len(HANDED_ON) == 6
 
 
 @pytest.mark.parametrize(("file", "function"), STEPS)
@@ -55,8 +55,8 @@ def test_each_file_of_the_walk_exists():
 
 def test_each_room_has_its_row():
     rooms = {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
-    rows = re.findall(r"^\| \d+ \| `(\w+)/` \|", PAGE, re.MULTILINE)
-    assert rooms == set(rows)
+    rows = re.findall(r"^\| \d+ \| (`.+?`) \|", PAGE, re.MULTILINE)
+    assert rooms == set(re.findall(r"`(\w+)/`", " ".join(rows)))
 
 
 def test_the_diagnosis_takes_the_steps_in_the_order_of_the_page():
