@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "hidden.h"
+
 using namespace kinematics;
 
 namespace {
@@ -58,13 +60,16 @@ std::vector<Point<Real>> places() {
   return all;
 }
 
-/// Sum over places and sides of |length with a parameter at `size` - length without effects|;
-/// another parameter may be given a size as well.
-double effectOf(const AnyParam& any, double size, int other = 0, double other_size = 0) {
-  EffectParams<double> none = {}, some = {};
-  some.value[other] = other_size;
-  some.value[any.index] = size;
-  const Machine<double> bare = machineWith(none), changed = machineWith(some);
+/// Sum over places and sides of |length with a parameter at `size` - length without it|; another
+/// parameter may be given a size as well. All else is a chain that sags and stretches: a rigid one
+/// does not feel a force.
+double effectOf(const AnyParam& any, double size, int other, double other_size) {
+  EffectParams<double> without = usualChain();
+  without.value[any.index] = without.value[other] = 0;
+  EffectParams<double> with = without;
+  with.value[other] = other_size;
+  with.value[any.index] = size;
+  const Machine<double> bare = machineWith(without), changed = machineWith(with);
   double sum = 0;
   for (const Point<double>& place : places<double>()) {
     const Chains<double> a = inverse(bare, place).chains, b = inverse(changed, place).chains;
@@ -72,6 +77,8 @@ double effectOf(const AnyParam& any, double size, int other = 0, double other_si
   }
   return sum;
 }
+
+double effectOf(const AnyParam& any, double size) { return effectOf(any, size, any.index, size); }
 
 }  // namespace
 

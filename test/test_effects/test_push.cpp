@@ -73,7 +73,6 @@ TEST(Push, NoneLeavesTheChainsAsTheyAre) {
 TEST(Push, ListsKnowWhichEffectsPush) {
   typedef Registry<At<100, MotorLevel>, At<110, Hose>, At<120, Hose>>::For<double> Pushing;
   EXPECT_EQ(6, int(Pushing::kPushMask));
-  EXPECT_EQ(0, int(Effects::For<float>::kPushMask)) << "the board now works out pushes: measure it";
   const double parameter[] = {4, 10, 5};
   double c[Pushing::kCoefficientCount];
   Pushing::prepare(frameUnder({}), parameter, c);
