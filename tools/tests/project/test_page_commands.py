@@ -1,9 +1,12 @@
 """The commands on the pages run as shown: they print what the page shows, and their exit codes."""
 
+import os
+import subprocess
 from pathlib import Path
 
 import pytest
 from page_commands import faults_on, pages, rewritten
+from preloaded import preloaded
 
 PAGES = pages()
 # Their commands drive a machine, or fit and draw much. Those of README are run by
@@ -46,3 +49,18 @@ def test_a_page_is_written_with_what_its_commands_print(tmp_path: Path) -> None:
     new = "text\n\n```console\n$ echo a\na\n\n$ x=c\n$ echo $x\nc\n```\n```\nplumb --help\n```\n"
     assert rewritten(old, tmp_path / "first") == new
     assert rewritten(new, tmp_path / "second") == new
+
+
+def test_a_command_ends_with_the_client_that_asked_for_it(tmp_path: Path) -> None:
+    endless = tmp_path / "machine.toml"
+    os.mkfifo(endless)
+    with preloaded() as folder:
+        client = subprocess.Popen(
+            [folder / "plumb", "settings", endless],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        )
+        writer = os.open(endless, os.O_WRONLY)  # opens when the command reads
+        client.kill()
+        client.communicate(timeout=60)  # its output ends when nobody is left who could write it
+        os.close(writer)
