@@ -61,8 +61,8 @@ std::vector<Point<Real>> places() {
 }
 
 /// Sum over places and sides of |length with a parameter at `size` - length without it|; another
-/// parameter may be given a size as well. All else is a chain that sags and stretches: a rigid one
-/// does not feel a force.
+/// parameter may be given a size as well. All else is a chain that sags and stretches: a chain that
+/// does neither does not feel a force.
 double effectOf(const AnyParam& any, double size, int other, double other_size) {
   EffectParams<double> without = usualChain();
   without.value[any.index] = without.value[other] = 0;

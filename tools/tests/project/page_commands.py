@@ -1,4 +1,5 @@
-"""The commands that pages show, and what they print; run as a script it writes that into the pages.
+"""The commands that pages show, and what they print; run as a script it writes that
+into the pages that it is given, or into all.
 
 In a block ```console the lines after `$ ` are commands, and below each stands what it prints. It
 exits with 0, or the page shows the code by `; echo "exit $?"`. In a block without a language the
@@ -16,7 +17,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -146,10 +147,24 @@ def pages() -> dict[str, str]:
     return {name: text for name, text in texts.items() if commands_on(text)}
 
 
+def written(names: Sequence[str]) -> list[str]:
+    """Write what commands print into the pages of these names, or all; return which changed."""
+    texts = pages()
+    unknown = set(names) - set(texts)
+    if unknown:
+        sys.exit(
+            f"{', '.join(sorted(unknown))}: no page with commands; name it as docs/commands/add.md"
+        )
+    changed = []
+    for page in names or texts:
+        with tempfile.TemporaryDirectory() as folder:
+            text = rewritten(texts[page], Path(folder))
+        if text != texts[page]:
+            (ROOT / page).write_text(text, encoding="utf-8")
+            changed.append(page)
+    return changed
+
+
 if __name__ == "__main__":
-    for page, old_text in pages().items():
-        with tempfile.TemporaryDirectory() as new_folder:
-            new_text = rewritten(old_text, Path(new_folder))
-        if new_text != old_text:
-            (ROOT / page).write_text(new_text, encoding="utf-8")
-            print(f"{page}: written")
+    for page in written(sys.argv[1:]):
+        print(f"{page}: written")
