@@ -6,6 +6,8 @@ from typing import TypedDict
 import numpy as np
 from numpy.typing import NDArray
 
+from plumb.model.python_effect import EffectWords
+
 Numbers = NDArray[np.float64]
 Answers = NDArray[np.uint8]
 
@@ -17,52 +19,6 @@ class FrameWords(TypedDict):
     high: float
     summary: str
     noun: str
-
-class PlainWords(TypedDict):
-    more: str
-    less: str
-    unit: str
-    times: float
-    shown: str
-
-class ParameterWords(TypedDict):
-    name: str
-    setting: int | None
-    unit: str
-    low: float
-    high: float
-    typical: float
-    summary: str
-    sigma: float
-    plain: PlainWords | None
-    published: tuple[int, float] | None
-
-class CheckWords(TypedDict):
-    title: str
-    steps: str
-    value: str
-    minutes: float
-
-class ExampleWords(TypedDict):
-    label: str
-    sizes: dict[str, float]
-    most: float
-
-class EffectWords(TypedDict):
-    name: str
-    noun: str
-    where: str
-    summary: str
-    pattern: str
-    look_alikes: str
-    remedy: str
-    empirical: bool
-    belongs_to: str
-    in_frame: bool
-    weight_power: int
-    check: CheckWords | None
-    examples: list[ExampleWords]
-    parameters: list[ParameterWords]
 
 class SettingRow(TypedDict):
     number: int

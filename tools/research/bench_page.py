@@ -93,7 +93,9 @@ def page(report: Report) -> str:
         parts.append(markdown(LOOP_HEADER, loop_cells(report.loops)))
         parts.append(f"\nLine for the ratio of all: {line_words(LOOP)}, {report.loop_judged}.\n")
     if report.by_kind:
-        rows = [[name, kind, rate.name, value_words(rate)] for name, kind, rate in report.by_kind]
+        rows = [
+            [rate.scenario, rate.hidden, rate.name, value_words(rate)] for rate in report.by_kind
+        ]
         parts.append("\n## By what was hidden\n")
         parts.append(markdown(("scenario", "hidden", "rate", "seen"), rows))
     return "\n".join(parts)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from plumb.diagnosis import Diagnosis
 from plumb.diagnosis.explanation import Board, Explanation, explain, span
 from plumb.fit.observations import Observations, observe
 from plumb.model.catalogue import effect_names, parameter_words
+from plumb.text.answers import NumberOrNull, key
 
 Array = np.ndarray
 ALIKE = 0.98  # |cosine| after the refit above which two causes draw the same arrows
@@ -201,15 +202,16 @@ def _cosine(frame: Explanation, effect: str, left: Array) -> float:
 # Rates over many boards, with how far they may be off, next to the lines to be reached.
 
 SURE = 1.96  # standard deviations by which a rate must miss its line to be called missed
+JUDGED = ("reached", "missed", "open")
 
 
 @dataclass(frozen=True)
 class Rate:
     """A mean over boards."""
 
-    name: str
-    value: float
-    error: float  # standard deviation of it, as another draw of boards would show
+    name: Annotated[str, key("rate")]
+    value: NumberOrNull
+    error: NumberOrNull  # standard deviation of it, as another draw of boards would show
     count: int
 
 

@@ -4,26 +4,42 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Annotated
 
 import joblib  # type: ignore[import-untyped]  # it brings no types
 import numpy as np
+from pydantic import computed_field
 
 from plumb.bench.judged_board import JudgedBoard, judge_board
-from plumb.bench.outcome import Line, Outcome, Rate, rate_of
+from plumb.bench.outcome import JUDGED, Line, Outcome, Rate, rate_of
 from plumb.bench.scenarios import CURE, LOOP, SCENARIOS, Scenario
+from plumb.text.answers import Internal, NumberOrNull, among, key
 
 Progress = Callable[[str, int], None]  # called with each scenario and how many more boards are done
 AT_ONCE = 4  # boards between two steps of the progress
 
 
 @dataclass(frozen=True)
-class Row:
-    """One rate of one scenario; line and judged are empty where there is nothing to reach."""
+class Row(Rate):
+    """One rate of one scenario; line and judged are None where there is nothing to reach."""
 
-    scenario: Scenario
-    rate: Rate
-    line: Line | None
-    judged: str  # of Line.judge
+    scenario: str
+    hidden: str
+    marks: int
+    noise: Annotated[float, key("noise_mm")]
+    least: float | None
+    most: float | None
+    judged: Annotated[str | None, among((*JUDGED, None))]
+    kind: Internal[Scenario]
+    line: Internal[Line | None]
+
+
+@dataclass(frozen=True)
+class RateOfCause(Rate):
+    """The share that was right of the boards with a cause."""
+
+    scenario: str
+    hidden: str
 
 
 @dataclass(frozen=True)
@@ -32,13 +48,20 @@ class Cured:
 
     scenario: str
     boards: int
-    before: float
-    frame: float
-    after: float
-    known: float
-    error: float  # of the ratio
-    readings: float = 0.0  # mean number of marks that were proposed and read
+    before: NumberOrNull
+    frame: NumberOrNull
+    after: NumberOrNull
+    known: NumberOrNull
+    error: Annotated[NumberOrNull, key("ratio_error")]
+    # mean number of marks that were proposed and read
+    readings: Annotated[float, key("readings_more")] = 0.0
     checks: float = 0.0  # mean number of direct measurements
+
+    @computed_field(alias="ratio")
+    @property
+    def ratio_value(self) -> NumberOrNull:
+        """The ratio alone."""
+        return self.ratio.value
 
     @property
     def ratio(self) -> Rate:
@@ -50,10 +73,10 @@ class Cured:
 class Report:
     """All rates."""
 
-    rows: tuple[Row, ...]
-    by_kind: tuple[tuple[str, str, Rate], ...]  # scenario, what was hidden, share that was right
-    cures: tuple[Cured, ...]  # the last is that of all boards together
-    loops: tuple[Cured, ...]  # the same after rounds of proposals
+    rows: Annotated[tuple[Row, ...], key("rates")]
+    by_kind: tuple[RateOfCause, ...]
+    cures: Internal[tuple[Cured, ...]]  # the last is that of all boards together
+    loops: Internal[tuple[Cured, ...]]  # the same after rounds of proposals
     boards: int  # of each scenario
     seed: int
     counted: int  # boards of all scenarios; fewer than asked for if the bench was interrupted
@@ -73,6 +96,22 @@ class Report:
     def loop_judged(self) -> str:
         """The same after rounds of proposals."""
         return LOOP.judge(self.loops[-1].ratio) if self.loops else ""
+
+    @computed_field
+    @property
+    def errors_mm(self) -> tuple[Cured, ...]:
+        """Errors at the sled, before and after rounds of proposals."""
+        return (*self.cures, *self.loops)
+
+    @computed_field(alias="missed")
+    @property
+    def missed_words(self) -> list[str]:
+        """The rates that miss their lines, in words."""
+        return (
+            [f"{row.scenario}: {row.name}" for row in self.missed]
+            + ["error at the sled"] * (self.cure_judged == "missed")
+            + ["error at the sled after two rounds"] * (self.loop_judged == "missed")
+        )
 
 
 def run(
@@ -120,7 +159,7 @@ def _report(
     interrupted: bool,
 ) -> Report:
     rows: list[Row] = []
-    kinds: list[tuple[str, str, Rate]] = []
+    kinds: list[RateOfCause] = []
     for scenario in scenarios:
         outcomes = [trial.outcome for trial in trials[scenario.name]]
         rows += rows_of(scenario, outcomes)
@@ -142,25 +181,41 @@ def rows_of(scenario: Scenario, outcomes: Sequence[Outcome]) -> list[Row]:
     rows = []
     for line in scenario.lines:
         rate = rate_of(line.name, outcomes)
-        rows.append(Row(scenario, rate, line, line.judge(rate)))
-    return rows + [Row(scenario, rate_of(name, outcomes), None, "") for name in scenario.shown]
+        rows.append(_row(scenario, rate, line))
+    return rows + [_row(scenario, rate_of(name, outcomes), None) for name in scenario.shown]
 
 
-def _by_kind(scenario: Scenario, outcomes: Sequence[Outcome]) -> list[tuple[str, str, Rate]]:
+def _row(scenario: Scenario, rate: Rate, line: Line | None) -> Row:
+    """Return the rate, as it stands against its line."""
+    return Row(
+        **vars(rate),
+        scenario=scenario.name,
+        hidden=scenario.what,
+        marks=scenario.marks,
+        noise=scenario.noise,
+        least=line.least if line else None,
+        most=line.most if line else None,
+        judged=line.judge(rate) if line else None,
+        kind=scenario,
+        line=line,
+    )
+
+
+def _by_kind(scenario: Scenario, outcomes: Sequence[Outcome]) -> list[RateOfCause]:
     """Return the first rate with a line, by what was hidden."""
     causes = dict.fromkeys(outcome.cause.partition(",")[0] for outcome in outcomes)
     if not scenario.lines or len(causes) < 2 or scenario.name.startswith("pairs"):
         return []
-    name = scenario.lines[0].name
-    return [
-        (
-            scenario.name,
-            cause,
-            rate_of(
-                name, [outcome for outcome in outcomes if outcome.cause.partition(",")[0] == cause]
-            ),
+    rates = {
+        cause: rate_of(
+            scenario.lines[0].name,
+            [outcome for outcome in outcomes if outcome.cause.partition(",")[0] == cause],
         )
         for cause in causes
+    }
+    return [
+        RateOfCause(**vars(rate), scenario=scenario.name, hidden=cause)
+        for cause, rate in rates.items()
     ]
 
 
@@ -215,14 +270,14 @@ def cells(report: Report) -> list[list[str]]:
     """Return the rows of the table."""
     return [
         [
-            row.scenario.name,
-            row.scenario.what,
-            f"{row.scenario.marks}{' spans' if row.scenario.spans else ''}",
-            row.scenario.noise_words,
-            row.rate.name,
-            value_words(row.rate),
+            row.scenario,
+            row.hidden,
+            f"{row.marks}{' spans' if row.kind.spans else ''}",
+            row.kind.noise_words,
+            row.name,
+            value_words(row),
             line_words(row.line),
-            row.judged,
+            row.judged or "",
         ]
         for row in report.rows
     ]

@@ -11,8 +11,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from plumb.bench.report import Report
+from plumb.cli.effects import Library
+from plumb.cli.forward import Places
+from plumb.cli.grid import PlannedGrid
+from plumb.cli.inverse import ChainLengths
+from plumb.cli.read import MachineNumbers
+from plumb.cli.settings import SettingLines
+from plumb.cli.telemetry import WatchedTelemetry
 from plumb.fit.compare import Comparison
 from plumb.text.answers import schema_of
+from plumb.vm.practice import Score
 
 FILE = Path(__file__).with_name("answers.schema.json")
 
@@ -27,7 +36,16 @@ class Refusal:
 # The answer of each command.
 ANSWERS: dict[str, type] = {
     "refusal": Refusal,
+    "bench": Report,
     "compare": Comparison,
+    "effects": Library,
+    "forward": Places,
+    "grid": PlannedGrid,
+    "inverse": ChainLengths,
+    "practice": Score,
+    "read": MachineNumbers,
+    "settings": SettingLines,
+    "telemetry": WatchedTelemetry,
 }
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Sequence
-from typing import Any
 
 from plumb.bench.report import (
     CURE_HEADER,
@@ -37,7 +36,7 @@ def run(arguments: argparse.Namespace) -> int:
         jobs=arguments.jobs,
     )
     if arguments.json:
-        print_json(as_json(report))
+        print_json(report)
     else:
         print(as_text(report))
     return INTERRUPTED if report.interrupted else 0
@@ -93,8 +92,7 @@ def as_text(report: Report) -> str:
             sentences([f"The same after two rounds of what plumb next proposes. {said}"], mark="")
         )
     missed = [
-        f"missed: {row.scenario.name}, {row.rate.name} {value_words(row.rate)}, line "
-        f"{line_words(row.line)}"
+        f"missed: {row.scenario}, {row.name} {value_words(row)}, line {line_words(row.line)}"
         for row in report.missed
     ]
     reached = f"{report.boards} boards of each scenario, seed {report.seed}: no line is missed"
@@ -110,61 +108,6 @@ def _rates_of(name: str, report: Report) -> str:
     _, hidden, marks, noise, *_ = rows[0]
     said = f"{name}: {hidden}, {marks} marks, noise {noise}"
     return f"{said}\n{table(HEADER[4:], [row[4:] for row in rows], words=[-2, -1])}"
-
-
-def as_json(report: Report) -> dict[str, Any]:
-    """Return the rates by the names of the table."""
-    return {
-        "boards": report.boards,
-        "counted": report.counted,
-        "interrupted": report.interrupted,
-        "seed": report.seed,
-        "rates": [
-            {
-                "scenario": row.scenario.name,
-                "hidden": row.scenario.what,
-                "marks": row.scenario.marks,
-                "noise_mm": row.scenario.noise,
-                "rate": row.rate.name,
-                "value": row.rate.value,
-                "error": row.rate.error,
-                "count": row.rate.count,
-                "least": row.line.least if row.line else None,
-                "most": row.line.most if row.line else None,
-                "judged": row.judged or None,
-            }
-            for row in report.rows
-        ],
-        "by_kind": [
-            {
-                "scenario": name,
-                "hidden": kind,
-                "rate": rate.name,
-                "value": rate.value,
-                "error": rate.error,
-                "count": rate.count,
-            }
-            for name, kind, rate in report.by_kind
-        ],
-        "errors_mm": [
-            {
-                "scenario": cure.scenario,
-                "boards": cure.boards,
-                "before": cure.before,
-                "frame": cure.frame,
-                "after": cure.after,
-                "known": cure.known,
-                "ratio": cure.ratio.value,
-                "ratio_error": cure.error,
-                "readings_more": cure.readings,
-                "checks": cure.checks,
-            }
-            for cure in (*report.cures, *report.loops)
-        ],
-        "missed": [f"{row.scenario.name}: {row.rate.name}" for row in report.missed]
-        + ["error at the sled"] * (report.cure_judged == "missed")
-        + ["error at the sled after two rounds"] * (report.loop_judged == "missed"),
-    }
 
 
 # The arguments of `plumb bench`.

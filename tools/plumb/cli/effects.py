@@ -4,18 +4,27 @@ from __future__ import annotations
 
 import argparse
 from collections import Counter
+from dataclasses import dataclass
 
 from plumb.cli.arguments import add_json
 from plumb.cli.screen import number, print_json, sentences, table
 from plumb.cli.steps import next_step
 from plumb.model.catalogue import NO_FIRMWARE, empirical_effects, every_effect, label
+from plumb.model.python_effect import EffectWords
+
+
+@dataclass(frozen=True)
+class Library:
+    """The effects that can be fitted."""
+
+    effects: list[EffectWords]
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the library."""
     effects = every_effect()
     if arguments.json:
-        print_json({"effects": effects})
+        print_json(Library(effects))
         return 0
     count = Counter(effect["where"] for effect in effects)
     first = (

@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import dataclass
+from typing import Annotated
 
 from plumb.cli.arguments import add_json, add_settings, add_units, file
-from plumb.cli.inverse import answered, answers_table, count_sentence
+from plumb.cli.inverse import Outcome, Pair, answered, answers_table, count_sentence
 from plumb.cli.screen import print_json
 from plumb.fit.inputs import settings_in
 from plumb.model.predict import FOUND, places
+from plumb.text.answers import key
 from plumb.text.points import read_pairs
 from plumb.text.values import unit
+
+
+@dataclass(frozen=True)
+class Places:
+    """Where the sled hangs on each pair of lengths [mm]."""
+
+    places: tuple[Pair, ...]
+    outcomes: Annotated[tuple[Outcome, ...], key("found")]
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -20,7 +31,7 @@ def run(arguments: argparse.Namespace) -> int:
     sled, outcome = places(settings, chains)
     answers, words = answered(sled, outcome)
     if arguments.json:
-        print_json({"places": answers, "found": words})
+        print_json(Places(answers, words))
     else:
         said = count_sentence(words, "pair")
         print(f"{said} Places from the middle of the sheet, y up; {unit()}.\n")

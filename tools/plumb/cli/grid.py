@@ -6,8 +6,9 @@ import argparse
 import contextlib
 import io
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Annotated
 
 import plumb.grid as marks_grid
 from plumb import _core
@@ -20,7 +21,29 @@ from plumb.grid.pattern import ACROSS, SPANS, SQUARE, UPWARDS
 from plumb.model.reach import refuse_way, with_soft_chains
 from plumb.pictures.measuring_sheet import Hole, MeasuringSheet, Reading, measuring_sheet
 from plumb.settings.machine import MachineSettings
+from plumb.text.answers import meant
 from plumb.text.errors import InputError
+
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class PlannedTouch:
+    """A mark that the program makes [mm]."""
+
+    name: str
+    target: Point
+    visit: int  # 1, 2, ...: a repeat
+
+
+@dataclass(frozen=True)
+class PlannedGrid:
+    """A grid of marks."""
+
+    program: Annotated[str | None, meant("Null: it went into a file.")]
+    marks: tuple[PlannedTouch, ...]
+    approach: Point
+    written: tuple[str, ...]
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -44,17 +67,15 @@ def run(arguments: argparse.Namespace) -> int:
         return code
     grid, machine = marks_grid.from_arguments(arguments)
     print_json(
-        {
-            "program": None if arguments.output else marks_grid.program(grid, machine),
-            "marks": [
-                {"name": mark.name, "target": [mark.x, mark.y], "visit": mark.visit}
+        PlannedGrid(
+            program=None if arguments.output else marks_grid.program(grid, machine),
+            marks=tuple(
+                PlannedTouch(mark.name, (mark.x, mark.y), mark.visit)
                 for mark in marks_grid.touches_of(grid, machine)
-            ],
-            "approach": list(grid.approach),
-            "written": [
-                path for path in (arguments.output, arguments.marks, arguments.paper) if path
-            ],
-        }
+            ),
+            approach=grid.approach,
+            written=tuple(filter(None, (arguments.output, arguments.marks, arguments.paper))),
+        )
     )
     return 0
 

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
@@ -20,9 +23,23 @@ from plumb.model.predict import (
     lengths,
 )
 from plumb.settings.machine import MachineSettings
+from plumb.text.answers import among, key
 from plumb.text.errors import InputError
 from plumb.text.points import read_pairs
 from plumb.text.values import bare, unit
+
+Pair = tuple[float, float] | None  # None where there is no answer
+Outcome = Annotated[str, among(FOUND_WORDS)]
+
+
+@dataclass(frozen=True)
+class ChainLengths:
+    """Chain paid out for each place [mm], left and right."""
+
+    controller: str
+    lengths: tuple[Pair, ...]
+    outcomes: Annotated[tuple[Outcome, ...], key("found")]
+    moved_to_edge: tuple[bool, ...]
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -41,9 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
         moved = (clamped(settings, points) != points).any(axis=1)
     answers, words = answered(chains, outcome)
     if arguments.json:
-        print_json(
-            {"controller": whose, "lengths": answers, "found": words, "moved_to_edge": moved}
-        )
+        print_json(ChainLengths(whose, answers, words, tuple(moved.tolist())))
     else:
         said = count_sentence(words, "place")
         print(f"{said} Chain paid out from 12 o'clock, formula of {whose}; {unit()}.\n")
@@ -93,21 +108,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 # What `plumb inverse` and `plumb forward` say to people: counts and tables of places.
 
-Row = list[float] | None  # two numbers, or None where there is no answer
 
-
-def answered(answers: Array, outcome: Codes) -> tuple[list[Row], list[str]]:
+def answered(answers: Array, outcome: Codes) -> tuple[tuple[Pair, ...], tuple[str, ...]]:
     """Return the answers (n, 2), None for those that may not be used, and the word of each
     outcome.
     """
-    rows: list[Row] = [
-        [float(number) for number in answer] if code == FOUND else None
+    pairs = tuple(
+        (float(answer[0]), float(answer[1])) if code == FOUND else None
         for answer, code in zip(answers, outcome, strict=True)
-    ]
-    return rows, [FOUND_WORDS[code] for code in outcome]
+    )
+    return pairs, tuple(FOUND_WORDS[code] for code in outcome)
 
 
-def count_sentence(words: list[str], noun: str) -> str:
+def count_sentence(words: Sequence[str], noun: str) -> str:
     """Return how many of them have an answer."""
     good = words.count("yes")
     if good == len(words):
@@ -119,8 +132,8 @@ def answers_table(
     given_names: tuple[str, str],
     given: np.ndarray,
     names: tuple[str, str],
-    answers: list[Row],
-    words: list[str],
+    answers: Sequence[Pair],
+    words: Sequence[str],
 ) -> str:
     """Return what was given, with its answer, or the word for why there is none."""
     rows = []

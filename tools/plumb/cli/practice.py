@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import secrets
 from contextlib import suppress
-from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -113,7 +112,7 @@ def _reveal(folder: Path, arguments: argparse.Namespace) -> int:
     answer = read_settings(arguments.answer or folder / SETTINGS, known=known_effects())
     result = score(secret, answer)
     if arguments.json:
-        print_json(asdict(result))
+        print_json(result)
     else:
         print(_as_text(result))
     return int(bool(result.false or result.missed))

@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import dataclass
+from typing import Annotated
+
+from pydantic import Field
 
 from plumb.cli.arguments import add_force, add_json, add_port
 from plumb.cli.output import write_outputs
@@ -14,8 +18,29 @@ from plumb.line.port import SerialPort, port_for
 from plumb.line.sender import Sender
 from plumb.line.worker import lost_place
 from plumb.settings.files import machine_toml
+from plumb.text.answers import meant
 
 FIRST_EFFECT = 100  # from here on zero means that the machine does without
+
+
+@dataclass(frozen=True)
+class MachineNumbers:
+    """What a machine says."""
+
+    settings: dict[Annotated[str, Field(pattern=r"^\$[0-9]+$")], float]
+    place: Annotated[
+        tuple[float, float, float] | None,
+        meant("Of the sled and the bit; null where the machine does not know it."),
+    ]
+    lost: Annotated[
+        str | None,
+        meant("What the machine says of a place that it does not know; null: it knows its place."),
+    ]
+    written: tuple[str, ...]
+    suspicion: Annotated[
+        str | None,
+        meant("Which chain may have slipped, and where; null: none, or the firmware does not say."),
+    ]
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -31,21 +56,21 @@ def run(arguments: argparse.Namespace) -> int:
     finally:
         port.close()
     suspicion = slip_suspicion(telemetry) if telemetry else None
-    written = []
+    written: tuple[str, ...] = ()
     if arguments.output:
         write_outputs(
             {arguments.output: machine_toml(machine_of_numbers(numbers)).encode()}, inputs=[]
         )
-        written = [arguments.output]
+        written = (arguments.output,)
     if arguments.json:
         print_json(
-            {
-                "settings": {f"${number}": value for number, value in numbers.items()},
-                "place": place,
-                "lost": lost or None,
-                "written": written,
-                "suspicion": suspicion,
-            }
+            MachineNumbers(
+                settings={f"${number}": value for number, value in numbers.items()},
+                place=place,
+                lost=lost or None,
+                written=written,
+                suspicion=suspicion,
+            )
         )
         return 0
     print(_table(numbers))

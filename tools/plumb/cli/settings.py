@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import dataclass
+from typing import Annotated
 
 from plumb.cli.arguments import add_force, add_json, add_settings
 from plumb.cli.client import add_client, client_files_of, client_text, typed_json
@@ -12,7 +14,19 @@ from plumb.cli.steps import next_step
 from plumb.firmware.client_files import gcode
 from plumb.firmware.settings import Number, firmware_numbers
 from plumb.fit.inputs import settings_in
+from plumb.text.answers import meant
 from plumb.text.errors import InputError
+
+
+@dataclass(frozen=True)
+class SettingLines:
+    """A machine as its firmware holds it."""
+
+    settings: tuple[Number, ...]
+    written: tuple[str, ...]
+    typed: Annotated[
+        dict[str, str], meant("What the owner types into the client, by `section: key`.")
+    ]
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -34,8 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
         files = {arguments.output: content} | files
         write_outputs(files, inputs=[arguments.settings, *filter(None, [arguments.original])])
     if arguments.json:
-        written = {"written": list(files), "typed": typed_json(client)}
-        print_json({"settings": [vars(row) for row in numbers], **written})
+        print_json(SettingLines(numbers, tuple(files), typed_json(client)))
     elif arguments.output:
         print(f"Written: {', '.join(files)}")
         if client:

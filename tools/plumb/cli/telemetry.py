@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import asdict
+from dataclasses import dataclass
 
 from plumb.cli.arguments import add_json, file
 from plumb.cli.screen import print_json, sentences, table
 from plumb.firmware.telemetry import EVENTS, Telemetry, latest, warnings
 from plumb.text.files import read_text
+
+
+@dataclass(frozen=True)
+class WatchedTelemetry(Telemetry):
+    """The figures, and what to look at."""
+
+    warnings: tuple[str, ...] = ()
 
 
 def history(telemetry: Telemetry) -> str:
@@ -36,9 +43,9 @@ def plural(name: str, count: int) -> str:
 def run(arguments: argparse.Namespace) -> int:
     """Print the figures and what to look at."""
     telemetry = latest(read_text(arguments.log), arguments.log)
-    said = list(warnings(telemetry, limit_mm=arguments.limit, rate_hz=arguments.rate))
+    said = tuple(warnings(telemetry, limit_mm=arguments.limit, rate_hz=arguments.rate))
     if arguments.json:
-        print_json({**asdict(telemetry), "warnings": said})
+        print_json(WatchedTelemetry(**vars(telemetry), warnings=said))
         return int(bool(said))
     left, right, z = telemetry.error_mm
     rows = [

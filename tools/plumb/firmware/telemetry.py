@@ -8,7 +8,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Annotated
 
+from plumb.text.answers import among, meant
 from plumb.text.errors import InputError, to_do
 
 LINE = re.compile(r"\[Telemetry\|([^\]\n]*)\]")
@@ -28,7 +30,7 @@ EVENTS = {
 class Slip:
     """A moment in which a chain may have slipped."""
 
-    chain: str  # one of CHAINS
+    chain: Annotated[str, among(CHAINS)]
     place: tuple[int, int]  # [mm] where the sled was sent then
     seconds_ago: int
 
@@ -37,19 +39,25 @@ class Slip:
 class Telemetry:
     """An answer to B30. Chains first: left, right, then z."""
 
-    error_mm: tuple[float, float, float]  # largest distance from the set-points
+    error_mm: Annotated[
+        tuple[float, float, float], meant("Largest distance from the set-points: left, right, z.")
+    ]
     dry: int  # how often no set-point was there in the middle of a move
     tick_us: int  # longest control tick
     illegal: tuple[int, int, int]  # encoder steps in which both channels changed
     supply_v: float
     least_supply_v: float
     eeprom_worn: bool
-    start: str
+    start: Annotated[str, among(STARTS)]
     events: tuple[int, ...]  # how often each of EVENTS has happened, ever
     last_event: str  # one of EVENTS, or "none"
     total_events: int  # place of the last event in their order
-    slips: tuple[int, int] = (0, 0)  # how often each chain may have slipped since power-on
-    last_slip: Slip | None = None  # None as well from a firmware that does not watch for slips
+    slips: Annotated[
+        tuple[int, int], meant("How often left and right may have slipped since power-on.")
+    ] = (0, 0)
+    last_slip: Annotated[
+        Slip | None, meant("null: none, or the firmware does not watch for slips.")
+    ] = None
 
 
 def latest(text: str, path: str) -> Telemetry:

@@ -13,7 +13,7 @@ from plumb.model.predict import NAMES, frame_words, library
 from plumb.model.sketches import SKETCHES
 
 if TYPE_CHECKING:
-    from plumb._core import EffectWords, ParameterWords
+    from plumb.model.python_effect import EffectWords, ParameterWords
 
 NO_FIRMWARE = "no firmware can cure this"
 

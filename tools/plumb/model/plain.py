@@ -18,7 +18,7 @@ from plumb.text.errors import to_do
 from plumb.text.values import in_unit, unit
 
 if TYPE_CHECKING:
-    from plumb._core import PlainWords
+    from plumb.model.python_effect import PlainWords
 
 
 # What the marks are measured from is no number of the machine, so its words are here.

@@ -14,7 +14,8 @@ from plumb import _core
 from plumb.settings.machine import HOLEY_CHAIN_WEIGHT, MachineSettings, frame_of
 
 if TYPE_CHECKING:
-    from plumb._core import EffectWords, FrameWords
+    from plumb._core import FrameWords
+    from plumb.model.python_effect import EffectWords
 
 
 Array = NDArray[np.float64]

@@ -5,10 +5,72 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
-if TYPE_CHECKING:
-    from plumb._core import CheckWords, EffectWords, ExampleWords, ParameterWords, PlainWords
+from typing_extensions import TypedDict
+
+# The words of an effect, as the firmware's library has them.
+
+
+class PlainWords(TypedDict):
+    """The size of a parameter in a maker's words."""
+
+    more: str
+    less: str
+    unit: str
+    times: float
+    shown: str
+
+
+class ParameterWords(TypedDict):
+    """What people read about a parameter of an effect."""
+
+    name: str
+    setting: int | None
+    unit: str
+    low: float
+    high: float
+    typical: float
+    summary: str
+    sigma: float
+    plain: PlainWords | None
+    published: tuple[int, float] | None
+
+
+class CheckWords(TypedDict):
+    """How an effect is measured directly."""
+
+    title: str
+    steps: str
+    value: str
+    minutes: float
+
+
+class ExampleWords(TypedDict):
+    """Sizes to try, and how far they move a mark."""
+
+    label: str
+    sizes: dict[str, float]
+    most: float
+
+
+class EffectWords(TypedDict):
+    """What people read about an effect."""
+
+    name: str
+    noun: str
+    where: str
+    summary: str
+    pattern: str
+    look_alikes: str
+    remedy: str
+    empirical: bool
+    belongs_to: str
+    in_frame: bool
+    weight_power: int
+    check: CheckWords | None
+    examples: list[ExampleWords]
+    parameters: list[ParameterWords]
 
 
 @dataclass(frozen=True)

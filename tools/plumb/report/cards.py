@@ -21,7 +21,7 @@ from plumb.report.maps import fingerprint_map
 from plumb.text.values import worded
 
 if TYPE_CHECKING:
-    from plumb._core import CheckWords
+    from plumb.model.python_effect import CheckWords
 
 MOST_CARDS = 8
 NAME = re.compile(r"\b[a-z]+(?:_[a-z]+)+\b")

@@ -7,11 +7,11 @@ of it, and so does a property without `computed_field`.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal, TypeVar
 
 import numpy as np
-from pydantic import Field, GetPydanticSchema, PlainSerializer, TypeAdapter
+from pydantic import Field, GetPydanticSchema, PlainSerializer, TypeAdapter, WithJsonSchema
 from pydantic.fields import FieldInfo
 from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import core_schema
@@ -26,11 +26,25 @@ Numbers = Annotated[
     GetPydanticSchema(lambda _type, _handler: core_schema.any_schema()),
     PlainSerializer(lambda array: array.tolist(), return_type=list[Any]),
 ]
+# A number that may be NaN or infinite, which is null.
+NumberOrNull = Annotated[float, WithJsonSchema({"type": ["number", "null"]})]
 
 
 def key(name: str, said: str | None = None) -> Any:
     """Return the name of a field in the JSON, and what the schema says of it."""
     info: FieldInfo = Field(serialization_alias=name, description=said)
+    return info
+
+
+def meant(description: str) -> Any:
+    """Return what the schema says of a field."""
+    info: FieldInfo = Field(description=description)
+    return info
+
+
+def among(words: Sequence[str | None]) -> Any:
+    """Return a text that is one of these words."""
+    info: FieldInfo = Field(json_schema_extra={"enum": list(words)})
     return info
 
 

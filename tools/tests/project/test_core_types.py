@@ -9,6 +9,7 @@ import plumb
 import pytest
 from nanobind.stubgen import StubGen
 from plumb import _core, _judge
+from plumb.model import python_effect
 
 
 def stub_of(module: ModuleType) -> str:
@@ -17,7 +18,7 @@ def stub_of(module: ModuleType) -> str:
     return Path(plumb.__file__).with_name(f"{name}.pyi").read_text()
 
 
-STUB = stub_of(_core)
+TYPES = stub_of(_core) + Path(python_effect.__file__).read_text()
 VALUES = np.array([field["usual"] for field in _core.frame()] + [0.0] * 100)
 VALUES = VALUES[: len(_core.settings())]
 POINT = np.zeros((1, 2))
@@ -48,10 +49,11 @@ def signatures(text: str) -> dict[str, tuple[list[str], list[str], int]]:
 
 
 def fields_of(record: str) -> dict[str, str]:
-    """The keys of a TypedDict of the stub with their types as written."""
-    classes = [node for node in ast.parse(STUB).body if isinstance(node, ast.ClassDef)]
+    """The keys of a TypedDict with their types as written."""
+    classes = [node for node in ast.parse(TYPES).body if isinstance(node, ast.ClassDef)]
     fields = next(each.body for each in classes if each.name == record)
-    return {field.target.id: ast.unparse(field.annotation) for field in fields}
+    typed = [field for field in fields if isinstance(field, ast.AnnAssign)]
+    return {field.target.id: ast.unparse(field.annotation) for field in typed}
 
 
 @pytest.mark.parametrize("module", [_core, _judge], ids=["core", "judge"])
