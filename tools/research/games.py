@@ -27,8 +27,8 @@ from plumb.text.values import bare, unit
 from plumb.vm.loop import Budget
 
 GRIDS = {
-    "25": Grid(columns=5, rows=5, repeats=0),
-    "9": Grid(columns=3, rows=3, repeats=0),
+    "25": Grid(columns=5, rows=5, repeats=False),
+    "9": Grid(columns=3, rows=3, repeats=False),
 }
 HEADER = (
     "hidden",

@@ -21,7 +21,7 @@ from plumb.vm.garage import RANDOM, described, hide, random_garage
 from plumb.vm.loop import Loop, closed_loop
 from plumb.vm.owner import VirtualOwner
 
-GRID = Grid(columns=5, rows=5, repeats=1)
+GRID = Grid(columns=5, rows=5)
 MILLIMETRES = 3.0  # RMS by which what is hidden moves the marks
 FALLEN = 0.5  # of the error before, at most, for the demo to have worked
 

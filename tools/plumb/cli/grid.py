@@ -11,12 +11,12 @@ from pathlib import Path
 from typing import Annotated
 
 import plumb.grid as marks_grid
-from plumb import _core
-from plumb.cli.arguments import limit
+from plumb.cli.arguments import add_json
 from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import print_json
 from plumb.cli.steps import next_step
 from plumb.fit.inputs import settings_in
+from plumb.grid.options import APPROACH
 from plumb.grid.pattern import ACROSS, SPANS, SQUARE, UPWARDS
 from plumb.model.reach import refuse_way, with_soft_chains
 from plumb.pictures.measuring_sheet import Hole, MeasuringSheet, Reading, measuring_sheet
@@ -51,7 +51,7 @@ def run(arguments: argparse.Namespace) -> int:
     refuse_out_of_reach(arguments)
     if not arguments.json:
         code = _made(arguments)
-        if code == 0 and arguments.output and arguments.marks and not arguments.preview:
+        if code == 0 and arguments.output and arguments.marks:
             words = f"Cut {arguments.output}, write what you measure into {arguments.marks}, then:"
             measured = ["calibrate", arguments.settings or "groundcontrol.ini", arguments.marks]
             print(next_step(words, measured))
@@ -73,7 +73,7 @@ def run(arguments: argparse.Namespace) -> int:
                 PlannedTouch(mark.name, (mark.x, mark.y), mark.visit)
                 for mark in marks_grid.touches_of(grid, machine)
             ),
-            approach=grid.approach,
+            approach=APPROACH,
             written=tuple(filter(None, (arguments.output, arguments.marks, arguments.paper))),
         )
     )
@@ -106,7 +106,7 @@ def refuse_out_of_reach(arguments: argparse.Namespace) -> None:
     try:
         grid, machine = marks_grid.from_arguments(arguments)
         settings = _settings_of(arguments.settings, machine)
-        refuse_way(grid, machine, settings, most_give=arguments.most_give)
+        refuse_way(grid, machine, settings)
     except marks_grid.GridError:
         return  # the grid refuses it when it is made
 
@@ -140,27 +140,19 @@ def _settings_of(path: str | None, machine: marks_grid.PlainMachine) -> MachineS
 
 EXAMPLES = (
     "plumb grid --settings groundcontrol.ini --output grid.nc --marks marks.toml",
-    "plumb grid --settings groundcontrol.ini --pattern benchmark --output benchmark.nc",
+    "plumb grid --settings groundcontrol.ini --preset benchmark --output benchmark.nc",
 )
 EXIT = "Exit: 0 done; 2 the grid cannot be made, and nothing was written."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb grid`: those of the tool, and --json."""
-    marks_grid.add_arguments(parser)
-    parser.add_argument(
-        "--most-give",
-        metavar="MM_PER_N",
-        type=limit,
-        default=_core.reach_limits()["most_give"],
-        help="how far a newton may move the sled; see plumb reach [%(default)g]",
-    )
-    parser.add_argument(
+    marks_grid.add_arguments(parser).add_argument(
         "--paper",
         metavar="FILE.pdf",
         help="also write a sheet to print: the holes with their numbers, and boxes to fill in",
     )
-    parser.add_argument("--json", action="store_true", help="print a JSON object and nothing else")
+    add_json(parser)
 
 
 # What `plumb grid --paper` prints: the marks of a grid, or the spans of the benchmark.
@@ -177,7 +169,7 @@ def content_of(
     cut = f" These marks are cut with {Path(settings).name}." if settings else ""
     then = f"Then type the numbers into {Path(form).name}.{cut}"
     holes = _holes(grid, machine)
-    if grid.pattern == "benchmark":
+    if grid.is_benchmark:
         return _benchmark(holes, machine, then)
     return MeasuringSheet(
         title=f"Measuring sheet: {len(holes)} marks",

@@ -23,6 +23,7 @@ from plumb.cli.steps import next_step
 from plumb.cure.add import priors_with
 from plumb.fit.inputs import settings_in
 from plumb.fit.problem import USUAL_SIGMA
+from plumb.grid.options import APPROACH
 from plumb.marks.read import Mark, Measurements, read_plan
 from plumb.model.plain import noun_of, plain_before
 from plumb.pictures.plan import draw_preview
@@ -63,23 +64,23 @@ def run(arguments: argparse.Namespace) -> int:
 def _cut(arguments: argparse.Namespace) -> list[str]:
     """Return the command that makes this grid."""
     words = ["grid", "--settings", arguments.settings]
-    for name in ("columns", "rows", "margin"):
-        if getattr(arguments, name) is not None:
-            words += [f"--{name}", f"{getattr(arguments, name):g}"]
+    words += ["--preset", arguments.preset] if arguments.preset else []
+    words += [f"--margin={arguments.margin:g}"] if arguments.margin is not None else []
     return [*words, "--marks", "marks.toml", "--output", "grid.nc"]
 
 
 def _plan(arguments: argparse.Namespace, settings: MachineSettings) -> Measurements:
     """Return the marks of PLAN, or of a grid as plumb grid makes it."""
-    given = {name: getattr(arguments, name) for name in ("columns", "rows", "margin")}
-    asked = {name: value for name, value in given.items() if value is not None}
     if arguments.plan:
-        for name in asked:
-            raise InputError(
-                f"--{name} is of a grid, and PLAN says where the marks are: leave --{name} out"
-            )
+        for name in ("preset", "margin"):
+            if getattr(arguments, name) is not None:
+                raise InputError(
+                    f"--{name} is of a grid, and PLAN says where the marks are: leave --{name} out"
+                )
         return read_plan(arguments.plan, sheet=settings.sheet)
-    grid = marks_grid.Grid(**{"columns": COLUMNS, "rows": ROWS, **asked})
+    grid = marks_grid.PRESETS[arguments.preset] if arguments.preset else marks_grid.Grid()
+    if arguments.margin is not None:
+        grid = grid._replace(margin=arguments.margin)
     machine = marks_grid.PlainMachine()._replace(
         sheet_width=settings.sheet_width, sheet_height=settings.sheet_height
     )
@@ -87,9 +88,8 @@ def _plan(arguments: argparse.Namespace, settings: MachineSettings) -> Measureme
         marks_grid.check(grid, machine, lambda *place: None)
     except marks_grid.GridError as refusal:
         raise InputError(str(refusal)) from None
-    side = float(grid.approach[0]), float(grid.approach[1])
     marks = tuple(
-        Mark(str(mark.name), (mark.x, mark.y), (mark.x, mark.y), approach=side)
+        Mark(str(mark.name), (mark.x, mark.y), (mark.x, mark.y), approach=APPROACH)
         for mark in marks_grid.touches_of(grid, machine)
     )
     return Measurements(marks, source=f"grid of {grid.columns} x {grid.rows}")
@@ -222,9 +222,8 @@ def shown(value: float) -> str:
 
 # The arguments of `plumb preview`.
 
-COLUMNS, ROWS = 5, 3  # of the usual grid
 EXAMPLES = (
-    "plumb preview groundcontrol.ini --columns 5 --rows 5",
+    "plumb preview groundcontrol.ini --preset twenty-five",
     "plumb preview groundcontrol.ini marks.toml --picture plan.png",
 )
 EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
@@ -240,8 +239,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="?",
         help="a file of marks whose targets are the plan, like that of plumb grid --marks [a grid]",
     )
-    for name, usual in (("columns", COLUMNS), ("rows", ROWS)):
-        parser.add_argument(f"--{name}", metavar="N", type=int, help=f"{name} of a grid [{usual}]")
+    parser.add_argument(
+        "--preset",
+        choices=("nine", "fifteen", "twenty-five"),
+        help="a grid as plumb grid makes it [15 marks, and 8 of them again]",
+    )
     parser.add_argument(
         "--margin",
         metavar="MM",

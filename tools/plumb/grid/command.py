@@ -11,21 +11,20 @@ import importlib
 import os
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NoReturn
+from typing import NoReturn
 
 from plumb.grid.cut_with import cut_with_lines, with_form
 from plumb.grid.options import (
-    GRID_OPTIONS,
-    MACHINE_OPTIONS,
+    MACHINE_KEYS,
+    NUMBERS,
+    PRESETS,
     Grid,
     GridError,
     PlainMachine,
     demand,
-    pair,
     pairs,
 )
-from plumb.grid.pattern import spans_of
-from plumb.grid.program import FIRST_LINE, as_ini, is_webcontrol, marks_list, preview, program
+from plumb.grid.program import FIRST_LINE, as_ini, is_webcontrol, marks_list, program
 
 COMPLAINT = "calibration grid: {}; --help lists the options\n"
 
@@ -37,34 +36,32 @@ class _Parser(argparse.ArgumentParser):
         self.exit(2, COMPLAINT.format(message))
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Give the parser every option of this tool; None stands for what was not given."""
-    group = parser.add_argument_group("grid")
-    for name, kind, meaning in GRID_OPTIONS:
-        usual = Grid._field_defaults[name]
-        how: dict[str, Any] = {"type": kind, "metavar": "PLACES" if kind is pairs else "N"}
-        if isinstance(kind, tuple):
-            how = {"choices": kind}
-        if kind is pair:
-            meaning += f" (--{name}=-9,9)"
-        if usual not in (None, ()):
-            meaning += " [{:g},{:g}]".format(*usual) if kind is pair else f" [{usual}]"
-        group.add_argument("--" + name.replace("_", "-"), help=meaning, **how)
-    group = parser.add_argument_group("machine")
-    for name, _section, _key, meaning in MACHINE_OPTIONS:
-        option, usual = "--" + name.replace("_", "-"), PlainMachine._field_defaults[name]
-        group.add_argument(option, help=f"{meaning} [{usual}]", type=float, metavar="N")
-    group.add_argument("--settings", metavar="FILE", help="file of settings with these numbers")
-    group = parser.add_argument_group("output")
+def add_arguments(parser: argparse.ArgumentParser) -> argparse._ArgumentGroup:
+    """Give the parser every option of this tool; returns the group of those that name files."""
+    group = parser.add_argument_group("which marks [15, and 8 of them again 20 mm further in]")
+    either = group.add_mutually_exclusive_group()
+    either.add_argument("--preset", choices=PRESETS, help="a way to measure, without repeats")
+    places = "marks there, in this order: mm from the sheet's middle (--places='-900,400 0,0')"
+    either.add_argument("--places", type=pairs, metavar="PLACES", help=places)
+    _add_number(group, "margin")
+    group = parser.add_argument_group("how they are made")
+    for name in ("depth", "safe_height", "feed"):
+        _add_number(group, name)
+    group = parser.add_argument_group("files")
+    settings = "groundcontrol.ini, webcontrol.json or machine.toml: the machine and its sheet"
+    group.add_argument("--settings", metavar="FILE", help=settings)
     group.add_argument("--output", metavar="FILE", help="where the program goes [the screen]")
     group.add_argument("--marks", metavar="FILE", help="also write a marks.toml to fill in")
-    spans = "the form also waits for distances between the marks: sides, diagonals, halves"
-    group.add_argument("--distances", action="store_true", help=spans)
     another = "the form says that its marks are on another sheet than those before"
     group.add_argument("--new-sheet", action="store_true", help=another)
     force = "replace files that this program did not write"
     group.add_argument("--force", action="store_true", help=force)
-    group.add_argument("--preview", action="store_true", help="show a picture, not the program")
+    return group
+
+
+def _add_number(group: argparse._ArgumentGroup, name: str) -> None:
+    meaning = f"{NUMBERS[name].meaning} [{Grid._field_defaults[name]:g}]"
+    group.add_argument(f"--{name.replace('_', '-')}", help=meaning, type=float, metavar="N")
 
 
 def read_settings(path: str) -> dict[str, float]:
@@ -82,10 +79,12 @@ def read_settings(path: str) -> dict[str, float]:
     except OSError as error:
         raise GridError(f"{path}: {error.strerror}: check the name after --settings") from None
     except (configparser.Error, ValueError, LookupError, TypeError, AttributeError):
-        wrong = f"{path} is not a groundcontrol.ini or webcontrol.json: give its numbers as options"
+        wrong = (
+            f"{path} is not a groundcontrol.ini or webcontrol.json: check the name after --settings"
+        )
         raise GridError(wrong) from None
     numbers = {}
-    for name, section, key, _ in MACHINE_OPTIONS:
+    for name, section, key in MACHINE_KEYS:
         text = parser.get(section, key, fallback="")
         try:
             numbers[name] = float(text)
@@ -102,7 +101,8 @@ def _numbers_in_toml(path: str) -> dict[str, float]:
     try:
         loaded = importlib.import_module("tomllib").loads
     except ImportError:
-        raise GridError(f"{path}: a machine.toml needs Python 3.11: give its numbers") from None
+        wrong = f"{path}: a machine.toml needs Python 3.11: give a groundcontrol.ini"
+        raise GridError(wrong) from None
     try:
         with open(path, encoding="utf-8-sig") as file:
             machine = loaded(file.read())
@@ -122,24 +122,15 @@ def _numbers_in_toml(path: str) -> dict[str, float]:
 
 
 def from_arguments(arguments: argparse.Namespace) -> tuple[Grid, PlainMachine]:
-    """Grid and machine of parsed options; an option outweighs the settings file."""
+    """Grid and machine of parsed options."""
+    grid = PRESETS[arguments.preset] if arguments.preset else Grid()
+    if arguments.places:
+        grid = Grid(repeats=False, places=arguments.places)
+    given = {name: value for name in NUMBERS if (value := getattr(arguments, name)) is not None}
+    fixed = bool(grid.places) or grid.is_benchmark
+    demand("margin" not in given or not fixed, "--margin is of marks in columns and rows")
     kept = read_settings(arguments.settings) if arguments.settings else {}
-    given = {name: value for name, value in vars(arguments).items() if value is not None}
-    grid = Grid(**{name: given[name] for name in Grid._fields if name in given})
-    if grid.places:
-        _refuse_of_a_grid(given)
-    if grid.places or grid.pattern == "benchmark":
-        grid = grid._replace(repeats=0)
-    numbers = {**kept, **given}
-    of_machine = {name: numbers[name] for name in PlainMachine._fields if name in numbers}
-    return grid, PlainMachine(**of_machine)
-
-
-def _refuse_of_a_grid(given: Mapping[str, object]) -> None:
-    """Refuses options that say where marks are when the places say so."""
-    for name in ("pattern", "columns", "rows", "margin", "order", "repeats", "repeat_spacing"):
-        option = f"--{name.replace('_', '-')}"
-        demand(name not in given, f"{option} is of a grid, and --places says where marks are")
+    return grid._replace(**given), PlainMachine(**kept)
 
 
 def run(
@@ -161,21 +152,14 @@ def run(
             named = cut_with_lines(arguments.settings, arguments.marks)
             if arguments.output:
                 files[arguments.output] = with_form(text, arguments.marks, arguments.output)
-            files[arguments.marks] = marks_list(
-                grid,
-                machine,
-                named,
-                new_sheet=arguments.new_sheet,
-                spans=spans_of(grid) if arguments.distances else (),
-            )
+            form = marks_list(grid, machine, named, new_sheet=arguments.new_sheet)
+            files[arguments.marks] = form
         writing = write or (lambda contents: _write(contents, force=arguments.force))
         writing({path: said.encode("ascii") for path, said in files.items()})
     except GridError as refusal:
         print(f"{name}: {refusal}", file=sys.stderr)
         return 2
-    if arguments.preview:
-        sys.stdout.write(preview(grid, machine))
-    elif not arguments.output:
+    if not arguments.output:
         sys.stdout.write(text)
     return 0
 

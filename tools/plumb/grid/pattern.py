@@ -6,34 +6,30 @@ import math
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-from plumb.grid.options import MIN_FREE_CHAIN, Grid, PlainMachine, check_numbers, demand
+from plumb.grid.options import (
+    APPROACH,
+    MAX_TENSION,
+    MIN_FREE_CHAIN,
+    MIN_TENSION,
+    REPEAT_SPACING,
+    Grid,
+    PlainMachine,
+    check_numbers,
+    demand,
+)
 from plumb.text.errors import to_do
 
-Cell = tuple[int, int]  # row and column
+# Of nine marks: sides and diagonals, and from the middle what halves them.
+TAPED = (
+    *(("1", "3"), ("3", "9"), ("9", "7"), ("7", "1"), ("1", "9"), ("3", "7")),
+    *(("2", "8"), ("4", "6"), ("1", "2"), ("4", "5"), ("5", "6"), ("2", "5")),
+)
 ASKED = "# Lay the tape between these marks, in this order: "
 
 
-def spans_of(grid: Grid) -> list[tuple[str, str]]:
-    """Return names of marks: the sides and diagonals of the grid, and from its middle what halves
-    them.
-    """
-    plain = grid.pattern == "grid" and not grid.places
-    option = to_do("--distances is", page="distances are")
-    demand(plain, f"{option} for marks in columns and rows: leave that out")
-    end, bottom = grid.columns - 1, grid.rows - 1
-    top_left, top_right, bottom_right, bottom_left = (0, 0), (0, end), (bottom, end), (bottom, 0)
-    spans = [(top_left, top_right), (top_right, bottom_right), (bottom_right, bottom_left)]
-    spans += [(bottom_left, top_left), (top_left, bottom_right), (top_right, bottom_left)]
-    if end % 2 == 0 and bottom % 2 == 0:
-        across, down = end // 2, bottom // 2
-        top, middle, left, right = (0, across), (down, across), (down, 0), (down, end)
-        spans += [(top, (bottom, across)), (left, right), (top_left, top)]
-        spans += [(left, middle), (middle, right), (top, middle)]
-
-    def name(cell: Cell) -> str:
-        return str(cell[0] * grid.columns + cell[1] + 1)
-
-    return [(name(first), name(second)) for first, second in spans]
+def spans_of(grid: Grid) -> Sequence[tuple[str, str]]:
+    """Return names of the marks between which a tape is laid."""
+    return TAPED if grid.is_taped else ()
 
 
 def spans_line(spans: Sequence[tuple[str, str]]) -> str:
@@ -56,7 +52,7 @@ def spans_in(head: Sequence[str]) -> list[tuple[str, str]]:
 
 
 class Touch(NamedTuple):
-    """A touch of the bit at x, y [mm]; the same name with visit 1, 2, ... is a repeat."""
+    """A touch of the bit at x, y [mm]; the same name with visit 1 is a repeat."""
 
     name: str
     x: float
@@ -72,27 +68,26 @@ def touches_of(grid: Grid, machine: PlainMachine) -> list[Touch]:
     left.
     """
     check_numbers(grid, machine)
-    if grid.pattern == "benchmark":
+    if grid.is_benchmark:
         return [Touch(*place, 0) for place in benchmark_places()]
     if grid.places:
         return [Touch(str(i), x, y, 0) for i, (x, y) in enumerate(grid.places, start=1)]
     width = machine.sheet_width - 2 * grid.margin
     height = machine.sheet_height - 2 * grid.margin
-    places = _places(grid)
     first = {}
-    for row, column in places:
-        # Whole tenths: program, comment and list say the same number. Adding 0 turns -0 into 0.
-        x = round(width * (column / (grid.columns - 1) - 0.5), 1) + 0.0
-        y = round(height * (0.5 - row / (grid.rows - 1)), 1) + 0.0
-        first[row, column] = Touch(str(row * grid.columns + column + 1), x, y, 0)
+    for row in range(grid.rows):
+        for column in range(grid.columns)[:: -1 if row % 2 else 1]:
+            # Whole tenths: program, comment and list say the same number. 0 turns -0 into 0.
+            x = round(width * (column / (grid.columns - 1) - 0.5), 1) + 0.0
+            y = round(height * (0.5 - row / (grid.rows - 1)), 1) + 0.0
+            first[row, column] = Touch(str(row * grid.columns + column + 1), x, y, 0)
     touches = list(first.values())
-    for visit in range(1, grid.repeats + 1):
-        # Backwards every other time: what the lead-in fails to forget then shows as noise.
-        for row, column in places[::-1] if visit % 2 else places:
-            mark = first[row, column]
-            shift = visit * grid.repeat_spacing * (-1 if mark.x > 0 else 1)
-            if _is_extreme(grid, row, column):
-                touches.append(mark._replace(x=round(mark.x + shift, 1), visit=visit))
+    # Backwards: what the lead-in fails to forget then shows as noise.
+    for row, column in reversed(first if grid.repeats else {}):
+        mark = first[row, column]
+        shift = REPEAT_SPACING * (-1 if mark.x > 0 else 1)
+        if _is_extreme(grid, row, column):
+            touches.append(mark._replace(x=round(mark.x + shift, 1), visit=1))
     return touches
 
 
@@ -103,15 +98,6 @@ def listed(touches: list[Touch]) -> list[Touch]:
     return sorted(touches, key=lambda touch: (int(touch.name), touch.visit))
 
 
-def _places(grid: Grid) -> list[tuple[int, int]]:
-    """Pairs of row and column in the order of the visit."""
-    rows, columns = range(grid.rows), range(grid.columns)
-    if grid.order == "columns":
-        return [(row, column) for column in columns for row in rows]
-    turned = grid.order == "snake"
-    return [(row, column) for row in rows for column in columns[:: -1 if turned and row % 2 else 1]]
-
-
 def _is_extreme(grid: Grid, row: int, column: int) -> bool:
     """Return whether it is a corner, or the middle of an edge that has a mark there (1; ends: 0,
     2).
@@ -120,16 +106,16 @@ def _is_extreme(grid: Grid, row: int, column: int) -> bool:
     return across in (0, 1, 2) and down in (0, 1, 2) and (across, down) != (1, 1)
 
 
-def lead_in(grid: Grid, mark: Touch) -> tuple[float, float]:
+def lead_in(mark: Touch) -> tuple[float, float]:
     """x, y [mm] from which the sled travels straight into the mark."""
-    return mark.x - grid.approach[0], mark.y - grid.approach[1]
+    return mark.x - APPROACH[0], mark.y - APPROACH[1]
 
 
 def stops_of(grid: Grid, machine: PlainMachine) -> list[tuple[str, tuple[float, float]]]:
     """Return names and places [mm] of all ends of sideways moves."""
     stops: list[tuple[str, tuple[float, float]]] = []
     for mark in touches_of(grid, machine):
-        stops += [(f"the lead-in of {mark}", lead_in(grid, mark)), (str(mark), (mark.x, mark.y))]
+        stops += [(f"the lead-in of {mark}", lead_in(mark)), (str(mark), (mark.x, mark.y))]
     return [("the start", (0.0, 0.0)), *stops, ("the end", (0.0, 0.0))]
 
 
@@ -197,12 +183,10 @@ def benchmark_places() -> list[tuple[str, float, float]]:
     return ordered
 
 
-def benchmark_form(approach: tuple[float, float], cut_with: str = "") -> str:
-    """Return the text of a marks file that waits for the readings; approach [mm] into every
-    mark.
-    """
+def benchmark_form(cut_with: str = "") -> str:
+    """Return the text of a marks file that waits for the readings."""
     squares = [f"# {SQUARES[name]} = [ , ]" for name in CORNERS]
-    return "\n".join([_FORM.format(cut_with, *approach) + squares[0], *squares[1:], ""])
+    return "\n".join([_FORM.format(cut_with, *APPROACH) + squares[0], *squares[1:], ""])
 
 
 # The way of the sled over the sheet: each place is checked before anything is written.
@@ -228,26 +212,23 @@ def _check_place(grid: Grid, machine: PlainMachine, what: str, x: float, y: floa
     half_width, half_height = machine.sheet_width / 2, machine.sheet_height / 2
     inside = max(abs(x) - half_width, abs(y) - half_height) < 1e-6  # room for rounding
     move = inwards(grid)
-    approach = to_do(" or change --approach", page="")
-    demand(inside, f"{what} is outside the sheet: {move}{approach}")
+    demand(inside, f"{what} is outside the sheet: {move}")
     sprocket = (machine.motor_spacing / 2, half_height + machine.motor_offset)
     free = math.dist(sprocket, (abs(x), y)) - machine.rotation_radius
     close = f"{what} brings ring and sprocket within {free:.0f} mm of each other: {move}"
     demand(free >= MIN_FREE_CHAIN, close)
     pulls = tensions(machine, x, y)
-    most = to_do("--max-tension ", page="")
-    tight = f"{what} puts {max(pulls):.0f} N on a chain, more than {most}"
-    tight += f"{grid.max_tension:g}: {move}, or lighten the sled"
-    demand(max(pulls) <= grid.max_tension, tight)
+    tight = f"{what} puts {max(pulls):.0f} N on a chain, more than {MAX_TENSION:g}"
+    demand(max(pulls) <= MAX_TENSION, f"{tight}: {move}, or lighten the sled")
     side = "left" if pulls[0] < pulls[1] else "right"
-    least = to_do("--min-tension ", page="")
-    slack = f"{what} leaves {min(pulls):.1f} N on the {side} chain, less than {least}"
-    slack += f"{grid.min_tension:g}: {move}, or move the motors apart"
-    demand(min(pulls) >= grid.min_tension, slack)
+    slack = f"{what} leaves {min(pulls):.1f} N on the {side} chain, less than {MIN_TENSION:g}"
+    demand(min(pulls) >= MIN_TENSION, f"{slack}: {move}, or move the motors apart")
 
 
 def inwards(grid: Grid) -> str:
     """Return what to do about a mark where the sled cannot go."""
+    if grid.is_benchmark:
+        return to_do("choose another --preset", page=INWARDS)
     return to_do("move that place" if grid.places else "raise --margin", page=INWARDS)
 
 

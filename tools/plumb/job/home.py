@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from plumb.grid.options import Grid
+from plumb.grid.options import APPROACH, PLUNGE_FEED, Grid
 from plumb.model.predict import FOUND, Array, believed_lengths, places
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
@@ -26,7 +26,7 @@ from plumb.text.files import read_text, write_whole
 NAME = "home.toml"
 HEAD = "# Home marks of a machine, for plumb: holes, and the chains with the bit in them. mm."
 HOLE_DEPTH = 2.0  # [mm] so that a bit finds its place in the hole
-USUAL = Grid()  # heights, feeds and the way into a mark, as a grid has them
+USUAL = Grid()  # heights and feeds, as a grid has them
 SURE = 3.03  # sigmas of a coordinate: beyond this length 1 % of the errors in a plane lie
 
 
@@ -82,9 +82,9 @@ def hole_program(mark: HomeMark) -> list[str]:
         "G21",
         "G90",
         f"G0 Z{USUAL.safe_height:g}",
-        f"G0 X{x - USUAL.approach[0]:.3f} Y{y - USUAL.approach[1]:.3f}",
+        f"G0 X{x - APPROACH[0]:.3f} Y{y - APPROACH[1]:.3f}",
         f"G1 X{x:.3f} Y{y:.3f} F{USUAL.feed:g}",
-        f"G1 Z{-HOLE_DEPTH:g} F{USUAL.plunge_feed:g}",
+        f"G1 Z{-HOLE_DEPTH:g} F{PLUNGE_FEED:g}",
         f"G0 Z{USUAL.safe_height:g}",
     ]
 

@@ -9,11 +9,11 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import PurePath
 
-from plumb import _core
 from plumb.fit.inputs import settings_in
 from plumb.fit.problem import PRIORS
-from plumb.grid import Grid, PlainMachine, marks_list, spans_of, touches_of
+from plumb.grid import PRESETS, Grid, PlainMachine, marks_list, spans_of, touches_of
 from plumb.grid.cut_with import cut_with_lines, digest_of
+from plumb.grid.options import APPROACH
 from plumb.grid.pattern import Touch
 from plumb.lab.known import stated
 from plumb.lab.project import Choices, Layout, Project
@@ -94,21 +94,11 @@ BAND = 150.0  # [mm] marks that lie so near in height are cut side by side
 Place = tuple[float, float]
 
 
-@dataclass(frozen=True)
-class Kind:
-    """A way to measure."""
-
-    title: str
-    columns: int
-    rows: int
-    is_taped: bool = False  # distances between marks instead of places on the sheet
-
-
-KINDS: dict[Layout, Kind] = {
-    "nine": Kind("Nine marks", 3, 3),
-    "fifteen": Kind("Fifteen marks", 5, 3),
-    "twenty-five": Kind("Twenty-five marks", 5, 5),
-    "distances": Kind("Distances between nine marks", 3, 3, is_taped=True),
+TITLES: dict[Layout, str] = {
+    "nine": "Nine marks",
+    "fifteen": "Fifteen marks",
+    "twenty-five": "Twenty-five marks",
+    "distances": "Distances between nine marks",
 }
 
 
@@ -116,10 +106,15 @@ KINDS: dict[Layout, Kind] = {
 class Planned:
     """The marks of a layout on a machine's sheet."""
 
+    layout: Layout
     grid: Grid
     machine: PlainMachine
     touches: tuple[Touch, ...]
-    spans: tuple[tuple[str, str], ...]  # names of marks between which a tape is laid
+
+    @property
+    def spans(self) -> Sequence[tuple[str, str]]:
+        """Names of marks between which a tape is laid."""
+        return spans_of(self.grid)
 
     @property
     def minutes(self) -> float:
@@ -130,22 +125,20 @@ class Planned:
     def form(self, path: str, *, settings: str, new_sheet: bool = False) -> str:
         """Return the form at that path that waits for readings of marks cut with these settings."""
         named = cut_with_lines(settings, path)
-        return marks_list(self.grid, self.machine, named, new_sheet=new_sheet, spans=self.spans)
+        return marks_list(self.grid, self.machine, named, new_sheet=new_sheet)
 
     def words(self) -> list[str]:
         """Return what `plumb grid` is given for these marks."""
-        if self.grid.places:
-            places = " ".join(f"{x:.12g},{y:.12g}" for x, y in self.grid.places)
-            return [f"--places={places}"]
-        size = ["--columns", f"{self.grid.columns}", "--rows", f"{self.grid.rows}"]
-        return [*size, "--repeats", "0", *["--distances"] * bool(self.spans)]
+        if self.layout in PRESETS:
+            return ["--preset", self.layout]
+        places = " ".join(f"{x:.12g},{y:.12g}" for x, y in self.grid.places)
+        return [f"--places={places}"]
 
     def as_measured(self) -> Measurements:
         """Return the plan as if all were read just where it was sent."""
-        side = self.grid.approach
         sent = {touch.name: (touch.x, touch.y) for touch in self.touches}
         marks = tuple(
-            Mark(name, place, None if self.spans else place, approach=side)
+            Mark(name, place, None if self.spans else place, approach=APPROACH)
             for name, place in sent.items()
         )
         distances = tuple(
@@ -160,20 +153,16 @@ def planned(settings: MachineSettings, layout: Layout, places: Sequence[Place]) 
     GridError.
     """
     machine = plain_machine(settings)
-    kind = KINDS.get(layout)
-    if kind:
-        grid = Grid(columns=kind.columns, rows=kind.rows, repeats=0)
-    else:
-        grid = Grid(repeats=0, places=tuple(in_turn(places)))
+    usual = PRESETS.get(layout)
+    grid = usual or Grid(repeats=False, places=tuple(in_turn(places)))
     touches = tuple(sorted(touches_of(grid, machine), key=lambda touch: int(touch.name)))
-    is_taped = kind is not None and kind.is_taped
-    return Planned(grid, machine, touches, tuple(spans_of(grid)) if is_taped else ())
+    return Planned(layout, grid, machine, touches)
 
 
 def refuse_unreachable(plan: Planned, settings: MachineSettings) -> None:
     """Raise GridError or InputError if the sled cannot take the way to all marks."""
     soft = with_soft_chains(replace(settings.as_plumb_model()))[0]
-    refuse_way(plan.grid, plan.machine, soft, most_give=_core.reach_limits()["most_give"])
+    refuse_way(plan.grid, plan.machine, soft)
 
 
 def in_turn(places: Sequence[Place]) -> list[Place]:

@@ -156,13 +156,14 @@ def _place(places: Array, i: int) -> tuple[float, float]:
 #
 # The grid itself knows straight chains without weight; the model knows all that the settings say.
 
+# What else would help than another place.
+ALSO = {TOO_TIGHT: ", or lighten the sled", TOO_SLACK: ", or move the motors apart"}
+
 
 def refuse_way(
     grid: marks_grid.Grid,
     machine: marks_grid.PlainMachine,
     settings: MachineSettings,
-    *,
-    most_give: float,
 ) -> None:
     """Raise InputError for the first place that the sled passes and the model refuses.
 
@@ -171,18 +172,11 @@ def refuse_way(
     passed: list[tuple[str, float, float]] = []
     marks_grid.check(grid, machine)
     marks_grid.check(grid, machine, lambda _grid, _machine, *place: passed.append(place))
-    reached = reach(
-        settings,
-        np.array([place[1:] for place in passed]),
-        most_tension=grid.max_tension,
-        least_tension=grid.min_tension,
-        least_free=marks_grid.MIN_FREE_CHAIN,
-        most_give=most_give,
-    )
+    reached = reach(settings, np.array([place[1:] for place in passed]))
     for i in np.flatnonzero(reached.verdict != USABLE)[:1]:
         what, x, y = passed[i]
         why = _reason(int(reached.verdict[i]), reached.tension[i], float(reached.give[i]))
-        move, also = marks_grid.inwards(grid), _remedy(int(reached.verdict[i]))
+        move, also = marks_grid.inwards(grid), ALSO.get(int(reached.verdict[i]), "")
         map_of_it = to_do("see plumb reach", page="Reach shows where that is")
         raise InputError(f"{what} at x {x:.1f} y {y:.1f} {why}: {move}{also}; {map_of_it}")
 
@@ -195,14 +189,3 @@ def _reason(verdict: int, tension: Array, give: float) -> str:
     if verdict == TOO_SLACK:
         return f"leaves {min(tension):.1f} N on a chain"
     return f"lets every newton move the sled {give:.2f} mm"
-
-
-def _remedy(verdict: int) -> str:
-    """Return what else would help than another place."""
-    if verdict == CANNOT_HANG:
-        return ""
-    if verdict == TOO_TIGHT:
-        return ", or lighten the sled"
-    if verdict == TOO_SLACK:
-        return ", or move the motors apart"
-    return to_do(", or raise --most-give", page="")

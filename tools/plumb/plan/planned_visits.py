@@ -10,7 +10,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from plumb.fit.observations import Observations, loaded
-from plumb.grid.options import DEPTH, Grid
+from plumb.grid.options import APPROACH, PLUNGE_FEED, Grid
 from plumb.grid.pattern import WAY_STEP
 from plumb.marks.model import Mark
 from plumb.model.plain import greatest
@@ -123,7 +123,7 @@ def place_name(target: Array) -> str:
 
 # The G-code for planned visits: a touch of the bit at each, come to from the prescribed side.
 
-USUAL = Grid()  # heights, feeds and the way into a mark, as a grid has them
+USUAL = Grid()  # heights and feeds, as a grid has them
 
 
 FIRST_LINE = "(Plumb: the best marks to measure next)"
@@ -192,7 +192,7 @@ def touch(target: Array, lead_in: Array) -> list[str]:
         f"G0 Z{USUAL.safe_height:g}",
         f"G0 X{x:.3f} Y{y:.3f}",
         f"G1 X{target[0]:.3f} Y{target[1]:.3f} F{USUAL.feed:g}",
-        f"G1 Z{-DEPTH[USUAL.mode]:g} F{USUAL.plunge_feed:g}",
+        f"G1 Z{-USUAL.depth:g} F{PLUNGE_FEED:g}",
         f"G0 Z{USUAL.safe_height:g}",
     ]
 
@@ -207,7 +207,7 @@ def _lead_in(side: Array) -> Array:
     """Return the way into a mark [mm] for a unit vector; the usual way if the side does not
     matter.
     """
-    usual = np.array(USUAL.approach)
+    usual = np.array(APPROACH)
     return np.asarray(side * np.hypot(*usual)) if side.any() else usual
 
 

@@ -18,7 +18,7 @@ BOARD = (INI, EXAMPLE / "marks.toml")
 SLIPPED = (INI, "slipped.toml")  # a reading of BOARD is wrong by 40 mm
 SPANS = (INI, "spans.toml")
 TAPE = ("--checked", "tape_scale.strain=0.0001+-0.0001")
-GRID = ("--columns", "3", "--rows", "3")
+GRID = ("--preset", "nine")
 CLIENT = ("--client", "groundcontrol", "-o", "new.toml")
 # Each command, and each shape that its answer has.
 QUESTIONS = (

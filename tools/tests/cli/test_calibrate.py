@@ -16,6 +16,7 @@ import pytest
 from plumb.cli.calibrate import Round, sentence
 from plumb.cli.main import build_parser
 from plumb.diagnosis.expected_error import LeftOpen
+from plumb.grid.command import read_settings as read_plain
 from plumb.settings.files import read_settings, write_machine_toml
 from synthetic import BELIEVED, EFFECTS, TRUE, grid, marks_on
 
@@ -183,7 +184,7 @@ def test_the_client_that_was_named_counts(run):
     "command",
     [
         ("grid", "--settings", INI, "--output", "grid.nc", "--marks", "cut.toml"),
-        ("preview", INI, "--columns", "3"),
+        ("preview", INI, "--preset", "nine"),
         ("compare", INI, "marks.toml", "--cut-with", INI),
         ("diagnose", INI, "marks.toml", "--sigma", "0.5", "--prior", "motor_gap=2"),
         ("next", INI, "marks.toml"),
@@ -219,12 +220,11 @@ def test_what_was_given_is_given_again(run):
 def test_a_grid_takes_the_numbers_of_a_machine_toml(run):
     machine = EXAMPLE / "machine.toml"
     said = run("grid", "--settings", machine)[1]
-    numbers = read_settings(machine)
-    options = (
-        *("--motor-spacing", numbers.motor_gap, "--rotation-radius", numbers.rotation_radius),
-        *("--motor-offset", numbers.motor_height - numbers.sheet_height / 2),
-    )
-    assert said == run("grid", *options)[1]
-    assert said == run("grid", "--settings", machine, "--sled-weight-n", numbers.sled_weight)[1]
+    numbers, known = read_settings(machine), read_plain(str(machine))
+    assert known["motor_spacing"] == numbers.motor_gap
+    assert known["motor_offset"] == numbers.motor_height - numbers.sheet_height / 2
+    assert (known["sheet_width"], known["sheet_height"]) == numbers.sheet
+    assert known["rotation_radius"] == numbers.rotation_radius
+    assert known["sled_weight_n"] == numbers.sled_weight
     wider = run("grid", "--settings", machine, "--margin", "300")[1]
     assert wider != said

@@ -247,24 +247,23 @@ def test_effects_marks_those_of_the_lab(run, ask):
 
 
 def test_grid_is_the_tool_beside_the_package(run, ask, tmp_path, capsys):
-    assert grids.main(["--columns", "3"]) == 0
-    assert capsys.readouterr().out == run("grid", "--columns", 3)[1]
+    assert grids.main(["--preset", "nine"]) == 0
+    assert capsys.readouterr().out == run("grid", "--preset", "nine")[1]
     program = tmp_path / "grid.nc"
-    code, answer = ask("grid", "--columns", 3, "--rows", 2, "--repeats", 0, "--output", program)
+    code, answer = ask("grid", "--preset", "nine", "--output", program)
     assert code == 0 and answer["written"] == [str(program)] and answer["program"] is None
-    assert [mark["name"] for mark in answer["marks"]] == ["1", "2", "3", "6", "5", "4"]
+    assert [mark["name"] for mark in answer["marks"]] == list("123654789")
     assert "G21" in program.read_text()
 
 
 def test_the_grid_s_list_of_marks_comes_back_with_y_up(run, tmp_path):
     program, path = tmp_path / "grid.nc", tmp_path / "marks.toml"
-    options = ("--approach=10,30", "--marks", path, "--output", program)
-    assert run("grid", "--repeats", 0, *options)[0] == 0
+    assert run("grid", "--preset", "fifteen", "--marks", path, "--output", program)[0] == 0
     head, first, *_ = path.read_text().split("\n[[mark]]\n")
     first = first.replace("# measured = [ , ]", "measured = [110.0, 90.0]")
     path.write_text(f"{head}\n[[mark]]\n{first}")
     (mark,) = read_marks(path, sheet=SHEET).marks
-    assert mark.approach == (10.0, 30.0)
+    assert mark.approach == (0.0, 40.0)
     assert mark.target == pytest.approx((-1119.2, 509.6))
     assert mark.measured == pytest.approx((-1109.2, 519.6))
 

@@ -163,7 +163,7 @@ def test_marks_that_were_read_are_never_overwritten(run, csv, maker):
 
 def test_a_grid_is_previewed_before_it_is_cut(ask, run, maker, tmp_path):
     picture = tmp_path / "preview.png"
-    code, answer = ask("preview", maker, "--columns", 5, "--rows", 5, "--picture", picture)
+    code, answer = ask("preview", maker, "--preset", "twenty-five", "--picture", picture)
     assert code == 0 and picture.read_bytes().startswith(b"\x89PNG")
     cells = np.array(answer["snr"])
     assert cells.shape == (len(answer["effects"]),) * 2
@@ -175,15 +175,15 @@ def test_a_grid_is_previewed_before_it_is_cut(ask, run, maker, tmp_path):
     assert command["motor_level"]["hidden_share"] > 0.95
     assert "frame_lean" in command["chain_sag"]["alike"]
     assert answer["additions"][0]["pairs_told_apart"] > answer["pairs_told_apart"]
-    code, said, _ = run("preview", maker, "--columns", 5, "--rows", 5)
+    code, said, _ = run("preview", maker, "--preset", "twenty-five")
     assert code == 0 and "Best addition" in said and "told apart" in said
     # A command to copy keeps its file's name in one piece.
     assert max(len(line) for line in said.splitlines() if not line.startswith("  ")) <= 80
 
 
 def test_a_sharper_tape_and_more_marks_tell_more(ask, maker):
-    wide = ["preview", maker, "--columns", 7, "--rows", 5]
-    _, nine = ask("preview", maker, "--columns", 3, "--rows", 3)
+    wide = ["preview", maker, "--preset", "twenty-five"]
+    _, nine = ask("preview", maker, "--preset", "nine")
     _, more = ask(*wide)
     _, sharp = ask(*wide, "--sigma", 0.2)
     assert nine["pairs_told_apart"] < more["pairs_told_apart"] < sharp["pairs_told_apart"]
@@ -195,10 +195,10 @@ def test_a_sharper_tape_and_more_marks_tell_more(ask, maker):
 
 def test_what_grid_writes_is_a_plan(run, ask, maker, tmp_path):
     form = tmp_path / "marks.toml"
-    run("grid", "--columns", 4, "--rows", 3, "--marks", form, "--output", tmp_path / "grid.nc")
+    run("grid", "--preset", "fifteen", "--marks", form, "--output", tmp_path / "grid.nc")
     code, answer = ask("preview", maker, form)
     assert code == 0
-    _, grid_itself = ask("preview", maker, "--columns", 4, "--rows", 3)
+    _, grid_itself = ask("preview", maker, "--preset", "fifteen")
     assert answer["marks"] == grid_itself["marks"]
     assert np.allclose(answer["snr"], grid_itself["snr"], rtol=1e-2, atol=0.02)
 
@@ -206,7 +206,8 @@ def test_what_grid_writes_is_a_plan(run, ask, maker, tmp_path):
 @pytest.mark.parametrize(
     ("options", "complaint"),
     [
-        (["--columns", "1"], "columns"),
+        (["--preset", "ten"], "--preset"),
+        ([MARKS, "--preset", "nine"], "--preset is of a grid"),
         (["--margin", "0"], "margin"),
         (["nowhere.toml"], "nowhere.toml"),
         (["--sigma", "-1"], "sigma"),
@@ -256,7 +257,7 @@ def test_a_form_names_the_settings_that_the_machine_has_now_if_somebody_says_so(
 
 def test_sentences_and_tables_name_effects_as_makers_do(run):
     for words in (
-        ["preview", SETTINGS, "--columns", "3", "--rows", "3"],
+        ["preview", SETTINGS, "--preset", "nine"],
         ["next", SETTINGS, MARKS],
         ["add", SETTINGS, MARKS, "--effect", "auto"],
     ):

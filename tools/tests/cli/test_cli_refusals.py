@@ -35,8 +35,9 @@ BAD = [
     ("no points", ["inverse", SETTINGS], "--points"),
     ("points are missing", ["inverse", SETTINGS, "--points", "none.csv"], "none.csv: there is no"),
     ("lengths are missing", ["forward", SETTINGS, "--lengths", "none.csv"], "none.csv: there is"),
-    ("grid too wide", ["grid", "--columns", "99"], "--columns is 99"),
-    ("grid of text", ["grid", "--rows", "many"], "--rows"),
+    ("grid too narrow", ["grid", "--margin", "700"], "--margin is 700"),
+    ("grid of text", ["grid", "--margin", "wide"], "--margin"),
+    ("grid of another size", ["grid", "--columns", "4"], "--columns"),
 ]
 
 

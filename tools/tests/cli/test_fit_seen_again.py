@@ -185,7 +185,7 @@ def test_the_form_of_a_grid_names_the_settings_in_force(run, ask, fitted, tmp_pa
         form.write_text(filled_in(form.read_text()))
         assert run("compare", "machine.toml", form)[0] == 0
         form.unlink()
-    benchmark = ("grid", "--pattern", "benchmark", "--settings", "machine.toml", "--marks", form)
+    benchmark = ("grid", "--preset", "benchmark", "--settings", "machine.toml", "--marks", form)
     assert run(*benchmark, "--output", "grid.nc")[0] == 0
     assert 'cut_with = "../machine.toml"' in form.read_text()
 

@@ -22,7 +22,6 @@ def _no_screen(monkeypatch):
 @pytest.mark.parametrize(
     "command",
     [
-        ("grid", "--preview"),
         ("preview", INI),
         ("compare", INI, MARKS),
         ("diagnose", INI, MARKS),

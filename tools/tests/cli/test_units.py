@@ -81,7 +81,7 @@ def lengths_shown(said, unit):
         ["diagnose", INI, MARKS],
         ["next", INI, MARKS],
         ["add", INI, MARKS, "--effect", "chain_sag", "sled_swing"],
-        ["preview", INI, "--columns", "4", "--rows", "3"],
+        ["preview", INI, "--preset", "fifteen"],
         ["reach", INI],
     ],
     ids=lambda words: words[0],

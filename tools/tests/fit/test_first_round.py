@@ -9,7 +9,7 @@ from plumb.cli.main import main
 from plumb.cure.machine_file import SETTINGS
 
 
-@pytest.mark.parametrize("extra", [[], ["--columns", "5"], ["--repeats", "2"]])
+@pytest.mark.parametrize("extra", [[], ["--margin", "150"]])
 def test_the_form_that_the_grid_writes_is_understood_when_filled_in(tmp_path, capsys, extra):
     form, program = tmp_path / "marks.toml", tmp_path / "grid.nc"
     assert main(["grid", *extra, "--marks", str(form), "--output", str(program)]) == 0

@@ -19,11 +19,12 @@ Move = namedtuple("Move", "code start end feed")  # places [mm], feed [mm/min]
 
 CHOICES = [
     {},
-    {"columns": 3, "rows": 3, "order": "rows", "repeats": 0},
-    {"columns": 4, "rows": 2, "order": "columns", "repeats": 3, "mode": "drill"},
-    {"columns": 7, "rows": 5, "approach": (-30.0, 20.0), "safe_height": 12.5, "depth": 1.25},
-    {"columns": 2, "rows": 2, "repeats": 2, "repeat_spacing": 0.0},
+    {"columns": 3, "rows": 3, "repeats": False},
+    {"columns": 4, "rows": 2, "depth": 5.0, "feed": 500.0},
+    {"columns": 7, "rows": 5, "safe_height": 12.5, "depth": 1.25, "margin": 150.0},
+    {"places": ((-900.0, 400.0), (12.3, -400.0)), "repeats": False},
 ]
+GRIDS = [options for options in CHOICES if "places" not in options]
 INI = """[Maslow Settings]
 bedwidth = 2000
 bedHeight = 1000
@@ -46,23 +47,20 @@ def touches(**options):
 
 def moves(text):
     """All moves of a program, in mm."""
-    scale, place, result = None, {"X": 0.0, "Y": 0.0, "Z": -100.0}, []
-    absolute = False
+    place, result, said = {"X": 0.0, "Y": 0.0, "Z": -100.0}, [], []
     for line in text.splitlines():
         words = re.findall(r"([A-Z])(-?[0-9.]+)", re.sub(r"\(.*\)", "", line))
         codes = [letter + number for letter, number in words if letter == "G"]
         numbers = {letter: float(number) for letter, number in words if letter != "G"}
         assert len(codes) <= 1
-        if codes in (["G20"], ["G21"]):
-            scale = 25.4 if codes == ["G20"] else 1.0
-        elif codes == ["G90"]:
-            absolute = True
+        if codes in (["G21"], ["G90"]):
+            said += codes
         elif codes:
-            assert absolute and scale
+            assert said == ["G21", "G90"]
             feed = numbers.pop("F", None)
             start = tuple(place.values())
-            place.update({letter: number * scale for letter, number in numbers.items()})
-            result.append(Move(codes[0], start, tuple(place.values()), feed and feed * scale))
+            place.update(numbers)
+            result.append(Move(codes[0], start, tuple(place.values()), feed))
     return result
 
 
@@ -83,7 +81,7 @@ def lands_at(move, x, y):
     return math.dist(move.end[:2], (x, y)) < 1e-6
 
 
-@pytest.mark.parametrize("options", CHOICES)
+@pytest.mark.parametrize("options", GRIDS)
 def test_each_mark_is_touched_once_and_each_extreme_mark_once_more_per_repeat(options):
     grid = grids.Grid(**options)
     marks = touches(**options)
@@ -104,23 +102,21 @@ def test_each_mark_is_touched_once_and_each_extreme_mark_once_more_per_repeat(op
 @pytest.mark.parametrize("options", CHOICES)
 def test_each_plunge_goes_straight_down_to_the_depth_at_the_plunge_feed(options):
     grid = grids.Grid(**options)
-    depth = grid.depth or {"touch": 0.5, "drill": 5.0}[grid.mode]
     for move in plunges(gcode(**options)):
         assert move.code == "G1"
         assert move.start[:2] == move.end[:2]
-        assert (move.start[2], move.end[2]) == (grid.safe_height, -depth)
-        assert move.feed == grid.plunge_feed
+        assert (move.start[2], move.end[2]) == (grid.safe_height, -grid.depth)
+        assert move.feed == 40
 
 
-@pytest.mark.parametrize("units", ["mm", "inch"])
 @pytest.mark.parametrize("options", CHOICES)
-def test_sideways_moves_happen_only_at_the_safe_height(options, units):
+def test_sideways_moves_happen_only_at_the_safe_height(options):
     grid = grids.Grid(**options)
-    made = moves(gcode(**options, units=units))
+    made = moves(gcode(**options))
     sideways = [move for move in made if move.start[:2] != move.end[:2]]
     assert sideways
     for move in sideways:
-        assert move.start[2] == move.end[2] == pytest.approx(grid.safe_height, abs=0.003)
+        assert move.start[2] == move.end[2] == grid.safe_height
 
 
 @pytest.mark.parametrize("options", CHOICES)
@@ -130,7 +126,7 @@ def test_every_mark_is_entered_along_the_approach(options):
     for before, move in pairwise(made):
         if move.end[2] < 0:
             way = (before.end[0] - before.start[0], before.end[1] - before.start[1])
-            assert way == pytest.approx(grid.approach, abs=0.002)
+            assert way == pytest.approx((0, 40), abs=0.002)
             assert before.code == "G1" and before.feed == grid.feed
 
 
@@ -144,21 +140,10 @@ def test_the_program_starts_by_raising_the_bit_and_ends_raised_in_the_middle(opt
 
 
 @pytest.mark.parametrize("options", CHOICES)
-def test_inches_lead_to_the_same_places_and_feeds(options):
-    for here, there in zip(
-        moves(gcode(**options)), moves(gcode(**options, units="inch")), strict=True
-    ):
-        assert there.end == pytest.approx(here.end, abs=0.003)
-        assert there.feed == (here.feed and pytest.approx(here.feed, rel=1e-3))
-
-
-@pytest.mark.parametrize("units", ["mm", "inch"])
-@pytest.mark.parametrize("options", CHOICES)
-def test_every_line_is_one_that_all_firmware_accepts(options, units):
-    text = gcode(**options, units=units)
-    digits = 3 if units == "mm" else 4
-    number = rf"-?\d+(\.\d{{1,{digits}}})?"
-    code = rf"G2[01]|G90|G[01]( X{number} Y{number}| Z{number})( F{number})?"
+def test_every_line_is_one_that_all_firmware_accepts(options):
+    text = gcode(**options)
+    number = r"-?\d+(\.\d{1,3})?"
+    code = rf"G21|G90|G[01]( X{number} Y{number}| Z{number})( F{number})?"
     comment = r"\([A-Za-z0-9 .,:\-]*\)"
     assert text.endswith("\n") and "\r" not in text and text.isascii()
     for line in text.splitlines():
@@ -168,8 +153,8 @@ def test_every_line_is_one_that_all_firmware_accepts(options, units):
 
 
 def test_every_mark_is_announced_just_before_it_is_made():
-    marks = touches(order="rows", columns=3)
-    lines = gcode(order="rows", columns=3).splitlines()
+    marks = touches(columns=3)
+    lines = gcode(columns=3).splitlines()
     said = [line for line in lines if line.startswith("(mark")]
     assert said[0] == "(mark 1 at x -1119.2 y 509.6)"
     assert said[-1] == "(mark 1 again at x -1099.2 y 509.6)"
@@ -180,22 +165,19 @@ def test_every_mark_is_announced_just_before_it_is_made():
 
 def test_the_comment_says_who_switches_the_router():
     assert "(touch 0.5 mm deep: leave the router off)" in gcode()
-    assert "(drill 5 mm deep: switch the router on first)" in gcode(mode="drill")
+    assert "(drill 5 mm deep: switch the router on first)" in gcode(depth=5.0)
+    assert "(touch 1 mm deep" in gcode(depth=1.0) and "(drill 1.1 mm" in gcode(depth=1.1)
 
 
-def test_the_orders_visit_the_same_places_each_in_its_own_way():
-    def names(order):
-        return [int(m.name) for m in touches(columns=3, rows=3, repeats=0, order=order)]
-
-    assert names("rows") == [1, 2, 3, 4, 5, 6, 7, 8, 9]
-    assert names("snake") == [1, 2, 3, 6, 5, 4, 7, 8, 9]
-    assert names("columns") == [1, 4, 7, 2, 5, 8, 3, 6, 9]
+def test_the_rows_are_made_there_and_back_and_the_repeats_on_the_way_back():
+    made = [int(mark.name) for mark in touches(columns=3, rows=3)]
+    assert made == [1, 2, 3, 6, 5, 4, 7, 8, 9, 9, 8, 7, 4, 6, 3, 2, 1]
 
 
 def test_repeats_stand_inwards_so_that_both_holes_can_be_measured():
-    by_visit = {(mark.name, mark.visit): mark for mark in touches(repeats=2)}
+    by_visit = {(mark.name, mark.visit): mark for mark in touches()}
     assert by_visit["5", 1].x == by_visit["5", 0].x - 20
-    assert by_visit["1", 2].x == by_visit["1", 0].x + 40
+    assert by_visit["1", 1].x == by_visit["1", 0].x + 20
     assert by_visit["3", 1].x == 20 and by_visit["3", 1].y == by_visit["3", 0].y
 
 
@@ -223,18 +205,7 @@ def test_the_forces_at_every_place_balance_the_sled():
 
 
 REFUSALS = [
-    ("--margin 20", "the lead-in of mark 11 at x -1199.2 y -629.6 is outside the sheet"),
-    ("--min-tension 25", "mark 11 at x -1119.2 y -549.6 leaves 23.0 N on the right chain"),
-    ("--sled-weight-n 150", "more than --max-tension 200: raise --margin, or lighten the sled"),
-    ("--motor-offset 60", "mark 1 at x -1119.2 y 509.6 puts 216 N on a chain"),
-    ("--motor-spacing 2250", "N on the right chain, less than --min-tension"),
-    ("--columns 2 --max-tension 120", "the way to the lead-in of mark 2"),
-    ("--motor-spacing 2500 --rotation-radius 500", "ring and sprocket within"),
-    ("--columns 1", "--columns is 1"),
-    ("--rows 32", "--rows is 32"),
-    ("--rows 2.5", "--rows"),
-    ("--repeats -1", "--repeats is -1"),
-    ("--repeats 9 --columns 9", "next column"),
+    ("--margin 20", "the lead-in of mark 11 at x -1199.2 y -629.6 is outside the sheet: raise"),
     ("--margin 610", "--margin is 610"),
     ("--margin nan", "--margin is nan"),
     ("--feed 0", "--feed is 0"),
@@ -242,22 +213,39 @@ REFUSALS = [
     ("--depth 0", "--depth is 0"),
     ("--depth 25", "--depth is 25"),
     ("--safe-height -5", "--safe-height is -5"),
-    ("--approach 0,3", "--approach is shorter"),
-    ("--approach 0", "--approach"),
-    ("--approach nan,nan", "--approach"),
-    ("--approach inf,0", "outside the sheet"),
-    ("--approach -3,4", "--approach"),
-    ("--order spiral", "--order"),
-    ("--mode mill", "--mode"),
+    ("--preset ten", "--preset"),
     ("--settings nowhere.ini", "nowhere.ini"),
     ("--unheard-of 3", "--unheard-of"),
+    *((f"--{name} 3", f"--{name}") for name in ("columns", "repeats", "approach", "mode")),
 ]
+MACHINES = [
+    ({"sled_weight_n": 150}, "N on a chain, more than 200: raise --margin, or lighten the sled"),
+    ({"motor_offset": 60}, "mark 1 at x -1119.2 y 509.6 puts 216 N on a chain"),
+    ({"motor_spacing": 2250}, "N on the right chain, less than 18: raise --margin, or move the"),
+    ({"motor_spacing": 2500, "rotation_radius": 500}, "ring and sprocket within"),
+    ({"sheet_width": 0}, "the sheet width of the settings is 0"),
+    ({"sheet_width": 250}, "repeats reach more than half of the 12 mm to the next column"),
+]
+
+
+@pytest.mark.parametrize("numbers, hint", MACHINES)
+def test_a_machine_that_cannot_make_the_grid_is_told_why(numbers, hint):
+    with pytest.raises(grids.GridError, match=re.escape(hint)):
+        gcode(grids.PlainMachine(**numbers))
+
+
+def test_the_way_between_two_corners_is_checked_too():
+    heavy, corners = grids.PlainMachine(sled_weight_n=136), ((-1100.0, 565.0), (1100.0, 565.0))
+    for corner in corners:
+        assert gcode(heavy, places=(corner,), repeats=False)
+    with pytest.raises(grids.GridError, match="the way to the lead-in of mark 2"):
+        gcode(heavy, places=corners, repeats=False)
 
 
 @pytest.mark.parametrize("words, hint", REFUSALS)
 def test_a_bad_request_gets_one_line_exit_code_2_and_no_file(words, hint, tmp_path, capsys):
     files = ["--output", str(tmp_path / "grid.nc"), "--marks", str(tmp_path / "marks.toml")]
-    code, said, complaint = run([*words.split(), *files, "--preview"], capsys)
+    code, said, complaint = run([*words.split(), *files], capsys)
     assert code == 2
     assert said == ""
     assert complaint.count("\n") == 1 and complaint.endswith("\n")
@@ -286,9 +274,8 @@ def test_settings_are_read_whatever_the_case_of_their_keys(tmp_path):
     path.write_text(INI)
     parser = argparse.ArgumentParser()
     grids.add_arguments(parser)
-    words = ["--settings", str(path), "--motor-offset", "480"]
-    _, machine = grids.from_arguments(parser.parse_args(words))
-    assert machine == (2000, 1000, 3000, 480, 140, 97.9)
+    _, machine = grids.from_arguments(parser.parse_args(["--settings", str(path)]))
+    assert machine == (2000, 1000, 3000, 500, 140, 97.9)
 
 
 @pytest.mark.parametrize(
@@ -310,47 +297,21 @@ def test_unusable_settings_are_named_with_their_file_and_key(old, new, hint, tmp
 
 
 def test_the_list_of_marks_holds_every_target_and_approach_in_the_sheet_frame():
-    grid, machine = grids.Grid(approach=(10.0, 30.0)), grids.PlainMachine()
+    grid, machine = grids.Grid(), grids.PlainMachine()
     listed = tomllib.loads(grids.marks_list(grid, machine))
     assert listed["frame"] == "sheet-top-left"
     made = sorted(grids.touches_of(grid, machine), key=lambda mark: (int(mark.name), mark.visit))
     assert [entry["name"] for entry in listed["mark"]] == [mark.name for mark in made]
     for entry, mark in zip(listed["mark"], made, strict=True):
         assert entry["target"] == pytest.approx([mark.x + 1219.2, 609.6 - mark.y])
-        assert entry["approach"] == [10.0, -30.0]
+        assert entry["approach"] == [0.0, -40.0]
         assert "measured" not in entry
 
 
-def test_the_preview_shows_each_mark_and_each_step(capsys):
-    code, picture, _ = run(["--preview"], capsys)
-    assert code == 0
-    assert picture.isascii() and max(map(len, picture.splitlines())) <= 80
-    sheet = "".join(line for line in picture.splitlines() if line.startswith("|"))
-    assert sorted(map(int, re.findall(r"\d+", sheet))) == list(range(1, 16))
-    assert sheet.count("*") == 8
-    assert re.search(r"^  16  mark 15 again +1099\.2 +-509\.6 +2318\.4 +1119\.2 ", picture, re.M)
-    assert "G1" not in picture
-
-
-@pytest.mark.parametrize("options", [*CHOICES, {"columns": 31, "rows": 15, "repeats": 0}])
-def test_the_picture_keeps_its_shape_for_every_grid(options):
-    picture = grids.preview(grids.Grid(**options), grids.PlainMachine())
-    widths = {len(line) for line in picture.splitlines() if line[0:1] in ("|", "+")}
-    assert len(widths) == 1
-
-
-def test_with_an_output_file_the_program_goes_there_and_the_picture_to_the_screen(tmp_path, capsys):
-    file = tmp_path / "grid.nc"
-    code, picture, complaint = run(["--output", str(file), "--preview"], capsys)
-    assert (code, complaint) == (0, "")
-    assert file.read_bytes().decode("ascii") == gcode()
-    assert picture == grids.preview(grids.Grid(), grids.PlainMachine())
-
-
 def test_the_same_request_always_gives_the_same_program_from_any_folder(tmp_path):
-    call = [sys.executable, "-I", str(TOOL), "--columns", "4"]
+    call = [sys.executable, "-I", str(TOOL), "--preset", "nine"]
     said = [subprocess.run(call, cwd=tmp_path, capture_output=True, text=True) for _ in range(2)]
-    assert said[0].stdout == said[1].stdout == gcode(columns=4)
+    assert said[0].stdout == said[1].stdout == gcode(columns=3, rows=3, repeats=False)
     assert [call.returncode for call in said] == [0, 0]
 
 
@@ -358,5 +319,5 @@ def test_a_parser_of_another_command_can_carry_the_options(capsys):
     parser = argparse.ArgumentParser()
     grid = parser.add_subparsers().add_parser("grid")
     grids.add_arguments(grid)
-    assert grids.run(parser.parse_args(["grid", "--rows", "2"])) == 0
-    assert capsys.readouterr().out == gcode(rows=2)
+    assert grids.run(parser.parse_args(["grid", "--margin", "200"])) == 0
+    assert capsys.readouterr().out == gcode(margin=200.0)

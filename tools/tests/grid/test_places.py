@@ -3,6 +3,7 @@
 import re
 import tomllib
 
+import numpy as np
 import pytest
 from plumb.grid import main
 
@@ -25,8 +26,8 @@ def test_places_are_cut_in_their_order_and_nothing_else(capsys):
     ("words", "hint"),
     [
         (["--places=0,0 0,700"], "mark 2 at x 0.0 y 660.0 is outside the sheet"),
-        (["--places=0,0", "--columns", "3"], "--columns is of a grid"),
-        (["--places=0,0", "--pattern", "benchmark"], "--pattern is of a grid"),
+        (["--places=0,0", "--margin", "3"], "--margin is of marks in columns and rows"),
+        (["--preset", "benchmark", "--margin", "3"], "--margin is of marks in columns and rows"),
     ],
 )
 def test_places_that_cannot_be_are_refused(words, hint, capsys):
@@ -34,21 +35,29 @@ def test_places_that_cannot_be_are_refused(words, hint, capsys):
     assert code == 2 and said == "" and hint in complaint
 
 
-def test_a_form_waits_for_sides_diagonals_and_halves(tmp_path, capsys):
-    def spans(*words):
-        form, cut = tmp_path / "form.toml", tmp_path / "cut.nc"
-        to = ["--marks", str(form), "--output", str(cut), "--force", "--distances"]
-        code, _, complaint = run([*words, *to], capsys)
-        assert code == 0, complaint
-        listed = tomllib.loads(re.sub(r"^# (?=\[\[dist|between)", "", form.read_text(), flags=re.M))
-        return [tuple(each["between"]) for each in listed["distance"]]
+def test_places_are_no_preset(capsys):
+    with pytest.raises(SystemExit, match="2"):
+        main(["--places=0,0", "--preset", "nine"])
+    assert "--preset: not allowed with argument --places" in capsys.readouterr().err
 
-    assert len(spans("--columns", "3", "--rows", "3")) == 12
-    assert spans("--columns", "4", "--rows", "2", "--repeats", "0") == [
-        *[("1", "4"), ("4", "8"), ("8", "5"), ("5", "1")],
-        *[("1", "8"), ("4", "5")],
+
+def test_a_form_waits_for_sides_diagonals_and_halves(tmp_path, capsys):
+    form, cut = tmp_path / "form.toml", tmp_path / "cut.nc"
+    words = ["--preset", "distances", "--marks", str(form), "--output", str(cut)]
+    code, _, complaint = run(words, capsys)
+    assert code == 0, complaint
+    listed = tomllib.loads(re.sub(r"^# (?=\[\[dist|between)", "", form.read_text(), flags=re.M))
+    place = {mark["name"]: np.array(mark["target"]) for mark in listed["mark"]}
+    middles = [
+        np.add(*(place[name] for name in span["between"])) / 2 for span in listed["distance"]
     ]
-    five = spans("--columns", "5", "--rows", "3")
-    assert five[6:] == [("3", "13"), ("6", "10"), ("1", "3"), ("6", "8"), ("8", "10"), ("3", "8")]
-    code, _, complaint = run(["--places=0,0", "--distances", "--marks", "no.toml"], capsys)
-    assert code == 2 and "--distances is for marks in columns and rows" in complaint
+    assert len({tuple(sorted(span["between"])) for span in listed["distance"]}) == 12
+    # Sides, diagonals and halves lie evenly: left and right, above and below.
+    assert np.allclose(np.mean(middles[:8], axis=0), place["5"])
+    lengths = [
+        np.ptp([place[name] for name in span["between"]], axis=0) for span in listed["distance"]
+    ]
+    width, height = place["9"] - place["1"]
+    assert np.allclose(lengths[:4], [(width, 0), (0, height)] * 2)
+    assert np.allclose(lengths[4:8], [(width, height)] * 2 + [(0, height), (width, 0)])
+    assert np.allclose(lengths[8:], [(width / 2, 0)] * 3 + [(0, height / 2)])

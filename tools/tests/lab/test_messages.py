@@ -91,10 +91,10 @@ def test_what_to_do_is_said_to_who_reads_it(tmp_path, capsys):
         plan = got(client.post("/api/preview", json={"layout": "own", "places": places}))
         assert "outside the sheet: place your choice of marks farther" in plan["trouble"]
     words = ["grid", "--settings", str(tmp_path / "groundcontrol.ini")]
-    assert main([*words, "--margin", "1", "--approach=0,10"]) == 2
+    assert main([*words, "--margin", "1"]) == 2
     assert "raise --margin" in capsys.readouterr().err
     assert main([*words, "--places=900,650"]) == 2
-    assert "outside the sheet: move that place or change --approach" in capsys.readouterr().err
+    assert "outside the sheet: move that place" in capsys.readouterr().err
 
 
 def test_what_is_worked_out_in_the_background_is_said_to_the_page(tmp_path):

@@ -201,7 +201,7 @@ def test_places_are_taken_in_bands_there_and_back():
 
 
 def test_places_of_a_grid_are_checked_and_cut_in_their_order():
-    grid = Grid(repeats=0, places=((-900.0, 300.0), (800.0, -200.0)))
+    grid = Grid(repeats=False, places=((-900.0, 300.0), (800.0, -200.0)))
     text = program(grid, PlainMachine())
     assert "(pattern: places, 2 marks with repeats)" in text
     assert text.index("G1 X-900 Y300 F700") < text.index("G1 X800 Y-200 F700")
@@ -240,7 +240,7 @@ def test_program_and_form_are_written_and_no_reading_is_overwritten(lab, tmp_pat
 def test_the_program_is_that_of_the_command(lab, tmp_path):
     got(lab.post("/api/grid"))
     settings = str(tmp_path / "groundcontrol.ini")
-    words = ["grid", "--settings", settings, "--columns", "3", "--rows", "3", "--repeats", "0"]
+    words = ["grid", "--settings", settings, "--preset", "nine"]
     main([*words, "--output", str(tmp_path / "same.nc"), "--marks", str(tmp_path / "same.toml")])
     same = (tmp_path / "same.nc").read_text().replace("(form: same.toml)", "(form: marks.toml)")
     assert same == (tmp_path / "grid.nc").read_text()

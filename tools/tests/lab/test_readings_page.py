@@ -191,7 +191,7 @@ def phone(browser):
 def twenty_five(lab):
     """The lab's folder with the example's machine and a form of 25 marks that wait."""
     with_form(lab, example_form())
-    words = ["grid", "--columns", "5", "--rows", "5", "--repeats", "0", "--force"]
+    words = ["grid", "--preset", "twenty-five", "--force"]
     settings, form = lab.folder / "groundcontrol.ini", lab.folder / "marks.toml"
     program = lab.folder / "grid.nc"
     files = ["--settings", settings, "--marks", form, "--output", program]

@@ -15,7 +15,7 @@ from plumb.settings.files import machine_toml
 from plumb.text.errors import InputError
 from synthetic import BELIEVED, SHEET
 
-GRID = grids.Grid(pattern="benchmark", repeats=0)
+GRID = grids.PRESETS["benchmark"]
 PITCH = replace(
     BELIEVED, motor_gap=2981.0, effects={"chain_pitch": {"left": 0.002, "right": 0.001}}
 )
@@ -69,19 +69,19 @@ def test_the_program_touches_every_mark_once_in_the_usual_way():
     assert text.count("G1 Z-0.5") == 19
     for x, y in pattern.benchmark_targets().values():
         assert f"at x {x:.1f} y {y:.1f})" in text
-    with pytest.raises(grids.GridError, match="outside the sheet"):
+    with pytest.raises(grids.GridError, match="outside the sheet: choose another --preset"):
         grids.program(GRID, grids.PlainMachine(sheet_width=1800.0))
 
 
 def test_the_tool_and_plumb_give_the_same_program(run, capsys):
-    assert grids.main(["--pattern", "benchmark"]) == 0
+    assert grids.main(["--preset", "benchmark"]) == 0
     alone = capsys.readouterr().out
-    assert run("grid", "--pattern", "benchmark")[1] == alone
+    assert run("grid", "--preset", "benchmark")[1] == alone
 
 
 def test_the_form_it_writes_can_be_read_once_filled_in(file, tmp_path):
     form = tmp_path / "form.toml"
-    assert grids.main(["--pattern", "benchmark", "--marks", str(form), "--preview"]) == 0
+    assert grids.main(["--preset", "benchmark", "--marks", str(form)]) == 0
     with pytest.raises(InputError, match="has no reading"):
         read_marks(form, sheet=SHEET)
     text = form.read_text()

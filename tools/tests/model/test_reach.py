@@ -8,6 +8,7 @@ import plumb.grid as grids
 import pytest
 from plumb.cli.reach import SIGNS, map_of
 from plumb.cure.machine_file import SETTINGS
+from plumb.grid import options
 from plumb.model.predict import (
     CANNOT_HANG,
     REACH_LIMITS,
@@ -111,9 +112,8 @@ def test_the_tool_and_reach_refuse_the_same_places(gap, offset):
 
 
 def test_the_tools_limits_are_reachs():
-    defaults = grids.Grid()
-    assert defaults.max_tension == REACH_LIMITS["most_tension"]
-    assert defaults.min_tension == REACH_LIMITS["least_tension"]
+    assert REACH_LIMITS["most_tension"] == options.MAX_TENSION
+    assert REACH_LIMITS["least_tension"] == options.MIN_TENSION
     assert REACH_LIMITS["least_free"] == grids.MIN_FREE_CHAIN
 
 
@@ -233,36 +233,30 @@ def test_the_usual_grid_is_within_reach(run):
     assert run("grid")[0] == run("grid", "--settings", SETTINGS)[0] == 0
 
 
-@pytest.mark.parametrize(
-    "words, hint",
-    [
-        ("--margin 20 --approach=0,11", "lets every newton move the sled 0.70 mm"),
-        ("--most-give 0.2", "lets every newton move the sled"),
-    ],
-)
-def test_a_grid_that_the_tool_allows_is_refused_where_the_model_knows_better(words, hint, run):
+def test_a_grid_that_the_tool_allows_is_refused_where_the_model_knows_better(run):
     for settings in ([], ["--settings", SETTINGS]):
-        code, said, complaint = run("grid", *words.split(), *settings)
+        code, said, complaint = run("grid", "--places=-1219,-400", *settings)
         assert (code, said) == (2, "")
-        assert hint in complaint and "see plumb reach" in complaint
+        assert "lets every newton move the sled 0.66 mm" in complaint
+        assert "see plumb reach" in complaint
 
 
 def test_a_refused_grid_leaves_no_file(run, tmp_path):
-    code, _, _ = run("grid", "--most-give", 0.2, "--output", tmp_path / "grid.nc")
+    code, _, _ = run("grid", "--places=-1219,-400", "--output", tmp_path / "grid.nc")
     assert code == 2 and list(tmp_path.iterdir()) == []
 
 
 def test_what_the_tool_refuses_is_still_told_by_the_tool(run):
-    code, _, complaint = run("grid", "--margin", 11, "--approach=0,11")
-    assert code == 2 and "--min-tension 18" in complaint
+    code, _, complaint = run("grid", "--places=1219,-500")
+    assert code == 2 and "less than 18: move that place" in complaint
 
 
 def test_a_grid_goes_by_the_weight_in_its_settings(run, file):
     text = SETTINGS.read_text().replace(
         "[Advanced Settings]", "sledweight = 60\n[Advanced Settings]"
     )
-    code, _, complaint = run("grid", "--settings", file("light.ini", text), "--min-tension", 5)
-    assert code == 2 and "lets every newton" in complaint
+    code, _, complaint = run("grid", "--settings", file("light.ini", text))
+    assert code == 2 and "leaves 14" in complaint
 
 
 def test_shares_that_are_nearly_nothing_do_not_look_it():

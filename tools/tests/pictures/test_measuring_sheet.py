@@ -16,11 +16,11 @@ MACHINE = marks_grid.PlainMachine()
 SIDE, ABOVE, BELOW = 10.0, 18.0, 279.0
 GRIDS = {
     "usual": {},
-    "benchmark": {"pattern": "benchmark", "repeats": 0},
-    "two pages": {"columns": 9, "rows": 5, "repeats": 2},
+    "benchmark": marks_grid.PRESETS["benchmark"]._asdict(),
+    "two pages": {"columns": 9, "rows": 7},
     "dense": {"columns": 15, "rows": 9, "margin": 60},
-    "crowded": {"columns": 31, "rows": 31, "repeats": 0},
-    "four": {"columns": 2, "rows": 2, "repeats": 0},
+    "crowded": {"columns": 31, "rows": 31, "repeats": False},
+    "four": {"columns": 2, "rows": 2, "repeats": False},
 }
 
 
@@ -108,11 +108,18 @@ def test_the_owner_reads_what_it_was_cut_with_and_where_to_type():
 
 def test_the_same_grid_gives_the_same_pages(run, tmp_path):
     paper = tmp_path / "sheet.pdf"
-    command = ("grid", "--columns", "9", "--rows", "5", "--output", tmp_path / "g.nc")
+    places = tuple((100.0 * x - 400, 100.0 * y - 200) for y in range(5) for x in range(9))
+    words = " ".join(f"{x},{y}" for x, y in places)
+    command = ("grid", f"--places={words}", "--output", tmp_path / "g.nc")
     for _ in range(2):
         assert run(*command, "--paper", paper)[0] == 0
     assert paper.read_bytes() == measuring_sheet(
-        content_of(marks_grid.Grid(columns=9, rows=5), MACHINE, settings=None, form="marks.toml")
+        content_of(
+            marks_grid.Grid(repeats=False, places=places),
+            MACHINE,
+            settings=None,
+            form="marks.toml",
+        )
     )
     assert len(re.findall(rb"/Type /Page\b(?!s)", paper.read_bytes())) == 2
 

@@ -16,7 +16,7 @@ from plumb.vm.loop import Budget, Spent, closed_loop, cutting, reading
 from plumb.vm.owner import VirtualOwner, true_value
 from plumb.vm.tape import filled_form, marks_on
 
-GRID = Grid(columns=5, rows=5, repeats=1)
+GRID = Grid(columns=5, rows=5)
 NOISE = 0.4
 
 
@@ -45,7 +45,7 @@ def test_a_machine_without_a_fault_cuts_where_it_should(tmp_path, feed):
     owner = VirtualOwner(garage, noise=0.0)
     owner.switch_on()
     path = tmp_path / "marks.toml"
-    path.write_text(owner.cut_grid(Grid(columns=2, rows=2, repeats=0)))
+    path.write_text(owner.cut_grid(Grid(columns=2, rows=2, repeats=False)))
     marks = read_marks(path, sheet=MAKER.sheet).marks
     assert {mark.name for mark in marks} == {"1", "2", "3", "4"}
     for mark in marks:
@@ -108,7 +108,7 @@ def test_a_turned_sheet_reads_turned():
 @pytest.mark.slow
 def test_a_slip_is_read_again_and_then_the_effect_is_named():
     owner = VirtualOwner(random_garage(hiding("sled_swing", 6.0), 1), slip=10.0)
-    loop = closed_loop(owner, grid=Grid(columns=5, rows=5, repeats=0))
+    loop = closed_loop(owner, grid=Grid(columns=5, rows=5, repeats=False))
     assert loop.auto.diagnosis.verdict == "one_suspect" and loop.auto.chosen == ("sled_swing",)
     # A reading costs no hole.
     assert loop.spent == Spent(25, 3 + 25 * 1.5 + 0.75)
@@ -137,7 +137,7 @@ def test_what_no_effect_explains_moves_marks_by_its_size_and_alike_everywhere():
 def test_a_machine_that_halts_is_begun_anew_and_its_sheet_stays():
     owner = VirtualOwner(random_garage(Hidden(), 3))
     owner.switch_on()
-    owner.cut_grid(Grid(columns=2, rows=2, repeats=0))
+    owner.cut_grid(Grid(columns=2, rows=2, repeats=False))
     places = owner.tape.places
     owner.restart()
     assert owner.tape.places == places

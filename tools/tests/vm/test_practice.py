@@ -15,7 +15,7 @@ from plumb.vm.garage import Garage, sled_error
 from plumb.vm.practice import Secret, claims_of, score, secret_in
 from served_machine import INTERRUPTIBLE, PLUMB, plumb
 
-GRID = ("grid", "--columns", "2", "--rows", "2", "--repeats", "0")
+GRID = ("grid", "--places=-1119,510 1119,510 1119,-510 -1119,-510")
 FORM = '[[mark]]\nname = "a"\ntarget = [1200, 600]\n# measured = [ , ]\n'
 
 

@@ -15,7 +15,7 @@ from served_machine import INTERRUPTIBLE, PLUMB, START, plumb
 
 
 def test_a_program_is_cut_read_with_a_tape_and_the_machine_tells_its_place(served, tmp_path):
-    grid = ["grid", "--columns", "2", "--rows", "2", "--margin", "550", "--repeats", "0"]
+    grid = ["grid", "--places=-669,60 669,60 669,-60 -669,-60"]
     plumb(*grid, "--marks", "form.toml", "--output", "grid.nc", folder=tmp_path)
     files = ["--form", "form.toml", "--readings", "read.toml"]
     server = served(*files, "--reveal", "--speed", "200")

@@ -16,8 +16,8 @@ from plumb.lab.known import measured_to, planned_priors, possible
 from plumb.lab.project import Choices, Layout, Project, read_choices
 from plumb.lab.rounds import (
     FORM,
-    KINDS,
     PROGRAM,
+    TITLES,
     Place,
     Planned,
     command,
@@ -133,7 +133,7 @@ class ExtremeAnswer(BaseModel):
 def layouts(project: TheProject) -> list[LayoutAnswer]:
     """Return the ways to measure on this machine's sheet."""
     settings = opened(project)
-    return [_layout(settings, layout) for layout in KINDS]
+    return [_layout(settings, layout) for layout in TITLES]
 
 
 def _layout(settings: MachineSettings, layout: Layout) -> LayoutAnswer:
@@ -141,7 +141,7 @@ def _layout(settings: MachineSettings, layout: Layout) -> LayoutAnswer:
     order = [touch.name for touch in plan.touches]
     return LayoutAnswer(
         id=layout,
-        title=KINDS[layout].title,
+        title=TITLES[layout],
         marks=len(plan.touches),
         distances=len(plan.spans),
         minutes=plan.minutes,
