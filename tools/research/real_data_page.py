@@ -13,7 +13,6 @@ from pathlib import Path
 import numpy as np
 from plumb.cure.machine_file import MARKS, SETTINGS, with_y_errors_flipped
 from plumb.diagnosis import Diagnosis
-from plumb.diagnosis.answer import verdict_sentence
 from plumb.fit.compare import Comparison, best_pose
 from plumb.fit.fit import rms
 from plumb.marks.read import read_marks
@@ -83,7 +82,7 @@ def pages() -> dict[str, str]:
 
 def verdict_line(diagnosis: Diagnosis) -> str:
     """Return the verdict and the sentence of the lab."""
-    return f"`{diagnosis.verdict}`: {verdict_sentence(diagnosis)}"
+    return f"`{diagnosis.verdict}`: {diagnosis.sentence}"
 
 
 def _nine_section(nine: RealSet) -> str:
@@ -217,7 +216,7 @@ def _independent_section(fifteen: RealSet) -> str:
 def largest_tip_give(diagnosis: Diagnosis) -> float:
     """Return how far a beam's tips could give downwards [mm/N] without showing in the marks."""
     limits = next(each.limits for each in diagnosis.could_hide if each.effect == "frame_flex")
-    sizes = {name: size for name, size, _ in limits}
+    sizes = {limit.name: limit.largest for limit in limits}
     return sizes["downward"] or 0.0
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from plumb.cure.add import Parameter
-from plumb.diagnosis.answer import verdict_sentence
 from plumb.fit.fit import rms
 from real_sets import (
     CUTS,
@@ -76,7 +75,7 @@ def _verdicts(sets: dict[str, RealSet]) -> str:
     lines = []
     for name, holes in sets.items():
         diagnosis = holes.diagnosed()
-        lines.append(f"- {name}: `{diagnosis.verdict}`: {verdict_sentence(diagnosis)}")
+        lines.append(f"- {name}: `{diagnosis.verdict}`: {diagnosis.sentence}")
     quiet = [f"`{holes.diagnosed(sigma=0.8).verdict}`" for holes in sets.values()]
     return "\n".join(
         [

@@ -14,7 +14,7 @@ from plumb.diagnosis import Diagnosis
 from plumb.diagnosis.explanation import Board, Explanation, explain, span
 from plumb.fit.observations import Observations, observe
 from plumb.model.catalogue import effect_names, parameter_words
-from plumb.text.answers import NumberOrNull, key
+from plumb.text.answers import Number, key
 
 Array = np.ndarray
 ALIKE = 0.98  # |cosine| after the refit above which two causes draw the same arrows
@@ -148,9 +148,9 @@ def _limits(diagnosis: Diagnosis, hidden: Hidden) -> list[tuple[str, bool]]:
         return []
     for room in diagnosis.could_hide:
         below = [
-            abs(truths[f"{room.effect}.{name}"]) <= largest * (1 + 1e-9)
-            for name, largest, _ in room.limits
-            if largest is not None
+            abs(truths[f"{room.effect}.{limit.name}"]) <= limit.largest * (1 + 1e-9)
+            for limit in room.limits
+            if limit.largest is not None
         ]
         if room.mm is not None:
             judged.append((room.effect, all(below)))
@@ -210,8 +210,8 @@ class Rate:
     """A mean over boards."""
 
     name: Annotated[str, key("rate")]
-    value: NumberOrNull
-    error: NumberOrNull  # standard deviation of it, as another draw of boards would show
+    value: Number
+    error: Number  # standard deviation of it, as another draw of boards would show
     count: int
 
 

@@ -13,7 +13,7 @@ from pydantic import computed_field
 from plumb.bench.judged_board import JudgedBoard, judge_board
 from plumb.bench.outcome import JUDGED, Line, Outcome, Rate, rate_of
 from plumb.bench.scenarios import CURE, LOOP, SCENARIOS, Scenario
-from plumb.text.answers import Internal, NumberOrNull, among, key
+from plumb.text.answers import Internal, Number, among, key
 
 Progress = Callable[[str, int], None]  # called with each scenario and how many more boards are done
 AT_ONCE = 4  # boards between two steps of the progress
@@ -48,18 +48,18 @@ class Cured:
 
     scenario: str
     boards: int
-    before: NumberOrNull
-    frame: NumberOrNull
-    after: NumberOrNull
-    known: NumberOrNull
-    error: Annotated[NumberOrNull, key("ratio_error")]
+    before: Number
+    frame: Number
+    after: Number
+    known: Number
+    error: Annotated[Number, key("ratio_error")]
     # mean number of marks that were proposed and read
     readings: Annotated[float, key("readings_more")] = 0.0
     checks: float = 0.0  # mean number of direct measurements
 
     @computed_field(alias="ratio")
     @property
-    def ratio_value(self) -> NumberOrNull:
+    def ratio_value(self) -> Number:
         """The ratio alone."""
         return self.ratio.value
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+
+from pydantic import computed_field
 
 from plumb.cli.add_text import as_text, auto_text
 from plumb.cli.arguments import (
@@ -19,7 +20,7 @@ from plumb.cli.arguments import (
     named_number,
 )
 from plumb.cli.checked import add_checked, refuse_unfitted, with_stated
-from plumb.cli.client import add_client, add_firmware, client_files_of, client_text, typed_json
+from plumb.cli.client import Written, add_client, add_firmware, client_files_of, client_text
 from plumb.cli.compare import panel_of
 from plumb.cli.files import inputs_of, picture_form
 from plumb.cli.output import STDOUT, refuse_twins, say_failure, write_outputs
@@ -33,8 +34,8 @@ from plumb.cli.steps import (
     second_round,
     usual_client,
 )
-from plumb.cure.add import Addition, Parameter, Quality, add
-from plumb.cure.auto import AutoAddition, add_auto, without_marks
+from plumb.cure.add import Addition, add
+from plumb.cure.auto import AutoAddition, add_auto
 from plumb.cure.live_board import refuse_other_origin
 from plumb.cure.machine_file import record_of, toml_of
 from plumb.diary.file import FIT, fit_entry, keep
@@ -46,21 +47,49 @@ from plumb.model.catalogue import is_sketch
 from plumb.model.plain import noun_of
 from plumb.pictures.fingerprints import Stair, draw_staircase
 from plumb.pictures.scale import Panel
-from plumb.text.answers import json_of
 from plumb.text.errors import InputError
 
 NONE = "none"  # as an effect: the frame alone
 
 
+@dataclass(frozen=True, kw_only=True)
+class WrittenMachine(Written):
+    """What was written of the new machine."""
+
+    @computed_field
+    @property
+    def unsaid(self) -> tuple[str, ...]:
+        """What the firmware cannot do, a sentence each."""
+        return self.client.unsaid if self.client else ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class NamedAnswer(WrittenMachine, Addition):
+    """The addition of the effects that were named."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class AutoAnswer(NamedAnswer):
+    """The addition of the effects that were chosen."""
+
+    auto: AutoAddition
+
+
+@dataclass(frozen=True, kw_only=True)
+class NothingAdded(WrittenMachine):
+    """Why nothing was added."""
+
+    auto: AutoAddition
+
+
+AddAnswer = NamedAnswer | AutoAnswer | NothingAdded
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Fit, write, print, and return the exit code."""
     refuse_twins(arguments.output, arguments.picture)
-    inputs = inputs_of(arguments)
+    inputs = with_stated(inputs_of(arguments), arguments)
     refuse_other_origin(inputs)
-    if arguments.without:
-        marks = without_marks(inputs.measurements, arguments.without)
-        inputs = replace(inputs, measurements=marks)
-    inputs = with_stated(inputs, arguments)
     if not arguments.effect and not arguments.patch:
         raise InputError(
             "nothing to add: name effects with --effect, or give --effect auto, or --effect none"
@@ -72,7 +101,7 @@ def run(arguments: argparse.Namespace) -> int:
     result = add(inputs, effects=effects, held=held, patch=arguments.patch)
     files, client = written(arguments, inputs, result)
     if arguments.json:
-        print_json({**as_json(result), **_written_json(files, client)})
+        print_json(NamedAnswer(**vars(result), written=tuple(files), client=client))
     else:
         print(as_text(result, asked_patch=arguments.patch))
         _print_written(files, client, arguments)
@@ -99,8 +128,9 @@ def _run_auto(arguments: argparse.Namespace, inputs: Inputs) -> int:
     if result.addition:
         files, client = written(arguments, inputs, result.addition)
     if arguments.json:
-        addition = as_json(result.addition) if result.addition else {}
-        print_json({**addition, "auto": auto_json(result), **_written_json(files, client)})
+        why = NothingAdded(auto=result, written=tuple(files), client=client)
+        added = result.addition
+        print_json(AutoAnswer(**vars(added), **vars(why)) if added else why)
     else:
         print(auto_text(result))
         if result.addition:
@@ -185,15 +215,6 @@ def _original(arguments: argparse.Namespace) -> list[str]:
     return ["--original", arguments.settings] if is_client else []
 
 
-def _written_json(files: list[str], client: ClientFiles | None) -> dict[str, Any]:
-    return {
-        "written": files,
-        "steps": client.steps if client else (),
-        "typed": typed_json(client),
-        "unsaid": client.unsaid if client else (),
-    }
-
-
 def _files(arguments: argparse.Namespace, inputs: Inputs, result: Addition) -> dict[str, bytes]:
     """Return the machine and its picture, complete before the first is written."""
     files: dict[str, bytes] = {}
@@ -220,7 +241,7 @@ def fall_of(result: Addition, *, form: str = "png") -> bytes:
 
 def heading_of(result: Addition, before: float, after: float) -> str:
     """Return which effects were added, and from which RMS error [mm] to which."""
-    added = " and ".join(_noun(step.effect) for step in result.steps)
+    added = " and ".join(_noun(step.effect) for step in result.by_effect)
     done = f"Added: {added}" if added else "Frame fitted, nothing added"
     return f"{done}. From {about(before)} to {about(after)} mm RMS"
 
@@ -231,7 +252,7 @@ def stairs_of(result: Addition, *, raw: Comparison | None = None) -> list[Stair]
     """
     as_set = raw or result.raw
     fits = [("Frame fitted", result.before_fit)]
-    fits += [(f"+ {_noun(step.effect)}", step.fit) for step in result.steps]
+    fits += [(f"+ {_noun(step.effect)}", step.fit) for step in result.by_effect]
     names = tuple(mark.name for mark in result.raw.marks)
     fitted = [
         Stair(Panel(title, fit.predicted, fit.errors, good=True, names=names), fit.rms)
@@ -242,76 +263,6 @@ def stairs_of(result: Addition, *, raw: Comparison | None = None) -> list[Stair]
 
 def _noun(effect: str) -> str:
     return "patch" if effect == PATCH else noun_of(effect)
-
-
-def as_json(addition: Addition) -> dict[str, Any]:
-    """Return the addition by the names of the interface."""
-    turned = addition.after_fit.shows_sheet_rotation
-    return {
-        "raw": {
-            "rms_mm": addition.raw.rms,
-            "worst_mm": addition.raw.worst,
-            "shape_rms_mm": addition.raw.shape_rms,
-        },
-        "before": _quality_json(addition.before),
-        "after": _quality_json(addition.after),
-        "by_effect": [
-            {"effect": step.effect, "only_fit": step.only_fit, **_quality_json(step.quality)}
-            for step in addition.steps
-        ],
-        "parameters": [_parameter_json(parameter) for parameter in addition.parameters],
-        "effects_added": addition.effects_added,
-        "effects": addition.settings.effects,
-        "lab_effects": addition.after_fit.lab_effects,
-        "cures": addition.cures,
-        "frame": addition.settings.frame,
-        "sheet_rotation": addition.after_fit.sheet_rotation if turned else None,
-        "sheet_rise_mm": addition.sheet_rise if turned else None,
-        "sigma_mm": addition.after_fit.sigma,
-        "sigma_from": addition.sigma_from,
-        "benchmark": {
-            "before": json_of(addition.raw.benchmark),
-            "after": json_of(addition.benchmark_after),
-        },
-        "warnings": addition.warnings,
-    }
-
-
-def auto_json(result: AutoAddition) -> dict[str, Any]:
-    """Return how the effects were chosen."""
-    return {
-        "verdict": result.diagnosis.verdict,
-        "chosen": result.chosen,
-        "rivals": result.rivals,
-        "slips": [slip.name for slip in result.diagnosis.slips],
-        "reason": result.reason,
-        "settled_by": result.settled_by,
-        "patch_offer_mm": result.offer,
-    }
-
-
-def _quality_json(quality: Quality) -> dict[str, Any]:
-    return {
-        "fit_rms_mm": quality.fit_rms,
-        "priced_rms_mm": quality.priced_rms,
-        "left_out_rms_mm": quality.left_out_rms,
-        "worst_mm": quality.worst,
-        "shape_rms_mm": quality.shape_rms,
-    }
-
-
-def _parameter_json(parameter: Parameter) -> dict[str, Any]:
-    return {
-        "name": parameter.name,
-        "value": parameter.value,
-        "low": parameter.low,
-        "high": parameter.high,
-        "unit": parameter.unit,
-        "before": parameter.before,
-        "prior_sigma": parameter.prior_sigma,
-        "possible": parameter.plausible_range.limits,
-        "plausible": parameter.plausible,
-    }
 
 
 # The arguments of `plumb add`.

@@ -6,7 +6,6 @@ from plumb.cli.screen import sentences, table
 from plumb.cure.add import Addition
 from plumb.cure.auto import AutoAddition
 from plumb.cure.machine_file import PATCH_WARNING, turn_sentences
-from plumb.diagnosis.answer import verdict_sentence
 from plumb.diagnosis.noise import origin_words
 from plumb.fit.covariates import PATCH
 from plumb.model.plain import noun_of, plain_before, plain_size
@@ -17,7 +16,7 @@ NONE = "none"  # as an effect: the frame alone
 
 def auto_text(result: AutoAddition) -> str:
     """Return the diagnosis and the choice for people, then the addition."""
-    said = [sentences([verdict_sentence(result.diagnosis)], mark="")]
+    said = [sentences([result.diagnosis.sentence], mark="")]
     said += (
         [sentences([slip.sentence for slip in result.diagnosis.slips])]
         if result.diagnosis.slips
@@ -57,7 +56,7 @@ def as_text(result: Addition, *, asked_patch: bool = False) -> str:
     raw, before, after = result.raw, result.before, result.after
     verdict = "better" if result.pays else "NOT better"
     first = f"From {bare(raw.rms)} to {worded(after.fit_rms)} RMS"
-    if result.steps:
+    if result.by_effect:
         first += (
             f"; checked on marks not used, it is {verdict} with the effects "
             f"({bare(before.left_out_rms)} to {worded(after.left_out_rms)})"
@@ -94,7 +93,7 @@ def quality_table(result: Addition) -> str:
     start = (raw.rms, None, None, raw.worst, raw.shape_rms)
     rows = [["raw: the settings as they are", *map(bare, start)]]
     named = [("fitted: the frame", result.before)]
-    named += [(f"fitted: + {noun_of(step.effect)}", step.quality) for step in result.steps]
+    named += [(f"fitted: + {noun_of(step.effect)}", step) for step in result.by_effect]
     for name, quality in named:
         errors = (
             quality.fit_rms,

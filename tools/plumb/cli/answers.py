@@ -12,11 +12,16 @@ from pathlib import Path
 from typing import Any
 
 from plumb.bench.report import Report
+from plumb.cli.add import AddAnswer
+from plumb.cli.calibrate import CalibrateAnswer
+from plumb.cli.diagnose import DiagnosisAnswer
 from plumb.cli.effects import Library
 from plumb.cli.forward import Places
 from plumb.cli.grid import PlannedGrid
 from plumb.cli.inverse import ChainLengths
+from plumb.cli.next import NextAnswer
 from plumb.cli.read import MachineNumbers
+from plumb.cli.report import ReportAnswer
 from plumb.cli.settings import SettingLines
 from plumb.cli.telemetry import WatchedTelemetry
 from plumb.fit.compare import Comparison
@@ -34,16 +39,21 @@ class Refusal:
 
 
 # The answer of each command.
-ANSWERS: dict[str, type] = {
+ANSWERS: dict[str, Any] = {
     "refusal": Refusal,
+    "add": AddAnswer,
     "bench": Report,
+    "calibrate": CalibrateAnswer,
     "compare": Comparison,
+    "diagnose": DiagnosisAnswer,
     "effects": Library,
     "forward": Places,
     "grid": PlannedGrid,
     "inverse": ChainLengths,
+    "next": NextAnswer,
     "practice": Score,
     "read": MachineNumbers,
+    "report": ReportAnswer,
     "settings": SettingLines,
     "telemetry": WatchedTelemetry,
 }

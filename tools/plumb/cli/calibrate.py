@@ -5,8 +5,9 @@ from __future__ import annotations
 import argparse
 from dataclasses import dataclass, replace
 
+from pydantic import computed_field
+
 from plumb.cli import add as add_command
-from plumb.cli import diagnose as diagnose_command
 from plumb.cli.add_text import COLUMNS, parameter_table, quality_table
 from plumb.cli.arguments import (
     add_force,
@@ -18,7 +19,7 @@ from plumb.cli.arguments import (
     add_without,
 )
 from plumb.cli.checked import add_checked, with_stated
-from plumb.cli.client import add_client, add_firmware, client_text, typed_json
+from plumb.cli.client import Written, add_client, add_firmware, client_text
 from plumb.cli.compare import conclusion, outside_sentence
 from plumb.cli.diagnose import explanation_table
 from plumb.cli.files import inputs_of
@@ -32,66 +33,97 @@ from plumb.cli.steps import (
     second_round,
     usual_client,
 )
-from plumb.cure.auto import AutoAddition, add_auto, without_marks
+from plumb.cure.add import Addition, raw_comparison
+from plumb.cure.auto import AutoAddition, add_auto
 from plumb.cure.live_board import refuse_other_origin
 from plumb.cure.machine_file import turn_sentences
-from plumb.diagnosis.answer import verdict_sentence
+from plumb.diagnosis.answer import Diagnosis
 from plumb.firmware.client_files import ClientFiles
-from plumb.fit.compare import Comparison, compare
+from plumb.fit.compare import Comparison
 from plumb.fit.inputs import Inputs
 from plumb.model.plain import nouns_of
 from plumb.plan import Next, Proposal, propose
-from plumb.text.answers import json_of
+from plumb.text.answers import Internal, part
 from plumb.text.values import bare, worded
+
+
+@dataclass(frozen=True)
+class Round:
+    """A round of measuring: what was compared, diagnosed, added, and proposed."""
+
+    comparison: Comparison
+    result: Internal[AutoAddition]
+    advice: Internal[Next | None] = None  # if something has to be measured first
+
+    diagnosis = part("result.diagnosis", Diagnosis)
+    addition = part("result.addition", Addition | None)
+
+    @computed_field
+    @property
+    def next(self) -> tuple[Proposal, ...]:
+        """What to measure, the best first."""
+        return self.advice.proposals if self.advice else ()
+
+    @computed_field
+    @property
+    def done(self) -> bool:
+        """Whether new settings can be written: nothing is left that the marks could decide."""
+        return self.result.addition is not None and self.result.done and not self.result.rivals
+
+    @computed_field
+    @property
+    def sentence(self) -> str:
+        """The end of the round in one sentence."""
+        diagnosis, addition = self.result.diagnosis, self.result.addition
+        if self.done and addition:
+            chosen = self.result.chosen
+            what = f"with {nouns_of(chosen)} added" if chosen else "with the frame fitted"
+            return (
+                f"Done: {what}, the error falls from {bare(addition.raw.rms)} to "
+                f"{worded(addition.after.fit_rms)} RMS, {worded(addition.after.left_out_rms)} checked "
+                "on marks not used."
+            )
+        if diagnosis.slips:
+            names = ", ".join(dict.fromkeys(slip.name for slip in diagnosis.slips))
+            return f"Not yet: read {names} again, and correct the file."
+        best = self.best
+        if best is None:
+            return "Not yet: nothing that can be proposed would tell more."
+        return (
+            f"Not yet: first measure {best.option.title}, about {best.option.minutes:.0f} minutes; "
+            "nothing was written."
+        )
+
+    @property
+    def best(self) -> Proposal | None:
+        """What to measure first; more marks where they are too few, or lie too close together."""
+        proposals = self.next
+        if self.result.diagnosis.left_open.is_too_much:
+            proposals = tuple(each for each in proposals if each.option.is_cut) or proposals
+        return proposals[0] if proposals else None
+
+
+@dataclass(frozen=True, kw_only=True)
+class CalibrateAnswer(Written, Round):
+    """A round of measuring, and what was written of it."""
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Compare, diagnose, add or propose, write, print, and return the exit code."""
-    inputs = _inputs(arguments)
+    inputs = with_stated(inputs_of(arguments), arguments)
     refuse_other_origin(inputs)
     this = round_of(inputs)
     files, client = _written(arguments, inputs, this)
     if arguments.json:
-        print_json(
-            {
-                "sentence": sentence(this),
-                "done": this.done,
-                "comparison": json_of(this.comparison),
-                "diagnosis": diagnose_command.as_json(this.result.diagnosis),
-                "addition": add_command.as_json(this.result.addition)
-                if this.result.addition
-                else None,
-                "next": [
-                    diagnose_command.proposal_json(proposal)
-                    for proposal in (this.advice.proposals if this.advice else ())
-                ],
-                "written": files,
-                "steps": client.steps if client else (),
-                "typed": typed_json(client),
-            }
-        )
+        print_json(CalibrateAnswer(**vars(this), written=tuple(files), client=client))
     else:
         print(as_text(this, arguments, files, client, inputs))
     return int(not this.done)
 
 
-def _inputs(arguments: argparse.Namespace) -> Inputs:
-    inputs = inputs_of(arguments)
-    if arguments.without:
-        marks = without_marks(inputs.measurements, arguments.without)
-        inputs = replace(inputs, measurements=marks)
-    return with_stated(inputs, arguments)
-
-
 def round_of(inputs: Inputs) -> Round:
     """Return what the marks say, what was added by it, and what to measure first if it is open."""
-    comparison = compare(
-        inputs.settings,
-        inputs.measurements,
-        cut_with=inputs.cut_with,
-        controller=inputs.controller,
-    )
-    this = Round(comparison, add_auto(inputs))
+    this = Round(raw_comparison(inputs), add_auto(inputs))
     if this.done:
         return this
     advice = propose(this.result.diagnosis, inputs, progress=bar("simulating"))
@@ -151,20 +183,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 # What `plumb calibrate` says to people: what the marks show, a sentence, and the next command.
 
 
-@dataclass(frozen=True)
-class Round:
-    """A round of measuring: what was compared, diagnosed, added, and proposed."""
-
-    comparison: Comparison
-    result: AutoAddition
-    advice: Next | None = None  # if something has to be measured first
-
-    @property
-    def done(self) -> bool:
-        """Whether new settings can be written: nothing is left that the marks could decide."""
-        return self.result.addition is not None and self.result.done and not self.result.rivals
-
-
 def as_text(
     this: Round,
     arguments: argparse.Namespace,
@@ -180,7 +198,7 @@ def as_text(
     outside = outside_sentence(this.comparison.promised) if this.comparison.promised else ""
     if outside:
         parts.append(sentences([f"{outside} The diagnosis asks for that again."], mark=""))
-    parts.append(sentences([verdict_sentence(diagnosis)], mark=""))
+    parts.append(sentences([diagnosis.sentence], mark=""))
     if diagnosis.slips:
         parts.append(sentences([slip.sentence for slip in diagnosis.slips]))
     elif this.done and addition:
@@ -192,46 +210,13 @@ def as_text(
         parts.append(explanation_table(diagnosis))
     if addition is None and not diagnosis.slips:
         parts.append(sentences([f"{this.result.reason.capitalize()}."], mark=""))
-    parts.append(headline(sentence(this)))
+    parts.append(headline(this.sentence))
     if this.done:
         parts.append(_written_text(files, client))
         parts.append(second_round(arguments, files))
     else:
         parts += _first_measure(this, arguments)
     return "\n\n".join(parts)
-
-
-def sentence(this: Round) -> str:
-    """Return the end of the round in one sentence."""
-    diagnosis, addition = this.result.diagnosis, this.result.addition
-    if this.done and addition:
-        chosen = this.result.chosen
-        what = f"with {nouns_of(chosen)} added" if chosen else "with the frame fitted"
-        return (
-            f"Done: {what}, the error falls from {bare(addition.raw.rms)} to "
-            f"{worded(addition.after.fit_rms)} RMS, {worded(addition.after.left_out_rms)} checked "
-            "on marks not used."
-        )
-    if diagnosis.slips:
-        names = ", ".join(dict.fromkeys(slip.name for slip in diagnosis.slips))
-        return f"Not yet: read {names} again, and correct the file."
-    best = _best(this)
-    if best is None:
-        return "Not yet: nothing that can be proposed would tell more."
-    return (
-        f"Not yet: first measure {best.option.title}, about {best.option.minutes:.0f} minutes; "
-        "nothing was written."
-    )
-
-
-def _best(this: Round) -> Proposal | None:
-    """Return what to measure first; more marks where they are too few, or lie too close
-    together.
-    """
-    proposals = this.advice.proposals if this.advice else ()
-    if this.result.diagnosis.left_open.is_too_much:
-        proposals = tuple(each for each in proposals if each.option.is_cut) or proposals
-    return proposals[0] if proposals else None
 
 
 def _written_text(files: list[str], client: ClientFiles | None) -> str:
@@ -248,7 +233,7 @@ def _first_measure(this: Round, arguments: argparse.Namespace) -> list[str]:
         corrected = next_step("When the file is corrected:", ["calibrate", *same])
         left = next_step("If it cannot be read again:", ["calibrate", *same, *without])
         return [f"{corrected}\n{left}"]
-    best = _best(this)
+    best = this.best
     if best is None:
         return []
     parts = [first_proposal(best), after(best, arguments)]

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
+
+from pydantic import computed_field
 
 from plumb.cli.arguments import file
 from plumb.cli.screen import sentences, table
 from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files
 from plumb.settings.machine import CLIENTS, FIRMWARES, MachineSettings
+from plumb.text.answers import Internal
 from plumb.text.errors import InputError
 
 
@@ -56,6 +60,26 @@ def typed_json(files: ClientFiles | None) -> dict[str, str]:
     """Return what the owner types into the client, by section and key."""
     typed = files.typed if files else {}
     return {f"{section}: {key}": value for (section, key), value in typed.items()}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Written:
+    """The files that were written, and what the owner does with them."""
+
+    written: tuple[str, ...]
+    client: Internal[ClientFiles | None]
+
+    @computed_field
+    @property
+    def steps(self) -> tuple[str, ...]:
+        """What the owner does with the files, a sentence each."""
+        return self.client.steps if self.client else ()
+
+    @computed_field
+    @property
+    def typed(self) -> dict[str, str]:
+        """What the owner types into the client, by `section: key`."""
+        return typed_json(self.client)
 
 
 # The options that name the client and the firmware that files are for.

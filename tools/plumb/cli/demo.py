@@ -13,7 +13,7 @@ from pathlib import Path
 from plumb.cli import demo_loop
 from plumb.cli.add import fall_of
 from plumb.cli.add_text import COLUMNS
-from plumb.cli.calibrate import round_of, sentence
+from plumb.cli.calibrate import round_of
 from plumb.cli.output import ended, refuse_early, write_outputs
 from plumb.cli.parser import Parser
 from plumb.cli.screen import sentences, table
@@ -27,7 +27,6 @@ from plumb.cure.machine_file import (
     toml_of,
     turn_sentences,
 )
-from plumb.diagnosis.answer import verdict_sentence
 from plumb.firmware.client_files import client_files
 from plumb.fit.inputs import Inputs
 from plumb.text.errors import InputError
@@ -230,8 +229,8 @@ def _impossible_pitch(demonstration: Demonstration) -> str:
 def calibrated(inputs: Inputs) -> str:
     """Return what plumb calibrate says of these marks, which knows nothing of the steps above."""
     this = round_of(inputs)
-    said = f"plumb calibrate says of them: {verdict_sentence(this.result.diagnosis)}"
-    return sentences([said, sentence(this)], mark="")
+    said = f"plumb calibrate says of them: {this.result.diagnosis.sentence}"
+    return sentences([said, this.sentence], mark="")
 
 
 def _last_line(demonstration: Demonstration) -> str:

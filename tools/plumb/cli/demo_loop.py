@@ -9,7 +9,6 @@ from plumb.cli.add import heading_of, stairs_of
 from plumb.cli.compare import panel_of
 from plumb.cli.screen import bar, headline, sentences, table
 from plumb.cure.machine_file import toml_of
-from plumb.diagnosis.answer import verdict_sentence
 from plumb.fit.compare import Comparison
 from plumb.grid.options import Grid
 from plumb.model.plain import nouns_of
@@ -65,7 +64,7 @@ def as_text(loop: Loop) -> str:
     steps = [
         f"The machine cut {len(loop.before.marks)} marks, and a tape read them. They lie "
         f"{loop.before.rms:.2f} mm RMS from their targets.",
-        f"plumb diagnose: {verdict_sentence(loop.first)}",
+        f"plumb diagnose: {loop.first.sentence}",
     ]
     steps += [f"plumb next: {proposal.option.title}. The owner did it." for proposal in loop.done]
     return "\n\n".join(

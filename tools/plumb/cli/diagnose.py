@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import dataclass
 from operator import itemgetter
-from typing import Any
 
 from plumb.cli.arguments import add_json, add_marks, add_prior, add_sigma, add_units
 from plumb.cli.checked import add_checked, with_stated
@@ -12,9 +12,8 @@ from plumb.cli.files import inputs_of
 from plumb.cli.screen import print_json, sentences, table
 from plumb.cli.steps import add_named, auto_words, next_step, same_inputs
 from plumb.diagnosis import Diagnosis, diagnose
-from plumb.diagnosis.answer import SHOWN, Ranked, Together, verdict_sentence
-from plumb.diagnosis.sizes import Size
-from plumb.model.catalogue import every_effect, label, place_of
+from plumb.diagnosis.answer import SHOWN, Together
+from plumb.model.catalogue import every_effect, label
 from plumb.model.plain import named, noun_of, nouns_of, plain_size, plainly, ranked
 from plumb.plan import Proposal, propose
 from plumb.text.values import worded
@@ -30,14 +29,20 @@ UNKNOWN_ADVICE = (
 )
 
 
+@dataclass(frozen=True, kw_only=True)
+class DiagnosisAnswer(Diagnosis):
+    """The diagnosis, and what to measure next."""
+
+    next: tuple[Proposal, ...]
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Diagnose, print, and return the exit code."""
     inputs = with_stated(inputs_of(arguments), arguments)
     diagnosis = diagnose(inputs)
     if arguments.json:
-        advice = propose(diagnosis, inputs)
-        proposals = [proposal_json(proposal) for proposal in advice.proposals]
-        print_json({**as_json(diagnosis), "next": proposals})
+        proposals = propose(diagnosis, inputs).proposals
+        print_json(DiagnosisAnswer(**vars(diagnosis), next=proposals))
     else:
         print(f"{as_text(diagnosis)}\n\n{_next(diagnosis, arguments)}")
     return int(diagnosis.verdict in BAD_NEWS)
@@ -58,117 +63,9 @@ def _next(diagnosis: Diagnosis, arguments: argparse.Namespace) -> str:
     return next_step("What to measure next:", ["next", *same_inputs(arguments)])
 
 
-def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
-    """Return the diagnosis by the names of the interface."""
-    return {
-        "verdict": diagnosis.verdict,
-        "sentence": verdict_sentence(diagnosis),
-        "sigma_mm": diagnosis.noise.sigma,
-        "sigma_from": diagnosis.noise.source,
-        "sigma_degrees": diagnosis.noise.degrees,  # null: it was not estimated
-        "rms_mm": diagnosis.rms_before,
-        "suspects": diagnosis.suspects,
-        "to_add": diagnosis.to_add,
-        "chance": diagnosis.chance,  # that this many effects explain what none of them made
-        "explanations": [
-            {
-                "effects": explanation.effects,
-                "rms_after_mm": explanation.rms_after,
-                "share": explanation.share,  # how likely among all; null: they were not weighed
-                "parameters": [
-                    {"effect": name, **_size_json(size)}
-                    for name in explanation.effects
-                    for size in explanation.sizes[name]
-                ],
-            }
-            for explanation in diagnosis.explanations
-        ],
-        "ranking": [_ranked_json(ranked) for ranked in diagnosis.ranking],
-        "slips": [
-            {
-                "name": slip.name,
-                "offset_mm": slip.offset,
-                "sigma_mm": slip.sigma,
-                "read": slip.read,
-                "expected": slip.expected,
-                "guess": slip.guess,
-                "sentence": slip.sentence,
-            }
-            for slip in diagnosis.slips
-        ],
-        "could_hide": [
-            {
-                "effect": hidden.effect,
-                "mm": hidden.mm,
-                "parameters": [
-                    {"name": name, "largest": largest, "unit": unit}
-                    for name, largest, unit in hidden.limits
-                ],
-            }
-            for hidden in diagnosis.could_hide
-        ],
-        "disagreements": diagnosis.disagreements,
-        "warnings": diagnosis.warnings,
-    }
-
-
-def _ranked_json(ranked: Ranked) -> dict[str, Any]:
-    return {
-        "effect": ranked.effect,
-        "where": place_of(ranked.effect),
-        "gain": ranked.gain,
-        "surprise": ranked.surprise,
-        "parameters": [_size_json(size) for size in ranked.sizes],
-        "rms_after_mm": ranked.rms_after,
-        "hidden_share": ranked.hidden_share,
-        "plausible": ranked.plausible,
-    }
-
-
-def _size_json(size: Size) -> dict[str, Any]:
-    return {
-        "name": size.name,
-        "value": size.value,
-        "low": size.low,
-        "high": size.high,
-        "unit": size.unit,
-        "plausible": size.plausible,
-    }
-
-
-def proposal_json(proposal: Proposal) -> dict[str, Any]:
-    """Return a proposal for the next measurement by the names of the interface."""
-    visits = proposal.option.visits
-    return {
-        "kind": proposal.option.kind,
-        "title": proposal.option.title,
-        "do": proposal.option.do,
-        "minutes": proposal.option.minutes,
-        "chance": proposal.chance,
-        "chance_to": proposal.question,
-        "suspects_left": proposal.left,
-        "parts": proposal.parts,
-        "could_hide": [
-            {"effect": item.effect, "now_mm": item.now, "then_mm": item.then}
-            for item in proposal.rooms
-        ],
-        "marks": [
-            {
-                "name": visits.names[i],
-                "target": visits.targets[i],
-                "sled_weight_n": visits.sled_weights[i],
-                "approach": visits.approaches[i] if visits.approaches[i].any() else None,
-                "chains_swapped": bool(visits.swapped[i]),
-            }
-            for i in range(len(visits))
-        ],
-        "checks": [{"name": item.name, "sigma": item.sigma} for item in proposal.option.checks],
-    }
-
-
 def as_text(diagnosis: Diagnosis) -> str:
     """Return the diagnosis for people, its verdict first."""
-    parts = [sentences([verdict_sentence(diagnosis)], mark="")]
+    parts = [sentences([diagnosis.sentence], mark="")]
     if diagnosis.slips:
         parts.append(sentences([slip.sentence for slip in diagnosis.slips]))
     if diagnosis.disagreements:

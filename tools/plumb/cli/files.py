@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 
+from plumb.cure.auto import without_marks
 from plumb.fit.inputs import Inputs, read_inputs
 from plumb.pictures.sheet import FORMATS
 from plumb.text.errors import InputError
@@ -23,7 +25,9 @@ def inputs_of(arguments: argparse.Namespace) -> Inputs:
     )
     if not arguments.json:
         show_in(arguments.units or inputs.measurements.typed.unit)
-    return inputs
+    without = vars(arguments).get("without")
+    marks = without_marks(inputs.measurements, without) if without else inputs.measurements
+    return replace(inputs, measurements=marks)
 
 
 def picture_form(path: str, *, option: str = "--picture") -> str:

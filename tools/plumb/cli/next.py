@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 
 from plumb.cli.arguments import add_force, add_json, add_marks, add_prior, add_sigma, add_units
 from plumb.cli.checked import add_checked, with_stated
-from plumb.cli.diagnose import proposal_json
 from plumb.cli.files import inputs_of, picture_form
 from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import bar, print_json, sentences, table
 from plumb.cli.steps import free_name, next_step, same_inputs
 from plumb.diagnosis import Diagnosis, diagnose
-from plumb.diagnosis.answer import verdict_sentence
 from plumb.fit.inputs import Inputs, settings_in
 from plumb.pictures.plan import draw_plan
 from plumb.plan import Next, Proposal, propose
@@ -33,6 +31,8 @@ from plumb.plan.proposal import (
     promise_of,
     steps_of,
 )
+from plumb.plan.separation import Stability
+from plumb.text.answers import Internal, part
 from plumb.text.errors import InputError
 
 SHOWN, SPOKEN = 8, 3  # proposals in the table, and in whole sentences; --json has all
@@ -43,6 +43,17 @@ HEADS = {
     REREAD: "chance to show it",
     EXPLORE: "",
 }
+
+
+@dataclass(frozen=True)
+class NextAnswer(Next):
+    """The proposals, with what they are for."""
+
+    diagnosis: Internal[Diagnosis]
+    written: tuple[str, ...]
+
+    sentence = part("diagnosis.sentence", str)
+    suspects = part("diagnosis.suspects", tuple[str, ...])
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -57,7 +68,7 @@ def run(arguments: argparse.Namespace) -> int:
     read = [arguments.settings, *arguments.marks, *named]
     write_outputs(files, inputs=read)
     if arguments.json:
-        print_json({**as_json(diagnosis, advice), "written": list(files)})
+        print_json(NextAnswer(**vars(advice), diagnosis=diagnosis, written=tuple(files)))
     else:
         print(as_text(diagnosis, advice))
         if advice.proposals:
@@ -131,29 +142,15 @@ def _chosen(advice: Next, wanted: int | None, *, is_cut: bool) -> tuple[int, Pro
     return place, advice.proposals[place - 1]
 
 
-def as_json(diagnosis: Diagnosis, advice: Next) -> dict[str, Any]:
-    """Return the proposals by the names of the interface."""
-    return {
-        "verdict": diagnosis.verdict,
-        "sentence": verdict_sentence(diagnosis),
-        "suspects": diagnosis.suspects,
-        "next": [proposal_json(proposal) for proposal in advice.proposals],
-        "more_marks": proposal_json(advice.blind) if advice.blind else None,
-        "stable": None
-        if advice.stable is None
-        else {"kept": advice.stable[0], "of": advice.stable[1]},
-    }
-
-
 def as_text(diagnosis: Diagnosis, advice: Next) -> str:
     """Return the proposals for people, the best first."""
-    parts = [sentences([verdict_sentence(diagnosis)], mark="")]
+    parts = [sentences([diagnosis.sentence], mark="")]
     if not advice.proposals:
         parts.append("Nothing that can be proposed would tell more.")
         return "\n\n".join(parts)
     parts.append(first_proposal(advice.proposals[0]))
-    if advice.stable and advice.stable[1]:
-        parts.append(sentences([_stable(*advice.stable)], mark=""))
+    if advice.stable and advice.stable.of:
+        parts.append(sentences([_stable(advice.stable)], mark=""))
     if len(advice.proposals) > 1:
         parts.append(_table(advice))
         steps = [
@@ -194,10 +191,11 @@ def first_proposal(best: Proposal) -> str:
     return f"{first}\n{sentences(steps_of(best), mark='  ')}"
 
 
-def _stable(kept: int, of: int) -> str:
-    return f"Leaving out any single mark keeps the suspect in {kept} of {of} cases" + (
+def _stable(stable: Stability) -> str:
+    cases = f"{stable.kept} of {stable.of} cases"
+    return f"Leaving out any single mark keeps the suspect in {cases}" + (
         ": it does not hang on a single reading."
-        if kept == of
+        if stable.kept == stable.of
         else ": it hangs on single readings."
     )
 

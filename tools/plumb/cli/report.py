@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
-from plumb.cli.add import as_json as addition_json
+from pydantic import computed_field
+
 from plumb.cli.arguments import (
     add_force,
     add_json,
@@ -18,39 +18,88 @@ from plumb.cli.arguments import (
     add_without,
 )
 from plumb.cli.checked import add_checked, with_stated
-from plumb.cli.diagnose import as_json as diagnosis_json
-from plumb.cli.diagnose import proposal_json
 from plumb.cli.files import inputs_of
 from plumb.cli.output import STDOUT, write_outputs
 from plumb.cli.screen import bar, headline, print_json, sentences
 from plumb.cli.steps import command_text, same_inputs
-from plumb.cure.auto import without_marks
-from plumb.diagnosis.answer import verdict_sentence
+from plumb.cure.add import Addition
+from plumb.diagnosis.answer import Diagnosis
+from plumb.diagnosis.expected_error import ExpectedError
 from plumb.diary.file import folder_of, has_diary, read_diary
 from plumb.diary.history import DiaryFit, history_of
-from plumb.fit.compare import ChainView
-from plumb.fit.inputs import Inputs
+from plumb.fit.compare import Comparison, LeftMark
+from plumb.plan import Proposal
 from plumb.report.findings import Command, Findings, find
 from plumb.report.page import report
-from plumb.text.answers import json_of
+from plumb.text.answers import Internal, Number, part
 from plumb.text.errors import InputError
 
 ENDINGS = (".html", ".htm")
+
+
+@dataclass(frozen=True)
+class MarkCovariate:
+    """What errors may depend on, a number for each mark and chain."""
+
+    name: str
+    unit: str
+    left: tuple[Number, ...]
+    right: tuple[Number, ...]
+
+
+@dataclass(frozen=True)
+class ReportAnswer:
+    """What the page says."""
+
+    findings: Internal[Findings]
+    written: tuple[str, ...]
+
+    comparison = part("findings.comparison", Comparison)
+    diagnosis = part("findings.diagnosis", Diagnosis)
+    addition = part(
+        "findings.auto.addition", Addition | None, "Null: nothing is fitted to a wrong reading."
+    )
+    next = part("findings.advice.proposals", tuple[Proposal, ...])
+    left_by_frame = part(
+        "findings.framed.marks", tuple[LeftMark, ...], "What the frame, fitted alone, leaves."
+    )
+    left_by_fit = part("findings.left.marks", tuple[LeftMark, ...], "What frame and effects leave.")
+    expected = part(
+        "findings.expected",
+        ExpectedError | None,
+        "How far off a job would be with the new settings; null for a slip.",
+    )
+
+    @computed_field
+    @property
+    def covariates(self) -> tuple[MarkCovariate, ...]:
+        """What errors may depend on."""
+        marks = self.findings.rows.mark_rows
+        return tuple(
+            MarkCovariate(each.name, each.unit, *map(tuple, each.values[marks].T.tolist()))
+            for each in self.findings.by_visit
+        )
+
+    @computed_field
+    @property
+    def usable_share(self) -> float:
+        """The share of the sheet that the machine can use."""
+        return self.findings.survey.shares["usable"]
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Compare, diagnose, fit, propose, write the page, and return the exit code."""
     if arguments.output != STDOUT and Path(arguments.output).suffix.lower() not in ENDINGS:
         raise InputError(f"-o {arguments.output}: end the name with {', '.join(ENDINGS)}")
-    inputs = _inputs(arguments)
+    inputs = with_stated(inputs_of(arguments), arguments)
     findings = find(inputs, fits=_fits(arguments.settings), progress=bar("simulating"))
     page = report(findings, commands=_commands(arguments, findings), again=_again(arguments))
     read = [arguments.settings, *arguments.marks, *filter(None, [arguments.cut_with])]
     write_outputs({arguments.output: page}, inputs=read)
     if arguments.json:
-        print_json({**as_json(findings), "written": [arguments.output]})
+        print_json(ReportAnswer(findings, (arguments.output,)))
     else:
-        print(headline(verdict_sentence(findings.diagnosis)))
+        print(headline(findings.diagnosis.sentence))
         if arguments.output != STDOUT:
             print(f"\n{sentences([f'Written: {arguments.output}'], mark='')}")
     return 0
@@ -60,14 +109,6 @@ def _fits(settings: str) -> tuple[DiaryFit, ...]:
     """Return the fits in the diary next to the settings."""
     folder = folder_of(settings)
     return history_of(read_diary(folder)).fits if folder and has_diary(folder) else ()
-
-
-def _inputs(arguments: argparse.Namespace) -> Inputs:
-    inputs = inputs_of(arguments)
-    if arguments.without:
-        marks = without_marks(inputs.measurements, arguments.without)
-        inputs = replace(inputs, measurements=marks)
-    return with_stated(inputs, arguments)
 
 
 def _again(arguments: argparse.Namespace) -> str:
@@ -107,38 +148,6 @@ def _commands(arguments: argparse.Namespace, findings: Findings) -> list[Command
 
 def _unindented(words: list[str]) -> str:
     return command_text(words).strip()
-
-
-def as_json(findings: Findings) -> dict[str, Any]:
-    """Return what the page says, by the names of the interface."""
-    addition, expected = findings.auto.addition, findings.expected
-    return {
-        "comparison": json_of(findings.comparison),
-        "diagnosis": diagnosis_json(findings.diagnosis),
-        "addition": addition_json(addition) if addition else None,
-        "next": [proposal_json(proposal) for proposal in findings.advice.proposals],
-        "left_by_frame": _view_json(findings.framed),
-        "left_by_fit": _view_json(findings.left),
-        "covariates": [
-            {
-                "name": each.name,
-                "unit": each.unit,
-                "left": each.values[findings.rows.mark_rows, 0],
-                "right": each.values[findings.rows.mark_rows, 1],
-            }
-            for each in findings.by_visit
-        ],
-        "expected": {"rms_mm": expected.rms, "worst_mm": expected.worst} if expected else None,
-        "usable_share": findings.survey.shares["usable"],
-    }
-
-
-def _view_json(view: ChainView) -> list[dict[str, Any]]:
-    """Return each mark with its error and that of its chains [mm]."""
-    return [
-        {"name": name, "error": error, "left_chain": chains[0], "right_chain": chains[1]}
-        for name, error, chains in zip(view.names, view.errors, view.chains, strict=True)
-    ]
 
 
 # The arguments of `plumb report`.

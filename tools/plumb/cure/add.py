@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
+from pydantic import computed_field
 
 from plumb.cure.live_board import Chosen, LiveBoard, refuse_unknown_effects
 from plumb.fit.compare import Comparison, best_pose, compare
@@ -18,19 +20,17 @@ from plumb.fit.problem import PRIORS
 from plumb.fit.rounds import notes_on, unit_of
 from plumb.fit.sighting import SHEET_ROTATION
 from plumb.marks.benchmark import Score, score_of
-from plumb.model.catalogue import (
-    NO_FIRMWARE,
-    is_sketch,
-    parameter_words,
-)
+from plumb.model.catalogue import NO_FIRMWARE, is_sketch, parameter_words
 from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.plain import named, plain_name, plain_range, plain_size
 from plumb.model.predict import frame_words
 from plumb.model.sketches import SKETCHES
 from plumb.settings.machine import FRAME_FIELDS, MachineSettings
+from plumb.text.answers import Internal, Number, key, meant, part
 from plumb.text.errors import InputError, to_do
 from plumb.text.values import bare, refuse_unknown, worded
 
+Sizes = Mapping[str, Mapping[str, float]]  # of parameters, effect by effect
 FAR = 2.0  # [prior sigmas] a stated number that moved farther was probably measured wrongly
 
 
@@ -38,20 +38,19 @@ FAR = 2.0  # [prior sigmas] a stated number that moved farther was probably meas
 class Quality:
     """How good a fit is [mm]; left out: each mark predicted by a fit that did not see it."""
 
-    fit_rms: float
-    priced_rms: float
-    left_out_rms: float
-    worst: float
-    shape_rms: float | None
+    fit_rms: Annotated[float, key("fit_rms_mm")]
+    priced_rms: Annotated[Number, key("priced_rms_mm")]
+    left_out_rms: Annotated[float, key("left_out_rms_mm")]
+    worst: Annotated[float, key("worst_mm")]
+    shape_rms: Annotated[float | None, key("shape_rms_mm")]
 
 
 @dataclass(frozen=True)
-class Step:
+class Step(Quality):
     """The fit after another effect."""
 
     effect: str
-    quality: Quality
-    fit: Fit
+    fit: Internal[Fit]
     only_fit: bool  # the fit got better, what it did not see got worse
 
 
@@ -65,14 +64,17 @@ class Parameter:
     high: float
     unit: str
     before: float
-    prior_sigma: float | None  # None: free
-    plausible_range: PlausibleRange
+    prior_sigma: Annotated[float | None, meant("Null: free.")]
+    plausible_range: Internal[PlausibleRange]
+
+    limits = part("plausible_range.limits", tuple[float | None, float | None], name="possible")
 
     @property
     def of_patch(self) -> bool:
         """Whether it is a term of the residual patch, which means nothing by itself."""
         return self.name.startswith(f"{PATCH}.")
 
+    @computed_field
     @property
     def plausible(self) -> bool:
         """Whether a real machine can have this value."""
@@ -85,26 +87,73 @@ class Parameter:
 
 
 @dataclass(frozen=True)
+class AsSet:
+    """The errors as the settings stand."""
+
+    rms_mm: float
+    worst_mm: float
+    shape_rms_mm: float | None
+
+
+@dataclass(frozen=True)
+class Benchmark:
+    """The community's score, as cut and with the new settings."""
+
+    before: Score | None
+    after: Score | None
+
+
+@dataclass(frozen=True)
 class Addition:
     """A machine before and after its effects were added."""
 
-    raw: Comparison  # as the settings stand
-    before: Quality  # frame fitted only
-    after: Quality  # effects fitted too
-    before_fit: Fit
-    after_fit: Fit
+    raw: Internal[Comparison]
+    before: Annotated[Quality, meant("With the frame fitted.")]
+    after: Annotated[Quality, meant("With the effects too.")]
+    before_fit: Internal[Fit]
+    after_fit: Internal[Fit]
     parameters: tuple[Parameter, ...]
     effects_added: tuple[str, ...]  # those of the lab too
     warnings: tuple[str, ...]
-    steps: tuple[Step, ...]  # effect by effect, in the order given; the last is `after`
+    by_effect: tuple[Step, ...]  # in the order given; the last is `after`
     sigma_from: str  # where the sigma of the fits comes from: noise_sources.py, or "residuals"
-    benchmark_after: Score | None = None  # of the community's test: what the fit leaves of it
+    benchmark_after: Internal[Score | None] = None  # what the fit leaves of the community's test
+
+    effects = part("settings.effects", Sizes)
+    lab_effects = part("after_fit.lab_effects", Sizes)
+    frame = part("settings.frame", dict[str, float])
+    sigma_mm = part("after_fit.sigma", Number)
 
     @property
     def settings(self) -> MachineSettings:
         """The new machine."""
         return self.after_fit.settings
 
+    @computed_field(alias="raw")
+    @property
+    def as_set(self) -> AsSet:
+        """The errors before anything was fitted."""
+        return AsSet(self.raw.rms, self.raw.worst, self.raw.shape_rms)
+
+    @computed_field
+    @property
+    def benchmark(self) -> Benchmark:
+        """The score of the community's test; null where it was not cut."""
+        return Benchmark(self.raw.benchmark, self.benchmark_after)
+
+    @computed_field
+    @property
+    def sheet_rotation(self) -> float | None:
+        """How the sheet is turned [rad]; null where the marks do not show it."""
+        return self.after_fit.sheet_rotation if self.after_fit.shows_sheet_rotation else None
+
+    @computed_field
+    @property
+    def sheet_rise_mm(self) -> float | None:
+        """The rise of the last sheet; null where the marks do not show it."""
+        return self.sheet_rise if self.after_fit.shows_sheet_rotation else None
+
+    @computed_field
     @property
     def cures(self) -> tuple[str, ...]:
         """A sentence for each lab effect or sketch that was fitted: no setting holds it."""
@@ -114,8 +163,7 @@ class Addition:
 
     @property
     def sheet_rise(self) -> float:
-        """How far to raise the last sheet's right end [mm] to undo its rotation; no setting holds
-        it."""
+        """How far to raise the last sheet's right end [mm] to undo its rotation."""
         return float(np.tan(self.after_fit.last_sheet_rotation)) * self.settings.sheet_width
 
     @property
@@ -170,9 +218,9 @@ def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = F
         patched = best_patch(weighted, effects=names, priors=board.inputs.priors, without=after_fit)
         if patched:
             after_fit, names = patched.fit, (*names, PATCH)
-            earlier = steps[-1].quality if steps else before
+            earlier = steps[-1] if steps else before
             steps += _steps([PATCH], earlier, [after_fit], rows)
-    after = steps[-1].quality if steps else before
+    after = steps[-1] if steps else before
     parameters = tuple(_parameter(each) for each in after_fit.estimates if each.felt)
     return Addition(
         raw=raw,
@@ -193,7 +241,7 @@ def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = F
             *_surprises(parameters),
             *_bad_bargains(before, after, steps),
         ),
-        steps=steps,
+        by_effect=steps,
         sigma_from=noise.source,
         benchmark_after=score_of(board.inputs.measurements, after_fit.distance_errors.tolist()),
     )
@@ -329,9 +377,9 @@ def _steps(
     earlier = [before, *qualities]
     return tuple(
         Step(
-            name,
-            now,
-            fitted,
+            **vars(now),
+            effect=name,
+            fit=fitted,
             only_fit=now.fit_rms < then.fit_rms and now.left_out_rms > then.left_out_rms,
         )
         for name, then, now, fitted in zip(names, earlier, qualities, fits, strict=False)
@@ -348,7 +396,7 @@ def _bad_bargains(before: Quality, after: Quality, steps: Sequence[Step]) -> lis
         ]
     return [
         f"with {named(step.effect)} only the fit got better; marks not used are predicted worse "
-        f"({worded(step.quality.left_out_rms)}): it may follow the noise"
+        f"({worded(step.left_out_rms)}): it may follow the noise"
         for step in steps
         if step.only_fit
     ]

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import Annotated
+
+from pydantic import computed_field
 
 from plumb.cure.add import Addition, add, may_be_zero
 from plumb.cure.live_board import TooFewError
 from plumb.diagnosis import Diagnosis, diagnose
+from plumb.diagnosis.answer import Verdict
 from plumb.diagnosis.expected_error import LeftOpen
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly
+from plumb.text.answers import Internal, key, part
 from plumb.text.errors import InputError, to_do
 from plumb.text.values import refuse_unknown, worded
 
@@ -21,14 +26,26 @@ from plumb.text.values import refuse_unknown, worded
 class AutoAddition:
     """What was added without anybody naming it, and why."""
 
-    diagnosis: Diagnosis
+    diagnosis: Internal[Diagnosis]
     chosen: tuple[str, ...]  # effects added, what explains most first
     rivals: tuple[tuple[str, ...], ...]  # explanations that the marks allow as well
-    addition: Addition | None  # None: nothing is fitted to a wrong reading, or to too few marks
+    # None: nothing is fitted to a wrong reading, or to too few marks
+    addition: Internal[Addition | None]
     reason: str  # one sentence
-    offer: tuple[float, float] | None = None  # [mm] left-out error without a patch, and with one
+    offer: Annotated[
+        tuple[float, float] | None,
+        key("patch_offer_mm", "Error on marks left out, without a patch and with it."),
+    ] = None
     # How to tell the chosen from their rivals.
     settled_by: tuple[str, ...] = ()
+
+    verdict = part("diagnosis.verdict", Verdict)
+
+    @computed_field
+    @property
+    def slips(self) -> tuple[str, ...]:
+        """Names of the readings that are wrong."""
+        return tuple(slip.name for slip in self.diagnosis.slips)
 
     @property
     def done(self) -> bool:

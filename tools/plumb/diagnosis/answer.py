@@ -4,15 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Annotated
+
+from pydantic import computed_field
 
 from plumb.diagnosis.expected_error import LeftOpen
-from plumb.diagnosis.noise import Noise
+from plumb.diagnosis.noise import ORIGINS, Noise
 from plumb.diagnosis.sizes import Room, Size
 from plumb.diagnosis.slip_cause import Slip
+from plumb.model.catalogue import place_of
 from plumb.model.plain import nouns_of, plainly
+from plumb.text.answers import Internal, among, key, meant, part
 from plumb.text.values import bare, worded
 
 VERDICTS = ("nothing_provable", "one_suspect", "cannot_tell", "not_in_library", "slip")
+Verdict = Annotated[str, among(VERDICTS)]
 
 
 @dataclass(frozen=True)
@@ -21,11 +27,19 @@ class Ranked:
 
     effect: str
     gain: float  # drop of chi-square when it is added to the frame and all is refitted
-    surprise: float  # -log of the chance of that gain from noise: the order of the ranking
-    sizes: tuple[Size, ...]
-    rms_after: float  # [mm]
+    # the order of the ranking
+    surprise: Annotated[float, meant("-log of the chance of that gain from noise.")]
+    sizes: Annotated[tuple[Size, ...], key("parameters")]
+    rms_after: Annotated[float, key("rms_after_mm")]
     hidden_share: float | None
 
+    @computed_field
+    @property
+    def where(self) -> Annotated[str, among(("firmware", "lab", "sketch"))]:
+        """Where the effect is written."""
+        return place_of(self.effect)
+
+    @computed_field
     @property
     def plausible(self) -> bool:
         """Whether a real machine can have these sizes."""
@@ -33,13 +47,30 @@ class Ranked:
 
 
 @dataclass(frozen=True)
+class EffectSize(Size):
+    """The same with the name of its effect."""
+
+    effect: str
+
+
+@dataclass(frozen=True)
 class Together:
     """An explanation that stood its test: one effect, or several that act at once."""
 
     effects: tuple[str, ...]
-    sizes: Mapping[str, tuple[Size, ...]]
-    rms_after: float  # [mm]
-    share: float | None = None  # how likely it is among all accounts, where they were weighed
+    sizes: Internal[Mapping[str, tuple[Size, ...]]]
+    rms_after: Annotated[float, key("rms_after_mm")]
+    share: Annotated[float | None, meant("Of all accounts; null: they were not weighed.")] = None
+
+    @computed_field
+    @property
+    def parameters(self) -> tuple[EffectSize, ...]:
+        """All sizes in the order of the effects."""
+        return tuple(
+            EffectSize(**vars(size), effect=name)
+            for name in self.effects
+            for size in self.sizes[name]
+        )
 
     @property
     def possible(self) -> bool:
@@ -55,22 +86,35 @@ class Together:
 class Diagnosis:
     """What the marks prove, and what they do not."""
 
-    verdict: str  # one of VERDICTS
-    noise: Noise
-    limit: float  # of the gate: the surprise that noise hardly ever exceeds (gain.LEVEL)
-    rms_before: float  # [mm] with the frame fitted
+    verdict: Verdict
+    noise: Internal[Noise]
+    limit: Internal[float]  # of the gate: the surprise that noise hardly ever exceeds (gain.LEVEL)
+    rms_before: Annotated[float, key("rms_mm", "With the frame fitted.")]
     explanations: tuple[Together, ...]  # best first
-    differences: Mapping[tuple[int, int], float]  # [mm] RMS between two explanations' marks
+    # [mm] RMS between two explanations' marks
+    differences: Internal[Mapping[tuple[int, int], float]]
     ranking: tuple[Ranked, ...]
-    library_fits: bool  # whether all effects of the library at once could draw the marks
-    chance: float  # that as many effects at once would explain what none of them made
-    to_add: tuple[str, ...]  # effects to go on with: the first explanation, or the best at hand
+    library_fits: Internal[bool]  # whether all effects of the library at once could draw the marks
+    chance: Annotated[float, meant("That as many effects explain what none of them made.")]
+    # the first explanation, or the best at hand
+    to_add: Annotated[tuple[str, ...], meant("Effects to go on with.")]
     slips: tuple[Slip, ...]
     could_hide: tuple[Room, ...]
-    left_open: LeftOpen  # of the machine's errors all over the sheet
+    left_open: Internal[LeftOpen]  # of the machine's errors all over the sheet
     warnings: tuple[str, ...]
     disagreements: tuple[str, ...] = ()  # rounds, or halves of the sheet, that do not go together
 
+    sigma_mm = part("noise.sigma", float, "Reading error of a coordinate.")
+    sigma_from = part("noise.source", Annotated[str, among(list(ORIGINS))])
+    sigma_degrees = part("noise.degrees", float | None, "Of freedom; null: it was not estimated.")
+
+    @computed_field
+    @property
+    def sentence(self) -> str:
+        """The verdict for people."""
+        return verdict_sentence(self)
+
+    @computed_field
     @property
     def suspects(self) -> tuple[str, ...]:
         """The effects in the explanations, best first."""

@@ -11,12 +11,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from pydantic import computed_field
 
 from plumb.diagnosis.explanation import Explanation
 from plumb.diagnosis.suspect_curves import model_by
 from plumb.fit.expected import places_over
 from plumb.fit.observations import Observations, visited
 from plumb.model.predict import FOUND, NAMES, Array, lengths
+from plumb.text.answers import Internal
 
 COLUMNS, ROWS = 41, 21  # places of the sheet
 
@@ -25,15 +27,17 @@ COLUMNS, ROWS = 41, 21  # places of the sheet
 class ExpectedError:
     """One standard deviation of the sled's place, x and y together, all over the sheet."""
 
-    x: Array  # (COLUMNS,) [mm]
-    y: Array  # (ROWS,) [mm] from the top down
-    sigma: Array  # (ROWS, COLUMNS) [mm]; nan where no chain reaches
+    x: Internal[Array]  # (COLUMNS,) [mm]
+    y: Internal[Array]  # (ROWS,) [mm] from the top down
+    sigma: Internal[Array]  # (ROWS, COLUMNS) [mm]; nan where no chain reaches
 
+    @computed_field(alias="rms_mm")
     @property
     def rms(self) -> float:
         """Over all places that are reached [mm]."""
         return float(np.sqrt(np.nanmean(self.sigma**2)))
 
+    @computed_field(alias="worst_mm")
     @property
     def worst(self) -> float:
         """At the worst place [mm]."""

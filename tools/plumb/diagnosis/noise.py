@@ -24,7 +24,7 @@ from plumb.fit.problem import USUAL_SIGMA
 from plumb.text.errors import to_do
 from plumb.text.values import worded
 
-_ORIGINS = {
+ORIGINS = {
     "stated": "as stated",
     "repeats": "from repeats",
     "stated and repeats": "as stated, and from repeats",
@@ -40,7 +40,7 @@ class Noise:
 
     sigma: float  # [mm]
     degrees: float  # of freedom; KNOWN if it was not estimated
-    source: str  # "stated", "repeats", "stated and repeats", "scatter" or "default"
+    source: str  # one of ORIGINS
     notes: tuple[str, ...] = ()
     within: Spread = NOTHING  # of repeats, as far as sigma was made of it
 
@@ -68,7 +68,7 @@ class Noise:
 
 def origin_words(source: str) -> str:
     """Return where a sigma of this source comes from, for people."""
-    return _ORIGINS[source]
+    return ORIGINS[source]
 
 
 # Where the noise of a reading is taken from: the rule for every command.

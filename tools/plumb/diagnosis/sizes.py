@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
 import scipy
@@ -13,6 +14,7 @@ from plumb.diagnosis.noise import LEVEL, Noise, misfit_chance
 from plumb.fit.expected import plausible_range
 from plumb.model.catalogue import parameter_words
 from plumb.model.plain import ranked
+from plumb.text.answers import Internal, key, meant
 
 Array = np.ndarray
 
@@ -27,7 +29,16 @@ class Size:
     high: float | None
     unit: str
     plausible: bool  # whether a real machine can have the value
-    possible: bool  # whether its interval reaches what a real machine may have
+    possible: Internal[bool]  # whether its interval reaches what a real machine may have
+
+
+@dataclass(frozen=True)
+class Limit:
+    """How large a parameter may still be."""
+
+    name: str  # without the effect's
+    largest: Annotated[float | None, meant("Null: these marks say nothing of it.")]
+    unit: str
 
 
 @dataclass(frozen=True)
@@ -35,7 +46,7 @@ class Room:
     """How large an effect that is not proved may still be."""
 
     effect: str
-    limits: tuple[tuple[str, float | None, str], ...]  # parameter, largest size, unit
+    limits: Annotated[tuple[Limit, ...], key("parameters")]
     mm: float | None  # RMS of what it would do to the marks before the frame is refitted
 
 
@@ -104,8 +115,8 @@ def room_for(effect: str, explanations: Sequence[Explanation], noise: Noise) -> 
     """
     rooms = [_room(effect, explanation, noise) for explanation in explanations]
     limits = tuple(
-        (name, _largest_of(room.limits[i][1] for room in rooms), unit)
-        for i, (name, _, unit) in enumerate(rooms[0].limits)
+        replace(limit, largest=_largest_of(room.limits[i].largest for room in rooms))
+        for i, limit in enumerate(rooms[0].limits)
     )
     return Room(effect, limits, _largest_of(room.mm for room in rooms))
 
@@ -123,7 +134,7 @@ def _room(effect: str, explanation: Explanation, noise: Noise) -> Room:
     free = np.array([i for i in explanation.free if i not in columns], dtype=int)
     raw = explanation.slopes[:, columns]
     if not np.any(raw):
-        nothing = tuple((name.partition(".")[2], None, words[name]["unit"]) for name in names)
+        nothing = tuple(Limit(name.partition(".")[2], None, words[name]["unit"]) for name in names)
         return Room(effect, nothing, None)
     fitted = span(explanation.slopes[:, free])
     beyond = raw - fitted @ (fitted.T @ raw)
@@ -141,12 +152,12 @@ def _room(effect: str, explanation: Explanation, noise: Noise) -> Room:
             ends.append(-(total[i] - reach[i]))
         met = max(abs(plausible.low), abs(plausible.high))
         largest = min(max(0.0, *ends) * board.problem.scale[columns[i]], met)
-        limits.append((name.partition(".")[2], float(largest), words[name]["unit"]))
+        limits.append(Limit(name.partition(".")[2], float(largest), words[name]["unit"]))
     if len(columns) == 1:
-        whole = np.abs(raw) * limits[0][1] / board.problem.scale[columns[0]]
+        whole = np.abs(raw) * limits[0].largest / board.problem.scale[columns[0]]
         return Room(effect, tuple(limits), _per_reading(explanation, whole[:, 0]))
     # Where little is measured the ellipsoid is boundless, but what is possible is not.
-    sizes = np.array([limit[1] for limit in limits]) / board.problem.scale[columns]
+    sizes = np.array([limit.largest for limit in limits]) / board.problem.scale[columns]
     at_limits = sum(_per_reading(explanation, column) for column in (raw * sizes).T)
     return Room(
         effect, tuple(limits), min(_largest(explanation, raw, total, covariance), at_limits)

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
+from pydantic import computed_field
 
 from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.noise import library_basis
 from plumb.fit.observations import Observations
 from plumb.marks.read import Measurements
 from plumb.model.plain import greatest
+from plumb.text.answers import Internal, key
 from plumb.text.values import worded
 
 # Single readings: a mark's place or a distance, and how far a reading is off.
@@ -89,19 +92,22 @@ class Slip:
     """A reading to look at again."""
 
     name: str  # of the mark, or "1 - 2" of a distance
-    offset: tuple[float, ...]  # [mm] read less what all the rest says: (x, y), or of a distance
-    sigma: tuple[float, ...]  # [mm]
+    # [mm] read less what all the rest says: (x, y), or of a distance
+    offset: Annotated[tuple[float, ...], key("offset_mm")]
+    sigma: Annotated[tuple[float, ...], key("sigma_mm")]
     read: tuple[float, ...]  # [mm] as it was read, in the machine frame
     expected: tuple[float, ...]  # [mm] what the rest says
     guess: str  # the likely cause, or nothing
-    against: str = EXPLANATIONS  # what it disagrees with
-    corrected: tuple[float, ...] | None = None  # [mm] what was meant, if the guess is right
+    against: Internal[str] = EXPLANATIONS  # what it disagrees with
+    # [mm] what was meant, if the guess is right
+    corrected: Internal[tuple[float, ...] | None] = None
 
     @property
     def length(self) -> float:
         """How far it is off [mm]."""
         return float(np.hypot(*self.offset)) if len(self.offset) == 2 else abs(self.offset[0])
 
+    @computed_field
     @property
     def sentence(self) -> str:
         """What to do, for people."""

@@ -18,7 +18,7 @@ from plumb.marks.read import Measurements
 from plumb.model.predict import FOUND, FOUND_WORDS, settings_of, values_of
 from plumb.settings.machine import MachineSettings
 from plumb.settings.toml import FitRecord
-from plumb.text.answers import Internal, key
+from plumb.text.answers import Internal, Number, key
 from plumb.text.errors import InputError, to_do
 
 Point = tuple[float, float]
@@ -253,6 +253,16 @@ def _warnings(
 
 
 @dataclass(frozen=True)
+class LeftMark:
+    """What is left of a mark: its error and that of its chains [mm]; null where none reaches."""
+
+    name: str
+    error: Point
+    left_chain: Number
+    right_chain: Number
+
+
+@dataclass(frozen=True)
 class ChainView:
     """The errors of marks as errors of the left and the right chain, by a model of the machine."""
 
@@ -261,6 +271,12 @@ class ChainView:
     places: Array  # (k, 2) [mm] where the sled hangs for each mark, on the machine
     errors: Array  # (k, 2) [mm] measured - predicted, x and y on the sheet
     chains: Array  # (k, 2) [mm] the same, left and right chain; nan where no chain reaches
+
+    @property
+    def marks(self) -> tuple[LeftMark, ...]:
+        """Mark by mark."""
+        each = zip(self.names, self.errors.tolist(), self.chains.tolist(), strict=True)
+        return tuple(LeftMark(name, tuple(error), *chains) for name, error, chains in each)
 
 
 def chain_view(

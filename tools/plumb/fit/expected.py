@@ -155,9 +155,10 @@ class PlausibleRange:
     high: float = np.inf
 
     @property
-    def limits(self) -> list[float | None]:
+    def limits(self) -> tuple[float | None, float | None]:
         """Both ends; None where no limit is known."""
-        return [end if np.isfinite(end) else None for end in (self.low, self.high)]
+        low, high = (end if np.isfinite(end) else None for end in (self.low, self.high))
+        return low, high
 
     def holds(self, value: float) -> bool:
         """Return whether a value is plausible."""

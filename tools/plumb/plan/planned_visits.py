@@ -6,20 +6,33 @@ import math
 import textwrap
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
+from typing import Annotated
 
 import numpy as np
 
 from plumb.fit.observations import Observations, loaded
 from plumb.grid.options import APPROACH, PLUNGE_FEED, Grid
 from plumb.grid.pattern import WAY_STEP
-from plumb.marks.model import Mark
+from plumb.marks.model import Mark, Point
 from plumb.model.plain import greatest
 from plumb.model.predict import USABLE, believed_lengths, reach, settings_of, values_of
 from plumb.model.reach import with_soft_chains
 from plumb.settings.machine import GRAVITY, MachineSettings
+from plumb.text.answers import key
 from plumb.text.errors import InputError
 
 Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class Visit:
+    """A visit whose place is yet to be read."""
+
+    name: str
+    target: Point  # [mm]
+    sled_weight: Annotated[float, key("sled_weight_n")]
+    approach: Point | None  # unit vector; None: the side is not prescribed
+    chains_swapped: bool
 
 
 @dataclass(frozen=True)
@@ -43,19 +56,24 @@ class Visits:
         names = tuple(self.names[i] for i in chosen)
         return Visits(names, *(getattr(self, field.name)[chosen] for field in fields(self)[1:]))
 
-    def marks(self, places: Array) -> list[Mark]:
-        """Return the visits as marks that were read at places (n, 2) [mm]."""
-        return [
-            Mark(
+    @property
+    def each(self) -> tuple[Visit, ...]:
+        """Visit by visit."""
+        return tuple(
+            Visit(
                 name=name,
                 target=tuple(self.targets[i].tolist()),
-                measured=tuple(places[i].tolist()),
                 approach=tuple(self.approaches[i].tolist()) if self.approaches[i].any() else None,
                 sled_weight=float(self.sled_weights[i]),
                 chains_swapped=bool(self.swapped[i]),
             )
             for i, name in enumerate(self.names)
-        ]
+        )
+
+    def marks(self, places: Array) -> list[Mark]:
+        """Return the visits as marks that were read at places (n, 2) [mm]."""
+        both = zip(self.each, places.tolist(), strict=True)
+        return [Mark(**vars(visit), measured=tuple(place)) for visit, place in both]
 
     def rows(self) -> Observations:
         """Return the visits as observations whose readings are still zero."""

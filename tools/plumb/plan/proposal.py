@@ -5,21 +5,32 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import erf, sqrt
+from typing import Annotated
 
 import numpy as np
 
-from plumb.diagnosis.answer import Diagnosis
+from plumb.diagnosis.answer import Diagnosis, Verdict
 from plumb.diagnosis.explanation import Explanation, span
 from plumb.diagnosis.sizes import Room
 from plumb.diagnosis.slip_cause import Slip
 from plumb.fit.inputs import Inputs
 from plumb.grid.cut_with import cut_with_lines, with_form
 from plumb.model.plain import ascending, noun_of, plainly, ranked
-from plumb.plan.case import Case, Planned, case_of
+from plumb.plan.case import Case, Check, Planned, case_of
 from plumb.plan.options import MARK, READING, ROUND, Option, many_marks, options, spots
 from plumb.plan.outlook import outlook
-from plumb.plan.planned_visits import Visits, joined, marks_file, nowhere, program, sent, usable
-from plumb.plan.separation import ENOUGH, apart, drawn_by
+from plumb.plan.planned_visits import (
+    Visit,
+    Visits,
+    joined,
+    marks_file,
+    nowhere,
+    program,
+    sent,
+    usable,
+)
+from plumb.plan.separation import ENOUGH, Stability, apart, drawn_by, stability_of
+from plumb.text.answers import Internal, among, key, meant, part
 from plumb.text.values import bare, worded
 
 Array = np.ndarray
@@ -36,20 +47,29 @@ class RoomThen:
     """How large an effect could hide, RMS over the marks: by the marks so far, and afterwards."""
 
     effect: str
-    now: float  # [mm]
-    then: float  # [mm]
+    now: Annotated[float, key("now_mm")]
+    then: Annotated[float, key("then_mm")]
 
 
 @dataclass(frozen=True)
 class Proposal:
     """One thing to measure, and what to expect of it."""
 
-    option: Option
-    question: str  # SETTLE ...
-    chance: float | None  # None: nothing can be computed
-    left: float | None  # suspects that will be left on average
-    parts: tuple[tuple[str, str], ...] = ()  # pairs distinguished then, and not by the marks so far
-    rooms: tuple[RoomThen, ...] = ()  # what the largest hidden effects could then still be
+    option: Internal[Option]
+    question: Annotated[str, key("chance_to"), among((SETTLE, CONFIRM, FIND, REREAD, EXPLORE))]
+    chance: Annotated[float | None, meant("Null: nothing can be computed.")]
+    left: Annotated[float | None, key("suspects_left", "On average.")]
+    # and not by the marks so far
+    parts: Annotated[tuple[tuple[str, str], ...], meant("Pairs distinguished then.")] = ()
+    # what the largest hidden effects could then still be
+    rooms: Annotated[tuple[RoomThen, ...], key("could_hide")] = ()
+
+    kind = part("option.kind", str)
+    title = part("option.title", str)
+    do = part("option.do", tuple[str, ...])
+    minutes = part("option.minutes", float)
+    marks = part("option.visits.each", tuple[Visit, ...])
+    checks = part("option.checks", tuple[Check, ...])
 
     @property
     def rate(self) -> float:
@@ -65,13 +85,12 @@ class Proposal:
 class Next:
     """All that is worth measuring, best first, and what blind diligence would bring instead."""
 
-    verdict: str
-    case: Case | None
-    proposals: tuple[Proposal, ...]
-    blind: Proposal | None  # as many more marks as patience allows
-    stable: (
-        tuple[int, int] | None
-    )  # of a single suspect: deletions of a mark that keep it, of how many
+    verdict: Verdict
+    case: Internal[Case | None]
+    proposals: Annotated[tuple[Proposal, ...], key("next")]
+    # as many more marks as patience allows
+    blind: Annotated[Proposal | None, key("more_marks")]
+    stable: Stability | None  # of a single suspect
 
 
 def propose(
@@ -102,7 +121,7 @@ def propose(
         weighed.append(_weighed(case, option, diagnosis.could_hide))
         progress((number + 1) / len(everything))
     against = weighed.pop() if blind else None
-    stable = _stability(case) if diagnosis.verdict == "one_suspect" else None
+    stable = stability_of(case) if diagnosis.verdict == "one_suspect" else None
     return Next(diagnosis.verdict, case, _best_first(weighed), against, stable)
 
 
@@ -178,35 +197,6 @@ def _smallest(slopes: Array, columns: Array, frame: Array) -> float:
     fitted = span(slopes[:, frame])
     beyond = slopes[:, columns] - fitted @ (fitted.T @ slopes[:, columns])
     return float(np.linalg.svd(beyond, compute_uv=False)[-1])
-
-
-def _stability(case: Case) -> tuple[int, int]:
-    """Return in how many deletions of a reading the suspect remains the best single effect."""
-    suspect = case.hypotheses[0]
-    if len(suspect.effects) > 1:
-        return 0, 0
-    board, frame = case.board, case.frame
-    groups = _readings(case)
-    kept = 0
-    for reading in groups:
-        rows = np.setdiff1d(np.arange(len(frame.slopes)), reading)
-        costs = {}
-        for name in case.singles:
-            columns = np.concatenate([board.frame, board.columns([name])])
-            fitted = span(frame.slopes[np.ix_(rows, columns)])
-            left = frame.residual[rows] - fitted @ (fitted.T @ frame.residual[rows])
-            costs[name] = float(left @ left) + 2 * len(board.columns([name]))
-        kept += ranked(costs, costs.__getitem__)[0] == suspect.effects[0]
-    return kept, len(groups)
-
-
-def _readings(case: Case) -> list[Array]:
-    """Return the rows of each mark (its repeats with it) and of each distance."""
-    rows = case.board.rows
-    names = np.array(rows.names)
-    marks = [np.flatnonzero(names == name) for name in dict.fromkeys(rows.names)]
-    groups = [np.concatenate([2 * repeats, 2 * repeats + 1]) for repeats in marks]
-    return groups + [np.array([rows.measured.size + i]) for i in range(len(rows.distances))]
 
 
 # The files of a proposal: the form that waits for its readings, and the program that cuts it.

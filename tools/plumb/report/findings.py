@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.cure.add import Addition, Quality
+from plumb.cure.add import Addition, Quality, raw_comparison
 from plumb.cure.auto import AutoAddition, add_auto
 from plumb.diagnosis.answer import Diagnosis
 from plumb.diagnosis.diagnosis import Examined, examine
@@ -15,7 +15,7 @@ from plumb.diagnosis.expected_error import ExpectedError, expected_error
 from plumb.diagnosis.explanation import Explanation, explain, measured_board
 from plumb.diagnosis.suspect_curves import SuspectCurves, suspect_curves, view_by
 from plumb.diary.history import DiaryFit
-from plumb.fit.compare import ChainView, Comparison, compare
+from plumb.fit.compare import ChainView, Comparison
 from plumb.fit.covariates import PATCH, Covariate, covariates
 from plumb.fit.fit import Fit
 from plumb.fit.inputs import Inputs
@@ -69,12 +69,7 @@ def find(
     progress: Callable[[float], None] = lambda share: None,
 ) -> Findings:
     """Compare, diagnose, add and propose; InputError as these do. `fits` are of the diary."""
-    comparison = compare(
-        inputs.settings,
-        inputs.measurements,
-        cut_with=inputs.cut_with,
-        controller=inputs.controller,
-    )
+    comparison = raw_comparison(inputs)
     examined = examine(inputs)
     auto = add_auto(inputs, diagnosis=examined.diagnosis)
     frame, rows = examined.readings.frame, measured_board(inputs).rows
@@ -309,10 +304,8 @@ def _fitted(addition: Addition) -> list[_Stage]:
         return _Stage(title, quality.fit_rms, panel, quality.left_out_rms)
 
     steps = [
-        stage(
-            f"+ {'patch' if step.effect == PATCH else noun_of(step.effect)}", step.fit, step.quality
-        )
-        for step in addition.steps
+        stage(f"+ {'patch' if step.effect == PATCH else noun_of(step.effect)}", step.fit, step)
+        for step in addition.by_effect
     ]
     return [stage("Frame fitted", addition.before_fit, addition.before), *steps]
 

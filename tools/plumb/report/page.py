@@ -10,7 +10,7 @@ from pathlib import Path
 import jinja2
 import numpy as np
 
-from plumb.diagnosis.answer import odds_words, verdict_sentence
+from plumb.diagnosis.answer import odds_words
 from plumb.diagnosis.slip_cause import Slip
 from plumb.model.plain import plainly
 from plumb.model.predict import REACH_WORDS, USABLE
@@ -231,7 +231,7 @@ def _verdict(findings: Findings) -> Verdict:
         kind=diagnosis.verdict,
         sign=sign,
         label=label,
-        sentence=verdict_sentence(diagnosis),
+        sentence=diagnosis.sentence,
         notes=tuple(notes),
     )
 
@@ -241,7 +241,7 @@ def _figures(findings: Findings) -> tuple[Figure, ...]:
     addition = findings.auto.addition
     if addition:
         figures.append(Figure("frame fitted", worded(addition.before.fit_rms)))
-        if addition.steps:
+        if addition.by_effect:
             figures.append(Figure("effects fitted", worded(addition.after.fit_rms)))
         figures.append(Figure("on marks not used", worded(addition.after.left_out_rms)))
     return (*figures, Figure("noise of a reading", worded(findings.diagnosis.noise.sigma)))

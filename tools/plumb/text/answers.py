@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from operator import attrgetter
 from typing import Annotated, Any, Literal, TypeVar
 
 import numpy as np
-from pydantic import Field, GetPydanticSchema, PlainSerializer, TypeAdapter, WithJsonSchema
+from pydantic import Field, GetPydanticSchema, PlainSerializer, TypeAdapter, computed_field
 from pydantic.fields import FieldInfo
 from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import core_schema
@@ -26,8 +27,8 @@ Numbers = Annotated[
     GetPydanticSchema(lambda _type, _handler: core_schema.any_schema()),
     PlainSerializer(lambda array: array.tolist(), return_type=list[Any]),
 ]
-# A number that may be NaN or infinite, which is null.
-NumberOrNull = Annotated[float, WithJsonSchema({"type": ["number", "null"]})]
+# A number that is null in the JSON where it is not finite.
+Number = Annotated[float, PlainSerializer(lambda number: plain(number), return_type=float | None)]
 
 
 def key(name: str, said: str | None = None) -> Any:
@@ -46,6 +47,13 @@ def among(words: Sequence[str | None]) -> Any:
     """Return a text that is one of these words."""
     info: FieldInfo = Field(json_schema_extra={"enum": list(words)})
     return info
+
+
+def part(path: str, kind: Any, said: str | None = None, *, name: str | None = None) -> Any:
+    """Another key of the JSON: what is at this path of attributes, and its type."""
+    value = attrgetter(path)
+    made = computed_field(alias=name, return_type=kind, description=said)
+    return made(property(lambda each: value(each)))
 
 
 def json_of(answer: object) -> Any:
@@ -72,7 +80,7 @@ def plain(value: Any) -> Any:
     return value
 
 
-def schema_of(types: Mapping[str, type]) -> dict[str, Any]:
+def schema_of(types: Mapping[str, Any]) -> dict[str, Any]:
     """Return the JSON schema of these answers by the names of their commands; no key is ever
     missing.
     """
@@ -84,9 +92,9 @@ def schema_of(types: Mapping[str, type]) -> dict[str, Any]:
     )
     parts = dict(shared.get("$defs", {}))
     parts |= {name: tops[name, "serialization"] for name in types}
-    for part in parts.values():
-        if "properties" in part:
-            part |= {"required": list(part["properties"]), "additionalProperties": False}
+    for each in parts.values():
+        if "properties" in each:
+            each |= {"required": list(each["properties"]), "additionalProperties": False}
     return parts
 
 

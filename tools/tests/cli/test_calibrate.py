@@ -13,7 +13,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from plumb.cli.calibrate import Round, sentence
+from plumb.cli.calibrate import Round
 from plumb.cli.main import build_parser
 from plumb.diagnosis.expected_error import LeftOpen
 from plumb.grid.command import read_settings as read_plain
@@ -162,7 +162,7 @@ def test_marks_come_first_where_there_are_too_few(now, first):
     diagnosis = SimpleNamespace(left_open=LeftOpen(2.0, now), slips=())
     result = SimpleNamespace(diagnosis=diagnosis, addition=None)
     this = Round(None, result, SimpleNamespace(proposals=(check, marks)))
-    assert f"first measure {first}, about 9 minutes" in sentence(this)
+    assert f"first measure {first}, about 9 minutes" in this.sentence
 
 
 def test_too_few_marks_for_an_effect_are_no_refusal_where_nobody_named_it(run, monkeypatch):

@@ -53,8 +53,8 @@ def test_two_hidden_effects_are_added_step_by_step():
     sizes = {name: size_for(name, WIDE, 6.0) for name in ("chain_pitch", "chain_plane")}
     result = add_auto(Inputs(MAKER, board(sizes, WIDE, seed=5)))
     assert set(result.chosen) == set(sizes)
-    steps = [result.addition.before, *(step.quality for step in result.addition.steps)]
-    assert [step.effect for step in result.addition.steps] == list(result.chosen)
+    steps = [result.addition.before, *result.addition.by_effect]
+    assert [step.effect for step in result.addition.by_effect] == list(result.chosen)
     for earlier, later in pairwise(steps):
         assert later.left_out_rms < earlier.left_out_rms
         assert later.priced_rms < earlier.priced_rms
@@ -116,7 +116,7 @@ def test_where_the_best_is_needless_the_frame_stands_against_the_others(monkeypa
 def test_nothing_is_added_where_nothing_is_hidden():
     result = add_auto(Inputs(MAKER, board({}, WIDE, seed=6)))
     assert result.chosen == () and result.done
-    assert result.addition.effects_added == () and result.addition.steps == ()
+    assert result.addition.effects_added == () and result.addition.by_effect == ()
 
 
 def test_nothing_is_fitted_to_a_slip_until_it_is_left_out():
@@ -125,6 +125,7 @@ def test_nothing_is_fitted_to_a_slip_until_it_is_left_out():
     result = add_auto(Inputs(MAKER, slipped))
     assert result.addition is None and not result.done
     assert clean.marks[11].name in result.reason and "--without" in result.reason
+    assert set(result.slips) == {clean.marks[11].name}
     again = add_auto(Inputs(MAKER, without_marks(slipped, [clean.marks[11].name])))
     assert again.done and len(again.addition.after_fit.errors) == 24
 

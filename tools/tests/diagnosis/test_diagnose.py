@@ -88,7 +88,7 @@ def test_motors_out_of_level_are_not_told_from_a_turned_sheet():
     shares = {ranked.effect: ranked.hidden_share for ranked in diagnosis.ranking}
     assert shares["motor_level"] > 0.95
     room = next(hidden for hidden in diagnosis.could_hide if hidden.effect == "motor_level")
-    assert room.mm > 2 and room.limits[0][1] >= 6.0
+    assert room.mm > 2 and room.limits[0].largest >= 6.0
 
 
 def test_a_slip_is_named_before_any_effect(sizes):

@@ -244,7 +244,7 @@ def test_room_for_what_is_not_there_holds_the_truth():
     for seed in range(40):
         board = board_of(columns=5, rows=5, seed=seed)
         others = explain(board, ("chain_sag", "chain_pitch"))
-        held += room_for("chain_stretch", (others,), STATED).limits[0][1] >= 5.2e-6
+        held += room_for("chain_stretch", (others,), STATED).limits[0].largest >= 5.2e-6
     assert held >= 34  # 38 on average
 
 
@@ -260,9 +260,9 @@ def test_what_points_below_nothing_leaves_no_room_above():
     shrinking = {**TRUE.effects, "chain_stretch": {"compliance": -4e-6}}
     board = board_of(noise=0.0, columns=5, rows=5, true=replace(TRUE, effects=shrinking))
     others = explain(board, ("chain_sag", "chain_pitch"))
-    assert room_for("chain_stretch", (others,), STATED).limits[0][1] == 0.0
+    assert room_for("chain_stretch", (others,), STATED).limits[0].largest == 0.0
 
 
 def test_what_no_mark_feels_has_no_room():
     room = room_for("sled_friction", (explain(board_of()),), STATED)
-    assert room.mm is None and room.limits[0][1] is None
+    assert room.mm is None and room.limits[0].largest is None

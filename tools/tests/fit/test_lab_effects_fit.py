@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.cli.add import as_json
 from plumb.cli.add_text import as_text
 from plumb.cure.add import add
 from plumb.cure.machine_file import toml_of
@@ -17,6 +16,7 @@ from plumb.marks.read import Measurements
 from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.predict import FOUND, known_effects, values_of
 from plumb.settings.files import read_settings, write_machine_toml
+from plumb.text.answers import json_of
 from plumb.text.errors import InputError
 from synthetic import BELIEVED, EFFECTS, TRUE, distances_between, grid, marks_on
 
@@ -92,7 +92,7 @@ def test_a_lab_effect_is_told_with_its_cure_and_pays():
         said = " ".join(said.replace("#", " ").split())
         assert "% too long (tape_scale): " in said and "no firmware can cure this" in said
         assert "a length that you trust" in said
-    answer = as_json(result)
+    answer = json_of(result)
     assert set(answer["lab_effects"]) == {"tape_scale"} and "tape_scale" not in answer["effects"]
     strain = next(
         parameter for parameter in result.parameters if parameter.name == "tape_scale.strain"

@@ -35,9 +35,9 @@ def test_many_intervals_are_judged_at_once():
 
 
 def test_an_end_that_is_not_known_is_none():
-    assert PlausibleRange(-1.0, 2.0).limits == [-1.0, 2.0]
-    assert PlausibleRange(low=-1.0).limits == [-1.0, None]
-    assert PlausibleRange().limits == [None, None] and PlausibleRange().holds(-1e9)
+    assert PlausibleRange(-1.0, 2.0).limits == (-1.0, 2.0)
+    assert PlausibleRange(low=-1.0).limits == (-1.0, None)
+    assert PlausibleRange().limits == (None, None) and PlausibleRange().holds(-1e9)
 
 
 def test_ranges_are_those_of_the_catalogue_and_endless_where_it_says_nothing():

@@ -69,10 +69,10 @@ def test_a_refit_has_the_numbers_of_plumb_add(client, tmp_path):
         np.testing.assert_allclose(fitted["errors"], added.after_fit.errors, atol=2e-5)
         stairs = posted(client, "stairs", {"effects": effects})["stairs"]
         assert [stair["fit_rms"] for stair in stairs[2:]] == pytest.approx(
-            [step.quality.fit_rms for step in added.steps], rel=2e-5
+            [step.fit_rms for step in added.by_effect], rel=2e-5
         )
         assert stairs[0]["fit_rms"] == pytest.approx(added.raw.rms)
-        assert [stair["only_fit"] for stair in stairs[2:]] == [s.only_fit for s in added.steps]
+        assert [stair["only_fit"] for stair in stairs[2:]] == [s.only_fit for s in added.by_effect]
 
 
 def test_a_size_held_by_hand_is_used_and_said(client):

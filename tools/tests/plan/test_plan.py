@@ -245,7 +245,7 @@ def test_one_suspect_is_confirmed_by_measuring_the_cause(first):
     assert answer.proposals[0].option.kind == "check"
     assert answer.proposals[0].option.checks[0].name == "chain_plane.gap_squared"
     assert "repeats" not in kinds(answer)
-    kept, of = answer.stable
+    kept, of = answer.stable.kept, answer.stable.of
     assert of == 9 and 0 <= kept <= 9
 
 

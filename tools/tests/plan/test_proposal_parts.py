@@ -12,8 +12,17 @@ from plumb.marks.read import Measurements
 from plumb.plan.case import Check, Planned, _root
 from plumb.plan.options import many_marks
 from plumb.plan.planned_visits import nowhere
-from plumb.plan.proposal import DISTINGUISHED, _parted, _readings, _rooms, _smallest, _stability
-from plumb.plan.separation import ENOUGH, Chooser, apart, drawn_by, pairs_of
+from plumb.plan.proposal import DISTINGUISHED, _parted, _rooms, _smallest
+from plumb.plan.separation import (
+    ENOUGH,
+    Chooser,
+    Stability,
+    _readings,
+    apart,
+    drawn_by,
+    pairs_of,
+    stability_of,
+)
 from synthetic import distances_between, grid, marks_on
 
 
@@ -40,12 +49,12 @@ def test_each_mark_is_a_reading_with_its_repeats_and_each_distance_another():
 
 def test_stability_counts_the_deletions_that_keep_the_suspect():
     case = case_on(pitch_board(), "chain_pitch", verdict="one_suspect")
-    assert _stability(case) == (9, 9)
+    assert stability_of(case) == Stability(9, 9)
     # Another effect is never the best single.
     other = case_on(pitch_board(), "chain_sag", verdict="one_suspect")
-    assert _stability(other) == (0, 9)
+    assert stability_of(other) == Stability(0, 9)
     pair = replace(case.hypotheses[0], effects=("chain_pitch", "chain_sag"))
-    assert _stability(replace(case, hypotheses=(pair,))) == (0, 0)
+    assert stability_of(replace(case, hypotheses=(pair,))) == Stability(0, 0)
 
 
 def test_a_deletion_is_a_refit_without_the_reading():
@@ -61,7 +70,7 @@ def test_a_deletion_is_a_refit_without_the_reading():
             for name, single in less.singles.items()
         }
         kept += min(costs, key=costs.__getitem__) == suspect
-    assert _stability(case) == (kept, 9)
+    assert stability_of(case) == Stability(kept, 9)
 
 
 def test_rooms_shrink_as_the_least_visible_direction_grows():

@@ -65,6 +65,7 @@ def test_a_form_keeps_place_side_weight_and_swap(file, swapped):
         assert mark.target == pytest.approx(tuple(target), abs=0.001)
         assert mark.approach == pytest.approx(tuple(side), abs=0.001)
         assert mark.sled_weight == 147.0 and mark.chains_swapped == swapped
+    assert {visit.chains_swapped for visit in visits.each} == {swapped}
 
 
 def test_places_on_the_sheet_are_counted_from_its_top_left_corner():

@@ -307,6 +307,14 @@ def test_a_heavier_sled_pulls_harder_at_the_same_mark(made):
     assert np.all(heavy_half > 1.3 * light_half)
 
 
+def test_the_left_chain_is_the_shorter_one_left_of_the_middle(made):
+    answer = made("heavy")[1]
+    length = next(each for each in answer["covariates"] if each["name"] == "length")
+    across = np.array([mark["target"][0] for mark in answer["comparison"]["marks"]])
+    longer = np.array(length["left"]) - np.array(length["right"])
+    assert np.all(np.sign(longer[across != 0]) == np.sign(across[across != 0]))
+
+
 def test_names_from_files_are_words_and_no_more(made):
     page = made("hostile")[2]
     assert not page.named("img")

@@ -227,9 +227,7 @@ def climb(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchStairs:
     with shown_in(choices.units):
         result = add_to(warm.live, warm.raw, chosen)
     qualities = [("frame fitted", result.before, False)]
-    qualities += [
-        (f"+ {noun_of(step.effect)}", step.quality, step.only_fit) for step in result.steps
-    ]
+    qualities += [(f"+ {noun_of(step.effect)}", step, step.only_fit) for step in result.by_effect]
     as_set = BenchStair(
         noun="as set", fit_rms=warm.raw.rms, priced_rms=None, left_out_rms=None, only_fit=False
     )

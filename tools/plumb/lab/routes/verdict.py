@@ -12,7 +12,7 @@ from pydantic import BaseModel
 from plumb import api
 from plumb.cure.add import Addition
 from plumb.cure.auto import AutoAddition, add_auto
-from plumb.diagnosis.answer import SHOWN, Diagnosis, Together, odds_words, verdict_sentence
+from plumb.diagnosis.answer import SHOWN, Diagnosis, Together, odds_words
 from plumb.diagnosis.diagnosis import Examined, examine
 from plumb.diagnosis.explanation import Explanation
 from plumb.diagnosis.sizes import Size
@@ -169,7 +169,7 @@ def verdict_of(inputs: api.Inputs, examined: Examined, auto: AutoAddition) -> Ve
     blind = [each.effect for each in unproved if each.mm is None]
     return Verdict(
         verdict=diagnosis.verdict,
-        sentence=verdict_sentence(diagnosis),
+        sentence=diagnosis.sentence,
         rms_set=raw.rms,
         rms_frame=diagnosis.rms_before,
         rms_added=addition.after.fit_rms if addition else None,
