@@ -14,17 +14,25 @@ from typing import Any
 from plumb.bench.report import Report
 from plumb.cli.add import AddAnswer
 from plumb.cli.calibrate import CalibrateAnswer
+from plumb.cli.check import CheckAnswer
 from plumb.cli.diagnose import DiagnosisAnswer
+from plumb.cli.diary import DiaryAnswer
 from plumb.cli.effects import Library
 from plumb.cli.forward import Places
 from plumb.cli.grid import PlannedGrid
+from plumb.cli.home import HomeAnswer
 from plumb.cli.inverse import ChainLengths
 from plumb.cli.next import NextAnswer
+from plumb.cli.preview import PreviewAnswer
+from plumb.cli.reach import ReachAnswer
 from plumb.cli.read import MachineNumbers
+from plumb.cli.recheck import RecheckAnswer
 from plumb.cli.report import ReportAnswer
 from plumb.cli.settings import SettingLines
+from plumb.cli.slip import SlipAnswer
 from plumb.cli.telemetry import WatchedTelemetry
 from plumb.fit.compare import Comparison
+from plumb.model.predict import MotorGap
 from plumb.text.answers import schema_of
 from plumb.vm.practice import Score
 
@@ -44,25 +52,45 @@ ANSWERS: dict[str, Any] = {
     "add": AddAnswer,
     "bench": Report,
     "calibrate": CalibrateAnswer,
+    "check": CheckAnswer,
     "compare": Comparison,
     "diagnose": DiagnosisAnswer,
+    "diary": DiaryAnswer,
     "effects": Library,
     "forward": Places,
+    "gap": MotorGap,
     "grid": PlannedGrid,
+    "home": HomeAnswer,
     "inverse": ChainLengths,
     "next": NextAnswer,
     "practice": Score,
+    "preview": PreviewAnswer,
+    "reach": ReachAnswer,
     "read": MachineNumbers,
+    "recheck": RecheckAnswer,
     "report": ReportAnswer,
     "settings": SettingLines,
+    "slip": SlipAnswer,
     "telemetry": WatchedTelemetry,
+}
+
+
+HEAD = {
+    "$schema": "https://json-schema.org/draft/2020-12/schema",
+    "$id": "plumb-answers",
+    "title": "What the commands of plumb print with --json",
+    "description": "$defs/COMMAND is the object of that command; $defs/refusal stands for it with "
+    "exit code 2. Lengths are mm, forces N, angles rad. What is not a finite number is null.",
 }
 
 
 def schema() -> dict[str, Any]:
     """Return the JSON schema: $defs has the answer of each command by its name."""
-    head = json.loads(FILE.read_text("utf-8"))
-    return {**head, "$defs": {**head["$defs"], **schema_of(ANSWERS)}}
+    return {
+        **HEAD,
+        "anyOf": [{"$ref": f"#/$defs/{name}"} for name in ANSWERS],
+        "$defs": schema_of(ANSWERS),
+    }
 
 
 def main(words: list[str]) -> int:

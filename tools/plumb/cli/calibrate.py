@@ -80,8 +80,8 @@ class Round:
             what = f"with {nouns_of(chosen)} added" if chosen else "with the frame fitted"
             return (
                 f"Done: {what}, the error falls from {bare(addition.raw.rms)} to "
-                f"{worded(addition.after.fit_rms)} RMS, {worded(addition.after.left_out_rms)} checked "
-                "on marks not used."
+                f"{worded(addition.after.fit_rms)} RMS, {worded(addition.after.left_out_rms)} "
+                "checked on marks not used."
             )
         if diagnosis.slips:
             names = ", ".join(dict.fromkeys(slip.name for slip in diagnosis.slips))

@@ -4,32 +4,45 @@ from __future__ import annotations
 
 import argparse
 from collections import Counter
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from plumb.cli.arguments import add_force, add_json, add_machine, add_units, file
-from plumb.cli.checked import with_stated
 from plumb.cli.files import inputs_of, picture_form
-from plumb.cli.output import refuse_twins, say_failure, write_outputs
+from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import bar, headline, print_json, sentences, table
 from plumb.cli.steps import next_step
-from plumb.diagnosis.check_marks import Check, check_marks, check_sentence
-from plumb.diary.file import RECHECK, keep
-from plumb.fit.inputs import refuse_the_same_twice, settings_in
-from plumb.job.check import Checked, Error, PartErrors, check_job
+from plumb.fit.inputs import settings_in
+from plumb.job.check import Checked, Error, Part, check_job
 from plumb.job.dry_run import outline_of
-from plumb.job.findings import HALTS, IGNORED, SINKS, WAITS, Hanging
-from plumb.marks.read import read_marks
-from plumb.model.predict import USABLE, known_effects
+from plumb.job.findings import HALTS, IGNORED, SINKS, WAITS, Finding, Hanging, Slower
+from plumb.model.predict import USABLE
 from plumb.pictures.reach import Drawn, draw_job
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError
 from plumb.text.files import read_text
 from plumb.text.values import bare, signed, unit, worded
 
 NAMED = 30  # parts that get their number in the picture
+
+
+@dataclass(frozen=True)
+class CheckAnswer:
+    """What to expect of a program."""
+
+    good: bool
+    halted_at: int | None  # line
+    moves: int
+    seconds: float
+    cutting_seconds: float
+    rapid_seconds: float
+    asked_seconds: float  # the cutting at the feeds of the program
+    findings: tuple[Finding, ...]
+    slower: tuple[Slower, ...]
+    hanging: Hanging | None  # None where nothing is cut
+    parts: tuple[Part, ...]
+    written: list[str]
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -55,77 +68,28 @@ def run(arguments: argparse.Namespace) -> int:
         files[arguments.outline] = outline.encode()
     write_outputs(files, inputs=[arguments.job, arguments.settings, *arguments.marks])
     if arguments.json:
-        print_json(as_json(checked, written=list(files)))
+        print_json(_answer(checked, list(files)))
     else:
         print(as_text(checked, arguments))
     return 0 if checked.is_good else 1
 
 
-def as_json(checked: Checked, *, written: list[str]) -> dict[str, Any]:
-    """Return the check by the names of the interface."""
-    times, hanging = checked.times, checked.hanging
-    return {
-        "good": checked.is_good,
-        "halted_at": checked.done.halted_at,
-        "moves": len(checked.done.moves),
-        "seconds": times.whole,
-        "cutting_seconds": times.cutting,
-        "rapid_seconds": times.rapid,
-        "asked_seconds": times.asked,
-        "findings": [
-            {"line": each.line, "kind": each.kind, "says": each.says, "wrong": each.is_wrong}
-            for each in checked.findings
-        ],
-        "slower": [
-            {
-                "because": each.because,
-                "moves": each.moves,
-                "line": each.line,
-                "asked_mm_min": each.asked,
-                "feed_mm_min": each.feed,
-            }
-            for each in checked.slower
-        ],
-        "hanging": hanging
-        and {
-            "tension_n": hanging.tension,
-            "give_mm_per_n": hanging.give,
-            "give_line": hanging.give_line,
-            "bad": [
-                {
-                    "verdict": each.verdict,
-                    "lines": each.lines,
-                    "first_line": each.first,
-                    "share": each.share,
-                }
-                for each in hanging.bad
-            ],
-            "assumed": hanging.assumed,
-        },
-        "parts": _parts_json(checked),
-        "written": written,
-    }
-
-
-def _parts_json(checked: Checked) -> list[dict[str, Any]]:
-    errors = checked.errors or (PartErrors(None, None, None),) * len(checked.parts)
-    return [
-        {
-            "first_line": part.lines[0],
-            "last_line": part.lines[1],
-            "low": part.low,
-            "high": part.high,
-            "deepest": part.deepest,
-            "width_error": _error_json(error.width),
-            "height_error": _error_json(error.height),
-            "skew": _error_json(error.skew),
-        }
-        for part, error in zip(checked.parts, errors, strict=True)
-    ]
-
-
-def _error_json(error: Error | None) -> dict[str, float] | None:
-    return None if error is None else {"mm": error.mm, "within": error.within}
+def _answer(checked: Checked, written: list[str]) -> CheckAnswer:
+    times = checked.times
+    return CheckAnswer(
+        good=checked.is_good,
+        halted_at=checked.done.halted_at,
+        moves=len(checked.done.moves),
+        seconds=times.whole,
+        cutting_seconds=times.cutting,
+        rapid_seconds=times.rapid,
+        asked_seconds=times.asked,
+        findings=checked.findings,
+        slower=checked.slower,
+        hanging=checked.hanging,
+        parts=checked.parts,
+        written=written,
+    )
 
 
 def _drawn(checked: Checked, settings: MachineSettings, name: str) -> Drawn:
@@ -193,72 +157,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_force(parser)
     add_units(parser)
     add_json(parser)
-
-
-# `plumb recheck --check`: marks that no fit has seen, held against the fit of the others.
-
-
-def held_against_marks(arguments: argparse.Namespace) -> int:
-    """Judge the check marks, print, and return the exit code."""
-    if arguments.touch:
-        raise InputError("--touch and --check are two ways: give --check alone, or --touch twice")
-    if not arguments.marks:
-        raise InputError(
-            f"--check {arguments.check}: give the marks to which {arguments.settings} was fitted"
-        )
-    refuse_the_same_twice([*arguments.marks, arguments.check])
-    inputs = with_stated(inputs_of(arguments), arguments)
-    if inputs.settings.fitted is None:
-        raise InputError(f"{arguments.settings} was fitted to no marks: give what plumb add wrote")
-    marks = read_marks(arguments.check, sheet=inputs.settings.sheet, known=known_effects())
-    checked = check_marks(inputs, marks)
-    return report(arguments, _json(checked), _text(checked))
-
-
-def report(arguments: argparse.Namespace, answer: dict[str, Any], text: str) -> int:
-    """Keep a recheck's answer in the diary, print it, and return the exit code."""
-    say_failure(keep(arguments.settings, RECHECK, answer, begin=False))
-    if arguments.json:
-        print_json(answer)
-    else:
-        print(text)
-    return int(not answer["holds"])
-
-
-def _text(checked: Check) -> str:
-    rows = [
-        [
-            mark.name,
-            f"{bare(mark.measured[0], 1)}, {bare(mark.measured[1], 1)}",
-            ", ".join(map(signed, mark.miss)),
-            bare(mark.promised),
-        ]
-        for mark in checked.marks
-    ]
-    parts = [headline(check_sentence(checked))]
-    parts.append(table(["mark", f"at [{unit()}]", "error", "expected up to"], rows))
-    return "\n\n".join(parts)
-
-
-def _json(checked: Check) -> dict[str, Any]:
-    return {
-        "holds": checked.holds,
-        "sentence": check_sentence(checked),
-        "fit": None,
-        "chi_square": checked.chi_square,
-        "limit": checked.limit,
-        "sheet_turned_rad": None,
-        "marks": [
-            {
-                "name": mark.name,
-                "hole": mark.measured,
-                "error": mark.miss,
-                "expected_mm": mark.promised,
-            }
-            for mark in checked.marks
-        ],
-        "changes": [],
-    }
 
 
 # What `plumb check` says to people.
@@ -331,21 +229,19 @@ def _give(hanging: Hanging) -> str:
 
 
 def _parts(checked: Checked) -> str:
-    errors = checked.errors
     header = ["part", "lines", "size", "deep"]
-    header += ["width", "height", "askew"] if errors else []
+    header += ["width", "height", "askew"] if checked.has_errors else []
     rows = []
-    shown = errors or (PartErrors(None, None, None),) * len(checked.parts)
-    for number, (part, error) in enumerate(zip(checked.parts, shown, strict=True), start=1):
+    for number, part in enumerate(checked.parts, start=1):
         width, height = part.size
-        row = [str(number), f"{part.lines[0]}-{part.lines[1]}"]
+        row = [str(number), f"{part.first_line}-{part.last_line}"]
         row += [f"{bare(width, 1)} x {bare(height, 1)}", bare(-part.deepest)]
-        if errors:
-            row += [_error(each) for each in (error.width, error.height, error.skew)]
+        if checked.has_errors:
+            row += map(_error, (part.width_error, part.height_error, part.skew))
         rows.append(row)
     more = len(rows) - PARTS
     words = [f"Sizes by the middle of the bit, {unit()}."]
-    if errors:
+    if checked.has_errors:
         words.append(
             "Width and height: how much too large the part will come out; askew: how far its top "
             "lies too far right. Behind +-: what the marks leave open, 95 %."
@@ -374,7 +270,7 @@ def _notes(checked: Checked) -> list[str]:
         notes.append(
             f"{code} means nothing to this machine and is passed over: {_count(count, 'line')}"
         )
-    if not checked.errors and checked.parts:
+    if not checked.has_errors and checked.parts:
         notes.append("to know how well the parts will fit, give --marks with this machine's marks")
     if checked.hanging is not None:
         notes += checked.hanging.assumed

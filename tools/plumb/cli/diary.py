@@ -3,20 +3,31 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
+from dataclasses import dataclass
 
 from plumb.cli.arguments import add_force, add_json, add_units
 from plumb.cli.files import picture_form
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import headline, print_json, sentences, table
 from plumb.diary.file import Diary, Entry, has_diary, noted, read_diary
-from plumb.diary.history import Course, History, history_of
+from plumb.diary.history import Course, DiaryFit, History, history_of
 from plumb.model.plain import named, plain_name, plain_size
 from plumb.pictures.reach import Run, draw_diary
 from plumb.text.errors import InputError
 from plumb.text.values import bare, unit, worded
 
 LAST = 10  # other entries
+
+
+@dataclass(frozen=True)
+class DiaryAnswer:
+    """What a diary holds, and the picture that was drawn of it."""
+
+    fits: tuple[DiaryFit, ...]  # the oldest first; errors are RMS
+    numbers: tuple[Course, ...]
+    entries: tuple[Entry, ...]
+    spoilt_lines: tuple[int, ...]
+    written: list[str]
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -31,7 +42,7 @@ def run(arguments: argparse.Namespace) -> int:
         write_outputs({arguments.picture: _picture(history, form)}, inputs=[str(diary.path)])
         written = [arguments.picture]
     if arguments.json:
-        print_json(_json(diary, history, written))
+        print_json(DiaryAnswer(history.fits, history.courses, diary.entries, diary.spoilt, written))
     else:
         print(_text(diary, history))
     return 0
@@ -114,35 +125,6 @@ def _moved(course: Course) -> str:
 
 def _date(entry: Entry) -> str:
     return f"{entry.at:%Y-%m-%d %H:%M}"
-
-
-def _json(diary: Diary, history: History, written: list[str]) -> dict[str, Any]:
-    return {
-        "fits": [
-            {
-                "at": fit.at.isoformat(),
-                "machine": fit.machine,
-                "readings": fit.count,
-                "before_mm": fit.before,
-                "rms_mm": fit.rms,
-                "left_out_mm": fit.left_out,
-                "effects": fit.effects,
-            }
-            for fit in history.fits
-        ],
-        "numbers": [
-            {
-                "name": course.name,
-                "unit": course.unit,
-                "moved": course.has_moved,
-                "points": [{**vars(point), "at": point.at.isoformat()} for point in course.points],
-            }
-            for course in history.courses
-        ],
-        "entries": [{"at": entry.at.isoformat(), "kind": entry.kind} for entry in diary.entries],
-        "spoilt_lines": diary.spoilt,
-        "written": written,
-    }
 
 
 # The arguments of `plumb diary`.

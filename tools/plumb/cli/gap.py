@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
 
 from plumb.cli.arguments import add_json, add_settings, add_units, length
 from plumb.cli.screen import headline, print_json, sentences
@@ -12,7 +11,6 @@ from plumb.model.predict import BEYOND, MotorGap, motor_gap
 from plumb.text.errors import InputError
 from plumb.text.values import brief, worded
 
-MOST_SPREAD = 0.5  # [mm]
 MISREAD = 5.0  # [mm] of spread: no two pulls of a machine differ so much
 USUAL_PULLS = (60.0, 105.0)  # [N] of B11
 POSSIBLE_PULLS = (25.0, 250.0)  # [N] of a drop that can be meant
@@ -42,7 +40,7 @@ def run(arguments: argparse.Namespace) -> int:
     )
     _refuse_misread(arguments, measured)
     if arguments.json:
-        print_json(_json(arguments, measured))
+        print_json(measured)
     else:
         print(headline(f"Motor gap {worded(measured.gap)} ± {worded(measured.interval)}."))
         print()
@@ -94,29 +92,9 @@ def _reasons(arguments: argparse.Namespace, measured: MotorGap) -> list[str]:
         lines.append("A ruler at the middle of the tight chain makes it better: --drop.")
     if arguments.flex is None:
         lines.append("Nobody measured how much the frame bends: --flex makes it better.")
-    if _differ(measured):
+    if measured.pull_again:
         lines.append(f"The lengths differ by {worded(measured.spread)}: pull again with B11.")
     return lines
-
-
-def _differ(measured: MotorGap) -> bool:
-    """Return whether the lengths differ by more than pulls of a sound machine do."""
-    return measured.spread > MOST_SPREAD
-
-
-def _json(arguments: argparse.Namespace, measured: MotorGap) -> dict[str, Any]:
-    return {
-        "gap_mm": measured.gap,
-        "interval_mm": measured.interval,
-        "pull_N": measured.pull,
-        "pull_by": "B11" if arguments.drop is None else "drop",
-        "beyond_mm": BEYOND,
-        "sag_mm": measured.sag,
-        "stretch_mm": measured.stretch,
-        "flex_mm": measured.flex,
-        "spread_mm": measured.spread,
-        "pull_again": _differ(measured),
-    }
 
 
 # The arguments of `plumb gap`.

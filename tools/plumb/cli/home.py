@@ -10,6 +10,7 @@ from math import dist
 from typing import Any
 
 import numpy as np
+from pydantic import computed_field
 
 from plumb.cli.arguments import add_force, add_json, add_settings, add_units
 from plumb.cli.output import STDOUT, say_failure, write_outputs
@@ -32,19 +33,48 @@ from plumb.job.home import (
 )
 from plumb.job.slip import repair_program
 from plumb.settings.machine import MachineSettings
+from plumb.text.answers import Internal, json_of
 from plumb.text.errors import InputError
 from plumb.text.values import bare, signed, unit, worded
 
 
+@dataclass(frozen=True)
+class ShownMark:
+    """A home mark, and where the machine shows the bit in it today [mm]."""
+
+    name: str
+    place: list[float]
+    kept_place: Point  # where the machine was when it made the hole
+    chains: Point
+    date: str
+
+
 @dataclass
-class _Answer:
+class HomeAnswer:
     """What the command says and writes."""
 
-    marks: dict[str, HomeMark]
-    said: list[str] = field(default_factory=list)
+    settings: Internal[MachineSettings]
+    kept: Internal[dict[str, HomeMark]]
+    said: Internal[list[str]] = field(default_factory=list)
+    asked: Internal[list[str]] = field(default_factory=list)
     lines: list[str] = field(default_factory=list)
     fits: list[HomeFit] = field(default_factory=list)
-    asked: list[str] = field(default_factory=list)
+    written: list[str] = field(default_factory=list)
+
+    @computed_field
+    @property
+    def marks(self) -> list[ShownMark]:
+        """All home marks."""
+        return [
+            ShownMark(
+                mark.name,
+                place_of(self.settings, mark).tolist(),
+                mark.place,
+                mark.chains,
+                mark.date,
+            )
+            for mark in self.kept.values()
+        ]
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -54,24 +84,24 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError("--keep goes alone: keep the home mark first, then restore by it")
     if arguments.touch and not arguments.at:
         raise InputError("--touch needs --at: name the home mark by which the chains were set")
-    answer = _Answer(read_home_marks(home_file(arguments.settings)))
+    answer = HomeAnswer(settings, read_home_marks(home_file(arguments.settings)))
     if arguments.keep:
-        _keep(arguments, settings, answer)
+        _keep(arguments, answer)
     if arguments.at:
-        _restore(arguments, settings, answer)
-    written = _written(arguments, answer)
+        _restore(arguments, answer)
+    answer.written = _written(arguments, answer)
     if arguments.json:
-        print_json(_json(settings, answer, written))
+        print_json(answer)
     else:
-        print(_text(arguments, settings, answer))
+        print(_text(arguments, answer))
     return int(not all(fit.fits for fit in answer.fits))
 
 
-def _keep(arguments: argparse.Namespace, settings: MachineSettings, answer: _Answer) -> None:
+def _keep(arguments: argparse.Namespace, answer: HomeAnswer) -> None:
     """Keep a hole, with what makes it."""
     name, place = arguments.keep
-    mark = new_home_mark(settings, name, place, date=f"{date.today():%Y-%m-%d}")
-    answer.marks[name] = mark
+    mark = new_home_mark(answer.settings, name, place, date=f"{date.today():%Y-%m-%d}")
+    answer.kept[name] = mark
     answer.lines = hole_program(mark)
     answer.said = [
         f"Home mark {name} is kept at {_place(place)}, with the chains {_chains(mark)}.",
@@ -80,10 +110,10 @@ def _keep(arguments: argparse.Namespace, settings: MachineSettings, answer: _Ans
     ]
 
 
-def _restore(arguments: argparse.Namespace, settings: MachineSettings, answer: _Answer) -> None:
+def _restore(arguments: argparse.Namespace, answer: HomeAnswer) -> None:
     """Say the chains with the bit in a home mark, and how well others fit."""
     mark = home_mark(arguments.settings, arguments.at)
-    shown = place_of(settings, mark).tolist()
+    shown = place_of(answer.settings, mark).tolist()
     where = f"home mark {mark.name}"
     answer.lines = repair_program(np.array(mark.chains), where=where)
     answer.said = [
@@ -91,7 +121,7 @@ def _restore(arguments: argparse.Namespace, settings: MachineSettings, answer: _
         f"Put the bit into it, send {answer.lines[-1]}, and the machine shows {_place(shown)}.",
     ]
     for touched in touches_of(arguments):
-        other = answer.marks.get(touched.name)
+        other = answer.kept.get(touched.name)
         if other is None:
             raise InputError(f"--touch {touched.name}: give the name of a home mark")
         if dist(other.place, mark.place) < SAME:
@@ -99,11 +129,11 @@ def _restore(arguments: argparse.Namespace, settings: MachineSettings, answer: _
                 f"--touch {touched.name}: that is the hole of --at {mark.name}, by which the "
                 "chains were set; touch another home mark"
             )
-        answer.fits.append(home_fit(settings, other, touched.shown))
+        answer.fits.append(home_fit(answer.settings, other, touched.shown))
         answer.asked += asked_signs([touched])
 
 
-def _written(arguments: argparse.Namespace, answer: _Answer) -> list[str]:
+def _written(arguments: argparse.Namespace, answer: HomeAnswer) -> list[str]:
     """Write the program first: a home mark is kept only if that could be written."""
     written = []
     if arguments.output:
@@ -114,22 +144,22 @@ def _written(arguments: argparse.Namespace, answer: _Answer) -> list[str]:
         written += [] if arguments.output == STDOUT else [arguments.output]
     if arguments.keep:
         path = home_file(arguments.settings)
-        write_home_marks(path, answer.marks)
+        write_home_marks(path, answer.kept)
         written.append(str(path))
     if arguments.keep or arguments.at:
         entry = {
             "mark": arguments.at or arguments.keep[0],
             "kept": bool(arguments.keep),
             "lines": answer.lines,
-            "fits": [_fit_json(fit) for fit in answer.fits],
+            "fits": [json_of(fit) for fit in answer.fits],
         }
         say_failure(keep(arguments.settings, HOME, entry, begin=False))
     return written
 
 
-def _text(arguments: argparse.Namespace, settings: MachineSettings, answer: _Answer) -> str:
+def _text(arguments: argparse.Namespace, answer: HomeAnswer) -> str:
     if not answer.said:
-        return _listed(arguments, settings, answer)
+        return _listed(arguments, answer)
     parts = [headline(answer.said[0]), sentences(answer.said[1:], mark="")]
     parts += [_fit_text(fit) for fit in answer.fits]
     parts += [sentences(answer.asked, mark="")] if answer.asked else []
@@ -140,15 +170,12 @@ def _text(arguments: argparse.Namespace, settings: MachineSettings, answer: _Ans
     return "\n\n".join(parts)
 
 
-def _listed(arguments: argparse.Namespace, settings: MachineSettings, answer: _Answer) -> str:
+def _listed(arguments: argparse.Namespace, answer: HomeAnswer) -> str:
     """Return all home marks, or how to begin."""
     if not answer.marks:
         keeping = ["home", arguments.settings, "--keep=left=-900,250", "-o", "left.nc"]
         return f"There is no home mark yet.\n\n{next_step('Keep a hole:', keeping)}"
-    rows = [
-        [mark.name, _place(place_of(settings, mark).tolist()), _chains(mark)]
-        for mark in answer.marks.values()
-    ]
+    rows = [[mark.name, _place(mark.place), _chains(mark)] for mark in answer.marks]
     return table(["home mark", f"place [{unit()}]", "chains [mm]"], rows, words=[1, 2])
 
 
@@ -175,37 +202,9 @@ def _place(place: Any) -> str:
     return f"{bare(place[0])}, {bare(place[1])}"
 
 
-def _chains(mark: HomeMark) -> str:
+def _chains(mark: HomeMark | ShownMark) -> str:
     """Return both chains as the machine takes them, in mm whatever lengths are shown in."""
     return f"L{mark.chains[0]:.3f} R{mark.chains[1]:.3f}"
-
-
-def _fit_json(fit: HomeFit) -> dict[str, Any]:
-    return {
-        "mark": fit.name,
-        "error": fit.error,
-        "chains": fit.chains,
-        "limit_mm": fit.limit,
-        "fits": fit.fits,
-    }
-
-
-def _json(settings: MachineSettings, answer: _Answer, written: list[str]) -> dict[str, Any]:
-    return {
-        "marks": [
-            {
-                "name": mark.name,
-                "place": place_of(settings, mark).tolist(),
-                "kept_place": mark.place,
-                "chains": mark.chains,
-                "date": mark.date,
-            }
-            for mark in answer.marks.values()
-        ],
-        "lines": answer.lines,
-        "fits": [_fit_json(fit) for fit in answer.fits],
-        "written": written,
-    }
 
 
 # The arguments of `plumb home`.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
+from dataclasses import dataclass
 
 import plumb.grid as marks_grid
 from plumb.cli.arguments import (
@@ -36,6 +36,13 @@ SHOWN = 6  # additions that people are shown; --json has all
 ALIKE = 2  # look-alikes in the table
 
 
+@dataclass(frozen=True)
+class PreviewAnswer(Preview):
+    """What a plan could tell, and the picture that was drawn of it."""
+
+    written: list[str]
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Preview, draw, print, and return the exit code."""
     form = picture_form(arguments.picture) if arguments.picture else ""
@@ -53,7 +60,8 @@ def run(arguments: argparse.Namespace) -> int:
         read = [arguments.settings, *filter(None, [arguments.plan])]
         write_outputs({arguments.picture: drawn}, inputs=read)
     if arguments.json:
-        print_json(as_json(outlook, written=arguments.picture))
+        written = [arguments.picture] if arguments.picture else []
+        print_json(PreviewAnswer(**vars(outlook), written=written))
     else:
         print(as_text(outlook))
         if not arguments.plan:
@@ -95,44 +103,6 @@ def _plan(arguments: argparse.Namespace, settings: MachineSettings) -> Measureme
     return Measurements(marks, source=f"grid of {grid.columns} x {grid.rows}")
 
 
-def as_json(outlook: Preview, *, written: str | None = None) -> dict[str, Any]:
-    """Return the preview by the names of the interface."""
-    return {
-        "sigma_mm": outlook.sigma,
-        "marks": outlook.marks,
-        "distances": outlook.distances,
-        "effects": outlook.effects,
-        "snr": outlook.matrix,
-        "outlines": [
-            {
-                "effect": outline.effect,
-                "typical_mm": outline.raw,
-                "hidden_share": outline.hidden_share,
-                "snr": outline.seen,
-                "smallest": outline.smallest,
-                "parameters": [
-                    {"name": name, "smallest": size, "unit": unit}
-                    for name, size, unit in outline.parameters
-                ],
-                "alike": outline.alike,
-            }
-            for outline in outlook.outlines
-        ],
-        "pairs_told_apart": outlook.pairs,
-        "additions": [
-            {
-                "kind": addition.option.kind,
-                "title": addition.option.title,
-                "do": addition.option.do,
-                "minutes": addition.option.minutes,
-                "pairs_told_apart": addition.pairs,
-            }
-            for addition in outlook.additions
-        ],
-        "written": [written] if written else [],
-    }
-
-
 def as_text(outlook: Preview) -> str:
     """Return the preview for people."""
     smallest = [outline.smallest for outline in outlook.outlines]
@@ -147,7 +117,7 @@ def as_text(outlook: Preview) -> str:
     parts = [sentences([first], mark=""), _outline_table(outlook), _cells(outlook)]
     if outlook.additions:
         parts.append(_addition_table(outlook))
-        best = outlook.additions[0].option
+        best = outlook.additions[0]
         parts.append(sentences([f"Best addition: {' '.join(best.do)}"], mark=""))
     return "\n\n".join(parts)
 
@@ -179,10 +149,11 @@ def _outline_table(outlook: Preview) -> str:
 def _smallest(outline: Outline) -> str:
     if outline.smallest is None:
         return "never"
-    name, smallest, _ = outline.parameters[0]
-    alone = len(outline.parameters) == 1 and smallest is not None
-    size = f" ({plain_before(f'{outline.effect}.{name}', smallest or 0.0)})" if alone else ""
-    return f"x {outline.smallest:.2g}{size}"
+    first = outline.parameters[0]
+    alone = len(outline.parameters) == 1 and first.smallest is not None
+    name, size = f"{outline.effect}.{first.name}", first.smallest or 0.0
+    in_words = f" ({plain_before(name, size)})" if alone else ""
+    return f"x {outline.smallest:.2g}{in_words}"
 
 
 def _cells(outlook: Preview) -> str:
@@ -196,21 +167,9 @@ def _cells(outlook: Preview) -> str:
 
 def _addition_table(outlook: Preview) -> str:
     rows = [
-        [
-            addition.option.title,
-            f"{addition.option.minutes:.0f}",
-            f"{outlook.pairs} -> {addition.pairs}",
-        ]
-        for addition in outlook.additions[:SHOWN]
-    ]
-    rows += [
-        [
-            addition.option.title,
-            f"{addition.option.minutes:.0f}",
-            f"{outlook.pairs} -> {addition.pairs}",
-        ]
-        for addition in outlook.additions[SHOWN:]
-        if addition.option.kind == "many"
+        [addition.title, f"{addition.minutes:.0f}", f"{outlook.pairs} -> {addition.pairs}"]
+        for place, addition in enumerate(outlook.additions)
+        if place < SHOWN or addition.kind == "many"
     ]
     return table(["what to add, best per minute first", "minutes", "cells told apart"], rows)
 

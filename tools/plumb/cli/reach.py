@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
+from collections.abc import Mapping
+from dataclasses import dataclass
 
 from plumb import _core
 from plumb.cli.arguments import add_force, add_json, add_prior, add_settings, add_units, limit
@@ -15,7 +16,7 @@ from plumb.cure.add import priors_with
 from plumb.fit.expected import Expected, expected_anywhere, expected_priors, expected_sentence
 from plumb.fit.inputs import settings_in
 from plumb.model.predict import REACH_WORDS
-from plumb.model.reach import Extreme, Survey, conclusion_of, percent, survey_sheet
+from plumb.model.reach import Give, Pull, Survey, conclusion_of, percent, survey_sheet
 from plumb.pictures.reach import draw_map
 from plumb.text.errors import InputError
 from plumb.text.values import bare, unit, worded
@@ -32,6 +33,22 @@ CUT_THERE = ("--marks", "marks.toml", "--output", "grid.nc")
 CUT = 10.0  # [N] the side force of a light cut
 MAP_STEP = 4  # every fourth place of the survey
 MAP_ROWS = 8  # characters are twice as high as wide
+
+
+@dataclass(frozen=True)
+class ReachAnswer:
+    """Which part of the sheet is usable, and what limits the rest."""
+
+    usable_share: float
+    shares: dict[str, float]  # by verdict
+    limits: Mapping[str, float]
+    expected: Expected | None  # None: no sled hangs on this sheet
+    tightest: Pull | None
+    slackest: Pull | None
+    softest: Give | None
+    assumed: tuple[str, ...]  # what the settings do not say, a sentence each
+    map: list[str]  # the sheet in characters, from the top down
+    written: list[str]
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -51,7 +68,7 @@ def run(arguments: argparse.Namespace) -> int:
         drawn = draw_map(survey, form=form)
         write_outputs({arguments.output: drawn}, inputs=[arguments.settings])
     if arguments.json:
-        print_json(as_json(survey, expected, written=arguments.output))
+        print_json(_answer(survey, expected, [arguments.output] if arguments.output else []))
     else:
         print(as_text(survey, expected))
         cut = ["grid", "--settings", arguments.settings, *CUT_THERE]
@@ -65,31 +82,19 @@ def map_of(survey: Survey) -> list[str]:
     return ["".join(SIGNS[verdict] for verdict in row) for row in verdicts[::MAP_ROWS, ::MAP_STEP]]
 
 
-def as_json(
-    survey: Survey, expected: Expected | None, *, written: str | None = None
-) -> dict[str, Any]:
-    """Return the survey by the names of the interface."""
-    return {
-        "usable_share": survey.shares[REACH_WORDS[0]],
-        "shares": {word.replace(" ", "_"): share for word, share in survey.shares.items()},
-        "limits": survey.limits,
-        "expected": {"among_marks_mm": expected.all_shape, "whole_mm": expected.whole}
-        if expected
-        else None,
-        "tightest": _extreme_json(survey.tightest, "tension_n"),
-        "slackest": _extreme_json(survey.slackest, "tension_n"),
-        "softest": _extreme_json(survey.softest, "give_mm_per_n"),
-        "assumed": survey.assumed,
-        "map": map_of(survey),
-        "written": [written] if written else [],
-    }
-
-
-def _extreme_json(extreme: Extreme | None, unit: str) -> dict[str, Any] | None:
-    if extreme is None:
-        return None
-    side = {"side": extreme.side} if extreme.side else {}
-    return {"place": extreme.place, unit: extreme.value, **side}
+def _answer(survey: Survey, expected: Expected | None, written: list[str]) -> ReachAnswer:
+    return ReachAnswer(
+        usable_share=survey.shares[REACH_WORDS[0]],
+        shares={word.replace(" ", "_"): share for word, share in survey.shares.items()},
+        limits=survey.limits,
+        expected=expected,
+        tightest=survey.tightest,
+        slackest=survey.slackest,
+        softest=survey.softest,
+        assumed=survey.assumed,
+        map=map_of(survey),
+        written=written,
+    )
 
 
 def as_text(survey: Survey, expected: Expected | None) -> str:
@@ -115,14 +120,15 @@ def as_text(survey: Survey, expected: Expected | None) -> str:
     return "\n\n".join(parts)
 
 
-def _worst(survey: Survey, tightest: Extreme, slackest: Extreme, softest: Extreme) -> str:
+def _worst(survey: Survey, tightest: Pull, slackest: Pull, softest: Give) -> str:
     limits = survey.limits
     rows = [
         ["tightest chain", f"{tightest.value:.1f} N", f"{limits['most_tension']:g} N"],
         ["slackest chain", f"{slackest.value:.1f} N", f"{limits['least_tension']:g} N"],
         ["softest place", f"{worded(softest.value)}/N", f"{worded(limits['most_give'])}/N"],
     ]
-    for row, extreme in zip(rows, (tightest, slackest, softest), strict=True):
+    extremes: list[Pull | Give] = [tightest, slackest, softest]
+    for row, extreme in zip(rows, extremes, strict=True):
         row += [f"{bare(extreme.place[0], 0)}, {bare(extreme.place[1], 0)}", extreme.side]
     rows[2][-1] = f"{CUT:g} N move it {worded(CUT * softest.value, 1)}"
     return table(["", "", "limit", f"at x, y [{unit()}]", ""], rows, words=[-1])

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -17,15 +17,20 @@ from plumb.cli.arguments import (
     add_units,
     file,
 )
-from plumb.cli.check import held_against_marks, report
-from plumb.cli.checked import add_checked
-from plumb.cli.screen import headline, sentences, table
+from plumb.cli.checked import add_checked, with_stated
+from plumb.cli.files import inputs_of
+from plumb.cli.output import say_failure
+from plumb.cli.screen import headline, print_json, sentences, table
 from plumb.cli.touches import add_touch, asked_signs, touches_of
-from plumb.diary.file import read_diary
+from plumb.diagnosis.check_marks import check_marks, check_sentence
+from plumb.diary.file import RECHECK, keep, read_diary
 from plumb.diary.recheck import LEFT, RIGHT, SHEET_X, SHEET_Y, Change, Recheck, recheck
-from plumb.fit.inputs import settings_in
-from plumb.job.home import FAR, are_apart
+from plumb.fit.inputs import refuse_the_same_twice, settings_in
+from plumb.job.home import FAR, Point, are_apart
+from plumb.marks.read import read_marks
 from plumb.model.plain import plain_name, words_of
+from plumb.model.predict import known_effects
+from plumb.text.answers import Moment, json_of
 from plumb.text.errors import InputError
 from plumb.text.values import bare, signed, unit, worded
 
@@ -33,10 +38,34 @@ FEWEST = 2
 SHOWN = 4  # changes
 
 
+@dataclass(frozen=True)
+class RecheckedMark:
+    """A mark against what the fit promised [mm]."""
+
+    name: str
+    hole: Point
+    error: Point
+    expected_mm: float  # an unchanged machine rarely errs by more
+
+
+@dataclass(frozen=True)
+class RecheckAnswer:
+    """Whether marks still lie where the fit promised."""
+
+    holds: bool
+    sentence: str
+    chi_square: float
+    limit: float  # of chi-square
+    marks: list[RecheckedMark]
+    fit: Moment | None = None  # of the diary; None with --check, which fits MARKS
+    sheet_turned_rad: float | None = None
+    changes: tuple[Change, ...] = ()  # single changes that may explain the errors, the best first
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Hold the marks against the fit, print, and return the exit code."""
     if arguments.check:
-        return held_against_marks(arguments)
+        return _held_against_marks(arguments)
     for name in ("marks", "prior", "checked", "cut_with", "controller"):
         if getattr(arguments, name):
             raise InputError(f"{name.replace('_', '-')} is for --check: leave it out")
@@ -51,7 +80,56 @@ def run(arguments: argparse.Namespace) -> int:
     folder = Path(arguments.settings).parent
     settings = settings_in(arguments.settings)
     checked = recheck(read_diary(folder), settings, touches, sigma=arguments.sigma)
-    return report(arguments, _json(checked), _text(checked))
+    marks = [
+        RecheckedMark(touch.name, touch.hole, (x, y), expected)
+        for touch, (x, y), expected in zip(
+            checked.touches, checked.errors.tolist(), checked.expected.tolist(), strict=True
+        )
+    ]
+    answer = RecheckAnswer(
+        checked.holds,
+        sentence(checked),
+        checked.chi_square,
+        checked.limit,
+        marks,
+        fit=checked.fit.at,
+        sheet_turned_rad=checked.turn,
+        changes=checked.changes,
+    )
+    return _report(arguments, answer, asked_signs(touches))
+
+
+def _held_against_marks(arguments: argparse.Namespace) -> int:
+    """Hold marks that no fit has seen against the fit of the others, print, and return the exit
+    code."""
+    if arguments.touch:
+        raise InputError("--touch and --check are two ways: give --check alone, or --touch twice")
+    if not arguments.marks:
+        raise InputError(
+            f"--check {arguments.check}: give the marks to which {arguments.settings} was fitted"
+        )
+    refuse_the_same_twice([*arguments.marks, arguments.check])
+    inputs = with_stated(inputs_of(arguments), arguments)
+    if inputs.settings.fitted is None:
+        raise InputError(f"{arguments.settings} was fitted to no marks: give what plumb add wrote")
+    read = read_marks(arguments.check, sheet=inputs.settings.sheet, known=known_effects())
+    checked = check_marks(inputs, read)
+    marks = [
+        RecheckedMark(mark.name, mark.measured, mark.miss, mark.promised) for mark in checked.marks
+    ]
+    said = check_sentence(checked)
+    answer = RecheckAnswer(checked.holds, said, checked.chi_square, checked.limit, marks)
+    return _report(arguments, answer, [])
+
+
+def _report(arguments: argparse.Namespace, answer: RecheckAnswer, asked: list[str]) -> int:
+    """Keep the answer in the diary, print it, and return the exit code."""
+    say_failure(keep(arguments.settings, RECHECK, json_of(answer), begin=False))
+    if arguments.json:
+        print_json(answer)
+    else:
+        print(_text(answer, asked))
+    return int(not answer.holds)
 
 
 def sentence(checked: Recheck) -> str:
@@ -68,27 +146,24 @@ def sentence(checked: Recheck) -> str:
     return f"Something changed since {of_date}. The likeliest: {_change(best)}."
 
 
-def _text(checked: Recheck) -> str:
+def _text(answer: RecheckAnswer, asked: list[str]) -> str:
     rows = [
         [
-            touch.name,
-            f"{bare(touch.hole[0], 1)}, {bare(touch.hole[1], 1)}",
-            f"{signed(error[0])}, {signed(error[1])}",
-            bare(expected),
+            mark.name,
+            f"{bare(mark.hole[0], 1)}, {bare(mark.hole[1], 1)}",
+            ", ".join(map(signed, mark.error)),
+            bare(mark.expected_mm),
         ]
-        for touch, error, expected in zip(
-            checked.touches, checked.errors.tolist(), checked.expected.tolist(), strict=True
-        )
+        for mark in answer.marks
     ]
-    parts = [headline(sentence(checked))]
+    parts = [headline(answer.sentence)]
     parts.append(table(["mark", f"at [{unit()}]", "error", "expected up to"], rows))
-    if not checked.holds:
+    if answer.changes and not answer.holds:
         changes = [
             [_change(change), "yes" if change.explains else "no"]
-            for change in checked.changes[:SHOWN]
+            for change in answer.changes[:SHOWN]
         ]
         parts.append(table(["a single change", "explains the marks"], changes))
-    asked = asked_signs(checked.touches)
     if asked:
         parts.append(sentences(asked, mark=""))
     return "\n\n".join(parts)
@@ -108,32 +183,6 @@ def _change(change: Change) -> str:
 
 def _size(change: Change) -> str:
     return f"{signed(change.size)} +- {worded(change.sigma)}"
-
-
-def _json(checked: Recheck) -> dict[str, Any]:
-    return {
-        "holds": checked.holds,
-        "sentence": sentence(checked),
-        "fit": checked.fit.at.isoformat(),
-        "chi_square": checked.chi_square,
-        "limit": checked.limit,
-        "sheet_turned_rad": checked.turn,
-        "marks": [
-            {"name": touch.name, "hole": touch.hole, "error": error, "expected_mm": expected}
-            for touch, error, expected in zip(
-                checked.touches, checked.errors.tolist(), checked.expected.tolist(), strict=True
-            )
-        ],
-        "changes": [
-            {
-                "name": change.name,
-                "size": change.size,
-                "sigma": change.sigma,
-                "explains": change.explains,
-            }
-            for change in checked.changes
-        ],
-    }
 
 
 # The arguments of `plumb recheck`.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from plumb.cli.touches import add_touch, asked_signs, touches_of
 from plumb.diary.file import SLIP as SLIP_ENTRY
 from plumb.diary.file import keep
 from plumb.fit.inputs import settings_in
-from plumb.job.home import Point
+from plumb.job.home import Point, Touch
 from plumb.job.slip import (
     CANNOT_TELL,
     LINK,
@@ -30,12 +30,36 @@ from plumb.job.slip import (
     next_hole,
     repair_program,
 )
+from plumb.text.answers import json_of
 from plumb.text.errors import InputError
 from plumb.text.values import bare, signed, unit, worded
 
 SIDES = ("left", "right")
 SHOWN = 4  # accounts
 SURE = 0.999  # odds beyond which no more digits are said
+
+
+@dataclass(frozen=True)
+class SlipTouch(Touch):
+    """A touched mark, its errors and the chains that the machine believes there [mm]."""
+
+    error: list[float]  # of the hole, by the machine's chains
+    left: list[float]  # of it after the likeliest account
+    chains: list[float]
+
+
+@dataclass(frozen=True)
+class SlipAnswer:
+    """What happened to the chains, and what to do."""
+
+    verdict: str
+    sentence: str
+    accounts: tuple[Account, ...]  # the likeliest first
+    touches: list[SlipTouch]
+    sigma_mm: float
+    lines: list[str]  # the repair, if there is something to repair
+    written: list[str]
+    touch_next: Point | None  # where a hole would tell most
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -54,15 +78,30 @@ def run(arguments: argparse.Namespace) -> int:
         taped=arguments.taped,
     )
     lines = _lines(finding)
-    written = _written(arguments, lines)
-    further = next_hole(settings, finding) if finding.verdict == CANNOT_TELL else None
-    answer = {**_json(finding, lines, written), "touch_next": further}
-    say_failure(keep(arguments.settings, SLIP_ENTRY, answer, begin=False))
+    answer = SlipAnswer(
+        verdict=finding.verdict,
+        sentence=sentence(finding),
+        accounts=finding.accounts,
+        touches=_touches(finding),
+        sigma_mm=finding.sigma,
+        lines=lines,
+        written=_written(arguments, lines),
+        touch_next=next_hole(settings, finding) if finding.verdict == CANNOT_TELL else None,
+    )
+    say_failure(keep(arguments.settings, SLIP_ENTRY, json_of(answer), begin=False))
     if arguments.json:
         print_json(answer)
     else:
-        print(_text(finding, lines, arguments, further))
+        print(_text(answer, arguments))
     return int(finding.verdict not in (NOTHING, SHEET))
+
+
+def _touches(finding: SlipFinding) -> list[SlipTouch]:
+    numbers = (each.tolist() for each in (finding.errors, finding.left, finding.believed))
+    return [
+        SlipTouch(**vars(touch), error=error, left=left, chains=chains)
+        for touch, error, left, chains in zip(finding.touches, *numbers, strict=True)
+    ]
 
 
 def _lines(finding: SlipFinding) -> list[str]:
@@ -81,15 +120,10 @@ def _written(arguments: argparse.Namespace, lines: Sequence[str]) -> list[str]:
     return [] if arguments.output == STDOUT else [arguments.output]
 
 
-def _text(
-    finding: SlipFinding,
-    lines: Sequence[str],
-    arguments: argparse.Namespace,
-    further: Point | None,
-) -> str:
-    parts = [headline(sentence(finding)), _touches(finding), _odds(finding)]
-    if lines:
-        there = finding.touches[-1]
+def _text(answer: SlipAnswer, arguments: argparse.Namespace) -> str:
+    parts = [headline(answer.sentence), _touch_table(answer), _odds(answer)]
+    if lines := answer.lines:
+        there = answer.touches[-1]
         said = (
             f"Leave the bit in the hole of touch {there.name}, where the machine shows "
             f"{bare(there.shown[0])}, {bare(there.shown[1])}, and send the line that says how long "
@@ -99,15 +133,15 @@ def _text(
         parts.append(sentences([said], mark=""))
         repair = [arguments.output] if arguments.output else [lines[-1]]
         parts.append(next_step("Send it:", ["send", *repair]))
-    elif finding.verdict == CANNOT_TELL:
+    elif answer.verdict == CANNOT_TELL:
         said = "Touch another hole far from these, and give all touches."
-        if further:
+        if further := answer.touch_next:
             said = (
                 f"Touch another hole near {bare(further[0], 0)}, {bare(further[1], 0)}, where the "
                 "likeliest accounts differ most, and give all touches."
             )
         parts.append(sentences([said], mark=""))
-    asked = asked_signs(finding.touches)
+    asked = asked_signs(answer.touches)
     return "\n\n".join([*parts, sentences(asked, mark="")] if asked else parts)
 
 
@@ -154,27 +188,25 @@ def _account(account: Account) -> str:
     }[account.kind]
 
 
-def _touches(finding: SlipFinding) -> str:
+def _touch_table(answer: SlipAnswer) -> str:
     rows = [
         [
             touch.name,
             f"{bare(touch.hole[0], 1)}, {bare(touch.hole[1], 1)}",
             f"{bare(touch.shown[0], 1)}, {bare(touch.shown[1], 1)}",
-            f"{signed(error[0])}, {signed(error[1])}",
-            f"{signed(left[0])}, {signed(left[1])}",
+            f"{signed(touch.error[0])}, {signed(touch.error[1])}",
+            f"{signed(touch.left[0])}, {signed(touch.left[1])}",
         ]
-        for touch, error, left in zip(
-            finding.touches, finding.errors.tolist(), finding.left.tolist(), strict=True
-        )
+        for touch in answer.touches
     ]
     heads = ["touch", f"hole [{unit()}]", "shown", "error", "left by the likeliest"]
     return table(heads, rows)
 
 
-def _odds(finding: SlipFinding) -> str:
+def _odds(answer: SlipAnswer) -> str:
     rows = [
         [_account(account), _percent(account.odds)]
-        for account in finding.accounts[:SHOWN]
+        for account in answer.accounts[:SHOWN]
         if account.odds >= 1e-4
     ]
     return table(["what may have happened", "odds"], rows)
@@ -183,37 +215,6 @@ def _odds(finding: SlipFinding) -> str:
 def _percent(odds: float) -> str:
     """Odds for people; what is not quite certain does not look it."""
     return f"{100 * odds:.3g} %" if odds < SURE else f"> {100 * SURE:g} %"
-
-
-def _json(finding: SlipFinding, lines: Sequence[str], written: Sequence[str]) -> dict[str, Any]:
-    return {
-        "verdict": finding.verdict,
-        "sentence": sentence(finding),
-        "accounts": [
-            {"kind": account.kind, "links": account.links, "odds": account.odds}
-            for account in finding.accounts
-        ],
-        "touches": [
-            {
-                "name": touch.name,
-                "hole": touch.hole,
-                "shown": touch.shown,
-                "error": error,
-                "left": left,
-                "chains": chains,
-            }
-            for touch, error, left, chains in zip(
-                finding.touches,
-                finding.errors.tolist(),
-                finding.left.tolist(),
-                finding.believed.tolist(),
-                strict=True,
-            )
-        ],
-        "sigma_mm": finding.sigma,
-        "lines": list(lines),
-        "written": list(written),
-    }
 
 
 # The arguments of `plumb slip`.

@@ -248,9 +248,7 @@ def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = F
 
 
 def priors_with(changes: Iterable[tuple[str, float]]) -> dict[str, float]:
-    """Return the usual priors with some standard deviations changed; 0 holds a number where
-    it is.
-    """
+    """Return the usual priors with some standard deviations changed; 0 holds a number."""
     priors = dict(PRIORS)
     for name, sigma in changes:
         try:

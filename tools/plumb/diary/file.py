@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import fcntl
 import json
-import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -23,6 +22,7 @@ from plumb.cure.add import Addition, Parameter
 from plumb.fit.inputs import Inputs
 from plumb.line.memory import Written, as_lines, version_of, write_numbers
 from plumb.line.sender import Sender
+from plumb.text.answers import Internal, Moment, plain
 from plumb.text.errors import InputError
 from plumb.text.files import opened, write_whole
 
@@ -38,8 +38,8 @@ class Entry:
     """What was written down at a time."""
 
     kind: str  # "fit", "numbers", "program", "recheck", "slip" or "home"
-    at: datetime  # with its offset from UTC
-    content: Mapping[str, Any]  # lists, numbers and words as JSON has them
+    at: Moment  # with its offset from UTC
+    content: Internal[Mapping[str, Any]]  # lists, numbers and words as JSON has them
 
 
 @dataclass(frozen=True)
@@ -104,19 +104,6 @@ def read_diary(folder: Folder) -> Diary:
         elif line.strip():
             spoilt.append(number)
     return Diary(path, tuple(entries), tuple(spoilt))
-
-
-def plain(value: Any) -> Any:
-    """Return a value in the types of JSON; what is not a finite number is None."""
-    if isinstance(value, Mapping):
-        return {str(key): plain(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [plain(item) for item in value]
-    if hasattr(value, "tolist"):  # numpy's arrays and numbers
-        return plain(value.tolist())
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
 
 
 def _line(entry: Entry) -> str:

@@ -4,21 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from datetime import datetime
+from typing import Annotated
+
+from pydantic import computed_field
 
 from plumb.diary.file import FIT, Diary, Entry
+from plumb.text.answers import Moment, Number, key
 
 
 @dataclass(frozen=True)
 class DiaryFit:
     """A fit as the diary tells it. mm."""
 
-    at: datetime
+    at: Moment
     machine: str  # name of its file
-    count: int  # of marks and distances
-    before: float  # RMS with the settings before
-    rms: float
-    left_out: float  # RMS of marks that took no part
+    count: Annotated[int, key("readings")]  # of marks and distances
+    before: Annotated[Number, key("before_mm")]  # RMS with the settings before
+    rms: Annotated[Number, key("rms_mm")]
+    left_out: Annotated[Number, key("left_out_mm")]  # RMS of marks that took no part
     effects: tuple[str, ...]
 
 
@@ -26,10 +29,10 @@ class DiaryFit:
 class Point:
     """A fitted number at a time, with its 95 % interval."""
 
-    at: datetime
-    value: float
-    low: float
-    high: float
+    at: Moment
+    value: Number
+    low: Number
+    high: Number
 
 
 @dataclass(frozen=True)
@@ -45,6 +48,7 @@ class Course:
         """The newest value less the value before; None with a single fit."""
         return self.points[-1].value - self.points[-2].value if len(self.points) > 1 else None
 
+    @computed_field(alias="moved")
     @property
     def has_moved(self) -> bool:
         """Whether the newest interval and the interval before have no value in common."""

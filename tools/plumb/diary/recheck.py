@@ -21,6 +21,7 @@ from plumb.model.plain import ranked
 from plumb.model.predict import FOUND, NAMES, Array, places_with_slopes, values_of
 from plumb.settings.machine import MachineSettings
 from plumb.settings.toml import MACHINE_KEYS, machine_in
+from plumb.text.answers import Internal
 from plumb.text.errors import InputError, to_do
 
 STEP = 0.1  # [mm] of chain
@@ -37,7 +38,7 @@ class Change:
     name: str  # a chain, the sheet along an axis, or a number of the frame or of an effect
     size: float  # [mm] or the number's unit
     sigma: float
-    chi_square: float  # that it leaves
+    chi_square: Internal[float]  # that it leaves
     explains: bool  # whether what it leaves is within the interval
 
 

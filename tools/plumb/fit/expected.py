@@ -13,6 +13,7 @@ from math import inf
 from typing import Any
 
 import numpy as np
+from pydantic import computed_field
 
 from plumb.fit.compare import best_pose
 from plumb.fit.fit import rms
@@ -29,6 +30,7 @@ from plumb.model.predict import (
     values_of,
 )
 from plumb.settings.machine import FRAME_FIELDS, MachineSettings
+from plumb.text.answers import Internal
 from plumb.text.errors import InputError, to_do
 from plumb.text.values import worded
 
@@ -41,15 +43,17 @@ COLUMNS, ROWS, MARGIN = 7, 5, 100.0  # of the places that are looked at; [mm] fr
 class Expected:
     """What is normal, RMS over the sheet [mm]."""
 
-    frame: float  # by the frame's numbers and where the sheet lies
-    shape: float  # by the same, the sheet laid at its best
-    effects: float  # by effects that the settings leave out, the sheet laid at its best
+    frame: Internal[float]  # by the frame's numbers and where the sheet lies
+    shape: Internal[float]  # by the same, the sheet laid at its best
+    effects: Internal[float]  # by effects that the settings leave out, the sheet laid at its best
 
+    @computed_field(alias="whole_mm")
     @property
     def whole(self) -> float:
         """All of it, as a tape from the sheet's edges reads it."""
         return float(np.hypot(self.frame, self.effects))
 
+    @computed_field(alias="among_marks_mm")
     @property
     def all_shape(self) -> float:
         """All of it, the sheet laid at its best."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
@@ -27,6 +27,7 @@ from plumb.job.findings import (
 )
 from plumb.model.predict import FOUND, NAMES, Array, lengths, places_with_slopes
 from plumb.settings.machine import MachineSettings
+from plumb.text.answers import Internal
 
 STEP = 5.0  # [mm] between places that are looked at
 
@@ -42,7 +43,7 @@ class Checked:
     slower: tuple[Slower, ...]
     times: Times
     parts: tuple[Part, ...]
-    errors: tuple[PartErrors, ...] | None  # of each part; None without marks
+    has_errors: bool  # whether marks say which errors to expect of each part
 
     @property
     def is_good(self) -> bool:
@@ -70,7 +71,8 @@ def check_job(
     parts = parts_of(over_sheet, samples)
     findings = findings_of(done)
     findings += ends_too_high(settings, done)
-    errors = errors_of(Believed.of(inputs), settings, parts) if inputs else None
+    if inputs:
+        parts = with_errors(Believed.of(inputs), settings, parts)
     return Checked(
         done=done,
         samples=samples,
@@ -79,7 +81,7 @@ def check_job(
         slower=slower_moves(over_sheet),
         times=times_of(done),
         parts=parts,
-        errors=errors,
+        has_errors=inputs is not None,
     )
 
 
@@ -102,15 +104,6 @@ class Error:
 
     mm: float
     within: float  # 95 %
-
-
-@dataclass(frozen=True)
-class PartErrors:
-    """How a part will differ from its program."""
-
-    width: Error | None  # positive: too wide; None: too narrow to be seen
-    height: Error | None
-    skew: Error | None  # how far the top lies too far to the right of the bottom
 
 
 @dataclass(frozen=True)
@@ -160,28 +153,29 @@ class Believed:
         return errors[hangs], by_name[hangs]
 
 
-def errors_of(
+def with_errors(
     believed: Believed, settings: MachineSettings, parts: Sequence[Part]
-) -> tuple[PartErrors, ...]:
-    """Return the error to expect of each part, cut with these settings."""
-    return tuple(_errors_of(believed, settings, part) for part in parts)
+) -> tuple[Part, ...]:
+    """Return the parts with the error to expect of each, cut with these settings."""
+    return tuple(_with_errors(believed, settings, part) for part in parts)
 
 
-def _errors_of(believed: Believed, settings: MachineSettings, part: Part) -> PartErrors:
+def _with_errors(believed: Believed, settings: MachineSettings, part: Part) -> Part:
     places = part.places[:: max(1, len(part.places) // MOST)]
     width, height = part.size
     errors, slopes = believed.seen(settings, places)
     if len(errors) < len(places) or max(width, height) < NARROW:
-        return PartErrors(None, None, None)
+        return part
     # error = shift + matrix @ (place - middle), by least squares: a row for each number of it.
     middle = places - places.mean(axis=0)
     fit = np.linalg.pinv(np.column_stack([np.ones(len(places)), middle]))
     stretch = np.einsum("jn,nk->jk", fit[1:], errors)  # [by place, of error]
     by_unknown = np.einsum("jn,nku->jku", fit[1:], slopes) @ believed.root
     wide, high = width >= NARROW, height >= NARROW
-    return PartErrors(
-        width=_error(width * stretch[0, 0], width * by_unknown[0, 0]) if wide else None,
-        height=_error(height * stretch[1, 1], height * by_unknown[1, 1]) if high else None,
+    return replace(
+        part,
+        width_error=_error(width * stretch[0, 0], width * by_unknown[0, 0]) if wide else None,
+        height_error=_error(height * stretch[1, 1], height * by_unknown[1, 1]) if high else None,
         skew=_error(
             height * (stretch[0, 1] + stretch[1, 0]), height * (by_unknown[0, 1] + by_unknown[1, 0])
         )
@@ -204,11 +198,16 @@ ALL_EIGHT = np.ones((3, 3))
 class Part:
     """Cuts that lie together."""
 
-    lines: tuple[int, int]  # the first and the last
+    first_line: int
+    last_line: int
     low: tuple[float, float]  # [mm] lower left corner
     high: tuple[float, float]  # [mm] upper right corner
     deepest: float  # [mm] z
-    places: Array  # (k, 2) [mm]
+    places: Internal[Array]  # (k, 2) [mm]
+    # How it will differ from its program; None without marks, and where it is too narrow
+    width_error: Error | None = None  # positive: too wide
+    height_error: Error | None = None
+    skew: Error | None = None  # how far the top lies too far to the right of the bottom
 
     @property
     def size(self) -> tuple[float, float]:
@@ -233,13 +232,14 @@ def parts_of(moves: Moves, samples: Samples) -> tuple[Part, ...]:
     order = np.argsort(part_of, kind="stable")
     ends = np.flatnonzero(np.diff(part_of[order])) + 1
     parts = [_part(places[each], lines[each], z[each]) for each in np.split(order, ends)]
-    return tuple(sorted(parts, key=lambda part: part.lines))
+    return tuple(sorted(parts, key=lambda part: (part.first_line, part.last_line)))
 
 
 def _part(places: Array, lines: Array, z: Array) -> Part:
     (left, low), (right, high) = places.min(axis=0), places.max(axis=0)
     return Part(
-        lines=(int(lines.min()), int(lines.max())),
+        first_line=int(lines.min()),
+        last_line=int(lines.max()),
         low=(float(left), float(low)),
         high=(float(right), float(high)),
         deepest=float(z.min()),

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
+from pydantic import computed_field
 
 from plumb.job.dry_run import IN_WOOD, Done, Flags, Moves, Samples
 from plumb.model.plain import greatest, least
 from plumb.model.predict import CANNOT_HANG, REACH_WORDS, USABLE, Array, Codes, reach
 from plumb.model.reach import with_soft_chains
 from plumb.settings.machine import MachineSettings
+from plumb.text.answers import Internal, key
 
 HALTS, LEAVES, GOUGES, WAITS, IGNORED = "halts", "leaves the sheet", "gouges", "waits", "ignored"
 SINKS = "may sink"
@@ -28,6 +31,7 @@ class Finding:
     kind: str
     says: str  # in the machine's words, or ours
 
+    @computed_field(alias="wrong")
     @property
     def is_wrong(self) -> bool:
         """Whether the part is spoiled, or the machine stops."""
@@ -137,8 +141,8 @@ class Slower:
     because: str
     moves: int
     line: int  # of the slowest
-    asked: float  # [mm/min] there
-    feed: float  # [mm/min] there
+    asked: Annotated[float, key("asked_mm_min")]  # there
+    feed: Annotated[float, key("feed_mm_min")]  # there
 
 
 @dataclass(frozen=True)
@@ -205,7 +209,7 @@ class BadReach:
 
     verdict: str  # as `plumb reach` says it
     lines: int
-    first: int  # line
+    first: Annotated[int, key("first_line")]
     share: float  # of the cut places
 
 
@@ -213,9 +217,9 @@ class BadReach:
 class Hanging:
     """Pulls and give along the cuts of a job."""
 
-    verdict: Codes  # (k,) USABLE ... of each sample
-    tension: tuple[float, float]  # [N] slackest and tightest chain
-    give: float  # [mm/N] where the sled gives most
+    verdict: Internal[Codes]  # (k,) USABLE ... of each sample
+    tension: Annotated[tuple[float, float], key("tension_n")]  # slackest and tightest chain
+    give: Annotated[float, key("give_mm_per_n")]  # where the sled gives most
     give_line: int
     bad: tuple[BadReach, ...]
     assumed: tuple[str, ...]

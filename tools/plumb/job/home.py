@@ -14,12 +14,15 @@ from itertools import combinations
 from math import dist
 from os import PathLike
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
+from pydantic import computed_field
 
 from plumb.grid.options import APPROACH, PLUNGE_FEED, Grid
 from plumb.model.predict import FOUND, Array, believed_lengths, places
 from plumb.settings.machine import MachineSettings
+from plumb.text.answers import key
 from plumb.text.errors import InputError
 from plumb.text.files import read_text, write_whole
 
@@ -45,11 +48,13 @@ class HomeMark:
 class HomeFit:
     """How well a second home mark agrees with the first, by which the position was restored."""
 
-    name: str
+    name: Annotated[str, key("mark")]
     error: Point  # [mm] of the hole, against what the machine shows with the bit in it
     chains: Point  # [mm] by which each chain is longer than the machine believes
-    limit: float  # [mm] within which two touches by hand agree, 99 of 100 times
+    # [mm] within which two touches by hand agree, 99 of 100 times
+    limit: Annotated[float, key("limit_mm")]
 
+    @computed_field
     @property
     def fits(self) -> bool:
         """Whether touching two holes by hand explains the error."""

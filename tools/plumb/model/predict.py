@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import hypot, sqrt
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from pydantic import computed_field
 
 from plumb import _core
 from plumb.settings.machine import HOLEY_CHAIN_WEIGHT, MachineSettings, frame_of
+from plumb.text.answers import key
 
 if TYPE_CHECKING:
     from plumb._core import FrameWords
@@ -291,6 +293,7 @@ STRETCH, STRETCH_SIGMA = 5.17e-6, 1.0e-6  # [1/N] of a No. 25 chain
 FLEX, FLEX_SIGMA = 0.5, 0.5  # [mm per 100 N] of a frame that nobody measured
 FLEX_SHARE = 0.1  # how well a flex is measured
 DROP_SIGMA, READING_SIGMA = 1.0, 0.05  # [mm] of a ruler; of a chain's length
+MOST_SPREAD = 0.5  # [mm] of lengths that agree
 BEYOND = 12.7  # [mm] of links past the other sprocket, as the clients count them
 TWO_SIGMA = 1.96
 
@@ -299,13 +302,27 @@ TWO_SIGMA = 1.96
 class MotorGap:
     """A motor gap and what was taken off the chain for it."""
 
-    gap: float  # [mm]
-    interval: float  # [mm] half of the 95 % interval, for a chain of true pitch
-    pull: float  # [N]
-    sag: float  # [mm] by which the chain is longer than the gap
-    stretch: float  # [mm] by which it is stretched
-    flex: float  # [mm] by which the motors came closer
-    spread: float  # [mm] of the lengths
+    gap: Annotated[float, key("gap_mm")]  # [mm]
+    # [mm] half of the 95 % interval, for a chain of true pitch
+    interval: Annotated[float, key("interval_mm")]
+    pull: Annotated[float, key("pull_N")]
+    pull_by: Literal["drop", "B11"]  # what says the pull: the chain's drop, or B11
+    sag: Annotated[float, key("sag_mm")]  # [mm] by which the chain is longer than the gap
+    stretch: Annotated[float, key("stretch_mm")]  # [mm] by which it is stretched
+    flex: Annotated[float, key("flex_mm")]  # [mm] by which the motors came closer
+    spread: Annotated[float, key("spread_mm")]  # [mm] of the lengths
+
+    @computed_field
+    @property
+    def beyond_mm(self) -> float:
+        """Links past the other sprocket."""
+        return BEYOND
+
+    @computed_field
+    @property
+    def pull_again(self) -> bool:
+        """Whether the lengths differ by more than pulls of a sound machine do."""
+        return self.spread > MOST_SPREAD
 
 
 def motor_gap(
@@ -337,7 +354,8 @@ def motor_gap(
     )
     spread = max(lengths) - min(lengths)
     gap = length - sag + stretch + closer
-    return MotorGap(gap, TWO_SIGMA * sigma, pull, sag, stretch, closer, spread)
+    pull_by: Literal["drop", "B11"] = "B11" if drop is None else "drop"
+    return MotorGap(gap, TWO_SIGMA * sigma, pull, pull_by, sag, stretch, closer, spread)
 
 
 # How far the hanging sled gives way to a force along the sheet, such as friction.

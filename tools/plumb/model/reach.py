@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
 
@@ -24,18 +25,28 @@ from plumb.model.predict import (
     with_parameters,
 )
 from plumb.settings.machine import MachineSettings
+from plumb.text.answers import Internal, key
 from plumb.text.errors import InputError, to_do
 
 COLUMNS, ROWS = 305, 153  # of a survey: a place each 8 mm of the usual sheet, edges included
 
 
 @dataclass(frozen=True)
-class Extreme:
-    """The place where something is largest or smallest."""
+class Pull:
+    """The place where a chain pulls most or least."""
 
     place: tuple[float, float]  # [mm]
-    value: float  # [N] or [mm/N]
-    side: str = ""  # whose chain
+    value: Annotated[float, key("tension_n")]
+    side: str  # whose chain
+
+
+@dataclass(frozen=True)
+class Give:
+    """The place where the sled gives most."""
+
+    place: tuple[float, float]  # [mm]
+    value: Annotated[float, key("give_mm_per_n")]
+    side: Internal[str] = ""  # no chain's
 
 
 @dataclass(frozen=True)
@@ -48,9 +59,9 @@ class Survey:
     reached: Reached  # of the places row by row
     limits: Mapping[str, float]
     assumed: tuple[str, ...]  # what the settings do not say, a sentence each
-    tightest: Extreme | None  # None where no sled hangs on the whole sheet
-    slackest: Extreme | None
-    softest: Extreme | None
+    tightest: Pull | None  # None where no sled hangs on the whole sheet
+    slackest: Pull | None
+    softest: Give | None
 
     @property
     def shares(self) -> dict[str, float]:
@@ -111,7 +122,7 @@ def survey_sheet(settings: MachineSettings, **limits: float) -> Survey:
         slackest = _extreme(places, -np.where(hanging[:, None], reached.tension, np.inf))
         slackest = replace(slackest, value=-slackest.value)
         most = greatest(np.where(hanging, reached.give, -np.inf))
-        softest = Extreme(_place(places, most), float(reached.give[most]))
+        softest = Give(_place(places, most), float(reached.give[most]))
     return Survey(
         machine.sheet,
         x,
@@ -142,10 +153,10 @@ def conclusion_of(survey: Survey) -> str:
     return f"{percent(usable[1])} of the sheet is usable; {rest}."
 
 
-def _extreme(places: Array, tension: Array) -> Extreme:
+def _extreme(places: Array, tension: Array) -> Pull:
     """Return the largest of all chains' tensions (n, 2)."""
     i, side = np.unravel_index(greatest(tension), tension.shape)
-    return Extreme(_place(places, int(i)), float(tension[i, side]), ("left", "right")[side])
+    return Pull(_place(places, int(i)), float(tension[i, side]), ("left", "right")[side])
 
 
 def _place(places: Array, i: int) -> tuple[float, float]:

@@ -280,13 +280,13 @@ def sentences_of(preview: Preview) -> list[str]:
         "More would be with what follows; numbers show where on the sheet:",
     ]
     said += [f"{i}: {_promise(each)}." for i, each in enumerate(with_places(preview), 1)]
-    without = [each for each in preview.additions if not len(each.option.visits)][:PLACELESS]
+    without = [each for each in preview.additions if not len(each.visits)][:PLACELESS]
     return said + [f"Without a mark: {_promise(each)}." for each in without]
 
 
 def with_places(preview: Preview) -> list[PlanAddition]:
     """Return the best additions whose marks are few enough to be shown: they get numbers."""
-    placed = [each for each in preview.additions if 0 < len(each.option.visits) <= CROWD]
+    placed = [each for each in preview.additions if 0 < len(each.visits) <= CROWD]
     return placed[:PLACED]
 
 
@@ -294,14 +294,13 @@ def numbered_places(preview: Preview) -> list[tuple[str, np.ndarray]]:
     """Return the numbers of the additions that go to a place, and the place [mm]."""
     numbers: dict[tuple[float, ...], list[int]] = {}
     for number, addition in enumerate(with_places(preview), 1):
-        for target in np.unique(np.round(addition.option.visits.targets), axis=0):
+        for target in np.unique(np.round(addition.visits.targets), axis=0):
             numbers.setdefault(tuple(target.tolist()), []).append(number)
     return [(", ".join(map(str, each)), np.array(place)) for place, each in numbers.items()]
 
 
 def _promise(addition: PlanAddition) -> str:
-    option = addition.option
-    return f"{option.title}, about {option.minutes:.0f} minutes: {addition.pairs} told apart"
+    return f"{addition.title}, about {addition.minutes:.0f} minutes: {addition.pairs} told apart"
 
 
 def _is_seen(smallest: float | None) -> bool:

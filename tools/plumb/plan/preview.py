@@ -9,9 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
 import scipy
+from pydantic import computed_field
 
 from plumb.diagnosis.clean import felt_effects
 from plumb.diagnosis.explanation import FEWEST_NUMBERS, KNOWN, Board, Explanation, explain
@@ -24,10 +26,12 @@ from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names, parameter_words
 from plumb.model.plain import ranked
 from plumb.plan.case import Case, ahead, hidden_hypotheses
-from plumb.plan.options import Option, many_marks, options
+from plumb.plan.options import many_marks, options
+from plumb.plan.planned_visits import Visits
 from plumb.plan.proposal import AGAIN
 from plumb.plan.separation import ENOUGH, apart
 from plumb.settings.machine import MachineSettings
+from plumb.text.answers import Internal, Matrix, key
 from plumb.text.errors import InputError
 
 Array = np.ndarray
@@ -36,15 +40,25 @@ APART = 3.0  # sigmas from which two effects are distinguished in most cases
 
 
 @dataclass(frozen=True)
+class SmallestSize:
+    """The smallest size of a parameter that is proved with POWER; None: no size is."""
+
+    name: str
+    smallest: float | None
+    unit: str
+
+
+@dataclass(frozen=True)
 class Outline:
     """One effect by itself under a plan."""
 
     effect: str
-    raw: float  # [mm] RMS of what its typical size draws, before the frame is refitted
+    # [mm] RMS of what its typical size draws, before the frame is refitted
+    raw: Annotated[float, key("typical_mm")]
     hidden_share: float | None  # None: nothing that is measured feels it
-    seen: float  # [sigmas] of its typical size beyond the frame
+    seen: Annotated[float, key("snr")]  # [sigmas] of its typical size beyond the frame
     smallest: float | None  # times typical, proved with POWER
-    parameters: tuple[tuple[str, float | None, str], ...]  # name, that smallest size, unit
+    parameters: tuple[SmallestSize, ...]
     alike: tuple[str, ...]  # effects it would be taken for
 
 
@@ -52,29 +66,35 @@ class Outline:
 class PlanAddition:
     """What could be added to the plan, and what that brings."""
 
-    option: Option
-    pairs: int  # cells of the matrix that then reach APART
-    worth: float  # rise of the capped squares of all cells
+    kind: str
+    title: str
+    do: tuple[str, ...]  # in sentences
+    minutes: float
+    visits: Internal[Visits]
+    pairs: Annotated[int, key("pairs_told_apart")]  # cells of the matrix that then reach APART
+    worth: Internal[float]  # rise of the capped squares of all cells
 
     @property
     def rate(self) -> float:
         """The order: worth per minute."""
-        return self.worth / (self.option.minutes + AGAIN)
+        return self.worth / (self.minutes + AGAIN)
 
 
 @dataclass(frozen=True)
 class Preview:
     """What a plan could tell."""
 
-    sigma: float  # [mm]
+    sigma: Annotated[float, key("sigma_mm")]
     marks: int
     distances: int
     effects: tuple[str, ...]
-    matrix: Array  # (e, e) [sigmas] of the row beyond frame and column; diagonal: beyond the frame
+    # (e, e) [sigmas] of the row beyond frame and column; diagonal: beyond the frame
+    matrix: Annotated[Matrix, key("snr")]
     outlines: tuple[Outline, ...]  # in the order of the effects
     additions: tuple[PlanAddition, ...]  # best first
-    targets: Array  # (k, 2) [mm]
+    targets: Internal[Array]  # (k, 2) [mm]
 
+    @computed_field(alias="pairs_told_apart")
     @property
     def pairs(self) -> int:
         """Cells of the matrix that reach APART."""
@@ -179,7 +199,7 @@ def _outline(frame: Explanation, i: int, matrix: Array, limit: float) -> Outline
         seen=seen,
         smallest=smallest,
         parameters=tuple(
-            (
+            SmallestSize(
                 parameter["name"],
                 None if smallest is None else smallest * abs(parameter["typical"]),
                 parameter["unit"],
@@ -205,7 +225,8 @@ def _additions(case: Case, matrix: Array) -> tuple[PlanAddition, ...]:
             continue
         then = _matrix(case.frame, ahead(case.frame, option.visits, option.checks).slopes)
         worth = float(np.sum(np.minimum(then**2, ENOUGH) - np.minimum(matrix**2, ENOUGH)))
-        additions.append(PlanAddition(option, _reached(then), worth))
+        what = (option.kind, option.title, option.do, option.minutes, option.visits)
+        additions.append(PlanAddition(*what, _reached(then), worth))
     return tuple(ranked(additions, lambda addition: -addition.rate))
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from datetime import datetime
 from operator import attrgetter
 from typing import Annotated, Any, Literal, TypeVar
 
@@ -21,14 +22,16 @@ T = TypeVar("T")
 Internal = Annotated[
     T, Field(exclude=True), GetPydanticSchema(lambda _type, _handler: core_schema.any_schema())
 ]
-# An array of numbers of any shape, as nested lists.
-Numbers = Annotated[
+# A matrix of numbers, row by row.
+Matrix = Annotated[
     np.ndarray,
     GetPydanticSchema(lambda _type, _handler: core_schema.any_schema()),
-    PlainSerializer(lambda array: array.tolist(), return_type=list[Any]),
+    PlainSerializer(lambda array: array.tolist(), return_type=list[list[float]]),
 ]
 # A number that is null in the JSON where it is not finite.
 Number = Annotated[float, PlainSerializer(lambda number: plain(number), return_type=float | None)]
+# A time of day as ISO 8601 writes it.
+Moment = Annotated[datetime, PlainSerializer(datetime.isoformat, return_type=str)]
 
 
 def key(name: str, said: str | None = None) -> Any:
@@ -58,11 +61,7 @@ def part(path: str, kind: Any, said: str | None = None, *, name: str | None = No
 
 def json_of(answer: object) -> Any:
     """Return the answer in the types of JSON, by the names of the interface."""
-    return plain(
-        answer
-        if isinstance(answer, Mapping)
-        else TypeAdapter(type(answer)).dump_python(answer, by_alias=True)
-    )
+    return plain(TypeAdapter(type(answer)).dump_python(answer, by_alias=True))
 
 
 def plain(value: Any) -> Any:

@@ -141,6 +141,10 @@ def test_home_marks_are_kept_listed_and_restored(run, ask, folder):
     run("home", "machine.toml", "--keep=right=900,-250")
     _, answer = ask("home", "machine.toml")
     assert [mark["name"] for mark in answer["marks"]] == ["left", "right"]
+    text = (folder / "home.toml").read_text()
+    (folder / "home.toml").write_text(text.replace("[900.0, -250.0]", "[899.0, -250.0]"))
+    right = ask("home", "machine.toml")[1]["marks"][1]
+    assert right["place"] == pytest.approx([900, -250]) and right["kept_place"] == [899, -250]
     chains = answer["marks"][0]["chains"]
     code, said, _ = run("home", "machine.toml", "--at", "left", "-o", "restore.nc")
     assert code == 0

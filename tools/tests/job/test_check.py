@@ -10,7 +10,7 @@ import pytest
 from plumb import _judge
 from plumb.bench.causes import MAKER
 from plumb.fit.inputs import Inputs
-from plumb.job.check import Believed, Part, check_job, errors_of
+from plumb.job.check import Believed, Part, check_job, with_errors
 from plumb.job.dry_run import hull_of, outline_of
 from plumb.job.findings import ARC, CHAINS, GOUGES, GREATEST, HALTS, IGNORED, LEAVES, WAITS, Z
 from plumb.marks.read import read_marks
@@ -173,7 +173,7 @@ def test_times_are_those_of_the_ways():
 def test_cuts_that_lie_apart_are_parts_in_the_order_of_the_program():
     lines = [*square(100, 50, 40), *square(-200, 0, 30, depth=2.5), *square(105, 55, 10)]
     parts = check_job(MAKER, lines).parts
-    assert [part.lines for part in parts] == [(3, 24), (11, 16)]
+    assert [(part.first_line, part.last_line) for part in parts] == [(3, 24), (11, 16)]
     assert parts[0].low == pytest.approx((100, 50)) and parts[0].size == pytest.approx((40, 40))
     assert parts[1].size == pytest.approx((30, 30)) and parts[1].deepest == pytest.approx(-2.5)
 
@@ -230,8 +230,8 @@ def test_a_part_comes_out_as_expected(file, corner):
     steps = np.linspace(0, 1, 12)
     places = np.array([(x, y) for x in steps for y in steps]) * size + corner
     high = (corner[0] + size[0], corner[1] + size[1])
-    part = Part((1, 2), corner, high, -3.0, places)
-    errors = errors_of(Believed.of(example_inputs(settings)), settings, [part])[0]
+    part = Part(1, 2, corner, high, -3.0, places)
+    part = with_errors(Believed.of(example_inputs(settings)), settings, [part])[0]
     true = true_errors(settings, places)
     design = np.column_stack([np.ones(len(places)), places - places.mean(axis=0)])
     stretch = np.linalg.lstsq(design, true, rcond=None)[0][1:]
@@ -240,12 +240,12 @@ def test_a_part_comes_out_as_expected(file, corner):
         size[1] * stretch[1, 1],
         size[1] * (stretch[0, 1] + stretch[1, 0]),
     )
-    for error, truth in zip((errors.width, errors.height, errors.skew), wanted, strict=True):
+    for error, truth in zip((part.width_error, part.height_error, part.skew), wanted, strict=True):
         assert abs(error.mm - truth) < error.within < 1.5
     if file == "groundcontrol.ini":
-        assert wanted[0] > 1 and errors.width.mm == pytest.approx(wanted[0], abs=0.5)
+        assert wanted[0] > 1 and part.width_error.mm == pytest.approx(wanted[0], abs=0.5)
     else:
-        assert abs(errors.width.mm) < 0.35
+        assert abs(part.width_error.mm) < 0.35
 
 
 class Sheared:
@@ -263,14 +263,14 @@ class Sheared:
 
 def test_a_turn_and_a_shift_are_no_errors_of_a_part():
     part = check_job(MAKER, square(0, 0, 100)).parts
-    turned = errors_of(Sheared([[0, -0.01], [0.01, 0]]), MAKER, part)[0]
-    for error in (turned.width, turned.height, turned.skew):
+    turned = with_errors(Sheared([[0, -0.01], [0.01, 0]]), MAKER, part)[0]
+    for error in (turned.width_error, turned.height_error, turned.skew):
         assert error.mm == pytest.approx(0, abs=1e-9)
-    sheared = errors_of(Sheared([[0.002, 0.01], [0.005, -0.003]]), MAKER, part)[0]
-    errors = [error.mm for error in (sheared.width, sheared.height, sheared.skew)]
+    sheared = with_errors(Sheared([[0.002, 0.01], [0.005, -0.003]]), MAKER, part)[0]
+    errors = [error.mm for error in (sheared.width_error, sheared.height_error, sheared.skew)]
     assert errors == pytest.approx([0.2, -0.3, 1.5])
     within = 1.96 * 100 * 0.001 * np.sqrt(2)
-    assert sheared.width.within == pytest.approx(within)
+    assert sheared.width_error.within == pytest.approx(within)
     assert sheared.skew.within == pytest.approx(2 * within)
 
 
@@ -282,7 +282,8 @@ def test_more_marks_leave_less_open():
     )
     part = check_job(settings, square(0, 0, 300)).parts
     within = [
-        errors_of(Believed.of(each), settings, part)[0].width.within for each in (few, inputs)
+        with_errors(Believed.of(each), settings, part)[0].width_error.within
+        for each in (few, inputs)
     ]
     assert within[1] < within[0]
 
@@ -292,9 +293,9 @@ def test_a_part_that_is_too_small_says_nothing():
     parts = check_job(
         settings, [*square(0, 0, 10), "G0 X100 Y0", "G1 Z-1 F60", "G1 X190 F500"]
     ).parts
-    small, line = errors_of(Believed.of(example_inputs(settings)), settings, parts)
-    assert small.width is small.height is small.skew is None
-    assert line.width is not None and line.height is None
+    small, line = with_errors(Believed.of(example_inputs(settings)), settings, parts)
+    assert small.width_error is small.height_error is small.skew is None
+    assert line.width_error is not None and line.height_error is None
 
 
 def test_the_outline_goes_round_everything_above_the_sheet():
@@ -341,7 +342,11 @@ def test_the_command_says_all_of_it(ask, run, tmp_path):
     assert answer["parts"][0]["width_error"]["within"] > 0
     assert b"pocket.nc: nothing is wrong" in picture.read_bytes()
     assert "G0 Z5.000" in outline.read_text()
+    _, slower = ask("check", POCKET, SETTINGS, "--set", "18=6")
+    assert slower["asked_seconds"] < slower["cutting_seconds"] < slower["seconds"]
+    assert "askew" in run("check", POCKET, SETTINGS, "--marks", MARKS)[1]
     code, said, _ = run("check", POCKET, SETTINGS, "--set", "18=6")
+    assert "askew" not in said and "give --marks" in " ".join(said.split())
     slow = re.search(r"gets (\d+)$", said.replace("\n  ", " "), re.MULTILINE)
     assert code == 0 and slow and "gets 19" in said.replace("\n  ", " ")
 

@@ -104,11 +104,12 @@ def test_the_diary_shows_each_fit_and_numbers_that_moved(client, tmp_path):
     with open(tmp_path / "diary.jsonl", "a") as file:
         file.write("cut in the mid")
     diary = client.get("/api/diary").json()
-    assert [(each["before"], each["rms"], each["left_out"]) for each in diary["rounds"]] == [
+    fits = [each["fit"] for each in diary["rounds"]]
+    assert [(fit["before_mm"], fit["rms_mm"], fit["left_out_mm"]) for fit in fits] == [
         (4.0, 0.9, None),
         (4.0, 0.5, None),
     ]
-    assert diary["rounds"][0]["effects"] == "chain sag"
+    assert diary["rounds"][0]["said"] == "chain sag"
     (course,) = diary["courses"]
     assert (course["noun"], course["has_moved"]) == ("gap between the motors", True)
     assert [point["said"] for point in course["points"]] == ["2978.0", "2984.0"]

@@ -65,9 +65,7 @@ def test_many_places_have_no_sentences_and_a_few_have_a_column():
 
 
 def addition(title, visits, pairs):
-    return SimpleNamespace(
-        option=SimpleNamespace(title=title, minutes=9.2, visits=visits), pairs=pairs
-    )
+    return SimpleNamespace(title=title, minutes=9.2, visits=visits, pairs=pairs)
 
 
 def test_a_preview_numbers_the_places_of_additions_and_says_what_each_brings():

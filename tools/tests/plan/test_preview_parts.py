@@ -49,10 +49,10 @@ def test_what_is_seen_twice_as_well_is_proved_at_half_the_size(nine):
     products = [each.seen * each.smallest for each in single]
     assert products == pytest.approx([products[0]] * len(products))
     sag = outline(nine, "chain_sag")
-    ((name, size, unit),) = sag.parameters
+    (only,) = sag.parameters
     words = parameter_words()["chain_sag.weight_ratio_squared"]
-    assert (name, unit) == ("weight_ratio_squared", words["unit"])
-    assert size == pytest.approx(sag.smallest * words["typical"])
+    assert (only.name, only.unit) == ("weight_ratio_squared", words["unit"])
+    assert only.smallest == pytest.approx(sag.smallest * words["typical"])
 
 
 def test_a_sharper_tape_sees_as_much_more(nine):
@@ -71,7 +71,7 @@ def test_a_tape_that_is_long_moves_marks_by_their_distance():
     assert outline(seen, "tape_scale").raw == pytest.approx(words * radius, rel=1.0)
     friction = outline(seen, "sled_friction")
     assert friction.seen == 0.0 and friction.smallest is None and friction.hidden_share is None
-    assert all(size is None for _, size, _ in friction.parameters)
+    assert all(each.smallest is None for each in friction.parameters)
 
 
 def test_effects_are_alike_that_the_marks_cannot_part(nine):
@@ -89,20 +89,19 @@ def test_effects_are_alike_that_the_marks_cannot_part(nine):
 
 
 def test_additions_are_worth_what_they_add_to_the_matrix(nine):
-    kinds = [each.option.kind for each in nine.additions]
+    kinds = [each.kind for each in nine.additions]
     assert "repeats" not in kinds and {"marks", "weight", "many", "frame"} <= {*kinds}
     rates = [each.rate for each in nine.additions]
     assert rates == sorted(rates, reverse=True) and min(rates) >= 0
     for each in nine.additions:
-        assert each.rate == pytest.approx(each.worth / (each.option.minutes + AGAIN))
+        assert each.rate == pytest.approx(each.worth / (each.minutes + AGAIN))
         assert each.worth <= np.sum(ENOUGH - np.minimum(nine.matrix**2, ENOUGH)) + 1e-6
         assert each.pairs >= nine.pairs
     assert nine.pairs == int((nine.matrix >= APART).sum())
     # All marks of the addition at once are a plan like any other.
-    many = next(each for each in nine.additions if each.option.kind == "many")
+    many = next(each for each in nine.additions if each.kind == "many")
     marks = plan_of(3, 3, approach=(0.0, 1.0)).marks + tuple(
-        replace(mark, sled_weight=None)
-        for mark in many.option.visits.marks(many.option.visits.targets)
+        replace(mark, sled_weight=None) for mark in many.visits.marks(many.visits.targets)
     )
     whole = preview(MACHINE, Measurements(marks), sigma=SIGMA, is_quick=True)
     assert whole.pairs == pytest.approx(many.pairs, abs=2)

@@ -59,7 +59,7 @@ export function Diary() {
       {diary.spoilt > 0 && <p>{diary.spoilt} lines of diary.jsonl cannot be read.</p>}
       {rounds.length > 0 && (
         <p class="legend">
-          The error of the newest fit is {namedLength(rounds.at(-1)?.rms ?? 0, units, 2)}.
+          The error of the newest fit is {namedLength(rounds.at(-1)?.fit.rms_mm ?? 0, units, 2)}.
         </p>
       )}
     </Screen>

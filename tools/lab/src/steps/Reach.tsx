@@ -26,7 +26,7 @@ export function Reach() {
   return (
     <Screen
       title={`${reach.conclusion.replace(/;.*|\.$/s, "")}.`}
-      say={reach.expected?.said ?? ""}
+      say={reach.normal}
       why={<Why reach={reach} />}
       command={reach.command}
     >

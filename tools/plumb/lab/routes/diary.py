@@ -8,7 +8,7 @@ from fastapi import APIRouter
 from pydantic import BaseModel
 
 from plumb.diary.file import FIT, Diary, noted, read_diary
-from plumb.diary.history import Course, history_of
+from plumb.diary.history import Course, DiaryFit, history_of
 from plumb.lab.project import read_choices
 from plumb.lab.rounds import command, unit_words
 from plumb.lab.routes.project import TheProject
@@ -20,15 +20,10 @@ MOST = 50  # other entries that are shown
 
 
 class Round(BaseModel):
-    """A fit."""
+    """A fit, and its effects in words."""
 
-    at: datetime
-    machine: str
-    count: int  # of marks and distances
-    before: float | None  # [mm]
-    rms: float | None
-    left_out: float | None
-    effects: str
+    fit: DiaryFit
+    said: str
 
 
 class CoursePoint(BaseModel):
@@ -76,27 +71,12 @@ def show_diary(project: TheProject) -> DiaryAnswer:
     with shown_in(choices.units):
         courses = [_course(course) for course in history.courses]
     return DiaryAnswer(
-        rounds=[
-            Round(
-                at=fit.at,
-                machine=fit.machine,
-                count=fit.count,
-                before=_known(fit.before),
-                rms=_known(fit.rms),
-                left_out=_known(fit.left_out),
-                effects=plainly(fit.effects),
-            )
-            for fit in history.fits
-        ],
+        rounds=[Round(fit=fit, said=plainly(fit.effects)) for fit in history.fits],
         courses=courses,
         others=_others(diary),
         spoilt=len(diary.spoilt),
         command=command("diary", *unit_words(choices)),
     )
-
-
-def _known(number: float) -> float | None:
-    return number if number == number else None  # NaN: nobody knows
 
 
 def _course(course: Course) -> NumberCourse:

@@ -10,7 +10,7 @@ import numpy as np
 from fastapi import APIRouter
 from pydantic import BaseModel, Field
 
-from plumb.fit.expected import expected_anywhere, expected_priors, expected_sentence
+from plumb.fit.expected import Expected, expected_anywhere, expected_priors, expected_sentence
 from plumb.fit.inputs import settings_in
 from plumb.lab.known import measured_to, planned_priors, possible
 from plumb.lab.project import Choices, Layout, Project, read_choices
@@ -32,8 +32,8 @@ from plumb.lab.routes.project import TheProject
 from plumb.marks.model import tape_sigma
 from plumb.model.plain import noun_of
 from plumb.model.predict import REACH_WORDS
-from plumb.model.reach import Extreme, Survey, conclusion_of, percent, survey_sheet
-from plumb.plan.preview import APART, Preview, preview
+from plumb.model.reach import Give, Pull, Survey, conclusion_of, percent, survey_sheet
+from plumb.plan.preview import APART, PlanAddition, Preview, preview
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.text.values import shown_in
@@ -87,15 +87,6 @@ class PlanAnswer(BaseModel):
     command: str
 
 
-class AdditionAnswer(BaseModel):
-    """What could be measured in addition, best first."""
-
-    title: str
-    do: list[str]
-    minutes: float
-    pairs: int
-
-
 class ReachAnswer(BaseModel):
     """Where on the sheet the machine is usable."""
 
@@ -107,16 +98,9 @@ class ReachAnswer(BaseModel):
     conclusion: str
     extremes: list[ExtremeAnswer]
     assumed: list[str]
-    expected: ExpectedAnswer | None  # None: no sled hangs on this sheet
+    expected: Expected | None  # None: no sled hangs on this sheet
+    normal: str  # the same as a sentence
     command: str
-
-
-class ExpectedAnswer(BaseModel):
-    """How far marks are off before anything is corrected, RMS [mm]."""
-
-    whole: float  # as a tape from the sheet's edges reads them
-    shape: float  # the sheet laid at its best
-    said: str
 
 
 class ExtremeAnswer(BaseModel):
@@ -237,19 +221,11 @@ def _command(project: Project, choices: Choices, plan: Planned, sigma: float) ->
 
 
 @router.post("/preview/additions")
-def additions(request: PlanRequest, project: TheProject) -> list[AdditionAnswer]:
-    """Return what could be measured in addition; takes some seconds."""
+def additions(request: PlanRequest, project: TheProject) -> list[PlanAddition]:
+    """Return what could be measured in addition, best first; takes some seconds."""
     choices, _ = read_choices(project)
     outlook = SLOW_DESK.look(opened(project), choices, request, is_quick=False)
-    return [
-        AdditionAnswer(
-            title=addition.option.title,
-            do=list(addition.option.do),
-            minutes=addition.option.minutes,
-            pairs=addition.pairs,
-        )
-        for addition in outlook.additions[:4]
-    ]
+    return list(outlook.additions[:4])
 
 
 @router.get("/reach")
@@ -276,9 +252,8 @@ def reach(project: TheProject) -> ReachAnswer:
         conclusion=conclusion_of(survey),
         extremes=list(_extremes(survey)),
         assumed=list(survey.assumed),
-        expected=ExpectedAnswer(whole=expected.whole, shape=expected.all_shape, said=said)
-        if expected
-        else None,
+        expected=expected,
+        normal=said,
         command=command(
             "reach",
             choices.settings,
@@ -319,7 +294,7 @@ def _effects(outlook: Preview) -> list[PlannedEffect]:
 
 
 def _extremes(survey: Survey) -> Iterable[ExtremeAnswer]:
-    each: list[tuple[str, Extreme | None, str]] = [
+    each: list[tuple[str, Pull | Give | None, str]] = [
         ("tightest chain", survey.tightest, "N"),
         ("slackest chain", survey.slackest, "N"),
         ("softest place", survey.softest, "mm/N"),

@@ -6,7 +6,7 @@ import { namedLength, type Unit } from "../../controls/lengths";
 type Round = Schemas["Round"];
 
 export function Errors({ rounds, units }: { rounds: Round[]; units: Unit }) {
-  const most = Math.max(...rounds.map(({ before }) => before ?? 0), 0.1);
+  const most = Math.max(...rounds.map(({ fit }) => fit.before_mm ?? 0), 0.1);
   const shown = (mm: number | null) => (mm === null ? "–" : namedLength(mm, units, 2));
   return (
     <table class="rounds">
@@ -18,22 +18,22 @@ export function Errors({ rounds, units }: { rounds: Round[]; units: Unit }) {
         </tr>
       </thead>
       <tbody>
-        {rounds.map((round) => (
-          <tr key={round.at + round.machine}>
+        {rounds.map(({ fit, said }) => (
+          <tr key={fit.at + fit.machine}>
             <th scope="row">
-              {new Date(round.at).toLocaleDateString(undefined, { dateStyle: "medium" })}
+              {new Date(fit.at).toLocaleDateString(undefined, { dateStyle: "medium" })}
               <br />
-              {round.machine}, {round.count} readings
+              {fit.machine}, {fit.readings} readings
               <br />
-              {round.effects}
+              {said}
             </th>
             <td class="bars">
-              <Bar share={(round.before ?? 0) / most} colour="var(--before)" />
-              {shown(round.before)}
-              <Bar share={(round.rms ?? 0) / most} colour="var(--after)" />
-              {shown(round.rms)}
+              <Bar share={(fit.before_mm ?? 0) / most} colour="var(--before)" />
+              {shown(fit.before_mm)}
+              <Bar share={(fit.rms_mm ?? 0) / most} colour="var(--after)" />
+              {shown(fit.rms_mm)}
             </td>
-            <td>{shown(round.left_out)}</td>
+            <td>{shown(fit.left_out_mm)}</td>
           </tr>
         ))}
       </tbody>

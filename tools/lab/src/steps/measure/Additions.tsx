@@ -35,7 +35,7 @@ export function Additions({ plan, layout, places }: AdditionsParts) {
         {additions.map((addition) => (
           <li key={addition.title}>
             <b>{addition.title}</b>: {Math.round(addition.minutes)} min, {plan.pairs} →{" "}
-            {addition.pairs} cells told apart. {addition.do.join(" ")}
+            {addition.pairs_told_apart} cells told apart. {addition.do.join(" ")}
           </li>
         ))}
       </ol>
