@@ -375,7 +375,11 @@ def _drops(basis: Array, left: Array, numbers: Array, readings: Array) -> Array:
 
 
 def _needed(basis: Array, left: Array, pair: Array) -> float:
-    """Return the drop from which on two readings were mixed up, and none misread."""
+    """Return the drop from which on two readings were mixed up, and none misread.
+
+    The library can bend much of the board to two neighbours that are off alike. So a misread repeat
+    of a mark gains by an exchange too, but less than by setting it alone free.
+    """
     alone = max(_free(basis, left, numbers) for numbers in pair)
     return max(SHARE * _free(basis, left, pair.ravel()), alone)
 
