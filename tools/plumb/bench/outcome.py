@@ -70,8 +70,8 @@ def outcome_of(
         invented=named and bool(_in_all(diagnosis) - truth - alike - _background(hidden)),
         both=bool(truth) and truth <= set(diagnosis.suspects),
         slip_named=diagnosis.verdict == "slip"
-        and {slip.name for slip in diagnosis.slips} == set(slipped),
-        false_slip=bool({slip.name for slip in diagnosis.slips} - set(slipped)),
+        and {slip.name for slip in diagnosis.outliers} == set(slipped),
+        false_slip=bool({slip.name for slip in diagnosis.outliers} - set(slipped)),
         small_slip=small_slip,
         intervals=_intervals(diagnosis, hidden),
         limits=(sum(good for _, good in limits), len(limits)),

@@ -101,7 +101,7 @@ def fitted_machine(number: int, *, noise: float = 0.5, outside: float = 0.0) -> 
     record = FitRecord(
         start_rms=0.0,
         rms=fitted.rms,
-        priced_rms=fitted.priced_rms,
+        priced_rms=fitted.corrected_rms,
         left_out_rms=fitted.left_out_rms,
         sheet_rotation=fitted.sheet_rotation,
     )

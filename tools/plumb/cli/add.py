@@ -143,7 +143,7 @@ def _run_auto(arguments: argparse.Namespace, inputs: Inputs) -> int:
 def _first(result: AutoAddition, arguments: argparse.Namespace) -> str:
     """Return what comes before anything can be added."""
     same = same_inputs(arguments)
-    if result.diagnosis.slips:
+    if result.diagnosis.outliers:
         return next_step("When the file is corrected:", ["add", *same, "--effect", AUTO])
     return next_step("What to measure next:", ["next", *same])
 

@@ -18,8 +18,8 @@ def auto_text(result: AutoAddition) -> str:
     """Return the diagnosis and the choice for people, then the addition."""
     said = [sentences([result.diagnosis.sentence], mark="")]
     said += (
-        [sentences([slip.sentence for slip in result.diagnosis.slips])]
-        if result.diagnosis.slips
+        [sentences([slip.sentence for slip in result.diagnosis.outliers])]
+        if result.diagnosis.outliers
         else []
     )
     reason = result.reason[0].upper() + result.reason[1:] + "."
@@ -97,7 +97,7 @@ def quality_table(result: Addition) -> str:
     for name, quality in named:
         errors = (
             quality.fit_rms,
-            quality.priced_rms,
+            quality.corrected_rms,
             quality.left_out_rms,
             quality.worst,
             quality.shape_rms,

@@ -83,8 +83,8 @@ class Round:
                 f"{worded(addition.after.fit_rms)} RMS, {worded(addition.after.left_out_rms)} "
                 "checked on marks not used."
             )
-        if diagnosis.slips:
-            names = ", ".join(dict.fromkeys(slip.name for slip in diagnosis.slips))
+        if diagnosis.outliers:
+            names = ", ".join(dict.fromkeys(slip.name for slip in diagnosis.outliers))
             return f"Not yet: read {names} again, and correct the file."
         best = self.best
         if best is None:
@@ -199,8 +199,8 @@ def as_text(
     if outside:
         parts.append(sentences([f"{outside} The diagnosis asks for that again."], mark=""))
     parts.append(sentences([diagnosis.sentence], mark=""))
-    if diagnosis.slips:
-        parts.append(sentences([slip.sentence for slip in diagnosis.slips]))
+    if diagnosis.outliers:
+        parts.append(sentences([slip.sentence for slip in diagnosis.outliers]))
     elif this.done and addition:
         parts += [quality_table(addition), parameter_table(addition)]
         parts.append(sentences([COLUMNS], mark=""))
@@ -208,7 +208,7 @@ def as_text(
         parts += [sentences(said)] if said else []
     elif diagnosis.explanations:
         parts.append(explanation_table(diagnosis))
-    if addition is None and not diagnosis.slips:
+    if addition is None and not diagnosis.outliers:
         parts.append(sentences([f"{this.result.reason.capitalize()}."], mark=""))
     parts.append(headline(this.sentence))
     if this.done:
@@ -227,8 +227,8 @@ def _written_text(files: list[str], client: ClientFiles | None) -> str:
 def _first_measure(this: Round, arguments: argparse.Namespace) -> list[str]:
     """Return what has to be done before anything is written."""
     same = same_inputs(arguments)
-    if this.result.diagnosis.slips:
-        names = dict.fromkeys(slip.name for slip in this.result.diagnosis.slips)
+    if this.result.diagnosis.outliers:
+        names = dict.fromkeys(slip.name for slip in this.result.diagnosis.outliers)
         without = [word for name in names for word in ("--without", name)]
         corrected = next_step("When the file is corrected:", ["calibrate", *same])
         left = next_step("If it cannot be read again:", ["calibrate", *same, *without])

@@ -165,7 +165,7 @@ def _steps_table(demonstration: Demonstration) -> str:
     ]
     for step in demonstration.steps:
         quality = step.quality
-        values = (quality.fit_rms, quality.priced_rms, quality.left_out_rms, quality.worst)
+        values = (quality.fit_rms, quality.corrected_rms, quality.left_out_rms, quality.worst)
         rows.append([step.name, *map(bare, values), "kept" if step.kept else "NOT kept"])
     return table(["error in mm", "RMS", "counted", "checked", "worst", ""], rows)
 
@@ -193,7 +193,7 @@ def _doubts(demonstration: Demonstration) -> list[str]:
         "The sign of y is doubtful: the source's words and its numbers disagree. Assumed here: the "
         "numbers as the page says to read them, from the top edge down. With the other sign the "
         f"same effects end at {flipped.after.fit_rms:.2f} mm RMS (counted "
-        f"{flipped.after.priced_rms:.2f}, checked {flipped.after.left_out_rms:.2f}), "
+        f"{flipped.after.corrected_rms:.2f}, checked {flipped.after.left_out_rms:.2f}), "
         f"{_impossible_pitch(demonstration)}",
     ]
     sag = next((p for p in chosen.parameters if p.name == "chain_sag.weight_ratio_squared"), None)

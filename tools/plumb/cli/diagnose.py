@@ -66,8 +66,8 @@ def _next(diagnosis: Diagnosis, arguments: argparse.Namespace) -> str:
 def as_text(diagnosis: Diagnosis) -> str:
     """Return the diagnosis for people, its verdict first."""
     parts = [sentences([diagnosis.sentence], mark="")]
-    if diagnosis.slips:
-        parts.append(sentences([slip.sentence for slip in diagnosis.slips]))
+    if diagnosis.outliers:
+        parts.append(sentences([slip.sentence for slip in diagnosis.outliers]))
     if diagnosis.disagreements:
         parts.append(sentences(diagnosis.disagreements))
     elif diagnosis.verdict == "not_in_library":

@@ -39,7 +39,7 @@ class Quality:
     """How good a fit is [mm]; left out: each mark predicted by a fit that did not see it."""
 
     fit_rms: Annotated[float, key("fit_rms_mm")]
-    priced_rms: Annotated[Number, key("priced_rms_mm")]
+    corrected_rms: Annotated[Number, key("priced_rms_mm")]
     left_out_rms: Annotated[float, key("left_out_rms_mm")]
     worst: Annotated[float, key("worst_mm")]
     shape_rms: Annotated[float | None, key("shape_rms_mm")]
@@ -270,7 +270,7 @@ def quality_of(fitted: Fit, rows: Observations) -> Quality:
     pose = best_pose(fitted.predicted, rows.measured)
     return Quality(
         fit_rms=fitted.rms,
-        priced_rms=fitted.priced_rms,
+        corrected_rms=fitted.corrected_rms,
         left_out_rms=fitted.left_out_rms,
         worst=float(lengths.max()),
         shape_rms=rms(pose.errors) if pose else None,

@@ -45,7 +45,7 @@ class AutoAddition:
     @property
     def slips(self) -> tuple[str, ...]:
         """Names of the readings that are wrong."""
-        return tuple(slip.name for slip in self.diagnosis.slips)
+        return tuple(slip.name for slip in self.diagnosis.outliers)
 
     @property
     def done(self) -> bool:
@@ -162,7 +162,7 @@ def without_marks(measurements: Measurements, names: Iterable[str]) -> Measureme
 
 
 def _slip_reason(diagnosis: Diagnosis) -> str:
-    names = ", ".join(dict.fromkeys(slip.name for slip in diagnosis.slips))
+    names = ", ".join(dict.fromkeys(slip.name for slip in diagnosis.outliers))
     return (
         f"nothing was added: look at the reading of {names} again first, and correct it "
         + to_do(

@@ -18,7 +18,7 @@ import numpy as np
 from plumb.diagnosis.clean import clear_repeats
 from plumb.diagnosis.explanation import Board, Explanation, explain
 from plumb.diagnosis.noise import known_noise, repeats_of
-from plumb.diagnosis.slip_cause import described
+from plumb.diagnosis.outliers import described
 from plumb.diagnosis.suspect_curves import SuspectCurves, seen_by, suspect_curves
 from plumb.firmware.settings import Difference, both_values, differences, numbers_in_force
 from plumb.fit.compare import chain_errors, hung_places
@@ -190,7 +190,7 @@ def noise_of(inputs: Inputs, model: MachineSettings, rows: Observations) -> FitN
     cleared = clear_repeats(board, stated)
     said = tuple(
         described(shift, inputs.measurements, inputs.settings.sheet).sentence
-        for shift in cleared.slips
+        for shift in cleared.outliers
     )
     noise = known_noise(repeats_of(cleared.rows), stated)
     if noise is None:

@@ -36,8 +36,9 @@ def toml_of(
     settings = published_machine(ours) if firmware == "published" else ours
     lines = [
         f"Fitted to {source}: {result.after.fit_rms:.2f} mm RMS "
-        f"(counted for the numbers fitted {result.after.priced_rms:.2f}, checked on marks not used "
-        f"{result.after.left_out_rms:.2f}), {result.raw.rms:.2f} mm before.",
+        f"(counted for the numbers fitted {result.after.corrected_rms:.2f}, "
+        f"checked on marks not used {result.after.left_out_rms:.2f}), "
+        f"{result.raw.rms:.2f} mm before.",
         *turn_sentences(result),
         *result.cures,
         *([f"{PATCH}: {PATCH_WARNING}"] if PATCH in result.effects_added else []),
@@ -68,7 +69,7 @@ def record_of(result: Addition, inputs: Inputs, *, without: Sequence[str] = ()) 
     return FitRecord(
         start_rms=result.raw.rms,
         rms=result.after.fit_rms,
-        priced_rms=result.after.priced_rms,
+        priced_rms=result.after.corrected_rms,
         left_out_rms=result.after.left_out_rms,
         sheet_rotation=fitted.sheet_rotation,
         effects=result.effects_added,
@@ -205,7 +206,7 @@ def demonstrate(measurements: Measurements | None = None) -> Demonstration:
 
 def is_better(tried: Quality, known: Quality) -> bool:
     """Return whether an effect is worth its price: both honest errors fall."""
-    return tried.priced_rms < known.priced_rms and tried.left_out_rms < known.left_out_rms
+    return tried.corrected_rms < known.corrected_rms and tried.left_out_rms < known.left_out_rms
 
 
 def with_y_errors_flipped(measurements: Measurements) -> Measurements:

@@ -10,8 +10,8 @@ from pydantic import computed_field
 
 from plumb.diagnosis.expected_error import LeftOpen
 from plumb.diagnosis.noise import ORIGINS, Noise
+from plumb.diagnosis.outliers import Outlier
 from plumb.diagnosis.sizes import Room, Size
-from plumb.diagnosis.slip_cause import Slip
 from plumb.model.catalogue import place_of
 from plumb.model.plain import nouns_of, plainly
 from plumb.text.answers import Internal, among, key, meant, part
@@ -28,7 +28,7 @@ class Ranked:
     effect: str
     gain: float  # drop of chi-square when it is added to the frame and all is refitted
     # the order of the ranking
-    surprise: Annotated[float, meant("-log of the chance of that gain from noise.")]
+    negative_log_p: Annotated[float, key("surprise", "-log of the chance of that gain from noise.")]
     sizes: Annotated[tuple[Size, ...], key("parameters")]
     rms_after: Annotated[float, key("rms_after_mm")]
     hidden_share: float | None
@@ -88,7 +88,7 @@ class Diagnosis:
 
     verdict: Verdict
     noise: Internal[Noise]
-    limit: Internal[float]  # of the gate: the surprise that noise hardly ever exceeds (gain.LEVEL)
+    threshold: Internal[float]  # of detection: the -log p that noise hardly ever exceeds
     rms_before: Annotated[float, key("rms_mm", "With the frame fitted.")]
     explanations: tuple[Together, ...]  # best first
     # [mm] RMS between two explanations' marks
@@ -98,7 +98,7 @@ class Diagnosis:
     chance: Annotated[float, meant("That as many effects explain what none of them made.")]
     # the first explanation, or the best at hand
     to_add: Annotated[tuple[str, ...], meant("Effects to go on with.")]
-    slips: tuple[Slip, ...]
+    outliers: Annotated[tuple[Outlier, ...], key("slips")]
     could_hide: tuple[Room, ...]
     left_open: Internal[LeftOpen]  # of the machine's errors all over the sheet
     warnings: tuple[str, ...]
@@ -142,13 +142,13 @@ def _count(said: str) -> int:
     return len(said.split())
 
 
-def _slip(diagnosis: Diagnosis, _nouns: Nouns, shown: int) -> str:
-    names = list(dict.fromkeys(slip.name for slip in diagnosis.slips))
+def _outlier(diagnosis: Diagnosis, _nouns: Nouns, shown: int) -> str:
+    names = list(dict.fromkeys(outlier.name for outlier in diagnosis.outliers))
     more = f" and {len(names) - shown} more" if len(names) > shown else ""
-    which = "One reading disagrees" if len(diagnosis.slips) == 1 else "Some readings disagree"
-    against = {slip.against for slip in diagnosis.slips}
+    which = "One reading disagrees" if len(diagnosis.outliers) == 1 else "Some readings disagree"
+    against = {outlier.against for outlier in diagnosis.outliers}
     what = against.pop() if len(against) == 1 else "every explanation or with their repeats"
-    what = "their repeats" if what == "its repeats" and len(diagnosis.slips) > 1 else what
+    what = "their repeats" if what == "its repeats" and len(diagnosis.outliers) > 1 else what
     where = ", ".join(names[: max(shown, 1)])
     return f"{which} with {what}: look at {where}{more} again before anything else."
 
@@ -248,7 +248,7 @@ def _named(effects: Sequence[str], nouns: Nouns, shown: int) -> str:
 
 
 _SENTENCES = {
-    "slip": _slip,
+    "slip": _outlier,
     "nothing_provable": _nothing_provable,
     "not_in_library": _not_in_library,
     "one_suspect": _one_suspect,

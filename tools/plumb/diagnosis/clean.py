@@ -1,4 +1,4 @@
-"""The readings that can be trusted: mix-ups put right, slips set aside, the noise known."""
+"""The readings that can be trusted: mix-ups put right, outliers set aside, the noise known."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from plumb.diagnosis.noise import (
     repeated_marks,
     repeats_of,
 )
-from plumb.diagnosis.slip_cause import (
+from plumb.diagnosis.outliers import (
     REPEATS,
+    Outlier,
     Reading,
     Shift,
-    Slip,
     described,
     find_mixed_up,
-    mixed_up_slips,
+    mixed_up_outliers,
     readings_of,
     without,
 )
@@ -39,9 +39,9 @@ from plumb.model.plain import greatest, ranked
 
 @dataclass(frozen=True)
 class CleanReadings:
-    """What is left without slips, and how the frame and each effect by itself explain it."""
+    """What is left without outliers, and how the frame and each effect by itself explain it."""
 
-    slips: tuple[Slip, ...]  # readings to look at again
+    outliers: tuple[Outlier, ...]  # readings to look at again
     noise: Noise
     frame: Explanation
     felt: tuple[str, ...]  # effects that change any of the measured numbers
@@ -49,10 +49,10 @@ class CleanReadings:
 
 
 def clean_readings(board: Board, inputs: Inputs) -> CleanReadings:
-    """Look for mixed-up readings and slips before any effect is suspected."""
+    """Look for mixed-up readings and outliers before any effect is suspected."""
     felt = felt_effects(explain(board))
     mixed_up = find_mixed_up(board)
-    cleared = clear_slips(mixed_up.board, felt, stated=inputs.stated)
+    cleared = clear_outliers(mixed_up.board, felt, stated=inputs.stated)
     frame = cleared.frame
     singles = {single.effects[0]: single for single in cleared.singles}
     for name in effect_names():
@@ -60,11 +60,11 @@ def clean_readings(board: Board, inputs: Inputs) -> CleanReadings:
         if name not in singles:
             singles[name] = explain(frame.board, (name,), start=frame)
     measurements = inputs.measurements
-    slips = (
-        *mixed_up_slips(mixed_up, measurements),
-        *(described(shift, measurements, inputs.settings.sheet) for shift in cleared.slips),
+    outliers = (
+        *mixed_up_outliers(mixed_up, measurements),
+        *(described(shift, measurements, inputs.settings.sheet) for shift in cleared.outliers),
     )
-    return CleanReadings(slips, cleared.noise, frame, felt, singles)
+    return CleanReadings(outliers, cleared.noise, frame, felt, singles)
 
 
 def felt_effects(frame: Explanation) -> tuple[str, ...]:
@@ -73,25 +73,25 @@ def felt_effects(frame: Explanation) -> tuple[str, ...]:
     return tuple(name for name in effect_names() if np.any(frame.slopes[:, board.columns([name])]))
 
 
-# Slips: single readings that disagree with every explanation, looked for before any effect.
+# Outliers: single readings that disagree with every explanation, looked for before any effect.
 #
 # A reading is named where the marks make it far more likely that this reading is off than that all
-# readings are right: whatever effects act, up to all of them, and whatever smooth field does. So
-# two hidden effects hide no slip, and a bump, which moves several marks alike, is none.
+# readings are right: whatever effects act, up to all of them, and whatever Gaussian process does.
+# So two hidden effects hide no outlier, and a bump, which moves several marks alike, is none.
 
 Array = np.ndarray
-SURE = 0.7  # how likely a slip must be to be named; without one it is hardly ever above 0.1
+SURE = 0.7  # how likely an outlier must be to be named; without one it is hardly ever above 0.1
 SAME = 0.01  # share of sigma by which a change of it is no matter
 MANY = 15  # readings of which no single effect explains one that is off
 FEWEST = 4  # readings below which none can be distinguished from the others
-SHARE_OF_SLIPS = 12  # with more slips than one in this many readings the slips are not the story
+SHARE_OF_OUTLIERS = 12  # with more than one in this many readings outliers are not the story
 
 
 @dataclass(frozen=True)
 class Cleared:
     """The readings to look at again, and what is left without them."""
 
-    slips: tuple[Shift, ...]  # their readings counted among all
+    outliers: tuple[Shift, ...]  # their readings counted among all
     rows: Observations
     noise: Noise
     frame: Explanation  # of what is left
@@ -117,28 +117,28 @@ def shifts(explanation: Explanation) -> list[Shift]:
     return of_readings
 
 
-def clear_slips(board: Board, candidates: Sequence[str], *, stated: Stated | None) -> Cleared:
-    """Set slips aside one after the other, worst first; before all else those that disagree with
+def clear_outliers(board: Board, candidates: Sequence[str], *, stated: Stated | None) -> Cleared:
+    """Set outliers aside one after the other, worst first; before all else those that disagree with
     their repeats."""
     repeats = clear_repeats(board, stated)
     board = _with_noise(board, repeats.rows, stated)
     whole, indices = board, list(repeats.indices)
-    most = max(1, len(indices) // SHARE_OF_SLIPS)
-    slips: list[Shift] = []
-    while len(slips) <= most:
-        reading = _slip_of(board, candidates, stated)
+    most = max(1, len(indices) // SHARE_OF_OUTLIERS)
+    outliers: list[Shift] = []
+    while len(outliers) <= most:
+        reading = _outlier_of(board, candidates, stated)
         if reading is None:
             break
         rest = _with_noise(board, without(board.rows, reading), stated)
         shift = _shift_of(board, rest, reading, candidates, stated)
-        slips.append(replace(shift, reading=indices.pop(reading.place(board.rows))))
+        outliers.append(replace(shift, reading=indices.pop(reading.place(board.rows))))
         board = rest
-    if len(slips) > most:
-        slips, board = [], whole
+    if len(outliers) > most:
+        outliers, board = [], whole
     frame = explain(board)
     singles = tuple(explain(board, (name,), start=frame) for name in candidates)
     noise = noise_on(board, stated)
-    return Cleared((*repeats.slips, *slips), board.rows, noise, frame, singles)
+    return Cleared((*repeats.outliers, *outliers), board.rows, noise, frame, singles)
 
 
 def _with_noise(board: Board, rows: Observations, stated: Stated | None) -> Board:
@@ -147,13 +147,13 @@ def _with_noise(board: Board, rows: Observations, stated: Stated | None) -> Boar
     return board.with_rows(rows, sigma=noise.sigma)
 
 
-def _slip_of(board: Board, candidates: Sequence[str], stated: Stated | None) -> Reading | None:
+def _outlier_of(board: Board, candidates: Sequence[str], stated: Stated | None) -> Reading | None:
     """Return the reading that is surely off; None if there is none.
 
-    The noise is that of all others: a slip must not hide in what it makes of the noise.
+    The noise is that of all others: an outlier must not hide in what it makes of the noise.
     """
     readings = readings_of(board.rows)
-    # A reading that its repeats confirm is no slip, whatever explanations say of it.
+    # A reading that its repeats confirm is no outlier, whatever explanations say of it.
     confirmed = twins_that_agree(board.rows, board.sigma)
     allowed = np.array([reading not in confirmed for reading in readings], dtype=bool)
     if len(readings) < FEWEST or not allowed.any():
@@ -189,7 +189,7 @@ def _chances(
 ) -> Array:
     """Return how likely each reading is off."""
     noise = noise_on(board, stated)
-    return weigh(explain(board), candidates, replace(noise, sigma=board.sigma)).slip_chances(
+    return weigh(explain(board), candidates, replace(noise, sigma=board.sigma)).outlier_chances(
         allowed
     )
 
@@ -202,30 +202,30 @@ def _shift_of(
     stated: Stated | None,
 ) -> Shift:
     """Return how far a reading is off by the likeliest account of all others."""
-    effects = weigh(explain(rest), candidates, noise_on(rest, stated), with_slips=False).best
+    effects = weigh(explain(rest), candidates, noise_on(rest, stated), with_outliers=False).best
     by_rest = explain(board.with_rows(board.rows, sigma=rest.sigma), effects)
     return shifts(by_rest)[reading.place(board.rows)]
 
 
-# Slips among readings of the same mark: a reading that disagrees with its repeats.
+# Outliers among readings of the same mark: a reading that disagrees with its repeats.
 #
-# No model is asked, so nothing that is hidden in the machine can hide such a slip, or look like it.
-# The worst reading is set aside, then the worst of the rest, and so on; as many are slips as stand
-# out from what all after them leave. So two slips do not hide each other. Readings of another round
-# do not count: what changed between rounds is no slip.
+# No model is asked, so nothing that is hidden in the machine can hide such an outlier, or look like
+# it. The worst reading is set aside, then the worst of the rest, and so on; as many are outliers as
+# stand out from what all after them leave. So two outliers do not hide each other. Readings of
+# another round do not count: what changed between rounds is no outlier.
 
-LEVEL = 0.002  # chance at which noise alone makes a slip of one of all repeats
-READINGS_PER_SLIP = 6  # with more slips than one in this many repeats, repeats are no help
+LEVEL = 0.002  # chance at which noise alone makes an outlier of one of all repeats
+READINGS_PER_OUTLIER = 6  # with more outliers than one in this many repeats, repeats are no help
 AGREE = 0.01  # chance from which on readings of two rounds agree
 TAPE = 4.0  # degrees of freedom that the usual sigma of a tape is worth where none is stated
-KEPT = 1e-6  # share of a slip that a reading must keep to show it
+KEPT = 1e-6  # share of an outlier that a reading must keep to show it
 
 
 @dataclass(frozen=True)
 class RepeatsCleared:
     """The readings that disagree with their repeats, and what is left without them."""
 
-    slips: tuple[Shift, ...]  # their readings counted among all
+    outliers: tuple[Shift, ...]  # their readings counted among all
     rows: Observations
     indices: tuple[Reading, ...]  # of the readings still there, among all
 
@@ -236,7 +236,7 @@ class _Apart:
 
     reading: Reading
     offset: Array  # (2,) or (1,) [mm] from what the others say
-    kept: float  # share of a slip that shows
+    kept: float  # share of an outlier that shows
     twins: tuple[int, ...]  # all readings of this mark or distance, by their indices
 
     @property
@@ -250,8 +250,8 @@ def clear_repeats(board: Board, stated: Stated | None) -> RepeatsCleared:
     rows, indices = board.rows, readings_of(board.rows)
     states = [RepeatsCleared((), rows, tuple(indices))]
     count = len(_all_apart(rows))
-    slips, surely = [], 0
-    for number in range(1, 1 + max(1, count // READINGS_PER_SLIP)):
+    outliers, surely = [], 0
+    for number in range(1, 1 + max(1, count // READINGS_PER_OUTLIER)):
         apart = _all_apart(rows)
         if not apart:
             break
@@ -263,8 +263,8 @@ def clear_repeats(board: Board, stated: Stated | None) -> RepeatsCleared:
         if tail(worst.drop / sigma**2, worst.reading.size, degrees) * count < LEVEL:
             surely = number
         index = indices.pop(worst.reading.place(states[-1].rows))
-        slips.append(replace(_shift(worst, sigma), reading=index))
-        states.append(RepeatsCleared(tuple(slips), rows, tuple(indices)))
+        outliers.append(replace(_shift(worst, sigma), reading=index))
+        states.append(RepeatsCleared(tuple(outliers), rows, tuple(indices)))
     return states[surely]
 
 

@@ -1,4 +1,4 @@
-"""The diagnosis, step by step: observe, clean the readings, gate, suspects, doubts, answer."""
+"""The diagnosis, step by step: observe, clean the readings, detect, suspects, doubts, answer."""
 
 from __future__ import annotations
 
@@ -41,15 +41,15 @@ def examine(inputs: Inputs) -> Examined:
     """Return the same with its fits, for pictures of them."""
     board = measured_board(inputs)
     readings = clean_readings(board, inputs)
-    gate = search(readings.frame, readings.felt, readings.noise)
-    judgement = judge(readings, gate)
+    detection = search(readings.frame, readings.felt, readings.noise)
+    judgement = judge(readings, detection)
     ranking = rank(readings)
     rounds = [part.name for part in inputs.measurements.rounds]
-    doubts = find_doubts(readings, gate, judgement, ranking, rounds)
+    doubts = find_doubts(readings, detection, judgement, ranking, rounds)
     diagnosis = Diagnosis(
         verdict=judgement.verdict,
         noise=readings.noise,
-        limit=gate.limit,
+        threshold=detection.threshold,
         rms_before=readings.frame.rms,
         explanations=_explanations(judgement, readings.noise),
         differences=_differences(judgement.explanations),
@@ -57,7 +57,7 @@ def examine(inputs: Inputs) -> Examined:
         library_fits=judgement.suspects.library_fits,
         chance=judgement.suspects.chance,
         to_add=judgement.to_add,
-        slips=readings.slips,
+        outliers=readings.outliers,
         could_hide=doubts.could_hide,
         left_open=left_open(readings.frame),
         warnings=doubts.warnings,
@@ -111,11 +111,11 @@ def rank(readings: CleanReadings) -> tuple[Ranked, ...]:
         Ranked(
             effect=name,
             gain=max(frame.cost - single.cost, 0.0),
-            surprise=evidence(single, frame, noise),
+            negative_log_p=evidence(single, frame, noise),
             sizes=sizes_of(single, name, noise),
             rms_after=single.rms,
             hidden_share=hidden_share(frame, name),
         )
         for name, single in readings.singles.items()
     ]
-    return tuple(ranked(effects, lambda effect: -effect.surprise))
+    return tuple(ranked(effects, lambda effect: -effect.negative_log_p))

@@ -20,8 +20,8 @@ from plumb.diagnosis.explanation import Board, Explanation, explain, span, tail
 from plumb.diagnosis.gain import Search
 from plumb.diagnosis.judgement import Judgement
 from plumb.diagnosis.noise import Noise, library_basis, noise_on
+from plumb.diagnosis.outliers import Outlier, Reading, described, readings_of
 from plumb.diagnosis.sizes import Room, room_for, sign_warning
-from plumb.diagnosis.slip_cause import Reading, Slip, described, readings_of
 from plumb.diagnosis.weighing import weigh
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import model_and_observations
@@ -51,7 +51,7 @@ class Doubts:
 
 def find_doubts(
     readings: CleanReadings,
-    gate: Search,
+    detection: Search,
     judgement: Judgement,
     ranking: Sequence[Ranked],
     rounds: Sequence[str],
@@ -64,17 +64,17 @@ def find_doubts(
             *readings.noise.notes,
             *([_IMPOSSIBLE] if judgement.none_possible else []),
             *_place_warnings(readings, judgement),
-            *_order_warnings(gate, ranking),
+            *_order_warnings(detection, ranking),
             *_unsettled_warnings((readings.frame, *judgement.explanations)),
             *_sign_warnings(readings, judgement),
         ),
-        disagreements=() if readings.slips else _disagreements(readings, accepted[0], rounds),
+        disagreements=() if readings.outliers else _disagreements(readings, accepted[0], rounds),
     )
 
 
-def _order_warnings(gate: Search, ranking: Sequence[Ranked]) -> list[str]:
+def _order_warnings(detection: Search, ranking: Sequence[Ranked]) -> list[str]:
     """Return where a full refit ranks effects otherwise than the slopes did."""
-    first = gate.gains[0].effect if gate.proved else None
+    first = detection.gains[0].effect if detection.proved else None
     if first in (None, ranking[0].effect):
         return []
     return [
@@ -128,10 +128,10 @@ def _disagreements(
 # Readings to look at again while the others are still being typed.
 #
 # A reading too far from its target for any machine is named at once. The others are weighed as a
-# diagnosis weighs them, however few they are: what is known of frames, effects and slips before any
-# mark says how far a reading may be off, and each further reading narrows it.
+# diagnosis weighs them, however few they are: what is known of frames, effects and outliers before
+# any mark says how far a reading may be off, and each further reading narrows it.
 
-FEWEST = 4  # marks and distances from which slips are sought as in a diagnosis
+FEWEST = 4  # marks and distances from which outliers are sought as in a diagnosis
 
 
 @dataclass(frozen=True)
@@ -151,8 +151,8 @@ def doubted_readings(inputs: Inputs) -> tuple[Doubted, ...]:
     near = _without(inputs.measurements, {doubt.index for doubt in far})
     if not near.measured_marks and not near.distances:
         return far
-    slips = _slips(replace(inputs, measurements=near))
-    return (*far, *(_doubted(slip, inputs.measurements) for slip in slips))
+    outliers = _outliers(replace(inputs, measurements=near))
+    return (*far, *(_doubted(outlier, inputs.measurements) for outlier in outliers))
 
 
 def _far_readings(inputs: Inputs) -> tuple[Doubted, ...]:
@@ -179,7 +179,7 @@ def _without(measurements: Measurements, indices: set[int]) -> Measurements:
     return replace(measurements, marks=tuple(kept))
 
 
-def _slips(inputs: Inputs) -> tuple[Slip, ...]:
+def _outliers(inputs: Inputs) -> tuple[Outlier, ...]:
     """Slips among readings that are near enough."""
     model, rows = model_and_observations(
         inputs.settings,
@@ -190,38 +190,38 @@ def _slips(inputs: Inputs) -> tuple[Slip, ...]:
     sigma = inputs.stated.sigma if inputs.stated else USUAL_SIGMA
     board = Board.of(model, rows, sigma=sigma, priors=inputs.priors, checked=inputs.checked)
     if len(readings_of(rows)) >= FEWEST:
-        return clean_readings(board, inputs).slips
-    reading = _slip_of_few(board, inputs)
+        return clean_readings(board, inputs).outliers
+    reading = _outlier_of_few(board, inputs)
     if reading is None:
         return ()
     shift = shifts(explain(board))[reading.place(rows)]
     return (described(shift, inputs.measurements, inputs.settings.sheet),)
 
 
-def _slip_of_few(board: Board, inputs: Inputs) -> Reading | None:
+def _outlier_of_few(board: Board, inputs: Inputs) -> Reading | None:
     """Return the reading that is surely off by what is known before any mark."""
     frame = explain(board)
     noise = noise_on(board, inputs.stated)
     readings = readings_of(board.rows)
     weighed = weigh(frame, felt_effects(frame), noise)
-    chances = weighed.slip_chances(np.ones(len(readings), dtype=bool))
+    chances = weighed.outlier_chances(np.ones(len(readings), dtype=bool))
     worst = greatest(chances)
     return readings[worst] if chances[worst] > SURE else None
 
 
-def _doubted(slip: Slip, measurements: Measurements) -> Doubted:
-    """Return a slip among all readings: the marks and distances are those of its name and
+def _doubted(outlier: Outlier, measurements: Measurements) -> Doubted:
+    """Return an outlier among all readings: the marks and distances are those of its name and
     number.
     """
-    is_mark = len(slip.read) == 2
+    is_mark = len(outlier.read) == 2
     places: list[tuple[str, tuple[float, ...] | None]]
     if is_mark:
         places = [(mark.name, mark.measured) for mark in measurements.marks]
     else:
         places = [(" - ".join(each.between), (each.length,)) for each in measurements.distances]
-    said = slip.sentence.partition(": ")[2]
-    index = places.index((slip.name, slip.read))
-    return Doubted(index, is_mark, slip.length, said, slip.corrected)
+    said = outlier.sentence.partition(": ")[2]
+    index = places.index((outlier.name, outlier.read))
+    return Doubted(index, is_mark, outlier.length, said, outlier.corrected)
 
 
 # Parts of a board that want different numbers: halves of the sheet, and rounds of marks.

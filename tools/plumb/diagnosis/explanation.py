@@ -184,14 +184,16 @@ def _refuse_too_few(measurements: Measurements, rows: Observations) -> None:
         )
 
 
-# Smooth fields that no mechanics made, as they would be measured.
+# Gaussian processes, which no mechanics made, as they would be measured.
 
 
-def field_columns(frame: Explanation, widths: Sequence[float], least: float) -> Iterator[Array]:
+def gaussian_process_columns(
+    frame: Explanation, widths: Sequence[float], least: float
+) -> Iterator[Array]:
     """Yield for each width what independent normals move of the measured numbers (n, c) [mm],
-    together as a field of 1 mm each way does.
+    together as a Gaussian process of 1 mm each way does.
 
-    widths: of a field's details, in halves of what the marks span. least [mm^2]: what the columns
+    widths: its length scales, in halves of what the marks span. least [mm^2]: what the columns
     may leave out of its variance at any place.
     """
     rows = frame.board.rows
@@ -266,7 +268,7 @@ def tail(gain: Array | float, parameters: float, degrees: float) -> Array:
     return scipy.special.fdtrc(parameters, degrees, above / parameters)
 
 
-def surprise(gain: float, parameters: int, degrees: float) -> float:
+def negative_log_p(gain: float, parameters: int, degrees: float) -> float:
     """-log of `tail`, finite however large the gain: the scale on which effects are compared."""
     if parameters < 1 or gain <= 0:
         return 0.0
@@ -279,8 +281,8 @@ def surprise(gain: float, parameters: int, degrees: float) -> float:
     return float(x - (a - 1) * np.log(x) + scipy.special.gammaln(a) - np.log1p((a - 1) / x))
 
 
-def surprises(gains: Array, parameters: int, degrees: float) -> Array:
-    """`surprise` of many gains, from a table: right to about a thousandth, and fast."""
+def negative_log_ps(gains: Array, parameters: int, degrees: float) -> Array:
+    """`negative_log_p` of many gains, from a table: right to about a thousandth, and fast."""
     table = _table(parameters, degrees)
     interpolated: Array = np.interp(gains, _GAINS, table)
     return interpolated
@@ -291,4 +293,4 @@ _GAINS = np.concatenate([[0.0], np.geomspace(1e-3, 1e5, 1500)])
 
 @lru_cache(maxsize=64)
 def _table(parameters: int, degrees: float) -> Array:
-    return np.array([surprise(float(gain), parameters, degrees) for gain in _GAINS])
+    return np.array([negative_log_p(float(gain), parameters, degrees) for gain in _GAINS])

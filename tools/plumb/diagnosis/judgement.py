@@ -11,7 +11,7 @@ import numpy as np
 import scipy
 
 from plumb.diagnosis.clean import CleanReadings
-from plumb.diagnosis.explanation import Explanation, explain, span, surprise, tail
+from plumb.diagnosis.explanation import Explanation, explain, negative_log_p, span, tail
 from plumb.diagnosis.gain import (
     BELIEVABLE,
     LEVEL,
@@ -26,7 +26,7 @@ from plumb.diagnosis.sizes import possible
 from plumb.diagnosis.weighing import TOGETHER, left_out, weigh
 from plumb.model.plain import ascending, greatest, ranked
 
-EVEN = 0.5  # chance of a field of no effect beyond which it is likelier than all else
+EVEN = 0.5  # chance of a Gaussian process beyond which it is likelier than all else
 
 
 @dataclass(frozen=True)
@@ -50,11 +50,11 @@ class Judgement:
         return bool(survivors) and not any(survivor.possible for survivor in survivors)
 
 
-def judge(readings: CleanReadings, gate: Search) -> Judgement:
-    """Return a slip comes first, then the gate, then the suspects."""
-    if readings.slips:
+def judge(readings: CleanReadings, detection: Search) -> Judgement:
+    """Judge: an outlier comes first, then the detection threshold, then the suspects."""
+    if readings.outliers:
         return Judgement("slip", Suspects((), True), ())
-    if not gate.proved:
+    if not detection.proved:
         return _without_proof(readings)
     if left_out(readings.frame):
         # What every machine has acts next to whatever else does: single effects say little.
@@ -71,11 +71,11 @@ def judge(readings: CleanReadings, gate: Search) -> Judgement:
 
 
 def _likely(readings: CleanReadings, most: float) -> Judgement | None:
-    """Return the likeliest accounts; None if none fits, or if a field of no effect is likelier than
+    """Return the likeliest accounts; None if none fits, or if a Gaussian process is likelier than
     `most`.
     """
     answer = likeliest(readings.frame, readings.felt, readings.noise)
-    if not answer.accounts or answer.field_chance > most:
+    if not answer.accounts or answer.process_chance > most:
         return None
     if not any(account.explanation.effects for account in answer.accounts):
         return Judgement("nothing_provable", Suspects((), True), ())
@@ -260,7 +260,7 @@ def _promising(
 def evidence(single: Explanation, frame: Explanation, noise: Noise) -> float:
     """Return how surprising the effect's gain over the frame is after its full refit."""
     visible = single.basis.shape[1] - frame.basis.shape[1]
-    return surprise(frame.cost - single.cost, visible, noise.degrees)
+    return negative_log_p(frame.cost - single.cost, visible, noise.degrees)
 
 
 # The likeliest accounts of the marks, as explanations with their odds.
@@ -287,18 +287,18 @@ class Likeliest:
     """What the marks most likely show."""
 
     accounts: tuple[Likely, ...]  # likeliest first, of sizes that real machines can have
-    field_chance: float  # how likely a field is that no effect of the library draws
+    process_chance: float  # that no effect of the library draws it
 
 
 def likeliest(frame: Explanation, felt: Sequence[str], noise: Noise) -> Likeliest:
     """Return the accounts that leave no misfit, refitted in full."""
-    weighed = weigh(frame, felt, noise, with_slips=False)
+    weighed = weigh(frame, felt, noise, with_outliers=False)
     accounts = []
     for listed in listing(weighed.effects, weighed.clean):
         explanation = explain(frame.board, listed.effects, start=frame)
         if misfit_chance(explanation, noise) > MISFIT_LEVEL and possible(explanation, noise):
             accounts.append(Likely(explanation, listed.share))
-    return Likeliest(tuple(accounts), weighed.field_chance)
+    return Likeliest(tuple(accounts), weighed.process_chance)
 
 
 @dataclass(frozen=True)

@@ -219,7 +219,7 @@ class Repeats:
         return _left(self.columns, self.off)
 
     def apart(self) -> tuple[Array, Array]:
-        """Return what is left of each reading (n, 2) [mm], and its share (n,) of a slip."""
+        """Return what is left of each reading (n, 2) [mm], and its share (n,) of an outlier."""
         basis, sizes, _ = np.linalg.svd(self.columns, full_matrices=False)
         basis = basis[:, sizes > 1e-9 * sizes[0]]
         return self.off - basis @ (basis.T @ self.off), 1 - np.sum(basis**2, axis=1)

@@ -1,10 +1,10 @@
-"""How likely each account of the marks is: effects, a reading that is off, or a field of no effect.
+"""How likely each account of the marks is: effects, a reading that is off, or a Gaussian process.
 
-An account is a set of effects, with nothing else, with one reading off, with a smooth field that no
-mechanics made, or with rounds that do not go together. What is known before the marks enters as
-spreads: of the frame by its priors, of each effect by the sizes that real machines have, of a slip
-by what people misread. The marks then say how likely each account is, over all sizes at once. So an
-account that can draw anything is worth little, and no limit has to be set for a search.
+An account is a set of effects, with nothing else, with one reading off, with a Gaussian process
+that no mechanics made, or with rounds that do not go together. What is known before the marks
+enters as spreads: of the frame by its priors, of each effect by the sizes that real machines have,
+of an outlier by what people misread. The marks then say how likely each account is, over all sizes
+at once. So an account that can draw anything is worth little, and a search needs no limit.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from itertools import combinations
 import numpy as np
 import scipy
 
-from plumb.diagnosis.explanation import Board, Explanation, field_columns
+from plumb.diagnosis.explanation import Board, Explanation, gaussian_process_columns
 from plumb.diagnosis.noise import Noise
-from plumb.diagnosis.slip_cause import Reading, readings_of
+from plumb.diagnosis.outliers import Reading, readings_of
 from plumb.fit.expected import plausible_range
 from plumb.model.catalogue import EVERY_MACHINE, ZEROING_NAMES
 from plumb.model.plain import ranked
@@ -29,12 +29,12 @@ FEWER = 150  # measured numbers beyond which only pairs are weighed, for time
 EFFECT = 0.1  # how likely an effect is before the marks
 EVERYWHERE = 0.9  # the same of what every machine has and the settings do not know of
 ALL = 0.01  # how likely it is that every effect acts at once
-SLIP = 0.05  # that some reading is off
+OUTLIER = 0.05  # that some reading is off
 UNKNOWN = 0.05  # that the machine does what no effect of the library does
-SLIP_MM = (4.0, 20.0, 200.0)  # [mm] spreads of a slip, all as likely
-WIDTHS = (0.35, 0.7, 1.4)  # of the details of a field, in halves of what the marks span
-LEFT_OUT = 1e-3  # share of the noise's variance that a field is described to
-FIELD_MM = (1.0, 2.0, 4.0)  # [mm] spreads of a field, all as likely
+OUTLIER_MM = (4.0, 20.0, 200.0)  # [mm] spreads of an outlier, all as likely
+WIDTHS = (0.35, 0.7, 1.4)  # length scales, in halves of what the marks span
+LEFT_OUT = 1e-3  # share of the noise's variance to which a Gaussian process is described
+PROCESS_MM = (1.0, 2.0, 4.0)  # [mm] spreads of a Gaussian process, all as likely
 
 
 @dataclass(frozen=True)
@@ -43,8 +43,8 @@ class Weighed:
 
     effects: tuple[tuple[str, ...], ...]  # of each account
     clean: Array  # (accounts,) with nothing else
-    field: float  # with a field of no effect or a moved round, all sets of effects together
-    slips: Array  # (readings,) with this reading off, all sets of effects together
+    process: float  # with a Gaussian process or a moved round, all sets of effects together
+    outliers: Array  # (readings,) with this reading off, all sets of effects together
 
     @property
     def best(self) -> tuple[str, ...]:
@@ -53,42 +53,42 @@ class Weighed:
         return self.effects[ranked(few, lambda i: -float(self.clean[i]))[0]]
 
     @property
-    def field_chance(self) -> float:
-        """How likely a field of no effect is, if no reading is off."""
-        return float(np.exp(self.field - np.logaddexp.reduce([*self.clean, self.field])))
+    def process_chance(self) -> float:
+        """How likely a Gaussian process of no effect is, if no reading is off."""
+        return float(np.exp(self.process - np.logaddexp.reduce([*self.clean, self.process])))
 
-    def slip_chances(self, allowed: Array) -> Array:
+    def outlier_chances(self, allowed: Array) -> Array:
         """Return how likely each reading is off (readings,), if only those allowed may be."""
-        weights = np.where(allowed, self.slips, -np.inf)
-        whole = np.logaddexp.reduce([*self.clean, self.field, *weights])
+        weights = np.where(allowed, self.outliers, -np.inf)
+        whole = np.logaddexp.reduce([*self.clean, self.process, *weights])
         chances: Array = np.exp(weights - whole)
         return chances
 
 
 def weigh(
-    frame: Explanation, felt: Sequence[str], noise: Noise, *, with_slips: bool = True
+    frame: Explanation, felt: Sequence[str], noise: Noise, *, with_outliers: bool = True
 ) -> Weighed:
     """Weigh all accounts of what a frame's fit leaves."""
     board = LinearBoard.of(frame, felt, noise)
     sets, before = accounts(frame, felt)
     parts, plain = board.parts(sets), Metric.of(board)
     clean = before + plain.evidences(parts)[:, 0]
-    slips = (
-        plain.slip_evidences(parts, before, SLIP_MM) + np.log(SLIP) if with_slips else np.zeros(0)
-    )
-    least = LEFT_OUT * board.sigma**2 / max(FIELD_MM) ** 2
-    fields = [
+    outliers = np.zeros(0)
+    if with_outliers:
+        outliers = plain.outlier_evidences(parts, before, OUTLIER_MM) + np.log(OUTLIER)
+    least = LEFT_OUT * board.sigma**2 / max(PROCESS_MM) ** 2
+    processes = [
         before + metric.evidences(parts)[:, 0]
-        for columns in field_columns(frame, WIDTHS, least)
-        for metric in Metric.with_other(board, columns, FIELD_MM)
+        for columns in gaussian_process_columns(frame, WIDTHS, least)
+        for metric in Metric.with_other(board, columns, PROCESS_MM)
     ]
-    field = np.logaddexp.reduce(np.ravel(fields)) - np.log(len(fields))
+    process = np.logaddexp.reduce(np.ravel(processes)) - np.log(len(processes))
     between = rounds_columns(frame)
     if between is not None:
         (metric,) = Metric.with_other(board, between, (1.0,))
         moved = before + metric.evidences(parts)[:, 0]
-        field = np.logaddexp(field, np.logaddexp.reduce(moved))
-    return Weighed(sets, clean, float(field + np.log(UNKNOWN)), slips)
+        process = np.logaddexp(process, np.logaddexp.reduce(moved))
+    return Weighed(sets, clean, float(process + np.log(UNKNOWN)), outliers)
 
 
 def accounts(frame: Explanation, felt: Sequence[str]) -> tuple[tuple[tuple[str, ...], ...], Array]:
@@ -228,7 +228,7 @@ class Metric:
         return Metric(board, loose, root, by_effects, by_read)
 
     @property
-    def spread(self) -> float:
+    def log_determinant(self) -> float:
         """Logarithm of the determinant of the covariance."""
         return 2 * float(np.sum(np.log(np.diag(self.root))))
 
@@ -237,11 +237,12 @@ class Metric:
         weighed = [_Fitted.of(self, part) for part in parts]
         evidences = np.zeros((sum(len(part.places) for part in parts), self.board.read.shape[1]))
         for fitted in weighed:
-            both = self._density(self._left(fitted)) - (fitted.spread + self.spread) / 2
+            size = fitted.log_determinant + self.log_determinant
+            both = self._density(self._left(fitted)) - size / 2
             evidences[fitted.part.places] = _mean_of_shares(both)
         return evidences
 
-    def slip_evidences(
+    def outlier_evidences(
         self, parts: Iterable[Part], before: Array, spreads: Sequence[float]
     ) -> Array:
         """Return the same of the first board for each reading being off by one of these spreads
@@ -249,8 +250,8 @@ class Metric:
         """
         summed = []
         for part in parts:
-            slips = self._slips(_Fitted.of(self, part), spreads)
-            weighed: Array = slips + before[part.places][np.newaxis, :, np.newaxis]
+            outliers = self._outliers(_Fitted.of(self, part), spreads)
+            weighed: Array = outliers + before[part.places][np.newaxis, :, np.newaxis]
             summed.append(np.logaddexp.reduce(weighed, axis=(0, 1)))
         count = len(spreads) * len(self.board.numbers)
         together: Array = np.logaddexp.reduce(summed, axis=0) - np.log(count)
@@ -261,7 +262,7 @@ class Metric:
         whole: Array = np.sum(self.board.read * self.by_read, axis=0) - fitted.explained
         return whole
 
-    def _slips(self, fitted: _Fitted, spreads: Sequence[float]) -> Array:
+    def _outliers(self, fitted: _Fitted, spreads: Sequence[float]) -> Array:
         """Return the evidence (spreads, sets, readings) with a reading off."""
         # What a reading set free may take, and what pulls at it; a third row stands for none.
         turned, by_effects, by_read = (
@@ -283,17 +284,16 @@ class Metric:
         taken = np.sum(fitted.pulled[..., np.newaxis, :1] * drawn, axis=2)
         pull = by_read[..., 0] - taken
         left = self._left(fitted)[..., :1]
-        spread = fitted.spread + self.spread
+        size = fitted.log_determinant + self.log_determinant
         return np.array(
-            [self._off(left, spread, kept, pull, length / self.board.sigma) for length in spreads]
+            [self._off(left, size, kept, pull, length / self.board.sigma) for length in spreads]
         )
 
     def _off(
         self, left: Array, spread: Array, kept: Sequence[Array], pull: Array, length: float
     ) -> Array:
-        """Return the evidence (sets, readings) with each off by a length [sigmas]; `kept` has the
-        entries of a symmetric matrix of two by two.
-        """
+        """Return the evidence (sets, readings) with each off by a length [sigmas]; `kept` is a
+        symmetric matrix of two by two."""
         first, both, second = kept[0] + length**-2, kept[1], kept[2] + length**-2
         size = first * second - both**2
         x, y = pull[..., 0], pull[..., 1]
@@ -319,7 +319,7 @@ class _Fitted:
     part: Part
     root: Array  # (shares, sets, k, k), whitens the sets' parameters
     pulled: Array  # (shares, sets, k, boards)
-    spread: Array  # (shares, sets, 1) logarithm of the determinant
+    log_determinant: Array  # (shares, sets, 1)
 
     @staticmethod
     def of(metric: Metric, part: Part) -> _Fitted:

@@ -177,7 +177,7 @@ def fit_entry(
         "marks_files": [each.name for each in inputs.measurements.rounds],
         "before_mm": result.raw.rms,
         "rms_mm": result.after.fit_rms,
-        "priced_mm": result.after.priced_rms,
+        "priced_mm": result.after.corrected_rms,
         "left_out_mm": result.after.left_out_rms,
         "worst_mm": result.after.worst,
         "sigma_mm": fitted.sigma,

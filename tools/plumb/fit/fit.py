@@ -91,7 +91,7 @@ class Fit:
         return rms(self.left_out_errors if len(self.errors) else self.left_out_distance_errors)
 
     @property
-    def priced_rms(self) -> float:
+    def corrected_rms(self) -> float:
         """The fit's error scaled up for the numbers it took from the data."""
         count = self.errors.size + self.distance_errors.size
         return self.rms * float(np.sqrt(count / max(count - self.spent, 1e-9)))

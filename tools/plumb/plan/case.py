@@ -187,7 +187,7 @@ def _with_small_ones(
 
     Sizes are as far open as the marks and what is met in workshops leave them.
     """
-    weighed = weigh(frame, felt, noise, with_slips=False)
+    weighed = weigh(frame, felt, noise, with_outliers=False)
     by_effects = {hypothesis.effects: hypothesis for hypothesis in hypotheses}
     sets = [
         (float(weighed.clean[member]), weighed.effects[member], by_effects[each.effects])

@@ -3,8 +3,8 @@
 Each hypothesis is taken for the truth as often as it is probable. Its frame and sizes are drawn
 from what the marks so far leave open, new readings are drawn with noise, and the diagnosis is
 repeated on all rows by the slopes at hand. Where it would weigh accounts of the marks, it weighs
-them; else gate, max-gain test of every single effect (and of the combinations that stand now), lack
-of fit. It is settled when only the true explanation is left.
+them; else detection threshold, max-gain test of every single effect (and of the combinations that
+stand now), lack of fit. It is settled when only the true explanation is left.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.diagnosis.explanation import Spread, span, surprises, tail
-from plumb.diagnosis.gain import limit_of_noise
+from plumb.diagnosis.explanation import Spread, negative_log_ps, span, tail
+from plumb.diagnosis.gain import detection_threshold
 from plumb.diagnosis.noise import FEW_REPEATS, STATEMENT, Noise, repeats_of
 from plumb.diagnosis.noise import LEVEL as MISFIT_LEVEL
 from plumb.diagnosis.sizes import possible_sizes
@@ -26,7 +26,7 @@ from plumb.plan.planned_visits import Visits
 Array = np.ndarray
 DRAWS = 240  # of all hypotheses together: a chance is then right to about 3 in 100
 FEWEST = 12  # draws of one hypothesis
-HOPELESS = 5.0  # above the limit by so much surprise, an explanation does not come back
+HOPELESS = 5.0  # above the threshold by so much -log p, an explanation does not come back
 SEED = 1847
 _TINY = 1e-8  # share of a column's squared length below which its rest is rounding
 
@@ -126,15 +126,15 @@ class Rediagnosis:
             if hypothesis.effects not in self.names
         ]
         # With an explanation fitted it is lower by so little that the chances stay the same.
-        self.limit: float = twin.limit if twin else self._limit()
+        self.threshold: float = twin.threshold if twin else self._threshold()
 
-    def _limit(self) -> float:
-        """Return the surprise that noise hardly exceeds beyond the frame."""
+    def _threshold(self) -> float:
+        """Return the -log p that noise hardly exceeds beyond the frame."""
         bases = {}
         for name in self.felt:
             raw = self.slopes[:, self.board.columns([name])]
             bases[name] = span(raw - self.frame @ (self.frame.T @ raw), against=raw)
-        return limit_of_noise(bases, self.noise)
+        return detection_threshold(bases, self.noise)
 
     def boards(self, truth: Hypothesis, source: np.random.Generator, count: int) -> Array:
         """Whitened readings (rows, count) of boards drawn from a truth; those so far stay."""
@@ -147,7 +147,7 @@ class Rediagnosis:
         """On what share of boards the truth is proved (alone among all), and how many explanations
         stand on average."""
         boards = self._turned(drawn)
-        proved = self._gains(self.frame, (), boards.few)[0] > self.limit
+        proved = self._gains(self.frame, (), boards.few)[0] > self.threshold
         stands = self._stands(truth.effects, boards)
         if not alone:
             return float((proved & stands).mean()), float("nan")
@@ -163,7 +163,7 @@ class Rediagnosis:
         An account that leaves out a small effect of the truth is right too.
         """
         boards = self._turned(drawn)
-        proved = self._gains(self.frame, (), boards.few)[0] > self.limit
+        proved = self._gains(self.frame, (), boards.few)[0] > self.threshold
         counts, right = np.zeros(len(listed), dtype=int), np.zeros(len(listed), dtype=bool)
         for effects in {effects for accounts in listed for effects in accounts}:
             there = np.array([effects in accounts for accounts in listed])
@@ -209,11 +209,11 @@ class Rediagnosis:
         columns = np.concatenate([self.board.frame, self.board.columns(effects)])
         fitted, count = span(self.slopes[:, columns]), boards.few.shape[1]
         sample = boards.few[:, :: max(1, count // FEWEST)]
-        if self._gains(fitted, effects, sample)[0].min() > self.limit + HOPELESS:
+        if self._gains(fitted, effects, sample)[0].min() > self.threshold + HOPELESS:
             return np.zeros(count, dtype=bool)
         best, left = self._gains(fitted, effects, boards.few)
         misfit = self._misfit(left, boards.beyond, self._spare(fitted))
-        return (best <= self.limit) & (misfit > MISFIT_LEVEL)
+        return (best <= self.threshold) & (misfit > MISFIT_LEVEL)
 
     def _misfit(self, left: Array, beyond: Array, spare: float) -> Array:
         """Return the chance of as much misfit (count,) by what a fit leaves in the rows and
@@ -228,12 +228,12 @@ class Rediagnosis:
         return chances
 
     def _gains(self, fitted: Array, effects: Effects, readings: Array) -> tuple[Array, Array]:
-        """Return the largest surprise of any other effect (count,), and what the fit leaves."""
+        """Return the largest -log p of any other effect (count,), and what the fit leaves."""
         left = readings - fitted @ (fitted.T @ readings)
         slopes = self.slopes
         beyond = slopes - fitted @ (fitted.T @ slopes)
         gram, along = beyond.T @ beyond, beyond.T @ left
-        # Among effects with as many parameters the largest drop is the largest surprise.
+        # Among effects with as many parameters the largest drop has the largest -log p.
         drops: dict[int, Array] = {1: self._single_drop(gram, along, effects)}
         for name, columns in self.several.items():
             if name in effects:
@@ -244,7 +244,7 @@ class Rediagnosis:
                 drops[seen] = np.maximum(drops.get(seen, 0.0), drop)
         best = np.zeros(readings.shape[1])
         for seen, drop in drops.items():
-            best = np.maximum(best, surprises(drop, seen, self.noise.degrees))
+            best = np.maximum(best, negative_log_ps(drop, seen, self.noise.degrees))
         return best, left
 
     def _single_drop(self, gram: Array, along: Array, effects: Effects) -> Array:

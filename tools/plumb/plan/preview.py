@@ -118,7 +118,7 @@ def preview(
     frame = _as_planned(settings, plan, sigma, controller, priors)
     names, felt = effect_names(), felt_effects(frame)
     noise = Noise(sigma, KNOWN, "stated")
-    limit = search(frame, felt, noise).limit
+    limit = search(frame, felt, noise).threshold
     matrix = _matrix(frame, frame.slopes)
     hidden = hidden_hypotheses(frame)
     case = Case(
@@ -211,9 +211,9 @@ def _outline(frame: Explanation, i: int, matrix: Array, limit: float) -> Outline
 
 
 def _needed(parameters: int, limit: float) -> float:
-    """Sigmas that an effect must draw to pass the gate in POWER of all cases."""
-    gate = float(scipy.special.chdtri(parameters, np.exp(-limit)))
-    return float(np.sqrt(scipy.special.chndtrinc(gate, parameters, 1 - POWER)))
+    """Sigmas that an effect must draw to pass the detection threshold in POWER of all cases."""
+    threshold = float(scipy.special.chdtri(parameters, np.exp(-limit)))
+    return float(np.sqrt(scipy.special.chndtrinc(threshold, parameters, 1 - POWER)))
 
 
 def _additions(case: Case, matrix: Array) -> tuple[PlanAddition, ...]:

@@ -11,8 +11,8 @@ import numpy as np
 
 from plumb.diagnosis.answer import Diagnosis, Verdict
 from plumb.diagnosis.explanation import Explanation, span
+from plumb.diagnosis.outliers import Outlier
 from plumb.diagnosis.sizes import Room
-from plumb.diagnosis.slip_cause import Slip
 from plumb.fit.inputs import Inputs
 from plumb.grid.cut_with import cut_with_lines, with_form
 from plumb.model.plain import ascending, noun_of, plainly, ranked
@@ -107,7 +107,7 @@ def propose(
     if diagnosis.verdict == "slip":
         proposals = [
             Proposal(option, REREAD, chance, None)
-            for option, chance in for_slips(case, diagnosis.slips)
+            for option, chance in for_slips(case, diagnosis.outliers)
         ]
         return Next(diagnosis.verdict, case, tuple(proposals), None, None)
     if diagnosis.verdict == "not_in_library":
@@ -297,7 +297,7 @@ BESIDE = 200.0  # [mm] from such a place
 READ_AGAIN = 3
 
 
-def for_slips(case: Case, slips: Sequence[Slip]) -> list[tuple[Option, float]]:
+def for_slips(case: Case, slips: Sequence[Outlier]) -> list[tuple[Option, float]]:
     """Return the option to read them again, with the chance that it shows the slip."""
     offered = []
     for slip in slips:

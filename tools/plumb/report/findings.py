@@ -183,7 +183,7 @@ def next_step_of(findings: Findings, commands: Sequence[Command]) -> NextStep:
 def _headline(findings: Findings, best: Proposal | None) -> str:
     diagnosis, chosen = findings.diagnosis, findings.auto.chosen
     if diagnosis.verdict == "slip":
-        names = ", ".join(dict.fromkeys(slip.name for slip in diagnosis.slips))
+        names = ", ".join(dict.fromkeys(slip.name for slip in diagnosis.outliers))
         return f"read {names} again, and correct the file."
     if diagnosis.verdict == "one_suspect" and chosen:
         return f"add {plainly(chosen)}, then cut new marks to see that it holds."
@@ -285,7 +285,7 @@ def _stages(findings: Findings) -> list[_Stage]:
     as_set = _Stage("As set", findings.comparison.rms, _compared(findings.comparison))
     if findings.auto.addition is None:
         view = findings.framed
-        slips = {slip.name for slip in findings.diagnosis.slips}
+        slips = {slip.name for slip in findings.diagnosis.outliers}
         panel = Panel("", view.places, view.errors, good=True, names=view.names)
         left = findings.frame.rms
         return [as_set, _Stage(f"Frame fitted without {_listed(slips)}", left, panel)]

@@ -11,7 +11,7 @@ import jinja2
 import numpy as np
 
 from plumb.diagnosis.answer import odds_words
-from plumb.diagnosis.slip_cause import Slip
+from plumb.diagnosis.outliers import Outlier
 from plumb.model.plain import plainly
 from plumb.model.predict import REACH_WORDS, USABLE
 from plumb.model.reach import percent
@@ -122,7 +122,7 @@ class Page:
     chains: tuple[tuple[str, str], ...]
     covariates: CovariateSheet | None
     legend: tuple[Legend, ...]
-    slips: tuple[Slip, ...]
+    slips: tuple[Outlier, ...]
     cards_title: str
     accounts: tuple[Account, ...]
     cards: tuple[Card, ...]
@@ -179,10 +179,10 @@ def page_of(findings: Findings, *, commands: Sequence[Command], again: str) -> P
             Legend(colour, plainly(each.effects))
             for each, colour in zip(findings.curves, SUSPECTS, strict=False)
         ),
-        slips=diagnosis.slips,
+        slips=diagnosis.outliers,
         cards_title="Suspects" if explained else "The effects that come nearest",
         accounts=_accounts(findings),
-        cards=() if diagnosis.slips else cards_of(findings),
+        cards=() if diagnosis.outliers else cards_of(findings),
         next=next_step_of(findings, commands),
         settings=settings_of(findings),
         settings_note=_settings_note(findings),
@@ -226,7 +226,7 @@ def _subtitle(findings: Findings) -> str:
 def _verdict(findings: Findings) -> Verdict:
     diagnosis = findings.diagnosis
     sign, label = VERDICTS[diagnosis.verdict]
-    notes = [] if diagnosis.slips else [*diagnosis.disagreements, *diagnosis.warnings]
+    notes = [] if diagnosis.outliers else [*diagnosis.disagreements, *diagnosis.warnings]
     return Verdict(
         kind=diagnosis.verdict,
         sign=sign,
@@ -249,7 +249,7 @@ def _figures(findings: Findings) -> tuple[Figure, ...]:
 
 def _fall_note(findings: Findings) -> str:
     chosen = findings.auto.chosen
-    if findings.auto.addition is None and not findings.diagnosis.slips:
+    if findings.auto.addition is None and not findings.diagnosis.outliers:
         return f"{findings.auto.reason.capitalize()}."
     if findings.auto.rivals and chosen:
         return f"Shown is the most likely explanation, {plainly(chosen)}: it is not settled yet."

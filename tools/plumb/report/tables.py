@@ -235,7 +235,7 @@ def _distances(comparison: Comparison) -> Readings:
 
 
 def _slips(findings: Findings) -> set[str]:
-    return {slip.name for slip in findings.diagnosis.slips}
+    return {slip.name for slip in findings.diagnosis.outliers}
 
 
 def sources_of(findings: Findings) -> tuple[Source, ...]:

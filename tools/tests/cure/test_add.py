@@ -28,7 +28,7 @@ def test_the_error_of_the_published_marks_falls_as_measured():
     assert result.raw.rms == pytest.approx(7.29, abs=0.02)
     assert result.before.fit_rms == pytest.approx(2.65, abs=0.02)
     assert result.after.fit_rms == pytest.approx(0.65, abs=0.01)
-    assert result.after.priced_rms == pytest.approx(0.83, abs=0.01)
+    assert result.after.corrected_rms == pytest.approx(0.83, abs=0.01)
     assert result.after.left_out_rms == pytest.approx(1.27, abs=0.02)
     assert result.pays and result.effects_added == ("chain_pitch", "chain_sag")
     assert warned(result, "chains sag -0.", "impossible")

@@ -57,7 +57,7 @@ def test_two_hidden_effects_are_added_step_by_step():
     assert [step.effect for step in result.addition.by_effect] == list(result.chosen)
     for earlier, later in pairwise(steps):
         assert later.left_out_rms < earlier.left_out_rms
-        assert later.priced_rms < earlier.priced_rms
+        assert later.corrected_rms < earlier.corrected_rms
 
 
 def test_the_new_machine_leaves_nothing_to_prove_and_a_second_round_adds_nothing():

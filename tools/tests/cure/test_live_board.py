@@ -27,7 +27,7 @@ def test_refits_one_after_the_other_end_where_add_begins_afresh(inputs):
         assert sizes(live) == pytest.approx(sizes(added), rel=1e-4, abs=1e-7)
         np.testing.assert_allclose(live.errors, added.errors, atol=2e-5)
         assert live.left_out_rms == pytest.approx(added.left_out_rms, rel=2e-5)
-        assert live.priced_rms == pytest.approx(added.priced_rms, rel=2e-5)
+        assert live.corrected_rms == pytest.approx(added.corrected_rms, rel=2e-5)
 
 
 @pytest.mark.parametrize("effect", ["chain_pitch", "tape_scale", "sheet_skew"])

@@ -100,12 +100,12 @@ def test_a_slip_is_named_before_any_effect(sizes):
         turn = source.uniform(0, 2 * np.pi)
         slipped = moved(clean, index, (5 * np.cos(turn), 5 * np.sin(turn)))
         diagnosis = diagnose(Inputs(MAKER, slipped))
-        hits += diagnosis.verdict == "slip" and [s.name for s in diagnosis.slips] == [
+        hits += diagnosis.verdict == "slip" and [s.name for s in diagnosis.outliers] == [
             clean.marks[index].name
         ]
         if diagnosis.verdict == "slip":
             assert diagnosis.suspects == () and len(diagnosis.ranking) == len(effect_names())
-            off = diagnosis.slips[0].offset
+            off = diagnosis.outliers[0].offset
             assert np.hypot(*off) == pytest.approx(5, abs=2.5)
     assert hits == 4
 
@@ -113,9 +113,9 @@ def test_a_slip_is_named_before_any_effect(sizes):
 def test_a_slip_of_one_repeat_is_found_among_its_twins():
     clean = board({}, plan(3, 3, times=3), seed=5, tape_sigma=None)
     diagnosis = diagnose(Inputs(MAKER, moved(clean, 13, (0.0, 6.0))))
-    assert diagnosis.verdict == "slip" and diagnosis.slips[0].length == pytest.approx(6, abs=2)
+    assert diagnosis.verdict == "slip" and diagnosis.outliers[0].length == pytest.approx(6, abs=2)
     assert diagnosis.noise.source == "repeats" and diagnosis.noise.degrees == 34
-    assert "too far up" in diagnosis.slips[0].sentence
+    assert "too far up" in diagnosis.outliers[0].sentence
 
 
 def test_digits_that_were_swapped_are_guessed():
@@ -130,7 +130,7 @@ def test_digits_that_were_swapped_are_guessed():
         Inputs(MAKER, moved(clean, index, (0.0, _swap(written) - clean.marks[index].measured[1])))
     )
     assert diagnosis.verdict == "slip"
-    assert "written for" in diagnosis.slips[0].guess
+    assert "written for" in diagnosis.outliers[0].guess
 
 
 def _swap(number):
@@ -212,4 +212,4 @@ def test_every_answer_is_complete(sizes):
     assert {ranked.effect for ranked in diagnosis.ranking} == set(effect_names())
     assert {hidden.effect for hidden in diagnosis.could_hide} == set(effect_names())
     again = diagnose(Inputs(MAKER, board({"chain_plane": sizes["chain_plane"]}, WIDE, seed=3)))
-    assert again.verdict == diagnosis.verdict and again.limit == diagnosis.limit
+    assert again.verdict == diagnosis.verdict and again.threshold == diagnosis.threshold

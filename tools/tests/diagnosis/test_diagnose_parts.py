@@ -5,11 +5,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plumb.diagnosis.clean import shifts
-from plumb.diagnosis.explanation import KNOWN, Board, Spread, explain, surprise, surprises, tail
-from plumb.diagnosis.gain import LEVEL, bases_beyond_fit, limit_of_noise, search
+from plumb.diagnosis.explanation import (
+    KNOWN,
+    Board,
+    Spread,
+    explain,
+    negative_log_p,
+    negative_log_ps,
+    tail,
+)
+from plumb.diagnosis.gain import LEVEL, bases_beyond_fit, detection_threshold, search
 from plumb.diagnosis.noise import Noise, guessed_noise, known_noise, misfit_chance, repeats_of
+from plumb.diagnosis.outliers import readings_of, without
 from plumb.diagnosis.sizes import hidden_share, room_for, sizes_of
-from plumb.diagnosis.slip_cause import readings_of, without
 from plumb.fit.fit import fit
 from plumb.fit.inputs import Stated
 from plumb.fit.observations import observe
@@ -41,7 +49,7 @@ def test_chances_are_those_of_the_tables():
 
 @pytest.mark.parametrize("parameters", [1, 2, 4])
 @pytest.mark.parametrize("degrees", [KNOWN, 4.0, 24.0])
-def test_surprise_is_the_logarithm_of_the_chance_and_never_runs_out(parameters, degrees):
+def test_negative_log_p_is_the_logarithm_of_the_chance_and_never_runs_out(parameters, degrees):
     gains = np.array([0.5, 3.0, 11.0, 60.0, 199.0, 500.0])
     wanted = [
         stats.chi2.logsf(g, parameters)
@@ -49,9 +57,13 @@ def test_surprise_is_the_logarithm_of_the_chance_and_never_runs_out(parameters, 
         else stats.f.logsf(g / parameters, parameters, degrees)
         for g in gains
     ]
-    assert [surprise(g, parameters, degrees) for g in gains] == pytest.approx(np.negative(wanted))
-    assert surprises(gains, parameters, degrees) == pytest.approx(np.negative(wanted), rel=2e-3)
-    far = [surprise(g, parameters, degrees) for g in (150.0, 199.9, 200.1, 400.0, 1e4, 1e6)]
+    assert [negative_log_p(g, parameters, degrees) for g in gains] == pytest.approx(
+        np.negative(wanted)
+    )
+    assert negative_log_ps(gains, parameters, degrees) == pytest.approx(
+        np.negative(wanted), rel=2e-3
+    )
+    far = [negative_log_p(g, parameters, degrees) for g in (150.0, 199.9, 200.1, 400.0, 1e4, 1e6)]
     assert np.all(np.diff(far) > 0) and np.isfinite(far).all()
 
 
@@ -145,10 +157,10 @@ def test_an_explanation_is_the_fit_of_plumb_add(effects):
 
 def test_a_gain_is_what_the_refit_saves():
     frame = explain(board_of(noise=0.2))
-    gate = search(frame, effect_names(), STATED)
+    detection = search(frame, effect_names(), STATED)
     for name in ("chain_pitch", "chain_plane", "sheet_skew"):
         saved = frame.cost - explain(frame.board, (name,), start=frame).cost
-        assert gate.of(name).drop == pytest.approx(saved, rel=0.02, abs=0.2)
+        assert detection.of(name).drop == pytest.approx(saved, rel=0.02, abs=0.2)
 
 
 def test_more_parameters_are_no_advantage_in_the_gate():
@@ -161,23 +173,24 @@ def test_more_parameters_are_no_advantage_in_the_gate():
     names = [name for name in bases if bases[name].shape[1]]
     scores = np.array(
         [
-            surprises(np.sum((drawn @ bases[n]) ** 2, axis=1), bases[n].shape[1], KNOWN)
+            negative_log_ps(np.sum((drawn @ bases[n]) ** 2, axis=1), bases[n].shape[1], KNOWN)
             for n in names
         ]
     )
     wins = np.bincount(scores.argmax(axis=0), minlength=len(names)) / 3000
     assert wins[names.index("sprocket_runout")] < 0.25
-    above = np.mean(scores.max(axis=0) > limit_of_noise(bases, STATED))
+    above = np.mean(scores.max(axis=0) > detection_threshold(bases, STATED))
     assert above == pytest.approx(LEVEL, abs=0.012)
 
 
 def test_the_gate_rises_as_the_noise_is_known_less():
     bases = bases_beyond_fit(explain(board_of()), effect_names())
-    known = limit_of_noise(bases, STATED)
-    few = limit_of_noise(bases, Noise(0.5, 6.0, "repeats"))
+    known = detection_threshold(bases, STATED)
+    few = detection_threshold(bases, Noise(0.5, 6.0, "repeats"))
     # The limit is a chance, so it hardly moves; the gain that reaches it grows a lot.
     gains = [
-        np.interp(level, surprises(_GRID, 1, d), _GRID) for level, d in ((known, KNOWN), (few, 6.0))
+        np.interp(level, negative_log_ps(_GRID, 1, d), _GRID)
+        for level, d in ((known, KNOWN), (few, 6.0))
     ]
     assert 7 < gains[0] < 12 and gains[1] > 1.7 * gains[0]
 
@@ -187,7 +200,7 @@ _GRID = np.linspace(0, 400, 40001)
 
 def test_the_noise_in_the_gate_is_the_same_each_time():
     bases = bases_beyond_fit(explain(board_of()), effect_names())
-    assert limit_of_noise(bases, STATED) == limit_of_noise(bases, STATED)
+    assert detection_threshold(bases, STATED) == detection_threshold(bases, STATED)
 
 
 def test_a_shift_is_the_error_of_the_fit_without_that_mark():

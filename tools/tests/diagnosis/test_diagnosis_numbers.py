@@ -7,7 +7,7 @@ import pytest
 from plumb.diagnosis.answer import Together
 from plumb.diagnosis.clean import clean_readings
 from plumb.diagnosis.explanation import Board, Spread, explain, tail
-from plumb.diagnosis.gain import FIELDS, WIDTHS, _fields
+from plumb.diagnosis.gain import DRAWN, WIDTHS, _gaussian_processes
 from plumb.diagnosis.judgement import _log_cauchy
 from plumb.diagnosis.noise import Noise, misfit_chance, spare_numbers
 from plumb.diagnosis.suspect_curves import visits_all_over
@@ -63,19 +63,19 @@ def test_a_misfit_needs_half_a_number_to_spare():
 def test_a_field_moves_a_distance_by_what_its_ends_move_apart():
     frame = explain(board_of(distances_between(NINE.marks)))
     rows = frame.board.rows
-    fields = _fields(frame)[: rows.count] * SIGMA
-    assert fields.shape == (36, FIELDS * len(WIDTHS))
+    fields = _gaussian_processes(frame)[: rows.count] * SIGMA
+    assert fields.shape == (36, DRAWN * len(WIDTHS))
     places = grid(3, 3)
     ends = places[rows.distance_rows] / (1100.0, 500.0)
     squares = np.sum((ends[:, 1] - ends[:, 0]) ** 2, axis=1)
     for i, width in enumerate(WIDTHS):
         wanted = 2 - 2 * np.exp(-squares / (2 * width**2))
-        drawn = fields[:, i * FIELDS : (i + 1) * FIELDS]
+        drawn = fields[:, i * DRAWN : (i + 1) * DRAWN]
         assert np.mean(drawn**2, axis=1).sum() == pytest.approx(wanted.sum(), rel=0.15)
 
 
 def test_a_field_moves_a_mark_by_a_millimetre():
-    fields = _fields(explain(board_of(NINE)))[:18] * SIGMA
+    fields = _gaussian_processes(explain(board_of(NINE)))[:18] * SIGMA
     assert np.sqrt(np.mean(fields**2)) == pytest.approx(1.0, rel=0.1)
 
 

@@ -49,8 +49,8 @@ def test_two_exchanged_marks_are_both_named_with_the_correction(pair, seed):
     marks = marks_on(PITCH, BELIEVED, TARGETS, noise=0.3, seed=seed)
     diagnosis = diagnose(Inputs(BELIEVED, board(exchanged(marks, *pair)), sigma=0.3))
     assert diagnosis.verdict == "slip" and diagnosis.explanations == ()
-    assert {slip.name for slip in diagnosis.slips} == {str(name) for name in pair}
-    for slip, other in zip(diagnosis.slips, reversed(diagnosis.slips), strict=True):
+    assert {slip.name for slip in diagnosis.outliers} == {str(name) for name in pair}
+    for slip, other in zip(diagnosis.outliers, reversed(diagnosis.outliers), strict=True):
         assert f"that of {other.name} may be exchanged" in slip.sentence
         assert slip.length == pytest.approx(20, abs=2)
 
@@ -66,7 +66,7 @@ def repeated(seed):
 @pytest.mark.parametrize("pair", [(0, 15), (14, 16)])
 def test_two_exchanged_readings_of_a_mark_name_it_without_itself(pair, seed):
     marks = exchanged(repeated(seed), *pair)
-    slips = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).slips
+    slips = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).outliers
     assert [slip.name for slip in slips] == [str(pair[0])] * 2
     assert all(slip.sentence.endswith("; its two readings may be exchanged") for slip in slips)
 
@@ -77,7 +77,7 @@ def test_a_misread_repeat_is_not_taken_for_two_exchanged_readings(index, off, se
     marks = repeated(seed)
     x, y = marks[index].measured
     marks[index] = replace(marks[index], measured=(x + off, y))
-    (slip,) = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).slips
+    (slip,) = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).outliers
     assert slip.name == marks[index].name
     assert slip.guess == "its other reading may be the wrong one"
     assert slip.length == pytest.approx(abs(off), abs=2)
@@ -93,14 +93,14 @@ def test_two_exchanged_distances_are_both_named(seed):
     )
     diagnosis = diagnose(Inputs(BELIEVED, replace(known, distances=tuple(spans)), sigma=0.3))
     named = {" - ".join(spans[i].between) for i in (3, 11)}
-    assert diagnosis.verdict == "slip" and {slip.name for slip in diagnosis.slips} == named
-    assert all("may be exchanged" in slip.guess for slip in diagnosis.slips)
+    assert diagnosis.verdict == "slip" and {slip.name for slip in diagnosis.outliers} == named
+    assert all("may be exchanged" in slip.guess for slip in diagnosis.outliers)
 
 
 def test_nothing_is_called_exchanged_without_need():
     for seed in range(6):
         marks = marks_on(PITCH, BELIEVED, TARGETS, noise=0.3, seed=seed)
-        assert diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).slips == ()
+        assert diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).outliers == ()
 
 
 def test_one_slip_is_one_slip():
@@ -108,9 +108,9 @@ def test_one_slip_is_one_slip():
     x, y = marks[6].measured
     marks[6] = replace(marks[6], measured=(x + 5, y))
     diagnosis = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3))
-    assert [slip.name for slip in diagnosis.slips] == ["6"] and "exchanged" not in diagnosis.slips[
-        0
-    ].guess
+    assert [slip.name for slip in diagnosis.outliers] == [
+        "6"
+    ] and "exchanged" not in diagnosis.outliers[0].guess
 
 
 def test_far_exchanges_are_refused_when_the_file_is_read(file):
@@ -178,4 +178,4 @@ def test_a_whole_file_mixed_up_is_refused_with_the_likely_reason(file, change, h
 def test_where_everything_fits_nothing_is_called_exchanged():
     for seed in range(5):
         few = board(marks_on(PITCH, BELIEVED, grid(2, 2), noise=0.5, seed=seed))
-        assert diagnose(Inputs(BELIEVED, few, sigma=0.5)).slips == ()
+        assert diagnose(Inputs(BELIEVED, few, sigma=0.5)).outliers == ()

@@ -9,7 +9,7 @@ from plumb.diagnosis.clean import clear_repeats, twins_that_agree
 from plumb.diagnosis.doubts import round_warnings
 from plumb.diagnosis.explanation import KNOWN, Board, explain
 from plumb.diagnosis.noise import Noise, distance_spread, repeated_distances
-from plumb.diagnosis.slip_cause import MixedPair, Reading, find_mixed_up, without
+from plumb.diagnosis.outliers import MixedPair, Reading, find_mixed_up, without
 from plumb.diagnosis.weighing import rounds_columns
 from plumb.fit.inputs import Inputs, Stated
 from plumb.fit.observations import model_and_observations
@@ -72,13 +72,13 @@ def test_what_changed_between_files_is_no_slip():
     both = two_files(PITCH)
     changed = replace(both.distances[-1], length=both.distances[-1].length + 9.0)
     board = board_of(replace(both, distances=(*both.distances[:-1], changed)))
-    assert clear_repeats(board, Stated(SIGMA)).slips == ()
+    assert clear_repeats(board, Stated(SIGMA)).outliers == ()
     confirmed = twins_that_agree(board.rows, SIGMA)
     assert Reading(0, False) in confirmed and Reading(131, False) not in confirmed
     # Read twice in a file, it is.
     again = replace(changed, length=changed.length - 9.0)
     board = board_of(replace(both, distances=(*both.distances[:-1], changed, again)))
-    (slip,) = clear_repeats(board, Stated(SIGMA)).slips
+    (slip,) = clear_repeats(board, Stated(SIGMA)).outliers
     assert slip.reading.index in (131, 132)
 
 
@@ -97,7 +97,7 @@ def test_what_changed_between_files_is_no_exchange_of_readings(seed):
 
 def test_a_file_that_does_not_go_with_the_other_is_no_slip():
     diagnosis = diagnose(Inputs(BELIEVED, two_files(SKIPPED), sigma=SIGMA))
-    assert diagnosis.verdict == "not_in_library" and diagnosis.slips == ()
+    assert diagnosis.verdict == "not_in_library" and diagnosis.outliers == ()
     assert diagnosis.disagreements[0].startswith("b does not go with the other rounds")
 
 

@@ -32,16 +32,16 @@ def test_two_hidden_effects_hide_no_slip(length):
     slipped = with_slip(board.measurements, 6, (0.6 * length, 0.8 * length))
     diagnosis = diagnose(Inputs(MAKER, slipped))
     assert diagnosis.verdict == "slip"
-    assert [slip.name for slip in diagnosis.slips] == [slipped.marks[6].name]
-    assert diagnosis.slips[0].offset == pytest.approx((0.6 * length, 0.8 * length), abs=1.5)
-    assert "if it stays, it is the machine there" in diagnosis.slips[0].sentence
+    assert [slip.name for slip in diagnosis.outliers] == [slipped.marks[6].name]
+    assert diagnosis.outliers[0].offset == pytest.approx((0.6 * length, 0.8 * length), abs=1.5)
+    assert "if it stays, it is the machine there" in diagnosis.outliers[0].sentence
 
 
 def test_a_bump_of_several_marks_is_no_slip():
     for seed in range(3):
         hidden = Hidden(outside="bump", outside_mm=1.0)
         diagnosis = diagnose(Inputs(MAKER, cut(hidden, plan(5, 5), seed=seed).measurements))
-        assert diagnosis.verdict == "not_in_library" and not diagnosis.slips
+        assert diagnosis.verdict == "not_in_library" and not diagnosis.outliers
         assert any("farthest off at" in said for said in diagnosis.warnings)
 
 
@@ -59,7 +59,7 @@ def test_what_a_second_reading_confirms_is_the_machine(round_number):
         (*slipped.marks, again), tape_sigma=0.4, rounds=(Round(),) * (1 + round_number)
     )
     diagnosis = diagnose(Inputs(MAKER, twice))
-    assert diagnosis.verdict == "not_in_library" and not diagnosis.slips
+    assert diagnosis.verdict == "not_in_library" and not diagnosis.outliers
     assert any(
         f"{again.name} stays" in said and "it is the machine there" in said
         for said in diagnosis.warnings
@@ -96,7 +96,7 @@ def test_accounts_are_weighed_by_the_density_of_the_readings():
     parts = linear.parts(sets)
     assert metric.evidences(parts)[:, 0] == pytest.approx(wanted, abs=1e-6)
     before = np.array([0.0, -1.0, -2.0])
-    ours = metric.slip_evidences(parts, before, (40.0,))
+    ours = metric.outlier_evidences(parts, before, (40.0,))
     for slip in (0, 4):
         each = [evidence(names, slip) + weight for names, weight in zip(sets, before, strict=True)]
         assert ours[slip] == pytest.approx(np.logaddexp.reduce(each) - np.log(9), abs=1e-6)

@@ -44,8 +44,8 @@ def test_a_slip_of_a_repeat_is_no_noise_whatever_is_hidden(tape_sigma):
     slipped = with_slip(board.measurements, len(board.measurements.marks) - 2, (10.0, 0.0))
     diagnosis = diagnose(Inputs(MAKER, slipped))
     assert diagnosis.verdict == "slip" and diagnosis.noise.sigma < 0.6
-    assert [slip.name for slip in diagnosis.slips] == [slipped.marks[-2].name]
-    assert diagnosis.slips[0].length == pytest.approx(10, abs=1.5)
+    assert [slip.name for slip in diagnosis.outliers] == [slipped.marks[-2].name]
+    assert diagnosis.outliers[0].length == pytest.approx(10, abs=1.5)
     assert "disagrees with its repeats" in verdict_sentence(diagnosis)
     assert add_auto(Inputs(MAKER, slipped)).addition is None
 
@@ -67,22 +67,22 @@ def test_a_reading_stands_out_once_an_f_test_says_so():
     limit = np.sqrt(2 * stats.f.isf(0.002 / 4, 2, 8) * variance * 4 / 3)
     for length, count in ((limit - 0.01, 0), (limit + 0.01, 1)):
         cleared = slips_of(repeated(*base, (middle[0] + length, middle[1])))
-        assert [shift.reading.index for shift in cleared.slips] == [3] * count
+        assert [shift.reading.index for shift in cleared.outliers] == [3] * count
         assert len(cleared.indices) == len(cleared.rows.names) == 4 - count
 
 
 def test_two_slips_do_not_hide_each_other():
     readings = [(0.1 * np.cos(i), 0.1 * np.sin(3 * i)) for i in range(10)]
     cleared = slips_of(repeated(*readings, (8.0, 0.0), (8.0, 1.0)), Stated(0.3))
-    assert sorted(shift.reading.index for shift in cleared.slips) == [10, 11]
+    assert sorted(shift.reading.index for shift in cleared.outliers) == [10, 11]
 
 
 def test_of_two_readings_the_one_off_the_frame_is_named_and_both_are_doubted():
     board = cut(Hidden(), plan(5, 5, times=2), seed=4, noise=0.4, tape_sigma=None)
     diagnosis = diagnose(Inputs(MAKER, with_slip(board.measurements, 30, (6.0, 0.0))))
-    assert diagnosis.verdict == "slip" and len(diagnosis.slips) == 1
-    assert diagnosis.slips[0].offset[0] == pytest.approx(6, abs=1.5)
-    assert "its other reading may be the wrong one" in diagnosis.slips[0].sentence
+    assert diagnosis.verdict == "slip" and len(diagnosis.outliers) == 1
+    assert diagnosis.outliers[0].offset[0] == pytest.approx(6, abs=1.5)
+    assert "its other reading may be the wrong one" in diagnosis.outliers[0].sentence
 
 
 def test_repeated_distances_are_looked_at_too():
@@ -91,13 +91,13 @@ def test_repeated_distances_are_looked_at_too():
     spans[-1] = Distance(spans[-1].between, spans[-1].length + 9.0)
     diagnosis = diagnose(Inputs(MAKER, replace(board.measurements, distances=tuple(spans))))
     assert diagnosis.verdict == "slip" and diagnosis.noise.sigma < 0.6
-    assert diagnosis.slips[0].name == " - ".join(spans[-1].between)
-    assert diagnosis.slips[0].offset[0] == pytest.approx(9, abs=1.5)
+    assert diagnosis.outliers[0].name == " - ".join(spans[-1].between)
+    assert diagnosis.outliers[0].offset[0] == pytest.approx(9, abs=1.5)
 
 
 def test_noise_alone_makes_no_slip():
     count = sum(
-        bool(slips_of(cut(Hidden(), plan(3, 3, times=3), seed=seed).measurements).slips)
+        bool(slips_of(cut(Hidden(), plan(3, 3, times=3), seed=seed).measurements).outliers)
         for seed in range(40)
     )
     assert count == 0

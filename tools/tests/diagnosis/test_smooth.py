@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from plumb.bench.boards import cut, plan
 from plumb.bench.causes import MAKER, Hidden
-from plumb.diagnosis.explanation import Board, explain, field_columns
+from plumb.diagnosis.explanation import Board, explain, gaussian_process_columns
 from plumb.fit.observations import observe
 
 HALF = np.array([1100.0, 500.0])  # [mm] that the marks span
@@ -14,7 +14,7 @@ def columns_on(layout, width):
     """The targets of a plan, and what a field of this width moves there."""
     rows = observe(MAKER, cut(Hidden(), layout, seed=1).measurements)
     frame = explain(Board.of(MAKER, rows, sigma=0.5))
-    (columns,) = field_columns(frame, (width,), 1e-8)
+    (columns,) = gaussian_process_columns(frame, (width,), 1e-8)
     assert len(columns) == rows.count
     return layout.targets, columns
 
@@ -47,7 +47,7 @@ def test_columns_leave_out_no_more_than_they_may():
     rows = observe(MAKER, cut(Hidden(), plan(5, 5), seed=1).measurements)
     frame = explain(Board.of(MAKER, rows, sigma=0.5))
     for least in (1e-2, 1e-6):
-        (columns,) = field_columns(frame, (1.4,), least)
+        (columns,) = gaussian_process_columns(frame, (1.4,), least)
         missing = 1 - np.sum(columns**2, axis=1)
         assert missing.max() < least and missing.min() > -1e-9
     assert columns.shape[1] < 2 * len(targets)

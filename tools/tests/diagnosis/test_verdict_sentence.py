@@ -60,5 +60,5 @@ def test_a_verdict_has_forty_words_at_most(verdict, explanations, words, reader)
 
 def test_of_many_slips_the_first_are_named():
     slips = [SimpleNamespace(name=f"{i} - 5", against=f"{i % 2}") for i in range(30)]
-    said = verdict_sentence(SimpleNamespace(verdict="slip", slips=slips))
+    said = verdict_sentence(SimpleNamespace(verdict="slip", outliers=slips))
     assert len(said.split()) <= 40 and "0 - 5, 1 - 5," in said and " more again before" in said

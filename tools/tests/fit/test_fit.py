@@ -136,7 +136,7 @@ def test_noise_is_found_and_an_added_effect_costs_what_it_took():
     fitted = fit(BELIEVED, board, effects=EFFECTS)
     assert fitted.sigma == pytest.approx(0.4, rel=0.15) and fitted.sigma_from == "residuals"
     assert 7 < fitted.spent <= len(fitted.estimates)
-    assert fitted.rms < fitted.priced_rms < fitted.left_out_rms * 1.05
+    assert fitted.rms < fitted.corrected_rms < fitted.left_out_rms * 1.05
     assert fit(BELIEVED, board, effects=EFFECTS, sigma=0.3).sigma_from == "stated"
 
 

@@ -64,7 +64,7 @@ def test_a_refit_has_the_numbers_of_plumb_add(client, tmp_path):
     for effects in [[], ["chain_pitch"], ["chain_stretch", "chain_pitch"], ["chain_stretch"]]:
         fitted, added = posted(client, "fit", {"effects": effects}), api.add(inputs, effects)
         assert fitted["fit_rms"] == pytest.approx(added.after.fit_rms, rel=2e-5)
-        assert fitted["priced_rms"] == pytest.approx(added.after.priced_rms, rel=2e-5)
+        assert fitted["corrected_rms"] == pytest.approx(added.after.corrected_rms, rel=2e-5)
         assert fitted["left_out_rms"] == pytest.approx(added.after.left_out_rms, rel=2e-5)
         np.testing.assert_allclose(fitted["errors"], added.after_fit.errors, atol=2e-5)
         stairs = posted(client, "stairs", {"effects": effects})["stairs"]

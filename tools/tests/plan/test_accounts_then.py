@@ -84,7 +84,7 @@ def test_truths_hold_their_accounts_and_all_weight(tape):
 
 def test_truths_are_the_likeliest_that_hold_nine_tenths(tape):
     *_, case = tape
-    weighed = weigh(case.frame, felt_effects(case.frame), case.noise, with_slips=False)
+    weighed = weigh(case.frame, felt_effects(case.frame), case.noise, with_outliers=False)
     listed = {hypothesis.effects for hypothesis in case.hypotheses}
     members = [
         weighed.clean[member]

@@ -159,7 +159,7 @@ class _Said(Rediagnosis):
 
     def __init__(self, boards, *, is_left_out):
         self.boards_said, self.is_left_out = boards, is_left_out
-        self.felt, self.frame, self.limit, self.nothing = [PITCH, SAG, TAPE], None, 5.0, NONE
+        self.felt, self.frame, self.threshold, self.nothing = [PITCH, SAG, TAPE], None, 5.0, NONE
 
     def _turned(self, drawn):
         return SimpleNamespace(few=drawn)

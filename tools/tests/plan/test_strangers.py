@@ -6,7 +6,7 @@ from math import sqrt
 import numpy as np
 import pytest
 from plan_cases import MACHINE, SIGMA, case_on, nine
-from plumb.diagnosis.slip_cause import Slip
+from plumb.diagnosis.outliers import Outlier
 from plumb.marks.read import Measurements
 from plumb.plan.options import MARK, READING, ROUND
 from plumb.plan.planned_visits import BELOW, NEAR, check_places, grid, new_places, usable
@@ -16,7 +16,7 @@ from synthetic import grid as targets_of
 
 
 def slip(name, *offset):
-    return Slip(name, offset, (SIGMA,) * len(offset), (0.0,) * len(offset), offset, "")
+    return Outlier(name, offset, (SIGMA,) * len(offset), (0.0,) * len(offset), offset, "")
 
 
 def with_offset(measurements, index, offset):

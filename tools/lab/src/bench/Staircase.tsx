@@ -42,7 +42,7 @@ export function Staircase({ stairs, units }: { stairs: Stairs; units: Unit }) {
               </svg>
             </td>
             <td title={namedLength(stair.fit_rms, units, 3)}>{number(stair.fit_rms)}</td>
-            <td>{number(stair.priced_rms)}</td>
+            <td>{number(stair.corrected_rms)}</td>
             <td>{number(stair.left_out_rms)}</td>
           </tr>
         ))}

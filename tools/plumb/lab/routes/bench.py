@@ -113,7 +113,7 @@ class BenchFit(BaseModel):
     """The marks with the chosen effects, all else refitted [mm]."""
 
     fit_rms: float
-    priced_rms: float
+    corrected_rms: float
     left_out_rms: float
     errors: list[Pair]
     chains: list[tuple[float | None, float | None]]
@@ -127,7 +127,7 @@ class BenchStair(BaseModel):
 
     noun: str
     fit_rms: float
-    priced_rms: float | None
+    corrected_rms: float | None
     left_out_rms: float | None
     only_fit: bool  # the fit got better, what it did not see got worse
 
@@ -208,7 +208,7 @@ def refit(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchFit:
         sizes = _sizes(fitted, chosen)
     return BenchFit(
         fit_rms=fitted.rms,
-        priced_rms=fitted.priced_rms,
+        corrected_rms=fitted.corrected_rms,
         left_out_rms=fitted.left_out_rms,
         errors=[_pair(error) for error in fitted.errors],
         chains=_ends(warm.view.chains(fitted.errors)),
@@ -229,13 +229,13 @@ def climb(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchStairs:
     qualities = [("frame fitted", result.before, False)]
     qualities += [(f"+ {noun_of(step.effect)}", step, step.only_fit) for step in result.by_effect]
     as_set = BenchStair(
-        noun="as set", fit_rms=warm.raw.rms, priced_rms=None, left_out_rms=None, only_fit=False
+        noun="as set", fit_rms=warm.raw.rms, corrected_rms=None, left_out_rms=None, only_fit=False
     )
     stairs = [
         BenchStair(
             noun=noun,
             fit_rms=quality.fit_rms,
-            priced_rms=quality.priced_rms,
+            corrected_rms=quality.corrected_rms,
             left_out_rms=quality.left_out_rms,
             only_fit=only_fit,
         )

@@ -182,7 +182,7 @@ def verdict_of(inputs: api.Inputs, examined: Examined, auto: AutoAddition) -> Ve
         more_cards=max(len(diagnosis.explanations) - MOST_CARDS, 0),
         could_hide=_could_hide(diagnosis),
         blind=f"these marks say nothing of {nouns_of(blind)}" if blind else "",
-        slips=[slip.sentence for slip in diagnosis.slips],
+        slips=[slip.sentence for slip in diagnosis.outliers],
         notes=[*diagnosis.disagreements, *diagnosis.warnings],
     )
 

@@ -8,8 +8,8 @@ from plumb.diagnosis.answer import verdict_sentence
 from plumb.diagnosis.clean import Reading, Shift
 from plumb.diagnosis.explanation import KNOWN, Board, explain, span
 from plumb.diagnosis.noise import Noise
+from plumb.diagnosis.outliers import described
 from plumb.diagnosis.sizes import sizes_of
-from plumb.diagnosis.slip_cause import described
 from plumb.fit.observations import observe
 from plumb.marks.read import Distance, Mark, Measurements
 from synthetic import BELIEVED, SHEET, TRUE, grid, marks_on
@@ -68,7 +68,7 @@ def test_a_distance_has_no_axis():
 )
 def test_the_sentence_counts_the_slips(count, words):
     slips = [SimpleNamespace(name=name, against="every explanation") for name in "AB"[:count]]
-    sentence = verdict_sentence(SimpleNamespace(verdict="slip", slips=slips))
+    sentence = verdict_sentence(SimpleNamespace(verdict="slip", outliers=slips))
     assert sentence.startswith(words) and "A" in sentence
 
 

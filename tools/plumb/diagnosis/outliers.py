@@ -1,4 +1,4 @@
-"""What a slip most likely was: axes exchanged, digits transposed, a round number off."""
+"""What an outlier most likely was: axes exchanged, digits transposed, a round number off."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ SURELY = 5.0  # [deviations] beyond which a coordinate is surely wrong
 
 
 @dataclass(frozen=True)
-class Slip:
+class Outlier:
     """A reading to look at again."""
 
     name: str  # of the mark, or "1 - 2" of a distance
@@ -119,7 +119,7 @@ class Slip:
 
     @property
     def _advice(self) -> str:
-        """What it is if it is no slip: where nothing was read twice, the marks cannot know."""
+        """What it is if it is no outlier: where nothing was read twice, the marks cannot know."""
         if self.against != EXPLANATIONS or len(self.offset) == 1:
             return ""
         return "; if it stays, it is the machine there"
@@ -139,8 +139,8 @@ class Slip:
         return f"off ({abs(x):.1f} {across}, {abs(y):.1f} {along})"
 
 
-def described(shift: Shift, measurements: Measurements, sheet: tuple[float, float]) -> Slip:
-    """Return the slip for people; sheet is its width and height [mm]."""
+def described(shift: Shift, measurements: Measurements, sheet: tuple[float, float]) -> Outlier:
+    """Return the outlier for people; sheet is its width and height [mm]."""
     index = shift.reading.index
     offset = tuple(float(value) for value in shift.offset)
     sigma = tuple(float(value) for value in shift.sigma)
@@ -152,12 +152,12 @@ def described(shift: Shift, measurements: Measurements, sheet: tuple[float, floa
         read = (measurements.distances[index].length,)
     expected = tuple(a - b for a, b in zip(read, offset, strict=True))
     guess = Guess(_EITHER) if shift.is_one_of_two else _guess(read, offset, sigma, sheet)
-    return Slip(name, offset, sigma, read, expected, guess.said, shift.against, guess.corrected)
+    return Outlier(name, offset, sigma, read, expected, guess.said, shift.against, guess.corrected)
 
 
 @dataclass(frozen=True)
 class Guess:
-    """What a slip most likely was."""
+    """What an outlier most likely was."""
 
     said: str = ""  # for people; nothing if nobody knows
     corrected: tuple[float, ...] | None = None  # [mm] the reading that was meant
@@ -262,12 +262,12 @@ def _round_number(
 
 # Readings that were written down for each other: two marks, or two distances, mixed up.
 #
-# Either of the two looks like a slip, and one slip at a time does not clear both. To undo it is
-# one guess without a free number, so a large drop of chi-square is hardly ever luck.
+# Either of the two looks like an outlier, and one outlier at a time does not clear both. To undo it
+# is one guess without a free number, so a large drop of chi-square is hardly ever luck.
 
 LUCK = 0.001  # chance that noise alone makes any pair look mixed up
 APART = 6.0  # [sigma] readings closer than this are not worth a thought
-SHARE = 0.8  # of what setting both readings free would gain: then it was no two separate slips
+SHARE = 0.8  # of what setting both readings free would gain: then it was no two separate outliers
 MOST = 3  # pairs; with more the list is in disorder
 
 
@@ -300,18 +300,18 @@ def find_mixed_up(board: Board) -> MixedUp:
     return MixedUp(tuple(pairs), board)
 
 
-def mixed_up_slips(mixed_up: MixedUp, measurements: Measurements) -> list[Slip]:
+def mixed_up_outliers(mixed_up: MixedUp, measurements: Measurements) -> list[Outlier]:
     """Return both readings of every exchange, each to be looked at again."""
-    slips = []
+    outliers = []
     for pair in mixed_up.pairs:
         for index, other in ((pair.first, pair.second), (pair.second, pair.first)):
-            slips.append(_slip(mixed_up, measurements, pair.is_mark, index, other))
-    return slips
+            outliers.append(_outlier(mixed_up, measurements, pair.is_mark, index, other))
+    return outliers
 
 
-def _slip(
+def _outlier(
     mixed_up: MixedUp, measurements: Measurements, is_mark: bool, index: int, other: int
-) -> Slip:
+) -> Outlier:
     if is_mark:
         marks = measurements.measured_marks
         names = [marks[i].name for i in (index, other)]
@@ -321,7 +321,7 @@ def _slip(
         read, expected = (measurements.distance_lengths[[i]] for i in (index, other))
     sigma = mixed_up.board.sigma
     both = f"its reading and that of {names[1]}" if names[0] != names[1] else "its two readings"
-    return Slip(
+    return Outlier(
         name=names[0],
         offset=tuple((read - expected).tolist()),
         sigma=(sigma,) * len(read),
