@@ -159,7 +159,7 @@ def test_marks_come_first_where_there_are_too_few(now, first):
         SimpleNamespace(option=SimpleNamespace(is_cut=is_cut, title=title, minutes=9))
         for is_cut, title in ((False, "check"), (True, "marks"))
     )
-    diagnosis = SimpleNamespace(left_open=LeftOpen(2.0, now), slips=())
+    diagnosis = SimpleNamespace(left_open=LeftOpen(2.0, now), outliers=())
     result = SimpleNamespace(diagnosis=diagnosis, addition=None)
     this = Round(None, result, SimpleNamespace(proposals=(check, marks)))
     assert f"first measure {first}, about 9 minutes" in this.sentence

@@ -75,8 +75,8 @@ def plumb(wheel, tmp_path_factory):
 
 MEASURED = ("groundcontrol.ini", "marks.ini")
 COMMANDS = {
-    "grid": ("--columns", "3", "--rows", "3"),
-    "preview": ("groundcontrol.ini", "--columns", "3", "--rows", "3"),
+    "grid": ("--preset", "nine"),
+    "preview": ("groundcontrol.ini", "--preset", "nine"),
     "calibrate": MEASURED,
     "check": ("job.nc", "groundcontrol.ini"),
     "compare": MEASURED,
