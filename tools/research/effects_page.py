@@ -24,7 +24,7 @@ from fingerprints import (
     look_alikes,
     worst,
 )
-from plumb.fit.fit import rms
+from plumb.fit.observations import rms
 from plumb.model.catalogue import NO_FIRMWARE, empirical_effects, every_effect
 from plumb.pictures.fingerprints import Picture, drawing
 from writer import write_pages

@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 from plumb.fit.compare import best_pose
-from plumb.fit.fit import rms
-from plumb.fit.observations import observe
+from plumb.fit.observations import observe, rms
 from plumb.fit.sighting import sighted
 from plumb.marks.read import Mark, Measurements
 from plumb.model.catalogue import (

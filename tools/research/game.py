@@ -123,7 +123,7 @@ def _cut_with_truth(loop: Loop, grid: Grid) -> Comparison:
         return loop.after
     fresh = owner.again()
     lay_next_sheet(fresh, known.settings, raised=known.sheet_rise)
-    return compare(fresh.settings, read(fresh, fresh.cut_grid(grid)))
+    return compare(Inputs(fresh.settings, read(fresh, fresh.cut_grid(grid))))
 
 
 def with_truth(inputs: Inputs, garage: Garage) -> Addition:

@@ -14,7 +14,7 @@ import numpy as np
 from plumb.cure.machine_file import MARKS, SETTINGS, with_y_errors_flipped
 from plumb.diagnosis import Diagnosis
 from plumb.fit.compare import Comparison, best_pose
-from plumb.fit.fit import rms
+from plumb.fit.observations import rms
 from plumb.marks.read import read_marks
 from plumb.model.predict import known_effects
 from plumb.pictures.fingerprints import Picture, drawing

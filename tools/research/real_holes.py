@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from plumb.cure.add import Parameter
-from plumb.fit.fit import rms
+from plumb.fit.observations import rms
 from real_sets import (
     CUTS,
     HOLES,

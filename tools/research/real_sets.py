@@ -10,8 +10,8 @@ import numpy as np
 from plumb.cure.add import Addition, add
 from plumb.diagnosis import Diagnosis, diagnose
 from plumb.fit.compare import Comparison, compare
-from plumb.fit.fit import rms
 from plumb.fit.inputs import Inputs
+from plumb.fit.observations import rms
 from plumb.marks.read import Measurements, join_measurements, read_marks
 from plumb.model.predict import FOUND, believed_lengths, known_effects, places
 from plumb.settings.files import read_settings
@@ -42,7 +42,7 @@ class RealSet:
     @property
     def raw(self) -> Comparison:
         """Against the settings as they stand."""
-        return compare(self.settings, self.marks)
+        return compare(Inputs(self.settings, self.marks))
 
     def diagnosed(self, *, sigma: float | None = None) -> Diagnosis:
         """Return what `plumb diagnose` says; sigma is the reading error [mm]."""
@@ -109,7 +109,7 @@ def pooled(sets: Sequence[RealSet], effects: Sequence[str] = HOLE_EFFECTS) -> Po
 
 def predicted(settings: MachineSettings, other: RealSet) -> Comparison:
     """Return how well a machine predicts a set that took no part in its fit."""
-    return compare(settings, other.marks)
+    return compare(Inputs(settings, other.marks))
 
 
 def mirrored(holes: RealSet, across: float, up: float) -> RealSet:

@@ -11,15 +11,15 @@ from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 
-from plumb.cure.add import Addition, priors_with
+from plumb.cure.add import Addition
 from plumb.cure.add import add as add_effects
 from plumb.cure.auto import AutoAddition, add_auto
 from plumb.diagnosis import Checked, Diagnosis
 from plumb.diagnosis import diagnose as diagnosis_of
-from plumb.fit.compare import Comparison
-from plumb.fit.compare import compare as comparison_of
+from plumb.fit.compare import Comparison, compare
 from plumb.fit.expected import refuse_absurd
 from plumb.fit.inputs import Inputs, read_inputs
+from plumb.fit.problem import priors_with
 from plumb.plan import Next, propose
 from plumb.settings.toml import machine_toml
 from plumb.text.compiled import refuse_stale
@@ -68,16 +68,6 @@ def read(
     inputs = read_inputs(settings, marks, cut_with=cut_with, controller=controller)
     refuse_absurd(checks, inputs.settings)
     return replace(inputs, sigma=sigma, priors=frame, checked=checks)
-
-
-def compare(inputs: Inputs) -> Comparison:
-    """Return how far the marks lie from where the settings predict them."""
-    return comparison_of(
-        inputs.settings,
-        inputs.measurements,
-        cut_with=inputs.cut_with,
-        controller=inputs.controller,
-    )
 
 
 def diagnose(inputs: Inputs) -> Diagnosis:

@@ -15,8 +15,9 @@ from plumb.bench.outcome import Outcome, look_alikes, outcome_of
 from plumb.bench.scenarios import Scenario
 from plumb.diagnosis import Checked, Diagnosis, diagnose
 from plumb.fit.compare import best_pose
-from plumb.fit.fit import fit, rms
+from plumb.fit.fit import fit
 from plumb.fit.inputs import Inputs
+from plumb.fit.observations import rms
 from plumb.model.predict import FOUND, lengths
 from plumb.plan import Proposal, propose
 from plumb.plan.case import Check

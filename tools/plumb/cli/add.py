@@ -19,21 +19,21 @@ from plumb.cli.arguments import (
     add_without,
     named_number,
 )
-from plumb.cli.checked import add_checked, refuse_unfitted, with_stated
-from plumb.cli.client import Written, add_client, add_firmware, client_files_of, client_text
 from plumb.cli.compare import panel_of
-from plumb.cli.files import inputs_of, picture_form
+from plumb.cli.inputs import add_checked, picture_form, refuse_unfitted, stated_inputs
 from plumb.cli.output import STDOUT, refuse_twins, say_failure, write_outputs
-from plumb.cli.screen import about, print_json
-from plumb.cli.steps import (
+from plumb.cli.screen import (
     AUTO,
     CLIENT_OF,
+    about,
     add_named,
     next_step,
+    print_json,
     same_inputs,
     second_round,
     usual_client,
 )
+from plumb.cli.settings import Written, add_client, add_firmware, client_files_of, client_text
 from plumb.cure.add import Addition, add
 from plumb.cure.auto import AutoAddition, add_auto
 from plumb.cure.live_board import refuse_other_origin
@@ -88,7 +88,7 @@ AddAnswer = NamedAnswer | AutoAnswer | NothingAdded
 def run(arguments: argparse.Namespace) -> int:
     """Fit, write, print, and return the exit code."""
     refuse_twins(arguments.output, arguments.picture)
-    inputs = with_stated(inputs_of(arguments), arguments)
+    inputs = stated_inputs(arguments)
     refuse_other_origin(inputs)
     if not arguments.effect and not arguments.patch:
         raise InputError(

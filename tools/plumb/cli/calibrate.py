@@ -18,28 +18,30 @@ from plumb.cli.arguments import (
     add_units,
     add_without,
 )
-from plumb.cli.checked import add_checked, with_stated
-from plumb.cli.client import Written, add_client, add_firmware, client_text
 from plumb.cli.compare import conclusion, outside_sentence
 from plumb.cli.diagnose import explanation_table
-from plumb.cli.files import inputs_of
+from plumb.cli.inputs import add_checked, stated_inputs
 from plumb.cli.next import after, first_proposal
-from plumb.cli.screen import bar, headline, print_json, sentences
-from plumb.cli.steps import (
+from plumb.cli.screen import (
     auto_words,
+    bar,
     free_name,
+    headline,
     next_step,
+    print_json,
     same_inputs,
     second_round,
+    sentences,
     usual_client,
 )
-from plumb.cure.add import Addition, raw_comparison
+from plumb.cli.settings import Written, add_client, add_firmware, client_text
+from plumb.cure.add import Addition
 from plumb.cure.auto import AutoAddition, add_auto
 from plumb.cure.live_board import refuse_other_origin
 from plumb.cure.machine_file import turn_sentences
 from plumb.diagnosis.answer import Diagnosis
 from plumb.firmware.client_files import ClientFiles
-from plumb.fit.compare import Comparison
+from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
 from plumb.model.plain import nouns_of
 from plumb.plan import Next, Proposal, propose
@@ -110,7 +112,7 @@ class CalibrateAnswer(Written, Round):
 
 def run(arguments: argparse.Namespace) -> int:
     """Compare, diagnose, add or propose, write, print, and return the exit code."""
-    inputs = with_stated(inputs_of(arguments), arguments)
+    inputs = stated_inputs(arguments)
     refuse_other_origin(inputs)
     this = round_of(inputs)
     files, client = _written(arguments, inputs, this)
@@ -123,7 +125,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def round_of(inputs: Inputs) -> Round:
     """Return what the marks say, what was added by it, and what to measure first if it is open."""
-    this = Round(raw_comparison(inputs), add_auto(inputs))
+    this = Round(compare(inputs), add_auto(inputs))
     if this.done:
         return this
     advice = propose(this.result.diagnosis, inputs, progress=bar("simulating"))

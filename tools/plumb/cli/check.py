@@ -10,10 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from plumb.cli.arguments import add_force, add_json, add_machine, add_units, file
-from plumb.cli.files import inputs_of, picture_form
+from plumb.cli.inputs import inputs_of, picture_form
 from plumb.cli.output import refuse_twins, write_outputs
-from plumb.cli.screen import bar, headline, print_json, sentences, table
-from plumb.cli.steps import next_step
+from plumb.cli.screen import bar, headline, next_step, print_json, sentences, table
 from plumb.fit.inputs import settings_in
 from plumb.job.check import Checked, Error, Part, check_job
 from plumb.job.dry_run import outline_of

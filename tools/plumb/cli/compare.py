@@ -7,10 +7,9 @@ import argparse
 import numpy as np
 
 from plumb.cli.arguments import add_force, add_json, add_marks, add_units, length
-from plumb.cli.files import inputs_of, picture_form
+from plumb.cli.inputs import inputs_of, picture_form
 from plumb.cli.output import write_outputs
-from plumb.cli.screen import about, print_json, sentences, table
-from plumb.cli.steps import next_step, same_inputs
+from plumb.cli.screen import about, next_step, print_json, same_inputs, sentences, table
 from plumb.fit.compare import Comparison, compare
 from plumb.marks.benchmark import Score
 from plumb.marks.model import Typed
@@ -31,12 +30,7 @@ FRAMES = (
 def run(arguments: argparse.Namespace) -> int:
     """Compare, print, and return the exit code."""
     inputs = inputs_of(arguments)
-    comparison = compare(
-        inputs.settings,
-        inputs.measurements,
-        cut_with=inputs.cut_with,
-        controller=arguments.controller,
-    )
+    comparison = compare(inputs)
     if arguments.names and not arguments.picture:
         raise InputError("--names is for the picture: add --picture")
     if arguments.picture:

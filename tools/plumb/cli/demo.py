@@ -8,15 +8,16 @@ import math
 import os
 import sys
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from plumb.cli import demo_loop
-from plumb.cli.add import fall_of
+from plumb.cli.add import fall_of, heading_of, stairs_of
 from plumb.cli.add_text import COLUMNS
 from plumb.cli.calibrate import round_of
+from plumb.cli.compare import panel_of
+from plumb.cli.main import Parser
 from plumb.cli.output import ended, refuse_early, write_outputs
-from plumb.cli.parser import Parser
-from plumb.cli.screen import sentences, table
+from plumb.cli.screen import bar, headline, sentences, table
 from plumb.cure.machine_file import (
     GOAL,
     MARKS,
@@ -28,9 +29,18 @@ from plumb.cure.machine_file import (
     turn_sentences,
 )
 from plumb.firmware.client_files import client_files
+from plumb.fit.compare import Comparison
 from plumb.fit.inputs import Inputs
+from plumb.grid.options import Grid
+from plumb.model.plain import nouns_of
+from plumb.pictures.fingerprints import Stair, draw_staircase
+from plumb.pictures.sheet import draw
 from plumb.text.errors import InputError
+from plumb.text.files import DEMO_MARKS
 from plumb.text.values import bare
+from plumb.vm.garage import RANDOM, described, hide, random_garage
+from plumb.vm.loop import Loop, closed_loop
+from plumb.vm.owner import VirtualOwner
 
 PICTURE = "error-falls"
 BUILT = str(Path(__file__).resolve().parents[3] / ".pio/build/megaatmega2560/firmware.elf")
@@ -46,13 +56,13 @@ def _run(arguments: Sequence[str] | None) -> int:
     _make(parsed.folder)
     refuse_early(parsed.picture)
     if not parsed.real:
-        shown = demo_loop.shown(parsed.folder, seed=parsed.seed, elf=parsed.mega)
-        files = shown.files | ({parsed.picture: shown.picture} if parsed.picture else {})
+        made = shown(parsed.folder, seed=parsed.seed, elf=parsed.mega)
+        files = made.files | ({parsed.picture: made.picture} if parsed.picture else {})
         write_outputs(files, inputs=[])
-        print(demo_loop.as_text(shown.loop))
+        print(loop_text(made.loop))
         _say_written(files)
-        print(f"\n{demo_loop.reveal(shown.loop)}")
-        return int(not shown.fell)
+        print(f"\n{reveal(made.loop)}")
+        return int(not made.fell)
     demonstration = demonstrate()
     files = _files(demonstration, parsed.folder, parsed.picture)
     write_outputs(files, inputs=[])
@@ -243,6 +253,122 @@ def _last_line(demonstration: Demonstration) -> str:
         f"The error falls from {raw.rms:.1f} mm RMS ({raw.shape_rms:.1f} of it shape) to "
         f"{after.fit_rms:.2f} mm, below {GOAL}."
     )
+
+
+GRID = Grid(columns=5, rows=5)
+MILLIMETRES = 3.0  # RMS by which what is hidden moves the marks
+FALLEN = 0.5  # of the error before, at most, for the demo to have worked
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What the demo came to."""
+
+    loop: Loop
+    files: dict[str, bytes]
+    picture: bytes
+
+    @property
+    def fell(self) -> bool:
+        """Whether the error fell on marks that took no part."""
+        left = self.loop.left
+        return left is not None and left < FALLEN * self.loop.before.rms
+
+
+def shown(folder: str, *, seed: int, elf: str | None) -> Shown:
+    """Hide something, go round once, and make the files."""
+    print(sentences([INTRODUCTION.format(seed=seed)], mark=""))
+    hidden = hide([RANDOM], millimetres=MILLIMETRES, seed=seed)
+    owner = VirtualOwner(random_garage(hidden, seed), elf=elf)
+    loop = closed_loop(owner, grid=GRID, progress=bar("the machine cuts"))
+    picture = _picture(loop)
+    named = {"error-falls.png": picture, **_texts(loop)}
+    files = {os.path.join(folder, name): content for name, content in named.items()}
+    return Shown(loop, files, picture)
+
+
+INTRODUCTION = (
+    "A virtual machine (seed {seed}): Plumb's own firmware drives simulated motors, and exact "
+    "mechanics hang the sled. One physical effect is hidden in it, its frame and its sheet are off "
+    "by a few millimetres, and its sled rubs. The lab sees settings and marks, nothing else."
+)
+
+
+def loop_text(loop: Loop) -> str:
+    """Step by step what happened."""
+    steps = [
+        f"The machine cut {len(loop.before.marks)} marks, and a tape read them. They lie "
+        f"{loop.before.rms:.2f} mm RMS from their targets.",
+        f"plumb diagnose: {loop.first.sentence}",
+    ]
+    steps += [f"plumb next: {proposal.option.title}. The owner did it." for proposal in loop.done]
+    return "\n\n".join(
+        [
+            sentences([*steps, *_cure(loop)]),
+            _numbers(loop),
+        ]
+    )
+
+
+def _cure(loop: Loop) -> list[str]:
+    """Return what was added, and what the owner did with it."""
+    if loop.auto.addition is None:
+        return [f"plumb add: nothing was added: {loop.auto.reason}."]
+    rise = loop.addition.sheet_rise
+    return [
+        f"plumb add: {nouns_of(loop.auto.chosen)}. It promises {loop.promised:.2f} mm RMS at marks "
+        "that it did not see.",
+        f"The new numbers went to the machine. The owner {'raised' if rise > 0 else 'lowered'} the "
+        f"sheet's right end by {abs(rise):.1f} mm, as told, and cut the grid on a new sheet.",
+    ]
+
+
+def _numbers(loop: Loop) -> str:
+    """Return the three numbers: before, promised, and measured at marks that took no part."""
+    rows = [_row("before", loop.before)]
+    if loop.after:
+        rows += [
+            ["promised", bare(None), bare(loop.promised), bare(None)],
+            _row("measured on the new sheet", loop.after),
+        ]
+    return table(["error in mm", "RMS", "sheet laid at its best", "worst"], rows)
+
+
+def _row(name: str, comparison: Comparison) -> list[str]:
+    errors = (comparison.rms, comparison.shape_rms, comparison.worst)
+    return [name, *map(bare, errors)]
+
+
+def reveal(loop: Loop) -> str:
+    """Return the last line: what it was, and whether the lab was right."""
+    hidden = loop.owner.garage.hidden
+    right = set(loop.auto.chosen) == set(hidden.effects)
+    verdict = "The lab named it" if right else "The lab named something else"
+    return headline(f"Hidden was {described(hidden)}. {verdict}.")
+
+
+def _picture(loop: Loop) -> bytes:
+    sheet = loop.owner.settings.sheet
+    if not loop.after:
+        return draw([panel_of(loop.before)], sheet=sheet)
+    stairs = stairs_of(loop.addition, raw=loop.before)
+    last = replace(panel_of(loop.after, good=True), title="On a new sheet")
+    stairs.append(Stair(last, loop.after.rms))
+    heading = heading_of(loop.addition, loop.before.rms, loop.after.rms)
+    return draw_staircase(stairs, heading=heading, sheet=sheet)
+
+
+def _signed(form: str) -> bytes:
+    """Return a form that nobody's hand filled in: the next demo may replace it."""
+    return DEMO_MARKS + form.encode()
+
+
+def _texts(loop: Loop) -> dict[str, bytes]:
+    files = {"marks.toml": _signed(loop.forms[0])}
+    if loop.auto.addition:
+        files["marks-2.toml"] = _signed(loop.forms[-1])
+        files["machine.toml"] = toml_of(loop.addition, source="marks.toml")
+    return files
 
 
 if __name__ == "__main__":

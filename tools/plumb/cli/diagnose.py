@@ -7,10 +7,16 @@ from dataclasses import dataclass
 from operator import itemgetter
 
 from plumb.cli.arguments import add_json, add_marks, add_prior, add_sigma, add_units
-from plumb.cli.checked import add_checked, with_stated
-from plumb.cli.files import inputs_of
-from plumb.cli.screen import print_json, sentences, table
-from plumb.cli.steps import add_named, auto_words, next_step, same_inputs
+from plumb.cli.inputs import add_checked, stated_inputs
+from plumb.cli.screen import (
+    add_named,
+    auto_words,
+    next_step,
+    print_json,
+    same_inputs,
+    sentences,
+    table,
+)
 from plumb.diagnosis import Diagnosis, diagnose
 from plumb.diagnosis.answer import SHOWN, Together
 from plumb.model.catalogue import every_effect, label
@@ -38,7 +44,7 @@ class DiagnosisAnswer(Diagnosis):
 
 def run(arguments: argparse.Namespace) -> int:
     """Diagnose, print, and return the exit code."""
-    inputs = with_stated(inputs_of(arguments), arguments)
+    inputs = stated_inputs(arguments)
     diagnosis = diagnose(inputs)
     if arguments.json:
         proposals = propose(diagnosis, inputs).proposals

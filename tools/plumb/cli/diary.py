@@ -6,7 +6,7 @@ import argparse
 from dataclasses import dataclass
 
 from plumb.cli.arguments import add_force, add_json, add_units
-from plumb.cli.files import picture_form
+from plumb.cli.inputs import picture_form
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import headline, print_json, sentences, table
 from plumb.diary.file import Diary, Entry, has_diary, noted, read_diary

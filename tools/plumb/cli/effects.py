@@ -7,8 +7,7 @@ from collections import Counter
 from dataclasses import dataclass
 
 from plumb.cli.arguments import add_json
-from plumb.cli.screen import number, print_json, sentences, table
-from plumb.cli.steps import next_step
+from plumb.cli.screen import next_step, number, print_json, sentences, table
 from plumb.model.catalogue import NO_FIRMWARE, empirical_effects, every_effect, label
 from plumb.model.python_effect import EffectWords
 

@@ -13,8 +13,7 @@ from typing import Annotated
 import plumb.grid as marks_grid
 from plumb.cli.arguments import add_json
 from plumb.cli.output import refuse_twins, write_outputs
-from plumb.cli.screen import print_json
-from plumb.cli.steps import next_step
+from plumb.cli.screen import next_step, print_json
 from plumb.fit.inputs import settings_in
 from plumb.grid.options import APPROACH
 from plumb.grid.pattern import ACROSS, SPANS, SQUARE, UPWARDS

@@ -8,7 +8,7 @@ from pathlib import Path
 from textwrap import wrap
 
 from plumb.cli.arguments import add_port
-from plumb.cli.steps import next_step
+from plumb.cli.screen import next_step
 from plumb.guide.steps import SETTINGS, Visit, walk
 from plumb.guide.talk import Talk, progress_in
 from plumb.line.port import SerialPort, port_for

@@ -8,11 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from plumb.cli.arguments import add_force, add_json, add_marks, add_prior, add_sigma, add_units
-from plumb.cli.checked import add_checked, with_stated
-from plumb.cli.files import inputs_of, picture_form
+from plumb.cli.inputs import add_checked, picture_form, stated_inputs
 from plumb.cli.output import refuse_twins, write_outputs
-from plumb.cli.screen import bar, print_json, sentences, table
-from plumb.cli.steps import free_name, next_step, same_inputs
+from plumb.cli.screen import bar, free_name, next_step, print_json, same_inputs, sentences, table
 from plumb.diagnosis import Diagnosis, diagnose
 from plumb.fit.inputs import Inputs, settings_in
 from plumb.pictures.plan import draw_plan
@@ -60,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Diagnose, propose, write, print, and return the exit code."""
     refuse_twins(arguments.picture, arguments.template, arguments.output)
     form = picture_form(arguments.picture) if arguments.picture else ""
-    inputs = with_stated(inputs_of(arguments), arguments)
+    inputs = stated_inputs(arguments)
     diagnosis = diagnose(inputs)
     advice = propose(diagnosis, inputs, progress=bar("simulating"))
     files = _files(arguments, advice, inputs, form)

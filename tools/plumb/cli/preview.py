@@ -16,13 +16,11 @@ from plumb.cli.arguments import (
     file,
     length,
 )
-from plumb.cli.files import picture_form
+from plumb.cli.inputs import picture_form
 from plumb.cli.output import write_outputs
-from plumb.cli.screen import print_json, sentences, table
-from plumb.cli.steps import next_step
-from plumb.cure.add import priors_with
+from plumb.cli.screen import next_step, print_json, sentences, table
 from plumb.fit.inputs import settings_in
-from plumb.fit.problem import USUAL_SIGMA
+from plumb.fit.problem import USUAL_SIGMA, priors_with
 from plumb.grid.options import APPROACH
 from plumb.marks.read import Mark, Measurements, read_plan
 from plumb.model.plain import noun_of, plain_before

@@ -8,13 +8,12 @@ from dataclasses import dataclass
 
 from plumb import _core
 from plumb.cli.arguments import add_force, add_json, add_prior, add_settings, add_units, limit
-from plumb.cli.files import picture_form
+from plumb.cli.inputs import picture_form
 from plumb.cli.output import write_outputs
-from plumb.cli.screen import print_json, sentences, table
-from plumb.cli.steps import next_step
-from plumb.cure.add import priors_with
+from plumb.cli.screen import next_step, print_json, sentences, table
 from plumb.fit.expected import Expected, expected_anywhere, expected_priors, expected_sentence
 from plumb.fit.inputs import settings_in
+from plumb.fit.problem import priors_with
 from plumb.model.predict import REACH_WORDS
 from plumb.model.reach import Give, Pull, Survey, conclusion_of, percent, survey_sheet
 from plumb.pictures.reach import draw_map

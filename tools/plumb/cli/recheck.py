@@ -17,11 +17,10 @@ from plumb.cli.arguments import (
     add_units,
     file,
 )
-from plumb.cli.checked import add_checked, with_stated
-from plumb.cli.files import inputs_of
+from plumb.cli.home import add_touch, asked_signs, touches_of
+from plumb.cli.inputs import add_checked, stated_inputs
 from plumb.cli.output import say_failure
 from plumb.cli.screen import headline, print_json, sentences, table
-from plumb.cli.touches import add_touch, asked_signs, touches_of
 from plumb.diagnosis.check_marks import check_marks, check_sentence
 from plumb.diary.file import RECHECK, keep, read_diary
 from plumb.diary.recheck import LEFT, RIGHT, SHEET_X, SHEET_Y, Change, Recheck, recheck
@@ -109,7 +108,7 @@ def _held_against_marks(arguments: argparse.Namespace) -> int:
             f"--check {arguments.check}: give the marks to which {arguments.settings} was fitted"
         )
     refuse_the_same_twice([*arguments.marks, arguments.check])
-    inputs = with_stated(inputs_of(arguments), arguments)
+    inputs = stated_inputs(arguments)
     if inputs.settings.fitted is None:
         raise InputError(f"{arguments.settings} was fitted to no marks: give what plumb add wrote")
     read = read_marks(arguments.check, sheet=inputs.settings.sheet, known=known_effects())

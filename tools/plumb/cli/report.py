@@ -17,11 +17,9 @@ from plumb.cli.arguments import (
     add_units,
     add_without,
 )
-from plumb.cli.checked import add_checked, with_stated
-from plumb.cli.files import inputs_of
+from plumb.cli.inputs import add_checked, stated_inputs
 from plumb.cli.output import STDOUT, write_outputs
-from plumb.cli.screen import bar, headline, print_json, sentences
-from plumb.cli.steps import command_text, same_inputs
+from plumb.cli.screen import bar, command_text, headline, print_json, same_inputs, sentences
 from plumb.cure.add import Addition
 from plumb.diagnosis.answer import Diagnosis
 from plumb.diagnosis.expected_error import ExpectedError
@@ -91,7 +89,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Compare, diagnose, fit, propose, write the page, and return the exit code."""
     if arguments.output != STDOUT and Path(arguments.output).suffix.lower() not in ENDINGS:
         raise InputError(f"-o {arguments.output}: end the name with {', '.join(ENDINGS)}")
-    inputs = with_stated(inputs_of(arguments), arguments)
+    inputs = stated_inputs(arguments)
     findings = find(inputs, fits=_fits(arguments.settings), progress=bar("simulating"))
     page = report(findings, commands=_commands(arguments, findings), again=_again(arguments))
     read = [arguments.settings, *arguments.marks, *filter(None, [arguments.cut_with])]

@@ -7,8 +7,7 @@ from pathlib import Path
 
 from plumb.cli.arguments import add_force, add_machine, count, place
 from plumb.cli.output import STDOUT, write_outputs
-from plumb.cli.screen import sentences
-from plumb.cli.steps import next_step
+from plumb.cli.screen import next_step, sentences
 from plumb.fit.inputs import settings_in
 from plumb.job.dry_run import comment_of
 from plumb.job.resume import Machine, Resumed, resume_at_line, resume_at_place

@@ -11,8 +11,7 @@ from threading import Event, Thread
 
 from plumb.cli.arguments import add_port
 from plumb.cli.output import say_failure
-from plumb.cli.screen import Bar, sentences
-from plumb.cli.steps import free_name, next_step
+from plumb.cli.screen import Bar, free_name, next_step, sentences
 from plumb.diary.file import PROGRAM, keep, program_entry, write_and_keep
 from plumb.firmware.settings import refuse_other_numbers, refuse_other_origin
 from plumb.grid.cut_with import form_of

@@ -9,10 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from plumb.cli.arguments import add_force, add_json, add_settings, add_sigma, add_units
+from plumb.cli.home import add_touch, asked_signs, touches_of
 from plumb.cli.output import STDOUT, say_failure, write_outputs
-from plumb.cli.screen import headline, print_json, sentences, table
-from plumb.cli.steps import next_step
-from plumb.cli.touches import add_touch, asked_signs, touches_of
+from plumb.cli.screen import headline, next_step, print_json, sentences, table
 from plumb.diary.file import SLIP as SLIP_ENTRY
 from plumb.diary.file import keep
 from plumb.fit.inputs import settings_in

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -13,22 +13,19 @@ from plumb.cure.live_board import Chosen, LiveBoard, refuse_unknown_effects
 from plumb.fit.compare import Comparison, best_pose, compare
 from plumb.fit.covariates import PATCH, best_patch
 from plumb.fit.expected import PlausibleRange, plausible_range
-from plumb.fit.fit import Estimate, Fit, rms
+from plumb.fit.fit import Estimate, Fit
 from plumb.fit.inputs import Inputs
-from plumb.fit.observations import Observations
-from plumb.fit.problem import PRIORS
+from plumb.fit.observations import Observations, rms
 from plumb.fit.rounds import notes_on, unit_of
-from plumb.fit.sighting import SHEET_ROTATION
 from plumb.marks.benchmark import Score, score_of
 from plumb.model.catalogue import NO_FIRMWARE, is_sketch, parameter_words
 from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.plain import named, plain_name, plain_range, plain_size
 from plumb.model.predict import frame_words
 from plumb.model.sketches import SKETCHES
-from plumb.settings.machine import FRAME_FIELDS, MachineSettings
+from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, Number, key, meant, part
-from plumb.text.errors import InputError, to_do
-from plumb.text.values import bare, refuse_unknown, worded
+from plumb.text.values import bare, worded
 
 Sizes = Mapping[str, Mapping[str, float]]  # of parameters, effect by effect
 FAR = 2.0  # [prior sigmas] a stated number that moved farther was probably measured wrongly
@@ -188,7 +185,7 @@ def add(
     """
     chosen = Chosen(tuple(dict.fromkeys(effects)), held or {})
     refuse_unknown_effects(chosen.effects)
-    raw = raw_comparison(inputs)
+    raw = compare(inputs)
     board = LiveBoard(inputs, warm=False)
     board.refuse(chosen)
     return add_to(board, raw, chosen, patch=patch)
@@ -196,12 +193,7 @@ def add(
 
 def raw_comparison(inputs: Inputs) -> Comparison:
     """Return the marks against the settings as they stand."""
-    return compare(
-        inputs.settings,
-        inputs.measurements,
-        cut_with=inputs.cut_with,
-        controller=inputs.controller,
-    )
+    return compare(inputs)
 
 
 def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = False) -> Addition:
@@ -245,18 +237,6 @@ def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = F
         sigma_from=noise.source,
         benchmark_after=score_of(board.inputs.measurements, after_fit.distance_errors.tolist()),
     )
-
-
-def priors_with(changes: Iterable[tuple[str, float]]) -> dict[str, float]:
-    """Return the usual priors with some standard deviations changed; 0 holds a number."""
-    priors = dict(PRIORS)
-    for name, sigma in changes:
-        try:
-            refuse_unknown([name], (*FRAME_FIELDS, SHEET_ROTATION))
-        except ValueError as error:
-            raise InputError(f"{to_do('--prior', page='how far off is')} {name}: {error}") from None
-        priors[name] = sigma
-    return priors
 
 
 def quality_of(fitted: Fit, rows: Observations) -> Quality:

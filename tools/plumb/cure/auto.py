@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Annotated
 
 from pydantic import computed_field
@@ -14,12 +13,11 @@ from plumb.diagnosis import Diagnosis, diagnose
 from plumb.diagnosis.answer import Verdict
 from plumb.diagnosis.expected_error import LeftOpen
 from plumb.fit.inputs import Inputs
-from plumb.marks.read import Measurements
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly
 from plumb.text.answers import Internal, key, part
-from plumb.text.errors import InputError, to_do
-from plumb.text.values import refuse_unknown, worded
+from plumb.text.errors import to_do
+from plumb.text.values import worded
 
 
 @dataclass(frozen=True)
@@ -138,27 +136,6 @@ def _settled_by(chosen: tuple[str, ...], rivals: tuple[tuple[str, ...], ...]) ->
         name for name in names if not all(name in explanation for explanation in explanations)
     )
     return tuple(f"{noun_of(name)}: {remedies[name]}" for name in undecided)
-
-
-def without_marks(measurements: Measurements, names: Iterable[str]) -> Measurements:
-    """Return the measurements without the readings of some marks, and without distances from or to
-    them.
-
-    Raises InputError for a name that is not there.
-    """
-    gone = tuple(names)
-    known = [mark.name for mark in measurements.marks]
-    try:
-        refuse_unknown(gone, known)
-    except ValueError as error:
-        raise InputError(f"{to_do('--without', page='left out:')} {error}") from None
-    return replace(
-        measurements,
-        marks=tuple(mark for mark in measurements.marks if mark.name not in gone),
-        distances=tuple(
-            distance for distance in measurements.distances if not {*distance.between} & {*gone}
-        ),
-    )
 
 
 def _slip_reason(diagnosis: Diagnosis) -> str:

@@ -9,9 +9,8 @@ from typing import Annotated
 import numpy as np
 from pydantic import computed_field
 
-from plumb.fit.fit import rms
-from plumb.fit.inputs import known_outside
-from plumb.fit.observations import Observations, chains_to, model_and_observations
+from plumb.fit.inputs import Inputs, known_outside
+from plumb.fit.observations import Observations, chains_to, rms
 from plumb.fit.sighting import Sighting, sighted
 from plumb.marks.benchmark import Score, score_as_cut, score_of
 from plumb.marks.read import Measurements
@@ -91,21 +90,14 @@ class Comparison:
         return self.promised.rms if self.promised else None
 
 
-def compare(
-    settings: MachineSettings,
-    measurements: Measurements,
-    *,
-    cut_with: MachineSettings | None = None,
-    controller: str | None = None,
-) -> Comparison:
-    """Compare our model of `settings` with marks that were cut with `cut_with` (default: the same).
+def compare(inputs: Inputs) -> Comparison:
+    """Return how far the marks lie from where our model of the settings predicts them.
 
     Raises InputError for a mark that these settings cannot reach.
     """
-    model, rows = model_and_observations(
-        settings, measurements, cut_with=cut_with, controller=controller
-    )
-    outside = known_outside(settings, measurements, cut_with=cut_with)
+    settings, measurements = inputs.settings, inputs.measurements
+    model, rows = inputs.model_and_observations()
+    outside = known_outside(settings, measurements, cut_with=inputs.cut_with)
     seen = predicted_sighting(model, rows, measurements, outside)
     where = seen.read.where
     marks = _marks(model, rows, seen, predicted_sighting(model, rows, measurements, {}))
@@ -124,7 +116,7 @@ def compare(
         shift=pose.shift if pose else None,
         rotation=pose.rotation if pose else None,
         promised=_promised(settings, measurements, outside),
-        warnings=_warnings(settings, measurements, cut_with, controller),
+        warnings=_warnings(inputs),
         rounds=_rounds(measurements, errors, spans),
         benchmark=score_as_cut(measurements),
         benchmark_left=score_of(measurements, spans.tolist()),
@@ -230,15 +222,11 @@ def _point(pair: np.ndarray) -> Point:
     return float(pair[0]), float(pair[1])
 
 
-def _warnings(
-    settings: MachineSettings,
-    measurements: Measurements,
-    cut_with: MachineSettings | None,
-    controller: str | None,
-) -> tuple[str, ...]:
-    whose = controller or measurements.controller
-    known = cut_with or all(file_round.cut_with for file_round in measurements.rounds)
-    if known or settings.controller != "plumb" or whose in (None, "plumb"):
+def _warnings(inputs: Inputs) -> tuple[str, ...]:
+    measurements = inputs.measurements
+    whose = inputs.controller or measurements.controller
+    known = inputs.cut_with or all(file_round.cut_with for file_round in measurements.rounds)
+    if known or inputs.settings.controller != "plumb" or whose in (None, "plumb"):
         return ()
     return (
         f"the marks were cut by the {whose} controller, but these settings are of plumb: "

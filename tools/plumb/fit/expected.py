@@ -16,7 +16,7 @@ import numpy as np
 from pydantic import computed_field
 
 from plumb.fit.compare import best_pose
-from plumb.fit.fit import rms
+from plumb.fit.observations import rms
 from plumb.fit.problem import PRIORS, Checked
 from plumb.fit.sighting import SHEET_ROTATION
 from plumb.model.catalogue import parameter_words

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from plumb.fit.observations import Observations
+from plumb.fit.observations import Observations, rms
 from plumb.fit.problem import PRIORS, USUAL_SIGMA, Checked, Problem, Solution, solve
 from plumb.fit.rounds import last_turn_of
 from plumb.fit.sighting import OUTSIDE_NAMES, SHEET_ROTATION
@@ -95,13 +95,6 @@ class Fit:
         """The fit's error scaled up for the numbers it took from the data."""
         count = self.errors.size + self.distance_errors.size
         return self.rms * float(np.sqrt(count / max(count - self.spent, 1e-9)))
-
-
-def rms(errors: Array) -> float:
-    """Root mean square length of errors (n, 2), or of numbers (n,) [mm]."""
-    if len(errors) == 0:
-        return float("nan")
-    return float(np.sqrt(np.mean(np.sum(np.atleast_2d(errors.T).T ** 2, axis=1))))
 
 
 def fit(

@@ -225,3 +225,10 @@ def chains_to(model: MachineSettings, points: Array, weights: Array) -> tuple[Ar
         loaded_values, _ = loaded(values_of(model), weight, model.sled_weight)
         chains[mine], outcome[mine] = lengths(settings_of(loaded_values, like=model), points[mine])
     return chains, outcome
+
+
+def rms(errors: Array) -> float:
+    """Root mean square length of errors (n, 2), or of numbers (n,) [mm]."""
+    if len(errors) == 0:
+        return float("nan")
+    return float(np.sqrt(np.mean(np.sum(np.atleast_2d(errors.T).T ** 2, axis=1))))

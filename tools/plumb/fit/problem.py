@@ -23,8 +23,9 @@ from plumb.fit.rounds import round_priors
 from plumb.fit.sighting import SHEET_ROTATION, Sighting, sighted
 from plumb.model.catalogue import parameter_names, parameter_words
 from plumb.model.predict import FOUND, NAMES, Array, values_of, with_parameters
-from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError
+from plumb.settings.machine import FRAME_FIELDS, MachineSettings
+from plumb.text.errors import InputError, to_do
+from plumb.text.values import refuse_unknown
 
 USUAL_SIGMA = 0.5  # [mm] of one coordinate read with a tape by hand
 # Standard deviations of what an owner states: spacing by tape or pulled chain; the sheet may lie
@@ -252,3 +253,15 @@ def _lower(problem: Problem, here: Linearized, columns: Columns, step: Array) ->
         if there is not None and there.cost < here.cost:
             return there
     return None
+
+
+def priors_with(changes: Iterable[tuple[str, float]]) -> dict[str, float]:
+    """Return the usual priors with some standard deviations changed; 0 holds a number."""
+    priors = dict(PRIORS)
+    for name, sigma in changes:
+        try:
+            refuse_unknown([name], (*FRAME_FIELDS, SHEET_ROTATION))
+        except ValueError as error:
+            raise InputError(f"{to_do('--prior', page='how far off is')} {name}: {error}") from None
+        priors[name] = sigma
+    return priors

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import sys
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -14,8 +16,7 @@ from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from plumb.lab.background import LiveBoards
-from plumb.lab.editor import Editor, OtherTabError, may_change
-from plumb.lab.guard import Address, Guard
+from plumb.lab.guard import Address, Editor, Guard, OtherTabError, may_change
 from plumb.lab.guide_desk import GuideDesk
 from plumb.lab.machine_line import MachineLine
 from plumb.lab.project import ChangedError, Project
@@ -145,3 +146,16 @@ async def _failed(request: Request, error: Exception) -> JSONResponse:
     """Return a fault of the lab itself; the terminal shows where."""
     line = f"the lab has a fault ({type(error).__name__}); its terminal shows where"
     return JSONResponse({"error": line}, 500)
+
+
+def schema() -> str:
+    """Return the OpenAPI schema as JSON."""
+    app = FastAPI(title="plumb lab")
+    for router in ROUTERS:
+        app.include_router(router, prefix="/api")
+    return json.dumps(app.openapi(), indent=1)
+
+
+if __name__ == "__main__":
+    Path(sys.argv[1]).parent.mkdir(parents=True, exist_ok=True)
+    Path(sys.argv[1]).write_text(schema())

@@ -12,9 +12,8 @@ from dataclasses import dataclass, field
 from threading import Lock
 from typing import Generic, TypeVar, cast
 
-from plumb.cure.add import raw_comparison
 from plumb.cure.live_board import BoardView, LiveBoard
-from plumb.fit.compare import Comparison
+from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
 from plumb.lab.project import Project, read_choices
 
@@ -117,7 +116,7 @@ class LiveBoards:
             if self._kept is None or self._kept.key != key:
                 inputs = inputs_of(project)
                 live = LiveBoard(inputs)
-                self._kept = WarmBoard(key, live, BoardView(live), raw_comparison(inputs))
+                self._kept = WarmBoard(key, live, BoardView(live), compare(inputs))
             return self._kept
 
 

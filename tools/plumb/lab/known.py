@@ -9,9 +9,9 @@ from typing import Literal
 
 from pydantic import BaseModel
 
-from plumb.cure.add import priors_with
 from plumb.diagnosis import Checked
 from plumb.fit.expected import WIDE, is_absurd, plausible_range, refuse_absurd
+from plumb.fit.problem import priors_with
 from plumb.lab.project import Choices
 from plumb.plan.separation import FRAME_CHECKS, effect_checks
 from plumb.settings.machine import GRAVITY, MachineSettings

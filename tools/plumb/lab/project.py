@@ -1,7 +1,7 @@
 """A project: a plain folder with the files of the command line, and the choices made on the page.
 
 Each file has a digest. A save names the digest that its author had read, so that nobody overwrites
-what another program or the command line wrote in the meantime; `editor.py` lets a single tab edit.
+what another program or the command line wrote in the meantime; `guard.py` lets a single tab edit.
 """
 
 from __future__ import annotations

@@ -15,8 +15,9 @@ from plumb.marks.model import Distance, Mark, Measurements, Point, Round, Typed,
 from plumb.marks.plausible import Sheet, checked
 from plumb.marks.toml import read_marks_toml
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, to_do
 from plumb.text.files import read_bytes
+from plumb.text.values import refuse_unknown
 
 __all__ = [
     "Distance",
@@ -26,6 +27,7 @@ __all__ = [
     "join_measurements",
     "read_marks",
     "read_plan",
+    "without_marks",
 ]
 
 
@@ -292,3 +294,24 @@ def _shared_weight(parts: tuple[Measurements, ...]) -> float | None:
     """
     weights = {part.sled_weight for part in parts}
     return weights.pop() if len(weights) == 1 else None
+
+
+def without_marks(measurements: Measurements, names: Iterable[str]) -> Measurements:
+    """Return the measurements without the readings of some marks, and without distances from or to
+    them.
+
+    Raises InputError for a name that is not there.
+    """
+    gone = tuple(names)
+    known = [mark.name for mark in measurements.marks]
+    try:
+        refuse_unknown(gone, known)
+    except ValueError as error:
+        raise InputError(f"{to_do('--without', page='left out:')} {error}") from None
+    return replace(
+        measurements,
+        marks=tuple(mark for mark in measurements.marks if mark.name not in gone),
+        distances=tuple(
+            distance for distance in measurements.distances if not {*distance.between} & {*gone}
+        ),
+    )

@@ -18,7 +18,7 @@ from plumb.bench.judged_board import sheet
 from plumb.firmware.client_files import gcode
 from plumb.firmware.settings import CLIENT_NUMBERS, firmware_numbers
 from plumb.fit.compare import best_pose
-from plumb.fit.fit import rms
+from plumb.fit.observations import rms
 from plumb.line.sender import Sender
 from plumb.model.predict import FOUND, judged, lengths
 from plumb.settings.machine import MachineSettings

@@ -76,7 +76,7 @@ def closed_loop(
     forms = [cut.next()]
     board = read(owner, forms[0])
     inputs = Inputs(owner.settings, board)
-    before, first = compare(owner.settings, board), diagnose(inputs)
+    before, first = compare(Inputs(owner.settings, board)), diagnose(inputs)
     more = _measured_more(owner, inputs, first, budget or Budget(), said)
     auto = add_auto(more.inputs)
     after = None
@@ -84,7 +84,7 @@ def closed_loop(
         said("The new numbers go to the machine, and it cuts the grid again on another sheet.")
         lay_next_sheet(owner, auto.addition.settings, raised=auto.addition.sheet_rise)
         forms.append(cut.next())
-        after = compare(owner.settings, read(owner, forms[-1]))
+        after = compare(Inputs(owner.settings, read(owner, forms[-1])))
     progress(1.0)
     return Loop(owner, tuple(forms), before, first, more.inputs, more.done, more.spent, auto, after)
 

@@ -16,18 +16,15 @@ FOLDER = Path(main.__file__).parent
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 # Files of the room that are no commands.
 SHARED = {
-    *(
-        "__init__",
-        "add_text",
-        "answers",
-        "arguments",
-        "checked",
-        "client",
-        "demo",
-        "demo_loop",
-        "files",
-    ),
-    *("main", "output", "parser", "screen", "steps", "touches"),
+    "__init__",
+    "add_text",
+    "answers",
+    "arguments",
+    "demo",
+    "inputs",
+    "main",
+    "output",
+    "screen",
 }
 # What takes longer to load than the help of all commands may take.
 HEAVY = ("numpy", "scipy", "matplotlib")

@@ -3,10 +3,10 @@
 from dataclasses import replace
 
 import pytest
-from plumb.cure.add import add, priors_with
+from plumb.cure.add import add
 from plumb.cure.machine_file import MARKS, SETTINGS, turn_sentences
 from plumb.fit.inputs import Inputs
-from plumb.fit.problem import PRIORS, Checked
+from plumb.fit.problem import PRIORS, Checked, priors_with
 from plumb.marks.read import Measurements, read_marks
 from plumb.model.predict import library
 from plumb.settings.files import read_settings

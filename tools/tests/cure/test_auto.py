@@ -10,12 +10,12 @@ import pytest
 from hidden_boards import MAKER, board, plan, size_for
 from plumb.cli.main import main
 from plumb.cure import auto
-from plumb.cure.auto import add_auto, without_marks
+from plumb.cure.auto import add_auto
 from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.diagnosis import diagnose
 from plumb.diagnosis.answer import Together
 from plumb.fit.inputs import Inputs
-from plumb.marks.read import Measurements, read_marks
+from plumb.marks.read import Measurements, read_marks, without_marks
 from plumb.model.catalogue import parameter_words
 from plumb.model.plain import noun_of
 from plumb.settings.files import read_settings

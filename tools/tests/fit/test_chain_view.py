@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from plumb.fit.compare import chain_errors, chain_view, compare
 from plumb.fit.covariates import covariates
+from plumb.fit.inputs import Inputs
 from plumb.fit.observations import loaded, observe
 from plumb.marks.read import Distance, Mark, Measurements
 from plumb.model.predict import lengths, places, reach, settings_of, values_of
@@ -45,7 +46,7 @@ def test_a_longer_chain_errs_with_its_length():
 
 def test_it_is_what_compare_says():
     marks = Measurements(marks_on(TRUE, BELIEVED, grid(5, 3), rotation=0.001, noise=0.5))
-    compared = compare(BELIEVED, marks).marks
+    compared = compare(Inputs(BELIEVED, marks)).marks
     said = [(mark.left_chain_residual, mark.right_chain_residual) for mark in compared]
     view = chain_view(values_of(BELIEVED), {}, observe(BELIEVED, marks), BELIEVED)
     assert view.chains == pytest.approx(np.array(said))
@@ -58,7 +59,7 @@ def test_swapped_chains_that_lead_where_they_should_have_no_error():
     chains = np.array([[1800.0, 1700.0]])
     where = tuple(places(swapped, chains)[0][0])
     mark = Mark("1", (0.0, 0.0), where, chains=(1800.0, 1700.0), chains_swapped=True)
-    (compared,) = compare(machine, Measurements((mark,))).marks
+    (compared,) = compare(Inputs(machine, Measurements((mark,)))).marks
     assert np.hypot(*compared.error) < 1e-3
     assert abs(compared.left_chain_residual) < 1e-3 and abs(compared.right_chain_residual) < 1e-3
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.fit.compare import best_pose, compare
+from plumb.fit.inputs import Inputs
 from plumb.marks.read import Mark, Measurements, read_marks
 from plumb.settings.files import groundcontrol_changes, read_settings, write_groundcontrol_ini
 from plumb.text.errors import InputError
@@ -18,7 +19,7 @@ PUBLISHED_MARKS = read_marks(MARKS, sheet=STOCK.sheet)
 
 
 def test_the_published_marks_are_as_far_off_as_published():
-    comparison = compare(STOCK, PUBLISHED_MARKS)
+    comparison = compare(Inputs(STOCK, PUBLISHED_MARKS))
     assert comparison.rms == pytest.approx(7.29, abs=0.02)
     assert comparison.worst == pytest.approx(14.94, abs=0.02)
     assert comparison.shape_rms == pytest.approx(4.07, abs=0.02)
@@ -27,19 +28,21 @@ def test_the_published_marks_are_as_far_off_as_published():
 
 def test_a_machine_that_believes_the_truth_makes_no_error():
     marks = Measurements(marks_on(TRUE, TRUE, grid(5, 3)))
-    comparison = compare(TRUE, marks)
+    comparison = compare(Inputs(TRUE, marks))
     assert comparison.rms < 1e-4 and comparison.worst < 1e-4
     assert all(abs(mark.left_chain_residual) < 1e-4 for mark in comparison.marks)
 
 
 def test_the_true_settings_explain_marks_that_others_cut():
     marks = Measurements(marks_on(TRUE, BELIEVED, grid(5, 3)))
-    assert compare(BELIEVED, marks).rms > 3
-    assert compare(TRUE, marks, cut_with=BELIEVED).rms < 1e-4
+    assert compare(Inputs(BELIEVED, marks)).rms > 3
+    assert compare(Inputs(TRUE, marks, cut_with=BELIEVED)).rms < 1e-4
 
 
 def test_the_error_is_measured_less_predicted():
-    comparison = compare(BELIEVED, Measurements((Mark("1", (100.0, 200.0), (101.0, 198.0)),)))
+    comparison = compare(
+        Inputs(BELIEVED, Measurements((Mark("1", (100.0, 200.0), (101.0, 198.0)),)))
+    )
     (mark,) = comparison.marks
     assert mark.predicted == pytest.approx((100, 200), abs=1e-4)
     assert mark.error == pytest.approx((1, -2), abs=1e-4)
@@ -49,14 +52,14 @@ def test_the_error_is_measured_less_predicted():
 
 def test_a_residual_is_the_chain_that_was_missing():
     # Measured right of its target: the left chain was longer, the right chain shorter.
-    comparison = compare(BELIEVED, Measurements((Mark("1", (0.0, 0.0), (1.0, 0.0)),)))
+    comparison = compare(Inputs(BELIEVED, Measurements((Mark("1", (0.0, 0.0), (1.0, 0.0)),))))
     (mark,) = comparison.marks
     assert mark.left_chain_residual == pytest.approx(0.81, abs=0.03)
     assert mark.right_chain_residual == pytest.approx(-0.81, abs=0.03)
 
 
 def test_a_measured_place_that_no_chain_reaches_has_no_residual():
-    comparison = compare(BELIEVED, Measurements((Mark("1", (0.0, 600.0), (0.0, 1200.0)),)))
+    comparison = compare(Inputs(BELIEVED, Measurements((Mark("1", (0.0, 600.0), (0.0, 1200.0)),))))
     assert comparison.marks[0].left_chain_residual is None
     assert comparison.marks[0].right_chain_residual is None
 
@@ -79,7 +82,7 @@ def test_a_single_place_has_no_shape():
 
 
 def test_distances_are_compared_as_published():
-    comparison = compare(STOCK, read_marks(DISTANCES, sheet=STOCK.sheet))
+    comparison = compare(Inputs(STOCK, read_marks(DISTANCES, sheet=STOCK.sheet)))
     assert comparison.rms == comparison.distance_rms == pytest.approx(2.82, abs=0.005)
     assert comparison.worst == pytest.approx(6.6, abs=0.01)
     assert comparison.marks == () and comparison.shape_rms is None
@@ -91,36 +94,36 @@ def test_distances_are_compared_as_published():
 def test_beside_marks_distances_have_their_own_rms():
     marks = marks_on(TRUE, BELIEVED, grid(3, 2))
     both = Measurements(marks, distances_between(marks).distances)
-    comparison = compare(BELIEVED, both)
-    assert comparison.rms == compare(BELIEVED, Measurements(marks)).rms
-    assert comparison.distance_rms == compare(BELIEVED, distances_between(marks)).rms
+    comparison = compare(Inputs(BELIEVED, both))
+    assert comparison.rms == compare(Inputs(BELIEVED, Measurements(marks))).rms
+    assert comparison.distance_rms == compare(Inputs(BELIEVED, distances_between(marks))).rms
 
 
 def test_each_mark_hangs_on_its_own_sled():
     marks = Measurements(marks_on(TRUE, BELIEVED, grid(3, 3), sled_weight=160.0))
-    assert compare(TRUE, marks, cut_with=BELIEVED).rms < 1e-4
+    assert compare(Inputs(TRUE, marks, cut_with=BELIEVED)).rms < 1e-4
     unsaid = replace(marks, marks=tuple(replace(m, sled_weight=None) for m in marks.marks))
-    assert compare(TRUE, unsaid, cut_with=BELIEVED).rms > 0.5
+    assert compare(Inputs(TRUE, unsaid, cut_with=BELIEVED)).rms > 0.5
 
 
 def test_new_published_settings_are_compared_with_old_marks(tmp_path):
     path = tmp_path / "groundcontrol.ini"
     values = groundcontrol_changes(replace(BELIEVED, motor_gap=2985.0)).values
     write_groundcontrol_ini(path, SETTINGS, values)
-    comparison = compare(read_settings(path), PUBLISHED_MARKS, cut_with=STOCK)
-    alone = compare(STOCK, PUBLISHED_MARKS)
+    comparison = compare(Inputs(read_settings(path), PUBLISHED_MARKS, cut_with=STOCK))
+    alone = compare(Inputs(STOCK, PUBLISHED_MARKS))
     assert comparison.rms < alone.rms - 2
 
 
 def test_our_settings_with_marks_of_another_controller_are_warned_of():
     stock = replace(PUBLISHED_MARKS, controller="stock")
-    assert "--cut-with" in compare(BELIEVED, stock).warnings[0]
-    assert compare(BELIEVED, stock, cut_with=STOCK).warnings == ()
-    assert compare(STOCK, stock).warnings == ()
+    assert "--cut-with" in compare(Inputs(BELIEVED, stock)).warnings[0]
+    assert compare(Inputs(BELIEVED, stock, cut_with=STOCK)).warnings == ()
+    assert compare(Inputs(STOCK, stock)).warnings == ()
 
 
 def test_chains_that_lead_nowhere_are_refused_with_the_mark():
     wide = replace(BELIEVED, motor_gap=5000.0)
     marks = Measurements((Mark("left", (-900.0, 0.0), (-900.0, 0.0)),), source="marks.csv")
     with pytest.raises(InputError, match=r"^marks\.csv, mark left: .*--cut-with"):
-        compare(wide, marks, cut_with=BELIEVED)
+        compare(Inputs(wide, marks, cut_with=BELIEVED))

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from plumb.fit.compare import compare
+from plumb.fit.inputs import Inputs
 from plumb.marks.read import Mark, Measurements, Round, join_measurements
 from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
 
@@ -30,12 +31,12 @@ def distances_alone(name):
 
 def test_each_file_has_the_errors_of_its_readings_alone():
     parts = [marks_alone("a", BELIEVED), both_of("b"), distances_alone("c")]
-    rounds = compare(BELIEVED, join_measurements(parts)).rounds
+    rounds = compare(Inputs(BELIEVED, join_measurements(parts))).rounds
     assert [each.name for each in rounds] == ["a", "b", "c"]
     assert [each.count for each in rounds] == [6, 6, 3]
     assert rounds[0].date == "2026-05-01"
     for part, said in zip(parts, rounds, strict=True):
-        alone = compare(BELIEVED, part)
+        alone = compare(Inputs(BELIEVED, part))
         assert said.distance_rms == pytest.approx(alone.distance_rms)
         assert said.rms == (pytest.approx(alone.rms) if alone.marks else None)
     assert rounds[0].distance_rms is None and rounds[2].rms is None
@@ -43,19 +44,19 @@ def test_each_file_has_the_errors_of_its_readings_alone():
 
 def test_a_single_file_is_no_round_and_two_are():
     first = marks_alone("a")
-    assert compare(BELIEVED, first).rounds == ()
-    assert len(compare(BELIEVED, join_measurements([first, marks_alone("b")])).rounds) == 2
+    assert compare(Inputs(BELIEVED, first)).rounds == ()
+    assert len(compare(Inputs(BELIEVED, join_measurements([first, marks_alone("b")]))).rounds) == 2
 
 
 def test_marks_and_distances_keep_their_worst_and_their_names():
-    comparison = compare(BELIEVED, both_of("b"))
+    comparison = compare(Inputs(BELIEVED, both_of("b")))
     assert comparison.worst == max(mark.length for mark in comparison.marks)
     for mark, read in zip(comparison.marks, both_of("b").marks, strict=True):
         assert (mark.name, mark.target, mark.measured) == (read.name, read.target, read.measured)
         assert mark.error == pytest.approx(np.subtract(mark.measured, mark.predicted))
     spans = [distance.error for distance in comparison.distances]
     assert comparison.distance_rms == pytest.approx(np.sqrt(np.mean(np.square(spans))))
-    alone = compare(BELIEVED, distances_alone("c"))
+    alone = compare(Inputs(BELIEVED, distances_alone("c")))
     assert alone.worst == max(abs(distance.error) for distance in alone.distances)
 
 
@@ -63,7 +64,7 @@ def test_a_file_that_names_its_settings_warns_of_nothing():
     marks = (Mark("1", (0.0, 0.0), (1.0, 0.0)), Mark("2", (500.0, 0.0), (501.0, 0.0)))
     named = Measurements(marks, controller="stock", rounds=(Round(cut_with=BELIEVED),))
     unnamed = Measurements(marks, controller="stock")
-    assert compare(BELIEVED, named).warnings == ()
-    assert "stock" in compare(BELIEVED, unnamed).warnings[0]
-    assert compare(BELIEVED, unnamed, controller="plumb").warnings == ()
-    assert compare(BELIEVED, Measurements(marks)).warnings == ()
+    assert compare(Inputs(BELIEVED, named)).warnings == ()
+    assert "stock" in compare(Inputs(BELIEVED, unnamed)).warnings[0]
+    assert compare(Inputs(BELIEVED, unnamed, controller="plumb")).warnings == ()
+    assert compare(Inputs(BELIEVED, Measurements(marks))).warnings == ()

@@ -17,7 +17,7 @@ from plumb.fit.expected import (
     expected_sentence,
     places_over,
 )
-from plumb.fit.fit import rms
+from plumb.fit.observations import rms
 from plumb.fit.problem import PRIORS
 from plumb.fit.sighting import SHEET_ROTATION
 from plumb.model.catalogue import parameter_words

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.fit.fit import fit, rms
-from plumb.fit.observations import observe
+from plumb.fit.fit import fit
+from plumb.fit.observations import observe, rms
 from plumb.fit.problem import PRIORS, Problem
 from plumb.fit.sighting import SHEET_ROTATION
 from plumb.marks.read import Measurements

@@ -48,7 +48,7 @@ def test_it_lowers_the_error_at_marks_that_it_never_saw(kind):
         seen, unseen = halves(strange)
         for patch, errors in ((False, before), (True, after)):
             fitted = add(Inputs(MAKER, seen, sigma=0.3), effects=(), patch=patch)
-            comparison = compare(fitted.settings, unseen, cut_with=MAKER)
+            comparison = compare(Inputs(fitted.settings, unseen, cut_with=MAKER))
             errors.append(comparison.shape_rms)
     assert np.mean(after) < 0.6 * np.mean(before)
 

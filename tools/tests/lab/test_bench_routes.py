@@ -13,8 +13,8 @@ from plumb.cli.main import main
 from plumb.cure.live_board import BoardView, Chosen, LiveBoard
 from plumb.diagnosis.suspect_curves import view_by
 from plumb.fit.compare import chain_view
-from plumb.fit.fit import rms
 from plumb.fit.inputs import Inputs
+from plumb.fit.observations import rms
 from plumb.fit.problem import Problem
 from plumb.marks.read import Mark, Measurements
 from plumb.model.predict import values_of

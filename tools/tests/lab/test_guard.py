@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from attacks import Try, answered, status
-from plumb.lab.openapi import schema
+from plumb.lab.app import schema
 from plumb.lab.server import TOKEN_FILE
 from served_lab import serve
 from websockets.exceptions import InvalidStatus

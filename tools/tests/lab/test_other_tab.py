@@ -3,7 +3,7 @@
 import pytest
 from folder import asked, example_form, with_settings
 from playwright.sync_api import expect
-from plumb.lab.editor import Editor, OtherTabError
+from plumb.lab.guard import Editor, OtherTabError
 from plumb.marks.form import read_form
 from test_readings_page import LEFT, SHEET, await_saved, open_readings, saved, type_in, with_form
 

@@ -11,7 +11,7 @@ from plumb.bench.causes import MAKER
 from plumb.cli.main import main
 from plumb.fit.compare import best_pose
 from plumb.fit.expected import expected_error
-from plumb.fit.fit import rms
+from plumb.fit.observations import rms
 from plumb.fit.problem import PRIORS
 from plumb.grid import Grid, GridError, PlainMachine, program
 from plumb.lab.known import stated

@@ -15,7 +15,7 @@ STORIES = {
     "bench/hiding.py",
     # The example of an option, whose help must not wait for the catalogue.
     "cli/add.py",
-    "cli/checked.py",
+    "cli/inputs.py",
     # Machines on which chains slip, and a question to the owner about the links of a chain.
     "bench/slipped_chains.py",
     "lab/known.py",

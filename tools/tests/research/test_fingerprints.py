@@ -12,7 +12,7 @@ from fingerprints import (
     field_of,
     look_alikes,
 )
-from plumb.fit.fit import rms
+from plumb.fit.observations import rms
 from plumb.model.catalogue import every_effect
 
 FIELDS = every_field()

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from plumb.fit.fit import rms
+from plumb.fit.observations import rms
 from real_data_page import COMMAND, PAGE, pages
 from real_sets import (
     BRACKETS,

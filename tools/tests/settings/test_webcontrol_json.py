@@ -8,9 +8,13 @@ import pytest
 from plumb.cli.main import main
 from plumb.firmware.client_files import client_numbers
 from plumb.grid.cut_with import digest_of
-from plumb.settings.files import changed_client_file, read_settings
+from plumb.settings.files import (
+    changed_client_file,
+    parse_webcontrol,
+    read_settings,
+    read_webcontrol,
+)
 from plumb.settings.ini import SOURCES
-from plumb.settings.webcontrol import parse_webcontrol, read_webcontrol
 from plumb.text.errors import InputError
 from plumb.text.ini import read_ini
 

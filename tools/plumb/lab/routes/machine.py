@@ -16,8 +16,7 @@ from pydantic import BaseModel, Field
 from plumb.diary.file import write_and_keep
 from plumb.firmware.settings import digest_of_numbers, every_setting, machine_of_numbers
 from plumb.job.dry_run import refuse_what_is_no_program
-from plumb.lab.editor import Editor, editor_of
-from plumb.lab.guard import PROTOCOL
+from plumb.lab.guard import PROTOCOL, Editor, editor_of
 from plumb.lab.machine_line import MachineLine, TheLine, line_of, ports, refuse_foreign_fit
 from plumb.lab.project import Project, save_choices
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show

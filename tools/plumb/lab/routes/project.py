@@ -11,7 +11,7 @@ from pydantic import BaseModel
 
 from plumb.diagnosis.doubts import Doubted, doubted_readings
 from plumb.fit.inputs import Inputs, settings_in
-from plumb.lab.editor import TheEditor
+from plumb.lab.guard import TheEditor
 from plumb.lab.known import refuse_absurd_known, stated
 from plumb.lab.project import (
     FILE,

@@ -1,4 +1,4 @@
-"""What --prior, --sigma and --checked say, as the fit takes it."""
+"""What a command line says of a machine, its marks and a picture."""
 
 from __future__ import annotations
 
@@ -7,19 +7,40 @@ import math
 import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import NamedTuple
 
-from plumb.cure.add import priors_with
 from plumb.diagnosis import Checked
 from plumb.fit.expected import refuse_absurd
-from plumb.fit.inputs import Inputs
-from plumb.fit.problem import PRIORS
+from plumb.fit.inputs import Inputs, read_inputs
+from plumb.fit.problem import PRIORS, priors_with
+from plumb.marks.read import without_marks
 from plumb.model.catalogue import parameter_words
+from plumb.pictures.sheet import FORMATS
 from plumb.text.errors import InputError
+from plumb.text.values import show_in
 
 
-def with_stated(inputs: Inputs, arguments: argparse.Namespace) -> Inputs:
-    """Return the inputs with all numbers that the command line states."""
+def inputs_of(arguments: argparse.Namespace) -> Inputs:
+    """Return everything that a command with marks reads; lengths are shown as the marks
+    were typed.
+    """
+    inputs = read_inputs(
+        arguments.settings,
+        arguments.marks,
+        cut_with=arguments.cut_with,
+        controller=arguments.controller,
+    )
+    if not arguments.json:
+        show_in(arguments.units or inputs.measurements.typed.unit)
+    without = vars(arguments).get("without")
+    marks = without_marks(inputs.measurements, without) if without else inputs.measurements
+    return replace(inputs, measurements=marks)
+
+
+def stated_inputs(arguments: argparse.Namespace) -> Inputs:
+    """Return the same with all numbers that the command line states."""
+    inputs = inputs_of(arguments)
     priors = priors_with(arguments.prior)
     checks = usable_checks(arguments.checked, priors)
     refuse_absurd(checks, inputs.settings)
@@ -101,3 +122,11 @@ def checked(text: str) -> Measured:
     if check.sigma <= 0:
         raise argparse.ArgumentTypeError(f"'{text}': a sigma is above zero")
     return check
+
+
+def picture_form(path: str, *, option: str = "--picture") -> str:
+    """Return the form of a picture by its name's ending."""
+    form = Path(path).suffix.lower().lstrip(".")
+    if form not in FORMATS:
+        raise InputError(f"{option} {path}: end the name with .{', .'.join(FORMATS)}")
+    return form
