@@ -23,7 +23,6 @@ from plumb.lab.project import ChangedError, Project
 from plumb.lab.routes import (
     bench,
     check,
-    comparison,
     correction,
     diary,
     grid,
@@ -51,7 +50,6 @@ ROUTERS = tuple(
         known,
         plan,
         grid,
-        comparison,
         readings,
         verdict,
         next,

@@ -15,7 +15,7 @@ from typing import Generic, TypeVar, cast
 from plumb.cure.live_board import BoardView, LiveBoard
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
-from plumb.lab.project import Project, read_choices
+from plumb.lab.project import Project
 
 Result = TypeVar("Result")
 Progress = Callable[[float], None]
@@ -122,7 +122,7 @@ class LiveBoards:
 
 def key_of(project: Project) -> str:
     """Another for other settings or marks, and for other choices that a fit depends on."""
-    choices, _ = read_choices(project)
+    choices = project.choices
     said = choices.model_dump_json(exclude=OF_THE_PAGE)
     names = [name for name in (choices.settings, *choices.marks) if name]
     digests = [f"{name} {project.digest(name)}" for name in names]

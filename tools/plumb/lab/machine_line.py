@@ -25,8 +25,8 @@ from plumb.firmware.settings import (
     refuse_other_origin,
 )
 from plumb.fit.inputs import settings_in
-from plumb.lab.project import Project, read_choices
-from plumb.lab.rounds import taken_marks
+from plumb.lab.project import Project
+from plumb.lab.rounds import opened, taken_marks
 from plumb.line.port import SerialPort
 from plumb.line.sender import Sender, StoppedError
 from plumb.line.worker import LineState, LineWorker
@@ -240,7 +240,7 @@ def held_otherwise(project: Project, line: MachineLine) -> tuple[Difference, ...
     """Return what the open settings and the connected machine say otherwise, as far as both are
     known.
     """
-    choices, _ = read_choices(project)
+    choices = project.choices
     if not choices.settings or not line.state.numbers:
         return ()
     return differences(settings_in(project.path(choices.settings)), line.state.numbers)
@@ -250,7 +250,7 @@ def is_fit_of_machine(project: Project, line: MachineLine) -> bool:
     """Return whether the open settings were fitted to marks of the machine as it is: they go into
     it next.
     """
-    choices, _ = read_choices(project)
+    choices = project.choices
     if not choices.settings:
         return False
     record = settings_in(project.path(choices.settings)).fitted
@@ -261,14 +261,12 @@ def is_fit_of_machine(project: Project, line: MachineLine) -> bool:
 def refuse_other_machine(project: Project, line: MachineLine) -> None:
     """InputError unless the machine, asked now, holds the numbers that its next marks name: those
     of the open settings, or of the form that somebody took."""
-    choices, _ = read_choices(project)
-    if not choices.settings:
-        raise InputError("no settings are open; open the settings of the machine first")
+    choices = project.choices
+    settings = opened(project)
     taken = taken_marks(project, choices)
     named = taken and taken.cut_with
-    settings = named or settings_in(project.path(choices.settings))
     file = named.file.name if named and named.file else choices.settings
-    refuse_other_numbers(settings, line.read_numbers(), file=file)
+    refuse_other_numbers(named or settings, line.read_numbers(), file=file)
 
 
 def refuse_unanswered(project: Project, line: MachineLine) -> None:
@@ -276,7 +274,7 @@ def refuse_unanswered(project: Project, line: MachineLine) -> None:
     at other numbers than it holds."""
     others = held_otherwise(project, line)
     if others and not is_fit_of_machine(project, line):
-        file = read_choices(project)[0].settings
+        file = project.choices.settings
         both = both_values(others, file, MACHINE)
         raise InputError(f"{both}. Which holds? Answer the question above, or disconnect")
 

@@ -43,6 +43,11 @@ class Project:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
 
+    @property
+    def choices(self) -> Choices:
+        """What its owner chose. Raises InputError if the file is damaged."""
+        return read_choices(self)[0]
+
     def path(self, name: str) -> Path:
         """Return where a file of this name lies. Raises ValueError for what is no plain name, and
         for a link: it may lead out of the folder.

@@ -7,15 +7,16 @@ import re
 import shlex
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import PurePath
+from pathlib import Path, PurePath
 
+from plumb import api
 from plumb.fit.inputs import settings_in
 from plumb.fit.problem import PRIORS
 from plumb.grid import PRESETS, Grid, PlainMachine, marks_list, spans_of, touches_of
 from plumb.grid.cut_with import cut_with_lines, digest_of
 from plumb.grid.options import APPROACH
 from plumb.grid.pattern import Touch
-from plumb.lab.known import stated
+from plumb.lab.known import refuse_absurd_known, stated
 from plumb.lab.project import Choices, Layout, Project
 from plumb.line.progress import Wait, waits_in
 from plumb.marks.form import read_form
@@ -270,3 +271,49 @@ def unit_words(choices: Choices, typed: str = "mm") -> list[str]:
     typed.
     """
     return ["--units", choices.units] if choices.units != typed else []
+
+
+# Settings and readings of a folder, as a fit takes them and as a command names them.
+
+
+def opened(project: Project) -> MachineSettings:
+    """Return the opened settings. Raises InputError if none are open."""
+    if not project.choices.settings:
+        raise InputError("no settings are open; open the settings of the machine first")
+    return settings_in(project.path(project.choices.settings))
+
+
+def inputs_of(project: Project, *, among: Sequence[str] | None = None) -> api.Inputs:
+    """Return the opened settings with all readings, or with those in files of these names.
+
+    Raises InputError if something is missing, or cannot have been measured.
+    """
+    choices, settings = project.choices, opened(project)
+    names = read_names(project, choices.marks if among is None else among, choices)
+    if not names:
+        raise InputError("there are no readings yet; type in what you measured first")
+    inputs = api.read(*map(project.path, [choices.settings, *names]))
+    refuse_absurd_known(settings, choices)
+    known = stated(choices)
+    return replace(inputs, priors=known.priors, checked=known.checked)
+
+
+def board_words(project: Project) -> list[str]:
+    """Return the opened settings and the files that have readings, as a command names them."""
+    choices = project.choices
+    return [choices.settings, *read_names(project, choices.marks, choices)]
+
+
+def read_names(project: Project, among: Sequence[str], choices: Choices) -> list[str]:
+    """Return those of these files of marks that have readings."""
+    settings = project.path(choices.settings)
+    return [name for name in among if _has_readings(project.path(name), settings)]
+
+
+def _has_readings(path: Path, settings: Path) -> bool:
+    """Return whether any mark of a form is read; other files have nothing else."""
+    if path.suffix != ".toml":
+        return True
+    sheet = settings_in(settings).sheet
+    measurements = read_form(path, sheet=sheet, known=known_effects()).measurements
+    return bool(measurements.measured_marks or measurements.distances)

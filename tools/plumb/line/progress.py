@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import Literal
 
 from plumb.line.sender import COMMENT, plain
+from plumb.text.answers import Internal
 
 
 @dataclass(frozen=True)
@@ -18,8 +19,8 @@ class Progress:
     done: int  # lines that the machine took
     total: int
     outcome: Literal["running", "done", "stopped", "refused", "lost"] = "running"
-    waits: tuple[Wait, ...] = ()  # its pauses
-    paused_at: int = -1  # lines that it had taken when it last came to a pause
+    waits: Internal[tuple[Wait, ...]] = ()  # its pauses
+    paused_at: Internal[int] = -1  # lines that it had taken when it last came to a pause
 
     @property
     def wait(self) -> Wait | None:
@@ -35,7 +36,8 @@ SAID_PAUSED = "Maslow Paused"  # said when a program comes to a pause; a hold sa
 PAUSE = re.compile(r"M0?[01]", re.IGNORECASE)
 
 
-class Wait(NamedTuple):
+@dataclass(frozen=True)
+class Wait:
     """A pause of a program."""
 
     lines: int  # that the machine takes before it

@@ -16,10 +16,13 @@ from threading import Event, Lock, Thread
 from time import monotonic
 from typing import Any, Literal, TypeVar
 
+from pydantic import computed_field
+
 from plumb.line.memory import read_numbers
 from plumb.line.port import LostError, Port
 from plumb.line.progress import SAID_PAUSED, Progress, waits_in
 from plumb.line.sender import HALTED, REPORTS, STANDS, Sender, Status, StoppedError, Watch, cleaned
+from plumb.text.answers import Internal
 from plumb.text.errors import InputError
 
 Result = TypeVar("Result")
@@ -59,8 +62,10 @@ class LineState:
     trouble: str = ""  # what went wrong last
     program: Progress | None = None
     said: tuple[str, ...] = ()  # the machine's last lines
-    numbers: Mapping[int, float] = field(default_factory=dict)  # all that it last listed
+    # All that it last listed.
+    numbers: Internal[Mapping[int, float]] = field(default_factory=dict)
 
+    @computed_field
     @property
     def waits_for(self) -> str:
         """What somebody is to do before the program goes on; empty if it does not wait."""

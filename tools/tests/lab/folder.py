@@ -4,8 +4,11 @@ from pathlib import Path
 
 from fastapi.testclient import TestClient
 from plumb.diary.file import FIT, append
+from plumb.fit.compare import compare
 from plumb.lab.app import lab_app
 from plumb.lab.guard import Address
+from plumb.lab.project import Project
+from plumb.lab.rounds import inputs_of
 
 ROOT = Path(__file__).resolve().parents[3]
 EXAMPLE = ROOT / "docs" / "example"
@@ -20,6 +23,11 @@ def asked(folder):
         base_url=f"http://127.0.0.1:{ADDRESS.port}",
         headers={"X-Plumb-Token": TOKEN},
     )
+
+
+def compared(folder):
+    """The opened settings of a folder against all its readings."""
+    return compare(inputs_of(Project(folder)))
 
 
 def with_settings(folder):

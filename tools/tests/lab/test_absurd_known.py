@@ -50,7 +50,7 @@ def test_an_absurd_number_is_refused_in_its_own_words(client, name, value, sigma
 def test_what_can_be_is_taken(client):
     said = {"motor_gap": (2990.0, 1.0), "sled_weight": (130.0, 2.0), "chain_pitch.left": (1e-3, 0)}
     assert state(client, **said) == {}
-    assert client.get("/api/comparison").status_code == 200
+    assert client.get("/api/bench").status_code == 200
 
 
 def test_nothing_goes_by_an_absurd_number(client):
@@ -60,7 +60,7 @@ def test_nothing_goes_by_an_absurd_number(client):
 
     before = preview()
     state(client, motor_gap=(298.0, 0.1))
-    for path in ("comparison", "verdict", "next", "correction", f"doubts?file={MARKS}"):
+    for path in ("bench", "verdict", "next", "correction", f"doubts?file={MARKS}"):
         answer = client.get(f"/api/{path}")
         assert answer.status_code == 422, path
         line = answer.json()["error"]

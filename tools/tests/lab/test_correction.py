@@ -5,7 +5,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 import pytest
-from folder import EXAMPLE, with_settings
+from folder import EXAMPLE, compared, with_settings
 from plumb import api
 from plumb.cure.machine_file import correct, has_setting
 from plumb.diary.file import read_diary
@@ -111,12 +111,12 @@ def test_written_opened_and_taken_back(client, tmp_path):
     assert read_settings(tmp_path / "machine.toml").motor_gap == pytest.approx(
         float(gap["after"]), abs=1
     )
-    assert client.get("/api/comparison").json()["rms"] == pytest.approx(before["rms_all"], abs=0.02)
+    assert compared(tmp_path).rms == pytest.approx(before["rms_all"], abs=0.02)
     (entry,) = read_diary(tmp_path).of_kind("fit")
     assert entry.content["machine"] == "machine.toml"
     undone = client.post("/api/correction/undo", json=known(client)).json()
     assert undone["file"] == "groundcontrol.ini"
-    assert client.get("/api/comparison").json()["rms"] == pytest.approx(before["rms_set"])
+    assert compared(tmp_path).rms == pytest.approx(before["rms_set"])
     assert (tmp_path / "machine.toml").exists()
 
 

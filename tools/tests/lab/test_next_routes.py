@@ -157,7 +157,7 @@ def test_marks_that_were_taken_are_cut_read_and_counted(client, folder):
     assert got(client.get("/api/readings"))["file"] == "more.toml"
     typed(client, "more.toml", off=2.0)
     assert got(client.get("/api/project"))["choices"]["marks"] == [MARKS, "more.toml"]
-    assert len(got(client.get("/api/comparison"))["marks"]) == 13
+    assert len(got(client.get("/api/bench"))["marks"]) == 13
     assert got(client.get("/api/grid"))["program"] == "grid-2.nc"
     assert got(client.delete("/api/next"), 422)["error"] == "more.toml has readings, so it stays"
     assert (folder / "more.toml").exists() and (folder / "more.nc").exists()

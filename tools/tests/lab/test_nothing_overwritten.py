@@ -2,7 +2,7 @@
 marks."""
 
 import pytest
-from folder import EXAMPLE, asked, example_form, with_settings
+from folder import EXAMPLE, asked, compared, example_form, with_settings
 from plumb.settings.files import read_settings
 
 INI = (EXAMPLE / "groundcontrol.ini").read_bytes()
@@ -61,7 +61,7 @@ def test_readings_count_after_another_file_was_opened_and_go_back_leads_to_the_f
     assert got(client.post("/api/correction/undo", json=body))["file"] == "groundcontrol.ini"
     assert read_settings(tmp_path / "groundcontrol.ini").motor_gap == 2978.4
     assert (tmp_path / written).exists()
-    assert got(client.get("/api/comparison"))["rms"] > 0
+    assert compared(tmp_path).rms > 0
 
 
 @pytest.mark.parametrize("then", ["replaced", "taken away"])
@@ -69,16 +69,16 @@ def test_readings_find_their_settings_though_a_program_replaced_the_file(tmp_pat
     client = with_settings(tmp_path)
     got(client.post("/api/grid"))
     fill_in(client)
-    first = got(client.get("/api/comparison"))["rms"]
+    first = compared(tmp_path).rms
     path = tmp_path / "groundcontrol.ini"
     if then == "replaced":
         path.write_bytes(OTHER)  # as GroundControl does when its owner types a number
     else:
         open_file(client, OTHER)
         path.unlink()
-    compared = got(client.get("/api/comparison"))
+    second = compared(tmp_path).rms
     # The marks were sent by the first numbers; where the second put them is another place.
-    assert compared["rms"] == pytest.approx(first, abs=12) and compared["rms"] != first
+    assert second == pytest.approx(first, abs=12) and second != first
     (form,) = (tmp_path / "marks.toml",)
     assert 'cut_with = "groundcontrol.ini"' in form.read_text()
     assert len(list(tmp_path.glob(".settings-*.ini"))) == 1
@@ -91,7 +91,7 @@ def test_settings_that_nobody_kept_are_missed_as_before(tmp_path):
     for kept in tmp_path.glob(".settings-*"):
         kept.unlink()
     (tmp_path / "groundcontrol.ini").write_bytes(OTHER)
-    said = got(client.get("/api/comparison"), 422)["error"]
+    said = got(client.get("/api/bench"), 422)["error"]
     assert "was cut with groundcontrol.ini, which has changed since" in said
 
 

@@ -16,8 +16,7 @@ from plumb.fit.problem import PRIORS
 from plumb.grid import Grid, GridError, PlainMachine, program
 from plumb.lab.known import stated
 from plumb.lab.project import Choices, Number, Project
-from plumb.lab.rounds import in_turn, planned
-from plumb.lab.routes.comparison import inputs_of
+from plumb.lab.rounds import in_turn, inputs_of, planned
 from plumb.line.sender import cleaned
 from plumb.model.predict import lengths, places
 

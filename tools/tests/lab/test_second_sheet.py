@@ -57,9 +57,9 @@ def test_check_marks_take_no_part_unless_somebody_says_so(client, tmp_path):
     assert client.get("/api/project").json()["choices"]["marks"] == ["marks.toml"]
     names = [file["name"] for file in client.get("/api/readings").json()["files"]]
     assert names == ["marks.toml"]
-    before = len(client.get("/api/comparison").json()["marks"])
+    before = len(client.get("/api/bench").json()["marks"])
     assert client.post("/api/check/use").status_code == 200
-    assert len(client.get("/api/comparison").json()["marks"]) == before + 2
+    assert len(client.get("/api/bench").json()["marks"]) == before + 2
     assert shown(client)["is_used"]
 
 

@@ -7,7 +7,7 @@ import time
 import tomllib
 
 import pytest
-from folder import EXAMPLE, with_settings
+from folder import EXAMPLE, compared, with_settings
 from plumb.cli.main import build_parser, main
 from scipy.special import chdtri
 
@@ -157,12 +157,10 @@ def test_the_preview(client, tmp_path, capsys, known):
     assert (tmp_path / "marks-2.toml").read_bytes() == written
 
 
-def test_the_readings(client, capsys):
+def test_the_readings(client, capsys, tmp_path):
     choose(client, known=KNOWN)
     arrows, doubts = got(client.get("/api/readings"))["command"].splitlines()
-    compared = got(client.get("/api/comparison"))
-    assert said_by(arrows, capsys)["rms_mm"] == pytest.approx(compared["rms"])
-    assert arrows == compared["command"]
+    assert said_by(arrows, capsys)["rms_mm"] == pytest.approx(compared(tmp_path).rms)
     assert doubts == finished(client, "verdict")["command"]
 
 
@@ -170,7 +168,7 @@ def test_files_without_readings_are_not_named(client, tmp_path):
     choose(client, layout="nine")
     got(client.post("/api/grid"))
     choose(client, marks=["marks.toml", "marks-2.toml"])
-    for path in ("verdict", "next", "comparison", "correction"):
+    for path in ("verdict", "next", "correction"):
         assert "marks-2.toml" not in got(client.get(f"/api/{path}"))["command"]
 
 
@@ -187,7 +185,7 @@ def test_every_command_is_understood_and_shows_the_chosen_unit(client, tmp_path,
     if typed == "inch":
         (tmp_path / "marks.toml").write_text(in_inches((tmp_path / "marks.toml").read_text()))
     choose(client, units=units, known=KNOWN)
-    marks = ("verdict", "next", "comparison", "correction", "readings")
+    marks = ("verdict", "next", "correction", "readings")
     of_marks = [got(client.get(f"/api/{path}"))["command"] for path in marks]
     bench = got(client.post("/api/bench/fit", json={"effects": ["chain_stretch"]}))
     of_marks.append(bench["command"])

@@ -93,7 +93,7 @@ def test_a_form_that_waits_beside_the_readings_does_no_harm(client, tmp_path):
     project = client.get("/api/project").json()
     choices = {**project["choices"], "marks": ["marks.toml", "more.toml"]}
     client.put("/api/choices", json={"choices": choices, "read": project["choices_digest"]})
-    assert client.get("/api/comparison").status_code == 200
+    assert client.get("/api/bench").status_code == 200
 
 
 def test_too_few_marks_are_refused_in_a_line(client, tmp_path):

@@ -7,7 +7,6 @@ import { token } from "./token";
 export type Schemas = components["schemas"];
 export type Project = Schemas["ProjectAnswer"];
 export type Choices = Schemas["Choices"];
-export type Comparison = Schemas["ComparisonAnswer"];
 
 /** What the server refused: `status` 409 says that somebody else saved in the meantime. */
 export class Refusal extends Error {

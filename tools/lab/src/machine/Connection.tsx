@@ -8,7 +8,7 @@ import { type Machine, subject, useMachine } from "../shell/machine";
 import { useProject } from "../shell/project";
 import "./connection.css";
 
-type Port = Schemas["PortAnswer"];
+type Port = Schemas["Port"];
 
 export function Connection() {
   const machine = useMachine();

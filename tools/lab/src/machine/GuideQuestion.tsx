@@ -5,7 +5,7 @@ import type { Schemas } from "../api/client";
 import { namedLength, shownLength, typedLength } from "../controls/lengths";
 import { useProject } from "../shell/project";
 
-type Question = Schemas["GuideQuestion"];
+type Question = Schemas["Question"];
 
 interface QuestionParts {
   question: Question;

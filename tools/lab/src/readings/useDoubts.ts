@@ -3,7 +3,7 @@ import { useEffect, useState } from "preact/hooks";
 import { get, isSilence, type Schemas } from "../api/client";
 import type { Form } from "./useReadings";
 
-export type Doubt = Schemas["DoubtAnswer"];
+export type Doubt = Schemas["Doubted"];
 const PAUSE_MS = 500;
 
 interface Doubts {

@@ -14,9 +14,10 @@ export function Held() {
   const machine = useMachine();
   const { project } = useProject();
   const file = project.choices.settings ?? "";
-  const state = JSON.stringify([machine.numbers, file, project.files[file]]);
-  const held = useNewest<Answer>(machine.numbers && file ? "machine/held" : "", state);
-  if (!machine.numbers || !held || held.file !== file || held.numbers.length === 0) return null;
+  const state = JSON.stringify([machine.numbers_digest, file, project.files[file]]);
+  const held = useNewest<Answer>(machine.numbers_digest && file ? "machine/held" : "", state);
+  if (!machine.numbers_digest || !held || held.file !== file || held.numbers.length === 0)
+    return null;
   if (held.is_fit)
     return (
       <p class="which-holds" role="status">
@@ -33,7 +34,7 @@ function Question({ held, machine }: { held: Answer; machine: Machine }) {
   const { file, numbers } = held;
   const takeIn = async () => take(await send<Project>("POST", "machine/settings"));
   const write = async () => {
-    await send("POST", "machine/numbers", { file, replaces: machine.numbers });
+    await send("POST", "machine/numbers", { file, replaces: machine.numbers_digest });
     await reload();
   };
   const blocked = busy || !isReady(machine);

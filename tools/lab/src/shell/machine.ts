@@ -21,7 +21,7 @@ const NONE: Machine = {
   waits_for: "",
   said: [],
   silent_s: 0,
-  numbers: "",
+  numbers_digest: "",
   unseen: 0,
 };
 const LOOK_MS = 500;

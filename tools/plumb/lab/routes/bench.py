@@ -17,9 +17,8 @@ from plumb.fit.covariates import Covariate
 from plumb.fit.expected import plausible_range
 from plumb.fit.fit import Fit
 from plumb.lab.background import LiveBoards, WarmBoard
-from plumb.lab.project import Project, read_choices
-from plumb.lab.rounds import command, known_words, unit_words
-from plumb.lab.routes.comparison import board_words, inputs_of
+from plumb.lab.project import Project
+from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.model.catalogue import every_effect, is_sketch, parameter_words
 from plumb.model.plain import noun_of, plain_size
@@ -203,8 +202,7 @@ def refit(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchFit:
     chosen = choice.chosen
     warm.live.refuse(chosen)
     fitted = warm.live.fit(chosen)
-    choices, _ = read_choices(project)
-    with shown_in(choices.units):
+    with shown_in(project.choices.units):
         sizes = _sizes(fitted, chosen)
     return BenchFit(
         fit_rms=fitted.rms,
@@ -223,8 +221,7 @@ def climb(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchStairs:
     """Return how the error falls with each effect more. Nothing is written."""
     chosen = choice.chosen
     warm.live.refuse(chosen)
-    choices, _ = read_choices(project)
-    with shown_in(choices.units):
+    with shown_in(project.choices.units):
         result = add_to(warm.live, warm.raw, chosen)
     qualities = [("frame fitted", result.before, False)]
     qualities += [(f"+ {noun_of(step.effect)}", step, step.only_fit) for step in result.by_effect]
@@ -348,7 +345,7 @@ def _sizes(fitted: Fit, chosen: Chosen) -> dict[str, BenchSize]:
 
 
 def _command(project: Project, chosen: Chosen, typed: str) -> str:
-    choices, _ = read_choices(project)
+    choices = project.choices
     held = [word for item in chosen.held.items() for word in ("--hold", "{}={:.12g}".format(*item))]
     known = known_words(choices, effects=chosen.effects, held=chosen.held)
     return command(

@@ -8,24 +8,25 @@ import numpy as np
 from fastapi import APIRouter
 from pydantic import BaseModel
 
-from plumb.diagnosis.check_marks import Check, check_marks, check_sentence
+from plumb.diagnosis.check_marks import Check, CheckedMark, check_marks, check_sentence
 from plumb.fit.inputs import Inputs, settings_in
 from plumb.grid import program
 from plumb.grid.cut_with import with_form
 from plumb.lab.machine_line import TheLine, refuse_other_machine
-from plumb.lab.project import Choices, Project, read_choices, save_choices
+from plumb.lab.project import Choices, Project, save_choices
 from plumb.lab.rounds import (
     Planned,
     command,
     form_text,
     grid_command,
+    inputs_of,
     kept_settings,
     known_words,
     planned,
+    read_names,
     refuse_unreachable,
     unit_words,
 )
-from plumb.lab.routes.comparison import inputs_of, read_names
 from plumb.lab.routes.machine import MachineAnswer, machine
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.readings import CHECK, ENDING, form_of
@@ -38,18 +39,6 @@ from plumb.text.errors import InputError
 from plumb.text.values import shown_in
 
 router = APIRouter(tags=["check"])
-
-
-class CheckedMarkAnswer(BaseModel):
-    """A check mark [mm, machine frame]."""
-
-    name: str
-    target: tuple[float, float]
-    measured: tuple[float, float]
-    promised: float  # 99 of 100 such readings are off by less
-    off: float  # from where the settings promise it
-    error: float  # from where it was sent
-    is_within: bool
 
 
 class RoundError(BaseModel):
@@ -69,7 +58,7 @@ class CheckAnswer(BaseModel):
     form: str
     program: str
     is_saved: bool
-    marks: list[CheckedMarkAnswer]
+    marks: tuple[CheckedMark, ...]
     sentence: str  # empty: not all is read yet
     rounds: list[RoundError]  # in the order they were cut, the check marks last
     holds: bool
@@ -80,7 +69,7 @@ class CheckAnswer(BaseModel):
 @router.get("/check")
 def show_check(project: TheProject) -> CheckAnswer:
     """Return the newest check round, or a plan for the first."""
-    choices, _ = read_choices(project)
+    choices = project.choices
     inputs = _of_promise(project)
     trouble = "" if inputs.settings.fitted else "write a correction first: it makes the promise"
     number = _newest(project)
@@ -99,7 +88,7 @@ def show_check(project: TheProject) -> CheckAnswer:
         form=form,
         program=f"{CHECK}{number}.nc",
         is_saved=is_saved,
-        marks=[CheckedMarkAnswer(**vars(mark)) for mark in checked.marks] if checked else [],
+        marks=checked.marks if checked else (),
         sentence=sentence,
         rounds=_rounds(project, choices, form) if checked else [],
         holds=checked is not None and checked.holds,
@@ -145,7 +134,7 @@ def use_check(project: TheProject) -> ProjectAnswer:
 
 def _command(project: Project, inputs: Inputs, form: str) -> str:
     """Return the same in a terminal: what the fit promises of the check marks that were read."""
-    choices, _ = read_choices(project)
+    choices = project.choices
     unit = unit_words(choices, inputs.measurements.typed.unit)
     board = [choices.settings, *read_names(project, _promising(project), choices)]
     return command("recheck", *board, "--check", form, *known_words(choices), *unit)
@@ -155,9 +144,8 @@ def _made(project: Project, number: str, plan: Planned | None) -> str:
     """Return the command that writes the form and the program; empty if there is no plan."""
     if plan is None:
         return ""
-    choices, _ = read_choices(project)
     form, file = f"{CHECK}{number}{ENDING}", f"{CHECK}{number}.nc"
-    made = grid_command(project, _same_sheet(choices), plan, form=form, program=file)
+    made = grid_command(project, _same_sheet(project.choices), plan, form=form, program=file)
     return f"{made}\n{command('send', file)}"
 
 
@@ -175,7 +163,7 @@ def _promising(project: Project) -> list[str]:
     """Return the files of these readings: check marks take no part, nor does a sheet that was laid
     after the correction, for check marks are on the sheet before it.
     """
-    choices, _ = read_choices(project)
+    choices = project.choices
     names = [name for name in choices.marks if not name.startswith(CHECK)]
     fitted = settings_in(project.path(choices.settings)).fitted if choices.settings else None
     seen = [board.marks for board in fitted.boards] if fitted else names
@@ -224,7 +212,7 @@ def _of_plan(plan: Planned | None) -> list[tuple[float, float]]:
 
 def _save(project: Project) -> tuple[str, str]:
     """Write program and form of a round; the program's name and text."""
-    choices, _ = read_choices(project)
+    choices = project.choices
     inputs = _of_promise(project)
     number = _newest(project)
     form = f"{CHECK}{number}{ENDING}"
@@ -258,7 +246,7 @@ def _places(project: Project, choices: Choices, form: str) -> list[tuple[float, 
 
 def _checked(project: Project, inputs: Inputs, form: str) -> Check | None:
     """Return the check marks against the fit; None before all are read."""
-    choices, _ = read_choices(project)
+    choices = project.choices
     waiting = [
         mark for mark in form_of(project, choices, form).measurements.marks if not mark.measured
     ]

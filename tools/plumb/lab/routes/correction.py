@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from fastapi import APIRouter
-from pydantic import BaseModel
+from pydantic import BaseModel, ConfigDict
 
 from plumb.cure.add import Addition, Parameter
 from plumb.cure.auto import add_auto
@@ -23,9 +23,8 @@ from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files
 from plumb.fit.inputs import Inputs
 from plumb.lab.background import Progress, key_of
 from plumb.lab.machine_line import TheLine, refuse_unanswered
-from plumb.lab.project import FILE, Choices, Project, choices_text, read_choices
-from plumb.lab.rounds import command, known_words, unit_words
-from plumb.lab.routes.comparison import board_words, inputs_of
+from plumb.lab.project import FILE, Choices, Project, choices_text
+from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words
 from plumb.lab.routes.project import TheProject
 from plumb.lab.routes.verdict import TheBackground
 from plumb.model.plain import plain_change, plain_range
@@ -55,18 +54,19 @@ class ChangedNumber(BaseModel):
 class CorrectionParts(BaseModel):
     """What could be changed, and what is accepted of it."""
 
+    model_config = ConfigDict(json_schema_serialization_defaults_required=True)
     reason: str  # why these effects
-    is_slip: bool  # nothing is fitted to a wrong reading
-    numbers: list[ChangedNumber]
-    with_accepted: list[ChangedNumber]  # fitted with all others held as they are
-    cures: list[str]  # for what no setting holds
-    warnings: list[str]
-    settings: str  # name of the file that these numbers would change
-    rms_set: float | None  # [mm] as that file stands
-    rms_accepted: float | None
-    rms_all: float | None
-    left_out: float | None  # [mm] of marks that took no part, with what is accepted
     add: list[str]  # what plumb add is given for what is accepted
+    is_slip: bool = False  # nothing is fitted to a wrong reading
+    numbers: list[ChangedNumber] = []
+    with_accepted: list[ChangedNumber] = []  # fitted with all others held as they are
+    cures: list[str] = []  # for what no setting holds
+    warnings: list[str] = []
+    settings: str = ""  # name of the file that these numbers would change
+    rms_set: float | None = None  # [mm] as that file stands
+    rms_accepted: float | None = None
+    rms_all: float | None = None
+    left_out: float | None = None  # [mm] of marks that took no part, with what is accepted
 
 
 class CorrectionAnswer(BaseModel):
@@ -103,7 +103,7 @@ class Undone(BaseModel):
 @router.get("/correction")
 def show_correction(project: TheProject, background: TheBackground) -> CorrectionAnswer:
     """Return what the marks would change."""
-    choices, _ = read_choices(project)
+    choices = project.choices
     key = "\n".join([key_of(project), choices.units, *sorted(choices.accepted)])
     inputs = inputs_of(project)
     refuse_other_origin(inputs)
@@ -114,14 +114,14 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
         progress(0.6)
         with shown_in(choices.units):
             if auto.addition is None:
-                return _nothing(auto.reason, choices)
+                return CorrectionParts(reason=auto.reason, is_slip=True, add=_auto_words(choices))
             made = correct(inputs, auto.chosen, choices.accepted)
             return _parts(made, auto.reason, choices)
 
     answer = background.ask("correction", key, work)
     file = project.free_name("machine", *WRITTEN)
     unit = unit_words(choices, inputs.measurements.typed.unit)
-    add = answer.result.add if answer.result else [*known_words(choices), "--effect", "auto"]
+    add = answer.result.add if answer.result else _auto_words(choices)
     client = ["--client", *_client_words(choices)]
     return CorrectionAnswer(
         share=answer.share,
@@ -134,7 +134,7 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
 @router.post("/correction")
 def write(known: Write, project: TheProject, line: TheLine) -> Written:
     """Write the machine with the accepted numbers, and what belongs to its client; open it."""
-    choices, _ = read_choices(project)
+    choices = project.choices
     inputs = inputs_of(project)
     refuse_other_origin(inputs)
     refuse_unanswered(project, line)
@@ -176,7 +176,7 @@ def write(known: Write, project: TheProject, line: TheLine) -> Written:
 @router.post("/correction/undo")
 def undo(known: Write, project: TheProject) -> Undone:
     """Open the settings again that were open before the latest correction; no file is lost."""
-    choices, _ = read_choices(project)
+    choices = project.choices
     if not choices.settings_before:
         raise InputError("no correction was written, so there is nothing to take back")
     *earlier, name = choices.settings_before
@@ -185,29 +185,11 @@ def undo(known: Write, project: TheProject) -> Undone:
     return Undone(file=name)
 
 
-def _nothing(reason: str, choices: Choices) -> CorrectionParts:
-    return CorrectionParts(
-        reason=reason,
-        is_slip=True,
-        numbers=[],
-        with_accepted=[],
-        cures=[],
-        warnings=[],
-        settings="",
-        rms_set=None,
-        rms_accepted=None,
-        rms_all=None,
-        left_out=None,
-        add=[*known_words(choices), "--effect", "auto"],
-    )
-
-
 def _parts(made: Correction, reason: str, choices: Choices) -> CorrectionParts:
     whole, some = made.whole, made.accepted
     accepted = [number for number in some.parameters if has_setting(number.name)] if some else []
     return CorrectionParts(
         reason=reason,
-        is_slip=False,
         numbers=[_number(number, choices) for number in made.numbers],
         with_accepted=[_number(number, choices) for number in accepted],
         cures=[*turn_sentences(whole), *whole.cures],
@@ -226,7 +208,7 @@ def _add_words(made: Correction, choices: Choices) -> list[str]:
     none is.
     """
     if not (made.effects or made.fixed):
-        return [*known_words(choices), "--effect", "auto"]
+        return _auto_words(choices)
     gone = {*made.held, *made.fixed}
     words = known_words(choices, effects=made.effects, held=gone)
     for name in made.fixed:
@@ -235,6 +217,10 @@ def _add_words(made: Correction, choices: Choices) -> list[str]:
     for name, size in made.held.items():
         words += ["--hold", f"{name}={size:.12g}"]
     return words
+
+
+def _auto_words(choices: Choices) -> list[str]:
+    return [*known_words(choices), "--effect", "auto"]
 
 
 def _number(number: Parameter, choices: Choices) -> ChangedNumber:

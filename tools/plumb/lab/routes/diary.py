@@ -9,7 +9,6 @@ from pydantic import BaseModel
 
 from plumb.diary.file import FIT, Diary, noted, read_diary
 from plumb.diary.history import Course, DiaryFit, history_of
-from plumb.lab.project import read_choices
 from plumb.lab.rounds import command, unit_words
 from plumb.lab.routes.project import TheProject
 from plumb.model.plain import plain_change, plainly
@@ -65,7 +64,7 @@ class DiaryAnswer(BaseModel):
 @router.get("/diary")
 def show_diary(project: TheProject) -> DiaryAnswer:
     """Return the diary of the folder."""
-    choices, _ = read_choices(project)
+    choices = project.choices
     diary = read_diary(project.folder)
     history = history_of(diary)
     with shown_in(choices.units):

@@ -8,7 +8,6 @@ from pathlib import Path
 from fastapi import APIRouter
 from pydantic import BaseModel
 
-from plumb.fit.inputs import settings_in
 from plumb.grid import program, spans_in, touches_of
 from plumb.grid.cut_with import with_form
 from plumb.lab.machine_line import MachineLine, TheLine, refuse_other_machine
@@ -25,14 +24,15 @@ from plumb.lab.rounds import (
     kept_settings,
     next_number,
     on_new_sheet,
+    opened,
     planned,
     refuse_unreachable,
     taken_marks,
 )
 from plumb.lab.routes.machine import MachineAnswer, machine
-from plumb.lab.routes.plan import opened
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.readings import CHECK
+from plumb.line.progress import Wait
 from plumb.line.sender import cleaned
 from plumb.marks.form import BLANK, read_form, toml_text, with_distances
 from plumb.model.predict import known_effects
@@ -54,13 +54,6 @@ class GridMark(BaseModel):
     lines: int
 
 
-class GridPause(BaseModel):
-    """Where the program waits for somebody, and what is to be done then."""
-
-    lines: int  # that the machine takes before it
-    do: str
-
-
 class GridAnswer(BaseModel):
     """The program that cuts the chosen marks, or those that the verdict proposed."""
 
@@ -73,10 +66,10 @@ class GridAnswer(BaseModel):
     trouble: str  # why the sled cannot take this way; empty if it can
     waits: int  # marks of the form that wait for a reading
     last_form: str  # the newest with readings; empty if there is none
-    sheet_rise: float  # [mm] by which the next sheet's right end is raised, as the fit says
-    is_proposed: bool  # somebody took them from the verdict; they go onto the sheet before
-    pauses: list[GridPause]
     command: str
+    sheet_rise: float = 0.0  # [mm] by which the next sheet's right end is raised, as the fit says
+    is_proposed: bool = False  # somebody took them from the verdict; they go onto the sheet before
+    pauses: tuple[Wait, ...] = ()  # where the program waits for somebody
 
 
 class FormRequest(BaseModel):
@@ -88,7 +81,7 @@ class FormRequest(BaseModel):
 @router.get("/grid")
 def show_grid(project: TheProject) -> GridAnswer:
     """Return the program for the chosen marks, as it would be written now."""
-    choices, _ = read_choices(project)
+    choices = project.choices
     settings, trouble = opened(project), ""
     taken = taken_marks(project, choices)
     if taken:
@@ -112,8 +105,6 @@ def show_grid(project: TheProject) -> GridAnswer:
         waits=form.decode().count(BLANK) if form else 0,
         last_form=choices.marks[-1] if choices.marks else "",
         sheet_rise=_sheet_rise(settings, choices),
-        is_proposed=False,
-        pauses=[],
         command=_command(project, choices, plan, number),
     )
 
@@ -140,9 +131,8 @@ def _shown_taken(taken: Taken, settings: MachineSettings, choices: Choices) -> G
         trouble=trouble,
         waits=len(taken.marks),
         last_form=choices.marks[-1] if choices.marks else "",
-        sheet_rise=0.0,
         is_proposed=True,
-        pauses=[GridPause(**wait._asdict()) for wait in taken.waits],
+        pauses=taken.waits,
         command=command("send", taken.program),
     )
 
@@ -159,7 +149,7 @@ def cut_grid(project: TheProject, line: TheLine) -> MachineAnswer:
     """Write both, and send the program. The machine moves."""
     if not line.state.knows_place:
         raise InputError("where the sled is, is not known: set its chains first")
-    choices, _ = read_choices(project)
+    choices = project.choices
     taken = taken_marks(project, choices)
     if taken:
         return _cut_taken(taken, project, line)
@@ -167,7 +157,7 @@ def cut_grid(project: TheProject, line: TheLine) -> MachineAnswer:
     name, text = _save(project)
     owner = line.virtual
     if owner:
-        raised = _sheet_rise(settings_in(project.path(choices.settings)), choices)
+        raised = _sheet_rise(opened(project), choices)
         line.do(lambda sender: _lay(owner, raised, new_sheet=on_new_sheet(choices)))
     line.send(name, list(cleaned(text.splitlines())))
     return machine(line)
@@ -223,7 +213,7 @@ def read_with_tape(request: FormRequest, project: TheProject, line: TheLine) -> 
         filled = line.do(lambda sender: owner.tape.fill_when_cut(blank.decode(), owner.machine))
     if filled is None:
         raise InputError("the marks are not all cut yet: cut them first")
-    settings = settings_in(project.path(read_choices(project)[0].settings))
+    settings = opened(project)
     files = {request.form: _as_asked(filled, project.path(request.form), settings, owner)}
     if request.form.startswith(CHECK):
         project.save(files, read=known)
@@ -284,7 +274,7 @@ def _lines_of_marks(text: str) -> list[int]:
 def _save(project: Project) -> tuple[str, str]:
     """Write program and form; the program's name and text. Raises InputError."""
     choices, digest = read_choices(project)
-    settings = settings_in(project.path(choices.settings)) if choices.settings else opened(project)
+    settings = opened(project)
     plan = planned(settings, choices.layout, choices.planned)
     refuse_unreachable(plan, settings)
     text = program(plan.grid, plan.machine)

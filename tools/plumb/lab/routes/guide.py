@@ -11,9 +11,9 @@ from plumb.firmware.settings import machine_of_numbers
 from plumb.fit.inputs import settings_in
 from plumb.guide.steps import SETTINGS, STEPS, Visit, open_step
 from plumb.guide.talk import progress_in
-from plumb.lab.guide_desk import GuideDesk, Kind
+from plumb.lab.guide_desk import GuideDesk, Question
 from plumb.lab.machine_line import MachineLine, TheLine
-from plumb.lab.project import Choices, Number, Project, read_choices, save_choices
+from plumb.lab.project import Choices, Number, Project, save_choices
 from plumb.lab.rounds import command
 from plumb.lab.routes.project import TheProject
 from plumb.text.errors import InputError
@@ -29,19 +29,6 @@ class GuideStep(BaseModel):
     done: bool
 
 
-class GuideQuestion(BaseModel):
-    """What the guide asks; lengths in mm, a mass in kg."""
-
-    number: int
-    kind: Kind
-    text: str  # for a turn: the side
-    act: str  # what a yes moves, in a few words
-    answers: list[tuple[str, str]]  # letter and words
-    usual: float | None
-    low: float
-    high: float
-
-
 class GuideAnswer(BaseModel):
     """How far the guide is."""
 
@@ -49,7 +36,7 @@ class GuideAnswer(BaseModel):
     open: str  # the first step that is not done; empty if all are
     here: str  # the step that is under way; empty if none is
     said: list[str]
-    question: GuideQuestion | None
+    question: Question | None
     trouble: str
     command: str
 
@@ -79,8 +66,8 @@ Desk = Annotated[GuideDesk, Depends(_desk)]
 @router.get("/guide")
 def show_guide(project: TheProject, desk: Desk) -> GuideAnswer:
     """Return how far the guide is, and what it asks now."""
-    done, question = progress_in(project.folder).done, desk.question
-    choices, _ = read_choices(project)
+    done = progress_in(project.folder).done
+    choices = project.choices
     units = ["--units", choices.units] if choices.units != "mm" else []
     return GuideAnswer(
         steps=[
@@ -89,9 +76,7 @@ def show_guide(project: TheProject, desk: Desk) -> GuideAnswer:
         open=open_step(done),
         here=desk.step,
         said=list(desk.said),
-        question=GuideQuestion.model_validate({**vars(question), "answers": list(question.answers)})
-        if question
-        else None,
+        question=desk.question,
         trouble=desk.trouble,
         command=command("guide", ".", *units),
     )
@@ -104,12 +89,11 @@ def begin(wanted: Beginning, project: TheProject, line: TheLine, desk: Desk) -> 
     now = open_step(progress_in(project.folder).done)
     if now and names.index(wanted.step) > names.index(now):
         raise InputError(f"this step comes later: first {STEPS[names.index(now)].title}")
-    choices, _ = read_choices(project)
     desk.begin(
         STEPS[names.index(wanted.step)],
         project.folder,
         line,
-        unit=choices.units,
+        unit=project.choices.units,
         finished=lambda visit: _keep(project, line, visit, wanted.step),
     )
     return show_guide(project, desk)

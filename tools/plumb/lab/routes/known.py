@@ -5,11 +5,11 @@ from __future__ import annotations
 from fastapi import APIRouter
 from pydantic import BaseModel
 
+from plumb.firmware.settings import Difference
 from plumb.lab.known import WEIGHED, WEIGHT, KnownNumber, known_numbers
 from plumb.lab.machine_line import TheLine, held_otherwise, is_fit_of_machine
-from plumb.lab.project import Number, read_choices
-from plumb.lab.rounds import command, known_words, unit_words
-from plumb.lab.routes.plan import opened
+from plumb.lab.project import Number
+from plumb.lab.rounds import command, known_words, opened, unit_words
 from plumb.lab.routes.project import TheProject
 from plumb.plan.case import Check
 from plumb.plan.separation import FRAME_CHECKS, effect_checks
@@ -37,7 +37,7 @@ class Measuring(BaseModel):
 def show_known(project: TheProject) -> KnownAnswer:
     """Return what the owner may know, and the command that goes by what is known now."""
     settings = opened(project)
-    choices, _ = read_choices(project)
+    choices = project.choices
     marks = choices.marks or ["marks.toml"]
     known = [*known_words(choices), *unit_words(choices)]
     return KnownAnswer(
@@ -68,21 +68,11 @@ def measure(measuring: Measuring, project: TheProject, line: TheLine) -> Number:
 # Which numbers of the connected machine are not those of the open settings.
 
 
-class HeldNumber(BaseModel):
-    """A number that the file and the machine say otherwise."""
-
-    number: int
-    name: str
-    unit: str
-    in_file: float
-    in_machine: float
-
-
 class HeldAnswer(BaseModel):
     """What the open file and the machine say otherwise; empty while they agree."""
 
     file: str
-    numbers: list[HeldNumber]
+    numbers: tuple[Difference, ...]
     is_fit: bool  # the file was fitted to marks that the machine cut with what it holds
     is_written_here: bool  # the file's numbers can be written from here; a client sends others
 
@@ -90,10 +80,10 @@ class HeldAnswer(BaseModel):
 @router.get("/machine/held")
 def show_held(project: TheProject, line: TheLine) -> HeldAnswer:
     """Compare what the machine last listed with the open settings."""
-    choices, _ = read_choices(project)
+    choices = project.choices
     return HeldAnswer(
         file=choices.settings,
-        numbers=[HeldNumber(**vars(each)) for each in held_otherwise(project, line)],
+        numbers=held_otherwise(project, line),
         is_fit=is_fit_of_machine(project, line),
         is_written_here=choices.settings.endswith(".toml"),
     )

@@ -6,22 +6,24 @@ import asyncio
 import json
 import re
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic
 from typing import Annotated, Literal
 
 from fastapi import APIRouter, WebSocket, WebSocketDisconnect
-from pydantic import BaseModel, Field
+from pydantic import BaseModel, Field, TypeAdapter
 
 from plumb.diary.file import write_and_keep
 from plumb.firmware.settings import digest_of_numbers, every_setting, machine_of_numbers
 from plumb.job.dry_run import refuse_what_is_no_program
 from plumb.lab.guard import PROTOCOL, Editor, editor_of
-from plumb.lab.machine_line import MachineLine, TheLine, line_of, ports, refuse_foreign_fit
+from plumb.lab.machine_line import MachineLine, Port, TheLine, line_of, ports, refuse_foreign_fit
 from plumb.lab.project import Project, save_choices
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.line.memory import Written, kept_before, lines_for
 from plumb.line.sender import Sender
+from plumb.line.worker import LineState
 from plumb.settings.files import machine_toml, read_settings
 from plumb.text.errors import InputError
 from plumb.vm.garage import RANDOM
@@ -34,39 +36,14 @@ SILENT = 2.0  # [s] a machine reports five times a second
 Speed = Annotated[float, Field(ge=1, le=1000)]
 
 
-class PortAnswer(BaseModel):
-    """A serial port; `is_board`: it is on USB, so it may be the machine's."""
-
-    path: str
-    title: str
-    is_board: bool
-
-
-class ProgramAnswer(BaseModel):
-    """A program on its way, or the last. Lines that the machine took, of all."""
-
-    title: str
-    done: int
-    total: int
-    outcome: Literal["running", "done", "stopped", "refused", "lost"]
-
-
-class MachineAnswer(BaseModel):
+@dataclass(frozen=True, kw_only=True)
+class MachineAnswer(LineState):
     """How the line and the machine are."""
 
     kind: Literal["none", "board", "virtual"]
     name: str
-    phase: Literal["none", "connecting", "ready", "busy", "stopping", "lost"]
-    place: tuple[float, float, float] | None  # [mm] x, y, z
-    knows_place: bool
-    holds: bool
-    moves: bool
-    trouble: str
-    program: ProgramAnswer | None
-    waits_for: str  # what is to be done before the program goes on; empty if it does not wait
-    said: list[str]  # the machine's last lines
     silent_s: int  # since the machine last reported; 0 while it does
-    numbers: str  # a digest of the numbers that it last listed; empty if it listed none
+    numbers_digest: str  # of those that it last listed; empty if it listed none
 
 
 class BoardRequest(BaseModel):
@@ -138,23 +115,19 @@ def machine(line: TheLine) -> MachineAnswer:
     """Return how the machine is now; the live line says it all the time."""
     state = line.state
     kind: Literal["none", "board", "virtual"] = "virtual" if line.virtual else "board"
-    return MachineAnswer.model_validate(
-        {
-            **vars(state),
-            "kind": kind if line.name else "none",
-            "name": line.name,
-            "program": vars(state.program) if state.program else None,
-            "waits_for": state.waits_for,
-            "silent_s": int(line.silence) if line.silence >= SILENT else 0,
-            "numbers": digest_of_numbers(state.numbers) if state.numbers else "",
-        }
+    return MachineAnswer(
+        **vars(state),
+        kind=kind if line.name else "none",
+        name=line.name,
+        silent_s=int(line.silence) if line.silence >= SILENT else 0,
+        numbers_digest=digest_of_numbers(state.numbers) if state.numbers else "",
     )
 
 
 @router.get("/machine/ports")
-def list_ports() -> list[PortAnswer]:
+def list_ports() -> list[Port]:
     """Return the serial ports of this computer."""
-    return [PortAnswer(**vars(port)) for port in ports()]
+    return ports()
 
 
 @router.post("/machine/board")
@@ -332,7 +305,7 @@ async def _say(websocket: WebSocket, line: MachineLine, editor: Editor) -> None:
         for answer in _taken(answers):
             await websocket.send_text(answer)
         if now != said or monotonic() - said_at >= SAID_EVERY:
-            await websocket.send_text(now.model_dump_json())
+            await websocket.send_text(TypeAdapter(MachineAnswer).dump_json(now).decode())
             said, said_at = now, monotonic()
         await asyncio.wait([gone], timeout=LOOK_EVERY)
 

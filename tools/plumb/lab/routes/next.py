@@ -11,9 +11,17 @@ from pydantic import BaseModel
 from plumb import api
 from plumb.fit.inputs import settings_in
 from plumb.lab.background import Answer, Background, Progress, key_of
-from plumb.lab.project import ChangedError, Project, digest_of, read_choices, save_choices
-from plumb.lab.rounds import FORM_NAME, STEM, command, has_readings, kept_settings, program_name
-from plumb.lab.routes.comparison import inputs_of
+from plumb.lab.project import ChangedError, Project, digest_of, save_choices
+from plumb.lab.rounds import (
+    FORM_NAME,
+    STEM,
+    command,
+    has_readings,
+    inputs_of,
+    kept_settings,
+    opened,
+    program_name,
+)
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.verdict import Arrow, TheBackground, board_and_known
 from plumb.plan.proposal import (
@@ -85,13 +93,12 @@ class Wanted(BaseModel):
 @router.get("/next")
 def show_next(project: TheProject, background: TheBackground) -> NextAnswer:
     """Return what to measure next."""
-    choices, _ = read_choices(project)
     inputs = inputs_of(project)
     answer = _proposed(project, background, inputs)
     said = command("next", *board_and_known(project, inputs))
     measurement = None
     if answer.result and answer.result.proposals:
-        with shown_in(choices.units):
+        with shown_in(project.choices.units):
             measurement = _measurement(project, inputs, answer.result)
         if measurement.taking:
             said = measurement.taking.command
@@ -117,7 +124,7 @@ def take_next(wanted: Wanted, project: TheProject, background: TheBackground) ->
         raise InputError(f"proposal {wanted.choose} has no marks: do what it says, by hand")
     if written.digest != wanted.digest:
         raise ChangedError("the proposal")
-    kept = kept_settings(project, read_choices(project)[0])
+    kept = kept_settings(project, project.choices)
     save_choices(
         project,
         lambda choices: choices.model_copy(update={"proposed": written.form}),
@@ -130,8 +137,7 @@ def take_next(wanted: Wanted, project: TheProject, background: TheBackground) ->
 @router.delete("/next")
 def put_back(project: TheProject) -> ProjectAnswer:
     """Take the files of a proposal out of the folder again; readings stay."""
-    choices, _ = read_choices(project)
-    form = choices.proposed
+    form = project.choices.proposed
     if not FORM_NAME.fullmatch(form):
         raise InputError("no proposal was taken")
     names = [form, program_name(form)]
@@ -145,7 +151,7 @@ def put_back(project: TheProject) -> ProjectAnswer:
 
 def _proposed(project: Project, background: Background, inputs: api.Inputs) -> Answer[Next]:
     """Return what to measure next, or how far that is."""
-    choices, _ = read_choices(project)
+    choices = project.choices
 
     def work(progress: Progress) -> Next:
         with shown_in(choices.units):  # the steps say where
@@ -221,8 +227,7 @@ def _written(project: Project, advice: Next, place: int) -> _Written | None:
     option = advice.proposals[place - 1].option
     if not len(option.visits):
         return None
-    choices, _ = read_choices(project)
-    settings = str(project.path(choices.settings))
+    settings = str(project.path(project.choices.settings))
     form = form_of(
         advice,
         place,
@@ -247,10 +252,10 @@ def _command(
     project: Project, inputs: api.Inputs, advice: Next, written: _Written, place: int
 ) -> str:
     """Return the command that writes the same files."""
-    choices, _ = read_choices(project)
+    choices = project.choices
     output = ["--output", written.program] if written.program else []
     # New marks are cut with what is open now, which may be other than what those there were.
-    in_force = advice.case and advice.case.settings == settings_in(project.path(choices.settings))
+    in_force = advice.case and advice.case.settings == opened(project)
     moved_by = [] if in_force else ["--cut-next-with", choices.settings]
     words = [*board_and_known(project, inputs), "--choose", f"{place}", *moved_by]
     return command("next", *words, "--marks", written.form, *output)

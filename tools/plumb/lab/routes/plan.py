@@ -11,9 +11,8 @@ from fastapi import APIRouter
 from pydantic import BaseModel, Field
 
 from plumb.fit.expected import Expected, expected_anywhere, expected_priors, expected_sentence
-from plumb.fit.inputs import settings_in
 from plumb.lab.known import measured_to, planned_priors, possible
-from plumb.lab.project import Choices, Layout, Project, read_choices
+from plumb.lab.project import Choices, Layout, Project
 from plumb.lab.rounds import (
     FORM,
     PROGRAM,
@@ -23,6 +22,7 @@ from plumb.lab.rounds import (
     command,
     grid_command,
     next_number,
+    opened,
     planned,
     prior_words,
     refuse_unreachable,
@@ -192,7 +192,7 @@ DESK, SLOW_DESK = Desk(), Desk()  # what takes seconds holds up nobody who drags
 def preview_plan(request: PlanRequest, project: TheProject) -> PlanAnswer:
     """Return what marks could tell before a hole is cut."""
     settings = opened(project)
-    choices, _ = read_choices(project)
+    choices = project.choices
     plan = planned(settings, request.layout, request.places)
     outlook = DESK.look(settings, choices, request, is_quick=True)
     return PlanAnswer(
@@ -223,15 +223,14 @@ def _command(project: Project, choices: Choices, plan: Planned, sigma: float) ->
 @router.post("/preview/additions")
 def additions(request: PlanRequest, project: TheProject) -> list[PlanAddition]:
     """Return what could be measured in addition, best first; takes some seconds."""
-    choices, _ = read_choices(project)
-    outlook = SLOW_DESK.look(opened(project), choices, request, is_quick=False)
+    outlook = SLOW_DESK.look(opened(project), project.choices, request, is_quick=False)
     return list(outlook.additions[:4])
 
 
 @router.get("/reach")
 def reach(project: TheProject) -> ReachAnswer:
     """Return where on the sheet the machine is usable."""
-    choices, _ = read_choices(project)
+    choices = project.choices
     settings = opened(project)
     survey = survey_sheet(settings)
     choices = possible(choices, settings)
@@ -261,14 +260,6 @@ def reach(project: TheProject) -> ReachAnswer:
             *unit_words(choices),
         ),
     )
-
-
-def opened(project: Project) -> MachineSettings:
-    """Return the opened settings. Raises InputError if none are open."""
-    choices, _ = read_choices(project)
-    if not choices.settings:
-        raise InputError("no settings are open; open the settings of the machine first")
-    return settings_in(project.path(choices.settings))
 
 
 def _trouble(settings: MachineSettings, request: PlanRequest) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated
@@ -22,11 +23,11 @@ from plumb.lab.project import (
     read_choices,
     save_choices,
 )
+from plumb.lab.rounds import opened
 from plumb.marks.form import read_form
 from plumb.marks.plausible import from_edges
 from plumb.model.predict import known_effects
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError
 from plumb.text.values import shown_in
 from plumb.vm.practice import score, secret_in
 
@@ -154,28 +155,18 @@ def take_over(
 # Readings that disagree, asked for after each that is typed.
 
 
-class DoubtAnswer(BaseModel):
-    """A reading to look at again."""
-
-    index: int  # among the marks, or among the distances
-    is_mark: bool
-    off: float  # [mm]
-    sentence: str
-    corrected: list[float] | None  # [mm from the chosen edges] what was meant, if that is likely
-
-
 class DoubtsAnswer(BaseModel):
     """All doubts about a form."""
 
     file: str
     digest: str  # of the form as it was read
-    doubts: list[DoubtAnswer]
+    doubts: list[Doubted]  # corrected: from the chosen edges
 
 
 @router.get("/doubts")
 def show_doubts(project: TheProject, file: str) -> DoubtsAnswer:
     """Return which readings of a form no machine explains, by what is known of this machine."""
-    choices, _ = read_choices(project)
+    choices = project.choices
     settings = settings_in(project.path(choices.settings))
     refuse_absurd_known(settings, choices)
     digest = project.digest(file)
@@ -195,21 +186,16 @@ def show_doubts(project: TheProject, file: str) -> DoubtsAnswer:
     return DoubtsAnswer(
         file=file,
         digest=digest,
-        doubts=[_answer(doubt, sheet, choices.edges) for doubt in doubts],
+        doubts=[_from_edges(doubt, sheet, choices.edges) for doubt in doubts],
     )
 
 
-def _answer(doubt: Doubted, sheet: tuple[float, float], corner: str) -> DoubtAnswer:
-    corrected = list(doubt.corrected) if doubt.corrected else None
-    if corrected and doubt.is_mark:
-        corrected = list(from_edges((corrected[0], corrected[1]), sheet=sheet, corner=corner))
-    return DoubtAnswer(
-        index=doubt.index,
-        is_mark=doubt.is_mark,
-        off=doubt.off,
-        sentence=doubt.sentence,
-        corrected=corrected,
-    )
+def _from_edges(doubt: Doubted, sheet: tuple[float, float], corner: str) -> Doubted:
+    """Return the doubt with a place that was meant as it is typed."""
+    if not doubt.is_mark or doubt.corrected is None:
+        return doubt
+    x, y = doubt.corrected
+    return replace(doubt, corrected=from_edges((x, y), sheet=sheet, corner=corner))
 
 
 # Practice: what the folder's virtual machine hides, and what the opened settings are worth.
@@ -227,10 +213,7 @@ class Revealed(BaseModel):
 @router.post("/practice/reveal")
 def reveal(project: TheProject) -> Revealed:
     """Reveal the secret of the folder."""
-    secret, (choices, _) = secret_in(project.folder), read_choices(project)
-    if not choices.settings:
-        raise InputError("no settings are open; open the settings of the machine first")
-    result = score(secret, settings_in(project.path(choices.settings)))
+    result = score(secret_in(project.folder), opened(project))
     return Revealed(
         hidden=result.hidden,
         sentence=result.sentence,

@@ -12,8 +12,8 @@ from pydantic import BaseModel
 
 from plumb.fit.inputs import settings_in
 from plumb.grid import spans_in
-from plumb.lab.project import Choices, Edges, Project, read_choices, save_choices, with_marks
-from plumb.lab.rounds import command, is_read_again, known_words, unit_words
+from plumb.lab.project import Choices, Edges, Project, save_choices, with_marks
+from plumb.lab.rounds import command, is_read_again, known_words, opened, unit_words
 from plumb.lab.routes.project import TheProject
 from plumb.marks.form import (
     Form,
@@ -116,7 +116,7 @@ class Fineness(BaseModel):
 @router.get("/readings")
 def show_readings(project: TheProject, file: str = "") -> ReadingsAnswer:
     """Return a form of the folder: the named, else the newest that is used."""
-    choices, _ = read_choices(project)
+    choices = project.choices
     # Before the form is read: who saves it meanwhile is not taken for known.
     digests = {each: project.digest(each) for each in project.names()}
     forms = _forms(project, choices)
@@ -127,7 +127,7 @@ def show_readings(project: TheProject, file: str = "") -> ReadingsAnswer:
         form = form_of(project, choices, file)
     if name and not form:
         raise InputError(f"{name}: there is no such form of marks in the folder")
-    sheet = _sheet_of(project, choices, form)
+    sheet = _sheet_of(project, form)
     measurements = form.measurements if form else Measurements(())
     return ReadingsAnswer(
         files=[_form_file(name, forms[name], choices) for name in _by_use(forms, choices)],
@@ -152,9 +152,9 @@ def show_readings(project: TheProject, file: str = "") -> ReadingsAnswer:
 @router.put("/readings")
 def save_readings(typed: TypedReadings, project: TheProject) -> ReadingsAnswer:
     """Put readings into a form, or take them out."""
-    choices, _ = read_choices(project)
+    choices = project.choices
     form = form_of(project, choices, typed.file)
-    sheet = _sheet_of(project, choices, form)
+    sheet = _sheet_of(project, form)
     places = {
         each.index: each.read and in_machine(each.read, sheet=sheet, corner=typed.edges)
         for each in typed.readings
@@ -165,8 +165,7 @@ def save_readings(typed: TypedReadings, project: TheProject) -> ReadingsAnswer:
 @router.put("/distances")
 def save_distances(typed: TypedDistances, project: TheProject) -> ReadingsAnswer:
     """Replace the distances of a form."""
-    choices, _ = read_choices(project)
-    form = form_of(project, choices, typed.file)
+    form = form_of(project, project.choices, typed.file)
     _refuse_two_places(form, [name for each in typed.distances for name in each.between])
     distances = [(each.between, each.length) for each in typed.distances]
     head = with_distances(form, distances)
@@ -176,8 +175,7 @@ def save_distances(typed: TypedDistances, project: TheProject) -> ReadingsAnswer
 @router.put("/fineness")
 def save_fineness(stated: Fineness, project: TheProject) -> ReadingsAnswer:
     """State how fine the tape is."""
-    choices, _ = read_choices(project)
-    form = form_of(project, choices, stated.file)
+    form = form_of(project, project.choices, stated.file)
     head = {key: value for key, value in form.head.items() if key != "tape_sigma_mm"}
     chosen: dict[str, float] = {}
     if stated.finest is not None:
@@ -195,8 +193,7 @@ def save_fineness(stated: Fineness, project: TheProject) -> ReadingsAnswer:
 @router.post("/marks")
 def open_marks(file: UploadFile, project: TheProject) -> ReadingsAnswer:
     """Take a file of marks into the project; another form than marks.toml becomes such."""
-    choices, _ = read_choices(project)
-    sheet = _sheet_of(project, choices, None)
+    sheet = opened(project).sheet
     content = file.file.read()
     ending = Path(file.filename or "").suffix.lower()
     with TemporaryDirectory() as scratch:
@@ -233,8 +230,7 @@ def _saved(
 ) -> ReadingsAnswer:
     """Save a form; from its first reading on the verdict goes by it."""
     files, read = {name: toml_text(head, comment).encode()}, {name: digest}
-    choices, _ = read_choices(project)
-    if name in choices.marks or name.startswith(CHECK):
+    if name in project.choices.marks or name.startswith(CHECK):
         project.save(files, read=read)
     else:
         save_choices(project, lambda now: with_marks(now, name), files=files, read=read)
@@ -315,14 +311,10 @@ def _form_file(name: str, form: Form, choices: Choices) -> FormFile:
     )
 
 
-def _sheet_of(project: Project, choices: Choices, form: Form | None) -> tuple[float, float]:
+def _sheet_of(project: Project, form: Form | None) -> tuple[float, float]:
     """Return the sheet on which the marks were cut [mm]."""
     in_force = form and form.measurements.rounds[0].cut_with
-    if in_force:
-        return in_force.sheet
-    if not choices.settings:
-        raise InputError("no settings are open; open the settings of the machine first")
-    return settings_in(project.path(choices.settings)).sheet
+    return in_force.sheet if in_force else opened(project).sheet
 
 
 def _marks(measurements: Measurements, sheet: tuple[float, float], corner: str) -> list[AskedMark]:

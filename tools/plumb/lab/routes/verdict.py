@@ -19,9 +19,8 @@ from plumb.diagnosis.sizes import Size
 from plumb.diagnosis.suspect_curves import fingerprint_of
 from plumb.fit.expected import plausible_range
 from plumb.lab.background import Background, Progress, key_of
-from plumb.lab.project import Project, read_choices
-from plumb.lab.rounds import command, known_words, unit_words
-from plumb.lab.routes.comparison import board_words, inputs_of
+from plumb.lab.project import Project
+from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words
 from plumb.lab.routes.project import TheProject
 from plumb.model.catalogue import every_effect, label
 from plumb.model.plain import noun_of, nouns_of, plain_range, plain_size, plainly, ranked
@@ -131,7 +130,7 @@ TheBackground = Annotated[Background, Depends(background_of)]
 @router.get("/verdict")
 def show_verdict(project: TheProject, background: TheBackground) -> VerdictAnswer:
     """Return the verdict on the readings so far."""
-    choices, _ = read_choices(project)
+    choices = project.choices
     key = key_of(project)  # before the files are read: what changes meanwhile is asked for again
     inputs = inputs_of(project)
 
@@ -154,7 +153,7 @@ def show_verdict(project: TheProject, background: TheBackground) -> VerdictAnswe
 
 def board_and_known(project: Project, inputs: api.Inputs) -> list[str]:
     """Return the board, what is known and the unit, as a command takes them."""
-    choices, _ = read_choices(project)
+    choices = project.choices
     unit = unit_words(choices, inputs.measurements.typed.unit)
     return [*board_words(project), *known_words(choices), *unit]
 
