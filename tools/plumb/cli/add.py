@@ -8,19 +8,16 @@ from pathlib import Path
 
 from pydantic import computed_field
 
-from plumb.cli.add_text import as_text, auto_text
 from plumb.cli.arguments import (
     add_force,
     add_json,
     add_marks,
-    add_prior,
-    add_sigma,
     add_units,
     add_without,
-    named_number,
+    held_size,
 )
 from plumb.cli.compare import panel_of
-from plumb.cli.inputs import add_checked, picture_form, refuse_unfitted, stated_inputs
+from plumb.cli.inputs import add_stated, picture_form, refuse_unfitted, stated_inputs
 from plumb.cli.output import STDOUT, refuse_twins, say_failure, write_outputs
 from plumb.cli.screen import (
     AUTO,
@@ -31,23 +28,27 @@ from plumb.cli.screen import (
     print_json,
     same_inputs,
     second_round,
+    sentences,
+    table,
     usual_client,
 )
 from plumb.cli.settings import Written, add_client, add_firmware, client_files_of, client_text
 from plumb.cure.add import Addition, add
 from plumb.cure.auto import AutoAddition, add_auto
 from plumb.cure.live_board import refuse_other_origin
-from plumb.cure.machine_file import record_of, toml_of
+from plumb.cure.machine_file import PATCH_WARNING, record_of, toml_of, turn_sentences
+from plumb.diagnosis.noise import origin_words
 from plumb.diary.file import FIT, fit_entry, keep
 from plumb.firmware.client_files import ClientFiles
 from plumb.fit.compare import Comparison
 from plumb.fit.covariates import PATCH
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import is_sketch
-from plumb.model.plain import noun_of
+from plumb.model.plain import noun_of, plain_before, plain_size
 from plumb.pictures.fingerprints import Stair, draw_staircase
 from plumb.pictures.scale import Panel
 from plumb.text.errors import InputError
+from plumb.text.values import bare, unit, worded
 
 NONE = "none"  # as an effect: the frame alone
 
@@ -96,7 +97,10 @@ def run(arguments: argparse.Namespace) -> int:
         )
     if AUTO in arguments.effect:
         return _run_auto(arguments, inputs)
-    effects, held = _named(arguments.effect), dict(arguments.hold)
+    if NONE in arguments.effect and len(arguments.effect) > 1:
+        raise InputError("--effect none fits the frame alone; name no effects with it")
+    effects = [name for name in arguments.effect if name != NONE]
+    held = dict(arguments.hold)
     refuse_unfitted(inputs.checked, effects, held)
     result = add(inputs, effects=effects, held=held, patch=arguments.patch)
     files, client = written(arguments, inputs, result)
@@ -106,15 +110,6 @@ def run(arguments: argparse.Namespace) -> int:
         print(as_text(result, asked_patch=arguments.patch))
         _print_written(files, client, arguments)
     return int(not result.pays and arguments.effect != [NONE])
-
-
-def _named(effects: list[str]) -> list[str]:
-    """Return the effects that were named; none: the frame alone is fitted."""
-    if NONE not in effects:
-        return effects
-    if len(effects) > 1:
-        raise InputError("--effect none fits the frame alone; name no effects with it")
-    return []
 
 
 def _run_auto(arguments: argparse.Namespace, inputs: Inputs) -> int:
@@ -133,19 +128,15 @@ def _run_auto(arguments: argparse.Namespace, inputs: Inputs) -> int:
         print_json(AutoAnswer(**vars(added), **vars(why)) if added else why)
     else:
         print(auto_text(result))
+        same = same_inputs(arguments)
         if result.addition:
             _print_written(files, client, arguments)
+        elif result.diagnosis.outliers:
+            corrected = ["add", *same, "--effect", AUTO]
+            print(f"\n{next_step('When the file is corrected:', corrected)}")
         else:
-            print(f"\n{_first(result, arguments)}")
+            print(f"\n{next_step('What to measure next:', ['next', *same])}")
     return int(not result.done)
-
-
-def _first(result: AutoAddition, arguments: argparse.Namespace) -> str:
-    """Return what comes before anything can be added."""
-    same = same_inputs(arguments)
-    if result.diagnosis.outliers:
-        return next_step("When the file is corrected:", ["add", *same, "--effect", AUTO])
-    return next_step("What to measure next:", ["next", *same])
 
 
 def written(
@@ -166,17 +157,12 @@ def written(
     read = [arguments.settings, *arguments.marks, arguments.cut_with, arguments.original]
     write_outputs(files, inputs=[path for path in read if path])
     if arguments.output:
-        _keep_in_diary(arguments, inputs, result, settings=files[arguments.output].decode())
+        machine, settings = Path(arguments.output).name, files[arguments.output].decode()
+        entry = fit_entry(
+            result, inputs, machine=machine, settings=settings, firmware=arguments.firmware
+        )
+        say_failure(keep(arguments.output, FIT, entry))
     return list(files), client
-
-
-def _keep_in_diary(
-    arguments: argparse.Namespace, inputs: Inputs, result: Addition, *, settings: str
-) -> None:
-    """Add the fit to the diary next to the new settings; a failure is said, and no more."""
-    machine, firmware = Path(arguments.output).name, arguments.firmware
-    entry = fit_entry(result, inputs, machine=machine, settings=settings, firmware=firmware)
-    say_failure(keep(arguments.output, FIT, entry))
 
 
 def _refuse_sketches(arguments: argparse.Namespace, result: Addition) -> None:
@@ -203,16 +189,12 @@ def _print_written(
     elif arguments.output:
         sent = str(Path(arguments.output).with_suffix(".nc"))
         words = ["settings", arguments.output, "--to", "gcode", *usual_client(arguments)]
-        original = [] if "--original" in words else _original(arguments)
+        is_client = Path(arguments.settings).suffix.lower() in CLIENT_OF
+        more = is_client and "--original" not in words
+        original = ["--original", arguments.settings] if more else []
         print(f"\n{next_step('For the machine:', [*words, *original, '-o', sent])}")
     else:
         print(f"\n{next_step('Write it:', add_named(arguments, arguments.effect))}")
-
-
-def _original(arguments: argparse.Namespace) -> list[str]:
-    """Return where the client's other keys are, if the settings came from a client."""
-    is_client = Path(arguments.settings).suffix.lower() in CLIENT_OF
-    return ["--original", arguments.settings] if is_client else []
 
 
 def _files(arguments: argparse.Namespace, inputs: Inputs, result: Addition) -> dict[str, bytes]:
@@ -265,6 +247,105 @@ def _noun(effect: str) -> str:
     return "patch" if effect == PATCH else noun_of(effect)
 
 
+# What `plumb add` says to people.
+
+
+def auto_text(result: AutoAddition) -> str:
+    """Return the diagnosis and the choice for people, then the addition."""
+    said = [sentences([result.diagnosis.sentence], mark="")]
+    if result.diagnosis.outliers:
+        said.append(sentences([slip.sentence for slip in result.diagnosis.outliers]))
+    reason = result.reason[0].upper() + result.reason[1:] + "."
+    said.append(sentences([reason], mark=""))
+    if result.settled_by:
+        said.append("To be sure which it is:\n" + sentences(result.settled_by))
+    if result.offer:
+        added = result.addition is not None and PATCH in result.addition.effects_added
+        said.append(sentences([_offer_sentence(*result.offer, added=added)], mark=""))
+    if result.addition:
+        said.append(as_text(result.addition))
+    return "\n\n".join(said)
+
+
+def _offer_sentence(without: float, with_patch: float, *, added: bool) -> str:
+    """Return what a residual patch would buy, or has bought."""
+    if with_patch >= without:
+        return f"A residual patch would buy nothing ({worded(without)} on marks not used)."
+    bought = f"{bare(without)} to {worded(with_patch)} on marks not used"
+    if added:
+        return f"The residual patch bought {bought}."
+    return f"A residual patch (--patch) would buy {bought}. {PATCH_WARNING}"
+
+
+# What the columns of the tables of errors mean, one family of words for all commands.
+COLUMNS = (
+    "Counted: the RMS, counted for the numbers fitted. Checked: on marks not used, each predicted "
+    "by a fit without it."
+)
+
+
+def as_text(result: Addition, *, asked_patch: bool = False) -> str:
+    """Return the addition for people, its conclusion first."""
+    raw, before, after = result.raw, result.before, result.after
+    verdict = "better" if result.pays else "NOT better"
+    first = f"From {bare(raw.rms)} to {worded(after.fit_rms)} RMS"
+    if result.by_effect:
+        first += (
+            f"; checked on marks not used, it is {verdict} with the effects "
+            f"({bare(before.left_out_rms)} to {worded(after.left_out_rms)})"
+        )
+    first += "."
+    parts = [sentences([first], mark=""), quality_table(result), parameter_table(result)]
+    if result.benchmark_after:
+        parts.insert(1, _benchmark_sentence(result))
+    note = (
+        f"{COLUMNS} Intervals hold for a reading error of {worded(result.after_fit.sigma)} "
+        f"({origin_words(result.sigma_from)})."
+    )
+    parts.append(sentences([note], mark=""))
+    said = [*turn_sentences(result), *result.cures, *result.warnings]
+    if PATCH in result.effects_added:
+        said.append(PATCH_WARNING)
+    elif asked_patch:
+        said.append("a residual patch would predict marks not used no better, so none was added")
+    parts += [sentences(said)] if said else []
+    return "\n\n".join(parts)
+
+
+def _benchmark_sentence(result: Addition) -> str:
+    """Return the community's score before, and what to expect of the next cut."""
+    said = (
+        f"Calibration Benchmark Score: {result.raw.benchmark} as cut; {result.benchmark_after} to "
+        "expect when it is cut again with the new settings, if nothing else changes."
+    )
+    return sentences([said], mark="")
+
+
+def quality_table(result: Addition) -> str:
+    raw = result.raw
+    start = (raw.rms, None, None, raw.worst, raw.shape_rms)
+    rows = [["raw: the settings as they are", *map(bare, start)]]
+    named = [("fitted: the frame", result.before)]
+    named += [(f"fitted: + {noun_of(step.effect)}", step) for step in result.by_effect]
+    for name, q in named:
+        errors = (q.fit_rms, q.corrected_rms, q.left_out_rms, q.worst, q.shape_rms)
+        rows.append([name, *map(bare, errors)])
+    return table([f"error in {unit()}", "RMS", "counted", "checked", "worst", "shape"], rows)
+
+
+def parameter_table(result: Addition) -> str:
+    rows = [
+        [
+            plain_size(each.name, each.value, each.low, each.high),
+            plain_before(each.name, each.before, each.low, each.high),
+            "" if each.plausible else "impossible",
+        ]
+        for each in result.parameters
+        if not each.of_patch
+    ]
+    return table(["fitted, with its 95 % interval", "before", ""], rows, words=[-1])
+
+
 # The arguments of `plumb add`.
 
 EXAMPLES = (
@@ -310,20 +391,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_client(parser)
     add_firmware(parser)
-    add_prior(parser)
-    add_sigma(parser, usual="tape_sigma_mm of MARKS and repeats, else from the residuals")
-    add_checked(parser)
+    add_stated(parser, sigma="tape_sigma_mm of MARKS and repeats, else from the residuals")
     parser.add_argument(
         "--picture", metavar="FILE", help="draw how the error falls: .png, .svg, .pdf"
     )
     add_force(parser)
     add_units(parser)
     add_json(parser)
-
-
-def held_size(text: str) -> tuple[str, float]:
-    """Read NAME=SIZE."""
-    name, size = named_number(text)
-    if size is None:
-        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=SIZE, like chain_pitch.left=0.001")
-    return name, size

@@ -8,19 +8,17 @@ from dataclasses import dataclass, replace
 from pydantic import computed_field
 
 from plumb.cli import add as add_command
-from plumb.cli.add_text import COLUMNS, parameter_table, quality_table
+from plumb.cli.add import COLUMNS, parameter_table, quality_table
 from plumb.cli.arguments import (
     add_force,
     add_json,
     add_marks,
-    add_prior,
-    add_sigma,
     add_units,
     add_without,
 )
 from plumb.cli.compare import conclusion, outside_sentence
 from plumb.cli.diagnose import explanation_table
-from plumb.cli.inputs import add_checked, stated_inputs
+from plumb.cli.inputs import add_stated, stated_inputs
 from plumb.cli.next import after, first_proposal
 from plumb.cli.screen import (
     auto_words,
@@ -174,9 +172,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_client(parser)
     add_firmware(parser)
-    add_prior(parser)
-    add_sigma(parser, usual="as plumb diagnose takes it")
-    add_checked(parser)
+    add_stated(parser, sigma="as plumb diagnose takes it")
     add_units(parser)
     add_force(parser)
     add_json(parser)

@@ -6,8 +6,8 @@ import argparse
 from dataclasses import dataclass
 from operator import itemgetter
 
-from plumb.cli.arguments import add_json, add_marks, add_prior, add_sigma, add_units
-from plumb.cli.inputs import add_checked, stated_inputs
+from plumb.cli.arguments import add_json, add_marks, add_units
+from plumb.cli.inputs import add_stated, stated_inputs
 from plumb.cli.screen import (
     add_named,
     auto_words,
@@ -199,8 +199,6 @@ EXIT = (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb diagnose`."""
     add_marks(parser)
-    add_prior(parser)
-    add_sigma(parser, usual="tape_sigma_mm of MARKS and repeats, else 0.5")
-    add_checked(parser)
+    add_stated(parser, sigma="tape_sigma_mm of MARKS and repeats, else 0.5")
     add_units(parser)
     add_json(parser)

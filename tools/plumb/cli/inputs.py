@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
+from plumb.cli.arguments import add_prior, add_sigma
 from plumb.diagnosis import Checked
 from plumb.fit.expected import refuse_absurd
 from plumb.fit.inputs import Inputs, read_inputs
@@ -79,7 +80,7 @@ def refuse_unfitted(
             )
 
 
-# The argument --checked: numbers of the machine that were measured directly.
+# The options that state numbers; --checked has those that were measured directly.
 
 EXAMPLE = "motor_level.height_difference=4+-1"
 
@@ -92,8 +93,10 @@ class Measured(NamedTuple):
     sigma: float  # [its unit]
 
 
-def add_checked(parser: argparse.ArgumentParser) -> None:
-    """Add the option --checked."""
+def add_stated(parser: argparse.ArgumentParser, *, sigma: str) -> None:
+    """Add the options --prior, --sigma and --checked; `sigma` says what holds without it."""
+    add_prior(parser)
+    add_sigma(parser, usual=sigma)
     parser.add_argument(
         "--checked",
         metavar="NAME=VALUE+-SIGMA",

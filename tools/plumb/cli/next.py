@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.cli.arguments import add_force, add_json, add_marks, add_prior, add_sigma, add_units
-from plumb.cli.inputs import add_checked, picture_form, stated_inputs
+from plumb.cli.arguments import add_force, add_json, add_marks, add_units
+from plumb.cli.inputs import add_stated, picture_form, stated_inputs
 from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import bar, free_name, next_step, print_json, same_inputs, sentences, table
 from plumb.diagnosis import Diagnosis, diagnose
@@ -264,9 +264,7 @@ EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb next`."""
     add_marks(parser)
-    add_prior(parser)
-    add_sigma(parser, usual="as plumb diagnose takes it")
-    add_checked(parser)
+    add_stated(parser, sigma="as plumb diagnose takes it")
     parser.add_argument(
         "--choose",
         metavar="N",

@@ -11,14 +11,12 @@ import numpy as np
 from plumb.cli.arguments import (
     add_controller,
     add_json,
-    add_prior,
     add_settings,
-    add_sigma,
     add_units,
     file,
 )
 from plumb.cli.home import add_touch, asked_signs, touches_of
-from plumb.cli.inputs import add_checked, stated_inputs
+from plumb.cli.inputs import add_stated, stated_inputs
 from plumb.cli.output import say_failure
 from plumb.cli.screen import headline, print_json, sentences, table
 from plumb.diagnosis.check_marks import check_marks, check_sentence
@@ -217,8 +215,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the settings in force when MARKS were cut, if neither they nor SETTINGS say so",
     )
     add_controller(parser)
-    add_prior(parser)
-    add_checked(parser)
-    add_sigma(parser, usual="0.5; with --check what MARKS say")
+    add_stated(parser, sigma="0.5; with --check what MARKS say")
     add_units(parser)
     add_json(parser)

@@ -12,12 +12,10 @@ from plumb.cli.arguments import (
     add_force,
     add_json,
     add_marks,
-    add_prior,
-    add_sigma,
     add_units,
     add_without,
 )
-from plumb.cli.inputs import add_checked, stated_inputs
+from plumb.cli.inputs import add_stated, stated_inputs
 from plumb.cli.output import STDOUT, write_outputs
 from plumb.cli.screen import bar, command_text, headline, print_json, same_inputs, sentences
 from plumb.cure.add import Addition
@@ -168,9 +166,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the page: .html, a single file that needs no network",
     )
     add_without(parser)
-    add_prior(parser)
-    add_sigma(parser, usual="as plumb diagnose takes it")
-    add_checked(parser)
+    add_stated(parser, sigma="as plumb diagnose takes it")
     add_units(parser)
     add_force(parser)
     add_json(parser)

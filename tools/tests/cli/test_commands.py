@@ -17,7 +17,6 @@ EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 # Files of the room that are no commands.
 SHARED = {
     "__init__",
-    "add_text",
     "answers",
     "arguments",
     "demo",

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.cli.add_text import as_text
+from plumb.cli.add import as_text
 from plumb.cure.add import add
 from plumb.cure.machine_file import toml_of
 from plumb.fit.fit import fit
