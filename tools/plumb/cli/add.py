@@ -14,10 +14,9 @@ from plumb.cli.arguments import (
     add_marks,
     add_units,
     add_without,
-    held_size,
 )
 from plumb.cli.compare import panel_of
-from plumb.cli.inputs import add_stated, picture_form, refuse_unfitted, stated_inputs
+from plumb.cli.inputs import add_stated, held_size, picture_form, refuse_unfitted, stated_inputs
 from plumb.cli.output import STDOUT, refuse_twins, say_failure, write_outputs
 from plumb.cli.screen import (
     AUTO,

@@ -143,14 +143,6 @@ def prior(text: str) -> tuple[str, float]:
     return name, sigma
 
 
-def held_size(text: str) -> tuple[str, float]:
-    """Read NAME=SIZE."""
-    name, size = named_number(text)
-    if size is None:
-        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=SIZE, like chain_pitch.left=0.001")
-    return name, size
-
-
 def named_number(text: str) -> tuple[str, float | None]:
     """Return a name and the number behind its =; None if there is no such number."""
     name, _, value = text.partition("=")

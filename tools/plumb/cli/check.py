@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from pydantic import computed_field
 
 from plumb.cli.arguments import add_force, add_json, add_machine, add_units, file
 from plumb.cli.inputs import inputs_of, picture_form
@@ -20,6 +21,7 @@ from plumb.job.findings import HALTS, IGNORED, SINKS, WAITS, Finding, Hanging, S
 from plumb.model.predict import USABLE
 from plumb.pictures.reach import Drawn, draw_job
 from plumb.settings.machine import MachineSettings
+from plumb.text.answers import Internal, part
 from plumb.text.files import read_text
 from plumb.text.values import bare, signed, unit, worded
 
@@ -30,18 +32,25 @@ NAMED = 30  # parts that get their number in the picture
 class CheckAnswer:
     """What to expect of a program."""
 
-    good: bool
-    halted_at: int | None  # line
-    moves: int
-    seconds: float
-    cutting_seconds: float
-    rapid_seconds: float
-    asked_seconds: float  # the cutting at the feeds of the program
-    findings: tuple[Finding, ...]
-    slower: tuple[Slower, ...]
-    hanging: Hanging | None  # None where nothing is cut
-    parts: tuple[Part, ...]
+    checked: Internal[Checked]
     written: list[str]
+
+    good = part("checked.is_good", bool)
+    halted_at = part("checked.done.halted_at", int | None, "A line.")
+    seconds = part("checked.times.whole", float)
+    cutting_seconds = part("checked.times.cutting", float)
+    rapid_seconds = part("checked.times.rapid", float)
+    asked_seconds = part("checked.times.asked", float, "The cutting at the feeds of the program.")
+    findings = part("checked.findings", tuple[Finding, ...])
+    slower = part("checked.slower", tuple[Slower, ...])
+    hanging = part("checked.hanging", Hanging | None, "Null where nothing is cut.")
+    parts = part("checked.parts", tuple[Part, ...])
+
+    @computed_field
+    @property
+    def moves(self) -> int:
+        """How many moves the program has."""
+        return len(self.checked.done.moves)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -67,28 +76,10 @@ def run(arguments: argparse.Namespace) -> int:
         files[arguments.outline] = outline.encode()
     write_outputs(files, inputs=[arguments.job, arguments.settings, *arguments.marks])
     if arguments.json:
-        print_json(_answer(checked, list(files)))
+        print_json(CheckAnswer(checked, list(files)))
     else:
         print(as_text(checked, arguments))
     return 0 if checked.is_good else 1
-
-
-def _answer(checked: Checked, written: list[str]) -> CheckAnswer:
-    times = checked.times
-    return CheckAnswer(
-        good=checked.is_good,
-        halted_at=checked.done.halted_at,
-        moves=len(checked.done.moves),
-        seconds=times.whole,
-        cutting_seconds=times.cutting,
-        rapid_seconds=times.rapid,
-        asked_seconds=times.asked,
-        findings=checked.findings,
-        slower=checked.slower,
-        hanging=checked.hanging,
-        parts=checked.parts,
-        written=written,
-    )
 
 
 def _drawn(checked: Checked, settings: MachineSettings, name: str) -> Drawn:
@@ -231,12 +222,12 @@ def _parts(checked: Checked) -> str:
     header = ["part", "lines", "size", "deep"]
     header += ["width", "height", "askew"] if checked.has_errors else []
     rows = []
-    for number, part in enumerate(checked.parts, start=1):
-        width, height = part.size
-        row = [str(number), f"{part.first_line}-{part.last_line}"]
-        row += [f"{bare(width, 1)} x {bare(height, 1)}", bare(-part.deepest)]
+    for number, each in enumerate(checked.parts, start=1):
+        width, height = each.size
+        row = [str(number), f"{each.first_line}-{each.last_line}"]
+        row += [f"{bare(width, 1)} x {bare(height, 1)}", bare(-each.deepest)]
         if checked.has_errors:
-            row += map(_error, (part.width_error, part.height_error, part.skew))
+            row += map(_error, (each.width_error, each.height_error, each.skew))
         rows.append(row)
     more = len(rows) - PARTS
     words = [f"Sizes by the middle of the bit, {unit()}."]

@@ -7,12 +7,11 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from plumb.cli.arguments import add_json, add_settings, add_units, file
-from plumb.cli.inverse import Outcome, Pair, answered, answers_table, count_sentence
+from plumb.cli.inverse import Outcome, Pair, answered, answers_table, count_sentence, read_pairs
 from plumb.cli.screen import print_json
 from plumb.fit.inputs import settings_in
 from plumb.model.predict import FOUND, places
 from plumb.text.answers import key
-from plumb.text.points import read_pairs
 from plumb.text.values import unit
 
 

@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
-from plumb.cli.arguments import add_prior, add_sigma
+from plumb.cli.arguments import add_prior, add_sigma, named_number
 from plumb.diagnosis import Checked
 from plumb.fit.expected import refuse_absurd
 from plumb.fit.inputs import Inputs, read_inputs
@@ -133,3 +133,11 @@ def picture_form(path: str, *, option: str = "--picture") -> str:
     if form not in FORMATS:
         raise InputError(f"{option} {path}: end the name with .{', .'.join(FORMATS)}")
     return form
+
+
+def held_size(text: str) -> tuple[str, float]:
+    """Read NAME=SIZE."""
+    name, size = named_number(text)
+    if size is None:
+        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=SIZE, like chain_pitch.left=0.001")
+    return name, size

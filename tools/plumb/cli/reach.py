@@ -6,6 +6,8 @@ import argparse
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from pydantic import computed_field
+
 from plumb import _core
 from plumb.cli.arguments import add_force, add_json, add_prior, add_settings, add_units, limit
 from plumb.cli.inputs import picture_form
@@ -17,6 +19,7 @@ from plumb.fit.problem import priors_with
 from plumb.model.predict import REACH_WORDS
 from plumb.model.reach import Give, Pull, Survey, conclusion_of, percent, survey_sheet
 from plumb.pictures.reach import draw_map
+from plumb.text.answers import Internal, part
 from plumb.text.errors import InputError
 from plumb.text.values import bare, unit, worded
 
@@ -38,16 +41,34 @@ MAP_ROWS = 8  # characters are twice as high as wide
 class ReachAnswer:
     """Which part of the sheet is usable, and what limits the rest."""
 
-    usable_share: float
-    shares: dict[str, float]  # by verdict
-    limits: Mapping[str, float]
+    survey: Internal[Survey]
     expected: Expected | None  # None: no sled hangs on this sheet
-    tightest: Pull | None
-    slackest: Pull | None
-    softest: Give | None
-    assumed: tuple[str, ...]  # what the settings do not say, a sentence each
-    map: list[str]  # the sheet in characters, from the top down
     written: list[str]
+
+    limits = part("survey.limits", Mapping[str, float])
+    tightest = part("survey.tightest", Pull | None)
+    slackest = part("survey.slackest", Pull | None)
+    softest = part("survey.softest", Give | None)
+    assumed = part("survey.assumed", tuple[str, ...], "What the settings do not say.")
+
+    @computed_field
+    @property
+    def usable_share(self) -> float:
+        """The share of the sheet that the machine can use."""
+        return self.survey.shares[REACH_WORDS[0]]
+
+    @computed_field
+    @property
+    def shares(self) -> dict[str, float]:
+        """The share of the sheet of each verdict."""
+        return {word.replace(" ", "_"): share for word, share in self.survey.shares.items()}
+
+    @computed_field
+    @property
+    def map(self) -> list[str]:
+        """The sheet in characters, from the top down; edges included."""
+        rows = self.survey.reached.verdict.reshape(len(self.survey.y), len(self.survey.x))
+        return ["".join(SIGNS[each] for each in row) for row in rows[::MAP_ROWS, ::MAP_STEP]]
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -63,42 +84,22 @@ def run(arguments: argparse.Namespace) -> int:
     priors_with(arguments.prior)  # refuses a number that is none
     survey = survey_sheet(settings, **limits)
     expected = expected_anywhere(settings, expected_priors(dict(arguments.prior)))
+    answer = ReachAnswer(survey, expected, [arguments.output] if arguments.output else [])
     if arguments.output:
         drawn = draw_map(survey, form=form)
         write_outputs({arguments.output: drawn}, inputs=[arguments.settings])
     if arguments.json:
-        print_json(_answer(survey, expected, [arguments.output] if arguments.output else []))
+        print_json(answer)
     else:
-        print(as_text(survey, expected))
+        print(as_text(answer))
         cut = ["grid", "--settings", arguments.settings, *CUT_THERE]
         print(f"\n{next_step('Cut marks where it is usable:', cut)}")
     return 0
 
 
-def map_of(survey: Survey) -> list[str]:
-    """Return the sheet in characters, from the top down; edges included."""
-    verdicts = survey.reached.verdict.reshape(len(survey.y), len(survey.x))
-    return ["".join(SIGNS[verdict] for verdict in row) for row in verdicts[::MAP_ROWS, ::MAP_STEP]]
-
-
-def _answer(survey: Survey, expected: Expected | None, written: list[str]) -> ReachAnswer:
-    return ReachAnswer(
-        usable_share=survey.shares[REACH_WORDS[0]],
-        shares={word.replace(" ", "_"): share for word, share in survey.shares.items()},
-        limits=survey.limits,
-        expected=expected,
-        tightest=survey.tightest,
-        slackest=survey.slackest,
-        softest=survey.softest,
-        assumed=survey.assumed,
-        map=map_of(survey),
-        written=written,
-    )
-
-
-def as_text(survey: Survey, expected: Expected | None) -> str:
+def as_text(answer: ReachAnswer) -> str:
     """Return the survey for people: conclusion, what is normal, map, worst places."""
-    lines = map_of(survey)
+    survey, expected, lines = answer.survey, answer.expected, answer.map
     edge = "+" + "-" * len(lines[0]) + "+"
     shares = survey.shares.values()
     legend = [

@@ -28,8 +28,7 @@ from plumb.fit.inputs import Inputs
 from plumb.fit.observations import Observations, different_numbers
 from plumb.fit.problem import USUAL_SIGMA
 from plumb.model.catalogue import effect_names, parameter_names
-from plumb.model.lab_effects import LAB_EFFECTS
-from plumb.model.lab_effects.lab_effect import EDGES, SLED, TAPE
+from plumb.model.lab_effects import EDGES, LAB_EFFECTS, SLED, TAPE
 from plumb.model.predict import Array
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError, to_do

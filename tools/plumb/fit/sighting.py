@@ -9,8 +9,7 @@ import numpy as np
 
 from plumb.fit.observations import ZERO_COLUMNS, Observations, loaded, visited
 from plumb.fit.rounds import SKETCH_NAMES, pose_of, poses_of, with_sketches, zero_of, zeros_of
-from plumb.model.lab_effects import LAB_EFFECTS
-from plumb.model.lab_effects.lab_effect import EDGES, SLED, Array, LabEffect, Seen
+from plumb.model.lab_effects import EDGES, LAB_EFFECTS, SLED, Array, LabEffect, Seen
 from plumb.model.predict import NAMES, compliance, frame_words, library
 
 SHEET_ROTATION = "sheet_rotation"  # [rad] the sheet as measured, turned against the machine

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from plumb import _core
-from plumb.model.lab_effects import LAB_EFFECTS
-from plumb.model.lab_effects.lab_effect import SLED
+from plumb.model.lab_effects import LAB_EFFECTS, SLED
 from plumb.model.predict import NAMES, frame_words, library
 from plumb.model.sketches import SKETCHES
 

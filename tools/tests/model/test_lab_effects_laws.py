@@ -9,8 +9,7 @@ from plumb.fit.observations import observe
 from plumb.fit.sighting import LAB_NAMES, SHEET_ROTATION, sighted
 from plumb.marks.read import Distance, Measurements
 from plumb.model.catalogue import parameter_names, parameter_words
-from plumb.model.lab_effects import LAB_EFFECTS
-from plumb.model.lab_effects.lab_effect import EDGES, SLED, TAPE, Seen
+from plumb.model.lab_effects import EDGES, LAB_EFFECTS, SLED, TAPE, Seen
 from plumb.model.predict import NAMES, frame_words, known_effects, library, values_of
 from synthetic import BELIEVED, TRUE, grid, marks_on
 

@@ -13,7 +13,7 @@ from hidden_boards import COMPLIANCE, MAKER, board, plan
 from plumb.bench.boards import cut
 from plumb.bench.causes import Cause, Hidden
 from plumb.model.sketches import SKETCHES, Strands
-from plumb.model.sketches.loader import load
+from plumb.model.sketches.sketch import load
 from plumb.settings.files import machine_toml
 
 ROOT = Path(__file__).resolve().parents[3]

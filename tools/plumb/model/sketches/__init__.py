@@ -4,8 +4,7 @@ Each file here that does not begin with an underscore, and each in the folder th
 variable PLUMB_SKETCHES names, holds a SKETCH. It is ranked and fitted like the library's effects.
 """
 
-from plumb.model.sketches.loader import load_all
-from plumb.model.sketches.sketch import Sketch, SketchParameter, Strands
+from plumb.model.sketches.sketch import Sketch, SketchParameter, Strands, load_all
 
 __all__ = ["BROKEN", "SKETCHES", "Sketch", "SketchParameter", "Strands"]
 
