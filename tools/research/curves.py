@@ -59,11 +59,9 @@ def curves() -> Curves:
 
 def drawn(seen: Curves) -> bytes:
     """Return the picture, a panel for each stage between the program and the bit."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(9, 9), layout="constrained")
-    FigureCanvasAgg(figure)
     place, chains, errors, duties = figure.subplots(4, 1, sharex=True)
     for i, (name, colour) in enumerate((("x", GOOD), ("y", BAD))):
         place.plot(seen.seconds, seen.sled[:, i], color=colour, label=f"{name} of the bit")

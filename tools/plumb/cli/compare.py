@@ -36,7 +36,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.picture:
         form = picture_form(arguments.picture)
         drawn = draw(
-            [panel_of(comparison)], sheet=inputs.settings.sheet, form=form, names=arguments.names
+            panel_of(comparison), sheet=inputs.settings.sheet, form=form, names=arguments.names
         )
         write_outputs({arguments.picture: drawn}, inputs=[arguments.settings, *arguments.marks])
     if arguments.json:

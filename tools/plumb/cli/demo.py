@@ -349,7 +349,7 @@ def reveal(loop: Loop) -> str:
 def _picture(loop: Loop) -> bytes:
     sheet = loop.owner.settings.sheet
     if not loop.after:
-        return draw([panel_of(loop.before)], sheet=sheet)
+        return draw(panel_of(loop.before), sheet=sheet)
     stairs = stairs_of(loop.addition, raw=loop.before)
     last = replace(panel_of(loop.after, good=True), title="On a new sheet")
     stairs.append(Stair(last, loop.after.rms))

@@ -10,17 +10,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plumb.pictures.scale import (
-    Panel,
-    Spots,
-    View,
-    exaggeration,
-    round_down,
-    saved,
-    spots_of,
-    view_of,
+from plumb.pictures.scale import Panel, Scale, Spots, View, round_down, saved, spots_of
+from plumb.pictures.sheet import (
+    BAD,
+    EDGE,
+    GOOD,
+    INK,
+    WOOD,
+    draw_bar,
+    draw_errors,
+    fitting,
+    show,
+    strip,
 )
-from plumb.pictures.sheet import BAD, EDGE, GOOD, INK, PLAIN, WOOD, draw_errors, fitting
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -190,18 +192,21 @@ def draw_staircase(
 ) -> bytes:
     """Return the picture of a fall, all arrows and bars to the same scale."""
     # Loading matplotlib takes longer than most commands: only a drawing waits for it.
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
     plan = _layout(stairs, sheet)
     figure = Figure(figsize=(plan.wide, plan.tall))
-    FigureCanvasAgg(figure)
     size = fitting(heading, plan.wide - 2 * LEFT, 17)
     left, y = LEFT / plan.wide, 1 - HEADING / 2 / plan.tall
     figure.text(left, y, heading, fontsize=size, fontweight="bold", color=INK, va="center")
     for i, stair in enumerate(stairs):
         _draw_stair(figure, plan, i, stair)
-    _draw_foot(figure.add_axes((0, 0, 1, FOOT / plan.tall)), plan)
+    said = (
+        f"{plan.scale.bar:g} mm of error; arrows, {plan.scale.factor:g} times life size, go from "
+        "where marks should be to where they were measured"
+    )
+    below = strip(figure, FOOT)
+    draw_bar(below, plan.scale, said, at=(LEFT, FOOT / 2), inch=plan.inch, size=11)
     return saved(figure, form)
 
 
@@ -216,21 +221,19 @@ class _Layout:
     """Where the stairs of a picture go."""
 
     marks: list[Spots]
-    sheet: tuple[float, float]  # [mm]
-    factor: float
-    view: View
+    scale: Scale
     columns: int
     highest: float  # [mm] RMS
 
     @property
     def inch(self) -> float:
         """Per mm of the sheet."""
-        return (WIDE - 2 * LEFT) / self.view.width
+        return (WIDE - 2 * LEFT) / self.scale.view.width
 
     @property
     def step(self) -> float:
         """[inch] of a row."""
-        return TITLE + self.inch * self.view.height + BARS
+        return TITLE + self.inch * self.scale.view.height + BARS
 
     @property
     def wide(self) -> float:
@@ -257,24 +260,14 @@ class _Layout:
 
 def _layout(stairs: Sequence[Stair], sheet: tuple[float, float]) -> _Layout:
     marks = [spots_of(stair.panel) for stair in stairs]
-    factor = exaggeration(marks, sheet)
-    view = view_of(marks, sheet, factor)
     highest = max(*(stair.rms for stair in stairs), 1e-6)
-    return _Layout(marks, sheet, factor, view, columns_for(len(stairs)), highest)
+    return _Layout(marks, Scale.of(marks, sheet), columns_for(len(stairs)), highest)
 
 
 def _draw_stair(figure: Figure, plan: _Layout, i: int, stair: Stair) -> None:
     panel, colour = stair.panel, GOOD if stair.panel.good else BAD
     axis = figure.add_axes(plan.box(i, BARS, plan.step - BARS - TITLE, LEFT))
-    draw_errors(
-        axis,
-        plan.marks[i],
-        plan.view,
-        sheet=plan.sheet,
-        factor=plan.factor,
-        good=panel.good,
-        small=SMALL,
-    )
+    draw_errors(axis, plan.marks[i], plan.scale, good=panel.good, small=SMALL)
     lines = wrap(panel.title, LETTERS)
     left, bottom, width, height = plan.box(i, plan.step - TITLE, TITLE, LEFT)
     figure.text(
@@ -292,9 +285,7 @@ def _draw_stair(figure: Figure, plan: _Layout, i: int, stair: Stair) -> None:
 
 def _draw_bar(axis: Axes, rms: float, highest: float, colour: str) -> None:
     """Draw a bar on the ground, its number above it."""
-    axis.set_xlim(0, WIDE)
-    axis.set_ylim(0, BARS)
-    axis.set_axis_off()
+    show(axis, View(0, WIDE, 0, BARS))
     height = bar_height(rms, highest)
     axis.bar(WIDE / 2, height, BROAD, color=colour)
     axis.plot([0, WIDE], [0, 0], color=INK, lw=1.5, clip_on=False)
@@ -305,19 +296,3 @@ def _draw_bar(axis: Axes, rms: float, highest: float, colour: str) -> None:
 def bar_height(rms: float, highest: float) -> float:
     """[inch] of the bar of an RMS, where the highest bar is of another [mm]."""
     return TALLEST * rms / highest
-
-
-def _draw_foot(axis: Axes, plan: _Layout) -> None:
-    """Draw a bar of a round length, and say what the arrows mean."""
-    axis.set_xlim(0, plan.wide)
-    axis.set_ylim(0, FOOT)
-    axis.set_axis_off()
-    length = round_down(max(*(spots.longest for spots in plan.marks), 1e-6))
-    right = LEFT + length * plan.factor * plan.inch
-    axis.plot([LEFT, right], [FOOT / 2] * 2, color=INK, lw=4, solid_capstyle="butt")
-    said = (
-        f"{length:g} mm of error; arrows, {plan.factor:g} times life size, go from where marks "
-        "should be to where they were measured"
-    )
-    size = fitting(said, plan.wide - right - 2 * LEFT, 11, letter=PLAIN)
-    axis.text(right + 0.12, FOOT / 2, said, fontsize=size, color=INK, va="center")

@@ -9,18 +9,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from plumb.model.plain import noun_of
-from plumb.pictures.scale import Panel, saved, spots_of, view_of
+from plumb.pictures.scale import Panel, Scale, around, saved, spots_of
 from plumb.pictures.sheet import (
-    EDGE,
+    BAD,
     GOOD,
     INK,
     MARGIN,
     PLAIN,
-    POINT,
     WIDTH,
-    WOOD,
+    draw_wood,
     fitting,
-    label_boxes,
+    sheet_figure,
+    strip,
+    write_beside,
+    write_title,
 )
 from plumb.plan.planned_visits import Visits
 from plumb.plan.preview import PlanAddition, Preview
@@ -33,7 +35,8 @@ if TYPE_CHECKING:
 TITLE, LINE, FOOT = 0.5, 0.3, 0.2  # [inch] above the sheet, a line of the legend, below it
 SENTENCE, MOST = 0.22, 40  # [inch] of a sentence, and how many there is room for
 LINES = 8  # sentences below each other, before there are two columns
-NEW, HEAVY, SWAPPED = "#0b62a4", "#c64f00", "#222222"  # apart for every eye
+NEW, HEAVY, SWAPPED = GOOD, BAD, INK
+EDGE = WIDTH * MARGIN / (1 + 2 * MARGIN)  # [inch] left of the sheet
 SHAFT = 90.0  # [mm] of the arrow in the direction of the last move
 
 
@@ -47,44 +50,40 @@ def draw_plan(
     form: str = "png",
 ) -> bytes:
     """Return the sheet with old marks (n, 2) [mm] and planned visits, numbered in their order."""
-    # Loading matplotlib takes longer than most commands: only a drawing waits for it.
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    width, height = sheet
-    inch = WIDTH / (width * (1 + 2 * MARGIN))
     legend = _legend(visits, old, usual_weight)
     said = place_sentences(visits, usual_weight=usual_weight, sheet=sheet)
     rows = rows_for(len(said))
     foot = FOOT + LINE * len(legend) + SENTENCE * rows
-    tall = TITLE + inch * height * 1.06 + foot
-    figure = Figure(figsize=(WIDTH, tall))
-    FigureCanvasAgg(figure)
-    axis = figure.add_axes((0, foot / tall, 1, inch * height * 1.06 / tall))
-    axis.set_xlim(-width * (0.5 + MARGIN), width * (0.5 + MARGIN))
-    axis.set_ylim(-0.53 * height, 0.53 * height)
-    axis.set_axis_off()
-    _draw_sheet(axis, visits, old, usual_weight, sheet)
-    left = MARGIN / (1 + 2 * MARGIN)
-    size = fitting(title, WIDTH * (1 - 2 * left), 15)
-    figure.text(left, 1 - 0.36 / tall, title, fontsize=size, fontweight="bold", color=INK)
-    below = figure.add_axes((0, 0, 1, foot / tall))
+    figure, axis = sheet_figure(around(sheet), WIDTH, head=TITLE, foot=foot)
+    draw_visits(axis, visits, old, usual_weight=usual_weight, sheet=sheet)
+    write_title(figure, title, left=EDGE, head=TITLE, size=15)
+    below = strip(figure, foot)
     _draw_legend(below, legend, foot)
     _draw_sentences(below, said, SENTENCE * rows + FOOT / 2)
     return saved(figure, form)
 
 
-def _draw_sheet(
-    axis: Axes, visits: Visits, old: np.ndarray, usual_weight: float, sheet: tuple[float, float]
+def draw_visits(
+    axis: Axes,
+    visits: Visits,
+    old: np.ndarray,
+    *,
+    usual_weight: float,
+    sheet: tuple[float, float],
+    small: float = 1.0,
 ) -> None:
-    from matplotlib.patches import Rectangle
-
-    width, height = sheet
-    axis.add_patch(Rectangle((-width / 2, -height / 2), width, height, fc=WOOD, ec=EDGE, lw=2))
-    if len(old):
-        axis.plot(*old.T, "o", color="white", markeredgecolor=INK, markersize=7, zorder=3)
+    """Draw old marks (n, 2) [mm] and planned visits, numbered in their order; small: signs and
+    numbers, of their size in a picture by itself.
+    """
+    draw_wood(axis, sheet, 2 * small)
+    _draw_old(axis, old, small)
     for numbers, i in _by_place(visits):
-        _draw_visit(axis, visits, i, numbers, usual_weight, height)
+        _draw_visit(axis, visits, i, numbers, usual_weight, sheet[1], small)
+
+
+def _draw_old(axis: Axes, old: np.ndarray, small: float = 1.0) -> None:
+    if len(old):
+        axis.plot(*old.T, "o", color="white", markeredgecolor=INK, markersize=7 * small, zorder=3)
 
 
 def _by_place(visits: Visits) -> list[tuple[list[int], int]]:
@@ -97,10 +96,16 @@ def _by_place(visits: Visits) -> list[tuple[list[int], int]]:
 
 
 def _draw_visit(
-    axis: Axes, visits: Visits, i: int, numbers: list[int], usual_weight: float, height: float
+    axis: Axes,
+    visits: Visits,
+    i: int,
+    numbers: list[int],
+    usual_weight: float,
+    height: float,
+    small: float,
 ) -> None:
     at, (colour, symbol) = visits.targets[i], _look(visits, i, usual_weight)
-    axis.plot(*at, symbol, color=colour, markersize=12, markeredgecolor="white", zorder=5)
+    axis.plot(*at, symbol, color=colour, markersize=12 * small, markeredgecolor="white", zorder=5)
     for number in numbers:
         side = visits.approaches[number - 1]
         if side.any():
@@ -108,7 +113,7 @@ def _draw_visit(
                 "",
                 xy=at - 22 * side,
                 xytext=at - SHAFT * side,
-                arrowprops={"arrowstyle": "-|>", "color": colour, "lw": 1.6},
+                arrowprops={"arrowstyle": "-|>", "color": colour, "lw": 1.6 * small},
                 zorder=4,
             )
     down = -1 if at[1] > 0 else 1
@@ -118,7 +123,7 @@ def _draw_visit(
         str(numbers[0]),
         ha="left" if at[0] < 0 else "right",
         va="center",
-        fontsize=12,
+        fontsize=12 * small,
         fontweight="bold",
         color=colour,
         zorder=6,
@@ -169,11 +174,10 @@ def rows_for(count: int) -> int:
 def _draw_sentences(axis: Axes, said: Sequence[str], top: float) -> None:
     """Write the sentences in columns, read downwards; top [inch]."""
     rows = rows_for(len(said))
-    left = WIDTH * MARGIN / (1 + 2 * MARGIN)
-    wide = (WIDTH - 2 * left) / (1 if len(said) <= LINES else 2)
+    wide = (WIDTH - 2 * EDGE) / (1 if len(said) <= LINES else 2)
     size = min((fitting(each, wide - 0.15, 11, letter=PLAIN) for each in said), default=11)
     for i, sentence in enumerate(said):
-        x, y = left + wide * (i // rows), top - SENTENCE * (i % rows + 0.5)
+        x, y = EDGE + wide * (i // rows), top - SENTENCE * (i % rows + 0.5)
         axis.text(x, y, sentence, fontsize=size, color=INK, va="center")
 
 
@@ -210,25 +214,17 @@ def _legend(
 
 
 def _draw_legend(axis: Axes, lines: Sequence[tuple[str | None, str, str]], foot: float) -> None:
-    axis.set_xlim(0, WIDTH)
-    axis.set_ylim(0, foot)
-    axis.set_axis_off()
-    left = WIDTH * MARGIN / (1 + 2 * MARGIN)
     for i, (symbol, colour, words) in enumerate(lines):
         y = foot - 0.2 - LINE * i
         if symbol:
             edge = INK if colour == "white" else "white"
-            axis.plot(left + 0.1, y, symbol, color=colour, markeredgecolor=edge, markersize=10)
-        axis.text(left + 0.3, y, words, va="center", fontsize=12, color=INK)
+            axis.plot(EDGE + 0.1, y, symbol, color=colour, markeredgecolor=edge, markersize=10)
+        axis.text(EDGE + 0.3, y, words, va="center", fontsize=12, color=INK)
 
 
 # A picture of a preview: the planned marks, and the places of the best additions, numbered.
 
-PREVIEW_TITLE, PREVIEW_LINE, PREVIEW_FOOT = (
-    0.5,
-    0.22,
-    0.2,
-)  # [inch] above the sheet, of a line below it, below the lines
+PREVIEW_LINE, PREVIEW_FOOT = 0.22, 0.2  # [inch] of a line below the sheet, below the lines
 PLACED, PLACELESS, CROWD = 3, 3, 12  # additions with places and without, and marks of each
 LETTERS = 108  # of a line
 NUMBER, WORDS = 12.0, 10.0  # [point]
@@ -236,29 +232,18 @@ NUMBER, WORDS = 12.0, 10.0  # [point]
 
 def draw_preview(preview: Preview, *, sheet: tuple[float, float], form: str = "png") -> bytes:
     """Return the sheet with the plan and its best additions, and below it what they tell."""
-    # Loading matplotlib takes longer than most commands: only a drawing waits for it.
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    inch = WIDTH / (sheet[0] * (1 + 2 * MARGIN))
     lines = [line for said in sentences_of(preview) for line in wrap(said, LETTERS)]
     foot = PREVIEW_FOOT + PREVIEW_LINE * len(lines)
-    low = inch * sheet[1] * 1.06
-    tall = PREVIEW_TITLE + low + foot
-    figure = Figure(figsize=(WIDTH, tall))
-    FigureCanvasAgg(figure)
-    axis = figure.add_axes((0, foot / tall, 1, low / tall))
-    axis.set_xlim(-sheet[0] * (0.5 + MARGIN), sheet[0] * (0.5 + MARGIN))
-    axis.set_ylim(-0.53 * sheet[1], 0.53 * sheet[1])
-    axis.set_axis_off()
-    _draw_places(axis, preview, sheet, inch)
-    left = MARGIN / (1 + 2 * MARGIN)
+    figure, axis = sheet_figure(around(sheet), WIDTH, head=TITLE, foot=foot)
+    draw_wood(axis, sheet)
+    _draw_old(axis, preview.targets)
+    _draw_numbers(axis, numbered_places(preview), sheet)
     title = f"What these {preview.marks} marks could tell, read to {preview.sigma:g} mm"
-    size = fitting(title, WIDTH * (1 - 2 * left), 15)
-    figure.text(left, 1 - 0.36 / tall, title, fontsize=size, fontweight="bold", color=INK)
+    write_title(figure, title, left=EDGE, head=TITLE, size=15)
+    below = strip(figure, foot)
     for i, line in enumerate(lines):
-        y = (foot - 0.1 - PREVIEW_LINE * (i + 0.5)) / tall
-        figure.text(left, y, line, fontsize=WORDS, color=INK, va="center")
+        y = foot - 0.1 - PREVIEW_LINE * (i + 0.5)
+        below.text(EDGE, y, line, fontsize=WORDS, color=INK, va="center")
     return saved(figure, form)
 
 
@@ -307,31 +292,15 @@ def _is_seen(smallest: float | None) -> bool:
     return smallest is not None and smallest <= 1
 
 
-def _draw_places(axis: Axes, preview: Preview, sheet: tuple[float, float], inch: float) -> None:
-    from matplotlib.patches import Rectangle
-
-    width, height = sheet
-    axis.add_patch(Rectangle((-width / 2, -height / 2), width, height, fc=WOOD, ec=EDGE, lw=2))
-    if len(preview.targets):
-        axis.plot(*preview.targets.T, "o", color="white", markeredgecolor=INK, markersize=7)
-    numbered = numbered_places(preview)
-    if numbered:
-        _draw_numbers(axis, numbered, sheet, inch)
-
-
 def _draw_numbers(
-    axis: Axes, numbered: Sequence[tuple[str, np.ndarray]], sheet: tuple[float, float], inch: float
+    axis: Axes, numbered: Sequence[tuple[str, np.ndarray]], sheet: tuple[float, float]
 ) -> None:
+    if not numbered:
+        return
     places = np.array([place for _, place in numbered])
     axis.plot(*places.T, "D", color=GOOD, markersize=7, markeredgecolor="white", zorder=4)
     # Two places of an addition next to each other share its number.
     spots = spots_of(Panel("", places, 0 * places, names=tuple(said for said, _ in numbered)))
-    view = view_of([spots], sheet, 1.0)
-    boxes = label_boxes(
-        spots, spots.names, factor=1.0, view=view, size=NUMBER * POINT / inch, gap=9 * POINT / inch
-    )
-    for (left, bottom, right, top), said in zip(boxes, spots.names, strict=True):
-        at = ((left + right) / 2, (bottom + top) / 2)
-        axis.text(
-            *at, said, ha="center", va="center_baseline", fontsize=NUMBER, weight="bold", color=GOOD
-        )
+    scale = Scale.of([spots], sheet)
+    inch = WIDTH / around(sheet).width
+    write_beside(axis, spots, spots.names, scale, size=NUMBER, inch=inch, weight="bold", color=GOOD)

@@ -13,8 +13,20 @@ from numpy.typing import NDArray
 
 from plumb.model.predict import CANNOT_HANG, REACH_WORDS, TOO_SLACK, TOO_TIGHT, TOO_VERTICAL, USABLE
 from plumb.model.reach import Survey, percent
-from plumb.pictures.scale import saved
-from plumb.pictures.sheet import BAD, EDGE, GOOD, INK, MARGIN, WIDTH, WOOD, fitting
+from plumb.pictures.scale import View, around, saved
+from plumb.pictures.sheet import (
+    BAD,
+    EDGE,
+    GOOD,
+    INK,
+    MARGIN,
+    WIDTH,
+    WOOD,
+    draw_wood,
+    fitting,
+    show,
+    strip,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,16 +49,12 @@ ZONES = {
 
 def draw_map(survey: Survey, *, form: str = "png") -> bytes:
     """Return the map as a file: sideways give above, tensions below, limits as heavy lines."""
-    # Loading matplotlib takes longer than most commands: only a drawing waits for it.
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    width, height = survey.sheet
-    inch = WIDTH / (width * (1 + 2 * MARGIN))  # per mm
-    strip = TITLE + inch * height * (1 + MARGIN)
-    tall = 2 * strip + FOOT
+    view = around(survey.sheet)
+    high = TITLE + WIDTH * view.height / view.width
+    tall = 2 * high + FOOT
     figure = Figure(figsize=(WIDTH, tall))
-    FigureCanvasAgg(figure)
     limits = survey.limits
     titles = (
         f"How far the bit gives sideways, mm per N (limit {limits['most_give']:g})",
@@ -54,17 +62,15 @@ def draw_map(survey: Survey, *, form: str = "png") -> bytes:
         f"and {limits['most_tension']:g})",
     )
     for i, (title, fill) in enumerate(zip(titles, (draw_give, draw_pulls), strict=True)):
-        low = tall - (i + 1) * strip
-        axis = figure.add_axes((0, low / tall, 1, (strip - TITLE) / tall))
-        axis.set_xlim(-width * (0.5 + MARGIN), width * (0.5 + MARGIN))
-        axis.set_ylim(-height * 0.5 * (1 + MARGIN), height * 0.5 * (1 + MARGIN))
-        axis.set_axis_off()
+        low = tall - (i + 1) * high
+        axis = figure.add_axes((0, low / tall, 1, (high - TITLE) / tall))
+        show(axis, view)
         draw_zones(axis, survey)
         fill(axis, survey)
         left = MARGIN / (1 + 2 * MARGIN)
-        y = (low + strip - TITLE + 0.04) / tall
+        y = (low + high - TITLE + 0.04) / tall
         figure.text(left, y, title, fontsize=15, fontweight="bold", color=INK, va="bottom")
-    _draw_legend(figure.add_axes((0, 0, 1, FOOT / tall)), survey)
+    _draw_legend(strip(figure, FOOT), survey)
     return saved(figure, form)
 
 
@@ -152,9 +158,6 @@ def _draw_legend(axis: Axes, survey: Survey) -> None:
     """Say what the colours mean, and how much of the sheet is shaded in each."""
     from matplotlib.patches import Rectangle
 
-    axis.set_xlim(0, WIDTH)
-    axis.set_ylim(0, FOOT)
-    axis.set_axis_off()
     left = WIDTH * MARGIN / (1 + 2 * MARGIN)
     write = partial(axis.text, va="center", fontsize=11, color=INK)
     meaning = (
@@ -205,24 +208,18 @@ class Drawn:
 
 def draw_job(job: Drawn, *, form: str = "png") -> bytes:
     """Return the picture as a file: the whole sheet above, the job from near below."""
-    # Loading matplotlib takes longer than most commands: only a drawing waits for it.
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    width, height = job.sheet
-    across = width * (1 + 2 * MARGIN)
-    upper = WIDTH * height * (1 + MARGIN) / across
+    view = around(job.sheet)
+    upper = WIDTH * view.height / view.width
     low, high = _near(job)
     lower = WIDTH * min(TALLEST, float((high[1] - low[1]) / (high[0] - low[0])))
     tall = JOB_TITLE + upper + lower + JOB_FOOT
     figure = Figure(figsize=(WIDTH, tall))
-    FigureCanvasAgg(figure)
     sheet = figure.add_axes((0, (JOB_FOOT + lower) / tall, 1, upper / tall))
-    sheet.set_xlim(-across / 2, across / 2)
-    sheet.set_ylim(-height * (1 + MARGIN) / 2, height * (1 + MARGIN) / 2)
+    show(sheet, view)
     near = figure.add_axes((MARGIN, JOB_FOOT / tall, 1 - 2 * MARGIN, lower / tall))
-    near.set_xlim(low[0], high[0])
-    near.set_ylim(low[1], high[1])
+    show(near, View(low[0], high[0], low[1], high[1]))
     near.set_aspect("equal")
     for axis, scale in ((sheet, 0.6), (near, 1.0)):
         _draw_ways(axis, job, scale)
@@ -252,12 +249,8 @@ def _near(job: Drawn) -> tuple[Array, Array]:
 
 def _draw_ways(axis: Axes, job: Drawn, scale: float) -> None:
     from matplotlib.collections import LineCollection
-    from matplotlib.patches import Rectangle
 
-    width, height = job.sheet
-    axis.set_axis_off()
-    wood = Rectangle((-width / 2, -height / 2), width, height, fc=WOOD, ec=EDGE, lw=2, zorder=0)
-    axis.add_patch(wood)
+    draw_wood(axis, job.sheet)
     for order, (kind, (colour, stroke, style)) in enumerate(STROKES.items(), start=1):
         lines = LineCollection(
             job.ways[kind], colors=colour, linewidths=scale * stroke, linestyles=style
@@ -293,14 +286,11 @@ class Run:
 
 def draw_diary(errors: Sequence[Run], numbers: Sequence[Run], *, form: str = "png") -> bytes:
     """Return the errors together, then every number by itself, fit by fit."""
-    # Loading matplotlib takes longer than most commands: only a drawing waits for it.
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
     heights = [TALL, *[SHORT] * len(numbers)]
     dates = sorted({point[0] for run in errors for point in run.points})
     figure = Figure(figsize=(WIDTH, sum(heights)), layout="constrained")
-    FigureCanvasAgg(figure)
     axes = figure.subplots(len(heights), 1, squeeze=False, sharex=True, height_ratios=heights)
     first, *others = axes[:, 0]
     for run, colour in zip(errors, COLOURS, strict=True):

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from plumb.text.files import picture_metadata
+from plumb.text.values import in_unit
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -74,7 +75,7 @@ def exaggeration(panels: Sequence[Spots], sheet: tuple[float, float]) -> float:
     largest = max(*(spots.longest for spots in panels), 1e-6)
     pitch = pitch_of(max(map(len, panels)), sheet)
     factor = round_down(min(LONG * sheet[1], OVERLAP * pitch) / largest)
-    widest = _around(sheet, ABOVE)
+    widest = around(sheet, ABOVE)
     while factor > 1 and not all(
         widest.holds(spots.tips(factor), factor * spots.spreads + HEAD) for spots in panels
     ):
@@ -86,19 +87,37 @@ def view_of(panels: Sequence[Spots], sheet: tuple[float, float], factor: float) 
     """Return the sheet with all that is drawn on it and around it."""
     low, high = [], []
     for spots in panels:
-        around = (factor * spots.spreads + HEAD)[:, None]
+        room = (factor * spots.spreads + HEAD)[:, None]
         tips = spots.tips(factor)
-        low += [spots.places.min(axis=0) - HEAD, (tips - around).min(axis=0)]
-        high += [spots.places.max(axis=0) + HEAD, (tips + around).max(axis=0)]
-    edge = _around(sheet, BELOW)
+        low += [spots.places.min(axis=0) - HEAD, (tips - room).min(axis=0)]
+        high += [spots.places.max(axis=0) + HEAD, (tips + room).max(axis=0)]
+    edge = around(sheet)
     left, bottom = np.minimum(np.min(low, axis=0), (edge.left, edge.bottom))
     right, top = np.maximum(np.max(high, axis=0), (edge.right, edge.top))
     return View(float(left), float(right), float(bottom), float(top))
 
 
-def _around(sheet: tuple[float, float], above: float) -> View:
+def around(sheet: tuple[float, float], above: float = BELOW) -> View:
+    """Return the sheet with a little around it."""
     width, height = (0.5 + BESIDE) * sheet[0], (0.5 + above) * sheet[1]
     return View(-width, width, -height, height)
+
+
+@dataclass(frozen=True)
+class Scale:
+    """What maps of arrows have in common that are compared with each other."""
+
+    sheet: tuple[float, float]  # [mm]
+    factor: float  # how much longer than life arrows are
+    view: View
+    bar: float  # a round length, in the unit in which lengths are shown
+
+    @staticmethod
+    def of(marks: Sequence[Spots], sheet: tuple[float, float]) -> Scale:
+        """Return the scale at which all marks fit."""
+        factor = exaggeration(marks, sheet)
+        longest = max(*(spots.longest for spots in marks), 1e-6)
+        return Scale(sheet, factor, view_of(marks, sheet, factor), round_down(in_unit(longest)))
 
 
 # What a sheet shows: marks with their errors, repeats of a mark gathered at their middle.

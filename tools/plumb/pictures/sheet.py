@@ -1,83 +1,128 @@
-"""Pictures of errors on the sheet: where marks lie against where they were predicted."""
+"""The map of a sheet: where marks lie against where they were predicted.
+
+A picture by itself and the report draw it here, each with its look.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from plumb.model.plain import least, ranked
-from plumb.pictures.scale import (
-    Panel,
-    Spots,
-    View,
-    exaggeration,
-    pitch_of,
-    round_down,
-    saved,
-    spots_of,
-    view_of,
-)
+from plumb.pictures.scale import Panel, Scale, Spots, View, pitch_of, saved, spots_of
+from plumb.text.values import UNITS, bare, shown_in, unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 
 Array = np.ndarray
 WIDTH = 8.6  # [inch] of a picture
 MARGIN = 0.05  # left and right of the sheet, of its width
-TITLE, FOOT = 0.45, 0.85  # [inch] above each sheet, and below the last
+TITLE, FOOT = 0.45, 0.34  # [inch] above a sheet, and of a line of words below it
 FORMATS = ("png", "svg", "pdf")
 WOOD, EDGE, INK = "#f3e7d3", "#8a6d3b", "#222222"
 BAD, GOOD = "#c64f00", "#0b62a4"  # orange and blue: apart for every eye
 MANY = 60  # marks from which a picture has no numbers
 ROOMY = 200.0  # [mm] between marks that are drawn in full size
 POINT = 1 / 72  # [inch]
-NUMBER, NAME = 12.0, 5.0  # [point] of a number, and of a name among many
+NAME = 5.0  # [point] of a name among many
+GAP = 0.65  # from a mark to its words, of the size of their type
 BOLD, PLAIN = 0.68, 0.56  # width of a letter in a sentence, of the size of its type
+INSIDE = 2.448  # sigmas: 95 % of all readings lie within, in two coordinates
+
+
+@dataclass(frozen=True)
+class Look:
+    """How large a map of arrows is, and what is written into it."""
+
+    wide: float = WIDTH  # [inch]
+    small: float = 1.0  # marks and arrows, of their size in a picture by itself
+    type: float = 12.0  # [point]
+    has_lengths: bool = True  # next to the marks
+    scale: str = "{bar} of error: arrows {factor:g} times life size"  # empty: no scale
+    has_legend: bool = False  # below the scale
 
 
 def draw(
-    panels: Sequence[Panel],
-    *,
-    sheet: tuple[float, float],
-    form: str = "png",
-    names: bool = False,
+    panel: Panel, *, sheet: tuple[float, float], form: str = "png", names: bool = False
 ) -> bytes:
-    """Return the picture of sheets, each below the last, all arrows to the same scale."""
+    """Return the picture of a sheet as a file, in mm."""
+    with shown_in("mm"):
+        scale = Scale.of([spots_of(panel)], sheet)
+        return saved(arrow_figure(panel, scale, Look(has_legend=True), names=names), form)
+
+
+def arrow_figure(
+    panel: Panel, scale: Scale, look: Look, *, names: bool = False, sigma: float | None = None
+) -> Figure:
+    """Return the map of a sheet. The ring at an arrow's tip shows how far repeats spread; with a
+    sigma [mm], where 95 % of readings without error would lie.
+    """
+    spots, inch = spots_of(panel), look.wide / scale.view.width
+    foot = FOOT * (bool(look.scale) + look.has_legend)
+    figure, axis = sheet_figure(scale.view, look.wide, head=TITLE * bool(panel.title), foot=foot)
+    draw_errors(axis, spots, scale, good=panel.good, small=look.small, sigma=sigma)
+    if look.has_lengths:
+        _draw_words(axis, spots, scale, inch=inch, size=look.type, names=names)
+    edge = (-scale.sheet[0] / 2 - scale.view.left) * inch
+    if panel.title:
+        colour = GOOD if panel.good else BAD
+        write_title(figure, panel.title, left=edge, head=TITLE, size=16, color=colour)
+    if look.scale:
+        below = strip(figure, foot)
+        line = 4.0 if look.has_legend else 3.0
+        said = look.scale.format(bar=f"{scale.bar:g} {unit()}", factor=scale.factor)
+        draw_bar(below, scale, said, at=(edge, foot - FOOT / 2), inch=inch, size=look.type, lw=line)
+        if look.has_legend:
+            said = _meaning(len(spots) <= MANY, bool(spots.spreads.any()))
+            size = fitting(said, look.wide - 2 * edge, look.type, letter=PLAIN)
+            below.text(edge, FOOT / 2, said, fontsize=size, va="center", color=INK)
+    return figure
+
+
+def sheet_figure(
+    view: View, wide: float, *, head: float = 0.0, foot: float = 0.0
+) -> tuple[Figure, Axes]:
+    """Return a figure with an axis in mm of the sheet, and these inches above and below it."""
     # Loading matplotlib takes longer than most commands: only a drawing waits for it.
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    marks = [spots_of(panel) for panel in panels]
-    factor = exaggeration(marks, sheet)
-    views = [view_of([spots], sheet, factor) for spots in marks]
-    left, right = min(view.left for view in views), max(view.right for view in views)
-    views = [View(left, right, view.bottom, view.top) for view in views]
-    inch = WIDTH / (right - left)  # per mm
-    tall = sum(TITLE + inch * view.height for view in views) + FOOT
-    figure = Figure(figsize=(WIDTH, tall))
-    FigureCanvasAgg(figure)
-    edge = (-sheet[0] / 2 - left) * inch
-    upper = tall
-    for panel, spots, view in zip(panels, marks, views, strict=True):
-        upper -= TITLE + inch * view.height
-        axis = figure.add_axes((0, upper / tall, 1, inch * view.height / tall))
-        draw_errors(axis, spots, view, sheet=sheet, factor=factor, good=panel.good)
-        _draw_words(axis, spots, view, factor=factor, inch=inch, names=names)
-        size = fitting(panel.title, WIDTH - 2 * edge, 16)
-        y = (upper + inch * view.height + 0.06) / tall
-        colour = GOOD if panel.good else BAD
-        write = partial(figure.text, fontweight="bold", color=colour, va="bottom")
-        write(edge / WIDTH, y, panel.title, fontsize=size)
-    repeated = any(spots.spreads.any() for spots in marks)
-    scale = _Scale(factor, max(spots.longest for spots in marks), inch, edge)
-    numbered = min(map(len, marks)) <= MANY
-    _draw_scale(figure.add_axes((0, 0, 1, FOOT / tall)), scale, _meaning(numbered, repeated))
-    return saved(figure, form)
+    high = wide * view.height / view.width
+    tall = head + high + foot
+    figure = Figure(figsize=(wide, tall))
+    axis = figure.add_axes((0, foot / tall, 1, high / tall))
+    show(axis, view)
+    return figure, axis
+
+
+def show(axis: Axes, view: View) -> None:
+    """Let an axis without lines and ticks show a part of the plane."""
+    axis.set_xlim(view.left, view.right)
+    axis.set_ylim(view.bottom, view.top)
+    axis.set_axis_off()
+
+
+def strip(figure: Figure, foot: float) -> Axes:
+    """Return an axis over the lower end of a figure, in inches."""
+    wide, tall = figure.get_size_inches()
+    axis = figure.add_axes((0, 0, 1, foot / tall))
+    show(axis, View(0, wide, 0, foot))
+    return axis
+
+
+def write_title(
+    figure: Figure, title: str, *, left: float, head: float, size: float, color: str = INK
+) -> None:
+    """Write a title above the sheet, as large as it fits; left, and height of its room [inch]."""
+    wide, tall = figure.get_size_inches()
+    size = fitting(title, wide - 2 * left, size)
+    at = (left / wide, 1 - (head - 0.06) / tall)
+    figure.text(*at, title, fontsize=size, fontweight="bold", color=color, va="bottom")
 
 
 def fitting(words: str, width: float, size: float, *, letter: float = BOLD) -> float:
@@ -85,29 +130,27 @@ def fitting(words: str, width: float, size: float, *, letter: float = BOLD) -> f
     return min(size, width / (letter * POINT * max(len(words), 1)))
 
 
+def draw_wood(axis: Axes, sheet: tuple[float, float], line: float = 2.0) -> None:
+    """Draw an empty sheet."""
+    from matplotlib.patches import Rectangle
+
+    corner = (-sheet[0] / 2, -sheet[1] / 2)
+    axis.add_patch(Rectangle(corner, *sheet, fc=WOOD, ec=EDGE, lw=line))
+
+
 def draw_errors(
     axis: Axes,
     spots: Spots,
-    view: View,
+    scale: Scale,
     *,
-    sheet: tuple[float, float],
-    factor: float,
     good: bool,
     small: float = 1.0,
-    rings: Array | None = None,
+    sigma: float | None = None,
 ) -> None:
-    """Draw a sheet with its marks and arrows; small: of the size of a single picture; rings (k,)
-    [mm] around their tips: if not given, how far repeats spread.
-    """
-    from matplotlib.patches import Rectangle
-
-    axis.set_xlim(view.left, view.right)
-    axis.set_ylim(view.bottom, view.top)
-    axis.set_axis_off()
-    width, height = sheet
-    wood = Rectangle((-width / 2, -height / 2), width, height, fc=WOOD, ec=EDGE, lw=2 * small)
-    axis.add_patch(wood)
-    part = small * float(np.clip(pitch_of(len(spots), sheet) / ROOMY, 0.3, 1.0))
+    """Draw a sheet with its marks, arrows and rings, as in arrow_figure."""
+    show(axis, scale.view)
+    draw_wood(axis, scale.sheet, 2 * small)
+    part = small * float(np.clip(pitch_of(len(spots), scale.sheet) / ROOMY, 0.3, 1.0))
     axis.plot(
         *spots.places.T,
         "o",
@@ -117,10 +160,9 @@ def draw_errors(
         markeredgewidth=part,
         zorder=3,
     )
-    colour = GOOD if good else BAD
     axis.quiver(
         *spots.places.T,
-        *(factor * spots.errors).T,
+        *(scale.factor * spots.errors).T,
         angles="xy",
         scale_units="xy",
         scale=1,
@@ -130,11 +172,11 @@ def draw_errors(
         headlength=5.5,
         headaxislength=5,
         minlength=0.5,
-        color=colour,
+        color=GOOD if good else BAD,
         zorder=4,
     )
-    radii = factor * (spots.spreads if rings is None else rings)
-    _draw_rings(axis, spots.tips(factor), radii, 0.9 * small * (1.0 if rings is None else part))
+    radii = spots.spreads if sigma is None else INSIDE * sigma / np.sqrt(spots.counts)
+    _draw_rings(axis, spots.tips(scale.factor), scale.factor * radii, 0.9 * small)
 
 
 def _draw_rings(axis: Axes, tips: Array, radii: Array, line: float) -> None:
@@ -147,57 +189,67 @@ def _draw_rings(axis: Axes, tips: Array, radii: Array, line: float) -> None:
 
 
 def _draw_words(
-    axis: Axes, spots: Spots, view: View, *, factor: float, inch: float, names: bool
+    axis: Axes, spots: Spots, scale: Scale, *, inch: float, size: float, names: bool
 ) -> None:
     """Write the length of each error next to its mark, and its name if that was asked for."""
     many = len(spots) > MANY
     if many and not names:
         return
-    lengths = [f"{length:.1f}" for length in np.hypot(*spots.errors.T)]
+    lengths = [bare(float(length), 1) for length in np.hypot(*spots.errors.T)]
     if many:
-        words = list(spots.names)
+        words, size = list(spots.names), NAME
     else:
         named = zip(spots.names, lengths, strict=True)
         words = [f"{name}: {length}" if names and name else length for name, length in named]
-    points = NAME if many else NUMBER
-    gap = (0.6 if many else 1.0) * 8 * POINT / inch
-    boxes = label_boxes(spots, words, factor=factor, view=view, size=points * POINT / inch, gap=gap)
+    write_beside(axis, spots, words, scale, size=size, inch=inch)
+
+
+def write_beside(
+    axis: Axes,
+    spots: Spots,
+    words: Sequence[str],
+    scale: Scale,
+    *,
+    size: float,
+    inch: float,
+    color: str = INK,
+    weight: str = "normal",
+) -> None:
+    """Write words next to their marks; size [point], inch per mm."""
+    letter = size * POINT / inch
+    boxes = label_boxes(
+        spots, words, factor=scale.factor, view=scale.view, size=letter, gap=GAP * letter
+    )
     for (left, low, right, high), word in zip(boxes, words, strict=True):
         at = ((left + right) / 2, (low + high) / 2)
-        axis.text(*at, word, ha="center", va="center_baseline", fontsize=points, color=INK)
+        drawn = axis.text(*at, word, fontsize=size, color=color, weight=weight, zorder=6)
+        drawn.set(ha="center", va="center_baseline")
 
 
 def _meaning(numbered: bool, repeated: bool) -> str:
     """Return what the signs of the picture mean."""
     said = ["circle: where the mark should be", "arrow: to where it was measured"]
-    said += ["number: mm"] if numbered else []
+    said += [f"number: {unit()}"] if numbered else []
     said += ["ring: how far repeats spread"] if repeated else []
     return "; ".join(said)
 
 
-@dataclass(frozen=True)
-class _Scale:
-    """What the bar below the sheets shows."""
-
-    factor: float
-    largest: float  # [mm] error
-    inch: float  # per mm
-    left: float  # [inch] of the sheet's edge
-
-
-def _draw_scale(axis: Axes, scale: _Scale, meaning: str) -> None:
-    """Draw a bar of a round length below the last sheet, and say what the arrows mean."""
-    axis.set_xlim(0, WIDTH)
-    axis.set_ylim(0, FOOT)
-    axis.set_axis_off()
-    bar = round_down(max(scale.largest, 1e-6))
-    left = scale.left
-    right = left + bar * scale.factor * scale.inch
-    axis.plot([left, right], [0.6, 0.6], color=INK, lw=4, solid_capstyle="butt")
-    write = partial(axis.text, va="center", color=INK)
-    said = f"{bar:g} mm of error: arrows {scale.factor:g} times life size"
-    write(right + 0.12, 0.6, said, fontsize=12)
-    write(left, 0.27, meaning, fontsize=fitting(meaning, WIDTH - 2 * left, 12, letter=PLAIN))
+def draw_bar(
+    axis: Axes,
+    scale: Scale,
+    said: str,
+    *,
+    at: tuple[float, float],
+    inch: float,
+    size: float,
+    lw: float = 4.0,
+) -> None:
+    """Draw the scale's bar on a strip from this place [inch], and say next to it what it is."""
+    left, y = at
+    right = left + scale.bar * UNITS[unit()] * scale.factor * inch
+    axis.plot([left, right], [y, y], color=INK, lw=lw, solid_capstyle="butt")
+    size = fitting(said, axis.get_xlim()[1] - right - 2 * left, size, letter=PLAIN)
+    axis.text(right + 0.1, y, said, fontsize=size, va="center", color=INK)
 
 
 # Where a word goes next to its mark: clear of arrows, of other words and of the picture's edge.

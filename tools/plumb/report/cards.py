@@ -16,13 +16,15 @@ from plumb.fit.expected import plausible_range
 from plumb.model.catalogue import every_effect, place_of
 from plumb.model.plain import plain_range, plain_size, plainly, ranked
 from plumb.model.predict import frame_words
+from plumb.pictures.scale import Panel, Scale, spots_of
 from plumb.report.findings import Findings
-from plumb.report.maps import fingerprint_map
+from plumb.report.maps import FINGERPRINT, arrow_map
 from plumb.text.values import worded
 
 if TYPE_CHECKING:
     from plumb.model.python_effect import CheckWords
 
+Array = np.ndarray
 MOST_CARDS = 8
 NAME = re.compile(r"\b[a-z]+(?:_[a-z]+)+\b")
 MARGIN = 0.06  # of a bar's length, left and right of what it shows
@@ -183,10 +185,15 @@ def _drawn(findings: Findings, explanation: Explanation, effect: str) -> Drawn:
     """Return both fingerprints of an effect in the size that the explanation gives it."""
     sheet = findings.framed.model.sheet
     print_of = fingerprint_of(explanation, effect, findings.rows)
+
+    def picture(kind: str, field: Array) -> str:
+        panel = Panel("", print_of.places, field)
+        scale = Scale.of([spots_of(panel)], sheet)
+        name, says = f"{effect} {kind}", "arrows over the sheet"
+        return arrow_map(panel, scale, FINGERPRINT, name=name, says=says)
+
     pictures = [
-        fingerprint_map(print_of.places, field, sheet=sheet, name=f"{effect} {kind}")
-        if length > UNSEEN
-        else ""
+        picture(kind, field) if length > UNSEEN else ""
         for kind, field, length in (
             ("alone", print_of.alone, print_of.alone_rms),
             ("beyond", print_of.beyond, print_of.beyond_rms),

@@ -12,7 +12,7 @@ from plumb.diagnosis.suspect_curves import SuspectCurves
 from plumb.fit.compare import ChainView
 from plumb.fit.covariates import Covariate
 from plumb.pictures.sheet import MANY
-from plumb.report.maps import DASHES, SUSPECTS, drawing, inline, light
+from plumb.report.maps import DASHES, SUSPECTS, inline, light
 from plumb.text.values import in_unit, unit
 
 if TYPE_CHECKING:
@@ -110,26 +110,25 @@ def _plot(
 
     name = f"{covariate.name} {SIDES[side]}"
     at, factor = shown_values(covariate, rows, side)
-    with drawing(name):
-        figure = Figure(figsize=(WIDE, HIGH))
-        axis = figure.add_axes((0.17, 0.22, 0.8, 0.65))
-        limit = in_unit(most)
-        axis.set_ylim(-limit, limit)
-        band = in_unit(2 * sigma)
-        axis.axhspan(-band, band, color=light("band"), lw=0, zorder=0)
-        axis.axhline(0, color=light("soft"), lw=0.8, zorder=1)
-        _draw_curves(axis, covariate, at, factor, side, curves)
-        axis.plot(
-            at,
-            in_unit(1.0) * view.chains[:, side],
-            "o",
-            color=light("ink"),
-            markersize=4.2 if len(at) <= MANY else 2.4,
-            markeredgecolor=light("paper"),
-            markeredgewidth=0.5,
-            zorder=5,
-        )
-        _dress(axis, covariate, title)
+    figure = Figure(figsize=(WIDE, HIGH))
+    axis = figure.add_axes((0.17, 0.22, 0.8, 0.65))
+    limit = in_unit(most)
+    axis.set_ylim(-limit, limit)
+    band = in_unit(2 * sigma)
+    axis.axhspan(-band, band, color=light("band"), lw=0, zorder=0)
+    axis.axhline(0, color=light("soft"), lw=0.8, zorder=1)
+    _draw_curves(axis, covariate, at, factor, side, curves)
+    axis.plot(
+        at,
+        in_unit(1.0) * view.chains[:, side],
+        "o",
+        color=light("ink"),
+        markersize=4.2 if len(at) <= MANY else 2.4,
+        markeredgecolor=light("paper"),
+        markeredgewidth=0.5,
+        zorder=5,
+    )
+    _dress(axis, covariate, title)
     return inline(figure, says=f"{title}: error of the chain in {unit()}", name=name)
 
 

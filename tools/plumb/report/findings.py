@@ -22,11 +22,11 @@ from plumb.fit.inputs import Inputs
 from plumb.fit.observations import Observations
 from plumb.model.plain import noun_of, plainly
 from plumb.model.reach import Survey, survey_sheet
-from plumb.pictures.scale import Panel
+from plumb.pictures.scale import Panel, Scale, spots_of
 from plumb.plan import Next, Proposal, propose
 from plumb.plan.planned_visits import Visits
 from plumb.plan.proposal import headline_of, promise_of, steps_of
-from plumb.report.maps import Scale, arrow_map, plan_map, small_map
+from plumb.report.maps import LARGE, STAIR, arrow_map, plan_map
 from plumb.text.values import worded
 
 MOST_CURVES = 3  # suspects whose curves are drawn
@@ -197,8 +197,9 @@ def _headline(findings: Findings, best: Proposal | None) -> str:
 def _picture(findings: Findings, visits: Visits) -> str:
     if not len(visits):
         return ""
-    sheet = findings.inputs.settings.sheet
-    return plan_map(visits.targets, np.asarray(findings.rows.targets), sheet=sheet, name="plan")
+    settings, old = findings.inputs.settings, np.asarray(findings.rows.targets)
+    weight = settings.sled_weight
+    return plan_map(visits, old, usual_weight=weight, sheet=settings.sheet, name="plan")
 
 
 # How the error falls: the stairs, and the sheet before and after at a single scale.
@@ -246,7 +247,7 @@ def stairs_of(findings: Findings) -> tuple[Stair, ...]:
             rms=worded(stage.rms),
             percent=100 * stage.rms / highest,
             checked=worded(stage.checked) if stage.checked is not None else "",
-            picture=small_map(stage.panel, scale, name=f"stair {i}", says=stage.title)
+            picture=arrow_map(stage.panel, scale, STAIR, name=f"stair {i}", says=stage.title)
             if scale
             else "",
             good=stage.panel.good,
@@ -263,7 +264,7 @@ def pair_of(findings: Findings) -> Pair | None:
         return None
     sigma = findings.diagnosis.noise.sigma
     pictures = [
-        arrow_map(stage.panel, scale, sigma=sigma, name=name, says=says)
+        arrow_map(stage.panel, scale, LARGE, sigma=sigma, name=name, says=says)
         for stage, name, says in (
             (first, "before", "errors of the settings as they are"),
             (last, "after", f"errors left: {last.title}"),
@@ -278,7 +279,9 @@ def pair_of(findings: Findings) -> Pair | None:
 
 
 def _scale(findings: Findings, panels: Sequence[Panel]) -> Scale | None:
-    return Scale.of(panels, findings.inputs.settings.sheet) if len(panels[0].errors) else None
+    if not len(panels[0].errors):
+        return None
+    return Scale.of([spots_of(panel) for panel in panels], findings.inputs.settings.sheet)
 
 
 def _stages(findings: Findings) -> list[_Stage]:
@@ -300,7 +303,7 @@ def _fitted(addition: Addition) -> list[_Stage]:
     names = tuple(mark.name for mark in addition.raw.marks)
 
     def stage(title: str, fit: Fit, quality: Quality) -> _Stage:
-        panel = Panel(title, fit.predicted, fit.errors, good=True, names=names)
+        panel = Panel("", fit.predicted, fit.errors, good=True, names=names)
         return _Stage(title, quality.fit_rms, panel, quality.left_out_rms)
 
     steps = [
@@ -314,4 +317,4 @@ def _compared(comparison: Comparison) -> Panel:
     predicted = np.array([mark.predicted for mark in comparison.marks]).reshape(-1, 2)
     errors = np.array([mark.error for mark in comparison.marks]).reshape(-1, 2)
     names = tuple(mark.name for mark in comparison.marks)
-    return Panel("As set", predicted, errors, names=names)
+    return Panel("", predicted, errors, names=names)

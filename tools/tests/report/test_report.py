@@ -9,7 +9,6 @@ import pytest
 from plumb.cli.main import main
 from plumb.diagnosis.expected_error import expected_error
 from plumb.model.plain import plain_size
-from plumb.report import findings as fall
 from plumb.report import maps
 from plumb.report.findings import find
 from plumb.settings.files import write_machine_toml
@@ -245,37 +244,31 @@ def test_what_is_left_of_the_marks_is_what_the_fit_leaves(made):
 
 @pytest.fixture(scope="module")
 def drawn(made):
-    """A page made once more: the arrow maps as drawn, those of the fall, and the page."""
-    words, (pairs, falls) = made("nine")[0], ([], [])
-    draw, arrow_map = maps.draw_errors, maps.arrow_map
+    """A page made once more: the look and the scale of each arrow map, and the page."""
+    words, maps_drawn = made("nine")[0], []
+    arrow_figure = maps.arrow_figure
 
-    def record(axis, spots, view, **how):
-        pairs.append((how["factor"], view, axis.get_figure().get_size_inches()[0]))
-        draw(axis, spots, view, **how)
-
-    def record_map(*a, **how):
-        falls.append(a[1])
-        return arrow_map(*a, **how)
+    def record(panel, scale, look, **how):
+        maps_drawn.append((look, scale))
+        return arrow_figure(panel, scale, look, **how)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(maps, "draw_errors", record)
-        patch.setattr(fall, "arrow_map", record_map)
+        patch.setattr(maps, "arrow_figure", record)
         _, page = reported(*words, folder=words[0].parent)
-    return pairs, falls, page
+    return maps_drawn, page
 
 
 def test_both_maps_have_a_single_scale(drawn):
-    pairs, falls, page = drawn
-    assert len(falls) == 2 and falls[0] is falls[1]
-    of_pair = [each for each in pairs if each[2] == pytest.approx(maps.WIDE)]
-    assert len(of_pair) == 2 and of_pair[0][:2] == of_pair[1][:2]
+    maps_drawn, page = drawn
+    first, second = [scale for look, scale in maps_drawn if look is maps.LARGE]
+    assert first is second
     said = re.findall(r"arrows ([\d.]+) times life size", page.part("maps"))
-    assert said == [f"{of_pair[0][0]:g}"] * 2
-    assert f"{of_pair[0][0]:g} times life size in both maps" in Page(page.part("maps")).text
+    assert said == [f"{first.factor:g}"] * 2
+    assert f"{first.factor:g} times life size in both maps" in Page(page.part("maps")).text
 
 
 def test_the_same_files_give_the_same_bytes(made, drawn):
-    assert drawn[2].source == made("nine")[2].source
+    assert drawn[1].source == made("nine")[2].source
 
 
 def test_rivals_make_the_error_to_expect_larger_by_their_shares():
