@@ -47,7 +47,7 @@ def test_the_page_says_that_the_diary_is_a_link(folder, outside):
 
 
 LINKED = ["lab.json", "groundcontrol.ini", "marks.toml", "guide.json", "practice.json"]
-ROUTES = ["project", "readings", "grid", "verdict", "comparison", "guide", "correction"]
+ROUTES = ["project", "readings", "grid", "verdict", "guide", "correction"]
 
 
 @pytest.mark.parametrize("name", LINKED)
