@@ -21,10 +21,9 @@ from plumb.fit.expected import refuse_absurd
 from plumb.fit.inputs import Inputs, read_inputs
 from plumb.fit.problem import priors_with
 from plumb.plan import Next, propose
-from plumb.settings.toml import machine_toml
+from plumb.settings.toml import write_machine_toml
 from plumb.text.compiled import refuse_stale
 from plumb.text.errors import InputError
-from plumb.text.files import write_whole
 
 __all__ = [
     "Addition",
@@ -92,5 +91,5 @@ def auto(inputs: Inputs) -> AutoAddition:
 
 def write(addition: Addition, path: AnyPath) -> Path:
     """Write the new machine as a machine.toml; an old file of that name is replaced."""
-    write_whole(path, machine_toml(addition.settings).encode())
+    write_machine_toml(path, addition.settings)
     return Path(path)

@@ -13,7 +13,8 @@ from plumb.cli.arguments import add_json, add_units, length
 from plumb.cli.screen import headline, print_json, sentences, table
 from plumb.cli.vm import serve
 from plumb.model.predict import known_effects
-from plumb.settings.files import machine_toml, read_settings
+from plumb.settings.files import read_settings
+from plumb.settings.toml import machine_toml
 from plumb.text.errors import InputError
 from plumb.text.files import write_all, write_whole
 from plumb.text.values import bare, unit

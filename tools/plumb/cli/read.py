@@ -17,7 +17,7 @@ from plumb.line.memory import read_numbers
 from plumb.line.port import SerialPort, port_for
 from plumb.line.sender import Sender
 from plumb.line.worker import lost_place
-from plumb.settings.files import machine_toml
+from plumb.settings.toml import machine_toml
 from plumb.text.answers import meant
 
 FIRST_EFFECT = 100  # from here on zero means that the machine does without

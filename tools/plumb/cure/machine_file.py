@@ -13,9 +13,10 @@ from plumb.fit.rounds import POSE_AXES, ZERO_AXES
 from plumb.marks.read import Measurements, Round, read_marks
 from plumb.model.catalogue import parameter_names, place_of
 from plumb.model.predict import known_effects
-from plumb.settings.files import machine_toml, published_machine, read_settings
+from plumb.settings.files import read_settings
+from plumb.settings.ini import published_machine
 from plumb.settings.machine import FRAME_FIELDS
-from plumb.settings.toml import FitRecord, FittedBoard
+from plumb.settings.toml import FitRecord, FittedBoard, machine_toml
 from plumb.text.values import worded
 
 PATCH_WARNING = (

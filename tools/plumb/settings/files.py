@@ -17,41 +17,19 @@ from pathlib import Path
 from typing import Any
 
 from plumb.settings.ini import (
-    GroundControlChanges,
     Key,
-    Unsaid,
     changed_ini,
-    groundcontrol_changes,
     number_for_firmware,
-    published_machine,
     published_settings,
     read_settings_ini,
     same_number,
-    write_groundcontrol_ini,
 )
-from plumb.settings.machine import MachineSettings, PublishedSettings, SettingsFile
-from plumb.settings.toml import machine_toml, read_machine_toml, write_machine_toml
+from plumb.settings.machine import MachineSettings, SettingsFile
+from plumb.settings.toml import read_machine_toml
 from plumb.text.errors import InputError
-from plumb.text.files import read_bytes, read_text
-from plumb.text.ini import IniEntry, IniText, parse_ini
+from plumb.text.files import IniEntry, IniText, parse_ini, read_bytes, read_text
 
 WEBCONTROL_ENDING = ".json"
-
-__all__ = [
-    "GroundControlChanges",
-    "MachineSettings",
-    "PublishedSettings",
-    "Unsaid",
-    "changed_client_file",
-    "changed_ini",
-    "groundcontrol_changes",
-    "machine_toml",
-    "parse_client_file",
-    "published_machine",
-    "read_settings",
-    "write_groundcontrol_ini",
-    "write_machine_toml",
-]
 
 
 def read_settings(

@@ -21,8 +21,7 @@ from plumb.settings.machine import (
     tuned_numbers,
 )
 from plumb.text.errors import InputError, naming
-from plumb.text.files import write_whole
-from plumb.text.ini import IniText, parse_ini, read_ini, with_values
+from plumb.text.files import IniText, parse_ini, read_ini, with_values
 from plumb.text.values import number_in
 
 MASLOW, ADVANCED = "Maslow Settings", "Advanced Settings"
@@ -287,15 +286,6 @@ def _unsaid(ours: MachineSettings) -> tuple[Unsaid, ...]:
                     )
                 )
     return tuple(lost)
-
-
-def write_groundcontrol_ini(
-    path: str | PathLike[str],
-    original_path: str | PathLike[str],
-    changes: Mapping[Key, float | str],
-) -> None:
-    """Copy an ini file with some values replaced and every other byte as it was."""
-    write_whole(path, changed_ini(original_path, changes))
 
 
 def changed_ini(original_path: str | PathLike[str], changes: Mapping[Key, float | str]) -> bytes:

@@ -48,12 +48,9 @@ def read_machine_toml(
     return replace(machine, fitted=read_fit_record(path, head, known=known))
 
 
-def write_machine_toml(
-    path: str | PathLike[str], settings: MachineSettings, *, comment: str = ""
-) -> None:
+def write_machine_toml(path: str | PathLike[str], settings: MachineSettings) -> None:
     """Write the settings so that reading gives back every number bit for bit."""
-    text = machine_toml(settings, comment=comment)
-    write_whole(path, text.encode("utf-8"))
+    write_whole(path, machine_toml(settings).encode("utf-8"))
 
 
 def machine_toml(settings: MachineSettings, *, comment: str = "") -> str:

@@ -14,7 +14,7 @@ from plumb.bench.hiding import slip
 from plumb.bench.scenarios import SCENARIOS
 from plumb.marks.form import head_of, toml_text
 from plumb.plan.outlook import outlook
-from plumb.settings.files import write_machine_toml
+from plumb.settings.toml import write_machine_toml
 
 DATA = Path(__file__).resolve().parents[1] / "data"
 QUICK = {"compare": (), "diagnose": (), "add": ("--effect", "auto")}

@@ -17,7 +17,8 @@ from plumb.cli.calibrate import Round
 from plumb.cli.main import build_parser
 from plumb.diagnosis.expected_error import LeftOpen
 from plumb.grid.command import read_settings as read_plain
-from plumb.settings.files import read_settings, write_machine_toml
+from plumb.settings.files import read_settings
+from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED, EFFECTS, TRUE, grid, marks_on
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"

@@ -15,7 +15,8 @@ from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.marks.read import read_marks
 from plumb.model.catalogue import effect_names
 from plumb.model.predict import lengths
-from plumb.settings.files import read_settings, write_machine_toml
+from plumb.settings.files import read_settings
+from plumb.settings.toml import write_machine_toml
 from plumb.text.answers import plain
 from synthetic import BELIEVED, SHEET, TRUE, grid, marks_on
 

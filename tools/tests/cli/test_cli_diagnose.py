@@ -5,7 +5,7 @@ import pytest
 from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.diagnosis import VERDICTS
 from plumb.model.catalogue import effect_names
-from plumb.settings.files import write_machine_toml
+from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED, TRUE, grid, marks_on
 
 KEYS = {

@@ -9,7 +9,7 @@ import pytest
 from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.grid.cut_with import digest_of
 from plumb.model.catalogue import effect_names
-from plumb.settings.files import write_machine_toml
+from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED, EFFECTS, TRUE, grid, marks_on
 
 FILL = "# measured = [ , ]"

@@ -4,7 +4,7 @@ import json
 
 import pytest
 from plumb.cure.machine_file import MARKS, SETTINGS
-from plumb.settings.files import write_machine_toml
+from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED
 
 BOARD = [str(SETTINGS), str(MARKS)]

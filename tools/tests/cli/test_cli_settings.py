@@ -9,7 +9,7 @@ from plumb.cli.main import main
 from plumb.cure.machine_file import SETTINGS
 from plumb.firmware.settings import firmware_numbers, machine_of
 from plumb.model.predict import lengths, library
-from plumb.settings.files import machine_toml
+from plumb.settings.toml import machine_toml
 from plumb.text.errors import InputError
 from synthetic import TRUE, grid
 

@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 from plumb.grid.cut_with import KEYS
-from plumb.settings.files import machine_toml, read_settings
+from plumb.settings.files import read_settings
 from plumb.settings.ini import SOURCES
+from plumb.settings.toml import machine_toml
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 

@@ -9,7 +9,7 @@ from plumb.diagnosis.noise import repeats_of
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import observe
 from plumb.marks.read import Measurements, Round, join_measurements
-from plumb.settings.files import machine_toml
+from plumb.settings.toml import machine_toml
 from synthetic import BELIEVED, grid, marks_on
 
 PITCH = replace(BELIEVED, effects={"chain_pitch": {"left": 0.002, "right": 0.0005}})

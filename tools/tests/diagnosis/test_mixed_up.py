@@ -9,7 +9,7 @@ from plumb.diagnosis.noise import repeats_of
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import observe
 from plumb.marks.read import Mark, Measurements, read_marks
-from plumb.settings.files import machine_toml
+from plumb.settings.toml import machine_toml
 from plumb.text.errors import InputError
 from synthetic import BELIEVED, SHEET, distances_between, grid, marks_on
 

@@ -9,7 +9,8 @@ from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.fit.compare import best_pose, compare
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Mark, Measurements, read_marks
-from plumb.settings.files import groundcontrol_changes, read_settings, write_groundcontrol_ini
+from plumb.settings.files import read_settings
+from plumb.settings.ini import changed_ini, groundcontrol_changes
 from plumb.text.errors import InputError
 from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
 
@@ -109,7 +110,7 @@ def test_each_mark_hangs_on_its_own_sled():
 def test_new_published_settings_are_compared_with_old_marks(tmp_path):
     path = tmp_path / "groundcontrol.ini"
     values = groundcontrol_changes(replace(BELIEVED, motor_gap=2985.0)).values
-    write_groundcontrol_ini(path, SETTINGS, values)
+    path.write_bytes(changed_ini(SETTINGS, values))
     comparison = compare(Inputs(read_settings(path), PUBLISHED_MARKS, cut_with=STOCK))
     alone = compare(Inputs(STOCK, PUBLISHED_MARKS))
     assert comparison.rms < alone.rms - 2

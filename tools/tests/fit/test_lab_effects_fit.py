@@ -15,7 +15,8 @@ from plumb.fit.sighting import sighted
 from plumb.marks.read import Measurements
 from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.predict import FOUND, known_effects, values_of
-from plumb.settings.files import read_settings, write_machine_toml
+from plumb.settings.files import read_settings
+from plumb.settings.toml import write_machine_toml
 from plumb.text.answers import json_of
 from plumb.text.errors import InputError
 from synthetic import BELIEVED, EFFECTS, TRUE, distances_between, grid, marks_on

@@ -13,7 +13,8 @@ from plumb.fit.compare import compare
 from plumb.fit.covariates import PATCH, SIZES
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import effect_names, parameter_names
-from plumb.settings.files import machine_toml, read_settings
+from plumb.settings.files import read_settings
+from plumb.settings.toml import machine_toml
 from plumb.text.errors import InputError
 
 WIDE = plan(7, 5)

@@ -12,7 +12,7 @@ from plumb.fit.problem import Problem
 from plumb.fit.rounds import round_priors
 from plumb.marks.read import Distance, Mark, Measurements, Round, join_measurements, read_marks
 from plumb.model.predict import lengths
-from plumb.settings.files import machine_toml
+from plumb.settings.toml import machine_toml
 from plumb.text.errors import InputError
 from synthetic import BELIEVED, SHEET, TRUE, distances_between, grid, marks_on
 

@@ -8,7 +8,7 @@ from plumb.cli.main import main
 from plumb.job.check import check_job
 from plumb.job.findings import SINKS
 from plumb.line.sender import Sender
-from plumb.settings.files import machine_toml
+from plumb.settings.toml import machine_toml
 from plumb.vm.garage import hide, random_garage, set_up
 from plumb.vm.owner import InProcessPort
 

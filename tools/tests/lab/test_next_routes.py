@@ -11,7 +11,7 @@ from folder import asked
 from plumb.cli.main import main
 from plumb.marks.form import head_of, read_form, toml_text
 from plumb.marks.read import Measurements
-from plumb.settings.files import write_machine_toml
+from plumb.settings.toml import write_machine_toml
 from plumb.vm.owner import VirtualOwner
 from synthetic import BELIEVED, SHEET, TRUE, grid, marks_on
 

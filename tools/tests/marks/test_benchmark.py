@@ -11,7 +11,7 @@ from plumb.grid import pattern
 from plumb.marks.benchmark import score_as_cut, score_of
 from plumb.marks.read import read_marks
 from plumb.model.predict import lengths, places
-from plumb.settings.files import machine_toml
+from plumb.settings.toml import machine_toml
 from plumb.text.errors import InputError
 from synthetic import BELIEVED, SHEET
 

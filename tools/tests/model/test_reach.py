@@ -22,7 +22,7 @@ from plumb.model.predict import (
 from plumb.model.predict import lengths as lengths_of
 from plumb.model.reach import percent, survey_sheet, with_soft_chains
 from plumb.pictures.reach import draw_map
-from plumb.settings.files import write_machine_toml
+from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED, SHEET, TRUE
 
 SOFT, _ = with_soft_chains(BELIEVED)

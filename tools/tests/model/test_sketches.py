@@ -14,7 +14,7 @@ from plumb.bench.boards import cut
 from plumb.bench.causes import Cause, Hidden
 from plumb.model.sketches import SKETCHES, Strands
 from plumb.model.sketches.sketch import load
-from plumb.settings.files import machine_toml
+from plumb.settings.toml import machine_toml
 
 ROOT = Path(__file__).resolve().parents[3]
 PLUMB = ROOT / ".venv/bin/plumb"

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 from plumb.cli.main import main
-from plumb.settings.files import write_machine_toml
+from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"

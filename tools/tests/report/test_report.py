@@ -11,7 +11,7 @@ from plumb.diagnosis.expected_error import expected_error
 from plumb.model.plain import plain_size
 from plumb.report import maps
 from plumb.report.findings import find
-from plumb.settings.files import write_machine_toml
+from plumb.settings.toml import write_machine_toml
 from reports import EXAMPLE, Page, asked, board, nine, reported, spans, strange
 from synthetic import BELIEVED, TRUE, grid, marks_on
 

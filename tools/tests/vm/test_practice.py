@@ -10,7 +10,8 @@ from plumb.bench.causes import MAKER, Hidden
 from plumb.cli.main import main
 from plumb.cli.practice import _Reader
 from plumb.marks.read import read_marks
-from plumb.settings.files import machine_toml, read_settings
+from plumb.settings.files import read_settings
+from plumb.settings.toml import machine_toml
 from plumb.vm.garage import Garage, sled_error
 from plumb.vm.practice import Secret, claims_of, score, secret_in
 from served_machine import INTERRUPTIBLE, PLUMB, plumb

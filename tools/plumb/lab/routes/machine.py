@@ -24,7 +24,8 @@ from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.line.memory import Written, kept_before, lines_for
 from plumb.line.sender import Sender
 from plumb.line.worker import LineState
-from plumb.settings.files import machine_toml, read_settings
+from plumb.settings.files import read_settings
+from plumb.settings.toml import machine_toml
 from plumb.text.errors import InputError
 from plumb.vm.garage import RANDOM
 from plumb.vm.owner import VirtualOwner
