@@ -7,7 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hidden_boards import MAKER, board, plan, size_for
+from hidden_boards import board, size_for
+from plumb.bench.boards import plan
+from plumb.bench.causes import MAKER
 from plumb.cli.main import main
 from plumb.cure import auto
 from plumb.cure.auto import add_auto

@@ -7,7 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hidden_boards import HIDDEN, MAKER, board, joined, plan, size_for
+from hidden_boards import HIDDEN, board, size_for
+from plumb.bench.boards import joined, plan
+from plumb.bench.causes import MAKER
 from plumb.diagnosis import VERDICTS, diagnose
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements

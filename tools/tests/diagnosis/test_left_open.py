@@ -4,9 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hidden_boards import MAKER, plan
-from plumb.bench.boards import cut
-from plumb.bench.causes import Hidden
+from plumb.bench.boards import cut, plan
+from plumb.bench.causes import MAKER, Hidden
 from plumb.cure.auto import add_auto
 from plumb.diagnosis import diagnose
 from plumb.diagnosis.expected_error import LeftOpen

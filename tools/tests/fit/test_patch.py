@@ -4,7 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hidden_boards import MAKER, board, plan
+from hidden_boards import board
+from plumb.bench.boards import plan
+from plumb.bench.causes import MAKER
 from plumb.cli.main import main
 from plumb.cure.add import add
 from plumb.cure.auto import add_auto

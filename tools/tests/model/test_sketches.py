@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hidden_boards import COMPLIANCE, MAKER, board, plan
-from plumb.bench.boards import cut
-from plumb.bench.causes import Cause, Hidden
+from hidden_boards import board
+from plumb.bench.boards import cut, plan
+from plumb.bench.causes import MAKER, Cause, Hidden
 from plumb.model.sketches import SKETCHES, Strands
 from plumb.model.sketches.sketch import load
 from plumb.settings.toml import machine_toml
@@ -85,7 +85,11 @@ def test_a_twin_is_fitted_like_the_effect_itself(stretched):
         assert said["after"]["fit_rms_mm"] < 0.1
     assert sizes["twin"]["value"] == pytest.approx(sizes["chain_stretch"]["value"], rel=0.01)
     assert sizes["twin"]["low"] == pytest.approx(sizes["chain_stretch"]["low"], rel=0.02)
-    assert sizes["twin"]["low"] < 3 * COMPLIANCE < sizes["twin"]["high"]
+    assert (
+        sizes["twin"]["low"]
+        < 3 * MAKER.effect("chain_stretch", "compliance")
+        < sizes["twin"]["high"]
+    )
 
 
 def test_a_sketch_is_marked_and_never_written_as_a_setting(stretched):

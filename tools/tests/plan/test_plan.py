@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from carried_out import TRUE_VALUES, Bench
-from hidden_boards import MAKER, board, plan, size_for
-from owner import blind, cost, proposed
-from plumb.bench.causes import SLED
+from hidden_boards import board, board_cut, size_for
+from plumb.bench.boards import plan
+from plumb.bench.causes import MAKER, SLED
+from plumb.bench.judged_board import BoardOwner, followed, true_value
 from plumb.diagnosis import Checked, diagnose
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import PRIORS
@@ -32,26 +32,30 @@ def visits_of(layout):
     )
 
 
-@pytest.fixture(scope="module")
-def first():
-    """The nine marks that every owner begins with."""
-    return visits_of(NINE)
+def owner():
+    """Who measures a board further, and reads the same each time."""
+    return BoardOwner(np.random.default_rng(2), NOISE)
+
+
+def nine(effect, seed=101):
+    """The nine marks of a machine with an effect that moves them by 3 mm, and their diagnosis."""
+    cut = board_cut({effect: size_for(effect, NINE, 3.0)}, NINE, seed=seed, noise=NOISE)
+    return cut, diagnose(Inputs(MAKER, cut.measurements))
 
 
 @pytest.fixture(scope="module")
-def pitch(first):
+def pitch():
     """A board on which pitch cannot be distinguished from its look-alikes."""
-    owner = Bench("chain_pitch", size_for("chain_pitch", NINE, 3.0), 101)
-    marks = owner.measured(first)
-    diagnosis = diagnose(Inputs(MAKER, marks))
+    cut, diagnosis = nine("chain_pitch")
     assert diagnosis.verdict == "cannot_tell"
-    return owner, marks, diagnosis, case_of(diagnosis, Inputs(MAKER, marks))
+    marks = cut.measurements
+    return cut, marks, diagnosis, case_of(diagnosis, Inputs(MAKER, marks))
 
 
 @pytest.fixture(scope="module")
-def clean(first):
+def clean():
     """A board on which nothing is hidden."""
-    marks = Bench(None, 0.0, 7).measured(first)
+    marks = board({}, NINE, seed=7)
     diagnosis = diagnose(Inputs(MAKER, marks))
     assert diagnosis.verdict == "nothing_provable"
     return marks, diagnosis, case_of(diagnosis, Inputs(MAKER, marks))
@@ -167,8 +171,7 @@ def test_what_no_unknown_can_change_is_misfit_all_the_same(pitch):
 
 def test_next_to_many_marks_few_places_are_thought_of(pitch):
     _, _, _, case = pitch
-    dense = plan(15, 9)
-    marks = Bench("chain_pitch", 3.0, 101).measured(visits_of(dense))
+    marks = board({"chain_pitch": 3.0}, plan(15, 9), seed=101)
     dense_case = case_of(diagnose(Inputs(MAKER, marks)), Inputs(MAKER, marks))
     pool = _Shop(dense_case).pool(SLED)
     assert 9 < len(pool) <= 40
@@ -178,11 +181,10 @@ def test_next_to_many_marks_few_places_are_thought_of(pitch):
     assert gaps == pytest.approx(np.full(9, np.hypot(20, 20)), abs=20)
 
 
-def test_look_alikes_are_told_by_what_parts_them_only(first):
+def test_look_alikes_are_told_by_what_parts_them_only():
     # Sag and a leaning frame draw the same arrows under any weight; an angle gauge parts them.
-    owner = Bench("chain_sag", size_for("chain_sag", NINE, 3.0), 101)
-    marks = owner.measured(first)
-    diagnosis = diagnose(Inputs(MAKER, marks))
+    cut, diagnosis = nine("chain_sag")
+    marks = cut.measurements
     assert set(diagnosis.suspects) == {"chain_sag", "frame_lean"}
     answer = propose(diagnosis, Inputs(MAKER, marks))
     best = answer.proposals[0]
@@ -193,19 +195,19 @@ def test_look_alikes_are_told_by_what_parts_them_only(first):
         proposal.chance for proposal in answer.proposals if proposal.option.kind == "weight"
     )
     assert heavier < 0.3
-    done = diagnose(Inputs(MAKER, marks, checked=owner.checked(best.option.checks)))
+    done = diagnose(Inputs(MAKER, marks, checked=owner().checked(cut, best.option.checks)))
     assert done.verdict == "one_suspect" and done.suspects == ("chain_sag",)
 
 
 def test_swapped_chains_take_their_pitch_along(pitch):
-    owner, _, _, case = pitch
+    cut, _, _, case = pitch
     option = next(option for option in options(case) if option.kind == "swap")
     assert option.visits.swapped.all()
-    board_now = owner.measured(visits_of(NINE), option.visits)
+    board_now = owner().with_marks(cut, option.visits).measurements
     diagnosis = diagnose(Inputs(MAKER, board_now))
     sizes = next(ranked for ranked in diagnosis.ranking if ranked.effect == "chain_pitch").sizes
     for size, side in zip(sizes, ("left", "right"), strict=True):
-        truth = TRUE_VALUES[f"chain_pitch.{side}"](owner.size)
+        truth = true_value(cut, f"chain_pitch.{side}")
         assert size.low - 2e-4 <= truth <= size.high + 2e-4
     # Read as if they had not been swapped, the same marks fit nothing so well.
     marks = tuple(replace(mark, chains_swapped=False) for mark in board_now.marks)
@@ -236,10 +238,9 @@ def test_where_nothing_is_provable_doubt_is_removed_first(clean):
         assert all(room.then <= room.now * (1 + 1e-6) for room in proposal.rooms)
 
 
-def test_one_suspect_is_confirmed_by_measuring_the_cause(first):
-    owner = Bench("chain_plane", size_for("chain_plane", NINE, 3.0), 102)
-    marks = owner.measured(first)
-    diagnosis = diagnose(Inputs(MAKER, marks))
+def test_one_suspect_is_confirmed_by_measuring_the_cause():
+    cut, diagnosis = nine("chain_plane")
+    marks = cut.measurements
     assert diagnosis.verdict == "one_suspect"
     answer = propose(diagnosis, Inputs(MAKER, marks))
     assert answer.proposals[0].option.kind == "check"
@@ -249,7 +250,7 @@ def test_one_suspect_is_confirmed_by_measuring_the_cause(first):
     assert of == 9 and 0 <= kept <= 9
 
 
-def test_a_slip_is_read_again_and_nothing_else(first):
+def test_a_slip_is_read_again_and_nothing_else():
     marks = board({}, plan(5, 5), seed=3)
     slipped = list(marks.marks)
     slipped[7] = replace(slipped[7], measured=tuple(np.add(slipped[7].measured, (5.0, 0.0))))
@@ -315,17 +316,16 @@ def test_the_same_board_gets_the_same_chances(pitch):
 
 
 @pytest.mark.slow
-def test_chances_come_true(first):
+def test_chances_come_true():
     # What was promised and what came, over options of very different chances.
     promised, came = [], []
     for name, seed in (("chain_pitch", 302), ("chain_pitch", 305), ("chain_sag", 303)):
-        owner = Bench(name, size_for(name, NINE, 3.0), seed)
-        marks = owner.measured(first)
-        diagnosis = diagnose(Inputs(MAKER, marks))
+        cut, diagnosis = nine(name, seed)
+        marks = cut.measurements
         assert diagnosis.verdict == "cannot_tell"
         for proposal in _one_of_each_kind(propose(diagnosis, Inputs(MAKER, marks))):
-            visits, checks = proposal.option.visits, owner.checked(proposal.option.checks)
-            then = owner.measured(first, visits) if len(visits) else marks
+            then = owner().with_marks(cut, proposal.option.visits).measurements
+            checks = owner().checked(cut, proposal.option.checks)
             after = diagnose(Inputs(MAKER, then, checked=checks))
             promised.append(proposal.chance)
             came.append(after.verdict == "one_suspect" and after.suspects == (name,))
@@ -345,16 +345,17 @@ def _one_of_each_kind(answer):
 
 
 @pytest.mark.slow
-def test_four_proposed_measurements_beat_many_blind_ones(first):
-    # Few boards of the six effects that nine marks leave most open; the page on next has the rates.
-    more = visits_of(plan(7, 4))
-    sure, left = {"next": 0, "blind": 0}, {"next": 0, "blind": 0}
+def test_proposed_measurements_beat_many_blind_ones():
+    # Few boards of the effects that nine marks leave most open; the page on next has the rates.
+    left = {"next": 0, "blind": 0}
     for name, seed in (("chain_pitch", 200), ("chain_sag", 200), ("tape_scale", 200)):
-        owner = Bench(name, size_for(name, NINE, 3.0), seed)
-        asked = proposed(owner, MAKER, first)
-        assert sum(cost(step.option) for step in asked.done) <= 4
-        for key, campaign in (("next", asked), ("blind", blind(owner, MAKER, first, more))):
-            sure[key] += campaign.right(name)
-            left[key] += campaign.left
-    assert sure["next"] == 3
+        cut, _ = nine(name, seed)
+        asked = followed(cut, MAKER, owner(), rounds=2)
+        assert asked.diagnosis.suspects[:1] == (name,) and asked.readings <= 28
+        more = owner().with_marks(cut, visits_of(plan(7, 4))).measurements
+        for key, diagnosis in (
+            ("next", asked.diagnosis),
+            ("blind", diagnose(Inputs(MAKER, more))),
+        ):
+            left[key] += len(diagnosis.explanations) or len(effect_names())
     assert left["next"] < left["blind"]
