@@ -8,6 +8,7 @@ from plumb.line.memory import read_numbers
 from plumb.line.sender import Sender
 from plumb.vm.garage import Garage
 from plumb.vm.owner import InProcessPort
+from usual_machine import switched_on
 
 SIDES = ("left", "right")
 MOVED = 0.5  # [mm] that an owner sees
@@ -18,9 +19,7 @@ def jogged(tmp_path, side, *faults):
     machine = Garage(Hidden()).machine()
     for fault in faults:
         machine.set_wire(side, fault, True)
-    machine.start()
-    sender = Sender(InProcessPort(machine))
-    sender.await_start()
+    sender = switched_on(machine)
     visit = Visit(sender, Talk(print, input), Progress(tmp_path))
     before = machine.chains[SIDES.index(side)]
     alarm = visit.move(*chain_jog(side).there)

@@ -14,13 +14,12 @@ from plumb.job.home import (
     write_home_marks,
 )
 from plumb.job.slip import chains_line, repair_program
-from plumb.line.sender import Sender
 from plumb.model.predict import lengths
 from plumb.settings.machine import SettingsFile
 from plumb.text.errors import InputError
-from plumb.vm.garage import random_garage, set_up
-from plumb.vm.owner import InProcessPort
+from plumb.vm.garage import random_garage
 from plumb.vm.tape import marks_on
+from usual_machine import switched_on
 
 LEFT, RIGHT = (-900.0, 250.0), (900.0, -250.0)
 EVENING = 6000  # [ms] at rest, after which the position is in the memory
@@ -107,10 +106,7 @@ class Workshop:
         hidden = Hidden(((causes_of("chain_pitch")[0], 1.0),))
         self.garage = random_garage(hidden, seed)
         self.machine = self.garage.machine()
-        self.sender = Sender(InProcessPort(self.machine))
-        self.machine.start()
-        self.sender.await_start()
-        set_up(self.sender, self.garage.settings)
+        self.sender = switched_on(self.machine, self.garage.settings)
         self.machine.advance(EVENING)
 
     def send(self, *lines):
@@ -126,11 +122,8 @@ class Workshop:
         self.machine.send(b"G1 X900 F700\n")
         self.machine.advance(3000)
         self.machine.cut_power()
-        self.machine.start()
-        self.sender = Sender(InProcessPort(self.machine))
         heard = []
-        self.sender.said = heard.append
-        self.sender.await_start()
+        self.sender = switched_on(self.machine, said=heard.append)
         return heard
 
     def put_bit_at(self, place):

@@ -7,10 +7,9 @@ from plumb.bench.causes import MAKER
 from plumb.cli.main import main
 from plumb.job.check import check_job
 from plumb.job.findings import SINKS
-from plumb.line.sender import Sender
 from plumb.settings.toml import machine_toml
-from plumb.vm.garage import hide, random_garage, set_up
-from plumb.vm.owner import InProcessPort
+from plumb.vm.garage import hide, random_garage
+from usual_machine import switched_on
 
 WEAK = 2  # the seed of a machine whose gears hold little
 LOW, HIGH = 200, 500  # [mm] y of rests that hold, and that may not
@@ -59,11 +58,8 @@ def test_a_caution_is_said_and_is_no_error(tmp_path, capsys):
 def test_a_machine_with_weak_gears_slides_only_where_the_check_says_so():
     garage = random_garage(hide([], millimetres=3, seed=WEAK), WEAK, feed="top")
     machine = garage.machine(elf=None)
-    machine.start()
     said: list[str] = []
-    sender = Sender(InProcessPort(machine), said=said.append)
-    sender.await_start()
-    set_up(sender, garage.settings)
+    sender = switched_on(machine, garage.settings, said=said.append)
     slid = {}
     for y in (LOW, 300):
         sender.stream([f"G0 X0 Y{y}", "G4 P0"])

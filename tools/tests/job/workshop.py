@@ -2,13 +2,9 @@
 
 from pathlib import Path
 
-import numpy as np
 from plumb.bench.causes import MAKER
 from plumb.job.dry_run import Done, Run
-from plumb.line.sender import Sender
-from plumb.model.predict import judged, lengths
-from plumb.vm.garage import VirtualMachine, set_up
-from plumb.vm.owner import InProcessPort
+from usual_machine import declaration, switched_on, usual_machine
 
 PROGRAMS = Path(__file__).resolve().parents[3] / "test/programs"
 NAMES = sorted(path.name for path in PROGRAMS.iterdir() if path.suffix not in (".places", ".md"))
@@ -30,14 +26,9 @@ class Workshop:
     """A machine without errors at the middle of its sheet, z at the face."""
 
     def __init__(self) -> None:
-        chains, _ = lengths(MAKER, np.zeros((1, 2)))
-        self.machine = VirtualMachine(judged(MAKER), paid_out=float(chains[0, 0]))
-        self.machine.start()
-        self.sender = Sender(InProcessPort(self.machine), said=self._hear)
-        self.sender.await_start()
-        set_up(self.sender, MAKER)
-        left, right = self.machine.chains
-        self.sender.stream([f"B06 L{left:.4f} R{right:.4f}"])
+        self.machine = usual_machine()
+        self.sender = switched_on(self.machine, MAKER, said=self._hear)
+        self.sender.stream([declaration(self.machine)])
 
     def _hear(self, line: str) -> None:
         if line == "Maslow Paused":

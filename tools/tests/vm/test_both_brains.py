@@ -6,10 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plumb.bench.causes import MAKER, Hidden
-from plumb.line.sender import Sender
 from plumb.model.predict import lengths
-from plumb.vm.garage import EXTENDED, Garage, set_up
-from plumb.vm.owner import InProcessPort
+from plumb.vm.garage import EXTENDED, Garage
+from usual_machine import switched_on
 
 MOVES = ("G0 X20 Y10", "G1 X0 Y-20 F600", "G1 X5 Y-20 Z1 F300", "G0 X0 Y0 Z0")
 COUNT = 63.5 / 8113.73  # [mm] of chain for an encoder count
@@ -26,10 +25,7 @@ def rests(elf: str | None) -> list[list[int]]:
     """The counts of all axes after each move."""
     garage = Garage(Hidden(), friction=0.0)
     machine = garage.machine(elf=elf)
-    machine.start()
-    sender = Sender(InProcessPort(machine))
-    sender.await_start()
-    set_up(sender, garage.settings)
+    sender = switched_on(machine, garage.settings)
     counts = []
     for move in MOVES:
         sender.stream([move, "G4 P1"])
@@ -45,10 +41,7 @@ def set_points(elf: str | None, phases: range) -> list[np.ndarray]:
     """
     garage = Garage(Hidden(), friction=0.0)
     machine = garage.machine(elf=elf)
-    machine.start()
-    sender = Sender(InProcessPort(machine))
-    sender.await_start()
-    set_up(sender, garage.settings)
+    sender = switched_on(machine, garage.settings)
     sender.stream(["G0 X0 Y0"])
     sender.await_rest()
     sender.stream(["G20"])
@@ -107,17 +100,12 @@ def targets() -> np.ndarray:
 @pytest.mark.slow
 def test_the_flashed_program_keeps_its_place_through_a_power_cut(elf):
     machine = Garage(Hidden()).machine(elf=elf)
-    machine.start()
-    sender = Sender(InProcessPort(machine))
-    sender.await_start()
-    set_up(sender, Garage(Hidden()).settings)
+    sender = switched_on(machine, Garage(Hidden()).settings)
     sender.stream(["G0 X10"])
     sender.await_rest()
     place = machine.sled
     machine.stop()
-    machine.start()
-    again = Sender(InProcessPort(machine))
-    again.await_start()
+    again = switched_on(machine)
     assert again.status.place[0] == pytest.approx(10.0, abs=0.05)
     assert machine.sled == pytest.approx(place, abs=0.01)
 
@@ -126,10 +114,7 @@ def test_the_flashed_program_keeps_its_place_through_a_power_cut(elf):
 def test_the_flashed_program_drives_chains_off_the_bottom(elf):
     garage = Garage(Hidden(), friction=0.0, settings=replace(MAKER, feed="bottom"))
     machine = garage.machine(elf=elf)
-    machine.start()
-    sender = Sender(InProcessPort(machine))
-    sender.await_start()
-    set_up(sender, garage.settings)
+    sender = switched_on(machine, garage.settings)
     sender.stream(["G0 X-40 Y30"])
     sender.await_rest()
     assert machine.sled == pytest.approx((-40, 30), abs=0.05)

@@ -3,11 +3,8 @@
 import numpy as np
 import pytest
 from plumb.bench.causes import MAKER
-from plumb.line.sender import Sender
-from plumb.model.predict import judged, lengths
-from plumb.vm.garage import VirtualMachine, set_up
-from plumb.vm.owner import InProcessPort
 from scipy.spatial import cKDTree
+from usual_machine import declaration, switched_on, usual_machine
 
 HOLD, GO_ON = b"\x84", b"~"
 FEEDS = [bytes([each]) for each in range(0x90, 0x95)]
@@ -44,14 +41,9 @@ G0 X70
 
 def machine_at_rest(elf=None):
     """A machine without errors at the middle of its sheet."""
-    chains, _ = lengths(MAKER, np.zeros((1, 2)))
-    machine = VirtualMachine(judged(MAKER), paid_out=float(chains[0, 0]), elf=elf)
-    machine.start()
-    sender = Sender(InProcessPort(machine))
-    sender.await_start()
-    set_up(sender, MAKER)
-    left, right = machine.chains
-    sender.stream([f"B06 L{left:.4f} R{right:.4f}"])
+    machine = usual_machine(elf=elf)
+    sender = switched_on(machine, MAKER)
+    sender.stream([declaration(machine)])
     machine.take_said()
     return machine
 

@@ -2,13 +2,10 @@
 
 from dataclasses import dataclass, replace
 
-import numpy as np
 import pytest
 from plumb.bench.causes import MAKER
-from plumb.line.sender import Sender
-from plumb.model.predict import judged, lengths
-from plumb.vm.garage import VirtualMachine, set_up
-from plumb.vm.owner import InProcessPort
+from plumb.vm.garage import VirtualMachine
+from usual_machine import declaration, switched_on, usual_machine
 
 MOST = 3.0  # [mm] of a chain, beyond what a power cut lets it run
 ALARM = b"ALARM: The sled is not keeping up"
@@ -45,22 +42,11 @@ class Loss:
 
     def machine(self) -> VirtualMachine:
         """The machine at the moment of the loss."""
-        first, _ = lengths(MAKER, np.zeros((1, 2)))
-        machine = VirtualMachine(
-            judged(MAKER),
-            paid_out=float(first[0, 0]),
-            elf=self.elf,
-            seed=self.seed,
-            shield=self.shield,
-        )
-        machine.start()
-        sender = Sender(InProcessPort(machine))
-        sender.await_start()
-        set_up(sender, MAKER)
-        left, right = machine.chains
+        machine = usual_machine(elf=self.elf, seed=self.seed, shield=self.shield)
+        sender = switched_on(machine, MAKER)
         # To and fro: the machine learns which duty the motors need either way.
         ways = [f"G1 X{self.way * x} F800" for x in (-140, -60, -100)]
-        sender.stream([f"B06 L{left:.4f} R{right:.4f}", *ways, "G4 P0"])
+        sender.stream([declaration(machine), *ways, "G4 P0"])
         if self.feed:
             machine.send(b"G1 X%d F%d\n" % (200 * self.way, self.feed))
         machine.advance(2000 if self.feed else 1500)

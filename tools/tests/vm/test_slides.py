@@ -3,10 +3,8 @@
 import numpy as np
 import pytest
 from plumb.bench.causes import MAKER
-from plumb.line.sender import Sender
-from plumb.model.predict import judged, lengths
-from plumb.vm.garage import VirtualMachine, set_up
-from plumb.vm.owner import InProcessPort
+from plumb.vm.garage import VirtualMachine
+from usual_machine import declaration, switched_on, usual_machine
 
 STAYS = "The motors stay on: so high on the sheet the sled would slide ($77). Park it lower."
 SLIDES = "The sled slid with its motors off: they hold it until after its next move."
@@ -23,17 +21,10 @@ TRUSTED = "$77=10"  # [N m] the machine believes that its gears hold any sled
 )
 @pytest.mark.parametrize("brain", ["host", "mega"])
 def test_a_sled_stays_where_it_was(height, setting, warned, most, brain, elf):
-    chains, _ = lengths(MAKER, np.zeros((1, 2)))
-    machine = VirtualMachine(
-        judged(MAKER), paid_out=float(chains[0, 0]), elf=elf if brain == "mega" else None
-    )
-    machine.start()
+    machine = usual_machine(elf=elf if brain == "mega" else None)
     said: list[str] = []
-    sender = Sender(InProcessPort(machine), said=said.append)
-    sender.await_start()
-    set_up(sender, MAKER)
-    left, right = machine.chains
-    sender.stream([setting, f"B06 L{left:.4f} R{right:.4f}", f"G0 X0 Y{height}", "G4 P0"])
+    sender = switched_on(machine, MAKER, said=said.append)
+    sender.stream([setting, declaration(machine), f"G0 X0 Y{height}", "G4 P0"])
     lowest = farthest_in(30, machine)
     sender.stream(["G1 X200 F600", "G4 P0"])
     x, y = machine.sled
