@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -68,3 +69,10 @@ def distances_between(marks: tuple[Mark, ...]) -> Measurements:
         for b in marks[:i]
     )
     return Measurements(tuple(replace(mark, measured=None) for mark in marks), spans, source="d")
+
+
+def csv_of(marks: Iterable[Mark]) -> str:
+    """Marks as a file."""
+    rows = [(mark.name, *mark.target, *mark.measured) for mark in marks]
+    head = "name,target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"
+    return "\n".join([head, *(",".join(map(str, row)) for row in rows)]) + "\n"

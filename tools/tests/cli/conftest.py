@@ -1,3 +1,14 @@
 """Tests of this room ask the same of the same boards."""
 
+import pytest
 from asked_again import asked_again  # noqa: F401
+from plumb.settings.files import write_machine_toml
+from synthetic import BELIEVED
+
+
+@pytest.fixture
+def maker(tmp_path):
+    """What the maker of the made-up marks believes, as a file."""
+    path = tmp_path / "machine.toml"
+    write_machine_toml(path, BELIEVED)
+    return path

@@ -19,7 +19,7 @@ from plumb.diagnosis.expected_error import LeftOpen
 from plumb.grid.command import read_settings as read_plain
 from plumb.settings.files import read_settings
 from plumb.settings.toml import write_machine_toml
-from synthetic import BELIEVED, EFFECTS, TRUE, grid, marks_on
+from synthetic import BELIEVED, EFFECTS, TRUE, csv_of, grid, marks_on
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 INI = "groundcontrol.ini"
@@ -38,12 +38,6 @@ def printed(said):
     """The commands that an answer ends with."""
     commands = [shlex.split(text.replace("\\\n", " ")) for text in COMMAND.findall(said)]
     return [words[1:] for words in commands]
-
-
-def write_marks(name, marks):
-    rows = ["name,target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"]
-    rows += [",".join(map(str, (mark.name, *mark.target, *mark.measured))) for mark in marks]
-    Path(name).write_text("\n".join(rows))
 
 
 def measure_on_target(form):
@@ -93,12 +87,12 @@ def test_a_hidden_effect_is_added_and_the_second_round_starts_from_the_new_machi
     known = {name: sizes for name, sizes in EFFECTS.items() if name != "chain_pitch"}
     believed = replace(BELIEVED, effects=known)
     write_machine_toml("first.toml", believed)
-    write_marks("a.csv", marks_on(TRUE, believed, grid(7, 5), noise=0.2, seed=3))
+    Path("a.csv").write_text(csv_of(marks_on(TRUE, believed, grid(7, 5), noise=0.2, seed=3)))
     code, answer = ask("calibrate", "first.toml", "a.csv", "--sigma", "0.2", "-o", "second.toml")
     assert code == 0 and answer["done"] and answer["written"] == ["second.toml"]
     assert set(answer["addition"]["effects_added"]) >= {"chain_pitch"}
     believed = read_settings("second.toml")
-    write_marks("b.csv", marks_on(TRUE, believed, grid(7, 5), noise=0.2, seed=4))
+    Path("b.csv").write_text(csv_of(marks_on(TRUE, believed, grid(7, 5), noise=0.2, seed=4)))
     options = ("--cut-with", "second.toml", "--sigma", "0.2")
     _, again = ask("calibrate", "second.toml", "b.csv", *options)
     before, after = answer["comparison"]["rms_mm"], again["comparison"]["shape_rms_mm"]
@@ -110,7 +104,7 @@ def test_a_slip_comes_first_and_the_mark_can_be_left_out(run):
     x, y = marks[11].measured
     marks[11] = replace(marks[11], measured=(x + 30.0, y))
     write_machine_toml("first.toml", TRUE)
-    write_marks("a.csv", marks)
+    Path("a.csv").write_text(csv_of(marks))
     code, said, _ = run("calibrate", "first.toml", "a.csv", "--sigma", "0.2")
     assert code == 1 and "Not yet: read 11 again, and correct the file." in said
     assert not Path("machine.toml").exists()

@@ -18,7 +18,7 @@ from plumb.model.predict import lengths
 from plumb.settings.files import read_settings
 from plumb.settings.toml import write_machine_toml
 from plumb.text.answers import plain
-from synthetic import BELIEVED, SHEET, TRUE, grid, marks_on
+from synthetic import BELIEVED, SHEET, TRUE, csv_of, grid, marks_on
 
 COMMANDS = (
     "grid",
@@ -162,10 +162,7 @@ def test_the_picture_of_add_shows_each_step_and_names_what_was_added(run, tmp_pa
 def test_add_of_an_effect_that_does_not_pay_is_bad_news(run, tmp_path):
     settings, marks = tmp_path / "machine.toml", tmp_path / "marks.csv"
     write_machine_toml(settings, BELIEVED)
-    rows = ["target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"]
-    for mark in marks_on(BELIEVED, BELIEVED, grid(3, 3), noise=0.5, seed=5):
-        rows.append(",".join(map(str, (*mark.target, *mark.measured))))
-    marks.write_text("\n".join(rows))
+    marks.write_text(csv_of(marks_on(BELIEVED, BELIEVED, grid(3, 3), noise=0.5, seed=5)))
     code, said, _ = run("add", settings, marks, "--effect", *ADDED)
     assert code == 1 and "NOT better" in said and "do not keep" in said
 

@@ -1,12 +1,13 @@
 """`plumb diagnose`: what it prints, and its exit codes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.diagnosis import VERDICTS
 from plumb.model.catalogue import effect_names
-from plumb.settings.toml import write_machine_toml
-from synthetic import BELIEVED, TRUE, grid, marks_on
+from synthetic import BELIEVED, TRUE, csv_of, grid, marks_on
 
 KEYS = {
     "verdict",
@@ -18,21 +19,6 @@ KEYS = {
     "could_hide",
     "next",
 }
-
-
-@pytest.fixture
-def maker(tmp_path):
-    """What the maker of the made-up marks believes."""
-    path = tmp_path / "machine.toml"
-    write_machine_toml(path, BELIEVED)
-    return path
-
-
-def csv(marks):
-    """Marks as a file."""
-    lines = ["target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"]
-    lines += [",".join(f"{v:.2f}" for v in (*m.target, *m.measured)) for m in marks]
-    return "\n".join(lines) + "\n"
 
 
 def test_the_published_marks_get_a_verdict(ask):
@@ -49,18 +35,15 @@ def test_the_published_marks_get_a_verdict(ask):
 
 def test_clean_marks_say_so_first(run, file, maker):
     clean = marks_on(BELIEVED, BELIEVED, grid(5, 3), noise=0.5, seed=4)
-    code, said, _ = run("diagnose", maker, file("clean.csv", csv(clean)), "--sigma", "0.5")
+    code, said, _ = run("diagnose", maker, file("clean.csv", csv_of(clean)), "--sigma", "0.5")
     assert code == 0 and said.startswith("Nothing is provable")
     assert "could still hide" in said and "these marks say nothing of a sled that rubs" in said
 
 
 def test_a_slip_is_bad_news(run, ask, file, maker):
     marks = list(marks_on(BELIEVED, BELIEVED, grid(5, 3), noise=0.3, seed=4))
-    text = csv(marks)
-    line = text.splitlines()[7]
-    x, y, right, up = line.split(",")
-    slipped = text.replace(line, f"{x},{y},{float(right) + 5.1:.2f},{up}")
-    path = file("slip.csv", slipped)
+    marks[7] = replace(marks[7], measured=tuple(np.add(marks[7].measured, (5.1, 0.0))))
+    path = file("slip.csv", csv_of(marks))
     code, said, _ = run("diagnose", maker, path, "--sigma", "0.3")
     assert code == 1 and said.startswith("One reading disagrees with every explanation")
     assert "off to the right" in said
@@ -70,7 +53,7 @@ def test_a_slip_is_bad_news(run, ask, file, maker):
 
 
 def test_suspects_come_with_size_and_remedy(run, ask, file, maker):
-    path = file("m.csv", csv(marks_on(TRUE, BELIEVED, grid(5, 5), noise=0.2, seed=1)))
+    path = file("m.csv", csv_of(marks_on(TRUE, BELIEVED, grid(5, 5), noise=0.2, seed=1)))
     code, said, _ = run("diagnose", maker, path, "--sigma", "0.2")
     assert code == 0 and "To be sure" in said and "error falls to" in said
     code, answer = ask("diagnose", maker, path, "--sigma", "0.2")
@@ -93,6 +76,6 @@ def test_what_cannot_be_used_is_refused(run, options, complaint):
 
 
 def test_two_marks_are_too_few(run, file, maker):
-    path = file("two.csv", csv(marks_on(TRUE, BELIEVED, grid(2, 1))))
+    path = file("two.csv", csv_of(marks_on(TRUE, BELIEVED, grid(2, 1))))
     code, said, complained = run("diagnose", maker, path)
     assert code == 2 and said == "" and "too few" in complained

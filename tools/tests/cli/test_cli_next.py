@@ -10,29 +10,9 @@ from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.grid.cut_with import digest_of
 from plumb.model.catalogue import effect_names
 from plumb.settings.toml import write_machine_toml
-from synthetic import BELIEVED, EFFECTS, TRUE, grid, marks_on
+from synthetic import BELIEVED, EFFECTS, TRUE, csv_of, grid, marks_on
 
 FILL = "# measured = [ , ]"
-
-
-@pytest.fixture
-def maker(tmp_path):
-    """What the maker of the made-up marks believes."""
-    path = tmp_path / "machine.toml"
-    write_machine_toml(path, BELIEVED)
-    return path
-
-
-@pytest.fixture
-def csv(file):
-    """Marks as a file."""
-
-    def write(name, marks):
-        lines = ["target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"]
-        lines += [",".join(f"{v:.2f}" for v in (*m.target, *m.measured)) for m in marks]
-        return file(name, "\n".join(lines) + "\n")
-
-    return write
 
 
 def test_the_published_marks_get_proposals(ask):
@@ -61,9 +41,13 @@ def test_people_are_told_what_to_do_first(run):
     assert max(len(line) for line in said.splitlines()) <= 100
 
 
-def test_a_proposal_is_drawn_and_waits_for_the_tape(run, ask, csv, maker, tmp_path):
+def test_a_proposal_is_drawn_and_waits_for_the_tape(run, ask, file, maker, tmp_path):
     marks = marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.3, seed=2)
-    path, picture, form = csv("m.csv", marks), tmp_path / "next.svg", tmp_path / "next.toml"
+    path, picture, form = (
+        file("m.csv", csv_of(marks)),
+        tmp_path / "next.svg",
+        tmp_path / "next.toml",
+    )
     command = ["next", maker, path, "--sigma", "0.3"]
     code, answer = ask(*command, "--picture", picture, "--marks", form)
     assert code == 0 and answer["written"] == [str(picture), str(form)]
@@ -82,9 +66,9 @@ def test_a_proposal_is_drawn_and_waits_for_the_tape(run, ask, csv, maker, tmp_pa
     assert code in (0, 1) and after["verdict"]
 
 
-def test_a_proposal_is_cut_by_a_program(run, ask, csv, maker, tmp_path):
+def test_a_proposal_is_cut_by_a_program(run, ask, file, maker, tmp_path):
     marks = marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.3, seed=2)
-    path, cut = csv("m.csv", marks), tmp_path / "more.nc"
+    path, cut = file("m.csv", csv_of(marks)), tmp_path / "more.nc"
     for _ in range(2):  # a second run replaces the first
         code, answer = ask("next", maker, path, "--sigma", "0.3", "--output", cut)
         assert code == 0 and answer["written"] == [str(cut)]
@@ -100,8 +84,8 @@ def test_a_proposal_is_cut_by_a_program(run, ask, csv, maker, tmp_path):
     assert run("check", cut, maker)[0] == 0
 
 
-def test_what_is_only_read_again_is_not_cut(run, ask, csv, maker, tmp_path):
-    path = csv("m.csv", marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.3, seed=2))
+def test_what_is_only_read_again_is_not_cut(run, ask, file, maker, tmp_path):
+    path = file("m.csv", csv_of(marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.3, seed=2)))
     command = ["next", maker, path]
     _, answer = ask(*command)
     again = [each["kind"] for each in answer["next"]].index("repeats") + 1
@@ -112,9 +96,9 @@ def test_what_is_only_read_again_is_not_cut(run, ask, csv, maker, tmp_path):
     assert form.read_text().count(FILL) == 27
 
 
-def test_a_check_enters_both_commands(ask, csv, maker):
+def test_a_check_enters_both_commands(ask, file, maker):
     marks = marks_on(TRUE, BELIEVED, grid(5, 3), noise=0.2, seed=2)
-    path, size = csv("m.csv", marks), EFFECTS["chain_pitch"]["left"]
+    path, size = file("m.csv", csv_of(marks)), EFFECTS["chain_pitch"]["left"]
     command = ["diagnose", maker, path, "--sigma", "0.2"]
     _, before = ask(*command)
     _, after = ask(*command, "--checked", f"chain_pitch.left={size}+-0.00001")
@@ -154,8 +138,8 @@ def test_next_refuses_in_one_line(run, tmp_path, monkeypatch, options, complaint
     assert list(tmp_path.iterdir()) == []
 
 
-def test_marks_that_were_read_are_never_overwritten(run, csv, maker):
-    path = csv("m.csv", marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.3))
+def test_marks_that_were_read_are_never_overwritten(run, file, maker):
+    path = file("m.csv", csv_of(marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.3)))
     before = path.read_bytes()
     code, _, complaint = run("next", maker, path, "--marks", path)
     assert code == 2 and "is read here and kept" in complaint and path.read_bytes() == before
@@ -229,8 +213,8 @@ def test_a_form_names_the_settings_that_its_marks_are_cut_with(run, tmp_path):
     assert f'cut_with_digest = "{digest_of(SETTINGS)}"' in head
 
 
-def test_a_form_names_what_was_in_force_not_what_was_fitted_since(run, maker, csv, tmp_path):
-    marks = csv("marks.csv", marks_on(TRUE, BELIEVED, grid(3, 3)))
+def test_a_form_names_what_was_in_force_not_what_was_fitted_since(run, maker, file, tmp_path):
+    marks = file("marks.csv", csv_of(marks_on(TRUE, BELIEVED, grid(3, 3))))
     fitted, form = tmp_path / "fitted.toml", tmp_path / "more.toml"
     settings = dataclasses.replace(BELIEVED, motor_gap=BELIEVED.motor_gap + 5)
     write_machine_toml(fitted, settings)
@@ -240,9 +224,9 @@ def test_a_form_names_what_was_in_force_not_what_was_fitted_since(run, maker, cs
 
 
 def test_a_form_names_the_settings_that_the_machine_has_now_if_somebody_says_so(
-    run, maker, csv, tmp_path
+    run, maker, file, tmp_path
 ):
-    marks = csv("marks.csv", marks_on(TRUE, BELIEVED, grid(3, 3)))
+    marks = file("marks.csv", csv_of(marks_on(TRUE, BELIEVED, grid(3, 3))))
     now, form = tmp_path / "now.toml", tmp_path / "more.toml"
     write_machine_toml(now, dataclasses.replace(BELIEVED, sheet_width=2400.0))
     command = ["next", maker, marks, "--marks", form, "--cut-next-with"]

@@ -13,7 +13,7 @@ from plumb.firmware.settings import numbers_in_force
 from plumb.grid.cut_with import form_of, with_form
 from plumb.settings.files import read_settings
 from plumb.settings.toml import write_machine_toml
-from synthetic import BELIEVED, TRUE, grid, marks_on
+from synthetic import BELIEVED, TRUE, csv_of, grid, marks_on
 
 ROOT = Path(__file__).resolve().parents[3]
 EXAMPLE = ROOT / "docs/example"
@@ -69,9 +69,7 @@ def fitted(name, settings):
     """A machine.toml that was fitted to marks which were cut with these settings."""
     write_machine_toml("before.toml", settings)
     marks = marks_on(TRUE, settings, grid(3, 3), noise=0.1, seed=3)
-    rows = ["name,target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"]
-    rows += [",".join(map(str, (mark.name, *mark.target, *mark.measured))) for mark in marks]
-    Path("read.csv").write_text("\n".join(rows))
+    Path("read.csv").write_text(csv_of(marks))
     inputs = api.read("before.toml", "read.csv")
     made = api.add(inputs)
     Path(name).write_bytes(toml_of(made, source="read.csv", record=record_of(made, inputs)))

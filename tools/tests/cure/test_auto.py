@@ -22,7 +22,7 @@ from plumb.model.catalogue import parameter_words
 from plumb.model.plain import noun_of
 from plumb.settings.files import read_settings
 from plumb.text.errors import InputError
-from synthetic import BELIEVED, grid, marks_on
+from synthetic import BELIEVED, csv_of, grid, marks_on
 
 WIDE = plan(5, 5)
 DATA = Path(__file__).resolve().parents[1] / "data"
@@ -201,12 +201,10 @@ def test_an_effect_of_impossible_size_that_may_be_zero_is_left_out():
 def test_the_command_writes_nothing_for_a_slip_and_says_so(tmp_path, capsys):
     stock = read_settings(SETTINGS)
     marks = read_marks(MARKS, sheet=stock.sheet)
-    lines = ["target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"]
-    for i, mark in enumerate(marks.marks):
-        x, y = mark.target[0], mark.target[1] + (25.0 if i == 4 else 0.0)
-        lines.append(",".join(str(v) for v in (*mark.target, x, y)))
+    right = [replace(mark, measured=mark.target) for mark in marks.marks]
+    right[4] = replace(right[4], measured=tuple(np.add(right[4].target, (0.0, 25.0))))
     path, out = tmp_path / "marks.csv", tmp_path / "machine.toml"
-    path.write_text("\n".join(lines))
+    path.write_text(csv_of(right))
     code = main(["add", str(SETTINGS), str(path), "--effect", "auto", "-o", str(out), "--json"])
     report = json.loads(capsys.readouterr().out)
     assert code == 1 and not out.exists()

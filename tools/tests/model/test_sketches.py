@@ -15,6 +15,7 @@ from plumb.bench.causes import MAKER, Cause, Hidden
 from plumb.model.sketches import SKETCHES, Strands
 from plumb.model.sketches.sketch import load
 from plumb.settings.toml import machine_toml
+from synthetic import csv_of
 
 ROOT = Path(__file__).resolve().parents[3]
 PLUMB = ROOT / ".venv/bin/plumb"
@@ -43,9 +44,7 @@ def stretched(tmp_path_factory):
     marks = board({"chain_stretch": 2.0}, plan(5, 5), seed=3, noise=0.05, tape_sigma=0.05)
     (folder / "cut.toml").write_text(machine_toml(MAKER))
     (folder / "machine.toml").write_text(machine_toml(replace(MAKER, effects=sag)))
-    lines = ["target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"]
-    lines += [",".join(map(repr, (*words.target, *words.measured))) for words in marks.marks]
-    (folder / "marks.csv").write_text("\n".join(lines))
+    (folder / "marks.csv").write_text(csv_of(marks.marks))
     return folder
 
 
@@ -144,11 +143,7 @@ def test_a_hose_that_pulls_the_sled_is_fitted_in_newtons(tmp_path):
     (tmp_path / "machine.toml").write_text(machine_toml(MAKER))
     hose = Cause("", "", lambda _: {"push_right": 6.0, "push_up": -4.0})
     marks = cut(Hidden(((hose, 1.0),)), plan(5, 5), seed=5, noise=0.05, tape_sigma=0.05)
-    lines = ["target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"]
-    lines += [
-        ",".join(map(repr, (*words.target, *words.measured))) for words in marks.measurements.marks
-    ]
-    (tmp_path / "marks.csv").write_text("\n".join(lines))
+    (tmp_path / "marks.csv").write_text(csv_of(marks.measurements.marks))
     said = answer(tmp_path, "add", *BOARD[:2], *BOARD[4:], "--effect", "dust_hose")
     sizes = {words["name"]: words["value"] for words in said["parameters"]}
     assert sizes["dust_hose.right"] == pytest.approx(6.0, abs=0.3)
