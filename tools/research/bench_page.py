@@ -24,6 +24,7 @@ from plumb.bench.scenarios import CURE, LOOP, SCENARIOS
 from plumb.cli.arguments import add_force, count
 from plumb.cli.bench import counted
 from plumb.cli.output import INTERRUPTED, ended, refuse_early, results_of, write_outputs
+from tables import markdown_table
 
 INTRODUCTION = """# How often the diagnosis is right
 
@@ -83,21 +84,21 @@ the lab then asks for a reading again and adds nothing.
 def page(report: Report) -> str:
     """Return the whole page."""
     parts = [INTRODUCTION, _boards(report)]
-    parts.append(markdown(HEADER, cells(report)))
+    parts += [markdown_table(HEADER, cells(report)), ""]
     if report.cures:
         parts.append(CURES)
-        parts.append(markdown(CURE_HEADER, cure_cells(report.cures)))
+        parts += [markdown_table(CURE_HEADER, cure_cells(report.cures)), ""]
         parts.append(f"\nLine for the ratio of all: {line_words(CURE)}, {report.cure_judged}.\n")
     if report.loops:
         parts.append(LOOPS)
-        parts.append(markdown(LOOP_HEADER, loop_cells(report.loops)))
+        parts += [markdown_table(LOOP_HEADER, loop_cells(report.loops)), ""]
         parts.append(f"\nLine for the ratio of all: {line_words(LOOP)}, {report.loop_judged}.\n")
     if report.by_kind:
         rows = [
             [rate.scenario, rate.hidden, rate.name, value_words(rate)] for rate in report.by_kind
         ]
         parts.append("\n## By what was hidden\n")
-        parts.append(markdown(("scenario", "hidden", "rate", "seen"), rows))
+        parts += [markdown_table(("scenario", "hidden", "rate", "seen"), rows), ""]
     return "\n".join(parts)
 
 
@@ -106,12 +107,6 @@ def _boards(report: Report) -> str:
     fewer = sorted({loop.boards for loop in report.loops[:-1] or report.loops} - {report.boards})
     loops = f" ({' or '.join(map(str, fewer))} of each loop)" if fewer else ""
     return f"{report.boards} boards of each scenario{loops}, seed {report.seed}.\n"
-
-
-def markdown(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Return a table."""
-    lines = [header, ["---"] * len(header), *rows]
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -12,6 +12,7 @@ from plumb.cli.arguments import add_force, count
 from plumb.cli.output import ended, refuse_early, results_of, write_outputs
 from plumb.cli.screen import Bar, sentences, table
 from plumb.text.errors import InputError
+from tables import markdown_table
 from trial import BELIEVED, Outcome, tried
 
 HEADER = (
@@ -175,18 +176,12 @@ def page(report: FaultReport) -> str:
     """Return the page docs/faults.md."""
     tries = min(len(row.outcomes) for row in (*report.rows, *report.unseen))
     parts = [INTRODUCTION.format(tries=tries)]
-    parts.append(markdown(HEADER, [row.cells() for row in report.rows]))
+    parts += [markdown_table(HEADER, [row.cells() for row in report.rows]), ""]
     parts.append(f"{report.last_line()}\n")
     if report.unseen:
         parts.append(UNSEEN_INTRODUCTION)
-        parts.append(markdown(UNSEEN_HEADER, [row.unseen_cells() for row in report.unseen]))
+        parts += [markdown_table(UNSEEN_HEADER, [row.unseen_cells() for row in report.unseen]), ""]
     return "\n".join(parts).replace("\n\n\n", "\n\n")
-
-
-def markdown(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Return a table."""
-    lines = [header, ["---"] * len(header), *rows]
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
 
 
 def parser() -> argparse.ArgumentParser:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from bench_page import markdown
 from game import Played
 from game_rates import Row, row_of, rows_of
 from kinds import CURABLE, FIRMWARE, KINDS
+from tables import markdown_table
 
 MARKS = ("25", "9")  # of the first sheet
 SECOND_LINE = 1.3  # times what the truth allows: the most that a second sheet should be off
@@ -50,7 +50,7 @@ def page(games: Sequence[Played]) -> str:
         for name, kinds in (("one that shows", _CURABLE), ("all", tuple(KINDS)))
         if (chosen := _of(games, kinds, marks))
     ]
-    return "\n".join([INTRODUCTION, markdown(HEADER, [*rows, *summary]), _second(games)])
+    return "\n".join([INTRODUCTION, markdown_table(HEADER, [*rows, *summary]), "", _second(games)])
 
 
 _CURABLE = tuple(name for name in FIRMWARE if any(cause.effect == name for cause in CURABLE))
