@@ -4,8 +4,9 @@ import shutil
 import threading
 
 import pytest
+from folder import with_settings
 from playwright.sync_api import expect, sync_playwright
-from plumb.vm.garage import hide, random_garage, set_up
+from plumb.vm.garage import hide, random_garage
 from plumb.vm.owner import VirtualOwner
 from plumb.vm.pseudo_terminal import Pace, PseudoTerminal
 from served_lab import SharedLab
@@ -29,6 +30,13 @@ def shared(tmp_path_factory):
 def lab(shared):
     """A lab on an empty folder."""
     return shared.emptied()
+
+
+@pytest.fixture
+def client(tmp_path):
+    """A lab that is asked without a network, with the example's settings open."""
+    with with_settings(tmp_path) as client:
+        yield client
 
 
 @pytest.fixture(scope="session")
@@ -62,9 +70,7 @@ def page(browser):
 def cable_machine():
     """The virtual machine of the cable."""
     owner = VirtualOwner(random_garage(hide([], millimetres=3, seed=1), 1))
-    owner.machine.start()
-    owner.sender.await_start()
-    set_up(owner.sender, owner.settings)
+    owner.switch_on()
     owner.machine.advance(10_000)
     return owner.machine
 

@@ -1,5 +1,7 @@
 """A lab on a folder that is asked without a network, and forms for its tests."""
 
+import time
+from itertools import cycle
 from pathlib import Path
 
 from fastapi.testclient import TestClient
@@ -14,6 +16,7 @@ ROOT = Path(__file__).resolve().parents[3]
 EXAMPLE = ROOT / "docs" / "example"
 TOKEN = "t" * 32
 ADDRESS = Address("127.0.0.1", 8123)
+PATIENCE = 120  # [s] of a busy computer
 
 
 def asked(folder):
@@ -33,10 +36,60 @@ def compared(folder):
 def with_settings(folder):
     """The same with the example's settings opened."""
     client = asked(folder)
-    name = EXAMPLE / "groundcontrol.ini"
-    answer = client.post("/api/settings", files={"file": ("groundcontrol.ini", name.read_bytes())})
-    assert answer.status_code == 200, answer.text
+    content = (EXAMPLE / "groundcontrol.ini").read_bytes()
+    got(client.post("/api/settings", files={"file": ("groundcontrol.ini", content)}))
     return client
+
+
+def with_marks(folder):
+    """The same with the example's marks opened as well."""
+    client = with_settings(folder)
+    content = (EXAMPLE / "marks.toml").read_bytes()
+    got(client.post("/api/marks", files={"file": ("marks.toml", content)}))
+    return client
+
+
+def got(answer, status=200):
+    """What is answered, as it has this status."""
+    assert answer.status_code == status, answer.text
+    return answer.json()
+
+
+def choose(client, **change):
+    """Change some choices, as the page does."""
+    project = got(client.get("/api/project"))
+    body = {"choices": {**project["choices"], **change}, "read": project["choices_digest"]}
+    return got(client.put("/api/choices", json=body))
+
+
+def type_in(client, file, *offsets):
+    """Each mark of a form is read so far [mm] from where it was sent; offsets take turns."""
+    form = got(client.get("/api/readings", params={"file": file}))
+    readings = [
+        {"index": mark["index"], "read": [mark["meant"][0] + x, mark["meant"][1] + y]}
+        for mark, (x, y) in zip(form["marks"], cycle(offsets), strict=False)
+    ]
+    body = {key: form[key] for key in ("file", "digest", "edges")}
+    return got(client.put("/api/readings", json={**body, "readings": readings}))
+
+
+def awaited(client, path, true):
+    """The first answer of a route of which this is so."""
+    end = time.monotonic() + PATIENCE
+    while not true(answer := got(client.get(f"/api/{path}"))):
+        assert time.monotonic() < end, answer
+        time.sleep(0.02)
+    return answer
+
+
+def finished(client, path):
+    """What is worked out in the background, when it has ended."""
+    return awaited(client, path, lambda answer: answer["share"] == 1)
+
+
+def until(client, true):
+    """The state of the machine once this is so."""
+    return awaited(client, "machine", true)
 
 
 def example_form(*, read=0):

@@ -1,12 +1,10 @@
 """A walk through every screen of the lab, and what is looked at on each."""
 
 import json
-import time
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
-import httpx2
-from folder import note_fit
+from folder import got, note_fit, type_in, until
 
 ROOT = Path(__file__).resolve().parents[3]
 EXAMPLE = ROOT / "docs/example"
@@ -98,40 +96,23 @@ def fitted_machine(folder: Path) -> Path:
 
 def with_check_marks(lab):
     """Two check marks are cut and read, the second far off."""
-    headers = {"X-Plumb-Token": lab.token}
-    with httpx2.Client(base_url=f"{lab.site}api/", headers=headers, timeout=60) as client:
-        assert client.post("check").status_code == 200
-        form = client.get("readings", params={"file": "check.toml"}).json()
-        readings = [
-            {"index": mark["index"], "read": [mark["meant"][0] + off, mark["meant"][1]]}
-            for mark, off in zip(form["marks"], (0.3, 4.0), strict=True)
-        ]
-        body = {**{key: form[key] for key in ("file", "digest", "edges")}, "readings": readings}
-        assert client.put("readings", json=body).status_code == 200
+    with lab.client() as client:
+        got(client.post("/api/check"))
+        type_in(client, "check.toml", (0.3, 0), (4.0, 0))
 
 
 def with_virtual_machine(lab):
     """A slow virtual machine that cuts, half way through the marks of a lab with a machine."""
-    headers = {"X-Plumb-Token": lab.token}
-    with httpx2.Client(base_url=f"{lab.site}api/", headers=headers, timeout=60) as client:
-
-        def ask(method, path, **body):
-            answer = client.request(method, path, json=body or None)
-            assert answer.status_code == 200, answer.text
-            return answer.json()
-
-        def wait_for(true):
-            end = time.monotonic() + BUSY_S
-            while not true(ask("GET", "machine")):
-                assert time.monotonic() < end, ask("GET", "machine")
-                time.sleep(0.05)
-
-        ask("POST", "machine/virtual", seed=9, speed=1000)
-        wait_for(lambda machine: machine["phase"] == "ready")
-        ask("POST", "machine/settings")
-        ask("POST", "grid/cut")
-        wait_for(lambda machine: machine["program"]["done"] > machine["program"]["total"] / 2)
-        ask("POST", "machine/speed", speed=1)
+    with lab.client() as client:
+        got(client.post("/api/machine/virtual", json={"seed": 9, "speed": 1000}))
+        until(client, lambda machine: machine["phase"] == "ready")
+        got(client.post("/api/machine/settings"))
+        got(client.post("/api/grid/cut"))
+        until(
+            client,
+            lambda machine: machine["program"]["done"] > machine["program"]["total"] / 2,
+        )
+        got(client.post("/api/machine/speed", json={"speed": 1}))
 
 
 def places(page) -> list[str]:
@@ -146,6 +127,15 @@ def settle(page):
     busy = "() => !document.querySelector('[aria-busy=true], progress:not([value])')"
     page.wait_for_function(busy, timeout=120_000)
     drawn(page)
+
+
+def go_on_until(page, condition):
+    """Let the page go on until this is so."""
+    for _ in range(3000):  # a tenth of a second each
+        if condition():
+            return
+        page.wait_for_timeout(100)
+    raise AssertionError("did not come")
 
 
 def drawn(page):

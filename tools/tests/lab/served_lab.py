@@ -9,6 +9,7 @@ from pathlib import Path
 
 import httpx2
 import hurried_plumb
+from folder import PATIENCE, got
 from plumb.lab.server import TOKEN_FILE
 
 
@@ -32,6 +33,11 @@ class ServedLab:
     @property
     def token(self) -> str:
         return self.url.partition("token=")[2]
+
+    def client(self):
+        """What asks it as its page does."""
+        headers = {"X-Plumb-Token": self.token}
+        return httpx2.Client(base_url=self.site, headers=headers, timeout=PATIENCE)
 
     def end(self):
         self.process.terminate()
@@ -64,11 +70,7 @@ class SharedLab:
     def emptied(self) -> ServedLab:
         """The lab without a machine, on an empty folder; started again if a test ended it."""
         if self._lab and self._lab.process.poll() is None:
-            headers = {"X-Plumb-Token": self._lab.token}
-            answer = httpx2.post(
-                f"{self._lab.site}api/machine/disconnect", headers=headers, timeout=60
-            )
-            assert answer.status_code == 200, answer.text
+            got(self._lab.client().post("/api/machine/disconnect"))
         else:
             self._lab = None
         for path in self.folder.iterdir():

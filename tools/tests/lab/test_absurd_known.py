@@ -1,7 +1,7 @@
 """A number that no measurement gives is refused where it was typed, and nothing goes by it."""
 
 import pytest
-from folder import EXAMPLE, with_settings
+from folder import choose, with_marks
 from plumb.lab.known import readings
 from plumb.settings.machine import GRAVITY
 from synthetic import BELIEVED
@@ -24,18 +24,14 @@ ABSURD = [
 
 @pytest.fixture
 def client(tmp_path):
-    with with_settings(tmp_path) as client:
-        (tmp_path / MARKS).write_bytes((EXAMPLE / MARKS).read_bytes())
+    with with_marks(tmp_path) as client:
         yield client
 
 
 def state(client, **known):
     """State numbers, each with how far it may be off; what is typed for each is refused by."""
-    project = client.get("/api/project").json()
     stated = {name: {"value": value, "sigma": sigma} for name, (value, sigma) in known.items()}
-    choices = {**project["choices"], "marks": [MARKS], "known": stated}
-    body = {"choices": choices, "read": project["choices_digest"]}
-    assert client.put("/api/choices", json=body).status_code == 200
+    choose(client, marks=[MARKS], known=stated)
     numbers = client.get("/api/known").json()["numbers"]
     return {number["name"]: number["refused"] for number in numbers if number["refused"]}
 
@@ -73,9 +69,7 @@ def test_nothing_goes_by_an_absurd_number(client):
 
 
 def test_lengths_are_refused_in_the_chosen_unit(client):
-    project = client.get("/api/project").json()
-    body = {"choices": {**project["choices"], "units": "inch"}, "read": project["choices_digest"]}
-    assert client.put("/api/choices", json=body).status_code == 200
+    choose(client, units="inch")
     refused = state(client, motor_gap=(298.0, 1.0))
     assert "11.73 inch is far from the 117.26 inch of the settings" in refused["motor_gap"]
 

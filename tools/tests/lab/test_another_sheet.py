@@ -7,7 +7,7 @@ import shutil
 from dataclasses import replace
 
 import pytest
-from folder import EXAMPLE, asked
+from folder import EXAMPLE, asked, got, type_in
 from plumb import api
 from plumb.cure.add import add
 from plumb.cure.machine_file import record_of, turn_sentences
@@ -33,12 +33,6 @@ def chosen(folder, **more):
     return asked(folder)
 
 
-def grid(client):
-    answer = client.get("/api/grid")
-    assert answer.status_code == 200, answer.text
-    return answer.json()
-
-
 def another_sheet(folder, *, shift=0.0, turn=0.0):
     """The example's marks once more, on another sheet that lies `shift` [mm] farther right, its
     right end `turn` [rad] lower: there the marks are farther from its top edge."""
@@ -55,31 +49,34 @@ def another_sheet(folder, *, shift=0.0, turn=0.0):
 
 
 def test_the_form_of_another_sheet_says_so(client, tmp_path):
-    assert client.post("/api/grid").status_code == 200
+    got(client.post("/api/grid"))
     assert "new_sheet" not in (tmp_path / "marks-2.toml").read_text()
     chosen(tmp_path, new_sheet=True)
-    assert not grid(client)["is_saved"]
-    assert client.post("/api/grid").status_code == 200
+    assert not got(client.get("/api/grid"))["is_saved"]
+    got(client.post("/api/grid"))
     form = read_form(tmp_path / "marks-2.toml", sheet=(WIDTH, 1219.2), known=known_effects())
     assert form.measurements.rounds[0].new_sheet
-    assert grid(client)["is_saved"] and grid(client)["last_form"] == "marks.toml"
+    assert (
+        got(client.get("/api/grid"))["is_saved"]
+        and got(client.get("/api/grid"))["last_form"] == "marks.toml"
+    )
 
 
 def test_the_first_sheet_is_no_other(client, tmp_path):
     chosen(tmp_path, marks=[], new_sheet=True)
     (tmp_path / "marks.toml").unlink()
-    assert grid(client)["last_form"] == ""
-    assert client.post("/api/grid").status_code == 200
+    assert got(client.get("/api/grid"))["last_form"] == ""
+    got(client.post("/api/grid"))
     assert "new_sheet" not in (tmp_path / "marks.toml").read_text()
 
 
 def test_the_next_sheet_is_turned_back_once(client, tmp_path):
-    assert grid(client)["sheet_rise"] == pytest.approx(math.tan(TURN) * WIDTH)
+    assert got(client.get("/api/grid"))["sheet_rise"] == pytest.approx(math.tan(TURN) * WIDTH)
     another_sheet(tmp_path)
     chosen(tmp_path, marks=["marks.toml", "marks-2.toml"])
-    assert grid(client)["sheet_rise"] == 0
+    assert got(client.get("/api/grid"))["sheet_rise"] == 0
     chosen(tmp_path, settings="groundcontrol.ini")
-    assert grid(client)["sheet_rise"] == 0
+    assert got(client.get("/api/grid"))["sheet_rise"] == 0
 
 
 def test_by_hand_is_about_the_sheet_that_hangs_there_now(client, tmp_path):
@@ -117,13 +114,7 @@ def test_the_last_sheet_is_turned_back():
 
 def test_check_marks_go_by_the_sheet_that_they_are_on(client, tmp_path):
     client.post("/api/check")
-    form = client.get("/api/readings", params={"file": "check.toml"}).json()
-    readings = [
-        {"index": mark["index"], "read": [mark["meant"][0] + 0.3, mark["meant"][1]]}
-        for mark in form["marks"]
-    ]
-    body = {**{key: form[key] for key in ("file", "digest", "edges")}, "readings": readings}
-    assert client.put("/api/readings", json=body).status_code == 200
+    type_in(client, "check.toml", (0.3, 0))
     before = client.get("/api/check").json()
     assert before["holds"]
     assert [each["form"] for each in before["rounds"]] == ["marks.toml", "check.toml"]

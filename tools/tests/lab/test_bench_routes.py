@@ -7,7 +7,7 @@ import tomllib
 import numpy as np
 import pytest
 from fingerprints import default_machine
-from folder import EXAMPLE, asked, with_settings
+from folder import EXAMPLE, asked, choose, got, with_marks
 from plumb import api
 from plumb.cli.main import main
 from plumb.cure.live_board import BoardView, Chosen, LiveBoard
@@ -24,18 +24,11 @@ PITCH = {"effects": ["chain_pitch"]}
 
 @pytest.fixture
 def client(tmp_path):
-    client = with_settings(tmp_path)
-    (tmp_path / "marks.toml").write_bytes((EXAMPLE / "marks.toml").read_bytes())
-    project = client.get("/api/project").json()
-    change = {**project["choices"], "marks": ["marks.toml"]}
-    client.put("/api/choices", json={"choices": change, "read": project["choices_digest"]})
-    return client
+    return with_marks(tmp_path)
 
 
 def posted(client, path, body, status=200):
-    answer = client.post(f"/api/bench/{path}", json=body)
-    assert answer.status_code == status, answer.text
-    return answer.json()
+    return got(client.post(f"/api/bench/{path}", json=body), status)
 
 
 def test_the_bench_opens_with_marks_effects_and_covariates(client):
@@ -95,9 +88,7 @@ def test_a_size_held_by_hand_is_used_and_said(client):
 
 def test_lengths_are_said_in_the_unit_that_was_chosen(client):
     body = {"effects": ["sled_swing"], "held": {"sled_swing.up": 2.54}}
-    project = client.get("/api/project").json()
-    change = {**project["choices"], "units": "inch"}
-    client.put("/api/choices", json={"choices": change, "read": project["choices_digest"]})
+    choose(client, units="inch")
     assert "0.1" in (said := posted(client, "fit", body)["sizes"]["sled_swing.up"]["said"])
     assert "inch" in said
 

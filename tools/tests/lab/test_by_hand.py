@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from folder import with_settings
+from folder import choose, got
 from plumb.bench.causes import MAKER
 from plumb.lab.known import readings
 from plumb.plan.separation import FRAME_CHECKS, effect_checks
@@ -13,22 +13,8 @@ WEIGHT = 98.1  # [N]
 EACH = readings(MAKER, WEIGHT)
 
 
-@pytest.fixture
-def client(tmp_path):
-    with with_settings(tmp_path) as client:
-        yield client
-
-
 def shown(client):
-    answer = client.get("/api/known")
-    assert answer.status_code == 200, answer.text
-    return {number["name"]: number for number in answer.json()["numbers"]}
-
-
-def choose(client, **change):
-    project = client.get("/api/project").json()
-    body = {"choices": {**project["choices"], **change}, "read": project["choices_digest"]}
-    assert client.put("/api/choices", json=body).status_code == 200
+    return {number["name"]: number for number in got(client.get("/api/known"))["numbers"]}
 
 
 def test_the_page_asks_for_each_number_that_can_be_measured_directly(client):
@@ -112,7 +98,7 @@ def test_a_virtual_machine_is_measured_by_hand_as_well_as_a_careful_owner_can(cl
     body = {"name": "motor_gap"}
     refused = client.post("/api/known/measured", json=body)
     assert refused.status_code == 422 and "type what you measured" in refused.json()["error"]
-    assert client.post("/api/machine/virtual", json={"hides": "nothing"}).status_code == 200
+    got(client.post("/api/machine/virtual", json={"hides": "nothing"}))
     asked = {**shown(client)}
     owner = client.app.app.state.line.virtual
     for name, number in asked.items():

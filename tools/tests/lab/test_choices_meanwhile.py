@@ -3,22 +3,16 @@
 import json
 
 import pytest
-from folder import EXAMPLE, example_form, with_settings
+from folder import EXAMPLE, example_form, got
 from plumb.lab.project import Project
 
 FORM = "marks.toml"
 
 
 @pytest.fixture
-def client(tmp_path):
-    with with_settings(tmp_path) as client:
-        (tmp_path / FORM).write_text(example_form())
-        yield client
-
-
-@pytest.fixture
-def meanwhile(tmp_path, monkeypatch):
-    """Somebody chooses inches just before the next save."""
+def meanwhile(client, tmp_path, monkeypatch):
+    """Somebody with a form chooses inches just before the next save."""
+    (tmp_path / FORM).write_text(example_form())
     saves, kept = [], Project.save
 
     def overtaken(project, files, *, read):
@@ -83,8 +77,7 @@ def test_a_choice_in_mid_save_is_kept_and_the_save_is_done(
     client, tmp_path, meanwhile, save, chosen
 ):
     (tmp_path / "check.toml").write_text(example_form())
-    answer = save(client)
-    assert answer.status_code == 200, answer.text
+    got(save(client))
     choices = json.loads((tmp_path / "lab.json").read_text())
     assert choices["units"] == "inch" and len(meanwhile) == 2
     assert {name: choices[name] for name in chosen} == chosen

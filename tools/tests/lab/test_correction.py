@@ -1,11 +1,10 @@
 """The correction of the lab: number by number, written, opened, and taken back."""
 
-import time
 from dataclasses import replace
 from itertools import pairwise
 
 import pytest
-from folder import EXAMPLE, compared, with_settings
+from folder import EXAMPLE, awaited, choose, compared, with_marks
 from plumb import api
 from plumb.cure.machine_file import correct, has_setting
 from plumb.diary.file import read_diary
@@ -14,10 +13,7 @@ from plumb.settings.files import read_settings
 
 @pytest.fixture
 def client(tmp_path):
-    client = with_settings(tmp_path)
-    files = {"file": ("marks.toml", (EXAMPLE / "marks.toml").read_bytes())}
-    assert client.post("/api/marks", files=files).status_code == 200
-    return client
+    return with_marks(tmp_path)
 
 
 @pytest.fixture(scope="module")
@@ -26,19 +22,7 @@ def inputs():
 
 
 def shown(client):
-    for _ in range(1200):
-        answer = client.get("/api/correction")
-        assert answer.status_code == 200, answer.text
-        if answer.json()["correction"]:
-            return answer.json()
-        time.sleep(0.05)
-    raise AssertionError("the correction never ends")
-
-
-def choose(client, **change):
-    project = client.get("/api/project").json()
-    body = {"choices": {**project["choices"], **change}, "read": project["choices_digest"]}
-    assert client.put("/api/choices", json=body).status_code == 200
+    return awaited(client, "correction", lambda answer: answer["correction"])
 
 
 def known(client):

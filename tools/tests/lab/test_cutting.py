@@ -2,14 +2,13 @@
 
 import re
 
-import httpx2
+from folder import got
 from lab_machine import PATIENCE, bar, start_virtual
 
 
 def set_speed(lab, speed):
     """Let the lab's virtual machine run this many times as fast as a real machine."""
-    hurry = {"json": {"speed": speed}, "headers": {"X-Plumb-Token": lab.token}, "timeout": 120}
-    assert httpx2.post(f"{lab.site}api/machine/speed", **hurry).status_code == 200
+    got(lab.client().post("/api/machine/speed", json={"speed": speed}))
 
 
 def test_hold_waits_and_stop_gives_up_and_cutting_again_is_read_rightly(lab, page):

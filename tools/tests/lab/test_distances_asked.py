@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from folder import with_settings
+from folder import choose, got
 from plumb.fit.inputs import settings_in
 from plumb.grid import spans_in
 from plumb.lab.routes.grid import _as_asked
@@ -15,27 +15,16 @@ FORM = "marks.toml"
 SIDES = [["1", "3"], ["3", "9"], ["9", "7"], ["7", "1"]]
 
 
-@pytest.fixture
-def client(tmp_path):
-    with with_settings(tmp_path) as client:
-        yield client
-
-
 def chosen(client, layout):
     """The form of a layout, as the page shows it."""
-    project = client.get("/api/project").json()
-    choices = {**project["choices"], "layout": layout}
-    body = {"choices": choices, "read": project["choices_digest"]}
-    assert client.put("/api/choices", json=body).status_code == 200
-    assert client.post("/api/grid").status_code == 200
+    choose(client, layout=layout)
+    got(client.post("/api/grid"))
     return client.get("/api/readings").json()
 
 
 def put(client, form, path, **body):
     body = {"file": form["file"], "digest": form["digest"], **body}
-    answer = client.put(f"/api/{path}", json=body)
-    assert answer.status_code == 200, answer.text
-    return answer.json()
+    return got(client.put(f"/api/{path}", json=body))
 
 
 def test_a_form_of_distances_asks_for_each_in_order_and_keeps_asking(client):

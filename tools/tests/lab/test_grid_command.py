@@ -5,7 +5,7 @@ import shlex
 import shutil
 
 import pytest
-from folder import EXAMPLE, asked
+from folder import EXAMPLE, asked, got
 from plumb.cli.main import main
 
 # Marks by hand: in no order, and with more decimals than a program has.
@@ -25,11 +25,6 @@ def folder(tmp_path, monkeypatch):
 def lab(folder, **choices):
     (folder / "lab.json").write_text(json.dumps({"settings": "groundcontrol.ini", **choices}))
     return asked(folder)
-
-
-def got(answer):
-    assert answer.status_code == 200, answer.text
-    return answer.json()
 
 
 def run(command):

@@ -8,6 +8,7 @@ import pytest
 from attacks import Try, answered, status
 from plumb.lab.app import schema
 from plumb.lab.server import TOKEN_FILE
+from screens import measured_machine
 from served_lab import serve
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
@@ -19,12 +20,7 @@ ROUTES = json.loads(schema())["paths"]
 @pytest.fixture(scope="module")
 def lab(tmp_path_factory):
     """A lab on a machine that was measured."""
-    folder = tmp_path_factory.mktemp("machine")
-    for name in ("groundcontrol.ini", "marks.toml"):
-        (folder / name).write_bytes((EXAMPLE / name).read_bytes())
-    choices = {"settings": "groundcontrol.ini", "marks": ["marks.toml"]}
-    (folder / "lab.json").write_text(json.dumps(choices))
-    served = serve(folder)
+    served = serve(measured_machine(tmp_path_factory.mktemp("machine")))
     yield served
     served.end()
 

@@ -1,37 +1,22 @@
 """The first day on the page: the steps of `plumb guide` on a virtual machine, by the routes."""
 
 import json
-import time
 from threading import Event
 
 import pytest
 from first_day import OWNER
-from folder import asked
+from folder import PATIENCE, asked, awaited, got, until
 from plumb.guide.steps import STEPS
 from plumb.guide.talk import progress_in
-
-PATIENCE = 120  # [s] of a busy computer
 
 
 @pytest.fixture
 def lab(tmp_path):
     with asked(tmp_path) as client:
         got(client.post("/api/machine/virtual", json={"hides": "nothing", "speed": 1000}))
-        await_ready(client)
+        until(client, lambda machine: machine["phase"] == "ready")
         yield client
         client.post("/api/machine/disconnect")
-
-
-def got(answer, status=200):
-    assert answer.status_code == status, answer.text
-    return answer.json()
-
-
-def await_ready(client):
-    end = time.monotonic() + PATIENCE
-    while got(client.get("/api/machine"))["phase"] != "ready":
-        assert time.monotonic() < end
-        time.sleep(0.05)
 
 
 def machine_of(client):
@@ -40,20 +25,13 @@ def machine_of(client):
 
 def next_question(client):
     """What the guide asks next; None if the step has ended."""
-    end = time.monotonic() + PATIENCE
-    while time.monotonic() < end:
-        guide = got(client.get("/api/guide"))
-        if guide["question"] or not guide["here"]:
-            return guide["question"]
-        time.sleep(0.02)
-    raise AssertionError("the guide neither asks nor ends")
+    return awaited(client, "guide", lambda guide: guide["question"] or not guide["here"])[
+        "question"
+    ]
 
 
 def ended(client):
-    end = time.monotonic() + PATIENCE
-    while got(client.get("/api/guide"))["here"]:
-        assert time.monotonic() < end
-        time.sleep(0.02)
+    awaited(client, "guide", lambda guide: not guide["here"])
 
 
 def reply(client, question, text, status=200):
@@ -149,7 +127,7 @@ def test_stop_ends_a_step_that_waits_and_the_line_is_free(lab):
     got(lab.post("/api/machine/stop"))
     ended(lab)
     assert "Stop was pressed" in got(lab.get("/api/guide"))["trouble"]
-    await_ready(lab)
+    until(lab, lambda machine: machine["phase"] == "ready")
 
 
 def test_a_step_lasts_until_the_line_is_free(lab, monkeypatch):

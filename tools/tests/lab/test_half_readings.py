@@ -2,13 +2,13 @@
 
 import re
 import shutil
-import time
 
 import pytest
 from folder import EXAMPLE, example_form
 from playwright.sync_api import expect
 from plumb.grid.pattern import spans_line
 from plumb.marks.form import read_form
+from screens import go_on_until
 
 SHEET = (2438.4, 1219.2)
 LEFT, TOP = "Mark 2 from the left, mm", "Mark 2 from the top, mm"
@@ -40,15 +40,6 @@ def reason(page, name):
 def read_on_disk(lab):
     form = read_form(lab.folder / "marks.toml", sheet=SHEET)
     return len(form.measurements.measured_marks)
-
-
-def until_read_on_disk(lab, count):
-    """Wait until a save of the page has written that number of readings."""
-    for _ in range(600):
-        if read_on_disk(lab) == count:
-            return
-        time.sleep(0.1)
-    raise AssertionError(f"{read_on_disk(lab)} readings on the disk, not {count}")
 
 
 @pytest.mark.parametrize(
@@ -87,7 +78,7 @@ def test_what_another_program_read_meanwhile_is_no_half_any_more(lab, readings):
     whole = (lab.folder / "marks.toml").read_text()
     field(page, LEFT).fill("")
     expect(page.locator(".count")).to_contain_text("22 of 23 marks are read")
-    until_read_on_disk(lab, 22)
+    go_on_until(page, lambda: read_on_disk(lab) == 22)
     (lab.folder / "marks.toml").write_text(whole)
     expect(page.locator(".count")).to_contain_text("23 of 23 marks are read")
     expect(field(page, LEFT)).not_to_have_value("")
@@ -112,14 +103,13 @@ def test_the_sign_of_the_inch_means_inch(lab, readings):
     field(page, TOP).fill("26 1/16 in")
     expect(page.locator(".count")).to_contain_text("23 of 23 marks are read")
     wanted = (4 + 13 / 32) * 25.4, (26 + 1 / 16) * 25.4
-    for _ in range(600):  # a tenth of a second each
+
+    def place():
         form = read_form(lab.folder / "marks.toml", sheet=SHEET)
         x, y = form.measurements.marks[1].measured
-        place = x + SHEET[0] / 2, SHEET[1] / 2 - y
-        if place == pytest.approx(wanted, abs=0.01):
-            break
-        page.wait_for_timeout(100)
-    assert place == pytest.approx(wanted, abs=0.01)
+        return x + SHEET[0] / 2, SHEET[1] / 2 - y
+
+    go_on_until(page, lambda: place() == pytest.approx(wanted, abs=0.01))
 
 
 def test_a_distance_that_is_no_length_does_not_count(lab, page):

@@ -1,28 +1,13 @@
 """The numbers of a machine against those of the open file: marks are cut with neither of two."""
 
-import time
 import tomllib
 
 import pytest
-from folder import EXAMPLE, asked, example_form
+from folder import EXAMPLE, asked, choose, example_form, got, until
 from plumb.firmware.settings import differences, digest_of_numbers, numbers_in_force
 from plumb.settings.files import read_settings
 
-PATIENCE = 120  # [s] of a busy computer
 SHORT = {"noise": 0.1, "hides": "nothing", "speed": 1000}
-
-
-def got(answer, status=200):
-    assert answer.status_code == status, answer.text
-    return answer.json()
-
-
-def until(client, true):
-    end = time.monotonic() + PATIENCE
-    while not true(state := got(client.get("/api/machine"))):
-        assert time.monotonic() < end, state
-        time.sleep(0.02)
-    return state
 
 
 @pytest.fixture(scope="module")
@@ -43,12 +28,6 @@ def folder(client):
     until(client, lambda state: state["phase"] == "ready" and not state["moves"])
     got(client.post("/api/machine/settings"))
     return folder
-
-
-def choose(client, **change):
-    project = got(client.get("/api/project"))
-    body = {"choices": {**project["choices"], **change}, "read": project["choices_digest"]}
-    got(client.put("/api/choices", json=body))
 
 
 def open_other(client, folder, gap="3008.4"):

@@ -2,8 +2,9 @@
 
 import json
 
-import httpx2
 import pytest
+from folder import got
+from screens import go_on_until
 from served_lab import serve
 
 
@@ -11,15 +12,6 @@ def choices(lab):
     """What the folder keeps by now."""
     file = lab.folder / "lab.json"
     return json.loads(file.read_text()) if file.exists() else {}
-
-
-def wait_for(page, condition):
-    """Let the page go on until this is so; fails after a minute."""
-    for _ in range(600):
-        if condition():
-            return
-        page.wait_for_timeout(100)
-    pytest.fail("did not come")
 
 
 @pytest.fixture
@@ -31,7 +23,7 @@ def page_open(lab, page):
 
 def test_a_choice_is_saved_at_once(lab, page_open):
     page_open.get_by_label("inch").check()
-    wait_for(page_open, lambda: choices(lab).get("units") == "inch")
+    go_on_until(page_open, lambda: choices(lab).get("units") == "inch")
 
 
 def test_an_open_page_goes_on_with_a_server_that_was_killed_and_started(lab, page_open):
@@ -43,7 +35,7 @@ def test_an_open_page_goes_on_with_a_server_that_was_killed_and_started(lab, pag
     assert choices(lab) == {}
     again = serve(lab.folder, port=lab.port)
     try:
-        wait_for(page_open, lambda: choices(lab).get("units") == "inch")
+        go_on_until(page_open, lambda: choices(lab).get("units") == "inch")
         page_open.get_by_role("alert").wait_for(state="detached")
         assert "kept" not in page_open.get_by_role("status").inner_text()
     finally:
@@ -58,7 +50,7 @@ def test_a_reload_takes_up_what_was_chosen_while_nobody_answered(lab, page_open)
     again = serve(lab.folder, port=lab.port)
     try:
         page_open.goto(lab.url)
-        wait_for(page_open, lambda: choices(lab).get("units") == "inch")
+        go_on_until(page_open, lambda: choices(lab).get("units") == "inch")
         assert page_open.get_by_label("inch").is_checked()
     finally:
         again.end()
@@ -71,19 +63,19 @@ def test_a_choice_taken_back_while_it_is_saved_stays_taken_back(lab, page_open):
         "**/api/choices", lambda route: route.continue_() if saves else saves.append(route)
     )
     page_open.get_by_label("inch").check()
-    wait_for(page_open, lambda: saves)
+    go_on_until(page_open, lambda: saves)
     page_open.get_by_label("mm").check()
     saves[0].continue_()
-    wait_for(page_open, lambda: choices(lab).get("units") == "mm")
+    go_on_until(page_open, lambda: choices(lab).get("units") == "mm")
     assert page_open.get_by_label("mm").is_checked()
 
 
 def test_a_save_keeps_what_another_program_saved_in_the_meantime(lab, page_open):
     page_open.get_by_label("inch").check()
-    wait_for(page_open, lambda: choices(lab).get("units") == "inch")
+    go_on_until(page_open, lambda: choices(lab).get("units") == "inch")
     (lab.folder / "lab.json").write_text(json.dumps({**choices(lab), "fineness": 0.25}))
     page_open.get_by_label("mm").check()
-    wait_for(page_open, lambda: choices(lab).get("units") == "mm")
+    go_on_until(page_open, lambda: choices(lab).get("units") == "mm")
     assert choices(lab)["fineness"] == 0.25
 
 
@@ -99,12 +91,11 @@ def test_what_another_program_saves_while_a_save_is_under_way_is_kept(lab, page_
 
     page_open.route("**/api/choices", answer_late)
     page_open.get_by_label("inch").check()
-    wait_for(page_open, lambda: late)
+    go_on_until(page_open, lambda: late)
     (lab.folder / "lab.json").write_text(json.dumps({**choices(lab), "fineness": 0.25}))
     page_open.get_by_label("mm").check()
-    asked = httpx2.get(f"{lab.site}api/project", headers={"X-Plumb-Token": lab.token}, timeout=60)
-    late[0].fulfill(body=asked.text, content_type="application/json")
-    wait_for(page_open, lambda: choices(lab).get("units") == "mm")
+    late[0].fulfill(json=got(lab.client().get("/api/project")))
+    go_on_until(page_open, lambda: choices(lab).get("units") == "mm")
     assert choices(lab)["fineness"] == 0.25
 
 
@@ -112,4 +103,4 @@ def test_a_second_tab_of_the_same_browser_needs_no_key_and_sees_the_choice(lab, 
     second = page_open.context.new_page()
     second.goto(lab.site)
     page_open.get_by_label("inch").check()
-    wait_for(second, lambda: second.get_by_label("inch").is_checked())
+    go_on_until(second, lambda: second.get_by_label("inch").is_checked())

@@ -5,8 +5,8 @@ import time
 import tomllib
 from threading import Event
 
-import httpx2
 import pytest
+from folder import got
 from plumb.lab import machine_line
 from plumb.line import worker
 from plumb.line.port import LostError
@@ -29,14 +29,10 @@ def lab(tmp_path_factory):
 @pytest.fixture
 def ask(lab):
     """Asks a route of the lab as its page does: the answer, whose status must be this."""
-    with httpx2.Client(headers={"X-Plumb-Token": lab.token}, timeout=PATIENCE) as client:
+    with lab.client() as client:
 
         def asking(method, path, status=200, **body):
-            answer = client.request(
-                method, f"{lab.site}api/{path}", **({"json": body} if body else {})
-            )
-            assert answer.status_code == status, answer.text
-            return answer.json()
+            return got(client.request(method, f"/api/{path}", json=body or None), status)
 
         asking("POST", "machine/disconnect")
         yield asking

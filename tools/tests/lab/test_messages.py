@@ -9,7 +9,7 @@ from pathlib import Path
 
 import plumb
 import pytest
-from folder import EXAMPLE, with_settings
+from folder import EXAMPLE, got, with_settings
 from plumb.cli.main import COMMANDS, main
 from plumb.lab.machine_line import MachineLine
 from plumb.text.errors import read_on_page, to_do
@@ -78,11 +78,6 @@ def test_no_message_names_an_option_or_a_command():
 def test_the_search_bites(text, is_named):
     named = [node.value for node in shown(ast.parse(text)) if NAMED.search(node.value)]
     assert any(not WORD.fullmatch(value) for value in named) is is_named
-
-
-def got(answer, status=200):
-    assert answer.status_code == status, answer.text
-    return answer.json()
 
 
 def test_what_to_do_is_said_to_who_reads_it(tmp_path, capsys):

@@ -1,7 +1,7 @@
 """From the verdict to more marks and back in a browser: taken, cut, typed, counted."""
 
-import httpx2
 import pytest
+from folder import got
 from lab_machine import PATIENCE, bar, start_virtual
 from playwright.sync_api import expect
 from plumb.marks.form import read_form
@@ -45,11 +45,7 @@ def go_on(page, *, when):
 def what_the_tape_says(lab, form):
     """The readings of a form that waits, by their marks; the folder stays as it is."""
     kept = {name: (lab.folder / name).read_bytes() for name in (form, "lab.json")}
-    headers = {"X-Plumb-Token": lab.token}
-    asked = httpx2.post(
-        f"{lab.site}api/machine/readings", json={"form": form}, headers=headers, timeout=60
-    )
-    assert asked.status_code == 200, asked.text
+    got(lab.client().post("/api/machine/readings", json={"form": form}))
     readings = read_marks(lab.folder / form, sheet=SHEET).readings
     for name, content in kept.items():
         (lab.folder / name).write_bytes(content)

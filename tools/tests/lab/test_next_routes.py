@@ -3,11 +3,10 @@
 import json
 import math
 import shlex
-import time
 from contextlib import contextmanager
 
 import pytest
-from folder import asked
+from folder import asked, finished, got, type_in, until
 from plumb.cli.main import main
 from plumb.marks.form import head_of, read_form, toml_text
 from plumb.marks.read import Measurements
@@ -15,7 +14,6 @@ from plumb.settings.toml import write_machine_toml
 from plumb.vm.owner import VirtualOwner
 from synthetic import BELIEVED, SHEET, TRUE, grid, marks_on
 
-PATIENCE = 120  # [s]
 MARKS = "marks.toml"
 BEFORE = {"machine.toml", MARKS, "lab.json"}
 
@@ -54,24 +52,9 @@ def choose(folder, **choices):
     (folder / "lab.json").write_text(json.dumps(said))
 
 
-def got(answer, status=200):
-    assert answer.status_code == status, answer.text
-    return answer.json()
-
-
-def finished(client):
-    end = time.monotonic() + PATIENCE
-    while time.monotonic() < end:
-        answer = got(client.get("/api/next"))
-        if answer["share"] == 1:
-            return answer
-        time.sleep(0.05)
-    raise AssertionError("the proposal never ends")
-
-
 def takings(client):
     """What can be taken, by its title."""
-    proposed = finished(client)["next"]
+    proposed = finished(client, "next")["next"]
     each = {other["title"]: other["taking"] for other in proposed["others"]}
     each |= {proposed["headline"]: proposed["taking"]}
     return {title: taking for title, taking in each.items() if taking}
@@ -91,25 +74,6 @@ def names(folder):
     names = {path.name for path in folder.iterdir()} - {".lab.lock"}
     # The lab keeps the settings of each form by their digest.
     return {name for name in names if not name.startswith(".settings-")}
-
-
-def typed(client, file, off=0.0):
-    """Each mark of a form is read so far [mm] from where it was sent."""
-    form = got(client.get("/api/readings", params={"file": file}))
-    readings = [
-        {"index": mark["index"], "read": [mark["meant"][0] + off, mark["meant"][1]]}
-        for mark in form["marks"]
-    ]
-    body = {"file": file, "digest": form["digest"], "edges": "top-left", "readings": readings}
-    return got(client.put("/api/readings", json=body))
-
-
-def until(client, true):
-    end = time.monotonic() + PATIENCE
-    while not true(state := got(client.get("/api/machine"))):
-        assert time.monotonic() < end, state
-        time.sleep(0.02)
-    return state
 
 
 @contextmanager
@@ -155,7 +119,7 @@ def test_marks_that_were_taken_are_cut_read_and_counted(client, folder):
     first, last = (pause["lines"] for pause in shown["pauses"])
     assert first < lines[0] and lines == sorted(lines) and lines[-1] < last
     assert got(client.get("/api/readings"))["file"] == "more.toml"
-    typed(client, "more.toml", off=2.0)
+    type_in(client, "more.toml", (2.0, 0))
     assert got(client.get("/api/project"))["choices"]["marks"] == [MARKS, "more.toml"]
     assert len(got(client.get("/api/bench"))["marks"]) == 13
     assert got(client.get("/api/grid"))["program"] == "grid-2.nc"

@@ -2,28 +2,25 @@
 marks."""
 
 import pytest
-from folder import EXAMPLE, asked, compared, example_form, with_settings
+from folder import (
+    EXAMPLE,
+    asked,
+    choose,
+    compared,
+    example_form,
+    got,
+    type_in,
+    with_marks,
+    with_settings,
+)
 from plumb.settings.files import read_settings
 
 INI = (EXAMPLE / "groundcontrol.ini").read_bytes()
 OTHER = INI.replace(b"2978.4", b"2990.0")
 
 
-def got(answer, status=200):
-    assert answer.status_code == status, answer.text
-    return answer.json()
-
-
 def open_file(client, content, name="groundcontrol.ini"):
     return got(client.post("/api/settings", files={"file": (name, content)}))["choices"]["settings"]
-
-
-def fill_in(client, form="marks.toml"):
-    """Read the marks of a form where they were sent."""
-    shown = got(client.get("/api/readings", params={"file": form}))
-    readings = [{"index": mark["index"], "read": mark["meant"]} for mark in shown["marks"]]
-    body = {key: shown[key] for key in ("file", "digest", "edges")}
-    got(client.put("/api/readings", json={**body, "readings": readings}))
 
 
 def choices(client):
@@ -43,13 +40,8 @@ def test_another_file_is_opened_next_to_the_first_and_the_first_is_opened_again(
 
 
 def test_readings_count_after_another_file_was_opened_and_go_back_leads_to_the_first(tmp_path):
-    client = with_settings(tmp_path)
-    files = {"file": ("marks.toml", (EXAMPLE / "marks.toml").read_bytes())}
-    got(client.post("/api/marks", files=files))
-    project = got(client.get("/api/project"))
-    wanted = {**project["choices"], "accepted": ["motor_gap"]}
-    got(client.put("/api/choices", json={"choices": wanted, "read": project["choices_digest"]}))
-    project = got(client.get("/api/project"))
+    client = with_marks(tmp_path)
+    project = choose(client, accepted=["motor_gap"])
     known = {
         "settings": project["files"]["groundcontrol.ini"],
         "choices": project["choices_digest"],
@@ -68,7 +60,7 @@ def test_readings_count_after_another_file_was_opened_and_go_back_leads_to_the_f
 def test_readings_find_their_settings_though_a_program_replaced_the_file(tmp_path, then):
     client = with_settings(tmp_path)
     got(client.post("/api/grid"))
-    fill_in(client)
+    type_in(client, "marks.toml", (0, 0))
     first = compared(tmp_path).rms
     path = tmp_path / "groundcontrol.ini"
     if then == "replaced":
@@ -87,7 +79,7 @@ def test_readings_find_their_settings_though_a_program_replaced_the_file(tmp_pat
 def test_settings_that_nobody_kept_are_missed_as_before(tmp_path):
     client = with_settings(tmp_path)
     got(client.post("/api/grid"))
-    fill_in(client)
+    type_in(client, "marks.toml", (0, 0))
     for kept in tmp_path.glob(".settings-*"):
         kept.unlink()
     (tmp_path / "groundcontrol.ini").write_bytes(OTHER)

@@ -5,6 +5,7 @@ from folder import asked, example_form, with_settings
 from playwright.sync_api import expect
 from plumb.lab.guard import Editor, OtherTabError
 from plumb.marks.form import read_form
+from screens import go_on_until
 from test_readings_page import LEFT, SHEET, await_saved, open_readings, saved, type_in, with_form
 
 SAID = "This folder is open in another tab."
@@ -131,11 +132,7 @@ def test_a_file_that_a_program_changes_while_somebody_types_is_asked_about(
     first.get_by_role("button", name=answer).click()
     expect(first.get_by_text("The file has changed on disk")).to_have_count(0)
     expect(cell(first)).to_have_value("98" if "1" in kept else "")
-    for _ in range(100):  # a tenth of a second each
-        if on_disk(lab) == kept:
-            return
-        first.wait_for_timeout(100)
-    assert on_disk(lab) == kept
+    go_on_until(first, lambda: on_disk(lab) == kept)
 
 
 def test_the_right_goes_to_the_next_tab_that_is_open():

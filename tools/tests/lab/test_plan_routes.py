@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from folder import EXAMPLE, asked, with_settings
+from folder import EXAMPLE, asked, choose, got
 from plumb.bench.causes import MAKER
 from plumb.cli.main import main
 from plumb.fit.compare import best_pose
@@ -21,34 +21,17 @@ from plumb.line.sender import cleaned
 from plumb.model.predict import lengths, places
 
 
-@pytest.fixture
-def lab(tmp_path):
-    with with_settings(tmp_path) as client:
-        yield client
-
-
-def got(answer, status=200):
-    assert answer.status_code == status, answer.text
-    return answer.json()
-
-
-def choose(lab, **changes):
-    project = got(lab.get("/api/project"))
-    body = {"choices": {**project["choices"], **changes}, "read": project["choices_digest"]}
-    return got(lab.put("/api/choices", json=body))
-
-
 def test_without_settings_a_line_says_what_is_missing(tmp_path):
-    with asked(tmp_path) as lab:
+    with asked(tmp_path) as client:
         for path in ("known", "reach", "layouts", "grid"):
-            assert "open the settings" in got(lab.get(f"/api/{path}"), 422)["error"]
+            assert "open the settings" in got(client.get(f"/api/{path}"), 422)["error"]
 
 
-def test_known_numbers_are_asked_as_they_are_measured(lab):
-    known = {number["name"]: number for number in got(lab.get("/api/known"))["numbers"]}
-    frame = got(lab.get("/api/project"))["machine"]["frame"]
+def test_known_numbers_are_asked_as_they_are_measured(client):
+    known = {number["name"]: number for number in got(client.get("/api/known"))["numbers"]}
+    frame = got(client.get("/api/project"))["machine"]["frame"]
     height = known["motor_height"]
-    edge = got(lab.get("/api/project"))["machine"]["sheet"][1] / 2
+    edge = got(client.get("/api/project"))["machine"]["sheet"][1] / 2
     assert height["believed"] == pytest.approx(frame["motor_height"] - edge)
     for name in ("motor_gap", "motor_height", "rotation_radius", "sled_weight"):
         number = known[name]
@@ -74,17 +57,17 @@ def test_what_is_known_goes_into_the_fit(tmp_path):
     assert statements.priors == {**PRIORS, "rotation_radius": 5.0}
 
 
-def test_the_verdict_goes_by_what_is_known(lab, tmp_path):
+def test_the_verdict_goes_by_what_is_known(client, tmp_path):
     (tmp_path / "marks.toml").write_bytes((EXAMPLE / "marks.toml").read_bytes())
-    choose(lab, marks=["marks.toml"], known={"motor_gap": {"value": 2990.0, "sigma": 0.5}})
+    choose(client, marks=["marks.toml"], known={"motor_gap": {"value": 2990.0, "sigma": 0.5}})
     inputs = inputs_of(Project(tmp_path))
     assert [(check.name, check.value) for check in inputs.checked] == [("motor_gap", 2990.0)]
 
 
 def test_reach_says_what_the_command_says_and_how_far_off_is_normal(
-    lab, tmp_path, capsys, monkeypatch
+    client, tmp_path, capsys, monkeypatch
 ):
-    answer = got(lab.get("/api/reach"))
+    answer = got(client.get("/api/reach"))
     assert len(answer["verdicts"]) == answer["columns"] * answer["rows"]
     assert main(["reach", str(tmp_path / "groundcontrol.ini")]) == 0
     printed = " ".join(capsys.readouterr().out.split())
@@ -93,8 +76,8 @@ def test_reach_says_what_the_command_says_and_how_far_off_is_normal(
     assert usable == pytest.approx(float(answer["shares"]["usable"].rstrip(" %")) / 100, abs=0.05)
     expected = answer["expected"]
     assert 1 < expected["among_marks_mm"] < expected["whole_mm"] < 50
-    choose(lab, known={"motor_gap": {"value": 2990.0, "sigma": 0.5}}, units="inch")
-    better = got(lab.get("/api/reach"))
+    choose(client, known={"motor_gap": {"value": 2990.0, "sigma": 0.5}}, units="inch")
+    better = got(client.get("/api/reach"))
     assert better["expected"]["among_marks_mm"] < expected["among_marks_mm"]
     assert "--prior motor_gap=0.5" in better["command"]
     monkeypatch.chdir(tmp_path)
@@ -127,8 +110,8 @@ def test_the_expected_error_is_what_wrong_numbers_make():
     assert expected.shape == pytest.approx(np.sqrt(np.mean(shape)), rel=0.1)
 
 
-def test_layouts_have_their_marks_and_minutes(lab):
-    layouts = {layout["id"]: layout for layout in got(lab.get("/api/layouts"))}
+def test_layouts_have_their_marks_and_minutes(client):
+    layouts = {layout["id"]: layout for layout in got(client.get("/api/layouts"))}
     assert [layouts[name]["marks"] for name in ("nine", "fifteen", "twenty-five")] == [9, 15, 25]
     minutes = [layouts[name]["minutes"] for name in ("nine", "distances", "fifteen", "twenty-five")]
     assert minutes == sorted(minutes)
@@ -136,10 +119,10 @@ def test_layouts_have_their_marks_and_minutes(lab):
     assert layouts["nine"]["places"][0][0] < 0 < layouts["nine"]["places"][0][1]
 
 
-def test_a_plan_tells_what_the_command_tells(lab, tmp_path, capsys):
-    answer = got(lab.post("/api/preview", json={"layout": "fifteen"}))
-    choose(lab, layout="fifteen")
-    got(lab.post("/api/grid"))
+def test_a_plan_tells_what_the_command_tells(client, tmp_path, capsys):
+    answer = got(client.post("/api/preview", json={"layout": "fifteen"}))
+    choose(client, layout="fifteen")
+    got(client.post("/api/grid"))
     words = answer["command"].splitlines()[-1].split()[1:]
     assert words[1:3] == ["groundcontrol.ini", "marks.toml"]
     words[1:3] = [str(tmp_path / name) for name in words[1:3]]
@@ -154,37 +137,38 @@ def test_a_plan_tells_what_the_command_tells(lab, tmp_path, capsys):
     assert answer["trouble"] == ""
 
 
-def test_what_is_known_makes_a_plan_tell_more(lab):
+def test_what_is_known_makes_a_plan_tell_more(client):
     body = {"layout": "nine"}
-    before = got(lab.post("/api/preview", json=body))
-    choose(lab, known={"motor_gap": {"value": 2978.4, "sigma": 0.3}})
-    after = got(lab.post("/api/preview", json=body))
+    before = got(client.post("/api/preview", json=body))
+    choose(client, known={"motor_gap": {"value": 2978.4, "sigma": 0.3}})
+    after = got(client.post("/api/preview", json=body))
     assert after["pairs"] > before["pairs"]
     assert "--prior motor_gap=0.29" in after["command"]
 
 
-def test_more_marks_tell_more(lab):
+def test_more_marks_tell_more(client):
     few, many = (
-        got(lab.post("/api/preview", json={"layout": layout})) for layout in ("nine", "twenty-five")
+        got(client.post("/api/preview", json={"layout": layout}))
+        for layout in ("nine", "twenty-five")
     )
     assert many["pairs"] > few["pairs"] and many["minutes"] > few["minutes"]
     places = [[-900, 400], [900, 400], [0, -400]]
-    mine = got(lab.post("/api/preview", json={"layout": "own", "places": places}))
+    mine = got(client.post("/api/preview", json={"layout": "own", "places": places}))
     assert mine["marks"] == 3 and mine["pairs"] < few["pairs"]
 
 
-def test_what_cannot_be_planned_is_said(lab):
+def test_what_cannot_be_planned_is_said(client):
     places = [[-900, 400], [5000, 400], [0, -400]]
     asked = {"layout": "own", "places": places}
-    answer = lab.post("/api/preview", json=asked)
+    answer = client.post("/api/preview", json=asked)
     assert "outside the sheet" in answer.json().get("trouble", "") + answer.json().get("error", "")
-    two = got(lab.post("/api/preview", json={"layout": "own", "places": places[:1]}), 422)
+    two = got(client.post("/api/preview", json={"layout": "own", "places": places[:1]}), 422)
     assert "too few marks" in two["error"]
 
 
-def test_additions_come_best_first(lab):
-    before = got(lab.post("/api/preview", json={"layout": "nine"}))
-    best, *_ = got(lab.post("/api/preview/additions", json={"layout": "nine"}))
+def test_additions_come_best_first(client):
+    before = got(client.post("/api/preview", json={"layout": "nine"}))
+    best, *_ = got(client.post("/api/preview/additions", json={"layout": "nine"}))
     assert best["pairs_told_apart"] > before["pairs"] and best["do"] and best["minutes"] > 0
 
 
@@ -207,8 +191,8 @@ def test_places_of_a_grid_are_checked_and_cut_in_their_order():
         program(grid._replace(places=((0.0, 700.0),)), PlainMachine())
 
 
-def test_program_and_form_are_written_and_no_reading_is_overwritten(lab, tmp_path):
-    before = got(lab.get("/api/grid"))
+def test_program_and_form_are_written_and_no_reading_is_overwritten(client, tmp_path):
+    before = got(client.get("/api/grid"))
     assert not before["is_saved"] and before["trouble"] == ""
     assert (before["form"], before["program"]) == ("marks.toml", "grid.nc")
     lines = list(cleaned(before["text"].splitlines()))
@@ -217,26 +201,26 @@ def test_program_and_form_are_written_and_no_reading_is_overwritten(lab, tmp_pat
         assert lines[mark["lines"] - 3] == f"G1 X{x:g} Y{y:g} F700"
         assert lines[mark["lines"] - 2].startswith("G1 Z-0.5")
     assert [mark["name"] for mark in before["marks"]] == list("123654789")
-    got(lab.post("/api/grid"))
-    after = got(lab.get("/api/grid"))
+    got(client.post("/api/grid"))
+    after = got(client.get("/api/grid"))
     assert after["is_saved"] and after["waits"] == 9
     form_line = "(form: marks.toml)\n"
     assert (tmp_path / "grid.nc").read_text().replace(form_line, "") == after["text"]
     form = tomllib.loads((tmp_path / "marks.toml").read_text())
     assert form["cut_with"] == "groundcontrol.ini" and len(form["mark"]) == 9
-    choose(lab, layout="fifteen")
-    assert got(lab.get("/api/grid"))["form"] == "marks.toml"  # nothing was read yet
+    choose(client, layout="fifteen")
+    assert got(client.get("/api/grid"))["form"] == "marks.toml"  # nothing was read yet
     text = (tmp_path / "marks.toml").read_text()
     read = text.replace("# measured = [ , ]", "measured = [101.0, 102.0]", 1)
     (tmp_path / "marks.toml").write_text(read)
-    got(lab.post("/api/grid"))
+    got(client.post("/api/grid"))
     assert (tmp_path / "marks.toml").read_text() == read
     form = tomllib.loads((tmp_path / "marks-2.toml").read_text())
     assert len(form["mark"]) == 15 and (tmp_path / "grid-2.nc").exists()
 
 
-def test_the_program_is_that_of_the_command(lab, tmp_path):
-    got(lab.post("/api/grid"))
+def test_the_program_is_that_of_the_command(client, tmp_path):
+    got(client.post("/api/grid"))
     settings = str(tmp_path / "groundcontrol.ini")
     words = ["grid", "--settings", settings, "--preset", "nine"]
     main([*words, "--output", str(tmp_path / "same.nc"), "--marks", str(tmp_path / "same.toml")])
@@ -245,9 +229,9 @@ def test_the_program_is_that_of_the_command(lab, tmp_path):
     assert (tmp_path / "same.toml").read_text() == (tmp_path / "marks.toml").read_text()
 
 
-def test_a_form_of_distances_names_them(lab, tmp_path):
-    choose(lab, layout="distances")
-    got(lab.post("/api/grid"))
+def test_a_form_of_distances_names_them(client, tmp_path):
+    choose(client, layout="distances")
+    got(client.post("/api/grid"))
     text = (tmp_path / "marks.toml").read_text()
     assert text.count("# [[distance]]") == 12 and '# between = ["1", "9"]' in text
     plan = planned(MAKER, "distances", ()).as_measured()
@@ -255,9 +239,9 @@ def test_a_form_of_distances_names_them(lab, tmp_path):
     assert lengths["1", "3"] == pytest.approx(2238.4)
 
 
-def test_a_grid_is_not_cut_without_a_machine(lab, tmp_path):
-    assert "connect it first" in got(lab.post("/api/grid/cut"), 422)["error"]
+def test_a_grid_is_not_cut_without_a_machine(client, tmp_path):
+    assert "connect it first" in got(client.post("/api/grid/cut"), 422)["error"]
     assert (
         "of a virtual machine"
-        in got(lab.post("/api/machine/readings", json={"form": "marks.toml"}), 422)["error"]
+        in got(client.post("/api/machine/readings", json={"form": "marks.toml"}), 422)["error"]
     )

@@ -5,6 +5,7 @@ import re
 
 import pytest
 from folder import EXAMPLE
+from screens import go_on_until
 
 PATIENCE = 300_000  # [ms] of a busy computer
 
@@ -23,14 +24,6 @@ def choices(lab):
     return json.loads((lab.folder / "lab.json").read_text())
 
 
-def until(page, true):
-    for _ in range(300):
-        if true():
-            return
-        page.wait_for_timeout(100)
-    pytest.fail("did not come")
-
-
 def cells(page):
     """How many cells of effect against effect count as apart."""
     text = page.get_by_text(re.compile("Effect against effect: ")).inner_text()
@@ -43,28 +36,28 @@ def test_marks_are_chosen_dragged_added_and_taken_away(lab, opened):
     page.get_by_text(re.compile("Effect against effect: ")).wait_for(timeout=PATIENCE)
     nine = cells(page)
     page.get_by_label(re.compile("Twenty-five marks")).check()
-    until(page, lambda: cells(page) > nine)
+    go_on_until(page, lambda: cells(page) > nine)
     assert choices(lab)["layout"] == "twenty-five"
     page.get_by_label(re.compile("^Nine marks")).check()
-    until(page, lambda: cells(page) == nine)
+    go_on_until(page, lambda: cells(page) == nine)
     first = page.get_by_role("button", name=re.compile(r"^Mark 1 at"))
     box = first.bounding_box()
     page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     page.mouse.down()
     page.mouse.move(box["x"] + 90, box["y"] + 80, steps=4)
     page.mouse.up()
-    until(page, lambda: choices(lab)["layout"] == "own")
+    go_on_until(page, lambda: choices(lab)["layout"] == "own")
     moved = choices(lab)["planned"]
     assert len(moved) == 9 and moved[1] == [0, 509.6]
     assert moved[0][0] > -1119 and moved[0][1] < 509
     first.focus()
     page.keyboard.press("ArrowRight")
-    until(page, lambda: choices(lab)["planned"][0][0] == moved[0][0] + 25)
+    go_on_until(page, lambda: choices(lab)["planned"][0][0] == moved[0][0] + 25)
     page.keyboard.press("Delete")
-    until(page, lambda: len(choices(lab)["planned"]) == 8)
+    go_on_until(page, lambda: len(choices(lab)["planned"]) == 8)
     page.get_by_role("button", name="Add a mark in the middle").click()
-    until(page, lambda: choices(lab)["planned"][-1] == [0, 0])
-    until(page, lambda: cells(page) != nine)
+    go_on_until(page, lambda: choices(lab)["planned"][-1] == [0, 0])
+    go_on_until(page, lambda: cells(page) != nine)
 
 
 def test_what_is_known_is_kept_and_makes_less_error_normal(lab, opened):
@@ -78,12 +71,14 @@ def test_what_is_known_is_kept_and_makes_less_error_normal(lab, opened):
     gap.fill("2982,5")
     page.get_by_role("textbox", name=re.compile("the gap.*how far it may be off")).fill("0,8")
     page.keyboard.press("Tab")
-    until(page, lambda: choices(lab).get("known") == {"motor_gap": {"value": 2982.5, "sigma": 0.8}})
+    go_on_until(
+        page, lambda: choices(lab).get("known") == {"motor_gap": {"value": 2982.5, "sigma": 0.8}}
+    )
     gap.fill("about two")
     page.keyboard.press("Tab")
     page.get_by_text(re.compile("Type a number, like")).wait_for()
     # What cannot be read does not count, and the number before it no more.
-    until(page, lambda: "motor_gap" not in (choices(lab).get("known") or {}))
+    go_on_until(page, lambda: "motor_gap" not in (choices(lab).get("known") or {}))
     gap.fill("298")
     page.keyboard.press("Tab")
     refused = page.get_by_role("alert").filter(has_text="298.0 mm is far from the 2978.4 mm")
@@ -107,7 +102,7 @@ def test_who_comes_for_a_number_sees_it_and_types_what_is_read(lab, opened):
     assert lean.bounding_box()["y"] < 900
     lean.fill("15")
     page.keyboard.press("Tab")
-    until(page, lambda: choices(lab).get("known"))
+    go_on_until(page, lambda: choices(lab).get("known"))
     known = choices(lab)["known"]["frame_lean.tangent_squared"]
     assert known["value"] == pytest.approx(0.0718, abs=1e-4)
     assert known["sigma"] == pytest.approx(0.005, rel=0.1)

@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from folder import EXAMPLE, example_form, with_settings
+from folder import EXAMPLE, choose, example_form, got
 from plumb.lab.routes import readings
 from plumb.marks.form import read_form
 from plumb.marks.read import read_marks
@@ -11,27 +11,14 @@ from plumb.marks.read import read_marks
 SHEET = (2438.4, 1219.2)
 
 
-@pytest.fixture
-def client(tmp_path):
-    return with_settings(tmp_path)
-
-
 def shown(client, **query):
-    answer = client.get("/api/readings", params=query)
-    assert answer.status_code == 200, answer.text
-    return answer.json()
+    return got(client.get("/api/readings", params=query))
 
 
 def put(client, typed, *, digest, file="marks.toml", edges="top-left"):
     rows = [{"index": index, "read": read} for index, read in typed.items()]
     body = {"file": file, "digest": digest, "edges": edges, "readings": rows}
     return client.put("/api/readings", json=body)
-
-
-def choose(client, **change):
-    project = client.get("/api/project").json()
-    body = {"choices": {**project["choices"], **change}, "read": project["choices_digest"]}
-    assert client.put("/api/choices", json=body).status_code == 200
 
 
 def test_a_reading_is_in_the_file_at_once_and_the_command_line_reads_it(client, tmp_path):

@@ -9,6 +9,7 @@ from playwright.sync_api import expect
 from plumb.cli.main import main
 from plumb.grid.pattern import spans_line
 from plumb.marks.read import read_marks
+from screens import go_on_until
 
 SHEET = (2438.4, 1219.2)
 PATIENCE = 300_000  # [ms] of a busy computer
@@ -45,11 +46,7 @@ def saved(lab):
 
 
 def await_saved(lab, page, expected):
-    for _ in range(600):  # a tenth of a second each
-        if saved(lab) == expected:
-            return
-        page.wait_for_timeout(100)
-    assert saved(lab) == expected
+    go_on_until(page, lambda: saved(lab) == expected)
 
 
 def test_what_is_typed_is_saved_and_a_reload_keeps_the_rest(lab, page):

@@ -5,8 +5,10 @@ import shutil
 import tomllib
 
 import pytest
-from folder import EXAMPLE, asked
+from folder import EXAMPLE, asked, got, type_in
 from plumb.diary.file import FIT, append
+
+FORM = "check.toml"
 
 
 @pytest.fixture
@@ -17,50 +19,33 @@ def client(tmp_path):
     return asked(tmp_path)
 
 
-def shown(client):
-    answer = client.get("/api/check")
-    assert answer.status_code == 200, answer.text
-    return answer.json()
-
-
-def type_in(client, offsets):
-    form = client.get("/api/readings", params={"file": "check.toml"}).json()
-    readings = [
-        {"index": mark["index"], "read": [mark["meant"][0] + x, mark["meant"][1] + y]}
-        for mark, (x, y) in zip(form["marks"], offsets, strict=True)
-    ]
-    body = {**{key: form[key] for key in ("file", "digest", "edges")}, "readings": readings}
-    answer = client.put("/api/readings", json=body)
-    assert answer.status_code == 200, answer.text
-
-
 def test_planned_cut_read_and_judged(client, tmp_path):
-    plan = shown(client)
+    plan = got(client.get("/api/check"))
     assert (plan["is_saved"], len(plan["places"]), plan["sentence"]) == (False, 2, "")
     assert not (tmp_path / "check.toml").exists()
-    assert client.post("/api/check").status_code == 200
+    got(client.post("/api/check"))
     assert 'cut_with = "machine.toml"' in (tmp_path / "check.toml").read_text()
     assert "G1" in (tmp_path / "check.nc").read_text()
-    assert shown(client)["places"] == plan["places"]
-    type_in(client, [(0.3, 0.1), (-0.2, 0.4)])
-    good = shown(client)
+    assert got(client.get("/api/check"))["places"] == plan["places"]
+    type_in(client, FORM, (0.3, 0.1), (-0.2, 0.4))
+    good = got(client.get("/api/check"))
     assert good["holds"] and good["sentence"].startswith("Promised: within 1.")
     assert "off by 0." in good["sentence"]
-    type_in(client, [(0.3, 0.1), (-4, 0.4)])
-    bad = shown(client)
+    type_in(client, FORM, (0.3, 0.1), (-4, 0.4))
+    bad = got(client.get("/api/check"))
     assert not bad["holds"] and "at mark 2" in bad["sentence"]
 
 
 def test_check_marks_take_no_part_unless_somebody_says_so(client, tmp_path):
     client.post("/api/check")
-    type_in(client, [(0.3, 0.1), (-0.2, 0.4)])
+    type_in(client, FORM, (0.3, 0.1), (-0.2, 0.4))
     assert client.get("/api/project").json()["choices"]["marks"] == ["marks.toml"]
     names = [file["name"] for file in client.get("/api/readings").json()["files"]]
     assert names == ["marks.toml"]
-    before = len(client.get("/api/bench").json()["marks"])
-    assert client.post("/api/check/use").status_code == 200
-    assert len(client.get("/api/bench").json()["marks"]) == before + 2
-    assert shown(client)["is_used"]
+    before = len(got(client.get("/api/bench"))["marks"])
+    got(client.post("/api/check/use"))
+    assert len(got(client.get("/api/bench"))["marks"]) == before + 2
+    assert got(client.get("/api/check"))["is_used"]
 
 
 def places_in(form):
@@ -71,11 +56,11 @@ def places_in(form):
 def test_a_second_round_gets_other_places_and_keeps_the_first(client, tmp_path):
     client.post("/api/check")
     kept = (tmp_path / "check.toml").read_bytes()
-    assert client.post("/api/check").status_code == 200
+    got(client.post("/api/check"))
     assert (tmp_path / "check.toml").read_bytes() == kept
-    type_in(client, [(0.3, 0.1), (-0.2, 0.4)])
-    assert client.post("/api/check").status_code == 200
-    assert shown(client)["form"] == "check-2.toml"
+    type_in(client, FORM, (0.3, 0.1), (-0.2, 0.4))
+    got(client.post("/api/check"))
+    assert got(client.get("/api/check"))["form"] == "check-2.toml"
     assert (tmp_path / "check.toml").read_bytes() != kept
     first, second = (places_in(tmp_path / name) for name in ("check.toml", "check-2.toml"))
     assert min(math.dist(here, there) for here in first for there in second) > 100
@@ -83,7 +68,7 @@ def test_a_second_round_gets_other_places_and_keeps_the_first(client, tmp_path):
 
 def test_nothing_is_promised_before_a_fit(client, tmp_path):
     (tmp_path / "lab.json").write_text('{"settings": "groundcontrol.ini", "marks": ["marks.toml"]}')
-    assert "write a correction first" in shown(client)["trouble"]
+    assert "write a correction first" in got(client.get("/api/check"))["trouble"]
 
 
 def test_the_diary_shows_each_fit_and_numbers_that_moved(client, tmp_path):

@@ -3,11 +3,10 @@
 import json
 import re
 import shlex
-import time
 import tomllib
 
 import pytest
-from folder import EXAMPLE, compared, with_settings
+from folder import EXAMPLE, choose, compared, finished, got, type_in, with_marks
 from plumb.cli.main import build_parser, main
 from scipy.special import chdtri
 
@@ -18,38 +17,13 @@ KNOWN = {
     "chain_pitch.left": {"value": 0.004, "sigma": 0.0002},
 }
 PLACES = [[-900, 400], [900, 400], [0, -400]]
-PATIENCE = 120  # [s]
 
 
 @pytest.fixture
 def client(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    with with_settings(tmp_path) as client:
-        (tmp_path / "marks.toml").write_bytes((EXAMPLE / "marks.toml").read_bytes())
-        choose(client, marks=["marks.toml"])
+    with with_marks(tmp_path) as client:
         yield client
-
-
-def choose(client, **changes):
-    project = client.get("/api/project").json()
-    body = {"choices": {**project["choices"], **changes}, "read": project["choices_digest"]}
-    answer = client.put("/api/choices", json=body)
-    assert answer.status_code == 200, answer.text
-
-
-def got(answer):
-    assert answer.status_code == 200, answer.text
-    return answer.json()
-
-
-def finished(client, path):
-    end = time.monotonic() + PATIENCE
-    while time.monotonic() < end:
-        answer = got(client.get(f"/api/{path}"))
-        if answer["share"] == 1:
-            return answer
-        time.sleep(0.05)
-    raise AssertionError(f"{path} never ends")
 
 
 def said_by(command, capsys):
@@ -209,13 +183,7 @@ def test_the_check(client, tmp_path, capsys, off, holds):
         (tmp_path / name).write_bytes((EXAMPLE / name).read_bytes())
     choose(client, settings="machine.toml", known=KNOWN, units="inch")
     got(client.post("/api/check"))
-    form = got(client.get("/api/readings", params={"file": "check.toml"}))
-    readings = [
-        {"index": mark["index"], "read": [mark["meant"][0], mark["meant"][1] + off]}
-        for mark in form["marks"]
-    ]
-    body = {**{key: form[key] for key in ("file", "digest", "edges")}, "readings": readings}
-    got(client.put("/api/readings", json=body))
+    type_in(client, "check.toml", (0, off))
     shown = got(client.get("/api/check"))
     assert shown["holds"] is holds
     command = shlex.split(shown["command"])[1:]

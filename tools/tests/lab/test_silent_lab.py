@@ -3,8 +3,8 @@
 import re
 import signal
 
-import httpx2
 import pytest
+from folder import got
 from lab_machine import PATIENCE, bar, start_virtual
 from playwright.sync_api import expect
 from served_lab import serve
@@ -70,9 +70,8 @@ def test_stop_comes_through_while_the_browser_has_no_connection_left(lab, cuttin
 
 def test_a_machine_whose_line_is_lost_is_stopped_at_its_power_switch(lab, page, cable):
     path, pulled = cable
-    headers = {"X-Plumb-Token": lab.token}
     page.goto(lab.url)
-    httpx2.post(f"{lab.site}api/machine/board", json={"port": path}, headers=headers, timeout=60)
+    got(lab.client().post("/api/machine/board", json={"port": path}))
     expect(bar(page)).to_contain_text("stands", timeout=PATIENCE)
     pulled.set()
     expect(bar(page)).to_contain_text(f"{UNREACHABLE}.", timeout=PATIENCE)

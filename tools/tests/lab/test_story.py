@@ -4,8 +4,8 @@ import re
 import tomllib
 from itertools import pairwise
 
-import httpx2
 import pytest
+from folder import got
 from lab_machine import start_virtual
 from playwright.sync_api import expect
 from plumb.marks.read import read_marks
@@ -55,8 +55,7 @@ class Visit:
 
     def number(self, number):
         """A number as the machine itself says it."""
-        asked = {"headers": {"X-Plumb-Token": self.lab.token}, "timeout": 60}
-        said = httpx2.post(f"{self.lab.site}api/machine/line", json={"text": "$$"}, **asked).json()
+        said = got(self.lab.client().post("/api/machine/line", json={"text": "$$"}))
         return float(re.search(rf"^\${number}=(\S+)", "\n".join(said), re.MULTILINE)[1])
 
 

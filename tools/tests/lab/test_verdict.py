@@ -3,37 +3,19 @@
 import time
 
 import pytest
-from folder import EXAMPLE, example_form, with_settings
+from folder import PATIENCE, choose, example_form, finished, got, with_marks
 from plumb import api
 from plumb.diagnosis.answer import verdict_sentence
 from plumb.text.errors import read_on_page
 
-PATIENCE = 60  # [s]
-
 
 @pytest.fixture
 def client(tmp_path):
-    client = with_settings(tmp_path)
-    (tmp_path / "marks.toml").write_bytes((EXAMPLE / "marks.toml").read_bytes())
-    files = {"file": ("marks.toml", (EXAMPLE / "marks.toml").read_bytes())}
-    (tmp_path / "marks.toml").unlink()
-    assert client.post("/api/marks", files=files).status_code == 200
-    return client
-
-
-def finished(client, path, name):
-    end = time.monotonic() + PATIENCE
-    while time.monotonic() < end:
-        answer = client.get(f"/api/{path}")
-        assert answer.status_code == 200, answer.text
-        if answer.json()["share"] == 1 and (answer.json()[name] or answer.json().get("nothing")):
-            return answer.json()
-        time.sleep(0.05)
-    raise AssertionError(f"{path} never ends")
+    return with_marks(tmp_path)
 
 
 def test_it_says_what_the_command_line_says(client, tmp_path):
-    verdict = finished(client, "verdict", "verdict")["verdict"]
+    verdict = finished(client, "verdict")["verdict"]
     inputs = api.read(tmp_path / "groundcontrol.ini", tmp_path / "marks.toml")
     diagnosis = api.diagnose(inputs)
     with read_on_page():
@@ -56,7 +38,7 @@ def test_it_says_what_the_command_line_says(client, tmp_path):
 
 
 def test_the_maps_hold_the_same_marks_before_and_after(client, tmp_path):
-    verdict = finished(client, "verdict", "verdict")["verdict"]
+    verdict = finished(client, "verdict")["verdict"]
     assert [arrow["name"] for arrow in verdict["before"]] == [
         arrow["name"] for arrow in verdict["after"]
     ]
@@ -71,18 +53,18 @@ def test_the_maps_hold_the_same_marks_before_and_after(client, tmp_path):
 
 
 def test_a_changed_reading_is_never_answered_by_the_verdict_before(client, tmp_path):
-    before = finished(client, "verdict", "verdict")["verdict"]
+    before = finished(client, "verdict")["verdict"]
     form = tmp_path / "marks.toml"
     form.write_text(
         form.read_text().replace("measured = [659.5, 110.5]", "measured = [659.5, 210.5]")
     )
-    after = finished(client, "verdict", "verdict")["verdict"]
+    after = finished(client, "verdict")["verdict"]
     assert (before["verdict"], after["verdict"]) == ("cannot_tell", "slip")
     assert after["slips"] and after["after"] == [] and after["rms_added"] is None
 
 
 def test_the_next_measurement_has_its_steps_and_places(client):
-    proposal = finished(client, "next", "next")["next"]
+    proposal = finished(client, "next")["next"]
     assert "minutes" in proposal["headline"]
     assert proposal["steps"]
     assert proposal["others"]
@@ -90,10 +72,8 @@ def test_the_next_measurement_has_its_steps_and_places(client):
 
 def test_a_form_that_waits_beside_the_readings_does_no_harm(client, tmp_path):
     (tmp_path / "more.toml").write_text(example_form())
-    project = client.get("/api/project").json()
-    choices = {**project["choices"], "marks": ["marks.toml", "more.toml"]}
-    client.put("/api/choices", json={"choices": choices, "read": project["choices_digest"]})
-    assert client.get("/api/bench").status_code == 200
+    choose(client, marks=["marks.toml", "more.toml"])
+    got(client.get("/api/bench"))
 
 
 def test_too_few_marks_are_refused_in_a_line(client, tmp_path):
