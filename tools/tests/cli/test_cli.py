@@ -1,7 +1,5 @@
 """The command line: answers, exit codes, and one clear line for whatever cannot be used."""
 
-import json
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -9,50 +7,17 @@ from pathlib import Path
 import numpy as np
 import plumb.grid as grids
 import pytest
-from plumb.cli.main import main
-from plumb.cli.screen import table
 from plumb.cure.machine_file import MARKS, SETTINGS
-from plumb.marks.read import read_marks
 from plumb.model.catalogue import effect_names
 from plumb.model.predict import lengths
 from plumb.settings.files import read_settings
 from plumb.settings.toml import write_machine_toml
 from plumb.text.answers import plain
-from synthetic import BELIEVED, SHEET, TRUE, csv_of, grid, marks_on
+from synthetic import BELIEVED, TRUE, csv_of, grid, marks_on
 
-COMMANDS = (
-    "grid",
-    "compare",
-    "diagnose",
-    "add",
-    "effects",
-    "inverse",
-    "forward",
-    "reach",
-    "telemetry",
-)
 BOARD = [str(SETTINGS), str(MARKS)]
 EFFECTS = ["--effect", "chain_pitch", "chain_sag"]
 ADDED = ("chain_pitch", "chain_sag", "chain_stretch")
-
-
-def test_every_command_explains_itself_and_its_exit_codes(capsys):
-    for command in COMMANDS:
-        with pytest.raises(SystemExit) as stopped:
-            main([command, "--help"])
-        said = capsys.readouterr().out
-        assert stopped.value.code == 0
-        assert "--json" in said and "Exit: 0 done" in said
-
-
-def test_the_installed_command_runs():
-    done = subprocess.run(
-        [sys.executable, "-m", "plumb.cli.main", "effects", "--json"],
-        capture_output=True,
-        text=True,
-    )
-    assert done.returncode == 0 and done.stderr == ""
-    assert [each["name"] for each in json.loads(done.stdout)["effects"]] == list(effect_names())
 
 
 def test_compare_begins_with_its_conclusion(run):
@@ -62,42 +27,9 @@ def test_compare_begins_with_its_conclusion(run):
     assert len([line for line in said.splitlines() if line[:1].isdigit()]) >= 9
 
 
-def test_compare_gives_every_key_of_the_interface(ask):
-    code, answer = ask("compare", *BOARD)
-    assert code == 0
-    assert answer["rms_mm"] == pytest.approx(7.29, abs=0.02)
-    assert answer["worst_mm"] > answer["rms_mm"] > answer["shape_rms_mm"] > 4
-    mark = answer["marks"][1]
-    assert mark["name"] == "1" and mark["target"] == [0.0, 550.0]
-    assert mark["error"] == pytest.approx(np.subtract(mark["measured"], mark["predicted"]))
-    assert mark["left_chain_residual"] < 0 and mark["right_chain_residual"] < 0
-
-
-def test_compare_of_distances_has_no_shape(ask, file):
-    marks = file(
-        "d.toml",
-        'frame = "machine"\n[[mark]]\nname = "a"\ntarget = [0, 0]\n[[mark]]\nname = "b"\n'
-        'target = [500, 0]\n[[distance]]\nbetween = ["a", "b"]\nmm = 501.5\n',
-    )
-    code, answer = ask("compare", SETTINGS, marks)
-    assert code == 0 and answer["marks"] == [] and answer["shape_rms_mm"] is None
-    assert answer["rms_mm"] == answer["distance_rms_mm"] == pytest.approx(1.5, abs=0.01)
-    assert answer["distances"][0]["between"] == ["a", "b"]
-
-
 def test_compare_above_the_limit_is_bad_news(run):
     assert run("compare", *BOARD, "--limit", 7)[0] == 1
     assert run("compare", *BOARD, "--limit", 8)[0] == 0
-
-
-def test_several_files_of_marks_are_one_board(ask, file):
-    header = "target_x_mm,target_y_mm,measured_x_mm,measured_y_mm\n"
-    more = file("more.csv", f"{header}-1150,550,-1152.4,557.1\n300,100,298,103\n")
-    _, once = ask("compare", *BOARD)
-    _, both = ask("compare", *BOARD, more)
-    assert both["marks"][:9] == once["marks"] and len(both["marks"]) == 11
-    assert [each["count"] for each in both["rounds"]] == [9, 2]
-    assert both["rounds"][0]["rms_mm"] == pytest.approx(once["rms_mm"])
 
 
 def test_add_writes_settings_that_explain_the_marks(ask, tmp_path):
@@ -146,19 +78,6 @@ def test_add_tells_people_the_fall_the_doubts_and_what_was_written(run, tmp_path
     assert str(new) in said and picture.read_bytes().startswith(b"\x89PNG")
 
 
-def test_the_picture_of_add_shows_each_step_and_names_what_was_added(run, tmp_path):
-    picture = tmp_path / "fall.svg"
-    assert run("add", *BOARD, *EFFECTS, "--picture", picture)[0] == 0
-    said = re.findall("<!-- (.*) -->", picture.read_text())
-    heading = next(each for each in said if each.endswith(". From 7.3 to 0.65 mm RMS"))
-    assert heading.startswith("Added: ") and "chain sag" in heading
-    heights = [
-        float(each.split()[0]) for each in said if each.endswith(" mm RMS") and each[0].isdigit()
-    ]
-    assert heights == [7.3, 2.7, 1.0, 0.65]
-    assert "As set" in said and "Frame fitted" in said and "+ chain sag" in said
-
-
 def test_add_of_an_effect_that_does_not_pay_is_bad_news(run, tmp_path):
     settings, marks = tmp_path / "machine.toml", tmp_path / "marks.csv"
     write_machine_toml(settings, BELIEVED)
@@ -171,15 +90,6 @@ def test_add_holds_what_a_prior_says(ask):
     _, answer = ask("add", *BOARD, *EFFECTS, "--prior", "motor_gap=0", "--sigma", "0.8")
     assert answer["frame"]["motor_gap"] == 2978.4 and answer["sigma_mm"] == 0.8
     assert "motor_gap" not in [each["name"] for each in answer["parameters"]]
-
-
-def test_inverse_of_an_ini_is_what_the_published_controller_paid_out(ask, file):
-    points = file("points.csv", "x,y\n0,0\n1150,-550\n")
-    code, answer = ask("inverse", SETTINGS, "--points", points)
-    assert code == 0 and answer["found"] == ["yes", "yes"] and answer["controller"] == "stock"
-    left, right = answer["lengths"][0]
-    # By hand: distance 1835.262, angle 0.62970 rad, wrap 6.364, straight 1835.234, less 139.1.
-    assert left == pytest.approx(right) == pytest.approx(1702.498, abs=0.001)
 
 
 def test_inverse_and_forward_of_our_model_undo_each_other(ask, file, tmp_path):
@@ -254,18 +164,6 @@ def test_grid_is_the_tool_beside_the_package(run, ask, tmp_path, capsys):
     assert "G21" in program.read_text()
 
 
-def test_the_grid_s_list_of_marks_comes_back_with_y_up(run, tmp_path):
-    program, path = tmp_path / "grid.nc", tmp_path / "marks.toml"
-    assert run("grid", "--preset", "fifteen", "--marks", path, "--output", program)[0] == 0
-    head, first, *_ = path.read_text().split("\n[[mark]]\n")
-    first = first.replace("# measured = [ , ]", "measured = [110.0, 90.0]")
-    path.write_text(f"{head}\n[[mark]]\n{first}")
-    (mark,) = read_marks(path, sheet=SHEET).marks
-    assert mark.approach == (0.0, 40.0)
-    assert mark.target == pytest.approx((-1119.2, 509.6))
-    assert mark.measured == pytest.approx((-1109.2, 519.6))
-
-
 def test_a_reader_that_leaves_early_is_no_error():
     command = f"{sys.executable} -m plumb.cli.main compare '{SETTINGS}' '{MARKS}' --json"
     done = subprocess.run(
@@ -277,14 +175,6 @@ def test_a_reader_that_leaves_early_is_no_error():
 def test_what_is_no_number_is_null():
     answer = plain({"a": float("nan"), "b": [np.float64("inf"), np.int64(3)], "c": np.eye(1)})
     assert answer == {"a": None, "b": [None, 3], "c": [[1.0]]}
-
-
-def test_columns_are_aligned():
-    assert table(["name", "mm"], [["a", "1.00"], ["long", "-10.00"]]).splitlines() == [
-        "name      mm",
-        "a       1.00",
-        "long  -10.00",
-    ]
 
 
 def test_no_screen_of_add_has_an_empty_paragraph(run, tmp_path):

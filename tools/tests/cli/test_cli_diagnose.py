@@ -4,33 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.cure.machine_file import MARKS, SETTINGS
-from plumb.diagnosis import VERDICTS
-from plumb.model.catalogue import effect_names
 from synthetic import BELIEVED, TRUE, csv_of, grid, marks_on
-
-KEYS = {
-    "verdict",
-    "sigma_mm",
-    "sigma_from",
-    "suspects",
-    "ranking",
-    "slips",
-    "could_hide",
-    "next",
-}
-
-
-def test_the_published_marks_get_a_verdict(ask):
-    code, answer = ask("diagnose", SETTINGS, MARKS)
-    assert code == int(answer["verdict"] in ("slip", "not_in_library"))
-    assert answer["verdict"] in VERDICTS and set(answer) >= KEYS
-    assert {each["effect"] for each in answer["ranking"]} == set(effect_names())
-    for each in answer["ranking"]:
-        assert set(each) >= {"gain", "parameters", "rms_after_mm", "hidden_share", "plausible"}
-        for size in each["parameters"]:
-            assert set(size) == {"name", "value", "low", "high", "unit", "plausible"}
-    assert answer["sigma_from"] == "default" and answer["warnings"]
 
 
 def test_clean_marks_say_so_first(run, file, maker):
@@ -59,23 +33,3 @@ def test_suspects_come_with_size_and_remedy(run, ask, file, maker):
     code, answer = ask("diagnose", maker, path, "--sigma", "0.2")
     assert answer["sigma_mm"] == 0.2 and answer["sigma_from"] == "stated"
     assert set(answer["suspects"]) >= {"chain_pitch", "chain_sag"}
-
-
-@pytest.mark.parametrize(
-    ("options", "complaint"),
-    [
-        (["--sigma", "0"], "sigma"),
-        (["--prior", "nonsense=1"], "nonsense"),
-        (["--prior", "motor_gap"], "NAME=SIGMA"),
-    ],
-)
-def test_what_cannot_be_used_is_refused(run, options, complaint):
-    code, said, complained = run("diagnose", SETTINGS, MARKS, *options)
-    assert code == 2 and said == "" and complaint in complained
-    assert len(complained.splitlines()) == 1
-
-
-def test_two_marks_are_too_few(run, file, maker):
-    path = file("two.csv", csv_of(marks_on(TRUE, BELIEVED, grid(2, 1))))
-    code, said, complained = run("diagnose", maker, path)
-    assert code == 2 and said == "" and "too few" in complained

@@ -10,20 +10,9 @@ from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.grid.cut_with import digest_of
 from plumb.model.catalogue import effect_names
 from plumb.settings.toml import write_machine_toml
-from synthetic import BELIEVED, EFFECTS, TRUE, csv_of, grid, marks_on
+from synthetic import BELIEVED, TRUE, csv_of, grid, marks_on
 
 FILL = "# measured = [ , ]"
-
-
-def test_the_published_marks_get_proposals(ask):
-    code, answer = ask("next", SETTINGS, MARKS)
-    assert code == 0 and answer["verdict"] == "cannot_tell"
-    for each in answer["next"]:
-        assert set(each) >= {"kind", "title", "do", "minutes", "chance", "parts", "marks", "checks"}
-        assert each["minutes"] > 0 and each["do"]
-    assert answer["more_marks"]["kind"] == "many"
-    chances = [each["chance"] / (each["minutes"] + 10) for each in answer["next"]]
-    assert chances == sorted(chances, reverse=True)
 
 
 def test_diagnose_carries_the_same_proposals(ask):
@@ -96,20 +85,6 @@ def test_what_is_only_read_again_is_not_cut(run, ask, file, maker, tmp_path):
     assert form.read_text().count(FILL) == 27
 
 
-def test_a_check_enters_both_commands(ask, file, maker):
-    marks = marks_on(TRUE, BELIEVED, grid(5, 3), noise=0.2, seed=2)
-    path, size = file("m.csv", csv_of(marks)), EFFECTS["chain_pitch"]["left"]
-    command = ["diagnose", maker, path, "--sigma", "0.2"]
-    _, before = ask(*command)
-    _, after = ask(*command, "--checked", f"chain_pitch.left={size}+-0.00001")
-    sizes = [
-        next(each for each in answer["ranking"] if each["effect"] == "chain_pitch")["parameters"][0]
-        for answer in (before, after)
-    ]
-    assert sizes[1]["high"] - sizes[1]["low"] < 0.2 * (sizes[0]["high"] - sizes[0]["low"])
-    assert sizes[1]["value"] == pytest.approx(size, abs=3e-5)
-
-
 def test_what_was_checked_is_not_proposed_again(ask):
     code, answer = ask("next", SETTINGS, MARKS, "--checked", "motor_gap=2978.4±0.5")
     titles = [each["title"] for each in answer["next"]]
@@ -163,18 +138,6 @@ def test_a_grid_is_previewed_before_it_is_cut(ask, run, maker, tmp_path):
     assert code == 0 and "Best addition" in said and "told apart" in said
     # A command to copy keeps its file's name in one piece.
     assert max(len(line) for line in said.splitlines() if not line.startswith("  ")) <= 80
-
-
-def test_a_sharper_tape_and_more_marks_tell_more(ask, maker):
-    wide = ["preview", maker, "--preset", "twenty-five"]
-    _, nine = ask("preview", maker, "--preset", "nine")
-    _, more = ask(*wide)
-    _, sharp = ask(*wide, "--sigma", 0.2)
-    assert nine["pairs_told_apart"] < more["pairs_told_apart"] < sharp["pairs_told_apart"]
-    seen = [[each["smallest"] for each in answer["outlines"]] for answer in (nine, more, sharp)]
-    for a, b, c in zip(*seen, strict=True):
-        # The gate of a wider layout is a little higher, so what few marks feel may lose by it.
-        assert None in (a, b, c) or (1.1 * a >= b and 1.1 * b >= c)
 
 
 def test_what_grid_writes_is_a_plan(run, ask, maker, tmp_path):

@@ -125,14 +125,6 @@ def test_a_groundcontrol_ini_needs_an_old_one(run, tmp_path):
         (tmp_path / "new-groundcontrol.ini").unlink()
 
 
-def test_too_few_marks_are_refused_and_nothing_is_written(run, file, tmp_path):
-    head = "target_x_mm,target_y_mm,measured_x_mm,measured_y_mm\n"
-    marks = file("few.csv", head + "0,0,1,1\n500,0,501,1\n")
-    new = tmp_path / "machine.toml"
-    code, _, complaint = run("add", SETTINGS, marks, *EFFECTS, "-o", new)
-    assert code == 2 and "4 measured numbers" in complaint and not new.exists()
-
-
 def test_an_effect_that_the_library_lacks_is_refused_in_settings_too(run, tmp_path):
     machine = tmp_path / "machine.toml"
     write_machine_toml(machine, BELIEVED)

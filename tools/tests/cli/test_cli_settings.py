@@ -32,14 +32,6 @@ def test_the_firmware_reads_the_lines_as_the_machine_that_was_fitted(machine):
     assert not outcome.any() and np.abs(ours - paid_out).max() < 0.003
 
 
-def test_every_effect_has_its_line_and_the_published_corrections_are_zero():
-    lines = {row.number: row.line for row in firmware_numbers(TRUE)}
-    assert lines[37] == "$37=0" and lines[40] == "$40=0" and lines[41] == "$41=0"
-    assert lines[180].startswith("$180=0.0021") and lines[181].startswith("$181=0.0008")
-    settings = {each["setting"] for effect in library() for each in effect["parameters"]}
-    assert settings <= set(lines)
-
-
 def test_a_size_that_the_firmware_does_not_take_is_refused():
     wild = replace(TRUE, effects={"chain_pitch": {"left": 5.0, "right": 0.0}})
     with pytest.raises(InputError, match="firmware"):

@@ -54,6 +54,7 @@ def test_the_examples_of_the_help_are_understood(name, monkeypatch, capsys, tmp_
     with pytest.raises(SystemExit):
         main.main([name, "--help"])
     shown = capsys.readouterr().out
+    assert import_module(f"plumb.cli.{name}").EXIT in " ".join(shown.split())
     for example in import_module(f"plumb.cli.{name}").EXAMPLES:
         assert f"\n  {example}\n" in shown
         words = shlex.split(example)

@@ -12,10 +12,7 @@ from plumb.bench.boards import joined, plan
 from plumb.bench.causes import MAKER
 from plumb.diagnosis import VERDICTS, diagnose
 from plumb.fit.inputs import Inputs
-from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names
-from plumb.text.errors import InputError
-from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
 
 WIDE, NINE = plan(5, 5), plan(3, 3)
 # A tilt of both motors is a turned sheet, and chain zeros are a frame elsewhere: marks alone hardly
@@ -188,24 +185,6 @@ def test_friction_needs_approaches():
     blind = diagnose(Inputs(MAKER, board({}, plan(5, 3, approached=False), seed=1)))
     room = next(hidden for hidden in blind.could_hide if hidden.effect == "sled_friction")
     assert room.mm is None
-
-
-def test_distances_alone_are_enough():
-    given = marks_on(TRUE, BELIEVED, grid(4, 3), noise=0.0)
-    spans = distances_between(given)
-    diagnosis = diagnose(Inputs(BELIEVED, spans, sigma=0.3))
-    assert (
-        diagnosis.verdict in ("one_suspect", "cannot_tell") and "chain_pitch" in diagnosis.suspects
-    )
-    shares = {ranked.effect: ranked.hidden_share for ranked in diagnosis.ranking}
-    assert shares["sheet_skew"] is None  # edges play no part in distances
-
-
-def test_too_few_marks_are_refused():
-    with pytest.raises(InputError, match="too few"):
-        diagnose(
-            Inputs(BELIEVED, Measurements(marks_on(TRUE, BELIEVED, grid(2, 1)), source="two.csv"))
-        )
 
 
 def test_every_answer_is_complete(sizes):
