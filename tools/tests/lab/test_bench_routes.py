@@ -2,14 +2,12 @@
 
 import re
 import time
-import tomllib
 
 import numpy as np
 import pytest
 from fingerprints import default_machine
 from folder import EXAMPLE, asked, choose, got, with_marks
 from plumb import api
-from plumb.cli.main import main
 from plumb.cure.live_board import BoardView, Chosen, LiveBoard
 from plumb.diagnosis.suspect_curves import view_by
 from plumb.fit.compare import chain_view
@@ -112,21 +110,6 @@ def test_what_an_effect_draws_is_what_its_explanation_leaves_less(tmp_path):
     np.testing.assert_allclose(drawn.moved, less, atol=0.01)
     assert view_by(view._frame).errors.shape == drawn.moved.shape
     assert set(drawn.curves.curves) == {"tension", "length", "angle", "phase", "height"}
-
-
-def test_the_machine_is_written_as_plumb_add_writes_it(client, tmp_path, monkeypatch):
-    body = {"effects": ["chain_pitch"], "held": {"chain_pitch.left": 0.002}}
-    command = posted(client, "fit", body)["command"]
-    posted(client, "machine", {**body, "read": ""})
-    here = tomllib.loads((tmp_path / "new.toml").read_text())
-    again = posted(client, "machine", {**body, "read": ""}, 409)
-    assert "new.toml" in again["error"]
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "new.toml").unlink()
-    main(command.split()[1:])
-    there = tomllib.loads((tmp_path / "new.toml").read_text())
-    assert here == there
-    assert here["effects"]["chain_pitch"]["left"] == 0.002
 
 
 def test_another_board_is_not_answered_from_the_old(client, tmp_path):

@@ -137,15 +137,6 @@ def test_a_plan_tells_what_the_command_tells(client, tmp_path, capsys):
     assert answer["trouble"] == ""
 
 
-def test_what_is_known_makes_a_plan_tell_more(client):
-    body = {"layout": "nine"}
-    before = got(client.post("/api/preview", json=body))
-    choose(client, known={"motor_gap": {"value": 2978.4, "sigma": 0.3}})
-    after = got(client.post("/api/preview", json=body))
-    assert after["pairs"] > before["pairs"]
-    assert "--prior motor_gap=0.29" in after["command"]
-
-
 def test_more_marks_tell_more(client):
     few, many = (
         got(client.post("/api/preview", json={"layout": layout}))
@@ -217,16 +208,6 @@ def test_program_and_form_are_written_and_no_reading_is_overwritten(client, tmp_
     assert (tmp_path / "marks.toml").read_text() == read
     form = tomllib.loads((tmp_path / "marks-2.toml").read_text())
     assert len(form["mark"]) == 15 and (tmp_path / "grid-2.nc").exists()
-
-
-def test_the_program_is_that_of_the_command(client, tmp_path):
-    got(client.post("/api/grid"))
-    settings = str(tmp_path / "groundcontrol.ini")
-    words = ["grid", "--settings", settings, "--preset", "nine"]
-    main([*words, "--output", str(tmp_path / "same.nc"), "--marks", str(tmp_path / "same.toml")])
-    same = (tmp_path / "same.nc").read_text().replace("(form: same.toml)", "(form: marks.toml)")
-    assert same == (tmp_path / "grid.nc").read_text()
-    assert (tmp_path / "same.toml").read_text() == (tmp_path / "marks.toml").read_text()
 
 
 def test_a_form_of_distances_names_them(client, tmp_path):

@@ -48,6 +48,8 @@ def test_the_bench(client, tmp_path, capsys, bench, known):
     shown = got(client.post("/api/bench/fit", json=bench))
     got(client.post("/api/bench/machine", json={**bench, "read": ""}))
     here = tomllib.loads((tmp_path / "new.toml").read_text())
+    again = got(client.post("/api/bench/machine", json={**bench, "read": ""}), 409)
+    assert "new.toml" in again["error"]
     (tmp_path / "new.toml").unlink()
     said = said_by(shown["command"], capsys)
     assert tomllib.loads((tmp_path / "new.toml").read_text()) == here
