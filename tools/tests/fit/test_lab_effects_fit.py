@@ -50,15 +50,6 @@ def marks(hidden, *, noise=0.0, columns=7, approaches=SIDES):
     )
 
 
-@pytest.mark.parametrize("name", HIDDEN)
-def test_a_hidden_effect_is_found_again(name):
-    board = Measurements(marks({name: HIDDEN[name]}))
-    fitted = fit(BELIEVED, observe(BELIEVED, board), effects=[*EFFECTS, name], priors=WIDE)
-    assert fitted.settled and fitted.rms < 1e-4
-    for parameter, value in HIDDEN[name].items():
-        assert fitted.lab_effects[name][parameter] == pytest.approx(value, rel=0.01)
-
-
 def test_all_are_found_at_once_beside_those_of_the_machine():
     board = Measurements(marks(HIDDEN, columns=9))
     fitted = fit(

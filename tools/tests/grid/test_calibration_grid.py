@@ -192,18 +192,6 @@ def test_tensions_agree_with_published_ones():
     assert pulls(-1150, -550) == pytest.approx(pulls(1150, -550)[::-1])
 
 
-def test_the_forces_at_every_place_balance_the_sled():
-    machine = grids.PlainMachine()
-    for x, y in [(0, 0), (900, 500), (-1100, -550)]:
-        height = machine.sheet_height / 2 + machine.motor_offset - y
-        sides = (machine.motor_spacing / 2 + x, machine.motor_spacing / 2 - x)
-        spans = [math.hypot(side, height) for side in sides]
-        left, right = grids.tensions(machine, x, y)
-        assert left * sides[0] / spans[0] == pytest.approx(right * sides[1] / spans[1])
-        up = (left / spans[0] + right / spans[1]) * height
-        assert up == pytest.approx(machine.sled_weight_n)
-
-
 REFUSALS = [
     ("--margin 20", "the lead-in of mark 11 at x -1199.2 y -629.6 is outside the sheet: raise"),
     ("--margin 610", "--margin is 610"),
@@ -313,11 +301,3 @@ def test_the_same_request_always_gives_the_same_program_from_any_folder(tmp_path
     said = [subprocess.run(call, cwd=tmp_path, capture_output=True, text=True) for _ in range(2)]
     assert said[0].stdout == said[1].stdout == gcode(columns=3, rows=3, repeats=False)
     assert [call.returncode for call in said] == [0, 0]
-
-
-def test_a_parser_of_another_command_can_carry_the_options(capsys):
-    parser = argparse.ArgumentParser()
-    grid = parser.add_subparsers().add_parser("grid")
-    grids.add_arguments(grid)
-    assert grids.run(parser.parse_args(["grid", "--margin", "200"])) == 0
-    assert capsys.readouterr().out == gcode(margin=200.0)

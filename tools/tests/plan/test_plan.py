@@ -18,7 +18,7 @@ from plumb.plan.case import Check, Planned, ahead, case_of
 from plumb.plan.options import ROOM_FOR_A_SECOND, _Shop, many_marks, options
 from plumb.plan.outlook import Rediagnosis, outlook
 from plumb.plan.planned_visits import nowhere, sent, usable
-from plumb.plan.separation import ENOUGH, FRAME_CHECKS, Chooser, apart, drawn_by, effect_checks
+from plumb.plan.separation import ENOUGH, FRAME_CHECKS, Chooser, effect_checks
 from synthetic import BELIEVED, distances_between, grid, marks_on
 
 NINE = plan(3, 3)
@@ -100,17 +100,6 @@ def test_a_sled_that_is_too_heavy_for_a_place_is_not_proposed():
     assert light.sum() > heavy.sum()
 
 
-def test_lambda_is_what_a_full_refit_of_the_rival_leaves(pitch):
-    *_, case = pitch
-    truth, other = case.hypotheses[:2]
-    fitted = np.concatenate([case.board.frame, case.board.columns(other.effects)])
-    distances = apart(truth.at.slopes, drawn_by(truth), fitted)
-    drawn = (truth.at.slopes @ drawn_by(truth))[:, 0]
-    columns = truth.at.slopes[:, fitted]
-    left = drawn - columns @ np.linalg.lstsq(columns, drawn, rcond=1e-12)[0]
-    assert distances == pytest.approx(left @ left, rel=1e-3)
-
-
 def test_more_rows_never_lower_lambda_and_chosen_ones_beat_random_ones(pitch):
     *_, case = pitch
     pool = many_marks(case).visits
@@ -123,15 +112,6 @@ def test_more_rows_never_lower_lambda_and_chosen_ones_beat_random_ones(pitch):
     assert chooser.worth(range(len(pool))) <= ENOUGH * sum(
         a.weight + b.weight for a in case.hypotheses for b in case.hypotheses if a is not b
     )
-
-
-def test_a_check_of_the_suspect_is_one_more_row(pitch):
-    *_, case = pitch
-    at = case.hypotheses[0].at
-    rows = ahead(at, nowhere(), [Check("tape_scale.strain", 0.0001)])
-    assert len(rows.slopes) == len(at.slopes) + 1 and not rows.marks[-1]
-    column = case.board.problem.names.index("tape_scale.strain")
-    assert rows.slopes[-1, column] == pytest.approx(0.0003 / 0.0001)
 
 
 def test_a_sharp_check_settles_what_a_blunt_one_does_not(pitch):
