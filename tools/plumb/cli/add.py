@@ -12,6 +12,7 @@ from plumb.cli.arguments import (
     add_force,
     add_json,
     add_marks,
+    add_picture,
     add_units,
     add_without,
 )
@@ -391,9 +392,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_client(parser)
     add_firmware(parser)
     add_stated(parser, sigma="tape_sigma_mm of MARKS and repeats, else from the residuals")
-    parser.add_argument(
-        "--picture", metavar="FILE", help="draw how the error falls: .png, .svg, .pdf"
-    )
+    add_picture(parser, "draw how the error falls")
     add_force(parser)
     add_units(parser)
     add_json(parser)

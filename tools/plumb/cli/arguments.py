@@ -31,13 +31,23 @@ def add_marks(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         help="Calibration Measurements.ini, marks.toml or marks.csv; several make a single board",
     )
+    add_cut_with(parser)
+    add_controller(parser)
+
+
+def add_cut_with(parser: argparse.ArgumentParser) -> None:
+    """Add the option --cut-with."""
     parser.add_argument(
         "--cut-with",
         metavar="SETTINGS",
         type=file,
         help="the settings in force when the marks were cut, if they are not SETTINGS",
     )
-    add_controller(parser)
+
+
+def add_picture(parser: argparse.ArgumentParser, draws: str) -> None:
+    """Add the option --picture; `draws` says what for."""
+    parser.add_argument("--picture", metavar="FILE", help=f"{draws}: .png, .svg or .pdf")
 
 
 def add_controller(parser: argparse.ArgumentParser) -> None:

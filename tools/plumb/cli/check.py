@@ -10,7 +10,15 @@ from pathlib import Path
 import numpy as np
 from pydantic import computed_field
 
-from plumb.cli.arguments import add_force, add_json, add_machine, add_units, file
+from plumb.cli.arguments import (
+    add_cut_with,
+    add_force,
+    add_json,
+    add_machine,
+    add_picture,
+    add_units,
+    file,
+)
 from plumb.cli.inputs import inputs_of, picture_form
 from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import bar, headline, next_step, print_json, sentences, table
@@ -130,15 +138,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="measured marks of this machine: they tell which errors to expect of each part",
     )
-    parser.add_argument(
-        "--cut-with",
-        metavar="SETTINGS",
-        type=file,
-        help="the settings in force when the marks were cut, if they are not SETTINGS",
-    )
-    parser.add_argument(
-        "--picture", metavar="FILE", help="draw the job on its sheet: .png, .svg or .pdf"
-    )
+    add_cut_with(parser)
+    add_picture(parser, "draw the job on its sheet")
     parser.add_argument(
         "--outline",
         metavar="FILE",

@@ -6,7 +6,7 @@ import argparse
 
 import numpy as np
 
-from plumb.cli.arguments import add_force, add_json, add_marks, add_units, length
+from plumb.cli.arguments import add_force, add_json, add_marks, add_picture, add_units, length
 from plumb.cli.inputs import inputs_of, picture_form
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import about, next_step, print_json, same_inputs, sentences, table
@@ -202,7 +202,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--limit", metavar="MM", type=length, help="exit with code 1 if the RMS is above MM"
     )
     add_units(parser)
-    parser.add_argument("--picture", metavar="FILE", help="draw the errors: .png, .svg or .pdf")
+    add_picture(parser, "draw the errors")
     parser.add_argument(
         "--names", action="store_true", help="write the marks' names into the picture"
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from dataclasses import dataclass
 
-from plumb.cli.arguments import add_force, add_json, add_units
+from plumb.cli.arguments import add_force, add_json, add_picture, add_units
 from plumb.cli.inputs import picture_form
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import headline, print_json, sentences, table
@@ -145,9 +145,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=".",
         help="the machine's folder [this folder]",
     )
-    parser.add_argument(
-        "--picture", metavar="FILE", help="draw errors and numbers over time: .png, .svg, .pdf"
-    )
+    add_picture(parser, "draw errors and numbers over time")
     add_force(parser)
     add_units(parser)
     add_json(parser)

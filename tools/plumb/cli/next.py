@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.cli.arguments import add_force, add_json, add_marks, add_units
+from plumb.cli.arguments import add_force, add_json, add_marks, add_picture, add_units
 from plumb.cli.inputs import add_stated, picture_form, stated_inputs
 from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import bar, free_name, next_step, print_json, same_inputs, sentences, table
@@ -272,9 +272,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the number of the proposal for --picture, --marks and --output [the best that has "
         "them]",
     )
-    parser.add_argument(
-        "--picture", metavar="FILE", help="draw the proposal on the sheet: .png, .svg, .pdf"
-    )
+    add_picture(parser, "draw the proposal on the sheet")
     parser.add_argument(
         "--marks", dest="template", metavar="FILE", help="write a marks.toml to fill in"
     )

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from plumb.cli.arguments import add_json, add_units, length
+from plumb.cli.arguments import add_json, add_units
 from plumb.cli.screen import headline, print_json, sentences, table
-from plumb.cli.vm import serve
+from plumb.cli.vm import add_pace, serve
 from plumb.model.predict import known_effects
 from plumb.settings.files import read_settings
 from plumb.settings.toml import machine_toml
@@ -156,13 +156,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="reveal: your new machine.toml [FOLDER/machine.toml, as it was at the start]",
     )
     parser.add_argument("--seed", metavar="N", type=int, help="start: a certain machine [drawn]")
-    parser.add_argument(
-        "--speed",
-        metavar="N",
-        type=length,
-        default=1.0,
-        help="start: how many times as fast as real time [%(default)g]",
-    )
-    parser.add_argument("--seconds", metavar="S", type=length, help="start: end after S seconds")
+    add_pace(parser, "start: ")
     add_units(parser)
     add_json(parser)

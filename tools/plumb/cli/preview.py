@@ -10,6 +10,7 @@ from plumb.cli.arguments import (
     add_controller,
     add_force,
     add_json,
+    add_picture,
     add_prior,
     add_settings,
     add_units,
@@ -215,9 +216,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_prior(parser)
     add_controller(parser)
-    parser.add_argument(
-        "--picture", metavar="FILE", help="draw the plan and what to add to it: .png, .svg or .pdf"
-    )
+    add_picture(parser, "draw the plan and what to add to it")
     add_force(parser)
     add_units(parser)
     add_json(parser)

@@ -220,16 +220,21 @@ def _add_brain(parser: argparse.ArgumentParser) -> None:
         metavar="ELF",
         help="run this flashed program on a simulated Mega, not the firmware built for the host",
     )
-    parser.add_argument(
-        "--speed",
-        metavar="N",
-        type=length,
-        default=1.0,
-        help="how many times as fast as real time [%(default)g]",
-    )
-    parser.add_argument("--seconds", metavar="S", type=length, help="end after S seconds")
+    add_pace(parser)
     parser.add_argument(
         "--preload",
         action="store_true",
         help="print the library that a client needs for this port (LD_PRELOAD), and end",
     )
+
+
+def add_pace(parser: argparse.ArgumentParser, when: str = "") -> None:
+    """Add the options --speed and --seconds; `when` says when they count."""
+    parser.add_argument(
+        "--speed",
+        metavar="N",
+        type=length,
+        default=1.0,
+        help=f"{when}how many times as fast as real time [%(default)g]",
+    )
+    parser.add_argument("--seconds", metavar="S", type=length, help=f"{when}end after S seconds")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future
 from contextlib import contextmanager
 from contextvars import copy_context
@@ -135,7 +135,7 @@ class MachineLine:
         done.
         """
         try:
-            return self._working().do(_as_here(work)).result(PATIENCE)
+            return self.worker.do(_as_here(work)).result(PATIENCE)
         except StoppedError:
             raise InputError("somebody pressed Stop; the machine has stopped") from None
         except TimeoutError:
@@ -143,19 +143,15 @@ class MachineLine:
 
     def read_numbers(self) -> Mapping[int, float]:
         """Return all numbers that the machine lists now. Raises InputError."""
-        self.do(self.note_numbers)
+        self.do(self.worker.read_numbers)
         return self.state.numbers
-
-    def note_numbers(self, sender: Sender) -> None:
-        """Read the machine's numbers into the state in the middle of work."""
-        self._working().read_numbers(sender)
 
     def begin(self, work: Callable[[Sender], None]) -> Future[None]:
         """Begin work that may take long. Raises InputError while that cannot be.
 
         The future is done when the line takes other work again, or is lost.
         """
-        return self._working().do(_as_here(work))
+        return self.worker.do(_as_here(work))
 
     @contextmanager
     def resting(self) -> Iterator[None]:
@@ -169,33 +165,9 @@ class MachineLine:
             if port:
                 port.works = True
 
-    def send(
-        self,
-        title: str,
-        lines: Sequence[str],
-        then: Callable[[Sender], None] = lambda sender: None,
-        *,
-        paused: Callable[[int], None] = lambda lines: None,
-    ) -> None:
-        """Begin to send a program; `paused` hears of each pause how many lines come before it.
-
-        Raises InputError while that cannot be.
-        """
-        self._working().send(title, lines, then, paused=paused)
-
-    def hold(self) -> None:
-        """Stop along the path, without leaving it."""
-        self._working().hold()
-
-    def go_on(self) -> None:
-        """Go on after a hold."""
-        self._working().go_on()
-
-    def stop(self) -> None:
-        """Stop, and give up what was being done."""
-        self._working().stop()
-
-    def _working(self) -> LineWorker:
+    @property
+    def worker(self) -> LineWorker:
+        """Who has the line. Raises InputError if no machine is connected."""
         worker = self._worker
         if worker is None:
             raise InputError("no machine is connected: connect it first")

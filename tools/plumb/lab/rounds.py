@@ -13,7 +13,7 @@ from plumb import api
 from plumb.fit.inputs import settings_in
 from plumb.fit.problem import PRIORS
 from plumb.grid import PRESETS, Grid, PlainMachine, marks_list, spans_of, touches_of
-from plumb.grid.cut_with import cut_with_lines, digest_of
+from plumb.grid.cut_with import cut_with_lines, digest_of, with_form
 from plumb.grid.options import APPROACH
 from plumb.grid.pattern import Touch
 from plumb.lab.known import refuse_absurd_known, stated
@@ -37,10 +37,13 @@ def on_new_sheet(choices: Choices) -> bool:
     return choices.new_sheet and bool(choices.marks)
 
 
-def form_text(project: Project, choices: Choices, plan: Planned, form: str) -> bytes:
-    """Return the form of the next round: a file of this name in the folder."""
+def round_files(
+    project: Project, choices: Choices, plan: Planned, text: str, *, form: str, program: str
+) -> dict[str, bytes]:
+    """Return the form of a round and its program, by their names."""
     settings, path = str(project.path(choices.settings)), str(project.path(form))
-    return plan.form(path, settings=settings, new_sheet=on_new_sheet(choices)).encode()
+    filled = plan.form(path, settings=settings, new_sheet=on_new_sheet(choices))
+    return {form: filled.encode(), program: with_form(text, form, program).encode()}
 
 
 def kept_settings(project: Project, choices: Choices) -> dict[str, bytes]:
@@ -63,13 +66,21 @@ def grid_command(
     return command("grid", "--settings", choices.settings, *plan.words(), *sheet, *files, *force)
 
 
-def next_number(project: Project) -> str:
-    """Return what the next round has in the names of its files: nothing, or -2, -3 ..."""
+def cut_commands(
+    project: Project, choices: Choices, plan: Planned, *, form: str, program: str
+) -> str:
+    """Return that command, and below it the command that cuts the marks."""
+    made = grid_command(project, choices, plan, form=form, program=program)
+    return f"{made}\n{command('send', program)}"
+
+
+def next_names(project: Project) -> tuple[str, str]:
+    """Return the names of the next round's form and program, which end in nothing, or -2, -3 ..."""
     number, count = "", 1
     while has_readings(project, FORM.format(number)) or _is_foreign(project, number):
         count += 1
         number = f"-{count}"
-    return number
+    return FORM.format(number), PROGRAM.format(number)
 
 
 def _is_foreign(project: Project, number: str) -> bool:

@@ -5,6 +5,7 @@ import socket
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from threading import Event
+from types import SimpleNamespace
 
 import pytest
 from attacks import Try, answered, status
@@ -48,7 +49,7 @@ def test_connections_without_a_token_do_not_keep_stop_out(lab, target):
 @pytest.mark.parametrize("way", PRESSES)
 def test_no_thread_of_the_server_has_to_be_free(tmp_path, monkeypatch, way):
     released, pressed = Event(), Event()
-    monkeypatch.setattr(MachineLine, way, lambda line: pressed.set())
+    monkeypatch.setattr(MachineLine, "worker", SimpleNamespace(**{way: pressed.set}))
     monkeypatch.setattr(MachineLine, "disconnect", lambda line: released.wait(BUSY_S))
     with asked(tmp_path) as client, ThreadPoolExecutor(THREADS + 1) as others:
         busy = [others.submit(client.post, "/api/machine/disconnect") for _ in range(THREADS)]

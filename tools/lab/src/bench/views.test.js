@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { largest, longest, viewOf } from "./views.ts";
 
-const bench = { as_set: [[9, 9]], as_set_chains: [[8, 7]] };
+const bench = { marks: [{ error: [9, 9], left_chain_residual: 8, right_chain_residual: 7 }] };
 const frame = { errors: [[3, -1]], chains: [[2, null]] };
 const now = { fit: { errors: [[1, 1]], chains: [[0.5, 1]] } };
 const live = { frame, now };

@@ -26,7 +26,11 @@ export function viewOf(
   drawn: Drawn | undefined,
 ): View | undefined {
   const { now, frame } = live;
-  if (name === "as_set") return { errors: bench.as_set, chains: bench.as_set_chains };
+  if (name === "as_set")
+    return {
+      errors: bench.marks.map((mark) => mark.error),
+      chains: bench.marks.map((mark) => [mark.left_chain_residual, mark.right_chain_residual]),
+    };
   if (name === "drawn") return drawn && { errors: drawn.moved, chains: drawn.chains };
   if (name === "before") return frame;
   if (name === "now") return now?.fit;

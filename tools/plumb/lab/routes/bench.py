@@ -13,6 +13,7 @@ from plumb.cure.add import add, add_to
 from plumb.cure.live_board import Chosen
 from plumb.cure.machine_file import record_of, toml_of
 from plumb.diagnosis.suspect_curves import Curve
+from plumb.fit.compare import ComparedMark
 from plumb.fit.covariates import Covariate
 from plumb.fit.expected import plausible_range
 from plumb.fit.fit import Fit
@@ -55,14 +56,6 @@ class BenchEffect(BaseModel):
     parameters: list[BenchParameter]
 
 
-class BenchMark(BaseModel):
-    """A mark [mm, machine frame]."""
-
-    name: str
-    target: Pair
-    measured: Pair
-
-
 class BenchCovariate(BaseModel):
     """What errors of the chains may depend on, left and right for each mark."""
 
@@ -78,11 +71,9 @@ class BenchAnswer(BaseModel):
     board: str  # another for other marks or settings
     sheet: Pair
     sigma: float | None  # [mm] of a reading, if it is known before the fit
-    marks: list[BenchMark]
+    marks: tuple[ComparedMark, ...]  # against the settings as they stand
     effects: list[BenchEffect]
     covariates: list[BenchCovariate]
-    as_set: list[Pair]  # errors [mm] of the marks by the settings as they stand
-    as_set_chains: list[tuple[float | None, float | None]]  # the same in chain
     new_machine: str  # name of the file that the bench writes
     new_digest: str
 
@@ -175,22 +166,13 @@ Warm = Annotated[WarmBoard, Depends(_warm)]
 @router.get("/bench")
 def open_bench(project: TheProject, warm: Warm) -> BenchAnswer:
     """Return the marks, the effects, and what errors may depend on."""
-    rows = warm.live.rows
-    marks = zip(rows.names, rows.targets, rows.measured, strict=True)
     return BenchAnswer(
         board=warm.key,
         sheet=warm.live.model.sheet,
         sigma=warm.live.noise.sigma,
-        marks=[
-            BenchMark(name=name, target=_pair(target), measured=_pair(measured))
-            for name, target, measured in marks
-        ],
+        marks=warm.raw.marks,
         effects=_effects(warm),
         covariates=[_covariate(each) for each in warm.view.covariates],
-        as_set=[mark.error for mark in warm.raw.marks],
-        as_set_chains=[
-            (mark.left_chain_residual, mark.right_chain_residual) for mark in warm.raw.marks
-        ],
         new_machine=NEW_MACHINE,
         new_digest=project.digest(NEW_MACHINE),
     )

@@ -11,20 +11,19 @@ from pydantic import BaseModel
 from plumb.diagnosis.check_marks import Check, CheckedMark, check_marks, check_sentence
 from plumb.fit.inputs import Inputs, settings_in
 from plumb.grid import program
-from plumb.grid.cut_with import with_form
 from plumb.lab.machine_line import TheLine, refuse_other_machine
 from plumb.lab.project import Choices, Project, save_choices
 from plumb.lab.rounds import (
     Planned,
     command,
-    form_text,
-    grid_command,
+    cut_commands,
     inputs_of,
     kept_settings,
     known_words,
     planned,
     read_names,
     refuse_unreachable,
+    round_files,
     unit_words,
 )
 from plumb.lab.routes.machine import MachineAnswer, machine
@@ -113,7 +112,7 @@ def cut_check(project: TheProject, line: TheLine) -> MachineAnswer:
     name, text = _save(project)
     if owner := line.virtual:
         line.do(lambda sender: owner.weigh_down(owner.settings.sled_weight))
-    line.send(name, list(cleaned(text.splitlines())))
+    line.worker.send(name, list(cleaned(text.splitlines())))
     return machine(line)
 
 
@@ -145,8 +144,7 @@ def _made(project: Project, number: str, plan: Planned | None) -> str:
     if plan is None:
         return ""
     form, file = f"{CHECK}{number}{ENDING}", f"{CHECK}{number}.nc"
-    made = grid_command(project, _same_sheet(project.choices), plan, form=form, program=file)
-    return f"{made}\n{command('send', file)}"
+    return cut_commands(project, _same_sheet(project.choices), plan, form=form, program=file)
 
 
 def _same_sheet(choices: Choices) -> Choices:
@@ -221,8 +219,7 @@ def _save(project: Project) -> tuple[str, str]:
         form = f"{CHECK}{number}{ENDING}"
     name, plan = f"{CHECK}{number}.nc", _plan(inputs, _cut_before(project, choices, form))
     text = program(plan.grid, plan.machine)
-    filled = form_text(project, _same_sheet(choices), plan, form)
-    files = {form: filled, name: with_form(text, form, name).encode()}
+    files = round_files(project, _same_sheet(choices), plan, text, form=form, program=name)
     known = {each: project.digest(each) for each in files}
     project.save({**files, **kept_settings(project, choices)}, read=known)
     return name, text

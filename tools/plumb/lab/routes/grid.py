@@ -9,24 +9,21 @@ from fastapi import APIRouter
 from pydantic import BaseModel
 
 from plumb.grid import program, spans_in, touches_of
-from plumb.grid.cut_with import with_form
 from plumb.lab.machine_line import MachineLine, TheLine, refuse_other_machine
 from plumb.lab.project import FILE, Choices, Project, read_choices, save_choices, with_marks
 from plumb.lab.rounds import (
-    FORM,
-    PROGRAM,
     Planned,
     Taken,
     command,
-    form_text,
-    grid_command,
+    cut_commands,
     is_read_again,
     kept_settings,
-    next_number,
+    next_names,
     on_new_sheet,
     opened,
     planned,
     refuse_unreachable,
+    round_files,
     taken_marks,
 )
 from plumb.lab.routes.machine import MachineAnswer, machine
@@ -92,20 +89,21 @@ def show_grid(project: TheProject) -> GridAnswer:
         text = program(plan.grid, plan.machine)
     except (ValueError, InputError) as error:
         text, trouble = "", str(error)
-    number, files = _files(project, choices, plan, text)
-    form = project.read(FORM.format(number))
+    form, file = next_names(project)
+    files = round_files(project, choices, plan, text, form=form, program=file)
+    there = project.read(form)
     return GridAnswer(
-        form=FORM.format(number),
-        program=PROGRAM.format(number),
+        form=form,
+        program=file,
         is_saved=all(project.read(name) == content for name, content in files.items()),
         marks=_marks(plan, text),
         minutes=plan.minutes,
         text=text,
         trouble=trouble,
-        waits=form.decode().count(BLANK) if form else 0,
+        waits=there.decode().count(BLANK) if there else 0,
         last_form=choices.marks[-1] if choices.marks else "",
         sheet_rise=_sheet_rise(settings, choices),
-        command=_command(project, choices, plan, number),
+        command=cut_commands(project, choices, plan, form=form, program=file),
     )
 
 
@@ -159,7 +157,7 @@ def cut_grid(project: TheProject, line: TheLine) -> MachineAnswer:
     if owner:
         raised = _sheet_rise(opened(project), choices)
         line.do(lambda sender: _lay(owner, raised, new_sheet=on_new_sheet(choices)))
-    line.send(name, list(cleaned(text.splitlines())))
+    line.worker.send(name, list(cleaned(text.splitlines())))
     return machine(line)
 
 
@@ -171,12 +169,12 @@ def _cut_taken(taken: Taken, project: Project, line: MachineLine) -> MachineAnsw
         raise InputError("the chains of a virtual machine stay: take another measurement")
     refuse_other_machine(project, line)
     if owner is None:
-        line.send(taken.program, taken.text.splitlines())
+        line.worker.send(taken.program, taken.text.splitlines())
         return machine(line)
     weights = _weights_after_pauses(taken, owner.settings.sled_weight)
 
     line.do(lambda sender: _lay(owner, 0.0, new_sheet=False))
-    line.send(
+    line.worker.send(
         taken.program,
         taken.text.splitlines(),
         paused=lambda lines: owner.weigh_down(weights[lines]),
@@ -278,25 +276,8 @@ def _save(project: Project) -> tuple[str, str]:
     plan = planned(settings, choices.layout, choices.planned)
     refuse_unreachable(plan, settings)
     text = program(plan.grid, plan.machine)
-    number, files = _files(project, choices, plan, text)
+    form, file = next_names(project)
+    files = round_files(project, choices, plan, text, form=form, program=file)
     known = {name: project.digest(name) for name in files}
     project.save({**files, **kept_settings(project, choices)}, read={FILE: digest, **known})
-    return PROGRAM.format(number), text
-
-
-def _files(
-    project: Project, choices: Choices, plan: Planned, text: str
-) -> tuple[str, dict[str, bytes]]:
-    """Return the number of the next round, and its files: a form with readings is never
-    replaced.
-    """
-    number = next_number(project)
-    form, file = FORM.format(number), PROGRAM.format(number)
-    filled = form_text(project, choices, plan, form)
-    return number, {form: filled, file: with_form(text, form, file).encode()}
-
-
-def _command(project: Project, choices: Choices, plan: Planned, number: str) -> str:
-    file = PROGRAM.format(number)
-    made = grid_command(project, choices, plan, form=FORM.format(number), program=file)
-    return f"{made}\n{command('send', file)}"
+    return file, text

@@ -117,7 +117,7 @@ def _keep(project: Project, line: MachineLine, visit: Visit, step: str) -> None:
     """Open the machine that a step wrote, with what its owner knows of it."""
     if step not in ("read", "numbers"):
         return
-    line.note_numbers(visit.sender)
+    line.worker.read_numbers(visit.sender)
     if line.virtual:
         line.virtual.settings = machine_of_numbers(line.state.numbers)
     frame = settings_in(visit.path).frame

@@ -167,7 +167,7 @@ def disconnect(line: TheLine) -> MachineAnswer:
 def send_program(request: ProgramRequest, line: TheLine) -> MachineAnswer:
     """Begin to send G-code. The machine moves."""
     refuse_what_is_no_program(request.title, request.text)
-    line.send(request.title, request.text.splitlines())
+    line.worker.send(request.title, request.text.splitlines())
     return machine(line)
 
 
@@ -180,21 +180,21 @@ def send_line(request: LineRequest, line: TheLine) -> list[str]:
 @router.post("/machine/hold")
 async def hold(line: TheLine) -> MachineAnswer:
     """Stop along the path, without leaving it. No thread has to be free for it."""
-    line.hold()
+    line.worker.hold()
     return machine(line)
 
 
 @router.post("/machine/go-on")
 def go_on(line: TheLine) -> MachineAnswer:
     """Go on after a hold."""
-    line.go_on()
+    line.worker.go_on()
     return machine(line)
 
 
 @router.post("/machine/stop")
 async def stop(line: TheLine) -> MachineAnswer:
     """Stop, and give up what was being done. No thread has to be free for it."""
-    line.stop()
+    line.worker.stop()
     return machine(line)
 
 
@@ -241,7 +241,7 @@ def _written(
             return write_and_keep(sender, path, lines, back=back)
         finally:
             with suppress(InputError):  # what went wrong with the numbers is said
-                line.note_numbers(sender)
+                line.worker.read_numbers(sender)
 
     written, kept, failure = line.do(write)
     if line.virtual:
@@ -333,7 +333,7 @@ async def _heard(websocket: WebSocket, line: MachineLine, answers: list[str]) ->
 def _press(line: MachineLine, what: str) -> str:
     """Stop or hold; why that cannot be, empty if it is done."""
     try:
-        line.stop() if what == "stop" else line.hold()
+        line.worker.stop() if what == "stop" else line.worker.hold()
     except InputError as error:
         return str(error)
     return ""

@@ -14,14 +14,12 @@ from plumb.fit.expected import Expected, expected_anywhere, expected_priors, exp
 from plumb.lab.known import measured_to, planned_priors, possible
 from plumb.lab.project import Choices, Layout, Project
 from plumb.lab.rounds import (
-    FORM,
-    PROGRAM,
     TITLES,
     Place,
     Planned,
     command,
     grid_command,
-    next_number,
+    next_names,
     opened,
     planned,
     prior_words,
@@ -210,9 +208,8 @@ def preview_plan(request: PlanRequest, project: TheProject) -> PlanAnswer:
 
 def _command(project: Project, choices: Choices, plan: Planned, sigma: float) -> str:
     """Return the form, and what its marks could tell."""
-    number = next_number(project)
-    form = FORM.format(number)
-    made = grid_command(project, choices, plan, form=form, program=PROGRAM.format(number))
+    form, file = next_names(project)
+    made = grid_command(project, choices, plan, form=form, program=file)
     looked = command(
         *("preview", choices.settings, form, "--sigma", f"{sigma:.12g}"),
         *(*prior_words(planned_priors(choices)), *unit_words(choices)),
