@@ -37,7 +37,6 @@ from plumb.cure.add import Addition, add
 from plumb.cure.auto import AutoAddition, add_auto
 from plumb.cure.live_board import refuse_other_origin
 from plumb.cure.machine_file import PATCH_WARNING, record_of, toml_of, turn_sentences
-from plumb.diagnosis.noise import origin_words
 from plumb.diary.file import FIT, fit_entry, keep
 from plumb.firmware.client_files import ClientFiles
 from plumb.fit.compare import Comparison
@@ -298,11 +297,7 @@ def as_text(result: Addition, *, asked_patch: bool = False) -> str:
     parts = [sentences([first], mark=""), quality_table(result), parameter_table(result)]
     if result.benchmark_after:
         parts.insert(1, _benchmark_sentence(result))
-    note = (
-        f"{COLUMNS} Intervals hold for a reading error of {worded(result.after_fit.sigma)} "
-        f"({origin_words(result.sigma_from)})."
-    )
-    parts.append(sentences([note], mark=""))
+    parts.append(sentences([f"{COLUMNS} {result.intervals_said}"], mark=""))
     said = [*turn_sentences(result), *result.cures, *result.warnings]
     if PATCH in result.effects_added:
         said.append(PATCH_WARNING)

@@ -83,7 +83,7 @@ def as_text(diagnosis: Diagnosis) -> str:
         if diagnosis.verdict == "cannot_tell":
             parts.append(_reasons(diagnosis))
         parts.append(_remedies(diagnosis))
-    parts.append(_noise_sentence(diagnosis))
+    parts.append(sentences([diagnosis.noise.sentence], mark=""))
     parts.append(_hiding(diagnosis))
     if diagnosis.warnings:
         parts.append(sentences(diagnosis.warnings))
@@ -145,12 +145,6 @@ def _remedies(diagnosis: Diagnosis) -> str:
         for name in diagnosis.suspects[:SHOWN]
     ]
     return sentences(said)
-
-
-def _noise_sentence(diagnosis: Diagnosis) -> str:
-    noise = diagnosis.noise
-    said = f"Noise of a reading: {worded(noise.sigma)} ({noise.origin}). Intervals: 95 %."
-    return sentences([said], mark="")
 
 
 def _hiding(diagnosis: Diagnosis) -> str:

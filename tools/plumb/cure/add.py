@@ -10,6 +10,7 @@ import numpy as np
 from pydantic import computed_field
 
 from plumb.cure.live_board import Chosen, LiveBoard, refuse_unknown_effects
+from plumb.diagnosis.sizes import intervals_sentence
 from plumb.fit.compare import Comparison, best_pose, compare
 from plumb.fit.covariates import PATCH, best_patch
 from plumb.fit.expected import PlausibleRange, plausible_range
@@ -164,6 +165,11 @@ class Addition:
         return float(np.tan(self.after_fit.last_sheet_rotation)) * self.settings.sheet_width
 
     @property
+    def intervals_said(self) -> str:
+        """For which noise they hold: a diagnosis may take another."""
+        return intervals_sentence(self.after_fit.sigma, self.sigma_from)
+
+    @property
     def pays(self) -> bool:
         """Whether the effects predict marks better that the fit did not see."""
         return self.after.left_out_rms < self.before.left_out_rms
@@ -189,11 +195,6 @@ def add(
     board = LiveBoard(inputs, warm=False)
     board.refuse(chosen)
     return add_to(board, raw, chosen, patch=patch)
-
-
-def raw_comparison(inputs: Inputs) -> Comparison:
-    """Return the marks against the settings as they stand."""
-    return compare(inputs)
 
 
 def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = False) -> Addition:

@@ -63,12 +63,12 @@ class Noise:
     def origin(self) -> str:
         """Where it comes from, for people."""
         counted = f", {self.degrees:.0f} degrees of freedom" if self.within.degrees else ""
-        return origin_words(self.source) + counted
+        return ORIGINS[self.source] + counted
 
-
-def origin_words(source: str) -> str:
-    """Return where a sigma of this source comes from, for people."""
-    return ORIGINS[source]
+    @property
+    def sentence(self) -> str:
+        """How far a reading may be off, for people."""
+        return f"Noise of a reading: {worded(self.sigma)} ({self.origin}). Intervals: 95 %."
 
 
 # Where the noise of a reading is taken from: the rule for every command.

@@ -10,11 +10,12 @@ import numpy as np
 import scipy
 
 from plumb.diagnosis.explanation import Board, Explanation, explain, span
-from plumb.diagnosis.noise import LEVEL, Noise, misfit_chance
+from plumb.diagnosis.noise import LEVEL, ORIGINS, Noise, misfit_chance
 from plumb.fit.expected import plausible_range
 from plumb.model.catalogue import parameter_words
 from plumb.model.plain import ranked
 from plumb.text.answers import Internal, key, meant
+from plumb.text.values import worded
 
 Array = np.ndarray
 
@@ -238,3 +239,8 @@ def _is_simple(explanation: Explanation, noise: Noise) -> bool:
     have.
     """
     return len(explanation.effects) < 2 and possible(explanation, noise)
+
+
+def intervals_sentence(sigma: float, source: str) -> str:
+    """Return for which noise [mm] the intervals of a fit hold."""
+    return f"Intervals hold for a reading error of {worded(sigma)} ({ORIGINS[source]})."

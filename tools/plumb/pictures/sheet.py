@@ -229,7 +229,8 @@ def write_beside(
 def _meaning(numbered: bool, repeated: bool) -> str:
     """Return what the signs of the picture mean."""
     said = ["circle: where the mark should be", "arrow: to where it was measured"]
-    said += [f"number: {unit()}"] if numbered else []
+    mean = ", of repeats their mean" if repeated else ""
+    said += [f"number: {unit()}{mean}"] if numbered else []
     said += ["ring: how far repeats spread"] if repeated else []
     return "; ".join(said)
 

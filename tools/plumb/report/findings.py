@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.cure.add import Addition, Quality, raw_comparison
+from plumb.cure.add import Addition, Quality
 from plumb.cure.auto import AutoAddition, add_auto
 from plumb.diagnosis.answer import Diagnosis
 from plumb.diagnosis.diagnosis import Examined, examine
@@ -15,7 +15,7 @@ from plumb.diagnosis.expected_error import ExpectedError, expected_error
 from plumb.diagnosis.explanation import Explanation, explain, measured_board
 from plumb.diagnosis.suspect_curves import SuspectCurves, suspect_curves, view_by
 from plumb.diary.history import DiaryFit
-from plumb.fit.compare import ChainView, Comparison
+from plumb.fit.compare import ChainView, Comparison, compare
 from plumb.fit.covariates import PATCH, Covariate, covariates
 from plumb.fit.fit import Fit
 from plumb.fit.inputs import Inputs
@@ -69,7 +69,7 @@ def find(
     progress: Callable[[float], None] = lambda share: None,
 ) -> Findings:
     """Compare, diagnose, add and propose; InputError as these do. `fits` are of the diary."""
-    comparison = raw_comparison(inputs)
+    comparison = compare(inputs)
     examined = examine(inputs)
     auto = add_auto(inputs, diagnosis=examined.diagnosis)
     frame, rows = examined.readings.frame, measured_board(inputs).rows

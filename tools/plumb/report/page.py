@@ -117,6 +117,7 @@ class Page:
     verdict: Verdict
     figures: tuple[Figure, ...]
     stairs: tuple[Stair, ...]
+    counted: str  # of which an RMS is
     fall_note: str
     pair: Pair | None
     chains: tuple[tuple[str, str], ...]
@@ -171,6 +172,7 @@ def page_of(findings: Findings, *, commands: Sequence[Command], again: str) -> P
         verdict=_verdict(findings),
         figures=_figures(findings),
         stairs=stairs_of(findings),
+        counted="marks" if findings.comparison.marks else "distances",
         fall_note=_fall_note(findings),
         pair=pair_of(findings),
         chains=_chain_maps(findings),
@@ -196,7 +198,7 @@ def page_of(findings: Findings, *, commands: Sequence[Command], again: str) -> P
         readings=readings_of(findings),
         readings_note=_readings_note(findings),
         sources=sources_of(findings),
-        noise=f"Noise of a reading: {worded(diagnosis.noise.sigma)} ({diagnosis.noise.origin}).",
+        noise=diagnosis.noise.sentence,
         versions=versions(),
         again=again,
     )
@@ -237,7 +239,10 @@ def _verdict(findings: Findings) -> Verdict:
 
 
 def _figures(findings: Findings) -> tuple[Figure, ...]:
-    figures = [Figure("as set, RMS", worded(findings.comparison.rms))]
+    comparison = findings.comparison
+    figures = [Figure("as set, RMS", worded(comparison.rms))]
+    if comparison.marks and comparison.distances:
+        figures.append(Figure("their distances, as set", worded(comparison.distance_rms)))
     addition = findings.auto.addition
     if addition:
         figures.append(Figure("frame fitted", worded(addition.before.fit_rms)))
@@ -301,9 +306,11 @@ def _accounts(findings: Findings) -> tuple[Account, ...]:
 
 
 def _settings_note(findings: Findings) -> str:
+    addition = findings.auto.addition
+    said = [f"In brackets: 95 % interval. {addition.intervals_said}"] if addition else []
     if findings.auto.rivals:
-        return "These are the numbers of the most likely explanation; the marks allow others."
-    return ""
+        said.append("These are the numbers of the most likely explanation; the marks allow others.")
+    return " ".join(said)
 
 
 def _remarks(findings: Findings) -> tuple[str, ...]:
@@ -320,10 +327,12 @@ def _expected(findings: Findings) -> Expected | None:
         return None
     sheet = findings.inputs.settings.sheet
     rivals = " The rivals of the explanation count by their share." if findings.auto.rivals else ""
+    place = " Distances do not tell where on the sheet the sled is, and that counts too."
+    place = "" if findings.comparison.marks else place
     return Expected(
         f"With the new settings expect {worded(expected.rms)} RMS over the sheet, and "
         f"{worded(expected.worst)} at the worst place: so well do these readings settle the "
-        f"numbers.{rivals} What could still hide is not counted.",
+        f"numbers.{rivals}{place} What could still hide is not counted.",
         expected_map(expected, sheet=sheet, name="expected"),
     )
 

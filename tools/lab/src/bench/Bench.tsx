@@ -45,6 +45,9 @@ function OpenBench({ bench }: { bench: Board }) {
       <div class="bench">
         <div class="effects">
           <h2>Effects</h2>
+          {now?.fit.intervals && kept.effects.length > 0 && (
+            <p class="intervals">In brackets: 95 %. {now.fit.intervals}</p>
+          )}
           {bench.effects.map((effect) => (
             <EffectCard
               key={effect.name}

@@ -1,5 +1,6 @@
 // Step 8: each number before and after, accepted one by one; written, sent, read back, and taken back.
 import { useRef } from "preact/hooks";
+import type { Schemas } from "../api/client";
 import { namedLength } from "../controls/lengths";
 import { Progress } from "../controls/Progress";
 import { useAnswer } from "../shell/answer";
@@ -55,7 +56,7 @@ export function Correct() {
     <Screen
       title="What would change?"
       say="Accept each number that you believe. The others stay as they are, and the rest is fitted again. Writing moves nothing; your old file stays."
-      why={<Why reason={made.reason} warnings={made.warnings} />}
+      why={<Why made={made} />}
       command={answer.command}
     >
       <dl class="errors">
@@ -125,7 +126,8 @@ function ByHand({ cures }: { cures: string[] }) {
   );
 }
 
-function Why({ reason, warnings }: { reason: string; warnings: string[] }) {
+function Why({ made }: { made: Schemas["CorrectionParts"] }) {
+  const { reason, warnings, intervals } = made;
   return (
     <>
       <p>{capital(reason)}.</p>
@@ -136,7 +138,7 @@ function Why({ reason, warnings }: { reason: string; warnings: string[] }) {
           ))}
         </ul>
       )}
-      <p>The number behind ± is half of the 95 % interval.</p>
+      <p>The number behind ± is half of the 95 % interval. {intervals}</p>
     </>
   );
 }

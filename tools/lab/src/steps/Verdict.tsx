@@ -45,7 +45,7 @@ export function Verdict() {
     <Screen
       title={TITLES[verdict.verdict] ?? "The verdict"}
       say={verdict.sentence}
-      why={<Why noise={verdict.noise} sigma={verdict.sigma} notes={verdict.notes} />}
+      why={<Why noise={verdict.noise} notes={verdict.notes} />}
       command={answer.command}
     >
       {verdict.slips.length > 0 && (
@@ -82,14 +82,13 @@ export function Verdict() {
   );
 }
 
-function Why({ noise, sigma, notes }: { noise: string; sigma: number; notes: string[] }) {
+function Why({ noise, notes }: { noise: string; notes: string[] }) {
   return (
     <>
       <p>
         The frame of the machine is always fitted first, and it swallows much of what the physics
         does. A suspect is an effect for which nothing else in the list adds anything. Where several
-        draw nearly the same arrows on your marks, all of them are named. A reading is taken to be
-        good to {sigma.toFixed(2)} mm ({noise}).
+        draw nearly the same arrows on your marks, all of them are named. {noise}
       </p>
       {notes.length > 0 && (
         <ul>

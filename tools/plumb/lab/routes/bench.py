@@ -12,6 +12,7 @@ from pydantic import BaseModel, Field, FiniteFloat
 from plumb.cure.add import add, add_to
 from plumb.cure.live_board import Chosen
 from plumb.cure.machine_file import record_of, toml_of
+from plumb.diagnosis.sizes import intervals_sentence
 from plumb.diagnosis.suspect_curves import Curve
 from plumb.fit.compare import ComparedMark
 from plumb.fit.covariates import Covariate
@@ -108,6 +109,7 @@ class BenchFit(BaseModel):
     errors: list[Pair]
     chains: list[tuple[float | None, float | None]]
     sizes: dict[str, BenchSize]
+    intervals: str  # for which noise they hold
     settled: bool
     command: str
 
@@ -186,6 +188,7 @@ def refit(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchFit:
     fitted = warm.live.fit(chosen)
     with shown_in(project.choices.units):
         sizes = _sizes(fitted, chosen)
+        intervals = intervals_sentence(fitted.sigma, warm.live.noise.source)
     return BenchFit(
         fit_rms=fitted.rms,
         corrected_rms=fitted.corrected_rms,
@@ -193,6 +196,7 @@ def refit(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchFit:
         errors=[_pair(error) for error in fitted.errors],
         chains=_ends(warm.view.chains(fitted.errors)),
         sizes=sizes,
+        intervals=intervals,
         settled=fitted.settled,
         command=_command(project, chosen, warm.live.inputs.measurements.typed.unit),
     )

@@ -62,6 +62,7 @@ class CorrectionParts(BaseModel):
     with_accepted: list[ChangedNumber] = []  # fitted with all others held as they are
     cures: list[str] = []  # for what no setting holds
     warnings: list[str] = []
+    intervals: str = ""  # for which noise they hold
     settings: str = ""  # name of the file that these numbers would change
     rms_set: float | None = None  # [mm] as that file stands
     rms_accepted: float | None = None
@@ -194,6 +195,7 @@ def _parts(made: Correction, reason: str, choices: Choices) -> CorrectionParts:
         with_accepted=[_number(number, choices) for number in accepted],
         cures=[*turn_sentences(whole), *whole.cures],
         warnings=list((some or whole).warnings),
+        intervals=(some or whole).intervals_said,
         settings=choices.settings,
         rms_set=whole.raw.rms,
         rms_accepted=some.after.fit_rms if some else None,

@@ -96,7 +96,7 @@ class Verdict(BaseModel):
     rms_added: float | None  # with what is added
     added: str  # what that is
     sigma: float  # [mm] of a reading
-    noise: str
+    noise: str  # a sentence
     before: list[Arrow]
     after: list[Arrow]
     cards: list[Card]
@@ -174,7 +174,7 @@ def verdict_of(inputs: api.Inputs, examined: Examined, auto: AutoAddition) -> Ve
         rms_added=addition.after.fit_rms if addition else None,
         added=plainly(addition.effects_added) if addition and addition.effects_added else "",
         sigma=diagnosis.noise.sigma,
-        noise=diagnosis.noise.origin,
+        noise=diagnosis.noise.sentence,
         before=[Arrow(name=m.name, place=m.predicted, error=m.error) for m in raw.marks],
         after=_after(addition, [mark.name for mark in raw.marks]) if addition else [],
         cards=[_card(examined, i, *each) for i, each in enumerate(shown)],

@@ -37,8 +37,8 @@ export function ErrorMaps({ verdict, sheet, units }: MapsParts) {
       </div>
       <Exaggeration value={exaggeration} change={setExaggeration} />
       <p class="legend">
-        Both maps have the same scale. A circle is what your readings are good to: arrows that end
-        inside of it mean nothing.
+        Both maps have the same scale. A circle is one sigma of a reading: grey arrows are shorter
+        than two, and mean nothing.
       </p>
     </section>
   );

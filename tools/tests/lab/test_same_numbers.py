@@ -1,0 +1,269 @@
+"""Terminal, report and page state the same numbers of the same marks, to the digits shown."""
+
+import html
+import io
+import json
+import re
+import shutil
+from contextlib import redirect_stdout
+
+import pytest
+from folder import EXAMPLE, asked, choose, finished
+from plumb.cli.main import main
+from plumb.diagnosis.answer import odds_words
+from plumb.model.plain import plain_size
+from plumb.settings.toml import write_machine_toml
+from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
+
+LENGTH = r"([\d.]+) mm"
+
+
+def example(folder):
+    """The example's files."""
+    for name in ("groundcontrol.ini", "marks.toml"):
+        shutil.copy(EXAMPLE / name, folder)
+    return "groundcontrol.ini", "marks.toml"
+
+
+def hidden(folder):
+    """Effects that the settings miss, with marks and distances, and no word of the noise."""
+    write_machine_toml(folder / "machine.toml", BELIEVED)
+    marks = marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.3)
+    lines = ['frame = "machine"']
+    for mark in marks:
+        lines += ["[[mark]]", f'name = "{mark.name}"', f"target = {[*map(float, mark.target)]}"]
+        lines.append(f"measured = {[round(float(x), 3) for x in mark.measured]}")
+    for each in distances_between(marks).distances[:12]:
+        lines += ["[[distance]]", f"between = {json.dumps(each.between)}"]
+        lines.append(f"mm = {each.length + 0.4:.2f}")
+    (folder / "marks.toml").write_text("\n".join(lines) + "\n")
+    return "machine.toml", "marks.toml"
+
+
+class Said:
+    """What terminal, report and page say of a board."""
+
+    def __init__(self, folder, files):
+        words = [str(folder / name) for name in files]
+        self.compare, self.compared = terminal("compare", *words)
+        self.diagnose, self.diagnosed = terminal("diagnose", *words)
+        self.add, self.added = terminal("add", *words, "--effect", "auto")
+        _, self.reported = terminal("report", *words, "-o", str(folder / "r.html"), "--force")
+        page = (folder / "r.html").read_text("utf-8")
+        self.report = words_of(page)
+        self.parts = {
+            name: words_of(page.split(f'aria-labelledby="{name}"')[1].split("<section")[0])
+            for name in ("verdict", "fall", "maps", "suspects", "settings", "history", "reach")
+        }
+        client = asked(folder)
+        choose(client, settings=files[0], marks=[files[1]])
+        self.verdict, self.correction = (
+            finished(client, name)[name] for name in ("verdict", "correction")
+        )
+        choice = {"effects": self.added["effects_added"]}
+        self.bench = client.post("/api/bench/fit", json=choice).json()
+        self.stairs = client.post("/api/bench/stairs", json=choice).json()["stairs"]
+
+    def figure(self, title):
+        """The length of a figure at the report's head."""
+        return re.search(f"{title} {LENGTH}", self.parts["verdict"])[1]
+
+
+def terminal(*words):
+    """The text of a command, its lines joined, and its JSON."""
+    said = []
+    for more in ([], ["--json"]):
+        out = io.StringIO()
+        with redirect_stdout(out):
+            main([*words, *more])
+        said.append(out.getvalue())
+    return " ".join(said[0].split()), json.loads(said[1])
+
+
+def words_of(page):
+    """The text of a piece of HTML, without tags and runs of blanks."""
+    return " ".join(html.unescape(re.sub(r"<[^>]*>", " ", page)).split())
+
+
+@pytest.fixture(scope="module", params=[example, hidden], ids=["example", "hidden"])
+def said(request, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("board")
+    return Said(folder, request.param(folder))
+
+
+def assert_same(*lengths):
+    """All lengths, as written or as they are [mm], are the same to two decimals."""
+    shown = [each if isinstance(each, str) else f"{each:.2f}" for each in lengths]
+    assert len({*shown}) == 1, shown
+
+
+def match_in(pattern, words):
+    match = re.search(pattern, words)
+    assert match, (pattern, words)
+    return match[1]
+
+
+def row(title, words):
+    """The numbers of a row of `plumb add`'s table of errors."""
+    return re.findall(r"\d+\.\d+", match_in(rf"{re.escape(title)}((?: +(?:[\d.]+|-))+)", words))
+
+
+def test_error_as_set_is_the_same(said):
+    assert_same(
+        match_in(rf"The marks lie {LENGTH} RMS", said.compare),
+        said.compared["rms_mm"],
+        said.added["raw"]["rms_mm"],
+        match_in(r"From ([\d.]+) to", said.add),
+        row("raw: the settings as they are", said.add)[0],
+        said.reported["comparison"]["rms_mm"],
+        said.figure("as set, RMS"),
+        match_in(rf"As set {LENGTH} not fitted", said.parts["fall"]),
+        match_in(rf"As set: {LENGTH} RMS", said.parts["maps"]),
+        match_in(rf"These readings, as set {LENGTH}", said.parts["history"]),
+        said.verdict["rms_set"],
+        said.correction["rms_set"],
+        said.stairs[0]["fit_rms"],
+    )
+
+
+def test_worst_error_and_shape_are_the_same(said):
+    raw = row("raw: the settings as they are", said.add)
+    worst, shape = said.compared["worst_mm"], said.compared["shape_rms_mm"]
+    assert_same(match_in(rf"worst {LENGTH}", said.compare), worst, raw[1])
+    assert_same(match_in(rf"{LENGTH} RMS of that is shape", said.compare), shape, raw[2])
+
+
+def test_distances_have_a_number_by_themselves(said):
+    rms = said.compared["distance_rms_mm"]
+    if rms is None:
+        assert "distances" not in said.parts["verdict"] + said.compare
+    else:
+        stated = match_in(rf"distances between marks are {LENGTH} RMS off", said.compare)
+        distances = said.figure("their distances, as set")
+        assert_same(rms, stated, distances)
+        assert rms != pytest.approx(said.compared["rms_mm"], abs=0.1)
+    assert "RMS of all marks, step by step" in said.parts["fall"]
+
+
+def test_error_of_the_fitted_frame_is_the_same(said):
+    left = r"(?:the fitted frame leaves|The error falls from) ([\d.]+)"
+    assert_same(
+        match_in(left, said.diagnose),
+        match_in(left, said.parts["verdict"]),
+        match_in(left, said.verdict["sentence"]),
+        said.diagnosed["rms_mm"],
+        said.added["before"]["fit_rms_mm"],
+        row("fitted: the frame", said.add)[0],
+        said.figure("frame fitted"),
+        match_in(rf"Frame fitted {LENGTH} checked", said.parts["fall"]),
+        said.verdict["rms_frame"],
+        said.stairs[1]["fit_rms"],
+    )
+
+
+def chosen(said):
+    """The explanation that is added, and its card on the page."""
+    added = {*said.added["effects_added"]}
+    both = zip(said.diagnosed["explanations"], said.verdict["cards"], strict=True)
+    return next(each for each in both if {*each[0]["effects"]} == added)
+
+
+def test_error_of_what_is_added_is_the_same(said):
+    together, card = chosen(said)
+    accounts = said.parts["suspects" if len(said.verdict["cards"]) > 1 else "verdict"]
+    assert_same(
+        together["rms_after_mm"],
+        card["rms_after"],
+        said.added["after"]["fit_rms_mm"],
+        match_in(rf"From [\d.]+ to {LENGTH} RMS", said.add),
+        said.figure("effects fitted"),
+        match_in(rf"With .*?: {LENGTH} RMS", said.parts["maps"].split("As set:")[1]),
+        match_in(rf"With the new settings {LENGTH}", said.parts["history"]),
+        match_in(r"(?:to|" + re.escape(card["title"]) + rf") {LENGTH}", accounts),
+        said.verdict["rms_added"],
+        said.correction["rms_all"],
+        said.bench["fit_rms"],
+        said.stairs[-1]["fit_rms"],
+    )
+
+
+def test_error_on_marks_not_used_is_the_same(said):
+    assert_same(
+        match_in(rf"\([\d.]+ to {LENGTH}\)", said.add),
+        said.added["after"]["left_out_rms_mm"],
+        said.figure("on marks not used"),
+        re.findall(rf"checked {LENGTH}", said.parts["fall"])[-1],
+        match_in(rf"on marks not used {LENGTH}", said.parts["history"]),
+        said.bench["left_out_rms"],
+        said.stairs[-1]["left_out_rms"],
+    )
+    before = re.findall(rf"checked {LENGTH}", said.parts["fall"])[0]
+    assert_same(before, said.added["before"]["left_out_rms_mm"], said.stairs[1]["left_out_rms"])
+
+
+def test_odds_of_explanations_are_the_same(said):
+    explanations = said.diagnosed["explanations"]
+    cards = said.verdict["cards"]
+    assert [card["odds"] for card in cards] == [odds_words(each["share"]) for each in explanations]
+    if len(explanations) == 1:
+        return  # there is no rival
+    for each, card in zip(explanations, cards, strict=True):
+        row_of_report = rf"{re.escape(card['title'])} {LENGTH} {card['odds']}"
+        assert_same(match_in(row_of_report, said.parts["suspects"]), each["rms_after_mm"])
+    first = f"(odds {odds_words(explanations[0]['share'])})"
+    for sentence in (said.diagnose, said.parts["verdict"], said.verdict["sentence"]):
+        assert first in sentence
+
+
+def test_sizes_and_their_noise_are_those_of_the_diagnosis(said):
+    noise = said.verdict["noise"]
+    assert noise in said.diagnose and noise in said.parts["suspects"]
+    assert_same(
+        match_in(LENGTH, noise), said.diagnosed["sigma_mm"], said.figure("noise of a reading")
+    )
+    for card in said.verdict["cards"]:
+        assert all(size in said.diagnose for size in sizes_on(card))
+    # The report has a card for each effect: its sizes in the likeliest explanation with it.
+    assert all(size in said.parts["suspects"] for size in sizes_on(said.verdict["cards"][0]))
+
+
+def sizes_on(card):
+    """The sizes of a card of the page, as they are said."""
+    return [size["said"] for effect in card["effects"] for size in effect["sizes"]]
+
+
+def test_sizes_and_their_noise_are_those_of_the_fit(said):
+    noise = said.correction["intervals"]
+    assert noise == said.bench["intervals"]
+    assert noise in said.add and noise in said.parts["settings"]
+    assert_same(match_in(LENGTH, noise), said.added["sigma_mm"])
+    numbers = {each["name"]: each for each in said.correction["numbers"]}
+    for each in said.added["parameters"]:
+        size = plain_size(each["name"], each["value"], each["low"], each["high"])
+        assert size in said.parts["settings"]
+        # In the terminal's table a long line goes on below.
+        assert all(number in said.add for number in re.findall(r"[\d.]+\d", size))
+        if each["name"] in said.bench["sizes"]:
+            assert said.bench["sizes"][each["name"]]["said"] == size
+        if each["name"] in numbers:
+            assert numbers[each["name"]]["after"].lstrip("-") in size
+
+
+def test_another_noise_of_a_diagnosis_and_a_fit_is_said_with_its_origin(said):
+    diagnosed, fitted = said.diagnosed["sigma_mm"], said.added["sigma_mm"]
+    if said.added["sigma_from"] == "repeats":
+        assert diagnosed == fitted and "from repeats" in said.correction["intervals"]
+    else:
+        assert fitted < diagnosed == 0.5
+        assert "usual for a tape" in said.verdict["noise"]
+        assert "from what the fit leaves" in said.correction["intervals"]
+
+
+def test_error_to_expect_and_what_could_hide_are_the_same(said):
+    expected = said.reported["expected"]
+    assert_same(match_in(rf"expect {LENGTH} RMS", said.parts["reach"]), expected["rms_mm"])
+    assert_same(match_in(rf"and {LENGTH} at the worst", said.parts["reach"]), expected["worst_mm"])
+    assert said.verdict["could_hide"]
+    for each in said.verdict["could_hide"]:
+        stated = f"{each['noun']} {each['mm']:.1f} mm"
+        assert stated in said.diagnose and stated in said.report
