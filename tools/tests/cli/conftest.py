@@ -2,7 +2,7 @@
 
 import pytest
 from asked_again import asked_again  # noqa: F401
-from plumb.settings.files import write_machine_toml
+from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED
 
 

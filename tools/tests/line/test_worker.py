@@ -224,7 +224,8 @@ def test_work_that_comes_with_a_hold_is_refused(worker):
         until(lambda state: not state.holds, worker)
 
 
-def test_a_hold_that_the_machine_ignores_is_forgotten(worker, board):
+def test_a_hold_that_the_machine_ignores_is_forgotten(worker, board, monkeypatch):
+    monkeypatch.setattr("plumb.line.worker.SURE", 50)  # so that a busy computer sees it
     board.write = lambda characters: None  # as in an alarm
     worker.hold()
     until(lambda state: state.holds, worker)
