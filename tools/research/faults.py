@@ -1,4 +1,4 @@
-"""Lets faults strike a virtual machine, and says what it did with each: docs/faults.md."""
+"""Lets faults strike a virtual machine; tools/research/faults.md says what it did with each."""
 
 from __future__ import annotations
 
@@ -144,10 +144,10 @@ def tried_all(
 
 INTRODUCTION = f"""# What a machine does when something goes wrong
 
-Written by `tools/research/faults.py --tries {{tries}} --write docs/faults.md`; `--seed` tries
-others.
+Written by `tools/research/faults.py --tries {{tries}} --write tools/research/faults.md`;
+`--seed` tries others.
 
-Each try is a virtual machine ([tools/vm](../tools/vm/README.md)) in the middle of a job of random
+Each try is a virtual machine ([tools/vm](../vm/README.md)) in the middle of a job of random
 lines, arcs, curves, drillings and rests. Its motors are drawn by chance, its frame is as its
 settings say. The fault strikes at any moment. Then somebody puts the wires right, presses Stop, and
 switches the power off and on. Each time the machine is asked where it is.
@@ -168,12 +168,12 @@ UNSEEN_INTRODUCTION = """
 
 These move the bit while all encoders count as they should. No firmware can be sure of them; the
 marks can. A chain that climbs a tooth while it moves often shows in its motor's duty: the machine
-says nothing, but [B30](telemetry.md#a-chain-that-may-have-slipped) counts a suspicion.
+says nothing, but [B30](../../docs/telemetry.md#a-chain-that-may-have-slipped) counts a suspicion.
 """
 
 
 def page(report: FaultReport) -> str:
-    """Return the page docs/faults.md."""
+    """Return the page tools/research/faults.md."""
     tries = min(len(row.outcomes) for row in (*report.rows, *report.unseen))
     parts = [INTRODUCTION.format(tries=tries)]
     parts += [markdown_table(HEADER, [row.cells() for row in report.rows]), ""]

@@ -1,7 +1,7 @@
 """Lets the lab's advice calibrate virtual machines, and prints how often it finds what they hide.
 
-Each game is kept when it ends: a run that was stopped goes on where it was. docs/matrix.md is
-written by --write.
+Each game is kept when it ends: a run that was stopped goes on where it was. --write writes
+tools/research/matrix.md.
 """
 
 from __future__ import annotations

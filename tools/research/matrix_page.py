@@ -1,4 +1,4 @@
-"""The page docs/matrix.md: what the closed loop finds, and what is left of the error."""
+"""The page tools/research/matrix.md: what the closed loop finds, and what is left of the error."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ HEADER = (
 )
 INTRODUCTION = """# How often the closed loop finds what is hidden
 
-Written by `tools/research/games.py --keep games.jsonl --write docs/matrix.md`. Run it to
+Written by `tools/research/games.py --keep games.jsonl --write tools/research/matrix.md`. Run it to
 see the same with other machines (`--seed`); a run that is stopped goes on where it was.
 
-Each game hides something in [a virtual machine](commands/vm.md): firmware, motors, exact mechanics.
-Friction of 3 N, play in the gears, a frame and a sheet that are off by a few millimetres are on all
-of them, and a tape reads to 0.4 mm. The lab's advice plays: cut a grid, diagnose, follow the best
-proposal of `plumb next` at most twice while a question is open, add what is most likely, send it,
-cut the grid again on a new sheet.
+Each game hides something in [a virtual machine](../../docs/commands/vm.md): firmware, motors,
+exact mechanics. Friction of 3 N, play in the gears, a frame and a sheet that are off by a few
+millimetres are on all of them, and a tape reads to 0.4 mm. The lab's advice plays: cut a grid,
+diagnose, follow the best proposal of `plumb next` at most twice while a question is open, add
+what is most likely, send it, cut the grid again on a new sheet.
 
 - *Hidden*: an effect by 3 mm RMS at the marks, but by four times its usual size at most; *two* of
   3 mm each; *unknown*: 3 mm of a bump, a cubic field or a tipping sled, in turns.
