@@ -19,6 +19,7 @@ from plumb.lab.project import Project
 
 Result = TypeVar("Result")
 Progress = Callable[[float], None]
+NEARLY = 0.99  # done, where all steps are over and the result is not there yet
 
 
 class OvertakenError(Exception):
@@ -45,7 +46,7 @@ class Task:
 class Answer(Generic[Result]):
     """How far the work is, and what came of it."""
 
-    share: float
+    share: float  # 1 only with a result, for the page asks no more then
     result: Result | None
 
 
@@ -71,7 +72,7 @@ class Background:
                 # The thread speaks to whom the asker speaks to.
                 task.future = self._thread.submit(copy_context().run, work, task.progress)
         if not task.future.done():
-            return Answer(task.share, None)
+            return Answer(min(task.share, NEARLY), None)
         return Answer(1.0, cast(Result, task.future.result()))
 
 

@@ -87,6 +87,22 @@ def test_what_another_program_read_meanwhile_is_no_half_any_more(lab, readings):
     expect(page.get_by_text("half typed")).to_have_count(0)
 
 
+def test_a_file_that_went_back_before_the_page_looked_is_loaded_again(lab, readings):
+    """The page typed, another program undid it, and only then the page saw the folder."""
+    page = readings
+    whole = (lab.folder / "marks.toml").read_text()
+    holds, held = True, []
+    page.route("**/api/project", lambda look: held.append(look) if holds else look.continue_())
+    field(page, LEFT).fill("")
+    expect(page.locator(".count")).to_contain_text("22 of 23 marks are read")
+    go_on_until(page, lambda: read_on_disk(lab) == 22 and held)
+    (lab.folder / "marks.toml").write_text(whole)
+    holds = False
+    for look in held:
+        look.continue_()
+    expect(page.locator(".count")).to_contain_text("23 of 23 marks are read")
+
+
 def test_half_a_reading_belongs_to_the_edges_from_which_it_was_typed(lab, readings):
     page = readings
     field(page, LEFT).fill("x")

@@ -67,10 +67,15 @@ export function useReadings(first = ""): TypedForm {
   }, [silences, load]);
   const onDisk = form ? project.files[form.file] : "";
   const known = Object.keys(project.files).join();
-  // What is on disk or chosen has changed.
+  const shown = form?.digest;
+  // What is on disk or chosen has changed. A file that went back to what the page last saw there shows no change:
+  // as long as the form is another than the folder's, it is loaded again.
   useEffect(() => {
-    if (onDisk !== newest.current?.digest || !onDisk) void load();
-  }, [load, onDisk, known]);
+    if (onDisk === shown && onDisk) return;
+    void load();
+    const timer = onDisk ? setInterval(() => void load(), AGAIN_MS) : undefined;
+    return () => clearInterval(timer);
+  }, [load, onDisk, known, shown]);
   // Other edges or settings change every number, once the server has them.
   useEffect(() => void load(), [project.choices_digest]);
   const kept = useKept<Typed>({
