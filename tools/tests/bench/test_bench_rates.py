@@ -244,7 +244,7 @@ def test_the_same_seed_gives_the_same_rates_however_many_programs_run():
         run_bench(scenarios, boards=2, seed=2, progress=lambda *_: None, jobs=jobs)
         for jobs in (1, 2)
     )
-    assert [row.rate for row in alone.rows] == [row.rate for row in together.rows]
+    assert [row.value for row in alone.rows] == [row.value for row in together.rows]
     assert json.dumps(page(alone)) == json.dumps(page(together))
 
 
