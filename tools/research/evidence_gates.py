@@ -10,14 +10,17 @@ import argparse
 import json
 import os
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
 from gate_kinds import KINDS
-from gate_records import record_of
+from gate_more_tables import real_tables, round_tables
+from gate_records import Record, record_of
+from gate_rounds import ASKED, Round, real_answers, rounds_of
+from gate_tables import tables
 from plumb.cli.arguments import count
 from plumb.text.errors import InputError
 
@@ -58,6 +61,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     words.add_argument("--jobs", metavar="N", type=count, default=1, help="processes at once [1]")
     words.add_argument("--kinds", metavar="KIND", nargs="+", default=[""], help="or beginnings")
     words.add_argument("--save", metavar="FILE", type=Path, help="the records, as JSON")
+    words.add_argument("--next", metavar="N", type=count, default=0, help="proposals carried out")
+    words.add_argument("--real", action="store_true", help="the sets of examples/ too")
+    words.add_argument("--table", metavar="FILE", nargs="+", type=Path, help="before, and after")
     words.add_argument("--list", action="store_true", help="print the kinds")
     wanted = words.parse_args(arguments)
     try:
@@ -74,6 +80,9 @@ def _run(wanted: argparse.Namespace) -> int:
     if wanted.list:
         print("\n".join(f"{name}: {KINDS[name].what}" for name in kinds))
         return 0
+    if wanted.table:
+        print(_tables([Saved.read(path) for path in wanted.table[:2]]))
+        return 0
     if not wanted.save:
         raise InputError("name a file with --save")
     saved = _so_far(wanted.save, wanted.seed)
@@ -86,9 +95,27 @@ def _run(wanted: argparse.Namespace) -> int:
     try:
         for records in _done(boards, wanted.jobs):
             saved.with_records(records)
+        if wanted.next:
+            saved.proposals = _rounds(wanted)
+        if wanted.real:
+            saved.real = real_answers()
     finally:
         wanted.save.write_text(json.dumps(vars(saved), default=float))
     return 0
+
+
+def _tables(sides: Sequence[Saved]) -> str:
+    """Return all tables of what was saved; boards that only a side has are left out."""
+    if len({side.seed for side in sides}) > 1:
+        raise InputError("both files must have the boards of the same seed")
+    boards = [{(each["kind"], each["index"]): each for each in side.records} for side in sides]
+    both = [key for key in boards[0] if all(key in side for side in boards)]
+    parts = [tables([[Record.of(side[key]) for key in both] for side in boards])]
+    if any(side.proposals for side in sides):
+        parts.append(round_tables([side.proposals for side in sides]))
+    if any(side.real for side in sides):
+        parts.append(real_tables([side.real for side in sides]))
+    return "\n\n".join(parts)
 
 
 def _chosen(beginnings: Sequence[str]) -> tuple[str, ...]:
@@ -117,14 +144,29 @@ def _records(kind: str, indices: Sequence[int], seed: int) -> list[dict[str, Any
     return [record_of(kind, index, seed=seed) for index in indices]
 
 
-def _done(tasks: Sequence[Task], jobs: int) -> Iterable[Any]:
-    """Yield what comes of each task, in any order; each process has a single thread."""
+def _done(tasks: Sequence[Task], jobs: int) -> Iterator[Any]:
+    """Yield what comes of each task, in their order; each process has a single thread."""
+    if not tasks:
+        return
     os.environ.update(dict.fromkeys(THREADS, "1"))
     with get_context("spawn").Pool(jobs) as pool:
-        for number, result in enumerate(pool.imap_unordered(_call, tasks), 1):
+        for number, result in enumerate(pool.imap(_call, tasks), 1):
             print(f"\r{number} of {len(tasks)}", end="", file=sys.stderr)
             yield result
-    print(file=sys.stderr)
+        print(file=sys.stderr)
+
+
+def _rounds(wanted: argparse.Namespace) -> list[dict[str, Any]]:
+    """Return rounds until as many had a promise as are wanted."""
+    several: list[dict[str, Any]] = []
+    tasks: list[Task] = [
+        (rounds_of, (kind, index, wanted.seed)) for index in range(wanted.next) for kind in ASKED
+    ]
+    for rounds in _done(tasks, wanted.jobs):
+        several += rounds
+        if sum(Round(**each).is_promised for each in several) >= wanted.next:
+            break
+    return several
 
 
 def _call(task: Task) -> Any:

@@ -183,12 +183,12 @@ READ_AGAIN_MM = 0.4  # noise of boards with marks that are read again
 
 
 def _kinds_of(world: str) -> Iterator[Kind]:
-    one = f"one effect of {REAL_MM:g} mm"
+    single = f"one effect of {REAL_MM:g} mm"
     usual, two = "1 to 3 usual sizes", "two effects of 1 to 3 usual sizes"
     for marks in (9, 15, 25, 35):
         yield Kind(f"{world}/none-{marks}", "nothing", nothing, marks, is_cured=marks == 25)
     for marks in (9, 25):
-        yield Kind(f"{world}/one-{marks}", one, raw(REAL_MM, REAL), marks, is_cured=True)
+        yield Kind(f"{world}/one-{marks}", single, raw(REAL_MM, REAL), marks, is_cured=True)
         draw = usual_sizes(1.0, 3.0, SMALL)
         yield Kind(f"{world}/typical-{marks}", usual, draw, marks, is_cured=True)
     larger = "1 to 1.5 times the largest that was met"

@@ -36,7 +36,7 @@ class Truth:
     """What a diagnosis could know."""
 
     effects: tuple[str, ...]  # that were hidden
-    usual: tuple[str, ...]  # what the machine has beside them, and the settings leave out
+    usual: tuple[str, ...]  # what else the machine has and the settings leave out
     gains: Mapping[str, float]  # of chi-square by each effect, beyond the frame and all others
     alike: Mapping[str, tuple[str, ...]]  # effects that draw the same arrows as each alone
 
