@@ -29,7 +29,6 @@ from plumb.plan.proposal import (
     promise_of,
     steps_of,
 )
-from plumb.plan.separation import Stability
 from plumb.text.answers import Internal, part
 from plumb.text.errors import InputError
 
@@ -147,8 +146,6 @@ def as_text(diagnosis: Diagnosis, advice: Next) -> str:
         parts.append("Nothing that can be proposed would tell more.")
         return "\n\n".join(parts)
     parts.append(first_proposal(advice.proposals[0]))
-    if advice.stable and advice.stable.of:
-        parts.append(sentences([_stable(advice.stable)], mark=""))
     if len(advice.proposals) > 1:
         parts.append(_table(advice))
         steps = [
@@ -187,15 +184,6 @@ def first_proposal(best: Proposal) -> str:
     """Return the best proposal in sentences."""
     first = sentences([f"Next: {headline_of(best)}."], mark="")
     return f"{first}\n{sentences(steps_of(best), mark='  ')}"
-
-
-def _stable(stable: Stability) -> str:
-    cases = f"{stable.kept} of {stable.of} cases"
-    return f"Leaving out any single mark keeps the suspect in {cases}" + (
-        ": it does not hang on a single reading."
-        if stable.kept == stable.of
-        else ": it hangs on single readings."
-    )
 
 
 def _table(advice: Next) -> str:

@@ -227,7 +227,7 @@ def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = F
         ),
         warnings=(
             *raw.warnings,
-            *noise.said,
+            *board.said,
             *_unsettled(after_fit),
             *_unfelt(after_fit),
             *notes_on(parameter.name for parameter in parameters),

@@ -1,17 +1,17 @@
-"""Adding by itself what the marks prove: the diagnosis names, the fit adds, step by step."""
+"""Adding by itself what the marks ask for: the diagnosis names, the fit adds."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated
 
 from pydantic import computed_field
 
-from plumb.cure.add import Addition, add, may_be_zero
+from plumb.cure.add import Addition, add
 from plumb.cure.live_board import TooFewError
-from plumb.diagnosis import Diagnosis, diagnose
-from plumb.diagnosis.answer import Verdict
-from plumb.diagnosis.expected_error import LeftOpen
+from plumb.diagnosis.answer import Diagnosis, Verdict
+from plumb.diagnosis.diagnosis import diagnose
+from plumb.diagnosis.expected_error import LeftOpen, RivalError, rival_error
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly
@@ -25,7 +25,8 @@ class AutoAddition:
     """What was added without anybody naming it, and why."""
 
     diagnosis: Internal[Diagnosis]
-    chosen: tuple[str, ...]  # effects added, what explains most first
+    inputs: Internal[Inputs]  # with what is usual of the sizes that were added
+    chosen: tuple[str, ...]  # effects added: those asked for, then what every machine has
     rivals: tuple[tuple[str, ...], ...]  # explanations that the marks allow as well
     # None: nothing is fitted to a wrong reading, or to too few marks
     addition: Internal[Addition | None]
@@ -36,6 +37,7 @@ class AutoAddition:
     ] = None
     # How to tell the chosen from their rivals.
     settled_by: tuple[str, ...] = ()
+    apart: RivalError | None = None  # where rivals would cut elsewhere by more than the noise
 
     verdict = part("diagnosis.verdict", Verdict)
 
@@ -47,89 +49,56 @@ class AutoAddition:
 
     @property
     def done(self) -> bool:
-        """Whether nothing more is provable once the chosen effects are there."""
-        if self.addition is None:
-            return False
-        if self.diagnosis.verdict in ("one_suspect", "cannot_tell"):
-            return bool(self.chosen or self.rivals)
-        return self.diagnosis.verdict == "nothing_provable"
+        """Whether the marks ask for nothing more once the chosen effects are there."""
+        return self.addition is not None and self.diagnosis.verdict != "not_in_library"
 
 
 def add_auto(
-    inputs: Inputs,
-    *,
-    patch: bool = False,
-    diagnosis: Diagnosis | None = None,
+    inputs: Inputs, *, patch: bool = False, diagnosis: Diagnosis | None = None
 ) -> AutoAddition:
-    """Diagnose the marks and add the best explanation that a real machine can have. `diagnosis` is
-    that of these inputs, if it is known.
+    """Diagnose the marks and add the likeliest account, with what every machine has and the
+    settings leave out. `diagnosis` is that of these inputs, if it is known.
 
-    Where the library has none, the effects that come nearest are added as long as marks left out
-    are predicted better with them: to leave out a large effect because a small effect is unknown
-    would help nobody. A residual patch is offered, and added only if `patch` asks for it.
-
-    An explanation has stood the test that nothing else in the library adds more to it than noise
-    would; so with its effects nothing more is provable. Several of them: the first of the
-    diagnosis. Raises InputError as diagnose() and add() do.
+    Where the library has no account, the nearest is added if marks left out are predicted better
+    with it: to leave out a large effect because a small effect is unknown would help nobody. A
+    residual patch is offered then, and added only if `patch` asks for it. Raises InputError as
+    diagnose() and add() do.
     """
     diagnosis = diagnosis or diagnose(inputs)
+    inputs = replace(inputs, checked=(*inputs.checked, *diagnosis.usual))
     if diagnosis.verdict == "slip":
-        return AutoAddition(diagnosis, (), (), None, _slip_reason(diagnosis))
+        return AutoAddition(diagnosis, inputs, (), (), None, _slip_reason(diagnosis))
     if diagnosis.left_open.is_too_much:
-        return AutoAddition(diagnosis, (), (), None, _open_reason(diagnosis.left_open))
-    known = diagnosis.verdict != "not_in_library"
-    possible = [
-        explanation.effects
-        for explanation in diagnosis.explanations
-        if explanation.possible and known
-    ]
-    order = [ranked.effect for ranked in diagnosis.ranking]
-    best = (possible[0] if possible else ()) if known else diagnosis.to_add
-    chosen = tuple(sorted(best, key=order.index))
+        return AutoAddition(diagnosis, inputs, (), (), None, _open_reason(diagnosis.left_open))
+    is_known = diagnosis.verdict != "not_in_library"
     try:
-        chosen, addition = _added(inputs, chosen)
+        addition = add(inputs, effects=diagnosis.to_add)
     except TooFewError as error:
-        return AutoAddition(diagnosis, (), (), None, f"nothing was added: {error}")
-    rivals = tuple(effects for effects in possible[1:] if {*effects} != {*chosen})
-    if not known and chosen and not _helps(addition):
-        chosen, addition = (), add(inputs, effects=())
-    reason, offer = _reason(diagnosis, chosen, rivals), None
-    if not known:
+        return AutoAddition(diagnosis, inputs, (), (), None, f"nothing was added: {error}")
+    chosen, offer = diagnosis.to_add, None
+    if not is_known:
+        if not addition.pays:
+            chosen, addition = (), add(inputs, effects=())
         patched = add(inputs, effects=chosen, patch=True)
         offer = addition.after.left_out_rms, patched.after.left_out_rms
         addition = patched if patch else addition
-    settled_by = _settled_by(chosen, rivals)
-    return AutoAddition(diagnosis, chosen, rivals, addition, reason, offer, settled_by)
+    rivals = tuple(each.effects for each in diagnosis.explanations[1:]) if is_known else ()
+    return AutoAddition(
+        diagnosis=diagnosis,
+        inputs=inputs,
+        chosen=chosen,
+        rivals=rivals,
+        addition=addition,
+        reason=_reason(diagnosis, chosen, rivals),
+        offer=offer,
+        settled_by=_settled_by(diagnosis),
+        apart=rival_error(diagnosis.fits, diagnosis.noise.sigma) if rivals else None,
+    )
 
 
-def _added(inputs: Inputs, chosen: tuple[str, ...]) -> tuple[tuple[str, ...], Addition]:
-    """Return these effects and their fit, without those that it gives an impossible size which may
-    as well be zero.
-    """
-    addition = add(inputs, effects=chosen)
-    useful = tuple(name for name in chosen if not _is_needless(name, addition))
-    return (chosen, addition) if useful == chosen else _added(inputs, useful)
-
-
-def _is_needless(effect: str, addition: Addition) -> bool:
-    sizes = [each for each in addition.parameters if each.name.partition(".")[0] == effect]
-    return all(map(may_be_zero, sizes)) and not all(each.plausible for each in sizes)
-
-
-def _helps(addition: Addition) -> bool:
-    """Return whether effects that do not explain all are of use: no mere fit, and of plausible
-    sizes.
-
-    The values themselves must be plausible: where physics is missing, no interval is to be trusted.
-    """
-    return addition.pays and all(parameter.plausible for parameter in addition.parameters)
-
-
-def _settled_by(chosen: tuple[str, ...], rivals: tuple[tuple[str, ...], ...]) -> tuple[str, ...]:
+def _settled_by(diagnosis: Diagnosis) -> tuple[str, ...]:
     """Return how to look directly at each effect that is in some explanations only."""
-    if not rivals:
-        return ()
-    explanations = (chosen, *rivals)
+    explanations = [each.effects for each in diagnosis.explanations]
     names = dict.fromkeys(name for explanation in explanations for name in explanation)
     remedies = {effect["name"]: effect["remedy"] for effect in every_effect()}
     undecided = (
@@ -160,27 +129,23 @@ def _open_reason(left_open: LeftOpen) -> str:
 def _reason(
     diagnosis: Diagnosis, chosen: tuple[str, ...], rivals: tuple[tuple[str, ...], ...]
 ) -> str:
+    named = diagnosis.explanations[0].effects if diagnosis.explanations else ()
+    usual = [name for name in chosen if name not in named]
+    too = f"; {plainly(usual)} too, for every machine has it" if usual else ""
     if diagnosis.verdict == "nothing_provable":
-        return "the marks prove no effect: only the frame was fitted"
+        return f"the marks show no cause, so only the frame was fitted{too}"
     if diagnosis.verdict == "not_in_library":
         part = f"only {plainly(chosen)}, as far as it goes," if chosen else "no effect"
         return (
             f"not all that the marks show is in the library, so {part} was added; read the worst "
             "marks again, and see " + to_do("plumb next", page="Verdict") + " for what to measure"
         )
-    name = plainly(chosen)
+    name = plainly(named)
     if rivals:
         others = ", or ".join(plainly(rival) for rival in rivals)
         asked = to_do("plumb next", page="Verdict")
         return (
             f"a choice: {name} explains the marks best, but they allow {others} as well; {asked} "
-            "says what to measure to tell them apart"
+            f"says what to measure to tell them apart{too}"
         )
-    if not chosen:
-        tried = "; ".join(plainly(explanation.effects) for explanation in diagnosis.explanations)
-        return (
-            "every explanation needs sizes that no real machine has, so none was added and only "
-            f"the frame was fitted ({tried}): check which settings were in force and the marks' "
-            "signs"
-        )
-    return f"{name} explains the marks; with it nothing more is provable"
+    return f"{name} explains the marks{too}"

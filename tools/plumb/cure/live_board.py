@@ -15,9 +15,9 @@ from typing import Protocol
 
 import numpy as np
 
-from plumb.diagnosis.clean import clear_repeats
+from plumb.diagnosis.clean import clear_outliers
 from plumb.diagnosis.explanation import Board, Explanation, explain
-from plumb.diagnosis.noise import known_noise, repeats_of
+from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.outliers import described
 from plumb.diagnosis.suspect_curves import SuspectCurves, seen_by, suspect_curves
 from plumb.firmware.settings import Difference, both_values, differences, numbers_in_force
@@ -78,7 +78,9 @@ class LiveBoard:
         model, rows = inputs.model_and_observations()
         self.model: MachineSettings = model
         self.rows: Observations = rows
-        self.noise: FitNoise = noise_of(inputs, model, rows)
+        sigma = inputs.stated.sigma if inputs.stated else USUAL_SIGMA
+        board = Board.of(model, rows, sigma=sigma, priors=inputs.priors, checked=inputs.checked)
+        self.noise, self.said = noise_of(inputs, board)
         self._fits: dict[object, Fit] = {}
         self._last: Fit | None = None
         self._fitting = Lock()
@@ -172,29 +174,15 @@ def refuse_unknown_effects(names: Sequence[str]) -> None:
 # The noise of the readings to which effects are fitted, by the rule of the diagnosis.
 
 
-@dataclass(frozen=True)
-class FitNoise:
-    """How good a reading is, as far as it is known before the fit."""
-
-    sigma: float | None  # [mm] None: from what the fit leaves
-    degrees: float  # of freedom with which sigma is known
-    source: str  # of noise_sources.py, or "residuals"
-    said: tuple[str, ...]  # a sentence for each thing that does not go together
-
-
-def noise_of(inputs: Inputs, model: MachineSettings, rows: Observations) -> FitNoise:
-    """Return what is known of the noise; readings that disagree with their repeats do not count."""
-    stated = inputs.stated
-    board = Board.of(model, rows, sigma=stated.sigma if stated else USUAL_SIGMA)
-    cleared = clear_repeats(board, stated)
-    said = tuple(
-        described(shift, inputs.measurements, inputs.settings.sheet).sentence
-        for shift in cleared.outliers
-    )
-    noise = known_noise(repeats_of(cleared.rows), stated)
-    if noise is None:
-        return FitNoise(None, np.inf, "residuals", said)
-    return FitNoise(noise.sigma, noise.degrees, noise.source, (*said, *noise.notes))
+def noise_of(inputs: Inputs, board: Board) -> tuple[Noise, tuple[str, ...]]:
+    """Return the noise by the posterior of the diagnosis, and a sentence for each reading that
+    is likelier off than not, and for what does not go together.
+    """
+    shifts, posterior = clear_outliers(board, inputs.stated)
+    said = [
+        described(shift, inputs.measurements, inputs.settings.sheet).sentence for shift in shifts
+    ]
+    return posterior.noise, (*said, *posterior.noise.notes)
 
 
 # What the bench of the lab draws of a board: its errors in chain, covariates, suspects.
@@ -248,7 +236,7 @@ class BoardView:
         board = Board.of(
             self.board.model,
             self.board.rows,
-            sigma=noise.sigma or USUAL_SIGMA,
+            sigma=noise.sigma,
             priors=inputs.priors,
             checked=inputs.checked,
         )

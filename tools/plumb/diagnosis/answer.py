@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
 from pydantic import computed_field
 
+from plumb.diagnosis.clean import CleanReadings
 from plumb.diagnosis.expected_error import LeftOpen
+from plumb.diagnosis.explanation import Explanation
 from plumb.diagnosis.noise import ORIGINS, Noise
 from plumb.diagnosis.outliers import Outlier
 from plumb.diagnosis.sizes import Room, Size
+from plumb.fit.problem import Checked
 from plumb.model.catalogue import place_of
-from plumb.model.plain import nouns_of, plainly
+from plumb.model.plain import plainly
 from plumb.text.answers import Internal, among, key, meant, part
 from plumb.text.values import bare, worded
 
@@ -27,8 +30,7 @@ class Ranked:
 
     effect: str
     gain: float  # drop of chi-square when it is added to the frame and all is refitted
-    # the order of the ranking
-    negative_log_p: Annotated[float, key("surprise", "-log of the chance of that gain from noise.")]
+    chance: Annotated[float, meant("That it acts, by all accounts; the order of the ranking.")]
     sizes: Annotated[tuple[Size, ...], key("parameters")]
     rms_after: Annotated[float, key("rms_after_mm")]
     hidden_share: float | None
@@ -55,12 +57,12 @@ class EffectSize(Size):
 
 @dataclass(frozen=True)
 class Together:
-    """An explanation that stood its test: one effect, or several that act at once."""
+    """A likely account of the marks: one effect, or several that act at once, or none."""
 
     effects: tuple[str, ...]
     sizes: Internal[Mapping[str, tuple[Size, ...]]]
     rms_after: Annotated[float, key("rms_after_mm")]
-    share: Annotated[float | None, meant("Of all accounts; null: they were not weighed.")] = None
+    share: Annotated[float, meant("How likely it is among all accounts.")]
 
     @computed_field
     @property
@@ -87,22 +89,30 @@ class Diagnosis:
     """What the marks prove, and what they do not."""
 
     verdict: Verdict
-    noise: Internal[Noise]
-    threshold: Internal[float]  # of detection: the -log p that noise hardly ever exceeds
+    readings: Internal[CleanReadings]  # with the posterior that all of this is read from
+    fits: Internal[tuple[Explanation, ...]]  # of the explanations, in their order
+    best: Internal[Explanation]  # with the effects to go on with
     rms_before: Annotated[float, key("rms_mm", "With the frame fitted.")]
-    explanations: tuple[Together, ...]  # best first
+    noise_rms: Annotated[float, key("noise_rms_mm", "What noise alone would leave of that fit.")]
+    explanations: tuple[Together, ...]  # likeliest first
     # [mm] RMS between two explanations' marks
     differences: Internal[Mapping[tuple[int, int], float]]
     ranking: tuple[Ranked, ...]
-    library_fits: Internal[bool]  # whether all effects of the library at once could draw the marks
-    chance: Annotated[float, meant("That as many effects explain what none of them made.")]
-    # the first explanation, or the best at hand
+    nothing_chance: Annotated[float, meant("That no effect acts, if nothing else is wrong.")]
+    field_chance: Annotated[float, meant("That it also does what no effect of the library does.")]
+    # the likeliest account, with what every machine has and the settings leave out
     to_add: Annotated[tuple[str, ...], meant("Effects to go on with.")]
+    usual: Internal[tuple[Checked, ...]]  # what is known of their sizes before the marks
     outliers: Annotated[tuple[Outlier, ...], key("slips")]
     could_hide: tuple[Room, ...]
     left_open: Internal[LeftOpen]  # of the machine's errors all over the sheet
     warnings: tuple[str, ...]
-    disagreements: tuple[str, ...] = ()  # rounds, or halves of the sheet, that do not go together
+    disagreements: tuple[str, ...] = ()  # rounds that do not go together
+
+    @property
+    def noise(self) -> Noise:
+        """Of a reading."""
+        return self.readings.noise
 
     sigma_mm = part("noise.sigma", float, "Reading error of a coordinate.")
     sigma_from = part("noise.source", Annotated[str, among(list(ORIGINS))])
@@ -124,127 +134,75 @@ class Diagnosis:
 
 # The last step of a diagnosis: its verdict in at most forty words for people.
 
-SHOWN = 8  # explanations that a sentence names; a Diagnosis holds all
-MOST_WORDS = 40  # of a sentence, not counting the names that a command line adds to nouns
-Nouns = Callable[[tuple[str, ...]], str]
+SHOWN = 8  # explanations that a screen names; a Diagnosis holds all
+MOST_WORDS = 40
+MOST_NAMED = 2  # causes in a sentence
 
 
 def verdict_sentence(diagnosis: Diagnosis) -> str:
-    """Return the verdict in a sentence or two, which name as many explanations as there is room
-    for.
-    """
-    say = _SENTENCES[diagnosis.verdict]
-    rooms = (n for n in range(SHOWN, 0, -1) if _count(say(diagnosis, plainly, n)) <= MOST_WORDS)
-    return say(diagnosis, nouns_of, next(rooms, 0))
+    """Return the verdict in a sentence or two."""
+    return _SENTENCES[diagnosis.verdict](diagnosis)
 
 
-def _count(said: str) -> int:
-    return len(said.split())
-
-
-def _outlier(diagnosis: Diagnosis, _nouns: Nouns, shown: int) -> str:
+def _outlier(diagnosis: Diagnosis) -> str:
     names = list(dict.fromkeys(outlier.name for outlier in diagnosis.outliers))
-    more = f" and {len(names) - shown} more" if len(names) > shown else ""
+    shown = names[:MOST_NAMED]
+    more = f" and {len(names) - len(shown)} more" if len(names) > len(shown) else ""
     which = "One reading disagrees" if len(diagnosis.outliers) == 1 else "Some readings disagree"
     against = {outlier.against for outlier in diagnosis.outliers}
     what = against.pop() if len(against) == 1 else "every explanation or with their repeats"
     what = "their repeats" if what == "its repeats" and len(diagnosis.outliers) > 1 else what
-    where = ", ".join(names[: max(shown, 1)])
-    return f"{which} with {what}: look at {where}{more} again before anything else."
+    return f"{which} with {what}: look at {', '.join(shown)}{more} again before anything else."
 
 
-def _nothing_provable(diagnosis: Diagnosis, _nouns: Nouns, _shown: int) -> str:
-    return f"Nothing is provable: {_error_left(diagnosis)}, and noise alone could look like that."
-
-
-def _not_in_library(diagnosis: Diagnosis, nouns: Nouns, shown: int) -> str:
-    left = _error_left(diagnosis)
-    if not diagnosis.explanations:
-        more = " (unless more than three act at once)" if diagnosis.library_fits else ""
-        return (
-            f"No effect of the library explains these marks, alone or up to three together{more}: "
-            f"{left}, more than noise."
-        )
-    least = min(len(explanation.effects) for explanation in diagnosis.explanations)
-    suspects = _suspects(diagnosis, nouns, shown)
-    kind = "one effect explains" if least == 1 else f"{least} effects explain"
+def _nothing_provable(diagnosis: Diagnosis) -> str:
     return (
-        f"No effect is proved: {left}. {suspects[0].upper()}{suspects[1:]} could be it, but here "
-        f"{kind} {100 * diagnosis.chance:.0f} % of all smooth errors. More marks tell."
+        f"The marks show no cause: with the frame fitted they are {worded(diagnosis.rms_before)} "
+        f"off (RMS), and reading noise alone leaves about {worded(diagnosis.noise_rms)}."
     )
 
 
-def _one_suspect(diagnosis: Diagnosis, nouns: Nouns, shown: int) -> str:
-    if not _any_possible(diagnosis):
-        return _impossible(diagnosis, nouns, shown)
-    first = diagnosis.explanations[0]
-    single = len(first.effects) == 1
-    who = "One suspect" if single else "Several effects at once"
-    before, after = diagnosis.rms_before, first.rms_after
-    named = _suspects(diagnosis, nouns, shown)
-    return f"{who}: {named}. The error falls from {bare(before)} to {worded(after)} RMS."
+def _not_in_library(diagnosis: Diagnosis) -> str:
+    nearest = diagnosis.explanations[0] if diagnosis.explanations else None
+    left = nearest.rms_after if nearest else diagnosis.rms_before
+    said = (
+        "The machine does something that no effect of the library draws: "
+        f"{worded(left)} RMS stay, where noise leaves {worded(diagnosis.noise_rms)}."
+    )
+    if nearest is None or not nearest.effects:
+        return said
+    falls = f"brings {bare(diagnosis.rms_before)} to {worded(nearest.rms_after)}"
+    return f"{said} What comes nearest, {_named(nearest.effects)}, {falls}."
 
 
-def _cannot_tell(diagnosis: Diagnosis, nouns: Nouns, shown: int) -> str:
-    if not _any_possible(diagnosis):
-        return _impossible(diagnosis, nouns, shown)
-    if diagnosis.explanations[0].share is not None:
-        return _most_likely(diagnosis, nouns, shown)
+def _one_suspect(diagnosis: Diagnosis) -> str:
+    (first,) = diagnosis.explanations
     return (
-        f"Something is missing ({_error_left(diagnosis)}), but the marks cannot tell which: "
-        f"{_suspects(diagnosis, nouns, shown)}."
+        f"The cause is most likely {_named(first.effects)}, {odds_words(first.share)}. "
+        f"With it the error falls from {bare(diagnosis.rms_before)} to {worded(first.rms_after)} "
+        "RMS."
     )
 
 
-def _most_likely(diagnosis: Diagnosis, nouns: Nouns, shown: int) -> str:
-    """Return the likeliest account with its odds against all others, and the next if there
-    is room.
-    """
-    first, *others = diagnosis.explanations
-    said = f"{_named(first.effects, nouns, shown)} (odds {odds_words(first.share)})"
-    if shown > 1 and others:
-        second = others.pop(0)
-        said += f"; next, {nouns(second.effects)} ({odds_words(second.share)})"
-    more = f", and {len(others)} more" if others else ""
-    missing = "is" if all(each.effects for each in diagnosis.explanations) else "may be"
-    return f"Something {missing} missing: {_error_left(diagnosis)}. Most likely: {said}{more}."
+def _cannot_tell(diagnosis: Diagnosis) -> str:
+    first, second, *others = diagnosis.explanations
+    said = (
+        f"The cause may be {_named(first.effects)}, {odds_words(first.share)}, or "
+        f"{_named(second.effects)}, {odds_words(second.share)}."
+    )
+    more = f" {len(others)} more are less likely." if others else ""
+    return f"{said}{more} The marks cannot tell yet."
 
 
-def odds_words(share: float | None) -> str:
+def odds_words(share: float) -> str:
     """Return how likely something is, as odds against all else."""
-    if share is None:
-        return "not weighed"
     odds = share / max(1 - share, 1e-3)
     return f"{odds:.0f} to 1" if odds >= 1 else f"1 to {1 / max(odds, 1e-3):.0f}"
 
 
-def _impossible(diagnosis: Diagnosis, nouns: Nouns, shown: int) -> str:
-    return (
-        f"Something is missing ({_error_left(diagnosis)}), but only sizes that no real machine has "
-        f"would explain it: {_suspects(diagnosis, nouns, shown)}. Look for another cause first."
-    )
-
-
-def _any_possible(diagnosis: Diagnosis) -> bool:
-    return any(explanation.possible for explanation in diagnosis.explanations)
-
-
-def _error_left(diagnosis: Diagnosis) -> str:
-    return f"the fitted frame leaves {worded(diagnosis.rms_before)} RMS"
-
-
-def _suspects(diagnosis: Diagnosis, nouns: Nouns, shown: int) -> str:
-    """Return the best explanations, and how many more there are."""
-    best = diagnosis.explanations[: max(shown, 1)]
-    names = [_named(explanation.effects, nouns, shown) for explanation in best]
-    more = len(diagnosis.explanations) - len(best)
-    *others, last = [*names, f"{more} more"] if more else names
-    return f"{'; '.join(others)}; or {last}" if others else last
-
-
-def _named(effects: Sequence[str], nouns: Nouns, shown: int) -> str:
-    """Effects by their nouns; by their number where there is no room."""
-    return nouns(tuple(effects)) if shown else f"{len(effects)} effects at once"
+def _named(effects: Sequence[str]) -> str:
+    """Effects by their nouns; by their number where there are many."""
+    return plainly(effects) if len(effects) <= MOST_NAMED else f"{len(effects)} effects at once"
 
 
 _SENTENCES = {

@@ -12,7 +12,7 @@ import numpy as np
 import scipy
 
 from plumb.diagnosis.explanation import Explanation, explain, measured_board
-from plumb.diagnosis.noise import noise_on
+from plumb.diagnosis.posterior import posterior_of
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import Observations, model_and_observations
 from plumb.fit.sighting import sighted
@@ -70,7 +70,7 @@ def check_marks(inputs: Inputs, marks: Measurements) -> Check:
     record = inputs.settings.fitted
     effects = [name for name in effect_names() if record and name in record.effects]
     board = measured_board(inputs)
-    sigma = noise_on(board, inputs.stated).sigma
+    sigma = posterior_of(board, inputs.stated).noise.sigma
     fitted = explain(board.with_rows(board.rows, sigma=sigma), tuple(effects))
     in_force = marks.rounds[0].cut_with or inputs.settings
     _, rows = model_and_observations(inputs.settings, marks, cut_with=in_force)

@@ -1,32 +1,24 @@
-"""The diagnosis, step by step: observe, clean the readings, detect, suspects, doubts, answer."""
+"""The diagnosis: observe, weigh all accounts, set outliers aside, and read the answers off."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from plumb.diagnosis.answer import Diagnosis, Ranked, Together
 from plumb.diagnosis.clean import CleanReadings, clean_readings
-from plumb.diagnosis.doubts import find_doubts
+from plumb.diagnosis.doubts import doubts_of
 from plumb.diagnosis.expected_error import left_open
 from plumb.diagnosis.explanation import Explanation, measured_board
-from plumb.diagnosis.gain import search
-from plumb.diagnosis.judgement import Judgement, evidence, judge
-from plumb.diagnosis.noise import Noise
-from plumb.diagnosis.sizes import hidden_share, sizes_of
+from plumb.diagnosis.noise import Noise, left_by_noise
+from plumb.diagnosis.posterior import Listed, explain_account
+from plumb.diagnosis.priors import usual_checks
+from plumb.diagnosis.sizes import hidden_share, room_for, sizes_of
+from plumb.diagnosis.verdict import judge
 from plumb.fit.inputs import Inputs
+from plumb.model.catalogue import effect_names
 from plumb.model.plain import ranked
-
-
-@dataclass(frozen=True)
-class Examined:
-    """A diagnosis with the fits that it rests on."""
-
-    diagnosis: Diagnosis
-    readings: CleanReadings
-    explanations: tuple[Explanation, ...]  # those of the diagnosis, in its order
 
 
 def diagnose(inputs: Inputs) -> Diagnosis:
@@ -34,53 +26,51 @@ def diagnose(inputs: Inputs) -> Diagnosis:
 
     Raises InputError for too few marks, and marks that cannot be reached.
     """
-    return examine(inputs).diagnosis
-
-
-def examine(inputs: Inputs) -> Examined:
-    """Return the same with its fits, for pictures of them."""
-    board = measured_board(inputs)
-    readings = clean_readings(board, inputs)
-    detection = search(readings.frame, readings.felt, readings.noise)
-    judgement = judge(readings, detection)
-    ranking = rank(readings)
-    rounds = [part.name for part in inputs.measurements.rounds]
-    doubts = find_doubts(readings, detection, judgement, ranking, rounds)
-    diagnosis = Diagnosis(
+    readings = clean_readings(measured_board(inputs), inputs)
+    judgement = judge(readings, inputs.stated)
+    frame, noise = readings.frame, readings.noise
+    explanations = tuple(
+        explain_account(frame, each.account.effects, each.account.acting)
+        for each in judgement.listed
+    )
+    best = (
+        explanations[0]
+        if explanations
+        else explain_account(frame, judgement.best.effects, judgement.best.acting)
+    )
+    doubts = doubts_of(readings, judgement.verdict, best, inputs.measurements.rounds)
+    return Diagnosis(
         verdict=judgement.verdict,
-        noise=readings.noise,
-        threshold=detection.threshold,
-        rms_before=readings.frame.rms,
-        explanations=_explanations(judgement, readings.noise),
-        differences=_differences(judgement.explanations),
-        ranking=ranking,
-        library_fits=judgement.suspects.library_fits,
-        chance=judgement.suspects.chance,
-        to_add=judgement.to_add,
+        readings=readings,
+        fits=explanations,
+        best=best,
+        rms_before=frame.rms,
+        noise_rms=left_by_noise(frame, noise),
+        explanations=tuple(
+            _together(each, explanation, noise)
+            for each, explanation in zip(judgement.listed, explanations, strict=True)
+        ),
+        differences=_differences(explanations),
+        ranking=_ranking(readings),
+        nothing_chance=readings.posterior.nothing_chance,
+        field_chance=readings.posterior.field_chance,
+        to_add=() if readings.outliers else best.effects,
+        usual=usual_checks(frame.board, set(best.effects) - {*judgement.best.acting}),
         outliers=readings.outliers,
-        could_hide=doubts.could_hide,
-        left_open=left_open(readings.frame),
+        could_hide=tuple(room_for(name, explanations or (best,), noise) for name in effect_names()),
+        left_open=left_open(frame),
         warnings=doubts.warnings,
         disagreements=doubts.disagreements,
     )
-    return Examined(diagnosis, readings, judgement.explanations)
 
 
-def _explanations(judgement: Judgement, noise: Noise) -> tuple[Together, ...]:
-    explanations = judgement.explanations
-    shares = judgement.shares or (None,) * len(explanations)
-    return tuple(
-        _together(explanation, noise, share)
-        for explanation, share in zip(explanations, shares, strict=True)
-    )
-
-
-def _together(explanation: Explanation, noise: Noise, share: float | None) -> Together:
+def _together(listed: Listed, explanation: Explanation, noise: Noise) -> Together:
+    effects = listed.account.effects
     return Together(
-        effects=explanation.effects,
-        sizes={name: sizes_of(explanation, name, noise) for name in explanation.effects},
+        effects=effects,
+        sizes={name: sizes_of(explanation, name, noise) for name in effects},
         rms_after=explanation.rms,
-        share=share,
+        share=listed.share,
     )
 
 
@@ -101,21 +91,24 @@ def _rms_between(explanation: Explanation, other: Explanation) -> float:
     return float(np.sqrt(counted @ counted / (len(rows.measured) or len(counted))))
 
 
-# Every effect of the library by itself, what explains most first.
-
-
-def rank(readings: CleanReadings) -> tuple[Ranked, ...]:
-    """Return all effects, by how surprising it would be if noise alone gained as much."""
+def _ranking(readings: CleanReadings) -> tuple[Ranked, ...]:
+    """Return every effect of the library by itself, the likeliest first; sizes by the slopes at the
+    frame's fit.
+    """
     frame, noise = readings.frame, readings.noise
-    effects = [
-        Ranked(
-            effect=name,
-            gain=max(frame.cost - single.cost, 0.0),
-            negative_log_p=evidence(single, frame, noise),
-            sizes=sizes_of(single, name, noise),
-            rms_after=single.rms,
-            hidden_share=hidden_share(frame, name),
+    chances = readings.posterior.effect_chances
+    effects = []
+    for name in effect_names():
+        single = frame.with_effects((name,))
+        effects.append(
+            Ranked(
+                effect=name,
+                gain=max(frame.cost - single.cost, 0.0),
+                chance=chances.get(name, 0.0),
+                sizes=sizes_of(single, name, noise),
+                rms_after=single.rms,
+                hidden_share=hidden_share(frame, name),
+            )
         )
-        for name, single in readings.singles.items()
-    ]
-    return tuple(ranked(effects, lambda effect: -effect.negative_log_p))
+    by_gain = ranked(effects, lambda effect: -effect.gain)
+    return tuple(ranked(by_gain, lambda effect: -effect.chance))

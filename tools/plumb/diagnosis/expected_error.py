@@ -15,10 +15,12 @@ from pydantic import computed_field
 
 from plumb.diagnosis.explanation import Explanation
 from plumb.diagnosis.suspect_curves import model_by
+from plumb.fit.compare import best_pose
 from plumb.fit.expected import places_over
 from plumb.fit.observations import Observations, visited
 from plumb.model.predict import FOUND, NAMES, Array, lengths
 from plumb.text.answers import Internal
+from plumb.text.values import worded
 
 COLUMNS, ROWS = 41, 21  # places of the sheet
 
@@ -118,6 +120,69 @@ def _visits(chains: Array, weight: float) -> Observations:
         sheet_groups=first,
         swapped=np.zeros(count, dtype=bool),
     )
+
+
+# How far rivals would cut elsewhere, and where.
+
+SIDE_WORDS = {
+    (0, 0): "the upper left corner",
+    (0, 1): "the middle of the upper edge",
+    (0, 2): "the upper right corner",
+    (1, 0): "the left edge",
+    (1, 1): "the middle",
+    (1, 2): "the right edge",
+    (2, 0): "the lower left corner",
+    (2, 1): "the middle of the lower edge",
+    (2, 2): "the lower right corner",
+}
+BOTH_WORDS = {0: "the upper corners", 1: "the left and right edges", 2: "the lower corners"}
+ALIKE = 0.7  # share of the larger of two sides from which on both are named
+
+
+@dataclass(frozen=True)
+class RivalError:
+    """Where the settings of rivals differ most, the sheet laid at its best for each."""
+
+    mm: float  # RMS over that part of the sheet
+    where: str  # for people
+
+    @computed_field
+    @property
+    def sentence(self) -> str:
+        """By how much and where, for people."""
+        return f"On the sheet they differ by {worded(self.mm, 1)} in {self.where}."
+
+
+def rival_error(explanations: Sequence[Explanation], noise: float) -> RivalError | None:
+    """Return where the likeliest explanation and its rivals would cut farthest apart; None if that
+    is less than the noise [mm] everywhere.
+    """
+    used, *rivals = explanations
+    places = places_over(model_by(used).sheet)
+    chains, outcome = lengths(model_by(used), places)
+    where, _, hanging = hung(used, chains)
+    squares = np.zeros(len(places))
+    for rival in rivals:
+        elsewhere, _, reached = hung(rival, chains)
+        good = (outcome == FOUND) & (hanging == FOUND) & (reached == FOUND)
+        pose = best_pose(where[good], elsewhere[good])
+        apart = np.zeros(len(places))
+        apart[good] = np.sum(pose.errors**2, axis=1) if pose else 0.0
+        squares = np.maximum(squares, apart)
+    cells = np.array([[row, column] for row in range(3) for column in range(3)])
+    width, height = model_by(used).sheet
+    column = np.clip(np.floor(places[:, 0] / width * 3 + 1.5), 0, 2)
+    row = np.clip(np.floor(1.5 - places[:, 1] / height * 3), 0, 2)
+    rms = {
+        (int(r), int(c)): float(np.sqrt(np.mean(squares[(row == r) & (column == c)])))
+        for r, c in cells
+    }
+    worst = max(rms, key=lambda cell: rms[cell])
+    if rms[worst] <= noise:
+        return None
+    mirrored = rms[worst[0], 2 - worst[1]]
+    both = worst[1] != 1 and mirrored > ALIKE * rms[worst]
+    return RivalError(rms[worst], BOTH_WORDS[worst[0]] if both else SIDE_WORDS[worst])
 
 
 # How much of a machine's errors the marks leave open, all over its sheet.

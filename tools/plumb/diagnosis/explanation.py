@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 import scipy
@@ -27,6 +26,7 @@ class Board:
 
     problem: Problem
     effect_columns: Mapping[str, tuple[int, ...]]  # in the catalogue's order
+    usual: int = 0  # the last rows of its direct checks say only what is usual
 
     @staticmethod
     def of(
@@ -70,6 +70,15 @@ class Board:
         """
         sigma = self.sigma if sigma is None else sigma
         return replace(self, problem=replace(self.problem, observations=rows, sigma=sigma))
+
+    def with_usual(self, checks: Sequence[Checked]) -> Board:
+        """Return the same board on which some numbers are held near what is usual."""
+        if not checks:
+            return self
+        made = self.problem.checked[: len(self.problem.checked) - self.usual]
+        return replace(
+            self, problem=replace(self.problem, checked=(*made, *checks)), usual=len(checks)
+        )
 
 
 @dataclass(frozen=True)
@@ -129,6 +138,16 @@ class Explanation:
         fitted = self.basis if basis is None else basis
         beyond: Array = columns - fitted @ (fitted.T @ columns)
         return beyond
+
+    def with_effects(self, effects: tuple[str, ...]) -> Explanation:
+        """Return about what a refit with these effects would be, by the slopes here."""
+        free = free_columns(self.board, effects)
+        step = np.linalg.lstsq(self.slopes[:, free], self.residual, rcond=1e-10)[0]
+        unknowns = self.unknowns.copy()
+        unknowns[free] += step
+        residual = self.residual - self.slopes[:, free] @ step
+        at = replace(self.at, unknowns=unknowns, residual=residual)
+        return Explanation(self.board, effects, at, settled=True)
 
 
 def span(columns: Array, *, against: Array | None = None) -> Array:
@@ -225,72 +244,3 @@ def _root(covariance: Array, least: float) -> Array:
     root = np.zeros((len(covariance), rank))
     root[pivots - 1] = np.tril(lower)[:, :rank]
     return root
-
-
-# A sum of squares with its degrees of freedom, which is what scatter comes as.
-
-
-@dataclass(frozen=True)
-class Spread:
-    """A sum of squares [mm^2] and its degrees of freedom."""
-
-    squares: float
-    degrees: float
-
-    @property
-    def sigma(self) -> float:
-        """Standard deviation [mm]."""
-        return float(np.sqrt(self.squares / self.degrees)) if self.degrees else float("nan")
-
-    def __add__(self, other: Spread) -> Spread:
-        """Return both together."""
-        return Spread(self.squares + other.squares, self.degrees + other.degrees)
-
-
-NOTHING = Spread(0.0, 0.0)
-
-
-# How surprising a gain is: tail probabilities for a known noise and for one that was estimated.
-
-KNOWN = np.inf  # degrees of freedom of a noise that needs no estimate
-_FAR = 200.0  # a gain beyond which the tail is taken from its expansion, or it would be zero
-
-
-def tail(gain: Array | float, parameters: float, degrees: float) -> Array:
-    """Chance of a gain this large from noise alone, for an effect of some parameters.
-
-    gain = drop of the sum of squares over sigma squared; chi-square for a known sigma, F for one
-    that was estimated with `degrees` of freedom.
-    """
-    above = np.maximum(gain, 0.0)
-    if np.isinf(degrees):
-        return scipy.special.chdtrc(parameters, above)
-    return scipy.special.fdtrc(parameters, degrees, above / parameters)
-
-
-def negative_log_p(gain: float, parameters: int, degrees: float) -> float:
-    """-log of `tail`, finite however large the gain: the scale on which effects are compared."""
-    if parameters < 1 or gain <= 0:
-        return 0.0
-    if not np.isinf(degrees):
-        return float(-np.log(max(float(tail(gain, parameters, degrees)), 1e-300)))
-    if gain < _FAR:
-        return float(-np.log(tail(gain, parameters, degrees)))
-    # Q(a, x) = x^(a - 1) exp(-x) / Gamma(a) * (1 + (a - 1) / x + ...)
-    a, x = parameters / 2, gain / 2
-    return float(x - (a - 1) * np.log(x) + scipy.special.gammaln(a) - np.log1p((a - 1) / x))
-
-
-def negative_log_ps(gains: Array, parameters: int, degrees: float) -> Array:
-    """`negative_log_p` of many gains, from a table: right to about a thousandth, and fast."""
-    table = _table(parameters, degrees)
-    interpolated: Array = np.interp(gains, _GAINS, table)
-    return interpolated
-
-
-_GAINS = np.concatenate([[0.0], np.geomspace(1e-3, 1e5, 1500)])
-
-
-@lru_cache(maxsize=64)
-def _table(parameters: int, degrees: float) -> Array:
-    return np.array([negative_log_p(float(gain), parameters, degrees) for gain in _GAINS])

@@ -9,11 +9,10 @@ from typing import Annotated
 import numpy as np
 import scipy
 
-from plumb.diagnosis.explanation import Board, Explanation, explain, span
-from plumb.diagnosis.noise import LEVEL, ORIGINS, Noise, misfit_chance
+from plumb.diagnosis.explanation import Explanation, span
+from plumb.diagnosis.noise import ORIGINS, Noise
 from plumb.fit.expected import plausible_range
 from plumb.model.catalogue import parameter_words
-from plumb.model.plain import ranked
 from plumb.text.answers import Internal, key, meant
 from plumb.text.values import worded
 
@@ -76,26 +75,6 @@ def sizes_of(explanation: Explanation, effect: str, noise: Noise) -> tuple[Size,
             )
         )
     return tuple(sizes)
-
-
-def possible(explanation: Explanation, noise: Noise) -> bool:
-    """Return whether a real machine can have such sizes, as far as their intervals reach."""
-    return all(
-        size.possible for name in explanation.effects for size in sizes_of(explanation, name, noise)
-    )
-
-
-def possible_sizes(board: Board, columns: Array, sizes: Array, half: Array) -> Array:
-    """Return whether a real machine can have the sizes (k, boards) of these columns, in typical
-    sizes, as far as their intervals of half-widths (k,) reach (boards,).
-    """
-    reachable = np.ones(sizes.shape[1], dtype=bool)
-    for column, size, width in zip(columns, sizes, half, strict=True):
-        scale = board.problem.scale[column]
-        value, reach = board.problem.start[column] + scale * size, scale * width
-        known = plausible_range(board.problem.names[column])
-        reachable &= known.is_near(value - reach, value + reach)
-    return reachable
 
 
 def hidden_share(frame: Explanation, effect: str) -> float | None:
@@ -193,52 +172,6 @@ def _per_reading(explanation: Explanation, whitened: Array) -> float:
 def _covariance(columns: Array) -> Array:
     """Return the covariance of unknowns with these whitened columns."""
     return np.linalg.pinv(columns.T @ columns, rcond=1e-12, hermitian=True)
-
-
-# The same marks with all errors of y the other way round: a sign that was mixed up.
-
-
-def sign_warning(
-    board: Board, felt: Sequence[str], noise: Noise, kept: Sequence[Explanation]
-) -> str | None:
-    """Return a sentence on the other sign of y, if nothing simple explains the marks as
-    they stand.
-    """
-    if not len(board.rows.measured) or any(_is_simple(explanation, noise) for explanation in kept):
-        return None
-    turned = with_y_errors_turned(board)
-    frame = explain(turned)
-    if misfit_chance(frame, noise) > LEVEL:
-        simple = ["the frame alone"]
-    else:
-        fits = [explain(turned, (name,), start=frame) for name in felt]
-        fits = [single for single in fits if misfit_chance(single, noise) > LEVEL]
-        fits = [single for single in fits if _is_simple(single, noise)]
-        simple = [single.effects[0] for single in ranked(fits, lambda single: single.cost)]
-    if not simple:
-        return (
-            "tried with all y errors the other way round as well: nothing simple explains the "
-            "marks then either"
-        )
-    return (
-        f"with all y errors the other way round {' or '.join(simple[:3])} would explain these "
-        "marks: check that measured and target count y in the same direction"
-    )
-
-
-def with_y_errors_turned(board: Board) -> Board:
-    """Return the board with each mark as far above its target as it was below it."""
-    rows = board.rows
-    measured = rows.measured.copy()
-    measured[:, 1] = 2 * rows.targets[:, 1] - measured[:, 1]
-    return board.with_rows(replace(rows, measured=measured))
-
-
-def _is_simple(explanation: Explanation, noise: Noise) -> bool:
-    """Return whether at most one effect explains the marks, with sizes that a real machine can
-    have.
-    """
-    return len(explanation.effects) < 2 and possible(explanation, noise)
 
 
 def intervals_sentence(sigma: float, source: str) -> str:

@@ -10,7 +10,7 @@ import scipy
 
 from plumb.diagnosis.clean import clean_readings
 from plumb.diagnosis.explanation import measured_board
-from plumb.diagnosis.weighing import largest_met
+from plumb.diagnosis.priors import size_priors
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import Problem
 from plumb.job.dry_run import Done, Moves, Run, Samples
@@ -127,7 +127,7 @@ class Believed:
         kept[count : count + int(held.sum())] = False
         effects = np.flatnonzero(~held)
         precision = np.ones(len(held))
-        precision[effects] = 1 / (SPREAD * largest_met(board, effects)) ** 2
+        precision[effects] = 1 / (SPREAD * size_priors(board, effects).largest) ** 2
         slopes = frame.slopes[kept]
         information = slopes.T @ slopes + np.diag(precision)
         pull = slopes.T @ frame.residual[kept] - precision * frame.unknowns

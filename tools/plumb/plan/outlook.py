@@ -1,34 +1,34 @@
-"""The chance that a planned measurement settles the question, by simulating what it would bring.
+"""What a planned measurement is worth, by simulating what it would bring under the posterior.
 
-Each hypothesis is taken for the truth as often as it is probable. Its frame and sizes are drawn
-from what the marks so far leave open, new readings are drawn with noise, and the diagnosis is
-repeated on all rows by the slopes at hand. Where it would weigh accounts of the marks, it weighs
-them; else detection threshold, max-gain test of every single effect (and of the combinations that
-stand now), lack of fit. It is settled when only the true explanation is left.
+Truths are drawn from the posterior: an account as often as it is likely, then its sizes and the
+frame as the marks so far leave them, then new readings with noise. Each simulated board is weighed
+as the diagnosis weighs it, by the slopes at the frame's fit. Two numbers are read off: the chance
+that the verdict then names what is there and nothing else, and the expected information, the mean
+rise of the logarithm of the truth's probability (Lindley 1956).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from plumb.diagnosis.explanation import Spread, negative_log_ps, span, tail
-from plumb.diagnosis.gain import detection_threshold
-from plumb.diagnosis.noise import FEW_REPEATS, STATEMENT, Noise, repeats_of
-from plumb.diagnosis.noise import LEVEL as MISFIT_LEVEL
-from plumb.diagnosis.sizes import possible_sizes
-from plumb.diagnosis.weighing import left_out
-from plumb.plan.case import Ahead, Case, Effects, Hypothesis, Planned, accounts_then
-from plumb.plan.planned_visits import Visits
+from plumb.diagnosis.evidence import FEWER, Accounts, Effects, Noises, Part, accounts_of, fitted
+from plumb.diagnosis.explanation import Board
+from plumb.diagnosis.linear import LinearBoard, Metric
+from plumb.diagnosis.posterior import Account, asked_for, clean_of, listing
+from plumb.diagnosis.priors import PITCH, TOGETHER
+from plumb.diagnosis.verdict import is_silent
+from plumb.model.catalogue import EVERY_MACHINE
+from plumb.model.plain import ascending
+from plumb.plan.case import Ahead, Case, Planned
 
 Array = np.ndarray
-DRAWS = 240  # of all hypotheses together: a chance is then right to about 3 in 100
-FEWEST = 12  # draws of one hypothesis
-HOPELESS = 5.0  # above the threshold by so much -log p, an explanation does not come back
+DRAWS = 160  # a chance is then right to about 4 in 100
+LIKELY = 0.998  # of all weight, in the sets that are weighed again; single effects always are
+MOST_LOOKED_AT = 12  # sets of a simulated board that its verdict is read from
 SEED = 1847
-_TINY = 1e-8  # share of a column's squared length below which its rest is rounding
+BACKGROUND = (*EVERY_MACHINE, PITCH)  # what may be named beside the truth: it is there too
 
 
 @dataclass(frozen=True)
@@ -37,254 +37,156 @@ class Outlook:
 
     chance: float  # that it settles the question, or finds what is hidden
     left: float | None  # explanations on average; None where they are not counted
+    bits: float  # expected information on which account holds
 
 
-def outlook(case: Case, planned: Planned, *, draws: int = DRAWS) -> Outlook:
-    """Return what to expect of a planned measurement.
+class Outlooks:
+    """The outlooks of planned measurements on one case."""
 
-    Suspects: the chance that the true one is left alone. Nothing provable: that an effect of its
-    usual size would be proved, if one is there.
-    """
-    alone = case.verdict != "nothing_provable"
-    noise = noise_after(case, planned.visits)
-    tests = _tests(case, planned, noise)
-    trials = []
-    for number, hypothesis in enumerate(case.truths):
-        source = np.random.default_rng([SEED, number])
-        count = max(FEWEST, round(draws * hypothesis.weight))
-        boards = tests[id(hypothesis.at)].boards(hypothesis, source, count)
-        trials.append((hypothesis, boards))
-    listed = accounts_then(case, planned, noise, trials) if case.is_weighed else None
-    settled = left = 0.0
-    for number, (hypothesis, boards) in enumerate(trials):
-        test = tests[id(hypothesis.at)]
-        if listed is None:
-            right, stand = test.judged(hypothesis, boards, alone=alone)
-        else:
-            right, stand = test.weighed(hypothesis, boards, listed[number])
-        settled += hypothesis.weight * right
-        left += hypothesis.weight * stand
-    return Outlook(float(settled), float(left) if alone else None)
+    def __init__(self, case: Case, draws: int = DRAWS) -> None:
+        self.case, self.draws = case, draws
+        self.noises = Noises(np.array([case.noise.sigma]), np.zeros(1))
+        self.is_hidden = case.verdict == "nothing_provable"
+        self._so_far: dict[Effects, SoFar] = {}
+
+    def of(self, planned: Planned) -> Outlook:
+        """Return what to expect of a planned measurement."""
+        rows = planned.ahead(self.case.frame)
+        board = self.case.board
+        felt = tuple(
+            name for name in board.effect_columns if rows.slopes[:, board.columns([name])].any()
+        )
+        if felt not in self._so_far:
+            known = LinearBoard.of(self.case.frame, felt)
+            self._so_far[felt] = SoFar.of(known, self.noises, is_hidden=self.is_hidden)
+        so_far = self._so_far[felt]
+        source = np.random.default_rng(SEED)
+        then, truths = so_far.simulated(rows, board, self.draws, source)
+        clean = clean_of(then, so_far.accounts, self.noises)
+        after = clean.total - np.logaddexp.reduce(clean.total, axis=0)
+        gained = after[truths, np.arange(len(truths))] - so_far.log_chances[truths]
+        settled, left = 0.0, 0.0
+        for i, truth in enumerate(truths):
+            few = ascending(-clean.total[:, i])[:MOST_LOOKED_AT]
+            asked = asked_for(then, so_far.accounts, clean.on(i), few)
+            named = _named(asked, clean.total[few, i])
+            settled += _is_right(named, so_far.accounts.effects[truth])
+            left += max(len(named), 1)
+        return Outlook(
+            chance=settled / len(truths),
+            left=None if self.is_hidden else left / len(truths),
+            bits=float(max(gained.mean(), 0.0) / np.log(2)),
+        )
 
 
-def _tests(case: Case, planned: Planned, noise: Noise) -> dict[int, Rediagnosis]:
-    """Return the diagnosis to come, by the slopes of each hypothesis."""
-    tests: dict[int, Rediagnosis] = {}
-    for hypothesis in case.truths:
-        if id(hypothesis.at) not in tests:
-            twin = next(iter(tests.values()), None)
-            rows = planned.ahead(hypothesis.at)
-            tests[id(hypothesis.at)] = Rediagnosis(case, rows, noise, twin)
-    return tests
+def _named(asked: list[Effects], weights: Array) -> list[Effects]:
+    """Return the explanations that a verdict lists; none where it names nothing."""
+    together: dict[Effects, float] = {}
+    for effects, weight in zip(asked, weights.tolist(), strict=True):
+        together[effects] = float(np.logaddexp(together.get(effects, -np.inf), weight))
+    accounts = [Account(effects, effects, weight, -np.inf) for effects, weight in together.items()]
+    each = np.array(list(together.values()))
+    nothing = together.get((), -np.inf) - np.logaddexp.reduce(each)
+    if is_silent(float(np.exp(nothing))):
+        return []
+    return [listed.account.effects for listed in listing(accounts, each)]
+
+
+def _is_right(named: list[Effects], truth: Effects) -> bool:
+    """Return whether a verdict names a single explanation, with nothing that is not there."""
+    if not truth:
+        return not named
+    return len(named) == 1 and {*named[0]} - {*BACKGROUND} <= {*truth}
+
+
+# The marks so far, the sets of effects that are likely by them, and boards drawn from both.
 
 
 @dataclass(frozen=True)
-class _Boards:
-    """Simulated boards in the rows of a Rediagnosis."""
+class SoFar:
+    """The linear board of the marks so far, and what it says of sets of effects."""
 
-    few: Array  # (rows, count)
-    beyond: Array  # (count,) squares of the readings beyond those rows
+    board: LinearBoard
+    noises: Noises
+    accounts: Accounts  # those that are worth weighing again
+    log_chances: Array  # (sets,)
+    variants: tuple[tuple[Part, Array], ...]  # truths to draw from, with their chances (a,)
 
+    @staticmethod
+    def of(board: LinearBoard, noises: Noises, *, is_hidden: bool) -> SoFar:
+        """Weigh the marks so far; `is_hidden`: the truth is then one effect of about usual size."""
+        accounts = accounts_of(board, TOGETHER if board.measured <= FEWER else 2)
+        total = clean_of(board, accounts, noises).total[:, 0]
+        total = total - np.logaddexp.reduce(total)
+        order = ascending(-total)
+        weight = np.exp(total[order])
+        kept = np.array([len(names) < 2 for names in accounts.effects])
+        kept[order[np.cumsum(weight) - weight < LIKELY]] = True
+        accounts = accounts.among(kept)
+        metric = Metric.of(board, noises.sigmas, pitch=True)
+        evidences = [fitted(part, board.sizes, metric).evidence[0] for part in accounts.parts]
+        if is_hidden:
+            alone = np.array([len(names) == 1 for names in accounts.effects])
+            evidences = [np.where(alone[part.sets], 0.0, -np.inf) for part in accounts.parts]
+        whole = np.logaddexp.reduce(np.concatenate(evidences))
+        chances = [np.exp(evidence - whole) for evidence in evidences]
+        variants = tuple(zip(accounts.parts, chances, strict=True))
+        return SoFar(board, noises, accounts, np.where(kept, total, -np.inf), variants)
 
-class Rediagnosis:
-    """The diagnosis of many simulated boards with the same rows.
+    def simulated(
+        self, rows: Ahead, known: Board, draws: int, source: np.random.Generator
+    ) -> tuple[LinearBoard, Array]:
+        """Return the board with planned readings drawn (rows, draws), and the set of each draw."""
+        new, is_read = rows.slopes[rows.so_far :], rows.marks[rows.so_far :]
+        new = np.where(is_read[:, np.newaxis], known.sigma, 1.0) * new
+        columns, sigma = known.columns(tuple(self.board.columns)), float(self.noises.sigmas[0])
+        frame, effects = new[:, known.frame], new[:, columns]
+        read, truths = [], []
+        for part, chances in self.variants:
+            counts = _counts(chances * draws)
+            for place in np.flatnonzero(counts):
+                count = int(counts[place])
+                of_frame, sizes = self._unknowns(part, int(place), count, source)
+                noise = np.where(is_read[:, np.newaxis], sigma, 1.0)
+                noise = noise * source.standard_normal((len(new), count))
+                read.append(frame @ of_frame + effects[:, part.index[place]] @ sizes + noise)
+                truths += [int(part.sets[place])] * count
+        drawn = np.hstack(read)
+        return self._with(frame, effects, drawn, is_read), np.array(truths)
 
-    What is read of marks is turned so that few rows hold all that any unknown can change; what is
-    beyond those only adds to the misfit.
-    """
+    def _with(self, frame: Array, effects: Array, read: Array, is_read: Array) -> LinearBoard:
+        measured, board = self.board.measured, self.board
 
-    def __init__(self, case: Case, rows: Ahead, noise: Noise, twin: Rediagnosis | None) -> None:
-        """`twin`: the same rows by another explanation's slopes, whose limit serves here too."""
-        board = case.board
-        self.rows, self.board = rows, board
-        self.noise = noise
-        self.turned, few = np.linalg.qr(rows.slopes[rows.marks])
-        self.slopes = np.vstack([few, rows.slopes[~rows.marks]])
-        self.marks = np.arange(len(self.slopes)) < len(few)
-        self.is_left_out = bool(left_out(case.frame))
-        self.frame = span(self.slopes[:, board.frame])
-        self.nothing = len(board.effect_columns)  # explanations left where nothing is proved
-        self.columns = {name: board.columns([name]) for name in board.effect_columns}
-        self.felt = [
-            name for name, columns in self.columns.items() if rows.slopes[:, columns].any()
-        ]
-        self.lengths = np.linalg.norm(self.slopes, axis=0)
-        felt_columns = {
-            name: columns[self.lengths[columns] > 0]
-            for name, columns in self.columns.items()
-            if name in self.felt
-        }
-        self.single = {name: each[0] for name, each in felt_columns.items() if len(each) == 1}
-        self.several = {name: each for name, each in felt_columns.items() if len(each) > 1}
-        several = [
-            hypothesis.effects for hypothesis in case.hypotheses if len(hypothesis.effects) > 1
-        ]
-        self.names = [*((name,) for name in self.felt), *several]
-        self.names += [
-            hypothesis.effects
-            for hypothesis in case.hypotheses
-            if hypothesis.effects not in self.names
-        ]
-        # With an explanation fitted it is lower by so little that the chances stay the same.
-        self.threshold: float = twin.threshold if twin else self._threshold()
+        def joined(old: Array, added: Array) -> Array:
+            return np.vstack([old[:measured], added[is_read], old[measured:], added[~is_read]])
 
-    def _threshold(self) -> float:
-        """Return the -log p that noise hardly exceeds beyond the frame."""
-        bases = {}
-        for name in self.felt:
-            raw = self.slopes[:, self.board.columns([name])]
-            bases[name] = span(raw - self.frame @ (self.frame.T @ raw), against=raw)
-        return detection_threshold(bases, self.noise)
+        return replace(
+            board,
+            measured=measured + int(is_read.sum()),
+            frame=joined(board.frame, frame),
+            effects=joined(board.effects, effects),
+            read=joined(np.repeat(board.read[:, :1], read.shape[1], axis=1), read),
+        )
 
-    def boards(self, truth: Hypothesis, source: np.random.Generator, count: int) -> Array:
-        """Whitened readings (rows, count) of boards drawn from a truth; those so far stay."""
-        rows = self.rows
-        drawn = rows.slopes[rows.so_far :, truth.columns] @ truth.drawn(source, count)
-        drawn += source.standard_normal(drawn.shape)
-        return np.vstack([np.repeat(truth.data[:, np.newaxis], count, axis=1), drawn])
-
-    def judged(self, truth: Hypothesis, drawn: Array, *, alone: bool) -> tuple[float, float]:
-        """On what share of boards the truth is proved (alone among all), and how many explanations
-        stand on average."""
-        boards = self._turned(drawn)
-        proved = self._gains(self.frame, (), boards.few)[0] > self.threshold
-        stands = self._stands(truth.effects, boards)
-        if not alone:
-            return float((proved & stands).mean()), float("nan")
-        others = [self._stands(rival, boards) for rival in self.names if rival != truth.effects]
-        counts = stands + np.sum(others, axis=0)
-        left = np.where(proved, np.maximum(counts, 1), self.nothing)
-        return float((proved & stands & (counts == 1)).mean()), float(left.mean())
-
-    def weighed(
-        self, truth: Hypothesis, drawn: Array, listed: Sequence[tuple[Effects, ...]]
-    ) -> tuple[float, float]:
-        """Return the same where accounts are weighed: those listed on each board count if they fit.
-        An account that leaves out a small effect of the truth is right too.
-        """
-        boards = self._turned(drawn)
-        proved = self._gains(self.frame, (), boards.few)[0] > self.threshold
-        counts, right = np.zeros(len(listed), dtype=int), np.zeros(len(listed), dtype=bool)
-        for effects in {effects for accounts in listed for effects in accounts}:
-            there = np.array([effects in accounts for accounts in listed])
-            there[there] = self._fits(effects, boards)[there]
-            counts += there
-            right |= there & ({*truth.counts_with} <= {*effects} <= {*truth.effects})
-        if not self.is_left_out:
-            # A single effect that explains all by itself is asked for nothing else.
-            singles = [self._stands((name,), boards) for name in self.felt]
-            alone = np.sum(singles, axis=0)
-            counts = np.where(alone > 0, alone, counts)
-            right &= alone == 0
-        left = np.where(proved, np.maximum(counts, 1), self.nothing)
-        return float((proved & right & (counts == 1)).mean()), float(left.mean())
-
-    def _turned(self, drawn: Array) -> _Boards:
-        read = drawn[self.rows.marks]
-        few = self.turned.T @ read
-        beyond = np.sum(read**2, axis=0) - np.sum(few**2, axis=0)
-        return _Boards(np.vstack([few, drawn[~self.rows.marks]]), np.maximum(beyond, 0.0))
-
-    def _spare(self, fitted: Array) -> float:
-        """Return how many measured numbers orthonormal columns of what is fitted leave over."""
-        return float(self.rows.marks.sum() - np.sum(fitted[self.marks] ** 2))
-
-    def _fits(self, effects: Effects, boards: _Boards) -> Array:
-        """Return whether an account leaves no misfit and has sizes that a machine can have
-        (count,).
-        """
-        slopes, columns = self.slopes, self.board.columns(effects)
-        drawn = slopes[:, columns] - self.frame @ (self.frame.T @ slopes[:, columns])
-        inverse = np.linalg.pinv(drawn, rcond=1e-6)
-        sizes = inverse @ boards.few
-        left = boards.few - self.frame @ (self.frame.T @ boards.few) - drawn @ sizes
-        spare = self._spare(span(slopes[:, [*self.board.frame, *columns]]))
-        half = self.noise.quantile * np.sqrt(np.sum(inverse**2, axis=1))
-        fits: Array = self._misfit(left, boards.beyond, spare) > MISFIT_LEVEL
-        fits &= possible_sizes(self.board, columns, sizes, half)
-        return fits
-
-    def _stands(self, effects: Effects, boards: _Boards) -> Array:
-        """Return whether nothing is to be added to an explanation, and it fits (count,)."""
-        columns = np.concatenate([self.board.frame, self.board.columns(effects)])
-        fitted, count = span(self.slopes[:, columns]), boards.few.shape[1]
-        sample = boards.few[:, :: max(1, count // FEWEST)]
-        if self._gains(fitted, effects, sample)[0].min() > self.threshold + HOPELESS:
-            return np.zeros(count, dtype=bool)
-        best, left = self._gains(fitted, effects, boards.few)
-        misfit = self._misfit(left, boards.beyond, self._spare(fitted))
-        return (best <= self.threshold) & (misfit > MISFIT_LEVEL)
-
-    def _misfit(self, left: Array, beyond: Array, spare: float) -> Array:
-        """Return the chance of as much misfit (count,) by what a fit leaves in the rows and
-        beyond.
-        """
-        squares = beyond + np.sum(left[self.marks] ** 2, axis=0)
-        within = self.noise.within
-        spare, squares = spare - within.degrees, squares - within.squares / self.noise.sigma**2
-        if spare < 0.5 or not self.noise.testable:
-            return np.ones(left.shape[1])
-        chances: Array = np.asarray(tail(squares, spare, self.noise.degrees))
-        return chances
-
-    def _gains(self, fitted: Array, effects: Effects, readings: Array) -> tuple[Array, Array]:
-        """Return the largest -log p of any other effect (count,), and what the fit leaves."""
-        left = readings - fitted @ (fitted.T @ readings)
-        slopes = self.slopes
-        beyond = slopes - fitted @ (fitted.T @ slopes)
-        gram, along = beyond.T @ beyond, beyond.T @ left
-        # Among effects with as many parameters the largest drop has the largest -log p.
-        drops: dict[int, Array] = {1: self._single_drop(gram, along, effects)}
-        for name, columns in self.several.items():
-            if name in effects:
-                continue
-            block = gram[columns[:, np.newaxis], columns]
-            seen, drop = _drop(block, along[columns], self.lengths[columns])
-            if seen:
-                drops[seen] = np.maximum(drops.get(seen, 0.0), drop)
-        best = np.zeros(readings.shape[1])
-        for seen, drop in drops.items():
-            best = np.maximum(best, negative_log_ps(drop, seen, self.noise.degrees))
-        return best, left
-
-    def _single_drop(self, gram: Array, along: Array, effects: Effects) -> Array:
-        """Return the largest drop of chi-square (count,) by an effect of a single parameter."""
-        columns = np.array([self.single[name] for name in self.single if name not in effects], int)
-        seen = columns[np.diag(gram)[columns] > _TINY * self.lengths[columns] ** 2]
-        drops = along[seen] ** 2 / np.diag(gram)[seen, np.newaxis]
-        largest: Array = drops.max(axis=0, initial=0.0)
-        return largest
+    def _unknowns(
+        self, part: Part, place: int, count: int, source: np.random.Generator
+    ) -> tuple[Array, Array]:
+        """Draw the frame (f, count) and the sizes (k, count) as the marks so far leave them."""
+        board, index = self.board, part.index[place]
+        weight = np.ones(len(board.frame))
+        weight[: board.measured] /= self.noises.sigmas[0]
+        rows = np.hstack([board.frame, board.effects[:, index]]) * weight[:, np.newaxis]
+        prior = np.r_[np.ones(board.frame.shape[1]), 1 / part.variance[place]]
+        lower = np.linalg.cholesky(rows.T @ rows + np.diag(prior))
+        mean = np.linalg.solve(lower, rows.T @ (weight * board.read[:, 0]))
+        noise = source.standard_normal((len(mean), count))
+        drawn = np.linalg.solve(lower.T, mean[:, np.newaxis] + noise)
+        split = board.frame.shape[1]
+        least = (board.sizes.least - board.sizes.mean)[index]
+        return drawn[:split], np.maximum(drawn[split:], least[:, np.newaxis])
 
 
-def _drop(gram: Array, along: Array, lengths: Array) -> tuple[int, Array | float]:
-    """Return how many parameters of an effect are seen beyond what is fitted, and the drop of
-    chi-square (count,) that they bring.
-    """
-    values, turned = np.linalg.eigh(gram / np.outer(lengths, lengths))
-    seen = values > _TINY
-    parts = turned[:, seen].T @ (along / lengths[:, np.newaxis])
-    return int(seen.sum()), np.sum(parts**2 / values[seen, np.newaxis], axis=0)
-
-
-def noise_after(case: Case, visits: Visits) -> Noise:
-    """Return the noise as it will be known: marks that are visited again in the same way tell of
-    it.
-    """
-    rows, noise = case.board.rows, case.noise
-    known = {
-        (name, *rows.chains[row], rows.sled_weights[row], rows.swapped[row])
-        for name, row in zip(rows.names, rows.mark_rows, strict=True)
-    }
-    planned = zip(visits.names, visits.chains, visits.sled_weights, visits.swapped, strict=True)
-    again = sum(
-        (name, *chains, weight, swapped) in known for name, chains, weight, swapped in planned
-    )
-    if not again:
-        return noise
-    more = 2.0 * again + (noise.within if noise.within.degrees else repeats_of(rows)).degrees
-    within = Spread(more * noise.sigma**2, more)
-    if noise.source in ("stated", "stated and repeats"):
-        return Noise(noise.sigma, STATEMENT + more, "stated and repeats", within=within)
-    if more < FEW_REPEATS:
-        return noise
-    return Noise(noise.sigma, more, "repeats", within=within)
+def _counts(wanted: Array) -> Array:
+    """Return whole numbers whose sums stay within one of what is wanted."""
+    ends = np.floor(np.cumsum(wanted) + 0.5)
+    return np.diff(ends, prepend=0.0).astype(int)

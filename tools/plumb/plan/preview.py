@@ -15,23 +15,25 @@ import numpy as np
 import scipy
 from pydantic import computed_field
 
-from plumb.diagnosis.clean import felt_effects
-from plumb.diagnosis.explanation import FEWEST_NUMBERS, KNOWN, Board, Explanation, explain
-from plumb.diagnosis.gain import search
-from plumb.diagnosis.noise import Noise
+from plumb.diagnosis.explanation import FEWEST_NUMBERS, Board, Explanation, explain
+from plumb.diagnosis.posterior import posterior_of
+from plumb.diagnosis.priors import chance_of, size_priors
 from plumb.diagnosis.sizes import hidden_share
+from plumb.diagnosis.verdict import NOTHING
+from plumb.fit.inputs import Stated
 from plumb.fit.observations import different_numbers, model_and_observations
 from plumb.fit.problem import PRIORS
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names, parameter_words
 from plumb.model.plain import ranked
-from plumb.plan.case import Case, ahead, hidden_hypotheses
+from plumb.plan.case import Case, Planned, hidden_hypotheses
 from plumb.plan.options import many_marks, options
+from plumb.plan.outlook import Outlooks
 from plumb.plan.planned_visits import Visits
 from plumb.plan.proposal import AGAIN
-from plumb.plan.separation import ENOUGH, apart
+from plumb.plan.separation import apart
 from plumb.settings.machine import MachineSettings
-from plumb.text.answers import Internal, Matrix, key
+from plumb.text.answers import Internal, Matrix, key, meant
 from plumb.text.errors import InputError
 
 Array = np.ndarray
@@ -72,12 +74,12 @@ class PlanAddition:
     minutes: float
     visits: Internal[Visits]
     pairs: Annotated[int, key("pairs_told_apart")]  # cells of the matrix that then reach APART
-    worth: Internal[float]  # rise of the capped squares of all cells
+    bits: Annotated[float, meant("Expected information on which effect acts.")]
 
     @property
     def rate(self) -> float:
-        """The order: worth per minute."""
-        return self.worth / (self.minutes + AGAIN)
+        """The order: information per minute."""
+        return self.bits / (self.minutes + AGAIN)
 
 
 @dataclass(frozen=True)
@@ -116,21 +118,15 @@ def preview(
     is_quick: without the additions, which take most of the time.
     """
     frame = _as_planned(settings, plan, sigma, controller, priors)
-    names, felt = effect_names(), felt_effects(frame)
-    noise = Noise(sigma, KNOWN, "stated")
-    limit = search(frame, felt, noise).threshold
-    matrix = _matrix(frame, frame.slopes)
-    hidden = hidden_hypotheses(frame)
+    names, matrix = effect_names(), _matrix(frame, frame.slopes)
     case = Case(
         settings=settings,
         controller=controller or plan.controller or settings.controller,
         verdict="nothing_provable",
-        board=frame.board,
-        noise=noise,
+        posterior=posterior_of(frame.board, Stated(sigma, is_final=True)),
         frame=frame,
-        singles={},
-        hypotheses=hidden,
-        truths=hidden,
+        best=frame,
+        hypotheses=hidden_hypotheses(frame),
     )
     rows = frame.board.rows
     return Preview(
@@ -139,8 +135,8 @@ def preview(
         distances=len(rows.distances),
         effects=names,
         matrix=matrix,
-        outlines=tuple(_outline(frame, i, matrix, limit) for i in range(len(names))),
-        additions=() if is_quick else _additions(case, matrix),
+        outlines=tuple(_outline(frame, i, matrix) for i in range(len(names))),
+        additions=() if is_quick else _additions(case),
         targets=rows.targets,
     )
 
@@ -178,14 +174,14 @@ def _matrix(frame: Explanation, slopes: Array) -> Array:
     return np.sqrt(sigmas)
 
 
-def _outline(frame: Explanation, i: int, matrix: Array, limit: float) -> Outline:
+def _outline(frame: Explanation, i: int, matrix: Array) -> Outline:
     names, words = effect_names(), parameter_words()
     name, seen = names[i], float(matrix[i, i])
     columns = frame.board.columns([name])
     count = frame.board.rows.count
     places = len(frame.board.rows.measured) or count
     raw = float(np.linalg.norm(frame.slopes[:count, columns])) * frame.board.sigma / np.sqrt(places)
-    smallest = _needed(len(columns), limit) / seen if seen > 0.01 else None
+    smallest = _needed(frame.board, name, seen) / seen if seen > 0.01 else None
     typical = [words[frame.board.problem.names[column]] for column in columns]
     alike = [
         (matrix[i, j], other)
@@ -210,23 +206,37 @@ def _outline(frame: Explanation, i: int, matrix: Array, limit: float) -> Outline
     )
 
 
-def _needed(parameters: int, limit: float) -> float:
-    """Sigmas that an effect must draw to pass the detection threshold in POWER of all cases."""
-    threshold = float(scipy.special.chdtri(parameters, np.exp(-limit)))
-    return float(np.sqrt(scipy.special.chndtrinc(threshold, parameters, 1 - POWER)))
+def _needed(board: Board, effect: str, seen: float) -> float:
+    """Sigmas that an effect must draw to be named in POWER of all cases; `seen` are those that it
+    draws in its typical size.
+
+    It is named once "nothing" is less likely than NOTHING. For one direction that is seen with
+    d sigmas for each spread of its prior, the logarithm of its odds is that of the prior and
+    z^2 / 2 * d^2 / (1 + d^2) - log(1 + d^2) / 2 (Laplace).
+    """
+    columns = board.columns([effect])
+    spreads = size_priors(board, columns)
+    log_odds = np.log((1 - NOTHING) / NOTHING) - np.log(chance_of(effect) / (1 - chance_of(effect)))
+    each = []
+    for spread in (1.0, float(np.mean(spreads.largest))):
+        squared = (spread * seen) ** 2
+        price = len(columns) * np.log1p(squared) / 2
+        each.append(2 * (log_odds + np.log(2) + price) * (1 + squared) / squared)
+    threshold = min(each)
+    return float(np.sqrt(scipy.special.chndtrinc(threshold, len(columns), 1 - POWER)))
 
 
-def _additions(case: Case, matrix: Array) -> tuple[PlanAddition, ...]:
+def _additions(case: Case) -> tuple[PlanAddition, ...]:
     """Return everything that could be added, by what it does for all cells."""
-    blind = many_marks(case)
+    blind, outlooks = many_marks(case), Outlooks(case)
     additions = []
     for option in [*options(case), *([blind] if blind else [])]:
         if option.kind == "repeats":
             continue
-        then = _matrix(case.frame, ahead(case.frame, option.visits, option.checks).slopes)
-        worth = float(np.sum(np.minimum(then**2, ENOUGH) - np.minimum(matrix**2, ENOUGH)))
+        planned = Planned(option.visits, option.checks)
+        then = _matrix(case.frame, planned.ahead(case.frame).slopes)
         what = (option.kind, option.title, option.do, option.minutes, option.visits)
-        additions.append(PlanAddition(*what, _reached(then), worth))
+        additions.append(PlanAddition(*what, _reached(then), outlooks.of(planned).bits))
     return tuple(ranked(additions, lambda addition: -addition.rate))
 
 

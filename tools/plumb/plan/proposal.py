@@ -18,7 +18,7 @@ from plumb.grid.cut_with import cut_with_lines, with_form
 from plumb.model.plain import ascending, noun_of, plainly, ranked
 from plumb.plan.case import Case, Check, Planned, case_of
 from plumb.plan.options import MARK, READING, ROUND, Option, many_marks, options, spots
-from plumb.plan.outlook import outlook
+from plumb.plan.outlook import Outlooks
 from plumb.plan.planned_visits import (
     Visit,
     Visits,
@@ -29,7 +29,7 @@ from plumb.plan.planned_visits import (
     sent,
     usable,
 )
-from plumb.plan.separation import ENOUGH, Stability, apart, drawn_by, stability_of
+from plumb.plan.separation import ENOUGH, apart, drawn_by
 from plumb.text.answers import Internal, among, key, meant, part
 from plumb.text.values import bare, worded
 
@@ -59,6 +59,7 @@ class Proposal:
     question: Annotated[str, key("chance_to"), among((SETTLE, CONFIRM, FIND, REREAD, EXPLORE))]
     chance: Annotated[float | None, meant("Null: nothing can be computed.")]
     left: Annotated[float | None, key("suspects_left", "On average.")]
+    bits: Annotated[float | None, meant("Expected information on which account holds.")] = None
     # and not by the marks so far
     parts: Annotated[tuple[tuple[str, str], ...], meant("Pairs distinguished then.")] = ()
     # what the largest hidden effects could then still be
@@ -90,7 +91,6 @@ class Next:
     proposals: Annotated[tuple[Proposal, ...], key("next")]
     # as many more marks as patience allows
     blind: Annotated[Proposal | None, key("more_marks")]
-    stable: Stability | None  # of a single suspect
 
 
 def propose(
@@ -109,20 +109,19 @@ def propose(
             Proposal(option, REREAD, chance, None)
             for option, chance in for_slips(case, diagnosis.outliers)
         ]
-        return Next(diagnosis.verdict, case, tuple(proposals), None, None)
+        return Next(diagnosis.verdict, case, tuple(proposals), None)
     if diagnosis.verdict == "not_in_library":
         proposals = [Proposal(option, EXPLORE, None, None) for option in near_the_worst(case)]
-        return Next(diagnosis.verdict, case, tuple(proposals), None, None)
-    several = options(case)
+        return Next(diagnosis.verdict, case, tuple(proposals), None)
+    several, outlooks = options(case), Outlooks(case)
     blind = many_marks(case)
     everything = [*several, *([blind] if blind else [])]
     weighed = []
     for number, option in enumerate(everything):
-        weighed.append(_weighed(case, option, diagnosis.could_hide))
+        weighed.append(_weighed(outlooks, option, diagnosis.could_hide))
         progress((number + 1) / len(everything))
     against = weighed.pop() if blind else None
-    stable = stability_of(case) if diagnosis.verdict == "one_suspect" else None
-    return Next(diagnosis.verdict, case, _best_first(weighed), against, stable)
+    return Next(diagnosis.verdict, case, _best_first(weighed), against)
 
 
 def _best_first(proposals: Sequence[Proposal]) -> tuple[Proposal, ...]:
@@ -133,14 +132,14 @@ def _best_first(proposals: Sequence[Proposal]) -> tuple[Proposal, ...]:
     )
 
 
-def _weighed(case: Case, option: Option, rooms: Sequence[Room]) -> Proposal:
+def _weighed(outlooks: Outlooks, option: Option, rooms: Sequence[Room]) -> Proposal:
     """Return an option with what to expect of it."""
-    planned = Planned(option.visits, option.checks)
-    expected = outlook(case, planned)
+    case, planned = outlooks.case, Planned(option.visits, option.checks)
+    expected = outlooks.of(planned)
     question = QUESTIONS[case.verdict]
     parts = _parted(case, planned) if question != FIND else ()
     then = _rooms(case, planned, rooms) if question == FIND else ()
-    return Proposal(option, question, expected.chance, expected.left, parts, then)
+    return Proposal(option, question, expected.chance, expected.left, expected.bits, parts, then)
 
 
 def _parted(case: Case, planned: Planned) -> tuple[tuple[str, str], ...]:
@@ -314,10 +313,7 @@ def for_slips(case: Case, slips: Sequence[Outlier]) -> list[tuple[Option, float]
 def near_the_worst(case: Case) -> list[Option]:
     """Return marks around the places that are explained worst, then readings of these once more."""
     rows = case.board.rows
-    best = ranked(
-        [case.frame, *case.singles.values()],
-        lambda explanation: explanation.cost + 2 * len(case.board.columns(explanation.effects)),
-    )[0]
+    best = case.best
     if not len(rows.measured):
         return [_worst_distances(case, best)]
     errors = best.numbers[: rows.measured.size].reshape(-1, 2)

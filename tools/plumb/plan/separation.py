@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.diagnosis.explanation import Board, Explanation, span
+from plumb.diagnosis.explanation import Board, Explanation
 from plumb.model.catalogue import every_effect
-from plumb.model.plain import greatest, ranked
+from plumb.model.plain import greatest
 from plumb.model.python_effect import DirectCheck
 from plumb.plan.case import Case, Hypothesis, visit_slopes
 from plumb.plan.planned_visits import Visits
@@ -47,7 +47,7 @@ def pairs_of(case: Case) -> list[Pair]:
         ]
     if len(truths) == 1:
         truth = truths[0]
-        rivals = [name for name in case.singles if name not in truth.effects]
+        rivals = [name for name in case.posterior.felt if name not in truth.effects]
         return [Pair(truth.at, drawn_by(truth), _fitted(board, (rival,)), 1.0) for rival in rivals]
     return [
         Pair(truth.at, drawn_by(truth), _fitted(board, other.effects), truth.weight + other.weight)
@@ -198,43 +198,3 @@ FRAME_CHECKS: Mapping[str, NumberCheck] = {
         {"rotation_radius": 0.5},
     ),
 }
-
-
-# Whether a single suspect hangs on a single reading.
-
-
-@dataclass(frozen=True)
-class Stability:
-    """How many single marks may be left out without another suspect."""
-
-    kept: int
-    of: int
-
-
-def stability_of(case: Case) -> Stability:
-    """Return in how many deletions of a reading the suspect remains the best single effect."""
-    suspect = case.hypotheses[0]
-    if len(suspect.effects) > 1:
-        return Stability(0, 0)
-    board, frame = case.board, case.frame
-    groups = _readings(case)
-    kept = 0
-    for reading in groups:
-        rows = np.setdiff1d(np.arange(len(frame.slopes)), reading)
-        costs = {}
-        for name in case.singles:
-            columns = np.concatenate([board.frame, board.columns([name])])
-            fitted = span(frame.slopes[np.ix_(rows, columns)])
-            left = frame.residual[rows] - fitted @ (fitted.T @ frame.residual[rows])
-            costs[name] = float(left @ left) + 2 * len(board.columns([name]))
-        kept += ranked(costs, costs.__getitem__)[0] == suspect.effects[0]
-    return Stability(kept, len(groups))
-
-
-def _readings(case: Case) -> list[Array]:
-    """Return the rows of each mark (its repeats with it) and of each distance."""
-    rows = case.board.rows
-    names = np.array(rows.names)
-    marks = [np.flatnonzero(names == name) for name in dict.fromkeys(rows.names)]
-    groups = [np.concatenate([2 * repeats, 2 * repeats + 1]) for repeats in marks]
-    return groups + [np.array([rows.measured.size + i]) for i in range(len(rows.distances))]

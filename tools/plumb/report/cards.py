@@ -114,7 +114,7 @@ def hidden_words(share: float | None) -> str:
 
 def _explanation_with(findings: Findings, effect: str) -> Explanation:
     """Return the best explanation that has the effect."""
-    known = (*findings.examined.explanations, findings.used)
+    known = (*findings.diagnosis.fits, findings.used)
     return next(each for each in known if effect in each.effects)
 
 

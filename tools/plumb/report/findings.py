@@ -10,9 +10,9 @@ import numpy as np
 from plumb.cure.add import Addition, Quality
 from plumb.cure.auto import AutoAddition, add_auto
 from plumb.diagnosis.answer import Diagnosis
-from plumb.diagnosis.diagnosis import Examined, examine
+from plumb.diagnosis.diagnosis import diagnose
 from plumb.diagnosis.expected_error import ExpectedError, expected_error
-from plumb.diagnosis.explanation import Explanation, explain, measured_board
+from plumb.diagnosis.explanation import Explanation, measured_board
 from plumb.diagnosis.suspect_curves import SuspectCurves, suspect_curves, view_by
 from plumb.diary.history import DiaryFit
 from plumb.fit.compare import ChainView, Comparison, compare
@@ -39,7 +39,7 @@ class Findings:
     inputs: Inputs
     rows: Observations  # all marks, slips too
     comparison: Comparison
-    examined: Examined
+    diagnosis: Diagnosis
     auto: AutoAddition
     advice: Next
     used: Explanation  # the frame with the effects that are added
@@ -52,14 +52,9 @@ class Findings:
     fits: tuple[DiaryFit, ...] = ()  # of the machine's diary, the oldest first
 
     @property
-    def diagnosis(self) -> Diagnosis:
-        """What the marks prove."""
-        return self.examined.diagnosis
-
-    @property
     def frame(self) -> Explanation:
         """The frame fitted alone, without slips."""
-        return self.examined.readings.frame
+        return self.diagnosis.readings.frame
 
 
 def find(
@@ -70,64 +65,47 @@ def find(
 ) -> Findings:
     """Compare, diagnose, add and propose; InputError as these do. `fits` are of the diary."""
     comparison = compare(inputs)
-    examined = examine(inputs)
-    auto = add_auto(inputs, diagnosis=examined.diagnosis)
-    frame, rows = examined.readings.frame, measured_board(inputs).rows
-    used = _explanation(examined, auto.chosen)
+    diagnosis = diagnose(inputs)
+    auto = add_auto(inputs, diagnosis=diagnosis)
+    frame, rows = diagnosis.readings.frame, measured_board(inputs).rows
+    used = diagnosis.best if auto.chosen else frame
     framed = view_by(frame, rows)
     machine = auto.addition.settings if auto.addition else inputs.settings
     return Findings(
         inputs=inputs,
         rows=rows,
         comparison=comparison,
-        examined=examined,
+        diagnosis=diagnosis,
         auto=auto,
-        advice=propose(examined.diagnosis, inputs, progress=progress),
+        advice=propose(diagnosis, inputs, progress=progress),
         used=used,
         framed=framed,
         left=view_by(used, rows),
         by_visit=covariates(framed.model, rows) if len(rows.measured) else (),
-        curves=_curves(examined, used, rows),
-        expected=expected_error(used, _rivals(examined, used)) if auto.addition else None,
+        curves=_curves(diagnosis, used, rows),
+        expected=expected_error(used, _rivals(diagnosis, used)) if auto.addition else None,
         survey=survey_sheet(machine),
         fits=fits,
     )
 
 
-def _explanation(examined: Examined, effects: tuple[str, ...]) -> Explanation:
-    """Return the explanation by these effects, in any order; fitted if it is none of the
-    diagnosis.
-    """
-    for explanation in examined.explanations:
-        if set(explanation.effects) == set(effects):
-            return explanation
-    frame = examined.readings.frame
-    return explain(frame.board, effects, start=frame) if effects else frame
-
-
-def _curves(examined: Examined, used: Explanation, rows: Observations) -> tuple[SuspectCurves, ...]:
+def _curves(
+    diagnosis: Diagnosis, used: Explanation, rows: Observations
+) -> tuple[SuspectCurves, ...]:
     """Return those of the explanations, best first; of what is added where none stands."""
     if not len(rows.measured):
         return ()
     # The frame alone draws nothing beyond the frame.
-    drawn = [each for each in examined.explanations if each.effects][:MOST_CURVES]
+    drawn = [each for each in diagnosis.fits if each.effects][:MOST_CURVES]
     if not drawn and used.effects:
         drawn = [used]
-    return tuple(suspect_curves(examined.readings.frame, each, rows) for each in drawn)
+    return tuple(suspect_curves(diagnosis.readings.frame, each, rows) for each in drawn)
 
 
-def _rivals(examined: Examined, used: Explanation) -> list[tuple[Explanation, float]]:
-    """Return the other explanations that a real machine can have, with their shares; where they
-    were not weighed, all count alike.
-    """
-    both = zip(examined.explanations, examined.diagnosis.explanations, strict=True)
-    possible = [(fitted, together.share) for fitted, together in both if together.possible]
-    weighed = [1.0 if share is None else share for _, share in possible]
-    return [
-        (fitted, weight / sum(weighed))
-        for (fitted, _), weight in zip(possible, weighed, strict=True)
-        if fitted is not used
-    ]
+def _rivals(diagnosis: Diagnosis, used: Explanation) -> list[tuple[Explanation, float]]:
+    """Return the other explanations with their shares."""
+    both = zip(diagnosis.fits, diagnosis.explanations, strict=True)
+    return [(fitted, together.share) for fitted, together in both if fitted is not used]
 
 
 # The report's next step: what follows from the verdict, or what to measure.

@@ -116,7 +116,7 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
         with shown_in(choices.units):
             if auto.addition is None:
                 return CorrectionParts(reason=auto.reason, is_slip=True, add=_auto_words(choices))
-            made = correct(inputs, auto.chosen, choices.accepted)
+            made = correct(auto.inputs, auto.chosen, choices.accepted)
             return _parts(made, auto.reason, choices)
 
     answer = background.ask("correction", key, work)
@@ -142,7 +142,7 @@ def write(known: Write, project: TheProject, line: TheLine) -> Written:
     auto = add_auto(inputs)
     if auto.addition is None:
         raise InputError(auto.reason)
-    made = correct(inputs, auto.chosen, choices.accepted).accepted
+    made = correct(auto.inputs, auto.chosen, choices.accepted).accepted
     if made is None:
         raise InputError("no number is accepted, so there is nothing to write")
     name = project.free_name("machine", *WRITTEN)

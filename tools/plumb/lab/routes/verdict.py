@@ -13,7 +13,7 @@ from plumb import api
 from plumb.cure.add import Addition
 from plumb.cure.auto import AutoAddition, add_auto
 from plumb.diagnosis.answer import SHOWN, Diagnosis, Together, odds_words
-from plumb.diagnosis.diagnosis import Examined, examine
+from plumb.diagnosis.diagnosis import diagnose
 from plumb.diagnosis.explanation import Explanation
 from plumb.diagnosis.sizes import Size
 from plumb.diagnosis.suspect_curves import fingerprint_of
@@ -136,12 +136,12 @@ def show_verdict(project: TheProject, background: TheBackground) -> VerdictAnswe
 
     def work(progress: Progress) -> Verdict:
         progress(0.1)
-        examined = examine(inputs)
+        diagnosis = diagnose(inputs)
         progress(0.6)
-        auto = add_auto(inputs, diagnosis=examined.diagnosis)
+        auto = add_auto(inputs, diagnosis=diagnosis)
         progress(0.8)
         with shown_in(choices.units):
-            return verdict_of(inputs, examined, auto)
+            return verdict_of(inputs, diagnosis, auto)
 
     answer = background.ask("verdict", f"{key}\n{choices.units}", work)
     return VerdictAnswer(
@@ -158,12 +158,11 @@ def board_and_known(project: Project, inputs: api.Inputs) -> list[str]:
     return [*board_words(project), *known_words(choices), *unit]
 
 
-def verdict_of(inputs: api.Inputs, examined: Examined, auto: AutoAddition) -> Verdict:
+def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: AutoAddition) -> Verdict:
     """Return a diagnosis as the page shows it."""
-    diagnosis = examined.diagnosis
     raw = api.compare(inputs)
     addition = auto.addition
-    shown = list(zip(diagnosis.explanations, examined.explanations, strict=True))[:MOST_CARDS]
+    shown = list(zip(diagnosis.explanations, diagnosis.fits, strict=True))[:MOST_CARDS]
     unproved = [each for each in diagnosis.could_hide if each.effect not in diagnosis.suspects]
     blind = [each.effect for each in unproved if each.mm is None]
     return Verdict(
@@ -177,7 +176,7 @@ def verdict_of(inputs: api.Inputs, examined: Examined, auto: AutoAddition) -> Ve
         noise=diagnosis.noise.sentence,
         before=[Arrow(name=m.name, place=m.predicted, error=m.error) for m in raw.marks],
         after=_after(addition, [mark.name for mark in raw.marks]) if addition else [],
-        cards=[_card(examined, i, *each) for i, each in enumerate(shown)],
+        cards=[_card(diagnosis, i, *each) for i, each in enumerate(shown)],
         more_cards=max(len(diagnosis.explanations) - MOST_CARDS, 0),
         could_hide=_could_hide(diagnosis),
         blind=f"these marks say nothing of {nouns_of(blind)}" if blind else "",
@@ -206,12 +205,11 @@ def _could_hide(diagnosis: Diagnosis) -> list[Hidden]:
     return ranked(hidden, lambda each: -each.mm)[:SHOWN]
 
 
-def _card(examined: Examined, index: int, together: Together, fitted: Explanation) -> Card:
-    diagnosis = examined.diagnosis
+def _card(diagnosis: Diagnosis, index: int, together: Together, fitted: Explanation) -> Card:
     return Card(
         title=plainly(together.effects),
         effects=[_effect(diagnosis, name, together, fitted) for name in together.effects],
-        odds=odds_words(together.share) if together.share is not None else "",
+        odds=odds_words(together.share),
         rms_after=together.rms_after,
         share=together.explained_share(diagnosis.rms_before),
         possible=together.possible,

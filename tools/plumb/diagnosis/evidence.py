@@ -1,0 +1,278 @@
+"""The evidence of accounts: how likely the readings are by each set of effects, over all sizes.
+
+An account says which effects act (none, sets of a few, or all), and whether beside them a reading
+is off, a round was moved, or a smooth field acts that no effect draws. Its evidence is the density
+of the readings over all sizes, frames and noises that its priors allow. Sizes are normals whose
+densities Laplace's method gives in closed form, because the board is linear; what cannot be
+negative takes the ratio of the posterior's to the prior's mass where it is not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cache
+from itertools import combinations, product
+
+import numpy as np
+import scipy
+
+from plumb.diagnosis.linear import LinearBoard, Metric
+from plumb.diagnosis.priors import (
+    ALL,
+    NOISE_DEGREES,
+    TOGETHER,
+    SizePriors,
+    chance_of,
+    noise_prior,
+)
+from plumb.fit.inputs import Stated
+
+Array = np.ndarray
+Effects = tuple[str, ...]
+FEWER = 150  # measured numbers beyond which sets of three are left out, for time
+
+
+@dataclass(frozen=True)
+class Part:
+    """Variants of accounts with as many unknowns: a set of effects, each of a spread."""
+
+    sets: Array  # (a,) which set each variant belongs to
+    index: Array  # (a, k) columns of its effects
+    variance: Array  # (a, k) of the prior
+    log_prior: Array  # (a,)
+
+
+@dataclass(frozen=True)
+class Accounts:
+    """Sets of effects that may act, with all spreads of their sizes."""
+
+    effects: tuple[Effects, ...]
+    parts: tuple[Part, ...]
+    sizes: SizePriors
+
+    def up_to(self, most: int) -> Accounts:
+        """Return the accounts of at most so many effects."""
+        few = np.array([len(names) <= most for names in self.effects])
+        parts = (
+            Part(part.sets[kept], part.index[kept], part.variance[kept], part.log_prior[kept])
+            for part in self.parts
+            for kept in [few[part.sets]]
+            if kept.any()
+        )
+        return Accounts(self.effects, tuple(parts), self.sizes)
+
+    def among(self, wanted: Array) -> Accounts:
+        """Return the accounts of some sets (sets,)."""
+        parts = (
+            Part(part.sets[kept], part.index[kept], part.variance[kept], part.log_prior[kept])
+            for part in self.parts
+            for kept in [wanted[part.sets]]
+            if kept.any()
+        )
+        return Accounts(self.effects, tuple(parts), self.sizes)
+
+
+def accounts_of(board: LinearBoard, most: int = TOGETHER) -> Accounts:
+    """Return all accounts of a board: sets of up to `most` effects, and all effects at once."""
+    names = tuple(board.columns)
+    sets = [chosen for size in range(most + 1) for chosen in combinations(names, size)]
+    everything = len(names) > most
+    sets += [names] if everything else []
+    variants: dict[int, list[tuple[Array, Array, Array, Array]]] = {}
+    for number, chosen in enumerate(sets):
+        is_all = everything and number == len(sets) - 1
+        index, variance = _columns_and_variances(board, chosen, is_all=is_all)
+        count = len(variance)
+        rows = np.full(count, number), np.tile(index, (count, 1)), variance
+        variants.setdefault(len(index), []).append(
+            (*rows, np.full(count, _log_prior(chosen, is_all=is_all)))
+        )
+    parts = tuple(
+        Part(*(np.concatenate(column) for column in zip(*alike, strict=True)))
+        for _, alike in sorted(variants.items())
+    )
+    return Accounts(tuple(sets), parts, board.sizes)
+
+
+def _log_prior(chosen: Effects, *, is_all: bool) -> float:
+    """Return the logarithm of the prior of a set, with each effect of one of two spreads."""
+    if is_all:
+        return float(np.log(ALL))
+    odds = sum(np.log(chance / (1 - chance)) for chance in map(chance_of, chosen))
+    return float(odds - len(chosen) * np.log(2))
+
+
+def _columns_and_variances(
+    board: LinearBoard, chosen: Effects, *, is_all: bool
+) -> tuple[Array, Array]:
+    """Return the columns (k,) of what every machine has and of a set, and their prior variances
+    (spreads, k): each effect is of a typical size or as large as any that was met.
+    """
+    sizes = board.sizes
+    columns = [board.columns[name] for name in chosen]
+    index = np.flatnonzero(sizes.usual)
+    index = np.unique(np.concatenate([index, *columns]))
+    larges = np.array([[True] * len(chosen)]) if is_all else _choices(len(chosen))
+    variance = np.tile(sizes.usual[index] ** 2, (len(larges), 1))
+    for of_effect, is_large in zip(columns, larges.T, strict=True):
+        places = np.searchsorted(index, of_effect)
+        variance[:, places] += np.where(
+            is_large[:, np.newaxis], sizes.largest[of_effect] ** 2, sizes.typical[of_effect] ** 2
+        )
+    return index, variance
+
+
+@cache
+def _choices(count: int) -> Array:
+    """Return all ways (2^count, count) to choose among so many."""
+    return np.array(list(product((False, True), repeat=count)), dtype=bool)
+
+
+# The evidence of each variant, for all noises and boards of a metric at once.
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """The variants of a part, fitted with each of m noises to each of some boards."""
+
+    loose: Array  # (boards, a * m) logarithm of the evidence as if any sign were possible
+    possible: Array  # (boards, a * m) what impossible signs change in it
+    mean: Array  # (k, boards, a * m) of the sizes, in typical sizes off `SizePriors.mean`
+    inverse: Array  # (k, k, a * m) their covariance, as if any sign were possible
+
+    @property
+    def evidence(self) -> Array:
+        """Logarithm of the evidence (boards, a * m), with the prior of the variant."""
+        return self.loose + self.possible
+
+
+def fitted(part: Part, sizes: SizePriors, metric: Metric) -> Fitted:
+    """Fit all variants of a part."""
+    index, noises = part.index, len(metric.sigmas)
+    count, k = index.shape
+    matrix = metric.gram[:, index[:, :, np.newaxis], index[:, np.newaxis, :]]
+    matrix = np.moveaxis(matrix, (0, 1), (3, 2)).reshape(k, k, count * noises)
+    along = np.moveaxis(metric.along[:, index], (0, 1), (3, 2)).reshape(k, -1, count * noises)
+    across = np.repeat(part.variance.T, noises, axis=1)
+    matrix[np.arange(k), np.arange(k)] += 1 / across
+    inverse, log_determinant = _inverted(matrix)
+    mean = np.einsum("ija,jba->iba", inverse, along)
+    explained = np.sum(along * mean, axis=0)
+    left = np.tile(metric.square.T, count) - explained
+    size = np.tile(metric.log_determinant, count) + log_determinant + np.log(across).sum(axis=0)
+    edge = (sizes.mean - sizes.least)[index]  # how far the mean of the prior is from the least
+    before = np.sum(scipy.special.log_ndtr(edge / np.sqrt(part.variance)), axis=1)
+    possible = log_orthant(mean + np.repeat(edge.T, noises, axis=1)[:, np.newaxis], inverse)
+    prior = np.repeat(part.log_prior, noises)
+    possible -= np.repeat(before, noises)
+    return Fitted(prior - (size + left) / 2, possible, mean, inverse)
+
+
+def _inverted(matrix: Array) -> tuple[Array, Array]:
+    """Return the inverses of positive matrices (k, k, b), and the logarithms of their determinants.
+
+    Gauss and Jordan's elimination, a pivot for all matrices at once.
+    """
+    inverse, log_determinant = matrix.copy(), np.zeros(matrix.shape[2])
+    for i in range(len(inverse)):
+        pivot = inverse[i, i].copy()
+        log_determinant += np.log(pivot)
+        inverse[i, i] = 1.0
+        row = inverse[i] / pivot
+        column = inverse[:, i].copy()
+        column[i] = 0.0
+        inverse[:, i] = 0.0
+        inverse[i] = row
+        for j in range(len(inverse)):
+            if j != i:
+                inverse[j] -= column[j] * row
+    return inverse, log_determinant
+
+
+FAR = 5.0  # deviations above zero from which a number counts as surely positive
+
+
+def log_orthant(mean: Array, covariance: Array) -> Array:
+    """Return the logarithm of the mass (boards, b) that normals have where nothing is negative.
+
+    mean (k, boards, b), infinite where either sign is possible; covariance (k, k, b). One number
+    after the other is taken to be positive, and what that says of the others is kept as a normal
+    again (Mendell and Elston 1974).
+    """
+    each = np.arange(len(mean))
+    sure = FAR * np.sqrt(covariance[each, each])[:, np.newaxis] < mean
+    bounded = np.flatnonzero(~sure.all(axis=(1, 2)))
+    mass = np.zeros(mean.shape[1:])
+    mean = np.where(np.isfinite(mean), mean, 1e6)[bounded]
+    spread = np.repeat(covariance[np.ix_(bounded, bounded)][:, :, np.newaxis], mean.shape[1], 2)
+    for i in range(len(mean)):
+        deviation = np.sqrt(spread[i, i])
+        at = mean[i] / deviation
+        log_mass = scipy.special.log_ndtr(at)
+        mass += log_mass
+        pull = np.exp(-0.5 * at**2 - 0.5 * np.log(2 * np.pi) - log_mass)
+        less = pull * (pull + at)
+        for j in range(i + 1, len(mean)):
+            share = spread[i, j] / deviation
+            mean[j] += share * pull
+            for k in range(j, len(mean)):
+                spread[j, k] -= share * spread[i, k] / deviation * less
+    return mass
+
+
+# The noises that are worth a look, and the evidence of sets of effects over all of them.
+
+NOISE_STEP = 0.15  # of the logarithm of the noise, at most
+NOISE_REACH = 5.0  # spreads of its prior to both sides
+NEGLIGIBLE = 9.0  # nats below the best: what is less likely is not looked at
+
+
+@dataclass(frozen=True)
+class Noises:
+    """Standard deviations of a reading, and the logarithms of their priors."""
+
+    sigmas: Array  # (m,) [mm]
+    log_prior: Array  # (m,)
+
+    @property
+    def sparse(self) -> Noises:
+        """Every other noise, each for two."""
+        kept = slice(len(self.sigmas) % 2, None, 2) if len(self.sigmas) > 2 else slice(None)
+        return Noises(self.sigmas[kept], self.log_prior[kept] + np.log(2))
+
+
+def noises_of(board: LinearBoard, accounts: Accounts, stated: Stated | None) -> Noises:
+    """Return the noises that some account finds likely, by single effects and all at once."""
+    middle, spread = noise_prior(stated)
+    if not spread:
+        return Noises(np.array([middle]), np.zeros(1))
+    step = float(np.clip(np.sqrt(0.5 / max(board.measured, 1)), NOISE_STEP / 3, NOISE_STEP))
+    off = np.arange(-NOISE_REACH * spread, NOISE_REACH * spread + step, step)
+    half = (NOISE_DEGREES + 1) / 2
+    log_prior = -half * np.log1p((off / spread) ** 2 / NOISE_DEGREES)
+    log_prior -= np.logaddexp.reduce(log_prior)
+    every = Noises(middle * np.exp(off), log_prior)
+    few = accounts.among(
+        np.array([len(names) < 2 or len(names) > TOGETHER for names in accounts.effects])
+    )
+    weights = np.vstack(
+        [weight for _, weight in variants(few, Metric.of(board, every.sigmas), every)]
+    )
+    likely = weights.max(axis=0) > weights.max() - NEGLIGIBLE
+    return Noises(every.sigmas[likely], every.log_prior[likely])
+
+
+def variants(accounts: Accounts, metric: Metric, noises: Noises) -> Iterable[tuple[Part, Array]]:
+    """Yield each part with the log evidence (a, m) of its variants, first board."""
+    for part in accounts.parts:
+        evidence = fitted(part, accounts.sizes, metric).evidence[0]
+        yield part, evidence.reshape(len(part.sets), -1) + noises.log_prior
+
+
+def weights_of(accounts: Accounts, metric: Metric, noises: Noises) -> Array:
+    """Return the log evidence (sets, m) of each set; -inf for sets that these accounts leave out."""
+    total = np.full((len(accounts.effects), len(noises.sigmas)), -np.inf)
+    for part, weight in variants(accounts, metric, noises):
+        np.logaddexp.at(total, part.sets, weight)
+    return total

@@ -1,0 +1,129 @@
+"""What is known of machines and readings before any mark is read: the priors of the posterior.
+
+Each number stands here with its source. To change what the lab believes, change it here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from plumb.diagnosis.explanation import Board
+from plumb.fit.expected import plausible_range
+from plumb.fit.inputs import Stated
+from plumb.fit.problem import USUAL_SIGMA, Checked
+from plumb.model.catalogue import EVERY_MACHINE
+
+Array = np.ndarray
+
+LIKELIER = 0.5  # chance from which on something is likelier than not
+
+# How likely each thing is on a machine that somebody asks about. Of the published boards and of
+# owners' reports about one machine in ten has any given effect in a size that matters.
+ACTS = 0.1  # an effect
+UNUSUAL = 0.05  # that what every machine has is far from usual
+ALL = 0.01  # that every effect of the library acts at once
+TOGETHER = 3  # effects at once in an account; the marks of one sheet hardly carry more
+FIELD = 0.15  # that the machine also does what no effect of the library does
+OUTLIER = 0.05  # that some reading is off
+MOVED = 0.05  # that a later round was not cut by the same machine on the same sheet
+TURNED = 0.01  # that all y errors have the wrong sign
+
+# [mm] Readings that are off: a misread tick, a wrong hook, exchanged digits. All as likely.
+OUTLIER_SPREADS = (4.0, 20.0, 200.0)
+# [mm] and halves of what the marks span: what a smooth field of no effect does. All as likely.
+FIELD_SPREADS = (1.0, 2.0, 4.0)
+FIELD_WIDTHS = (0.35, 0.7, 1.4)
+ROUND_SPREAD = 6.0  # [mm] of a sheet laid elsewhere, and of a chain hung by a link less
+
+# The noise of a reading: the logarithm of its standard deviation is Student's t about this.
+NOISE_DEGREES = 4.0
+STATED_SPREAD = 0.22  # how well people state it: five stated values against their repeats
+UNSTATED_SPREAD = 0.5  # of tapes in general, about USUAL_SIGMA
+
+
+@dataclass(frozen=True)
+class Usual:
+    """What every machine has of a parameter, as shares of its typical size."""
+
+    mean: float  # of machines whose settings do not know it
+    spread: float  # from machine to machine, where the settings do not know it
+    known: float  # the same about the value that the settings have
+
+
+# Chains of three makers stretched by 3.6e-6 to 8.3e-6 1/N; chain of one size weighs within a tenth.
+USUAL: Mapping[str, Usual] = {
+    "chain_stretch.compliance": Usual(mean=1.0, spread=0.6, known=0.3),
+    "chain_sag.weight_ratio_squared": Usual(mean=1.0, spread=0.2, known=0.12),
+}
+# Half of all chains are longer or shorter than nominal by what makers allow, each chain by itself.
+PITCH = "chain_pitch"
+PITCH_CHANCE, PITCH_SPREAD = 0.5, 0.0005
+
+
+@dataclass(frozen=True)
+class SizePriors:
+    """Normal priors of the parameters of some effects, in typical sizes off the settings' values.
+
+    A parameter that cannot be negative is at least its `least`. What every machine has counts in
+    each account, about `mean` with `usual`; an effect that acts adds one of two spreads.
+    """
+
+    mean: Array  # (p,)
+    usual: Array  # (p,) standard deviation on every machine; 0: only where the effect acts
+    typical: Array  # (p,) spread of the sizes that are met most
+    largest: Array  # (p,) spread of the sizes that were met at all
+    least: Array  # (p,) off the settings' value; -inf: it has either sign
+    pitch: Array  # (p,) usual standard deviation that half of all machines have
+
+
+def size_priors(board: Board, columns: Array) -> SizePriors:
+    """Return the priors of these columns of a board's unknowns."""
+    problem = board.problem
+    names = [problem.names[column] for column in columns]
+    scale, start = problem.scale[columns], problem.start[columns] / problem.scale[columns]
+    met = [plausible_range(name) for name in names]
+    usual = [USUAL.get(name) for name in names]
+    is_set = start != 0
+    return SizePriors(
+        mean=np.array([each.mean if each else 0.0 for each in usual]) * ~is_set,
+        usual=np.array(
+            [
+                (each.known if known else each.spread) if each else 0.0
+                for each, known in zip(usual, is_set, strict=True)
+            ]
+        ),
+        typical=np.ones(len(names)),
+        largest=np.array([max(abs(each.low), abs(each.high)) for each in met]) / scale,
+        least=np.where([each.low >= 0 for each in met], -start, -np.inf),
+        pitch=np.array([name.startswith(f"{PITCH}.") for name in names])
+        * np.where(is_set, 0.0, PITCH_SPREAD / scale),
+    )
+
+
+def usual_checks(board: Board, effects: Iterable[str]) -> tuple[Checked, ...]:
+    """Return what is usual of the parameters of some effects, as if it had been measured."""
+    problem, checks = board.problem, []
+    for column in board.columns(effects):
+        name, scale, start = problem.names[column], problem.scale[column], problem.start[column]
+        known = USUAL.get(name)
+        if known:
+            share = known.known if start else known.spread
+            checks.append(Checked(name, float(start or known.mean * scale), float(share * scale)))
+        elif name.startswith(f"{PITCH}."):
+            checks.append(Checked(name, float(start), PITCH_SPREAD))
+    return tuple(checks)
+
+
+def chance_of(effect: str) -> float:
+    """Return how likely an effect acts, or is unusual on this machine, before the marks."""
+    return UNUSUAL if effect in EVERY_MACHINE or effect == PITCH else ACTS
+
+
+def noise_prior(stated: Stated | None) -> tuple[float, float]:
+    """Return the middle [mm] of the noise, and the spread of its logarithm; 0: it is known."""
+    if stated is None:
+        return USUAL_SIGMA, UNSTATED_SPREAD
+    return stated.sigma, 0.0 if stated.is_final else STATED_SPREAD
