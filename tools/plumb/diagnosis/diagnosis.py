@@ -13,7 +13,6 @@ from plumb.diagnosis.expected_error import left_open
 from plumb.diagnosis.explanation import Explanation, measured_board
 from plumb.diagnosis.noise import Noise, left_by_noise
 from plumb.diagnosis.posterior import Listed, explain_account
-from plumb.diagnosis.priors import usual_checks
 from plumb.diagnosis.sizes import hidden_share, room_for, sizes_of
 from plumb.diagnosis.verdict import judge
 from plumb.fit.inputs import Inputs
@@ -55,7 +54,7 @@ def diagnose(inputs: Inputs) -> Diagnosis:
         nothing_chance=readings.posterior.nothing_chance,
         field_chance=readings.posterior.field_chance,
         to_add=() if readings.outliers else best.effects,
-        usual=usual_checks(frame.board, set(best.effects) - {*judgement.best.acting}),
+        usual=best.board.usual_checks,
         outliers=readings.outliers,
         could_hide=tuple(room_for(name, explanations or (best,), noise) for name in effect_names()),
         left_open=left_open(frame),

@@ -10,17 +10,18 @@ negative takes the ratio of the posterior's to the prior's mass where it is not.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from itertools import combinations, product
 
 import numpy as np
 import scipy
 
-from plumb.diagnosis.linear import LinearBoard, Metric
+from plumb.diagnosis.linear import LinearBoard, Metric, rows_in_metric
 from plumb.diagnosis.priors import (
     ALL,
     NOISE_DEGREES,
+    OUTLIER_SPREADS,
     TOGETHER,
     SizePriors,
     chance_of,
@@ -52,7 +53,7 @@ class Accounts:
     sizes: SizePriors
 
     def up_to(self, most: int) -> Accounts:
-        """Return the accounts of at most so many effects."""
+        """Return the accounts of at most `most` effects."""
         few = np.array([len(names) <= most for names in self.effects])
         parts = (
             Part(part.sets[kept], part.index[kept], part.variance[kept], part.log_prior[kept])
@@ -125,7 +126,7 @@ def _columns_and_variances(
 
 @cache
 def _choices(count: int) -> Array:
-    """Return all ways (2^count, count) to choose among so many."""
+    """Return all ways (2^count, count) to choose among `count` things."""
     return np.array(list(product((False, True), repeat=count)), dtype=bool)
 
 
@@ -144,7 +145,8 @@ class Fitted:
     @property
     def evidence(self) -> Array:
         """Logarithm of the evidence (boards, a * m), with the prior of the variant."""
-        return self.loose + self.possible
+        evidence: Array = self.loose + self.possible
+        return evidence
 
 
 def fitted(part: Part, sizes: SizePriors, metric: Metric) -> Fitted:
@@ -163,10 +165,13 @@ def fitted(part: Part, sizes: SizePriors, metric: Metric) -> Fitted:
     size = np.tile(metric.log_determinant, count) + log_determinant + np.log(across).sum(axis=0)
     edge = (sizes.mean - sizes.least)[index]  # how far the mean of the prior is from the least
     before = np.sum(scipy.special.log_ndtr(edge / np.sqrt(part.variance)), axis=1)
-    possible = log_orthant(mean + np.repeat(edge.T, noises, axis=1)[:, np.newaxis], inverse)
-    prior = np.repeat(part.log_prior, noises)
-    possible -= np.repeat(before, noises)
-    return Fitted(prior - (size + left) / 2, possible, mean, inverse)
+    loose = np.repeat(part.log_prior, noises) - (size + left) / 2
+    # Only for what is likely are impossible signs worth their time.
+    boards, likely = np.nonzero(loose > loose.max(axis=1, keepdims=True) - UNLIKELY)
+    edges, inverses = np.repeat(edge.T, noises, axis=1)[:, likely], inverse[:, :, likely]
+    possible = np.zeros(loose.shape)
+    possible[boards, likely] = log_orthant(mean[:, boards, likely] + edges, inverses)
+    return Fitted(loose, possible - np.repeat(before, noises), mean, inverse)
 
 
 def _inverted(matrix: Array) -> tuple[Array, Array]:
@@ -190,22 +195,23 @@ def _inverted(matrix: Array) -> tuple[Array, Array]:
     return inverse, log_determinant
 
 
+UNLIKELY = 8.0  # nats below the best of as many unknowns
 FAR = 5.0  # deviations above zero from which a number counts as surely positive
 
 
 def log_orthant(mean: Array, covariance: Array) -> Array:
-    """Return the logarithm of the mass (boards, b) that normals have where nothing is negative.
+    """Return the logarithm of the mass (b,) that normals have where nothing is negative.
 
-    mean (k, boards, b), infinite where either sign is possible; covariance (k, k, b). One number
+    mean (k, b), infinite where either sign is possible; covariance (k, k, b). One number
     after the other is taken to be positive, and what that says of the others is kept as a normal
     again (Mendell and Elston 1974).
     """
     each = np.arange(len(mean))
-    sure = FAR * np.sqrt(covariance[each, each])[:, np.newaxis] < mean
-    bounded = np.flatnonzero(~sure.all(axis=(1, 2)))
-    mass = np.zeros(mean.shape[1:])
+    sure = FAR * np.sqrt(covariance[each, each]) < mean
+    bounded = np.flatnonzero(~sure.all(axis=1))
+    mass = np.zeros(mean.shape[1])
     mean = np.where(np.isfinite(mean), mean, 1e6)[bounded]
-    spread = np.repeat(covariance[np.ix_(bounded, bounded)][:, :, np.newaxis], mean.shape[1], 2)
+    spread = covariance[np.ix_(bounded, bounded)].copy()
     for i in range(len(mean)):
         deviation = np.sqrt(spread[i, i])
         at = mean[i] / deviation
@@ -271,8 +277,81 @@ def variants(accounts: Accounts, metric: Metric, noises: Noises) -> Iterable[tup
 
 
 def weights_of(accounts: Accounts, metric: Metric, noises: Noises) -> Array:
-    """Return the log evidence (sets, m) of each set; -inf for sets that these accounts leave out."""
+    """Return the log evidence (sets, m) of each set; -inf for sets without an account here."""
     total = np.full((len(accounts.effects), len(noises.sigmas)), -np.inf)
     for part, weight in variants(accounts, metric, noises):
-        np.logaddexp.at(total, part.sets, weight)
+        add_by_set(total, part, weight)
     return total
+
+
+def add_by_set(total: Array, part: Part, weight: Array) -> None:
+    """Add the log weights (a, ...) of a part's variants to those (sets, ...) of their sets."""
+    sets, starts = np.unique(part.sets, return_index=True)  # they rise in each part
+    total[sets] = np.logaddexp(total[sets], np.logaddexp.reduceat(weight, starts, axis=0))
+
+
+# Readings that are off.
+
+
+def outlier_weights(
+    board: LinearBoard, accounts: Accounts, noises: Noises, numbers: Array
+) -> Array:
+    """Return the log evidence (readings,) of accounts with this reading off; numbers (readings, 2)
+    are the rows of each, the second beyond all rows where it has a single number.
+    """
+    board, noises = _with_usual_pitch(board), noises.sparse
+    exists = numbers < len(board.read)
+    weights = np.full(len(numbers), -np.inf)
+    for sigma, log_prior in zip(noises.sigmas, noises.log_prior, strict=True):
+        rows, root = rows_in_metric(board, sigma)
+        rows = np.vstack([rows, np.zeros((1, rows.shape[1]))])[numbers]
+        root = np.vstack([root, np.zeros((1, root.shape[1]))])[numbers]
+        kept = -np.einsum("rif,rjf->rij", root, root)
+        inside = np.r_[np.full(board.measured, sigma**-2), np.zeros(len(board.read))]
+        kept[:, [0, 1], [0, 1]] += np.where(exists, inside[numbers], 0.0)
+        metric = Metric.of(board, np.array([sigma]))
+        for part in accounts.parts:
+            off = _off(part, board.sizes, fitted(part, board.sizes, metric), rows, kept)
+            weights = np.logaddexp(weights, log_prior + off)
+    together: Array = weights - np.log(len(numbers) * len(OUTLIER_SPREADS))
+    return together
+
+
+def _with_usual_pitch(board: LinearBoard) -> LinearBoard:
+    """Return the board whose frame has chains as makers sell them."""
+    drifting = np.flatnonzero(board.sizes.pitch)
+    columns = board.effects[:, drifting] * board.sizes.pitch[drifting]
+    return replace(board, frame=np.hstack([board.frame, columns]))
+
+
+def _off(part: Part, sizes: SizePriors, fit: Fitted, rows: Array, kept: Array) -> Array:
+    """Return the log evidence (readings,) of a part's accounts with each reading off.
+
+    rows (readings, 2, p + 1) are those of C^-1 [effects, readings], kept (readings, 2, 2) those of
+    C^-1 itself. A shift o of spread l changes the evidence by the determinant and the pull of a
+    matrix of two by two.
+    """
+    drawn = np.moveaxis(rows[:, :, part.index], (2, 3), (0, 1))  # (a, k, readings, 2)
+    taken = np.einsum("kla,alri->akri", fit.inverse, drawn, optimize=True)
+    inside = kept - np.einsum("akri,akrj->arij", drawn, taken, optimize=True)
+    pull = rows[:, :, -1] - np.einsum("ka,akri->ari", fit.mean[:, 0], drawn, optimize=True)
+    edge = (sizes.mean - sizes.least)[part.index]
+    before = np.sum(scipy.special.log_ndtr(edge / np.sqrt(part.variance)), axis=1)
+    weights = []
+    for spread in OUTLIER_SPREADS:
+        a, b, c = (inside[..., i, j] + (i == j) * spread**-2 for i, j in ((0, 0), (0, 1), (1, 1)))
+        size = a * c - b**2
+        x, y = (
+            (c * pull[..., 0] - b * pull[..., 1]) / size,
+            (a * pull[..., 1] - b * pull[..., 0]) / size,
+        )
+        gain = (x * pull[..., 0] + y * pull[..., 1]) / 2 - np.log(size) / 2 - 2 * np.log(spread)
+        moved = taken[..., 0] * x[:, np.newaxis] + taken[..., 1] * y[:, np.newaxis]
+        mean = fit.mean[:, :1] - np.moveaxis(moved, 0, 2)
+        loose = fit.loose.T + gain - before[:, np.newaxis]
+        accounts, readings = np.nonzero(loose > loose.max(axis=0) - UNLIKELY)
+        loose[accounts, readings] += log_orthant(
+            mean[:, readings, accounts] + edge.T[:, accounts], fit.inverse[:, :, accounts]
+        )
+        weights.append(np.logaddexp.reduce(loose, axis=0))
+    return np.asarray(np.logaddexp.reduce(weights))

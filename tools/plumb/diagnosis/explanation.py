@@ -71,6 +71,12 @@ class Board:
         sigma = self.sigma if sigma is None else sigma
         return replace(self, problem=replace(self.problem, observations=rows, sigma=sigma))
 
+    @property
+    def usual_checks(self) -> tuple[Checked, ...]:
+        """What is held near what is usual."""
+        count = len(self.problem.checked)
+        return self.problem.checked[count - self.usual :]
+
     def with_usual(self, checks: Sequence[Checked]) -> Board:
         """Return the same board on which some numbers are held near what is usual."""
         if not checks:

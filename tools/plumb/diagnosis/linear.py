@@ -186,7 +186,7 @@ class Metric:
 def _without_frame(
     board: LinearBoard, sigmas: Array, whole: Array, log_determinant: Array, *, pitch: bool
 ) -> Metric:
-    """Integrate the frame out of Gram matrices (m, z, z) of all columns, and usual pitch if asked."""
+    """Integrate the frame out of Gram matrices (m, z, z), and usual pitch if asked."""
     frame, effects = board.frame.shape[1], board.effects.shape[1]
     drifting = np.flatnonzero(board.sizes.pitch) if pitch else np.zeros(0, dtype=int)
     loose = np.concatenate([np.arange(frame), frame + drifting])

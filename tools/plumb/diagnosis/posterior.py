@@ -1,6 +1,6 @@
 """One posterior over all accounts of the marks: every answer of a diagnosis is a reading of it.
 
-An account says which effects act, and whether beside them a reading is off, a round was moved, or
+An account says which effects act, and whether a reading is off as well, a round was moved, or
 a smooth field acts that no effect draws. Accounts that ask for the same effects count together:
 what every machine has is in each account, and is asked for only where the marks say that the
 settings have it wrong.
@@ -8,24 +8,21 @@ settings have it wrong.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-import scipy
 
+from plumb.diagnosis.every_machine import Clean, asked_for, clean_of, pitches
 from plumb.diagnosis.evidence import (
     FEWER,
     Accounts,
     Effects,
-    Fitted,
     Noises,
-    Part,
     accounts_of,
-    fitted,
-    log_orthant,
     noises_of,
+    outlier_weights,
     weights_of,
 )
 from plumb.diagnosis.explanation import Board, Explanation, explain
@@ -36,7 +33,6 @@ from plumb.diagnosis.linear import (
     Other,
     fields,
     moved_rounds,
-    rows_in_metric,
 )
 from plumb.diagnosis.noise import Noise, noise_by
 from plumb.diagnosis.outliers import Reading, readings_of
@@ -44,13 +40,10 @@ from plumb.diagnosis.priors import (
     FIELD,
     MOVED,
     OUTLIER,
-    OUTLIER_SPREADS,
-    PITCH,
-    PITCH_CHANCE,
     TOGETHER,
     TURNED,
-    SizePriors,
     usual_checks,
+    zero_checks,
 )
 from plumb.fit.inputs import Stated
 from plumb.model.catalogue import EVERY_MACHINE
@@ -163,9 +156,11 @@ def listing(accounts: Sequence[Account], weights: Array) -> list[Listed]:
     kept: dict[int, float] = {}
     before = 0.0
     for i in ascending(-weights):
-        own = {*accounts[i].effects}
-        base = next((j for j in kept if accounts[j].effects and {*accounts[j].effects} < own), None)
-        if base is None and (before >= LISTED or len(own) > TOGETHER + len(EVERY_MACHINE)):
+        effects = {*accounts[i].effects}
+        base = next(
+            (j for j in kept if accounts[j].effects and {*accounts[j].effects} < effects), None
+        )
+        if base is None and (before >= LISTED or len(effects) > TOGETHER + len(EVERY_MACHINE)):
             continue
         kept[base if base is not None else int(i)] = kept.get(i if base is None else base, 0.0) + (
             float(chances[i])
@@ -231,7 +226,7 @@ def _with_others(
         weights_of(accounts, Metric.of(board, noises.sigmas, other, pitch=is_drifting), noises)
         + (log + np.log(chance / len(others)))
         for other in others
-        for is_drifting, log in _pitches(board)
+        for is_drifting, log in pitches(board)
     ]
     together = np.logaddexp.reduce(weights)
     return np.logaddexp.reduce(together, axis=1), np.logaddexp.reduce(together, axis=0)
@@ -254,7 +249,7 @@ def _with_nothing(board: LinearBoard, accounts: Accounts, noises: Noises) -> Arr
     weights = np.logaddexp.reduce(
         [
             weights_of(accounts, Metric.of(board, noises.sigmas, pitch=is_drifting), noises) + log
-            for is_drifting, log in _pitches(board)
+            for is_drifting, log in pitches(board)
         ],
     )
     return np.asarray(np.logaddexp.reduce(weights, axis=1))
@@ -312,7 +307,8 @@ def _refitted(
 
 def explain_account(frame: Explanation, asked: Effects, acting: Effects) -> Explanation:
     """Refit the frame and the effects of an account; what every machine has and the settings leave
-    out too, held near what is usual where it does not act beyond that.
+    out too, held near what is usual where it does not act beyond that. What cannot be negative and
+    fits best there is held at zero.
     """
     board = frame.board
     left_out = [
@@ -322,171 +318,8 @@ def explain_account(frame: Explanation, asked: Effects, acting: Effects) -> Expl
     ]
     effects = (*asked, *left_out)
     usual = usual_checks(board, [name for name in effects if name not in acting])
-    return explain(board.with_usual(usual), effects, start=frame)
-
-
-# Clean accounts: which sets are likely, and what every machine has that they ask for.
-
-ONE_IN = 20.0  # times less likely after the marks than before: then what the settings say is wrong
-
-
-@dataclass(frozen=True)
-class Clean:
-    """Log evidences (sets, boards) of all sets with nothing beside them, and what hangs on them."""
-
-    total: Array
-    nominal: Array  # without what chains usually are longer or shorter
-    at_settings: dict[int, Array]  # of each usual number: log ratio of its densities, after to
-    # before the marks, where the settings have it
-    by_noise: Array  # (m,) of the first board
-
-    def on(self, board: int) -> Clean:
-        """Return the same of one board, as arrays (sets,)."""
-        ratios = {column: each[:, board] for column, each in self.at_settings.items()}
-        return Clean(self.total[:, board], self.nominal[:, board], ratios, self.by_noise)
-
-
-def clean_of(board: LinearBoard, accounts: Accounts, noises: Noises) -> Clean:
-    """Weigh all sets, with nominal chains and with chains as makers sell them."""
-    usual = [int(column) for column in np.flatnonzero(board.sizes.usual)]
-    shape = (len(accounts.effects), board.read.shape[1])
-    by_pitch, density = [], {column: np.full(shape, -np.inf) for column in usual}
-    by_noise = np.full(len(noises.sigmas), -np.inf)
-    for is_drifting, log_chance in _pitches(board):
-        total = np.full(shape, -np.inf)
-        metric = Metric.of(board, noises.sigmas, pitch=is_drifting)
-        for part in accounts.parts:
-            fit = fitted(part, board.sizes, metric)
-            weight = _by_noise(fit.evidence, part) + noises.log_prior + log_chance
-            np.logaddexp.at(total, part.sets, np.logaddexp.reduce(weight, axis=2).T)
-            by_noise = np.logaddexp(by_noise, np.logaddexp.reduce(weight[0], axis=0))
-            for column in usual:
-                there = weight + _by_noise(_density_at_settings(board, part, fit, column), part)
-                np.logaddexp.at(density[column], part.sets, np.logaddexp.reduce(there, axis=2).T)
-        by_pitch.append(total)
-    whole = np.logaddexp.reduce(by_pitch)
-    at_settings = {
-        column: each - whole - _prior_at_settings(board, column) for column, each in density.items()
-    }
-    return Clean(whole, by_pitch[0], at_settings, by_noise)
-
-
-def _by_noise(values: Array, part: Part) -> Array:
-    """Return values (boards, a * m) as (boards, a, m)."""
-    return values.reshape(len(values), len(part.sets), -1)
-
-
-def _pitches(board: LinearBoard) -> list[tuple[bool, float]]:
-    """Return whether chains are as makers sell them, with the logarithm of its chance."""
-    if not board.sizes.pitch.any():
-        return [(False, 0.0)]
-    return [(False, float(np.log(1 - PITCH_CHANCE))), (True, float(np.log(PITCH_CHANCE)))]
-
-
-def _density_at_settings(board: LinearBoard, part: Part, fit: Fitted, column: int) -> Array:
-    """Return the log density (boards, a * m) of a size where the settings have it."""
-    noises = fit.inverse.shape[2] // len(part.sets)
-    place = np.repeat(np.argmax(part.index == column, axis=1), noises)
-    each = np.arange(len(place))
-    return _log_density(board, column, fit.mean[place, :, each].T, fit.inverse[place, place, each])
-
-
-def _prior_at_settings(board: LinearBoard, column: int) -> float:
-    spread = board.sizes.usual[column]
-    return float(_log_density(board, column, np.zeros(1), np.full(1, spread**2))[0])
-
-
-def _log_density(board: LinearBoard, column: int, mean: Array, variance: Array) -> Array:
-    """Return the log density at the settings' value of normals without their impossible part."""
-    at = -board.sizes.mean[column]
-    edge = board.sizes.mean[column] - board.sizes.least[column]
-    normal = -0.5 * (at - mean) ** 2 / variance - 0.5 * np.log(2 * np.pi * variance)
-    density: Array = normal - scipy.special.log_ndtr((mean + edge) / np.sqrt(variance))
-    return density
-
-
-def asked_for(
-    board: LinearBoard, accounts: Accounts, clean: Clean, sets: Iterable[int]
-) -> list[Effects]:
-    """Return what the marks ask for by each of some sets: its effects, and of what every machine
-    has only what the settings cannot have right (its density there fell to a twentieth, Dickey
-    1971). `clean` is of one board.
-    """
-    every = {
-        name: clean.at_settings[int(column)]
-        for name, columns in board.columns.items()
-        for column in columns
-        if int(column) in clean.at_settings
-    }
-    has_pitch = bool(board.sizes.pitch.any())
-    drifts = clean.nominal - clean.total < -np.log(ONE_IN + 1)
-    return [
-        (
-            *(name for name in accounts.effects[i] if name not in every),
-            *([PITCH] if has_pitch and drifts[i] and PITCH not in accounts.effects[i] else []),
-            *(name for name, ratio in every.items() if ratio[i] < -np.log(ONE_IN)),
-        )
-        for i in sets
-    ]
-
-
-# Readings that are off.
-
-
-def outlier_weights(
-    board: LinearBoard, accounts: Accounts, noises: Noises, numbers: Array
-) -> Array:
-    """Return the log evidence (readings,) of accounts with this reading off; numbers (readings, 2)
-    are the rows of each, the second beyond all rows where it has a single number.
-    """
-    board, noises = _with_usual_pitch(board), noises.sparse
-    exists = numbers < len(board.read)
-    weights = np.full(len(numbers), -np.inf)
-    for sigma, log_prior in zip(noises.sigmas, noises.log_prior, strict=True):
-        rows, root = rows_in_metric(board, sigma)
-        rows = np.vstack([rows, np.zeros((1, rows.shape[1]))])[numbers]
-        root = np.vstack([root, np.zeros((1, root.shape[1]))])[numbers]
-        kept = -np.einsum("rif,rjf->rij", root, root)
-        inside = np.r_[np.full(board.measured, sigma**-2), np.zeros(len(board.read))]
-        kept[:, [0, 1], [0, 1]] += np.where(exists, inside[numbers], 0.0)
-        metric = Metric.of(board, np.array([sigma]))
-        for part in accounts.parts:
-            off = _off(part, board.sizes, fitted(part, board.sizes, metric), rows, kept)
-            weights = np.logaddexp(weights, log_prior + off)
-    return weights - np.log(len(numbers) * len(OUTLIER_SPREADS))
-
-
-def _with_usual_pitch(board: LinearBoard) -> LinearBoard:
-    """Return the board whose frame has chains as makers sell them."""
-    drifting = np.flatnonzero(board.sizes.pitch)
-    columns = board.effects[:, drifting] * board.sizes.pitch[drifting]
-    return replace(board, frame=np.hstack([board.frame, columns]))
-
-
-def _off(part: Part, sizes: SizePriors, fit: Fitted, rows: Array, kept: Array) -> Array:
-    """Return the log evidence (readings,) of a part's accounts with each reading off.
-
-    rows (readings, 2, p + 1) are those of C^-1 [effects, readings], kept (readings, 2, 2) those of
-    C^-1 itself. A shift o of spread l changes the evidence by the determinant and the pull of a
-    matrix of two by two.
-    """
-    drawn = np.moveaxis(rows[:, :, part.index], (2, 3), (0, 1))  # (a, k, readings, 2)
-    taken = np.einsum("kla,alri->akri", fit.inverse, drawn, optimize=True)
-    inside = kept - np.einsum("akri,akrj->arij", drawn, taken, optimize=True)
-    pull = rows[:, :, -1] - np.einsum("ka,akri->ari", fit.mean[:, 0], drawn, optimize=True)
-    edge = (sizes.mean - sizes.least)[part.index]
-    before = np.sum(scipy.special.log_ndtr(edge / np.sqrt(part.variance)), axis=1)
-    weights = []
-    for spread in OUTLIER_SPREADS:
-        a, b, c = (inside[..., i, j] + (i == j) * spread**-2 for i, j in ((0, 0), (0, 1), (1, 1)))
-        size = a * c - b**2
-        x, y = (
-            (c * pull[..., 0] - b * pull[..., 1]) / size,
-            (a * pull[..., 1] - b * pull[..., 0]) / size,
-        )
-        gain = (x * pull[..., 0] + y * pull[..., 1]) / 2 - np.log(size) / 2 - 2 * np.log(spread)
-        moved = taken[..., 0] * x[:, np.newaxis] + taken[..., 1] * y[:, np.newaxis]
-        mean = fit.mean[:, :1] - np.moveaxis(moved, 0, 2)
-        possible = log_orthant(mean + edge.T[:, np.newaxis], fit.inverse) - before
-        weights.append(np.logaddexp.reduce(fit.loose.T + gain + possible.T, axis=0))
-    return np.asarray(np.logaddexp.reduce(weights))
+    fitted = explain(board.with_usual(usual), effects, start=frame)
+    impossible = zero_checks(fitted)
+    if not impossible:
+        return fitted
+    return explain(board.with_usual((*usual, *impossible)), effects, start=frame)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.diagnosis.explanation import Board
+from plumb.diagnosis.explanation import Board, Explanation
 from plumb.fit.expected import plausible_range
 from plumb.fit.inputs import Stated
 from plumb.fit.problem import USUAL_SIGMA, Checked
@@ -61,6 +61,7 @@ USUAL: Mapping[str, Usual] = {
 # Half of all chains are longer or shorter than nominal by what makers allow, each chain by itself.
 PITCH = "chain_pitch"
 PITCH_CHANCE, PITCH_SPREAD = 0.5, 0.0005
+ZERO = 1e-3  # of a typical size: how near zero what cannot be negative is held
 
 
 @dataclass(frozen=True)
@@ -114,6 +115,18 @@ def usual_checks(board: Board, effects: Iterable[str]) -> tuple[Checked, ...]:
             checks.append(Checked(name, float(start or known.mean * scale), float(share * scale)))
         elif name.startswith(f"{PITCH}."):
             checks.append(Checked(name, float(start), PITCH_SPREAD))
+    return tuple(checks)
+
+
+def zero_checks(fitted: Explanation) -> tuple[Checked, ...]:
+    """Return the sizes of an explanation that are below zero and cannot be, as zero."""
+    problem = fitted.board.problem
+    checks = []
+    for column in fitted.board.columns(fitted.effects):
+        name, scale = problem.names[column], float(problem.scale[column])
+        value = problem.start[column] + scale * fitted.unknowns[column]
+        if plausible_range(name).low >= 0 and value < 0:
+            checks.append(Checked(name, 0.0, ZERO * scale))
     return tuple(checks)
 
 

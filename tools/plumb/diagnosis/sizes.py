@@ -63,11 +63,12 @@ def sizes_of(explanation: Explanation, effect: str, noise: Noise) -> tuple[Size,
         half = noise.quantile * float(np.sqrt(variance)) * scale
         felt = bool(np.any(explanation.slopes[:, column]))
         plausible = plausible_range(name)
+        least = 0.0 if plausible.low >= 0 else -np.inf
         sizes.append(
             Size(
                 name=name.partition(".")[2],
                 value=value,
-                low=float(value - half) if felt else None,
+                low=max(float(value - half), least) if felt else None,
                 high=float(value + half) if felt else None,
                 unit=words[name]["unit"],
                 plausible=plausible.holds(value),

@@ -13,12 +13,12 @@ from plumb.fit.inputs import Stated
 #
 # | if                                               | odds   | because
 # | a reading is off                                 | 1 to 1 | it is read again in a minute
-# | what no effect draws, or a moved round, acts too | 1 to 3 | an unknown cause costs a wrong cure
+# | what no effect draws, or a moved round, acts too | 1 to 4 | an unknown cause costs a wrong cure
 # | no effect acts                                   | 1 to 3 | a cause that is named is believed
 # | the listed accounts hold all others together     | 1 to 19| as every interval of the lab does
-UNKNOWN = 0.25
+UNKNOWN = 0.2
 NOTHING = 0.25
-MISFIT = 0.01  # chance below which noise never leaves what even the best account leaves
+MISFIT = 0.03  # chance below which noise never leaves what even the best account leaves
 
 
 @dataclass(frozen=True)

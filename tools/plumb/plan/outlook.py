@@ -13,10 +13,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from plumb.diagnosis.evidence import FEWER, Accounts, Effects, Noises, Part, accounts_of, fitted
+from plumb.diagnosis.every_machine import asked_for, clean_of
+from plumb.diagnosis.evidence import (
+    FEWER,
+    Accounts,
+    Effects,
+    Noises,
+    Part,
+    accounts_of,
+    variants,
+)
 from plumb.diagnosis.explanation import Board
 from plumb.diagnosis.linear import LinearBoard, Metric
-from plumb.diagnosis.posterior import Account, asked_for, clean_of, listing
+from plumb.diagnosis.noise import Noise
+from plumb.diagnosis.posterior import Account, listing
 from plumb.diagnosis.priors import PITCH, TOGETHER
 from plumb.diagnosis.verdict import is_silent
 from plumb.model.catalogue import EVERY_MACHINE
@@ -24,8 +34,8 @@ from plumb.model.plain import ascending
 from plumb.plan.case import Ahead, Case, Planned
 
 Array = np.ndarray
-DRAWS = 160  # a chance is then right to about 4 in 100
-LIKELY = 0.998  # of all weight, in the sets that are weighed again; single effects always are
+DRAWS = 120  # a chance is then right to about 4 in 100
+LIKELY = 0.99  # of all weight, in the sets that are weighed again; single effects always are
 MOST_LOOKED_AT = 12  # sets of a simulated board that its verdict is read from
 SEED = 1847
 BACKGROUND = (*EVERY_MACHINE, PITCH)  # what may be named beside the truth: it is there too
@@ -45,7 +55,7 @@ class Outlooks:
 
     def __init__(self, case: Case, draws: int = DRAWS) -> None:
         self.case, self.draws = case, draws
-        self.noises = Noises(np.array([case.noise.sigma]), np.zeros(1))
+        self.noises = _two_noises(case.noise)
         self.is_hidden = case.verdict == "nothing_provable"
         self._so_far: dict[Effects, SoFar] = {}
 
@@ -58,7 +68,8 @@ class Outlooks:
         )
         if felt not in self._so_far:
             known = LinearBoard.of(self.case.frame, felt)
-            self._so_far[felt] = SoFar.of(known, self.noises, is_hidden=self.is_hidden)
+            sigma = self.case.noise.sigma
+            self._so_far[felt] = SoFar.of(known, self.noises, sigma, is_hidden=self.is_hidden)
         so_far = self._so_far[felt]
         source = np.random.default_rng(SEED)
         then, truths = so_far.simulated(rows, board, self.draws, source)
@@ -77,6 +88,14 @@ class Outlooks:
             left=None if self.is_hidden else left / len(truths),
             bits=float(max(gained.mean(), 0.0) / np.log(2)),
         )
+
+
+def _two_noises(noise: Noise) -> Noises:
+    """Return two noises that stand for all: with their mean and their spread (Gauss's rule)."""
+    if np.isinf(noise.degrees):
+        return Noises(np.array([noise.sigma]), np.zeros(1))
+    off = np.sqrt(0.5 / noise.degrees)
+    return Noises(noise.sigma * np.exp([-off, off]), np.full(2, -np.log(2)))
 
 
 def _named(asked: list[Effects], weights: Array) -> list[Effects]:
@@ -108,12 +127,13 @@ class SoFar:
 
     board: LinearBoard
     noises: Noises
+    sigma: float  # [mm] of new readings
     accounts: Accounts  # those that are worth weighing again
     log_chances: Array  # (sets,)
-    variants: tuple[tuple[Part, Array], ...]  # truths to draw from, with their chances (a,)
+    truths: tuple[tuple[Part, Array], ...]  # to draw from, with their chances (a,)
 
     @staticmethod
-    def of(board: LinearBoard, noises: Noises, *, is_hidden: bool) -> SoFar:
+    def of(board: LinearBoard, noises: Noises, sigma: float, *, is_hidden: bool) -> SoFar:
         """Weigh the marks so far; `is_hidden`: the truth is then one effect of about usual size."""
         accounts = accounts_of(board, TOGETHER if board.measured <= FEWER else 2)
         total = clean_of(board, accounts, noises).total[:, 0]
@@ -124,14 +144,16 @@ class SoFar:
         kept[order[np.cumsum(weight) - weight < LIKELY]] = True
         accounts = accounts.among(kept)
         metric = Metric.of(board, noises.sigmas, pitch=True)
-        evidences = [fitted(part, board.sizes, metric).evidence[0] for part in accounts.parts]
+        evidences = [
+            np.logaddexp.reduce(weight, axis=1) for _, weight in variants(accounts, metric, noises)
+        ]
         if is_hidden:
             alone = np.array([len(names) == 1 for names in accounts.effects])
             evidences = [np.where(alone[part.sets], 0.0, -np.inf) for part in accounts.parts]
         whole = np.logaddexp.reduce(np.concatenate(evidences))
         chances = [np.exp(evidence - whole) for evidence in evidences]
-        variants = tuple(zip(accounts.parts, chances, strict=True))
-        return SoFar(board, noises, accounts, np.where(kept, total, -np.inf), variants)
+        truths = tuple(zip(accounts.parts, chances, strict=True))
+        return SoFar(board, noises, sigma, accounts, np.where(kept, total, -np.inf), truths)
 
     def simulated(
         self, rows: Ahead, known: Board, draws: int, source: np.random.Generator
@@ -139,15 +161,15 @@ class SoFar:
         """Return the board with planned readings drawn (rows, draws), and the set of each draw."""
         new, is_read = rows.slopes[rows.so_far :], rows.marks[rows.so_far :]
         new = np.where(is_read[:, np.newaxis], known.sigma, 1.0) * new
-        columns, sigma = known.columns(tuple(self.board.columns)), float(self.noises.sigmas[0])
+        columns = known.columns(tuple(self.board.columns))
         frame, effects = new[:, known.frame], new[:, columns]
         read, truths = [], []
-        for part, chances in self.variants:
+        for part, chances in self.truths:
             counts = _counts(chances * draws)
             for place in np.flatnonzero(counts):
                 count = int(counts[place])
                 of_frame, sizes = self._unknowns(part, int(place), count, source)
-                noise = np.where(is_read[:, np.newaxis], sigma, 1.0)
+                noise = np.where(is_read[:, np.newaxis], self.sigma, 1.0)
                 noise = noise * source.standard_normal((len(new), count))
                 read.append(frame @ of_frame + effects[:, part.index[place]] @ sizes + noise)
                 truths += [int(part.sets[place])] * count
@@ -174,7 +196,7 @@ class SoFar:
         """Draw the frame (f, count) and the sizes (k, count) as the marks so far leave them."""
         board, index = self.board, part.index[place]
         weight = np.ones(len(board.frame))
-        weight[: board.measured] /= self.noises.sigmas[0]
+        weight[: board.measured] /= self.sigma
         rows = np.hstack([board.frame, board.effects[:, index]]) * weight[:, np.newaxis]
         prior = np.r_[np.ones(board.frame.shape[1]), 1 / part.variance[place]]
         lower = np.linalg.cholesky(rows.T @ rows + np.diag(prior))
