@@ -63,15 +63,15 @@ def clear_outliers(board: Board, stated: Stated | None) -> tuple[tuple[Shift, ..
     whole = posterior = posterior_of(board, stated)
     indices = readings_of(board.rows)
     most = max(1, len(indices) // SHARE_OF_OUTLIERS)
-    found: list[Shift] = []
-    while len(found) <= most:
+    outliers: list[Shift] = []
+    while len(outliers) <= most:
         reading = outlier_of(posterior)
         if reading is None:
-            return tuple(found), posterior
+            return tuple(outliers), posterior
         before = posterior.frame.board
         posterior = posterior_of(before.with_rows(without(before.rows, reading)), stated)
         shift = _shift_by_rest(before, posterior, reading)
-        found.append(replace(shift, reading=indices.pop(reading.place(before.rows))))
+        outliers.append(replace(shift, reading=indices.pop(reading.place(before.rows))))
     return (), whole
 
 

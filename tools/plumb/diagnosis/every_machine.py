@@ -22,7 +22,7 @@ ONE_IN = 20.0  # times less likely after the marks than before: then what the se
 
 @dataclass(frozen=True)
 class Clean:
-    """Log evidences (sets, boards) of all sets with nothing beside them, and what hangs on them."""
+    """Log evidences (sets, boards) of all sets with nothing else, and what hangs on them."""
 
     total: Array
     nominal: Array  # without what chains usually are longer or shorter

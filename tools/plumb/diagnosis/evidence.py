@@ -1,6 +1,6 @@
 """The evidence of accounts: how likely the readings are by each set of effects, over all sizes.
 
-An account says which effects act (none, sets of a few, or all), and whether beside them a reading
+An account says which effects act (none, sets of a few, or all), and whether a reading
 is off, a round was moved, or a smooth field acts that no effect draws. Its evidence is the density
 of the readings over all sizes, frames and noises that its priors allow. Sizes are normals whose
 densities Laplace's method gives in closed form, because the board is linear; what cannot be

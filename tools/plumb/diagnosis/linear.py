@@ -80,7 +80,7 @@ def _unwhitened(rows: Array, measured: int, sigma: float) -> Array:
     return np.vstack([rows[:measured] * sigma, rows[measured:]])
 
 
-# What may move readings beside noise, frame and effects.
+# What else may move readings: a smooth field, and a round that was moved.
 
 
 @dataclass(frozen=True)
@@ -156,7 +156,7 @@ def _causes_of_moves(board: Board, slopes: Array) -> dict[str, Array]:
 
 @dataclass(frozen=True)
 class Metric:
-    """How far apart readings are: for each of m noises, with one thing beside noise and frame."""
+    """How far apart readings are: for each of m noises, with noise, frame and one other thing."""
 
     sigmas: Array  # (m,) [mm] of the noise
     gram: Array  # (m, p, p) of the effects

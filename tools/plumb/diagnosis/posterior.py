@@ -50,7 +50,7 @@ from plumb.model.catalogue import EVERY_MACHINE
 from plumb.model.plain import ascending
 
 Array = np.ndarray
-REFITTED = 8  # likeliest sets that are made linear about their own fit
+REFITTED = 8  # likeliest sets that are made linear anew about their fit
 NEAR = 7.0  # nats below the best within which they are
 LISTED = 0.95  # of all weight that the listed accounts hold together
 MOST_LISTED = 8
@@ -63,7 +63,7 @@ class Account:
     effects: Effects  # first those that only some machines have
     acting: Effects  # effects of the likeliest set behind it, beyond what is usual
     clean: float  # log weight with nothing else
-    field: float  # log weight with a smooth field beside
+    field: float  # log weight with a smooth field too
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,7 @@ class Posterior:
 
     @cached_property
     def clean(self) -> float:
-        """Log weight of all accounts with nothing beside effects."""
+        """Log weight of all accounts with effects and nothing else."""
         return float(np.logaddexp.reduce([account.clean for account in self.accounts]))
 
     @cached_property
@@ -219,7 +219,7 @@ def felt_effects(frame: Explanation) -> Effects:
 def _with_others(
     board: LinearBoard, accounts: Accounts, noises: Noises, others: Sequence[Other], chance: float
 ) -> tuple[Array, Array]:
-    """Return the log weights (sets,) with one of some other things beside the effects, and the same
+    """Return the log weights (sets,) with one of some other things too, and the same
     by noises (m,).
     """
     weights = [
@@ -286,7 +286,7 @@ def _accounts(
 def _refitted(
     frame: Explanation, felt: Effects, accounts: Accounts, noises: Noises, clean: Clean
 ) -> Clean:
-    """Return the weights with the likeliest sets made linear about their own fit.
+    """Return the weights with the likeliest sets made linear anew about their fit.
 
     Slopes at the frame's fit are good to a part of a nat for most sets; where the sled sticks, or
     an error is large, they are not.

@@ -20,8 +20,8 @@ Array = np.ndarray
 
 LIKELIER = 0.5  # chance from which on something is likelier than not
 
-# How likely each thing is on a machine that somebody asks about. Of the published boards and of
-# owners' reports about one machine in ten has any given effect in a size that matters.
+# How likely each thing is on a machine that somebody asks about. Nobody has counted machines, so
+# these are guesses; docs/diagnosis.md says which answers hang on them, and by how much.
 ACTS = 0.1  # an effect
 UNUSUAL = 0.05  # that what every machine has is far from usual
 ALL = 0.01  # that every effect of the library acts at once
@@ -38,9 +38,10 @@ FIELD_SPREADS = (1.0, 2.0, 4.0)
 FIELD_WIDTHS = (0.35, 0.7, 1.4)
 ROUND_SPREAD = 6.0  # [mm] of a sheet laid elsewhere, and of a chain hung by a link less
 
-# The noise of a reading: the logarithm of its standard deviation is Student's t about this.
+# The noise of a reading: the logarithm of its standard deviation is Student's t about what is
+# stated. A careful owner's tape reads to about 0.5 mm.
 NOISE_DEGREES = 4.0
-STATED_SPREAD = 0.22  # how well people state it: five stated values against their repeats
+STATED_SPREAD = 0.22  # how well people know it
 UNSTATED_SPREAD = 0.5  # of tapes in general, about USUAL_SIGMA
 
 
@@ -53,12 +54,14 @@ class Usual:
     known: float  # the same about the value that the settings have
 
 
-# Chains of three makers stretched by 3.6e-6 to 8.3e-6 1/N; chain of one size weighs within a tenth.
+# Stretch: makers and owners state 4.1e-6 to 8.1e-6 1/N for this chain; WebControl takes 5.17e-6.
+# Sag goes with the square of the chain's weight, which differs by a tenth from maker to maker.
 USUAL: Mapping[str, Usual] = {
     "chain_stretch.compliance": Usual(mean=1.0, spread=0.6, known=0.3),
     "chain_sag.weight_ratio_squared": Usual(mean=1.0, spread=0.2, known=0.12),
 }
-# Half of all chains are longer or shorter than nominal by what makers allow, each chain by itself.
+# Pitch: ANSI allows this chain to be up to 0.26 % too long. Half of all chains are taken to be a
+# little off, each chain by itself.
 PITCH = "chain_pitch"
 PITCH_CHANCE, PITCH_SPREAD = 0.5, 0.0005
 ZERO = 1e-3  # of a typical size: how near zero what cannot be negative is held

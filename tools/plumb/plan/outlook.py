@@ -38,7 +38,7 @@ DRAWS = 120  # a chance is then right to about 4 in 100
 LIKELY = 0.99  # of all weight, in the sets that are weighed again; single effects always are
 MOST_LOOKED_AT = 12  # sets of a simulated board that its verdict is read from
 SEED = 1847
-BACKGROUND = (*EVERY_MACHINE, PITCH)  # what may be named beside the truth: it is there too
+BACKGROUND = (*EVERY_MACHINE, PITCH)  # what may be named too: it is there on every machine
 
 
 @dataclass(frozen=True)
