@@ -21,10 +21,10 @@ from plumb.diagnosis.outliers import (
     without,
 )
 from plumb.diagnosis.posterior import Posterior, explain_account, posterior_of
-from plumb.diagnosis.priors import LIKELIER
 from plumb.fit.inputs import Inputs, Stated
 from plumb.model.plain import greatest
 
+DOUBTED = 1 / 3  # chance from which on a reading is read again: that costs a minute
 SHARE_OF_OUTLIERS = 12  # with more than one in this many readings outliers are not the story
 
 
@@ -43,7 +43,7 @@ class CleanReadings:
 
 
 def clean_readings(board: Board, inputs: Inputs) -> CleanReadings:
-    """Set the readings aside that are likelier off than not."""
+    """Set the readings aside that are so likely off that they are read again."""
     mixed_up = find_mixed_up(board)
     shifts, posterior = clear_outliers(mixed_up.board, inputs.stated)
     measurements = inputs.measurements
@@ -76,8 +76,8 @@ def clear_outliers(board: Board, stated: Stated | None) -> tuple[tuple[Shift, ..
 
 
 def outlier_of(posterior: Posterior) -> Reading | None:
-    """Return the reading that is likelier off than not; of several readings of the same mark the
-    likeliest, if one of them is.
+    """Return the reading that is so likely off that it is read again; of several readings of the
+    same mark the likeliest, if one of them is.
     """
     rows, chances = posterior.frame.board.rows, posterior.outlier_chances
     readings = readings_of(rows)
@@ -86,7 +86,7 @@ def outlier_of(posterior: Posterior) -> Reading | None:
         what = _what(posterior.frame.board, reading)
         together[what] = together.get(what, 0.0) + float(chance)
     worst = readings[greatest(chances)]
-    return worst if together[_what(posterior.frame.board, worst)] > LIKELIER else None
+    return worst if together[_what(posterior.frame.board, worst)] > DOUBTED else None
 
 
 def _what(board: Board, reading: Reading) -> object:

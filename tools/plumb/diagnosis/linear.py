@@ -69,12 +69,6 @@ class LinearBoard:
             sizes=sizes,
         )
 
-    def with_read(self, read: Array) -> LinearBoard:
-        """Return the same with other readings (n, boards), less what the settings predict with
-        usual sizes.
-        """
-        return replace(self, read=read)
-
 
 def _unwhitened(rows: Array, measured: int, sigma: float) -> Array:
     return np.vstack([rows[:measured] * sigma, rows[measured:]])

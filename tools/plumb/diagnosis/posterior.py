@@ -17,6 +17,7 @@ import numpy as np
 from plumb.diagnosis.every_machine import Clean, asked_for, clean_of, pitches
 from plumb.diagnosis.evidence import (
     FEWER,
+    UNLIKELY,
     Accounts,
     Effects,
     Noises,
@@ -50,8 +51,8 @@ from plumb.model.catalogue import EVERY_MACHINE
 from plumb.model.plain import ascending
 
 Array = np.ndarray
-REFITTED = 8  # likeliest sets that are made linear anew about their fit
-NEAR = 7.0  # nats below the best within which they are
+REFITTED = 6  # likeliest sets that are made linear about the fit of each
+NEAR = 5.0  # nats below the best within which they are
 LISTED = 0.95  # of all weight that the listed accounts hold together
 MOST_LISTED = 8
 
@@ -185,8 +186,11 @@ def posterior_of(board: Board, stated: Stated | None) -> Posterior:
     clean = clean_of(linear, accounts, noises).on(0)
     clean = _refitted(frame, felt, accounts, noises, clean)
     few = accounts.up_to(2)
+    # A field takes the place of most effects: sets that are unlikely without it stay so.
+    likely = (clean.total > clean.total.max() - UNLIKELY) | _small(accounts)
     sigma = float(noises.sigmas[np.argmax(clean.by_noise)])
-    field, noise_of_field = _with_others(linear, few, noises, fields(frame, sigma), FIELD)
+    others = fields(frame, sigma)
+    field, noise_of_field = _with_others(linear, few.among(likely), noises, others, FIELD)
     moves = moved_rounds(frame)
     moved = [
         _with_others(linear, few, noises, [move.other], MOVED / len(moves))[0] for move in moves
@@ -206,6 +210,11 @@ def posterior_of(board: Board, stated: Stated | None) -> Posterior:
         noise=noise_by(noises.sigmas, np.logaddexp(clean.by_noise, noise_of_field), stated),
         noises=noises,
     )
+
+
+def _small(accounts: Accounts) -> Array:
+    """Return which sets hold one effect at most (sets,)."""
+    return np.array([len(names) < 2 for names in accounts.effects])
 
 
 def felt_effects(frame: Explanation) -> Effects:
@@ -286,7 +295,7 @@ def _accounts(
 def _refitted(
     frame: Explanation, felt: Effects, accounts: Accounts, noises: Noises, clean: Clean
 ) -> Clean:
-    """Return the weights with the likeliest sets made linear anew about their fit.
+    """Return the weights with the likeliest sets made linear about the fit of each.
 
     Slopes at the frame's fit are good to a part of a nat for most sets; where the sled sticks, or
     an error is large, they are not.

@@ -27,7 +27,7 @@ UNUSUAL = 0.05  # that what every machine has is far from usual
 ALL = 0.01  # that every effect of the library acts at once
 TOGETHER = 3  # effects at once in an account; the marks of one sheet hardly carry more
 FIELD = 0.15  # that the machine also does what no effect of the library does
-OUTLIER = 0.05  # that some reading is off
+OUTLIER = 0.1  # that some reading is off
 MOVED = 0.05  # that a later round was not cut by the same machine on the same sheet
 TURNED = 0.01  # that all y errors have the wrong sign
 

@@ -12,7 +12,7 @@ from plumb.fit.inputs import Stated
 # Bounds, in odds.
 #
 # | if                                               | odds   | because
-# | a reading is off                                 | 1 to 1 | it is read again in a minute
+# | a reading is off                                 | 1 to 2 | it is read again in a minute
 # | what no effect draws, or a moved round, acts too | 1 to 4 | an unknown cause costs a wrong cure
 # | no effect acts                                   | 1 to 3 | a cause that is named is believed
 # | the listed accounts hold all others together     | 1 to 19| as every interval of the lab does
