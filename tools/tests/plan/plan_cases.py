@@ -2,12 +2,12 @@
 
 from dataclasses import replace
 
-from plumb.diagnosis.clean import felt_effects
-from plumb.diagnosis.explanation import KNOWN, Board, explain
-from plumb.diagnosis.noise import Noise
+from plumb.diagnosis.explanation import Board, explain
+from plumb.diagnosis.posterior import posterior_of
+from plumb.fit.inputs import Stated
 from plumb.fit.observations import model_and_observations
 from plumb.marks.read import Measurements
-from plumb.plan.case import Case, _as_fitted, hidden_hypotheses
+from plumb.plan.case import Case, Hypothesis, hidden_hypotheses
 from synthetic import BELIEVED, EFFECTS, grid, marks_on
 
 SIGMA = 0.5
@@ -22,21 +22,21 @@ def nine(**how):
 
 
 def case_on(measurements, *effects, verdict="cannot_tell", checked=()):
-    """The case of marks of which these effects are the suspects, as probable each."""
+    """The case of marks of which these effects are the suspects, as likely each."""
     model, rows = model_and_observations(MACHINE, measurements)
     board = Board.of(model, rows, sigma=SIGMA, checked=checked)
-    frame = explain(board)
-    singles = {name: explain(board, (name,), start=frame) for name in felt_effects(frame)}
-    fitted = tuple(_as_fitted(singles[name], 1 / len(effects)) for name in effects)
-    hypotheses = fitted or hidden_hypotheses(frame)
+    posterior = posterior_of(board, Stated(SIGMA, is_final=True))
+    frame = posterior.frame
+    fitted = tuple(
+        Hypothesis((name,), explain(board, (name,), start=frame), 1 / len(effects))
+        for name in effects
+    )
     return Case(
         settings=MACHINE,
         controller="plumb",
         verdict=verdict if effects else "nothing_provable",
-        board=board,
-        noise=Noise(SIGMA, KNOWN, "stated"),
+        posterior=posterior,
         frame=frame,
-        singles=singles,
-        hypotheses=hypotheses,
-        truths=hypotheses,
+        best=fitted[0].at if fitted else frame,
+        hypotheses=fitted or hidden_hypotheses(frame),
     )

@@ -1,4 +1,4 @@
-"""What a proposal promises apart from its chance: pairs that are parted, rooms, and stability."""
+"""What a proposal promises apart from its chance: pairs that are parted, and rooms."""
 
 from dataclasses import replace
 from itertools import combinations
@@ -6,24 +6,14 @@ from itertools import combinations
 import numpy as np
 import pytest
 from plan_cases import MACHINE, case_on, nine
-from plumb.diagnosis.explanation import explain
 from plumb.diagnosis.sizes import Room
 from plumb.marks.read import Measurements
-from plumb.plan.case import Check, Planned, _root
+from plumb.plan.case import Check, Planned
 from plumb.plan.options import many_marks
 from plumb.plan.planned_visits import nowhere
 from plumb.plan.proposal import DISTINGUISHED, _parted, _rooms, _smallest
-from plumb.plan.separation import (
-    ENOUGH,
-    Chooser,
-    Stability,
-    _readings,
-    apart,
-    drawn_by,
-    pairs_of,
-    stability_of,
-)
-from synthetic import distances_between, grid, marks_on
+from plumb.plan.separation import ENOUGH, Chooser, apart, drawn_by, pairs_of
+from synthetic import grid, marks_on
 
 
 def pitch_board(left=0.006):
@@ -31,46 +21,6 @@ def pitch_board(left=0.006):
     effects = {**MACHINE.effects, "chain_pitch": {"left": left, "right": 0.0}}
     machine = replace(MACHINE, effects=effects)
     return Measurements(marks_on(machine, MACHINE, grid(3, 3), noise=0.2))
-
-
-def test_each_mark_is_a_reading_with_its_repeats_and_each_distance_another():
-    marks = nine().marks[:3] + nine(seed=2).marks[:1]
-    spans = distances_between(marks[:3]).distances
-    case = case_on(Measurements(marks, spans), "chain_pitch")
-    assert [reading.tolist() for reading in _readings(case)] == [
-        [0, 6, 1, 7],
-        [2, 3],
-        [4, 5],
-        [8],
-        [9],
-        [10],
-    ]
-
-
-def test_stability_counts_the_deletions_that_keep_the_suspect():
-    case = case_on(pitch_board(), "chain_pitch", verdict="one_suspect")
-    assert stability_of(case) == Stability(9, 9)
-    # Another effect is never the best single.
-    other = case_on(pitch_board(), "chain_sag", verdict="one_suspect")
-    assert stability_of(other) == Stability(0, 9)
-    pair = replace(case.hypotheses[0], effects=("chain_pitch", "chain_sag"))
-    assert stability_of(replace(case, hypotheses=(pair,))) == Stability(0, 0)
-
-
-def test_a_deletion_is_a_refit_without_the_reading():
-    """The cost of each single effect is that of the board without the mark."""
-    case = case_on(nine(seed=5), "chain_pitch", "chain_sag")
-    kept = 0
-    suspect = case.hypotheses[0].effects[0]
-    for mark in nine(seed=5).marks:
-        rest = tuple(each for each in nine(seed=5).marks if each.name != mark.name)
-        less = case_on(Measurements(rest), "chain_pitch")
-        costs = {
-            name: single.cost + 2 * len(single.board.columns([name]))
-            for name, single in less.singles.items()
-        }
-        kept += min(costs, key=costs.__getitem__) == suspect
-    assert stability_of(case) == Stability(kept, 9)
 
 
 def test_rooms_shrink_as_the_least_visible_direction_grows():
@@ -152,7 +102,7 @@ def test_every_suspect_is_held_against_every_other():
     pairs = pairs_of(case)
     assert len(pairs) == 6 and all(pair.weight == pytest.approx(2 / 3) for pair in pairs)
     alone = case_on(pitch_board(), "chain_pitch", verdict="one_suspect")
-    assert len(pairs_of(alone)) == len(alone.singles) - 1
+    assert len(pairs_of(alone)) == len(alone.posterior.felt) - 1
     hidden = case_on(nine())
     assert len(pairs_of(hidden)) == len(hidden.hypotheses)
     for pair in pairs_of(hidden):
@@ -177,48 +127,3 @@ def test_visits_are_chosen_without_repeating_any_and_exchanged_for_better():
             for pair in pairs_of(case)
         )
     )
-
-
-def test_a_hypothesis_keeps_what_its_marks_say():
-    """Its mean is that of the fit, and its spread that of a least-squares fit."""
-    case = case_on(pitch_board(), "chain_pitch")
-    (only,) = case.hypotheses
-    fitted = explain(case.board, ("chain_pitch",), start=case.frame)
-    slopes = fitted.slopes[:, only.columns]
-    covariance = np.linalg.inv(slopes.T @ slopes)
-    assert only.root @ only.root.T == pytest.approx(covariance, rel=1e-5, abs=1e-9)
-    drawn = only.drawn(np.random.default_rng(1), 4000)
-    assert drawn.shape == (len(only.columns), 4000)
-    spread = np.sqrt(np.diag(covariance))
-    assert drawn.std(axis=1) == pytest.approx(spread, rel=0.1)
-    assert (drawn.mean(axis=1) - only.mean) / spread == pytest.approx(
-        np.zeros(len(spread)), abs=0.1
-    )
-
-
-@pytest.mark.parametrize("scale", [1e-5, 1.0, 1e5])
-def test_what_no_reading_feels_is_not_drawn(scale):
-    case = case_on(nine(), "chain_pitch")
-    slopes = scale * np.array([[1.0, 0.0, 2.0], [0.0, 0.0, 3.0], [1.0, 0.0, 0.0]])
-    unfelt = replace(case.hypotheses[0], mean=np.array([1.0, 2.0, 3.0]), root=_root(slopes))
-    drawn = unfelt.drawn(np.random.default_rng(1), 50)
-    assert drawn.shape == (3, 50) and (drawn[1] == 2.0).all()
-    felt = slopes[:, [0, 2]]
-    covariance = np.linalg.inv(felt.T @ felt)
-    assert (unfelt.root @ unfelt.root.T)[np.ix_([0, 2], [0, 2])] == pytest.approx(covariance)
-
-
-def test_without_a_proof_each_effect_may_have_about_its_typical_size():
-    case = case_on(nine())
-    assert sum(each.weight for each in case.hypotheses) == pytest.approx(1.0)
-    (runout,) = [each for each in case.hypotheses if each.effects == ("sprocket_runout",)]
-    slopes = case.frame.slopes[:, runout.columns]
-    usual = np.zeros((4, len(runout.columns)))
-    usual[:, -4:] = np.eye(4)
-    normal = slopes.T @ slopes + usual.T @ usual
-    assert runout.root @ runout.root.T == pytest.approx(np.linalg.inv(normal), rel=1e-4, abs=1e-8)
-    mean = np.linalg.solve(normal, slopes.T @ case.frame.residual)
-    assert runout.mean == pytest.approx(mean, rel=1e-4, abs=1e-6)
-    # Fewer marks leave more open, and nothing more than was open before them.
-    spread = np.diag(runout.root @ runout.root.T)[-4:]
-    assert (spread < 1).all() and (spread > 0).all()

@@ -82,7 +82,7 @@ def test_where_an_effect_could_hide_the_hope_is_how_much_less():
 def test_a_table_of_what_could_hide_fits_the_screen():
     rooms = (RoomThen("motor_level", 9.0, 1.0), RoomThen("chain_zero", 6.0, 5.2))
     both = (proposal(FIND, rooms=rooms), proposal(FIND, rooms=rooms))
-    lines = table_of(Next("", None, both, None, None)).splitlines()
+    lines = table_of(Next("", None, both, None)).splitlines()
     assert max(map(len, lines)) <= 80 and "could hide then" in lines[0]
     assert f"{noun_of('chain_zero')} 6.0 -> 5.2 mm" in " ".join(" ".join(lines).split())
 
