@@ -11,9 +11,11 @@ import numpy as np
 
 from plumb.diagnosis.answer import Diagnosis, Verdict
 from plumb.diagnosis.explanation import Explanation, span
+from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.outliers import Outlier
 from plumb.diagnosis.sizes import Room
 from plumb.fit.inputs import Inputs
+from plumb.fit.observations import Observations
 from plumb.grid.cut_with import cut_with_lines, with_form
 from plumb.model.plain import ascending, noun_of, plainly, ranked
 from plumb.plan.case import Case, Check, Planned, case_of
@@ -105,9 +107,10 @@ def propose(
     """
     case = case_of(diagnosis, inputs)
     if diagnosis.verdict == "slip":
+        _, rows = inputs.model_and_observations()
         proposals = [
             Proposal(option, REREAD, chance, None)
-            for option, chance in for_slips(case, diagnosis.outliers)
+            for option, chance in for_slips(diagnosis.outliers, rows, case.noise)
         ]
         return Next(diagnosis.verdict, case, tuple(proposals), None)
     if diagnosis.verdict == "not_in_library":
@@ -296,16 +299,20 @@ BESIDE = 200.0  # [mm] from such a place
 READ_AGAIN = 3
 
 
-def for_slips(case: Case, slips: Sequence[Outlier]) -> list[tuple[Option, float]]:
-    """Return the option to read them again, with the chance that it shows the slip."""
+def for_slips(
+    slips: Sequence[Outlier], rows: Observations, noise: Noise
+) -> list[tuple[Option, float]]:
+    """Return the option to read them again, with the chance that it shows the slip; `rows` are all
+    readings, the slips among them.
+    """
     offered = []
     for slip in slips:
         # Two readings with the same noise differ by its square root of two.
-        chance = 0.5 * (1 + erf((slip.length / (sqrt(2) * case.noise.sigma) - SURE) / sqrt(2)))
-        what = slip.name if slip.name in case.board.rows.names else f"the distance {slip.name}"
+        chance = 0.5 * (1 + erf((slip.length / (sqrt(2) * noise.sigma) - SURE) / sqrt(2)))
+        what = slip.name if slip.name in rows.names else f"the distance {slip.name}"
         do = f"Read {what} again with a newly laid tape, before anything else."
         offered.append(
-            (Option("reread", f"{slip.name} again", (do,), 2.0, _old(case, slip.name)), chance)
+            (Option("reread", f"{slip.name} again", (do,), 2.0, _old(rows, slip.name)), chance)
         )
     return offered
 
@@ -325,7 +332,7 @@ def near_the_worst(case: Case) -> list[Option]:
             break
     near = _around(case, list(places.values()))
     names = ", ".join(places)
-    again = joined(*[_old(case, name) for name in places for _ in range(READ_AGAIN)])
+    again = joined(*[_old(rows, name) for name in places for _ in range(READ_AGAIN)])
     offered = [
         Option(
             "repeats",
@@ -369,9 +376,8 @@ def _around(case: Case, places: Sequence[Array]) -> Visits:
     return sent(case.settings, targets, controller=case.controller, sled_weight=case.usual_weight)
 
 
-def _old(case: Case, name: str) -> Visits:
+def _old(rows: Observations, name: str) -> Visits:
     """Return one visit of a mark that is there; nothing for a distance."""
-    rows = case.board.rows
     if name not in rows.names:
         return nowhere()
     i = rows.names.index(name)
