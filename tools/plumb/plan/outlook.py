@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from plumb.diagnosis.every_machine import asked_for, clean_of
+from plumb.diagnosis.every_machine import asked_for, clean_of, pitches
 from plumb.diagnosis.evidence import (
     FEWER,
     Accounts,
@@ -27,7 +27,7 @@ from plumb.diagnosis.explanation import Board
 from plumb.diagnosis.linear import LinearBoard, Metric
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.posterior import Account, listing
-from plumb.diagnosis.priors import PITCH, TOGETHER
+from plumb.diagnosis.priors import PITCH, TOGETHER, SizePriors
 from plumb.diagnosis.verdict import is_silent
 from plumb.model.catalogue import EVERY_MACHINE
 from plumb.model.plain import ascending
@@ -122,6 +122,37 @@ def _is_right(named: list[Effects], truth: Effects) -> bool:
 
 
 @dataclass(frozen=True)
+class Truths:
+    """Variants of accounts that may be true."""
+
+    part: Part
+    chances: Array  # (a,)
+    is_drifting: bool  # whether the chains are as makers sell them, or nominal
+
+    def loose(self, frame: Array, effects: Array, sizes: SizePriors) -> Array:
+        """Return the columns of what is loose on each machine: of the frame, and of such chains."""
+        drifting = np.flatnonzero(sizes.pitch) if self.is_drifting else np.zeros(0, dtype=int)
+        return np.hstack([frame, effects[:, drifting] * sizes.pitch[drifting]])
+
+
+def _truths(
+    board: LinearBoard, accounts: Accounts, noises: Noises, *, is_hidden: bool
+) -> tuple[Truths, ...]:
+    """Return the variants with their chances; `is_hidden`: single effects, all as likely."""
+    alone = np.array([len(names) == 1 for names in accounts.effects])
+    weighed = []
+    for is_drifting, log_chance in pitches(board):
+        metric = Metric.of(board, noises.sigmas, pitch=is_drifting)
+        for part, weight in variants(accounts, metric, noises):
+            evidence = np.logaddexp.reduce(weight, axis=1)
+            if is_hidden:
+                evidence = np.where(alone[part.sets], 0.0, -np.inf)
+            weighed.append(Truths(part, evidence + log_chance, is_drifting))
+    whole = np.logaddexp.reduce(np.concatenate([each.chances for each in weighed]))
+    return tuple(replace(each, chances=np.exp(each.chances - whole)) for each in weighed)
+
+
+@dataclass(frozen=True)
 class SoFar:
     """The linear board of the marks so far, and what it says of sets of effects."""
 
@@ -130,7 +161,7 @@ class SoFar:
     sigma: float  # [mm] of new readings
     accounts: Accounts  # those that are worth weighing again
     log_chances: Array  # (sets,)
-    truths: tuple[tuple[Part, Array], ...]  # to draw from, with their chances (a,)
+    truths: tuple[Truths, ...]  # to draw from
 
     @staticmethod
     def of(board: LinearBoard, noises: Noises, sigma: float, *, is_hidden: bool) -> SoFar:
@@ -143,16 +174,7 @@ class SoFar:
         kept = np.array([len(names) < 2 for names in accounts.effects])
         kept[order[np.cumsum(weight) - weight < LIKELY]] = True
         accounts = accounts.among(kept)
-        metric = Metric.of(board, noises.sigmas, pitch=True)
-        evidences = [
-            np.logaddexp.reduce(weight, axis=1) for _, weight in variants(accounts, metric, noises)
-        ]
-        if is_hidden:
-            alone = np.array([len(names) == 1 for names in accounts.effects])
-            evidences = [np.where(alone[part.sets], 0.0, -np.inf) for part in accounts.parts]
-        whole = np.logaddexp.reduce(np.concatenate(evidences))
-        chances = [np.exp(evidence - whole) for evidence in evidences]
-        truths = tuple(zip(accounts.parts, chances, strict=True))
+        truths = _truths(board, accounts, noises, is_hidden=is_hidden)
         return SoFar(board, noises, sigma, accounts, np.where(kept, total, -np.inf), truths)
 
     def simulated(
@@ -164,15 +186,17 @@ class SoFar:
         columns = known.columns(tuple(self.board.columns))
         frame, effects = new[:, known.frame], new[:, columns]
         read, truths = [], []
-        for part, chances in self.truths:
-            counts = _counts(chances * draws)
-            for place in np.flatnonzero(counts):
-                count = int(counts[place])
-                of_frame, sizes = self._unknowns(part, int(place), count, source)
-                noise = np.where(is_read[:, np.newaxis], self.sigma, 1.0)
-                noise = noise * source.standard_normal((len(new), count))
-                read.append(frame @ of_frame + effects[:, part.index[place]] @ sizes + noise)
-                truths += [int(part.sets[place])] * count
+        noise = np.where(is_read[:, np.newaxis], self.sigma, 1.0)
+        counts = _counts(np.concatenate([each.chances for each in self.truths]) * draws)
+        starts = np.cumsum([0, *(len(each.chances) for each in self.truths)])
+        for each, start, end in zip(self.truths, starts[:-1], starts[1:], strict=True):
+            loose = each.loose(frame, effects, self.board.sizes)
+            for place in np.flatnonzero(counts[start:end]):
+                count = int(counts[start + place])
+                of_frame, sizes = self._unknowns(each, int(place), count, source)
+                seen = noise * source.standard_normal((len(new), count))
+                read.append(loose @ of_frame + effects[:, each.part.index[place]] @ sizes + seen)
+                truths += [int(each.part.sets[place])] * count
         drawn = np.hstack(read)
         return self._with(frame, effects, drawn, is_read), np.array(truths)
 
@@ -191,19 +215,21 @@ class SoFar:
         )
 
     def _unknowns(
-        self, part: Part, place: int, count: int, source: np.random.Generator
+        self, truths: Truths, place: int, count: int, source: np.random.Generator
     ) -> tuple[Array, Array]:
-        """Draw the frame (f, count) and the sizes (k, count) as the marks so far leave them."""
-        board, index = self.board, part.index[place]
+        """Draw what is loose (f, count) and the sizes (k, count) as the marks so far leave them."""
+        board, part = self.board, truths.part
+        index = part.index[place]
         weight = np.ones(len(board.frame))
         weight[: board.measured] /= self.sigma
-        rows = np.hstack([board.frame, board.effects[:, index]]) * weight[:, np.newaxis]
-        prior = np.r_[np.ones(board.frame.shape[1]), 1 / part.variance[place]]
+        loose = truths.loose(board.frame, board.effects, board.sizes)
+        rows = np.hstack([loose, board.effects[:, index]]) * weight[:, np.newaxis]
+        prior = np.r_[np.ones(loose.shape[1]), 1 / part.variance[place]]
         lower = np.linalg.cholesky(rows.T @ rows + np.diag(prior))
         mean = np.linalg.solve(lower, rows.T @ (weight * board.read[:, 0]))
         noise = source.standard_normal((len(mean), count))
         drawn = np.linalg.solve(lower.T, mean[:, np.newaxis] + noise)
-        split = board.frame.shape[1]
+        split = loose.shape[1]
         least = (board.sizes.least - board.sizes.mean)[index]
         return drawn[:split], np.maximum(drawn[split:], least[:, np.newaxis])
 
