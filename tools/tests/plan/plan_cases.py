@@ -21,9 +21,9 @@ def nine(**how):
     return Measurements(tuple(replace(mark, approach=(0.0, 1.0)) for mark in marks))
 
 
-def case_on(measurements, *effects, verdict="cannot_tell", checked=()):
+def case_on(measurements, *effects, verdict="cannot_tell", checked=(), machine=MACHINE):
     """The case of marks of which these effects are the suspects, as likely each."""
-    model, rows = model_and_observations(MACHINE, measurements)
+    model, rows = model_and_observations(machine, measurements)
     board = Board.of(model, rows, sigma=SIGMA, checked=checked)
     posterior = posterior_of(board, Stated(SIGMA, is_final=True))
     frame = posterior.frame
@@ -32,7 +32,7 @@ def case_on(measurements, *effects, verdict="cannot_tell", checked=()):
         for name in effects
     )
     return Case(
-        settings=MACHINE,
+        settings=machine,
         controller="plumb",
         verdict=verdict if effects else "nothing_provable",
         posterior=posterior,

@@ -125,22 +125,26 @@ def test_next_to_many_marks_few_places_are_thought_of(pitch):
     assert gaps == pytest.approx(np.full(9, np.hypot(20, 20)), abs=20)
 
 
-def test_look_alikes_are_told_by_what_parts_them_only():
-    # Sag and a leaning frame draw the same arrows under any weight; an angle gauge parts them.
-    cut, diagnosis = nine("chain_sag")
-    marks = cut.measurements
-    assert set(diagnosis.suspects) == {"chain_sag", "frame_lean"}
-    answer = propose(diagnosis, Inputs(MAKER, marks))
-    best = answer.proposals[0]
-    assert best.option.kind == "check" and best.chance > 0.9
-    assert ("chain_sag", "frame_lean") in best.parts
-    assert answer.blind.chance < 0.3
-    heavier = max(
-        proposal.chance for proposal in answer.proposals if proposal.option.kind == "weight"
-    )
-    assert heavier < 0.3
+def test_look_alikes_are_told_by_what_parts_them_only(pitch):
+    # A tape and chains that are long draw nearly the same arrows; a steel rule parts them.
+    cut, marks, diagnosis, _ = pitch
+    assert {"tape_scale", "chain_pitch"} <= set(diagnosis.suspects)
+    proposals = propose(diagnosis, Inputs(MAKER, marks)).proposals
+    best = max(proposals, key=lambda each: each.chance)
+    assert best.option.kind == "check" and best.chance > 0.3
+    heavier = [each for each in proposals if each.option.kind == "weight"]
+    assert max(each.chance for each in heavier) < best.chance - 0.2
+    assert max(each.bits for each in heavier) < best.bits
     done = diagnose(Inputs(MAKER, marks, checked=owner().checked(cut, best.option.checks)))
-    assert done.verdict == "one_suspect" and done.suspects == ("chain_sag",)
+    assert done.verdict == "one_suspect" and done.suspects == ("chain_pitch",)
+
+
+def test_a_frame_that_would_lean_like_no_other_is_not_suspected_beside_sag():
+    # Both draw the same arrows, but the frame would have to lean by 58 degrees.
+    _, diagnosis = nine("chain_sag")
+    assert diagnosis.verdict == "one_suspect" and diagnosis.suspects == ("chain_sag",)
+    chances = {each.effect: each.chance for each in diagnosis.ranking}
+    assert chances["frame_lean"] < 0.2 and chances["chain_sag"] > 0.99
 
 
 def test_swapped_chains_take_their_pitch_along(pitch):
@@ -201,7 +205,9 @@ def test_a_slip_is_read_again_and_nothing_else():
     assert diagnosis.verdict == "slip"
     answer = propose(diagnosis, Inputs(MAKER, changed))
     assert kinds(answer) == ["reread"] and answer.proposals[0].chance > 0.9
-    assert answer.proposals[0].option.visits.names == (slipped[7].name,)
+    option = answer.proposals[0].option
+    assert option.visits.names == (slipped[7].name,)
+    assert option.do[0].startswith(f"Read {slipped[7].name} again")
 
 
 def test_what_nobody_explains_is_looked_at_where_it_is_worst():

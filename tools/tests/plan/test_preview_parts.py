@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plan_cases import MACHINE, SIGMA
+from plumb.diagnosis.every_machine import clean_of
 from plumb.diagnosis.evidence import Noises, accounts_of
 from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.linear import LinearBoard
-from plumb.diagnosis.posterior import clean_of
 from plumb.diagnosis.verdict import NOTHING
 from plumb.fit.observations import model_and_observations
 from plumb.marks.read import Mark, Measurements
-from plumb.model.catalogue import effect_names, parameter_words
+from plumb.model.catalogue import EVERY_MACHINE, effect_names, parameter_words
 from plumb.plan.preview import APART, POWER, preview
 from plumb.plan.proposal import AGAIN
 from plumb.text.errors import InputError
@@ -41,13 +41,15 @@ def test_the_smallest_size_is_named_with_the_power_that_is_said(effect):
     seen = preview(MACHINE, plan_of(5, 5), sigma=SIGMA, is_quick=True)
     model, rows = model_and_observations(MACHINE, plan_of(5, 5))
     frame = explain(Board.of(model, rows, sigma=SIGMA))
-    board = LinearBoard.of(frame, (effect,))
+    board = LinearBoard.of(frame, (*EVERY_MACHINE, effect))
+    every = accounts_of(board)
+    accounts = every.among(np.array([names in ((), (effect,)) for names in every.effects]))
     source, count = np.random.default_rng(1), 1500
-    drawn = board.effects * outline(seen, effect).smallest
+    drawn = board.effects[:, board.columns[effect]] * outline(seen, effect).smallest
     read = drawn + SIGMA * source.standard_normal((len(drawn), count))
     read += board.frame @ source.standard_normal((board.frame.shape[1], count))
     noises = Noises(np.array([SIGMA]), np.zeros(1))
-    total = clean_of(board.with_read(read), accounts_of(board), noises).total
+    total = clean_of(board.with_read(read), accounts, noises).total
     nothing = np.exp(total[0] - np.logaddexp.reduce(total, axis=0))
     assert np.mean(nothing < NOTHING) == pytest.approx(POWER, abs=0.1)
 

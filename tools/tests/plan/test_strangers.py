@@ -31,7 +31,7 @@ def test_a_second_reading_shows_a_slip_as_often_as_noise_allows():
     even = SURE * sqrt(2) * SIGMA  # as often as not
     far = -even - 2 * sqrt(2) * SIGMA
     several = [slip("3", even, 0.0), slip("3", 0.0, far), slip("3", 0.0, 0.0)]
-    chances = [chance for _, chance in for_slips(case, several)]
+    chances = [chance for _, chance in for_slips(several, case.board.rows, case.noise)]
     assert chances == pytest.approx([0.5, 0.9772, 0.00135], abs=1e-3)
 
 
@@ -39,7 +39,8 @@ def test_the_mark_is_read_again_as_it_was_made_and_a_distance_by_its_name():
     marks = nine().marks
     board = Measurements(marks, distances_between(marks[:2]).distances)
     case = case_on(board, "chain_pitch")
-    (mark, _), (span, _) = for_slips(case, [slip("3", 5.0, 0.0), slip("1 - 0", 5.0)])
+    slips = [slip("3", 5.0, 0.0), slip("1 - 0", 5.0)]
+    (mark, _), (span, _) = for_slips(slips, case.board.rows, case.noise)
     assert mark.visits.names == ("3",) and mark.visits.targets[0].tolist() == [-1100.0, 0.0]
     assert mark.visits.chains[0].tolist() == case.board.rows.chains[3].tolist()
     assert mark.do[0].startswith("Read 3 again") and not mark.is_cut
