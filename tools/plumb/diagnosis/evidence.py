@@ -9,7 +9,7 @@ negative takes the ratio of the posterior's to the prior's mass where it is not.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import combinations, product
@@ -166,12 +166,28 @@ def fitted(part: Part, sizes: SizePriors, metric: Metric) -> Fitted:
     edge = (sizes.mean - sizes.least)[index]  # how far the mean of the prior is from the least
     before = np.sum(scipy.special.log_ndtr(edge / np.sqrt(part.variance)), axis=1)
     loose = np.repeat(part.log_prior, noises) - (size + left) / 2
-    # Only for what is likely are impossible signs worth their time.
-    boards, likely = np.nonzero(loose > loose.max(axis=1, keepdims=True) - UNLIKELY)
-    edges, inverses = np.repeat(edge.T, noises, axis=1)[:, likely], inverse[:, :, likely]
-    possible = np.zeros(loose.shape)
-    possible[boards, likely] = log_orthant(mean[:, boards, likely] + edges, inverses)
+    edges = np.repeat(edge.T, noises, axis=1)
+
+    def mass(boards: Array, each: Array) -> Array:
+        return log_orthant(mean[:, boards, each] + edges[:, each], inverse[:, :, each])
+
+    possible = _with_mass(loose, mass, axis=1) - loose
     return Fitted(loose, possible - np.repeat(before, noises), mean, inverse)
+
+
+def _with_mass(loose: Array, mass: Callable[..., Array], *, axis: int) -> Array:
+    """Return log weights with the logarithm of the mass that is possible, where that matters.
+
+    Mass is at most one, so what lies UNLIKELY below the best without it stays there.
+    """
+    weight, known = loose.copy(), np.zeros(loose.shape, dtype=bool)
+    while True:
+        likely = ~known & (weight > weight.max(axis=axis, keepdims=True) - UNLIKELY)
+        if not likely.any():
+            return weight
+        places = np.nonzero(likely)
+        weight[places] += mass(*places)
+        known |= likely
 
 
 def _inverted(matrix: Array) -> tuple[Array, Array]:
@@ -349,9 +365,9 @@ def _off(part: Part, sizes: SizePriors, fit: Fitted, rows: Array, kept: Array) -
         moved = taken[..., 0] * x[:, np.newaxis] + taken[..., 1] * y[:, np.newaxis]
         mean = fit.mean[:, :1] - np.moveaxis(moved, 0, 2)
         loose = fit.loose.T + gain - before[:, np.newaxis]
-        accounts, readings = np.nonzero(loose > loose.max(axis=0) - UNLIKELY)
-        loose[accounts, readings] += log_orthant(
-            mean[:, readings, accounts] + edge.T[:, accounts], fit.inverse[:, :, accounts]
-        )
-        weights.append(np.logaddexp.reduce(loose, axis=0))
+
+        def mass(each: Array, readings: Array, mean: Array = mean) -> Array:
+            return log_orthant(mean[:, readings, each] + edge.T[:, each], fit.inverse[:, :, each])
+
+        weights.append(np.logaddexp.reduce(_with_mass(loose, mass, axis=0), axis=0))
     return np.asarray(np.logaddexp.reduce(weights))
