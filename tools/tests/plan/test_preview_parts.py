@@ -49,7 +49,7 @@ def test_the_smallest_size_is_named_with_the_power_that_is_said(effect):
     read = drawn + SIGMA * source.standard_normal((len(drawn), count))
     read += board.frame @ source.standard_normal((board.frame.shape[1], count))
     noises = Noises(np.array([SIGMA]), np.zeros(1))
-    total = clean_of(board.with_read(read), accounts, noises).total
+    total = clean_of(replace(board, read=read), accounts, noises).total
     nothing = np.exp(total[0] - np.logaddexp.reduce(total, axis=0))
     assert np.mean(nothing < NOTHING) == pytest.approx(POWER, abs=0.1)
 
