@@ -27,6 +27,7 @@ from plumb.diagnosis.priors import (
 from plumb.model.catalogue import ZEROING_NAMES
 
 Array = np.ndarray
+ROUNDING = 1e-9  # [mm] less than that moves nothing
 LEFT_OUT = 1e-3  # share of the noise's variance to which a field is described
 
 
@@ -127,7 +128,7 @@ def moved_rounds(frame: Explanation) -> list[MovedRound]:
         for later in np.unique(number)[1:]
         for mine in [number == later]
         for cause, columns in by_cause.items()
-        for moved in [np.any(columns[mine], axis=0)]
+        for moved in [np.any(np.abs(columns[mine]) > ROUNDING, axis=0)]
         if moved.any()
     ]
 
