@@ -259,8 +259,10 @@ class Noises:
 
     @property
     def sparse(self) -> Noises:
-        """Every other noise, each for two."""
-        kept = slice(len(self.sigmas) % 2, None, 2) if len(self.sigmas) > 2 else slice(None)
+        """Every other noise, each for two, if there are more than two."""
+        if len(self.sigmas) <= 2:
+            return self
+        kept = slice(len(self.sigmas) % 2, None, 2)
         return Noises(self.sigmas[kept], self.log_prior[kept] + np.log(2))
 
 
