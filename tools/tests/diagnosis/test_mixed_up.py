@@ -1,14 +1,12 @@
-"""Numbers that were mixed up: exchanged readings, a sign of y, one file twice, coarse repeats."""
+"""Numbers that were mixed up: exchanged readings, a sign of y, one file twice."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from plumb.diagnosis import diagnose
-from plumb.diagnosis.noise import repeats_of
 from plumb.fit.inputs import Inputs
-from plumb.fit.observations import observe
-from plumb.marks.read import Mark, Measurements, read_marks
+from plumb.marks.read import Measurements, read_marks
 from plumb.settings.toml import machine_toml
 from plumb.text.errors import InputError
 from synthetic import BELIEVED, SHEET, distances_between, grid, marks_on
@@ -125,19 +123,14 @@ def test_y_errors_with_the_other_sign_are_found_out():
         for mark in marks_on(PITCH, BELIEVED, grid(5, 3), noise=0.3, seed=5)
     ]
     said = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).warnings
-    assert any(
-        "y errors the other way round" in sentence
-        and "chain_pitch" in sentence
-        and "would explain" in sentence
-        for sentence in said
-    )
+    assert any("with all y errors the other way round" in sentence for sentence in said)
 
 
 def test_the_right_sign_is_not_doubted():
     for seed in range(4):
         marks = marks_on(PITCH, BELIEVED, grid(5, 3), noise=0.3, seed=seed)
         said = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).warnings
-        assert not any("would explain these" in sentence for sentence in said)
+        assert not any("the other way round" in sentence for sentence in said)
 
 
 def test_a_file_given_twice_is_refused(run, file, tmp_path):
@@ -148,17 +141,6 @@ def test_a_file_given_twice_is_refused(run, file, tmp_path):
     for command in ("compare", "diagnose"):
         code, said, complained = run(command, machine, marks, again)
         assert code == 2 and said == "" and "is given twice" in complained
-
-
-@pytest.mark.parametrize(("step", "least"), [(1.0, 0.288), (0.5, 0.144), (0.01, 0.0)])
-def test_coarse_readings_that_agree_exactly_are_as_noisy_as_their_rounding(step, least):
-    marks = [
-        Mark(str(i), (x, y), (x + step * move, y - step))
-        for i, (x, y, move) in enumerate([(-900.0, 0.0, 1), (0.0, 300.0, 2), (900.0, -300.0, 4)])
-    ] * 3
-    spread = repeats_of(observe(BELIEVED, board(marks)))
-    assert spread.degrees == 12
-    assert spread.sigma == pytest.approx(least, abs=0.001)
 
 
 @pytest.mark.parametrize(

@@ -1,14 +1,10 @@
 """What a slip most likely was, in words; and the pieces that only slow boards would feel."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
-from plumb.diagnosis.answer import verdict_sentence
-from plumb.diagnosis.clean import Reading, Shift
-from plumb.diagnosis.explanation import KNOWN, Board, explain, span
-from plumb.diagnosis.noise import Noise
-from plumb.diagnosis.outliers import described
+from plumb.diagnosis.explanation import Board, explain, span
+from plumb.diagnosis.noise import KNOWN, Noise
+from plumb.diagnosis.outliers import Reading, Shift, described
 from plumb.diagnosis.sizes import sizes_of
 from plumb.fit.observations import observe
 from plumb.marks.read import Distance, Mark, Measurements
@@ -61,48 +57,6 @@ def test_a_distance_has_no_axis():
     slip = slip_of_distance(925.4, 900.0)
     assert slip.guess == "misread by an inch?" and slip.way == "too long"
     assert slip_of_distance(890.0, 900.0).way == "too short"
-
-
-@pytest.mark.parametrize(
-    ("count", "words"), [(1, "One reading disagrees"), (2, "Some readings disagree")]
-)
-def test_the_sentence_counts_the_slips(count, words):
-    slips = [SimpleNamespace(name=name, against="every explanation") for name in "AB"[:count]]
-    sentence = verdict_sentence(SimpleNamespace(verdict="slip", outliers=slips))
-    assert sentence.startswith(words) and "A" in sentence
-
-
-def explained(*effects, possible=True, rms_after=0.5, share=None):
-    return SimpleNamespace(effects=effects, possible=possible, rms_after=rms_after, share=share)
-
-
-@pytest.mark.parametrize(
-    ("verdict", "explanations", "words"),
-    [
-        ("nothing_provable", (), "Nothing is provable: the fitted frame leaves 2.00 mm RMS"),
-        ("one_suspect", (explained("sag"),), "One suspect: sag. The error falls from 2.00 to 0.50"),
-        ("one_suspect", (explained("sag", "lean"),), "Several effects at once: sag and lean."),
-        ("one_suspect", (explained("sag", possible=False),), "no real machine has"),
-        ("cannot_tell", (explained("sag", possible=False),), "no real machine has"),
-        ("cannot_tell", (explained("a"), explained("b")), "cannot tell which: a; or b."),
-        ("cannot_tell", (explained("a"),) * 8, "a; a; a; a; a; a; a; or a."),
-        ("cannot_tell", (explained("a"),) * 10, "a; a; a; a; a; a; a; a; or 2 more."),
-        (
-            "cannot_tell",
-            (explained("a", "b", share=0.8), explained("c", share=0.2)),
-            "Most likely: a and b (odds 4 to 1); next, c (1 to 4).",
-        ),
-        ("cannot_tell", tuple(explained("a", share=s) for s in (0.6, 0.3, 0.1)), ", and 1 more."),
-        ("not_in_library", (), "alone or up to three together (unless more than three"),
-        ("not_in_library", (explained("a"),), "A could be it, but here one effect explains 40 %"),
-        ("not_in_library", (explained("a", "b"),), "here 2 effects explain 40 %"),
-    ],
-)
-def test_each_verdict_has_its_sentence(verdict, explanations, words):
-    diagnosis = SimpleNamespace(
-        verdict=verdict, explanations=explanations, rms_before=2.0, chance=0.4, library_fits=True
-    )
-    assert words in verdict_sentence(diagnosis)
 
 
 def test_a_span_sees_short_columns_and_drops_what_repeats():
