@@ -88,7 +88,7 @@ class Problem:
     ) -> Problem:
         """Return the problem of a board for a model that starts from these settings.
 
-        `held` are parameters of effects, by full name, that keep these sizes.
+        Checks of numbers that are not fitted do not count. `held` are parameters of effects, by full name, that keep these sizes.
         """
         held = held or {}
         in_model = {name: size for name, size in held.items() if name in NAMES}
@@ -108,7 +108,7 @@ class Problem:
             scale=np.array([priors[name] for name in kept] + [typical[name] for name in free]),
             held=np.array([True] * len(kept) + [False] * len(free), dtype=bool),
             sigma=sigma,
-            checked=tuple(checked),
+            checked=tuple(check for check in checked if check.name in names),
             outside={name: size for name, size in held.items() if name not in in_model},
         )
 
