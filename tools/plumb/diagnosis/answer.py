@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from math import inf
 from typing import Annotated
 
 from pydantic import computed_field
@@ -13,7 +14,9 @@ from plumb.diagnosis.expected_error import LeftOpen
 from plumb.diagnosis.explanation import Explanation
 from plumb.diagnosis.noise import ORIGINS, Noise
 from plumb.diagnosis.outliers import Outlier
+from plumb.diagnosis.priors import LIKELIER
 from plumb.diagnosis.sizes import Room, Size
+from plumb.diagnosis.verdict import UNKNOWN
 from plumb.fit.problem import Checked
 from plumb.model.catalogue import place_of
 from plumb.model.plain import plainly
@@ -62,6 +65,7 @@ class Together:
     effects: tuple[str, ...]
     sizes: Internal[Mapping[str, tuple[Size, ...]]]
     rms_after: Annotated[float, key("rms_after_mm")]
+    noise_rms: Annotated[float, key("noise_rms_mm", "What noise alone leaves of that fit.")]
     share: Annotated[float, meant("How likely it is among all accounts.")]
 
     @computed_field
@@ -93,7 +97,7 @@ class Diagnosis:
     fits: Internal[tuple[Explanation, ...]]  # of the explanations, in their order
     best: Internal[Explanation]  # with the effects to go on with
     rms_before: Annotated[float, key("rms_mm", "With the frame fitted.")]
-    noise_rms: Annotated[float, key("noise_rms_mm", "What noise alone would leave of that fit.")]
+    noise_rms: Annotated[float, key("noise_rms_mm", "What noise alone leaves of that fit.")]
     explanations: tuple[Together, ...]  # likeliest first
     # [mm] RMS between two explanations' marks
     differences: Internal[Mapping[tuple[int, int], float]]
@@ -156,48 +160,101 @@ def _outlier(diagnosis: Diagnosis) -> str:
 
 
 def _nothing_provable(diagnosis: Diagnosis) -> str:
-    return (
-        f"The marks show no cause: with the frame fitted they are {worded(diagnosis.rms_before)} "
-        f"off (RMS), and reading noise alone leaves about {worded(diagnosis.noise_rms)}."
+    said = (
+        "The marks show no cause."
+        if diagnosis.nothing_chance > LIKELIER
+        else "Something may act, but the marks do not show what."
     )
+    left = _left(diagnosis.rms_before, diagnosis.noise_rms)
+    return f"{said} With the frame fitted {left}."
 
 
 def _not_in_library(diagnosis: Diagnosis) -> str:
     nearest = diagnosis.explanations[0] if diagnosis.explanations else None
-    left = nearest.rms_after if nearest else diagnosis.rms_before
-    said = (
-        "The machine does something that no effect of the library draws: "
-        f"{worded(left)} RMS stay, where noise leaves {worded(diagnosis.noise_rms)}."
+    left = _left(
+        nearest.rms_after if nearest else diagnosis.rms_before,
+        nearest.noise_rms if nearest else diagnosis.noise_rms,
     )
+    what = _unknown(diagnosis)
     if nearest is None or not nearest.effects:
-        return said
-    falls = f"brings {bare(diagnosis.rms_before)} to {worded(nearest.rms_after)}"
-    return f"{said} What comes nearest, {_named(nearest.effects)}, {falls}."
+        return f"{what}. With the frame fitted {left}."
+    return f"{what}. What comes nearest is {_named(nearest.effects)}: with that {left}."
+
+
+def _unknown(diagnosis: Diagnosis) -> str:
+    """Return why the library does not explain the marks, without the full stop."""
+    if diagnosis.disagreements:
+        return "The rounds do not go together"
+    if diagnosis.field_chance < UNKNOWN:
+        return "Even the likeliest cause leaves more than noise would"
+    does = "does" if diagnosis.field_chance > LIKELIER else "may do"
+    return (
+        f"The machine {does} something that the library does not know: the odds are "
+        f"{odds_words(diagnosis.field_chance)}"
+    )
+
+
+def _left(rms: float, by_noise: float) -> str:
+    """Return what a fit leaves, and what it would leave of noise alone."""
+    return f"{worded(rms)} RMS is left; noise alone leaves {worded(by_noise)}"
 
 
 def _one_suspect(diagnosis: Diagnosis) -> str:
     (first,) = diagnosis.explanations
+    causes = "The cause is" if len(first.effects) == 1 else "The causes are"
     return (
-        f"The cause is most likely {_named(first.effects)}, {odds_words(first.share)}. "
-        f"With it the error falls from {bare(diagnosis.rms_before)} to {worded(first.rms_after)} "
-        "RMS."
+        f"{causes} most likely {_named(first.effects)}: the odds are {odds_words(first.share)}. "
+        f"The error falls from {bare(diagnosis.rms_before)} to {worded(first.rms_after)} RMS; "
+        f"noise alone leaves {worded(first.noise_rms)}."
     )
 
 
 def _cannot_tell(diagnosis: Diagnosis) -> str:
     first, second, *others = diagnosis.explanations
-    said = (
-        f"The cause may be {_named(first.effects)}, {odds_words(first.share)}, or "
-        f"{_named(second.effects)}, {odds_words(second.share)}."
-    )
-    more = f" {len(others)} more are less likely." if others else ""
-    return f"{said}{more} The marks cannot tell yet."
+    sure = [
+        name
+        for name in first.effects
+        if all(name in each.effects for each in diagnosis.explanations)
+    ]
+    if sure:
+        causes = "One cause is" if len(sure) == 1 else "Two causes are"
+        causes = causes if len(sure) <= MOST_NAMED else "The causes are"
+        said = f"{causes} most likely {_named(sure)}. What else acts is open: "
+    else:
+        said = "The marks cannot tell yet. Most likely it is "
+    said += _with_odds(first, sure)
+    if len({*first.effects, *second.effects} - {*sure}) <= MOST_NAMED:
+        said += f", or {_with_odds(second, sure)}"
+    else:
+        others = [second, *others]
+    are = "is" if len(others) == 1 else "are"
+    return f"{said}. {len(others)} more {are} possible." if others else f"{said}."
+
+
+def _with_odds(together: Together, sure: Sequence[str]) -> str:
+    """Return an account but for what is sure, with its odds."""
+    open_effects = [name for name in together.effects if name not in sure]
+    noun = _named(open_effects) if open_effects or not sure else "nothing else"
+    return f"{noun}, {odds_words(together.share)}"
+
+
+MOST_ODDS = 100.0  # beyond which nobody checked them
+FINE_ODDS = 20.0  # beyond which they are said in tens
 
 
 def odds_words(share: float) -> str:
     """Return how likely something is, as odds against all else."""
-    odds = share / max(1 - share, 1e-3)
-    return f"{odds:.0f} to 1" if odds >= 1 else f"1 to {1 / max(odds, 1e-3):.0f}"
+    odds = share / (1 - share) if share < 1 else inf
+    if odds > MOST_ODDS:
+        return f"over {MOST_ODDS:.0f} to 1"
+    if odds < 1 / MOST_ODDS:
+        return f"under 1 to {MOST_ODDS:.0f}"
+    larger = max(odds, 1 / odds)
+    if 1.25 <= larger < 1.75:
+        sides = "3", "2"
+    else:
+        sides = f"{round(larger, -1 if larger > FINE_ODDS else 0):.0f}", "1"
+    return " to ".join(sides if odds >= 1 else sides[::-1])
 
 
 def _named(effects: Sequence[str]) -> str:

@@ -69,6 +69,7 @@ def _together(listed: Listed, explanation: Explanation, noise: Noise) -> Togethe
         effects=effects,
         sizes={name: sizes_of(explanation, name, noise) for name in effects},
         rms_after=explanation.rms,
+        noise_rms=left_by_noise(explanation, noise),
         share=listed.share,
     )
 

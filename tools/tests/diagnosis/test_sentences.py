@@ -1,0 +1,129 @@
+"""What a verdict says: forty words, two causes in its first sentence, and odds as people say them."""
+
+from types import SimpleNamespace
+
+import pytest
+from plumb.diagnosis.answer import odds_words, verdict_sentence
+
+LONG = "chain_plane", "chain_zero", "sheet_skew"  # effects with the longest nouns
+PAIR = LONG[:2]
+
+
+def account(*effects, share=0.5):
+    return SimpleNamespace(effects=effects, rms_after=0.5, noise_rms=0.4, share=share)
+
+
+def said_of(verdict, *explanations, nothing=0.7, field=0.0, disagreements=()):
+    said = verdict_sentence(
+        SimpleNamespace(
+            verdict=verdict,
+            explanations=explanations,
+            rms_before=2.0,
+            noise_rms=0.42,
+            nothing_chance=nothing,
+            field_chance=field,
+            disagreements=disagreements,
+        )
+    )
+    assert len(said.split()) <= 40, said
+    return said
+
+
+def test_one_suspect_is_named_with_odds_the_fall_and_the_noise():
+    assert said_of("one_suspect", account("chain_sag", share=0.98)) == (
+        "The cause is most likely chain sag: the odds are 50 to 1. The error falls from 2.00 to "
+        "0.50 mm RMS; noise alone leaves 0.40 mm."
+    )
+    assert said_of("one_suspect", account(*PAIR)).startswith(
+        "The causes are most likely chains that are not parallel to the sheet and chains that "
+    )
+    assert "3 effects at once" in said_of("one_suspect", account(*LONG))
+
+
+def test_of_several_the_two_likeliest_are_named():
+    rivals = account("chain_sag", share=0.6), account(share=0.3), account("tape_scale", share=0.05)
+    assert said_of("cannot_tell", *rivals[:2]) == (
+        "The marks cannot tell yet. Most likely it is chain sag, 3 to 2, or the frame alone, 1 to 2."
+    )
+    assert said_of("cannot_tell", *rivals).endswith("1 to 2. 1 more is possible.")
+    assert said_of("cannot_tell", *rivals, rivals[2]).endswith("2 more are possible.")
+
+
+def test_what_all_explanations_have_is_said_once():
+    sure = "motor_level"
+    either = account(sure, "chain_sag", share=0.8), account(sure, "tape_scale", share=0.2)
+    assert said_of("cannot_tell", *either) == (
+        "One cause is most likely motors that are not level. What else acts is open: chain "
+        "sag, 4 to 1, or a tape that reads wrong, 1 to 4."
+    )
+    assert said_of("cannot_tell", either[0], account(sure, share=0.2)).endswith(
+        "chain sag, 4 to 1, or nothing else, 1 to 4."
+    )
+
+
+@pytest.mark.parametrize("sure", [(), ("motor_level",), ("motor_level", "chain_sag")])
+def test_no_first_sentence_names_more_than_two_causes(sure):
+    said = said_of("cannot_tell", account(*sure, *PAIR), account(*sure, "sheet_skew"))
+    assert "sheet edges" not in said and said.endswith("1 more is possible.")
+    assert "sheet edges" in said_of(
+        "cannot_tell", account(*sure, "tape_scale"), account(*sure, LONG[2])
+    )
+
+
+def test_no_cause_is_said_as_surely_as_it_is_known():
+    assert said_of("nothing_provable", nothing=0.6) == (
+        "The marks show no cause. With the frame fitted 2.00 mm RMS is left; noise alone "
+        "leaves 0.42 mm."
+    )
+    assert said_of("nothing_provable", nothing=0.4).startswith(
+        "Something may act, but the marks do not show what. With the frame"
+    )
+
+
+def test_what_the_library_does_not_know_is_said_with_its_odds():
+    does = "The machine does something that the library does not know: the odds are 4 to 1."
+    assert said_of("not_in_library", field=0.8).startswith(f"{does} With the frame fitted 2.00 mm")
+    assert said_of("not_in_library", account("chain_sag"), field=0.3) == (
+        "The machine may do something that the library does not know: the odds are 1 to 2. What "
+        "comes nearest is chain sag: with that 0.50 mm RMS is left; noise alone leaves "
+        "0.40 mm."
+    )
+    misfit = said_of("not_in_library", account(), field=0.01)
+    assert misfit.startswith("Even the likeliest cause leaves more than noise would.")
+    assert "odds" not in misfit and "0.50 mm RMS is left" in misfit
+    apart = said_of("not_in_library", field=0.9, disagreements=("b.toml does not go with ...",))
+    assert apart.startswith("The rounds do not go together. With the frame fitted")
+
+
+@pytest.mark.parametrize(
+    ("share", "words"),
+    [
+        (1.0, "over 100 to 1"),
+        (0.991, "over 100 to 1"),
+        (0.985, "70 to 1"),
+        (0.95, "19 to 1"),
+        (0.6, "3 to 2"),
+        (0.5, "1 to 1"),
+        (0.4, "2 to 3"),
+        (0.25, "1 to 3"),
+        (0.02, "1 to 50"),
+        (0.001, "under 1 to 100"),
+    ],
+)
+def test_odds_are_as_fine_as_they_are_known(share, words):
+    assert odds_words(share) == words
+
+
+def test_of_many_slips_the_first_are_named():
+    slips = [SimpleNamespace(name=f"{i} - 5", against=f"{i % 2}") for i in range(30)]
+    said = verdict_sentence(SimpleNamespace(verdict="slip", outliers=slips))
+    assert len(said.split()) <= 40 and "0 - 5, 1 - 5 and 28 more again before" in said
+
+
+@pytest.mark.parametrize(
+    ("count", "words"), [(1, "One reading disagrees"), (2, "Some readings disagree")]
+)
+def test_the_sentence_counts_the_slips(count, words):
+    slips = [SimpleNamespace(name=name, against="every explanation") for name in "AB"[:count]]
+    said = verdict_sentence(SimpleNamespace(verdict="slip", outliers=slips))
+    assert said.startswith(words) and "A" in said
