@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -19,7 +19,13 @@ from plumb.fit.inputs import Inputs
 from plumb.fit.observations import Observations, rms
 from plumb.fit.rounds import notes_on, unit_of
 from plumb.marks.benchmark import Score, score_of
-from plumb.model.catalogue import NO_FIRMWARE, is_sketch, parameter_words
+from plumb.model.catalogue import (
+    NO_FIRMWARE,
+    effect_names,
+    is_sketch,
+    parameter_names,
+    parameter_words,
+)
 from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.plain import named, plain_name, plain_range, plain_size
 from plumb.model.predict import frame_words
@@ -37,6 +43,7 @@ class Quality:
     """How good a fit is [mm]; left out: each mark predicted by a fit that did not see it."""
 
     fit_rms: Annotated[float, key("fit_rms_mm")]
+    noise_rms: Annotated[float, key("noise_rms_mm", "What noise alone would leave of that fit.")]
     corrected_rms: Annotated[Number, key("priced_rms_mm")]
     left_out_rms: Annotated[float, key("left_out_rms_mm")]
     worst: Annotated[float, key("worst_mm")]
@@ -215,6 +222,7 @@ def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = F
             steps += _steps([PATCH], earlier, [after_fit], rows)
     after = steps[-1] if steps else before
     parameters = tuple(_parameter(each) for each in after_fit.estimates if each.felt)
+    known = {check.name for check in board.inputs.checked}
     return Addition(
         raw=raw,
         before=before,
@@ -231,8 +239,8 @@ def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = F
             *_unsettled(after_fit),
             *_unfelt(after_fit),
             *notes_on(parameter.name for parameter in parameters),
-            *_surprises(parameters),
-            *_bad_bargains(before, after, steps),
+            *_surprises(parameters, known),
+            *_bad_bargains(before, after, [step for step in steps if not _is_known(step, known)]),
         ),
         by_effect=steps,
         sigma_from=noise.source,
@@ -251,6 +259,7 @@ def quality_of(fitted: Fit, rows: Observations) -> Quality:
     pose = best_pose(fitted.predicted, rows.measured)
     return Quality(
         fit_rms=fitted.rms,
+        noise_rms=fitted.noise_rms,
         corrected_rms=fitted.corrected_rms,
         left_out_rms=fitted.left_out_rms,
         worst=float(lengths.max()),
@@ -301,14 +310,16 @@ def _unsettled(fitted: Fit) -> list[str]:
     return ["the fit did not come to rest: do not trust these numbers; add fewer effects at once"]
 
 
-def _surprises(parameters: Sequence[Parameter]) -> list[str]:
-    """Sentences about numbers that no real machine has, that moved too far, or that may be zero."""
+def _surprises(parameters: Sequence[Parameter], known: Collection[str]) -> list[str]:
+    """Sentences about numbers that no real machine has, that moved too far, or that may be zero;
+    what is known of a number, measured or usual, holds whether the marks show it or not.
+    """
     said = []
     for parameter in parameters:
-        if may_be_zero(parameter):
-            said.append(_zero_sentence(parameter))
-        elif not parameter.plausible:
+        if not parameter.possible:
             said.append(_impossible(parameter))
+        elif parameter.name not in known and may_be_zero(parameter):
+            said.append(_zero_sentence(parameter))
         moved = parameter.value - parameter.before
         trusted = parameter.prior_sigma
         if trusted and not parameter.of_patch and abs(moved) > FAR * trusted:
@@ -333,19 +344,16 @@ def may_be_zero(parameter: Parameter) -> bool:
 
 
 def _zero_sentence(parameter: Parameter) -> str:
-    impossible = "" if parameter.plausible else ", which is impossible,"
     size = plain_size(parameter.name, parameter.value)
-    return f"{size}{impossible} may as well be zero: its interval contains it"
+    return f"{size} may as well be zero: its interval contains it"
 
 
 def _impossible(parameter: Parameter) -> str:
     plausible = parameter.plausible_range
-    near = "comes near" if parameter.possible else "does not come near"
     return (
         f"{plain_size(parameter.name, parameter.value)}: that is impossible for a real machine, "
-        f"which has {plain_range(parameter.name, plausible.low, plausible.high)} (the interval "
-        f"{near}); it takes the place of another cause; check which settings were in force and the "
-        "signs of the marks"
+        f"which has {plain_range(parameter.name, plausible.low, plausible.high)}; it takes the "
+        "place of another cause; check which settings were in force and the signs of the marks"
     )
 
 
@@ -365,8 +373,16 @@ def _steps(
     )
 
 
+def _is_known(step: Step, known: Collection[str]) -> bool:
+    """Return whether all numbers of its effect are known, so that it stays whatever it predicts."""
+    names = parameter_names(step.effect) if step.effect in effect_names() else ()
+    return bool(names) and all(name in known for name in names)
+
+
 def _bad_bargains(before: Quality, after: Quality, steps: Sequence[Step]) -> list[str]:
     """Sentences about effects that serve the fit alone."""
+    if not steps:
+        return []
     if after.fit_rms < before.fit_rms and after.left_out_rms > before.left_out_rms:
         return [
             "the fit got better but, checked on marks not used, the error rose from "

@@ -49,6 +49,7 @@ class Fit:
     distance_errors: Array  # (m,) [mm]
     left_out_distance_errors: Array  # (m,) [mm]
     spent: float  # how many numbers the fit took from the data
+    noise_rms: float  # [mm] what noise alone would leave, as `rms` counts it
     sigma: float  # [mm] of one number, stated or estimated
     sigma_from: str  # "stated" or "residuals"
     settled: bool  # False: the search stopped at its limit of tries
@@ -174,11 +175,18 @@ def _fit_of(problem: Problem, solution: Solution, stated: float | None, degrees:
         distance_errors=distances,
         left_out_distance_errors=left_distances,
         spent=spent,
+        noise_rms=sigma * _left_by_noise(rows, np.diag(leverage)),
         sigma=sigma,
         sigma_from="residuals" if stated is None else "stated",
         settled=solution.settled,
         covariance=covariance * np.outer(problem.scale, problem.scale),
     )
+
+
+def _left_by_noise(rows: Observations, leverages: Array) -> float:
+    """RMS that a fit leaves of noise with a sigma of one: of marks as vectors, or of distances."""
+    counted = leverages[: rows.measured.size] if len(rows.measured) else leverages
+    return float(np.sqrt(np.sum(1 - counted) / (len(rows.measured) or len(counted))))
 
 
 def _estimates(
