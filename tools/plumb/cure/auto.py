@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated
 
@@ -9,7 +10,7 @@ from pydantic import computed_field
 
 from plumb.cure.add import Addition, add
 from plumb.cure.live_board import TooFewError
-from plumb.diagnosis.answer import Diagnosis, Verdict
+from plumb.diagnosis.answer import MOST_NAMED, Diagnosis, Verdict
 from plumb.diagnosis.diagnosis import diagnose
 from plumb.diagnosis.expected_error import LeftOpen, RivalError, rival_error
 from plumb.fit.inputs import Inputs
@@ -40,6 +41,22 @@ class AutoAddition:
     apart: RivalError | None = None  # where rivals would cut elsewhere by more than the noise
 
     verdict = part("diagnosis.verdict", Verdict)
+
+    @property
+    def named(self) -> tuple[str, ...]:
+        """Effects of the likeliest explanation."""
+        explanations = self.diagnosis.explanations
+        return explanations[0].effects if explanations else ()
+
+    @property
+    def said(self) -> tuple[str, ...]:
+        """Why it was added, and whether the choice matters, in sentences."""
+        why = f"{self.reason[0].upper()}{self.reason[1:]}."
+        if self.apart:
+            return why, self.apart.sentence
+        if self.rivals and self.addition:
+            return why, "For cutting it hardly matters: they differ by less than a reading's noise."
+        return (why,)
 
     @computed_field
     @property
@@ -130,22 +147,42 @@ def _reason(
     diagnosis: Diagnosis, chosen: tuple[str, ...], rivals: tuple[tuple[str, ...], ...]
 ) -> str:
     named = diagnosis.explanations[0].effects if diagnosis.explanations else ()
-    usual = [name for name in chosen if name not in named]
-    too = f"; {plainly(usual)} too, for every machine has it" if usual else ""
+    usual = _usual_sentence([name for name in chosen if name not in named])
     if diagnosis.verdict == "nothing_provable":
-        return f"the marks show no cause, so only the frame was fitted{too}"
+        return f"the marks show no cause, so only the frame was fitted{usual}"
     if diagnosis.verdict == "not_in_library":
-        part = f"only {plainly(chosen)}, as far as it goes," if chosen else "no effect"
+        added = [name for name in chosen if name in named]
+        part = f"only {plainly(added)} was added, as far as it goes" if added else "none was added"
         return (
-            f"not all that the marks show is in the library, so {part} was added; read the worst "
-            "marks again, and see " + to_do("plumb next", page="Verdict") + " for what to measure"
+            f"no effects of the library explain all that the marks show, so {part}; read the worst "
+            f"marks again, and see {to_do('plumb next', page='Verdict')} for what to measure{usual}"
         )
-    name = plainly(named)
     if rivals:
-        others = ", or ".join(plainly(rival) for rival in rivals)
         asked = to_do("plumb next", page="Verdict")
         return (
-            f"a choice: {name} explains the marks best, but they allow {others} as well; {asked} "
-            f"says what to measure to tell them apart{too}"
+            f"a choice: the likeliest is {plainly(named)}, but {_listed(rivals)} may be it as "
+            f"well; {asked} says what to measure to tell them apart{usual}"
         )
-    return f"{name} explains the marks{too}"
+    return f"the marks ask for {plainly(named)}{usual}"
+
+
+def _usual_sentence(effects: Sequence[str]) -> str:
+    """Return why effects were added that no mark asks for; it goes after another sentence."""
+    if not effects:
+        return ""
+    left_out, size = (
+        ("it", "its usual size") if len(effects) == 1 else ("them", "their usual sizes")
+    )
+    return (
+        f". Every machine has {plainly(effects)}, and these settings leave {left_out} out: so that "
+        f"was added at about {size}"
+    )
+
+
+def _listed(rivals: Sequence[tuple[str, ...]]) -> str:
+    """Return rivals by name; the less likely by their number."""
+    said = [plainly(rival) for rival in rivals[:MOST_NAMED]]
+    more = len(rivals) - len(said)
+    if more:
+        said.append(f"{more} {'other' if more == 1 else 'others'}")
+    return " or ".join(said)
