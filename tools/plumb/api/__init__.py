@@ -70,7 +70,7 @@ def read(
 
 
 def diagnose(inputs: Inputs) -> Diagnosis:
-    """Return which effect the settings miss, as far as the marks can prove it."""
+    """Return which effects the settings miss, and how likely each is by the marks."""
     return diagnosis_of(inputs)
 
 
@@ -85,7 +85,7 @@ def add(inputs: Inputs, effects: Sequence[str] = (), *, patch: bool = False) -> 
 
 
 def auto(inputs: Inputs) -> AutoAddition:
-    """Return the machine with what the marks prove."""
+    """Return the machine with what the marks ask for."""
     return add_auto(inputs)
 
 

@@ -254,8 +254,7 @@ def auto_text(result: AutoAddition) -> str:
     said = [sentences([result.diagnosis.sentence], mark="")]
     if result.diagnosis.outliers:
         said.append(sentences([slip.sentence for slip in result.diagnosis.outliers]))
-    reason = result.reason[0].upper() + result.reason[1:] + "."
-    said.append(sentences([reason], mark=""))
+    said += [sentences([each], mark="") for each in result.said]
     if result.settled_by:
         said.append("To be sure which it is:\n" + sentences(result.settled_by))
     if result.offer:
@@ -278,8 +277,8 @@ def _offer_sentence(without: float, with_patch: float, *, added: bool) -> str:
 
 # What the columns of the tables of errors mean, one family of words for all commands.
 COLUMNS = (
-    "Counted: the RMS, counted for the numbers fitted. Checked: on marks not used, each predicted "
-    "by a fit without it."
+    "Noise: what reading errors alone would leave of that RMS. Checked: on marks not used, each "
+    "predicted by a fit without it."
 )
 
 
@@ -323,9 +322,9 @@ def quality_table(result: Addition) -> str:
     named = [("fitted: the frame", result.before)]
     named += [(f"fitted: + {noun_of(step.effect)}", step) for step in result.by_effect]
     for name, q in named:
-        errors = (q.fit_rms, q.corrected_rms, q.left_out_rms, q.worst, q.shape_rms)
+        errors = (q.fit_rms, q.noise_rms, q.left_out_rms, q.worst, q.shape_rms)
         rows.append([name, *map(bare, errors)])
-    return table([f"error in {unit()}", "RMS", "counted", "checked", "worst", "shape"], rows)
+    return table([f"error in {unit()}", "RMS", "noise", "checked", "worst", "shape"], rows)
 
 
 def parameter_table(result: Addition) -> str:
@@ -333,7 +332,7 @@ def parameter_table(result: Addition) -> str:
         [
             plain_size(each.name, each.value, each.low, each.high),
             plain_before(each.name, each.before, each.low, each.high),
-            "" if each.plausible else "impossible",
+            "" if each.possible else "impossible",
         ]
         for each in result.parameters
         if not each.of_patch
@@ -363,8 +362,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         action="extend",
         default=[],
-        help="effects to fit (plumb effects lists them); auto: what plumb diagnose proves; none: "
-        "the frame alone. Other effects of SETTINGS stay as they are",
+        help="effects to fit (plumb effects lists them); auto: what plumb diagnose finds "
+        "likeliest, and what every machine has; none: the frame alone. Other effects of SETTINGS "
+        "stay as they are",
     )
     parser.add_argument(
         "--hold",

@@ -41,7 +41,7 @@ from plumb.diagnosis.answer import Diagnosis
 from plumb.firmware.client_files import ClientFiles
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
-from plumb.model.plain import nouns_of
+from plumb.model.plain import plainly
 from plumb.plan import Next, Proposal, propose
 from plumb.text.answers import Internal, part
 from plumb.text.values import bare, worded
@@ -77,7 +77,7 @@ class Round:
         diagnosis, addition = self.result.diagnosis, self.result.addition
         if self.done and addition:
             chosen = self.result.chosen
-            what = f"with {nouns_of(chosen)} added" if chosen else "with the frame fitted"
+            what = f"with {plainly(chosen)} added" if chosen else "with the frame fitted"
             return (
                 f"Done: {what}, the error falls from {bare(addition.raw.rms)} to "
                 f"{worded(addition.after.fit_rms)} RMS, {worded(addition.after.left_out_rms)} "
@@ -200,14 +200,18 @@ def as_text(
     if diagnosis.outliers:
         parts.append(sentences([slip.sentence for slip in diagnosis.outliers]))
     elif this.done and addition:
+        parts += [sentences([each], mark="") for each in this.result.said]
         parts += [quality_table(addition), parameter_table(addition)]
         parts.append(sentences([COLUMNS], mark=""))
         said = [*turn_sentences(addition), *addition.cures, *addition.warnings]
         parts += [sentences(said)] if said else []
     elif diagnosis.explanations:
         parts.append(explanation_table(diagnosis))
+        if this.result.rivals:
+            # What the rivals are, and what tells them apart, is said above and below.
+            parts.append(sentences(this.result.said[1:], mark=""))
     if addition is None and not diagnosis.outliers:
-        parts.append(sentences([f"{this.result.reason.capitalize()}."], mark=""))
+        parts.append(sentences(this.result.said, mark=""))
     parts.append(headline(this.sentence))
     if this.done:
         parts.append(_written_text(files, client))

@@ -31,7 +31,7 @@ from plumb.firmware.client_files import client_files
 from plumb.fit.compare import Comparison
 from plumb.fit.inputs import Inputs
 from plumb.grid.options import Grid
-from plumb.model.plain import nouns_of
+from plumb.model.plain import plainly
 from plumb.pictures.fingerprints import Stair, draw_staircase
 from plumb.pictures.sheet import draw
 from plumb.text.errors import InputError
@@ -174,9 +174,9 @@ def _steps_table(demonstration: Demonstration) -> str:
     ]
     for step in demonstration.steps:
         quality = step.quality
-        values = (quality.fit_rms, quality.corrected_rms, quality.left_out_rms, quality.worst)
+        values = (quality.fit_rms, quality.noise_rms, quality.left_out_rms, quality.worst)
         rows.append([step.name, *map(bare, values), "kept" if step.kept else "NOT kept"])
-    return table(["error in mm", "RMS", "counted", "checked", "worst", ""], rows)
+    return table(["error in mm", "RMS", "noise", "checked", "worst", ""], rows)
 
 
 def _parameters(demonstration: Demonstration) -> str:
@@ -186,7 +186,7 @@ def _parameters(demonstration: Demonstration) -> str:
             f"{parameter.before:.6g}",
             f"{parameter.value:.6g}" if parameter.prior_sigma else f"{parameter.value:.3g}",
             parameter.unit,
-            "" if parameter.plausible else "impossible",
+            "" if parameter.possible else "impossible",
         ]
         for parameter in demonstration.chosen.parameters
     ]
@@ -201,8 +201,8 @@ def _doubts(demonstration: Demonstration) -> list[str]:
         "defaults stand for them (no sag correction, no chain tolerance).",
         "The sign of y is doubtful: the source's words and its numbers disagree. Assumed here: the "
         "numbers as the page says to read them, from the top edge down. With the other sign the "
-        f"same effects end at {flipped.after.fit_rms:.2f} mm RMS (counted "
-        f"{flipped.after.corrected_rms:.2f}, checked {flipped.after.left_out_rms:.2f}), "
+        f"same effects end at {flipped.after.fit_rms:.2f} mm RMS (checked "
+        f"{flipped.after.left_out_rms:.2f}), "
         f"{_impossible_pitch(demonstration)}",
     ]
     sag = next((p for p in chosen.parameters if p.name == "chain_sag.weight_ratio_squared"), None)
@@ -315,7 +315,7 @@ def _cure(loop: Loop) -> list[str]:
         return [f"plumb add: nothing was added: {loop.auto.reason}."]
     rise = loop.addition.sheet_rise
     return [
-        f"plumb add: {nouns_of(loop.auto.chosen)}. It promises {loop.promised:.2f} mm RMS at marks "
+        f"plumb add: {plainly(loop.auto.chosen)}. It promises {loop.promised:.2f} mm RMS at marks "
         "that it did not see.",
         f"The new numbers went to the machine. The owner {'raised' if rise > 0 else 'lowered'} the "
         f"sheet's right end by {abs(rise):.1f} mm, as told, and cut the grid on a new sheet.",
@@ -341,7 +341,7 @@ def _row(name: str, comparison: Comparison) -> list[str]:
 def reveal(loop: Loop) -> str:
     """Return the last line: what it was, and whether the lab was right."""
     hidden = loop.owner.garage.hidden
-    right = set(loop.auto.chosen) == set(hidden.effects)
+    right = set(loop.auto.named) == set(hidden.effects)
     verdict = "The lab named it" if right else "The lab named something else"
     return headline(f"Hidden was {described(hidden)}. {verdict}.")
 

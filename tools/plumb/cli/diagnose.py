@@ -1,4 +1,4 @@
-"""`plumb diagnose`: which effect the settings miss, as far as the marks can prove it."""
+"""`plumb diagnose`: which effects the settings miss, and how likely each is by the marks."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from operator import itemgetter
 from plumb.cli.arguments import add_json, add_marks, add_units
 from plumb.cli.inputs import add_stated, stated_inputs
 from plumb.cli.screen import (
-    add_named,
     auto_words,
     next_step,
     print_json,
@@ -18,12 +17,21 @@ from plumb.cli.screen import (
     table,
 )
 from plumb.diagnosis import Diagnosis, diagnose
-from plumb.diagnosis.answer import SHOWN, Together
+from plumb.diagnosis.answer import SHOWN, Together, odds_words
 from plumb.model.catalogue import every_effect, label
 from plumb.model.plain import named, noun_of, nouns_of, plain_size, plainly, ranked
 from plumb.plan import Proposal, propose
 from plumb.text.values import worded
 
+HIDING = (
+    "An effect may act although these marks do not show it. Up to: how far it may move the marks, "
+    "RMS. In the frame: how much of that a fitted frame takes up, so that no mark shows it."
+)
+COLUMNS = (
+    "Odds: against all others together. Leaves: the RMS error of the marks once it is added. "
+    "Noise: what reading errors alone would leave of that."
+)
+MOST_REASONS = 3
 BAD_NEWS = ("slip", "not_in_library")
 UNKNOWN_ADVICE = (
     "is it such a machine? The library is that of a sled on a ring or linkage; on two brackets "
@@ -65,7 +73,7 @@ def _next(diagnosis: Diagnosis, arguments: argparse.Namespace) -> str:
         return next_step("Fit the frame:", auto_words(arguments))
     first = diagnosis.explanations[0] if diagnosis.explanations else None
     if diagnosis.verdict == "one_suspect" and first and first.possible:
-        return next_step("Add it:", add_named(arguments, first.effects))
+        return next_step("Add it:", auto_words(arguments))
     return next_step("What to measure next:", ["next", *same_inputs(arguments)])
 
 
@@ -77,9 +85,11 @@ def as_text(diagnosis: Diagnosis) -> str:
     if diagnosis.disagreements:
         parts.append(sentences(diagnosis.disagreements))
     elif diagnosis.verdict == "not_in_library":
-        parts.append(sentences(_unknown_advice(diagnosis)))
+        parts.append(sentences(UNKNOWN_ADVICE))
     if diagnosis.explanations:
-        parts.append(explanation_table(diagnosis))
+        if diagnosis.verdict == "not_in_library":
+            parts.append(sentences(["These may act as well:"], mark=""))
+        parts += [explanation_table(diagnosis), sentences([COLUMNS], mark="")]
         if diagnosis.verdict == "cannot_tell":
             parts.append(_reasons(diagnosis))
         parts.append(_remedies(diagnosis))
@@ -90,50 +100,53 @@ def as_text(diagnosis: Diagnosis) -> str:
     return "\n\n".join(parts)
 
 
-def _unknown_advice(diagnosis: Diagnosis) -> list[str]:
-    """Return what to look at when nothing in the library fits."""
-    if diagnosis.noise.source != "default":
-        return list(UNKNOWN_ADVICE)
-    doubt = (
-        f"are the readings good to {worded(diagnosis.noise.sigma, 1)}? Nothing says so; holes that "
-        "wander and a coarse tape look just like this. Read some marks again, or state what you "
-        "trust them to by --sigma"
-    )
-    return [doubt, *UNKNOWN_ADVICE]
-
-
 def explanation_table(diagnosis: Diagnosis) -> str:
+    """Return the accounts of the marks, the likeliest first, with the sizes of their effects."""
     rows: list[list[str]] = []
     for explanation in diagnosis.explanations[:SHOWN]:
-        rows += [["or", "", ""]] if rows else []
+        rows += [["or", *EMPTY]] if rows else []
+        numbers = _numbers_of(explanation)
         if not explanation.effects:
-            rows.append([plainly(()), worded(explanation.rms_after), ""])
+            rows.append([plainly(()), *numbers])
         for name in explanation.effects:
+            is_first = name == explanation.effects[0]
+            rows.append(
+                [f"{'' if is_first else '+ '}{named(name)}", *(numbers if is_first else EMPTY)]
+            )
             rows += _size_rows(explanation, name)
-    return table(["suspect, with its 95 % interval", "error falls to", ""], rows, words=[-1])
+    header = ["suspect, with its 95 % interval", "odds", "leaves", "noise"]
+    return table(header, rows)
+
+
+EMPTY = ["", "", ""]
+
+
+def _numbers_of(explanation: Together) -> list[str]:
+    """Return the odds, what is left of the error, and what noise alone would leave."""
+    sizes = (explanation.rms_after, explanation.noise_rms)
+    return [odds_words(explanation.share), *map(worded, sizes)]
 
 
 def _size_rows(explanation: Together, name: str) -> list[list[str]]:
-    first = name == explanation.effects[0]
-    falls_to = worded(explanation.rms_after) if first else ""
-    rows = [[f"{'' if first else '+ '}{named(name)}", falls_to, ""]]
+    rows = []
     for size in explanation.sizes[name]:
         said = plain_size(f"{name}.{size.name}", size.value, size.low, size.high)
-        impossible = "" if size.plausible else "impossible: something else looks like it"
-        rows.append([f"  {said}", "", impossible])
+        rows.append([f"  {said}", *EMPTY])
+        if not size.possible:
+            rows.append(["  impossible: something else looks like it", *EMPTY])
     return rows
 
 
 def _reasons(diagnosis: Diagnosis) -> str:
-    """Why suspects cannot be distinguished: how little their arrows differ."""
+    """Return which suspects cannot be distinguished, for their arrows hardly differ."""
     said: list[str] = []
     for (i, j), apart in ranked(diagnosis.differences.items(), itemgetter(1)):
-        if j >= SHOWN or len(said) == 3:
+        first, second = (diagnosis.explanations[k] for k in (i, j))
+        if j >= SHOWN or len(said) == MOST_REASONS or apart > first.noise_rms:
             continue
-        nouns = [nouns_of(diagnosis.explanations[k].effects) for k in (i, j)]
         said.append(
-            f"{nouns[0]} and {nouns[1]} draw nearly the same arrows on these marks: they differ by "
-            f"{worded(apart)} RMS, the noise is {worded(diagnosis.noise.sigma)}"
+            f"{plainly(first.effects)}, or {plainly(second.effects)}: their arrows on these marks "
+            f"differ by only {worded(apart)} RMS"
         )
     return sentences(said)
 
@@ -148,11 +161,9 @@ def _remedies(diagnosis: Diagnosis) -> str:
 
 
 def _hiding(diagnosis: Diagnosis) -> str:
-    """Return how large effects that are not proved could still be."""
-    unproved = [
-        hidden for hidden in diagnosis.could_hide if hidden.effect not in diagnosis.suspects
-    ]
-    hiding = ranked(unproved, lambda hidden: -(hidden.mm or 0.0))
+    """Return how large effects could still be that are no suspects."""
+    others = [hidden for hidden in diagnosis.could_hide if hidden.effect not in diagnosis.suspects]
+    hiding = ranked(others, lambda hidden: -(hidden.mm or 0.0))
     shares = {ranked.effect: ranked.hidden_share for ranked in diagnosis.ranking}
     rows = [
         [
@@ -163,11 +174,11 @@ def _hiding(diagnosis: Diagnosis) -> str:
         for hidden in hiding[:SHOWN]
         if hidden.mm
     ]
-    blind = [hidden.effect for hidden in unproved if hidden.mm is None]
+    blind = [hidden.effect for hidden in others if hidden.mm is None]
     parts = []
     if rows:
-        header = ["could still hide", "up to", "in the frame"]
-        parts.append(table(header, rows))
+        parts.append(sentences([HIDING], mark=""))
+        parts.append(table(["could still hide", "up to", "in the frame"], rows))
     if blind:
         parts.append(sentences([f"these marks say nothing of {nouns_of(blind)}"]))
     return "\n".join(parts)

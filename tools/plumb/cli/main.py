@@ -34,9 +34,9 @@ GROUPS: Mapping[str, Mapping[str, str]] = {
     "calibrate": {
         "grid": "the G-code for a grid of calibration marks",
         "preview": "before any hole is drilled: which effects a plan of marks could tell apart",
-        "calibrate": "compare, diagnose, then add what is proved or say what to measure next",
+        "calibrate": "compare, diagnose, then add what is likeliest or say what to measure next",
         "compare": "how far the marks lie from where the settings predict them",
-        "diagnose": "which effect the settings miss, as far as the marks can prove it",
+        "diagnose": "which effects the settings miss, and how likely each is by the marks",
         "next": "what to measure next, its chance to settle the question, and the minutes it costs",
         "add": "fit the frame and the named effects to the marks, and write the new settings",
         "settings": "a fitted machine as $ lines, in its client's file, or as a table",

@@ -217,17 +217,16 @@ def _row(place: str, proposal: Proposal, counted: bool) -> list[str]:
 def _how(advice: Next) -> str:
     question = advice.proposals[0].question
     again = f"{AGAIN:.0f} minutes added for another round"
+    simulated = (
+        "Chances are simulated: each cause is taken for the truth as often as it is likely, new "
+        "readings are drawn with their noise, and the diagnosis is repeated."
+    )
     if question == SETTLE:
-        return (
-            "Chances are simulated: each suspect is taken for the truth as often as it is "
-            "probable, new readings are drawn with their noise, and the diagnosis is repeated. "
-            f"The order is chance per minute, {again}."
-        )
+        return f"{simulated} The order is chance per minute, {again}."
     if question == CONFIRM:
         return (
-            "Chances are simulated as if the effects that failed their test narrowly might be the "
-            "truth: confirmed means that only the true effect is left. Direct checks come first; "
-            f"then the order is chance per minute, {again}."
+            f"{simulated} Confirmed means that the true cause alone is left. Direct checks come "
+            f"first; then the order is chance per minute, {again}."
         )
     if question == FIND:
         return f"The order is the millimetres of doubt removed per minute, {again}."

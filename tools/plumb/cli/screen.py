@@ -151,7 +151,7 @@ def number(value: float | None) -> str:
 # The next step: the exact command, so that it can be copied.
 
 INDENT = "  "
-AUTO = "auto"  # as an effect: those that the marks prove
+AUTO = "auto"  # as an effect: those that the marks ask for
 CLIENT_OF = {".ini": "groundcontrol", ".json": "webcontrol"}  # by the ending of its file
 # What the next command has to be given again, by the name that the parser has for it.
 REPEATED = {
