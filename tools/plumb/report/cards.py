@@ -44,7 +44,7 @@ class SizeBar:
     range_low: float
     range_high: float
     zero: float
-    plausible: bool
+    possible: bool  # its interval reaches what a real machine may have
 
 
 @dataclass(frozen=True)
@@ -150,7 +150,7 @@ def _size_bar(effect: str, size: Size) -> SizeBar:
         range_low=place(known.low if np.isfinite(known.low) else least),
         range_high=place(known.high if np.isfinite(known.high) else most),
         zero=place(0.0),
-        plausible=size.plausible,
+        possible=size.possible,
     )
 
 

@@ -192,7 +192,8 @@ class Stair:
     title: str
     rms: str
     percent: float  # of the highest
-    checked: str  # RMS on marks not used; empty for the settings as they were
+    noise: str  # RMS that noise alone would leave of a fit
+    checked: str  # RMS on marks not used; empty where nothing was added
     picture: str  # empty: there are no marks
     good: bool
 
@@ -211,6 +212,7 @@ class _Stage:
     title: str
     rms: float  # [mm]
     panel: Panel
+    noise: float | None = None  # [mm] that noise alone would leave
     checked: float | None = None  # [mm]
 
 
@@ -224,6 +226,7 @@ def stairs_of(findings: Findings) -> tuple[Stair, ...]:
             title=stage.title,
             rms=worded(stage.rms),
             percent=100 * stage.rms / highest,
+            noise=worded(stage.noise) if stage.noise is not None else "",
             checked=worded(stage.checked) if stage.checked is not None else "",
             picture=arrow_map(stage.panel, scale, STAIR, name=f"stair {i}", says=stage.title)
             if scale
@@ -269,7 +272,8 @@ def _stages(findings: Findings) -> list[_Stage]:
         slips = {slip.name for slip in findings.diagnosis.outliers}
         panel = Panel("", view.places, view.errors, good=True, names=view.names)
         left = findings.frame.rms
-        return [as_set, _Stage(f"Frame fitted without {_listed(slips)}", left, panel)]
+        noise = findings.diagnosis.noise_rms
+        return [as_set, _Stage(f"Frame fitted without {_listed(slips)}", left, panel, noise)]
     return [as_set, *_fitted(findings.auto.addition)]
 
 
@@ -282,7 +286,7 @@ def _fitted(addition: Addition) -> list[_Stage]:
 
     def stage(title: str, fit: Fit, quality: Quality) -> _Stage:
         panel = Panel("", fit.predicted, fit.errors, good=True, names=names)
-        return _Stage(title, quality.fit_rms, panel, quality.left_out_rms)
+        return _Stage(title, quality.fit_rms, panel, quality.noise_rms, quality.left_out_rms)
 
     steps = [
         stage(f"+ {'patch' if step.effect == PATCH else noun_of(step.effect)}", step.fit, step)

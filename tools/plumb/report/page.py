@@ -47,7 +47,7 @@ from plumb.text.values import unit, worded
 SIDES = ("Left chain", "Right chain")
 # By verdict: a sign, and what it means in few words.
 VERDICTS = {
-    "nothing_provable": ("○", "Nothing provable"),
+    "nothing_provable": ("○", "No cause shown"),
     "one_suspect": ("●", "One explanation"),
     "cannot_tell": ("◐", "Cannot tell yet"),
     "not_in_library": ("▲", "Not in the library"),
@@ -87,8 +87,9 @@ class Account:
     """An explanation in the table of them."""
 
     words: str
+    odds: str
     rms: str
-    odds: str  # empty: they were not weighed
+    noise: str  # what noise alone would leave
 
 
 @dataclass(frozen=True)
@@ -164,7 +165,6 @@ def _sentence(words: str) -> str:
 def page_of(findings: Findings, *, commands: Sequence[Command], again: str) -> Page:
     """Return the words and pictures of a board."""
     diagnosis, auto = findings.diagnosis, findings.auto
-    explained = bool(diagnosis.explanations)
     return Page(
         title=f"{_name_of_settings(findings)} with {_names_of_marks(findings)}",
         subtitle=_subtitle(findings),
@@ -182,7 +182,7 @@ def page_of(findings: Findings, *, commands: Sequence[Command], again: str) -> P
             for each, colour in zip(findings.curves, SUSPECTS, strict=False)
         ),
         slips=diagnosis.outliers,
-        cards_title="Suspects" if explained else "The effects that come nearest",
+        cards_title="Suspects" if diagnosis.suspects else "What every machine has",
         accounts=_accounts(findings),
         cards=() if diagnosis.outliers else cards_of(findings),
         next=next_step_of(findings, commands),
@@ -248,6 +248,7 @@ def _figures(findings: Findings) -> tuple[Figure, ...]:
         figures.append(Figure("frame fitted", worded(addition.before.fit_rms)))
         if addition.by_effect:
             figures.append(Figure("effects fitted", worded(addition.after.fit_rms)))
+        figures.append(Figure("noise alone leaves", worded(addition.after.noise_rms)))
         figures.append(Figure("on marks not used", worded(addition.after.left_out_rms)))
     return (*figures, Figure("noise of a reading", worded(findings.diagnosis.noise.sigma)))
 
@@ -255,7 +256,7 @@ def _figures(findings: Findings) -> tuple[Figure, ...]:
 def _fall_note(findings: Findings) -> str:
     chosen = findings.auto.chosen
     if findings.auto.addition is None and not findings.diagnosis.outliers:
-        return f"{findings.auto.reason.capitalize()}."
+        return " ".join(findings.auto.said)
     if findings.auto.rivals and chosen:
         return f"Shown is the most likely explanation, {plainly(chosen)}: it is not settled yet."
     return ""
@@ -298,8 +299,9 @@ def _accounts(findings: Findings) -> tuple[Account, ...]:
     return tuple(
         Account(
             plainly(each.effects),
+            odds_words(each.share),
             worded(each.rms_after),
-            odds_words(each.share) if each.share is not None else "",
+            worded(each.noise_rms),
         )
         for each in explanations
     )
@@ -317,7 +319,7 @@ def _remarks(findings: Findings) -> tuple[str, ...]:
     addition = findings.auto.addition
     if addition is None:
         return ()
-    remarks = (findings.auto.reason, *addition.cures, *addition.warnings)
+    remarks = (*findings.auto.said, *addition.cures, *addition.warnings)
     return tuple(dict.fromkeys(remarks))
 
 

@@ -37,7 +37,7 @@ class Setting:
 
 @dataclass(frozen=True)
 class Hiding:
-    """An effect that is not proved, and how large it could be."""
+    """An effect that is no suspect, and how large it could be."""
 
     noun: str
     up_to: str
@@ -93,7 +93,7 @@ def settings_of(findings: Findings) -> tuple[Setting, ...]:
             name=each.name,
             exact=f"{each.value:.6g} {each.unit} ({each.low:.6g} to {each.high:.6g})",
             number=_number(words.get(each.name)),
-            note="" if each.plausible else "impossible",
+            note="" if each.possible else "impossible",
         )
         for each in addition.parameters
         if not each.of_patch
