@@ -32,7 +32,7 @@ export function SizeSlider({ parameter, held, size, hold }: SizeSliderParts) {
       />
       <p>
         {said}
-        {size && !size.plausible && <strong class="impossible"> No real machine has this.</strong>}
+        {size && !size.possible && <strong class="impossible"> No real machine has this.</strong>}
       </p>
       {held === undefined ? (
         <span class="state">fitted</span>

@@ -13,7 +13,7 @@ export function Staircase({ stairs, units }: { stairs: Stairs; units: Unit }) {
           <th scope="col">With</th>
           <td class="bars" />
           <th scope="col">fit</th>
-          <th scope="col">counted</th>
+          <th scope="col">noise</th>
           <th scope="col">checked</th>
         </tr>
       </thead>
@@ -42,7 +42,7 @@ export function Staircase({ stairs, units }: { stairs: Stairs; units: Unit }) {
               </svg>
             </td>
             <td title={namedLength(stair.fit_rms, units, 3)}>{number(stair.fit_rms)}</td>
-            <td>{number(stair.corrected_rms)}</td>
+            <td>{number(stair.noise_rms)}</td>
             <td>{number(stair.left_out_rms)}</td>
           </tr>
         ))}

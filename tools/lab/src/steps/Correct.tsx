@@ -33,7 +33,7 @@ export function Correct() {
   }
   if (made.is_slip) {
     return (
-      <Screen title="First look at a reading again" say={`${capital(made.reason)}.`}>
+      <Screen title="First look at a reading again" say={made.reasons.join(" ")}>
         <a href="#/readings">Look at the readings</a>
       </Screen>
     );
@@ -127,10 +127,10 @@ function ByHand({ cures }: { cures: string[] }) {
 }
 
 function Why({ made }: { made: Schemas["CorrectionParts"] }) {
-  const { reason, warnings, intervals } = made;
+  const { reasons, warnings, intervals } = made;
   return (
     <>
-      <p>{capital(reason)}.</p>
+      <p>{reasons.join(" ")}</p>
       {warnings.length > 0 && (
         <ul>
           {warnings.map((said) => (

@@ -14,7 +14,7 @@ import type { VerdictAnswer } from "./verdict/words";
 import "./verdict/verdict.css";
 
 const TITLES: Record<string, string> = {
-  nothing_provable: "Nothing is provable",
+  nothing_provable: "The marks show no cause",
   one_suspect: "One suspect",
   cannot_tell: "Several things could be it",
   not_in_library: "None of the known effects fits",
@@ -69,12 +69,13 @@ export function Verdict() {
       {verdict.cards.length > 0 && (
         <section aria-label="Suspects">
           <h2>Suspects</h2>
+          {verdict.apart && <p>{verdict.apart}</p>}
           <div class="cards">
             {verdict.cards.map((card) => (
               <SuspectCard key={card.title} card={card} sheet={sheet} units={units} />
             ))}
           </div>
-          {verdict.more_cards > 0 && <p>{verdict.more_cards} more would fit as well.</p>}
+          {verdict.more_cards > 0 && <p>{verdict.more_cards} more are less likely.</p>}
         </section>
       )}
       <CouldHide verdict={verdict} units={units} />
@@ -86,9 +87,9 @@ function Why({ noise, notes }: { noise: string; notes: string[] }) {
   return (
     <>
       <p>
-        The frame of the machine is always fitted first, and it swallows much of what the physics
-        does. A suspect is an effect for which nothing else in the list adds anything. Where several
-        draw nearly the same arrows on your marks, all of them are named. {noise}
+        The frame of the machine is always fitted too, and it takes up much of what the physics
+        does. Every set of effects is weighed by how well it explains your marks, and by what real
+        machines have. The odds of a suspect are against all others together. {noise}
       </p>
       {notes.length > 0 && (
         <ul>

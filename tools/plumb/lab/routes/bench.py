@@ -97,14 +97,14 @@ class BenchSize(BaseModel):
     value: float
     said: str  # in words, with its interval if it was fitted
     held: bool
-    plausible: bool
+    possible: bool  # whether its interval, or what holds it, reaches what a real machine may have
 
 
 class BenchFit(BaseModel):
     """The marks with the chosen effects, all else refitted [mm]."""
 
     fit_rms: float
-    corrected_rms: float
+    noise_rms: float  # that noise alone would leave
     left_out_rms: float
     errors: list[Pair]
     chains: list[tuple[float | None, float | None]]
@@ -119,7 +119,7 @@ class BenchStair(BaseModel):
 
     noun: str
     fit_rms: float
-    corrected_rms: float | None
+    noise_rms: float | None  # that noise alone would leave
     left_out_rms: float | None
     only_fit: bool  # the fit got better, what it did not see got worse
 
@@ -191,7 +191,7 @@ def refit(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchFit:
         intervals = intervals_sentence(fitted.sigma, warm.live.noise.source)
     return BenchFit(
         fit_rms=fitted.rms,
-        corrected_rms=fitted.corrected_rms,
+        noise_rms=fitted.noise_rms,
         left_out_rms=fitted.left_out_rms,
         errors=[_pair(error) for error in fitted.errors],
         chains=_ends(warm.view.chains(fitted.errors)),
@@ -212,13 +212,13 @@ def climb(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchStairs:
     qualities = [("frame fitted", result.before, False)]
     qualities += [(f"+ {noun_of(step.effect)}", step, step.only_fit) for step in result.by_effect]
     as_set = BenchStair(
-        noun="as set", fit_rms=warm.raw.rms, corrected_rms=None, left_out_rms=None, only_fit=False
+        noun="as set", fit_rms=warm.raw.rms, noise_rms=None, left_out_rms=None, only_fit=False
     )
     stairs = [
         BenchStair(
             noun=noun,
             fit_rms=quality.fit_rms,
-            corrected_rms=quality.corrected_rms,
+            noise_rms=quality.noise_rms,
             left_out_rms=quality.left_out_rms,
             only_fit=only_fit,
         )
@@ -325,7 +325,7 @@ def _sizes(fitted: Fit, chosen: Chosen) -> dict[str, BenchSize]:
             value=value,
             said=plain_size(name, value, *interval),
             held=name in chosen.held,
-            plausible=plausible_range(name).holds(value),
+            possible=bool(plausible_range(name).is_near(*(interval or (value, value)))),
         )
     return sizes
 

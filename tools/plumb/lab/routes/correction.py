@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from fastapi import APIRouter
@@ -46,7 +47,7 @@ class ChangedNumber(BaseModel):
     after: str
     margin: str  # of 95 %
     unit: str
-    plausible: bool
+    possible: bool  # whether its interval reaches what a real machine may have
     range_said: str  # empty: no limit is known
     is_accepted: bool
 
@@ -55,7 +56,7 @@ class CorrectionParts(BaseModel):
     """What could be changed, and what is accepted of it."""
 
     model_config = ConfigDict(json_schema_serialization_defaults_required=True)
-    reason: str  # why these effects
+    reasons: list[str]  # why these effects, in sentences
     add: list[str]  # what plumb add is given for what is accepted
     is_slip: bool = False  # nothing is fitted to a wrong reading
     numbers: list[ChangedNumber] = []
@@ -115,9 +116,10 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
         progress(0.6)
         with shown_in(choices.units):
             if auto.addition is None:
-                return CorrectionParts(reason=auto.reason, is_slip=True, add=_auto_words(choices))
+                why = list(auto.said)
+                return CorrectionParts(reasons=why, is_slip=True, add=_auto_words(choices))
             made = correct(auto.inputs, auto.chosen, choices.accepted)
-            return _parts(made, auto.reason, choices)
+            return _parts(made, auto.said, choices)
 
     answer = background.ask("correction", key, work)
     file = project.free_name("machine", *WRITTEN)
@@ -186,11 +188,11 @@ def undo(known: Write, project: TheProject) -> Undone:
     return Undone(file=name)
 
 
-def _parts(made: Correction, reason: str, choices: Choices) -> CorrectionParts:
+def _parts(made: Correction, reasons: Sequence[str], choices: Choices) -> CorrectionParts:
     whole, some = made.whole, made.accepted
     accepted = [number for number in some.parameters if has_setting(number.name)] if some else []
     return CorrectionParts(
-        reason=reason,
+        reasons=list(reasons),
         numbers=[_number(number, choices) for number in made.numbers],
         with_accepted=[_number(number, choices) for number in accepted],
         cures=[*turn_sentences(whole), *whole.cures],
@@ -231,7 +233,7 @@ def _number(number: Parameter, choices: Choices) -> ChangedNumber:
     return ChangedNumber(
         name=number.name,
         **change._asdict(),
-        plausible=number.plausible,
+        possible=number.possible,
         range_said=plain_range(number.name, low, high)
         if low is not None and high is not None
         else "",

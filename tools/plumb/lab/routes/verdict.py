@@ -49,7 +49,7 @@ class SizeAnswer(BaseModel):
     high: float | None
     plausible_low: float | None
     plausible_high: float | None
-    plausible: bool
+    possible: bool  # whether its interval reaches what a real machine may have
 
 
 class EffectAnswer(BaseModel):
@@ -71,15 +71,16 @@ class Card(BaseModel):
 
     title: str
     effects: list[EffectAnswer]
-    odds: str  # empty: not weighed
+    odds: str
     rms_after: float  # [mm]
+    noise_after: float  # [mm] that noise alone would leave
     share: float  # of what the frame leaves unexplained
     possible: bool
     looks_like: list[str]
 
 
 class Hidden(BaseModel):
-    """An effect that is not proved."""
+    """An effect that is no suspect and may act all the same."""
 
     noun: str
     mm: float
@@ -87,14 +88,15 @@ class Hidden(BaseModel):
 
 
 class Verdict(BaseModel):
-    """What the marks prove."""
+    """What the marks say."""
 
     verdict: str
     sentence: str
     rms_set: float  # [mm] as the settings stand
-    rms_frame: float  # with the frame fitted
-    rms_added: float | None  # with what is added
-    added: str  # what that is
+    rms_added: float | None  # with the frame fitted, and what is added
+    noise_added: float | None  # that noise alone would leave of that fit
+    added: str  # what is added
+    apart: str  # a sentence, where rivals would cut elsewhere by more than the noise
     sigma: float  # [mm] of a reading
     noise: str  # a sentence
     before: list[Arrow]
@@ -163,15 +165,16 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: AutoAddition) -> 
     raw = api.compare(inputs)
     addition = auto.addition
     shown = list(zip(diagnosis.explanations, diagnosis.fits, strict=True))[:MOST_CARDS]
-    unproved = [each for each in diagnosis.could_hide if each.effect not in diagnosis.suspects]
-    blind = [each.effect for each in unproved if each.mm is None]
+    others = [each for each in diagnosis.could_hide if each.effect not in diagnosis.suspects]
+    blind = [each.effect for each in others if each.mm is None]
     return Verdict(
         verdict=diagnosis.verdict,
         sentence=diagnosis.sentence,
         rms_set=raw.rms,
-        rms_frame=diagnosis.rms_before,
         rms_added=addition.after.fit_rms if addition else None,
+        noise_added=addition.after.noise_rms if addition else None,
         added=plainly(addition.effects_added) if addition and addition.effects_added else "",
+        apart=auto.apart.sentence if auto.apart else "",
         sigma=diagnosis.noise.sigma,
         noise=diagnosis.noise.sentence,
         before=[Arrow(name=m.name, place=m.predicted, error=m.error) for m in raw.marks],
@@ -211,6 +214,7 @@ def _card(diagnosis: Diagnosis, index: int, together: Together, fitted: Explanat
         effects=[_effect(diagnosis, name, together, fitted) for name in together.effects],
         odds=odds_words(together.share),
         rms_after=together.rms_after,
+        noise_after=together.noise_rms,
         share=together.explained_share(diagnosis.rms_before),
         possible=together.possible,
         looks_like=_looks_like(diagnosis, index),
@@ -268,5 +272,5 @@ def _size(effect: str, size: Size) -> SizeAnswer:
         high=size.high,
         plausible_low=low,
         plausible_high=high,
-        plausible=size.plausible,
+        possible=size.possible,
     )

@@ -14,11 +14,12 @@ interface NumbersParts {
 
 export function Numbers({ made, accepted, accept, busy }: NumbersParts) {
   const again = new Map(made.with_accepted.map((number) => [number.name, number]));
-  const all = made.numbers.map(({ name }) => name);
+  const now = made.numbers.map((number) => again.get(number.name) ?? number);
+  const believable = now.filter(({ possible }) => possible).map(({ name }) => name);
   return (
     <fieldset class="numbers" aria-busy={busy}>
       <legend>Numbers of the machine</legend>
-      {made.numbers.map((number) => (
+      {now.map((number) => (
         <label
           key={number.name}
           class={accepted.includes(number.name) ? "number accepted" : "number"}
@@ -35,15 +36,17 @@ export function Numbers({ made, accepted, accept, busy }: NumbersParts) {
             }
           />
           <span class="noun">{number.noun}</span>
-          <Change number={again.get(number.name) ?? number} />
-          <span class={number.plausible ? "plausible" : "implausible"}>
-            {number.plausible ? "plausible" : `impossible: real machines have ${number.range_said}`}
-          </span>
+          <Change number={number} />
+          {!number.possible && (
+            <span class="impossible">
+              impossible: real machines have {number.range_said}; something else looks like it
+            </span>
+          )}
         </label>
       ))}
-      {accepted.length < all.length && (
-        <button type="button" onClick={() => accept(all)}>
-          Accept all {all.length}
+      {believable.some((name) => !accepted.includes(name)) && (
+        <button type="button" onClick={() => accept([...new Set([...accepted, ...believable])])}>
+          Accept all {believable.length}
         </button>
       )}
     </fieldset>

@@ -1,4 +1,4 @@
-// How large what is not proved could still be.
+// How large effects could still be that are no suspects.
 import { namedLength, type Unit } from "../../controls/lengths";
 import type { VerdictParts } from "./words";
 
@@ -7,6 +7,10 @@ export function CouldHide({ verdict, units }: { verdict: VerdictParts; units: Un
   return (
     <section class="hidden-effects">
       <h2>What could still hide</h2>
+      <p>
+        An effect may act although your marks do not show it: it may move them by this much, RMS. A
+        fitted frame takes up the share on the right, so that no mark shows it.
+      </p>
       <table>
         <thead>
           <tr>

@@ -16,6 +16,7 @@ export function ErrorMaps({ verdict, sheet, units }: MapsParts) {
   const [exaggeration, setExaggeration] = useState(() => usual(verdict, sheet));
   if (verdict.before.length === 0) return null;
   const one = { sheet, sigma: verdict.sigma, exaggeration };
+  const { rms_added, noise_added } = verdict;
   const added = verdict.added ? `the frame and ${verdict.added}` : "the frame";
   return (
     <section class="maps" aria-label="Errors of the marks">
@@ -26,10 +27,10 @@ export function ErrorMaps({ verdict, sheet, units }: MapsParts) {
           arrows={verdict.before}
           colour="var(--before)"
         />
-        {verdict.rms_added !== null && (
+        {rms_added !== null && noise_added !== null && (
           <OneMap
             {...one}
-            title={`With ${added} fitted: ${namedLength(verdict.rms_added, units, 2)}`}
+            title={`With ${added} fitted: ${namedLength(rms_added, units, 2)}. Noise alone leaves ${namedLength(noise_added, units, 2)}`}
             arrows={verdict.after}
             colour="var(--after)"
           />

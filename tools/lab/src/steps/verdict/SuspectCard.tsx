@@ -15,7 +15,7 @@ export function SuspectCard({ card, sheet, units }: CardParts) {
   return (
     <article class="card" aria-label={card.title}>
       <h3>{card.title}</h3>
-      {card.odds && <p class="odds">Odds {card.odds}</p>}
+      <p class="odds">Odds {card.odds}</p>
       {card.effects.map((effect) => (
         <div key={effect.name} class="cause">
           <Fingerprint arrows={effect.fingerprint} sheet={sheet} noun={effect.noun} />
@@ -39,7 +39,8 @@ export function SuspectCard({ card, sheet, units }: CardParts) {
         <dt>explains</dt>
         <dd>
           {Math.round(100 * card.share)} % of what the frame leaves; the error falls to{" "}
-          {namedLength(card.rms_after, units, 2)}
+          {namedLength(card.rms_after, units, 2)}, noise alone leaves{" "}
+          {namedLength(card.noise_after, units, 2)}
         </dd>
         {card.looks_like.length > 0 && (
           <>
