@@ -19,7 +19,7 @@ from plumb.cli.home import add_touch, asked_signs, touches_of
 from plumb.cli.inputs import add_stated, stated_inputs
 from plumb.cli.output import say_failure
 from plumb.cli.screen import headline, print_json, sentences, table
-from plumb.diagnosis.check_marks import check_marks, check_sentence
+from plumb.cure.check_marks import check_marks, check_sentence
 from plumb.diary.file import RECHECK, keep, read_diary
 from plumb.diary.recheck import LEFT, RIGHT, SHEET_X, SHEET_Y, Change, Recheck, recheck
 from plumb.fit.inputs import refuse_the_same_twice, settings_in

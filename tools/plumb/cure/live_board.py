@@ -15,10 +15,10 @@ from typing import Protocol
 
 import numpy as np
 
-from plumb.diagnosis.clean import clear_outliers
 from plumb.diagnosis.explanation import Board, Explanation, explain
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.outliers import described
+from plumb.diagnosis.readings import clear_outliers
 from plumb.diagnosis.suspect_curves import SuspectCurves, seen_by, suspect_curves
 from plumb.firmware.settings import Difference, both_values, differences, numbers_in_force
 from plumb.fit.compare import chain_errors, hung_places

@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.diagnosis.answer import Diagnosis, Ranked, Together
-from plumb.diagnosis.clean import CleanReadings, clean_readings
-from plumb.diagnosis.doubts import doubts_of
+from plumb.diagnosis.answer import Diagnosis, Ranked, Together, judge
 from plumb.diagnosis.expected_error import left_open
 from plumb.diagnosis.explanation import Explanation, measured_board
 from plumb.diagnosis.noise import Noise, left_by_noise
 from plumb.diagnosis.posterior import Listed, explain_account
+from plumb.diagnosis.priors import LIKELIER
+from plumb.diagnosis.readings import CleanReadings, clean_readings, shifts
 from plumb.diagnosis.sizes import hidden_share, room_for, sizes_of
-from plumb.diagnosis.verdict import judge
 from plumb.fit.inputs import Inputs
+from plumb.marks.model import Round
 from plumb.model.catalogue import effect_names
 from plumb.model.plain import ranked
+from plumb.text.values import worded
 
 
 def diagnose(inputs: Inputs) -> Diagnosis:
@@ -112,3 +114,86 @@ def _ranking(readings: CleanReadings) -> tuple[Ranked, ...]:
         )
     by_gain = ranked(effects, lambda effect: -effect.gain)
     return tuple(ranked(by_gain, lambda effect: -effect.chance))
+
+
+# What does not go together, in sentences.
+
+
+@dataclass(frozen=True)
+class Doubts:
+    """Sentences on what does not go together."""
+
+    warnings: tuple[str, ...]
+    disagreements: tuple[str, ...]  # rounds
+
+
+def doubts_of(
+    readings: CleanReadings, verdict: str, best: Explanation, rounds: Sequence[Round]
+) -> Doubts:
+    """Return all doubts about a verdict; `rounds` are the files of marks."""
+    return Doubts(
+        warnings=(
+            *readings.noise.notes,
+            *(_place_warnings(best) if verdict == "not_in_library" else []),
+            *_unsettled_warnings((readings.frame, best)),
+            *_sign_warnings(readings),
+        ),
+        disagreements=tuple(_round_warnings(readings, [part.name for part in rounds])),
+    )
+
+
+def _place_warnings(nearest: Explanation) -> list[str]:
+    """Return where to look first if nothing in the library explains the marks."""
+    board = nearest.board
+    of_marks = [shift for shift in shifts(nearest) if shift.reading.is_mark]
+    if not of_marks:
+        return []
+    worst = ranked(of_marks, lambda shift: -shift.drop)[0]
+    name, off = board.rows.names[worst.reading.index], float(np.hypot(*worst.offset))
+    if board.rows.names.count(name) > 1:
+        return [
+            f"mark {name} stays {worded(off, 1)} off when it is read again: it is the machine there"
+        ]
+    return [
+        f"the marks are farthest off at {name}, by {worded(off, 1)}: read it again; if it stays, "
+        "it is the machine there"
+    ]
+
+
+def _unsettled_warnings(explanations: Sequence[Explanation]) -> list[str]:
+    unsettled = [fitted for fitted in explanations if not fitted.settled]
+    names = ", ".join(" + ".join(fitted.effects) or "frame" for fitted in unsettled)
+    return [f"the fit did not come to rest: {names}"] if unsettled else []
+
+
+def _sign_warnings(readings: CleanReadings) -> list[str]:
+    """Return whether the other sign of y would explain the marks better than anything does."""
+    if readings.posterior.turned_chance < LIKELIER:
+        return []
+    return [
+        "with all y errors the other way round these marks would be explained better: check that "
+        "measured and target count y in the same direction"
+    ]
+
+
+_WAYS_OUT = {
+    "new_sheet": "new_sheet = true in {name} would explain it; if it is not so, use one at a time",
+    "chains_rezeroed": "chains_rezeroed = true in {name} would explain it; if it is not so, use "
+    "one at a time",
+    "": "use one file at a time and compare what they say",
+}
+
+
+def _round_warnings(readings: CleanReadings, names: Sequence[str]) -> list[str]:
+    """Return a sentence for each round that likely does not go with the others."""
+    chances: dict[int, float] = {}
+    causes: dict[int, tuple[float, str]] = {}
+    for move, chance in readings.posterior.moved_chances.items():
+        chances[move.number] = chances.get(move.number, 0.0) + chance
+        causes[move.number] = max(causes.get(move.number, (0.0, "")), (chance, move.cause))
+    return [
+        f"{names[number]} does not go with the other rounds: do not pool them; "
+        + _WAYS_OUT[causes[number][1]].format(name=names[number])
+        for number, chance in chances.items()
+        if chance > LIKELIER
+    ]

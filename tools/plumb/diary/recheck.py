@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy
 
-from plumb.diagnosis.check_marks import LEVEL
+from plumb.cure.check_marks import LEVEL
 from plumb.diary.file import FIT, Diary, Entry
 from plumb.fit.sighting import SHEET_ROTATION
 from plumb.job.home import TOUCH_SIGMA, Touch, believed_chains, turned_back

@@ -88,7 +88,8 @@ class Problem:
     ) -> Problem:
         """Return the problem of a board for a model that starts from these settings.
 
-        Checks of numbers that are not fitted do not count. `held` are parameters of effects, by full name, that keep these sizes.
+        Checks of numbers that are not fitted do not count. `held` are parameters of effects, by
+        full name, that keep these sizes.
         """
         held = held or {}
         in_model = {name: size for name, size in held.items() if name in NAMES}

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy
 
-from plumb.diagnosis.clean import clean_readings
 from plumb.diagnosis.explanation import measured_board
 from plumb.diagnosis.priors import size_priors
+from plumb.diagnosis.readings import clean_readings
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import Problem
 from plumb.job.dry_run import Done, Moves, Run, Samples

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from plumb.diagnosis.answer import is_silent
 from plumb.diagnosis.every_machine import asked_for, clean_of, pitches
 from plumb.diagnosis.evidence import (
     FEWER,
@@ -28,7 +29,6 @@ from plumb.diagnosis.linear import LinearBoard, Metric
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.posterior import Account, listing
 from plumb.diagnosis.priors import PITCH, TOGETHER, SizePriors
-from plumb.diagnosis.verdict import is_silent
 from plumb.model.catalogue import EVERY_MACHINE
 from plumb.model.plain import ascending
 from plumb.plan.case import Ahead, Case, Planned

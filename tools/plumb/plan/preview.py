@@ -15,11 +15,11 @@ import numpy as np
 import scipy
 from pydantic import computed_field
 
+from plumb.diagnosis.answer import NOTHING
 from plumb.diagnosis.explanation import FEWEST_NUMBERS, Board, Explanation, explain
 from plumb.diagnosis.posterior import posterior_of
 from plumb.diagnosis.priors import chance_of, size_priors
 from plumb.diagnosis.sizes import hidden_share
-from plumb.diagnosis.verdict import NOTHING
 from plumb.fit.inputs import Stated
 from plumb.fit.observations import different_numbers, model_and_observations
 from plumb.fit.problem import PRIORS

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.diagnosis.clean import shifts
 from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.noise import KNOWN, Noise
 from plumb.diagnosis.outliers import readings_of, without
+from plumb.diagnosis.readings import shifts
 from plumb.diagnosis.sizes import hidden_share, room_for, sizes_of
 from plumb.fit.expected import plausible_range
 from plumb.fit.fit import fit

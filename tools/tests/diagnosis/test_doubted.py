@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.diagnosis.doubts import doubted_readings
+from plumb.diagnosis.readings import doubted_readings
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Mark, Measurements
 from synthetic import BELIEVED, distances_between, grid, marks_on

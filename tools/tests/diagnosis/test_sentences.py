@@ -1,4 +1,4 @@
-"""What a verdict says: forty words, two causes in its first sentence, and odds as people say them."""
+"""What a verdict says: forty words, two causes in its first sentence, odds as people say them."""
 
 from types import SimpleNamespace
 
@@ -43,7 +43,8 @@ def test_one_suspect_is_named_with_odds_the_fall_and_the_noise():
 def test_of_several_the_two_likeliest_are_named():
     rivals = account("chain_sag", share=0.6), account(share=0.3), account("tape_scale", share=0.05)
     assert said_of("cannot_tell", *rivals[:2]) == (
-        "The marks cannot tell yet. Most likely it is chain sag, 3 to 2, or the frame alone, 1 to 2."
+        "The marks cannot tell yet. Most likely it is chain sag, 3 to 2, or the frame alone, 1 to "
+        "2."
     )
     assert said_of("cannot_tell", *rivals).endswith("1 to 2. 1 more is possible.")
     assert said_of("cannot_tell", *rivals, rivals[2]).endswith("2 more are possible.")

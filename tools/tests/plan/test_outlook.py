@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plan_cases import MACHINE, SIGMA, case_on, nine
+from plumb.diagnosis.answer import NOTHING
 from plumb.diagnosis.every_machine import asked_for, clean_of
 from plumb.diagnosis.evidence import Noises, accounts_of, fitted
 from plumb.diagnosis.linear import LinearBoard, Metric
 from plumb.diagnosis.posterior import Account, listing
-from plumb.diagnosis.verdict import NOTHING
 from plumb.marks.read import Measurements
 from plumb.plan.case import Check, Planned
 from plumb.plan.options import many_marks

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plan_cases import MACHINE, SIGMA
+from plumb.diagnosis.answer import NOTHING
 from plumb.diagnosis.every_machine import clean_of
 from plumb.diagnosis.evidence import Noises, accounts_of
 from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.linear import LinearBoard
-from plumb.diagnosis.verdict import NOTHING
 from plumb.fit.observations import model_and_observations
 from plumb.marks.read import Mark, Measurements
 from plumb.model.catalogue import EVERY_MACHINE, effect_names, parameter_words

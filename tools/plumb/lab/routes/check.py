@@ -8,7 +8,7 @@ import numpy as np
 from fastapi import APIRouter
 from pydantic import BaseModel
 
-from plumb.diagnosis.check_marks import Check, CheckedMark, check_marks, check_sentence
+from plumb.cure.check_marks import Check, CheckedMark, check_marks, check_sentence
 from plumb.fit.inputs import Inputs, settings_in
 from plumb.grid import program
 from plumb.lab.machine_line import TheLine, refuse_other_machine

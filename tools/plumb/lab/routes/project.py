@@ -10,7 +10,7 @@ from typing import Annotated
 from fastapi import APIRouter, Depends, Header, Request, UploadFile
 from pydantic import BaseModel
 
-from plumb.diagnosis.doubts import Doubted, doubted_readings
+from plumb.diagnosis.readings import Doubted, doubted_readings
 from plumb.fit.inputs import Inputs, settings_in
 from plumb.lab.guard import TheEditor
 from plumb.lab.known import refuse_absurd_known, stated

@@ -22,7 +22,12 @@ from plumb.diagnosis.outliers import (
 )
 from plumb.diagnosis.posterior import Posterior, explain_account, posterior_of
 from plumb.fit.inputs import Inputs, Stated
+from plumb.fit.observations import model_and_observations
+from plumb.fit.problem import USUAL_SIGMA
+from plumb.marks.plausible import far_reading
+from plumb.marks.read import Measurements
 from plumb.model.plain import greatest
+from plumb.text.values import worded
 
 DOUBTED = 1 / 3  # chance from which on a reading is read again: that costs a minute
 SHARE_OF_OUTLIERS = 12  # with more than one in this many readings outliers are not the story
@@ -132,3 +137,83 @@ def shifts(explanation: Explanation) -> list[Shift]:
         sigma = np.sqrt(np.diag(inverse))
         of_readings.append(Shift(reading, offset * board.sigma, sigma * board.sigma, drop))
     return of_readings
+
+
+# Readings to look at again while the others are still being typed.
+#
+# A reading too far from its target for any machine is named at once. The others are weighed as a
+# diagnosis weighs them, however few they are: what is known of frames, effects and outliers before
+# any mark says how far a reading may be off, and each further reading narrows it.
+
+
+@dataclass(frozen=True)
+class Doubted:
+    """A reading to look at again, by its index among the marks or the distances."""
+
+    index: int
+    is_mark: bool
+    off: float  # [mm]
+    sentence: str
+    corrected: tuple[float, ...] | None  # [mm] the reading that was meant, if that is likely
+
+
+def doubted_readings(inputs: Inputs) -> tuple[Doubted, ...]:
+    """Return the readings so far that no machine explains. Raises InputError for a bad target."""
+    far = _far_readings(inputs)
+    near = _without(inputs.measurements, {doubt.index for doubt in far})
+    if not near.measured_marks and not near.distances:
+        return far
+    outliers = _outliers(replace(inputs, measurements=near))
+    return (*far, *(_doubted(outlier, inputs.measurements) for outlier in outliers))
+
+
+def _far_readings(inputs: Inputs) -> tuple[Doubted, ...]:
+    measurements = inputs.measurements
+    sheet = (measurements.rounds[0].cut_with or inputs.cut_with or inputs.settings).sheet
+    doubts = []
+    for index, mark in enumerate(measurements.marks):
+        far = far_reading(measurements, mark, sheet)
+        if far:
+            cause = f"; {far.mistake}" if far.mistake else ""
+            said = f"it reads {worded(far.error, 0)} from where the mark was sent{cause}"
+            doubts.append(Doubted(index, True, far.error, said, far.corrected))
+    return tuple(doubts)
+
+
+def _without(measurements: Measurements, indices: set[int]) -> Measurements:
+    """Return the measurements without the readings of some marks, and without marks that wait."""
+    ends = {name for distance in measurements.distances for name in distance.between}
+    marks = [
+        replace(mark, measured=None) if index in indices else mark
+        for index, mark in enumerate(measurements.marks)
+    ]
+    kept = (mark for mark in marks if mark.measured is not None or mark.name in ends)
+    return replace(measurements, marks=tuple(kept))
+
+
+def _outliers(inputs: Inputs) -> tuple[Outlier, ...]:
+    """Outliers among readings that are near enough, however few they are."""
+    model, rows = model_and_observations(
+        inputs.settings,
+        inputs.measurements,
+        cut_with=inputs.cut_with,
+        controller=inputs.controller,
+    )
+    sigma = inputs.stated.sigma if inputs.stated else USUAL_SIGMA
+    board = Board.of(model, rows, sigma=sigma, priors=inputs.priors, checked=inputs.checked)
+    return clean_readings(board, inputs).outliers
+
+
+def _doubted(outlier: Outlier, measurements: Measurements) -> Doubted:
+    """Return an outlier among all readings: the marks and distances are those of its name and
+    number.
+    """
+    is_mark = len(outlier.read) == 2
+    places: list[tuple[str, tuple[float, ...] | None]]
+    if is_mark:
+        places = [(mark.name, mark.measured) for mark in measurements.marks]
+    else:
+        places = [(" - ".join(each.between), (each.length,)) for each in measurements.distances]
+    said = outlier.sentence.partition(": ")[2]
+    index = places.index((outlier.name, outlier.read))
+    return Doubted(index, is_mark, outlier.length, said, outlier.corrected)

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from plumb import api
-from plumb.diagnosis.check_marks import check_marks
+from plumb.cure.check_marks import check_marks
 from plumb.marks.model import Mark, Measurements, Round
 from plumb.model.predict import lengths, places
 from plumb.plan.planned_visits import check_places
