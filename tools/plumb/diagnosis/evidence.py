@@ -247,7 +247,7 @@ def log_orthant(mean: Array, covariance: Array) -> Array:
 
 NOISE_STEP = 0.15  # of the logarithm of the noise, at most
 NOISE_REACH = 5.0  # spreads of its prior to both sides
-NEGLIGIBLE = 9.0  # nats below the best: what is less likely is not looked at
+NEGLIGIBLE = 6.0  # nats below the best: what is less likely is not looked at
 
 
 @dataclass(frozen=True)

@@ -184,7 +184,7 @@ def _fit_of(problem: Problem, solution: Solution, stated: float | None, degrees:
 
 
 def _left_by_noise(rows: Observations, leverages: Array) -> float:
-    """RMS that a fit leaves of noise with a sigma of one: of marks as vectors, or of distances."""
+    """RMS that a fit leaves of noise of 1 mm [mm]: of marks as vectors, or of distances."""
     counted = leverages[: rows.measured.size] if len(rows.measured) else leverages
     return float(np.sqrt(np.sum(1 - counted) / (len(rows.measured) or len(counted))))
 
