@@ -111,14 +111,16 @@ def asked_for(
         if int(column) in clean.at_settings
     }
     has_pitch = bool(board.sizes.pitch.any())
-    return [
-        (
-            *(name for name in accounts.effects[i] if name not in every),
-            *([PITCH] if has_pitch and _drifts(accounts, clean, i) else []),
-            *(name for name, ratio in every.items() if ratio[i] < -np.log(ONE_IN)),
-        )
-        for i in sets
-    ]
+    asked = []
+    for i in sets:
+        wanted = {*accounts.effects[i]} - {*every}
+        if has_pitch and _drifts(accounts, clean, i):
+            wanted.add(PITCH)
+        # In one order, so that the same effects are one account whichever set asks for them.
+        only_some = (name for name in board.columns if name in wanted)
+        usual = (name for name, ratio in every.items() if ratio[i] < -np.log(ONE_IN))
+        asked.append((*only_some, *usual))
+    return asked
 
 
 def _drifts(accounts: Accounts, clean: Clean, i: int) -> bool:
