@@ -18,6 +18,7 @@ from plumb.diagnosis.suspect_curves import model_by
 from plumb.fit.compare import best_pose
 from plumb.fit.expected import places_over
 from plumb.fit.observations import Observations, visited
+from plumb.model.plain import ranked
 from plumb.model.predict import FOUND, NAMES, Array, lengths
 from plumb.text.answers import Internal
 from plumb.text.values import worded
@@ -177,7 +178,7 @@ def rival_error(explanations: Sequence[Explanation], noise: float) -> RivalError
         (int(r), int(c)): float(np.sqrt(np.mean(squares[(row == r) & (column == c)])))
         for r, c in cells
     }
-    worst = max(rms, key=lambda cell: rms[cell])
+    worst = ranked(rms, lambda cell: -rms[cell])[0]
     if rms[worst] <= noise:
         return None
     mirrored = rms[worst[0], 2 - worst[1]]

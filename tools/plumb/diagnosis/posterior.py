@@ -48,7 +48,7 @@ from plumb.diagnosis.priors import (
 )
 from plumb.fit.inputs import Stated
 from plumb.model.catalogue import EVERY_MACHINE
-from plumb.model.plain import ascending
+from plumb.model.plain import ascending, greatest, ranked
 
 Array = np.ndarray
 REFITTED = 6  # likeliest sets that are made linear about the fit of each
@@ -167,7 +167,7 @@ def listing(accounts: Sequence[Account], weights: Array) -> list[Listed]:
             float(chances[i])
         )
         before += float(chances[i])
-    order = sorted(kept, key=lambda i: -kept[i])
+    order = ranked(kept, lambda i: -kept[i])
     held = np.cumsum([kept[i] for i in order]) - np.array([kept[i] for i in order])
     return [
         Listed(accounts[i], kept[i])
@@ -188,7 +188,7 @@ def posterior_of(board: Board, stated: Stated | None) -> Posterior:
     few = accounts.up_to(2)
     # A field takes the place of most effects: sets that are unlikely without it stay so.
     likely = (clean.total > clean.total.max() - UNLIKELY) | _small(accounts)
-    sigma = float(noises.sigmas[np.argmax(clean.by_noise)])
+    sigma = float(noises.sigmas[greatest(clean.by_noise)])
     others = fields(frame, sigma)
     field, noise_of_field = _with_others(linear, few.among(likely), noises, others, FIELD)
     moves = moved_rounds(frame)
@@ -289,7 +289,7 @@ def _accounts(
                 clean=float(np.logaddexp(known.clean, clean.total[i])),
                 field=float(np.logaddexp(known.field, field[i])),
             )
-    return tuple(sorted(together.values(), key=lambda account: -account.clean))
+    return tuple(ranked(together.values(), lambda account: -account.clean))
 
 
 def _refitted(
