@@ -1,0 +1,153 @@
+"""One posterior: its parts are shares of a whole, and the accounts that are listed hold most."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hidden_boards import board, size_for
+from plumb.bench.boards import cut, plan
+from plumb.bench.causes import BARE, MAKER, Hidden
+from plumb.diagnosis.explanation import measured_board
+from plumb.diagnosis.posterior import (
+    LISTED,
+    MOST_LISTED,
+    Account,
+    explain_account,
+    listing,
+    posterior_of,
+)
+from plumb.diagnosis.priors import usual_checks
+from plumb.fit.inputs import Inputs, Stated
+from plumb.model.catalogue import EVERY_MACHINE
+from scipy import special
+
+NINE = plan(3, 3)
+FINAL = Stated(0.5, is_final=True)
+
+
+def listed(shares):
+    """The accounts that are listed, by the shares of all."""
+    accounts = [Account(effects, effects, 0.0, 0.0) for effects in shares]
+    weights = np.log([*shares.values()]) + 7.0
+    return [(each.account.effects, each.share) for each in listing(accounts, weights)]
+
+
+def test_the_fewest_accounts_that_hold_nearly_all_are_listed():
+    shares = {("a",): 0.6, ("b",): 0.3, ("c",): 0.06, ("d",): 0.04}
+    assert listed(shares) == [
+        (("a",), pytest.approx(0.6)),
+        (("b",), pytest.approx(0.3)),
+        (("c",), pytest.approx(0.06)),
+    ]
+    assert listed({("a",): LISTED + 0.001, ("b",): 0.049}) == [(("a",), pytest.approx(0.951))]
+    assert [each for each, _ in listed({("a",): LISTED - 0.001, ("b",): 0.051})] == [("a",), ("b",)]
+    many = {(str(i),): 0.05 for i in range(20)}
+    assert len(listed(many)) == MOST_LISTED
+
+
+def test_an_account_that_only_adds_to_a_likelier_one_counts_with_it():
+    shares = {("a",): 0.6, ("a", "b"): 0.2, ("b", "c"): 0.15, ("d",): 0.05}
+    assert listed(shares) == [
+        (("a",), pytest.approx(0.8)),
+        (("b", "c"), pytest.approx(0.15)),
+    ]
+    # One that is likelier with more stays, and what is in it stays beside it.
+    assert [each for each, _ in listed({("a", "b"): 0.6, ("a",): 0.4})] == [("a", "b"), ("a",)]
+
+
+def test_no_cause_is_hidden_in_nothing():
+    shares = {(): 0.6, ("a",): 0.3, ("b",): 0.1}
+    assert listed(shares) == [(each, pytest.approx(share)) for each, share in shares.items()]
+
+
+def test_what_gains_by_its_supersets_comes_first():
+    shares = {("a",): 0.4, ("b",): 0.38, ("b", "c"): 0.22}
+    assert [each for each, _ in listed(shares)] == [("b",), ("a",)]
+
+
+@pytest.fixture(scope="module")
+def clean():
+    """The posterior of nine marks on which a tape reads long."""
+    size = size_for("tape_scale", NINE, 3.0)
+    measured = board({"tape_scale": size}, NINE, seed=3)
+    return posterior_of(measured_board(Inputs(MAKER, measured)), FINAL)
+
+
+def test_all_that_may_be_holds_the_whole(clean):
+    whole = (
+        sum(np.exp([each.clean for each in clean.accounts]))
+        + sum(np.exp([each.field for each in clean.accounts]))
+        + sum(np.exp([weight for _, weight in clean.moved]))
+        + sum(np.exp(clean.outliers))
+    )
+    assert clean.field_chance == pytest.approx(
+        sum(np.exp([each.field for each in clean.accounts])) / whole
+    )
+    assert clean.outlier_chances == pytest.approx(np.exp(clean.outliers) / whole)
+    assert len(clean.outliers) == 9 and clean.moved == ()
+    assert clean.turned_chance == pytest.approx(
+        np.exp(clean.turned) / (np.exp(clean.turned) + whole)
+    )
+    for name, chance in clean.effect_chances.items():
+        with_it = [each.clean for each in clean.accounts if name in each.effects]
+        assert chance == pytest.approx(np.exp(special.logsumexp(with_it) - clean.clean))
+    assert clean.nothing_chance < 0.01 < clean.effect_chances["tape_scale"]
+
+
+def test_accounts_come_once_each_and_the_likeliest_first(clean):
+    effects = [frozenset(each.effects) for each in clean.accounts]
+    assert len({*effects}) == len(effects)
+    weights = [each.clean for each in clean.accounts]
+    assert weights == sorted(weights, reverse=True)
+    listed = clean.listed()
+    assert listed[0].account is clean.accounts[0] and "tape_scale" in listed[0].account.effects
+    assert listed[0].share >= np.exp(weights[0] - clean.clean)
+
+
+def bare_posterior(layout, noise):
+    """Of a machine as every machine is, cut with settings that know of no sag and no stretch."""
+    made = cut(Hidden(), layout, seed=3, noise=noise, settings=BARE).measurements
+    return posterior_of(measured_board(Inputs(BARE, made)), Stated(noise, is_final=True))
+
+
+def test_what_every_machine_has_is_no_suspect_where_marks_say_nothing_of_it():
+    # Settings without sag or stretch, and marks that are read too badly to tell.
+    posterior = bare_posterior(NINE, 4.0)
+    assert all(not {*each.account.effects} & {*EVERY_MACHINE} for each in posterior.listed())
+    # Read well, they tell that the chain sags.
+    assert "chain_sag" in bare_posterior(plan(5, 5), 0.1).accounts[0].effects
+
+
+def test_sizes_that_no_machine_has_are_unlikely_by_themselves():
+    # A leaning frame draws the same arrows as sag, but would have to lean by 58 degrees.
+    size = size_for("chain_sag", NINE, 3.0)
+    measured = board({"chain_sag": size}, NINE, seed=101)
+    posterior = posterior_of(measured_board(Inputs(MAKER, measured)), FINAL)
+    assert ["chain_sag"] == [*posterior.listed()[0].account.effects]
+    assert not any(each.account.effects == ("frame_lean",) for each in posterior.listed())
+
+
+def test_an_account_is_refitted_with_what_every_machine_has():
+    frame = bare_posterior(NINE, 0.5).frame
+    bare = explain_account(frame, (), ())
+    assert {*bare.effects} == {*EVERY_MACHINE}
+    held = usual_checks(frame.board, EVERY_MACHINE)
+    values = bare.board.problem.start + bare.board.problem.scale * bare.unknowns
+    for check in held:
+        value = values[bare.board.problem.names.index(check.name)]
+        assert abs(value - check.value) < 3 * check.sigma
+    # What is asked for by itself is as free as any effect, and what settings have is left to them.
+    free = explain_account(frame, ("chain_stretch",), ("chain_stretch",))
+    assert free.board.usual == 1
+    known = replace(frame, board=measured_board(Inputs(MAKER, board({}, NINE, seed=3))))
+    assert explain_account(known, ("chain_pitch",), ("chain_pitch",)).effects == ("chain_pitch",)
+
+
+def test_a_size_that_cannot_be_is_held_at_zero():
+    frame = posterior_of(measured_board(Inputs(MAKER, board({}, NINE, seed=4))), FINAL).frame
+    for seed in range(6):
+        measured = board({}, NINE, seed=seed)
+        at = measured_board(Inputs(MAKER, measured))
+        fitted = explain_account(replace(frame, board=at), ("chain_plane",), ("chain_plane",))
+        (column,) = at.columns(["chain_plane"])
+        assert fitted.unknowns[column] > -2e-3
