@@ -166,7 +166,9 @@ def _write_answer(record: Record, diagnosis: Diagnosis, hidden: HiddenBoard) -> 
                 if limit.largest is not None
             )
     # What an engine says beyond that, where it does.
-    record.effect_chances = dict(getattr(diagnosis, "effect_chances", None) or {})
+    record.effect_chances = {
+        each.effect: each.chance for each in diagnosis.ranking if hasattr(each, "chance")
+    }
     for name in ("field_chance", "nothing_chance", "outlier_chance"):
         setattr(record, name, getattr(diagnosis, name, None))
 
