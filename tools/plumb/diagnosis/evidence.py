@@ -219,15 +219,19 @@ def log_orthant(mean: Array, covariance: Array) -> Array:
     """Return the logarithm of the mass (b,) that normals have where nothing is negative.
 
     mean (k, b), infinite where either sign is possible; covariance (k, k, b). One number
-    after the other is taken to be positive, and what that says of the others is kept as a normal
-    again (Mendell and Elston 1974).
+    after the other is taken to be positive, the least likely first, and what that says of the
+    others is kept as a normal again (Mendell and Elston 1974).
     """
     each = np.arange(len(mean))
     sure = FAR * np.sqrt(covariance[each, each]) < mean
     bounded = np.flatnonzero(~sure.all(axis=1))
     mass = np.zeros(mean.shape[1])
     mean = np.where(np.isfinite(mean), mean, 1e6)[bounded]
-    spread = covariance[np.ix_(bounded, bounded)].copy()
+    spread = covariance[np.ix_(bounded, bounded)]
+    each = np.arange(len(bounded))
+    order = np.argsort(mean / np.sqrt(spread[each, each]), axis=0)
+    mean = np.take_along_axis(mean, order, axis=0)
+    spread = spread[order[:, np.newaxis], order, np.arange(len(mass))]
     for i in range(len(mean)):
         deviation = np.sqrt(spread[i, i])
         at = mean[i] / deviation

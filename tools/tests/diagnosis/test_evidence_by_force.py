@@ -1,0 +1,114 @@
+"""Evidence against the same worked out with full covariances, and orthants against integrals."""
+
+import numpy as np
+import pytest
+import scipy.special
+import scipy.stats
+from plumb.bench.boards import cut, plan
+from plumb.bench.causes import PUBLISHED, Hidden, causes_of
+from plumb.diagnosis.evidence import (
+    UNLIKELY,
+    Noises,
+    accounts_of,
+    fitted,
+    log_orthant,
+    outlier_weights,
+)
+from plumb.diagnosis.explanation import explain, measured_board
+from plumb.diagnosis.linear import LinearBoard, Metric, fields
+from plumb.diagnosis.posterior import felt_effects
+from plumb.diagnosis.priors import OUTLIER_SPREADS
+from plumb.fit.inputs import Inputs
+
+SIGMA = 0.6
+LIKELIEST = 5  # accounts of each part that are worked out by force
+FRAME = explain(
+    measured_board(
+        Inputs(
+            PUBLISHED,
+            cut(Hidden(((causes_of("sled_swing")[0], 2.0),)), plan(3, 3), seed=4).measurements,
+        )
+    )
+)
+BOARD = LinearBoard.of(FRAME, felt_effects(FRAME))
+ACCOUNTS = accounts_of(BOARD, 2)
+READ = BOARD.read[:, 0]
+FIELD = fields(FRAME, SIGMA)[4]
+
+
+def covariance(*, other=None, pitch=False, off=(), spread=0.0):
+    """Of the readings with noise, frame and one other thing."""
+    beyond = len(READ) - BOARD.measured
+    whole = np.diag(np.r_[np.full(BOARD.measured, SIGMA**2), np.ones(beyond)])
+    whole += BOARD.frame @ BOARD.frame.T
+    if pitch:
+        columns = BOARD.effects * BOARD.sizes.pitch
+        whole += columns @ columns.T
+    if other is not None:
+        inside = (other.axes * other.variances) @ other.axes.T
+        whole[: BOARD.measured, : BOARD.measured] += inside
+    for row in off:
+        whole[row, row] += spread**2
+    return whole
+
+
+def by_force(index, variance, **more):
+    """Log density of the readings but for 2 pi, and the log ratio of the masses of its signs."""
+    drawn, without = BOARD.effects[:, index], covariance(**more)
+    whole = without + drawn @ np.diag(variance) @ drawn.T
+    density = -(np.linalg.slogdet(whole)[1] + READ @ np.linalg.solve(whole, READ)) / 2
+    solved = np.linalg.solve(without, np.c_[drawn, READ])
+    after = np.linalg.inv(drawn.T @ solved[:, :-1] + np.diag(1 / variance))
+    mean = after @ drawn.T @ solved[:, -1]
+    edge = (BOARD.sizes.mean - BOARD.sizes.least)[index]
+    held = np.isfinite(edge)
+    before = scipy.special.log_ndtr(edge[held] / np.sqrt(variance[held])).sum()
+    normal = scipy.stats.multivariate_normal(
+        -(mean + edge)[held], after[np.ix_(held, held)], maxpts=20_000, abseps=1e-5, seed=1
+    )
+    return density, np.log(normal.cdf(np.zeros(held.sum()))) - before
+
+
+@pytest.mark.parametrize(
+    "more", [{}, {"pitch": True}, {"other": FIELD}], ids=["nothing", "pitch", "field"]
+)
+def test_the_evidence_of_sets_is_the_density_of_the_readings(more):
+    metric = Metric.of(BOARD, np.array([SIGMA]), more.get("other"), pitch=more.get("pitch", False))
+    for part in ACCOUNTS.parts:
+        fit = fitted(part, BOARD.sizes, metric)
+        # Impossible signs are weighed only for what is likely.
+        likely = np.flatnonzero(fit.evidence[0] > fit.evidence[0].max() - UNLIKELY + 1)
+        for place in likely[np.argsort(-fit.evidence[0, likely])[:LIKELIEST]]:
+            density, signs = by_force(part.index[place], part.variance[place], **more)
+            assert fit.loose[0, place] - part.log_prior[place] == pytest.approx(density, abs=1e-6)
+            assert fit.possible[0, place] == pytest.approx(signs, abs=0.1)
+
+
+def test_signs_that_rule_an_account_out_cost_as_much_as_they_should():
+    """What presses hard against its edge is taken first: it moves the others most."""
+    spread = np.array([1.0, 0.4, 0.7])
+    alike = np.array([[1.0, -0.8, 0.3], [-0.8, 1.0, -0.1], [0.3, -0.1, 1.0]])
+    covariance = alike * np.outer(spread, spread)
+    for mean in ([0.5, -2.0, 0.2], [-3.0, 0.1, 0.5], [2.0, -1.5, -1.0]):
+        normal = scipy.stats.multivariate_normal(-np.array(mean), covariance, seed=1)
+        mass = log_orthant(np.array(mean)[:, np.newaxis], covariance[:, :, np.newaxis])
+        assert mass[0] == pytest.approx(np.log(normal.cdf(np.zeros(3))), abs=0.4)
+
+
+def test_the_evidence_of_a_reading_that_is_off_is_that_of_a_shift_of_its_rows():
+    few = ACCOUNTS.up_to(1)
+    marks = len(FRAME.board.rows.measured)
+    numbers = np.arange(2 * marks).reshape(-1, 2)
+    known = Noises(np.array([SIGMA]), np.zeros(1))
+    weights = np.atleast_2d(outlier_weights(BOARD, few, known, numbers))[0]
+    for reading in (0, 4):
+        several = [
+            log_prior + sum(by_force(index, variance, pitch=True, off=numbers[reading], spread=mm))
+            for mm in OUTLIER_SPREADS
+            for part in few.parts
+            for index, variance, log_prior in zip(
+                part.index, part.variance, part.log_prior, strict=True
+            )
+        ]
+        whole = np.logaddexp.reduce(several) - np.log(marks * len(OUTLIER_SPREADS))
+        assert weights[reading] == pytest.approx(whole, abs=0.03)
