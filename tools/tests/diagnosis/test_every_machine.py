@@ -57,7 +57,7 @@ def test_the_settings_are_doubted_by_how_likely_they_make_the_readings(size):
 
 
 def clean(*, nominal=0.0, at_settings=0.0):
-    """What is said of three sets; the log share of nominal chains, the log ratio at the settings."""
+    """What is said of three sets: the log share of nominal chains, the log ratio at settings."""
     return Clean(np.zeros(3), np.full(3, nominal), {0: np.full(3, at_settings)}, np.zeros(1))
 
 

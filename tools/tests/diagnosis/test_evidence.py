@@ -18,7 +18,7 @@ from plumb.diagnosis.evidence import (
 from plumb.diagnosis.linear import Metric, Other
 from plumb.diagnosis.priors import ACTS, ALL, OUTLIER_SPREADS, UNUSUAL
 from plumb.fit.inputs import Stated
-from scipy import integrate, special, stats
+from scipy import special, stats
 
 SIGMAS = np.array([0.3, 0.5, 1.1])
 EITHER_SIGN = (-np.inf,) * 4
@@ -85,23 +85,21 @@ def test_what_cannot_be_negative_counts_over_its_possible_sizes_alone(pull):
     for a in (first, first + 1):  # of typical and of large sizes
         without = replace(part, variance=part.variance * (np.arange(part.index.shape[1]) != place))
         covariance = in_full(board, without, a, covariance_of(board, SIGMAS[1]))
-        density, spread = (
-            stats.multivariate_normal(cov=covariance),
-            np.sqrt(part.variance[a, place]),
-        )
-        best = max(
-            density.logpdf(board.read[:, 0] - size * board.effects[:, 1])
-            for size in (0, pull)
-            if size >= 0
-        )
-
-        def half_normal(size):
-            log = density.logpdf(board.read[:, 0] - size * board.effects[:, 1]) - best
-            return np.exp(log) * 2 * stats.norm.pdf(size, scale=spread)
-
-        whole = integrate.quad(half_normal, 0, 30, points=[0.01, 0.1, 1.0, 3.0], limit=200)[0]
+        wanted = log_density_of_half_normal(board, covariance, np.sqrt(part.variance[a, place]))
         ours = fit.evidence[0, a] - part.log_prior[a] - constant(board)
-        assert ours == pytest.approx(np.log(whole) + best, abs=1e-4)
+        assert ours == pytest.approx(wanted, abs=1e-4)
+
+
+def log_density_of_half_normal(board, covariance, spread):
+    """Of the readings, over all sizes of the second effect that are not negative."""
+    density = stats.multivariate_normal(cov=covariance)
+
+    def log_at(size):
+        return density.logpdf(board.read[:, 0] - size * board.effects[:, 1])
+
+    sizes = np.linspace(0.0, 8 * spread, 200001)[:, np.newaxis]
+    logs = log_at(sizes) + stats.halfnorm.logpdf(sizes[:, 0], scale=spread)
+    return special.logsumexp(logs, b=np.r_[0.5, np.ones(len(logs) - 1)]) + np.log(sizes[1, 0])
 
 
 def random_normals(source, k):

@@ -1,10 +1,13 @@
 """expected_error: how far off a job would be, against machines made by chance."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from plumb.diagnosis.expected_error import expected_error
+from plumb.diagnosis.expected_error import BOTH_WORDS, SIDE_WORDS, expected_error, rival_error
 from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.suspect_curves import model_by
+from plumb.fit.expected import places_over
 from plumb.fit.observations import observe
 from plumb.marks.read import Measurements
 from plumb.model.predict import lengths, places
@@ -66,3 +69,71 @@ def test_the_grid_covers_the_sheet_from_the_top_down():
     assert expected.sigma.shape == (len(expected.y), len(expected.x))
     # Marks settle the middle better than the corners.
     assert expected.sigma[10, 20] < expected.sigma[0, 0]
+
+
+# By how much, and where, the settings of rivals differ.
+
+
+def explained(effects):
+    """An explanation in which a machine has these sizes, in typical sizes; nothing else is off."""
+    board = board_of(1)
+    frame = explain(board)
+    unknowns = np.zeros(len(frame.unknowns))
+    for name, size in effects.items():
+        unknowns[board.columns([name])] = size
+    at = replace(frame.at, unknowns=unknowns)
+    return replace(frame, effects=tuple(effects), at=at)
+
+
+def test_rivals_that_lead_to_the_same_places_do_not_differ():
+    used = explained({"chain_pitch": 1.0})
+    assert rival_error([used], 0.0) is None
+    assert rival_error([used, used], 1e-6) is None
+    # Where the sheet lies and what only the tape does is no difference between holes.
+    assert rival_error([used, explained({"chain_pitch": 1.0, "tape_scale": 5.0})], 1e-6) is None
+
+
+def test_rivals_differ_by_what_is_left_when_the_sheet_is_laid_anew():
+    used, rival = explained({}), explained({"chain_pitch": np.array([2.0, 2.0])})
+    found = rival_error([used, rival], 0.0)
+    model, other = model_by(used), model_by(rival)
+    spots = places_over(model.sheet)
+    there = places(other, lengths(model, spots)[0])[0]
+    # A shift and a turn of the sheet by least squares.
+    middle, centre = spots.mean(axis=0), there.mean(axis=0)
+    left, _, right = np.linalg.svd((there - centre).T @ (spots - middle))
+    apart = np.linalg.norm((there - centre) @ (left @ right) - (spots - middle), axis=1)
+    cells = np.abs(spots) > np.array(model.sheet) / 6
+    sides = [
+        apart[(np.sign(spots[:, 0]) * cells[:, 0] == x) & (np.sign(spots[:, 1]) * cells[:, 1] == y)]
+        for x in (-1, 0, 1)
+        for y in (-1, 0, 1)
+    ]
+    assert found.mm == pytest.approx(max(np.sqrt(np.mean(side**2)) for side in sides), rel=0.02)
+    assert f"{found.mm:.1f} mm" in found.sentence and found.where in found.sentence
+    assert rival_error([used, rival], found.mm * 1.01) is None
+    assert rival_error([used, rival], found.mm * 0.99) == found
+
+
+def test_the_worst_rival_counts_and_each_place_by_itself():
+    used = explained({})
+    small, large = (explained({"chain_plane": size}) for size in (1.0, 4.0))
+    worst = rival_error([used, large], 0.0)
+    assert rival_error([used, small, large], 0.0) == worst
+    assert rival_error([used, small], 0.0).mm < 0.5 * worst.mm
+
+
+def test_sides_that_mirror_each_other_are_named_together():
+    used = explained({})
+    alike = rival_error([used, explained({"chain_plane": 4.0})], 0.0)
+    assert alike.where in BOTH_WORDS.values() or alike.where in (
+        SIDE_WORDS[0, 1],
+        SIDE_WORDS[1, 1],
+        SIDE_WORDS[2, 1],
+    )
+    left = rival_error([used, explained({"chain_pitch": np.array([3.0, 0.0])})], 0.0)
+    right = rival_error([used, explained({"chain_pitch": np.array([0.0, 3.0])})], 0.0)
+    assert left.mm == pytest.approx(right.mm, rel=0.02)
+    swapped = {"left": "right", "right": "left"}
+    mirrored = " ".join(swapped.get(word, word) for word in left.where.split())
+    assert right.where in (mirrored, left.where)

@@ -123,7 +123,7 @@ def test_sizes_that_no_machine_has_are_unlikely_by_themselves():
     size = size_for("chain_sag", NINE, 3.0)
     measured = board({"chain_sag": size}, NINE, seed=101)
     posterior = posterior_of(measured_board(Inputs(MAKER, measured)), FINAL)
-    assert ["chain_sag"] == [*posterior.listed()[0].account.effects]
+    assert posterior.listed()[0].account.effects == ("chain_sag",)
     assert not any(each.account.effects == ("frame_lean",) for each in posterior.listed())
 
 

@@ -1,0 +1,156 @@
+"""The noise of a reading: what is stated, repeats and scatter say of it together."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plumb.diagnosis.explanation import Board, explain
+from plumb.diagnosis.noise import (
+    FEWEST_SPARE,
+    KNOWN,
+    SURPRISING,
+    Noise,
+    left_by_noise,
+    misfit_chance,
+    noise_by,
+)
+from plumb.diagnosis.posterior import posterior_of
+from plumb.diagnosis.priors import STATED_SPREAD, UNSTATED_SPREAD, noise_prior
+from plumb.fit.inputs import Stated
+from plumb.fit.observations import observe
+from plumb.fit.problem import USUAL_SIGMA
+from plumb.marks.read import Mark, Measurements
+from scipy import stats
+from synthetic import BELIEVED, TRUE, grid, marks_on
+
+FINAL = Stated(0.5, is_final=True)
+
+
+def board_of(*, noise, columns=5, rows=3, times=1, seed=1, true=BELIEVED, sigma=0.5):
+    """Marks with noise, each read several times; only the frame is off."""
+    exact = marks_on(true, BELIEVED, grid(columns, rows)) * times
+    source = np.random.default_rng(seed)
+    marks = [
+        replace(mark, measured=tuple(mark.measured + noise * source.standard_normal(2)))
+        for mark in exact
+    ]
+    return Board.of(BELIEVED, observe(BELIEVED, Measurements(tuple(marks))), sigma=sigma)
+
+
+def weights_for(sigmas, sigma, degrees):
+    """Log weights of noises of which a sigma with so many degrees of freedom was seen."""
+    return -degrees * (np.log(sigmas) + 0.5 * (sigma / sigmas) ** 2)
+
+
+@pytest.mark.parametrize("degrees", [10, 40, 200])
+def test_a_noise_is_known_as_well_as_its_posterior_is_narrow(degrees):
+    sigmas = np.geomspace(0.05, 5.0, 400)
+    noise = noise_by(sigmas, weights_for(sigmas, 0.6, degrees), None)
+    assert noise.source == "marks" and noise.sigma == pytest.approx(0.6, rel=1.5 / degrees)
+    assert noise.degrees == pytest.approx(degrees, rel=2 / degrees + 0.01)
+    assert noise.quantile == pytest.approx(stats.t.isf(0.025, noise.degrees))
+    assert noise.upper_quantile == pytest.approx(stats.t.isf(0.05, noise.degrees))
+    # A constant in all weights is none.
+    less = noise_by(sigmas, weights_for(sigmas, 0.6, degrees) - 900.0, None)
+    assert (less.sigma, less.degrees) == pytest.approx((noise.sigma, noise.degrees))
+
+
+def test_a_coarse_grid_of_noises_says_the_same():
+    fine, coarse = (np.geomspace(0.1, 3.0, count) for count in (400, 25))
+    by = [noise_by(each, weights_for(each, 0.6, 40), None) for each in (fine, coarse)]
+    assert by[1].sigma == pytest.approx(by[0].sigma, rel=0.01)
+    assert 0.85 * by[0].degrees < by[1].degrees <= by[0].degrees  # a little less sure
+
+
+def test_a_noise_that_is_final_stays_whatever_the_marks_say():
+    for noise in (0.1, 2.0):
+        said = posterior_of(board_of(noise=noise), FINAL).noise
+        assert said == Noise(0.5, KNOWN, "stated") and said.quantile == 1.96
+
+
+@pytest.mark.parametrize("stated", [None, Stated(0.5)])
+@pytest.mark.parametrize("true", [0.3, 0.5, 1.0])
+def test_marks_move_what_was_stated_towards_what_they_scatter(stated, true):
+    few, many = (
+        posterior_of(board_of(noise=true, columns=columns, rows=3, times=times), stated).noise
+        for columns, times in ((3, 1), (5, 4))
+    )
+    assert many.source == ("stated and marks" if stated else "marks")
+    assert many.sigma == pytest.approx(true, rel=0.2)
+    assert abs(np.log(many.sigma / true)) < abs(np.log(few.sigma / true)) + 0.1
+    assert few.degrees < many.degrees < 200
+
+
+def test_repeats_make_the_noise_surer_and_it_is_no_surer_than_what_was_read():
+    once, thrice = (
+        posterior_of(board_of(noise=0.5, columns=3, times=times), None).noise for times in (1, 3)
+    )
+    assert once.degrees < 18 + 1 / (2 * UNSTATED_SPREAD**2) and 30 < thrice.degrees < 60
+
+
+def test_readings_that_agree_to_the_last_digit_are_not_without_noise():
+    marks = tuple(Mark(str(i), tuple(at), tuple(np.round(at))) for i, at in enumerate(grid(3, 3)))
+    board = Board.of(BELIEVED, observe(BELIEVED, Measurements(marks * 3)), sigma=USUAL_SIGMA)
+    for stated in (None, Stated(0.5)):
+        noise = posterior_of(board, stated).noise
+        assert 0.01 < noise.sigma < 0.4 and np.isfinite(noise.degrees)
+
+
+@pytest.mark.parametrize(
+    ("off", "says"), [(0.95, ""), (1.05, "more"), (-1.05, "less"), (-0.95, "")]
+)
+def test_what_differs_from_what_was_stated_by_more_than_people_err_is_said(off, says):
+    stated = Stated(0.5)
+    sigma = stated.sigma * np.exp(off * SURPRISING * STATED_SPREAD)
+    sigmas = np.geomspace(0.05, 5.0, 4001)
+    noise = noise_by(sigmas, weights_for(sigmas, sigma, 4000), stated)
+    assert len(noise.notes) == bool(says)
+    assert not says or f", {says} than the stated 0.50 mm" in noise.notes[0]
+
+
+def test_before_the_marks_a_noise_is_about_what_was_stated():
+    assert noise_prior(Stated(0.3)) == (0.3, STATED_SPREAD)
+    assert noise_prior(Stated(0.3, is_final=True)) == (0.3, 0.0)
+    assert noise_prior(None) == (USUAL_SIGMA, UNSTATED_SPREAD)
+    assert STATED_SPREAD < UNSTATED_SPREAD
+
+
+# Lack of fit.
+
+
+def test_a_misfit_is_as_likely_as_chance_says_where_the_noise_is_known():
+    chances = [misfit_chance(explain(board_of(noise=0.5, seed=seed)), FINAL) for seed in range(60)]
+    assert stats.kstest(chances, "uniform").pvalue > 0.01
+
+
+def test_a_misfit_is_chi_square_over_the_numbers_to_spare():
+    frame = explain(board_of(noise=0.7))
+    spent = float(np.sum(frame.basis[:30] ** 2))
+    left = float(np.sum(frame.numbers**2)) / 0.5**2
+    assert misfit_chance(frame, FINAL) == pytest.approx(stats.chi2.sf(left, 30 - spent))
+
+
+def test_a_misfit_is_no_surprise_where_the_noise_is_little_known():
+    frame = explain(board_of(noise=1.0))
+    chances = [misfit_chance(frame, stated) for stated in (FINAL, Stated(0.5), None)]
+    assert chances == sorted(chances) and chances[0] < 1e-6 and chances[2] > 0.03
+    loud = explain(board_of(noise=6.0))
+    assert misfit_chance(loud, None) < 0.02
+
+
+def test_a_misfit_needs_half_a_number_to_spare():
+    three = explain(board_of(noise=30.0, columns=3, rows=1))
+    basis = np.sum(three.basis[:6] ** 2)
+    assert 6 - basis > FEWEST_SPARE and misfit_chance(three, FINAL) < 1e-6
+    two = explain(board_of(noise=30.0, columns=2, rows=1), ("tape_scale", "sheet_skew"))
+    assert 4 - np.sum(two.basis[:4] ** 2) < FEWEST_SPARE and misfit_chance(two, FINAL) == 1.0
+
+
+def test_noise_leaves_what_it_leaves_of_many_boards():
+    noise = Noise(0.5, KNOWN, "stated")
+    left = [explain(board_of(noise=0.5, seed=seed)).rms ** 2 for seed in range(40)]
+    said = left_by_noise(explain(board_of(noise=0.5)), noise)
+    assert said == pytest.approx(np.sqrt(np.mean(left)), rel=0.06)
+    assert said < 0.5 * np.sqrt(2)
+    more = left_by_noise(explain(board_of(noise=0.5, true=TRUE), ("chain_pitch",)), noise)
+    assert more < said

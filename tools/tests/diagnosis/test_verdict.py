@@ -1,0 +1,132 @@
+"""The verdict, a reading of the posterior: each line of its table on both sides of its bound."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from hidden_boards import board, size_for
+from plumb.bench.boards import plan
+from plumb.bench.causes import MAKER
+from plumb.diagnosis import diagnose
+from plumb.diagnosis.answer import MISFIT, NOTHING, UNKNOWN, VERDICTS, is_silent, judge
+from plumb.diagnosis.linear import MovedRound
+from plumb.diagnosis.posterior import LISTED, Account, Posterior
+from plumb.fit.inputs import Inputs
+
+TINY = 1e-12
+
+
+def judged(shares, monkeypatch, *, field=TINY, moved=TINY, misfit=0.5, outliers=()):
+    """The verdict on accounts with these shares of what is clean; field and moved of the whole."""
+    unknown = field + moved
+    accounts = tuple(
+        Account(
+            effects,
+            effects,
+            clean=np.log(share * (1 - unknown)),
+            field=np.log(field / len(shares)),
+        )
+        for effects, share in sorted(shares.items(), key=lambda each: -each[1])
+    )
+    posterior = Posterior(
+        frame=None,
+        felt=("a", "b", "c"),
+        accounts=accounts,
+        moved=((MovedRound(1, "", None), np.log(moved)),),
+        outliers=np.full(3, -np.inf),
+        turned=None,
+        noise=None,
+        noises=None,
+    )
+    asked = []
+    monkeypatch.setattr(
+        "plumb.diagnosis.answer.explain_account", lambda *account: asked.append(account)
+    )
+    monkeypatch.setattr("plumb.diagnosis.answer.misfit_chance", lambda fitted, stated: misfit)
+    return judge(SimpleNamespace(posterior=posterior, outliers=outliers, frame="frame"), None)
+
+
+def both(bound):
+    """A little on both sides of a bound, with whether it is beyond."""
+    return [(bound + 0.01, True), (bound - 0.01, False)]
+
+
+def test_an_outlier_comes_before_all_else(monkeypatch):
+    said = judged({("a",): 1.0}, monkeypatch, field=0.9, outliers=("one",))
+    assert said.verdict == "slip" and said.listed == () and said.best.effects == ("a",)
+
+
+@pytest.mark.parametrize(("chance", "is_beyond"), both(UNKNOWN))
+@pytest.mark.parametrize("what", ["field", "moved"])
+def test_what_the_library_does_not_know_is_said_once_it_is_likely_enough(
+    what, chance, is_beyond, monkeypatch
+):
+    said = judged({("a",): 0.99, (): 0.01}, monkeypatch, **{what: chance})
+    assert said.verdict == ("not_in_library" if is_beyond else "one_suspect")
+
+
+def test_fields_and_rounds_count_together(monkeypatch):
+    each = 0.6 * UNKNOWN
+    assert judged({("a",): 1.0}, monkeypatch, field=each).verdict == "one_suspect"
+    said = judged({("a",): 1.0}, monkeypatch, field=each, moved=each)
+    assert said.verdict == "not_in_library" and said.listed
+
+
+@pytest.mark.parametrize(("chance", "is_beyond"), both(MISFIT))
+def test_more_than_noise_ever_leaves_is_the_last_guard(chance, is_beyond, monkeypatch):
+    said = judged({("a",): 0.99, (): 0.01}, monkeypatch, misfit=chance)
+    assert said.verdict == ("one_suspect" if is_beyond else "not_in_library")
+    assert said.best.effects == ("a",)  # and what pays is added all the same
+
+
+@pytest.mark.parametrize(("chance", "is_beyond"), both(NOTHING))
+def test_nothing_is_named_where_nothing_is_likely_enough(chance, is_beyond, monkeypatch):
+    said = judged({("a",): 1 - chance, (): chance}, monkeypatch)
+    assert is_silent(chance) == is_beyond
+    if is_beyond:
+        assert (said.verdict, said.listed, said.best.effects) == ("nothing_provable", (), ())
+    else:
+        # It is not hidden: that nothing acts stays an account beside the cause.
+        assert said.verdict == "cannot_tell"
+        assert [each.account.effects for each in said.listed] == [("a",), ()]
+
+
+@pytest.mark.parametrize(("share", "is_beyond"), both(LISTED))
+def test_one_account_stands_alone_once_it_holds_nearly_all(share, is_beyond, monkeypatch):
+    said = judged({("a",): share, ("b",): 1 - share}, monkeypatch)
+    assert said.verdict == ("one_suspect" if is_beyond else "cannot_tell")
+    assert len(said.listed) == (1 if is_beyond else 2) and said.best.effects == ("a",)
+
+
+# The same on boards.
+
+WIDE = plan(5, 5)
+
+
+@pytest.mark.parametrize(
+    ("hidden", "millimetres", "bump", "expected"),
+    [
+        ("chain_plane", 0.1, 0.0, {"nothing_provable"}),
+        ("chain_plane", 3.0, 0.0, {"one_suspect"}),
+        ("chain_pitch", 1.5, 0.0, {"cannot_tell", "one_suspect"}),
+        ("chain_plane", 6.0, 2.0, {"not_in_library"}),
+        ("chain_plane", 0.1, 0.2, {"nothing_provable"}),
+    ],
+)
+def test_each_verdict_has_its_board(hidden, millimetres, bump, expected):
+    size = size_for(hidden, WIDE, millimetres)
+    diagnosis = diagnose(Inputs(MAKER, board({hidden: size}, WIDE, seed=4, bump=bump)))
+    assert diagnosis.verdict in expected and diagnosis.verdict in VERDICTS
+    if diagnosis.verdict == "nothing_provable":
+        assert diagnosis.to_add == () and diagnosis.explanations == ()
+    else:
+        assert hidden in diagnosis.to_add  # what is known is added beside what is not
+
+
+def test_a_larger_effect_makes_nothing_less_likely():
+    chances = []
+    for millimetres in (0.2, 0.8, 1.6, 3.2):
+        size = size_for("chain_plane", WIDE, millimetres)
+        diagnosis = diagnose(Inputs(MAKER, board({"chain_plane": size}, WIDE, seed=4)))
+        chances.append(diagnosis.nothing_chance)
+    assert chances == sorted(chances, reverse=True) and chances[0] > NOTHING > chances[-1]
