@@ -62,10 +62,10 @@ def test_an_effect_of_three_millimetres_is_named_first_and_with_few_others():
 
 
 def test_nine_marks_still_name_most():
-    results = outcomes("one-9", (0, 1, 4, 9, 14))
-    assert value("right class first", results) == 1
-    assert value("suspects", results) <= 2.2
-    assert value("truth inside", results) == 1
+    results = outcomes("one-9", range(10))
+    assert value("right class first", results) >= 0.7
+    assert value("suspects", results) <= 3
+    assert value("truth inside", results) >= 0.9
 
 
 @pytest.mark.slow

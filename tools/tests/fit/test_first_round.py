@@ -27,4 +27,4 @@ def test_the_form_that_the_grid_writes_is_understood_when_filled_in(tmp_path, ca
     assert 0.2 < compared["rms_mm"] < 2.0
     assert main(["diagnose", str(SETTINGS), str(form), "--json"]) in (0, 1)
     report = json.loads(capsys.readouterr().out)
-    assert report["sigma_from"] == "repeats" and 0.2 < report["sigma_mm"] < 0.6
+    assert report["sigma_from"] == "marks" and 0.2 < report["sigma_mm"] < 0.6

@@ -13,6 +13,8 @@ STORIES = {
     # What published settings leave out, and what a usual machine has.
     "bench/causes.py",
     "bench/hiding.py",
+    # How much every machine has of a number, with its source.
+    "diagnosis/priors.py",
     # The example of an option, whose help must not wait for the catalogue.
     "cli/add.py",
     "cli/inputs.py",
