@@ -160,8 +160,8 @@ def _reason(
     if rivals:
         asked = to_do("plumb next", page="Verdict")
         return (
-            f"a choice: the likeliest is {plainly(named)}, but {_listed(rivals)} may be it as "
-            f"well; {asked} says what to measure to tell them apart{usual}"
+            f"a choice: the likeliest is {plainly(named)}, but it may also be {_listed(rivals)}. "
+            f"See {asked} for what to measure to tell them apart{usual}"
         )
     return f"the marks ask for {plainly(named)}{usual}"
 
@@ -170,12 +170,10 @@ def _usual_sentence(effects: Sequence[str]) -> str:
     """Return why effects were added that no mark asks for; it goes after another sentence."""
     if not effects:
         return ""
-    left_out, size = (
-        ("it", "its usual size") if len(effects) == 1 else ("them", "their usual sizes")
-    )
+    it, its, size = ("it", "its", "size") if len(effects) == 1 else ("them", "their", "sizes")
     return (
-        f". Every machine has {plainly(effects)}, and these settings leave {left_out} out: so that "
-        f"was added at about {size}"
+        f". Every machine has {plainly(effects)}, and these settings leave {it} out. So the fit "
+        f"has {it} too, near {its} usual {size} unless the marks say otherwise"
     )
 
 
@@ -184,5 +182,5 @@ def _listed(rivals: Sequence[tuple[str, ...]]) -> str:
     said = [plainly(rival) for rival in rivals[:MOST_NAMED]]
     more = len(rivals) - len(said)
     if more:
-        said.append(f"{more} {'other' if more == 1 else 'others'}")
-    return " or ".join(said)
+        said.append(f"one of {more} more" if more > 1 else "another")
+    return "; or ".join(said)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import plumb
 import pytest
+from example_machine import checked
 from plumb import api
 from plumb.settings.files import read_settings
 
@@ -28,16 +29,16 @@ def test_the_notebook_runs_and_its_answers_are_those_of_the_commands(monkeypatch
         *statements, last = code.split("\n")
         exec("\n".join(statements), names)
         answers.append(eval(last, names))
-    readings, compared, verdict, proposal, proved, fall = answers
+    readings, compared, verdict, proposal, settled, fall = answers
     assert readings == 23
     code, said = ask("compare", INI, MARKS)
     assert compared == (round(said["rms_mm"], 2), round(said["worst_mm"], 2))
     _, said = ask("diagnose", INI, MARKS)
     assert verdict == (said["verdict"], tuple(said["suspects"]))
     assert proposal == (said["next"][0]["title"], said["next"][0]["minutes"])
-    _, said = ask("diagnose", INI, MARKS, "--checked", "tape_scale.strain=0+-0.0001")
-    assert proved == (said["verdict"], tuple(said["suspects"])) and "chain_pitch" in proved[1]
-    _, said = ask("add", INI, MARKS, "--effect", *proved[1])
+    _, said = ask("diagnose", INI, MARKS, *checked())
+    assert settled == (said["verdict"], tuple(said["suspects"])) and "chain_pitch" in settled[1]
+    _, said = ask("add", INI, MARKS, "--effect", *settled[1], *checked("motor_gap", "motor_height"))
     after = said["after"]
     assert fall == (
         round(said["raw"]["rms_mm"], 2),

@@ -2,11 +2,15 @@
 
 import re
 import shlex
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from example_machine import checked
 from plumb import api
 from plumb.cli.main import main
+from plumb.settings.toml import write_machine_toml
+from synthetic import BELIEVED, csv_of, grid, marks_on
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 BOARD = (str(EXAMPLE / "groundcontrol.ini"), str(EXAMPLE / "marks.toml"))
@@ -22,11 +26,42 @@ def next_command(said):
     return shlex.split(COMMAND.findall(said)[-1].replace("\\\n", " "))[1:]
 
 
-def test_auto_takes_what_was_checked_into_its_verdict(ask):
+def test_auto_takes_what_was_checked_into_its_verdict(ask, run):
     _, free = ask("add", *BOARD, "--effect", "auto")
-    _, taken = ask("add", *BOARD, "--effect", "auto", "--checked", "tape_scale.strain=0+-0.0001")
+    _, taken = ask("add", *BOARD, "--effect", "auto", *checked())
     assert free["auto"]["verdict"] == "cannot_tell" and free["auto"]["rivals"]
     assert taken["auto"]["verdict"] == "one_suspect" and not taken["auto"]["rivals"]
+    assert taken["effects_added"] == ["chain_pitch", "chain_stretch"]
+
+
+def test_whether_the_choice_matters_is_said_where_it_is_made(run, ask):
+    apart = ask("add", *BOARD, "--effect", "auto")[1]["auto"]["apart"]
+    assert apart["mm"] == pytest.approx(2.1, abs=0.1)
+    for words in (("add", *BOARD, "--effect", "auto"), ("calibrate", *BOARD)):
+        assert apart["sentence"] in " ".join(run(*words)[1].split())
+    # Rivals that cut alike are no reason to wait.
+    alike = ("add", *BOARD, "--effect", "auto", *checked("tape_scale.strain", "motor_gap"))
+    assert ask(*alike)[1]["auto"]["apart"] is None and ask(*alike)[1]["auto"]["rivals"]
+    said = " ".join(run(*alike)[1].split())
+    assert "A choice: the likeliest is chains too long or too short and chain stretch, but" in said
+    assert "For cutting it hardly matters" in said and "(chain_" not in said[: said.index("To be")]
+
+
+def test_what_every_machine_has_is_added_with_a_word_and_no_doubt(run, ask, tmp_path):
+    clean = tmp_path / "clean.csv"
+    stretch = {"chain_stretch": {"compliance": 5.2e-6}}
+    machine = replace(BELIEVED, effects=stretch)
+    clean.write_text(csv_of(marks_on(machine, BELIEVED, grid(3, 3), noise=0.9, seed=5)))
+    settings = tmp_path / "machine.toml"
+    sag = {"chain_sag": {"weight_ratio_squared": 8.2e-12}}
+    write_machine_toml(settings, replace(BELIEVED, effects=sag))
+    words = ("add", settings, clean, "--effect", "auto")
+    said = " ".join(run(*words)[1].split())
+    assert "Every machine has chain stretch, and these settings leave it out." in said
+    assert "may as well be zero" not in said and "do not keep it" not in said
+    _, answer = ask(*words)
+    fitted = next(n for n in answer["parameters"] if n["name"] == "chain_stretch.compliance")
+    assert 0 < fitted["value"] < 1e-5 and fitted["low"] < 0
 
 
 @pytest.mark.parametrize(
@@ -74,13 +109,10 @@ def test_the_frame_alone_can_be_fitted(ask, run):
 
 
 def test_diagnose_hands_its_checks_to_the_command_that_adds(run):
-    tape, frame = "tape_scale.strain=0+-0.0001", "motor_gap=2978.4+-1"
-    checks = (tape, frame, "chain_stretch.compliance=5e-06+-5e-05")
-    said = run("diagnose", *BOARD, *(word for check in checks for word in ("--checked", check)))[1]
-    words = next_command(said)
-    assert words[0] == "add" and words[words.index("--effect") + 1] == "chain_stretch"
+    words = next_command(run("diagnose", *BOARD, *checked())[1])
+    assert words[0] == "add" and words[words.index("--effect") + 1] == "auto"
     given = [words[i + 1] for i, word in enumerate(words) if word == "--checked"]
-    assert given == list(checks[1:]), "the tape is not fitted, so its check cannot count"
+    assert given == checked()[1::2]
 
 
 def test_the_most_likely_is_added_with_what_was_checked(run):

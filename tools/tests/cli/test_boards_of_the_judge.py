@@ -13,7 +13,7 @@ from plumb.bench.causes import MAKER, PUBLISHED
 from plumb.bench.hiding import slip
 from plumb.bench.scenarios import SCENARIOS
 from plumb.marks.form import head_of, toml_text
-from plumb.plan.outlook import outlook
+from plumb.plan.outlook import Outlooks
 from plumb.settings.toml import write_machine_toml
 
 DATA = Path(__file__).resolve().parents[1] / "data"
@@ -64,7 +64,7 @@ def written(folder, index):
 def answer(run, tmp_path, monkeypatch):
     """Gives a board to some commands; a fault names the board and the command."""
     # How often a plan is simulated changes its chance, and not the way through the code.
-    monkeypatch.setitem(outlook.__kwdefaults__, "draws", 0)
+    monkeypatch.setattr(Outlooks.__init__, "__defaults__", (8,))
 
     def answered(index, commands):
         folder = tmp_path / f"{index}"

@@ -73,7 +73,7 @@ def test_add_keeps_every_key_of_the_ini_that_it_does_not_change(run, tmp_path):
 def test_add_tells_people_the_fall_the_doubts_and_what_was_written(run, tmp_path):
     new, picture = tmp_path / "machine.toml", tmp_path / "fall.png"
     code, said, _ = run("add", *BOARD, *EFFECTS, "-o", new, "--picture", picture)
-    assert code == 0 and said.startswith("From 7.29 to 0.65 mm RMS")
+    assert code == 0 and said.startswith("From 7.29 to 0.69 mm RMS")
     assert "impossible" in said and "measure it again" in said
     assert str(new) in said and picture.read_bytes().startswith(b"\x89PNG")
 

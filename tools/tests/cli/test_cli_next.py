@@ -3,6 +3,7 @@
 import dataclasses
 import os
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +13,10 @@ from plumb.model.catalogue import effect_names
 from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED, TRUE, csv_of, grid, marks_on
 
+EXAMPLE = [
+    Path(__file__).resolve().parents[3] / "docs/example" / name
+    for name in ("groundcontrol.ini", "marks.toml")
+]
 FILL = "# measured = [ , ]"
 
 
@@ -22,7 +27,7 @@ def test_diagnose_carries_the_same_proposals(ask):
 
 
 def test_people_are_told_what_to_do_first(run):
-    code, said, complaint = run("next", SETTINGS, MARKS)
+    code, said, complaint = run("next", *EXAMPLE)
     assert code == 0 and complaint == ""
     assert "\nNext: " in said and "about" in said and "minutes" in said
     assert "28 more marks" in said and "suspects left" in said
@@ -86,10 +91,14 @@ def test_what_is_only_read_again_is_not_cut(run, ask, file, maker, tmp_path):
 
 
 def test_what_was_checked_is_not_proposed_again(ask):
-    code, answer = ask("next", SETTINGS, MARKS, "--checked", "motor_gap=2978.4±0.5")
+    gap = "the gap between the motors"
+    code, answer = ask("next", *EXAMPLE)
+    assert code == 0 and gap in [each["title"] for each in answer["next"]]
+    # What is known of the account that holds comes with each proposal, in bits.
+    assert all(each["bits"] > 0 and 0 < each["chance"] <= 1 for each in answer["next"][:3])
+    code, answer = ask("next", *EXAMPLE, "--checked", "motor_gap=2980.4±0.5")
     titles = [each["title"] for each in answer["next"]]
-    assert code == 0 and "the gap between the motors" not in titles
-    assert "the height of the motors" in titles
+    assert code == 0 and gap not in titles and "the height of the motors" in titles
 
 
 @pytest.mark.parametrize(

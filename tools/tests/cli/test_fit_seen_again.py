@@ -87,8 +87,10 @@ def test_marks_that_took_no_part_are_named(fitted, run):
 
 
 def test_diagnose_finds_no_more_to_add(fitted, ask):
-    _, answer = ask("diagnose", "machine.toml", "marks.toml")
-    assert answer["verdict"] == "nothing_provable"
+    both = ("--effect", "chain_pitch", "chain_stretch", "-o", "both.toml")
+    ask("add", "groundcontrol.ini", "marks.toml", *both)
+    _, answer = ask("diagnose", "both.toml", "marks.toml")
+    assert answer["verdict"] == "nothing_provable" and not answer["explanations"]
 
 
 def test_marks_that_say_what_they_were_cut_with_use_the_formula_of_that(fitted, ask):

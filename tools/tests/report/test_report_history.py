@@ -1,12 +1,12 @@
 """What a report says of earlier rounds: by the diary, or by what the settings know."""
 
 import pytest
+from example_machine import checked
 from plumb.settings.files import read_settings
 from reports import EXAMPLE, Page, asked, board, reported
 from synthetic import grid, marks_on
 
 INI, MARKS = EXAMPLE / "groundcontrol.ini", EXAMPLE / "marks.toml"
-TAPE = ("--checked", "tape_scale.strain=0+-0.0001")
 
 
 def history(*words, folder) -> str:
@@ -21,7 +21,7 @@ def folder(tmp_path_factory):
 @pytest.fixture(scope="module")
 def fitted(folder):
     """What a fit answered, and marks that its machine has made since."""
-    done = asked("calibrate", INI, MARKS, *TAPE, "-o", folder / "machine.toml")
+    done = asked("calibrate", INI, MARKS, *checked(), "-o", folder / "machine.toml")
     machine = read_settings(folder / "machine.toml")
     marks = marks_on(machine, machine, grid(3, 3), noise=0.5)
     return done["addition"], board(folder, marks, settings=machine)
