@@ -84,7 +84,7 @@ def test_written_opened_and_taken_back(client, tmp_path):
     assert before["rms_accepted"] is None
     names = [number["name"] for number in before["numbers"]]
     gap = before["numbers"][names.index("motor_gap")]
-    assert gap["unit"] == "mm" and float(gap["margin"]) > 0 and gap["plausible"]
+    assert gap["unit"] == "mm" and float(gap["margin"]) > 0 and gap["possible"]
     choose(client, accepted=names)
     after = shown(client)["correction"]
     assert after["rms_accepted"] == pytest.approx(before["rms_all"])
@@ -120,7 +120,7 @@ def test_a_slip_is_not_fitted(client, tmp_path):
     )
     made = shown(client)["correction"]
     assert made["is_slip"] and made["numbers"] == []
-    assert "look at the reading of 2" in made["reason"]
+    assert "look at the reading of 2" in made["reasons"][0]
     choose(client, accepted=["motor_gap"])
     assert client.post("/api/correction", json=known(client)).status_code == 422
 

@@ -11,7 +11,7 @@ import pytest
 from folder import EXAMPLE, asked, choose, finished
 from plumb.cli.main import main
 from plumb.diagnosis.answer import odds_words
-from plumb.model.plain import plain_size
+from plumb.model.plain import noun_of, plain_size
 from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
 
@@ -146,19 +146,30 @@ def test_distances_have_a_number_by_themselves(said):
 
 
 def test_error_of_the_fitted_frame_is_the_same(said):
-    left = r"(?:the fitted frame leaves|The error falls from) ([\d.]+)"
     assert_same(
-        match_in(left, said.diagnose),
-        match_in(left, said.parts["verdict"]),
-        match_in(left, said.verdict["sentence"]),
         said.diagnosed["rms_mm"],
         said.added["before"]["fit_rms_mm"],
         row("fitted: the frame", said.add)[0],
         said.figure("frame fitted"),
-        match_in(rf"Frame fitted {LENGTH} checked", said.parts["fall"]),
-        said.verdict["rms_frame"],
+        match_in(rf"Frame fitted {LENGTH} noise", said.parts["fall"]),
         said.stairs[1]["fit_rms"],
     )
+
+
+def test_what_noise_alone_leaves_is_the_same(said):
+    together, card = chosen(said)
+    assert_same(
+        together["noise_rms_mm"],
+        card["noise_after"],
+        said.added["after"]["noise_rms_mm"],
+        row(f"fitted: + {noun_of(said.added['effects_added'][-1])}", said.add)[1],
+        said.figure("noise alone leaves"),
+        re.findall(rf"noise {LENGTH}", said.parts["fall"])[-1],
+        said.verdict["noise_added"],
+        said.bench["noise_rms"],
+        said.stairs[-1]["noise_rms"],
+    )
+    assert_same(said.diagnosed["noise_rms_mm"], said.added["before"]["noise_rms_mm"])
 
 
 def chosen(said):
@@ -179,7 +190,9 @@ def test_error_of_what_is_added_is_the_same(said):
         said.figure("effects fitted"),
         match_in(rf"With .*?: {LENGTH} RMS", said.parts["maps"].split("As set:")[1]),
         match_in(rf"With the new settings {LENGTH}", said.parts["history"]),
-        match_in(r"(?:to|" + re.escape(card["title"]) + rf") {LENGTH}", accounts),
+        match_in(
+            rf"(?:from [\d.]+ to|{re.escape(card['title'])} {card['odds']}) {LENGTH}", accounts
+        ),
         said.verdict["rms_added"],
         said.correction["rms_all"],
         said.bench["fit_rms"],
@@ -208,9 +221,9 @@ def test_odds_of_explanations_are_the_same(said):
     if len(explanations) == 1:
         return  # there is no rival
     for each, card in zip(explanations, cards, strict=True):
-        row_of_report = rf"{re.escape(card['title'])} {LENGTH} {card['odds']}"
+        row_of_report = rf"{re.escape(card['title'])} {card['odds']} {LENGTH}"
         assert_same(match_in(row_of_report, said.parts["suspects"]), each["rms_after_mm"])
-    first = f"(odds {odds_words(explanations[0]['share'])})"
+    first = f", {odds_words(explanations[0]['share'])}"
     for sentence in (said.diagnose, said.parts["verdict"], said.verdict["sentence"]):
         assert first in sentence
 
@@ -249,14 +262,11 @@ def test_sizes_and_their_noise_are_those_of_the_fit(said):
             assert numbers[each["name"]]["after"].lstrip("-") in size
 
 
-def test_another_noise_of_a_diagnosis_and_a_fit_is_said_with_its_origin(said):
-    diagnosed, fitted = said.diagnosed["sigma_mm"], said.added["sigma_mm"]
-    if said.added["sigma_from"] == "repeats":
-        assert diagnosed == fitted and "from repeats" in said.correction["intervals"]
-    else:
-        assert fitted < diagnosed == 0.5
-        assert "usual for a tape" in said.verdict["noise"]
-        assert "from what the fit leaves" in said.correction["intervals"]
+def test_a_diagnosis_and_a_fit_have_the_same_noise_and_say_where_it_is_from(said):
+    assert_same(said.diagnosed["sigma_mm"], said.added["sigma_mm"])
+    assert said.diagnosed["sigma_from"] == "marks"
+    for words in (said.verdict["noise"], said.correction["intervals"]):
+        assert "(from the scatter of the marks)" in words
 
 
 def test_error_to_expect_and_what_could_hide_are_the_same(said):

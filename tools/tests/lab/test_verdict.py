@@ -20,17 +20,18 @@ def test_it_says_what_the_command_line_says(client, tmp_path):
     diagnosis = api.diagnose(inputs)
     with read_on_page():
         assert verdict["sentence"] == verdict_sentence(diagnosis)
-    # A command line takes the names of effects; the page has buttons.
-    assert "(chain_" in verdict_sentence(diagnosis) and "(chain_" not in verdict["sentence"]
-    assert verdict["rms_frame"] == pytest.approx(diagnosis.rms_before)
+    assert "(chain_" not in verdict["sentence"]
+    assert verdict["apart"].startswith("On the sheet they differ by 2.1 mm in")
     assert len(verdict["cards"]) + verdict["more_cards"] == len(diagnosis.explanations)
     first, card = diagnosis.explanations[0], verdict["cards"][0]
     assert card["rms_after"] == pytest.approx(first.rms_after)
+    assert card["noise_after"] == pytest.approx(first.noise_rms)
     left = 1 - card["share"]
     assert left == pytest.approx((first.rms_after / diagnosis.rms_before) ** 2)
     name = first.effects[0]
     size, shown = first.sizes[name][0], card["effects"][0]["sizes"][0]
     assert (shown["value"], shown["low"], shown["high"]) == (size.value, size.low, size.high)
+    assert shown["possible"] is size.possible is True
     largest = max(
         each.mm or 0 for each in diagnosis.could_hide if each.effect not in diagnosis.suspects
     )
@@ -50,6 +51,20 @@ def test_the_maps_hold_the_same_marks_before_and_after(client, tmp_path):
     assert rms(verdict["before"]) == pytest.approx(verdict["rms_set"])
     assert rms(verdict["after"]) == pytest.approx(verdict["rms_added"])
     assert verdict["rms_added"] < verdict["rms_set"]
+
+
+def test_what_the_frame_leaves_is_the_same_number_in_sentence_and_map(client, tmp_path):
+    inputs = api.read(tmp_path / "groundcontrol.ini", tmp_path / "marks.toml")
+    fitted = api.add(inputs, ["chain_pitch", "chain_stretch"])
+    api.write(fitted, tmp_path / "both.toml")
+    choose(client, settings="both.toml")
+    verdict = finished(client, "verdict")["verdict"]
+    assert verdict["verdict"] == "nothing_provable" and verdict["added"] == ""
+    left, noise = (f"{verdict[key]:.2f} mm" for key in ("rms_added", "noise_added"))
+    assert (
+        f"With the frame fitted {left} RMS is left; noise alone leaves {noise}"
+        in (verdict["sentence"])
+    )
 
 
 def test_a_changed_reading_is_never_answered_by_the_verdict_before(client, tmp_path):

@@ -9,7 +9,7 @@ from fastapi import APIRouter
 from pydantic import BaseModel, ConfigDict
 
 from plumb.cure.add import Addition, Parameter
-from plumb.cure.auto import add_auto
+from plumb.cure.auto import AutoAddition, add_auto
 from plumb.cure.live_board import refuse_other_origin
 from plumb.cure.machine_file import (
     Correction,
@@ -22,6 +22,7 @@ from plumb.cure.machine_file import (
 from plumb.diary.file import FIT, fit_entry, keep
 from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files
 from plumb.fit.inputs import Inputs
+from plumb.fit.problem import Checked
 from plumb.lab.background import Progress, key_of
 from plumb.lab.machine_line import TheLine, refuse_unanswered
 from plumb.lab.project import FILE, Choices, Project, choices_text
@@ -119,7 +120,7 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
                 why = list(auto.said)
                 return CorrectionParts(reasons=why, is_slip=True, add=_auto_words(choices))
             made = correct(auto.inputs, auto.chosen, choices.accepted)
-            return _parts(made, auto.said, choices)
+            return _parts(made, auto, choices)
 
     answer = background.ask("correction", key, work)
     file = project.free_name("machine", *WRITTEN)
@@ -188,11 +189,11 @@ def undo(known: Write, project: TheProject) -> Undone:
     return Undone(file=name)
 
 
-def _parts(made: Correction, reasons: Sequence[str], choices: Choices) -> CorrectionParts:
+def _parts(made: Correction, auto: AutoAddition, choices: Choices) -> CorrectionParts:
     whole, some = made.whole, made.accepted
     accepted = [number for number in some.parameters if has_setting(number.name)] if some else []
     return CorrectionParts(
-        reasons=list(reasons),
+        reasons=list(auto.said),
         numbers=[_number(number, choices) for number in made.numbers],
         with_accepted=[_number(number, choices) for number in accepted],
         cures=[*turn_sentences(whole), *whole.cures],
@@ -203,11 +204,11 @@ def _parts(made: Correction, reasons: Sequence[str], choices: Choices) -> Correc
         rms_accepted=some.after.fit_rms if some else None,
         rms_all=whole.after.fit_rms,
         left_out=some.after.left_out_rms if some else None,
-        add=_add_words(made, choices),
+        add=_add_words(made, auto.diagnosis.usual, choices),
     )
 
 
-def _add_words(made: Correction, choices: Choices) -> list[str]:
+def _add_words(made: Correction, usual: Sequence[Checked], choices: Choices) -> list[str]:
     """Return what plumb add is given to change the accepted numbers alone; all of them if
     none is.
     """
@@ -215,6 +216,12 @@ def _add_words(made: Correction, choices: Choices) -> list[str]:
         return _auto_words(choices)
     gone = {*made.held, *made.fixed}
     words = known_words(choices, effects=made.effects, held=gone)
+    for each in usual:
+        if each.name.rpartition(".")[0] in made.effects and each.name not in {
+            *gone,
+            *choices.known,
+        }:
+            words += ["--checked", f"{each.name}={each.value:.12g}+-{each.sigma:.12g}"]
     for name in made.fixed:
         words += ["--prior", f"{name}=0"]
     words += ["--effect", *(made.effects or ["none"])]

@@ -1,5 +1,6 @@
 // The numbers of the machine, each with a box to accept it.
 import type { Schemas } from "../../api/client";
+import { believable, withAll } from "./believable";
 
 type Parts = Schemas["CorrectionParts"];
 type Changed = Schemas["ChangedNumber"];
@@ -15,7 +16,7 @@ interface NumbersParts {
 export function Numbers({ made, accepted, accept, busy }: NumbersParts) {
   const again = new Map(made.with_accepted.map((number) => [number.name, number]));
   const now = made.numbers.map((number) => again.get(number.name) ?? number);
-  const believable = now.filter(({ possible }) => possible).map(({ name }) => name);
+  const all = believable(now);
   return (
     <fieldset class="numbers" aria-busy={busy}>
       <legend>Numbers of the machine</legend>
@@ -44,9 +45,9 @@ export function Numbers({ made, accepted, accept, busy }: NumbersParts) {
           )}
         </label>
       ))}
-      {believable.some((name) => !accepted.includes(name)) && (
-        <button type="button" onClick={() => accept([...new Set([...accepted, ...believable])])}>
-          Accept all {believable.length}
+      {all.some((name) => !accepted.includes(name)) && (
+        <button type="button" onClick={() => accept(withAll(accepted, all))}>
+          Accept all {all.length}
         </button>
       )}
     </fieldset>
