@@ -103,7 +103,7 @@ def log_density_of_half_normal(board, covariance, spread):
 
 
 def random_normals(source, k):
-    """A mean near the edge and a covariance of so many numbers."""
+    """A mean near the edge, and a covariance."""
     root = source.standard_normal((k, 3 * k))
     covariance = root @ root.T / k
     return np.sqrt(np.diag(covariance)) * source.uniform(-1.5, 2.5, k), covariance
@@ -187,9 +187,12 @@ def test_variants_of_a_set_are_added_to_their_set():
 # Readings that are off: an added column for each.
 
 
+@pytest.mark.parametrize("pull", [0.0, -5.0, 5.0])
 @pytest.mark.parametrize("count", [1, 2, 6])
-def test_a_reading_that_is_off_is_a_shift_of_its_own_numbers(count):
+def test_a_reading_that_is_off_is_a_shift_of_its_own_numbers(count, pull):
     board = made_up(seed=5, measured=7, pitch=0.4, least=(0.0, 0.0, -np.inf, -np.inf))
+    # A reading that is off as only an impossible gap would have it.
+    board.read[:2, 0] += pull * board.effects[:2, 1]
     noises = Noises(np.geomspace(0.3, 0.9, count), np.log(np.full(count, 1 / count)))
     numbers = np.array([[0, 1], [2, 3], [4, 5], [6, len(board.read)]])
     accounts = accounts_of(board, 2)
@@ -208,7 +211,7 @@ def test_a_reading_that_is_off_is_a_shift_of_its_own_numbers(count):
         wanted = np.logaddexp.reduce(np.concatenate(each), axis=None)
         wanted -= np.log(len(numbers) * len(OUTLIER_SPREADS))
         # The sizes' spread is taken as if no reading were off.
-        assert ours[reading] == pytest.approx(wanted, abs=0.03)
+        assert ours[reading] == pytest.approx(wanted, abs=0.05)
 
 
 # Noises worth a look.

@@ -95,7 +95,7 @@ def test_rivals_that_lead_to_the_same_places_do_not_differ():
 
 def test_rivals_differ_by_what_is_left_when_the_sheet_is_laid_anew():
     used, rival = explained({}), explained({"chain_pitch": np.array([2.0, 2.0])})
-    found = rival_error([used, rival], 0.0)
+    difference = rival_error([used, rival], 0.0)
     model, other = model_by(used), model_by(rival)
     spots = places_over(model.sheet)
     there = places(other, lengths(model, spots)[0])[0]
@@ -109,10 +109,13 @@ def test_rivals_differ_by_what_is_left_when_the_sheet_is_laid_anew():
         for x in (-1, 0, 1)
         for y in (-1, 0, 1)
     ]
-    assert found.mm == pytest.approx(max(np.sqrt(np.mean(side**2)) for side in sides), rel=0.02)
-    assert f"{found.mm:.1f} mm" in found.sentence and found.where in found.sentence
-    assert rival_error([used, rival], found.mm * 1.01) is None
-    assert rival_error([used, rival], found.mm * 0.99) == found
+    assert difference.mm == pytest.approx(
+        max(np.sqrt(np.mean(side**2)) for side in sides), rel=0.02
+    )
+    assert f"{difference.mm:.1f} mm" in difference.sentence
+    assert difference.where in difference.sentence
+    assert rival_error([used, rival], difference.mm * 1.01) is None
+    assert rival_error([used, rival], difference.mm * 0.99) == difference
 
 
 def test_the_worst_rival_counts_and_each_place_by_itself():
@@ -120,6 +123,7 @@ def test_the_worst_rival_counts_and_each_place_by_itself():
     small, large = (explained({"chain_plane": size}) for size in (1.0, 4.0))
     worst = rival_error([used, large], 0.0)
     assert rival_error([used, small, large], 0.0) == worst
+    assert rival_error([used, large, small], 0.0) == worst
     assert rival_error([used, small], 0.0).mm < 0.5 * worst.mm
 
 

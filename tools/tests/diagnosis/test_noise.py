@@ -38,7 +38,7 @@ def board_of(*, noise, columns=5, rows=3, times=1, seed=1, true=BELIEVED, sigma=
 
 
 def weights_for(sigmas, sigma, degrees):
-    """Log weights of noises of which a sigma with so many degrees of freedom was seen."""
+    """Log weights of noises of which a sigma with some degrees of freedom was seen."""
     return -degrees * (np.log(sigmas) + 0.5 * (sigma / sigmas) ** 2)
 
 

@@ -86,7 +86,7 @@ def test_nothing_is_named_where_nothing_is_likely_enough(chance, is_beyond, monk
     if is_beyond:
         assert (said.verdict, said.listed, said.best.effects) == ("nothing_provable", (), ())
     else:
-        # It is not hidden: that nothing acts stays an account beside the cause.
+        # It is not hidden: that nothing acts stays an account.
         assert said.verdict == "cannot_tell"
         assert [each.account.effects for each in said.listed] == [("a",), ()]
 
@@ -120,7 +120,7 @@ def test_each_verdict_has_its_board(hidden, millimetres, bump, expected):
     if diagnosis.verdict == "nothing_provable":
         assert diagnosis.to_add == () and diagnosis.explanations == ()
     else:
-        assert hidden in diagnosis.to_add  # what is known is added beside what is not
+        assert hidden in diagnosis.to_add  # also where something else is unknown
 
 
 def test_a_larger_effect_makes_nothing_less_likely():
