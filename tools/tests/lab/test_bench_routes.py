@@ -170,7 +170,7 @@ def test_a_refit_asks_the_model_only_a_few_times(columns, rows, monkeypatch, cap
         lines.append(
             f"{columns * rows} marks, {len(chosen.effects)} effects: {taken:.0f} ms of CPU"
         )
-        assert len(asked_at) <= 4, chosen
+        assert len(asked_at) <= 5, chosen
     with capsys.disabled():
         print("", *lines, sep="\n  ")
 

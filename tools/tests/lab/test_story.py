@@ -61,7 +61,7 @@ class Visit:
 
 def is_hidden(sentence):
     (hidden,) = hide([RANDOM], millimetres=3, seed=MACHINE).effects
-    return noun_of(hidden) in sentence and "One suspect" in sentence
+    return f"The cause is most likely {noun_of(hidden)}: the odds are" in sentence
 
 
 def accept_one_by_one(visit):

@@ -5,6 +5,7 @@ import time
 import pytest
 from folder import PATIENCE, choose, example_form, finished, got, with_marks
 from plumb import api
+from plumb.cli.main import main
 from plumb.diagnosis.answer import verdict_sentence
 from plumb.text.errors import read_on_page
 
@@ -54,9 +55,9 @@ def test_the_maps_hold_the_same_marks_before_and_after(client, tmp_path):
 
 
 def test_what_the_frame_leaves_is_the_same_number_in_sentence_and_map(client, tmp_path):
-    inputs = api.read(tmp_path / "groundcontrol.ini", tmp_path / "marks.toml")
-    fitted = api.add(inputs, ["chain_pitch", "chain_stretch"])
-    api.write(fitted, tmp_path / "both.toml")
+    board = [str(tmp_path / name) for name in ("groundcontrol.ini", "marks.toml")]
+    both = ["--effect", "chain_pitch", "chain_stretch", "-o", str(tmp_path / "both.toml")]
+    assert main(["add", *board, *both]) == 0
     choose(client, settings="both.toml")
     verdict = finished(client, "verdict")["verdict"]
     assert verdict["verdict"] == "nothing_provable" and verdict["added"] == ""
