@@ -10,6 +10,7 @@ import numpy as np
 from pydantic import computed_field
 
 from plumb.cure.live_board import Chosen, LiveBoard, refuse_unknown_effects
+from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.sizes import intervals_sentence
 from plumb.fit.compare import Comparison, best_pose, compare
 from plumb.fit.covariates import PATCH, best_patch
@@ -188,18 +189,20 @@ def add(
     effects: Sequence[str],
     held: Mapping[str, float] | None = None,
     patch: bool = False,
+    noise: Noise | None = None,
 ) -> Addition:
     """Fit frame and effects to the marks; effects that the settings have already stay as they are.
 
     held: parameters of the effects, by full name, that keep these sizes. patch: with them a
-    residual patch, if marks left out are then predicted better.
+    residual patch, if marks left out are then predicted better. noise: that of a diagnosis, if
+    there is one.
 
     Raises InputError for unknown effects, too few marks, and marks that cannot be reached.
     """
     chosen = Chosen(tuple(dict.fromkeys(effects)), held or {})
     refuse_unknown_effects(chosen.effects)
     raw = compare(inputs)
-    board = LiveBoard(inputs, warm=False)
+    board = LiveBoard(inputs, warm=False, noise=noise)
     board.refuse(chosen)
     return add_to(board, raw, chosen, patch=patch)
 

@@ -89,14 +89,15 @@ def add_auto(
         return AutoAddition(diagnosis, inputs, (), (), None, _open_reason(diagnosis.left_open))
     is_known = diagnosis.verdict != "not_in_library"
     try:
-        addition = add(inputs, effects=diagnosis.to_add)
+        # The noise is that of the diagnosis: what is usual would count twice in another posterior.
+        addition = add(inputs, effects=diagnosis.to_add, noise=diagnosis.noise)
     except TooFewError as error:
         return AutoAddition(diagnosis, inputs, (), (), None, f"nothing was added: {error}")
     chosen, offer = diagnosis.to_add, None
     if not is_known:
         if not addition.pays:
-            chosen, addition = (), add(inputs, effects=())
-        patched = add(inputs, effects=chosen, patch=True)
+            chosen, addition = (), add(inputs, effects=(), noise=diagnosis.noise)
+        patched = add(inputs, effects=chosen, patch=True, noise=diagnosis.noise)
         offer = addition.after.left_out_rms, patched.after.left_out_rms
         addition = patched if patch else addition
     rivals = tuple(each.effects for each in diagnosis.explanations[1:]) if is_known else ()

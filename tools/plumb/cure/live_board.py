@@ -71,8 +71,10 @@ class Chosen:
 class LiveBoard:
     """The board of some inputs; several threads may ask it."""
 
-    def __init__(self, inputs: Inputs, *, warm: bool = True) -> None:
-        """warm: a search begins at the last fit. Raises InputError for marks out of reach."""
+    def __init__(self, inputs: Inputs, *, warm: bool = True, noise: Noise | None = None) -> None:
+        """warm: a search begins at the last fit. noise: that of a diagnosis, if there is one.
+        Raises InputError for marks out of reach.
+        """
         self.inputs = inputs
         self._warm = warm
         model, rows = inputs.model_and_observations()
@@ -80,7 +82,7 @@ class LiveBoard:
         self.rows: Observations = rows
         sigma = inputs.stated.sigma if inputs.stated else USUAL_SIGMA
         board = Board.of(model, rows, sigma=sigma, priors=inputs.priors, checked=inputs.checked)
-        self.noise, self.said = noise_of(inputs, board)
+        self.noise, self.said = (noise, noise.notes) if noise else noise_of(inputs, board)
         self._fits: dict[object, Fit] = {}
         self._last: Fit | None = None
         self._fitting = Lock()

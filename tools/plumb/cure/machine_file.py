@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from plumb.cure.add import Addition, Parameter, Quality, add
+from plumb.diagnosis.noise import Noise
 from plumb.fit.covariates import PATCH
 from plumb.fit.inputs import Inputs
 from plumb.fit.rounds import POSE_AXES, ZERO_AXES
@@ -121,12 +122,18 @@ def has_setting(name: str) -> bool:
     return bool(parameter_names(effect)) and place_of(effect) == "firmware"
 
 
-def correct(inputs: Inputs, effects: Sequence[str], accepted: Collection[str]) -> Correction:
+def correct(
+    inputs: Inputs,
+    effects: Sequence[str],
+    accepted: Collection[str],
+    *,
+    noise: Noise | None = None,
+) -> Correction:
     """Fit frame and effects; then again with every number that is not accepted held as it is.
 
     Raises InputError as add() does.
     """
-    whole = add(inputs, effects=effects)
+    whole = add(inputs, effects=effects, noise=noise)
     names = [number.name for number in whole.parameters if has_setting(number.name)]
     free = [name for name in names if name in accepted]
     if not free:
@@ -143,7 +150,7 @@ def correct(inputs: Inputs, effects: Sequence[str], accepted: Collection[str]) -
         if has_setting(name) and name not in free
     }
     some = replace(inputs, priors={**inputs.priors, **held_frame})
-    made = add(some, effects=wanted, held=held)
+    made = add(some, effects=wanted, held=held, noise=noise)
     return Correction(whole, made, tuple(wanted), held, tuple(held_frame))
 
 

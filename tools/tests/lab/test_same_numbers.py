@@ -61,6 +61,8 @@ class Said:
             finished(client, name)[name] for name in ("verdict", "correction")
         )
         choice = {"effects": self.added["effects_added"]}
+        # The bench fits what is named, whatever is usual.
+        _, self.named = terminal("add", *words, "--effect", *choice["effects"])
         self.bench = client.post("/api/bench/fit", json=choice).json()
         self.stairs = client.post("/api/bench/stairs", json=choice).json()["stairs"]
 
@@ -166,9 +168,9 @@ def test_what_noise_alone_leaves_is_the_same(said):
         said.figure("noise alone leaves"),
         re.findall(rf"noise {LENGTH}", said.parts["fall"])[-1],
         said.verdict["noise_added"],
-        said.bench["noise_rms"],
-        said.stairs[-1]["noise_rms"],
     )
+    named = said.named["after"]["noise_rms_mm"]
+    assert_same(named, said.bench["noise_rms"], said.stairs[-1]["noise_rms"])
     assert_same(said.diagnosed["noise_rms_mm"], said.added["before"]["noise_rms_mm"])
 
 
@@ -195,9 +197,9 @@ def test_error_of_what_is_added_is_the_same(said):
         ),
         said.verdict["rms_added"],
         said.correction["rms_all"],
-        said.bench["fit_rms"],
-        said.stairs[-1]["fit_rms"],
     )
+    named = said.named["after"]["fit_rms_mm"]
+    assert_same(named, said.bench["fit_rms"], said.stairs[-1]["fit_rms"])
 
 
 def test_error_on_marks_not_used_is_the_same(said):
@@ -207,9 +209,9 @@ def test_error_on_marks_not_used_is_the_same(said):
         said.figure("on marks not used"),
         re.findall(rf"checked {LENGTH}", said.parts["fall"])[-1],
         match_in(rf"on marks not used {LENGTH}", said.parts["history"]),
-        said.bench["left_out_rms"],
-        said.stairs[-1]["left_out_rms"],
     )
+    named = said.named["after"]["left_out_rms_mm"]
+    assert_same(named, said.bench["left_out_rms"], said.stairs[-1]["left_out_rms"])
     before = re.findall(rf"checked {LENGTH}", said.parts["fall"])[0]
     assert_same(before, said.added["before"]["left_out_rms_mm"], said.stairs[1]["left_out_rms"])
 
@@ -247,7 +249,6 @@ def sizes_on(card):
 
 def test_sizes_and_their_noise_are_those_of_the_fit(said):
     noise = said.correction["intervals"]
-    assert noise == said.bench["intervals"]
     assert noise in said.add and noise in said.parts["settings"]
     assert_same(match_in(LENGTH, noise), said.added["sigma_mm"])
     numbers = {each["name"]: each for each in said.correction["numbers"]}
@@ -256,10 +257,15 @@ def test_sizes_and_their_noise_are_those_of_the_fit(said):
         assert size in said.parts["settings"]
         # In the terminal's table a long line goes on below.
         assert all(number in said.add for number in re.findall(r"[\d.]+\d", size))
-        if each["name"] in said.bench["sizes"]:
-            assert said.bench["sizes"][each["name"]]["said"] == size
         if each["name"] in numbers:
             assert numbers[each["name"]]["after"].lstrip("-") in size
+
+
+def test_sizes_on_the_bench_are_those_of_the_effects_that_are_named(said):
+    for each in said.named["parameters"]:
+        if each["name"] in said.bench["sizes"]:
+            size = plain_size(each["name"], each["value"], each["low"], each["high"])
+            assert said.bench["sizes"][each["name"]]["said"] == size
 
 
 def test_a_diagnosis_and_a_fit_have_the_same_noise_and_say_where_it_is_from(said):

@@ -119,7 +119,7 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
             if auto.addition is None:
                 why = list(auto.said)
                 return CorrectionParts(reasons=why, is_slip=True, add=_auto_words(choices))
-            made = correct(auto.inputs, auto.chosen, choices.accepted)
+            made = correct(auto.inputs, auto.chosen, choices.accepted, noise=auto.diagnosis.noise)
             return _parts(made, auto, choices)
 
     answer = background.ask("correction", key, work)
@@ -145,7 +145,7 @@ def write(known: Write, project: TheProject, line: TheLine) -> Written:
     auto = add_auto(inputs)
     if auto.addition is None:
         raise InputError(auto.reason)
-    made = correct(auto.inputs, auto.chosen, choices.accepted).accepted
+    made = correct(auto.inputs, auto.chosen, choices.accepted, noise=auto.diagnosis.noise).accepted
     if made is None:
         raise InputError("no number is accepted, so there is nothing to write")
     name = project.free_name("machine", *WRITTEN)
