@@ -81,7 +81,9 @@ class LiveBoard:
         self.model: MachineSettings = model
         self.rows: Observations = rows
         sigma = inputs.stated.sigma if inputs.stated else USUAL_SIGMA
-        board = Board.of(model, rows, sigma=sigma, priors=inputs.priors, checked=inputs.checked)
+        # Checks of effects count in a fit of these effects: the noise is the same for every fit.
+        frame = [check for check in inputs.checked if "." not in check.name]
+        board = Board.of(model, rows, sigma=sigma, priors=inputs.priors, checked=frame)
         self.noise, self.said = (noise, noise.notes) if noise else noise_of(inputs, board)
         self._fits: dict[object, Fit] = {}
         self._last: Fit | None = None

@@ -131,7 +131,7 @@ def correct(
 ) -> Correction:
     """Fit frame and effects; then again with every number that is not accepted held as it is.
 
-    Raises InputError as add() does.
+    noise: that of a diagnosis, for the fit of all. Raises InputError as add() does.
     """
     whole = add(inputs, effects=effects, noise=noise)
     names = [number.name for number in whole.parameters if has_setting(number.name)]
@@ -150,7 +150,7 @@ def correct(
         if has_setting(name) and name not in free
     }
     some = replace(inputs, priors={**inputs.priors, **held_frame})
-    made = add(some, effects=wanted, held=held, noise=noise)
+    made = add(some, effects=wanted, held=held)
     return Correction(whole, made, tuple(wanted), held, tuple(held_frame))
 
 
