@@ -386,7 +386,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_client(parser)
     add_firmware(parser)
-    add_stated(parser, sigma="tape_sigma_mm of MARKS and repeats, else from the residuals")
+    add_stated(parser, sigma="tape_sigma_mm of MARKS and their scatter")
     add_picture(parser, "draw how the error falls")
     add_force(parser)
     add_units(parser)

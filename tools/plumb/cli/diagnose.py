@@ -204,6 +204,6 @@ EXIT = (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb diagnose`."""
     add_marks(parser)
-    add_stated(parser, sigma="tape_sigma_mm of MARKS and repeats, else 0.5")
+    add_stated(parser, sigma="tape_sigma_mm of MARKS and their scatter")
     add_units(parser)
     add_json(parser)

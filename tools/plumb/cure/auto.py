@@ -147,8 +147,10 @@ def _open_reason(left_open: LeftOpen) -> str:
 def _reason(
     diagnosis: Diagnosis, chosen: tuple[str, ...], rivals: tuple[tuple[str, ...], ...]
 ) -> str:
-    named = diagnosis.explanations[0].effects if diagnosis.explanations else ()
+    named = diagnosis.likely
     usual = _usual_sentence([name for name in chosen if name not in named])
+    if diagnosis.verdict == "nothing_provable" and named:
+        return f"the marks do not prove it, but {plainly(named)} is likelier than not{usual}"
     if diagnosis.verdict == "nothing_provable":
         return f"the marks show no cause, so only the frame was fitted{usual}"
     if diagnosis.verdict == "not_in_library":

@@ -13,7 +13,7 @@ from plumb.diagnosis.expected_error import LeftOpen
 from plumb.diagnosis.explanation import Explanation
 from plumb.diagnosis.noise import ORIGINS, Noise, misfit_chance
 from plumb.diagnosis.outliers import Outlier
-from plumb.diagnosis.posterior import Account, Listed, explain_account
+from plumb.diagnosis.posterior import Account, Listed, Posterior, explain_account
 from plumb.diagnosis.priors import LIKELIER
 from plumb.diagnosis.readings import CleanReadings
 from plumb.diagnosis.sizes import Room, Size
@@ -97,6 +97,7 @@ class Diagnosis:
     readings: Internal[CleanReadings]  # with the posterior that all of this is read from
     fits: Internal[tuple[Explanation, ...]]  # of the explanations, in their order
     best: Internal[Explanation]  # with the effects to go on with
+    likely: Internal[tuple[str, ...]]  # those of the account behind it, without what was left out
     rms_before: Annotated[float, key("rms_mm", "With the frame fitted.")]
     noise_rms: Annotated[float, key("noise_rms_mm", "What noise alone leaves of that fit.")]
     explanations: tuple[Together, ...]  # likeliest first
@@ -307,10 +308,18 @@ def judge(readings: CleanReadings, stated: Stated | None) -> Judgement:
         return Judgement("not_in_library", nearest, nearest[0].account)
     listed = tuple(posterior.listed())
     if is_silent(posterior.nothing_chance):
-        nothing = next(account for account in posterior.accounts if not account.effects)
-        return Judgement("nothing_provable", (), nothing)
+        return Judgement("nothing_provable", (), _likelier(posterior, listed[0]))
     verdict = "one_suspect" if len(listed) == 1 else "cannot_tell"
     return Judgement(verdict, listed, listed[0].account)
+
+
+def _likelier(posterior: Posterior, first: Listed) -> Account:
+    """Return the account to go on with where none is named: the first if it is likelier than all
+    others together, for to leave it out would mostly be wrong; else that of nothing.
+    """
+    if first.share > LIKELIER:
+        return first.account
+    return next(account for account in posterior.accounts if not account.effects)
 
 
 def is_silent(nothing_chance: float) -> bool:

@@ -45,6 +45,7 @@ def diagnose(inputs: Inputs) -> Diagnosis:
         readings=readings,
         fits=explanations,
         best=best,
+        likely=judgement.best.effects,
         rms_before=frame.rms,
         noise_rms=left_by_noise(frame, noise),
         explanations=tuple(

@@ -10,6 +10,7 @@ import scipy
 from plumb.diagnosis.explanation import Explanation, span
 from plumb.diagnosis.priors import NOISE_DEGREES, noise_prior
 from plumb.fit.inputs import Stated
+from plumb.fit.observations import Observations
 from plumb.text.errors import to_do
 from plumb.text.values import worded
 
@@ -89,17 +90,35 @@ def _compared(noise: Noise, stated: Stated) -> Noise:
 
 def misfit_chance(explanation: Explanation, stated: Stated | None) -> float:
     """Return the chance that noise leaves as much as this explanation does, over all noises that
-    were likely before the marks (a posterior-predictive check, Gelman, Meng and Stern 1996).
+    were likely before the marks and are by their repeats (a posterior-predictive check, Gelman,
+    Meng and Stern 1996).
     """
     basis, count = explanation.basis, explanation.board.rows.count
+    again, degrees = _repeats(explanation.board.rows)
     # How near the frame is to what was stated says nothing of how well the marks are explained.
-    left = float(explanation.numbers @ explanation.numbers)
-    spare = count - float(np.sum(basis[:count] ** 2))
+    left = float(explanation.numbers @ explanation.numbers) - again
+    spare = count - float(np.sum(basis[:count] ** 2)) - degrees
     if spare < FEWEST_SPARE:
         return 1.0
     middle, spread = noise_prior(stated)
     logs = spread * scipy.special.stdtrit(NOISE_DEGREES, (np.arange(DRAWN) + 0.5) / DRAWN)
-    return float(np.mean(scipy.special.chdtrc(spare, left / (middle * np.exp(logs)) ** 2)))
+    variances = (middle * np.exp(logs)) ** 2
+    weights = -(degrees * np.log(variances) + again / variances) / 2
+    chances = np.exp(weights - np.logaddexp.reduce(weights))
+    return float(chances @ scipy.special.chdtrc(spare, max(left, 0.0) / variances))
+
+
+def _repeats(rows: Observations) -> tuple[float, int]:
+    """Return the sum of squares [mm^2] of readings of a mark in a round about their mean, and its
+    degrees of freedom.
+    """
+    errors = rows.measured - rows.targets
+    alike: dict[object, list[int]] = {}
+    for i, row in enumerate(rows.mark_rows):
+        alike.setdefault((rows.names[i], *rows.chains[row], rows.rounds[row]), []).append(i)
+    groups = [errors[group] for group in alike.values()]
+    squares = sum(float(np.sum((group - group.mean(axis=0)) ** 2)) for group in groups)
+    return squares, 2 * (len(errors) - len(groups))
 
 
 def left_by_noise(explanation: Explanation, noise: Noise) -> float:

@@ -64,7 +64,7 @@ USUAL: Mapping[str, Usual] = {
 # little off, each chain by itself.
 PITCH = "chain_pitch"
 PITCH_CHANCE, PITCH_SPREAD = 0.5, 0.0005
-ZERO = 1e-3  # of a typical size: how near zero what cannot be negative is held
+ZERO = 1e-4  # of a typical size: how near zero what cannot be negative is held
 
 
 @dataclass(frozen=True)

@@ -149,6 +149,7 @@ def _together(several: list[Array]) -> float:
 # made-up boards with a size 1.25 times the largest, the range itself refused the truth in 11.
 
 OUTSIDE = 1.5
+ROUNDING = 1e-3  # of the larger end: what is held at zero comes out about zero
 
 
 @dataclass(frozen=True)
@@ -166,7 +167,9 @@ class PlausibleRange:
 
     def holds(self, value: float) -> bool:
         """Return whether a value is plausible."""
-        return bool(self.low <= value <= self.high)
+        ends = [abs(end) for end in (self.low, self.high) if np.isfinite(end)]
+        tiny = ROUNDING * max(ends, default=0.0)
+        return bool(self.low - tiny <= value <= self.high + tiny)
 
     def is_near(self, low: float | Array, high: float | Array) -> Any:
         """Return whether an interval (or each of many) reaches what a real machine may have."""
