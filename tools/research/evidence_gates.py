@@ -81,7 +81,7 @@ def _run(wanted: argparse.Namespace) -> int:
         print("\n".join(f"{name}: {KINDS[name].what}" for name in kinds))
         return 0
     if wanted.table:
-        print(_tables([Saved.read(path) for path in wanted.table[:2]]))
+        print(tables_of([Saved.read(path) for path in wanted.table[:2]]))
         return 0
     if not wanted.save:
         raise InputError("name a file with --save")
@@ -104,7 +104,7 @@ def _run(wanted: argparse.Namespace) -> int:
     return 0
 
 
-def _tables(sides: Sequence[Saved]) -> str:
+def tables_of(sides: Sequence[Saved]) -> str:
     """Return all tables of what was saved; boards that only a side has are left out."""
     if len({side.seed for side in sides}) > 1:
         raise InputError("both files must have the boards of the same seed")

@@ -27,7 +27,8 @@ def diagnose(inputs: Inputs) -> Diagnosis:
 
     Raises InputError for too few marks, and marks that cannot be reached.
     """
-    readings = clean_readings(measured_board(inputs), inputs)
+    board = measured_board(inputs)
+    readings = clean_readings(board, inputs)
     judgement = judge(readings, inputs.stated)
     frame, noise = readings.frame, readings.noise
     explanations = tuple(
