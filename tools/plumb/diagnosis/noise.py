@@ -90,22 +90,25 @@ def _compared(noise: Noise, stated: Stated) -> Noise:
 
 def misfit_chance(explanation: Explanation, stated: Stated | None) -> float:
     """Return the chance that noise leaves as much as this explanation does, over all noises that
-    were likely before the marks and are by their repeats (a posterior-predictive check, Gelman,
-    Meng and Stern 1996).
+    were likely before the marks (a posterior-predictive check, Gelman, Meng and Stern 1996).
+
+    Repeats that scatter more than was stated make noises likelier. Repeats that scatter less do
+    not: they share what is wrong with a mark, and say nothing of how marks differ.
     """
     basis, count = explanation.basis, explanation.board.rows.count
-    again, degrees = _repeats(explanation.board.rows)
     # How near the frame is to what was stated says nothing of how well the marks are explained.
-    left = float(explanation.numbers @ explanation.numbers) - again
-    spare = count - float(np.sum(basis[:count] ** 2)) - degrees
+    left = float(explanation.numbers @ explanation.numbers)
+    spare = count - float(np.sum(basis[:count] ** 2))
     if spare < FEWEST_SPARE:
         return 1.0
     middle, spread = noise_prior(stated)
     logs = spread * scipy.special.stdtrit(NOISE_DEGREES, (np.arange(DRAWN) + 0.5) / DRAWN)
     variances = (middle * np.exp(logs)) ** 2
-    weights = -(degrees * np.log(variances) + again / variances) / 2
-    chances = np.exp(weights - np.logaddexp.reduce(weights))
-    return float(chances @ scipy.special.chdtrc(spare, max(left, 0.0) / variances))
+    squares, degrees = _repeats(explanation.board.rows)
+    by_repeats = -(degrees * np.log(variances) + squares / variances) / 2
+    by_repeats = np.exp(by_repeats - np.logaddexp.reduce(by_repeats))
+    tails = scipy.special.chdtrc(spare, left / variances)
+    return float(max(tails.mean(), by_repeats @ tails))
 
 
 def _repeats(rows: Observations) -> tuple[float, int]:

@@ -11,6 +11,7 @@ from plumb.diagnosis import diagnose
 from plumb.diagnosis.answer import MISFIT, NOTHING, UNKNOWN, VERDICTS, is_silent, judge
 from plumb.diagnosis.linear import MovedRound
 from plumb.diagnosis.posterior import LISTED, Account, Posterior
+from plumb.diagnosis.priors import LIKELIER
 from plumb.fit.inputs import Inputs
 
 TINY = 1e-12
@@ -84,11 +85,20 @@ def test_nothing_is_named_where_nothing_is_likely_enough(chance, is_beyond, monk
     said = judged({("a",): 1 - chance, (): chance}, monkeypatch)
     assert is_silent(chance) == is_beyond
     if is_beyond:
-        assert (said.verdict, said.listed, said.best.effects) == ("nothing_provable", (), ())
+        assert (said.verdict, said.listed) == ("nothing_provable", ())
     else:
         # It is not hidden: that nothing acts stays an account.
         assert said.verdict == "cannot_tell"
         assert [each.account.effects for each in said.listed] == [("a",), ()]
+
+
+@pytest.mark.parametrize(("chance", "is_beyond"), both(LIKELIER))
+def test_what_is_likelier_than_not_is_gone_on_with_though_it_is_not_named(
+    chance, is_beyond, monkeypatch
+):
+    said = judged({("a",): chance, (): 1 - chance}, monkeypatch)
+    assert (said.verdict, said.listed) == ("nothing_provable", ())
+    assert said.best.effects == (("a",) if is_beyond else ())
 
 
 @pytest.mark.parametrize(("share", "is_beyond"), both(LISTED))
