@@ -138,6 +138,14 @@ def test_a_misfit_is_no_surprise_where_the_noise_is_little_known():
     assert misfit_chance(loud, None) < 0.02
 
 
+def test_repeats_that_scatter_make_a_misfit_no_surprise_and_quiet_repeats_do_not_make_one():
+    # The tape is said to be three times better than it is; each mark was read three times.
+    loud = explain(board_of(noise=0.5, rows=3, times=3))
+    assert misfit_chance(loud, Stated(0.17)) > 0.03
+    once = explain(board_of(noise=0.5, rows=3))
+    assert misfit_chance(once, Stated(0.17)) < misfit_chance(loud, Stated(0.17))
+
+
 def test_a_misfit_needs_half_a_number_to_spare():
     three = explain(board_of(noise=30.0, columns=3, rows=1))
     basis = np.sum(three.basis[:6] ** 2)
