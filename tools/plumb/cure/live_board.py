@@ -72,7 +72,7 @@ class LiveBoard:
     """The board of some inputs; several threads may ask it."""
 
     def __init__(self, inputs: Inputs, *, warm: bool = True, noise: Noise | None = None) -> None:
-        """warm: a search begins at the last fit. noise: that of a diagnosis, if there is one.
+        """warm: a search begins at the last fit. noise: that of a diagnosis, if it is known.
         Raises InputError for marks out of reach.
         """
         self.inputs = inputs
