@@ -44,9 +44,10 @@ class AutoAddition:
 
     @property
     def named(self) -> tuple[str, ...]:
-        """Effects of the likeliest explanation."""
-        explanations = self.diagnosis.explanations
-        return explanations[0].effects if explanations else ()
+        """Effects of the account behind the choice, without what every machine has and the
+        settings leave out.
+        """
+        return self.diagnosis.likely
 
     @property
     def said(self) -> tuple[str, ...]:
@@ -150,7 +151,8 @@ def _reason(
     named = diagnosis.likely
     usual = _usual_sentence([name for name in chosen if name not in named])
     if diagnosis.verdict == "nothing_provable" and named:
-        return f"the marks do not prove it, but {plainly(named)} is likelier than not{usual}"
+        said = f"no cause is certain, but it is more likely than not {plainly(named)}"
+        return f"{said}: so that was added{usual}"
     if diagnosis.verdict == "nothing_provable":
         return f"the marks show no cause, so only the frame was fitted{usual}"
     if diagnosis.verdict == "not_in_library":

@@ -182,7 +182,7 @@ def page_of(findings: Findings, *, commands: Sequence[Command], again: str) -> P
             for each, colour in zip(findings.curves, SUSPECTS, strict=False)
         ),
         slips=diagnosis.outliers,
-        cards_title="Suspects" if diagnosis.suspects else "What every machine has",
+        cards_title="Suspects" if diagnosis.suspects else "What was added",
         accounts=_accounts(findings),
         cards=() if diagnosis.outliers else cards_of(findings),
         next=next_step_of(findings, commands),
