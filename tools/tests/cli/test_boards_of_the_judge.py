@@ -1,7 +1,6 @@
 """Boards of the judge with something hidden, through every command that reads marks: each answers,
 or refuses in one line; none ends in a traceback, and no number of an answer is nonsense."""
 
-import re
 import warnings
 from itertools import product
 from pathlib import Path
@@ -96,7 +95,7 @@ def test_marks_that_the_frame_alone_may_explain_are_answered(run, tmp_path, monk
         code, said, _ = run(command, DATA / "stock_bottom.ini", DATA / marks, *options)
         assert code in (0, 1)
         if command in ("diagnose", "calibrate"):
-            assert re.search(r"^or\nthe frame alone +0.\d\d mm$", said, re.MULTILINE)
+            assert "0.76 mm" in said and "noise alone leaves 0.7" in " ".join(said.split())
 
 
 @pytest.mark.slow

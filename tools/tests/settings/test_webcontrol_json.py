@@ -126,7 +126,13 @@ def test_a_calibration_with_webcontrol_needs_nothing_else(
 ):
     monkeypatch.chdir(tmp_path)
     marks = str(EXAMPLE / "marks.toml")
-    checked = ["--checked", "tape_scale.strain=0+-0.0001"]
+    known = (
+        "tape_scale.strain=0+-0.0001",
+        "chain_pitch.left=0.0019+-0.0003",
+        "chain_pitch.right=0.0019+-0.0003",
+        "chain_stretch.compliance=4.8e-6+-7e-7",
+    )
+    checked = [word for each in known for word in ("--checked", each)]
     assert main(["calibrate", "webcontrol.json", marks, *checked]) == 0
     said = capsys.readouterr().out
     assert "put machine-webcontrol.json in place of its webcontrol.json" in " ".join(said.split())
