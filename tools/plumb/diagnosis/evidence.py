@@ -54,14 +54,7 @@ class Accounts:
 
     def up_to(self, most: int) -> Accounts:
         """Return the accounts of at most `most` effects."""
-        few = np.array([len(names) <= most for names in self.effects])
-        parts = (
-            Part(part.sets[kept], part.index[kept], part.variance[kept], part.log_prior[kept])
-            for part in self.parts
-            for kept in [few[part.sets]]
-            if kept.any()
-        )
-        return Accounts(self.effects, tuple(parts), self.sizes)
+        return self.among(np.array([len(names) <= most for names in self.effects]))
 
     def among(self, wanted: Array) -> Accounts:
         """Return the accounts of some sets (sets,)."""
