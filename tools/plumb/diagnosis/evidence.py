@@ -9,7 +9,7 @@ negative takes the ratio of the posterior's to the prior's mass where it is not.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import combinations, product
@@ -17,7 +17,7 @@ from itertools import combinations, product
 import numpy as np
 import scipy
 
-from plumb.diagnosis.linear import LinearBoard, Metric, rows_in_metric
+from plumb.diagnosis.linear import LinearBoard, Metric, Other, rows_in_metric
 from plumb.diagnosis.priors import (
     ALL,
     NOISE_DEGREES,
@@ -263,8 +263,12 @@ class Noises:
         return Noises(self.sigmas[kept], self.log_prior[kept] + np.log(2))
 
 
-def noises_of(board: LinearBoard, accounts: Accounts, stated: Stated | None) -> Noises:
-    """Return the noises that some account finds likely, by single effects and all at once."""
+def noises_of(
+    board: LinearBoard, accounts: Accounts, stated: Stated | None, fields: Sequence[Other] = ()
+) -> Noises:
+    """Return the noises that some account finds likely, by single effects and all at once; with
+    one of these fields too, for what a field draws is no noise.
+    """
     middle, spread = noise_prior(stated)
     if not spread:
         return Noises(np.array([middle]), np.zeros(1))
@@ -277,10 +281,12 @@ def noises_of(board: LinearBoard, accounts: Accounts, stated: Stated | None) -> 
     few = accounts.among(
         np.array([len(names) < 2 or len(names) > TOGETHER for names in accounts.effects])
     )
-    weights = np.vstack(
-        [weight for _, weight in variants(few, Metric.of(board, every.sigmas), every)]
-    )
-    likely = weights.max(axis=0) > weights.max() - NEGLIGIBLE
+    best = [
+        np.max([weight.max(axis=0) for _, weight in variants(few, metric, every)], axis=0)
+        for metric in (Metric.of(board, every.sigmas, other) for other in (None, *fields))
+    ]
+    clean, others = best[0], np.max(best, axis=0)
+    likely = (clean > clean.max() - NEGLIGIBLE) | (others > others.max() - NEGLIGIBLE)
     return Noises(every.sigmas[likely], every.log_prior[likely])
 
 

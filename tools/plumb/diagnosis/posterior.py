@@ -39,16 +39,18 @@ from plumb.diagnosis.noise import Noise, noise_by
 from plumb.diagnosis.outliers import Reading, readings_of
 from plumb.diagnosis.priors import (
     FIELD,
+    FIELD_SPREADS,
     MOVED,
     OUTLIER,
     TOGETHER,
     TURNED,
+    noise_prior,
     usual_checks,
     zero_checks,
 )
 from plumb.fit.inputs import Stated
 from plumb.model.catalogue import EVERY_MACHINE
-from plumb.model.plain import ascending, greatest, ranked
+from plumb.model.plain import ascending, ranked
 
 Array = np.ndarray
 REFITTED = 6  # likeliest sets that are made linear about the fit of each
@@ -182,14 +184,14 @@ def posterior_of(board: Board, stated: Stated | None) -> Posterior:
     felt = felt_effects(frame)
     linear = LinearBoard.of(frame, felt)
     accounts = accounts_of(linear, TOGETHER if linear.measured <= FEWER else 2)
-    noises = noises_of(linear, accounts, stated)
+    middle, _ = noise_prior(stated)
+    others = fields(frame, middle)
+    noises = noises_of(linear, accounts, stated, others[1 :: len(FIELD_SPREADS)])
     clean = clean_of(linear, accounts, noises).on(0)
     clean = _refitted(frame, felt, accounts, noises, clean)
     few = accounts.up_to(2)
     # A field takes the place of most effects: sets that are unlikely without it stay so.
     likely = (clean.total > clean.total.max() - UNLIKELY) | _small(accounts)
-    sigma = float(noises.sigmas[greatest(clean.by_noise)])
-    others = fields(frame, sigma)
     field, noise_of_field = _with_others(linear, few.among(likely), noises, others, FIELD)
     moves = moved_rounds(frame)
     moved = [

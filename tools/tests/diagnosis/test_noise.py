@@ -4,6 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hidden_boards import board_cut
+from plumb.bench.boards import plan
+from plumb.bench.causes import MAKER
+from plumb.diagnosis import diagnose
 from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.noise import (
     FEWEST_SPARE,
@@ -16,7 +20,7 @@ from plumb.diagnosis.noise import (
 )
 from plumb.diagnosis.posterior import posterior_of
 from plumb.diagnosis.priors import STATED_SPREAD, UNSTATED_SPREAD, noise_prior
-from plumb.fit.inputs import Stated
+from plumb.fit.inputs import Inputs, Stated
 from plumb.fit.observations import observe
 from plumb.fit.problem import USUAL_SIGMA
 from plumb.marks.read import Mark, Measurements
@@ -162,3 +166,14 @@ def test_noise_leaves_what_it_leaves_of_many_boards():
     assert said < 0.5 * np.sqrt(2)
     more = left_by_noise(explain(board_of(noise=0.5, true=TRUE), ("chain_pitch",)), noise)
     assert more < said
+
+
+def test_what_a_field_draws_is_no_noise():
+    """Accounts without a field need a large noise here; those with a field the noise there is."""
+    board = board_cut({}, plan(5, 5), seed=4, noise=0.5, tape_sigma=None, bump=4.0)
+    diagnosis = diagnose(Inputs(MAKER, board.measurements))
+    posterior = diagnosis.readings.posterior
+    assert diagnosis.verdict == "not_in_library" and posterior.field_chance > 0.9
+    assert diagnosis.noise.sigma == pytest.approx(0.5, rel=0.3)
+    # The accounts without a field keep theirs.
+    assert posterior.noises.sigmas.max() > 1.5 * diagnosis.noise.sigma
