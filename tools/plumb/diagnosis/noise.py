@@ -16,6 +16,7 @@ from plumb.text.values import worded
 
 Array = np.ndarray
 KNOWN = np.inf  # degrees of freedom of a noise that needs no estimate
+KNOWN_QUANTILE = 1.96  # half-width of a 95 % interval where the noise is known
 ORIGINS = {
     "stated": "as stated",
     "stated and marks": "as stated, and from the scatter of the marks",
@@ -38,7 +39,11 @@ class Noise:
     @property
     def quantile(self) -> float:
         """Half-width of a 95 % interval, in standard deviations."""
-        return 1.96 if np.isinf(self.degrees) else float(scipy.special.stdtrit(self.degrees, 0.975))
+        return (
+            KNOWN_QUANTILE
+            if np.isinf(self.degrees)
+            else float(scipy.special.stdtrit(self.degrees, 0.975))
+        )
 
     @property
     def upper_quantile(self) -> float:

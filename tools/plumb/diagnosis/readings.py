@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from plumb.diagnosis.explanation import Board, Explanation, explain
-from plumb.diagnosis.noise import Noise
+from plumb.diagnosis.noise import KNOWN_QUANTILE, Noise
 from plumb.diagnosis.outliers import (
     EXPLANATIONS,
     REPEATS,
@@ -115,6 +115,8 @@ def _shift_by_rest(before: Board, rest: Posterior, reading: Reading) -> Shift:
     ]
     return replace(
         shift,
+        # A noise that is hardly known says as little of what was meant.
+        sigma=shift.sigma * rest.noise.quantile / KNOWN_QUANTILE,
         against=REPEATS if others else EXPLANATIONS,
         is_one_of_two=len(others) == 1,
     )
