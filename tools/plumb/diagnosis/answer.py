@@ -280,10 +280,10 @@ _SENTENCES = {
 # | if                                               | odds   | because
 # | a reading is off                                 | 1 to 2 | it is read again in a minute
 # | what no effect draws, or a moved round, acts too | 1 to 4 | an unknown cause costs a wrong cure
-# | no effect acts                                   | 1 to 3 | a cause that is named is believed
+# | no effect acts                                   | 1 to 2 | a cause that is named is believed
 # | the listed accounts hold all others together     | 1 to 19| as every interval of the lab does
 UNKNOWN = 0.2
-NOTHING = 0.25
+NOTHING = 1 / 3
 MISFIT = 0.03  # chance below which noise never leaves what even the best account leaves
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
+from plumb.diagnosis.evidence import NOISE_STEP
 from plumb.diagnosis.explanation import Explanation, span
 from plumb.diagnosis.priors import NOISE_DEGREES, noise_prior
 from plumb.fit.inputs import Stated
@@ -64,13 +65,13 @@ def noise_by(sigmas: Array, weights: Array, stated: Stated | None) -> Noise:
     The logarithm of a standard deviation that is known with n degrees of freedom spreads by
     1 / sqrt(2 n), so Student's t with as many degrees follows for what is fitted.
     """
-    if len(sigmas) == 1:
+    if not noise_prior(stated)[1]:
         return Noise(float(sigmas[0]), KNOWN, "stated")
     chances = np.exp(weights - np.logaddexp.reduce(weights))
     logs = np.log(sigmas)
     middle = float(chances @ logs)
-    step = float(np.diff(logs)[0])
-    variance = float(chances @ (logs - middle) ** 2) + step**2 / 12
+    variance = float(chances @ (logs - middle) ** 2)
+    variance = variance or NOISE_STEP**2 / 12  # where one is left, it is known to a step
     noise = Noise(float(np.exp(middle)), 0.5 / variance, "stated and marks" if stated else "marks")
     return noise if stated is None else _compared(noise, stated)
 

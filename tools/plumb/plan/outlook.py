@@ -3,12 +3,13 @@
 Truths are drawn from the posterior: an account as often as it is likely, then its sizes and the
 frame as the marks so far leave them, then new readings with noise. Each simulated board is weighed
 as the diagnosis weighs it, by the slopes at the frame's fit. Two numbers are read off: the chance
-that the verdict then names what is there and nothing else, and the expected information, the mean
+that the verdict then names what the marks can show and nothing that is not there, and the expected information, the mean
 rise of the logarithm of the truth's probability (Lindley 1956).
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -38,6 +39,7 @@ DRAWS = 120  # a chance is then right to about 4 in 100
 LIKELY = 0.99  # of all weight, in the sets that are weighed again; single effects always are
 MOST_LOOKED_AT = 12  # sets of a simulated board that its verdict is read from
 SEED = 1847
+LEAST_GAIN, GAIN_PER_PARAMETER = 9.0, 2.0  # of chi-square, from which on marks can show an effect
 BACKGROUND = (*EVERY_MACHINE, PITCH)  # what may be named too: it is there on every machine
 
 
@@ -72,7 +74,8 @@ class Outlooks:
             self._so_far[felt] = SoFar.of(known, self.noises, sigma, is_hidden=self.is_hidden)
         so_far = self._so_far[felt]
         source = np.random.default_rng(SEED)
-        then, truths = so_far.simulated(rows, board, self.draws, source)
+        then, truths, sizes = so_far.simulated(rows, board, self.draws, source)
+        shown = _shown(then, self.case.noise.sigma, sizes)
         clean = clean_of(then, so_far.accounts, self.noises)
         after = clean.total - np.logaddexp.reduce(clean.total, axis=0)
         gained = after[truths, np.arange(len(truths))] - so_far.log_chances[truths]
@@ -81,7 +84,8 @@ class Outlooks:
             few = ascending(-clean.total[:, i])[:MOST_LOOKED_AT]
             asked = asked_for(then, so_far.accounts, clean.on(i), few)
             named = _named(asked, clean.total[few, i])
-            settled += _is_right(named, so_far.accounts.effects[truth])
+            acting = so_far.accounts.effects[truth]
+            settled += _is_right(named, acting, [name for name in acting if shown[name][i]])
             left += max(len(named), 1)
         return Outlook(
             chance=settled / len(truths),
@@ -111,11 +115,43 @@ def _named(asked: list[Effects], weights: Array) -> list[Effects]:
     return [listed.account.effects for listed in listing(accounts, each)]
 
 
-def _is_right(named: list[Effects], truth: Effects) -> bool:
-    """Return whether a verdict names a single explanation, with nothing that is not there."""
-    if not truth:
-        return not named
-    return len(named) == 1 and {*named[0]} - {*BACKGROUND} <= {*truth}
+def _is_right(named: list[Effects], acting: Effects, shown: Iterable[str]) -> bool:
+    """Return whether a verdict names a single explanation: all that the marks can show of what
+    acts, and nothing that is not there. What every machine has is there; nothing is named where
+    nothing acts.
+    """
+    if not named:
+        return not acting
+    there = {*acting, *BACKGROUND}
+    return len(named) == 1 and {*shown} <= {*named[0]} <= there
+
+
+def _shown(board: LinearBoard, sigma: float, sizes: Array) -> Mapping[str, Array]:
+    """Return of each effect in which draws the marks can show it: where it lowers chi-square by
+    LEAST_GAIN and GAIN_PER_PARAMETER for each parameter, beyond the frame and all else that acts.
+    sizes (p, draws), 0 where an effect does not act.
+    """
+    gram = Metric.of(board, np.array([sigma])).gram[0]
+    acts = {name: np.any(sizes[columns] != 0, axis=0) for name, columns in board.columns.items()}
+    shown = {name: np.zeros(sizes.shape[1], dtype=bool) for name in acts}
+    for pattern in np.unique(np.array(list(acts.values())), axis=1).T:
+        alike = np.all([there == at for there, at in zip(acts.values(), pattern, strict=True)], 0)
+        acting = [name for name, there in zip(acts, pattern, strict=True) if there]
+        for name in acting:
+            mine = board.columns[name]
+            others = [board.columns[other] for other in acting if other != name]
+            kept = _beyond(gram, mine, np.concatenate([np.zeros(0, dtype=int), *others]))
+            gain = np.einsum("id,ij,jd->d", sizes[mine][:, alike], kept, sizes[mine][:, alike])
+            shown[name][alike] = gain >= LEAST_GAIN + GAIN_PER_PARAMETER * len(mine)
+    return shown
+
+
+def _beyond(gram: Array, mine: Array, others: Array) -> Array:
+    """Return the Gram matrix of some columns beyond what others draw."""
+    mixed = gram[np.ix_(others, mine)]
+    solved = np.linalg.lstsq(gram[np.ix_(others, others)], mixed, rcond=1e-9)[0]
+    kept: Array = gram[np.ix_(mine, mine)] - mixed.T @ solved
+    return kept
 
 
 # The marks so far, the sets of effects that are likely by them, and boards drawn from both.
@@ -179,13 +215,15 @@ class SoFar:
 
     def simulated(
         self, rows: Ahead, known: Board, draws: int, source: np.random.Generator
-    ) -> tuple[LinearBoard, Array]:
-        """Return the board with planned readings drawn (rows, draws), and the set of each draw."""
+    ) -> tuple[LinearBoard, Array, Array]:
+        """Return the board with planned readings drawn (rows, draws), the set of each draw, and the
+        sizes (p, draws) of its effects; 0 where an effect does not act.
+        """
         new, is_read = rows.slopes[rows.so_far :], rows.marks[rows.so_far :]
         new = np.where(is_read[:, np.newaxis], known.sigma, 1.0) * new
         columns = known.columns(tuple(self.board.columns))
         frame, effects = new[:, known.frame], new[:, columns]
-        read, truths = [], []
+        read, truths, drawn_sizes = [], [], []
         noise = np.where(is_read[:, np.newaxis], self.sigma, 1.0)
         counts = _counts(np.concatenate([each.chances for each in self.truths]) * draws)
         starts = np.cumsum([0, *(len(each.chances) for each in self.truths)])
@@ -197,8 +235,20 @@ class SoFar:
                 seen = noise * source.standard_normal((len(new), count))
                 read.append(loose @ of_frame + effects[:, each.part.index[place]] @ sizes + seen)
                 truths += [int(each.part.sets[place])] * count
+                drawn_sizes.append(self._of_acting(each.part, int(place), sizes))
         drawn = np.hstack(read)
-        return self._with(frame, effects, drawn, is_read), np.array(truths)
+        then = self._with(frame, effects, drawn, is_read)
+        return then, np.array(truths), np.hstack(drawn_sizes)
+
+    def _of_acting(self, part: Part, place: int, sizes: Array) -> Array:
+        """Return sizes (k, count) of a variant as those (p, count) of the effects that act in it."""
+        every = np.zeros((self.board.effects.shape[1], sizes.shape[1]))
+        every[part.index[place]] = sizes
+        of_acting = np.zeros_like(every)
+        for name in self.accounts.effects[part.sets[place]]:
+            columns = self.board.columns[name]
+            of_acting[columns] = every[columns]
+        return of_acting
 
     def _with(self, frame: Array, effects: Array, read: Array, is_read: Array) -> LinearBoard:
         measured, board = self.board.measured, self.board

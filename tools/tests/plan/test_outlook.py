@@ -10,10 +10,11 @@ from plumb.diagnosis.every_machine import asked_for, clean_of
 from plumb.diagnosis.evidence import Noises, accounts_of, fitted
 from plumb.diagnosis.linear import LinearBoard, Metric
 from plumb.diagnosis.posterior import Account, listing
+from plumb.diagnosis.priors import SizePriors
 from plumb.marks.read import Measurements
 from plumb.plan.case import Check, Planned
 from plumb.plan.options import many_marks
-from plumb.plan.outlook import BACKGROUND, Outlooks, _is_right, _named
+from plumb.plan.outlook import Outlooks, _is_right, _named, _shown
 from plumb.plan.planned_visits import nowhere
 from synthetic import BELIEVED, grid, marks_on
 
@@ -103,11 +104,13 @@ def test_what_is_promised_comes_true_on_machines_drawn_from_the_posterior(machin
     planned = marks if what == "marks" else checks(*PITCH, sigma=5e-5)
     known = LinearBoard.of(case.frame, case.posterior.felt)
     accounts = accounts_of(known)
-    truths, then = boards_then(case, known, planned.ahead(case.frame), accounts, 300)
+    truths, sizes, then = boards_then(case, known, planned.ahead(case.frame), accounts, 300)
+    shown = _shown(then, SIGMA, sizes)
     clean = clean_of(then, accounts, NOISES)
     settled = [
-        is_settled(then, accounts, clean.on(i), accounts.effects[truth])
+        is_settled(then, accounts, clean.on(i), acting, [name for name in acting if shown[name][i]])
         for i, truth in enumerate(truths)
+        for acting in [accounts.effects[truth]]
     ]
     promised = Outlooks(case, draws=600).of(planned)
     assert promised.chance == pytest.approx(np.mean(settled), abs=0.08)
@@ -123,18 +126,22 @@ def boards_then(case, known, rows, accounts, count):
     noise = np.where(is_read, SIGMA, 1.0)
     new = rows.slopes[rows.so_far :] * noise[:, np.newaxis]
     frame, effects = new[:, board.frame], new[:, board.columns(known.columns)]
-    truths, read = [], []
+    truths, read, of_acting = [], [], []
     for truth, of_frame, sizes in drawn_machines(known, accounts, count, source):
         truths.append(truth)
         moved = frame @ of_frame + effects @ sizes + noise * source.standard_normal(len(new))
         read.append(np.r_[known.read[:, 0], moved])
-    return truths, replace(
+        acting = [known.columns[name] for name in accounts.effects[truth]]
+        is_acting = np.isin(np.arange(len(sizes)), np.concatenate([[-1], *acting]))
+        of_acting.append(np.where(is_acting, sizes, 0.0))
+    then = replace(
         known,
         measured=known.measured + int(is_read.sum()),
         frame=np.vstack([known.frame, frame]),
         effects=np.vstack([known.effects, effects]),
         read=np.array(read).T,
     )
+    return truths, np.array(of_acting).T, then
 
 
 def entropy(total):
@@ -143,42 +150,88 @@ def entropy(total):
     return -np.sum(chances * np.log2(np.maximum(chances, 1e-300)), axis=0)
 
 
-def is_settled(board, accounts, clean, truth):
-    """Whether all accounts of a board, looked at one by one, name the truth alone."""
+def is_settled(board, accounts, clean, acting, shown):
+    """Whether all accounts of a board, looked at one by one, name what is shown and acts."""
     together = {}
     asked = asked_for(board, accounts, clean, range(len(accounts.effects)))
     for effects, weight in zip(asked, clean.total, strict=True):
         together[effects] = np.logaddexp(together.get(effects, -np.inf), weight)
     weights = np.array([*together.values()])
     if np.exp(together.get((), -np.inf) - np.logaddexp.reduce(weights)) > NOTHING:
-        return not truth
+        return not acting
     named = listing([Account(effects, effects, 0.0, 0.0) for effects in together], weights)
-    return len(named) == 1 and {*named[0].account.effects} - {*BACKGROUND} <= {*truth}
+    return len(named) == 1 and _is_right([named[0].account.effects], acting, shown)
 
 
 @pytest.mark.parametrize(
-    ("named", "truth", "right"),
+    ("named", "acting", "right"),
     [
         ([("chain_zero",)], ("chain_zero",), True),
         ([("chain_zero", "chain_stretch")], ("chain_zero",), True),
         ([("chain_zero", "frame_lean")], ("chain_zero",), False),
         ([("chain_zero",), ("frame_lean",)], ("chain_zero",), False),
+        ([("chain_zero",)], ("chain_zero", "frame_lean"), False),
+        ([("chain_sag",)], ("chain_pitch",), False),
+        ([("chain_sag",)], ("chain_stretch",), False),
         ([], (), True),
         ([], ("chain_zero",), False),
         ([("chain_zero",)], (), False),
     ],
 )
-def test_a_verdict_is_right_that_names_nothing_that_is_not_there(named, truth, right):
-    assert _is_right(named, truth) is right
+def test_a_verdict_is_right_that_names_just_what_is_there(named, acting, right):
+    assert _is_right(named, acting, acting) is right
+
+
+def test_what_the_marks_cannot_show_may_stay_unnamed():
+    both = ("chain_zero", "frame_lean")
+    assert _is_right([("chain_zero",)], both, ["chain_zero"])
+    assert not _is_right([("frame_lean",)], both, ["chain_zero"])
+    assert not _is_right([("sheet_skew",)], both, [])
+
+
+def test_what_every_machine_has_may_be_named():
+    assert _is_right([("chain_stretch",)], (), [])
+    assert not _is_right([("chain_stretch",), ("chain_sag",)], (), [])
+
+
+def sizes_of(count):
+    """Priors under which nothing is usual."""
+    none, one = np.zeros(count), np.ones(count)
+    return SizePriors(none, none, one, one, -np.inf * one, none)
+
+
+def test_the_marks_show_what_the_frame_and_others_do_not_draw():
+    """By the definition: chi-square of noise-free readings, fitted without the effect."""
+    source = np.random.default_rng(8)
+    frame, effects = source.standard_normal((30, 3)), source.standard_normal((30, 4))
+    effects[:, 3] = effects[:, 2] + 0.05 * source.standard_normal(30)  # nearly the same
+    columns = {"a": np.array([0]), "b": np.array([1, 2]), "c": np.array([3])}
+    linear = LinearBoard(30, frame, effects, np.zeros((30, 1)), columns, sizes_of(4))
+    sizes = source.standard_normal((4, 40)) * np.geomspace(0.3, 30, 40)
+    sizes[0, ::3] = sizes[3, 1::3] = 0.0
+    sizes[1:3, ::4] = 0.0
+    shown = _shown(linear, 0.8, sizes)
+    for name, mine in columns.items():
+        for i, draw in enumerate(sizes.T):
+            others = [k for k in np.flatnonzero(draw) if k not in mine]
+            # The frame is held by priors of one standard deviation each.
+            known = np.vstack(
+                [np.hstack([frame, effects[:, others]]) / 0.8, np.eye(3 + len(others))]
+            )
+            known[33:] = 0.0
+            read = np.r_[effects[:, mine] @ draw[mine] / 0.8, np.zeros(3 + len(others))]
+            left = read - known @ np.linalg.lstsq(known, read, rcond=None)[0]
+            assert shown[name][i] == (left @ left >= 9 + 2 * len(mine)), (name, i)
+    assert all(0 < each.sum() < 40 for each in shown.values())
 
 
 def test_a_verdict_names_nothing_where_nothing_is_too_likely():
     sets = [(), ("chain_zero",), ("frame_lean",)]
-    assert _named(sets, np.log([0.26, 0.74, 1e-9])) == []
-    assert _named(sets, np.log([0.24, 0.76, 1e-9])) == [("chain_zero",), ()]
+    assert _named(sets, np.log([NOTHING + 0.01, 0.99 - NOTHING, 1e-9])) == []
+    assert _named(sets, np.log([NOTHING - 0.01, 1.01 - NOTHING, 1e-9])) == [("chain_zero",), ()]
     assert _named(sets, np.log([1e-9, 0.6, 0.4])) == [("chain_zero",), ("frame_lean",)]
     # Sets that ask for the same effects count together.
-    assert _named([(), ("frame_lean",), ("frame_lean",)], np.log([0.3, 0.5, 0.5])) == [
+    assert _named([(), ("frame_lean",), ("frame_lean",)], np.log([0.4, 0.5, 0.5])) == [
         ("frame_lean",),
         (),
     ]
