@@ -228,12 +228,14 @@ def test_on_a_phone_a_reading_that_disagrees_opens(lab, phone):
     assert field.evaluate("input => input === document.activeElement")
 
 
-def test_on_a_wide_screen_all_cells_lie_like_the_sheet_and_enter_goes_on(lab, page):
+def test_all_cells_lie_beside_the_map_and_enter_goes_on(lab, page):
     twenty_five(lab)
     open_readings(lab, page)
     assert page.locator(".cell").count() == 25 and page.locator(".picker").count() == 0
-    boxes = [page.locator(f"#mark-{index}").bounding_box() for index in (0, 4, 5)]
+    boxes = [page.locator(f"#mark-{index}").bounding_box() for index in (0, 1, 2)]
     assert boxes[0]["y"] == boxes[1]["y"] < boxes[2]["y"] and boxes[0]["x"] == boxes[2]["x"]
+    picture = page.locator(".stage svg").bounding_box()
+    assert picture["x"] + picture["width"] <= boxes[0]["x"] < boxes[1]["x"]
     page.get_by_label(LEFT.format(5), exact=True).click()
     for number in ("2340", "100", "100", "350"):
         page.keyboard.type(number)

@@ -7,7 +7,7 @@ import { Screen } from "../shell/Screen";
 import { BenchViews } from "./BenchViews";
 import { EffectCard } from "./EffectCard";
 import { type Bench as Board, type Choice, useLive, useStairs } from "./live";
-import { Staircase } from "./Staircase";
+import { Fall } from "./Staircase";
 import "./bench.css";
 
 export function Bench() {
@@ -36,40 +36,37 @@ function OpenBench({ bench }: { bench: Board }) {
       say="Add an effect: all else is refitted at once. Ghost arrows show the state before. Move a slider to hold a size by hand. Nothing goes to the machine."
       why={<Why />}
       {...(now ? { command: now.fit.command } : {})}
+      stage={<BenchViews bench={bench} live={live} units={units} />}
     >
       {live.refusal && (
         <p class="trouble" role="alert">
           {live.refusal}
         </p>
       )}
-      <div class="bench">
-        <div class="effects">
-          <h2>Effects</h2>
-          {now?.fit.intervals && kept.effects.length > 0 && (
-            <p class="intervals">In brackets: 95 %. {now.fit.intervals}</p>
-          )}
-          {bench.effects.map((effect) => (
-            <EffectCard
-              key={effect.name}
-              effect={effect}
-              choice={choice}
-              fit={now?.fit}
-              change={change}
-            />
-          ))}
-        </div>
-        <BenchViews bench={bench} live={live} units={units}>
-          {stairs && <Staircase stairs={stairs} units={units} />}
-          {stairs && stairs.warnings.length > 0 && (
-            <ul class="warnings">
-              {stairs.warnings.map((line) => (
-                <li key={line}>{line}</li>
-              ))}
-            </ul>
-          )}
-          <Write bench={bench} choice={kept} />
-        </BenchViews>
+      <Fall live={live} stairs={stairs} units={units} />
+      <div class="effects">
+        <h2>Effects</h2>
+        {bench.effects.map((effect) => (
+          <EffectCard
+            key={effect.name}
+            effect={effect}
+            choice={choice}
+            fit={now?.fit}
+            change={change}
+          />
+        ))}
+        {now?.fit.intervals && kept.effects.length > 0 && (
+          <p class="intervals">In brackets: 95 %. {now.fit.intervals}</p>
+        )}
+        {stairs && stairs.warnings.length > 0 && (
+          <ul class="warnings">
+            {stairs.warnings.map((line) => (
+              <li key={line}>{line}</li>
+            ))}
+          </ul>
+        )}
       </div>
+      <Write bench={bench} choice={kept} />
     </Screen>
   );
 }

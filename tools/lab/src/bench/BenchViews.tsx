@@ -1,5 +1,4 @@
 // What the bench shows of the marks: the sheet, the plots, and the choice between views.
-import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
 import { Exaggeration } from "../controls/Exaggeration";
 import type { Unit } from "../controls/lengths";
@@ -14,11 +13,9 @@ interface BenchViewsParts {
   bench: Bench;
   live: Live;
   units: Unit;
-  /** What stands between the sheet and the plots. */
-  children: ComponentChildren;
 }
 
-export function BenchViews({ bench, live, units, children }: BenchViewsParts) {
+export function BenchViews({ bench, live, units }: BenchViewsParts) {
   const [name, setName] = useState<ViewName>("now");
   const [effect, setEffect] = useState(bench.effects[0]?.name ?? "");
   const [times, setTimes] = useState<number>();
@@ -81,7 +78,6 @@ export function BenchViews({ bench, live, units, children }: BenchViewsParts) {
           <span class="key within">within the noise</span> <span class="key ghost">before</span>
         </p>
         <MarkPicker bench={bench} view={view} units={units} selected={selected} select={select} />
-        {children}
       </div>
       {view && (
         <Plots

@@ -1,8 +1,40 @@
-// How the error falls, effect by effect: three numbers a stair, and a warning where only the first fell.
+// How the error falls: what is left now in large figures, and each stair down to it with its bar.
 import { namedLength, shownLength, type Unit } from "../controls/lengths";
-import type { Stairs } from "./live";
+import type { Live, Stairs } from "./live";
 
-export function Staircase({ stairs, units }: { stairs: Stairs; units: Unit }) {
+interface FallParts {
+  live: Live;
+  stairs: Stairs | undefined;
+  units: Unit;
+}
+
+/** The error that is left, which follows a slider at once; the stairs follow when it rests. */
+export function Fall({ live, stairs, units }: FallParts) {
+  const fit = live.now?.fit;
+  const before = live.frame?.fit_rms;
+  return (
+    <section class="fall-now" aria-label="The error that is left">
+      <p class="large">
+        <output>{fit ? namedLength(fit.fit_rms, units, 2) : "…"}</output> left
+      </p>
+      {fit && (
+        <p class="beside">
+          Noise alone leaves {shownLength(fit.noise_rms, units, 2)}
+          {before !== undefined && <>, the frame alone {shownLength(before, units, 2)}</>}.
+        </p>
+      )}
+      {stairs && <Staircase stairs={stairs} units={units} />}
+    </section>
+  );
+}
+
+const MEANINGS = {
+  fit: "What is left of the marks that were fitted.",
+  noise: "What noise alone would leave of this fit.",
+  checked: "How well each mark is predicted by a fit that did not see it: the line in the bar.",
+};
+
+function Staircase({ stairs, units }: { stairs: Stairs; units: Unit }) {
   const highest = Math.max(...stairs.stairs.map((stair) => stair.fit_rms), 1e-9);
   const number = (mm: number | null) => (mm === null ? "–" : shownLength(mm, units, 2));
   return (
@@ -12,9 +44,11 @@ export function Staircase({ stairs, units }: { stairs: Stairs; units: Unit }) {
         <tr>
           <th scope="col">With</th>
           <td class="bars" />
-          <th scope="col">fit</th>
-          <th scope="col">noise</th>
-          <th scope="col">checked</th>
+          {Object.entries(MEANINGS).map(([name, meaning]) => (
+            <th key={name} scope="col" title={meaning}>
+              {name}
+            </th>
+          ))}
         </tr>
       </thead>
       <tbody>
@@ -31,6 +65,9 @@ export function Staircase({ stairs, units }: { stairs: Stairs; units: Unit }) {
                   width={(100 * stair.fit_rms) / highest}
                   height="12"
                 />
+                {stair.noise_rms !== null && (
+                  <rect class="by-noise" width={(100 * stair.noise_rms) / highest} height="12" />
+                )}
                 {stair.left_out_rms !== null && (
                   <line
                     class="at-left-out"

@@ -1,4 +1,4 @@
-// The cells, laid out like the marks on the sheet; on a phone the open mark's cell, and a map of all to pick from.
+// The cells in the order of the marks on the sheet; on a phone the open mark's cell, and a map of all to pick from.
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import { useProject } from "../shell/project";
 import { Cell } from "./Cell";
@@ -25,7 +25,6 @@ export function Grid({ form, readings, doubted }: GridParts) {
   const { kept } = readings;
   const isFolded = useNarrow() && form.marks.length > FEW;
   const { open, pick } = useOpenMark(form);
-  const { columns } = layout;
   const spots = isFolded
     ? layout.spots.filter((spot) => spot.marks.some((mark) => mark.index === open))
     : layout.spots;
@@ -35,10 +34,7 @@ export function Grid({ form, readings, doubted }: GridParts) {
     if (after !== undefined) pick(after);
   };
   return (
-    <div
-      class={columns ? "cells grid" : "cells"}
-      style={columns ? { "--columns": columns } : undefined}
-    >
+    <div class="cells">
       <p class="from">
         In each cell: {units} from the <b>{across}</b> edge, then from the <b>{upright}</b> edge.
       </p>
@@ -53,11 +49,7 @@ export function Grid({ form, readings, doubted }: GridParts) {
         />
       )}
       {spots.map((spot) => (
-        <div
-          key={`${spot.row}/${spot.column}`}
-          class="spot"
-          style={columns ? { "--row": spot.row + 1, "--column": spot.column } : undefined}
-        >
+        <div key={`${spot.row}/${spot.column}`}>
           {spot.marks.map((mark) => (
             <Cell
               key={`${form.file}/${mark.index}/${edges}`}

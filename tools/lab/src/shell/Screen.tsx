@@ -1,4 +1,5 @@
-// The frame of each screen: a title, at most forty words, a picture, a button, and the why folded away.
+// The frame of each screen: a title, at most forty words, what one looks at, what one does, and the why folded away.
+// On a wide page what one looks at stays in view, and what one does scrolls beside it.
 import type { ComponentChildren } from "preact";
 
 interface ScreenParts {
@@ -11,14 +12,23 @@ interface ScreenParts {
   command?: string;
   /** What it shows is still on its way. */
   busy?: boolean;
+  /** What one looks at: the sheet, the machine, plots. */
+  stage?: ComponentChildren;
+  /** Whether the fields come before the stage on a narrow page. */
+  fieldsFirst?: boolean;
   children?: ComponentChildren;
 }
 
-export function Screen({ title, say, why, command, busy, children }: ScreenParts) {
-  return (
-    <section class="screen" aria-busy={busy}>
+export function Screen(parts: ScreenParts) {
+  const { title, say, why, command, busy, stage, fieldsFirst, children } = parts;
+  const asks = (
+    <div class="asks">
       <h1>{title}</h1>
       <p class="say">{say}</p>
+    </div>
+  );
+  const work = (
+    <>
       {children}
       {why && (
         <details class="why">
@@ -32,6 +42,20 @@ export function Screen({ title, say, why, command, busy, children }: ScreenParts
           <code>{command}</code>
         </details>
       )}
+    </>
+  );
+  if (!stage)
+    return (
+      <section class="screen" aria-busy={busy}>
+        {asks}
+        {work}
+      </section>
+    );
+  return (
+    <section class={fieldsFirst ? "screen two fields-first" : "screen two"} aria-busy={busy}>
+      {asks}
+      <div class="stage">{stage}</div>
+      <div class="work">{work}</div>
     </section>
   );
 }

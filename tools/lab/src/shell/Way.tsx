@@ -46,7 +46,7 @@ function Place({ step, project, here, number }: WayParts & { step: Step; number?
   return (
     <li>
       {missing ? (
-        <span class="locked">
+        <span class="locked" title={missing}>
           {words} <small>{missing}</small>
         </span>
       ) : (

@@ -46,8 +46,8 @@ export function Check() {
       say="Cut two marks that took no part, on the same sheet, with the new settings. Then read them. They show what the machine does where nobody fitted it."
       why={<Why />}
       command={answer.command}
+      stage={<CheckMap answer={answer} />}
     >
-      <CheckMap answer={answer} />
       {answer.sentence && (
         <p class={answer.holds ? "judged holds" : "judged misses"} role="status">
           {answer.sentence}

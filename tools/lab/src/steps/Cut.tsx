@@ -36,13 +36,13 @@ export function Cut() {
       say={runs ? whileRunning(machine) : grid.is_proposed ? PROPOSED : CHOSEN}
       why={<Why />}
       command={grid.command}
+      stage={<CutMap sheet={project.machine?.sheet ?? [2440, 1220]} grid={grid} />}
     >
       {grid.trouble && (
         <p class="trouble" role="alert">
           {grid.trouble}
         </p>
       )}
-      <CutMap sheet={project.machine?.sheet ?? [2440, 1220]} grid={grid} />
       {!runs && <Pauses grid={grid} />}
       <Outcome grid={grid} />
       {!runs && <Choice grid={grid} />}

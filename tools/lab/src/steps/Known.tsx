@@ -63,12 +63,14 @@ export function Known() {
         </p>
       }
       command={answer?.command ?? ""}
+      stage={
+        <MachinePicture
+          machine={project.machine}
+          marked={(shown.marked || undefined) as Distance | undefined}
+          words={shown.title}
+        />
+      }
     >
-      <MachinePicture
-        machine={project.machine}
-        marked={(shown.marked || undefined) as Distance | undefined}
-        words={shown.title}
-      />
       {list(numbers.filter((number) => number.is_first))}
       <details class="more-known" open={stated > 0 || !shown.is_first}>
         <summary>

@@ -34,6 +34,23 @@ export function Measure() {
       say="More marks tell more and take longer. Drag a mark, tap the sheet to add a mark: what the marks could tell shows at once. Nothing is cut yet."
       why={<Why />}
       command={plan?.command ?? `plumb preview ${project.choices.settings} marks.toml`}
+      stage={
+        <>
+          <MarksMap
+            sheet={project.machine.sheet}
+            places={places}
+            spans={id === "own" ? [] : (chosen?.spans ?? [])}
+            show={setMoved}
+            keep={keep}
+          />
+          {id !== "own" && chosen && chosen.spans.length > 0 && (
+            <p class="to-tape">
+              <strong>Measure these distances, in this order:</strong>{" "}
+              {chosen.spans.map(([from, to]) => `${from + 1} to ${to + 1}`).join(", ")}.
+            </p>
+          )}
+        </>
+      }
     >
       <Layouts
         layouts={layouts}
@@ -45,19 +62,6 @@ export function Measure() {
           void choose({ layout, planned, proposed: "" });
         }}
       />
-      <MarksMap
-        sheet={project.machine.sheet}
-        places={places}
-        spans={id === "own" ? [] : (chosen?.spans ?? [])}
-        show={setMoved}
-        keep={keep}
-      />
-      {id !== "own" && chosen && chosen.spans.length > 0 && (
-        <p class="to-tape">
-          <strong>Measure these distances, in this order:</strong>{" "}
-          {chosen.spans.map(([from, to]) => `${from + 1} to ${to + 1}`).join(", ")}.
-        </p>
-      )}
       {(trouble || plan?.trouble) && (
         <p class="trouble" role="alert">
           {trouble || plan?.trouble}

@@ -29,34 +29,35 @@ export function Reach() {
       say={reach.normal}
       why={<Why reach={reach} />}
       command={reach.command}
-    >
-      <figure class="reach">
-        <SheetMap
-          sheet={project.machine.sheet}
-          label={`Where the machine is usable: ${reach.conclusion}`}
-        >
-          <Places reach={reach} sheet={project.machine.sheet} />
-          {spotsOf(reach).map((spot) => (
-            <Spot key={spot.name} place={spot.place} name={spot.name} />
-          ))}
-        </SheetMap>
-        <figcaption>
-          <ul>
-            {MEANING.map(([tone, words], verdict) => {
-              const share = reach.shares[reach.words[verdict] ?? ""];
-              return reach.verdicts.includes(verdict) ? (
-                <li key={tone}>
-                  <span class={`swatch ${tone}`} />
-                  <span>
-                    {share}: {words}
-                  </span>
-                </li>
-              ) : null;
-            })}
-          </ul>
-        </figcaption>
-      </figure>
-    </Screen>
+      stage={
+        <figure class="reach">
+          <SheetMap
+            sheet={project.machine.sheet}
+            label={`Where the machine is usable: ${reach.conclusion}`}
+          >
+            <Places reach={reach} sheet={project.machine.sheet} />
+            {spotsOf(reach).map((spot) => (
+              <Spot key={spot.name} place={spot.place} name={spot.name} />
+            ))}
+          </SheetMap>
+          <figcaption>
+            <ul>
+              {MEANING.map(([tone, words], verdict) => {
+                const share = reach.shares[reach.words[verdict] ?? ""];
+                return reach.verdicts.includes(verdict) ? (
+                  <li key={tone}>
+                    <span class={`swatch ${tone}`} />
+                    <span>
+                      {share}: {words}
+                    </span>
+                  </li>
+                ) : null;
+              })}
+            </ul>
+          </figcaption>
+        </figure>
+      }
+    />
   );
 }
 

@@ -41,13 +41,14 @@ export function Readings() {
       say={isTaped ? TAPED : PLACED}
       why={<Why />}
       command={form.command}
+      stage={form.marks.length > 0 && <ReadingsMap form={form} doubted={doubted} />}
+      fieldsFirst
     >
       <FormPicker form={form} choose={readings.chooseFile} />
       {form.marks.length > 0 && (
         <>
           <ReadAgain form={form} />
           <Tape form={form} take={readings.take} />
-          <ReadingsMap form={form} doubted={doubted} />
           <p class="count" role="status" aria-busy={looking}>
             {isTaped && `${asked} of ${form.spans.length} distances are read. `}
             {(!isTaped || read > 0) && `${read} of ${form.marks.length} marks are read.`}

@@ -47,6 +47,7 @@ export function Verdict() {
       say={verdict.sentence}
       why={<Why noise={verdict.noise} notes={verdict.notes} />}
       command={answer.command}
+      stage={<ErrorMaps verdict={verdict} sheet={sheet} units={units} />}
     >
       {verdict.slips.length > 0 && (
         <ul class="slips">
@@ -59,7 +60,6 @@ export function Verdict() {
         </ul>
       )}
       <HalfTyped />
-      <ErrorMaps verdict={verdict} sheet={sheet} units={units} />
       <NextStep
         sheet={sheet}
         before={verdict.before}

@@ -1,0 +1,94 @@
+"""What one looks at stays in view, what one does scrolls beside it: on a desktop, and on a phone."""
+
+import json
+import shutil
+
+import pytest
+from folder import EXAMPLE
+from playwright.sync_api import expect
+
+WIDE, NARROW = {"width": 1280, "height": 800}, {"width": 390, "height": 844}
+# What each screen wants first: a field or a button.
+FIRST = {
+    "known": ".known input",
+    "measure": ".layouts label",
+    "cut": ".choice .primary",
+    "readings": ".cells input",
+    "verdict": "button.primary",
+    "correct": ".numbers input",
+}
+
+
+@pytest.fixture
+def measured(lab, page):
+    """The page of a machine whose marks are read."""
+    for name in ("groundcontrol.ini", "marks.toml"):
+        shutil.copy(EXAMPLE / name, lab.folder / name)
+    choices = {"settings": "groundcontrol.ini", "marks": ["marks.toml"]}
+    (lab.folder / "lab.json").write_text(json.dumps(choices))
+    page.set_viewport_size(WIDE)
+    page.goto(f"{lab.url}#/open")
+    page.get_by_role("heading", level=1).wait_for()
+
+    def opened(step):
+        page.goto(f"{lab.url}#/{step}")
+        page.locator("main h1").wait_for()
+        return page
+
+    return opened
+
+
+@pytest.mark.parametrize("step", FIRST)
+def test_the_first_thing_to_do_is_on_the_first_screen(measured, step):
+    page = measured(step)
+    first = page.locator(FIRST[step]).first
+    first.wait_for()
+    foot = page.locator(".way-on").bounding_box()["y"]
+    box = first.bounding_box()
+    assert box["y"] + box["height"] <= foot
+    expect(page.get_by_role("heading", level=1)).to_be_in_viewport(ratio=1)
+    expect(page.locator(".way-on .after")).to_be_in_viewport(ratio=1)
+
+
+@pytest.mark.parametrize("step", ["known", "readings", "verdict"])
+def test_the_picture_stays_while_the_work_scrolls(measured, step):
+    page = measured(step)
+    picture = page.locator(".stage svg").first
+    picture.wait_for()
+    page.locator(".work details").last.scroll_into_view_if_needed()
+    page.wait_for_function("() => scrollY > 0")
+    expect(picture).to_be_in_viewport(ratio=0.9)
+
+
+def test_the_error_stays_in_view_down_to_the_last_effect(measured):
+    page = measured("bench")
+    number = page.locator(".fall-now output")
+    expect(number).to_contain_text("mm")
+    before = number.inner_text()
+    for size in (WIDE, NARROW):
+        page.set_viewport_size(size)
+        last = page.locator(".effect").last
+        last.scroll_into_view_if_needed()
+        expect(number).to_be_in_viewport(ratio=0.95)
+    page.set_viewport_size(WIDE)
+    page.get_by_role("checkbox", name="chains too long").check()
+    expect(number).not_to_have_text(before)
+    expect(page.locator(".bench-sheet svg")).to_be_in_viewport(ratio=0.9)
+    fallen = page.locator(".stairs tbody tr").nth(2).locator("td:nth-of-type(2)")
+    expect(fallen).to_have_text(number.inner_text().removesuffix(" mm"))
+
+
+def test_a_phone_has_one_column_and_small_bars(measured):
+    page = measured("known")
+    page.set_viewport_size(NARROW)
+    asks, stage, work = (
+        page.locator(f".screen .{part}").bounding_box() for part in ("asks", "stage", "work")
+    )
+    assert asks["y"] < stage["y"] < work["y"]
+    assert {box["x"] for box in (asks, stage, work)} == {asks["x"]}
+    foot = page.locator(".way-on")
+    expect(foot).to_be_in_viewport(ratio=1)
+    page.locator(".known input").last.scroll_into_view_if_needed()
+    seen = "each => Math.max(0, each.getBoundingClientRect().bottom)"
+    bars = page.locator("header").evaluate(seen) + foot.bounding_box()["height"]
+    assert bars <= 0.15 * NARROW["height"]
