@@ -7,7 +7,6 @@ import contextlib
 import io
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Annotated
 
 import plumb.grid as marks_grid
@@ -16,9 +15,8 @@ from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import next_step, print_json
 from plumb.fit.inputs import settings_in
 from plumb.grid.options import APPROACH
-from plumb.grid.pattern import ACROSS, SPANS, SQUARE, UPWARDS
 from plumb.model.reach import refuse_way, with_soft_chains
-from plumb.pictures.measuring_sheet import Hole, MeasuringSheet, Reading, measuring_sheet
+from plumb.pictures.grid_paper import grid_paper
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import meant
 from plumb.text.errors import InputError
@@ -97,7 +95,7 @@ def _paper(arguments: argparse.Namespace) -> bytes:
     """Return the sheet of paper for the readings."""
     grid, machine = marks_grid.from_arguments(arguments)
     form = arguments.marks or "marks.toml"
-    return measuring_sheet(content_of(grid, machine, settings=arguments.settings, form=form))
+    return grid_paper(grid, machine, settings=arguments.settings, form=form)
 
 
 def refuse_out_of_reach(arguments: argparse.Namespace) -> None:
@@ -152,73 +150,3 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="also write a sheet to print: the holes with their numbers, and boxes to fill in",
     )
     add_json(parser)
-
-
-# What `plumb grid --paper` prints: the marks of a grid, or the spans of the benchmark.
-
-TAPE = "Read the tape in mm, to half a millimetre if you can."
-
-
-def content_of(
-    grid: marks_grid.Grid, machine: marks_grid.PlainMachine, *, settings: str | None, form: str
-) -> MeasuringSheet:
-    """Return the sheet for a grid that was made with these settings; `form` waits for the
-    numbers.
-    """
-    cut = f" These marks are cut with {Path(settings).name}." if settings else ""
-    then = f"Then type the numbers into {Path(form).name}.{cut}"
-    holes = _holes(grid, machine)
-    if grid.is_benchmark:
-        return _benchmark(holes, machine, then)
-    return MeasuringSheet(
-        title=f"Measuring sheet: {len(holes)} marks",
-        how=(
-            "x: from the left edge of the wood to the middle of the mark. "
-            "y: from its top edge down to it.",
-            f"{TAPE} A white dot is its neighbour made again: read both." if grid.repeats else TAPE,
-            then,
-        ),
-        words=("mark", "planned x", "planned y", "x", "y"),
-        holes=holes,
-        readings=tuple(
-            Reading(hole.name, (f"{hole.x:.1f}", f"{hole.y:.1f}"), "again" if hole.again else "")
-            for hole in holes
-        ),
-        sheet=(machine.sheet_width, machine.sheet_height),
-        from_edges=True,
-    )
-
-
-def _holes(grid: marks_grid.Grid, machine: marks_grid.PlainMachine) -> tuple[Hole, ...]:
-    return tuple(
-        Hole(
-            mark.name,
-            machine.sheet_width / 2 + mark.x,
-            machine.sheet_height / 2 - mark.y,
-            again=mark.visit > 0,
-        )
-        for mark in marks_grid.listed(marks_grid.touches_of(grid, machine))
-    )
-
-
-def _benchmark(
-    holes: tuple[Hole, ...], machine: marks_grid.PlainMachine, then: str
-) -> MeasuringSheet:
-    planned = {"across": ACROSS, "upwards": UPWARDS}
-    return MeasuringSheet(
-        title="Calibration Benchmark Test",
-        how=(
-            "From mark to mark, or from a side of a cut to the same side of the other.",
-            TAPE,
-            then,
-        ),
-        words=("from - to", "planned", "measured"),
-        holes=holes,
-        readings=tuple(
-            Reading(f"{first} - {last}", (f"{planned.get(name, SQUARE):g}",))
-            for name, spans in SPANS.items()
-            for first, last in spans
-        ),
-        sheet=(machine.sheet_width, machine.sheet_height),
-        from_edges=False,
-    )

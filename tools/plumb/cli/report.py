@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -25,7 +26,7 @@ from plumb.diary.file import folder_of, has_diary, read_diary
 from plumb.diary.history import DiaryFit, history_of
 from plumb.fit.compare import Comparison, LeftMark
 from plumb.plan import Proposal
-from plumb.report.findings import Command, Findings, find
+from plumb.report.findings import Command, Findings, asked_for, find
 from plumb.report.page import report
 from plumb.text.answers import Internal, Number, part
 from plumb.text.errors import InputError
@@ -89,7 +90,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError(f"-o {arguments.output}: end the name with {', '.join(ENDINGS)}")
     inputs = stated_inputs(arguments)
     findings = find(inputs, fits=_fits(arguments.settings), progress=bar("simulating"))
-    page = report(findings, commands=_commands(arguments, findings), again=_again(arguments))
+    page = report(findings, commands=_asked_for(arguments, findings), again=_again(arguments))
     read = [arguments.settings, *arguments.marks, *filter(None, [arguments.cut_with])]
     write_outputs({arguments.output: page}, inputs=read)
     if arguments.json:
@@ -111,39 +112,16 @@ def _again(arguments: argparse.Namespace) -> str:
     """Return the command that makes the same report."""
     units = ["--units", arguments.units] if arguments.units else []
     words = ["plumb", "report", *same_inputs(arguments), *units, "-o", arguments.output]
-    return _unindented(words)
-
-
-def _commands(arguments: argparse.Namespace, findings: Findings) -> list[Command]:
-    """Return what the verdict asks for."""
-    same = same_inputs(arguments)
-    calibrate = _unindented(["plumb", "calibrate", *same])
-    verdict = findings.diagnosis.verdict
-    if verdict == "slip":
-        return [Command("When the file is corrected:", calibrate)]
-    if verdict in ("one_suspect", "nothing_provable") and findings.auto.addition:
-        return [Command("Write the new settings:", calibrate)]
-    best = findings.advice.proposals[0] if findings.advice.proposals else None
-    checks = best.option.checks if best else ()
-    if checks:
-        said = [
-            word
-            for check in checks
-            for word in ("--checked", f"{check.name}=VALUE+-{check.sigma:g}")
-        ]
-        return [
-            Command("When that is measured:", _unindented(["plumb", "calibrate", *same, *said]))
-        ]
-    more = ["plumb", "next", *same, "--marks", "more.toml"]
-    again = ["plumb", "calibrate", *same_inputs(arguments, "more.toml")]
-    return [
-        Command("A form for the new marks:", _unindented(more)),
-        Command("When they are measured:", _unindented(again)),
-    ]
-
-
-def _unindented(words: list[str]) -> str:
     return command_text(words).strip()
+
+
+def _asked_for(arguments: argparse.Namespace, findings: Findings) -> list[Command]:
+    """Return what the verdict asks for."""
+
+    def command(name: str, more: Sequence[str], words: Sequence[str]) -> str:
+        return command_text(["plumb", name, *same_inputs(arguments, *more), *words]).strip()
+
+    return asked_for(findings, command)
 
 
 # The arguments of `plumb report`.

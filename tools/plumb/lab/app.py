@@ -30,6 +30,7 @@ from plumb.lab.routes import (
     known,
     machine,
     next,
+    papers,
     plan,
     project,
     readings,
@@ -57,6 +58,7 @@ ROUTERS = tuple(
         check,
         diary,
         bench,
+        papers,
     )
 )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import re
 from collections.abc import Mapping
 from os import PathLike
@@ -51,6 +52,36 @@ def read_marks_csv(path: str | PathLike[str]) -> Measurements:
         row = dict(zip(columns, cells, strict=True))
         marks.append(_mark(path, line, row, index, names, units))
     return Measurements(marks=tuple(marks), source=str(path))
+
+
+def marks_csv(measurements: Measurements) -> str:
+    """Return the marks that are read as such a table, with what is known of how they were cut."""
+    marks = measurements.measured_marks
+    rows = [_row(mark) for mark in marks]
+    used = [column for column in OPTIONAL if any(row.get(column) for row in rows)]
+    text = io.StringIO()
+    table = csv.DictWriter(text, [*used[:1], *NEEDED, *used[1:]], lineterminator="\n")
+    table.writeheader()
+    table.writerows({name: row.get(name, "") for name in table.fieldnames} for row in rows)
+    return text.getvalue()
+
+
+def _row(mark: Mark) -> dict[str, str]:
+    assert mark.measured is not None
+    pairs = {
+        NEEDED[:2]: mark.target,
+        NEEDED[2:]: mark.measured,
+        PAIRS[0]: mark.approach,
+        PAIRS[1]: mark.chains,
+    }
+    row = {
+        column: repr(float(value))
+        for columns, pair in pairs.items()
+        if pair is not None
+        for column, value in zip(columns, pair, strict=True)
+    }
+    weight = {} if mark.sled_weight is None else {"sled_weight_n": repr(float(mark.sled_weight))}
+    return {"name": mark.name, **row, **weight}
 
 
 def _in_millimetres(title: str) -> str:

@@ -3,8 +3,8 @@
 Truths are drawn from the posterior: an account as often as it is likely, then its sizes and the
 frame as the marks so far leave them, then new readings with noise. Each simulated board is weighed
 as the diagnosis weighs it, by the slopes at the frame's fit. Two numbers are read off: the chance
-that the verdict then names what the marks can show and nothing that is not there, and the expected information, the mean
-rise of the logarithm of the truth's probability (Lindley 1956).
+that the verdict then names what the marks can show and nothing that is not there, and the expected
+information, the mean rise of the logarithm of the truth's probability (Lindley 1956).
 """
 
 from __future__ import annotations

@@ -121,6 +121,33 @@ class Command:
     command: str
 
 
+# Words of a command by its name, more files of marks, and more words.
+Wording = Callable[[str, Sequence[str], Sequence[str]], str]
+
+
+def asked_for(findings: Findings, command: Wording) -> list[Command]:
+    """Return the commands that the verdict asks for."""
+    verdict = findings.diagnosis.verdict
+    if verdict == "slip":
+        return [Command("When the file is corrected:", command("calibrate", (), ()))]
+    if verdict in ("one_suspect", "nothing_provable") and findings.auto.addition:
+        return [Command("Write the new settings:", command("calibrate", (), ()))]
+    best = findings.advice.proposals[0] if findings.advice.proposals else None
+    checks = best.option.checks if best else ()
+    if checks:
+        said = [
+            word
+            for check in checks
+            for word in ("--checked", f"{check.name}=VALUE+-{check.sigma:g}")
+        ]
+        return [Command("When that is measured:", command("calibrate", (), said))]
+    form = "more.toml"
+    return [
+        Command("A form for the new marks:", command("next", (), ("--marks", form))),
+        Command("When they are measured:", command("calibrate", (form,), ())),
+    ]
+
+
 @dataclass(frozen=True)
 class Other:
     """Another measurement that would help."""

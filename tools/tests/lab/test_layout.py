@@ -1,4 +1,4 @@
-"""What one looks at stays in view, what one does scrolls beside it: on a desktop, and on a phone."""
+"""What one looks at stays in view, what one does scrolls next to it; a phone has one column."""
 
 import json
 import shutil

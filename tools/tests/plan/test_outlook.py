@@ -196,8 +196,8 @@ def test_what_every_machine_has_may_be_named():
 
 def sizes_of(count):
     """Priors under which nothing is usual."""
-    none, one = np.zeros(count), np.ones(count)
-    return SizePriors(none, none, one, one, -np.inf * one, none)
+    zeros, ones = np.zeros(count), np.ones(count)
+    return SizePriors(zeros, zeros, ones, ones, -np.inf * ones, zeros)
 
 
 def test_the_marks_show_what_the_frame_and_others_do_not_draw():

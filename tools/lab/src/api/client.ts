@@ -28,23 +28,29 @@ interface Asking extends RequestInit {
   patienceMs: number;
 }
 
-async function asked<Answer>(path: string, { patienceMs, ...request }: Asking): Promise<Answer> {
+async function asked<Answer>(path: string, asking: Asking): Promise<Answer> {
+  return JSON.parse(await (await answered(path, asking)).text()) as Answer;
+}
+
+/** The whole answer. A refusal becomes an error. */
+async function answered(path: string, { patienceMs, ...request }: Asking): Promise<Blob> {
   let response: Response;
-  let text: string;
+  let content: Blob;
   try {
-    [response, text] = await inTime(patienceMs, async (signal) => {
+    [response, content] = await inTime(patienceMs, async (signal) => {
       const answer = await fetch(`api/${path}`, {
         ...request,
         signal,
         headers: { ...request.headers, "X-Plumb-Token": token(), "X-Plumb-Tab": tab() },
       });
-      return [answer, await answer.text()];
+      return [answer, await answer.blob()];
     });
   } catch {
     throw new Refusal("The lab does not answer. Is plumb lab still running in its terminal?", 0);
   }
-  if (response.ok) return JSON.parse(text) as Answer;
-  throw new Refusal(reasonIn(text) ?? `The lab answered ${response.status}.`, response.status);
+  if (response.ok) return content;
+  const reason = reasonIn(await content.text());
+  throw new Refusal(reason ?? `The lab answered ${response.status}.`, response.status);
 }
 
 /** The line of a refusal, if there is any. */
@@ -81,4 +87,14 @@ export function sendFile<Answer>(path: string, file: File): Promise<Answer> {
   const form = new FormData();
   form.set("file", file);
   return asked(path, { patienceMs: WORK_MS, method: "POST", body: form });
+}
+
+/** Has the browser save a file that the server makes. */
+export async function takeAlong(name: string): Promise<void> {
+  const address = URL.createObjectURL(await answered(`papers/${name}`, { patienceMs: WORK_MS }));
+  const link = document.createElement("a");
+  link.href = address;
+  link.download = name;
+  link.click();
+  URL.revokeObjectURL(address);
 }

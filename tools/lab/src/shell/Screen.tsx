@@ -1,5 +1,5 @@
 // The frame of each screen: a title, at most forty words, what one looks at, what one does, and the why folded away.
-// On a wide page what one looks at stays in view, and what one does scrolls beside it.
+// On a wide page what one looks at stays in view, and what one does scrolls next to it.
 import type { ComponentChildren } from "preact";
 
 interface ScreenParts {

@@ -1,5 +1,7 @@
 // Step 5: cut the marks: save the program, or send it; hold and stop are in the bar.
+
 import { type Project, type Schemas, send } from "../api/client";
+import { TakeAlong } from "../controls/TakeAlong";
 import { useDo } from "../shell/doing";
 import { useChoosing } from "../shell/kept";
 import { isReady, type Machine, useMachine } from "../shell/machine";
@@ -46,6 +48,7 @@ export function Cut() {
       {!runs && <Pauses grid={grid} />}
       <Outcome grid={grid} />
       {!runs && <Choice grid={grid} />}
+      <TakeAlong name="marks.pdf">Save a sheet to print, for the readings</TakeAlong>
     </Screen>
   );
 }

@@ -1,6 +1,8 @@
 // Step 10: what was fitted and written over time, with the error and each number.
+
 import type { Schemas } from "../api/client";
 import { namedLength } from "../controls/lengths";
+import { TakeAlong } from "../controls/TakeAlong";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
@@ -62,6 +64,7 @@ export function Diary() {
           The error of the newest fit is {namedLength(rounds.at(-1)?.fit.rms_mm ?? 0, units, 2)}.
         </p>
       )}
+      <TakeAlong name="folder.zip">Save the whole folder</TakeAlong>
     </Screen>
   );
 }

@@ -1,6 +1,7 @@
 // Step 6: what the tape says, typed into a grid laid out like the sheet.
 
 import { namedLength } from "../controls/lengths";
+import { TakeAlong } from "../controls/TakeAlong";
 import { Distances } from "../readings/Distances";
 import { Doubts } from "../readings/Doubts";
 import { lengthBetween } from "../readings/distances";
@@ -77,6 +78,7 @@ export function Readings() {
             grid
           )}
           <Distances form={form} take={readings.take} doubts={doubts} />
+          {read > 0 && <TakeAlong name="readings.csv">Save the readings as a table</TakeAlong>}
         </>
       )}
     </Screen>

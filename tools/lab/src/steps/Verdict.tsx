@@ -2,6 +2,7 @@
 
 import { useState } from "preact/hooks";
 import { Progress } from "../controls/Progress";
+import { TakeAlong } from "../controls/TakeAlong";
 import { useAnswer } from "../shell/answer";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
@@ -79,6 +80,7 @@ export function Verdict() {
         </section>
       )}
       <CouldHide verdict={verdict} units={units} />
+      <TakeAlong name="report.html">Save the report</TakeAlong>
     </Screen>
   );
 }

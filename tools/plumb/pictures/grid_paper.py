@@ -1,0 +1,82 @@
+"""The paper for a grid: its marks, or the spans of the benchmark, with boxes to fill in."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import plumb.grid as marks_grid
+from plumb.grid.pattern import ACROSS, SPANS, SQUARE, UPWARDS
+from plumb.pictures.measuring_sheet import Hole, MeasuringSheet, Reading, measuring_sheet
+
+TAPE = "Read the tape in mm, to half a millimetre if you can."
+
+
+def grid_paper(
+    grid: marks_grid.Grid, machine: marks_grid.PlainMachine, *, settings: str | None, form: str
+) -> bytes:
+    """Return the pages, as a pdf, for a grid that was made with these settings; `form` waits for
+    the numbers.
+    """
+    return measuring_sheet(_content(grid, machine, settings=settings, form=form))
+
+
+def _content(
+    grid: marks_grid.Grid, machine: marks_grid.PlainMachine, *, settings: str | None, form: str
+) -> MeasuringSheet:
+    cut = f" These marks are cut with {Path(settings).name}." if settings else ""
+    then = f"Then type the numbers into {Path(form).name}.{cut}"
+    holes = _holes(grid, machine)
+    if grid.is_benchmark:
+        return _benchmark(holes, machine, then)
+    return MeasuringSheet(
+        title=f"Measuring sheet: {len(holes)} marks",
+        how=(
+            "x: from the left edge of the wood to the middle of the mark. "
+            "y: from its top edge down to it.",
+            f"{TAPE} A white dot is its neighbour made again: read both." if grid.repeats else TAPE,
+            then,
+        ),
+        words=("mark", "planned x", "planned y", "x", "y"),
+        holes=holes,
+        readings=tuple(
+            Reading(hole.name, (f"{hole.x:.1f}", f"{hole.y:.1f}"), "again" if hole.again else "")
+            for hole in holes
+        ),
+        sheet=(machine.sheet_width, machine.sheet_height),
+        from_edges=True,
+    )
+
+
+def _holes(grid: marks_grid.Grid, machine: marks_grid.PlainMachine) -> tuple[Hole, ...]:
+    return tuple(
+        Hole(
+            mark.name,
+            machine.sheet_width / 2 + mark.x,
+            machine.sheet_height / 2 - mark.y,
+            again=mark.visit > 0,
+        )
+        for mark in marks_grid.listed(marks_grid.touches_of(grid, machine))
+    )
+
+
+def _benchmark(
+    holes: tuple[Hole, ...], machine: marks_grid.PlainMachine, then: str
+) -> MeasuringSheet:
+    planned = {"across": ACROSS, "upwards": UPWARDS}
+    return MeasuringSheet(
+        title="Calibration Benchmark Test",
+        how=(
+            "From mark to mark, or from a side of a cut to the same side of the other.",
+            TAPE,
+            then,
+        ),
+        words=("from - to", "planned", "measured"),
+        holes=holes,
+        readings=tuple(
+            Reading(f"{first} - {last}", (f"{planned.get(name, SQUARE):g}",))
+            for name, spans in SPANS.items()
+            for first, last in spans
+        ),
+        sheet=(machine.sheet_width, machine.sheet_height),
+        from_edges=False,
+    )

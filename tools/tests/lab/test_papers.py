@@ -1,0 +1,115 @@
+"""What is taken along: each file is one that its reader can use."""
+
+import io
+import json
+import shutil
+import zipfile
+
+import pytest
+from folder import EXAMPLE, choose, got
+from playwright.sync_api import expect
+from plumb.marks.csv import read_marks_csv
+from plumb.marks.read import read_marks
+from plumb.pictures import grid_paper
+
+SHEET = (2438.4, 1219.2)
+
+
+@pytest.fixture
+def measured(client, tmp_path):
+    """A lab whose marks are read."""
+    shutil.copy(EXAMPLE / "marks.toml", tmp_path / "marks.toml")
+    choices = json.loads((tmp_path / "lab.json").read_text())
+    (tmp_path / "lab.json").write_text(json.dumps({**choices, "marks": ["marks.toml"]}))
+    return client
+
+
+def paper(client, name):
+    answer = client.get(f"/api/papers/{name}")
+    assert answer.status_code == 200, answer.text
+    assert answer.headers["content-disposition"] == f'attachment; filename="{name}"'
+    return answer.content
+
+
+def test_the_table_of_readings_reads_back_as_the_same_marks(measured, tmp_path):
+    file = tmp_path / "table.csv"
+    file.write_bytes(paper(measured, "readings.csv"))
+    there, back = read_marks(tmp_path / "marks.toml", sheet=SHEET), read_marks_csv(file)
+    for mark, again in zip(there.measured_marks, back.marks, strict=True):
+        assert (mark.name, mark.target, mark.measured) == (again.name, again.target, again.measured)
+        assert (mark.approach, mark.sled_weight, mark.chains) == (
+            again.approach,
+            again.sled_weight,
+            again.chains,
+        )
+
+
+def test_the_folder_is_packed_whole_and_the_same_each_time(measured, tmp_path):
+    packed = paper(measured, "folder.zip")
+    with zipfile.ZipFile(io.BytesIO(packed)) as archive:
+        assert set(archive.namelist()) >= {"groundcontrol.ini", "marks.toml", "lab.json"}
+        for name in archive.namelist():
+            assert archive.read(name) == (tmp_path / name).read_bytes()
+    assert paper(measured, "folder.zip") == packed
+    # What a link leads to does not go along.
+    (tmp_path / "secret.toml").symlink_to("/etc/passwd")
+    with zipfile.ZipFile(io.BytesIO(paper(measured, "folder.zip"))) as archive:
+        assert "secret.toml" not in archive.namelist()
+
+
+def test_a_sheet_to_print_has_the_marks_that_are_to_be_cut(client, monkeypatch):
+    drawn = []
+    draw = grid_paper.measuring_sheet
+    monkeypatch.setattr(
+        grid_paper, "measuring_sheet", lambda content: drawn.append(content) or draw(content)
+    )
+    assert paper(client, "marks.pdf").startswith(b"%PDF")
+    places = [[-900.0, 300.0], [0.0, 0.0], [700.0, -200.0], [100.0, 250.0]]
+    choose(client, layout="own", planned=places)
+    paper(client, "marks.pdf")
+    assert [len(content.holes) for content in drawn] == [9, 4]
+    width, height = drawn[1].sheet
+    assert sorted((hole.x - width / 2, height / 2 - hole.y) for hole in drawn[1].holes) == sorted(
+        map(tuple, places)
+    )
+    assert any("marks.toml" in line for line in drawn[1].how)
+
+
+def test_the_report_says_what_the_verdict_says(measured):
+    page = paper(measured, "report.html").decode()
+    share, verdict = 0.0, None
+    while share < 1:
+        answer = got(measured.get("/api/verdict"))
+        share, verdict = answer["share"], answer["verdict"]
+    assert verdict["sentence"] in page
+    assert "plumb report groundcontrol.ini marks.toml" in page
+
+
+@pytest.mark.parametrize("name", ["report.html", "readings.csv"])
+def test_without_readings_a_line_says_so(client, name):
+    answer = client.get(f"/api/papers/{name}")
+    assert answer.status_code == 422 and "no readings yet" in answer.json()["error"]
+
+
+def test_no_other_file_can_be_had(client):
+    for name in ("lab.json", "..%2Flab.json", "report"):
+        assert client.get(f"/api/papers/{name}").status_code in (404, 422)
+
+
+def test_the_browser_saves_them(lab, page):
+    for name in ("groundcontrol.ini", "marks.toml"):
+        shutil.copy(EXAMPLE / name, lab.folder / name)
+    choices = {"settings": "groundcontrol.ini", "marks": ["marks.toml"]}
+    (lab.folder / "lab.json").write_text(json.dumps(choices))
+    for step, words, name in (
+        ("readings", "Save the readings as a table", "readings.csv"),
+        ("cut", "Save a sheet to print", "marks.pdf"),
+        ("verdict", "Save the report", "report.html"),
+    ):
+        page.goto(f"{lab.url}#/{step}")
+        with page.expect_download() as download:
+            page.get_by_role("button", name=words).click()
+        assert download.value.suggested_filename == name
+    (lab.folder / "marks.toml").unlink()
+    page.get_by_role("button", name="Save the report").click()
+    expect(page.get_by_role("alert")).to_contain_text("marks.toml")
