@@ -37,7 +37,7 @@ from plumb.plan.case import Ahead, Case, Planned
 Array = np.ndarray
 DRAWS = 120  # a chance is then right to about 4 in 100
 LIKELY = 0.99  # of all weight, in the sets that are weighed again; single effects always are
-MOST_LOOKED_AT = 12  # sets of a simulated board that its verdict is read from
+MOST_LOOKED_AT = 60  # sets of a simulated board that its verdict is read from
 SEED = 1847
 LEAST_GAIN, GAIN_PER_PARAMETER = 9.0, 2.0  # of chi-square, from which on marks can show an effect
 BACKGROUND = (*EVERY_MACHINE, PITCH)  # what may be named too: it is there on every machine
