@@ -192,8 +192,10 @@ class Moves:
         """Length over all axes (n,) [mm]."""
         return np.hypot(self["length"], self["z_to"] - self["z_from"])
 
-    def sampled(self, step: float) -> Samples:
-        """Return places along the moves, both ends included, at most `step` [mm] apart."""
+    def sampled(self, step: float | Array) -> Samples:
+        """Return places along the moves, both ends included, at most `step` [mm] apart, for all
+        or for each.
+        """
         turns = np.abs(self["sweep"]) / TURN
         counts = np.ceil(np.maximum(self.way / step, turns)).astype(int) + 1
         counts = np.maximum(counts, 2)
