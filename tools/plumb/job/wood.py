@@ -152,8 +152,7 @@ def _turns(moves: Moves, lines: Sequence[str]) -> Flags:
     if not any(on for _, on in switched):
         return np.ones(len(moves), dtype=bool)
     at, states = (np.array(each) for each in zip(*switched, strict=True))
-    before = states[np.searchsorted(at, moves["line"], side="left") - 1]
-    return np.asarray(before | np.isin(moves["line"], at[states]))
+    return np.asarray(states[np.searchsorted(at, moves["line"], side="right") - 1])
 
 
 def _too_deep(moves: Moves, piece: Piece, tools: Tools) -> Iterator[Finding]:

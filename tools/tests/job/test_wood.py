@@ -149,6 +149,9 @@ def test_a_cut_with_the_spindle_off_is_wrong_where_the_program_switches_it():
     (off,) = findings("M3", *cut[:4], "M5", *cut[4:])
     assert (off.kind, off.line, off.count) == (STILL, 7, 1)
     assert findings("M3", "G1 Z-1 F60", "M5", "G1 Z5", "G1 X9") == ()
+    # A line's own M code comes before its way.
+    assert findings("M3 G1 Z-1 F60", "G1 X9", "G0 Z5") == ()
+    assert [each.line for each in findings("M3", "G1 Z-1 F60 M5", "G0 Z5")] == [2]
 
 
 def test_a_cut_through_the_sheet_may_go_a_little_into_what_lies_under_it():
@@ -179,6 +182,8 @@ def test_the_volume_is_that_of_a_slot_and_of_a_cone():
     assert (slot.deepest, slot.line, slot.is_said) == (4.0, 1, False)
     cone = piece("(V-Bit {90 deg 20 mm})", "G1 Z-6 F60", "G0 Z5")
     assert cone.removed == pytest.approx(np.pi * 6**3 / 3, rel=0.02)
+    engraved = piece("(V-Bit {90 deg 20 mm})", "G1 Z-5 F60", "G1 X10 F500", "G0 Z9")
+    assert engraved.removed == pytest.approx(10 * 5**2 + np.pi * 5**3 / 3, rel=0.02)
     ramp = piece("G1 Z0", "G1 X100 Z-10 F500", "G0 Z5", diameter=2.0)
     assert ramp.removed == pytest.approx(100 * 2 * 5, rel=0.05)
     assert piece("G0 Z5", "G1 X9 F500") is None
@@ -232,6 +237,19 @@ def test_a_finer_bit_leaves_wood_that_a_wide_one_takes():
 def test_a_bit_narrower_than_a_cell_is_led_as_surely():
     wide = ["G1 Z-1 F60", "G1 X900 F900", "G1 Y500", "G1 X0", "G0 X900", "G0 Y0", "G0 X0"]
     assert findings(*wide, "G0 Z5", diameter=0.2) == ()
+    cut = piece(*wide, "G0 Z5", diameter=0.2)
+    assert cut.cell > 0.2
+    for y in (0, 500):
+        assert (cut.heights[int((y - cut.corner[1]) / cut.cell), 1:-2] == -1).all()
+    assert (cut.heights[1:-2, int((900 - cut.corner[0]) / cut.cell)] == -1).all()
+
+
+def test_an_arc_is_cut_round():
+    cut = piece("G1 X0 Y0 F500", "G1 Z-1", "G2 X0 Y0 I100 J0", "G0 Z5", diameter=2.0)
+    rows, columns = np.indices(cut.heights.shape)
+    x, y = cut.corner[0] + (columns + 0.5) * cut.cell, cut.corner[1] + (rows + 0.5) * cut.cell
+    off = np.abs(np.hypot(x - 100, y) - 100)
+    assert (cut.heights[off < 0.98] == -1).all() and (cut.heights[off > 1.02] == 0).all()
 
 
 def test_the_map_of_a_hundred_thousand_lines_is_quick():
