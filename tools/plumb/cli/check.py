@@ -27,7 +27,7 @@ from plumb.fit.inputs import settings_in
 from plumb.job.bits import INCH, Tools
 from plumb.job.check import Checked, Error, Part, check_job
 from plumb.job.dry_run import outline_of
-from plumb.job.findings import HALTS, IGNORED, SINKS, WAITS, Finding, Hanging, Slower
+from plumb.job.findings import HALTS, IGNORED, SINKS, WAITS, Finding, Hanging, Slower, Times
 from plumb.job.wood import Piece
 from plumb.model.predict import USABLE
 from plumb.pictures.job import Drawn, draw_job
@@ -52,6 +52,9 @@ class CheckAnswer:
     cutting_seconds = part("checked.times.cutting", float)
     rapid_seconds = part("checked.times.rapid", float)
     asked_seconds = part("checked.times.asked", float, "The cutting at the feeds of the program.")
+    capped_seconds = part(
+        "checked.times.capped", float, "The cutting at the feeds of the program, none above $15."
+    )
     findings = part("checked.findings", tuple[Finding, ...])
     slower = part("checked.slower", tuple[Slower, ...])
     hanging = part("checked.hanging", Hanging | None, "Null where nothing is cut.")
@@ -229,7 +232,7 @@ def _job(checked: Checked) -> str:
     times = checked.times
     rows = [
         ["time", time_text(times.whole), "without the operator's pauses"],
-        ["cutting", time_text(times.cutting), f"{time_text(times.asked)} at the feeds asked for"],
+        ["cutting", time_text(times.cutting), _without_limits(times)],
     ]
     piece, hanging = checked.piece, checked.hanging
     if piece is not None:
@@ -240,6 +243,13 @@ def _job(checked: Checked) -> str:
         rows.append(["chains", f"{slack:.0f} to {tight:.0f} N", "slackest and tightest"])
         rows.append(["give", f"{worded(hanging.give)}/N", _give(hanging)])
     return table(["the job", "", ""], rows, words=[1, 2])
+
+
+def _without_limits(times: Times) -> str:
+    """Return how long the cutting would take without acceleration, arcs, z and chains."""
+    asked, capped = time_text(times.asked), time_text(times.capped)
+    at_feeds = f"{asked} at the feeds asked for"
+    return at_feeds if asked == capped else f"{at_feeds}, {capped} with none above $15"
 
 
 def _volume(volume: float) -> str:

@@ -125,6 +125,7 @@ class Times:
     cutting: float
     rapid: float
     asked: float  # the cutting at the feeds of the program
+    capped: float  # the cutting at the feeds of the program, none above $15
 
 
 def slower_moves(moves: Moves) -> tuple[Slower, ...]:
@@ -157,16 +158,17 @@ def _z_speed(moves: Moves, those: Flags, rises: Array) -> float:
 
 
 def times_of(done: Done) -> Times:
-    """Return how long it takes, and what the cutting would take at the program's feeds."""
+    """Return how long it takes, and what the cutting would take if no other limit acted."""
     moves = done.moves
     took = np.diff(np.concatenate([[0.0], moves["ends"]]))
     works = ~moves.rapid
-    asked = moves.way[works] / np.minimum(moves["asked"], moves["feed"])[works] * 60
+    way, asked, feed = moves.way[works], moves["asked"][works], moves["feed"][works]
     return Times(
         whole=done.seconds,
         cutting=float(took[works].sum()),
         rapid=float(took[~works].sum()),
-        asked=float(asked.sum()),
+        asked=60 * float((way / asked).sum()),
+        capped=60 * float((way / np.minimum(asked, feed)).sum()),
     )
 
 

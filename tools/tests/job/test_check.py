@@ -127,6 +127,25 @@ def test_times_are_those_of_the_ways():
     assert times.whole == pytest.approx(times.cutting + times.rapid + 2.0, abs=0.2)
 
 
+def test_times_are_told_as_the_feeds_ask_and_as_the_cap_allows():
+    lines = [
+        "G0 Z3",
+        "G0 X0 Y0",
+        "G1 X100 F1800",
+        "G1 X190 F600",
+        "G93",
+        "G1 X90 F30",
+        "G1 X90 F30",
+        "G94",
+    ]
+    times = check_job(MAKER, lines, numbers={15: 900}).times
+    assert times.asked == pytest.approx(100 / 30 + 9 + 2, abs=0.02)
+    assert times.capped == pytest.approx(100 / 15 + 9 + 100 / 15, abs=0.02)
+    assert times.cutting == pytest.approx(times.capped, abs=0.5)
+    free = check_job(MAKER, lines[:4], numbers={15: 2000}).times
+    assert free.asked == pytest.approx(free.capped) == pytest.approx(100 / 30 + 9, abs=0.02)
+
+
 def test_cuts_that_lie_apart_are_parts_in_the_order_of_the_program():
     lines = [*square(100, 50, 40), *square(-200, 0, 30, depth=2.5), *square(105, 55, 10)]
     parts = check_job(MAKER, lines).parts
@@ -299,6 +318,12 @@ def test_the_command_says_all_of_it(ask, run, tmp_path):
     assert answer["parts"][0]["width_error"]["within"] > 0
     assert b"pocket.nc: nothing is wrong" in picture.read_bytes()
     assert "G0 Z5.000" in outline.read_text()
+    _, capped = ask("check", POCKET, SETTINGS, "--set", "15=500")
+    assert capped["asked_seconds"] == answer["asked_seconds"]
+    assert capped["asked_seconds"] < capped["capped_seconds"] < capped["cutting_seconds"]
+    said = " ".join(run("check", POCKET, SETTINGS, "--set", "15=500")[1].split())
+    assert "s at the feeds asked for, 40 s with none above $15" in said
+    assert "above $15" not in run("check", POCKET, SETTINGS)[1]
     _, slower = ask("check", POCKET, SETTINGS, "--set", "18=6")
     assert slower["asked_seconds"] < slower["cutting_seconds"] < slower["seconds"]
     assert "askew" in run("check", POCKET, SETTINGS, "--marks", MARKS)[1]
