@@ -26,14 +26,13 @@ from plumb.cli.screen import bar, headline, next_step, print_json, sentences, ta
 from plumb.fit.inputs import settings_in
 from plumb.job.bits import INCH, Tools
 from plumb.job.check import Checked, Error, Part, check_job
-from plumb.job.dry_run import outline_of
+from plumb.job.dry_run import outline_of, program_in
 from plumb.job.findings import HALTS, IGNORED, SINKS, WAITS, Finding, Hanging, Slower, Times
 from plumb.job.wood import Piece
 from plumb.model.predict import USABLE
 from plumb.pictures.job import Drawn, draw_job
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, part
-from plumb.text.files import read_text
 from plumb.text.values import bare, brief, signed, unit, worded
 
 NAMED = 30  # parts that get their number in the picture
@@ -74,7 +73,7 @@ def run(arguments: argparse.Namespace) -> int:
     form = picture_form(arguments.picture) if arguments.picture else ""
     settings = settings_in(arguments.settings)
     arguments.controller = None
-    lines = read_text(arguments.job).splitlines()
+    lines = program_in(arguments.job)
     checked = check_job(
         settings,
         lines,

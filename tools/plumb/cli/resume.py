@@ -9,10 +9,9 @@ from plumb.cli.arguments import add_force, add_machine, count, place
 from plumb.cli.output import STDOUT, write_outputs
 from plumb.cli.screen import next_step, sentences
 from plumb.fit.inputs import settings_in
-from plumb.job.dry_run import comment_of
+from plumb.job.dry_run import comment_of, program_in
 from plumb.job.resume import Machine, Resumed, resume_at_line, resume_at_place
 from plumb.text.errors import InputError
-from plumb.text.files import read_text
 from plumb.text.values import bare, worded
 
 SHOWN = 8  # passes that are named
@@ -23,7 +22,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.line is None and arguments.at is None:
         raise InputError("say where to go on: --line N, --at X,Y, or both")
     machine = Machine(settings_in(arguments.settings), (*arguments.start, 0.0), dict(arguments.set))
-    lines = read_text(arguments.job).splitlines()
+    lines = program_in(arguments.job)
     if arguments.at is None:
         resumed = resume_at_line(machine, lines, arguments.line)
     else:
