@@ -179,7 +179,7 @@ CUT = 10.0  # [N] the side force of a light cut
 
 def as_text(checked: Checked, arguments: argparse.Namespace) -> str:
     """Return the check for people: what is wrong, the job, its parts, what to do next."""
-    paragraphs = [headline(_verdict(checked, Path(arguments.job).name))]
+    paragraphs = [headline(_verdict(checked, Path(arguments.job).name), is_good=checked.is_good)]
     wrong = _wrong(checked)
     if wrong:
         paragraphs.append(sentences(wrong))

@@ -23,6 +23,7 @@ SHARED = {
     "demo",
     "inputs",
     "main",
+    "man",
     "output",
     "screen",
 }
