@@ -30,7 +30,7 @@ def manual(parser: argparse.ArgumentParser) -> str:
 
 
 def _argument(action: argparse.Action) -> Iterator[str]:
-    """The name of an argument, and what it does."""
+    """Yield the name of an argument, and what it does."""
     value = action.metavar or ("" if action.nargs == 0 else action.dest.upper())
     value = " ".join(value) if isinstance(value, tuple) else value
     names = ", ".join(f"{option} {value}".strip() for option in action.option_strings) or value
